@@ -4,6 +4,7 @@ pub mod check;
 pub mod demand;
 mod files;
 mod job;
+mod leaks;
 mod page;
 mod record;
 mod scenes;
@@ -20,6 +21,7 @@ use crate::prove::{Domain, Effort, Scene, Shape};
 use crate::report::{Format, ProofPart, write_json};
 use clap::Args;
 use job::{Epsilons, Job, Parts};
+use leaks::leak;
 use record::{DomainPart, GatePart, Record, Report};
 use scenes::{degrees, mesh_scene, range, scene_text};
 use witnesses::{KNOWN, merge, read_witnesses};
@@ -180,7 +182,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         return files::export(arguments, &entries, scalars, (domain, path));
     }
     if let Some(path) = &arguments.certificate {
-        return files::certify(&entries, scalars, (domain, &parts), path);
+        return files::certify(&entries, scalars, (domain, &parts), (path, arguments.output.quiet));
     }
     if arguments.epsilon.is_some() && entries.len() != 1 {
         return Err(Failure::usage("--epsilon is of one --kernel"));
@@ -223,6 +225,11 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
             })
         })?;
         eprintln!("{path}: {raised} of {} witnesses are new or worse", stored.len());
+    }
+    if let [entry] = entries[..] {
+        for kernel in record.kernels.iter_mut().filter(|kernel| kernel.may_leak) {
+            kernel.leak = in_named_scalar!(kernel.scalar, F => leak::<F>(entry));
+        }
     }
     let report = Report {
         record,

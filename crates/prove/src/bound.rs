@@ -9,7 +9,7 @@ use super::run::cone;
 use super::{Domain, Dyadic, Format, Measures};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// Binary digits that the size of a lemma's number keeps: products of sizes stay short.
 pub const SIZE_DIGITS: u32 = 12;
@@ -105,7 +105,7 @@ pub struct Prover<'a> {
     pub(super) format: Format,
     bounds: HashMap<Place, Result<Bound, String>>,
     /// In a scene, what says which numbers it knows.
-    pub(super) samples: Option<(Samples, Measures)>,
+    pub(super) samples: Option<(Samples<'a>, Measures)>,
     /// For each number, true if its conditions count; none if all do.
     counts: Option<Vec<bool>>,
     /// The lemmas so far, each after those that it uses.
@@ -210,7 +210,7 @@ impl<'a> Prover<'a> {
 
     /// The lemmas that a number's bound uses, its own last.
     pub fn lemmas_of(&self, place: Place) -> Vec<Lemma> {
-        let mut wanted = vec![place];
+        let mut wanted = vec![unsigned(self.path, place)];
         let mut found = Vec::new();
         for lemma in self.lemmas.iter().rev() {
             if wanted.contains(&lemma.place) {
@@ -239,6 +239,26 @@ impl<'a> Prover<'a> {
             }
         }
         needs.into_iter().map(|place| unsigned(self.path, place)).collect()
+    }
+
+    /// The pairs of inputs that what a number is made of divides, or compares to find the direction's largest
+    /// coordinate: by the decisions of the path the first is at most as large as the second. A proof of the number
+    /// supposes these and no other decisions.
+    pub fn orders(&self, place: Place) -> BTreeSet<(u8, u8)> {
+        let (_, needed) = cone(&self.path.operations, place);
+        let places = (0..).zip(needed).filter_map(|(place, needed)| needed.map(|_| place));
+        let mut orders = BTreeSet::new();
+        for (numerator, divisor, _) in places.filter_map(|place| self.quotient(place)) {
+            let Operation::Input(d) = self.operation(divisor) else { continue };
+            if let Some(Operation::Input(n)) = numerator.map(|n| self.operation(n)) {
+                orders.insert((n, d));
+            }
+            if self.is_largest_of_direction(divisor) {
+                orders.extend((3..6).map(|axis| (axis, d)));
+            }
+        }
+        orders.retain(|(a, b)| a != b && is_at_most(self.path, *a, *b));
+        orders
     }
 
     /// True if |a| <= |b| follows from the decisions of the path. They say it of inputs only.

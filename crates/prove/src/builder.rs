@@ -83,16 +83,20 @@ impl<'p, 'a> Builder<'p, 'a> {
         Ok((self.formula, maximum))
     }
 
-    /// Leaves out the rounding of a step that is used once; whether it did.
+    /// Leaves out the rounding of a step, or of the step that it is the negative of, if they are used once; whether it did.
     fn leave_out(&mut self, step: usize) -> bool {
         let Formula { steps, given, rounds, .. } = &mut self.formula;
-        let operands = steps.iter().flat_map(Step::operands);
-        if !rounds[step] || operands.filter(|operand| *operand == step).count() != 1 {
+        if steps.iter().flat_map(Step::operands).filter(|operand| *operand == step).count() != 1 {
             return false;
         }
-        rounds[step] = false;
-        given[step].iter_mut().for_each(|bound| bound.error = Dyadic::ZERO);
-        true
+        if let Step::Neg(inner) = steps[step] {
+            return self.leave_out(inner);
+        }
+        given[step]
+            .iter_mut()
+            .filter(|_| rounds[step])
+            .for_each(|bound| bound.error = Dyadic::ZERO);
+        std::mem::replace(&mut rounds[step], false)
     }
 
     /// Notes which variables the path divides by the divisor too.

@@ -4,9 +4,10 @@
 
 use super::forms::Leaf;
 use super::formula::{Formula, Maximum, Source, Step};
+use super::run::cone;
 use super::watertight::symmetry_of;
-use super::{Domain, Dyadic, Format, Lemma, Limit, Rule, Symmetry};
-use crate::arith::recorded::{Comparison, Operation, Place};
+use super::{Domain, Dyadic, Format, Lemma, Limit, Names, Rule, Symmetry};
+use crate::arith::recorded::{Operation, Place};
 use crate::kernel::{Gate, Path, Role};
 use std::collections::BTreeSet;
 use std::fmt::{self, Display, Write};
@@ -31,30 +32,30 @@ pub struct Heading<'a> {
     pub format: Format,
 }
 
-/// A claim about a program: a gate's quantity, with its lemma's place and what is known of an edge's value.
+/// A claim about a number: a gate compares it, and what else its lines say of it.
 pub struct Claim<'a> {
     /// The gate's name.
     pub gate: &'a str,
-    /// The quantity.
+    /// The number.
     pub place: Place,
     /// The claim about the two sides of an edge.
     pub symmetry: Symmetry,
+    /// The orders of inputs that its proof supposes.
+    pub orders: &'a BTreeSet<(u8, u8)>,
+    /// The names of axes and vertices under which gates compare it too.
+    pub also: &'a [Names],
 }
 
-impl<'a> Claim<'a> {
-    /// The claim about a quantity of this gate on a path.
-    pub fn new(gate: &'a Gate, path: &Path, place: Place) -> Claim<'a> {
-        let is_edge = gate.role == Role::Edge;
-        let symmetry = if is_edge { symmetry_of(path, place) } else { Symmetry::None };
-        Claim { gate: gate.name, place, symmetry }
-    }
+/// The symmetry that is claimed of a number of this gate.
+pub fn symmetry_at(gate: &Gate, path: &Path, place: Place) -> Symmetry {
+    if gate.role == Role::Edge { symmetry_of(path, place) } else { Symmetry::None }
 }
 
 /// The first lines.
 pub fn heading(h: &Heading) -> String {
     let Format { digits, smallest, largest } = h.format;
     format!(
-        "hairline proof 1\nkernel {} {}\nformat {digits} {smallest} {largest}\n",
+        "hairline proof 2\nkernel {} {}\nformat {digits} {smallest} {largest}\n",
         h.kernel, h.scalar
     )
 }
@@ -69,54 +70,34 @@ pub fn domain(domain: &Domain) -> String {
     )
 }
 
-/// One program: its operations and decisions, the lemmas in order, and what they show.
-pub fn program(path: &Path, lemmas: &[Lemma], claims: &[Claim]) -> String {
-    let mut text = String::from("program\n");
-    for (place, operation) in path.operations.iter().enumerate() {
-        writeln!(text, "op {place} {}", operation_text(operation)).expect("a string");
-    }
-    for (comparison, answer) in &path.decisions {
-        let answer = if *answer { "yes" } else { "no" };
-        let comparison = match comparison {
-            Comparison::Less(a, b) => format!("less {a} {b}"),
-            Comparison::AtMost(a, b) => format!("at-most {a} {b}"),
-            Comparison::Zero(a) => format!("zero {a}"),
-            Comparison::Negative(a) => format!("negative {a}"),
-        };
-        writeln!(text, "decision {comparison} {answer}").expect("a string");
-    }
-    for limit in limits(lemmas) {
-        writeln!(text, "{limit}").expect("a string");
-    }
-    for lemma in lemmas {
-        text.push_str(&lemma_text(lemma));
-    }
-    for Claim { gate, place, symmetry } in claims {
-        let symmetry = match symmetry {
-            Symmetry::None => "",
-            Symmetry::Negatives => " opposite",
-            Symmetry::ExactSigns => " signs",
-        };
-        writeln!(text, "claim {gate} {place}{symmetry}").expect("a string");
-    }
-    text.push_str("end\n");
-    text
+/// The operations of a number, one a line.
+pub fn operations(path: &Path, place: Place) -> String {
+    text_of(&cone(&path.operations, place).0)
 }
 
-/// The limits of divisors and quotients that stand in place of the domain's.
-fn limits(lemmas: &[Lemma]) -> BTreeSet<String> {
-    let line = |word: &str, place: Place, limit: Limit| match limit {
-        Limit::Domain(_) => None,
-        Limit::Scene(_, size) | Limit::Own(size) => Some(format!("{word} {place} {size}")),
+fn text_of(operations: &[Operation]) -> String {
+    let line = |(place, operation)| format!("op {place} {}\n", operation_text(operation));
+    operations.iter().enumerate().map(line).collect()
+}
+
+/// One program: the operations of a number, what its proof supposes, the lemmas in order, and what they show.
+pub fn program(path: &Path, lemmas: &[Lemma], claim: &Claim) -> String {
+    let (operations, places) = cone(&path.operations, claim.place);
+    let writer = Writer { places: &places };
+    let mut text = format!("program\n{}", text_of(&operations));
+    let orders = claim.orders.iter().map(|(a, b)| format!("order {a} {b}"));
+    let also = claim.also.iter().map(|names| format!("also {names}"));
+    for line in orders.chain(writer.limits(lemmas)).chain(also) {
+        writeln!(text, "{line}").expect("a string");
+    }
+    text.extend(lemmas.iter().map(|lemma| writer.lemma(lemma)));
+    let symmetry = match claim.symmetry {
+        Symmetry::None => "",
+        Symmetry::Negatives => " opposite",
+        Symmetry::ExactSigns => " signs",
     };
-    let of_lemma = |lemma: &Lemma| match lemma.rule {
-        Rule::Sum => [None, None],
-        Rule::Unit { length, floor, .. } => [line("at-least", length, floor), None],
-        Rule::Quotient { divisor, floor, most, .. } => {
-            [line("at-least", divisor, floor), line("at-most", lemma.place, most)]
-        }
-    };
-    lemmas.iter().flat_map(of_lemma).flatten().collect()
+    write!(text, "claim {}{symmetry}\nend\n", claim.gate).expect("a string");
+    text
 }
 
 fn operation_text(operation: &Operation) -> String {
@@ -135,74 +116,105 @@ fn operation_text(operation: &Operation) -> String {
     }
 }
 
-fn lemma_text(lemma: &Lemma) -> String {
-    let rule = match lemma.rule {
-        Rule::Sum => "sum".to_owned(),
-        Rule::Quotient { twice: false, .. } => "quotient".to_owned(),
-        Rule::Quotient { twice: true, .. } => "quotient-by-reciprocal".to_owned(),
-        Rule::Unit { .. } => "unit".to_owned(),
-    };
-    let mut text = format!("lemma {} {rule}\n", lemma.place);
-    text.push_str(&formula_text(&lemma.formula, &lemma.maximum));
-    if let Some((formula, maximum)) = &lemma.or {
-        text.push_str("or\n");
-        text.push_str(&formula_text(formula, maximum));
-    }
-    let bound = &lemma.bound;
-    writeln!(text, "size {}\ncomputed {}\nerror {}", bound.size, bound.computed, bound.error)
-        .expect("a string");
-    text
+/// Writes the lemmas of a number.
+struct Writer<'a> {
+    /// Where each operation of the path went.
+    places: &'a [Option<Place>],
 }
 
-fn formula_text(formula: &Formula, maximum: &Maximum) -> String {
-    let mut text = String::new();
-    for (v, source) in formula.sources.iter().enumerate() {
-        let source = match *source {
-            Source::Leaf(Leaf::Point(p, axis)) => format!("point {p} {axis}"),
-            Source::Leaf(Leaf::Difference(p, q, axis)) => format!("difference {p} {q} {axis}"),
-            Source::Leaf(Leaf::Direction(axis)) => format!("direction {axis}"),
-            Source::Leaf(Leaf::End(end)) => format!("end {end}"),
-            Source::Cut(place) => format!("cut {place}"),
-            Source::Part(place) => format!("part {place}"),
-            Source::Third(p, q) => format!("third {p} {q}"),
-            Source::Quotient => "quotient".to_owned(),
+impl Writer<'_> {
+    fn at(&self, place: Place) -> Place {
+        self.places[place as usize].expect("a proof of a number uses what it is made of")
+    }
+
+    /// The limits of divisors and quotients that stand in place of the domain's.
+    fn limits(&self, lemmas: &[Lemma]) -> BTreeSet<String> {
+        let line = |word: &str, place: Place, limit: Limit| match limit {
+            Limit::Domain(_) => None,
+            Limit::Scene(_, size) | Limit::Own(size) => {
+                Some(format!("{word} {} {size}", self.at(place)))
+            }
         };
-        let narrow = formula.narrow.iter().find(|(narrow, ..)| *narrow == v);
-        let over = narrow.map_or(String::new(), |(_, ratio, _)| format!(" over {ratio}"));
-        writeln!(text, "variable {source}{over}").expect("a string");
+        let of_lemma = |lemma: &Lemma| match lemma.rule {
+            Rule::Sum => [None, None],
+            Rule::Unit { length, floor, .. } => [line("at-least", length, floor), None],
+            Rule::Quotient { divisor, floor, most, .. } => {
+                [line("at-least", divisor, floor), line("at-most", lemma.place, most)]
+            }
+        };
+        lemmas.iter().flat_map(of_lemma).flatten().collect()
     }
-    for (i, step) in formula.steps.iter().enumerate() {
-        writeln!(text, "step {}", step_text(formula, i, step)).expect("a string");
-    }
-    let relative = formula.relative.iter().enumerate().filter(|(_, yes)| **yes);
-    let relative: Vec<String> = relative.map(|(i, _)| i.to_string()).collect();
-    if !relative.is_empty() {
-        writeln!(text, "relative {}", relative.join(" ")).expect("a string");
-    }
-    if !formula.steps.is_empty() {
-        let corner = maximum.corner.iter().map(|minus| if *minus { '-' } else { '+' });
-        writeln!(text, "corner {}", corner.collect::<String>()).expect("a string");
-        writeln!(text, "first {}", maximum.first).expect("a string");
-        writeln!(text, "rest {}", maximum.rest).expect("a string");
-    }
-    text
-}
 
-fn step_text(formula: &Formula, i: usize, step: &Step) -> String {
-    let place = formula.places[i].map_or("-".to_owned(), |place| place.to_string());
-    let operation = match *step {
-        Step::Variables(ref sum) => {
-            let term =
-                |(v, sign): &(usize, i8)| format!("{}{v}", if *sign < 0 { '-' } else { '+' });
-            format!("variables {}", sum.iter().map(term).collect::<Vec<_>>().join(" "))
+    fn lemma(&self, lemma: &Lemma) -> String {
+        let rule = match lemma.rule {
+            Rule::Sum => "sum".to_owned(),
+            Rule::Quotient { twice: false, .. } => "quotient".to_owned(),
+            Rule::Quotient { twice: true, .. } => "quotient-by-reciprocal".to_owned(),
+            Rule::Unit { .. } => "unit".to_owned(),
+        };
+        let mut text = format!("lemma {} {rule}\n", self.at(lemma.place));
+        text.push_str(&self.formula(&lemma.formula, &lemma.maximum));
+        if let Some((formula, maximum)) = &lemma.or {
+            text.push_str("or\n");
+            text.push_str(&self.formula(formula, maximum));
         }
-        Step::Number(value) => format!("number {value}"),
-        Step::Add(a, b) => format!("add {a} {b}"),
-        Step::Sub(a, b) => format!("sub {a} {b}"),
-        Step::Mul(a, b) => format!("mul {a} {b}"),
-        Step::Neg(a) => format!("neg {a}"),
-        Step::Fma(a, b, c) => format!("fma {a} {b} {c}"),
-        Step::Minor(a, b, c, d) => format!("minor {a} {b} {c} {d}"),
-    };
-    format!("{place} {operation}")
+        let bound = &lemma.bound;
+        writeln!(text, "size {}\ncomputed {}\nerror {}", bound.size, bound.computed, bound.error)
+            .expect("a string");
+        text
+    }
+
+    fn formula(&self, formula: &Formula, maximum: &Maximum) -> String {
+        let mut text = String::new();
+        for (v, source) in formula.sources.iter().enumerate() {
+            let source = match *source {
+                Source::Leaf(Leaf::Point(p, axis)) => format!("point {p} {axis}"),
+                Source::Leaf(Leaf::Difference(p, q, axis)) => format!("difference {p} {q} {axis}"),
+                Source::Leaf(Leaf::Direction(axis)) => format!("direction {axis}"),
+                Source::Leaf(Leaf::End(end)) => format!("end {end}"),
+                Source::Cut(place) => format!("cut {}", self.at(place)),
+                Source::Part(place) => format!("part {}", self.at(place)),
+                Source::Third(p, q) => format!("third {} {}", self.at(p), self.at(q)),
+                Source::Quotient => "quotient".to_owned(),
+            };
+            let narrow = formula.narrow.iter().find(|(narrow, ..)| *narrow == v);
+            let over =
+                narrow.map_or(String::new(), |(_, ratio, _)| format!(" over {}", self.at(*ratio)));
+            writeln!(text, "variable {source}{over}").expect("a string");
+        }
+        for (i, step) in formula.steps.iter().enumerate() {
+            writeln!(text, "step {}", self.step(formula, i, step)).expect("a string");
+        }
+        let relative = formula.relative.iter().enumerate().filter(|(_, yes)| **yes);
+        let relative: Vec<String> = relative.map(|(i, _)| i.to_string()).collect();
+        if !relative.is_empty() {
+            writeln!(text, "relative {}", relative.join(" ")).expect("a string");
+        }
+        if !formula.steps.is_empty() {
+            let corner = maximum.corner.iter().map(|minus| if *minus { '-' } else { '+' });
+            writeln!(text, "corner {}", corner.collect::<String>()).expect("a string");
+            writeln!(text, "first {}", maximum.first).expect("a string");
+            writeln!(text, "rest {}", maximum.rest).expect("a string");
+        }
+        text
+    }
+
+    fn step(&self, formula: &Formula, i: usize, step: &Step) -> String {
+        let place = formula.places[i].map_or("-".to_owned(), |place| self.at(place).to_string());
+        let operation = match *step {
+            Step::Variables(ref sum) => {
+                let term =
+                    |(v, sign): &(usize, i8)| format!("{}{v}", if *sign < 0 { '-' } else { '+' });
+                format!("variables {}", sum.iter().map(term).collect::<Vec<_>>().join(" "))
+            }
+            Step::Number(value) => format!("number {value}"),
+            Step::Add(a, b) => format!("add {a} {b}"),
+            Step::Sub(a, b) => format!("sub {a} {b}"),
+            Step::Mul(a, b) => format!("mul {a} {b}"),
+            Step::Neg(a) => format!("neg {a}"),
+            Step::Fma(a, b, c) => format!("fma {a} {b} {c}"),
+            Step::Minor(a, b, c, d) => format!("minor {a} {b} {c} {d}"),
+        };
+        format!("{place} {operation}")
+    }
 }

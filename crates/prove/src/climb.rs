@@ -1,7 +1,7 @@
 //! The search for witnesses.
 
 use super::witness::{Goal, Inputs, Search, Searched};
-use super::{Domain, Leaf, Source};
+use super::{Domain, Leaf, Measures, Source};
 use crate::arith::Float;
 use crate::arith::recorded::{Operation, Place};
 use crate::case::Draw;
@@ -9,6 +9,8 @@ use glam::DVec3;
 
 /// After so many evaluations without anything better a climb starts elsewhere.
 const STALE: u64 = 20_000;
+/// In a scene, where inputs differ by much: a climb begins at the worst of so many.
+const STARTS: u64 = 1_000;
 /// Steps to where the errors could be large.
 const ASCENT: u64 = 3_000;
 
@@ -33,11 +35,16 @@ impl<F: Searched> Search<'_, F> {
             left -= 1;
             // Starts again where nothing better came for long; sometimes from a known case.
             if current.is_none() || stale > STALE {
-                let inputs = match known {
-                    [_, ..] if draw.below(4) == 0 => draw.pick(known),
-                    _ => self.start(goal, draw),
-                };
-                current = self.score(&inputs, goal, &mut near).map(|score| (inputs, score));
+                let starts = if self.domain.measures.is_some() { left.min(STARTS) } else { 0 };
+                left -= starts;
+                let started = (0..=starts).filter_map(|_| {
+                    let inputs = match known {
+                        [_, ..] if draw.below(4) == 0 => draw.pick(known),
+                        _ => self.start(goal, draw),
+                    };
+                    self.score(&inputs, goal, &mut near).map(|score| (inputs, score))
+                });
+                current = started.max_by(|(_, a), (_, b)| a.total_cmp(b));
                 if let Some((inputs, score)) = &mut current
                     && goal != Goal::Zero
                     && draw.coin()
@@ -161,26 +168,33 @@ impl<F: Searched> Search<'_, F> {
         sum
     }
 
-    /// A ray that meets a triangle, as far away and as small as a scene has them, and often at a small angle: where numbers
-    /// are divided by the least determinants.
-    fn aimed(&self, draw: &mut Draw) -> Inputs<F> {
+    /// A ray that meets a triangle of a scene, from far away. Often the triangle is as small and flat, and the ray at as
+    /// small an angle, as the scene has them: there numbers are divided by the least determinants.
+    fn aimed(&self, measures: Measures, draw: &mut Draw) -> Inputs<F> {
         let Domain { edge, reach, world, direction, extent, .. } = self.domain;
         let [edge, reach, world, length, extent] =
             [edge, reach, world, direction, extent].map(|x| x.to_f64());
+        let [area, sine] = [measures.area, measures.sine].map(|x| x.to_f64());
         let any = |draw: &mut Draw| DVec3::from([0; 3].map(|_| draw.symmetric::<f64>()));
         let power = |draw: &mut Draw, most: usize| 2f64.powi(-(draw.below(most) as i32));
         let near_end = |draw: &mut Draw, most: f64| {
             let x = most * (1.0 - draw.unit() * power(draw, 12));
             if draw.coin() { x } else { -x }
         };
-        let a = DVec3::from([0; 3].map(|_| near_end(draw, world)));
-        let size = edge * (0.5 + 0.5 * draw.unit()) * power(draw, 28);
-        let [e1, e2] = [0; 2].map(|_| any(draw) * size);
-        // In the plane, and off it by more or less.
-        let along = (e1 * draw.symmetric::<f64>() + e2 * draw.symmetric::<f64>()) / size;
-        let off = any(draw) * power(draw, 12);
+        let a = DVec3::from([0; 3].map(|_| near_end(draw, world))) * power(draw, 4);
+        let (along, across) = (any(draw).normalize_or_zero(), any(draw));
+        let normal = along.cross(across).normalize_or_zero();
+        let across = normal.cross(along);
+        // Slightly more than the least.
+        let more = |draw: &mut Draw, least: f64| least * (1.0 + power(draw, 8));
+        let size = edge * (1.0 - draw.unit() * power(draw, 8));
+        let height = if draw.below(4) == 0 { size * draw.unit() } else { more(draw, area / size) };
+        let (e1, e2) = (size * along, size * draw.unit() * along + height * across);
+        let sine = if draw.below(4) == 0 { draw.unit() } else { more(draw, sine).min(1.0) };
+        let in_plane = (along * draw.symmetric::<f64>() + across * draw.symmetric::<f64>())
+            .normalize_or_zero();
         let short = 1.0 - 4.0 * F::EPSILON.to_f64();
-        let direction = (along + off).normalize_or_zero() * length * short;
+        let direction = (in_plane * (1.0 - sine * sine).sqrt() + normal * sine) * length * short;
         let (u, v) = (draw.unit(), draw.unit());
         let target = a + e1 * (u * (1.0 - v)) + e2 * v;
         let origin = target - direction / length * near_end(draw, reach).abs();
@@ -195,8 +209,8 @@ impl<F: Searched> Search<'_, F> {
 
     /// Inputs in the boxes, often near the corner of the bound.
     fn start(&self, goal: Goal, draw: &mut Draw) -> Inputs<F> {
-        if self.domain.measures.is_some() && goal != Goal::Zero && draw.coin() {
-            return self.aimed(draw);
+        if let Some(measures) = self.domain.measures.filter(|_| goal != Goal::Zero && draw.coin()) {
+            return self.aimed(measures, draw);
         }
         let mut inputs = [F::zero(); 17];
         let world = self.domain.world.to_f64();

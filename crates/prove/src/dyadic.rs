@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// `mantissa * 2^exponent`, the mantissa odd or zero.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Dyadic {
     mantissa: i128,
     exponent: i32,

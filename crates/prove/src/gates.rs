@@ -3,7 +3,9 @@
 use super::bound::{Lemma, Prover};
 use super::forms::Leaf;
 use super::formula::Source;
+use super::names::Names;
 use super::order::{is_impossible, unsigned};
+use super::run::cone;
 use super::{Bound, Domain, Dyadic, Format, Limit, Rule};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::{Compared, Path};
@@ -31,6 +33,11 @@ pub struct Quantity {
     pub decisions: usize,
     /// Its place in the path's program, without a sign around it.
     pub place: Place,
+    /// The pairs of inputs of which its proof supposes that the first is at most as large as the second; the path's
+    /// decisions say so.
+    pub orders: BTreeSet<(u8, u8)>,
+    /// The names of axes and vertices under which gates compare it too, on this path and on others.
+    pub also: Vec<Names>,
     /// The domain of its bound.
     pub domain: Domain,
     /// Its bound, or why there is none.
@@ -121,19 +128,38 @@ impl Proof {
     /// Proves what can be proved of recorded paths, of all gates or of one.
     pub fn new(paths: Vec<Path>, gate: Option<usize>, domain: Domain, format: Format) -> Proof {
         let paths: Vec<Path> = paths.into_iter().filter(|path| !is_impossible(path)).collect();
-        let mut quantities = Vec::new();
-        each_quantity(&paths, gate, domain, format, |path, compared, place, prover| {
-            quantities.push(Quantity {
-                gate: compared.gate,
-                path,
-                is_margin: compared.is_margin(),
-                decisions: compared.decisions,
-                place,
-                domain,
-                bound: prover.bound(place),
-                lemmas: prover.lemmas_of(place),
-            });
-        });
+        let mut quantities: Vec<Quantity> = Vec::new();
+        let mut known: HashMap<Key, (usize, Names)> = HashMap::new();
+        for (index, path) in paths.iter().enumerate() {
+            let mut prover = Prover::new(path, domain, format);
+            let is_wanted =
+                |(compared, _): &(&Compared, Place)| gate.is_none_or(|gate| compared.gate == gate);
+            for (compared, place) in compared(path).filter(is_wanted) {
+                let (key, names) = key(&prover, compared.gate, place);
+                if let Some((known, from)) = known.get(&key) {
+                    let Quantity { also, .. } = &mut quantities[*known];
+                    let to = from.to(names);
+                    if from.to(*from) != to && !also.contains(&to) {
+                        also.push(to);
+                    }
+                    continue;
+                }
+                known.insert(key, (quantities.len(), names));
+                prover.limit_to(place);
+                quantities.push(Quantity {
+                    gate: compared.gate,
+                    path: index,
+                    is_margin: compared.is_margin(),
+                    decisions: compared.decisions,
+                    place,
+                    orders: prover.orders(place),
+                    also: Vec::new(),
+                    domain,
+                    bound: prover.bound(place),
+                    lemmas: prover.lemmas_of(place),
+                });
+            }
+        }
         quantities.sort_by_key(|quantity| quantity.gate);
         Proof { paths, quantities }
     }
@@ -169,118 +195,36 @@ impl Proof {
     }
 }
 
-/// Visits what the gates compare, or one of them: each program once, with the number of its path and its place
-/// there, without a sign around it.
-pub fn each_quantity(
-    paths: &[Path],
-    gate: Option<usize>,
-    domain: Domain,
-    format: Format,
-    mut visit: impl FnMut(usize, &Compared, Place, &mut Prover),
-) {
-    let mut seen = BTreeSet::new();
-    for (index, path) in paths.iter().enumerate() {
-        let mut prover = Prover::new(path, domain, format);
-        let is_wanted = |compared: &&Compared| gate.is_none_or(|gate| compared.gate == gate);
-        for compared in path.compared.iter().filter(is_wanted) {
-            for place in &compared.quantities {
-                let place = unsigned(path, *place);
-                let program = canonical(&prover, path, place);
-                if program.0.len() > 2 && seen.insert((compared.gate, program)) {
-                    prover.limit_to(place);
-                    visit(index, compared, place, &mut prover);
-                }
-            }
-        }
-    }
+/// The numbers that a path's gates compare and that are computed, without the signs around them.
+pub fn compared(path: &Path) -> impl Iterator<Item = (&Compared, Place)> {
+    let all = path.compared.iter().flat_map(move |compared| {
+        compared.quantities.iter().map(move |place| (compared, unsigned(path, *place)))
+    });
+    all.filter(move |(_, place)| {
+        let (program, _) = cone(&path.operations, *place);
+        program.iter().any(|operation| 1 < operation.operands().len())
+    })
 }
 
-/// A program that is the same for all renamings of axes and of a, b and c, because the domain is; and what a scene
-/// says of its divisors and quotients.
-fn canonical(prover: &Prover, path: &Path, place: Place) -> (Vec<u32>, Vec<Limit>) {
-    let mut names = Names {
-        path,
-        prover,
-        text: Vec::new(),
-        limits: Vec::new(),
-        seen: HashMap::new(),
-        axes: vec![],
-        points: vec![],
-    };
-    names.visit(place);
-    (names.text, names.limits)
-}
+/// A gate and the program of what it compares, under the names of axes and vertices that the program needs first; the
+/// orders of inputs and the limits that its proof supposes.
+type Key = (usize, Vec<Operation>, BTreeSet<(u8, u8)>, Vec<Limit>);
 
-struct Names<'a> {
-    path: &'a Path,
-    prover: &'a Prover<'a>,
-    text: Vec<u32>,
-    limits: Vec<Limit>,
-    seen: HashMap<Place, u32>,
-    axes: Vec<usize>,
-    points: Vec<usize>,
-}
-
-impl Names<'_> {
-    fn visit(&mut self, place: Place) {
-        if let Some(known) = self.seen.get(&place) {
-            self.text.extend([u32::MAX, *known]);
-            return;
-        }
-        let index = self.seen.len() as u32;
-        self.seen.insert(place, index);
-        let operation = self.path.operations[place as usize];
-        if let Operation::Input(i) = operation {
-            let leaf = Leaf::input(i.into());
-            let code = match leaf {
-                Leaf::Point(0, axis) => 100 + self.axis(axis),
-                Leaf::Point(p, axis) => {
-                    let axis = self.axis(axis);
-                    200 + 10 * number_of(&mut self.points, p) + axis
-                }
-                Leaf::Direction(axis) => 300 + self.axis(axis),
-                _ => 400 + u32::from(i),
-            };
-            self.text.push(code);
-            return;
-        }
-        let kind = match operation {
-            Operation::Number(value) => 1000 + value as u32,
-            Operation::Add(..) => 1,
-            Operation::Sub(..) => 2,
-            Operation::Mul(..) => 3,
-            Operation::Div(numerator, divisor) => {
-                // What the path says of the divisor belongs to the program.
-                10 + u32::from(self.prover.is_at_most_in_size(numerator, divisor))
-                    + 2 * u32::from(self.prover.is_largest_of_direction(divisor))
-            }
-            Operation::Neg(_) => 4,
-            Operation::Abs(_) => 5,
-            Operation::Sqrt(_) => 6,
-            Operation::Fma(..) => 7,
-            Operation::Minor(..) => 8,
-            Operation::Input(_) => unreachable!("handled above"),
-        };
-        self.text.push(kind);
-        if let Some((_, divisor, _)) = self.prover.quotient(place) {
-            self.limits.push(self.prover.floor(divisor));
-            self.limits.extend(self.prover.most(place));
-        }
-        for operand in operation.operands() {
-            self.visit(operand);
-        }
-    }
-
-    fn axis(&mut self, axis: usize) -> u32 {
-        number_of(&mut self.axes, axis)
-    }
-}
-
-/// The place of a value in a list; it is appended if it is new.
-fn number_of(list: &mut Vec<usize>, value: usize) -> u32 {
-    let at = list.iter().position(|known| *known == value);
-    at.unwrap_or_else(|| {
-        list.push(value);
-        list.len() - 1
-    }) as u32
+/// The program of a number as a key, and its own names.
+fn key(prover: &Prover, gate: usize, place: Place) -> (Key, Names) {
+    let operations = &prover.path.operations;
+    let (program, places) = cone(operations, place);
+    let names = Names::of(&program);
+    let program = program.into_iter().map(|operation| names.operation(operation)).collect();
+    let orders = prover.orders(place).into_iter();
+    let orders = orders.map(|(a, b)| (names.input(a), names.input(b))).collect();
+    let mut quotients: Vec<(Place, Place)> =
+        (0..).zip(places).filter_map(|(old, new)| Some((new?, old))).collect();
+    quotients.sort_unstable();
+    let limits = quotients.into_iter().flat_map(|(_, place)| {
+        let divisor = prover.quotient(place).map(|(_, divisor, _)| divisor);
+        let limits = divisor.map(|divisor| [Some(prover.floor(divisor)), prover.most(place)]);
+        limits.into_iter().flatten().flatten()
+    });
+    ((gate, program, orders, limits.collect()), names)
 }

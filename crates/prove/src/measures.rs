@@ -3,11 +3,12 @@
 
 use super::Dyadic;
 use super::order::largest_axes;
-use super::run::run;
+use super::run::{cone, run};
 use crate::arith::recorded::Place;
+use crate::arith::{Exact, Real, Triple, Vector};
 use crate::case::Draw;
 use crate::kernel::Path;
-use glam::DVec3;
+use std::cell::OnceCell;
 
 /// The measures of a scene's triangles and rays. In the names of numbers N = (b-a)×(c-a), N_k is its largest coordinate
 /// and N_i another one, d_k the largest coordinate of d, e an edge, p and q are vertices, and u stands for all three
@@ -27,7 +28,7 @@ pub struct Measures {
 }
 
 /// A limit of the size of a number, and where it comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Limit {
     /// The domain's limit of all divisors, or of all quotients.
     Domain(Dyadic),
@@ -47,59 +48,92 @@ impl Limit {
 }
 
 /// A number that a scene knows.
-pub(super) struct Known {
+pub(super) struct Known<R> {
     pub name: &'static str,
     pub limit: Dyadic,
-    pub value: f64,
+    pub value: R,
 }
 
-/// How many inputs show whether two formulas are the same. Random ones: different rational functions are equal
-/// nearly nowhere.
+/// The use of a number in a program.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    Divisor,
+    Quotient,
+}
+
+/// How many inputs show in floats whether two formulas may be the same. One more shows it exactly: different rational
+/// functions are equal nearly nowhere.
 const SAMPLES: u64 = 3;
 
 /// Values of all numbers of a path's program at some inputs.
 #[derive(Debug)]
-pub(super) struct Samples {
-    values: Vec<(Vec<f64>, Sample)>,
+pub(super) struct Samples<'a> {
+    path: &'a Path,
+    values: Vec<(Vec<f64>, Sample<f64>)>,
+    /// The exact inputs of one of them, once they are needed.
+    exact: OnceCell<([Exact; 17], Sample<Exact>)>,
     /// The axis of N's largest coordinate, if the path chose it. All axes if no N takes the path.
     axes: Vec<usize>,
 }
 
-impl Samples {
-    pub fn new(path: &Path) -> Samples {
+/// Short numbers, so that exact arithmetic is fast.
+fn inputs(i: u64) -> [f64; 17] {
+    let mut draw = Draw::new("measures", 1, i);
+    std::array::from_fn(|_| draw.integer(-(1 << 20), 1 << 20) as f64 / f64::from(1 << 20))
+}
+
+impl<'a> Samples<'a> {
+    pub fn new(path: &'a Path) -> Samples<'a> {
         let sample = |i: u64| {
-            let mut draw = Draw::new("measures", 1, i);
-            let inputs: [f64; 17] = std::array::from_fn(|_| draw.symmetric());
             let mut values = Vec::new();
+            let inputs = inputs(i);
             run(&path.operations, path.operations.len() as Place - 1, &inputs, &mut values);
             (values, Sample::of(&inputs))
         };
-        let mut samples = Samples { values: (0..SAMPLES).map(sample).collect(), axes: vec![] };
+        let values = (0..SAMPLES).map(sample).collect();
+        let mut samples = Samples { path, values, exact: OnceCell::new(), axes: vec![] };
         samples.axes = largest_axes(path, |place| {
-            (0..3).find(|axis| samples.is_same(place, |i| samples.values[i].1.normal[*axis]))
+            (0..3).find(|axis| {
+                samples.may_be(place, |i| samples.values[i].1.normal.at(*axis))
+                    && samples.is_exactly(place, |sample| sample.normal.at(*axis))
+            })
         });
         samples
     }
 
-    /// True if a number is another one up to its sign, given that one's values.
-    fn is_same(&self, place: Place, other: impl Fn(usize) -> f64) -> bool {
+    /// True if a number may be another one up to its sign, given that one's values.
+    fn may_be(&self, place: Place, other: impl Fn(usize) -> f64) -> bool {
         self.values.iter().enumerate().all(|(i, (values, _))| {
             let (x, y) = (values[place as usize].abs(), other(i).abs());
             (x - y).abs() <= 1e-9 * y
         })
     }
 
-    /// The limit of the first of the known numbers that a number is, up to its sign. Given these numbers, for a
-    /// sample and the axes of N's largest coordinate.
-    pub fn find(
-        &self,
-        place: Place,
-        known: impl Fn(&Sample, &[usize]) -> Vec<Known>,
-    ) -> Option<Limit> {
-        let of = |(_, sample): &(Vec<f64>, Sample)| known(sample, &self.axes);
-        let mut lists: Vec<Vec<Known>> = self.values.iter().map(of).collect();
-        let is_same = |at: usize| self.is_same(place, |i| lists[i][at].value);
-        let found = (0..lists[0].len()).find(|i| is_same(*i))?;
+    /// True if it is the other one up to its sign at exact inputs.
+    fn is_exactly(&self, place: Place, other: impl Fn(&Sample<Exact>) -> Exact) -> bool {
+        let (inputs, sample) = self.exact.get_or_init(|| {
+            let inputs = inputs(SAMPLES).map(Exact::from_f64);
+            let sample = Sample::of(&inputs);
+            (inputs, sample)
+        });
+        let (operations, _) = cone(&self.path.operations, place);
+        let mut values = Vec::new();
+        run(&operations, operations.len() as Place - 1, inputs, &mut values);
+        let value = values.pop().expect("its own value");
+        (value.abs() - other(sample).abs()).is_zero()
+    }
+
+    /// The limit of the first of the known numbers that a number is, up to its sign.
+    pub fn find(&self, place: Place, measures: &Measures, kind: Kind) -> Option<Limit> {
+        let of = |(_, sample): &(Vec<f64>, Sample<f64>)| measures.known(kind, sample, &self.axes);
+        let mut lists: Vec<Vec<Known<f64>>> = self.values.iter().map(of).collect();
+        let is_same = |at: &usize| {
+            let exact = |sample: &Sample<Exact>| {
+                measures.known(kind, sample, &self.axes).swap_remove(*at).value
+            };
+            self.may_be(place, |i| lists[i][*at].value) && self.is_exactly(place, exact)
+        };
+        let found = (0..lists[0].len()).find(is_same)?;
         let Known { name, limit, .. } = lists[0].swap_remove(found);
         Some(Limit::Scene(name, limit))
     }
@@ -107,20 +141,21 @@ impl Samples {
 
 /// A triangle and a ray.
 #[derive(Debug)]
-pub(super) struct Sample {
-    origin: DVec3,
-    direction: DVec3,
-    vertices: [DVec3; 3],
-    edges: [DVec3; 3],
-    pub normal: DVec3,
+pub(super) struct Sample<R> {
+    origin: Triple<R>,
+    direction: Triple<R>,
+    vertices: [Triple<R>; 3],
+    edges: [Triple<R>; 3],
+    pub normal: Triple<R>,
 }
 
-impl Sample {
-    pub fn of(inputs: &[f64; 17]) -> Sample {
-        let [origin, direction, a, b, c] =
-            [0, 3, 6, 9, 12].map(|i| DVec3::from_slice(&inputs[i..]));
-        let edges = [b - a, c - a, c - b];
-        Sample { origin, direction, vertices: [a, b, c], edges, normal: edges[0].cross(edges[1]) }
+impl<R: Real> Sample<R> {
+    pub fn of(inputs: &[R; 17]) -> Sample<R> {
+        let at = |i: usize| Triple::from([0, 1, 2].map(|axis| inputs[i + axis].clone()));
+        let [origin, direction, a, b, c] = [0, 3, 6, 9, 12].map(at);
+        let edges = [b.minus(&a), c.minus(&a), c.minus(&b)];
+        let normal = edges[0].cross(&edges[1]);
+        Sample { origin, direction, vertices: [a, b, c], edges, normal }
     }
 }
 
@@ -135,59 +170,80 @@ const LARGER: f64 = 1.01;
 const ROOT: f64 = 1.423;
 
 impl Measures {
-    /// Divisors. Given the axes of N's largest coordinate.
-    pub(super) fn divisors(&self, sample: &Sample, axes: &[usize]) -> Vec<Known> {
+    /// True of a triangle and a ray of the scene: not smaller, and at no smaller angle.
+    pub(super) fn hold(&self, Sample { direction, normal, .. }: &Sample<f64>) -> bool {
+        let [area, sine] = [self.area, self.sine].map(|x| x.to_f64());
+        let (length, volume) = (normal.dot(normal).sqrt(), normal.dot(direction));
+        area <= length && sine * length * direction.dot(direction).sqrt() <= volume.abs()
+    }
+
+    /// The numbers that a scene knows, given the axes of N's largest coordinate.
+    pub(super) fn known<R: Real>(
+        &self,
+        kind: Kind,
+        sample: &Sample<R>,
+        axes: &[usize],
+    ) -> Vec<Known<R>> {
+        match kind {
+            Kind::Divisor => self.divisors(sample, axes),
+            Kind::Quotient => self.quotients(sample, axes),
+        }
+    }
+
+    fn divisors<R: Real>(&self, sample: &Sample<R>, axes: &[usize]) -> Vec<Known<R>> {
         let Measures { area, sine, .. } = *self;
-        let normal = sample.normal;
-        let (volume, length) = (normal.dot(sample.direction), normal.length());
+        let normal = &sample.normal;
+        let square = normal.dot(normal);
+        let (volume, length) = (normal.dot(&sample.direction), square.sqrt());
         let known =
             |name, limit: Dyadic, value| Known { name, limit: limit.round_down(DIGITS), value };
         let largest = area * below(0.573);
         let mut all = vec![
-            known("|N·d|", area * sine, volume),
-            known("|N·N|", area * area, normal.dot(normal)),
-            known("|N|", area, length),
-            known("|N·d|/|N|", sine, volume / length),
+            known("|N·d|", area * sine, volume.clone()),
+            known("|N·N|", area * area, square),
+            known("|N|", area, length.clone()),
+            known("|N·d|/|N|", sine, volume.clone() / length),
         ];
         for k in axes.iter().copied() {
-            all.push(known(LARGEST, largest, normal[k]));
-            all.push(known("|N·d/N_k|", sine, volume / normal[k]));
+            all.push(known(LARGEST, largest, normal.at(k)));
+            all.push(known("|N·d/N_k|", sine, volume.clone() / normal.at(k)));
         }
         all
     }
 
-    /// Quotients.
-    pub(super) fn quotients(&self, sample: &Sample, axes: &[usize]) -> Vec<Known> {
+    fn quotients<R: Real>(&self, sample: &Sample<R>, axes: &[usize]) -> Vec<Known<R>> {
         let Measures { slope, world, distance, .. } = *self;
-        let Sample { origin, direction, vertices, edges, normal } = *sample;
+        let Sample { origin, direction, vertices, edges, normal } = sample;
         let [a, b, c] = vertices;
         let known =
             |name, limit: Dyadic, value| Known { name, limit: limit.round_up(DIGITS), value };
         let square = normal.dot(normal);
-        let t = normal.dot(a - origin) / normal.dot(direction);
-        let p = origin + t * direction - a;
-        let [v, u] = [edges[0].cross(p), p.cross(edges[1])].map(|x| normal.dot(x) / square);
+        let t = normal.dot(&a.minus(origin)) / normal.dot(direction);
+        let p = origin.plus(&direction.times(&t)).minus(a);
+        let [v, u] = [edges[0].cross(&p), p.cross(&edges[1])].map(|x| normal.dot(&x) / &square);
+        let w = R::one() - &u - &v;
         let mut all = vec![known("|t|", distance, t)];
-        all.extend([u, v, 1.0 - u - v].map(|w| known("|u|", Dyadic::ONE, w)));
+        all.extend([u, v, w].map(|w| known("|u|", Dyadic::ONE, w)));
         for k in axes.iter().copied() {
-            let over = |name, limit, value: f64| known(name, limit, value / normal[k]);
+            let over = |name, limit, value: R| known(name, limit, value / normal.at(k));
             for i in (0..3).filter(|i| *i != k) {
                 let name = "|N_i/N_k|";
-                all.push(over(name, above(LARGER), normal[i]));
+                all.push(over(name, above(LARGER), normal.at(i)));
                 let name = "|e_i/N_k|";
-                all.extend(edges.map(|edge| over(name, slope * above(ROOT), edge[i])));
+                all.extend(edges.each_ref().map(|e| over(name, slope * above(ROOT), e.at(i))));
             }
             let name = "|N·a/N_k|";
             all.push(over(name, world * above(3.03), a.dot(normal)));
             // p×q = p×(q-p).
             let name = "|(p×q)_k/N_k|";
             for (p, q) in [(a, b), (a, c), (b, c)] {
-                all.push(over(name, world * slope * above(2.0 * ROOT), p.cross(q)[k]));
+                all.push(over(name, world * slope * above(2.0 * ROOT), p.cross(q).at(k)));
             }
         }
         let name = "|(e×N)_i/N·N|";
         for i in 0..3 {
-            all.extend(edges.map(|edge| known(name, slope, edge.cross(normal)[i] / square)));
+            let of = |edge: &Triple<R>| edge.cross(normal).at(i) / &square;
+            all.extend(edges.each_ref().map(|edge| known(name, slope, of(edge))));
         }
         all
     }

@@ -1,4 +1,4 @@
-//! Errors relative to a permanent: bounds that hold at every exponent.
+//! Errors relative to a permanent: bounds that hold at every exponent, short of overflow and underflow.
 //!
 //! The permanent of a number is what its program computes without rounding if each input and each
 //! difference of two inputs is replaced by its absolute value, each subtraction by an addition, and each
@@ -10,6 +10,8 @@
 //! ```text
 //! |computed - exact| <= ((1+u)^K - 1) * permanent + underflow
 //! ```
+//!
+//! An underflow is multiplied by the other factors of its term. So what it adds is known in a domain only.
 //!
 //! By induction: a sum of numbers with K and L roundings has max(K, L) + 1, a product K + L + 1, and a
 //! quotient too, if its divisor is not rounded or is a sum of two numbers that are not: then it does not

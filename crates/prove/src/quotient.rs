@@ -3,7 +3,7 @@
 use super::bound::{Bound, Prover, SIZE_DIGITS};
 use super::dyadic::{Big, round_up};
 use super::formula::{DIGITS, Formula, Maximum};
-use super::measures::{LARGEST, Limit};
+use super::measures::{Kind, LARGEST, Limit};
 use super::{Domain, Dyadic};
 use crate::arith::recorded::{Operation, Place};
 
@@ -17,9 +17,10 @@ impl Prover<'_> {
                 Some(_) => Limit::Scene("|d_k|", direction_floor),
             };
         }
-        let found = self.samples.as_ref().and_then(|(samples, measures)| {
-            samples.find(divisor, |sample, axes| measures.divisors(sample, axes))
-        });
+        let found = self
+            .samples
+            .as_ref()
+            .and_then(|(samples, measures)| samples.find(divisor, measures, Kind::Divisor));
         found.unwrap_or(Limit::Domain(floor))
     }
 
@@ -28,7 +29,7 @@ impl Prover<'_> {
         let Some((samples, measures)) = &self.samples else {
             return Some(Limit::Domain(self.domain.quotient));
         };
-        samples.find(quotient, |sample, axes| measures.quotients(sample, axes))
+        samples.find(quotient, measures, Kind::Quotient)
     }
 
     /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.

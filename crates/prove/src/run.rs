@@ -57,22 +57,24 @@ pub fn run<R: Number>(
     }
 }
 
-/// The operations that a place needs, and where each went.
+/// The program of one number alone: the operations that it needs, each after its operands in their order, and where
+/// each went. So two paths on which a number is computed in the same way have the same program of it.
 pub fn cone(operations: &[Operation], last: Place) -> (Vec<Operation>, Vec<Option<Place>>) {
-    let mut needed = vec![false; operations.len()];
-    needed[last as usize] = true;
-    for place in (0..operations.len()).rev().filter(|p| *p <= last as usize) {
-        if needed[place] {
-            operations[place].operands().iter().for_each(|p| needed[*p as usize] = true);
-        }
-    }
     let mut renamed = vec![None; operations.len()];
     let mut kept = Vec::new();
-    for (place, operation) in operations.iter().enumerate().filter(|(place, _)| needed[*place]) {
+    let mut open = vec![last];
+    while let Some(place) = open.last().copied() {
+        let operation = operations[place as usize];
+        let is_open = |operand: &Place| renamed[*operand as usize].is_none();
+        if let Some(operand) = operation.operands().into_iter().find(is_open) {
+            open.push(operand);
+            continue;
+        }
+        open.pop();
         let of = |place: Place| -> Place { renamed[place as usize].expect("operands come first") };
         use Operation::*;
-        let operation = match *operation {
-            Input(_) | Number(_) => *operation,
+        kept.push(match operation {
+            Input(_) | Number(_) => operation,
             Add(a, b) => Add(of(a), of(b)),
             Sub(a, b) => Sub(of(a), of(b)),
             Mul(a, b) => Mul(of(a), of(b)),
@@ -82,9 +84,8 @@ pub fn cone(operations: &[Operation], last: Place) -> (Vec<Operation>, Vec<Optio
             Sqrt(a) => Sqrt(of(a)),
             Fma(a, b, c) => Fma(of(a), of(b), of(c)),
             Minor(a, b, c, d) => Minor(of(a), of(b), of(c), of(d)),
-        };
-        renamed[place] = Some(kept.len() as Place);
-        kept.push(operation);
+        });
+        renamed[place as usize] = Some(kept.len() as Place - 1);
     }
     (kept, renamed)
 }

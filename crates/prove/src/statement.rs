@@ -71,9 +71,11 @@ pub fn statements<F: Searched + Scalar>(
     }
     if let Some(Relative { factor, underflow, .. }) = &gate.relative {
         lines.push(said(format!(
-            "At any exponents, short of overflow, it is wrong by at most {} u times its permanent (the sum of the \
-             sizes of its terms), and {} more where products underflow.",
+            "Where nothing overflows and no product underflows, it is wrong by at most {} u times its permanent (the \
+             sum of the sizes of its terms), at any exponents. In {} it is, underflow or not, wrong by at most that \
+             and {}; a product that underflows in larger numbers may cost more.",
             units(factor.to_f64() / unit, true),
+            if scene.is_some() { "this scene" } else { "the unit domain" },
             above(underflow.to_f64())
         )));
     }
@@ -333,7 +335,8 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
              points that the ray meets, its edges included: two consistently wound triangles never both refuse a ray \
              for the edge that they share, and of a mesh or a closed fan some triangle is accepted, if the rounded \
              points leave no gap and no fold where the ray passes. Folds (silhouettes) are not covered. Other gates \
-             may still refuse: t does near t_min or t_max."
+             may still refuse: one of the determinant a triangle whose three edge values are all rounded to 0, t near \
+             t_min or t_max."
         }
     }
 }

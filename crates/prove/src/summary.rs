@@ -92,7 +92,7 @@ pub fn bound_of_gate<F: Scalar>(entry: &Entry, gate: usize, domain: Domain) -> O
 /// How hard to search, and from where.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// Evaluations for each quantity and goal; the parts of a domain share them.
+    /// Evaluations for each quantity and goal; the parts of a domain share them by their bounds.
     pub evaluations: u64,
     /// The seed of the random moves.
     pub seed: u64,
@@ -110,8 +110,6 @@ impl<F: Searched + Scalar> Summary<F> {
     ) -> Result<Summary<F>, String> {
         let format = format_of::<F>();
         let proof = Proof::new(paths_of::<F>(entry)?, None, domain, format).split(parts, format);
-        let evaluations = effort.evaluations / parts.len().max(1) as u64;
-        let effort = Effort { evaluations, ..effort };
         let mut contradiction = None;
         let gates = entry.info.gates.iter().enumerate().filter_map(|(index, gate)| {
             let bound = proof.gate(index)?;
@@ -139,9 +137,16 @@ impl<F: Searched + Scalar> Summary<F> {
             let witnesses = GOALS.map(|goal| {
                 let wanted = goal == Goal::Error || goal == goal_of(gate.role);
                 let quantities = of_gate().filter(|q| wanted && q.bound.is_ok());
-                let found = quantities.filter_map(|quantity| {
+                let error = |q: &Quantity| q.bound.as_ref().map_or(0.0, |b| b.error.to_f64());
+                let found = quantities.clone().filter_map(|quantity| {
+                    let bound = error(quantity);
+                    // The parts of a domain share the evaluations: most of them where most may be wrong.
+                    let number = (quantity.path, quantity.place);
+                    let parts = quantities.clone().filter(|q| (q.path, q.place) == number);
+                    let share = bound / parts.map(error).sum::<f64>().max(bound);
+                    let evaluations = (effort.evaluations as f64 * share) as u64;
+                    let effort = Effort { evaluations, ..effort };
                     let found = worst::<F>(&proof, quantity, goal, known, effort)?;
-                    let bound = quantity.bound.as_ref().map_or(0.0, |bound| bound.error.to_f64());
                     // Both are rounded to floats.
                     if goal == Goal::Error && found.score > bound * (1.0 + 1e-12) {
                         let Witness { score, .. } = found;

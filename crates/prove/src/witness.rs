@@ -1,6 +1,7 @@
 //! Witnesses: inputs of a proof's domain on which a number is as wrong as a search (`climb`) can make it.
 
 use super::gates::Quantity;
+use super::measures::Sample;
 use super::run::{Number, cone, run};
 use super::{Domain, Leaf, Proof, Rule};
 use crate::arith::recorded::{Comparison, Operation, Place};
@@ -80,6 +81,7 @@ pub struct Search<'a, F> {
     pub(super) place: Place,
     conditions: Vec<Condition>,
     pub(super) quantity: &'a Quantity,
+    divides: bool,
     pub(super) domain: Domain,
     pub(super) computed: Vec<F>,
 }
@@ -135,6 +137,7 @@ impl<'a, F: Searched> Search<'a, F> {
             operations: cone,
             conditions,
             quantity,
+            divides: quantity.uses().floor,
             domain,
             computed: Vec::new(),
         }
@@ -160,6 +163,11 @@ impl<'a, F: Searched> Search<'a, F> {
             found == *answer
         };
         if !self.decisions.iter().all(holds) {
+            return None;
+        }
+        // What divides supposes something of the scene's triangles and rays.
+        let measures = self.domain.measures.filter(|_| self.divides);
+        if measures.is_some_and(|of| !of.hold(&Sample::of(&inputs.map(|x| x.to_f64())))) {
             return None;
         }
         run(&self.operations, self.place, &inputs.map(F::near), near);

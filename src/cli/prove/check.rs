@@ -5,9 +5,10 @@ use crate::cli::exit::{Failure, Status};
 use crate::cli::input::read_text;
 use crate::cli::output::write_result;
 use crate::corpus::InputError;
-use crate::kernel::{self, Entry, Role, Scalar};
-use crate::prove::certificate::{Claim, program};
-use crate::prove::{Domain, checker, each_quantity, format_of, is_impossible, paths_of};
+use crate::kernel::{self, Entry, Path, Role, Scalar};
+use crate::prove::certificate::operations;
+use crate::prove::checker::{self, Number, Proved};
+use crate::prove::{compared, is_at_most, is_impossible, paths_of};
 use crate::report::number_of;
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
@@ -28,43 +29,34 @@ fn checked(file: &str) -> Result<String, Failure> {
     let proved = checker::check(&text)
         .map_err(|refusal| InputError::at(file, refusal.line, refusal.message))?;
     let bounds = number_of(proved.len() as u64, "bound", "bounds");
-    let gates = largest_errors(&proved, |_| true);
+    let gates = largest_errors(&mut proved.iter());
     // The checker has read this line.
     let kernel = text.lines().nth(1).unwrap_or_default().trim_start_matches("kernel ");
     let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
     // Another format is no kernel's.
     let entry = kernel::find(name).filter(|_| scalar != "float");
-    let recorded = entry.map(|entry| in_named_scalar!(scalar, F => recorded::<F>(entry)));
-    let sections = sections(&text);
+    let recorded = entry.map(|entry| in_named_scalar!(scalar, F => Recorded::new::<F>(entry)));
     let mut is_whole = false;
     let whose = match recorded {
         None => "no kernel of that name is here to compare".to_owned(),
         Some(Err(why)) => format!("not compared with the kernel: {why}"),
         Some(Ok(recorded)) => {
-            let found: Vec<(usize, String)> =
-                sections.iter().flat_map(|section| section.programs.clone()).collect();
-            if let Some((line, _)) =
-                found.iter().find(|(_, program)| !recorded.contains_key(program))
-            {
+            if let Some(Proved { line, .. }) = proved.iter().find(|claim| !recorded.has(claim)) {
                 let message = format!(
                     "{file}:{line}: the proof is right, but {name} has no such program here: write its certificate again"
                 );
                 return Err(Failure::Message(Status::Disagreements, message));
             }
-            let missing: BTreeSet<&str> = recorded
-                .iter()
-                .filter(|(program, _)| found.iter().all(|(_, known)| known != *program))
-                .map(|(_, gate)| *gate)
-                .collect();
+            let missing = recorded.missing(&proved);
             is_whole = missing.is_empty();
             match is_whole {
-                true => "all that the kernel compares".to_owned(),
+                true => recorded.all(&proved),
                 false => format!("without all of {}", Vec::from_iter(missing).join(", ")),
             }
         }
     };
     // Signs do not depend on the domain.
-    let is_edge = |claim: &&checker::Proved| {
+    let is_edge = |claim: &&Proved| {
         let mut gates = entry.iter().flat_map(|entry| entry.info.gates);
         gates.any(|gate| gate.name == claim.gate && gate.role == Role::Edge)
     };
@@ -74,153 +66,146 @@ fn checked(file: &str) -> Result<String, Failure> {
     let mut said = format!(
         "{file}: {bounds} proved of {kernel}: what it compares is wrong by at most {gates}{signs} ({whose})"
     );
+    let mut sections: Vec<(&[Number; 8], Vec<&Proved>)> = Vec::new();
+    for claim in &proved {
+        match sections.iter_mut().find(|(domain, _)| **domain == claim.domain) {
+            Some((_, claims)) => claims.push(claim),
+            None => sections.push((&claim.domain, vec![claim])),
+        }
+    }
     // What divides must be there for each size of triangles for which anything is, and so must what does not.
-    let of_kind = |is_limited: bool| -> BTreeSet<&str> {
-        sections.iter().flat_map(|section| section.of_kind(is_limited)).collect()
-    };
-    let (limited, unlimited) = (of_kind(true), of_kind(false));
+    let of_kind =
+        |claims: &mut dyn Iterator<Item = &Proved>, is_limited: bool| -> BTreeSet<String> {
+            let of_kind = claims.filter(|claim| has_limits(claim) == is_limited);
+            of_kind.map(|claim| claim.programs[0].operations.clone()).collect()
+        };
     // A claim without its domain is none.
-    for section in &sections {
-        let errors = largest_errors(&proved, |program| section.numbers.contains(&program));
-        let all = if section.has_limits() { &limited } else { &unlimited };
-        let here: BTreeSet<&str> = section.of_kind(section.has_limits()).collect();
-        let missing = if here == *all { "" } else { "; programs of other sizes are missing here" };
-        let errors = if sections.len() == 1 { String::new() } else { format!(": {errors}") };
-        said.push_str(&format!("\n  for every float with {}{errors}{missing}", section.inputs()));
+    for (domain, claims) in &sections {
+        let is_limited = claims.iter().any(|claim| has_limits(claim));
+        let here = of_kind(&mut claims.iter().copied(), is_limited);
+        let is_whole = here == of_kind(&mut proved.iter(), is_limited);
+        let missing = if is_whole { "" } else { "; programs of other sizes are missing here" };
+        let errors = match sections.len() {
+            1 => String::new(),
+            _ => format!(": {}", largest_errors(&mut claims.iter().copied())),
+        };
+        let inputs = inputs(domain, claims);
+        said.push_str(&format!("\n  for every float with {inputs}{errors}{missing}"));
     }
     Ok(said)
 }
 
-/// The largest error of each gate, of some programs by their numbers.
-fn largest_errors(proved: &[checker::Proved], is_wanted: impl Fn(usize) -> bool) -> String {
+fn float(x: &Number) -> f64 {
+    x.to_f64().unwrap_or(f64::INFINITY)
+}
+
+/// The largest error of each gate.
+fn largest_errors(proved: &mut dyn Iterator<Item = &Proved>) -> String {
     let mut gates: BTreeMap<&str, f64> = BTreeMap::new();
-    for claim in proved.iter().filter(|claim| is_wanted(claim.program)) {
-        let error = claim.bound.error.to_f64().unwrap_or(f64::INFINITY);
+    for claim in proved {
         let most = gates.entry(&claim.gate).or_default();
-        *most = most.max(error);
+        *most = most.max(float(&claim.bound.error));
     }
     let gates = gates.iter().map(|(gate, x)| format!("{gate} {x:.3e}"));
     gates.collect::<Vec<_>>().join(", ")
 }
 
-/// The part of a certificate for one domain.
-#[derive(Default)]
-struct Section<'a> {
-    domain: &'a str,
-    /// The programs' numbers, counted from 0 in the whole certificate.
-    numbers: Vec<usize>,
-    /// The programs without their lemmas and limits, each with its line.
-    programs: Vec<(usize, String)>,
-    /// The limits of each program's own.
-    limits: Vec<Vec<(&'a str, f64)>>,
+fn has_limits(claim: &Proved) -> bool {
+    claim.limits.iter().any(|limits| !limits.is_empty())
 }
 
-impl Section<'_> {
-    fn has_limits(&self) -> bool {
-        self.limits.iter().any(|limits| !limits.is_empty())
+/// The inputs that some claims of one domain are about, in words.
+fn inputs(domain: &[Number; 8], claims: &[&Proved]) -> String {
+    let [edge, reach, world, direction, extent, direction_floor, floor, quotient] =
+        domain.each_ref().map(float);
+    let mut text = format!(
+        "coordinates of edges up to {edge:.3e}, of vertices from the origin of the ray up to {reach:.3e}, of points \
+         up to {world:.3e}, of directions up to {direction}, t_min and t_max up to {extent:.3e}"
+    );
+    for (kind, name) in ["divisors at least", "quotients at most"].into_iter().enumerate() {
+        let sizes = claims.iter().flat_map(|claim| &claim.limits[kind]).map(float);
+        let mut sizes: Vec<f64> = sizes.collect();
+        sizes.sort_by(f64::total_cmp);
+        let ends = [sizes.first(), sizes.last()].into_iter().flatten();
+        let mut sizes: Vec<String> = ends.map(|x| format!("{x:.3e}")).collect();
+        sizes.dedup();
+        if !sizes.is_empty() {
+            text.push_str(&format!(", {name} {}", sizes.join("..")));
+        }
     }
+    let other = if claims.iter().any(|claim| has_limits(claim)) { "other " } else { "" };
+    text.push_str(&format!(
+        ", {other}divisors at least {floor:.3e} (the direction's largest coordinate {direction_floor}), \
+         {other}quotients at most {quotient:.3e}"
+    ));
+    text
+}
 
-    /// The programs with limits of their own, or those without.
-    fn of_kind(&self, is_limited: bool) -> impl Iterator<Item = &str> {
-        let both = self.programs.iter().zip(&self.limits);
-        let wanted = both.filter(move |(_, limits)| limits.is_empty() != is_limited);
-        wanted.map(|((_, program), _)| &program[..])
-    }
+/// A kernel's paths that some input takes, and the numbers that its gates compare: for each gate and program, the paths.
+struct Recorded {
+    paths: Vec<Path>,
+    numbers: HashMap<(&'static str, String), Vec<usize>>,
+}
 
-    /// The inputs in words.
-    fn inputs(&self) -> String {
-        let words: Vec<&str> = self.domain.split(' ').collect();
-        let after = |name: &str| {
-            let at = words.iter().position(|word| *word == name);
-            at.and_then(|at| words.get(at + 1)).map_or(f64::NAN, |word| number(word))
-        };
-        let mut text = format!(
-            "coordinates of edges up to {:.3e}, of vertices from the origin of the ray up to {:.3e}, of points up to \
-             {:.3e}, of directions up to {}, t_min and t_max up to {:.3e}",
-            after("edge"),
-            after("reach"),
-            after("world"),
-            after("direction"),
-            after("extent")
-        );
-        for (word, name) in [("at-least", "divisors at least"), ("at-most", "quotients at most")] {
-            let of_word = self.limits.iter().flatten().filter(|(found, _)| *found == word);
-            let mut sizes: Vec<f64> = of_word.map(|(_, size)| *size).collect();
-            sizes.sort_by(f64::total_cmp);
-            let ends = [sizes.first(), sizes.last()].into_iter().flatten();
-            let mut sizes: Vec<String> = ends.map(|x| format!("{x:.3e}")).collect();
-            sizes.dedup();
-            if !sizes.is_empty() {
-                text.push_str(&format!(", {name} {}", sizes.join("..")));
+impl Recorded {
+    fn new<F: Scalar>(entry: &Entry) -> Result<Recorded, String> {
+        let mut paths = paths_of::<F>(entry)?;
+        paths.retain(|path| !is_impossible(path));
+        let mut numbers: HashMap<_, Vec<usize>> = HashMap::new();
+        for (index, path) in paths.iter().enumerate() {
+            for (compared, place) in compared(path) {
+                let gate = entry.info.gates[compared.gate].name;
+                numbers.entry((gate, operations(path, place))).or_default().push(index);
             }
         }
-        let other = if self.has_limits() { "other " } else { "" };
-        text.push_str(&format!(
-            ", {other}divisors at least {:.3e} (the direction's largest coordinate {}), {other}quotients at most {:.3e}",
-            after("floor"),
-            after("direction-floor"),
-            after("quotient")
-        ));
-        text
+        Ok(Recorded { paths, numbers })
     }
-}
 
-/// A number that the checker has read, `m` or `m*2^e`.
-fn number(word: &str) -> f64 {
-    let (mantissa, exponent) = word.split_once("*2^").unwrap_or((word, "0"));
-    let mantissa: f64 = mantissa.parse().unwrap_or(f64::NAN);
-    mantissa * exponent.parse().map_or(f64::NAN, |exponent: i32| 2f64.powi(exponent))
-}
+    /// True if the orders of inputs follow from the decisions of a path.
+    fn follow(&self, orders: &BTreeSet<(usize, usize)>, path: usize) -> bool {
+        orders.iter().all(|(a, b)| is_at_most(&self.paths[path], *a as u8, *b as u8))
+    }
 
-/// The parts of a certificate, one for each of its domains.
-fn sections(certificate: &str) -> Vec<Section<'_>> {
-    let mut sections: Vec<Section> = Vec::new();
-    let (mut at, mut count) = (0, 0);
-    for (i, line) in certificate.lines().enumerate() {
-        let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
-        if word == "domain" {
-            at = sections.iter().position(|section| section.domain == rest).unwrap_or_else(|| {
-                sections.push(Section { domain: rest, ..Section::default() });
-                sections.len() - 1
+    /// True if a gate compares each of the programs of a claim, on a path with its orders.
+    fn has(&self, claim: &Proved) -> bool {
+        claim.programs.iter().all(|program| {
+            let mut numbers = self.numbers.iter();
+            let found = numbers.find(|((gate, operations), _)| {
+                (*gate, operations) == (&claim.gate, &program.operations)
             });
-            continue;
-        }
-        let Some(section) = sections.get_mut(at) else { continue };
-        if word == "program" {
-            section.numbers.push(count);
-            section.programs.push((i + 1, String::new()));
-            section.limits.push(Vec::new());
-            count += 1;
-        }
-        let (Some((_, program)), Some(limits)) =
-            (section.programs.last_mut(), section.limits.last_mut())
-        else {
-            continue;
-        };
-        match word {
-            "program" | "op" | "decision" | "claim" | "end" => {
-                program.push_str(line);
-                program.push('\n');
-            }
-            "at-least" | "at-most" => {
-                let size = rest.split(' ').next_back().map_or(f64::NAN, number);
-                limits.push((word, size));
-            }
-            _ => {}
-        }
+            found.is_some_and(|(_, paths)| {
+                paths.iter().any(|path| self.follow(&program.orders, *path))
+            })
+        })
     }
-    sections
-}
 
-/// The programs of all that a kernel's gates compare, as certificates have them, each with its gate.
-fn recorded<F: Scalar>(entry: &Entry) -> Result<HashMap<String, &'static str>, String> {
-    let mut paths = paths_of::<F>(entry)?;
-    paths.retain(|path| !is_impossible(path));
-    let mut programs = HashMap::new();
-    each_quantity(&paths, None, Domain::UNIT, format_of::<F>(), |path, compared, place, _| {
-        let gate = &entry.info.gates[compared.gate];
-        let claim = Claim::new(gate, &paths[path], place);
-        programs.insert(program(&paths[path], &[], &[claim]), gate.name);
-    });
-    Ok(programs)
+    /// The gates of which some number, on some path, is none of the programs.
+    fn missing(&self, proved: &[Proved]) -> BTreeSet<&str> {
+        let is_proved = |gate: &str, operations: &str, path: usize| {
+            let claims = proved.iter().filter(|claim| claim.gate == gate);
+            let mut programs = claims.flat_map(|claim| &claim.programs);
+            programs.any(|program| {
+                program.operations == operations && self.follow(&program.orders, path)
+            })
+        };
+        let missing = self.numbers.iter().filter(|((gate, operations), paths)| {
+            !paths.iter().all(|path| is_proved(gate, operations, *path))
+        });
+        missing.map(|((gate, _), _)| *gate).collect()
+    }
+
+    /// The comparison in words, where nothing is missing.
+    fn all(&self, proved: &[Proved]) -> String {
+        let programs: BTreeSet<&str> =
+            proved.iter().map(|claim| &claim.programs[0].operations[..]).collect();
+        let all: BTreeSet<&str> =
+            proved.iter().flat_map(|claim| &claim.programs).map(|x| &x.operations[..]).collect();
+        let paths = number_of(self.paths.len() as u64, "path", "paths");
+        let programs_ = number_of(programs.len() as u64, "program", "programs");
+        let names = match all.len() - programs.len() {
+            0 => String::new(),
+            more => format!(", and {more} more under other names of axes and vertices"),
+        };
+        format!("all that the kernel compares, on {paths} recorded again: {programs_}{names}")
+    }
 }

@@ -1,18 +1,20 @@
 //! Writes certificates, and scripts for Gappa.
 
 use super::ProveArguments;
+use crate::audit::shell_word;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::write_result;
 use crate::kernel::{Entry, Scalar};
-use crate::prove::certificate::{self, Claim, Heading, heading, program};
-use crate::prove::{Domain, Effort, Searched, Summary, gappa};
+use crate::prove::certificate::{self, Claim, Heading, heading, program, symmetry_at};
+use crate::prove::{Domain, Effort, Quantity, Searched, Summary, gappa};
+use crate::report::number_of;
 
 /// Writes the certificate of one kernel in one scalar.
 pub fn certify(
     entries: &[&'static Entry],
     scalars: [bool; 2],
     domains: (Domain, &[Domain]),
-    path: &str,
+    (path, quiet): (&str, bool),
 ) -> Result<Status, Failure> {
     let ([entry], [true, false] | [false, true]) = (entries, scalars) else {
         return Err(Failure::usage("--certificate is of one --kernel in one --scalar"));
@@ -27,6 +29,12 @@ pub fn certify(
         Failure::Message(Status::NothingSelected, message)
     })?;
     write_result(path, |out| out.write_all(text.as_bytes()))?;
+    if !quiet {
+        let bounds = text.lines().filter(|line| line.starts_with("claim ")).count() as u64;
+        let bounds = number_of(bounds, "bound", "bounds");
+        let check = format!("check it: hairline prove --check {}", shell_word(path));
+        eprintln!("{path}: {bounds} of what {} compares; {check}", entry.info.name);
+    }
     Ok(Status::Success)
 }
 
@@ -41,12 +49,15 @@ fn certificate_of<F: Searched + Scalar>(
     let mut stated = None;
     for quantity in summary.proof.quantities.iter().filter(|q| q.bound.is_ok()) {
         let path = &summary.proof.paths[quantity.path];
-        let claim = Claim::new(&entry.info.gates[quantity.gate], path, quantity.place);
+        let Quantity { place, orders, also, .. } = quantity;
+        let gate = &entry.info.gates[quantity.gate];
+        let symmetry = symmetry_at(gate, path, *place);
+        let claim = Claim { gate: gate.name, place: *place, symmetry, orders, also };
         if stated != Some(quantity.domain) {
             text.push_str(&certificate::domain(&quantity.domain));
             stated = Some(quantity.domain);
         }
-        text.push_str(&program(path, &quantity.lemmas, &[claim]));
+        text.push_str(&program(path, &quantity.lemmas, &claim));
     }
     if stated.is_none() { Err("no gate has a bound in this domain".to_owned()) } else { Ok(text) }
 }

@@ -174,6 +174,8 @@ impl Job<'_> {
                 paths: summary.proof.paths.len(),
                 edges: about_edges(summary.symmetry),
                 watertight: summary.symmetry == Symmetry::ExactSigns,
+                leak: None,
+                may_leak: summary.symmetry == Symmetry::None,
             }),
             gates: summary.gates.iter().map(part).collect(),
             ..Parts::default()

@@ -61,7 +61,13 @@ fn of_one(report: &Report) -> Page {
             all.map(|statement| format!("{}: {}", gate.gate, statement.text)).collect()
         };
         let mut notes: Vec<String> = gates.iter().flat_map(key).collect();
-        notes.push(format!("edges: {}", kernel.edges));
+        let leak = kernel.leak.as_ref().map_or(String::new(), |leak| {
+            format!(
+                " They do for the ray of {}, which crosses the edge and hits neither.",
+                leak.case
+            )
+        });
+        notes.push(format!("edges: {}{leak}", kernel.edges));
         blocks.push(Block::Notes(notes));
         blocks.push(Block::Table(table(kernel, &gates)));
         let all = gates.iter().flat_map(|gate| {
@@ -78,8 +84,12 @@ fn of_one(report: &Report) -> Page {
         _ => String::new(),
     };
     let line = format!("hairline epsilon --kernel {name} {}{scalar}", report.rays);
-    let command = Command { line, what: "which epsilons cost least" };
-    blocks.push(Block::Commands("next", vec![command]));
+    let mut commands = vec![Command { line, what: "which epsilons cost least" }];
+    commands.extend(record.kernels.iter().filter_map(|kernel| {
+        let line = kernel.leak.as_ref()?.command.clone();
+        Some(Command { line, what: "a ray that leaks" })
+    }));
+    blocks.push(Block::Commands("next", commands));
     let title = format!("{name}: what holds for every float");
     Page { command: "prove", title, tone: Tone::Plain, blocks }
 }

@@ -1,5 +1,6 @@
 //! The record of `hairline prove`: what `--format json` writes, and what the text is made from.
 
+use super::leaks::Leak;
 use crate::prove::{Domain, Statement, Supposed};
 use serde::{Serialize, Serializer};
 
@@ -93,6 +94,12 @@ pub struct KernelPart {
     pub paths: usize,
     pub edges: &'static str,
     pub watertight: bool,
+    /// A ray that both triangles of an edge refuse, if one was found; looked for where one kernel is chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leak: Option<Leak>,
+    /// True if nothing is proved of its edges.
+    #[serde(skip)]
+    pub may_leak: bool,
 }
 
 impl LimitPart {

@@ -3,7 +3,7 @@
 mod errors;
 
 use super::edges::SameSign;
-use super::number::{Bound, F32, F64, Number};
+use super::number::{Bound, F32, F64, Number, whole};
 use super::program::{Leaf, MOST_ROWS, Program, Term, indices, terms};
 use super::reader::{Outcome, Reader, ensure};
 use super::variables::{self, Quotient, Variable};
@@ -155,8 +155,7 @@ impl<'a> Formula<'a> {
                 _ => return Err("variables that are, or add up to, this operation"),
             };
         } else if name == "number" {
-            let value =
-                words.first().and_then(|word| word.parse().ok()).filter(|_| words.len() == 1);
+            let value = words.first().and_then(|word| whole(word)).filter(|_| words.len() == 1);
             let right = operation.map_or(Some(1), |o| (o.name == name).then_some(o.value));
             step.constant =
                 value.filter(|value| right == Some(*value)).ok_or("the program's number")?;
@@ -191,14 +190,19 @@ impl<'a> Formula<'a> {
     }
 
     /// Leaves out the last rounding of numerator and of divisor in a quotient's formula, each if no other step uses it.
+    /// It may be under negations.
     fn leave_out(&mut self) {
-        let last = self.steps.iter().rev().take(2).flat_map(|step| step.terms.clone());
-        let operands = |(_, a, b): Term| [Some(a), b].into_iter().flatten();
-        let last: Vec<usize> = last.flat_map(operands).collect();
-        let all = self.steps.iter().flat_map(|step| step.terms.clone()).flat_map(operands);
+        let operands = |(_, a, b): &Term| [Some(*a), *b].into_iter().flatten();
+        let all = self.steps.iter().flat_map(|step| &step.terms).flat_map(operands);
         let all: Vec<usize> = all.collect();
-        for step in last {
-            let is_used_once = all.iter().filter(|other| **other == step).count() == 1;
+        let is_used_once = |step: usize| all.iter().filter(|other| **other == step).count() == 1;
+        let last = self.steps.iter().rev().take(2).flat_map(|step| &step.terms);
+        let last: Vec<usize> = last.flat_map(operands).collect();
+        for mut step in last {
+            while self.steps[step].name == "neg" && is_used_once(step) {
+                step = self.steps[step].terms[0].1;
+            }
+            let is_used_once = is_used_once(step);
             let step = &mut self.steps[step];
             if step.rounds && is_used_once {
                 (step.rounds, step.left_out) = (false, true);
@@ -207,8 +211,11 @@ impl<'a> Formula<'a> {
         }
     }
 
-    /// True if the last rounding of an operation is left out.
-    pub fn leaves_out(&self, place: usize) -> bool {
+    /// True if the last rounding of an operation, which may be under negations, is left out.
+    pub fn leaves_out(&self, program: &Program, mut place: usize) -> bool {
+        while program.name(place) == "neg" {
+            place = program.operands(place)[0];
+        }
         self.steps.iter().any(|step| step.left_out && step.place == Some(place))
     }
 

@@ -6,6 +6,7 @@
 mod corners;
 mod edges;
 mod formula;
+mod names;
 mod number;
 mod opposite;
 mod program;
@@ -13,12 +14,13 @@ mod reader;
 mod variables;
 
 pub use number::{Bound, Number};
+pub use program::Variant;
 
 use edges::SameSign;
 use formula::Formula;
 use num_traits::{One, Signed, Zero};
-use number::{ERROR_DIGITS, F32, F64, Format, SIZE_DIGITS, root_up, round_up, shifted};
-use program::{Domain, Lemma, Operation, Program, indices};
+use number::{ERROR_DIGITS, F32, F64, Format, SIZE_DIGITS, root_up, round_up, shifted, whole};
+use program::{Domain, Lemma, Program, indices};
 use reader::{Outcome, Reader, ensure};
 use std::fmt::{self, Display};
 use variables::Quotient;
@@ -29,17 +31,21 @@ const MOST_BYTES: usize = 1 << 22;
 /// A bound that a certificate proves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proved {
-    /// Which program of the certificate, counted from 0.
-    pub program: usize,
+    /// The line at which its program begins, counted from 1.
+    pub line: usize,
+    /// The bounds of its domain, in the order of their names.
+    pub domain: [Number; 8],
+    /// The limits of divisors and of quotients of its own.
+    pub limits: [Vec<Number>; 2],
     /// The gate that compares the number.
     pub gate: String,
-    /// The number's operation.
-    pub place: usize,
     /// The bound of the number.
     pub bound: Bound,
     /// True if it is an edge's value that is the exact negative of the neighbour's and, if it is not zero, has the
     /// sign of an exact determinant.
     pub has_signs: bool,
+    /// The program, and those that are the same under other names of axes and vertices.
+    pub programs: Vec<Variant>,
 }
 
 /// Why a certificate is refused.
@@ -66,10 +72,10 @@ pub fn check(text: &str) -> Result<Vec<Proved>, Refusal> {
 }
 
 fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
-    reader.read("hairline proof 1", |words| (words == ["proof", "1"]).then_some(()))?;
+    reader.read("hairline proof 2", |words| (words == ["proof", "2"]).then_some(()))?;
     let scalar = reader.read("kernel NAME SCALAR", |words| (words.len() == 2).then(|| words[1]))?;
     let format = reader.read("format DIGITS SMALLEST LARGEST, as of the scalar", |words| {
-        let format: Option<Vec<i64>> = words.iter().map(|word| word.parse().ok()).collect();
+        let format: Option<Vec<i64>> = words.iter().map(|word| whole(word)).collect();
         let format: [i64; 3] = format?.try_into().ok()?;
         let is_right = match (scalar, format) {
             ("f32", format) => format == F32,
@@ -81,33 +87,38 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
     })?;
     let form = "domain edge X reach X world X direction X …";
     let mut domain = reader.read(form, Domain::parse)?;
-    let (mut proved, mut work, mut number) = (Vec::new(), 0, 0);
+    let (mut proved, mut work) = (Vec::new(), 0);
     while reader.lines.peek().is_some() {
         if reader.is_next("domain") {
             domain = reader.read(form, Domain::parse)?;
         }
+        let line = reader.line + 1;
         let mut program = Program::read(format.clone(), domain.clone(), reader)?;
         while reader.is_next("lemma") {
             lemma(&mut program, &mut work, reader)?;
         }
-        while reader.is_next("claim") {
-            let form = "claim GATE OPERATION, and opposite or signs where it is so";
-            let (gate, place, symmetry) = reader.read(form, |words| match *words {
-                [gate, place] => Some((gate, place.parse().ok()?, "")),
-                [gate, place, symmetry @ ("opposite" | "signs")] => {
-                    Some((gate, place.parse().ok()?, symmetry))
-                }
-                _ => None,
-            })?;
-            let bound = program.bound(place)?.clone();
-            if !symmetry.is_empty() {
-                opposite::check(&program, place, symmetry)?;
-            }
-            let (gate, has_signs) = (gate.to_owned(), symmetry == "signs");
-            proved.push(Proved { program: number, gate, place, bound, has_signs });
+        let form = "claim GATE, and opposite or signs where it is so";
+        let (gate, symmetry) = reader.read(form, |words| match *words {
+            [gate] => Some((gate, "")),
+            [gate, symmetry @ ("opposite" | "signs")] => Some((gate, symmetry)),
+            _ => None,
+        })?;
+        program.ensure_used()?;
+        let last = program.operations.len() - 1;
+        let bound = program.bound(last)?.clone();
+        if !symmetry.is_empty() {
+            opposite::check(&program, last, symmetry)?;
         }
         reader.read("end", |words| words.is_empty().then_some(()))?;
-        number += 1;
+        proved.push(Proved {
+            line,
+            domain: domain.0.clone(),
+            limits: program.limits.each_ref().map(|limits| limits.values().cloned().collect()),
+            gate: gate.to_owned(),
+            bound,
+            has_signs: symmetry == "signs",
+            programs: program.variants(),
+        });
     }
     ensure(!proved.is_empty(), "found the end of the file, expected a program with a claim")?;
     Ok(proved)
@@ -186,24 +197,6 @@ fn rounded(format: &Format, size: Number, error: Number, before: &Number) -> Out
     Ok(Bound { error: round_up(&(error + bound.error), ERROR_DIGITS), ..bound })
 }
 
-fn is_one(program: &Program, place: usize) -> bool {
-    let Operation { name, value, .. } = program.operations[place];
-    (name, value) == ("number", 1)
-}
-
-/// Numerator and divisor of n/d, or of n*(1/d).
-fn fraction(program: &Program, place: usize) -> Option<(usize, usize)> {
-    let operands = |place: usize, name: &str| {
-        let Operation { name: found, operands, .. } = &program.operations[place];
-        (*found == name).then(|| (operands[0], operands[1]))
-    };
-    let times = |n: usize, place: usize| {
-        operands(place, "div").filter(|(one, _)| is_one(program, *one)).map(|(_, d)| (n, d))
-    };
-    let product = || operands(place, "mul").and_then(|(a, b)| times(a, b).or_else(|| times(b, a)));
-    operands(place, "div").or_else(product)
-}
-
 /// The bound of n/d, or `by_reciprocal` of n*(1/d).
 fn quotient(
     program: &Program,
@@ -214,16 +207,14 @@ fn quotient(
 ) -> Outcome<Bound> {
     let format = &program.format;
     let is_fit = by_reciprocal == (program.operations[place].name == "mul");
-    let found = fraction(program, place).filter(|_| is_fit);
+    let found = program.fraction(place).filter(|_| is_fit);
     let (n, d) = found.ok_or("found a rule that does not fit its operation")?;
-    let n = (by_reciprocal || !is_one(program, n)).then_some(n);
+    let n = (by_reciprocal || !program.is_one(n)).then_some(n);
     let one = Bound::exactly(&Number::one());
     let above = n.map_or(Ok(&one), |n| program.bound(n))?;
     let Lemma { bound: below, before: below_before, .. } = program.lemma(d)?;
-    // Whether |n| <= |d|. A decision is about computed numbers, but inputs are exact.
-    let ordered = |a: usize, b: usize| program.at_most.contains(&(a, b));
     let (numerator, divisor) = (n.and_then(|n| program.input(n)), program.input(d));
-    let is_ordered = numerator.zip(divisor).is_some_and(|(n, d)| ordered(n, d));
+    let is_ordered = numerator.zip(divisor).is_some_and(|order| program.orders.contains(&order));
     let floor = program.floor(d);
     let least = floor - &below.error;
     ensure(
@@ -245,11 +236,12 @@ fn quotient(
         formula.is_quotient_of(n, d),
         "found other last steps, expected numerator - quotient * divisor",
     )?;
-    let of_divisor = formula.leaves_out(d);
+    let of_divisor = formula.leaves_out(program, d);
     let closest = if of_divisor { floor - below_before } else { least.clone() };
     let mut error = formula.maximum(format, work, reader)?.error / closest;
     let mut before = &size + &error;
-    let left_out = u8::from(of_divisor) + u8::from(n.is_some_and(|n| formula.leaves_out(n)));
+    let left_out =
+        u8::from(of_divisor) + u8::from(n.is_some_and(|n| formula.leaves_out(program, n)));
     if left_out > 0 {
         let tiny = &format.tiny / least;
         let share = &format.unit + &tiny;
@@ -269,7 +261,7 @@ fn quotient(
 
 /// The bound of a coordinate of a vector that is divided by its length: the error is that of all of them.
 fn unit(program: &Program, place: usize) -> Outcome<Lemma> {
-    let found = fraction(program, place);
+    let found = program.fraction(place);
     let vector = found.and_then(|(n, length)| {
         let is_fit = |vector: &Vec<usize>| vector.len() == 3 && vector.contains(&n);
         squares(program, length).filter(is_fit).map(|vector| (vector, length))

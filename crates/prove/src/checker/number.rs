@@ -3,6 +3,7 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
+use std::str::FromStr;
 
 /// An exact number.
 pub type Number = BigRational;
@@ -14,11 +15,18 @@ pub const SIZE_DIGITS: i64 = 12;
 /// Larger exponents are not read.
 const MOST_EXPONENT: i64 = 1 << 12;
 
+/// A number as `show` writes it: the mantissa odd, no sign that says nothing.
 pub fn number(word: &str) -> Option<Number> {
     let (mantissa, exponent) = word.split_once("*2^").unwrap_or((word, "0"));
     let (mantissa, exponent) = (mantissa.parse::<i128>().ok()?, exponent.parse::<i64>().ok()?);
     let is_fair = 0 <= mantissa && (-MOST_EXPONENT..=MOST_EXPONENT).contains(&exponent);
-    is_fair.then(|| shifted(&Number::from(BigInt::from(mantissa)), exponent))
+    let found = is_fair.then(|| shifted(&Number::from(BigInt::from(mantissa)), exponent));
+    found.filter(|found| show(found) == word)
+}
+
+/// A whole number, written in the one way.
+pub fn whole<T: FromStr + ToString>(word: &str) -> Option<T> {
+    word.parse().ok().filter(|found: &T| found.to_string() == word)
 }
 
 pub fn show(x: &Number) -> String {

@@ -1,13 +1,17 @@
-//! One program of a certificate: its operations, the decisions of its path, and the bounds so far.
+//! One program of a certificate: the operations of a number, what its proof supposes, and the bounds so far.
 
-use super::number::{Bound, Format, Number, number, power};
-use super::reader::{Outcome, Reader};
+use super::names::Names;
+use super::number::{Bound, Format, Number, number, power, whole};
+use super::reader::{Outcome, Reader, ensure};
 use num_bigint::BigInt;
 use num_traits::Signed;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Longer programs and formulas are refused.
 pub const MOST_ROWS: usize = 1 << 12;
+
+/// The numbers of a case.
+const INPUTS: usize = 17;
 
 /// Bounds of the inputs, in the order of their names.
 #[derive(Clone)]
@@ -68,15 +72,26 @@ pub fn terms(name: &str, operands: &[usize]) -> Option<Vec<Term>> {
     })
 }
 
-/// One path of a kernel.
+/// A program of which a bound is proved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Variant {
+    /// Its operations, one a line.
+    pub operations: String,
+    /// Pairs of inputs of which the first must be at most as large as the second.
+    pub orders: BTreeSet<(usize, usize)>,
+}
+
+/// The program of one number, the last one.
 pub struct Program<'a> {
     pub format: Format,
     pub domain: Domain,
     pub operations: Vec<Operation<'a>>,
     /// Pairs of inputs: without their signs, the first is at most the second.
-    pub at_most: HashSet<(usize, usize)>,
+    pub orders: BTreeSet<(usize, usize)>,
     /// The limits of divisors and of quotients that stand in place of the domain's.
     pub limits: [HashMap<usize, Number>; 2],
+    /// Other names of axes and vertices, under which the same is claimed.
+    pub also: Vec<Names>,
     pub lemmas: HashMap<usize, Lemma>,
 }
 
@@ -93,7 +108,7 @@ pub struct Lemma {
 }
 
 impl<'a> Program<'a> {
-    /// The operations and the decisions.
+    /// The operations, and what the proof supposes of them.
     pub fn read(format: Format, domain: Domain, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
         reader.read("program", |words| words.is_empty().then_some(()))?;
         let mut operations: Vec<Operation> = Vec::new();
@@ -103,10 +118,10 @@ impl<'a> Program<'a> {
             let form = format!("op {next} OPERATION OPERANDS, each an earlier one");
             operations.push(reader.read(&form, |words| {
                 let (&[place, name], words) = words.split_first_chunk()?;
-                let parsed: Option<Vec<i64>> = words.iter().map(|word| word.parse().ok()).collect();
-                let parsed = parsed.filter(|_| place.parse() == Ok(next))?;
+                let parsed: Option<Vec<i64>> = words.iter().map(|word| whole(word)).collect();
+                let parsed = parsed.filter(|_| whole(place) == Some(next))?;
                 if let ("input" | "number", &[value]) = (name, &parsed[..]) {
-                    let is_input = name == "input" && (0..17).contains(&value);
+                    let is_input = name == "input" && (0..INPUTS as i64).contains(&value);
                     let is_exact = name == "number" && BigInt::from(value).abs() <= most;
                     let operation = Operation { name, operands: vec![], value };
                     return (is_input || is_exact).then_some(operation);
@@ -120,27 +135,15 @@ impl<'a> Program<'a> {
                 })
             })?);
         }
-        let (at_most, lemmas) = (HashSet::new(), HashMap::new());
+        let (orders, lemmas, also) = (BTreeSet::new(), HashMap::new(), Vec::new());
         let limits = [HashMap::new(), HashMap::new()];
-        let mut program = Program { format, domain, operations, at_most, limits, lemmas };
-        while reader.is_next("decision") {
-            let count = program.operations.len();
-            let fact = reader.read("decision COMPARISON OPERATIONS yes or no", |words| {
-                let (&kind, rest) = words.split_first()?;
-                let (&answer, rest) = rest.split_last()?;
-                let places = indices(rest, count).filter(|_| ["yes", "no"].contains(&answer))?;
-                match (kind, &places[..], answer) {
-                    ("less" | "at-most", &[a, b], "yes") => Some((a, b)),
-                    ("less" | "at-most", &[a, b], _) => Some((b, a)),
-                    ("zero" | "negative", &[a], _) => Some((a, a)),
-                    _ => None,
-                }
+        let mut program = Program { format, domain, operations, orders, limits, also, lemmas };
+        while reader.is_next("order") {
+            let order = reader.read("order INPUT INPUT, each pair once", |words| {
+                let &[a, b] = &indices(words, INPUTS)?[..] else { return None };
+                Some((a, b)).filter(|pair| a != b && !program.orders.contains(pair))
             })?;
-            // A decision is about computed numbers. Only inputs are certain to be exact, and not NaN.
-            if let (Some(a), Some(b)) = (program.input_in_abs(fact.0), program.input_in_abs(fact.1))
-            {
-                program.at_most.insert((a, b));
-            }
+            program.orders.insert(order);
         }
         for (limits, word) in program.limits.iter_mut().zip(["at-least", "at-most"]) {
             while reader.is_next(word) {
@@ -154,17 +157,75 @@ impl<'a> Program<'a> {
                 limits.insert(place, limit);
             }
         }
-        // Warshall's closure.
-        for k in 0..17 {
-            let of_k: Vec<_> =
-                program.at_most.iter().copied().filter(|(a, b)| *a == k || *b == k).collect();
-            for (a, _) in of_k.iter().filter(|(_, to)| *to == k) {
-                program
-                    .at_most
-                    .extend(of_k.iter().filter(|(from, _)| *from == k).map(|(_, b)| (*a, *b)));
-            }
+        while reader.is_next("also") {
+            let form = "also AXES VERTICES, as yzx abc, for another program";
+            let names = reader.read(form, |words| {
+                let names = Names::parse(words)?;
+                let other = program.variant(names);
+                let is_other = program.variants().iter().all(|known| *known != other);
+                is_other.then_some(names)
+            })?;
+            program.also.push(names);
         }
         Ok(program)
+    }
+
+    /// An error if something is written that no proof of the last operation's number uses.
+    pub fn ensure_used(&self) -> Outcome<()> {
+        let last = self.operations.len().saturating_sub(1);
+        let used: HashSet<usize> =
+            self.operations.iter().flat_map(|operation| operation.operands.clone()).collect();
+        let is_used = used.len() == last && (0..last).all(|place| used.contains(&place));
+        ensure(is_used, "found operations that the last one does not use, or none")?;
+        let uses = |(a, b): &(usize, usize)| {
+            self.lemmas.keys().filter_map(|place| self.fraction(*place)).any(|(n, d)| {
+                self.input(d) == Some(*b)
+                    && (self.input(n) == Some(*a) || (3..6).contains(a) && self.is_largest(*b))
+            })
+        };
+        let unused = self.orders.iter().find(|order| !uses(order));
+        unused.map_or(Ok(()), |(a, b)| Err(format!("found `order {a} {b}`, which no lemma uses")))
+    }
+
+    /// The program and its orders under these names.
+    fn variant(&self, names: Names) -> Variant {
+        let mut text = String::new();
+        for (place, Operation { name, operands, value }) in self.operations.iter().enumerate() {
+            let value = match *name {
+                "input" => vec![names.input(*value as usize) as i64],
+                "number" => vec![*value],
+                _ => operands.iter().map(|operand| *operand as i64).collect(),
+            };
+            let value: Vec<String> = value.iter().map(i64::to_string).collect();
+            text.push_str(&format!("op {place} {name} {}\n", value.join(" ")));
+        }
+        let orders = self.orders.iter().map(|(a, b)| (names.input(*a), names.input(*b)));
+        Variant { operations: text, orders: orders.collect() }
+    }
+
+    /// The programs that the claim is about.
+    pub fn variants(&self) -> Vec<Variant> {
+        let all = [Names::SAME].into_iter().chain(self.also.iter().copied());
+        all.map(|names| self.variant(names)).collect()
+    }
+
+    /// Numerator and divisor of n/d, or of n*(1/d).
+    pub fn fraction(&self, place: usize) -> Option<(usize, usize)> {
+        let operands = |place: usize, name: &str| {
+            let Operation { name: found, operands, .. } = &self.operations[place];
+            (*found == name).then(|| (operands[0], operands[1]))
+        };
+        let times = |n: usize, place: usize| {
+            operands(place, "div").filter(|(one, _)| self.is_one(*one)).map(|(_, d)| (n, d))
+        };
+        let product =
+            || operands(place, "mul").and_then(|(a, b)| times(a, b).or_else(|| times(b, a)));
+        operands(place, "div").or_else(product)
+    }
+
+    pub fn is_one(&self, place: usize) -> bool {
+        let Operation { name, value, .. } = self.operations[place];
+        (name, value) == ("number", 1)
     }
 
     pub fn name(&self, place: usize) -> &'a str {
@@ -180,11 +241,6 @@ impl<'a> Program<'a> {
         (operation.name == "input").then_some(operation.value as usize)
     }
 
-    fn input_in_abs(&self, place: usize) -> Option<usize> {
-        let operation = &self.operations[place];
-        if operation.name == "abs" { self.input(operation.operands[0]) } else { None }
-    }
-
     pub fn leaf(&self, place: usize) -> Option<Leaf> {
         let operation = &self.operations[place];
         if operation.name != "sub" {
@@ -198,12 +254,15 @@ impl<'a> Program<'a> {
     /// The least size of a divisor.
     pub fn floor(&self, divisor: usize) -> &Number {
         self.limits[0].get(&divisor).unwrap_or_else(|| {
-            let is_smaller = |axis: usize, d: usize| axis == d || self.at_most.contains(&(axis, d));
-            let is_largest =
-                |d: &usize| (3..6).contains(d) && (3..6).all(|axis| is_smaller(axis, *d));
-            let largest = self.input(divisor).filter(is_largest);
+            let largest = self.input(divisor).filter(|d| self.is_largest(*d));
             &self.domain.0[if largest.is_some() { DIRECTION_FLOOR } else { FLOOR }]
         })
+    }
+
+    /// True if an input is the largest coordinate of the direction.
+    fn is_largest(&self, d: usize) -> bool {
+        let is_smaller = |axis: usize| axis == d || self.orders.contains(&(axis, d));
+        (3..6).contains(&d) && (3..6).all(is_smaller)
     }
 
     /// The largest size of a quotient.
@@ -229,6 +288,6 @@ impl<'a> Program<'a> {
 
 /// Whole numbers below `end`.
 pub fn indices(words: &[&str], end: usize) -> Option<Vec<usize>> {
-    let index = |word: &&str| word.parse().ok().filter(|i| *i < end && !word.starts_with('+'));
+    let index = |word: &&str| whole(word).filter(|i| *i < end);
     words.iter().map(index).collect()
 }

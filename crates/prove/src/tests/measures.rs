@@ -1,7 +1,10 @@
 //! The limits of a scene for numbers that kernels divide by and get: true of its triangles, and known in the kernels.
 
-use super::super::measures::{Known, Sample};
-use super::super::{Domain, Scene, Supposed};
+use super::super::measures::{Kind, Known, Sample};
+use super::super::{Domain, Format, Limit, Prover, Scene, Supposed};
+use super::{difference, recorded};
+use crate::arith::recorded::{Place, Recorded};
+use crate::arith::{Real, Vector};
 use crate::case::Draw;
 use crate::kernel;
 use crate::{Effort, Summary};
@@ -65,11 +68,10 @@ fn what_a_scene_says_of_divisors_and_quotients_is_true_of_its_triangles() {
     for inputs in (0..400_000).filter_map(|_| drawn(&mut draw)) {
         tried += 1;
         let sample = Sample::of(&inputs);
-        let size = sample.normal.abs();
-        let k = (0..3).find(|k| size[*k] == size.max_element()).unwrap();
-        let divisors = measures.divisors(&sample, &[k]);
+        let k = sample.normal.largest_axis();
+        let divisors = measures.known(Kind::Divisor, &sample, &[k]);
         let divisors = divisors.into_iter().map(|known| (known, true));
-        let quotients = measures.quotients(&sample, &[k]);
+        let quotients = measures.known(Kind::Quotient, &sample, &[k]);
         let quotients = quotients.into_iter().map(|known| (known, false));
         for (Known { name, limit, value }, is_divisor) in divisors.chain(quotients) {
             let (value, limit) = (value.abs(), limit.to_f64());
@@ -140,4 +142,31 @@ fn parts_of_a_scene_have_the_largest_edges_and_the_least_areas() {
     let areas: Vec<f64> = parts.iter().map(|part| area(part).to_f64()).collect();
     assert_eq!(parts.len(), 3);
     assert!(areas.iter().zip([0.5, 0.75, 4.0]).all(|(x, y)| 0.99 * y < *x && *x < y), "{areas:?}");
+}
+
+/// N·d and a small number more is another number: so small that no float would show the difference.
+#[test]
+fn a_scene_does_not_know_what_is_nearly_a_number_that_it_knows() {
+    let volume = || {
+        let edge = |p: u8| [0, 1, 2].map(|axis| difference(p, 1, axis));
+        let ([a, b, c], [d, e, f]) = (edge(2), edge(3));
+        let minor =
+            |a: &Recorded, b: &Recorded, c: &Recorded, d: &Recorded| a.clone() * b - c.clone() * d;
+        let [x, y, z] = [3, 4, 5].map(Recorded::input);
+        minor(&b, &f, &c, &e) * x + minor(&c, &d, &a, &f) * y + minor(&a, &e, &b, &d) * z
+    };
+    let power = |times: u32| (0..times).fold(Recorded::one(), |x, _| x.clone() + &x);
+    let domain = SCENE.domain().unwrap();
+    let floor = |run: &dyn Fn() -> Recorded| {
+        let (path, place): (_, Place) = recorded(|| Recorded::one() / run());
+        let prover = Prover::new(&path, domain, Format::F64);
+        let (_, divisor, _) = prover.quotient(place).unwrap();
+        prover.floor(divisor)
+    };
+    assert!(matches!(floor(&volume), Limit::Scene("|N·d|", _)), "{:?}", floor(&volume));
+    // 2^-60, and one part in 2^50.
+    let more = || volume() + Recorded::one() / power(60);
+    let larger = || volume() * (Recorded::one() + Recorded::one() / power(50));
+    assert_eq!(floor(&more), Limit::Domain(domain.floor));
+    assert_eq!(floor(&larger), Limit::Domain(domain.floor));
 }

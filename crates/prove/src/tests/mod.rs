@@ -1,5 +1,6 @@
 mod constants;
 mod gappa;
+mod gates;
 mod measures;
 mod mirrors;
 mod permanent;

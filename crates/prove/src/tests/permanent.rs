@@ -1,7 +1,7 @@
 //! Kernels' errors beside their permanents, at every exponent, against rational numbers.
 
 use super::super::dyadic::Big;
-use super::super::{Domain, Dyadic, Format, Prover, relative};
+use super::super::{Domain, Dyadic, Format, Prover, paths_of, relative};
 use super::program::{is_taken, run};
 use super::recorded;
 use crate::arith::recorded::{Operation, Recorded};
@@ -138,4 +138,33 @@ fn a_difference_of_products_in_f64_is_rounded_more_than_once() {
     let bound = prover.bound(place).expect("a bound").error.to_f64() / Format::F64.unit().to_f64();
     assert!((2.0..2.001).contains(&bound), "{bound}");
     assert_eq!(prover.bound_before_last(place), Ok(prover.bound(place).expect("a bound").error));
+}
+
+/// One product underflows, and is multiplied by 2^100: wrong by more than the permanent and the unit domain's share of
+/// underflows allow. Both hold with 2^20 times as long a direction, where nothing underflows.
+#[test]
+fn what_underflow_adds_is_known_in_a_domain_only() {
+    let paths = paths_of::<f32>(find("moller-trumbore").expect("a kernel")).expect("a program");
+    let place = paths[0].compared[0].quantities[0];
+    let form = relative(&paths[0], place, Domain::UNIT, Format::F32).expect("a permanent");
+    // o, d, a, b, c, t_min and t_max; with a = 0 the edges are b and c.
+    let error = |d_y: f64| {
+        let inputs: [f64; 17] = std::array::from_fn(|i| match i {
+            4 => d_y,
+            9 => 2f64.powi(100),
+            14 => f64::from(1.4f32) * 2f64.powi(-74),
+            _ => 0.0,
+        });
+        let computed = run(&paths[0], &inputs.map(|x| x as f32));
+        let exact = run(&paths[0], &inputs);
+        // One term: its size is the permanent.
+        let (exact, computed) = (exact[place as usize].abs(), computed[place as usize].abs());
+        let allowed = form.factor.to_f64() * exact + form.underflow.to_f64();
+        ((f64::from(computed) - exact).abs(), allowed)
+    };
+    let d_y = f64::from(1.3f32) * 2f64.powi(-75);
+    let (wrong, allowed) = error(d_y);
+    assert!((3.1e-16..3.3e-16).contains(&wrong) && allowed < 1.4e-21, "{wrong} {allowed}");
+    let (wrong, allowed) = error(d_y * 2f64.powi(20));
+    assert!(wrong <= allowed, "{wrong} {allowed}");
 }

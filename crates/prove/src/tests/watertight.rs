@@ -1,9 +1,11 @@
 //! The claims that follow from the edge values of all paths together, and kernels from which they do not follow.
 
 use crate::Symmetry;
-use crate::arith::{Real, Vector};
-use crate::case::{Ray, Triangle};
-use crate::kernel::{Gate, Gated, Generic, Hit, Kernel, KernelInfo, Path, Refuse, Role, Sink};
+use crate::arith::{Exact, Real, Vector};
+use crate::case::{Case, Draw, Ray, Triangle};
+use crate::kernel::{
+    Gate, Gated, Generic, Hit, Kernel, KernelInfo, Path, Refuse, Role, Scalar, Sink, find,
+};
 use crate::watertight::symmetry;
 use hairline_core::Contract;
 use std::cell::Cell;
@@ -212,4 +214,32 @@ fn a_gate_that_compares_by_itself_hides_none_of_its_numbers() {
 fn a_kernel_that_goes_on_where_a_gate_has_refused_has_no_program() {
     let error = paths_of_flat(AgainstTheGate).unwrap_err();
     assert_eq!(error, "it goes on after gate 'edge' has refused");
+}
+
+/// Vertices whose images are all at the origin: each is rounded onto the ray. The ray meets the triangle's inside, and the
+/// edge gate accepts it, but the determinant is computed as 0.
+#[test]
+fn woops_parallel_gate_refuses_met_triangles_whose_edge_values_are_all_zero() {
+    let kernel = find("woop-watertight").expect("a kernel");
+    let gated: &dyn Gated<f32> = f32::subject(kernel).expect("f32").gated().expect("gates");
+    let place = |name: &str| kernel.info.gates.iter().position(|gate| gate.name == name);
+    let [edge, parallel] = ["edge", "parallel"].map(|name| place(name).expect("a gate"));
+    let direction = [0.3f32, -0.7, 1.0];
+    let mut draw = Draw::new("images", 1, 1);
+    let mut met = 0;
+    for _ in 0..64 {
+        let vertices = [(); 3].map(|()| {
+            let z = 1.5 + draw.symmetric::<f32>() / 2.0;
+            direction.map(|x| x * z)
+        });
+        let case = Case::new([0.0; 3], direction, vertices).on(0.0, 4.0);
+        let exact = gated.measure_exact(&case).margins;
+        let zero = Exact::zero();
+        if zero.is_less(&exact[edge]) && zero.is_less(&exact[parallel]) {
+            met += 1;
+            let computed = gated.thresholds(&case);
+            assert_eq!((computed[edge], computed[parallel]), (0.0, 0.0), "{}", case.hex());
+        }
+    }
+    assert!(8 < met, "{met}");
 }
