@@ -127,7 +127,8 @@ fn what_changed_names_entrants_versions_contracts_and_claims() {
     ] {
         assert!(text.contains(line), "no {line:?} in {text}");
     }
-    assert_eq!(text.lines().count(), 7, "{text}");
+    assert!(text.contains("\n- bvh in f64, at edges, at vertices, parallel: "), "{text}");
+    assert_eq!(text.lines().count(), 9, "{text}");
     assert_eq!(edition::changes(&folder, "a-1").unwrap(), "");
 }
 

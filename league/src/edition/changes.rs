@@ -1,6 +1,6 @@
 //! What changed from one edition to the next: entrants, versions, contracts and what became of the claims.
 
-use super::tables::claim;
+use super::tables::{claim, row};
 use super::{EntrantResult, names, results};
 use std::path::Path;
 
@@ -30,7 +30,8 @@ pub fn changes(editions: &Path, name: &str) -> Result<String, String> {
                     one.split(", ").filter(|word| other.split(", ").all(|also| also != *word));
                 words.collect::<Vec<_>>().join(", ")
             });
-        if !added.is_empty() || !dropped.is_empty() {
+        let has_another_contract = *contract != old.contract;
+        if has_another_contract {
             let dropped =
                 if dropped.is_empty() { dropped } else { format!(" in place of \"{dropped}\"") };
             lines.push(format!(
@@ -38,9 +39,21 @@ pub fn changes(editions: &Path, name: &str) -> Result<String, String> {
             ));
         }
         for (scalar, result) in &entrant.scalars {
-            let was = old.scalars.get(scalar).map(claim).unwrap_or("absent");
-            if was != claim(result) {
-                lines.push(format!("{kernel} in {scalar}: {was} became {}.", claim(result)));
+            let Some(was) = old.scalars.get(scalar) else { continue };
+            if claim(was) != claim(result) {
+                lines.push(format!(
+                    "{kernel} in {scalar}: {} became {}.",
+                    claim(was),
+                    claim(result)
+                ));
+            }
+            if has_another_contract {
+                // Edges, vertices, parallel.
+                let [was, is] = [row(&old, scalar, was), row(entrant, scalar, result)]
+                    .map(|cells| cells[4..7].join(", "));
+                lines.push(format!(
+                    "{kernel} in {scalar}, at edges, at vertices, parallel: {was} became {is}."
+                ));
             }
         }
     }

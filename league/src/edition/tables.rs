@@ -58,7 +58,8 @@ fn edges(depth: &Option<Depth>) -> f64 {
     depth.as_ref().map_or(0.0, |depth| depth.edges)
 }
 
-fn row(entrant: &EntrantResult, scalar: &str, result: &ScalarResult) -> [String; 10] {
+/// The cells of a row.
+pub fn row(entrant: &EntrantResult, scalar: &str, result: &ScalarResult) -> [String; 10] {
     let group = |name: &str| match result.groups.get(name) {
         Some(shares) => shares.map(percent).join(" / "),
         None => String::new(),
