@@ -146,4 +146,5 @@ def main():
     sys.exit(bool(wrong) or not tests)
 
 
-main()
+if __name__ == "__main__":
+    main()

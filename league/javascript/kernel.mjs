@@ -34,7 +34,20 @@ const kernels = {
             const [a, b, c] = triangle.map((p) => new Vector3(...p));
             return new Ray(new Vector3(...o), new Vector3(...d)).intersectsTriangle(a, b, c) !== null;
         };
-        return { hit };
+        // The ray's documented epsilon, 0.001, is a tolerance in weights: at a corner twice that of an edge.
+        return { hit, contract: `${PROMISE},band=2e-3` };
+    },
+    cesium: async () => {
+        const { Cartesian3, IntersectionTests, Ray } = await import("@cesium/engine");
+        const ray = new Ray();
+        const hit = (o, d, ...triangle) => {
+            const [a, b, c] = triangle.map((p) => new Cartesian3(...p));
+            ray.origin = new Cartesian3(...o);
+            // As it is: the constructor would normalize once more.
+            ray.direction = new Cartesian3(...d);
+            return IntersectionTests.rayTriangle(ray, a, b, c) !== undefined;
+        };
+        return { hit, contract: `${PROMISE},direction=unit:4` };
     },
     playcanvas: async () => {
         const { Ray, Tri, Vec3 } = await import("playcanvas");

@@ -130,7 +130,66 @@ def warp():
     return hits, "f32", PROMISE
 
 
-KERNELS = [embreex, libigl, cgal, pyraymesh, meshlib, mitsuba, warp]
+def gpytoolbox():
+    from gpytoolbox import ray_triangle_intersect
+
+    def hits(cases):
+        for case in cases:
+            origin, direction, *triangle = case[0:15].reshape(5, 3)
+            yield ray_triangle_intersect(origin, direction, *triangle)[1]
+
+    return hits, "f64", PROMISE
+
+
+def compas():
+    from compas.geometry import intersection_line_triangle
+
+    def hits(cases):
+        for case in cases.tolist():
+            origin, *triangle = [case[i : i + 3] for i in (0, 6, 9, 12)]
+            beyond = [x + y for x, y in zip(origin, case[3:6])]
+            # A division by a rounded 0, or a square that overflows, gives no point.
+            try:
+                yield intersection_line_triangle([origin, beyond], triangle) is not None
+            except ArithmeticError:
+                yield False
+
+    # A line, and a documented tolerance about the product of direction and normal.
+    return hits, "f64", PROMISE.replace("extent=ray", "extent=line") + ",determinant=1e-9"
+
+
+def panda3d():
+    from panda3d.core import (
+        CollisionHandlerQueue,
+        CollisionNode,
+        CollisionPolygon,
+        CollisionRay,
+        CollisionTraverser,
+        NodePath,
+        Point3,
+    )
+
+    root, ray, from_node, into_node = NodePath(""), CollisionRay(), CollisionNode(""), CollisionNode("")
+    from_node.setIntoCollideMask(0)
+    from_node.addSolid(ray)
+    root.attachNewNode(into_node)
+    traverser, queue = CollisionTraverser(), CollisionHandlerQueue()
+    traverser.addCollider(root.attachNewNode(from_node), queue)
+
+    def hits(cases):
+        for case in cases.tolist():
+            triangle = [Point3(*case[i : i + 3]) for i in (6, 9, 12)]
+            ray.setOrigin(*case[0:3])
+            ray.setDirection(*case[3:6])
+            into_node.clearSolids()
+            into_node.addSolid(CollisionPolygon(*triangle))
+            traverser.traverse(root)
+            yield queue.getNumEntries() > 0
+
+    return hits, "f32", PROMISE
+
+
+KERNELS = [embreex, libigl, cgal, pyraymesh, meshlib, mitsuba, warp, gpytoolbox, compas, panda3d]
 
 
 def main():

@@ -3,6 +3,41 @@
 
 use crate::{ENTRANT, Entrant, Run};
 
+/// A kernel of javascript/kernel.mjs, with its package.
+macro_rules! node {
+    ($kernel:literal, $package:literal) => {
+        Run::Process {
+            arguments: &["--kernel-cmd", concat!("node league/javascript/kernel.mjs ", $kernel)],
+            needs: concat!("league/javascript/node_modules/", $package),
+        }
+    };
+}
+
+/// A program in Python with its arguments, and its package.
+macro_rules! python {
+    ($program:literal, $package:literal) => {
+        Run::Process {
+            arguments: &[
+                "--kernel-timeout",
+                "300",
+                "--kernel-cmd",
+                concat!("league/python/venv/bin/python ", $program),
+            ],
+            needs: concat!("league/python/venv/installed/", $package),
+        }
+    };
+}
+
+/// A plug-in of examples/embree: 0 without scene flags, 1 robust.
+macro_rules! embree {
+    ($robust:literal) => {
+        Run::Process {
+            arguments: &["--kernel-lib", concat!("examples/embree/libembree", $robust, ".so")],
+            needs: concat!("examples/embree/libembree", $robust, ".so"),
+        }
+    };
+}
+
 pub const ENTRANTS: &[Entrant] = &[
     Entrant {
         name: "bevy_picking",
@@ -52,10 +87,7 @@ pub const ENTRANTS: &[Entrant] = &[
         function: "rtcIntersect1, no scene flags",
         page: "https://github.com/RenderKit/embree/blob/v3.13.5/doc/src/api.md",
         note: "A scene of one triangle (examples/embree). Nothing is promised about edges or numbers.",
-        run: Run::Process {
-            arguments: &["--kernel-lib", "examples/embree/libembree0.so"],
-            needs: "examples/embree/libembree0.so",
-        },
+        run: embree!("0"),
         skip: EMBREE,
         ..ENTRANT
     },
@@ -73,10 +105,7 @@ pub const ENTRANTS: &[Entrant] = &[
         page: "https://github.com/RenderKit/embree/blob/v3.13.5/doc/src/api.md",
         note: "A scene of one triangle (examples/embree). Taken to mean that of triangles that share an \
             edge at least one is hit.",
-        run: Run::Process {
-            arguments: &["--kernel-lib", "examples/embree/libembree1.so"],
-            needs: "examples/embree/libembree1.so",
-        },
+        run: embree!("1"),
         skip: EMBREE,
         ..ENTRANT
     },
@@ -94,10 +123,7 @@ pub const ENTRANTS: &[Entrant] = &[
         page: "https://threejs.org/docs/#Ray.intersectTriangle",
         note: "The second sentence is a comment in the source. The direction is documented as \
         normalized.",
-        run: Run::Process {
-            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs three-js"],
-            needs: "league/javascript/node_modules/three",
-        },
+        run: node!("three-js", "three"),
         unit: true,
         ..ENTRANT
     },
@@ -110,10 +136,7 @@ pub const ENTRANTS: &[Entrant] = &[
         page: "https://github.com/gkjohnson/three-mesh-bvh/blob/v0.9.17/API.md",
         note: "A mesh of one triangle, in a Float32Array. The ray is three.js' own, whose direction \
         is normalized.",
-        run: Run::Process {
-            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs three-mesh-bvh"],
-            needs: "league/javascript/node_modules/three-mesh-bvh",
-        },
+        run: node!("three-mesh-bvh", "three-mesh-bvh"),
         unit: true,
         ..ENTRANT
     },
@@ -122,13 +145,33 @@ pub const ENTRANTS: &[Entrant] = &[
         package: "@babylonjs/core",
         version: "9.34.0",
         function: "Ray.intersectsTriangle",
-        claim: &["If the ray hits a triange"],
+        claim: &[
+            "If the ray hits a triange",
+            "The epsilon value to use when calculating the ray/triangle intersection (default: Epsilon \
+                from math constants)",
+            "export let Epsilon = 0.001;",
+        ],
         page: "https://doc.babylonjs.com/typedoc/classes/BABYLON.Ray#intersectstriangle",
-        note: "As it stands there, with \"@returns intersection information if hit\".",
-        run: Run::Process {
-            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs babylon"],
-            needs: "league/javascript/node_modules/@babylonjs/core",
-        },
+        note: "The first as it stands there, with \"@returns intersection information if hit\"; the \
+            second is of the constructor. The epsilon is a tolerance in weights: at a corner of the \
+            triangle it reaches two thousandths of an edge, and so far nothing is promised.",
+        run: node!("babylon", "@babylonjs/core"),
+        ..ENTRANT
+    },
+    Entrant {
+        name: "cesium",
+        package: "@cesium/engine",
+        version: "26.3.0",
+        function: "IntersectionTests.rayTriangle(ray, p0, p1, p2)",
+        claim: &[
+            "Computes the intersection of a ray and a triangle as a Cartesian3 coordinate.",
+            "The intersection point or undefined if there is no intersections.",
+        ],
+        page: "https://cesium.com/learn/cesiumjs/ref-doc/IntersectionTests.html#.rayTriangle",
+        note: "It gets unit directions, because `Ray`'s constructor normalizes. No tolerance is documented.",
+        run: node!("cesium", "@cesium/engine"),
+        unit: true,
+        findings: &["cesium.md"],
         ..ENTRANT
     },
     Entrant {
@@ -139,10 +182,7 @@ pub const ENTRANTS: &[Entrant] = &[
         claim: &["Test if a ray intersects with the triangle."],
         page: "https://api.playcanvas.com/engine/classes/Tri.html#intersectsray",
         note: "The direction has to be normalized.",
-        run: Run::Process {
-            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs playcanvas"],
-            needs: "league/javascript/node_modules/playcanvas",
-        },
+        run: node!("playcanvas", "playcanvas"),
         unit: true,
         ..ENTRANT
     },
@@ -154,13 +194,7 @@ pub const ENTRANTS: &[Entrant] = &[
         claim: &["intersect a ray and triangle in 3 dimensions"],
         page: "https://www.npmjs.com/package/ray-triangle-intersection/v/1.0.3",
         note: "In the source back faces are a miss.",
-        run: Run::Process {
-            arguments: &[
-                "--kernel-cmd",
-                "node league/javascript/kernel.mjs ray-triangle-intersection",
-            ],
-            needs: "league/javascript/node_modules/ray-triangle-intersection",
-        },
+        run: node!("ray-triangle-intersection", "ray-triangle-intersection"),
         findings: &["ray-triangle-intersection.md"],
         ..ENTRANT
     },
@@ -172,10 +206,7 @@ pub const ENTRANTS: &[Entrant] = &[
         claim: &["Calculate intersection point between ray and three triangle vertices"],
         page: "https://www.npmjs.com/package/claygl/v/1.3.0",
         note: "Its vectors are Float32Arrays.",
-        run: Run::Process {
-            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs claygl"],
-            needs: "league/javascript/node_modules/claygl",
-        },
+        run: node!("claygl", "claygl"),
         ..ENTRANT
     },
     Entrant {
@@ -188,10 +219,7 @@ pub const ENTRANTS: &[Entrant] = &[
         given 3D vector. If no intersection is detected, *null* is returned.",
         ],
         page: "https://mugen87.github.io/yuka/docs/Ray.html#intersectTriangle",
-        run: Run::Process {
-            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs yuka"],
-            needs: "league/javascript/node_modules/yuka",
-        },
+        run: node!("yuka", "yuka"),
         ..ENTRANT
     },
     Entrant {
@@ -201,10 +229,7 @@ pub const ENTRANTS: &[Entrant] = &[
         function: "Raycast.intersectTriangle(a, b, c, false, origin, direction), not 0",
         page: "https://www.npmjs.com/package/ogl/v/1.0.11",
         note: "Not documented.",
-        run: Run::Process {
-            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs ogl"],
-            needs: "league/javascript/node_modules/ogl",
-        },
+        run: node!("ogl", "ogl"),
         ..ENTRANT
     },
     Entrant {
@@ -212,19 +237,17 @@ pub const ENTRANTS: &[Entrant] = &[
         package: "trimesh",
         version: "5.2.0",
         function: "trimesh.ray.ray_triangle.ray_triangle_id",
-        claim: &["Find the intersections between a group of triangles and rays"],
+        claim: &[
+            "Find the intersections between a group of triangles and rays",
+            "tol.zero : float Floating point numbers smaller than this are considered zero",
+            "the resolution of float64 which works out to 1e-13",
+        ],
         page: "https://trimesh.org/trimesh.ray.ray_triangle.html",
         note: "With a tree that proposes one triangle for each ray \
-        (examples/python/trimesh_kernel.py).",
-        run: Run::Process {
-            arguments: &[
-                "--kernel-timeout",
-                "300",
-                "--kernel-cmd",
-                "league/python/venv/bin/python examples/python/trimesh_kernel.py",
-            ],
-            needs: "league/python/venv/installed/trimesh",
-        },
+            (examples/python/trimesh_kernel.py). tol.zero is documented in trimesh.constants and is, by \
+            https://github.com/mikedh/trimesh/issues/331, its tolerance in weights: 1e-13, twice that at \
+            a corner. Its tolerances of t and of the angle are not documented.",
+        run: python!("examples/python/trimesh_kernel.py", "trimesh"),
         findings: &["trimesh.md"],
         ..ENTRANT
     },
@@ -235,15 +258,7 @@ pub const ENTRANTS: &[Entrant] = &[
         function: "EmbreeScene.run, a binding of Embree 4.4",
         page: "https://github.com/trimesh/embreex",
         note: "A scene of one triangle, no flags. Nothing is promised about edges or numbers.",
-        run: Run::Process {
-            arguments: &[
-                "--kernel-timeout",
-                "300",
-                "--kernel-cmd",
-                "league/python/venv/bin/python league/python/kernel.py embreex",
-            ],
-            needs: "league/python/venv/installed/embreex",
-        },
+        run: python!("league/python/kernel.py embreex", "embreex"),
         ..ENTRANT
     },
     Entrant {
@@ -254,15 +269,7 @@ pub const ENTRANTS: &[Entrant] = &[
         claim: &["Shoot a ray against a mesh (V, F) and collect hits."],
         page: "https://libigl.github.io/libigl-python-bindings/",
         note: "A mesh of one triangle.",
-        run: Run::Process {
-            arguments: &[
-                "--kernel-timeout",
-                "300",
-                "--kernel-cmd",
-                "league/python/venv/bin/python league/python/kernel.py libigl",
-            ],
-            needs: "league/python/venv/installed/libigl",
-        },
+        run: python!("league/python/kernel.py libigl", "libigl"),
         ..ENTRANT
     },
     Entrant {
@@ -279,16 +286,62 @@ pub const ENTRANTS: &[Entrant] = &[
         page: "https://doc.cgal.org/6.0.1/Kernel_23/group__do__intersect__linear__grp.html",
         note: "So edges, vertices and t = 0 are hits. The binding's Ray_3(point, vector) keeps a \
         second point, point + vector, which is rounded: what that moves is charged to it.",
-        run: Run::Process {
-            arguments: &[
-                "--kernel-timeout",
-                "300",
-                "--kernel-cmd",
-                "league/python/venv/bin/python league/python/kernel.py cgal",
-            ],
-            needs: "league/python/venv/installed/cgal",
-        },
+        run: python!("league/python/kernel.py cgal", "cgal"),
         skip: &["direction-length"],
+        ..ENTRANT
+    },
+    Entrant {
+        name: "gpytoolbox",
+        package: "gpytoolbox",
+        version: "0.3.8",
+        function: "gpytoolbox.ray_triangle_intersect",
+        claim: &[
+            "Find if and where a straight line intersects a triangle in 3D",
+            "Whether the ray ever hits the triangle",
+            "Uses the Möller–Trumbore ray-triangle intersection algorithm.",
+        ],
+        page: "https://gpytoolbox.org/0.3.0/ray_triangle_intersect/",
+        note: "With return_negative=False, as it is by default. No tolerance is documented.",
+        run: python!("league/python/kernel.py gpytoolbox", "gpytoolbox"),
+        findings: &["gpytoolbox.md"],
+        ..ENTRANT
+    },
+    Entrant {
+        name: "compas",
+        package: "compas",
+        version: "2.15.1",
+        function: "compas.geometry.intersection_line_triangle",
+        claim: &[
+            "Computes the intersection point of a line (ray) and a triangle based on the Moeller Trumbore \
+                intersection algorithm",
+            "The intersection point between the line and the triangle, or None if the line and the plane \
+                are parallel.",
+            "Tolerance for evaluating that the dot product of the line direction and the plane normal is \
+                zero.",
+            "ABSOLUTE = 1e-9",
+        ],
+        page: "https://compas.dev/compas/latest/api/generated/compas.geometry.intersection_line_triangle.html",
+        note: "A line: any t. It takes two points, the second of which is origin + direction, rounded: \
+            what that moves is charged to it. The third sentence is of intersection_line_plane, to which \
+            it hands its tolerance: below 1e-9, of the normal as it is, no hit is owed.",
+        run: python!("league/python/kernel.py compas", "compas"),
+        skip: &["direction-length"],
+        findings: &["compas.md"],
+        ..ENTRANT
+    },
+    Entrant {
+        name: "panda3d",
+        package: "panda3d",
+        version: "1.10.16",
+        function: "CollisionTraverser.traverse, a CollisionRay into a CollisionPolygon",
+        claim: &[
+            "An infinite ray, with a specific origin and direction. It begins at its origin and continues \
+                in one direction to infinity, and it has no radius.",
+        ],
+        page: "https://docs.panda3d.org/1.10/python/reference/panda3d.core.CollisionRay",
+        note: "A node with one polygon. No tolerance is documented.",
+        run: python!("league/python/kernel.py panda3d", "panda3d"),
+        findings: &["panda3d.md"],
         ..ENTRANT
     },
     Entrant {
@@ -302,15 +355,7 @@ pub const ENTRANTS: &[Entrant] = &[
         ],
         page: "https://pypi.org/project/pyraymesh/0.2.6/",
         note: "A mesh of one triangle.",
-        run: Run::Process {
-            arguments: &[
-                "--kernel-timeout",
-                "300",
-                "--kernel-cmd",
-                "league/python/venv/bin/python league/python/kernel.py pyraymesh",
-            ],
-            needs: "league/python/venv/installed/pyraymesh",
-        },
+        run: python!("league/python/kernel.py pyraymesh", "pyraymesh"),
         ..ENTRANT
     },
     Entrant {
@@ -321,15 +366,7 @@ pub const ENTRANTS: &[Entrant] = &[
         claim: &["Finds ray and mesh intersection in float-precision."],
         page: "https://meshlib.io/documentation/group__AABBTreeGroup.html",
         note: "A mesh of one triangle.",
-        run: Run::Process {
-            arguments: &[
-                "--kernel-timeout",
-                "300",
-                "--kernel-cmd",
-                "league/python/venv/bin/python league/python/kernel.py meshlib",
-            ],
-            needs: "league/python/venv/installed/meshlib",
-        },
+        run: python!("league/python/kernel.py meshlib", "meshlib"),
         ..ENTRANT
     },
     Entrant {
@@ -339,15 +376,7 @@ pub const ENTRANTS: &[Entrant] = &[
         function: "Mesh.ray_intersect_triangle, scalar_rgb",
         page: "https://mitsuba.readthedocs.io/en/v3.9.1/src/api_reference.html#mitsuba.Mesh.ray_intersect_triangle",
         note: "Its signature is all that the reference has.",
-        run: Run::Process {
-            arguments: &[
-                "--kernel-timeout",
-                "300",
-                "--kernel-cmd",
-                "league/python/venv/bin/python league/python/kernel.py mitsuba",
-            ],
-            needs: "league/python/venv/installed/mitsuba",
-        },
+        run: python!("league/python/kernel.py mitsuba", "mitsuba"),
         ..ENTRANT
     },
     Entrant {
@@ -361,15 +390,7 @@ pub const ENTRANTS: &[Entrant] = &[
         ],
         page: "https://nvidia.github.io/warp/",
         note: "A mesh of one triangle.",
-        run: Run::Process {
-            arguments: &[
-                "--kernel-timeout",
-                "300",
-                "--kernel-cmd",
-                "league/python/venv/bin/python league/python/kernel.py warp",
-            ],
-            needs: "league/python/venv/installed/warp-lang",
-        },
+        run: python!("league/python/kernel.py warp", "warp-lang"),
         ..ENTRANT
     },
 ];

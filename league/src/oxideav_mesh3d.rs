@@ -18,9 +18,12 @@ pub const OXIDEAV: Entrant = Entrant {
             misses (parallel, behind the origin, or outside the triangle's barycentric simplex).",
         "`t_max` is the upper bound on the ray parameter",
         "an absolute `1e-8` determinant epsilon rejects very small triangles.",
+        "A degenerate triangle (`|det| ≤ epsilon`, i.e. the ray is parallel to the triangle plane or the \
+            triangle itself has zero area) is silently treated as a miss",
     ],
     page: "https://docs.rs/oxideav-mesh3d/0.0.7/oxideav_mesh3d/ray/fn.intersect_triangle.html",
-    note: "The last sentence, of `TriangleTest`, documents its epsilon.",
+    note: "The third sentence is of `TriangleTest`. Below that determinant no hit is owed, and by the fourth \
+        a miss is.",
     run: Run::Here(moller_trumbore),
     ..ENTRANT
 };
@@ -48,7 +51,7 @@ const GIVES: Gives = Gives { t: true, uv: true, facing: true };
 const MOLLER_TRUMBORE: KernelInfo = KernelInfo {
     source: "oxideav-mesh3d 0.0.7, ray::intersect_triangle",
     gives: GIVES,
-    ..KernelInfo::own("oxideav-mesh3d", PROMISE)
+    ..KernelInfo::own("oxideav-mesh3d", Contract { least_determinant: 1e-8, ..PROMISE })
 };
 
 const WATERTIGHT: KernelInfo = KernelInfo {

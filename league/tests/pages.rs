@@ -46,6 +46,24 @@ fn every_page_has_its_parts_is_linked_and_its_code_is_run_somewhere() {
             index.contains(&format!("league/findings/{name}")),
             "{name} is not in docs/league.md"
         );
+        if let Some((_, threads)) = text.split_once("\n## Public threads\n") {
+            let (threads, _) = threads.split_once(PARTS[5]).expect("before what can be disputed");
+            let is_thread = |link: &str| {
+                let [_, _, kind, number] = link.split('/').collect::<Vec<_>>()[..] else {
+                    return false;
+                };
+                ["issues", "pull"].contains(&kind) && number.parse::<u32>().is_ok()
+            };
+            let links: Vec<&str> = threads.split("(https://github.com/").skip(1).collect();
+            let links: Vec<&str> = links.iter().filter_map(|link| link.split(')').next()).collect();
+            assert!(
+                !links.is_empty() && links.iter().all(|link| is_thread(link)),
+                "{name}: {links:?}"
+            );
+        }
+        // Small triangles are lost everywhere for the same reason.
+        let title = text.lines().next().unwrap();
+        assert!(!title.contains(" legs below ") || text.contains("/tinybvh/pull/283"), "{name}");
         let languages = ["rust", "python", "javascript"];
         let [rust, others @ ..] = languages.map(|language| code(&text, language));
         let lines =
@@ -91,7 +109,7 @@ fn installed(page: &str) -> Vec<(String, String)> {
     let line = page.lines().find(|line| line.contains(", after `") || line.starts_with("After `"));
     let words = line.unwrap_or_default().split([' ', '`', ':']);
     let pinned = words.filter_map(|word| {
-        let (name, version) = word.split_once("==").or_else(|| word.split_once('@'))?;
+        let (name, version) = word.split_once("==").or_else(|| word.rsplit_once('@'))?;
         Some((name.to_owned(), version.trim_start_matches('=').to_owned()))
     });
     pinned.collect()

@@ -32,6 +32,9 @@ pub struct Contract {
     pub no_self_hit: bool,
     /// Cases nearer than this to where another verdict would be right are free.
     pub band: Option<Band>,
+    /// No hit is owed where |d·((b-a)×(c-a))|, the determinant of Möller and Trumbore, is exactly less than this: a
+    /// documented epsilon, which may lose small triangles and rays nearly parallel to them. Zero: hits are owed everywhere.
+    pub least_determinant: f64,
     /// How far t·|d|, u and v may be off besides what rounding explains, in the triangle's longest edges and in weights:
     /// what a kernel's documentation allows. Infinite: values are not judged.
     pub value_tolerance: f64,
@@ -174,6 +177,7 @@ impl Contract {
         across: Across::Nothing,
         no_self_hit: false,
         band: None,
+        least_determinant: 0.0,
         value_tolerance: 0.0,
     };
 
@@ -190,6 +194,11 @@ impl Contract {
     /// The same with a promise across triangles.
     pub const fn with_across(self, across: Across) -> Contract {
         Contract { across, ..self }
+    }
+
+    /// True if the truth of a case decides what is demanded, and no length or determinant.
+    pub fn asks_of_truths_alone(&self) -> bool {
+        self.direction == Direction::Any && self.band.is_none() && self.least_determinant == 0.0
     }
 
     /// The contract in one line, as reports show it.
@@ -241,6 +250,9 @@ impl Contract {
             Some(band) => {
                 text.push_str(&format!(", free within {band} longest edges of the boundary"));
             }
+        }
+        if self.least_determinant > 0.0 {
+            text.push_str(&format!(", no hit owed at |det| < {:e}", self.least_determinant));
         }
         match self.value_tolerance {
             0.0 => {}

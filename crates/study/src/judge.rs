@@ -89,8 +89,8 @@ pub fn obligation(truth: &Truth, contract: &Contract, secondary: bool) -> Obliga
     }
 }
 
-/// The contract's demand on a case: nothing if it promises nothing for the direction, and nothing
-/// within its band.
+/// The contract's demand on a case: nothing if it promises nothing for the direction, nothing within its band, and no
+/// hit below its least determinant.
 pub fn asked<F: Float>(
     case: &Case<F>,
     truth: &Truth,
@@ -100,26 +100,13 @@ pub fn asked<F: Float>(
     if !promises_direction::<F>(contract.direction, case.ray.direction.into()) {
         return Obligation::Free;
     }
-    in_band(obligation(truth, contract, secondary), case, truth, contract)
-}
-
-/// Nothing, within the contract's band.
-fn in_band<F: Float>(
-    asked: Obligation,
-    case: &Case<F>,
-    truth: &Truth,
-    contract: &Contract,
-) -> Obligation {
-    match contract.band {
-        Some(band)
-            if asked != Obligation::Free
-                && *truth != Truth::Invalid
-                && change::is_within(band, case, truth, contract) =>
-        {
-            Obligation::Free
-        }
-        _ => asked,
+    let asked = obligation(truth, contract, secondary);
+    if asked == Obligation::Free || *truth == Truth::Invalid {
+        return asked;
     }
+    let within = |band| change::is_within(band, case, truth, contract);
+    let is_small = asked == Obligation::MustHit && change::has_small_determinant(case, contract);
+    if is_small || contract.band.is_some_and(within) { Obligation::Free } else { asked }
 }
 
 fn demanded(demand: Demand, contact: bool) -> Obligation {

@@ -1,11 +1,13 @@
-//! An edition: one JSON file for each entrant, one table made of them in three formats, and, once it is
-//! frozen, a manifest with the hash of every file. A frozen edition is never edited, only superseded.
+//! An edition: one JSON file for each entrant, one table made of them in three formats, what changed since the edition
+//! before, and, once it is frozen, a manifest with the hash of every file. A frozen edition is never edited, only superseded.
 
 mod audit;
+mod changes;
 mod tables;
 
 pub use audit::{Depth, EntrantResult, GROUPS, ScalarResult, Share, half_of_digits};
-pub use tables::{CAPTION, HEAD, Order, html, latex, markdown, rows};
+pub use changes::changes;
+pub use tables::{CAPTION, HEAD, html, latex, markdown, rows};
 
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
@@ -52,15 +54,15 @@ impl Manifest {
 /// The name of the file with the hashes.
 pub const MANIFEST: &str = "manifest.json";
 
-/// The name of the newest edition in a folder of them.
-pub fn newest(folder: &Path) -> Result<String, String> {
+/// The names of the editions in a folder, the newest last.
+pub fn names(folder: &Path) -> Result<Vec<String>, String> {
     let wrong = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(wrong)? {
         names.push(entry.map_err(wrong)?.file_name().to_string_lossy().into_owned());
     }
     names.sort_by_key(|name| (name.len(), name.clone()));
-    names.pop().ok_or(format!("{}: no edition", folder.display()))
+    Ok(names)
 }
 
 /// The results of an edition, in the order of the entrants.

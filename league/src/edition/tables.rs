@@ -27,33 +27,16 @@ pub const CAPTION: &str = "False misses / false hits in % of the cases that must
     4 ulps of the input), rounding (within half of the digits), refuted, size (refuted for triangles or \
     directions that are small, large or far only), and - where nothing is claimed.";
 
-/// In which order the rows of a table stand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Order {
-    /// As in [`crate::entrants`].
-    Entrants,
-    /// By what became of the documentation's promises: held, rounding, size, refuted; then those that promise
-    /// nothing. Within each by the deepest false verdict. No rate counts, because a rate depends on our mix of cases.
-    Promises,
-}
-
-impl Order {
-    /// Of an edition's own tables: the first was frozen in the other order.
-    pub fn of(edition: &str) -> Order {
-        if edition == "league-2026.1" { Order::Entrants } else { Order::Promises }
-    }
-}
-
-/// One row an entrant and scalar, with its cells.
-pub fn rows(results: &[EntrantResult], order: Order) -> Vec<(&EntrantResult, &str, [String; 10])> {
+/// One row an entrant and scalar, with its cells. They stand by what became of the documentation's promises: held,
+/// rounding, size, refuted; then those that promise nothing. Within each by the deepest false verdict. No rate counts,
+/// because a rate depends on our mix of cases.
+pub fn rows(results: &[EntrantResult]) -> Vec<(&EntrantResult, &str, [String; 10])> {
     let mut all: Vec<(&EntrantResult, &str, &ScalarResult)> = Vec::new();
     for entrant in results {
         let scalars = entrant.scalars.iter();
         all.extend(scalars.map(|(scalar, result)| (entrant, scalar.as_str(), result)));
     }
-    if order == Order::Promises {
-        all.sort_by(|(_, _, a), (_, _, b)| by_promises(a, b));
-    }
+    all.sort_by(|(_, _, a), (_, _, b)| by_promises(a, b));
     let row = |(entrant, scalar, result)| (entrant, scalar, row(entrant, scalar, result));
     all.into_iter().map(row).collect()
 }
@@ -75,7 +58,8 @@ fn edges(depth: &Option<Depth>) -> f64 {
     depth.as_ref().map_or(0.0, |depth| depth.edges)
 }
 
-fn row(entrant: &EntrantResult, scalar: &str, result: &ScalarResult) -> [String; 10] {
+/// The cells of a row.
+pub fn row(entrant: &EntrantResult, scalar: &str, result: &ScalarResult) -> [String; 10] {
     let group = |name: &str| match result.groups.get(name) {
         Some(shares) => shares.map(percent).join(" / "),
         None => String::new(),
@@ -95,7 +79,8 @@ fn row(entrant: &EntrantResult, scalar: &str, result: &ScalarResult) -> [String;
     ]
 }
 
-fn claim(result: &ScalarResult) -> &str {
+/// The claim's column.
+pub fn claim(result: &ScalarResult) -> &str {
     match result.verdict.as_str() {
         "none" => "-",
         "refuted by size" => "size",
@@ -133,9 +118,9 @@ fn short(x: f64) -> String {
 }
 
 /// The table for a page, without its caption.
-pub fn markdown(results: &[EntrantResult], order: Order) -> String {
+pub fn markdown(results: &[EntrantResult]) -> String {
     let mut text = format!("| {} |\n|{}\n", HEAD.join(" | "), "---|".repeat(HEAD.len()));
-    for (_, _, row) in rows(results, order) {
+    for (_, _, row) in rows(results) {
         writeln!(text, "| {} |", row.map(|cell| cell.replace('*', "\\*")).join(" | ")).unwrap();
     }
     text
@@ -148,8 +133,7 @@ pub fn html(edition: &str, results: &[EntrantResult]) -> String {
         let cells = cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escape(cell)));
         format!("<tr>{}</tr>\n", cells.collect::<String>())
     };
-    let body: String =
-        rows(results, Order::of(edition)).iter().map(|(_, _, row)| line("td", row)).collect();
+    let body: String = rows(results).iter().map(|(_, _, row)| line("td", row)).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{edition}</title>\n<style>\n\
         body {{ font: 14px/1.4 system-ui, sans-serif; margin: 2em auto; max-width: 80em; padding: 0 1em }}\n\
@@ -169,8 +153,7 @@ pub fn latex(edition: &str, results: &[EntrantResult]) -> String {
         let cells: Vec<String> = cells.iter().map(|cell| escape(cell)).collect();
         format!("{} \\\\\n", cells.join(" & "))
     };
-    let body: String =
-        rows(results, Order::of(edition)).iter().map(|(_, _, row)| line(row)).collect();
+    let body: String = rows(results).iter().map(|(_, _, row)| line(row)).collect();
     format!(
         "% {edition}: \\usepackage{{booktabs,longtable}}\n\\begin{{longtable}}{{lll l{}}}\n\
         \\caption{{{}}} \\\\\n\\toprule\n{}\\midrule\n\\endhead\n{body}\\bottomrule\n\\end{{longtable}}\n",

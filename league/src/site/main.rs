@@ -42,7 +42,7 @@ fn site(folder: &str, edition: Option<&str>, url: Option<&str>) -> Result<String
     let editions = Path::new("league/editions");
     let edition = match edition {
         Some(name) => name.to_owned(),
-        None => edition::newest(editions)?,
+        None => edition::names(editions)?.pop().ok_or("no edition")?,
     };
     let results = edition::results(&editions.join(&edition))?;
     hairline_league::register()?;

@@ -2,7 +2,7 @@
 
 use crate::epsilons::Epsilon;
 use crate::findings::Finding;
-use hairline_league::edition::{CAPTION, EntrantResult, HEAD, Order, rows};
+use hairline_league::edition::{CAPTION, EntrantResult, HEAD, rows};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::fs;
 use std::path::PathBuf;
@@ -100,7 +100,7 @@ pub fn index(
 ) -> Result<(), String> {
     let head = html! { @for head in HEAD { th { (head) } } };
     let body = html! {
-        @for (entrant, _, cells) in rows(results, Order::Promises) {
+        @for (entrant, _, cells) in rows(results) {
             tr {
                 @for (place, cell) in cells.iter().enumerate() {
                     td class=[(HEAD[place] == "claim").then_some(cell)] {

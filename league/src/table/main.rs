@@ -6,7 +6,7 @@
 mod run;
 mod witnesses;
 
-use hairline_league::edition::{self, CAPTION, MANIFEST, Manifest, Order};
+use hairline_league::edition::{self, CAPTION, MANIFEST, Manifest};
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
@@ -71,16 +71,21 @@ fn audit(name: &str, kernels: &[&str]) -> Result<(), String> {
 fn write_tables(name: &str) -> Result<(), String> {
     let folder = folder(name);
     let results = edition::results(Path::new(&folder))?;
-    let table = edition::markdown(&results, Order::of(name));
+    let table = edition::markdown(&results);
     write(&format!("{folder}/table.md"), &format!("# {name}\n\n{CAPTION}\n\n{table}"))?;
+    let changes = edition::changes(Path::new("league/editions"), name)?;
+    write(&format!("{folder}/changes.md"), &changes)?;
     write(&format!("{folder}/table.html"), &edition::html(name, &results))?;
     write(&format!("{folder}/table.tex"), &edition::latex(name, &results))?;
-    // The page is not frozen, whatever the edition's own order.
-    let table = edition::markdown(&results, Order::Promises);
     let text = fs::read_to_string(DOCUMENT).map_err(|error| format!("{DOCUMENT}: {error}"))?;
     let (before, rest) = text.split_once(START).ok_or(format!("{DOCUMENT}: no '{START}'"))?;
     let (_, after) = rest.split_once(END).ok_or(format!("{DOCUMENT}: no '{END}'"))?;
-    write(DOCUMENT, &format!("{before}{START}\n\n{CAPTION}\n\n{table}\n{END}{after}"))
+    write(
+        DOCUMENT,
+        &format!(
+            "{before}{START}\n\n{CAPTION}\n\n{table}\n## What changed\n\n{changes}\n{END}{after}"
+        ),
+    )
 }
 
 fn freeze(name: &str) -> Result<(), String> {

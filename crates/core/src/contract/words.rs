@@ -15,8 +15,8 @@ impl FromStr for Contract {
 
 impl Contract {
     /// From words between commas: a named contract or `own` (a kernel's own contract), then `key=value`
-    /// pairs that change it, `no-self-hit`, `band=DISTANCE`, and `values=DISTANCE` or `values=free`. Without a name the words must give
-    /// extent, sides and boundary; coplanar rays and triangles without area are then missed, invalid
+    /// pairs that change it, `no-self-hit`, `band=DISTANCE`, `determinant=NUMBER`, and `values=DISTANCE` or `values=free`. Without a
+    /// name the words must give extent, sides and boundary; coplanar rays and triangles without area are then missed, invalid
     /// input is free, and directions of any length are promised.
     ///
     /// Errors: one line that says which word is wrong and what is known.
@@ -91,6 +91,8 @@ impl Contract {
         if let Some(band) = self.band {
             change(self.band == base.band, "band", &band.to_string());
         }
+        let determinant = format!("{:e}", self.least_determinant);
+        change(self.least_determinant == base.least_determinant, "determinant", &determinant);
         let values = match self.value_tolerance {
             f64::INFINITY => "free".to_owned(),
             edges => format!("{edges:e}"),
@@ -124,6 +126,7 @@ impl Contract {
         let (key, value) = word.split_once('=').unwrap_or((word, ""));
         let boundary = || choice(word, value, Boundary::ALL, Boundary::name);
         let demand = || choice(word, value, Demand::ALL, Demand::name);
+        let number = value.parse().ok().filter(|number| (0.0..f64::INFINITY).contains(number));
         match key {
             "extent" => self.extent = choice(word, value, Extent::ALL, Extent::name)?,
             "sides" => self.sides = choice(word, value, Sides::ALL, Sides::name)?,
@@ -142,9 +145,12 @@ impl Contract {
             }
             "across" => self.across = choice(word, value, Across::ALL, Across::name)?,
             "band" => self.band = Some(value.parse()?),
+            "determinant" => {
+                let advice = format!("'{word}': write a number from 0 up, as 1e-8");
+                self.least_determinant = number.ok_or(advice)?;
+            }
             "values" => {
-                let edges = value.parse().ok().filter(|edges| (0.0..f64::INFINITY).contains(edges));
-                self.value_tolerance = match (value, edges) {
+                self.value_tolerance = match (value, number) {
                     ("free", _) => f64::INFINITY,
                     (_, Some(edges)) => edges,
                     _ => {
@@ -156,7 +162,7 @@ impl Contract {
             }
             "no-self-hit" if word == key => self.no_self_hit = true,
             _ => {
-                let keys = "extent, sides, boundary, ends, coplanar, degenerate, invalid, direction, across, band, values, no-self-hit";
+                let keys = "extent, sides, boundary, ends, coplanar, degenerate, invalid, direction, across, band, determinant, values, no-self-hit";
                 return Err(format!("'{word}' is none of {keys}"));
             }
         }
@@ -177,12 +183,12 @@ mod tests {
         let own = read("extent=line, sides=front, boundary=open").unwrap();
         assert_eq!(own, Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open));
         let all = "closed-interval,boundary=free,ends=open,coplanar=hit,degenerate=free,invalid=free,\
-            direction=unit:4,across=exactly-one,no-self-hit,values=1e-3";
+            direction=unit:4,across=exactly-one,no-self-hit,determinant=1e-8,values=1e-3";
         assert_eq!(
             read(all).unwrap().describe(),
             "interval, both sides, boundary free, ends open, coplanar hit, degenerate free, invalid free, \
              exactly-one across triangles, unit directions within 4 ulps, no self-hit, \
-             values free within 1e-3 longest edges"
+             no hit owed at |det| < 1e-8, values free within 1e-3 longest edges"
         );
         assert_eq!(
             Contract::CLOSED_RAY.describe(),
@@ -228,6 +234,7 @@ mod tests {
             ("closed-ray,side=both", "'side=both' is none of extent, "),
             ("closed-ray,direction=unit", "'direction=unit': there are any, unit:ULPS"),
             ("closed-ray,values=-1", "'values=-1': write free, or a distance"),
+            ("closed-ray,determinant=-1", "'determinant=-1': write a number from 0 up"),
             ("closed-ray,values=inf", "'values=inf': write free, or a distance"),
             ("closed-ray,no-self-hit=yes", "'no-self-hit=yes' is none of "),
         ] {

@@ -1,7 +1,7 @@
 //! How far a case is from where its obligation would be another, and whether a band frees it.
 
 use super::distance::{Distances, Squares, line_to_segment, ulp_of_points};
-use crate::arith::{Exact, Float, Real};
+use crate::arith::{Exact, Float, Real, Vector};
 use crate::case::{Case, Ray, Triangle};
 use crate::contract::{Band, BandUnit, Contract, Extent, Sides};
 use crate::truth::{Facing, Feature, Place, Truth};
@@ -73,6 +73,16 @@ pub fn is_within<F: Float>(band: Band, case: &Case<F>, truth: &Truth, contract: 
             squares.are_within(band, ulp_of_points(case), truth, contract)
         },
     )
+}
+
+/// True if a case's exact determinant is below the least at which the contract owes a hit.
+pub fn has_small_determinant<F: Float>(case: &Case<F>, contract: &Contract) -> bool {
+    if contract.least_determinant == 0.0 {
+        return false;
+    }
+    let (ray, Triangle { a, b, c }) = case.exact();
+    let normal = b.minus(&a).cross(&c.minus(&a));
+    ray.direction.dot(&normal).abs().is_less(&Exact::from_f64(contract.least_determinant))
 }
 
 /// True if one number is less than another; none if they differ by less than 1/256, as distances are right to a

@@ -3,7 +3,7 @@
 use super::{Class, Kind, Limits, Obligation, asked, obligation};
 use crate::arith::Float;
 use crate::case::Case;
-use crate::contract::{Contract, Direction};
+use crate::contract::Contract;
 use crate::kernel::{Gives, Verdict};
 use crate::truth::{Facing, Truth};
 
@@ -50,25 +50,24 @@ pub fn ask_all<F: Float>(
     contract: &Contract,
     secondary: bool,
 ) -> Expectations {
-    let (of, counts): (Vec<Expected>, Vec<_>) =
-        if contract.direction == Direction::Any && contract.band.is_none() {
-            // Few kinds occur, and each is asked the same.
-            let mut of_kind = [Expected::FREE; Kind::COUNT];
-            let ask = |&(kind, first, count): &(Kind, usize, u64)| {
-                let asked = obligation(&truths[first], contract, secondary);
-                of_kind[kind.number()] = Expected::new(asked, kind);
-                (kind.class(), asked, count)
-            };
-            let counts = kinds.each.iter().map(ask).collect();
-            (kinds.of.iter().map(|kind| of_kind[kind.number()]).collect(), counts)
-        } else {
-            let cases = cases.iter().zip(truths).zip(&kinds.of);
-            let ask = |((case, truth), kind): ((&Case<F>, &Truth), &Kind)| {
-                let asked = asked(case, truth, contract, secondary);
-                (Expected::new(asked, *kind), (kind.class(), asked, 1))
-            };
-            cases.map(ask).unzip()
+    let (of, counts): (Vec<Expected>, Vec<_>) = if contract.asks_of_truths_alone() {
+        // Few kinds occur, and each is asked the same.
+        let mut of_kind = [Expected::FREE; Kind::COUNT];
+        let ask = |&(kind, first, count): &(Kind, usize, u64)| {
+            let asked = obligation(&truths[first], contract, secondary);
+            of_kind[kind.number()] = Expected::new(asked, kind);
+            (kind.class(), asked, count)
         };
+        let counts = kinds.each.iter().map(ask).collect();
+        (kinds.of.iter().map(|kind| of_kind[kind.number()]).collect(), counts)
+    } else {
+        let cases = cases.iter().zip(truths).zip(&kinds.of);
+        let ask = |((case, truth), kind): ((&Case<F>, &Truth), &Kind)| {
+            let asked = asked(case, truth, contract, secondary);
+            (Expected::new(asked, *kind), (kind.class(), asked, 1))
+        };
+        cases.map(ask).unzip()
+    };
     let free = (0..of.len()).filter(|&i| of[i].obligation() == Obligation::Free).collect();
     Expectations { of, free, counts }
 }

@@ -1,6 +1,6 @@
 //! A contract's demands on the triangles of a group together, and on a polygon as a whole.
 
-use super::change::{is_polygon_within, is_within};
+use super::change::{has_small_determinant, is_polygon_within, is_within};
 use super::{Obligation, obligation, promises_direction};
 use crate::arith::Float;
 use crate::case::Case;
@@ -28,7 +28,7 @@ pub enum GroupTruth {
 }
 
 /// The contract's demand on the triangles of a group together: nothing if it promises nothing for the
-/// direction, and nothing within its band.
+/// direction, nothing within its band, and nothing if the determinant of one of them is small.
 ///
 /// How many triangles of a group report the ray follows from the verdict on each of them. So a band frees
 /// the group if it frees one of its triangles, that is if the line is nearer than the band to where that
@@ -52,6 +52,7 @@ pub fn group_obligation<F: Float>(
             GroupTruth::Free
         }
         _ if contract.band.is_some_and(is_free) => GroupTruth::Free,
+        _ if cases.iter().any(|case| has_small_determinant(case, contract)) => GroupTruth::Free,
         _ => truth,
     }
 }
@@ -124,8 +125,10 @@ pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) ->
 
 /// True if two contracts demand the same of every group.
 pub fn owes_groups_alike(one: &Contract, other: &Contract) -> bool {
-    let all =
-        |contract: &Contract| (contract.extent, contract.sides, contract.direction, contract.band);
+    let all = |contract: &Contract| {
+        let Contract { extent, sides, direction, band, least_determinant, .. } = *contract;
+        (extent, sides, direction, band, least_determinant)
+    };
     all(one) == all(other)
 }
 
@@ -161,7 +164,11 @@ pub fn polygon_obligation<F: Float>(
     let is_free = |band| is_polygon_within(band, cases, &truth, contract);
     match owed {
         Obligation::Free => owed,
-        _ if truth != Truth::Invalid && contract.band.is_some_and(is_free) => Obligation::Free,
+        _ if truth == Truth::Invalid => owed,
+        _ if contract.band.is_some_and(is_free) => Obligation::Free,
+        Obligation::MustHit if cases.iter().any(|case| has_small_determinant(case, contract)) => {
+            Obligation::Free
+        }
         _ => owed,
     }
 }

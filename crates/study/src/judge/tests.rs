@@ -96,6 +96,20 @@ fn nothing_is_asked_for_a_direction_without_a_promise_or_within_the_band() {
     }
 }
 
+#[test]
+fn no_hit_is_asked_for_below_the_least_determinant_and_a_miss_is() {
+    let ask = |x: f64, least_determinant: f64| {
+        let triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+        let case = Case::<f64>::new([x, 1.0, 2.0], [0.0, 0.0, -0.5], triangle);
+        let contract = Contract { least_determinant, ..Contract::CLOSED_RAY };
+        asked(&case, &truth(&case), &contract, false)
+    };
+    // The determinant is 4 · 4 · 0.5; compared exactly.
+    assert_eq!(ask(1.0, 8.0), Obligation::MustHit);
+    assert_eq!(ask(1.0, 8.0f64.next_up()), Obligation::Free);
+    assert_eq!(ask(-1.0, 8.0f64.next_up()), Obligation::MustMiss);
+}
+
 /// All truths that there are, and some that cannot be.
 fn all_truths() -> Vec<Truth> {
     let mut all = vec![Truth::Parallel, Truth::Invalid];

@@ -180,6 +180,20 @@ fn a_band_frees_a_polygon_by_its_outline_and_a_group_by_its_triangles() {
 }
 
 #[test]
+fn a_group_with_a_small_determinant_owes_no_hit() {
+    let ask = |(x, y), least_determinant| {
+        let (cases, truths) = square_at(x, y);
+        let contract = Contract { least_determinant, ..Contract::CLOSED_RAY };
+        let group = group_obligation(&cases, &truths, &contract, Grouping::Polygon);
+        (group, polygon_obligation(&cases, &truths, &contract))
+    };
+    // Both triangles have a determinant of 16.
+    assert_eq!(ask((2.0, 2.0), 16.0), (GroupTruth::Crossing, Obligation::MustHit));
+    assert_eq!(ask((2.0, 2.0), 17.0), (GroupTruth::Free, Obligation::Free));
+    assert_eq!(ask((2.0, 7.0), 17.0), (GroupTruth::Free, Obligation::MustMiss));
+}
+
+#[test]
 fn groups_and_polygons_are_free_where_no_direction_is_promised() {
     let (cases, truths) = square_at(2.0, 2.0);
     let ask = |length: f64| {
