@@ -338,7 +338,30 @@ fn ply_files_that_are_wrong_say_where() {
     let face = "element face 1\nproperty list uchar int vertex_indices\n";
     for (lines, message) in [
         (String::new(), "a.ply:2: header: Unexpected end of file"),
-        ("format ascii 2\n".to_owned(), "a.ply:2: header: "),
+        (
+            "format ascii 2\n".to_owned(),
+            "a.ply:2: header: expected one line 'format ascii 1.0', or binary_little_endian or binary_big_endian, \
+             found 'format ascii 2'",
+        ),
+        (
+            "format ascii 1.0\nelement vertex three\n".to_owned(),
+            "a.ply:3: header: expected 'element NAME COUNT', found 'element vertex three'",
+        ),
+        (
+            "format ascii 1.0\nproperty float x\n".to_owned(),
+            "a.ply:3: header: expected 'property TYPE NAME' or 'property list TYPE TYPE NAME' below an element, with a \
+             TYPE as float or int, found 'property float x'",
+        ),
+        (
+            format!("format ascii 1.0\n{vertex}property half \"w\u{7}\n"),
+            "a.ply:7: header: expected 'property TYPE NAME' or 'property list TYPE TYPE NAME' below an element, with a \
+             TYPE as float or int, found 'property half \"w\\u{7}'",
+        ),
+        (
+            format!("format ascii 1.0\nhello it's me{}\n", "!".repeat(99)),
+            "a.ply:3: header: expected format, element, property, comment, obj_info or end_header, found 'hello it's \
+             me!!!!!!!!!!!!!!!!!!!!!!!!!!!...'",
+        ),
         (format!("{vertex}{face}end_header\n"), "a.ply: header: No format line"),
         (
             format!("format ascii 1.0\n{vertex}end_header\n"),
@@ -386,6 +409,8 @@ fn ply_files_that_are_wrong_say_where() {
         let said = header(&lines);
         assert!(said.starts_with(message) && !said.contains('\n'), "{said}\n{message}");
     }
+    let said = refusal("a.ply", "plx\nformat ascii 1.0\n");
+    assert_eq!(said, "a.ply:1: header: expected 'ply', found 'plx'");
     let long = "1 ".repeat(1 << 20);
     let (folder, format) = (scratch("ply-codes"), "format ascii 1.0");
     fs::write(folder.join("a.ply"), format!("ply\n{format}\n{vertex}{face}end_header\n{long}\n"))

@@ -10,6 +10,8 @@ mod found_by;
 #[cfg(feature = "studies")]
 pub mod json;
 #[cfg(feature = "studies")]
+pub mod json_lines;
+#[cfg(feature = "studies")]
 pub mod lines;
 pub mod mesh;
 #[cfg(feature = "studies")]

@@ -154,14 +154,3 @@ fn digest(wide: &[[f64; 3]], narrow: &[[f32; 3]], triangles: &[[u32; 3]]) -> Str
 pub(super) fn vertices_text(count: usize) -> String {
     format!("{count} {}", if count == 1 { "vertex" } else { "vertices" })
 }
-
-/// A word of a file in quotes.
-pub(super) fn quoted(word: &str) -> String {
-    format!("'{}'", shortened(word))
-}
-
-/// A word of a file that fits into a message and does no harm to a terminal.
-pub(super) fn shortened(word: &str) -> String {
-    let shown: String = word.chars().take(40).flat_map(char::escape_debug).collect();
-    if word.chars().nth(40).is_some() { shown + "..." } else { shown }
-}
