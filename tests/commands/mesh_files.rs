@@ -264,7 +264,7 @@ fn ply_files_have_any_types_and_polygons() {
                 assert_eq!(mesh_of("a.ply", &bytes).digest, expected, "{encoding} {count} {index}");
             }
         }
-        // Faces before vertices, a square, and a polygon that folds over.
+        // Faces before vertices, a square, and another quadrilateral.
         let mut ply = Ply::new(encoding);
         ply.header("element face 2\nproperty list uchar int vertex_index\nelement vertex 5");
         ply.header("property int x\nproperty short y\nproperty double z\nend_header");
@@ -282,7 +282,7 @@ fn ply_files_have_any_types_and_polygons() {
             ply.end();
         }
         let mesh = mesh_of("a.ply", &ply.bytes);
-        assert_eq!(mesh.triangles[..2], [[0, 1, 2], [0, 2, 3]], "{encoding}");
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [1, 2, 4], [1, 4, 0]], "{encoding}");
         assert_eq!(
             (mesh.positions_f64[2], mesh.positions_f32[2]),
             ([1.0, 1.0, 0.1], [1.0, 1.0, 0.1])
@@ -301,6 +301,50 @@ fn ply_files_have_any_types_and_polygons() {
         ["f32 overflow: vertices with an infinite coordinate in f32: 1 (first at line 12)"]
     );
     assert_eq!(mesh.places, [14]);
+}
+
+/// The walls of an L-shaped prism, whose caps are two concave polygons.
+const PRISM: &str = "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 1 1 0\nv 1 4 0\nv 0 4 0\n\
+                     v 0 0 1\nv 4 0 1\nv 4 1 1\nv 1 1 1\nv 1 4 1\nv 0 4 1\n\
+                     f 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n";
+
+#[test]
+fn concave_polygons_are_cut_and_what_cannot_be_cut_is_counted_in_every_report() {
+    let folder = scratch("mesh-concave");
+    // From the outer corner at the end of an arm, from which the fan folds over.
+    let caps = "f 8 9 10 11 12 7\nf 3 2 1 6 5 4\n";
+    let mesh = |name: &str, faces: &str, more: &[&str]| {
+        fs::write(folder.join(name), format!("{PRISM}{faces}")).unwrap();
+        let flags = ["mesh", name, "--kernel", "plucker", "-q"];
+        ends(&folder, &[&flags[..], more].concat(), 0).0
+    };
+    let screen = mesh("a.obj", caps, &[]);
+    assert!(screen.contains("20 triangles") && screen.contains("faces     20 sound\n"), "{screen}");
+    assert!(screen.contains("a closed surface, wound consistently"), "{screen}");
+    // A cap that crosses itself.
+    let crossed = caps.replace("8 9 10 11", "8 11 10 9");
+    let screen = mesh("b.obj", &crossed, &[]);
+    let expected =
+        "16 sound, 1 left out, polygons that cross themselves or fold over (first at line 19)";
+    assert!(program::flat(&screen).contains(expected), "{screen}");
+    assert!(!screen.contains("a closed surface"), "{screen}");
+    let record: Value =
+        serde_json::from_str(&mesh("b.obj", &crossed, &["--format", "json"])).unwrap();
+    let left_out = &record["result"]["scalars"][0]["topology"]["faces"]["left_out"];
+    assert_eq!((&left_out["count"], &left_out["first_line"]), (&json!(1), &json!(19)));
+    let audit = ["audit", "--mesh", "b.obj", "--kernel", "plucker", "-n", "100", "-q"];
+    let (screen, _) = ends(&folder, &audit, 0);
+    let expected = "b.obj: 1 polygon left out, because they cross themselves or fold over";
+    assert!(program::flat(&screen).contains(expected), "{screen}");
+    let (record, _) = ends(&folder, &[&audit[..], &["--format", "json"]].concat(), 0);
+    let record: Value = serde_json::from_str(&record).unwrap();
+    assert_eq!(record["result"]["sources"][0]["left_out"], json!(1));
+    let (record, _) = ends(
+        &folder,
+        &["audit", "--mesh", "a.obj", "-k", "plucker", "-n", "9", "-q", "--format", "json"],
+        0,
+    );
+    assert!(!record.contains("left_out"));
 }
 
 #[test]

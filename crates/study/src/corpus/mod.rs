@@ -18,6 +18,7 @@ pub mod mesh;
 pub mod number;
 #[cfg(feature = "studies")]
 mod plain_json;
+mod polygon;
 #[cfg(feature = "studies")]
 pub mod shapes;
 #[cfg(feature = "studies")]
