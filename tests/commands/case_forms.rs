@@ -3,6 +3,7 @@
 use crate::program;
 
 use program::{ends, hairline, scratch};
+use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
@@ -131,5 +132,67 @@ fn what_is_no_case_is_refused_with_its_line_and_field() {
     for (text, found) in [(two.as_str(), "more"), ("[]", "none")] {
         let (_, error) = ends(&folder, &["explain", text], 2);
         assert_eq!(error, format!("hairline: the argument should hold one case, found {found}\n"));
+    }
+}
+
+#[test]
+fn an_instance_is_held_against_the_exact_triangle_in_the_world() {
+    let folder = scratch("case-instances");
+    let explained = |case: &str, more: &[&str]| {
+        let flags = ["explain", case, "-k", "plucker,moller-trumbore", "--format", "json"];
+        let text = ends(&folder, &[&flags[..], more].concat(), 0).0;
+        let explanation: Value = serde_json::from_str(&text).unwrap();
+        explanation["triangles"][0].clone()
+    };
+    let case = |ray: &str, corners: [[f64; 3]; 3]| {
+        let [a, b, c] = corners;
+        format!(r#"{{"scalar":"f32",{ray},"a":{a:?},"b":{b:?},"c":{c:?}}}"#)
+    };
+    let exact = |truth: &Value, name: &str| {
+        let (p, q) = truth[name].as_str().unwrap().split_once('/').unwrap();
+        p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap()
+    };
+    // Three times as large, turned and far off: every corner in the world is a float, and no third is.
+    let matrix = "0,0,-3,1000, 3,0,0,0.5, 0,-3,0,-64";
+    let corners = [[0.25, 0.5, 0.0], [2.0, 0.75, 0.0], [1.0, 3.0, 0.125]];
+    let in_world = corners.map(|[x, y, z]| [1000.0 - 3.0 * z, 0.5 + 3.0 * x, -64.0 - 3.0 * y]);
+    let (mut wrong, mut moved_most) = (0, 0.0f64);
+    for ray in 0..12 {
+        // Some at the middle, some through a corner exactly.
+        let to = match ray % 2 {
+            0 => in_world[ray % 3],
+            _ => [999.88, 3.75, -68.2],
+        };
+        let d = [0.7 + ray as f64 / 64.0, 0.25, -0.5];
+        let o = [0, 1, 2].map(|axis| (to[axis] - d[axis]) as f32);
+        let d = [0, 1, 2].map(|axis| (to[axis] as f32) - o[axis]);
+        let ray = format!(r#""origin":{o:?},"direction":{d:?}"#);
+        let seen = explained(&case(&ray, corners), &["--instance", matrix]);
+        let world = explained(&case(&ray, in_world), &[]);
+        let words = ends(&folder, &["explain", &case(&ray, in_world), "-k", "plucker"], 0).0;
+        let truth = seen["instance"]["truth"].as_str().unwrap();
+        assert!(program::flat(&words).contains(&format!("truth {truth}")), "{truth}\n{words}");
+        for (i, name) in ["t_exact", "u_exact", "v_exact"].into_iter().enumerate() {
+            let moved = seen["instance"]["moved"][i].as_f64().unwrap();
+            let apart = (exact(&seen["truth"], name) - exact(&world["truth"], name)).abs();
+            assert!((moved - apart).abs() < 1e-12, "{name} {moved} {apart}");
+            moved_most = moved_most.max(moved);
+        }
+        wrong += usize::from(seen["instance"]["wrong"] != json!([]));
+    }
+    assert!(1e-8 < moved_most && moved_most < 1e-2, "{moved_most}");
+    assert!(wrong > 0, "rounding the inverse loses some hit at a corner");
+    let case = case(r#""origin":[1,1,1],"direction":[0,0,-1]"#, corners);
+    let screen = |matrix: &str, code| {
+        ends(&folder, &["explain", &case, "-k", "plucker", "--instance", matrix], code)
+    };
+    assert!(screen("1 0 0 0  0 1 0 0  0 0 1 0", 0).0.contains("world"));
+    for (matrix, message) in [
+        ("1,0,0,0,0,1,0,0,0,0,1", "expected 12 numbers, row by row, found 11"),
+        ("1,0,0,0,0,1,0,0,0,0,1,x", "'x' is not a number"),
+        ("1,0,0,0,0,1,0,0,0,0,0,0", "its inverse is not finite in f32"),
+    ] {
+        let error = screen(matrix, 2).1;
+        assert!(error.starts_with(&format!("hairline: --instance: {message}")), "{error}");
     }
 }
