@@ -14,12 +14,12 @@ pub struct Instance<F> {
 impl<F: Float> Instance<F> {
     /// None if the inverse that is computed in `F` is not finite.
     ///
-    /// It is computed as glam's `Affine3A::inverse` does: the cross products of the columns times the rounded 1/det, and
+    /// It is computed as glam's `Affine3::inverse` does: the cross products of the columns times the rounded 1/det, and
     /// the translation from that.
     pub fn new(matrix: [[F; 4]; 3]) -> Option<Instance<F>> {
         let [x, y, z, translation] = [0, 1, 2, 3].map(|column| matrix.map(|row| row[column]));
         let rows = [cross(y, z), cross(z, x), cross(x, y)];
-        let scale = F::one() / dot(z, rows[2]);
+        let scale = F::one() / dot(x, rows[0]);
         let inverse = rows.map(|row| {
             let [a, b, c] = row.map(|number| number * scale);
             [a, b, c, -dot([a, b, c], translation)]

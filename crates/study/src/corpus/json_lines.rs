@@ -92,21 +92,18 @@ struct Lines {
 impl Lines {
     fn add_all(&mut self, mut text: &[u8]) {
         while let Some((first, rest)) = text.split_first() {
-            let at_start = matches!(self.place, Place::Start | Place::LineStart);
-            let begins = at_start && !self.in_array && *first == b'{';
-            let end = begins.then(|| text.iter().position(|byte| *byte == b'\n')).flatten();
-            text = match end.map(|end| text.split_at(end + 1)) {
+            let begins = matches!(self.place, Place::Start | Place::LineStart) && !self.in_array;
+            if begins && *first == b'{' {
                 // As most lines are: copied whole, which is several times as fast.
-                Some((line, behind)) if is_plain(line) => {
-                    self.out.extend(line);
-                    self.place = Place::LineStart;
-                    behind
+                let (start, mut behind) = (self.out.len(), text);
+                if behind.read_until(b'\n', &mut self.out).is_ok() && is_plain(&self.out[start..]) {
+                    (self.place, text) = (Place::LineStart, behind);
+                    continue;
                 }
-                _ => {
-                    self.add(*first);
-                    rest
-                }
-            };
+                self.out.truncate(start);
+            }
+            self.add(*first);
+            text = rest;
         }
     }
 
@@ -203,11 +200,11 @@ impl Lines {
     }
 }
 
-/// True if a line holds one object, with no other inside and no brace in a string.
+/// True if a line with its end holds one object, with no other inside and no brace in a string.
 fn is_plain(line: &[u8]) -> bool {
-    let line = line.trim_ascii_end();
-    let braces = line.iter().filter(|byte| **byte == b'{' || **byte == b'}').count();
-    line.starts_with(b"{") && line.ends_with(b"}") && braces == 2
+    let object = line.strip_suffix(b"\n").map(<[u8]>::trim_ascii_end);
+    let inside = object.and_then(|object| object.strip_prefix(b"{")?.strip_suffix(b"}"));
+    inside.is_some_and(|inside| !inside.contains(&b'{') && !inside.contains(&b'}'))
 }
 
 #[cfg(test)]
