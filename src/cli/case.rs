@@ -56,10 +56,16 @@ impl CaseArguments {
         if let Some(path) = &self.corpus {
             return self.stored(path);
         }
-        if self.case.trim_start().starts_with('{') {
-            let stored = lines::read(self.case.as_bytes(), "argument").next();
-            let missing = || Failure::usage("the argument holds no case".to_owned());
-            return Ok(stored_cases(&stored.ok_or_else(missing)??));
+        if self.case.trim_start_matches('\u{feff}').trim_start().starts_with(['{', '[']) {
+            let stored: Vec<_> =
+                lines::read(self.case.as_bytes(), "argument").take(2).collect::<Result<_, _>>()?;
+            let [stored] = &stored[..] else {
+                let found = if stored.is_empty() { "none" } else { "more" };
+                return Err(Failure::usage(format!(
+                    "the argument should hold one case, found {found}"
+                )));
+            };
+            return Ok(stored_cases(stored));
         }
         if let Some(test) = self.test_vector() {
             return test;

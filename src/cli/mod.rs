@@ -201,6 +201,9 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     let (command, matches) = match parsed {
         Ok(parsed) => parsed,
         Err(error) => {
+            if error.kind() == clap::error::ErrorKind::InvalidUtf8 {
+                return ended(not_utf8());
+            }
             if error.use_stderr() {
                 let _ = error.print();
                 return Status::Usage.into();
@@ -269,6 +272,13 @@ fn check_outputs(command: &clap::Command, matches: &ArgMatches) -> Result<(), Fa
     let own =
         matches.subcommand().and_then(|(name, own)| Some((command.find_subcommand(name)?, own)));
     own.map_or(Ok(()), |(command, matches)| check_outputs(command, matches))
+}
+
+/// The first argument that is not UTF-8, and what to do.
+fn not_utf8() -> Failure {
+    let wrong = std::env::args_os().find(|word| word.to_str().is_none()).unwrap_or_default();
+    let wrong = wrong.to_string_lossy();
+    Failure::usage(format!("'{wrong}' is not UTF-8: rename the file, or hand it in as - < FILE"))
 }
 
 /// Says why a command stops.

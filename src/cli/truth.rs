@@ -3,6 +3,7 @@
 use super::exit::{Failure, Status};
 use super::input::open;
 use super::output::write_result;
+use crate::corpus::json_lines::JsonLines;
 use crate::corpus::lines::{self, LONGEST_LINE, StoredCase, StoredTruth};
 use crate::corpus::truth_json::TruthLine;
 use crate::corpus::{InputError, text_lines::TextLines};
@@ -34,7 +35,7 @@ const BLOCKS: usize = 64;
 /// Runs the command. A line that is no case ends it with an error; a stored truth is checked.
 pub fn run(arguments: &TruthArguments) -> Result<Status, Failure> {
     let file = &arguments.file;
-    let mut reader = BufReader::with_capacity(1 << 16, open(file)?);
+    let mut reader = JsonLines::new(BufReader::with_capacity(1 << 16, open(file)?));
     // What is wrong with the input stops the writing, and must come out as itself.
     let mut bad_input: Option<Failure> = None;
     let (mut lines_before, mut cases) = (0, 0);

@@ -193,6 +193,7 @@ impl<'a> Set<'a> {
             cases: self.tests.iter().map(|answered| answered.test.cases.len() as u64).sum(),
             promise_broken: 0,
             first_broken: None,
+            left_out: None,
         }
     }
 

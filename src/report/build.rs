@@ -139,6 +139,7 @@ fn source_part(plan: &Plan, summary: &SourceSummary) -> SourcePart {
         cases: summary.cases,
         promise_broken: summary.promise_broken,
         first_broken: summary.first_broken.map(id),
+        left_out: Some(source.left_out() as u64).filter(|count| 0 < *count),
     }
 }
 

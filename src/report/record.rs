@@ -126,6 +126,9 @@ pub struct SourcePart {
     pub promise_broken: u64,
     /// The id of the first of them.
     pub first_broken: Option<String>,
+    /// Polygons of a mesh's file that are not in the mesh, because they cross themselves or fold over.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<u64>,
 }
 
 /// One kernel row on one source in one scalar.

@@ -5,8 +5,10 @@
 use crate::program;
 
 use program::{ends, hairline, scratch};
+use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::Read;
+use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -239,7 +241,7 @@ fn what_cannot_be_read_ends_with_74_and_what_is_wrong_with_65() {
     for (bytes, message) in [
         (&b"\xff\xfe{\0"[..], "a.jsonl:1: not UTF-8 at byte 1"),
         (b"\0\0\0", "a.jsonl:1: expected an object"),
-        (b"\xef\xbb\xbf{}", "a.jsonl:1: expected an object, found \\u{feff}{}"),
+        (b"\xef\xbb\xbf{}", "a.jsonl:1: missing field 'scalar'"),
     ] {
         fs::write(folder.join("a.jsonl"), bytes).unwrap();
         let (_, error) = ends(&folder, &["truth", "a.jsonl"], 65);
@@ -502,4 +504,29 @@ fn one_place_is_not_written_twice_and_one_name_is_not_two_meshes() {
     let meshes = ["audit", "--mesh", "d1/m.obj", "--mesh", "d2/m.obj", "-n", "5"];
     let (_, error) = ends(&folder, &meshes, 2);
     assert!(error.contains("two files of the name of 'd2/m.obj'"), "{error}");
+}
+
+#[test]
+fn a_path_that_is_not_utf_8_is_named_with_what_to_do() {
+    let folder = scratch("io-not-utf-8");
+    fs::write(folder.join(OsStr::from_bytes(b"a\xff.obj")), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        .unwrap();
+    let path = "$(printf 'a\\377.obj')";
+    for command in ["mesh", "audit --mesh", "truth", "epsilon -k plucker --mesh"] {
+        let (code, out, error) = shell(&folder, &format!("hairline {command} \"{path}\""));
+        assert_eq!((code, out.as_str()), (2, ""), "{error}");
+        let expected =
+            "hairline: 'a\u{fffd}.obj' is not UTF-8: rename the file, or hand it in as - < FILE\n";
+        assert_eq!(error, expected);
+    }
+    let (code, ..) =
+        shell(&folder, &format!("hairline audit -q -n 10 --mesh - -k plucker < \"{path}\""));
+    assert_eq!(code, 0);
+    // In a folder it is found by the way.
+    fs::write(folder.join(OsStr::from_bytes(b"a\xff.jsonl")), unnamed()).unwrap();
+    let (code, _, error) = shell(&folder, "hairline audit --corpus . -k plucker");
+    assert_eq!(
+        (code, error.as_str()),
+        (65, "hairline: ./a\u{fffd}.jsonl: its name is not UTF-8\n")
+    );
 }

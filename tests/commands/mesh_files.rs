@@ -1,5 +1,6 @@
 //! Meshes in OBJ, PLY and glTF files: the same mesh from each, and what is wrong with a file.
 
+mod ply;
 mod writers;
 
 use crate::program;
@@ -252,148 +253,48 @@ fn every_command_that_takes_a_mesh_takes_every_format() {
     }
 }
 
-#[test]
-fn ply_files_have_any_types_and_polygons() {
-    let solid = solid();
-    let expected = mesh_of("a.obj", &solid.obj()).digest;
-    let integers = ["char", "uchar", "short", "ushort", "int", "uint", "int8", "uint16", "uint32"];
-    for encoding in ENCODINGS {
-        for (count, index) in integers.iter().zip(integers.iter().cycle().skip(4)) {
-            for coordinate in ["float", "double", "float32", "float64"] {
-                let bytes = solid.ply(encoding, coordinate, count, index);
-                assert_eq!(mesh_of("a.ply", &bytes).digest, expected, "{encoding} {count} {index}");
-            }
-        }
-        // Faces before vertices, a square, and a polygon that folds over.
-        let mut ply = Ply::new(encoding);
-        ply.header("element face 2\nproperty list uchar int vertex_index\nelement vertex 5");
-        ply.header("property int x\nproperty short y\nproperty double z\nend_header");
-        for face in [[0, 1, 2, 3], [1, 2, 4, 0]] {
-            ply.number("uchar", 4.0);
-            face.iter().for_each(|corner| ply.number("int", f64::from(*corner)));
-            ply.end();
-        }
-        for [x, y, z] in
-            [[0.0, 0.0, 0.1], [1.0, 0.0, 0.1], [1.0, 1.0, 0.1], [0.0, 1.0, 0.1], [0.0, 3.0, 0.1]]
-        {
-            ply.number("int", x);
-            ply.number("short", y);
-            ply.number("double", z);
-            ply.end();
-        }
-        let mesh = mesh_of("a.ply", &ply.bytes);
-        assert_eq!(mesh.triangles[..2], [[0, 1, 2], [0, 2, 3]], "{encoding}");
-        assert_eq!(
-            (mesh.positions_f64[2], mesh.positions_f32[2]),
-            ([1.0, 1.0, 0.1], [1.0, 1.0, 0.1])
-        );
-    }
-    let head = "ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty double x\r\nproperty double y\r\n\
-                property double z\r\nelement face 1\r\nproperty list uchar int vertex_indices\r\nend_header\r\n";
-    let mesh = mesh_of(
-        "a.ply",
-        format!("{head}.5 -.5 1.\r\n\r\n1e300 +2 3.e-1\n0 0 0\n3 0 1 2").as_bytes(),
-    );
-    assert_eq!(mesh.positions_f64[..2], [[0.5, -0.5, 1.0], [1e300, 2.0, 0.3]]);
-    let notes: Vec<String> = mesh.notes.iter().map(|note| note.to_string()).collect();
-    assert_eq!(
-        notes,
-        ["f32 overflow: vertices with an infinite coordinate in f32: 1 (first at line 12)"]
-    );
-    assert_eq!(mesh.places, [14]);
-}
+/// The walls of an L-shaped prism, whose caps are two concave polygons.
+const PRISM: &str = "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 1 1 0\nv 1 4 0\nv 0 4 0\n\
+                     v 0 0 1\nv 4 0 1\nv 4 1 1\nv 1 1 1\nv 1 4 1\nv 0 4 1\n\
+                     f 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n";
 
 #[test]
-fn ply_files_that_are_wrong_say_where() {
-    let file = |lines: &str| {
-        let head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
-                    property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
-        refusal("a.ply", format!("{head}{lines}"))
+fn concave_polygons_are_cut_and_what_cannot_be_cut_is_counted_in_every_report() {
+    let folder = scratch("mesh-concave");
+    // From the outer corner at the end of an arm, from which the fan folds over.
+    let caps = "f 8 9 10 11 12 7\nf 3 2 1 6 5 4\n";
+    let mesh = |name: &str, faces: &str, more: &[&str]| {
+        fs::write(folder.join(name), format!("{PRISM}{faces}")).unwrap();
+        let flags = ["mesh", name, "--kernel", "plucker", "-q"];
+        ends(&folder, &[&flags[..], more].concat(), 0).0
     };
-    for (lines, message) in [
-        (
-            "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
-            "a.ply:13: face names vertex 3, counted from 0, of 3 vertices",
-        ),
-        (
-            "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n",
-            "a.ply:13: face 1 of 1: names vertex -1, which no file has",
-        ),
-        ("0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "a.ply:13: face 1 of 1: 2 of at least 3 vertices"),
-        ("0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "a.ply:13: face 1 of 1: 3 of 4 numbers"),
-        ("0 0 0\n1 0 0\n0 1 0\n", "a.ply:12: the file ends before face 1 of 1"),
-        ("0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "a.ply:11: vertex 2 of 3: 2 of 3 numbers"),
-        ("0 0 0\n1 0 0 4\n", "a.ply:11: vertex 2 of 3: 4 of 3 numbers"),
-        ("0 nan 0\n", "a.ply:10: vertex 1 of 3: 'nan' is not finite"),
-        ("0 1e39 0\n", "a.ply:10: vertex 1 of 3: inf is not finite"),
-        ("0 x 0\n", "a.ply:10: vertex 1 of 3: 'x' is not a number"),
-        ("0 0 0\n1 0 0\n0 1 0\n3 0 1 2.5\n", "a.ply:13: face 1 of 1: "),
-        ("0 0 0\n1 0 0\n0 1 0\n300 0 1 2\n", "a.ply:13: face 1 of 1: 4 of 301 numbers"),
-    ] {
-        let said = file(lines);
-        assert!(said.starts_with(message) && !said.contains('\n'), "{said}\n{message}");
-    }
-    let header = |lines: &str| refusal("a.ply", format!("ply\n{lines}"));
-    let vertex = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
-    let face = "element face 1\nproperty list uchar int vertex_indices\n";
-    for (lines, message) in [
-        (String::new(), "a.ply:2: header: Unexpected end of file"),
-        ("format ascii 2\n".to_owned(), "a.ply:2: header: "),
-        (format!("{vertex}{face}end_header\n"), "a.ply: header: No format line"),
-        (
-            format!("format ascii 1.0\n{vertex}end_header\n"),
-            "a.ply: the file has no elements 'face'",
-        ),
-        (
-            format!("format ascii 1.0\n{face}end_header\n"),
-            "a.ply: the file has no elements 'vertex'",
-        ),
-        (
-            format!("format ascii 1.0\n{face}{}end_header\n", vertex.replace(" z", " w")),
-            "a.ply: element 'vertex' has no number 'z'",
-        ),
-        (
-            format!("format ascii 1.0\n{vertex}{}end_header\n", face.replace(" int", " float")),
-            "a.ply: element 'face' has no list of integers 'vertex_indices'",
-        ),
-        (
-            format!(
-                "format ascii 1.0\n{}{face}end_header\n",
-                vertex.replace(" 3", " 1000000000000")
-            ),
-            "a.ply: more than 100000000 vertices",
-        ),
-        (
-            format!(
-                "format ascii 1.0\n{vertex}{}end_header\n",
-                face.replace(" 1\n", " 999999999999\n")
-            ),
-            "a.ply: more than 100000000 triangles",
-        ),
-        (
-            format!("format ascii 1.0\ncomment {}", "x".repeat(2 << 20)),
-            "a.ply: a header of more than 1048576 bytes",
-        ),
-        // Nothing of the file is an element of that many, and nothing at all is one without properties.
-        (
-            format!(
-                "format binary_little_endian 1.0\nelement none 1000000000000\n\
-                 element more 1000000000000\nproperty int n\n{vertex}{face}end_header\n12345678"
-            ),
-            "a.ply: the file ends in more 3 of 1000000000000",
-        ),
-    ] {
-        let said = header(&lines);
-        assert!(said.starts_with(message) && !said.contains('\n'), "{said}\n{message}");
-    }
-    let long = "1 ".repeat(1 << 20);
-    let (folder, format) = (scratch("ply-codes"), "format ascii 1.0");
-    fs::write(folder.join("a.ply"), format!("ply\n{format}\n{vertex}{face}end_header\n{long}\n"))
-        .unwrap();
-    let (_, error) = ends(&folder, &["mesh", "a.ply"], 65);
-    assert!(error.contains("a.ply:10: a line of more than 1048576 bytes"), "{error}");
-    ends(&folder, &["mesh", "missing.ply"], 74);
-    ends(&folder, &["audit", "--mesh", "missing.glb"], 74);
+    let screen = mesh("a.obj", caps, &[]);
+    assert!(screen.contains("20 triangles") && screen.contains("faces     20 sound\n"), "{screen}");
+    assert!(screen.contains("a closed surface, wound consistently"), "{screen}");
+    // A cap that crosses itself.
+    let crossed = caps.replace("8 9 10 11", "8 11 10 9");
+    let screen = mesh("b.obj", &crossed, &[]);
+    let expected =
+        "16 sound, 1 left out, polygons that cross themselves or fold over (first at line 19)";
+    assert!(program::flat(&screen).contains(expected), "{screen}");
+    assert!(!screen.contains("a closed surface"), "{screen}");
+    let record: Value =
+        serde_json::from_str(&mesh("b.obj", &crossed, &["--format", "json"])).unwrap();
+    let left_out = &record["result"]["scalars"][0]["topology"]["faces"]["left_out"];
+    assert_eq!((&left_out["count"], &left_out["first_line"]), (&json!(1), &json!(19)));
+    let audit = ["audit", "--mesh", "b.obj", "--kernel", "plucker", "-n", "100", "-q"];
+    let (screen, _) = ends(&folder, &audit, 0);
+    let expected = "b.obj: 1 polygon left out, because they cross themselves or fold over";
+    assert!(program::flat(&screen).contains(expected), "{screen}");
+    let (record, _) = ends(&folder, &[&audit[..], &["--format", "json"]].concat(), 0);
+    let record: Value = serde_json::from_str(&record).unwrap();
+    assert_eq!(record["result"]["sources"][0]["left_out"], json!(1));
+    let (record, _) = ends(
+        &folder,
+        &["audit", "--mesh", "a.obj", "-k", "plucker", "-n", "9", "-q", "--format", "json"],
+        0,
+    );
+    assert!(!record.contains("left_out"));
 }
 
 #[test]

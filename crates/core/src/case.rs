@@ -6,12 +6,14 @@ mod any;
 mod bits;
 #[cfg(test)]
 mod hard;
+mod instance;
 mod literal;
 mod scene;
 
 pub use any::{AnyCase, AnyScalar};
 #[cfg(test)]
 pub use hard::hard_cases;
+pub use instance::Instance;
 pub use literal::{rust_case, rust_list};
 pub use scene::Number;
 pub use scene::{

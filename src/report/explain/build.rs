@@ -3,12 +3,12 @@
 use super::advice::{advice, group_advice, of_line};
 use super::margin::margin_text;
 use super::verdict::{Together, group_verdict, number, plain, short, verdict_of};
-use super::{Explanation, GatePart, RowPart, TogetherPart, TrianglePart};
+use super::{Explanation, GatePart, InstancePart, RowPart, TogetherPart, TrianglePart};
 use crate::arith::{Exact, Float};
 use crate::audit::{
     Attribution, Errors, Row, attribute, attribute_by_running, exact_severity, polygon_verdict,
 };
-use crate::case::{Case, Ray};
+use crate::case::{Case, Instance, Ray};
 use crate::contract::Extent;
 use crate::corpus::lines::{self, StoredCase};
 use crate::family::Grouping;
@@ -16,20 +16,35 @@ use crate::judge::{
     ALLOWANCE, Finding, Obligation, ValueErrors, asked, judge, polygon_obligation, polygon_truth,
 };
 use crate::kernel::{Gated, Gives, Scalar, Subject, Tunable, Verdict};
-use crate::oracle;
+use crate::oracle::{self, Definition};
 use crate::report::epsilon::shortest;
-use crate::truth::{Feature, Truth};
+use crate::truth::{ExactValues, Feature, Truth};
+use num_traits::ToPrimitive;
 use serde_json::value::RawValue;
 use std::slice;
 
-/// Explains a case or a group with some rows.
-pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Explanation {
+/// Explains a case or a group with some rows. With an instance the rays are of the world, and kernels get them by the
+/// rounded inverse.
+pub fn explain<F: Scalar>(
+    name: &str,
+    group: Together<F>,
+    instance: Option<&Instance<F>>,
+    rows: &[Row],
+) -> Explanation {
     let is_secondary = group.grouping == Grouping::SecondaryRay;
-    let triangle = |case: &Case<F>| TrianglePart {
+    let in_object = |cases: &[Case<F>]| -> Vec<Case<F>> {
+        let of = |case: &Case<F>| instance.map_or(*case, |instance| instance.in_object(case));
+        cases.iter().map(of).collect()
+    };
+    let (in_world, cases) = (group.cases, in_object(group.cases));
+    let neighbours = group.neighbours.map(in_object);
+    let group = Together { cases: &cases, neighbours: neighbours.as_deref(), ..group };
+    let triangle = |(case, in_world): (&Case<F>, &Case<F>)| TrianglePart {
         rows: rows.iter().map(|row| row_part(case, is_secondary, row)).collect(),
+        instance: instance.map(|it| instance_part(it, [in_world, case], is_secondary, rows)),
         ..of_case(case, is_secondary)
     };
-    let triangles = group.cases.iter().map(triangle).collect();
+    let triangles = cases.iter().zip(in_world).map(triangle).collect();
     let mut together = Vec::new();
     if 1 < group.cases.len() {
         for row in rows {
@@ -39,7 +54,8 @@ pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Expla
             }
         }
     }
-    let case = if name.trim_start().starts_with('{') { "this case" } else { name };
+    let is_json = name.trim_start().starts_with(['{', '[', '\u{feff}']);
+    let case = if is_json { "this case" } else { name };
     let schema = "hairline-explanation/1";
     Explanation { schema, case: case.to_owned(), scalar: F::NAME, triangles, together }
 }
@@ -63,6 +79,7 @@ fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
         case: RawValue::from_string(line).expect("a case is written as JSON"),
         truth: stored.truth_line(true),
         from_boundary,
+        instance: None,
         rows: Vec::new(),
         in_words: match why_invalid(case) {
             Some(reason) => format!("{truth}: {reason}"),
@@ -70,6 +87,38 @@ fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
         },
         inputs,
         interval: [case.ray.t_min, case.ray.t_max].map(|t| [number(t), t.hex()]),
+    }
+}
+
+/// The answers of the rows held against the exact instance in the world.
+fn instance_part<F: Scalar>(
+    instance: &Instance<F>,
+    [in_world, in_object]: [&Case<F>; 2],
+    is_secondary: bool,
+    rows: &[Row],
+) -> InstancePart {
+    let (exact, seen) = (oracle::define_instance(in_world, instance), oracle::define(in_object));
+    let values = |definition: &Definition| {
+        let ExactValues { t, u, v, .. } = &definition.exact;
+        Some([t.clone()?, u.clone()?, v.clone()?])
+    };
+    let moved = values(&exact).zip(values(&seen)).map(|(exact, seen)| {
+        [0, 1, 2].map(|i| (&seen[i] - &exact[i]).to_f64().unwrap_or(f64::INFINITY).abs())
+    });
+    let finding = |row: &Row| {
+        let subject = F::subject(row.entry)?;
+        let verdict = verdict_of(subject, in_object, &row.epsilons());
+        let owed = asked(in_object, &exact.truth, &row.contract, is_secondary);
+        // Values belong to the ray that the kernel got.
+        let gives = Gives { t: false, uv: false, facing: false };
+        let finding = judge((&row.contract, owed), (in_object, &exact.truth), gives, &verdict)?;
+        Some((row.label(), finding.name()))
+    };
+    InstancePart {
+        matrix: instance.matrix().map(|row| row.map(|number| number.to_f64())),
+        truth: exact.truth.to_string(),
+        moved,
+        wrong: rows.iter().filter_map(finding).collect(),
     }
 }
 

@@ -39,6 +39,9 @@ pub struct TrianglePart {
     /// How far the line passes from the triangle's boundary, in longest edges and in ulps of the largest coordinate; none
     /// where there is no such distance.
     pub from_boundary: Option<[f64; 2]>,
+    /// The answers held against an instance in the world, if the case is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub instance: Option<InstancePart>,
     /// Every row.
     pub rows: Vec<RowPart>,
     /// The exact answer in words.
@@ -50,6 +53,19 @@ pub struct TrianglePart {
     /// The least and the greatest t, each with its bits.
     #[serde(skip)]
     pub interval: [[String; 2]; 2],
+}
+
+/// A triangle that a matrix puts into the world, where the ray is given.
+#[derive(Debug, Serialize)]
+pub struct InstancePart {
+    /// The matrix.
+    pub matrix: [[f64; 4]; 3],
+    /// The exact answer in the world, in words.
+    pub truth: String,
+    /// How far rounding the inverse and the ray moved t, u and v; none where one of both rays crosses no plane at one point.
+    pub moved: Option<[f64; 3]>,
+    /// The rows that are wrong there, each with its finding.
+    pub wrong: Vec<(String, &'static str)>,
 }
 
 /// The answer of a row on one triangle.

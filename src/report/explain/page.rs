@@ -2,7 +2,7 @@
 //! inputs.
 
 use super::verdict::{self, plain, short};
-use super::{Explanation, GatePart, RowPart, TogetherPart, TrianglePart};
+use super::{Explanation, GatePart, InstancePart, RowPart, TogetherPart, TrianglePart};
 use crate::report::page::{Block, Cell, Head, Page, Paged, Row, Table, Tone};
 
 /// With so many rows each is shown by itself.
@@ -181,6 +181,9 @@ fn of_triangle(
         };
         terms.push(("line", passes));
     }
+    if let Some(instance) = &triangle.instance {
+        terms.push(("world", in_world(instance)));
+    }
     if is_first {
         terms.push(("t", format!("in [{t_min}, {t_max}] ({low} {high})")));
     }
@@ -188,6 +191,21 @@ fn of_triangle(
     blocks.push(Block::Terms(terms));
     blocks.push(Block::Table(inputs(triangle, is_first)));
     blocks
+}
+
+/// The exact answer for an instance, what rounding the inverse costs, and the rows that are wrong by it.
+fn in_world(instance: &InstancePart) -> String {
+    let moved = instance.moved.map_or(String::new(), |moved| {
+        let [t, u, v] = moved.map(short);
+        format!("; the rounded inverse moves t by {t}, u by {u}, v by {v}")
+    });
+    let wrong: Vec<String> = instance
+        .wrong
+        .iter()
+        .map(|(row, finding)| format!("{row} {}", finding.to_uppercase()))
+        .collect();
+    let wrong = if wrong.is_empty() { "none".to_owned() } else { wrong.join(", ") };
+    format!("{}{moved}; wrong there: {wrong}", instance.truth)
 }
 
 /// The exact values, where there are any: fractions are approximated.

@@ -7,6 +7,7 @@ use super::record::*;
 use super::row_view::RowView;
 use super::{Record, Verdict, group_digits, number_of, questions, screen, verdict};
 use crate::report::page::{Block, Page, Paged, Tone};
+use std::collections::BTreeSet;
 
 /// Bytes for the first examples of all classes, beside the worst of each.
 const EXAMPLES: usize = 400_000;
@@ -33,6 +34,7 @@ impl Paged for Record {
             }
         }
         page.blocks.extend(broken_families(self).into_iter().map(Block::Text));
+        page.blocks.extend(incomplete_meshes(self).into_iter().map(Block::Text));
         let scalars = &self.result.plan.scalars;
         let all = questions::blocks(scalars, &columns, &lines);
         page.blocks.push(Block::Details("Every question".to_owned(), all));
@@ -91,6 +93,16 @@ fn broken_families(record: &Record) -> Vec<String> {
         )
     };
     broken.map(sentence).collect()
+}
+
+/// The meshes that are not all that their files hold.
+fn incomplete_meshes(record: &Record) -> BTreeSet<String> {
+    let sentence = |source: &SourcePart| {
+        let count = number_of(source.left_out?, "polygon", "polygons");
+        let file = source.family.split_once(':').map_or("", |(_, file)| file);
+        Some(format!("{file}: {count} left out, because they cross themselves or fold over"))
+    };
+    record.result.sources.iter().filter_map(sentence).collect()
 }
 
 fn capitalised(text: &str) -> String {

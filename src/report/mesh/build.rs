@@ -125,11 +125,23 @@ impl<F: Float> Builder<'_, F> {
                     .map_or_else(Vec::new, |(_, points)| self.points(points)),
             }
         };
+        let mut faces: BTreeMap<_, _> =
+            FACES.into_iter().zip(topology.faces.iter().map(noted)).collect();
+        if let Some(note) = mesh.left_out() {
+            let place = note.first.map(|place| place.number() as u32);
+            let left_out = NotedPart {
+                count: note.count as u64,
+                first_line: place.filter(|_| mesh.has_lines),
+                first_face: place.filter(|_| !mesh.has_lines),
+                first_points: Vec::new(),
+            };
+            faces.insert("left_out", left_out);
+        }
         TopologyPart {
             closed_manifold: topology.is_closed_manifold(),
             points: topology.used_points,
             duplicated_places: topology.duplicated_places,
-            faces: FACES.into_iter().zip(topology.faces.iter().map(noted)).collect(),
+            faces,
             edges: EDGES.into_iter().zip(topology.edges.iter().map(noted)).collect(),
             vertices: VERTICES.into_iter().zip(topology.vertices.iter().map(noted)).collect(),
         }

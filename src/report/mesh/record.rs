@@ -87,7 +87,8 @@ pub struct TopologyPart {
     pub points: u64,
     /// In how many places the duplicated faces lie.
     pub duplicated_places: u64,
-    /// `sound`, `collapsed`, `without_area`, `duplicated`, `out_of_range`.
+    /// `sound`, `collapsed`, `without_area`, `duplicated`, `out_of_range`; and `left_out`, polygons of the file that are not
+    /// in the mesh, if there are any.
     pub faces: BTreeMap<&'static str, NotedPart>,
     /// `shared`, `open`, `inconsistent`, `non_manifold`, `unsound`.
     pub edges: BTreeMap<&'static str, NotedPart>,

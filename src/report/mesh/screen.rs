@@ -263,6 +263,7 @@ const FACE_WORDS: &[(&str, &str)] = &[
     ("without_area", "without area"),
     ("duplicated", "duplicated"),
     ("out_of_range", "out of range"),
+    ("left_out", "left out, polygons that cross themselves or fold over"),
 ];
 const EDGE_WORDS: &[(&str, &str)] = &[
     ("shared", "between two faces"),

@@ -214,7 +214,22 @@ fn gltf_files_that_are_wrong_say_where() {
             refusal("a.glb", b"glTF\x02\0\0\0\0\0\0\0"),
             "a.glb: the file has 12 bytes, but its header says 0",
         ),
-        (refusal("a.glb", b"glTF\x01\0\0\0\x0c\0\0\0"), "a.glb: not GLB: unsupported version"),
+        (
+            refusal("a.glb", b"glTF\x01\0\0\0\x14\0\0\0\0\0\0\0JSON"),
+            "a.glb: not GLB: unsupported version",
+        ),
+        (
+            refusal("a.glb", [&b"glTF\x02\0\0\0\x0c\0\0\0"[..], &solid().glb()[12..]].concat()),
+            &format!(
+                "a.glb: the file has {} bytes, but its header says 12 (headers alone have 20)",
+                solid().glb().len()
+            ),
+        ),
+        // The buffer stands behind the end that the header says.
+        (
+            refusal("a.glb", [&b"glTF\x02\0\0\0\x40\0\0\0"[..], &solid().glb()[12..]].concat()),
+            "a.glb: not GLB: ",
+        ),
         (set("/asset/version", json!("1.0")), "a.glb: glTF of version '1.0', expected 2.0"),
         (
             extension("KHR_draco_mesh_compression"),

@@ -30,7 +30,7 @@ mod wide;
 mod width;
 
 pub use batch::{Batch, UnequalColumns};
-pub use rational::{Definition, define};
+pub use rational::{Definition, define, define_instance};
 
 use crate::arith::Float;
 use crate::case::Case;

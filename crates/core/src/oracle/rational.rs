@@ -2,7 +2,7 @@
 
 use super::signs::place;
 use crate::arith::Float;
-use crate::case::Case;
+use crate::case::{Case, Instance};
 use crate::truth::{Contact, ContactKind, Crossing, ExactValues, Facing, Feature, Truth};
 use num_rational::BigRational as Rational;
 use num_traits::{Signed, Zero};
@@ -29,6 +29,28 @@ enum End {
 
 /// The truth of a case, by definition.
 pub fn define<F: Float>(case: &Case<F>) -> Definition {
+    define_with(case, Some)
+}
+
+/// The truth of a ray in the world and a triangle that a matrix puts there, by definition: that of the triangle and the
+/// ray by the exact inverse, which leaves t, u and v. Invalid if there is no inverse.
+pub fn define_instance<F: Float>(case: &Case<F>, instance: &Instance<F>) -> Definition {
+    let matrix = instance.matrix().map(|row| row.map(|x| Rational::from_float(x.to_f64())));
+    define_with(case, |[origin, direction]| {
+        let column =
+            |i: usize| Some([matrix[0][i].clone()?, matrix[1][i].clone()?, matrix[2][i].clone()?]);
+        let [x, y, z, moved] = [column(0)?, column(1)?, column(2)?, column(3)?];
+        let rows = [cross(&y, &z), cross(&z, &x), cross(&x, &y)];
+        let determinant = dot(&z, &rows[2]);
+        let solved = |point: &Point| rows.each_ref().map(|row| dot(row, point) / &determinant);
+        (!determinant.is_zero()).then(|| [solved(&minus(&origin, &moved)), solved(&direction)])
+    })
+}
+
+fn define_with<F: Float>(
+    case: &Case<F>,
+    seen: impl FnOnce([Point; 2]) -> Option<[Point; 2]>,
+) -> Definition {
     let invalid = Definition { truth: Truth::Invalid, exact: ExactValues::default() };
     let case = case.widen();
     let rational = |x: f64| Rational::from_float(x);
@@ -37,6 +59,9 @@ pub fn define<F: Float>(case: &Case<F>) -> Definition {
         Some([x?, y?, z?])
     };
     let [Some(o), Some(d), Some(a), Some(b), Some(c)] = case.vectors().map(point) else {
+        return invalid;
+    };
+    let Some([o, d]) = seen([o, d]) else {
         return invalid;
     };
     let end = |t: f64| match rational(t) {

@@ -241,6 +241,17 @@ impl Source {
         surface.targets::<F>(parameters, *seed)
     }
 
+    /// How many polygons of its mesh's file are not in the mesh.
+    pub fn left_out(&self) -> usize {
+        let mesh = match self {
+            Source::Mesh { family, .. } => family.mesh(),
+            Source::MeshPart { surface, .. } => surface.mesh(),
+            Source::SceneMesh { mesh, .. } => mesh.surface().mesh(),
+            Source::Family { .. } | Source::Corpus(_) => return 0,
+        };
+        mesh.left_out().map_or(0, |note| note.count)
+    }
+
     /// True if there are triangles around those of a group, which may have the hit that it lacks.
     pub fn has_neighbours(&self) -> bool {
         matches!(self, Source::MeshPart { .. })

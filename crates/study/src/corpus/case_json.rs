@@ -12,12 +12,14 @@ use std::fmt;
 /// The fields that are vectors, in the order of [`Case::vectors`].
 pub(super) const VECTORS: [&str; 5] = ["origin", "direction", "a", "b", "c"];
 
-/// The fields of a line.
-const FIELDS: [&str; 15] = [
+/// The fields of a case. Those from `note` on are for people, and so is every name that begins with `_`.
+const FIELDS: [&str; 28] = [
     "name",
     "scalar",
     "origin",
     "direction",
+    "from",
+    "to",
     "a",
     "b",
     "c",
@@ -29,10 +31,21 @@ const FIELDS: [&str; 15] = [
     "why",
     "url",
     "found",
+    "note",
+    "notes",
+    "comment",
+    "comments",
+    "description",
+    "id",
+    "label",
+    "tags",
+    "source",
+    "date",
+    "_",
 ];
 
 /// The fields of `bits`.
-const BITS: [&str; 7] = ["origin", "direction", "a", "b", "c", "t_min", "t_max"];
+const BITS: [&str; 9] = ["origin", "direction", "from", "to", "a", "b", "c", "t_min", "t_max"];
 
 /// The value of the field `starts` for a ray that starts at a computed hit point on its triangle.
 const ON_TRIANGLE: &str = "on-triangle";
@@ -49,14 +62,8 @@ pub fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
 
 /// Any line, and what is wrong with it.
 pub(super) fn parse_any(text: &str, line: usize) -> Result<StoredCase, String> {
-    let quoted;
-    let object = match Object::parse(text, &FIELDS) {
-        Ok(object) => object,
-        Err(_) => {
-            quoted = json::with_words_quoted(text);
-            Object::parse(&quoted, &FIELDS)?
-        }
-    };
+    let text = json::tidied(text);
+    let object = Object::parse(&text, &FIELDS)?;
     let case = match object.is_f32()? {
         true => AnyCase::F32(parse_case(&object)?),
         false => AnyCase::F64(parse_case(&object)?),
@@ -81,17 +88,23 @@ pub(super) fn parse_any(text: &str, line: usize) -> Result<StoredCase, String> {
 
 fn parse_case<F: Float>(object: &Object) -> Result<Case<F>, String> {
     let bits = object.read("bits", |bits| Object::parse(bits, &BITS))?.unwrap_or_default();
-    let mut numbers = [[F::zero(); 3]; 5];
-    for (numbers, field) in numbers.iter_mut().zip(VECTORS) {
-        *numbers = parse_vector(field, object.required(field)?, bits.get(field))?;
-    }
-    let end =
-        |field, default| object.get(field).map_or(Ok(default), |value| parse_number(field, value));
-    let (t_min, t_max) = (end("t_min", F::zero())?, end("t_max", F::infinity())?);
-    let t_min = agreed("t_min", t_min, bits.get("t_min"))?;
-    let t_max = agreed("t_max", t_max, bits.get("t_max"))?;
-    let [origin, direction, a, b, c] = numbers;
-    Ok(Case::new(origin, direction, [a, b, c]).on(t_min, t_max))
+    let vector = |field| parse_vector(field, object.get(field), bits.get(field));
+    let is_given = |field: &&&str| object.get(field).or(bits.get(field)).is_some();
+    let is_segment = ["from", "to"].iter().any(|field| is_given(&field));
+    let (origin, direction) = if is_segment {
+        if let Some(field) = ["origin", "direction"].iter().find(is_given) {
+            return Err(format!("{field}: leave it out, or 'from' and 'to'"));
+        }
+        let [from, to] = [vector("from")?, vector("to")?];
+        (from, [0, 1, 2].map(|axis| to[axis] - from[axis]))
+    } else {
+        (vector("origin")?, vector("direction")?)
+    };
+    let corners = [vector("a")?, vector("b")?, vector("c")?];
+    let end = |field| number_of(field, object.get(field), bits.get(field));
+    let longest = if is_segment { F::one() } else { F::infinity() };
+    let (t_min, t_max) = (end("t_min")?.unwrap_or(F::zero()), end("t_max")?.unwrap_or(longest));
+    Ok(Case::new(origin, direction, corners).on(t_min, t_max))
 }
 
 /// `origin[2]`, written only where something is wrong.
@@ -106,24 +119,34 @@ impl fmt::Display for Path {
     }
 }
 
+/// The numbers of `[1,2,3]` or `{"x":1,"y":2,"z":3}`.
+fn three(value: &str) -> Result<[&str; 3], String> {
+    if !value.starts_with('{') {
+        return json::array(value, "numbers");
+    }
+    let object = Object::parse(value, &["x", "y", "z"])?;
+    Ok([object.required("x")?, object.required("y")?, object.required("z")?])
+}
+
 fn parse_vector<F: Float>(
     field: &'static str,
-    value: &str,
+    value: Option<&str>,
     bits: Option<&str>,
 ) -> Result<[F; 3], String> {
-    let values = match value.starts_with('{') {
-        true => Object::parse(value, &["x", "y", "z"])
-            .and_then(|it| Ok([it.required("x")?, it.required("y")?, it.required("z")?])),
-        false => json::array::<3>(value, "numbers"),
-    };
+    if value.or(bits).is_none() {
+        return Err(format!("missing field '{field}'"));
+    }
+    // A vector of another language may stand in quotes.
+    let unquoted = value.and_then(|value| json::string(value).ok());
+    let value = unquoted.as_deref().map(json::tidied).or(value.map(Into::into));
+    let values = value.as_deref().map(three).transpose();
     let values = values.map_err(|message| format!("{field}: {message}"))?;
     let bits = bits.map(|bits| json::array::<3>(bits, "bit patterns")).transpose();
     let bits = bits.map_err(|message| format!("bits.{field}: {message}"))?;
     let mut vector = [F::zero(); 3];
     for (axis, number) in vector.iter_mut().enumerate() {
-        let path = Path { field, axis };
-        let parsed = parse_number(&path, values[axis])?;
-        *number = agreed(&path, parsed, bits.map(|bits| bits[axis]))?;
+        let [value, bits] = [values, bits].map(|them| them.map(|them| them[axis]));
+        *number = number_of(Path { field, axis }, value, bits)?.unwrap_or(*number);
     }
     Ok(vector)
 }
@@ -138,25 +161,35 @@ pub fn parse_number<F: Float>(path: impl fmt::Display, text: &str) -> Result<F, 
     number.map_err(|message| format!("{path}: {message}"))
 }
 
-/// The number, which must have the bit pattern that stands beside it, if one does; of a NaN the
-/// pattern's.
-fn agreed<F: Float>(path: impl fmt::Display, number: F, bits: Option<&str>) -> Result<F, String> {
-    let Some(bits) = bits else { return Ok(number) };
-    let pattern: F = parse_pattern(bits).map_err(|message| format!("bits.{path}: {message}"))?;
-    if pattern.to_bits() == number.to_bits() || pattern.is_nan() && number.is_nan() {
-        return Ok(pattern);
-    }
+/// The number of a text, of a bit pattern, or of both, which must agree; of a NaN the pattern's.
+fn number_of<F: Float>(
+    path: impl fmt::Display,
+    text: Option<&str>,
+    bits: Option<&str>,
+) -> Result<Option<F>, String> {
+    let number: Option<F> = text.map(|text| parse_number(&path, text)).transpose()?;
+    let pattern: Option<F> = bits
+        .map(|bits| parse_pattern(bits).map_err(|message| format!("bits.{path}: {message}")))
+        .transpose()?;
     let show = |value: F| format!("{} ({})", number::write(value).replace('"', ""), value.hex());
-    Err(format!("bits.{path} is {}, but {path} is {}", show(pattern), show(number)))
+    match (number, pattern) {
+        (Some(number), Some(pattern))
+            if pattern.to_bits() != number.to_bits() && !(pattern.is_nan() && number.is_nan()) =>
+        {
+            Err(format!("bits.{path} is {}, but {path} is {}", show(pattern), show(number)))
+        }
+        (number, pattern) => Ok(pattern.or(number)),
+    }
 }
 
 fn parse_pattern<F: Float>(value: &str) -> Result<F, String> {
     let text = json::string(value)?;
+    let text = text.trim_start_matches("0x");
     let digits = F::zero().hex().len();
     let plain = text.len() == digits && text.bytes().all(|byte| byte.is_ascii_hexdigit());
-    match u64::from_str_radix(&text, 16) {
+    match u64::from_str_radix(text, 16) {
         Ok(bits) if plain => Ok(F::from_bits(bits)),
-        _ => Err(format!("expected {digits} hexadecimal digits, found {}", json::quoted(&text))),
+        _ => Err(format!("expected {digits} hexadecimal digits, found {}", json::quoted(text))),
     }
 }
 
@@ -256,9 +289,11 @@ mod tests {
             let error = f32_case(&format!(r#","bits":{{"origin":{more}}}"#)).unwrap_err();
             assert!(error.starts_with(message), "{error}");
         }
-        let error = f32_case(r#","bits":{"t_max":"00000000"}"#).unwrap_err();
+        let error = f32_case(r#","t_max":"inf","bits":{"t_max":"00000000"}"#).unwrap_err();
         assert_eq!(error, "bits.t_max is 0 (00000000), but t_max is inf (7f800000)");
-        assert!(f32_case(r#","bits":{"t_min":"00000000","t_max":"7F800000"}"#).is_ok());
+        assert!(
+            f32_case(r#","t_max":"inf","bits":{"t_min":"0x00000000","t_max":"7F800000"}"#).is_ok()
+        );
         let nan = f32_case(r#","t_min":"nan","bits":{"t_min":"ffc12345"}"#).unwrap();
         let AnyCase::F32(case) = nan.case else { panic!() };
         assert_eq!(case.ray.t_min.to_bits(), 0xffc1_2345);

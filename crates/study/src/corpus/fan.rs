@@ -14,6 +14,7 @@ macro_rules! decide {
             .unwrap_or_else(|| $question(Exact::from_f64, $($argument),*))
     };
 }
+pub(super) use decide;
 
 /// True if the corners of a triangle lie on one line, or on one point. Coordinates are finite.
 pub fn is_without_area(corners: [[f64; 3]; 3]) -> bool {
@@ -136,7 +137,7 @@ fn is_zero<R: Real>(vector: &Triple<R>) -> bool {
 }
 
 /// The sign of a number that is not NaN.
-fn sign<R: Real>(number: &R) -> Ordering {
+pub(super) fn sign<R: Real>(number: &R) -> Ordering {
     match number.is_sign_negative() {
         true => Ordering::Less,
         false if number.is_zero() => Ordering::Equal,

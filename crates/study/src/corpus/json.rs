@@ -1,6 +1,7 @@
 //! JSON objects with known fields, read through `serde_json`, and errors that name the field. A value is the
 //! text of its JSON, which was checked when its object was read.
 
+use crate::suggest::nearest_name;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::error::Category;
@@ -19,13 +20,19 @@ pub struct Object<'a>(Vec<Field<'a>>);
 pub type Field<'a> = (Cow<'a, str>, &'a str);
 
 impl<'a> Object<'a> {
-    /// The fields. Those that are not `known` and duplicates are errors.
+    /// The fields. Those that are not `known` and duplicates are errors. `_` stands for all names that begin so.
     pub fn parse(text: &'a str, known: &[&str]) -> Result<Object<'a>, String> {
         let fields = pairs(text)?;
         for (i, (name, _)) in fields.iter().enumerate() {
-            if !known.contains(&name.as_ref()) {
-                let (name, known) = (quoted(name), known.join(", "));
-                return Err(format!("unknown field {name}, expected one of {known}"));
+            let is_note = name.starts_with('_') && known.contains(&"_");
+            if !is_note && !known.contains(&name.as_ref()) {
+                let near = nearest_name(name, known.iter().copied());
+                let near = near
+                    .filter(|near| name.len().min(near.len()) > 2)
+                    .map(|near| format!(": did you mean '{near}'?"));
+                let near =
+                    near.unwrap_or_else(|| format!(", expected one of {}", known.join(", ")));
+                return Err(format!("unknown field {}{near}", quoted(name)));
             }
             if fields[..i].iter().any(|(other, _)| other == name) {
                 return Err(format!("duplicate field '{name}'"));
@@ -69,33 +76,57 @@ impl<'a> Object<'a> {
     }
 }
 
-/// A text with every number that JSON does not know (`NaN`, `0.2f`, `.5`, `0x3e4ccccd`) as a string, where one is.
-pub fn with_words_quoted(text: &str) -> Cow<'_, str> {
-    if !text.trim_start().starts_with('{') {
+/// A text as JSON, if it is none because of words of other languages: numbers that JSON does not know (`NaN`, `0.2f`,
+/// `.5`, `0x3e4ccccd`) and names become strings, and `Vec3(1, 2, 3)` an array.
+pub fn tidied(text: &str) -> Cow<'_, str> {
+    let is_json = |text| serde_json::from_str::<serde::de::IgnoredAny>(text).is_ok();
+    if is_json(text) {
         return Cow::Borrowed(text);
     }
-    let is_of_word = |c: char| c.is_ascii_alphanumeric() || "+-.#_()".contains(c);
-    let (mut out, mut rest, mut in_string, mut is_changed) = (String::new(), text, false, false);
+    let (mut out, mut rest) = (String::new(), text);
     while let Some(first) = rest.chars().next() {
-        let end = match (in_string, first) {
-            (true, '\\') => first.len_utf8() + rest[1..].chars().next().map_or(0, char::len_utf8),
-            (false, c) if is_of_word(c) => {
-                rest.find(|c: char| !is_of_word(c)).unwrap_or(rest.len())
-            }
-            _ => first.len_utf8(),
-        };
-        in_string ^= first == '"';
-        let (word, behind) = rest.split_at(end);
-        let is_word = !in_string && is_of_word(first);
-        if is_word && serde_json::from_str::<serde::de::IgnoredAny>(word).is_err() {
-            is_changed = true;
-            out.extend(['"'].into_iter().chain(word.chars()).chain(['"']));
-        } else {
-            out.push_str(word);
+        let (token, behind) = rest.split_at(end_of_token(rest));
+        match first {
+            '(' => out.push('['),
+            ')' => out.push(']'),
+            // The name of a type or a function that makes a vector.
+            c if c.is_alphabetic() && behind.trim_start().starts_with(['(', '{']) => {}
+            c if is_of_word(c) && !is_json(token) => out.extend(["\"", token, "\""]),
+            _ => out.push_str(token),
         }
         rest = behind;
     }
-    if is_changed { Cow::Owned(out) } else { Cow::Borrowed(text) }
+    // What is wrong with an object is better said of what it was meant to be.
+    if is_json(&out) || out.starts_with('{') { Cow::Owned(out) } else { Cow::Borrowed(text) }
+}
+
+fn is_of_word(c: char) -> bool {
+    c.is_ascii_alphanumeric() || "+-.#_<>".contains(c)
+}
+
+/// Where a string, a word or another character ends that begins a text. Words are `Vec3::new` and `-nan(ind)` too.
+fn end_of_token(text: &str) -> usize {
+    let mut chars = text.char_indices().skip(1);
+    if text.starts_with('"') {
+        let mut is_escaped = false;
+        let end = chars.find(|(_, c)| {
+            let is_end = *c == '"' && !is_escaped;
+            is_escaped = *c == '\\' && !is_escaped;
+            is_end
+        });
+        return end.map_or(text.len(), |(end, _)| end + 1);
+    }
+    let is_end = |place: usize, c: char| {
+        let is_path = c == ':' && (text[place..].starts_with("::") || text[..place].ends_with(':'));
+        !is_of_word(c) && !is_path
+    };
+    if !text.starts_with(is_of_word) {
+        return text.chars().next().map_or(0, char::len_utf8);
+    }
+    let end = chars.find(|(place, c)| is_end(*place, *c)).map_or(text.len(), |(end, _)| end);
+    let is_nan = text[..end].trim_start_matches(['-', '+']).eq_ignore_ascii_case("nan");
+    let note = text[end..].find(')').filter(|_| is_nan && text[end..].starts_with('('));
+    note.map_or(end, |note| end + note + 1)
 }
 
 /// The fields of an object in their order, duplicates included.
@@ -166,15 +197,17 @@ fn end_of_first(values: &str) -> usize {
 pub fn excerpt(text: &str) -> String {
     let start: String = text.chars().take(EXCERPT).collect();
     let dots = if start.len() < text.len() { "..." } else { "" };
-    let printable: String = start
-        .chars()
-        .map(|c| match c {
-            '\u{feff}' => "\\u{feff}".to_owned(),
-            c if c.is_control() => c.escape_default().to_string(),
-            c => c.to_string(),
-        })
-        .collect();
-    printable + dots
+    printable(&start) + dots
+}
+
+/// A text on one line, without what a terminal obeys.
+pub fn printable(text: &str) -> String {
+    let shown = |c: char| match c {
+        '\u{feff}' => "\\u{feff}".to_owned(),
+        c if c.is_control() => c.escape_default().to_string(),
+        c => c.to_string(),
+    };
+    text.chars().map(shown).collect()
 }
 
 /// [`excerpt`] between apostrophes.

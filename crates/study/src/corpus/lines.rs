@@ -1,5 +1,6 @@
-//! Corpus files: one case a line, as a JSON object, with its truth and its bit patterns.
+//! Corpus files: one case a JSON object, with its truth and its bit patterns; one a line as they are written.
 
+use super::json_lines::JsonLines;
 pub use super::stored_case::StoredCase;
 pub use super::stored_truth::StoredTruth;
 use super::text_lines::TextLines;
@@ -11,7 +12,7 @@ use std::io::BufRead;
 pub const LONGEST_LINE: usize = 1 << 20;
 
 /// The cases of a corpus file, one after the other; blank lines are skipped. `file` is the name in
-/// errors.
+/// errors. A case may have several lines, and the file may be an array of cases.
 ///
 /// A line that is not a case, is longer than 1 MiB or is not UTF-8 is an error, and reading continues with
 /// the next line. If reading itself fails, that error is the last item.
@@ -20,7 +21,7 @@ pub fn read<R: BufRead>(
     file: &str,
 ) -> impl Iterator<Item = Result<StoredCase, InputError>> + use<R> {
     let name = file.to_owned();
-    TextLines::new(reader, file, LONGEST_LINE)
+    TextLines::new(JsonLines::new(reader), file, LONGEST_LINE)
         .map(move |line| line.and_then(|(number, text)| case_of(&text, number, &name)))
 }
 
@@ -84,7 +85,7 @@ mod tests {
                 "cases.jsonl:3: expected an object, found # no",
                 "cases.jsonl:5: a line of more than 1048576 bytes",
                 "cases.jsonl:6: not UTF-8 at byte 1",
-                "cases.jsonl:8: EOF while parsing an object at column 1",
+                "cases.jsonl:8: EOF while parsing an object at column 2",
             ]
         );
         assert_eq!(read_text("").len() + read_text("\n\n").len(), 0);
@@ -108,9 +109,13 @@ mod tests {
         let [old, new] = [CASE, "CASE"];
         for (line, message) in [
             (
-                r#"{"orign":1}"#,
-                "unknown field 'orign', expected one of name, scalar, origin, direction, a, b, c, t_min, t_max, starts, truth, bits, why, url, found",
+                r#"{"unit":1}"#,
+                "unknown field 'unit', expected one of name, scalar, origin, direction, from, to, a, b, c, t_min, t_max, starts, truth, bits, why, url, found, note, ",
             ),
+            (r#"{"orign":1}"#, "unknown field 'orign': did you mean 'origin'?"),
+            (r#"{"scalar":"f32",CASE,"tmax":1}"#, "unknown field 'tmax': did you mean 't_max'?"),
+            (r#"{"scalar":"f32",CASE,"to":[0,0,0]}"#, "origin: leave it out, or 'from' and 'to'"),
+            (r#"{"scalar":"f32","from":[0,0,0]}"#, "missing field 'to'"),
             (r#"{"a\nb":1}"#, "unknown field 'a\\nb', expected one of name, "),
             (r#"{CASE,"a":[0,0,0]}"#, "duplicate field 'a'"),
             ("{CASE}", "missing field 'scalar'"),
@@ -153,19 +158,23 @@ mod tests {
             (r#"{"scalar":"f32",CASE,"truth":{"t":"in"}}"#, "truth: t: 'in' is none of before, "),
             (
                 r#"{"scalar":"f32",CASE,"bits":{"d":[]}}"#,
-                "bits: unknown field 'd', expected one of origin, direction, a, b, c, t_min, t_max",
+                "bits: unknown field 'd', expected one of origin, direction, from, to, a, b, c, t_min, t_max",
             ),
             (
                 r#"{"scalar":"f32",CASE,"t_max":None}"#,
                 "t_max: 'None' is not a number: write a decimal (-1.5e-3), a hexadecimal float (0x1.8p-3), a bit pattern (0x3e4ccccd), inf or nan",
             ),
-            ("\u{feff}{}", "expected an object, found \\u{feff}{}"),
+            ("\u{feff}{}", "missing field 'scalar'"),
             (r#"["f32"]"#, "expected an object, found [\"f32\"]"),
             (r#"{"scalar":"f32",CASE} x"#, "trailing characters at column 92"),
         ] {
             let line = line.replace(new, old);
             let error = read_text(&line).remove(0).unwrap_err();
-            assert!(error.starts_with(&format!("cases.jsonl:1: {message}")), "{line}: {error}");
+            let (place, error) = error.split_once(": ").unwrap();
+            assert!(
+                place.starts_with("cases.jsonl:") && error.starts_with(message),
+                "{line}: {error}"
+            );
             assert!(!error.contains('\n'));
         }
     }

@@ -40,7 +40,7 @@ pub struct Mesh {
     /// For each vertex the `f64` nearest to each number of the file, always finite.
     pub positions_f64: Vec<[f64; 3]>,
     /// For each triangle its three indices into the positions, in the order of the file; polygons
-    /// are fans from their first vertex.
+    /// are fans from their first vertex, or cut at their ears where that fan folds over.
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle the number of its face's line in the file, counted from 1; that of the face itself
     /// if the file has no lines.
@@ -71,6 +71,11 @@ impl Mesh {
         } else {
             self.positions_f64[vertex as usize].map(F::from_f64)
         }
+    }
+
+    /// The note on the polygons of the file that are not in the mesh, if there are any.
+    pub fn left_out(&self) -> Option<&Note> {
+        self.notes.iter().find(|note| note.message == builder::LEFT_OUT)
     }
 }
 

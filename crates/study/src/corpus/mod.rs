@@ -10,12 +10,15 @@ mod found_by;
 #[cfg(feature = "studies")]
 pub mod json;
 #[cfg(feature = "studies")]
+pub mod json_lines;
+#[cfg(feature = "studies")]
 pub mod lines;
 pub mod mesh;
 #[cfg(feature = "studies")]
 pub mod number;
 #[cfg(feature = "studies")]
 mod plain_json;
+mod polygon;
 #[cfg(feature = "studies")]
 pub mod shapes;
 #[cfg(feature = "studies")]

@@ -9,7 +9,7 @@ const LONGEST: usize = 4096;
 /// The float nearest to a text, ties to even, straight from the text (an `f32` never through
 /// `f64`): a decimal (`-1.5e-3`), a hexadecimal float with its binary exponent (`0x1.8p-3`), a bit pattern
 /// (`0x3e4ccccd` of an `f32`, 16 digits of an `f64`), or an infinity or a NaN as programs print it (`inf`, `-Infinity`,
-/// `NaN`, `-nan(ind)`). A decimal may end in the `f` of a C literal.
+/// `NaN`, `-nan(ind)`). A decimal may end in the `f` of a C literal, or in the scalar's name, as in Rust.
 ///
 /// A finite text that overflows is an error; one that underflows is a zero of its sign.
 pub fn parse<F: Float>(text: &str) -> Result<F, String> {
@@ -68,7 +68,9 @@ fn finite<F: Float>(text: &str) -> Result<Option<F>, String> {
         }
         Some(digits) => hexadecimal(digits),
         None if text.starts_with(|c: char| c.is_ascii_digit() || c == '.') => {
-            let decimal = text.strip_suffix(['f', 'F']).filter(|rest| !rest.ends_with(['e', 'E']));
+            let suffix = text.strip_suffix(F::NAME).map(|rest| rest.trim_end_matches('_'));
+            let decimal = suffix.or_else(|| text.strip_suffix(['f', 'F']));
+            let decimal = decimal.filter(|rest| !rest.ends_with(['e', 'E']));
             F::parse(decimal.unwrap_or(text))
         }
         None => None,
@@ -199,6 +201,9 @@ mod tests {
         check::<f32>(".2", 0x3e4c_cccd);
         check::<f32>("1.", 0x3f80_0000);
         check::<f32>("1.f", 0x3f80_0000);
+        check::<f32>("0.2_f32", 0x3e4c_cccd);
+        check::<f64>("1f64", 1f64.to_bits());
+        assert!(parse::<f32>("0.2f64").is_err() && parse::<f64>("1e_f64").is_err());
         check::<f32>("0x3e4ccccd", 0x3e4c_cccd);
         check::<f32>("0xFF800000", 0xff80_0000);
         check::<f64>("0x3fc999999999999a", 0.2f64.to_bits());

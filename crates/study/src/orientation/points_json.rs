@@ -11,7 +11,8 @@ pub type AnyPoints = AnyScalar<Points<f32>, Points<f64>>;
 /// Three points of the plane or four of space from `{"scalar":"f64","points":[[x,y],...]}`; numbers as
 /// in the files of cases.
 pub fn parse(text: &str) -> Result<AnyPoints, String> {
-    let object = json::Object::parse(text, &["scalar", "points"])?;
+    let text = json::tidied(text);
+    let object = json::Object::parse(&text, &["scalar", "points"])?;
     let (is_f32, points) = (object.is_f32()?, object.required("points")?);
     match is_f32 {
         true => parse_points(points).map(AnyPoints::F32),
@@ -21,7 +22,8 @@ pub fn parse(text: &str) -> Result<AnyPoints, String> {
 
 /// True if an object has a field `points`, which no case has.
 pub fn is_points(text: &str) -> bool {
-    json::pairs(text).is_ok_and(|fields| fields.iter().any(|(name, _)| name == "points"))
+    json::pairs(&json::tidied(text))
+        .is_ok_and(|fields| fields.iter().any(|(name, _)| name == "points"))
 }
 
 fn parse_points<F: Float>(value: &str) -> Result<Points<F>, String> {

@@ -1,7 +1,7 @@
 //! The builder that every reader of meshes fills: vertices, then faces as fans of triangles, and notes.
 
 use super::{InputError, Mesh};
-use crate::corpus::fan;
+use crate::corpus::{fan, polygon};
 use hmac_sha256::Hash;
 use std::fmt;
 
@@ -14,6 +14,14 @@ pub enum Place {
     Vertex(usize),
     /// A face of a file without lines.
     Face(usize),
+}
+
+impl Place {
+    /// The number.
+    pub fn number(self) -> usize {
+        let (Place::Line(number) | Place::Vertex(number) | Place::Face(number)) = self;
+        number
+    }
 }
 
 impl fmt::Display for Place {
@@ -57,7 +65,8 @@ pub(super) struct Builder {
 }
 
 const OVERFLOW: &str = "f32 overflow: vertices with an infinite coordinate in f32";
-const FOLDED: &str = "polygons left out because their fan of triangles folds over";
+/// The note on faces that are not in the mesh.
+pub(super) const LEFT_OUT: &str = "polygons left out, because they cross themselves or fold over";
 const NO_AREA: &str = "triangles without area, kept";
 
 impl Builder {
@@ -92,26 +101,30 @@ impl Builder {
         self.triangles.len()
     }
 
-    /// Adds the fan of a face, or a note that it is left out. Its vertices exist; `number` counts lines or
+    /// Adds the triangles of a face, or counts it as left out. Its vertices exist; `number` counts lines or
     /// faces.
     pub fn face(&mut self, corners: &[u32], number: u32) {
         let count = number as usize;
         let place = if self.without_lines { Place::Face(count) } else { Place::Line(count) };
-        let position = |vertex: &u32| self.positions_f64[*vertex as usize];
-        if corners.len() > 3 {
-            let corners: Vec<[f64; 3]> = corners.iter().map(position).collect();
-            if fan::folds(&corners) {
-                return self.note(FOLDED, Some(place));
-            }
+        if let Ok(triangle) = corners.try_into() {
+            return self.triangle(triangle, number, place);
         }
-        for pair in corners[1..].windows(2) {
-            let triangle = [corners[0], pair[0], pair[1]];
-            if fan::is_without_area(triangle.each_ref().map(|v| self.positions_f64[*v as usize])) {
-                self.note(NO_AREA, Some(place));
-            }
-            self.triangles.push(triangle);
-            self.places.push(number);
+        let positions: Vec<[f64; 3]> =
+            corners.iter().map(|vertex| self.positions_f64[*vertex as usize]).collect();
+        match polygon::triangles(&positions) {
+            Some(triangles) => triangles
+                .into_iter()
+                .for_each(|it| self.triangle(it.map(|corner| corners[corner]), number, place)),
+            None => self.note(LEFT_OUT, Some(place)),
         }
+    }
+
+    fn triangle(&mut self, triangle: [u32; 3], number: u32, place: Place) {
+        if fan::is_without_area(triangle.map(|vertex| self.positions_f64[vertex as usize])) {
+            self.note(NO_AREA, Some(place));
+        }
+        self.triangles.push(triangle);
+        self.places.push(number);
     }
 
     /// The mesh; an error if it has no triangles.
@@ -153,15 +166,4 @@ fn digest(wide: &[[f64; 3]], narrow: &[[f32; 3]], triangles: &[[u32; 3]]) -> Str
 /// As `8 vertices`.
 pub(super) fn vertices_text(count: usize) -> String {
     format!("{count} {}", if count == 1 { "vertex" } else { "vertices" })
-}
-
-/// A word of a file in quotes.
-pub(super) fn quoted(word: &str) -> String {
-    format!("'{}'", shortened(word))
-}
-
-/// A word of a file that fits into a message and does no harm to a terminal.
-pub(super) fn shortened(word: &str) -> String {
-    let shown: String = word.chars().take(40).flat_map(char::escape_debug).collect();
-    if word.chars().nth(40).is_some() { shown + "..." } else { shown }
 }

@@ -10,8 +10,9 @@ use std::io::{self, BufRead, Write};
 /// else gets a note. `name` is for messages and for [`Mesh::name`]; `progress` is called
 /// about every MiB with the number of bytes read so far, and once at the end.
 ///
-/// Polygons are cut into the fan from their first vertex. Those whose fan folds over itself or is
-/// bent by a right angle or more, which many concave ones do, are left out with a note. Triangles
+/// Polygons are cut into the fan from their first vertex. Where that fan folds over itself or is
+/// bent by a right angle or more, as those of many concave ones do, one ear after the other is cut off. Those for which
+/// this does not do either, because they cross themselves, are left out with a note. Triangles
 /// without area are kept with a note.
 ///
 /// It is an error if the file cannot be read, is not UTF-8 or has a line above 1 MiB; if a number is

@@ -48,7 +48,7 @@ fn parse(bytes: &[u8], name: &str) -> Result<(json::Root, Option<Vec<u8>>), Inpu
     let bad = |message: String| InputError::of(name, message);
     let is_binary = bytes.starts_with(MAGIC);
     let (text, binary) = if is_binary {
-        check_length(bytes).map_err(bad)?;
+        let bytes = &bytes[..length_of(bytes).map_err(bad)?];
         let glb = Glb::from_slice(bytes).map_err(|error| bad(format!("not GLB: {error}")))?;
         (glb.json, glb.bin.map(Cow::into_owned))
     } else {
@@ -60,20 +60,21 @@ fn parse(bytes: &[u8], name: &str) -> Result<(json::Root, Option<Vec<u8>>), Inpu
         InputError { line, ..bad(format!("not glTF: {error}")) }
     })?;
     if !root.asset.version.starts_with("2.") {
-        let version = super::builder::quoted(&root.asset.version);
+        let version = crate::corpus::json::quoted(&root.asset.version);
         return Err(bad(format!("glTF of version {version}, expected 2.0")));
     }
     root.extensions_required.iter().try_for_each(|name| check_extension(name)).map_err(bad)?;
     Ok((root, binary))
 }
 
-/// Checks that a GLB file is as long as it says.
-fn check_length(bytes: &[u8]) -> Result<(), String> {
+/// How long a GLB file says that it is: at most as long as it is, and at least the headers of the file and of its JSON.
+fn length_of(bytes: &[u8]) -> Result<usize, String> {
     let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
     match length {
-        Some(length) if length >= 12 && length as usize <= bytes.len() => Ok(()),
+        Some(length) if length >= 20 && length as usize <= bytes.len() => Ok(length as usize),
         Some(length) => {
-            Err(format!("the file has {} bytes, but its header says {length}", bytes.len()))
+            let short = if length < 20 { " (headers alone have 20)" } else { "" };
+            Err(format!("the file has {} bytes, but its header says {length}{short}", bytes.len()))
         }
         None => Err(format!("the file has {} of the 12 bytes of a GLB header", bytes.len())),
     }
@@ -94,7 +95,7 @@ fn check_extension(name: &str) -> Result<(), String> {
         "EXT_mesh_gpu_instancing" => "instances are not read: export each as a node",
         _ => "hairline does not know it",
     };
-    Err(format!("the file needs the extension {}: {about}", super::builder::quoted(name)))
+    Err(format!("the file needs the extension {}: {about}", crate::corpus::json::quoted(name)))
 }
 
 /// Leaves away what does not concern triangles, so that a fault in it is none here.

@@ -3,10 +3,11 @@
 //! The file's text is read here, so that errors carry their line and numbers keep their digits; tobj then
 //! sorts faces into groups and polygons, on vertices that are placeholders for their index.
 
-use super::builder::{Builder, Place, quoted, shortened, vertices_text};
+use super::builder::{Builder, Place, vertices_text};
 use super::counted::Limits;
 use super::text::{Lines, coordinate};
 use super::{InputError, Mesh};
+use crate::corpus::json::{excerpt, quoted};
 use std::collections::BTreeSet;
 use std::io::{BufRead, Read, Write};
 use std::num::IntErrorKind;
@@ -223,7 +224,7 @@ fn face_vertex(word: &str) -> Result<i64, String> {
         Err(error)
             if matches!(error.kind(), IntErrorKind::PosOverflow | IntErrorKind::NegOverflow) =>
         {
-            Err(format!("face names vertex {}, which no file has", shortened(vertex)))
+            Err(format!("face names vertex {}, which no file has", excerpt(vertex)))
         }
         _ => Err(format!("face has {} for v, v/vt, v//vn or v/vt/vn", quoted(word))),
     }

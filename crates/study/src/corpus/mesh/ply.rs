@@ -3,28 +3,38 @@
 //! The crate ply-rs-bw reads the header and single elements. Which elements are read, lines and limits are
 //! decided here.
 
-use super::builder::{Builder, Place, quoted, vertices_text};
+use super::builder::{Builder, Place, vertices_text};
 use super::counted::Limits;
 use super::{InputError, Mesh};
+use crate::corpus::json::{self, quoted};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
 };
 use std::borrow::Cow;
-use std::io::{self, BufRead, Cursor, ErrorKind, Read, Take};
+use std::io::{self, BufRead, ErrorKind, Read, Take};
 
 /// Reads a file.
 pub(super) fn read(reader: impl BufRead, name: &str, limits: Limits) -> Result<Mesh, InputError> {
-    let (header, reader) = plain_header(reader, limits.line as u64)
+    let (text, reader) = plain_header(reader, limits.line as u64)
         .map_err(|error| InputError::reading(name, None, &error))?;
-    let mut reader = Reader::new(header.chain(reader).take(limits.line as u64));
+    let mut reader = Reader::new(text.as_slice().chain(reader).take(limits.line as u64));
     let header = match Parser::<Element>::new().read_header(&mut reader) {
         Ok(header) => header,
         Err(_) if reader.get_ref().limit() == 0 => {
             let message = format!("a header of more than {} bytes", limits.line);
             return Err(InputError::of(name, message));
         }
-        Err(error) => return Err(refused(name, error.line(), "header", &error)),
+        Err(error) => {
+            let line =
+                error.line().and_then(|line| Some((line, text.split(is_end).nth(line - 1)?)));
+            let Some((line, words)) = line.filter(|(_, words)| !words.is_empty()) else {
+                return Err(refused(name, error.line(), "header", &error));
+            };
+            let found = quoted(String::from_utf8_lossy(words).trim_end());
+            let message = format!("header: expected {}, found {found}", expected(line, words));
+            return Err(InputError::at(name, line, message));
+        }
     };
     check_header(&header, limits).map_err(|message| InputError::of(name, message))?;
     let line = reader.line().saturating_sub(1);
@@ -41,7 +51,7 @@ pub(super) fn read(reader: impl BufRead, name: &str, limits: Limits) -> Result<M
 
 /// The lines up to `end_header`, in which every byte that is not ASCII becomes a `?` (it stands in a comment or a name, and may be of
 /// any encoding), and the rest of the file.
-fn plain_header<R: BufRead>(mut reader: R, limit: u64) -> io::Result<(impl BufRead, R)> {
+fn plain_header<R: BufRead>(mut reader: R, limit: u64) -> io::Result<(Vec<u8>, R)> {
     let (mut header, mut end) = (Vec::new(), None);
     let mut lines = (&mut reader).take(limit);
     while end.is_none() {
@@ -54,10 +64,27 @@ fn plain_header<R: BufRead>(mut reader: R, limit: u64) -> io::Result<(impl BufRe
     }
     let end = end.unwrap_or(header.len());
     header[..end].iter_mut().filter(|byte| !byte.is_ascii()).for_each(|byte| *byte = b'?');
-    Ok((Cursor::new(header), reader))
+    Ok((header, reader))
 }
 
 const END: &[u8] = b"end_header";
+
+fn is_end(byte: &u8) -> bool {
+    *byte == b'\n'
+}
+
+/// The form that a line of a header should have.
+fn expected(line: usize, words: &[u8]) -> &'static str {
+    match words.split(u8::is_ascii_whitespace).next().unwrap_or_default() {
+        _ if line == 1 => "'ply'",
+        b"format" => "one line 'format ascii 1.0', or binary_little_endian or binary_big_endian",
+        b"element" => "'element NAME COUNT'",
+        b"property" => {
+            "'property TYPE NAME' or 'property list TYPE TYPE NAME' below an element, with a TYPE as float or int"
+        }
+        _ => "format, element, property, comment, obj_info or end_header",
+    }
+}
 
 /// The names that writers give to a face's indices.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
@@ -94,15 +121,16 @@ fn refused(name: &str, line: Option<usize>, what: &str, error: &ParseError) -> I
     match error.kind() {
         ErrorKind::InvalidInput | ErrorKind::InvalidData | ErrorKind::UnexpectedEof => {
             let text = error.to_string();
-            // Its messages have lines of their own: what is wrong, the text, why.
-            let parts = text.split('\n').map(str::trim).filter(|part| !part.starts_with("String:"));
-            let reason = parts.collect::<Vec<_>>().join(" ");
+            // The first line of its messages says what is wrong; others repeat the text, and the parser's state.
+            let reason = text.lines().next().unwrap_or_default();
             let (_, reason) = reason
                 .strip_prefix("Line ")
                 .and_then(|reason| reason.split_once(": "))
-                .unwrap_or(("", &reason));
-            let shown: String = reason.chars().take(160).flat_map(char::escape_debug).collect();
-            InputError { line, ..InputError::of(name, format!("{what}: {shown}")) }
+                .unwrap_or(("", reason));
+            InputError {
+                line,
+                ..InputError::of(name, format!("{what}: {}", json::printable(reason)))
+            }
         }
         kind => InputError::reading(name, line, &kind.into()),
     }

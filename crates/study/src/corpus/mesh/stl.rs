@@ -3,10 +3,11 @@
 //! Read here rather than by a crate: those round the numbers of the ASCII form to `f32`, and take a binary file that begins
 //! with `solid` for text.
 
-use super::builder::{Builder, Place, quoted};
+use super::builder::{Builder, Place};
 use super::counted::Limits;
 use super::text::{Lines, coordinate};
 use super::{InputError, Mesh};
+use crate::corpus::json::quoted;
 use std::collections::HashMap;
 use std::io::{BufRead, ErrorKind, Read};
 

@@ -223,8 +223,8 @@ fn files_without_vertices_faces_or_triangles_are_refused() {
     assert_eq!(refusal(format!("{SQUARE}l 1 2\np 1\n")), "teapot.obj: the file has no faces");
     assert_eq!(
         refusal(format!("{SQUARE}f 1 3 2 4\n")),
-        "teapot.obj: the file has no triangles: polygons left out because their fan of triangles \
-         folds over: 1 (first at line 5)"
+        "teapot.obj: the file has no triangles: polygons left out, because they cross themselves or \
+         fold over: 1 (first at line 5)"
     );
 }
 
@@ -260,7 +260,7 @@ fn what_is_skipped_or_suspect_is_noted_once_with_its_count_and_first_line() {
             "unknown statements skipped: 1 (first at line 8)",
             "f32 overflow: vertices with an infinite coordinate in f32: 2 (first at line 12)",
             "triangles without area, kept: 2 (first at line 9)",
-            "polygons left out because their fan of triangles folds over: 2 (first at line 15)",
+            "polygons left out, because they cross themselves or fold over: 2 (first at line 15)",
         ]
     );
     assert_eq!(mesh.triangles, [[0, 1, 1], [0, 2, 1], [0, 0, 1], [0, 1, 2], [4, 0, 1]]);
@@ -272,12 +272,14 @@ fn what_is_skipped_or_suspect_is_noted_once_with_its_count_and_first_line() {
 
 #[test]
 fn polygons_become_fans_from_their_first_vertex_unless_they_fold() {
-    let text = format!("{SQUARE}v -1 0.5 0\nv 0.25 0.25 0\nf 2 3 4 5 1\nf 1 2 6 4\nf 2 6 4 1\n");
-    let mesh = mesh_of(&text);
-    assert_eq!(mesh.triangles, [[1, 2, 3], [1, 3, 4], [1, 4, 0], [0, 1, 5], [0, 5, 3]]);
-    assert_eq!(mesh.places, [7, 7, 7, 8, 8]);
+    let faces = "f 2 3 4 5 1\nf 1 2 6 4\nf 2 6 4 1\nf 1 3 2 4\n";
+    let mesh = mesh_of(&format!("{SQUARE}v -1 0.5 0\nv 0.25 0.25 0\n{faces}"));
+    let expected = [[1, 2, 3], [1, 3, 4], [1, 4, 0], [0, 1, 5], [0, 5, 3], [0, 1, 5], [5, 3, 0]];
+    assert_eq!(mesh.triangles, expected);
+    assert_eq!(mesh.places, [7, 7, 7, 8, 8, 9, 9]);
     assert_eq!(notes(&mesh).len(), 1);
-    assert_eq!((mesh.notes[0].first, mesh.notes[0].count), (Some(Place::Line(9)), 1));
+    assert_eq!((mesh.notes[0].first, mesh.notes[0].count), (Some(Place::Line(10)), 1));
+    assert_eq!(mesh.left_out(), Some(&mesh.notes[0]));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Lines of a text, with their numbers, and the coordinates in them.
 
 use super::InputError;
-use super::builder::quoted;
+use crate::corpus::json::quoted;
 use std::io::{BufRead, Read};
 
 /// A coordinate of a vertex, finite in `f64`, and the nearest `f32`.

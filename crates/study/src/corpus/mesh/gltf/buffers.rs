@@ -1,8 +1,8 @@
 //! The bytes behind accessors: from a GLB file, a data URI or a file beside it.
 
 use super::super::Beside;
-use super::super::builder::quoted;
 use super::InputError;
+use crate::corpus::json::quoted;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
