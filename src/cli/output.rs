@@ -173,7 +173,10 @@ pub fn write_result(
     path: impl AsRef<Path>,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    written(path.as_ref(), write)?.map_or(Ok(()), Beside::put_in_place)
+    let file = written(path.as_ref(), write)?;
+    // What a kernel wrote that is given up is no result.
+    plugins::check()?;
+    file.map_or(Ok(()), Beside::put_in_place)
 }
 
 /// Writes several results. Files take their places after all are written, so a full disk changes none of them.
@@ -181,11 +184,27 @@ pub fn write_results<T>(
     outputs: Vec<(T, &str)>,
     write: impl Fn(T, &str, &mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
+    let files = all_written(outputs, write)?;
+    plugins::check()?;
+    files.into_iter().try_for_each(Beside::put_in_place)
+}
+
+/// Writes that there are no results; why may be a kernel that is given up.
+pub fn write_failure<T>(
+    outputs: Vec<(T, &str)>,
+    write: impl Fn(T, &str, &mut dyn Write) -> io::Result<()>,
+) -> Result<(), Failure> {
+    all_written(outputs, write)?.into_iter().try_for_each(Beside::put_in_place)
+}
+
+fn all_written<T>(
+    outputs: Vec<(T, &str)>,
+    write: impl Fn(T, &str, &mut dyn Write) -> io::Result<()>,
+) -> Result<Vec<Beside>, Failure> {
     let written = outputs
         .into_iter()
         .map(|(what, path)| written(Path::new(path), |out| write(what, path, out)));
-    let files = written.filter_map(Result::transpose).collect::<Result<Vec<Beside>, _>>()?;
-    files.into_iter().try_for_each(Beside::put_in_place)
+    written.filter_map(Result::transpose).collect()
 }
 
 /// Refuses a file that could not be written, before the work whose result it would hold.
@@ -306,8 +325,6 @@ impl Beside {
     }
 
     fn put_in_place(self) -> Result<(), Failure> {
-        // What a kernel wrote that is given up is no result.
-        plugins::check()?;
         let renamed = self.file.sync_all().and_then(|()| fs::rename(&self.path, &self.place));
         renamed.map_err(|error| Failure::of_path(&self.place, &error))
     }

@@ -3,7 +3,7 @@
 use super::before::{note_secondary_rays, scalars_in_use, set_threads, total_indices};
 use super::exit::{Failure, Status};
 use super::flags::{OUTPUT, RUNNING};
-use super::output::{OutputArguments, write_results};
+use super::output::{OutputArguments, write_failure};
 use super::plugins;
 use super::progress::Progress;
 use super::prove;
@@ -76,7 +76,7 @@ impl Outputs<'_> {
             });
             // The first failure is the one to tell.
             let _ =
-                write_results(told.collect(), |write, _, out| write(*status as u8, message, out));
+                write_failure(told.collect(), |write, _, out| write(*status as u8, message, out));
         }
         outcome
     }

@@ -705,7 +705,12 @@ fn answers_that_are_none_end_the_run_and_never_hang_it() {
 fn a_command_that_ends_after_each_batch_hears_that_it_should_read_on() {
     let once = shell(&MISSES.replace("echo end $id;;", "echo end $id; exit 0;;"));
     let plan = ["audit", "--family", "interior", "--scalar", "f64", "-n", "3000", "--kernel-cmd"];
-    let error = refused(&[&plan[..], &[&once]].concat(), 65);
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("once.xml");
+    let outputs = [&once, "--format", "text,junit", "-o", "-", "-o", file.to_str().unwrap()];
+    fs::write(&file, "of an older run").unwrap();
+    let error = refused(&[&plan[..], &outputs].concat(), 65);
+    let told = fs::read_to_string(&file).unwrap();
+    assert!(told.contains("<error type=\"exit 65\" message=\"kernel"), "{told}");
     assert!(
         error.contains("it answers a batch and ends with exit code 0: a kernel reads on"),
         "{error}"
