@@ -340,6 +340,8 @@ fn ends_note(row: &Row) -> Option<String> {
     // What a built-in kernel promises is what its source says.
     let promises = !row.entry.is_built_in()
         && row.contract.extent != Extent::Line
+        // Such a contract is about the near hits, as the epsilon is.
+        && !row.contract.no_self_hit
         && row.contract.ends == Boundary::Closed;
     let excludes = |(gate, text): &(&Gate, &EpsilonText)| {
         gate.role == Role::T && text.value::<f64>().is_some_and(|value| 0.0 < value)

@@ -146,8 +146,9 @@ fn beside_a_kernel_that_leaks_stands_a_ray_that_does() {
         let [case, command] =
             ["case", "command"].map(|key| record["kernels"][0]["leak"][key].as_str().unwrap());
         let out = text(&prove);
-        let said =
-            format!("They do for the ray of {case}, which crosses the edge and hits neither.");
+        let said = format!(
+            "At an edge epsilon of 0 they do for the ray of {case}, which crosses the edge and hits neither."
+        );
         assert!(words(&out).contains(&said) && out.contains(command), "{out}");
         let (start, epsilons) = command.split_once(" --epsilon ").unwrap();
         assert_eq!(start, format!("hairline explain '{case}' --kernel {kernel}"));

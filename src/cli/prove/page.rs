@@ -63,7 +63,7 @@ fn of_one(report: &Report) -> Page {
         let mut notes: Vec<String> = gates.iter().flat_map(key).collect();
         let leak = kernel.leak.as_ref().map_or(String::new(), |leak| {
             format!(
-                " They do for the ray of {}, which crosses the edge and hits neither.",
+                " At an edge epsilon of 0 they do for the ray of {}, which crosses the edge and hits neither.",
                 leak.case
             )
         });
@@ -87,7 +87,7 @@ fn of_one(report: &Report) -> Page {
     let mut commands = vec![Command { line, what: "which epsilons cost least" }];
     commands.extend(record.kernels.iter().filter_map(|kernel| {
         let line = kernel.leak.as_ref()?.command.clone();
-        Some(Command { line, what: "a ray that leaks" })
+        Some(Command { line, what: "leaks at an epsilon of 0" })
     }));
     blocks.push(Block::Commands("next", commands));
     let title = format!("{name}: what holds for every float");

@@ -107,16 +107,22 @@ fn cost_of(record: &SceneRecord, count: &Count) -> f64 {
     record.costs.iter().find(|cost| cost.name == count.kind.name()).map_or(0.0, |cost| cost.number)
 }
 
-/// The counts that argue for the recommended numbers: those whose wrong answers cost most with any that were tried.
+/// The counts that argue for the recommended numbers: those whose cost differs most among what was tried; what is the
+/// same with all of them comes last.
 pub(super) fn telling(record: &SceneRecord, part: &SceneKernelPart, most: usize) -> Vec<usize> {
-    let worst = |place: &usize| {
+    let extremes = |place: &usize| {
         let tried = part.tried.iter().chain(&part.relative);
         let shares = tried.map(|tried| tried.wrong[*place].rate.unwrap_or(0.0));
-        cost_of(record, &part.counts[*place]) * shares.fold(0.0, f64::max)
+        shares.fold([f64::INFINITY, 0.0], |[low, high], share| [share.min(low), share.max(high)])
     };
-    let mut places: Vec<usize> =
-        (0..part.counts.len()).filter(|place| 0.0 < worst(place)).collect();
-    places.sort_by(|a, b| worst(b).total_cmp(&worst(a)));
+    let told = |place: &usize| {
+        let [low, high] = extremes(place);
+        let cost = cost_of(record, &part.counts[*place]);
+        // Less than a tenth of the share is the same.
+        if high < 1.1 * low { 1e-6 * cost * high } else { cost * (high - low) }
+    };
+    let mut places: Vec<usize> = (0..part.counts.len()).filter(|place| 0.0 < told(place)).collect();
+    places.sort_by(|a, b| told(b).total_cmp(&told(a)));
     places.truncate(most);
     places.sort_unstable();
     places
