@@ -178,8 +178,9 @@ fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
                 ..1e-4 => "< 0.0001".to_owned(),
                 _ => human(&format!("{:e}", two_digits(holes, true))),
             };
-            let holes = columns(part).map(|it| it.holes_per_million.map_or("-".to_owned(), told));
-            rows.push((PICTURE.to_owned(), holes.collect()));
+            let holes: Option<Vec<String>> =
+                columns(part).map(|tried| tried.holes_per_million.map(told)).collect();
+            rows.extend(holes.map(|holes| (PICTURE.to_owned(), holes)));
         }
         let several = match (count.rays, count.kind) {
             (Rays::Stratum(Stratum::Edges), _) => "at a shared edge: both hit".to_owned(),

@@ -22,7 +22,7 @@ struct Sums {
     triangles: f64,
 }
 
-/// The share of holes with each of some epsilons, on a seed's first rays near edges; none where no two triangles share
+/// The share of holes with each of some epsilons, on a seed's first rays near edges; none where there is no scene, or no two triangles share
 /// one.
 pub fn holes<F: Scalar>(
     setting: &Setting<'_, F>,
@@ -31,6 +31,8 @@ pub fn holes<F: Scalar>(
     count: u64,
     observer: &dyn Observer,
 ) -> Vec<Option<f64>> {
+    // Families are no scene, whose triangles could cover a picture.
+    let Some(scene) = setting.scene else { return vec![None; epsilons.len()] };
     let empty = Sums { leaks: vec![0.0; epsilons.len()], triangles: 0.0 };
     let count = setting.source(Stratum::Edges, seed, count).count::<F>();
     let starts: Vec<u64> = (0..count).step_by(CHUNK as usize).collect();
@@ -38,7 +40,7 @@ pub fn holes<F: Scalar>(
         let mut sums = empty.clone();
         let indices = *start..count.min(start + CHUNK);
         observer.advance(indices.end - indices.start);
-        indices.for_each(|index| sums.add(setting, epsilons, &setting.pixel(seed, index)));
+        indices.for_each(|index| sums.add(setting, epsilons, &setting.pixel(scene, seed, index)));
         sums
     };
     // In their order: sums of floats depend on it.
@@ -94,7 +96,7 @@ mod tests {
         let wide = |point: [f32; 3]| DVec3::from(point.map(f64::from));
         let (mut leaks, mut all, mut found) = (0.0, 0.0, 0);
         for index in 0..count {
-            let Pixel { mut cases, .. } = setting.pixel(7, index);
+            let Pixel { mut cases, .. } = setting.pixel(setting.scene.unwrap(), 7, index);
             let mut draw = Draw::new("uniform", 7, index);
             let own = cases[usize::from(draw.coin())];
             let [origin, d, a, b, c] = own.vectors().map(wide);

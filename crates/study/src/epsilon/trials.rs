@@ -183,8 +183,7 @@ impl<F: Scalar> Setting<'_, F> {
     }
 
     /// A ray of a picture's pixels near a shared edge.
-    pub(super) fn pixel(&self, seed: u64, index: u64) -> Pixel<F> {
-        let scene = self.scene.expect("a scene has shared edges");
+    pub(super) fn pixel(&self, scene: &Scene, seed: u64, index: u64) -> Pixel<F> {
         match self.mesh {
             Some(mesh) => pixel(&mesh.triangles::<F>(scene), scene, seed, index),
             None => pixel(scene, scene, seed, index),
