@@ -283,12 +283,8 @@ impl Request {
         let Some(words) = &self.scene else { return Ok(self.parameters.scene.clone()) };
         let about = |error| PlanError(format!("scene: {error}"));
         let (scene, _) = Scene::parse(words).map_err(about)?;
-        let [in_f32, in_f64] = self.entry.scalars();
-        let held = [(in_f32, scene.check_in::<f32>()), (in_f64, scene.check_in::<f64>())];
-        for (_, held) in held.into_iter().filter(|(runs, _)| *runs) {
-            held.map_err(about)?;
-        }
-        Ok(Some(scene))
+        let (_, why) = scene.held_in(self.entry.scalars()).map_err(about)?;
+        why.map_or(Ok(Some(scene)), |why| Err(about(why)))
     }
 }
 

@@ -19,6 +19,7 @@ use crate::epsilon::{
 };
 use crate::family::STRATA;
 use crate::kernel::{Entry, Scalar, Subject};
+use crate::report::Context;
 use crate::report::epsilon::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
 use crate::studied::Studied;
 use crate::suggest::nearest_name;
@@ -89,7 +90,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     let snippet = arguments.snippet.as_ref().map(std::slice::from_ref);
     let formats = snippet.unwrap_or(&arguments.output.format);
     let outputs = paired_outputs(SCENE_FORMATS, formats, &arguments.output.output)?;
-    set_threads(arguments.threads)?;
+    let threads = set_threads(arguments.threads)?;
     let costs = arguments.cost.as_deref().map_or(Ok(Costs::default()), Costs::parse);
     let costs = costs.map_err(|error| Failure::usage(format!("--cost: {error}")))?;
     let max_error = arguments.max_error.as_deref().map(MaxError::parse).transpose();
@@ -168,7 +169,8 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         }
     }
     progress.finish();
-    let record = scene_record(&studied, &costs, max_error, seed, count, parts);
+    let context = Context { seconds: progress.seconds(), threads };
+    let record = scene_record(&studied, &costs, max_error, seed, count, &context, parts);
     arguments.output.write(outputs, &record)?;
     Ok(Status::Success)
 }
@@ -207,7 +209,8 @@ impl Run<'_> {
         all
     }
 
-    fn study<F: Studied>(&self, tuned: &Tuned<'_>) -> Result<SceneKernelPart, Failure> {
+    /// The part of the record, and the kernel's nanoseconds a ray.
+    fn study<F: Studied>(&self, tuned: &Tuned<'_>) -> Result<(SceneKernelPart, f64), Failure> {
         let Tuned { row, sets, knobs } = tuned;
         let name = row.entry.info.name;
         let missing = || Failure::usage(format!("{name} does not run in {}", F::NAME));
@@ -262,7 +265,7 @@ impl Run<'_> {
         found_margins(name, setting.subject)?;
         let mut study = study.map_err(|error| fault(row.entry, error))?;
         F::try_elsewhere(&setting, &mut study, &self.studied.others, seed, count, progress);
-        Ok(kernel_part(&setting, &tuned.row.contract, &study, max_error))
+        Ok((kernel_part(&setting, &tuned.row.contract, &study, max_error), study.nanoseconds))
     }
 }
 

@@ -162,14 +162,14 @@ impl SourceArguments {
         }
         if !self.mesh.is_empty() {
             let (scene, mesh) = self.mesh_scene(quiet)?;
-            self.note_missed_angles(&scene, Some(&mesh), quiet)?;
+            self.note_what_is_missed(&scene, Some(&mesh), quiet)?;
             return Ok(StudiedRays { scene: Some(scene), mesh: Some(mesh), ..studied });
         }
         let (scene, unit) = self.scene()?.unwrap_or_default();
         if let Some(text) = self.scene.as_deref().filter(|_| !quiet) {
             note_left_out(&scene, text);
         }
-        self.note_missed_angles(&scene, None, quiet)?;
+        self.note_what_is_missed(&scene, None, quiet)?;
         let others = if self.names_kind() { Vec::new() } else { scene.of_all_kinds().split_off(1) };
         Ok(StudiedRays { scene: Some(scene), unit, others, ..studied })
     }
@@ -204,9 +204,16 @@ impl SourceArguments {
         (self.seed, self.count)
     }
 
-    /// True for each scalar of the run: `f32`, `f64`.
+    /// True for each scalar of the run: `f32`, `f64`. One that cannot hold the scene is left out if the other can.
     pub fn scalars(&self) -> Result<[bool; 2], Failure> {
-        chosen_scalars(&self.scalar)
+        let chosen = chosen_scalars(&self.scalar)?;
+        Ok(self.held_in(chosen).map_or(chosen, |(held, _)| held))
+    }
+
+    /// The scalars that can hold the scene that the words are of, and why another cannot; none without a scene.
+    fn held_in(&self, chosen: [bool; 2]) -> Option<([bool; 2], Option<String>)> {
+        let words = self.scene.as_ref().filter(|_| self.mesh.is_empty())?;
+        Scene::parse(words).ok()?.0.held_in(chosen).ok()
     }
 
     /// The sources, meshes and corpora read.
@@ -226,7 +233,7 @@ impl SourceArguments {
             return Err(Failure::usage(message));
         }
         if let Some(scene) = &parameters.scene {
-            self.note_missed_angles(scene, None, quiet)?;
+            self.note_what_is_missed(scene, None, quiet)?;
         }
         let mut sources = Vec::new();
         let families = self.families(usual)?;
@@ -272,13 +279,17 @@ impl SourceArguments {
         Ok(sources)
     }
 
-    /// Says, before a run of a scene's almost parallel rays, which angles they do not have.
-    fn note_missed_angles(
+    /// Says, before a run of a scene, which scalar cannot hold it, and which angles its almost parallel rays do not have.
+    fn note_what_is_missed(
         &self,
         scene: &Scene,
         mesh: Option<&SceneMesh>,
         quiet: bool,
     ) -> Result<(), Failure> {
+        let left_out = self.held_in(chosen_scalars(&self.scalar)?).and_then(|(_, why)| why);
+        if let Some(why) = left_out.filter(|_| !quiet) {
+            eprintln!("left out: {why}");
+        }
         let name = Stratum::Grazing.family().name;
         if !quiet && (self.family.is_empty() || self.family.iter().any(|family| family == name)) {
             note_missed_angles(scene, mesh, self.scalars()?, self.seed_and_count().0);
@@ -290,7 +301,7 @@ impl SourceArguments {
     fn strata_of_mesh(&self, quiet: bool) -> Result<Vec<Source>, Failure> {
         self.refuse_other_families()?;
         let (scene, mesh) = self.mesh_scene(quiet)?;
-        self.note_missed_angles(&scene, Some(&mesh), quiet)?;
+        self.note_what_is_missed(&scene, Some(&mesh), quiet)?;
         let parameters = Parameters { scene: Some(scene), ..Parameters::default() };
         let strata = Stratum::ALL.into_iter().filter(|stratum| {
             let name = stratum.family().name;
@@ -329,17 +340,13 @@ impl SourceArguments {
         })
     }
 
-    /// The scene, which both scalars of the run can hold, and its unit of length.
+    /// The scene, which a scalar of the run can hold, and its unit of length.
     fn scene(&self) -> Result<Option<(Scene, &'static str)>, Failure> {
         let Some(text) = &self.scene else { return Ok(None) };
         self.refuse_other_cases()?;
         let (scene, unit) = Scene::parse(text).map_err(about_scene)?;
         self.refuse_other_families()?;
-        let [in_f32, in_f64] = self.scalars()?;
-        let held = [(in_f32, scene.check_in::<f32>()), (in_f64, scene.check_in::<f64>())];
-        for (_, held) in held.into_iter().filter(|(chosen, _)| *chosen) {
-            held.map_err(about_scene)?;
-        }
+        scene.held_in(chosen_scalars(&self.scalar)?).map_err(about_scene)?;
         Ok(Some((scene, unit)))
     }
 

@@ -113,7 +113,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let rows = arguments.rows()?;
     let scalars = one_scalar(&rows, &arguments.scalar)?;
     refuse_wrong_values(&rows, scalars)?;
-    let FirstRays { scene, unit, mesh } = arguments.first_rays(scalars)?;
+    let FirstRays { scene, scalars, unit, mesh } = arguments.first_rays(scalars)?;
     let (kinds, wall, fold) = (arguments.kinds()?, arguments.wall()?, arguments.fold()?);
     // A mesh has planes of its own.
     let scenes = match Scene::names_kind(&arguments.scene) || mesh.is_some() {
@@ -172,6 +172,8 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
 /// Where first rays come from: a scene, with its unit of length, and the mesh that it is, if it is one.
 struct FirstRays {
     scene: Scene,
+    /// Those of the run that can hold it.
+    scalars: [bool; 2],
     unit: &'static str,
     mesh: Option<Arc<SceneMesh>>,
 }
@@ -276,23 +278,18 @@ impl SpawnArguments {
 
     /// The scene, which the scalars of the run can hold, its unit of length, and the mesh that it is.
     fn first_rays(&self, scalars: [bool; 2]) -> Result<FirstRays, Failure> {
-        let [in_f32, in_f64] = scalars;
         if let Some(path) = &self.mesh {
             let (scene, mesh) = mesh_scene(path, Some(&self.scene), scalars, self.output.quiet)?;
-            return Ok(FirstRays { scene, unit: "", mesh: Some(mesh) });
+            return Ok(FirstRays { scene, scalars, unit: "", mesh: Some(mesh) });
         }
         let wrong = |message: String| Failure::usage(format!("--scene: {message}"));
         let (scene, unit) = Scene::parse(&self.scene).map_err(wrong)?;
-        if in_f32 {
-            scene.check_in::<f32>().map_err(wrong)?;
-        }
-        if in_f64 {
-            scene.check_in::<f64>().map_err(wrong)?;
-        }
+        let (scalars, left_out) = scene.held_in(scalars).map_err(wrong)?;
         if !self.output.quiet {
+            left_out.iter().for_each(|why| eprintln!("left out: {why}"));
             note_left_out(&scene, &self.scene);
         }
-        Ok(FirstRays { scene, unit, mesh: None })
+        Ok(FirstRays { scene, scalars, unit, mesh: None })
     }
 
     fn kinds(&self) -> Result<Vec<PointKind>, Failure> {

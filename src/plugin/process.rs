@@ -36,6 +36,9 @@ pub struct Limits {
 /// After how many cases a process that has never answered is given up.
 const NEVER_ANSWERED: u64 = 3;
 
+/// After how many cases a command is given up whose processes ended on each of them.
+const NEVER_LIVED: u64 = 100;
+
 /// After so many processes that ended between batches, as if all was done, the command is one that does.
 const ENDED: u64 = 3;
 
@@ -257,6 +260,13 @@ impl Process {
                 number_of(patience, "case", "cases")
             ));
         }
+        // A limit that was set is meant.
+        if patience < u64::MAX && !state.has_answered && failures >= NEVER_LIVED {
+            return Err(format!(
+                "it ended on each of its first {failures} cases (--kernel-failures N goes on until more than N fail); \
+                 first: {first}"
+            ));
+        }
         if failures > most {
             return Err(format!(
                 "it failed on more than {most} cases, the limit of --kernel-failures; first: {first}"
@@ -364,7 +374,7 @@ impl<F: Float> Subject<F> for Process {
         notes.extend(state.margins.note());
         if self.program.said.are_too_many() {
             notes.push(format!(
-                "it writes more than {MOST_LINES} lines to standard error; the rest is left out"
+                "it writes more than {MOST_LINES} different lines to standard error; the rest is left out"
             ));
         }
         notes

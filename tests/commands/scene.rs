@@ -105,6 +105,20 @@ fn scenes_are_sources_whose_cases_explain_themselves() {
 }
 
 #[test]
+fn a_scalar_that_cannot_hold_the_scene_is_left_out_with_a_word() {
+    let folder = scratch("scene-left-out");
+    let far = ["--scene", "extent=5,center=2e6,edge=0.01..3,distance=0..10", "-n", "1000"];
+    for command in [&["epsilon", "--kernel", "cramer"][..], &["spawn", "--scalar", "f32,f64"]] {
+        let (out, error) = ends(&folder, &[command, &far].concat(), 0);
+        let why = "left out: triangles of edge 0.01 collapse at coordinates of 2000005, where the numbers of f32";
+        assert_eq!(error.matches(why).count(), 1, "{error}");
+        assert!(out.contains("f64") && !out.contains("f32"), "{out}");
+        let (out, error) = ends(&folder, &[command, &far, &["-q"]].concat(), 0);
+        assert!(out.contains("f64") && error.is_empty(), "{error}");
+    }
+}
+
+#[test]
 fn bad_scenes_get_one_clear_line() {
     let folder = scratch("scene-bad");
     let scenes = [
@@ -119,7 +133,8 @@ fn bad_scenes_get_one_clear_line() {
     ];
     for (scene, part) in scenes {
         for command in ["epsilon", "audit"] {
-            let arguments = [command, "--kernel", "moller-trumbore", "--scene", scene];
+            let kernel = ["--kernel", "moller-trumbore", "--scalar", "f32"];
+            let arguments = [&[command, "--scene", scene], &kernel[..]].concat();
             let (out, error) = ends(&folder, &arguments, 2);
             assert!(out.is_empty() && error.lines().count() == 1, "{scene}: {error}");
             assert!(error.contains("--scene: ") && error.contains(part), "{scene}: {error}");

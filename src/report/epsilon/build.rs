@@ -12,17 +12,25 @@ use crate::epsilon::{
     Proved, SceneStudy, Setting, StudiedRays, Tried, Value, fresh_seed,
 };
 use crate::kernel::{Role, Scalar, Tunable};
+use crate::report::Context;
+use crate::report::build::provenance_of;
 use crate::report::record::Rate;
 
-/// The record of some studies of one scene.
+/// The record of some studies of one scene, each with the kernel's nanoseconds a ray.
 pub fn scene_record(
     studied: &StudiedRays,
     costs: &Costs,
     max_error: Option<&MaxError>,
     seed: u64,
     count: u64,
-    kernels: Vec<SceneKernelPart>,
+    context: &Context,
+    kernels: Vec<(SceneKernelPart, f64)>,
 ) -> SceneRecord {
+    let mut provenance = provenance_of(context);
+    for (part, nanoseconds) in &kernels {
+        let times = provenance.kernel_nanoseconds.entry(part.scalar.clone()).or_default();
+        times.insert(part.kernel.clone(), *nanoseconds);
+    }
     let StudiedRays { scene: of_scene, sources, flags, unit, mesh, .. } = studied;
     let scene = of_scene.clone().unwrap_or_default();
     SceneRecord {
@@ -49,7 +57,8 @@ pub fn scene_record(
             .into_iter()
             .filter_map(|value| Some(named(value.name(), max_error?.of(value)?)))
             .collect(),
-        kernels,
+        kernels: kernels.into_iter().map(|(part, _)| part).collect(),
+        provenance,
     }
 }
 

@@ -4,7 +4,7 @@ use super::answer::{Answer, LimitRow, PICTURE};
 use super::legend::legend;
 use super::plot::{footer, panels};
 use super::record::{SceneKernelPart, SceneRecord};
-use super::standing::{coarse, standing, telling};
+use super::standing::{coarse, of_given, standing, telling};
 use super::words::{label, share};
 use crate::case::{Scene, SceneKind};
 use crate::epsilon::Rays;
@@ -29,6 +29,7 @@ pub(super) fn of_kernel(
     let mut blocks = vec![Block::text(standing(record, part).1)];
     blocks.extend(coarse(record, part).map(Block::Text));
     blocks.extend(answer.used.iter().cloned().map(Block::Use));
+    blocks.extend(of_given(record, part).map(Block::Text));
     let title = match record.has_scene() {
         true => format!("wrong on fresh rays (seed {})", record.fresh_seed),
         false => format!("wrong (seed {})", record.fresh_seed),

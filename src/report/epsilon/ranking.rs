@@ -41,7 +41,8 @@ pub(super) fn page(record: &SceneRecord) -> Page {
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
         blocks.extend(record.has_scene().then(|| Block::text(fitness(record, best.part))));
-        let heads = [*scalar, "cost", "leaks", "lost inside", "self-hits"].map(Head::of).into();
+        let heads = [*scalar, "cost", "leaks", "lost inside", "self-hits", "ns a ray"];
+        let heads = heads.map(Head::of).into();
         let all = rows.iter().map(|alike| row(record, alike)).collect();
         blocks.push(Block::Table(Table::new(heads, all).at_most(most)));
     }
@@ -119,6 +120,7 @@ fn row(record: &SceneRecord, Alike { part, best, names }: &Alike) -> Row {
         cell(|count| count.kind == Kind::Crack),
         cell(is_lost),
         cell(|count| count.kind == Kind::SelfHit),
+        record.nanoseconds(part).map_or("-".to_owned(), |time| format!("{time:.0}")),
     ];
     let used = answer(record, part).used.into_iter().next();
     let used = used.map(|used| {

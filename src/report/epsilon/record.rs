@@ -2,14 +2,14 @@
 
 pub(super) use crate::epsilon::{Count, Kind, Rays};
 pub(super) use crate::family::Stratum;
-use crate::report::record::Rate;
+use crate::report::record::{Provenance, Rate};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The schema's name and version.
 pub const SCENE_SCHEMA: &str = "hairline-scene/1";
 
-/// Everything that a study found; the same bytes whatever the number of threads.
+/// Everything that a study found; but for `provenance` the same bytes whatever the number of threads.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -51,12 +51,19 @@ pub struct SceneRecord {
     pub max_error: Vec<NamedNumber>,
     /// One entry for each kernel and scalar.
     pub kernels: Vec<SceneKernelPart>,
+    /// Where and how it was made.
+    pub provenance: Provenance,
 }
 
 impl SceneRecord {
     /// True if it is about a scene, and not about families or stored cases.
     pub fn has_scene(&self) -> bool {
         !self.scene.is_empty()
+    }
+
+    /// The nanoseconds that a ray took in a kernel.
+    pub fn nanoseconds(&self, part: &SceneKernelPart) -> Option<f64> {
+        self.provenance.kernel_nanoseconds.get(&part.scalar)?.get(&part.kernel).copied()
     }
 }
 

@@ -1,9 +1,9 @@
 //! May these numbers be used? The sentence that stands first: good, a trade, or no good; and the rows that argue for it.
 
 use super::fitness::{fitness, is_fine};
-use super::notes::no_good;
+use super::notes::{is_no_good, no_good};
 use super::record::*;
-use super::words::share;
+use super::words::{human, share};
 use crate::report::page::Tone;
 use crate::report::record::Rate;
 
@@ -17,7 +17,7 @@ pub(super) fn standing(record: &SceneRecord, part: &SceneKernelPart) -> (Tone, S
         return (Tone::Bad, sentences(&flaws));
     }
     let trades: Vec<String> = (0..part.knobs.len()).filter_map(|knob| trade(part, knob)).collect();
-    match (&trades[..], remains(record, part)) {
+    match (&trades[..], remains(record, part, &part.tried[0], 2)) {
         ([], None) => {
             let within = "Good: every number is within all of its limits.";
             (Tone::Good, format!("{within}{}", one_sided(part)))
@@ -31,6 +31,53 @@ pub(super) fn standing(record: &SceneRecord, part: &SceneKernelPart) -> (Tone, S
             (Tone::Plain, format!("A trade: {}. What is left: {rest}.", trades.join("; ")))
         }
     }
+}
+
+/// More than the best cost by less than this share of it is as good, within ten times what is telling.
+const AS_GOOD: f64 = 0.1;
+
+/// So many given numbers are judged.
+const MOST_GIVEN: usize = 3;
+
+/// How good the numbers are that the kernel came with, or the user gave, a sentence each.
+pub(super) fn of_given(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
+    let best = &part.tried[0];
+    let sentence = |tried: &TriedPart| {
+        let numbers = part.knobs.iter().zip(&tried.epsilons);
+        let numbers = numbers.map(|(knob, e)| format!("{}={}", knob.name, human(e)));
+        let numbers = numbers.collect::<Vec<_>>().join(",");
+        let is_as_good = |cost: fn(&SceneRecord, &SceneKernelPart, &TriedPart) -> f64| {
+            let [own, best] = [tried, best].map(|tried| cost(record, part, tried));
+            own - best <= (AS_GOOD * best).clamp(TELLING, 10.0 * TELLING)
+        };
+        let costs = format!("cost {:.3} against {:.3}", tried.cost, best.cost);
+        let rest = remains(record, part, tried, 1);
+        let rest = rest.map_or(String::new(), |rest| format!(": {rest}"));
+        let judged = match is_no_good(record, part, tried) {
+            _ if is_as_good(|_, _, tried| tried.cost) => format!("as good ({costs})"),
+            _ if is_as_good(cost_without_self_hits) => {
+                format!("as good once shadow rays start off the surface; else not ({costs})")
+            }
+            true => format!("no good ({costs}){rest}"),
+            false => format!("worse ({costs}){rest}"),
+        };
+        match tried.name.as_str() {
+            "source" => format!("As published: {judged}."),
+            _ => format!("At {numbers}: {judged}."),
+        }
+    };
+    // The last ones are those of `--at`.
+    let mut given = part.tried[1..].iter().rev().filter(|tried| tried.name != "zero");
+    let mut sentences: Vec<String> = given.by_ref().take(MOST_GIVEN).map(sentence).collect();
+    sentences.reverse();
+    (!sentences.is_empty()).then(|| sentences.join(" "))
+}
+
+/// The cost of all wrong answers but self-hits, which starts off the surface end too.
+fn cost_without_self_hits(record: &SceneRecord, part: &SceneKernelPart, tried: &TriedPart) -> f64 {
+    let counts = part.counts.iter().zip(&tried.wrong);
+    let others = counts.filter(|(count, _)| count.kind != Kind::SelfHit);
+    others.map(|(count, rate)| cost_of(record, count) * rate.rate.unwrap_or(0.0)).sum()
 }
 
 /// The knobs that some rays limit on one side and no rays on the other.
@@ -88,17 +135,22 @@ fn beyond_limits(part: &SceneKernelPart, knob: usize) -> Option<&str> {
     part.limits.iter().any(is_beyond).then_some(epsilon)
 }
 
-/// The wrong answers that make most of the cost, in words, if that is worth a word.
-fn remains(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
+/// The wrong answers that make most of the cost, so many of them, in words, if that is worth a word.
+fn remains(
+    record: &SceneRecord,
+    part: &SceneKernelPart,
+    tried: &TriedPart,
+    most: usize,
+) -> Option<String> {
     let of_count = |(count, rate): (&Count, &Rate)| {
         let part = rate.rate.filter(|_| 0 < rate.count)?;
         Some((cost_of(record, count) * part, phrase(count, &share(rate))))
     };
     let mut all: Vec<(f64, String)> =
-        part.counts.iter().zip(&part.tried[0].wrong).filter_map(of_count).collect();
+        part.counts.iter().zip(&tried.wrong).filter_map(of_count).collect();
     all.retain(|(cost, _)| TELLING < *cost);
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
-    all.truncate(2);
+    all.truncate(most);
     let words: Vec<String> = all.into_iter().map(|(_, words)| words).collect();
     (!words.is_empty()).then(|| words.join(", "))
 }

@@ -329,6 +329,18 @@ impl Scene {
         }
         Ok(())
     }
+
+    /// Those of some scalars (`f32`, `f64`) that can hold the scene, and why another cannot. The error says why none can.
+    pub fn held_in(&self, scalars: [bool; 2]) -> Result<([bool; 2], Option<String>), String> {
+        let all = [self.check_in::<f32>().err(), self.check_in::<f64>().err()];
+        let held = [0, 1].map(|i| scalars[i] && all[i].is_none());
+        let mut reasons =
+            all.into_iter().zip(scalars).filter_map(|(why, is_chosen)| why.filter(|_| is_chosen));
+        match reasons.next() {
+            Some(why) if held == [false; 2] => Err(why),
+            why => Ok((held, why)),
+        }
+    }
 }
 
 mod kinds;

@@ -44,8 +44,27 @@ pub(super) struct Wrong {
     pub trials: Vec<Vec<Trials>>,
     /// The errors of the hits that remain, for the first attempts.
     pub of_hits: Vec<OfHits>,
-    /// A disagreement between margins and the kernel's run.
+    /// The kernel's own runs.
+    pub ran: Ran,
+}
+
+/// Runs of a kernel itself, beside its margins.
+#[derive(Default)]
+pub(super) struct Ran {
+    /// A disagreement between margins and runs.
     pub fault: Option<String>,
+    /// The nanoseconds that runs at the first epsilons took, by the kernel's own clock if it has one.
+    pub nanoseconds: u64,
+    /// How many rays they were.
+    pub rays: u64,
+}
+
+impl Merge for Ran {
+    fn merge(&mut self, other: Ran) {
+        self.fault = self.fault.take().or(other.fault);
+        self.nanoseconds += other.nanoseconds;
+        self.rays += other.rays;
+    }
 }
 
 /// The errors of the hits that remain, by count.
@@ -74,7 +93,7 @@ impl Merge for Wrong {
         let counts = self.trials.iter_mut().flatten().zip(other.trials.iter().flatten());
         counts.for_each(|(sum, more)| sum.merge(more));
         self.of_hits.iter_mut().zip(other.of_hits).for_each(|(sum, more)| sum.merge(more));
-        self.fault = self.fault.take().or(other.fault);
+        self.ran.merge(other.ran);
     }
 }
 
@@ -85,7 +104,7 @@ impl Wrong {
         let errors = vec![ErrorSums::default(); counts.len()];
         let (exceeded, doubles) = (none.clone(), none.clone());
         let of_hits = vec![OfHits { errors, exceeded, doubles }; with_errors];
-        Wrong { trials: vec![none; attempts], of_hits, fault: None }
+        Wrong { trials: vec![none; attempts], of_hits, ran: Ran::default() }
     }
 
     fn add_errors<F: Scalar>(
@@ -137,7 +156,7 @@ pub fn count_at<F: Scalar>(
     count: u64,
     observer: &dyn Observer,
 ) -> Vec<Vec<Trials>> {
-    measure(setting, attempts, 0, None, seed, count, observer, |_, _| None).trials
+    measure(setting, attempts, 0, None, seed, count, observer, |_, _| Ran::default()).trials
 }
 
 /// The same, and the errors of the hits of the first attempts; a check may find a fault in a chunk.
@@ -150,7 +169,7 @@ pub(super) fn measure<F: Scalar>(
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-    check: impl Fn(&[Case<F>], &[Margins<F>]) -> Option<String> + Sync,
+    check: impl Fn(&[Case<F>], &[Margins<F>]) -> Ran + Sync,
 ) -> Wrong {
     let empty = || Wrong::new(attempts.len(), with_errors, setting.counts);
     let add = |sums: &mut Wrong, trial: Trial<'_, F>| {
@@ -160,7 +179,7 @@ pub(super) fn measure<F: Scalar>(
         }
     };
     let look = |sums: &mut Wrong, cases: &[Case<F>], margins: &[Margins<F>]| {
-        sums.fault = sums.fault.take().or_else(|| check(cases, margins));
+        sums.ran.merge(check(cases, margins));
     };
     setting.sum_with(seed, count, observer, empty, add, look)
 }
@@ -169,7 +188,8 @@ pub(super) fn measure<F: Scalar>(
 pub(super) fn differs<F: Scalar>(
     setting: &Setting<'_, F>,
     at: &[Vec<F>],
-) -> impl Fn(&[Case<F>], &[Margins<F>]) -> Option<String> + Sync {
+    observer: &dyn Observer,
+) -> impl Fn(&[Case<F>], &[Margins<F>]) -> Ran + Sync {
     let with_least_t = |at: &Vec<F>| {
         let (mut epsilons, mut least_t) = (setting.row.epsilons::<F>(), -F::infinity());
         for (knob, epsilon) in setting.knobs.iter().zip(at) {
@@ -184,9 +204,14 @@ pub(super) fn differs<F: Scalar>(
     let has_least_t = setting.knobs.contains(&Knob::LeastT);
     let subject = setting.subject;
     move |cases, margins| {
-        all.iter().find_map(|(at, epsilons, least_t)| {
+        let mut ran = Ran { rays: cases.len() as u64, ..Ran::default() };
+        ran.fault = all.iter().enumerate().find_map(|(i, (at, epsilons, least_t))| {
             let mut verdicts = vec![Verdict::miss(None); cases.len()];
-            verdicts_of(subject, cases, epsilons, &mut verdicts);
+            let start = observer.now();
+            let own = verdicts_of(subject, cases, epsilons, &mut verdicts);
+            if i == 0 {
+                ran.nanoseconds = own.unwrap_or_else(|| observer.now() - start);
+            }
             let is_hit =
                 |verdict: &Verdict<F>| verdict.hit && (!has_least_t || *least_t <= verdict.t);
             let known = cases.iter().zip(margins).zip(&verdicts);
@@ -204,7 +229,8 @@ pub(super) fn differs<F: Scalar>(
                 at.collect::<Vec<_>>().join(","),
                 case.hex()
             ))
-        })
+        });
+        ran
     }
 }
 

@@ -7,7 +7,7 @@ use super::errors::{ErrorSums, MaxError};
 use super::joint::{Costs, Grid, Joint};
 use super::knob::{Knob, Margins};
 use super::limits::{Limit, all_limits, between, limits, printed};
-use super::measure::{Attempt, OfHits, Wrong, differs, measure};
+use super::measure::{Attempt, OfHits, Ran, Wrong, differs, measure};
 use super::picture::holes;
 use super::prepared::Store;
 use super::proved::{Proved, proved};
@@ -43,6 +43,8 @@ pub struct SceneStudy<F> {
     pub relative_limits: Vec<Limit<F>>,
     /// The results of the cheapest epsilons on planes of other kinds, once they are tried.
     pub elsewhere: Vec<Elsewhere>,
+    /// The kernel's nanoseconds a ray, with the cheapest epsilons.
+    pub nanoseconds: f64,
 }
 
 /// The results of the recommended epsilons on planes and rays of one kind, fresh ones.
@@ -135,10 +137,10 @@ pub fn study_scene<F: Scalar>(
     attempts.extend(proofs.iter().map(at_proved));
     let plain_ones: Vec<Vec<F>> =
         attempts[..plain].iter().map(|attempt| attempt.epsilons.clone()).collect();
-    let differs = differs(setting, &plain_ones);
+    let differs = differs(setting, &plain_ones, observer);
     let run = measure(setting, &attempts, plain, max_error, fresh, count, observer, differs);
-    let Wrong { trials: mut wrong, of_hits, fault } = run;
-    fault.map_or(Ok(()), Err)?;
+    let Wrong { trials: mut wrong, of_hits, ran } = run;
+    ran.fault.map_or(Ok(()), Err)?;
     let of_proofs = wrong.split_off(attempts.len() - proofs.len());
     let mut of_limits = wrong.split_off(plain).into_iter();
     let rays: Vec<u64> = wrong[0].iter().map(|trials| trials.of).collect();
@@ -182,7 +184,7 @@ pub fn study_scene<F: Scalar>(
     let (relative, relative_limits) = match followed {
         Some((followed, found)) => {
             let attempt = [Attempt::new(followed.clone())];
-            let no_run = |_: &[Case<F>], _: &[Margins<F>]| None;
+            let no_run = |_: &[Case<F>], _: &[Margins<F>]| Ran::default();
             let mut sums =
                 measure(&following, &attempt, 1, max_error, fresh, count, observer, no_run);
             let holes = pictures(&following, slice::from_ref(&followed)).remove(0);
@@ -205,6 +207,7 @@ pub fn study_scene<F: Scalar>(
         relative,
         relative_limits,
         elsewhere: Vec::new(),
+        nanoseconds: ran.nanoseconds as f64 / ran.rays.max(1) as f64,
     })
 }
 

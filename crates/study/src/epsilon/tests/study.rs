@@ -1,6 +1,6 @@
 //! A whole study: what it chooses, names and tries on fresh rays.
 
-use super::super::measure::{differs, measure};
+use super::super::measure::{Ran, differs, measure};
 use super::*;
 use crate::case::Case;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -216,15 +216,16 @@ fn a_pass_tells_a_fault_of_any_chunk_and_the_errors_of_one_attempt() {
     let with_fault_at = |wanted: usize| {
         let looked = AtomicUsize::new(0);
         let check = |_: &[Case<f32>], _: &[Margins<f32>]| {
-            (looked.fetch_add(1, Relaxed) == wanted).then(|| "off".to_owned())
+            let fault = (looked.fetch_add(1, Relaxed) == wanted).then(|| "off".to_owned());
+            Ran { fault, ..Ran::default() }
         };
         let found = measure(&tuned.setting(), &attempts, 1, None, 6, 300, &Unobserved, check);
         (found, looked.into_inner())
     };
     let (sound, chunks) = with_fault_at(usize::MAX);
-    assert!(sound.fault.is_none() && 5 < chunks);
+    assert!(sound.ran.fault.is_none() && 5 < chunks);
     for chunk in 0..chunks {
-        assert_eq!(with_fault_at(chunk).0.fault.as_deref(), Some("off"), "{chunk} of {chunks}");
+        assert_eq!(with_fault_at(chunk).0.ran.fault.as_deref(), Some("off"), "{chunk} of {chunks}");
     }
     let all = tuned.all(6, 300);
     for (c, errors) in sound.of_hits[0].errors.iter().enumerate() {
@@ -240,12 +241,12 @@ fn a_run_that_is_not_what_its_margins_say_is_told() {
         let tuned = Tuned::new(kernel, "room");
         let setting = tuned.setting();
         let point = [epsilons[..tuned.knobs.len()].to_vec()];
-        let differs = differs(&setting, &point);
+        let differs = differs(&setting, &point, &Unobserved);
         let told = |change: &(dyn Fn(Margins<f32>) -> Margins<f32> + Sync)| {
             let check = |cases: &[Case<f32>], margins: &[Margins<f32>]| {
                 differs(cases, &margins.iter().map(|margins| change(*margins)).collect::<Vec<_>>())
             };
-            measure(&setting, &[], 0, None, 6, 300, &Unobserved, check).fault
+            measure(&setting, &[], 0, None, 6, 300, &Unobserved, check).ran.fault
         };
         assert_eq!(told(&|margins| margins), None, "{kernel}");
         let [hit, miss] = [f32::MAX, f32::MIN].map(|all| told(&move |_| [all; 3]).unwrap());
