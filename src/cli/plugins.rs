@@ -65,6 +65,9 @@ const PATIENCE_SECONDS: f64 = 30.0;
 /// On how many cases it may fail by default.
 const FAILURES: u64 = 1000;
 
+/// A kernel that fails on so many cases before it answers any is given up.
+const FIRST_FAILURES: u64 = 100;
+
 impl Default for PluginArguments {
     fn default() -> PluginArguments {
         PluginArguments {
@@ -151,16 +154,18 @@ impl PluginArguments {
         }
         let silence = Duration::from_secs_f64(seconds);
         let failures = self.kernel_failures.unwrap_or(FAILURES);
-        let timeouts = match self.kernel_failures {
-            Some(failures) => failures.saturating_add(1),
-            None => ((PATIENCE_SECONDS / seconds).ceil() as u64).max(3),
+        // A limit that is set is meant.
+        let (first_failures, timeouts) = match self.kernel_failures {
+            Some(failures) => (u64::MAX, failures.saturating_add(1)),
+            None => (FIRST_FAILURES, ((PATIENCE_SECONDS / seconds).ceil() as u64).max(3)),
         };
         let tell: fn(&str) = |line| {
             if !IS_QUIET.load(Ordering::Relaxed) {
                 eprintln!("{line}");
             }
         };
-        Ok(Limits { silence, failures, timeouts, tell, require_ieee: self.require_ieee })
+        let require_ieee = self.require_ieee;
+        Ok(Limits { silence, failures, first_failures, timeouts, tell, require_ieee })
     }
 }
 

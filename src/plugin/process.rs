@@ -25,6 +25,8 @@ pub struct Limits {
     pub silence: Duration,
     /// On how many cases it may crash or hang before the run ends.
     pub failures: u64,
+    /// The run ends if it crashes or hangs on so many cases and answered none before.
+    pub first_failures: u64,
     /// With how many silences the run ends.
     pub timeouts: u64,
     /// Is told of each silence, in one line.
@@ -35,9 +37,6 @@ pub struct Limits {
 
 /// After how many cases a process that has never answered is given up.
 const NEVER_ANSWERED: u64 = 3;
-
-/// After how many cases a command is given up whose processes ended on each of them.
-const NEVER_LIVED: u64 = 100;
 
 /// After so many processes that ended between batches, as if all was done, the command is one that does.
 const ENDED: u64 = 3;
@@ -260,8 +259,7 @@ impl Process {
                 number_of(patience, "case", "cases")
             ));
         }
-        // A limit that was set is meant.
-        if patience < u64::MAX && !state.has_answered && failures >= NEVER_LIVED {
+        if !state.has_answered && failures >= self.limits.first_failures {
             return Err(format!(
                 "it ended on each of its first {failures} cases (--kernel-failures N goes on until more than N fail); \
                  first: {first}"
