@@ -801,7 +801,10 @@ fn an_encoding_that_was_not_announced_is_explained() {
     let flags = ["audit", "--kernel-timeout", "0.3", "--kernel-cmd"];
     let deaf = shell("cat >/dev/null");
     let error = refused(&[&flags[..], &[&deaf], &FLAGS].concat(), 65);
-    assert!(error.contains("it has answered none of 3 cases, each within 0.3 s: "), "{error}");
+    // The other thread may be waiting for a fourth.
+    let told =
+        |n: u64| error.contains(&format!("it has answered none of {n} cases, each within 0.3 s: "));
+    assert!(told(3) || told(4), "{error}");
     assert!(start.elapsed() < Duration::from_secs(30));
 }
 
