@@ -1,5 +1,6 @@
 //! `hairline check`: a run held to its expectations.
 
+use super::again;
 use super::exit::{Failure, Status};
 use super::flags::JUDGING;
 use super::github;
@@ -177,7 +178,7 @@ fn checked(
     let known_file = expected.is_some().then_some(file.as_str());
     let mut expected = expected.unwrap_or_default();
     let (result, target) = (&record.result, record.provenance.target.as_str());
-    let mut conformance = expect::compare(result, target, &expected, known_file);
+    let mut conformance = again::compare(plan.as_ref(), result, target, &expected, known_file);
     if known_file.is_none() && !conformance.unexpected.is_empty() {
         let has_settings = arguments.config.is_some() || Path::new(settings::FILE).exists();
         conformance.note = Some(first_steps(file, conformance.unexpected.len(), has_settings));
@@ -188,7 +189,11 @@ fn checked(
     }
     if arguments.bless {
         let change = conformance.change;
-        if known_file.is_some() && change.is_worse() && !arguments.accept_worse {
+        if !conformance.unsteady.is_empty() {
+            eprintln!(
+                "hairline: {file} stays as it is: no run meets what answers that differ from run to run give"
+            );
+        } else if known_file.is_some() && change.is_worse() && !arguments.accept_worse {
             let instead = match conformance.method {
                 Method::CaseByCase => "",
                 Method::Intervals => {
@@ -215,6 +220,7 @@ fn checked(
     github::announce(&record)?;
     Ok(match record.conformance.map(|conformance| conformance.verdict) {
         Some(Verdict::Disagreements) => Status::Disagreements,
+        Some(Verdict::Unsteady) => Status::BadInput,
         Some(Verdict::Stale) => Status::Stale,
         _ => Status::Success,
     })

@@ -36,6 +36,7 @@ fn annotations(conformance: &Conformance) -> Vec<String> {
     };
     let mut lines: Vec<String> = conformance.unproved.iter().map(missing).collect();
     for (list, title) in [
+        (&conformance.unsteady, "answers differ from run to run"),
         (&conformance.unexpected, "unexpected disagreement"),
         (&conformance.stale, "stale expectation"),
     ] {

@@ -10,6 +10,7 @@ macro_rules! eprintln {
     }};
 }
 
+mod again;
 mod audit;
 mod before;
 mod case;

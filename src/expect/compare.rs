@@ -46,6 +46,7 @@ pub fn compare(
         change: NetChange::default(),
         rows: known.target.map_or(Vec::new(), |target| changed_rows(&result.plan, target)),
         unproved: Vec::new(),
+        unsteady: Vec::new(),
         unexpected: Vec::new(),
         stale: Vec::new(),
         known: Vec::new(),

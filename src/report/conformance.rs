@@ -31,6 +31,9 @@ pub struct Conformance {
     /// Proofs that `[proved]` demands and that there are none of.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unproved: Vec<Unproved>,
+    /// The first answer that differed, of each kernel row whose answers differ from run to run: it is not compared.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unsteady: Vec<Deviation>,
     /// Disagreements that were not expected, or are worse than expected.
     pub unexpected: Vec<Deviation>,
     /// Expectations that no longer come true: what was wrong is less so, or gone.
@@ -52,6 +55,8 @@ pub enum Verdict {
     Conforms,
     /// There are unexpected disagreements, or proofs missing.
     Disagreements,
+    /// There are none, but kernels whose answers differ from run to run.
+    Unsteady,
     /// There are none, but expectations that no longer come true.
     Stale,
 }
@@ -275,6 +280,14 @@ impl Conformance {
         self.unproved = unproved;
     }
 
+    /// Sets aside what is not compared, because answers differ from run to run.
+    pub fn set_aside(&mut self, unsteady: Vec<Deviation>) {
+        if !unsteady.is_empty() && self.verdict != Verdict::Disagreements {
+            self.verdict = Verdict::Unsteady;
+        }
+        self.unsteady = unsteady;
+    }
+
     /// One line.
     pub fn summary(&self) -> String {
         let count = |list: &[Deviation], one: &str, many: &str| {
@@ -287,6 +300,7 @@ impl Conformance {
         let verdict = match self.verdict {
             Verdict::Conforms => "conforms",
             Verdict::Disagreements => "does not conform",
+            Verdict::Unsteady => "cannot be compared",
             Verdict::Stale => "better than expected: the expectations are stale",
         };
         let NetChange { worse, new, other_cases, .. } = self.change;
@@ -302,8 +316,15 @@ impl Conformance {
             1 => "1 proof missing, ".to_owned(),
             n => format!("{n} proofs missing, "),
         };
+        let unsteady = match self.unsteady.len() {
+            0 => String::new(),
+            n => {
+                let rows = number_of(n as u64, "kernel row", "kernel rows");
+                format!("answers of {rows} differ from run to run, ")
+            }
+        };
         format!(
-            "{verdict}: {proofs}{}{how}, {}, {}{}",
+            "{verdict}: {proofs}{unsteady}{}{how}, {}, {}{}",
             count(&self.unexpected, "unexpected disagreement", "unexpected disagreements"),
             count(&self.stale, "stale expectation", "stale expectations"),
             match self.expected() {

@@ -43,6 +43,12 @@ impl Key {
         Key { class: ALL_CLASSES.to_owned(), ..self.clone() }
     }
 
+    /// True if it is of the same kernel row in the same scalar.
+    pub fn is_of_row(&self, other: &Key) -> bool {
+        let row = |key: &Key| [&key.kernel, &key.set, &key.scalar].map(Clone::clone);
+        row(self) == row(other)
+    }
+
     /// `kernel (set)`.
     pub fn row(&self) -> String {
         format!("{} ({})", self.kernel, self.set)

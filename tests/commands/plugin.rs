@@ -318,6 +318,49 @@ fn crashes_are_expected_once_they_are_blessed() {
 }
 
 #[test]
+fn a_kernel_whose_second_answer_is_another_is_named_and_is_no_regression() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("plugin-unsteady");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("e.toml");
+    let check = |fault: &str, more: &[&str], code: i32| {
+        let library = misbehaving(fault)?;
+        let plan = ["check", "-q", "--family", "outside", "-n", "300", "--scalar", "f64"];
+        let plan = [&plan[..], &["--expectations", file.to_str()?, "--threads", "1"]].concat();
+        let output = hairline(&[&plan[..], &["--kernel-lib", &library], more].concat());
+        assert_eq!(output.status.code(), Some(code), "{output:?}");
+        Some([&output.stdout, &output.stderr].map(|bytes| flat(&text(bytes))))
+    };
+    let bless = &["--bless", "--accept-worse"];
+    let Some([_, error]) = check("UNSTEADY", bless, 65) else { return };
+    assert!(error.contains("e.toml stays as it is: no run meets what "), "{error}");
+    assert!(!file.exists());
+    check("SEGFAULT", bless, 0);
+    let [out, _] = check("UNSTEADY", &["--format", "text"], 65).unwrap();
+    let expected = [
+        "Cannot be compared: answers of 1 kernel row differ from run to run, 0 unexpected disagreements, 0 stale ",
+        "expected the same answer each time, but answers differ from run to run: asked again, the case shown is none",
+        "hairline explain 'outside@2/f64/-/1/",
+    ];
+    for expected in expected {
+        assert!(out.contains(expected), "{expected}: {out}");
+    }
+    for (format, expected) in [("junit", "failure type="), ("sarif", "\"ruleId\":\"unsteady\"")] {
+        let [out, _] = check("UNSTEADY", &["--format", format], 65).unwrap();
+        assert!(out.replace(": ", ":").contains(expected), "{out}");
+    }
+    // The same together twice, and otherwise alone: it did get worse.
+    let [out, _] = check("BY_PLACE", &[], 1).unwrap();
+    let expected =
+        "; asked alone, the case shown is none: the answer depends on the cases asked before it";
+    assert!(out.contains(expected), "{out}");
+    // What is the same each time is a regression as before.
+    check("NOTHING", bless, 0);
+    let [out, _] = check("RETURN_NAN", &[], 1).unwrap();
+    assert!(!out.contains("asked a"), "{out}");
+}
+
+#[test]
 fn records_of_a_library_are_merged_when_it_is_named_again() {
     let source = PathBuf::from(HERE).join("examples/c/moller_trumbore.c");
     let Some(library) = library(&source, "merged", &[]) else { return };

@@ -88,9 +88,11 @@ fn suites(record: &Record) -> BTreeMap<String, Suite> {
                 let failure = (unproved.to_string(), unproved.command.clone());
                 case_of(&mut suites, &unproved.key()).failures.push(failure);
             }
-            for (list, title) in
-                [(&conformance.unexpected, "unexpected"), (&conformance.stale, "stale")]
-            {
+            for (list, title) in [
+                (&conformance.unsteady, "unsteady"),
+                (&conformance.unexpected, "unexpected"),
+                (&conformance.stale, "stale"),
+            ] {
                 for found in list {
                     let failure = (format!("{title}: {}", found.describe()), lines(found));
                     case_of(&mut suites, &found.key()).failures.push(failure);

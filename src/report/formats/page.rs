@@ -24,7 +24,7 @@ impl Paged for Record {
                 let title = std::mem::replace(&mut page.title, capitalised(&conformance.summary()));
                 page.tone = match conformance.verdict {
                     Verdict::Conforms => Tone::Good,
-                    Verdict::Disagreements => Tone::Bad,
+                    Verdict::Disagreements | Verdict::Unsteady => Tone::Bad,
                     Verdict::Stale => Tone::Stale,
                 };
                 page.command = "check";

@@ -13,6 +13,9 @@ const MOST_RESULTS: usize = 5_000;
 /// The rule of expectations that no longer come true.
 const STALE: &str = "stale-expectation";
 
+/// The rule of kernels whose second answer to a case is another.
+const UNSTEADY: &str = "unsteady";
+
 /// Where the format is defined.
 const SCHEMA: &str =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
@@ -73,8 +76,10 @@ fn write_log(
 /// The rules, whose order and names are stable: new ones go to the end.
 fn rules() -> Vec<Value> {
     let stale = (STALE, "What was expected to be wrong is less so, or right");
+    let unsteady = (UNSTEADY, "Answers differ from run to run");
     let rule = |kind: &FindingKind| (kind.name(), kind.about());
-    let all = FindingKind::FOUND.iter().map(rule).chain([stale, rule(&FindingKind::Unproved)]);
+    let others = [stale, rule(&FindingKind::Unproved), unsteady];
+    let all = FindingKind::FOUND.iter().map(rule).chain(others);
     all.map(|(id, text)| json!({ "id": id, "shortDescription": { "text": text } })).collect()
 }
 
@@ -89,14 +94,18 @@ fn of_check(conformance: &Conformance) -> Vec<Value> {
         .unexpected
         .iter()
         .map(|found| deviation(found, found.finding.name(), "error", file));
-    let stale = conformance.stale.iter().map(|found| deviation(found, STALE, "error", file));
+    let named = |list: &[Deviation], rule| -> Vec<Value> {
+        list.iter().map(|found| deviation(found, rule, "error", file)).collect()
+    };
+    let unsteady = named(&conformance.unsteady, UNSTEADY);
+    let stale = named(&conformance.stale, STALE);
     let known = conformance.known.iter().map(|found| {
         let mut result = deviation(found, found.finding.name(), "note", file);
         let why = found.why.as_deref().unwrap_or("a known disagreement");
         result["suppressions"] = json!([{ "kind": "external", "justification": why }]);
         result
     });
-    unproved.chain(unexpected).chain(stale).chain(known).collect()
+    unproved.chain(unsteady).chain(unexpected).chain(stale).chain(known).collect()
 }
 
 fn deviation(found: &Deviation, rule: &str, level: &str, file: Option<&str>) -> Value {

@@ -58,9 +58,12 @@ pub(super) fn blocks(record: &Record, conformance: &Conformance) -> Vec<Block> {
     blocks.extend(Block::items(NET_TITLE, MOST_LISTED, net));
     let stale =
         "Stale expectations (what was wrong is less so, or gone; --bless writes what was found)";
-    for (title, list) in
-        [("Unexpected disagreements", &conformance.unexpected), (stale, &conformance.stale)]
-    {
+    let unsteady = "Answers differ from run to run, so these kernels are not compared";
+    for (title, list) in [
+        (unsteady, &conformance.unsteady),
+        ("Unexpected disagreements", &conformance.unexpected),
+        (stale, &conformance.stale),
+    ] {
         let items = list.iter().map(|found| deviation(conformance, found)).collect();
         blocks.extend(Block::items(title, MOST_LISTED, items));
     }

@@ -18,6 +18,11 @@ impl Shard {
     /// All of it.
     pub const WHOLE: Shard = Shard { index: 0, of: 1 };
 
+    /// One index of so many.
+    pub fn of_index(index: u64, of: u64) -> Shard {
+        Shard { index, of }
+    }
+
     /// Which one, counted from 0.
     pub fn index(self) -> u64 {
         self.index

@@ -137,6 +137,7 @@ pub fn conformance(deviations: Vec<Deviation>) -> Conformance {
             before: HOSTILE.to_owned(),
             now: HOSTILE.to_owned(),
         }],
+        unsteady: Vec::new(),
         unproved: vec![Unproved {
             kernel: HOSTILE.to_owned(),
             scalar: HOSTILE.to_owned(),
