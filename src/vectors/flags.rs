@@ -1,5 +1,6 @@
 //! The flags of tests: what may go wrong on them, once a file in words.
 
+use super::number::Number;
 use crate::truth::{Crossing, Facing, Feature, Place, Truth};
 
 /// Each flag with its effect.
@@ -14,12 +15,9 @@ pub(super) const FLAGS: &[(&str, &str)] = &[
     ),
     (
         "back",
-        "The ray comes from the back, from which a, b, c run clockwise. A function that culls back faces reports a miss on all of these: leave them out for it.",
+        "The ray comes from the back, from which a, b, c run clockwise: leave these out for a function that culls back faces.",
     ),
-    (
-        "interval-end",
-        "t is exactly t_min or t_max. Specifications differ on whether that is a hit.",
-    ),
+    ("interval-end", "t is exactly t_min or t_max. Specifications differ on whether that is a hit"),
     (
         "out-of-interval",
         "The line meets the triangle before t_min or beyond t_max. A function that forgets a comparison of t reports a hit.",
@@ -74,7 +72,7 @@ pub(super) const FLAGS: &[(&str, &str)] = &[
     ("mixed-scale", "The exponents of the coordinates differ widely."),
     (
         "range-ends",
-        "Subnormal numbers or numbers near the largest float: products underflow or overflow. Leave these out if your inputs stay in an ordinary range, or if your processor flushes subnormal numbers to zero.",
+        "A number whose square underflows or overflows. Some processors flush the smallest to zero.",
     ),
     (
         "shared-edge",
@@ -100,10 +98,17 @@ pub(super) fn of_truth(truth: &Truth) -> Vec<&'static str> {
         ("edge", feature.is_edge()),
         ("vertex", feature.is_vertex()),
         ("back", *facing == Facing::Back),
-        ("interval-end", met && matches!(place, Place::AtMin | Place::AtMax)),
+        ("interval-end", matches!(place, Place::AtMin | Place::AtMax)),
         ("out-of-interval", met && matches!(place, Place::Before | Place::Beyond)),
     ];
     flags.into_iter().filter(|(_, holds)| *holds).map(|(name, _)| name).collect()
+}
+
+/// The flag that follows from the numbers.
+pub(super) fn of_numbers<'a>(
+    mut numbers: impl Iterator<Item = &'a Number>,
+) -> Option<&'static str> {
+    numbers.any(|number| number.is_extreme).then_some("range-ends")
 }
 
 /// The flag of a family's cases.

@@ -117,8 +117,9 @@ impl Test {
         let ray = [ox, oy, oz, dx, dy, dz, t_min, t_max].map(Number::of);
         let Label { name, comment, source, flag } = label;
         let mut flags: Vec<&str> = flag.into_iter().collect();
-        let of_truths = truths.iter().flat_map(flags::of_truth);
-        of_truths.for_each(|flag| {
+        let numbers = ray.iter().chain(triangles.iter().flat_map(|triangle| &triangle.numbers));
+        let of_numbers = flags::of_numbers(numbers);
+        truths.iter().flat_map(flags::of_truth).chain(of_numbers).for_each(|flag| {
             if !flags.contains(&flag) {
                 flags.push(flag)
             }

@@ -1,6 +1,6 @@
 //! Numbers of the vectors as text: bit patterns, hexadecimal floats, and the doubles nearest to fractions.
 
-use crate::arith::{Float, decompose};
+use crate::arith::{Float, decompose, smallest_normal};
 use crate::corpus::number::rounded;
 use num_bigint::Sign;
 use num_rational::BigRational;
@@ -11,13 +11,22 @@ use num_traits::ToPrimitive;
 pub(super) struct Number {
     /// In the low bits.
     pub pattern: u64,
+    /// True if its square is beyond the range of its scalar, or below the normal numbers.
+    pub is_extreme: bool,
     value: f64,
     digits: usize,
 }
 
 impl Number {
     pub fn of<F: Float>(x: F) -> Number {
-        Number { pattern: x.to_bits(), value: x.to_f64(), digits: x.hex().len() }
+        let square = x * x;
+        let is_normal = square.is_finite() && smallest_normal::<F>() <= square.to_f64();
+        Number {
+            pattern: x.to_bits(),
+            is_extreme: x.is_finite() && !x.is_zero() && !is_normal,
+            value: x.to_f64(),
+            digits: x.hex().len(),
+        }
     }
 
     /// The bit pattern, all digits.
