@@ -125,3 +125,70 @@ fn the_core_set_catches_twelve_classic_mistakes() {
         assert!(!caught.is_empty(), "{mistake:?}");
     }
 }
+
+/// Möller and Trumbore's test in floats, by quotients or by products with an inverse.
+fn hit_in_f32(n: &[f32], inverse: bool) -> bool {
+    let minus = |i: usize, j: usize| -> [f32; 3] { std::array::from_fn(|k| n[i + k] - n[j + k]) };
+    let dot = |p: [f32; 3], q: [f32; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    let cross = |p: [f32; 3], q: [f32; 3]| {
+        [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+    };
+    let (d, e, f, s) = ([n[3], n[4], n[5]], minus(11, 8), minus(14, 8), minus(0, 8));
+    let (p, q) = (cross(d, f), cross(s, e));
+    let det = dot(e, p);
+    let over = |x: f32| if inverse { x * (1.0 / det) } else { x / det };
+    let (u, v, t) = (over(dot(s, p)), over(dot(d, q)), over(dot(f, q)));
+    det != 0.0 && u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= n[6] && t <= n[7]
+}
+
+#[test]
+fn the_guide_has_the_number_of_tests_that_a_plain_test_in_floats_fails() {
+    fn is_in_code(row: &[&str]) -> bool {
+        let margin = row[16].parse().unwrap_or(1f64);
+        row[4] == "" && row[6] != "free" && 1e-6 <= margin.abs()
+    }
+    let read =
+        |file: &str| fs::read_to_string(format!("{}/{file}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let (csv, guide) = (read("vectors/core.csv"), read("docs/guide/vectors.md"));
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let of_test = rows.chunk_by(|one, other| one[0] == other[0]);
+    let of_f32: Vec<_> = of_test.filter(|rows| rows[0][3] == "f32").collect();
+    // How many are asked, and how many of them are answered wrongly in each way.
+    let counts = |is_asked: fn(&[&str]) -> bool| {
+        let asked: Vec<_> = of_f32.iter().filter(|rows| is_asked(&rows[0])).collect();
+        let failed = [false, true].map(|inverse| {
+            let is_hit = |row: &&Vec<&str>| {
+                let bits = row[18..35].iter().map(|word| u32::from_str_radix(word, 16).unwrap());
+                hit_in_f32(&bits.map(f32::from_bits).collect::<Vec<_>>(), inverse)
+            };
+            let is_wrong = |rows: &&&&[Vec<&str>]| {
+                let hits = rows.iter().filter(is_hit).count();
+                match (rows[0][4], rows[0][6]) {
+                    ("exactly-one", _) | (_, "hit") => hits != 1,
+                    ("at-least-one", _) => hits == 0,
+                    _ => hits != 0,
+                }
+            };
+            asked.iter().filter(is_wrong).count()
+        });
+        (asked.len(), failed)
+    };
+    let is_bound =
+        |row: &[&str]| row[4] != "" && row[4] != "free" || row[6] == "hit" || row[6] == "miss";
+    let (all, [divided, multiplied]) = counts(is_bound);
+    let expected = format!(
+        "The core set has {all} tests in `f32` that are not free. A plain Möller–Trumbore test in `float` fails {divided} of them if it divides"
+    );
+    assert!(guide.contains(&expected), "{expected}");
+    assert!(
+        guide.contains(&format!("determinant, and {multiplied} if it multiplies")),
+        "{multiplied}"
+    );
+    let (asked, [divided, multiplied]) = counts(is_in_code);
+    let expected =
+        format!("of the {asked} that the code above asks, {divided} and {multiplied}, and");
+    assert!(guide.contains(&expected), "{expected}");
+    let (_, ordinary) = counts(|row| is_in_code(row) && !row[17].contains("range-ends"));
+    let expected = format!("`range-ends` {} either way", ordinary[0]);
+    assert!(guide.contains(&expected) && ordinary[0] == ordinary[1], "{ordinary:?}");
+}
