@@ -296,6 +296,9 @@ fn is_descriptor(path: &Path) -> bool {
     path.starts_with("/proc") || path.starts_with("/dev/fd")
 }
 
+/// How the name of a file begins that is written beside its place.
+const BESIDE: &str = ".hairline-";
+
 /// A file that is written beside its place; it is removed unless it is put there.
 struct Beside {
     file: File,
@@ -311,12 +314,20 @@ impl Beside {
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
             Err(error) => return Err(error),
         };
+        remove_abandoned(&place);
         let mut number = 0;
         let (path, file) = loop {
-            let path = place.with_file_name(format!(".hairline-{}-{number}.tmp", process::id()));
+            let path = place.with_file_name(format!("{BESIDE}{}-{number}.tmp", process::id()));
             match File::create_new(&path) {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
-                file => break (path, file?),
+                file => {
+                    let file = file?;
+                    let _ = file.lock();
+                    // Until it is locked another run may take it for abandoned.
+                    if path.exists() {
+                        break (path, file);
+                    }
+                }
             }
         };
         let beside = Beside { file, path, place };
@@ -327,6 +338,20 @@ impl Beside {
     fn put_in_place(self) -> Result<(), Failure> {
         let renamed = self.file.sync_all().and_then(|()| fs::rename(&self.path, &self.place));
         renamed.map_err(|error| Failure::of_path(&self.place, &error))
+    }
+}
+
+/// Removes what killed runs left beside a file: nobody holds its lock.
+fn remove_abandoned(place: &Path) {
+    let folder = place.parent().filter(|folder| *folder != Path::new(""));
+    let Ok(entries) = fs::read_dir(folder.unwrap_or(Path::new("."))) else { return };
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let is_beside = name.starts_with(BESIDE) && name.ends_with(".tmp");
+        let file = is_beside.then(|| File::open(&path).ok()).flatten();
+        if file.is_some_and(|file| file.try_lock().is_ok()) {
+            let _ = fs::remove_file(&path);
+        }
     }
 }
 

@@ -1,15 +1,23 @@
 //! The progress bar; nothing else knows indicatif.
 
 use crate::audit::Observer;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use crate::report::group_digits;
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::time::Instant;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// A bar on a terminal's standard error; silent elsewhere.
 pub struct Progress {
     bar: ProgressBar,
     start: Instant,
+    unit: String,
+    /// True once a long run is estimated, or nobody wants to know.
+    is_told: AtomicBool,
 }
+
+/// A run that takes longer says so.
+const LONG: Duration = Duration::from_secs(600);
 
 impl Progress {
     /// With a total in some unit; hidden if `quiet` or not on a terminal.
@@ -22,7 +30,8 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
-        Progress { bar, start: Instant::now() }
+        let (unit, is_told) = (unit.to_owned(), AtomicBool::new(quiet));
+        Progress { bar, start: Instant::now(), unit, is_told }
     }
 
     /// For what is written to an output; hidden if that is a terminal, as the lines would mix.
@@ -55,6 +64,24 @@ impl Progress {
         self.bar.inc_length(more);
     }
 
+    /// Says after the first second how long a long run takes.
+    fn estimate(&self) {
+        let (elapsed, done) = (self.start.elapsed(), self.bar.position());
+        let is_early = elapsed < Duration::from_secs(1) || done == 0;
+        if is_early || self.is_told.swap(true, Ordering::Relaxed) {
+            return;
+        }
+        let total = self.bar.length().unwrap_or_default();
+        let whole = elapsed.as_secs_f64() * total as f64 / done as f64;
+        if LONG.as_secs_f64() < whole {
+            let time = HumanDuration(Duration::try_from_secs_f64(whole).unwrap_or(Duration::MAX));
+            let (total, unit) = (group_digits(total), &self.unit);
+            self.bar.suspend(|| {
+                eprintln!("{total} {unit} take about {time} at the pace of the first second");
+            });
+        }
+    }
+
     /// Removes the bar.
     pub fn finish(&self) {
         self.bar.finish_and_clear();
@@ -69,6 +96,7 @@ impl Progress {
 impl Observer for Progress {
     fn advance(&self, cases: u64) {
         self.bar.inc(cases);
+        self.estimate();
     }
 
     fn now(&self) -> u64 {

@@ -6,7 +6,7 @@ use crate::expect::{self, BlessError};
 use crate::report::Record;
 use std::fs::File;
 use std::path::Path;
-use std::{env, fs, io, process};
+use std::{env, fs, io};
 
 /// The environment variable that lets a test write its expectations.
 const VARIABLE: &str = "HAIRLINE_BLESS";
@@ -74,9 +74,9 @@ pub(crate) fn locked(file: &str) -> Option<File> {
     folder.lock().ok().map(|()| folder)
 }
 
-/// Beside its place, and then into it.
+/// Beside its place, and then into it. Who writes holds the folder's lock, so what a killed run left is written over.
 fn write(name: &str, text: &str) -> io::Result<()> {
-    let beside = format!("{name}.{}.tmp", process::id());
+    let beside = format!("{name}.tmp");
     let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, Path::new(name)));
     if written.is_err() {
         let _ = fs::remove_file(&beside);

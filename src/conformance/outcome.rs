@@ -1,10 +1,11 @@
 //! The outcome of an audit from a test, and the text of its panic.
 
+use crate::audit::quoted;
 use crate::case::{Case, rust_case};
 use crate::kernel::KERNELS;
 use crate::report::{
-    ALL_CLASSES, Conformance, FindingKind, FindingPart, KernelResult, Key, Promised, Rate, Record,
-    Verdict, counts_alone, disagreements, interval_of, percent, rate_of,
+    ALL_CLASSES, Conformance, Example, FindingKind, FindingPart, KernelResult, Key, Promised, Rate,
+    Record, Verdict, counts_alone, disagreements, interval_of, percent, rate_of,
 };
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -93,7 +94,7 @@ impl fmt::Display for Outcome {
                 "{scalar} {family} ({set}): {finding} of {class}: {count} of {of}{share}\n"
             );
             if let Some(example) = &found.example {
-                writeln!(text, "    {}", shown_by(kernel, &example.command))?;
+                writeln!(text, "    {}", shown_by(kernel, example))?;
             }
             parts.push(text);
         }
@@ -118,7 +119,7 @@ fn describe(at: &str, kernel: &str, part: &FindingPart) -> Result<String, fmt::E
     let share = interval_of(&part.rate);
     let mut text = format!("{at}: {} {}: {count} of {of}{share}\n", part.finding, part.class);
     for example in &part.first {
-        write_case(kernel, &example.command, &example.bits, &mut text)?;
+        write_case(kernel, example, &mut text)?;
     }
     Ok(text)
 }
@@ -141,10 +142,10 @@ fn beside_expectations(conformance: &Conformance, f: &mut fmt::Formatter<'_>) ->
         if let Some(why) = &found.why {
             writeln!(f, "    {why}")?;
         }
-        if let Some(command) = &found.command {
+        if let (Some(case), Some(command)) = (found.case.clone(), found.command.clone()) {
             let mut text = String::new();
-            let bits = found.bits.as_deref().unwrap_or_default();
-            write_case(&found.kernel, command, bits, &mut text)?;
+            let bits = found.bits.clone().unwrap_or_default();
+            write_case(&found.kernel, &Example { case, bits, severity: None, command }, &mut text)?;
             f.write_str(&text)?;
         }
     }
@@ -159,8 +160,9 @@ fn beside_expectations(conformance: &Conformance, f: &mut fmt::Formatter<'_>) ->
 }
 
 /// A case: the command that shows it, the case in Rust, its bits.
-fn write_case(kernel: &str, command: &str, bits: &str, text: &mut String) -> fmt::Result {
-    writeln!(text, "    {}", shown_by(kernel, command))?;
+fn write_case(kernel: &str, example: &Example, text: &mut String) -> fmt::Result {
+    writeln!(text, "    {}", shown_by(kernel, example))?;
+    let bits = example.bits.as_str();
     if let Some(case) = literal(bits) {
         writeln!(text, "        {case}")?;
     }
@@ -170,11 +172,22 @@ fn write_case(kernel: &str, command: &str, bits: &str, text: &mut String) -> fmt
     Ok(())
 }
 
-/// The command of an example; a kernel of one's own is known to one's own program only.
-fn shown_by(kernel: &str, command: &str) -> String {
-    let is_built_in = KERNELS.iter().any(|entry| entry.info.name == kernel);
-    let program = if is_built_in { "hairline" } else { "YOUR-PROGRAM (cli::main_with)" };
-    command.replacen("hairline", program, 1)
+/// The command that shows an example; a kernel of one's own is known to its own tests only.
+fn shown_by(kernel: &str, example: &Example) -> String {
+    if KERNELS.iter().any(|entry| entry.info.name == kernel) {
+        return example.command.clone();
+    }
+    let case = quoted(&example.case);
+    #[cfg(feature = "studies")]
+    {
+        let thread = std::thread::current();
+        // Each test runs on a thread of its name.
+        let test = thread.name().filter(|name| *name != "main");
+        let test = test.map_or(String::new(), |name| format!(" {name}"));
+        format!("{}={case} cargo test{test}", super::explained::VARIABLE)
+    }
+    #[cfg(not(feature = "studies"))]
+    format!("case {case}")
 }
 
 /// A case as a literal in Rust, from its bits; none of a group.

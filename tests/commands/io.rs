@@ -530,3 +530,42 @@ fn a_path_that_is_not_utf_8_is_named_with_what_to_do() {
         (65, "hairline: ./a\u{fffd}.jsonl: its name is not UTF-8\n")
     );
 }
+
+#[test]
+fn what_a_killed_run_left_is_removed_by_the_next_that_writes_there() {
+    let folder = scratch("io-abandoned");
+    let left = folder.join(".hairline-1-0.tmp");
+    let others = folder.join("1-0.tmp");
+    for path in [&left, &others] {
+        fs::write(path, "a part").unwrap();
+    }
+    let audit =
+        ["audit", "-q", "--family", "interior", "-n", "10", "--format", "json", "-o", "a.json"];
+    // Whoever writes holds its lock.
+    let held = File::open(&left).unwrap();
+    held.lock().unwrap();
+    ends(&folder, &audit, 0);
+    assert!(left.exists());
+    drop(held);
+    ends(&folder, &audit, 0);
+    assert!(!left.exists() && others.exists());
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
+}
+
+#[test]
+fn a_long_run_says_after_a_second_how_long_it_takes() {
+    let long = |quiet: &str| {
+        let mut child = Command::new(PROGRAM)
+            .args(["audit", "--family", "interior", "-n", "4294967296", quiet])
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_secs(5));
+        child.kill().unwrap();
+        String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap()
+    };
+    let said = long("--illustrate=never");
+    let expected = "rays take about ";
+    assert!(said.contains(expected) && said.contains(" at the pace of the first second"), "{said}");
+    assert_eq!(long("-q"), "");
+}

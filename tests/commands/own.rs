@@ -164,18 +164,37 @@ fn a_failed_assertion_reads_like_this() {
     let vertices =
         "f32 behind (own): false-hit vertex/back/before: 2 of 2 (100.0% [15.8%, 100.0%])";
     assert!(lines.contains(&vertices) && message.contains("\n        o=42000000,"), "{message}");
-    // A kernel of one's own is known to one's own program; the case is also there as Rust.
-    assert!(
-        message.contains("\n    YOUR-PROGRAM (cli::main_with) explain 'behind@1/f32/-/7/"),
-        "{message}"
-    );
-    assert!(
-        message.contains(" --kernel always\n        Case::<f32>::new([32.0, 0.0, -14.0], "),
-        "{message}"
-    );
+    // A kernel of one's own is known to its own tests only; the case is also there as Rust.
+    let command = "\n    HAIRLINE_CASE='behind@1/f32/-/7/";
+    assert!(message.contains(command), "{message}");
+    let test = " cargo test own::a_failed_assertion_reads_like_this\n        Case::<f32>::new([32.0, 0.0, -14.0], ";
+    assert!(message.contains(test), "{message}");
     let passes = hairline::audit(&kernel).families(["interior"]).count(50);
     passes.assert_conforms();
     assert!(passes.run().unwrap().to_string().contains("always (own) keeps its contract"));
+}
+
+#[test]
+fn the_command_of_a_failed_test_explains_the_case_with_the_kernel_of_that_test() {
+    let explained = |case: &str| {
+        let mut command = std::process::Command::new(std::env::current_exe().unwrap());
+        let test = "own::a_kernel_that_always_hits_is_held_to_its_contract";
+        let output = command.args(["--exact", test]).env("HAIRLINE_CASE", case).output().unwrap();
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let text = explained("behind@1/f32/-/7/1");
+    let expected = "\nalways (own): hit; its contract asks a miss: FALSE-HIT\n";
+    assert!(text.contains(expected) && text.contains("before"), "{text}");
+    let unknown = explained("nowhere@1/f32/-/7/1");
+    let expected = "HAIRLINE_CASE: this program makes no cases of 'nowhere@1'";
+    assert!(unknown.contains(expected), "{unknown}");
+}
+
+/// The test that the one before runs with a case in the environment.
+#[test]
+fn a_kernel_that_always_hits_is_held_to_its_contract() {
+    let kernel = Entry::new(&ALWAYS).f32(always::<f32>);
+    hairline::audit(&kernel).families(["interior"]).count(50).assert_conforms();
 }
 
 #[test]

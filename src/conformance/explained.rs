@@ -1,0 +1,42 @@
+//! A case of an audit in a test, explained with the kernel of that test, which no other program knows.
+
+use super::PlanError;
+use crate::audit::Row;
+use crate::case::CaseId;
+use crate::family::find;
+use crate::report::Format;
+use crate::report::explain::{Together, explain};
+
+/// The environment variable that names the case.
+pub const VARIABLE: &str = "HAIRLINE_CASE";
+
+/// The explanation of the case that the environment names, or what is wrong with it; none if it names none.
+pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, PlanError>) -> Option<String> {
+    let case = std::env::var(VARIABLE).ok()?;
+    match rows().and_then(|rows| explained(&rows, &case)) {
+        Ok(text) | Err(PlanError(text)) => Some(text),
+    }
+}
+
+/// The explanation of a case as text. An error says what is wrong with its name.
+fn explained(rows: &[Row], name: &str) -> Result<String, PlanError> {
+    let wrong = |message: String| PlanError(format!("{VARIABLE}: {message}"));
+    let id: CaseId = name.parse().map_err(wrong)?;
+    let family = find(&id.family).filter(|family| family.version == id.version);
+    let unknown =
+        || wrong(format!("this program makes no cases of '{}@{}'", id.family, id.version));
+    let family = family.ok_or_else(unknown)?;
+    let explanation = in_named_scalar!(id.scalar, F => {
+        let made = family.make::<F>(&id.parameters, id.seed, id.index);
+        let mut cases = made.cases().to_vec();
+        if let Some(triangle) = id.triangle {
+            let case = cases.get(triangle).copied();
+            cases = vec![case.ok_or_else(|| wrong(format!("'{id}' has no such triangle")))?];
+        }
+        let group = Together { cases: &cases, grouping: family.grouping, neighbours: Some(&[]) };
+        explain(name, group, None, rows)
+    });
+    let mut text = Vec::new();
+    let _ = (Format::TEXT.write)(&explanation, Default::default(), &mut text);
+    Ok(String::from_utf8_lossy(&text).into_owned())
+}
