@@ -378,6 +378,10 @@ impl<F: Float> Subject<F> for Process {
         notes
     }
 
+    fn talks(&self) -> bool {
+        self.program.said.are_some()
+    }
+
     fn finish(&self) {
         let idle = std::mem::take(&mut self.state().idle);
         running::finish(idle);

@@ -21,6 +21,11 @@ const LONGEST: u64 = 4096;
 pub(super) struct Lines(Arc<Mutex<HashSet<Vec<u8>>>>);
 
 impl Lines {
+    /// True if there were some.
+    pub fn are_some(&self) -> bool {
+        0 < self.0.load(Ordering::Relaxed)
+    }
+
     /// True if some lines were left out.
     pub fn are_too_many(&self) -> bool {
         MOST_LINES < self.0.lock().unwrap_or_else(PoisonError::into_inner).len()

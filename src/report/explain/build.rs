@@ -2,6 +2,7 @@
 
 use super::advice::{advice, group_advice, of_line};
 use super::margin::margin_text;
+use super::nearest::nearest;
 use super::verdict::{Together, group_verdict, number, plain, short, verdict_of};
 use super::{Explanation, GatePart, InstancePart, RowPart, TogetherPart, TrianglePart};
 use crate::arith::{Exact, Float};
@@ -222,6 +223,9 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> RowPart
         };
         part.why = Some(in_words(cause, subject.gated().is_some()).to_owned());
         part.advice = advice(case, is_secondary, row, (finding, cause), &verdict);
+        if subject.gated().is_none() {
+            part.notes.extend(nearest(case, is_secondary, row, &verdict));
+        }
     }
     part.notes.extend(of_line(case, row, &verdict));
     if verdict.hit {

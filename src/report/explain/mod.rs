@@ -4,6 +4,7 @@
 mod advice;
 mod build;
 mod margin;
+mod nearest;
 mod page;
 mod verdict;
 

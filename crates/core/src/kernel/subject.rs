@@ -85,6 +85,11 @@ pub trait Subject<F: Float>: Sync {
     /// Ends what it started; more verdicts start it again.
     fn finish(&self) {}
 
+    /// True if it wrote something for people, which answers to more cases would bury.
+    fn talks(&self) -> bool {
+        false
+    }
+
     /// Why its verdicts are invalid from some case on, in one line.
     fn gave_up(&self) -> Option<String> {
         None
