@@ -33,6 +33,7 @@ mod summary;
 #[cfg(test)]
 mod tests;
 mod unit;
+mod useful;
 mod watertight;
 mod witness;
 

@@ -2,6 +2,7 @@
 
 use super::sizes::BySize;
 use super::summary::{GateSummary, Summary, Witness};
+use super::useful::{USELESS, share, useful_scenes};
 use super::witness::Searched;
 use super::{Domain, Relative, Scene, Shape, Supposed, Symmetry};
 use crate::kernel::{Entry, Role, Scalar};
@@ -100,7 +101,7 @@ pub fn statements<F: Searched + Scalar>(
         }
         Role::Edge => {
             let scene = scene.map(|triangles| triangles.scene);
-            edge(gate, scene, beta, tunable.then_some(published), &mut lines);
+            edge(entry, gate, scene, beta, tunable.then_some(published), &mut lines);
         }
         _ if tunable => {
             lines.push(said(format!(
@@ -248,7 +249,8 @@ fn about_epsilon<F: Searched + Scalar>(
     format!("{proved}{}", fails.unwrap_or_default())
 }
 
-fn edge<F>(
+fn edge<F: Searched + Scalar>(
+    entry: &Entry,
     gate: &GateSummary<F>,
     scene: Option<&Scene>,
     beta: f64,
@@ -256,21 +258,15 @@ fn edge<F>(
     lines: &mut Vec<Statement>,
 ) {
     let length = gate.gate.dimension.length;
-    // From a number to a share of the way across the triangle; none if that depends on the triangle.
-    let share = match scene {
-        _ if length == 0 => Some(1.0),
-        Some(scene) if length == 2 => {
-            Some(1.0 / (scene.least_shape() * libm::sin(scene.grazing.to_radians())))
-        }
-        _ => None,
-    };
+    let share = share(length, scene);
     let flat = scene.map_or(String::new(), |scene| {
         format!(", for rays with |d| = 1 that meet the plane at {} or more", degrees(scene.grazing))
     });
-    if share.is_some_and(|share| beta * share >= 0.5) {
-        lines.push(said(format!(
+    if share.is_some_and(|share| beta * share >= USELESS) {
+        let useful = scene.map_or(String::new(), |it| useful_scenes::<F>(entry, gate.index, it));
+        lines.push(key(format!(
             "Nothing useful follows for hits at edges: that is half of the way across the smallest triangles, or \
-             more{flat}."
+             more{flat}.{useful}"
         )));
     } else if epsilons.is_some() {
         let lost = gate.witnesses[2].as_ref().filter(|witness| witness.score > 0.0);
@@ -285,7 +281,7 @@ fn edge<F>(
     }
     // How deep inside or far outside, none where that says nothing.
     let across = |x: f64| match share {
-        Some(share) if x * share >= 0.5 => None,
+        Some(share) if x * share >= USELESS => None,
         Some(share) => Some(format!("{} of the way across the triangle{flat}", above(x * share))),
         None => Some(format!(
             "{} / S of the way across the triangle, S being the sum of its three edge values",
