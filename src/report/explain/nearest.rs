@@ -71,7 +71,7 @@ pub(super) fn nearest<F: Scalar>(
     }
     let info = nearest.row.entry.info;
     let text = format!(
-        "{} of {} cases around this one (half of them in ordinary sizes, half from the other side) it answers as {} does, and on {same} of {hits} hits of both with the same bits",
+        "{} of {} cases around this one it answers as {} does, and on {same} of {hits} hits of both with the same bits",
         group_digits(agreed as u64),
         group_digits(CASES as u64),
         info.name
@@ -92,7 +92,10 @@ fn here<F: Scalar>(
     let gate = answer.refused_by.map(|i| row.entry.info.gates[usize::from(i)]);
     let does = match gate {
         None => "hits".to_owned(),
-        Some(gate) => format!("refuses by its gate {} ({})", gate.name, gate.refuses),
+        Some(gate) => {
+            let compares = gate.refuses.split(" (printed").next().unwrap_or_default();
+            format!("refuses by its gate {} ({compares})", gate.name)
+        }
     };
     if answer.hit != verdict.hit {
         return Some(format!("here they part: that formula {does}, so something else decides"));
