@@ -23,7 +23,7 @@ pub(super) struct Lines(Arc<Mutex<HashSet<Vec<u8>>>>);
 impl Lines {
     /// True if there were some.
     pub fn are_some(&self) -> bool {
-        0 < self.0.load(Ordering::Relaxed)
+        !self.0.lock().unwrap_or_else(PoisonError::into_inner).is_empty()
     }
 
     /// True if some lines were left out.
