@@ -379,7 +379,11 @@ impl<F: Float> Subject<F> for Process {
     }
 
     fn talks(&self) -> bool {
-        self.program.said.are_some()
+        // What it wrote before an answer may still be on its way.
+        (0..10).any(|_| {
+            std::thread::sleep(Duration::from_millis(10));
+            self.program.said.are_some()
+        })
     }
 
     fn finish(&self) {
