@@ -10,6 +10,8 @@ mod claims;
 mod cli;
 mod diff;
 mod epsilon;
+#[cfg(unix)]
+mod exact;
 mod formats;
 mod found;
 mod fuzz;

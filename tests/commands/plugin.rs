@@ -32,7 +32,7 @@ fn has(program: &str) -> bool {
 }
 
 /// A library built by `cc`, or by `c++` if the flags say that it is C++; none if there is no such compiler.
-fn library(source: &Path, name: &str, flags: &[&str]) -> Option<String> {
+pub fn library(source: &Path, name: &str, flags: &[&str]) -> Option<String> {
     let compiler = if flags.contains(&"-xc++") { "c++" } else { "cc" };
     if !has(compiler) {
         return None;
@@ -65,7 +65,7 @@ fn misbehaving(fault: &str) -> Option<String> {
 }
 
 /// An audit's record, and what it wrote to standard error.
-fn record(arguments: &[&str]) -> (Value, String) {
+pub fn record(arguments: &[&str]) -> (Value, String) {
     let mut all = vec!["audit", "--format", "json", "--quiet"];
     all.extend(arguments);
     let output = hairline(&all);

@@ -1,0 +1,40 @@
+/* hairline_exact.h as a kernel: the right answer for every finite float and double.
+ *
+ *     cc -O2 -shared -fPIC -I../../include -o libexact.so exact.c -lm
+ *     hairline audit --kernel-lib ./libexact.so
+ */
+#include <hairline.h>
+#include <hairline_exact.h>
+
+#if HAIRLINE_EDGES == HAIRLINE_ONCE
+#define CONTRACT "extent=interval,sides=both,boundary=free,across=exactly-one"
+#elif HAIRLINE_EDGES == HAIRLINE_CLOSED
+#define CONTRACT "closed-interval,across=at-least-one"
+#else
+#define CONTRACT "extent=interval,sides=both,boundary=open"
+#endif
+
+static const hairline_kernel KERNEL = {
+    "exact", "include/hairline_exact.h", CONTRACT, HAIRLINE_GIVES_T | HAIRLINE_GIVES_UV | HAIRLINE_GIVES_FACING, 0, 0};
+
+uint32_t hairline_abi(void) { return HAIRLINE_ABI; }
+
+const hairline_kernel *hairline_describe(void) { return &KERNEL; }
+
+#define TEST(REAL, SUFFIX)                                                                                             \
+    void hairline_test_##SUFFIX(const hairline_case_##SUFFIX *cases, size_t count, const REAL *epsilons,               \
+                                hairline_verdict_##SUFFIX *verdicts) {                                                 \
+        size_t i;                                                                                                      \
+        (void)epsilons;                                                                                                \
+        for (i = 0; i < count; i++) {                                                                                  \
+            const hairline_case_##SUFFIX *c = &cases[i];                                                               \
+            hairline_answer answer;                                                                                    \
+            verdicts[i].hit = hairline_exact_##SUFFIX(c->origin, c->direction, c->a, c->b, c->c, c->t_min,    \
+                                                               c->t_max, &answer);                                     \
+            verdicts[i].facing = answer.front ? HAIRLINE_FRONT : HAIRLINE_BACK;                                        \
+            verdicts[i].t = (REAL)answer.t, verdicts[i].u = (REAL)answer.u, verdicts[i].v = (REAL)answer.v;            \
+        }                                                                                                              \
+    }
+
+TEST(float, f32)
+TEST(double, f64)

@@ -1,0 +1,363 @@
+/* hairline_exact.h: does a ray hit a triangle? The right answer for every finite float and double.
+ *
+ * One file without dependencies, in C99 and C++. Plain arithmetic decides where it provably can; integers decide the rest.
+ *
+ * Edges: before you include this file, you may define HAIRLINE_EDGES as
+ *   HAIRLINE_ONCE    a ray through an edge or a vertex where triangles meet hits exactly one of them (the default):
+ *                    the ray counts as if it were moved by less than any number, always in the same direction
+ *   HAIRLINE_CLOSED  it hits all of them
+ *   HAIRLINE_OPEN    it hits none
+ *
+ * A ray that lies in the plane of the triangle misses it, and so does every ray a triangle without area. A number that is
+ * not finite is a miss (but t_max may be infinite). Both ends of the ray count: t_min <= t <= t_max, exactly.
+ *
+ * Why this is right (docs/guide/exact.md has the derivation): with A, B, C the corners minus the origin, the ray's line passes
+ * inside where U = d.(CxB), V = d.(AxC) and W = d.(BxA) have one sign, and t = A.(CxB) / (U + V + W). A number computed from
+ * products in at most 8 roundings is wrong by less than 2^-49 times the sum of the sizes of its terms, whatever the compiler
+ * contracts. Below 2^290 nothing overflows, and all that underflows is less than the margin that is added.
+ */
+#ifndef HAIRLINE_EXACT_H
+#define HAIRLINE_EXACT_H
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#define HAIRLINE_ONCE 0
+#define HAIRLINE_CLOSED 1
+#define HAIRLINE_OPEN 2
+#ifndef HAIRLINE_EDGES
+#define HAIRLINE_EDGES HAIRLINE_ONCE
+#endif
+#ifdef __FAST_MATH__
+#error "hairline_exact.h: -ffast-math changes results: compile without it"
+#endif
+#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1
+#error "hairline_exact.h: doubles are computed with more than 53 bits: compile with -msse2 -mfpmath=sse, or the like"
+#endif
+
+/* A hit: t along the direction, u and v the weights of b and c, and whether the front was hit (a, b, c counter-clockwise as
+ * the ray sees them). hit is 0 or 1. asked is 1 if integers were needed. */
+typedef struct {
+    int hit, front, asked;
+    double t, u, v;
+} hairline_answer;
+
+/* ---- integers of any sign and up to HX_LIMBS words ---- */
+
+#define HX_LIMBS 340 /* three numbers of 2,100 bits multiplied and shifted by 3,200, and sums of a few of those */
+
+typedef struct {
+    int sign, n; /* n words, the last of which is not 0 */
+    uint32_t w[HX_LIMBS];
+} hx_int;
+
+static inline int hx_compare(const hx_int *a, const hx_int *b) {
+    int i;
+    if (a->n != b->n) return a->n < b->n ? -1 : 1;
+    for (i = a->n - 1; i >= 0; i--)
+        if (a->w[i] != b->w[i]) return a->w[i] < b->w[i] ? -1 : 1;
+    return 0;
+}
+
+static inline void hx_trim(hx_int *a) {
+    while (a->n > 0 && a->w[a->n - 1] == 0) a->n--;
+    if (a->n == 0) a->sign = 0;
+}
+
+/* a + sign * b */
+static inline void hx_add(hx_int *sum, const hx_int *a, const hx_int *b, int sign) {
+    const hx_int *large = a, *small = b;
+    int i, order, large_sign = a->sign, small_sign = sign * b->sign;
+    uint64_t carry = 0;
+    hx_int out;
+    order = hx_compare(a, b);
+    if (order < 0) {
+        large = b, small = a;
+        large_sign = small_sign, small_sign = a->sign;
+    }
+    out.sign = large_sign, out.n = large->n;
+    if (small_sign == 0) {
+        memcpy(out.w, large->w, sizeof(uint32_t) * (size_t)large->n);
+    } else if (large_sign == small_sign) {
+        for (i = 0; i < large->n; i++) {
+            carry += (uint64_t)large->w[i] + (i < small->n ? small->w[i] : 0);
+            out.w[i] = (uint32_t)carry, carry >>= 32;
+        }
+        if (carry) out.w[out.n++] = (uint32_t)carry;
+    } else {
+        for (i = 0; i < large->n; i++) {
+            uint64_t take = (uint64_t)(i < small->n ? small->w[i] : 0) + carry;
+            carry = large->w[i] < take;
+            out.w[i] = (uint32_t)(large->w[i] - take);
+        }
+        hx_trim(&out);
+    }
+    sum->sign = out.sign, sum->n = out.n;
+    memcpy(sum->w, out.w, sizeof(uint32_t) * (size_t)out.n);
+}
+
+static inline void hx_multiply(hx_int *product, const hx_int *a, const hx_int *b) {
+    int i, j;
+    product->sign = a->sign * b->sign, product->n = product->sign == 0 ? 0 : a->n + b->n;
+    if (product->sign == 0) return;
+    memset(product->w, 0, sizeof(uint32_t) * (size_t)product->n);
+    for (i = 0; i < a->n; i++) {
+        uint64_t carry = 0;
+        for (j = 0; j < b->n; j++) {
+            carry += (uint64_t)a->w[i] * b->w[j] + product->w[i + j];
+            product->w[i + j] = (uint32_t)carry, carry >>= 32;
+        }
+        product->w[i + b->n] = (uint32_t)carry;
+    }
+    hx_trim(product);
+}
+
+/* The least exponent of a bit of x; a large one of 0. */
+static inline int hx_lowest(double x) {
+    int exponent;
+    if (x == 0) return 4096;
+    (void)frexp(x, &exponent);
+    return (exponent < -1021 ? -1021 : exponent) - 53;
+}
+
+/* a * 2^bits */
+static inline void hx_shift(hx_int *a, int bits) {
+    int i, words = bits / 32, rest = bits % 32;
+    if (a->sign == 0) return;
+    a->w[a->n + words] = 0;
+    for (i = a->n - 1; i >= 0; i--) {
+        uint64_t both = (uint64_t)a->w[i] << rest;
+        a->w[i + words + 1] |= (uint32_t)(both >> 32);
+        a->w[i + words] = (uint32_t)both;
+    }
+    memset(a->w, 0, sizeof(uint32_t) * (size_t)words);
+    a->n += words + 1;
+    hx_trim(a);
+}
+
+/* x / 2^lowest */
+static inline void hx_read(hx_int *a, double x, int lowest) {
+    uint64_t bits;
+    a->sign = (x > 0) - (x < 0), a->n = 0;
+    if (x == 0) return;
+    bits = (uint64_t)ldexp(fabs(x), -hx_lowest(x));
+    a->w[0] = (uint32_t)bits, a->w[1] = (uint32_t)(bits >> 32), a->n = 2;
+    hx_trim(a);
+    hx_shift(a, hx_lowest(x) - lowest);
+}
+
+/* a / b as a double, times 2^exponent */
+static inline double hx_quotient(const hx_int *a, const hx_int *b, int exponent) {
+    const hx_int *of[2];
+    double top[2] = {0, 0};
+    int i, k;
+    of[0] = a, of[1] = b;
+    if (a->sign == 0) return 0;
+    for (k = 0; k < 2; k++)
+        for (i = of[k]->n - 1; i >= 0 && i > of[k]->n - 5; i--)
+            top[k] += ldexp((double)of[k]->w[i], 32 * (i - of[k]->n));
+    return a->sign * b->sign * ldexp(top[0] / top[1], 32 * (a->n - b->n) + exponent);
+}
+
+/* x * y - z * w */
+static inline void hx_minor(hx_int *out, const hx_int *x, const hx_int *y, const hx_int *z, const hx_int *w) {
+    hx_int one, other;
+    hx_multiply(&one, x, y);
+    hx_multiply(&other, z, w);
+    hx_add(out, &one, &other, -1);
+}
+
+/* x . (y x z) */
+static inline void hx_triple(hx_int *out, const hx_int x[3], const hx_int y[3], const hx_int z[3]) {
+    hx_int minor, term;
+    int i;
+    out->sign = out->n = 0;
+    for (i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        hx_minor(&minor, &y[j], &z[k], &y[k], &z[j]);
+        hx_multiply(&term, &x[i], &minor);
+        hx_add(out, out, &term, 1);
+    }
+}
+
+/* The sign of an edge's number; of a ray that meets the edge the one that it has next to it, where exactly one triangle
+ * is to be hit: a move of the origin along axis i changes it by component i of (to - from) x d. */
+static inline int hx_side(const hx_int *number, const hx_int from[3], const hx_int to[3], const hx_int d[3], int largest) {
+    int k;
+    if (number->sign != 0 || HAIRLINE_EDGES != HAIRLINE_ONCE) return number->sign;
+    for (k = 1; k < 3; k++) {
+        int i = (largest + k) % 3, j = (i + 1) % 3, l = (i + 2) % 3;
+        hx_int edge_j, edge_l, moved;
+        hx_add(&edge_j, &to[j], &from[j], -1);
+        hx_add(&edge_l, &to[l], &from[l], -1);
+        hx_minor(&moved, &edge_j, &d[l], &edge_l, &d[j]);
+        if (moved.sign != 0) return moved.sign;
+    }
+    return 0;
+}
+
+/* The sign of N - t * D, where N / D is in units of 2^exponent. */
+static inline int hx_past(const hx_int *n, const hx_int *d, double t, int exponent) {
+    hx_int left = *n, factor, right;
+    int shift = t == 0 ? 0 : hx_lowest(t) - exponent;
+    hx_read(&factor, t, t == 0 ? 0 : hx_lowest(t));
+    hx_multiply(&right, &factor, d);
+    hx_shift(shift < 0 ? &left : &right, shift < 0 ? -shift : shift);
+    hx_add(&left, &left, &right, -1);
+    return left.sign;
+}
+
+/* The answer by integers. */
+static inline void hx_exact(double points[4][3], const double d[3], double t_min, double t_max, hairline_answer *answer) {
+    hx_int p[4][3], direction[3], edges[3], det, n;
+    int i, k, of_points = 4096, of_direction = 4096, largest = 0, exponent;
+    answer->hit = 0, answer->asked = 1;
+    for (i = 0; i < 3; i++) {
+        if (hx_lowest(d[i]) < of_direction) of_direction = hx_lowest(d[i]);
+        if (fabs(d[i]) > fabs(d[largest])) largest = i;
+        for (k = 0; k < 4; k++)
+            if (hx_lowest(points[k][i]) < of_points) of_points = hx_lowest(points[k][i]);
+    }
+    for (i = 0; i < 3; i++) {
+        hx_read(&direction[i], d[i], of_direction);
+        for (k = 0; k < 4; k++) {
+            hx_read(&p[k][i], points[k][i], of_points);
+            if (k > 0) hx_add(&p[k][i], &p[k][i], &p[0][i], -1);
+        }
+    }
+    det.sign = det.n = 0;
+    for (k = 0; k < 3; k++) {
+        /* d . (C x B), d . (A x C), d . (B x A) */
+        const hx_int *to = p[1 + (k + 2) % 3], *from = p[1 + (k + 1) % 3];
+        hx_triple(&edges[k], direction, to, from);
+        hx_add(&det, &det, &edges[k], 1);
+    }
+    if (det.sign == 0) return;
+    for (k = 0; k < 3; k++) {
+        int side = det.sign * hx_side(&edges[k], p[1 + (k + 1) % 3], p[1 + (k + 2) % 3], direction, largest);
+        if (side < (HAIRLINE_EDGES == HAIRLINE_CLOSED ? 0 : 1)) return;
+    }
+    hx_triple(&n, p[1], p[3], p[2]);
+    exponent = of_points - of_direction;
+    if (t_min >= -DBL_MAX && det.sign * hx_past(&n, &det, t_min, exponent) < 0) return;
+    if (t_max <= DBL_MAX && det.sign * hx_past(&n, &det, t_max, exponent) > 0) return;
+    answer->hit = 1, answer->front = det.sign > 0;
+    answer->t = hx_quotient(&n, &det, exponent);
+    answer->u = hx_quotient(&edges[1], &det, 0);
+    answer->v = hx_quotient(&edges[2], &det, 0);
+}
+
+/* ---- plain arithmetic, with a margin ---- */
+
+/* x . (y x z), and the sum of the sizes of its terms */
+static inline double hx_plain(const double x[3], const double y[3], const double z[3], double *size) {
+    double sum = 0;
+    int i;
+    *size = 0;
+    for (i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        sum += x[i] * (y[j] * z[k] - y[k] * z[j]);
+        *size += fabs(x[i]) * (fabs(y[j] * z[k]) + fabs(y[k] * z[j]));
+    }
+    return sum;
+}
+
+/* The sign of x, 0 where a margin leaves it open. */
+static inline int hx_sign(double x, double margin) { return x > margin ? 1 : x < -margin ? -1 : 0; }
+
+/* The sign of n - t * det: below 0 before the end at t, above it beyond; 0 where it is open. */
+static inline int hx_plain_past(double n, double det, double t, double size_n, double size_det) {
+    if (fabs(t) > 0x1p128) return 0;
+    return hx_sign(n - t * det, 0x1p-48 * (size_n + fabs(t) * size_det) + 0x1p-620);
+}
+
+/* The values of a hit, as Moeller and Trumbore have them: differences from the corner a. 0 if u, v, or the point in longest
+ * edges (or t itself), may be off by more than `loss`. */
+static inline int hx_values(double points[4][3], const double d[3], double loss, hairline_answer *answer) {
+    double e1[3], e2[3], s[3], det, of_det, of_t, of_u, of_v, edge = 0, step = 0;
+    int i;
+    for (i = 0; i < 3; i++) {
+        e1[i] = points[2][i] - points[1][i], e2[i] = points[3][i] - points[1][i];
+        s[i] = points[0][i] - points[1][i];
+        edge = fmax(edge, fmax(fabs(e1[i]), fabs(e2[i]))), step = fmax(step, fabs(d[i]));
+    }
+    det = hx_plain(d, e2, e1, &of_det);
+    answer->t = hx_plain(e2, s, e1, &of_t) / det;
+    answer->u = hx_plain(s, d, e2, &of_u) / det;
+    answer->v = hx_plain(d, s, e1, &of_v) / det;
+    loss *= fabs(det) * 0x1p49;
+    if (!(of_det + 0x1p-700 < loss && of_u < loss && of_v < loss)) return 0;
+    if (!(of_t * step < loss * fmax(edge, fabs(answer->t) * step))) return 0;
+    answer->u = fmin(fmax(answer->u, 0), 1), answer->v = fmin(fmax(answer->v, 0), 1 - answer->u);
+    return 1;
+}
+
+/* 1 for a hit, 0 for a miss, 2 to ask. */
+static inline int hx_filter(double points[4][3], const double d[3], double t_min, double t_max, double loss,
+                            hairline_answer *answer) {
+    double p[3][3], edge[3], size[3], det, size_det, n, size_n, most = 0;
+    int sign[3], i, k, before, beyond;
+    for (i = 0; i < 3; i++) {
+        if (fabs(d[i]) > most) most = fabs(d[i]);
+        for (k = 0; k < 3; k++) {
+            p[k][i] = points[1 + k][i] - points[0][i];
+            if (fabs(p[k][i]) > most) most = fabs(p[k][i]);
+        }
+    }
+    if (most > 0x1p290) return 2;
+    for (k = 0; k < 3; k++) {
+        edge[k] = hx_plain(d, p[(k + 2) % 3], p[(k + 1) % 3], &size[k]);
+        sign[k] = hx_sign(edge[k], 0x1p-49 * size[k] + 0x1p-760);
+    }
+    if (sign[0] * sign[1] < 0 || sign[1] * sign[2] < 0 || sign[2] * sign[0] < 0) return 0;
+    if (sign[0] == 0 || sign[1] == 0 || sign[2] == 0) return 2;
+    det = edge[0] + edge[1] + edge[2], size_det = size[0] + size[1] + size[2];
+    n = hx_plain(p[0], p[2], p[1], &size_n);
+    before = t_min < -DBL_MAX ? 1 : sign[0] * hx_plain_past(n, det, t_min, size_n, size_det);
+    beyond = t_max > DBL_MAX ? -1 : sign[0] * hx_plain_past(n, det, t_max, size_n, size_det);
+    if (before < 0 || beyond > 0) return 0;
+    if (before == 0 || beyond == 0) return 2;
+    answer->hit = 1, answer->front = sign[0] > 0, answer->asked = 0;
+    return hx_values(points, d, loss, answer) ? 1 : 2;
+}
+
+static inline int hx_answer(double points[4][3], const double d[3], double t_min, double t_max, double largest,
+                            double loss, hairline_answer *answer) {
+    int i, k;
+    memset(answer, 0, sizeof *answer);
+    if (!(t_min <= t_max) || t_min > DBL_MAX || t_max < -DBL_MAX) return 0;
+    for (i = 0; i < 3; i++) {
+        if (!(fabs(d[i]) <= DBL_MAX)) return 0;
+        for (k = 0; k < 4; k++)
+            if (!(fabs(points[k][i]) <= DBL_MAX)) return 0;
+    }
+    if (hx_filter(points, d, t_min, t_max, loss, answer) == 2) hx_exact(points, d, t_min, t_max, answer);
+    /* What was rounded stays between the ends, and finite. */
+    answer->t = fmin(fmax(answer->t, fmax(t_min, -largest)), fmin(t_max, largest));
+    return answer->hit;
+}
+
+/* Does the ray o + t * d, t_min <= t <= t_max, hit the triangle? Vectors are arrays of three. Returns answer->hit. */
+static inline int hairline_exact_f64(const double o[3], const double d[3], const double a[3], const double b[3], const double c[3],
+                              double t_min, double t_max, hairline_answer *answer) {
+    double points[4][3];
+    int i;
+    for (i = 0; i < 3; i++) points[0][i] = o[i], points[1][i] = a[i], points[2][i] = b[i], points[3][i] = c[i];
+    return hx_answer(points, d, t_min, t_max, DBL_MAX, 0x1p-32, answer);
+}
+
+/* The same in float, where plain arithmetic in double has margins that hardly ever matter. */
+static inline int hairline_exact_f32(const float o[3], const float d[3], const float a[3], const float b[3], const float c[3],
+                              float t_min, float t_max, hairline_answer *answer) {
+    double points[4][3], direction[3];
+    int i;
+    for (i = 0; i < 3; i++) {
+        points[0][i] = o[i], points[1][i] = a[i], points[2][i] = b[i], points[3][i] = c[i];
+        direction[i] = d[i];
+    }
+    return hx_answer(points, direction, t_min, t_max, FLT_MAX, 0x1p-25, answer);
+}
+
+#endif

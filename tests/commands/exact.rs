@@ -1,0 +1,104 @@
+//! `include/hairline_exact.h`: the one file that answers every ray right, held to the oracle through the plug-in.
+
+use crate::plugin::{library, record};
+use crate::program::{ends, scratch};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const HERE: &str = env!("CARGO_MANIFEST_DIR");
+
+/// No mercy for what a stranger's compiler may say; undefined behaviour ends the process, which is a finding.
+const STRICT: [&str; 5] =
+    ["-Wall", "-Wextra", "-Werror", "-fsanitize=undefined", "-fsanitize-undefined-trap-on-error"];
+
+fn exact(name: &str, edges: &str, flags: &[&str]) -> Option<String> {
+    let edges = format!("-DHAIRLINE_EDGES=HAIRLINE_{edges}");
+    let source = PathBuf::from(HERE).join("examples/c/exact.c");
+    library(&source, name, &[&STRICT[..], &[edges.as_str()], flags].concat())
+}
+
+/// The kinds of findings of a record, but for t beyond the largest number, and values in double, which are those of a
+/// plain formula.
+fn wrong(record: &Value) -> Vec<String> {
+    let results = record["result"]["results"].as_array().unwrap();
+    let found = results.iter().flat_map(|part| {
+        let findings = part["findings"].as_array().unwrap();
+        findings.iter().map(move |found| (part["scalar"].as_str().unwrap(), found))
+    });
+    let is_of_value = |(scalar, found): &(&str, &Value)| {
+        let command = found["worst"]["command"].as_str().unwrap();
+        let is_known = ["range-ends", "mixed-scale"].iter().any(|name| command.contains(name));
+        found["finding"] == "wrong-value" && (*scalar == "f64" || is_known)
+    };
+    found
+        .filter(|it| !is_of_value(it))
+        .map(|(_, found)| found["worst"]["command"].to_string())
+        .collect()
+}
+
+#[test]
+fn it_is_right_on_every_family_in_c_and_in_cpp_contracted_or_not() {
+    let c = ["-std=c99", "-pedantic", "-O2"];
+    let cpp = ["-xc++", "-std=c++17", "-O3", "-march=native", "-ffp-contract=fast"];
+    for (name, edges, flags) in [
+        ("exact-closed", "CLOSED", &c[..]),
+        ("exact-fast", "CLOSED", &cpp),
+        ("exact-open", "OPEN", &c),
+    ] {
+        let Some(library) = exact(name, edges, flags) else { return };
+        let (record, _) = record(&["-n", "3000", "--kernel-lib", &library]);
+        assert_eq!(wrong(&record), [""; 0], "{name}");
+    }
+    // It is not that nothing was asked: a plain kernel is wrong there, by the same contract.
+    let plain = ["-n", "3000", "--kernel", "moller-trumbore", "--contract", "closed-interval"];
+    assert!(10 < wrong(&record(&plain).0).len());
+}
+
+#[test]
+fn exactly_one_triangle_is_hit_at_shared_edges_and_vertices() {
+    let Some(library) = exact("exact-once", "ONCE", &["-std=c99", "-pedantic"]) else { return };
+    let (of_families, _) = record(&["-n", "3000", "--kernel-lib", &library]);
+    assert_eq!(wrong(&of_families), [""; 0]);
+    let folder = scratch("exact-once");
+    let mut crossings = 0;
+    for mesh in ["far.obj", "icosphere.obj", "torus.obj"] {
+        let path = Path::new(HERE).join("corpora/meshes").join(mesh);
+        let all =
+            ["mesh", path.to_str().unwrap(), "--kernel-lib", &library, "--format", "json", "-q"];
+        let told: Value = serde_json::from_str(&ends(&folder, &all, 0).0).unwrap();
+        let row = &told["result"]["scalars"][0]["results"][0];
+        for part in ["edges", "vertices"] {
+            let total = &row[part]["total"];
+            for kind in ["cracks", "elsewhere", "doubles", "odd_folds"] {
+                assert_eq!(total[kind]["count"], 0, "{mesh} {part} {kind}: {total}");
+            }
+            crossings += total["cracks"]["of"].as_u64().unwrap();
+        }
+    }
+    assert!(1000 < crossings, "{crossings}");
+}
+
+#[test]
+fn a_compiler_that_changes_results_is_refused() {
+    let include = format!("-I{HERE}/include");
+    let source = PathBuf::from(HERE).join("examples/c/exact.c");
+    let build = |flag: &str| {
+        Command::new("cc").args(["-c", "-o", "/dev/null", flag, &include]).arg(&source).output()
+    };
+    let Ok(refused) = build("-ffast-math") else { return };
+    let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(!refused.status.success() && told.contains("-ffast-math changes results"), "{told}");
+    assert!(build("-O2").unwrap().status.success());
+}
+
+/// The header supposes at most eight roundings of its numbers at the edges; the prover counts those of the same formula.
+#[test]
+fn its_margin_is_wider_than_what_is_proved_of_its_formula() {
+    let all = ["prove", "--kernel", "scalar-triple", "--scalar", "f64", "--details", "-q"];
+    let (text, _) = ends(&scratch("exact-proof"), &all, 0);
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let (before, _) = text.split_once(" u times its permanent").unwrap();
+    let factor: f64 = before.rsplit(' ').next().unwrap().parse().unwrap();
+    assert!((6.0..8.0).contains(&factor), "{factor}");
+}
