@@ -59,7 +59,7 @@ pub use plan::Plan;
 pub use row::flags;
 pub use row::{PlanError, Row, RowSpec, quoted, shell_word};
 pub use run::{Audit, Cell, finish, run, run_scalar, sum};
-pub use severity::{Severity, exact_severity};
+pub use severity::{Severity, exact_severity, severity_of_instance};
 pub use shard::MOST_SHARDS;
 pub use shard::Shard;
 pub use source::{CHUNK, is_of_mesh, kind_of};
