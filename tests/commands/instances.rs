@@ -84,7 +84,8 @@ fn every_printed_command_shows_what_was_found() {
     let cases: String =
         (0..40).map(|i| case.replace("0.3", &format!("{}.3", 9 * i)) + "\n").collect();
     fs::write(folder.join("c.jsonl"), cases).unwrap();
-    let flags = ["-k", "woop-watertight", "-f", "edge-near,fan,secondary-ray", "--instance", FAR];
+    let flags =
+        ["-k", "woop-watertight", "-f", "edge-near,shared-edge,secondary-ray", "--instance", FAR];
     let record = audited(&folder, &[&flags[..], &["--corpus", "c.jsonl"]].concat());
     let (mut shown, mut sources) = (0, Vec::new());
     for result in record["result"]["results"].as_array().unwrap() {
@@ -114,8 +115,8 @@ fn every_printed_command_shows_what_was_found() {
     sources.dedup();
     assert!(20 < shown && sources.len() > 4, "{shown} {sources:?}");
     // A group is judged in the world too.
-    let fan = record["result"]["results"].as_array().unwrap().iter();
-    let groups = fan.filter_map(|result| result["across"]["first_cracks"].as_array());
+    let results = record["result"]["results"].as_array().unwrap().iter();
+    let groups = results.filter_map(|result| result["across"]["first_cracks"].as_array());
     let ids: Vec<&str> = groups.flatten().filter_map(Value::as_str).collect();
     for id in &ids {
         let screen = ends(&folder, &["explain", id, "-k", "woop-watertight"], 0).0;
@@ -242,4 +243,54 @@ fn what_takes_no_instance_says_so() {
     let bad = id.replace("1e0:0e0/1/5", "0e0:0e0/1/5");
     let error = ends(&folder, &["explain", &bad], 2).1;
     assert!(error.contains("the matrix is singular in f32"), "{error}");
+}
+
+#[test]
+fn new_rays_leave_the_exact_plane_of_an_instance() {
+    let folder = scratch("instances-spawn");
+    let schemes = ["--scene", "unit,plane=generic", "--scheme", "normal=1e-6,normal=1e-4,pbrt-v4"];
+    let spawned = |more: &[&str]| -> Value {
+        let flags = ["spawn", "-q", "-n", "5000", "--format", "json"];
+        serde_json::from_str(&ends(&folder, &[&flags[..], &schemes, more].concat(), 0).0).unwrap()
+    };
+    let plain = spawned(&[]);
+    let counts = |record: &Value| {
+        let of_scheme = |scheme: &Value| {
+            let names = ["wrong", "self_hits", "height_in_edges", "height_in_ulps", "over_least"];
+            names.map(|name| scheme[name].clone())
+        };
+        let of_points = |points: &Value| -> Vec<Value> {
+            let schemes = points["schemes"].as_array().unwrap().iter().flat_map(of_scheme);
+            schemes.chain([points["least"].clone(), points["hits"].clone()]).collect()
+        };
+        record["points"].as_array().unwrap().iter().flat_map(of_points).collect::<Vec<_>>()
+    };
+    assert_eq!(counts(&plain), counts(&spawned(&["--instance", IDENTITY])));
+    // Turned inside out without rounding, every start is as high over the front or the back as before.
+    let mirrored = spawned(&["--instance", "-1 0 0 0  0 1 0 0  0 0 1 0"]);
+    for (i, scheme) in plain["points"][1]["schemes"].as_array().unwrap().iter().enumerate() {
+        let other = &mirrored["points"][1]["schemes"][i];
+        assert_eq!(scheme["wrong"], other["wrong"]);
+        assert_eq!(scheme["height_in_edges"], other["height_in_edges"]);
+    }
+    // Far off most offsets of a millionth are too small, and some starts that are right are not so for the object.
+    let turned = "0.36 0.48 -0.8 1000  -0.8 0.6 0 0  0.48 0.64 0.6 0";
+    let far = spawned(&["--instance", turned]);
+    let of = |record: &Value, i: usize, name: &str| {
+        record["points"][0]["schemes"][i][name]["count"].as_u64().unwrap()
+    };
+    assert!(of(&plain, 0, "wrong") < 10 && 1000 < of(&far, 0, "wrong"));
+    assert!(of(&far, 2, "wrong") == 0 && 10 < of(&far, 2, "self_hits"));
+    // The first wrong start is shown in the world by its command, and so is the first ray by its id.
+    let wrong = &far["points"][0]["schemes"][0]["first_wrong"];
+    let command = wrong["explain"].as_str().unwrap();
+    let words = shell_words(command.strip_prefix("hairline ").unwrap());
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let screen = flat(&ends(&folder, &words, 0).0);
+    let world = screen.split(" world ").nth(1).unwrap();
+    assert!(!world.contains("t before"), "{world}");
+    let id = wrong["first_ray"].as_str().unwrap();
+    assert!(flat(&ends(&folder, &["explain", id, "-k", "plucker"], 0).0).contains(" world "));
+    let error = ends(&folder, &["spawn", "--instance", "0 0 0 0 0 0 0 0 0 0 0 0"], 2).1;
+    assert!(error.starts_with("hairline: --instance: the matrix is singular in f32"), "{error}");
 }

@@ -47,6 +47,13 @@ impl<F: Float> Instance<F> {
         self.matrix
     }
 
+    /// The same in `f64`, which holds its numbers exactly.
+    pub fn widen(&self) -> Instance<f64> {
+        let [matrix, inverse] =
+            [self.matrix, self.inverse].map(|m| m.map(|row| row.map(F::to_f64)));
+        Instance { matrix, inverse }
+    }
+
     /// A point of the object in the world, rounded.
     pub fn point_in_world(&self, point: [F; 3]) -> [F; 3] {
         self.matrix.map(|[i, j, k, moved]| dot([i, j, k], point) + moved)
@@ -64,6 +71,25 @@ impl<F: Float> Instance<F> {
         let direction = self.matrix.map(|[i, j, k, _]| dot([i, j, k], direction)).into();
         let ray = Ray { origin: self.point_in_world(origin).into(), direction, ..case.ray };
         Case { ray, ..*case }
+    }
+
+    /// Points of the object in the world, in an arithmetic that does not round.
+    pub fn place<R: Real>(&self, points: [[F; 3]; 3], number: impl Fn(f64) -> R) -> [Triple<R>; 3] {
+        let lift = |x: F| number(x.to_f64());
+        points.map(|point| {
+            let point = Triple::from(point.map(lift));
+            self.matrix
+                .map(|[i, j, k, moved]| Triple::from([i, j, k].map(lift)).dot(&point) + lift(moved))
+                .into()
+        })
+    }
+
+    /// True if it turns an object inside out.
+    pub fn is_mirrored(&self) -> bool {
+        let [x, y, z] = [0, 1, 2].map(|column| {
+            Triple::from(self.matrix.map(|row| Exact::from_f64(row[column].to_f64())))
+        });
+        x.dot(&y.cross(&z)).is_sign_negative()
     }
 
     /// A ray of the world as the object has it, and the triangle, in an arithmetic that does not round; both as many

@@ -62,7 +62,7 @@ pub use run::{Audit, Cell, finish, run, run_scalar, sum};
 pub use severity::{Severity, exact_severity, severity_of_instance};
 pub use shard::MOST_SHARDS;
 pub use shard::Shard;
-pub use source::{CHUNK, is_of_mesh, kind_of};
+pub use source::{CHUNK, is_of_mesh, kind_of, words};
 pub use source::{CorpusSet, Source};
 pub use stored::{StoredPlan, StoredSource};
 pub use tally::{ClassCount, Examples, PolygonCount, SelfHits, Severities, Tally};

@@ -85,6 +85,11 @@ pub fn kind_of(name: &str) -> SceneKind {
     kind.unwrap_or(SceneKind::ALL[0])
 }
 
+/// A matrix as `--instance` takes it.
+pub fn words(matrix: &Matrix<f64>) -> String {
+    matrix.as_flattened().iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
+}
+
 /// The stored cases of one file of which all are secondary rays, or none is.
 #[derive(Clone, Default)]
 pub struct CorpusSet {
@@ -463,8 +468,7 @@ impl Source {
                 Some(format!("--corpus {}", quoted(file)))
             }
             Source::Corpus(CorpusSet { file, instance: Some(matrix), .. }) => {
-                let words: Vec<String> = matrix.as_flattened().iter().map(f64::to_string).collect();
-                Some(format!("--corpus {} --instance {}", quoted(file), quoted(&words.join(" "))))
+                Some(format!("--corpus {} --instance {}", quoted(file), quoted(&words(matrix))))
             }
         }
     }
