@@ -33,10 +33,8 @@ impl<F: Float> Instance<F> {
 
     /// The instance of a matrix that has an inverse, exactly and as computed; else what is wrong with it.
     pub fn checked(matrix: Matrix<F>) -> Result<Instance<F>, String> {
-        let [x, y, z] = [0, 1, 2]
-            .map(|column| Triple::from(matrix.map(|row| Exact::from_f64(row[column].to_f64()))));
         let is_finite = matrix.as_flattened().iter().all(|number| number.is_finite());
-        if is_finite && x.dot(&y.cross(&z)).is_zero() {
+        if is_finite && exact_determinant(&matrix).is_zero() {
             return Err(format!("the matrix is singular in {}: it has no inverse", F::NAME));
         }
         Instance::new(matrix).ok_or_else(|| format!("its inverse is not finite in {}", F::NAME))
@@ -86,10 +84,7 @@ impl<F: Float> Instance<F> {
 
     /// True if it turns an object inside out.
     pub fn is_mirrored(&self) -> bool {
-        let [x, y, z] = [0, 1, 2].map(|column| {
-            Triple::from(self.matrix.map(|row| Exact::from_f64(row[column].to_f64())))
-        });
-        x.dot(&y.cross(&z)).is_sign_negative()
+        exact_determinant(&self.matrix).is_sign_negative()
     }
 
     /// A ray of the world as the object has it, and the triangle, in an arithmetic that does not round; both as many
@@ -121,6 +116,12 @@ impl<F: Float> Instance<F> {
         let direction = self.inverse.map(|[i, j, k, _]| dot([i, j, k], direction));
         Case::new(origin, direction, [a, b, c]).on(case.ray.t_min, case.ray.t_max)
     }
+}
+
+fn exact_determinant<F: Float>(matrix: &Matrix<F>) -> Exact {
+    let [x, y, z] = [0, 1, 2]
+        .map(|column| Triple::from(matrix.map(|row| Exact::from_f64(row[column].to_f64()))));
+    x.dot(&y.cross(&z))
 }
 
 /// A matrix as case ids have it: twelve numbers, row by row.

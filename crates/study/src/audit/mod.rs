@@ -12,6 +12,7 @@ mod by_finding;
 mod causes;
 mod choice;
 mod chunk;
+mod corpus_set;
 #[cfg(feature = "studies")]
 mod coverage;
 mod digest;
@@ -46,6 +47,7 @@ pub use causes::Causes;
 pub use choice::EpsilonChoice;
 pub use chunk::Chunk;
 pub use chunk::SourceSummary;
+pub use corpus_set::CorpusSet;
 #[cfg(feature = "studies")]
 pub use coverage::{ASPECTS, Aspect, coverage};
 pub use digest::{Digest, Place};
@@ -62,8 +64,8 @@ pub use run::{Audit, Cell, finish, run, run_scalar, sum};
 pub use severity::{Severity, exact_severity, severity_of_instance};
 pub use shard::MOST_SHARDS;
 pub use shard::Shard;
+pub use source::Source;
 pub use source::{CHUNK, is_of_mesh, kind_of, words};
-pub use source::{CorpusSet, Source};
 pub use stored::{StoredPlan, StoredSource};
 pub use tally::{ClassCount, Examples, PolygonCount, SelfHits, Severities, Tally};
 pub use trials::{RayProducts, Trials};
