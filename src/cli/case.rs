@@ -1,10 +1,10 @@
 //! The case that a command line names: an id, the name of a stored case, or JSON.
 
 use super::exit::{Failure, Status};
-use super::flags::{find_family, find_kernel, is_f32, unknown};
+use super::flags::{find_family, find_kernel, is_f32, placed, unknown};
 use super::input::{corpus_files, name_of, read_corpus, read_mesh};
 use crate::arith::Float;
-use crate::case::{AnyScalar, Case, CaseId};
+use crate::case::{AnyScalar, Case, CaseId, Instance};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::Mesh;
 use crate::family::{Family, Grouping, Made, MeshFamily, Stratum};
@@ -42,17 +42,30 @@ pub struct Group<F: Scalar> {
     pub grouping: Grouping,
     /// The triangles of a mesh around those of the group; `None` if they are too many to be asked.
     pub neighbours: Option<Vec<Case<F>>>,
+    /// Where the triangles are put, if an id says so; then the rays are of the world.
+    pub instance: Option<Instance<F>>,
 }
 
 impl<F: Scalar> Group<F> {
     fn alone(cases: Vec<Case<F>>, grouping: Grouping) -> Group<F> {
-        Group { cases, grouping, neighbours: Some(Vec::new()) }
+        Group { cases, grouping, neighbours: Some(Vec::new()), instance: None }
     }
 }
 
 impl CaseArguments {
-    /// The cases, or why there are none.
+    /// The cases, or why there are none; an instance is one of the reasons.
     pub fn cases(&self) -> Result<Cases, Failure> {
+        let cases = self.cases_and_instances()?;
+        if either_scalar!(&cases, group => group.instance.is_some()) {
+            let message =
+                format!("'{}' is a case of an instance: only `explain` takes it", self.case);
+            return Err(Failure::usage(message));
+        }
+        Ok(cases)
+    }
+
+    /// The cases, whose rays are of the world if there is an instance, or why there are none.
+    pub fn cases_and_instances(&self) -> Result<Cases, Failure> {
         if let Some(path) = &self.corpus {
             return self.stored(path);
         }
@@ -74,8 +87,8 @@ impl CaseArguments {
             Failure::usage(format!("{error}; for the name of a stored case add --corpus FILE"))
         })?;
         match is_f32(&id.scalar, &format!(" in '{id}'"))? {
-            true => from_id(&id, self.mesh.as_deref()).map(Cases::F32),
-            false => from_id(&id, self.mesh.as_deref()).map(Cases::F64),
+            true => in_world(&id, self.mesh.as_deref()).map(Cases::F32),
+            false => in_world(&id, self.mesh.as_deref()).map(Cases::F64),
         }
     }
 
@@ -137,7 +150,18 @@ fn stored_cases(stored: &StoredCase) -> Cases {
     }
 }
 
-/// The cases of an id, and how they belong together.
+/// The cases of an id, whose rays are brought to the world if it has an instance.
+fn in_world<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failure> {
+    let group = from_id(id, mesh)?;
+    let Some(matrix) = id.parameters.instance else { return Ok(group) };
+    let instance = placed(matrix.map(|row| row.map(F::from_f64)))?;
+    let moved = |cases: Vec<Case<F>>| cases.iter().map(|case| instance.in_world(case)).collect();
+    let Group { cases, grouping, neighbours, .. } = group;
+    let neighbours = neighbours.map(moved);
+    Ok(Group { cases: moved(cases), grouping, neighbours, instance: Some(instance) })
+}
+
+/// The cases of an id as they are made, and how they belong together.
 fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failure> {
     if let Some(name) = &id.parameters.kernel {
         find_kernel(name)?;
@@ -207,7 +231,7 @@ fn around_target<F: Scalar>(id: &CaseId, mesh: &Mesh, part: Part) -> Result<Grou
     let mut around = Vec::new();
     let few = targets.add_neighbours((part, id.index), &cases[0].ray, &mut around);
     let neighbours = few.then_some(around);
-    Ok(Group { cases: chosen_triangle(id, cases)?, grouping: part.grouping(), neighbours })
+    Ok(Group { neighbours, ..Group::alone(chosen_triangle(id, cases)?, part.grouping()) })
 }
 
 /// The cases of a stratum of the scene that a mesh is.

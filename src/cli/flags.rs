@@ -1,6 +1,9 @@
 //! The parts that the flags of several commands share: headings of the help, names in tables, numbers.
 
 use super::exit::Failure;
+use crate::arith::Float;
+use crate::case::{Instance, Matrix};
+use crate::corpus::number;
 use crate::family::{self, FAMILIES, Family};
 use crate::kernel::{self, Entry};
 use crate::suggest::did_you_mean;
@@ -70,4 +73,32 @@ pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
         scalars[usize::from(!is_f32(name, "")?)] = true;
     }
     Ok(scalars)
+}
+
+/// Reads the matrix of `--instance`: twelve numbers, row by row.
+pub fn matrix<F: Float>(text: &str) -> Result<Matrix<F>, Failure> {
+    let wrong = |message: String| Failure::usage(format!("--instance: {message}"));
+    let words = text.split([',', ' ', ';', '\n']).filter(|word| !word.is_empty());
+    let numbers = words.map(number::parse).collect::<Result<Vec<F>, _>>().map_err(wrong)?;
+    let count = || wrong(format!("expected 12 numbers, row by row, found {}", numbers.len()));
+    let (rows, []) = numbers.as_chunks::<4>() else { return Err(count()) };
+    rows.try_into().map_err(|_| count())
+}
+
+/// The instance of a matrix, if it has an inverse.
+pub fn placed<F: Float>(matrix: Matrix<F>) -> Result<Instance<F>, Failure> {
+    Instance::checked(matrix).map_err(|error| Failure::usage(format!("--instance: {error}")))
+}
+
+/// Reads the matrix of `--instance`, if it is given, for a run in some scalars.
+pub fn matrix_in(text: Option<&str>, scalars: [bool; 2]) -> Result<Option<Matrix<f64>>, Failure> {
+    let Some(text) = text else { return Ok(None) };
+    let wide = matrix::<f64>(text)?;
+    if scalars[0] {
+        placed(wide.map(|row| row.map(f32::from_f64)))?;
+    }
+    if scalars[1] {
+        placed(wide)?;
+    }
+    Ok(Some(wide))
 }

@@ -5,7 +5,7 @@ use super::input::{corpus_sets, read_mesh, read_record};
 use super::plugins::PluginArguments;
 use super::progress::Progress;
 use super::reporting::{Outputs, ReportArguments, illustrated, self_check};
-use crate::audit::{Plan, Source, StoredSource};
+use crate::audit::{CorpusSet, Plan, Source, StoredSource};
 use crate::corpus::InputError;
 use crate::family::{MeshFamily, Stratum};
 use crate::kernel;
@@ -116,9 +116,10 @@ fn open(source: &StoredSource, scalars: [bool; 2], quiet: bool) -> Result<Source
                 count: *count,
             })
         }
-        StoredSource::Corpus { file, is_secondary } => {
+        StoredSource::Corpus { file, is_secondary, instance } => {
             let [others, secondary] = corpus_sets(file)?;
-            Ok(Source::Corpus(if *is_secondary { secondary } else { others }))
+            let set = if *is_secondary { secondary } else { others };
+            Ok(Source::Corpus(CorpusSet { instance: *instance, ..set }))
         }
         StoredSource::Family { family, .. } => {
             Err(format!("family '{family}' needs no file").into())

@@ -2,6 +2,7 @@
 
 use super::before::{one_scalar, set_threads};
 use super::exit::{Failure, Status};
+use super::flags::matrix_in;
 use super::input::read_mesh;
 use super::output::OutputArguments;
 use super::plugins;
@@ -43,6 +44,11 @@ pub struct MeshArguments {
     #[arg(long, value_name = "unit", value_parser = ["unit"], hide_possible_values = true)]
     direction: Option<String>,
 
+    /// Put the mesh into the world by a 3x4 matrix, row by row, as "m00, …, m23": kernels get the rays, which are of
+    /// the world, by the rounded inverse
+    #[arg(long, value_name = "MATRIX", allow_hyphen_values = true)]
+    instance: Option<String>,
+
     /// Seed of the random rays
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -64,6 +70,7 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
     let mut outputs = arguments.output.pairs(MESH_FORMATS)?;
     let mut plan = arguments.plan()?;
     let scalars = one_scalar(&plan.rows, &arguments.scalar)?;
+    plan.instance = matrix_in(arguments.instance.as_deref(), scalars)?;
     let threads = set_threads(arguments.threads)?;
     let family =
         MeshFamily::new(read_mesh(&arguments.file, arguments.output.quiet)?, &arguments.file);
@@ -104,7 +111,7 @@ impl MeshArguments {
         let unit_direction = self.direction.is_some();
         let MeshArguments { directions, seed, examples, .. } = *self;
         let rows = self.kernels.rows_without_band("every ray goes to an edge or a vertex")?;
-        Ok(Plan { rows, directions, seed, unit_direction, examples, places: 0 })
+        Ok(Plan { rows, directions, seed, unit_direction, instance: None, examples, places: 0 })
     }
 
     fn run_scalar<F: Scalar>(

@@ -2,14 +2,14 @@
 
 use super::before::{note_secondary_rays, scalars_in_use, set_threads, total_indices};
 use super::exit::{Failure, Status};
-use super::flags::{OUTPUT, RUNNING};
+use super::flags::{OUTPUT, RUNNING, matrix_in};
 use super::output::{OutputArguments, write_failure};
 use super::plugins;
 use super::progress::Progress;
 use super::prove;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, rays_at_each};
-use crate::audit::{self, Plan, Shard, Source};
+use crate::audit::{self, Plan, Shard, Source, shell_word};
 use crate::report::{
     Context, FORMATS, Format, HTML, Illustrations, ON_FAILURE, PartialPart, PlanFlags, Record,
     build, group_digits, illustrations, number_of, shard_part,
@@ -102,6 +102,11 @@ pub struct RunArguments {
     #[arg(long, default_value_t = 8, value_name = "N", allow_hyphen_values = true, value_parser = rays_at_each(), help_heading = RUNNING)]
     directions: u64,
 
+    /// Put all triangles into the world by a 3x4 matrix, row by row, as "m00, …, m23": kernels get the rays, which are
+    /// of the world, by the rounded inverse
+    #[arg(long, value_name = "MATRIX", allow_hyphen_values = true, help_heading = RUNNING)]
+    instance: Option<String>,
+
     /// How many examples of each class of finding to keep
     #[arg(long, default_value_t = 3, value_name = "N", help_heading = OUTPUT)]
     examples: usize,
@@ -134,17 +139,24 @@ impl RunArguments {
             let parts = source.mesh_parts(self.directions, scalars);
             std::iter::once(source).chain(parts)
         };
-        let sources = sources.into_iter().flat_map(with_parts).chain(others).collect();
+        let sources = sources.into_iter().flat_map(with_parts).chain(others);
+        let sources = match matrix_in(self.instance.as_deref(), scalars)? {
+            Some(matrix) => sources.map(|source| source.placed(matrix)).collect(),
+            None => sources.collect(),
+        };
         Ok(Plan { rows, sources, scalars, examples: self.examples, attribute })
     }
 
     /// The flags that choose the cases again.
     fn source_flags(&self) -> String {
-        let flags = self.sources.flags();
-        match self.directions {
-            8 => flags,
-            directions => format!("{flags} --directions {directions}"),
+        let mut flags = self.sources.flags();
+        if self.directions != 8 {
+            flags += &format!(" --directions {}", self.directions);
         }
+        if let Some(matrix) = &self.instance {
+            flags += &format!(" --instance {}", shell_word(matrix));
+        }
+        flags.trim_start().to_owned()
     }
 
     /// Runs a plan, or the part of it that `--shard` names, and makes its record, illustrated if asked.

@@ -63,6 +63,7 @@ const SETTINGS: &[Setting] = &[
     setting("scene", Kind::Text, "room"),
     setting("mesh", Kind::Files, "model.obj"),
     setting("directions", Kind::Text, ""),
+    setting("instance", Kind::Text, "0 0 -2 1000  2 0 0 0.5  0 -2 0 -64"),
     setting("corpus", Kind::Files, "cases.jsonl"),
     setting("examples", Kind::Text, ""),
     setting("proved", Kind::Demands, "woop-watertight/f32/watertight=true"),

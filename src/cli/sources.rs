@@ -337,6 +337,7 @@ impl SourceArguments {
             mesh: None,
             scene: self.scene()?.map(|(scene, _)| scene),
             kernel: None,
+            instance: None,
         })
     }
 

@@ -6,13 +6,13 @@ mod record;
 
 use super::before::{one_scalar, refuse_wrong_values, set_threads};
 use super::exit::{Failure, Status};
-use super::flags::{RUNNING, case_count, refuse_twice};
+use super::flags::{RUNNING, case_count, matrix_in, refuse_twice};
 use super::output::OutputArguments;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{mesh_scene, note_left_out};
 use crate::audit::{Row, shell_word};
-use crate::case::{Case, Scene};
+use crate::case::{Case, Matrix, Scene};
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
 use crate::mesh::SceneMesh;
@@ -52,6 +52,11 @@ pub struct SpawnArguments {
     /// mesh,distance=0..20
     #[arg(long, value_name = "FILE")]
     mesh: Option<String>,
+
+    /// Put all triangles into the world by a 3x4 matrix, row by row, as "m00, …, m23": hit points go there, are offset
+    /// there, and new rays come back by the rounded inverse
+    #[arg(long, value_name = "MATRIX", allow_hyphen_values = true)]
+    instance: Option<String>,
 
     /// Offset schemes, separated by commas, some with a value: normal=1e-3,waechter-binder (see `hairline
     /// list schemes`) [default: all published ones, and two that are made for the scene]
@@ -114,6 +119,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let scalars = one_scalar(&rows, &arguments.scalar)?;
     refuse_wrong_values(&rows, scalars)?;
     let FirstRays { scene, scalars, unit, mesh } = arguments.first_rays(scalars)?;
+    let instance = matrix_in(arguments.instance.as_deref(), scalars)?;
     let (kinds, wall, fold) = (arguments.kinds()?, arguments.wall()?, arguments.fold()?);
     // A mesh has planes of its own.
     let scenes = match Scene::names_kind(&arguments.scene) || mesh.is_some() {
@@ -127,7 +133,8 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         for &kind in kinds.iter().filter(|kind| kind.is_given_by(row.entry)) {
             let in_scalar = row.entry.scalars();
             let mesh = mesh.as_ref();
-            let settings = Settings { arguments, row, scenes: &scenes, mesh, kind, wall, fold };
+            let settings =
+                Settings { arguments, row, scenes: &scenes, mesh, kind, wall, fold, instance };
             if scalars[0] && in_scalar[0] && has::<f32>(&schemes) {
                 let schemes = &schemes;
                 studies.push(Box::new(move |progress| settings.study::<f32>(schemes, progress)));
@@ -162,6 +169,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         count: arguments.count,
         wall,
         fold,
+        instance,
         planes: scenes.iter().map(|scene| scene.kind().to_string()).collect(),
         points,
     };
@@ -201,6 +209,7 @@ struct Settings<'a> {
     kind: PointKind,
     wall: f64,
     fold: f64,
+    instance: Option<Matrix<f64>>,
 }
 
 impl Settings<'_> {
@@ -210,7 +219,7 @@ impl Settings<'_> {
     where
         AnyCase: From<Case<F>>,
     {
-        let Settings { arguments, row, scenes, mesh, kind, wall, fold } = *self;
+        let Settings { arguments, row, scenes, mesh, kind, wall, fold, instance } = *self;
         let gives_t = row.entry.info.gives.t;
         let is_for = |s: &&Scheme| s.offset::<F>().is_some() && (gives_t || !needs_t(&s.name));
         let mut schemes: Vec<Scheme> = schemes.iter().filter(is_for).cloned().collect();
@@ -226,6 +235,7 @@ impl Settings<'_> {
             schemes: no_schemes,
             wall,
             fold,
+            instance,
             with_least,
             seed,
             count,
@@ -273,7 +283,10 @@ impl SpawnArguments {
     /// The flags that name the scene or the mesh.
     fn place(&self) -> String {
         let mesh = self.mesh.as_ref().map(|path| format!("--mesh {} ", shell_word(path)));
-        format!("{}--scene {}", mesh.unwrap_or_default(), shell_word(&self.scene))
+        let instance = self.instance.as_ref();
+        let instance = instance.map(|words| format!(" --instance {}", shell_word(words)));
+        let (mesh, instance) = (mesh.unwrap_or_default(), instance.unwrap_or_default());
+        format!("{mesh}--scene {}{instance}", shell_word(&self.scene))
     }
 
     /// The scene, which the scalars of the run can hold, its unit of length, and the mesh that it is.

@@ -26,6 +26,9 @@ fn explained(rows: &[Row], name: &str) -> Result<String, PlanError> {
     let unknown =
         || wrong(format!("this program makes no cases of '{}@{}'", id.family, id.version));
     let family = family.ok_or_else(unknown)?;
+    if id.parameters.instance.is_some() {
+        return Err(wrong(format!("'{id}' is a case of an instance: `hairline explain` takes it")));
+    }
     let explanation = in_named_scalar!(id.scalar, F => {
         let made = family.make::<F>(&id.parameters, id.seed, id.index);
         let mut cases = made.cases().to_vec();
@@ -33,8 +36,8 @@ fn explained(rows: &[Row], name: &str) -> Result<String, PlanError> {
             let case = cases.get(triangle).copied();
             cases = vec![case.ok_or_else(|| wrong(format!("'{id}' has no such triangle")))?];
         }
-        let group = Together { cases: &cases, grouping: family.grouping, neighbours: Some(&[]) };
-        explain(name, group, None, rows)
+        let group = Together { cases: &cases, grouping: family.grouping, neighbours: Some(&[]), instance: None };
+        explain(name, group, rows)
     });
     let mut text = Vec::new();
     let _ = (Format::TEXT.write)(&explanation, Default::default(), &mut text);

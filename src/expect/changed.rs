@@ -1,7 +1,7 @@
 //! A case that changed between two runs over the same cases, from the digests of what was wrong in each.
 
 use crate::audit::Digest;
-use crate::case::{Case, CaseId};
+use crate::case::{Case, CaseId, Parameters};
 use crate::family;
 use crate::kernel::Scalar;
 use crate::report::{Example, Key, ResultPart};
@@ -59,7 +59,8 @@ pub fn changed_case(
     }
     (id.index, id.triangle) = (place.index, id.triangle.map(|_| place.triangle as usize));
     let case = id.to_string();
-    let is_plain = id.parameters.mesh.is_none() && id.parameters.scene.is_none();
+    let Parameters { mesh, scene, instance, .. } = &id.parameters;
+    let is_plain = mesh.is_none() && scene.is_none() && instance.is_none();
     let is_of_cases = !example.bits.is_empty() && is_plain;
     let bits = is_of_cases.then(|| in_named_scalar!(id.scalar, F => bits::<F>(&id))).flatten();
     Some(Example {

@@ -6,7 +6,7 @@ use super::{
     RowPart, RowTotal, SCHEMA, SourcePart, distribution,
 };
 use crate::arith::Float;
-use crate::audit::{Digest, Judged, Place, Severities, Tally};
+use crate::audit::{Digest, Judged, Place, Severities, Tally, exact_severity};
 use crate::contract::Extent;
 use crate::corpus::hex;
 use crate::judge::{Class, Distances, Finding, GroupTruth, Obligation};
@@ -266,7 +266,7 @@ fn add(
 fn example(test: &Test, triangle: usize, severe: bool) -> Example {
     let (bits, severity) = either_scalar!(&test.cases[triangle], case => (
         case.hex(),
-        severe.then(|| severity_part(case, Extent::Interval)).flatten(),
+        severe.then(|| exact_severity(case, Extent::Interval)).flatten().map(severity_part),
     ));
     Example {
         case: test.id.clone(),

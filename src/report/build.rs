@@ -5,7 +5,7 @@ use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
     Audit, Cell, CorpusSet, EpsilonText, Examples, GroupCount, Place, Plan, PolygonCount, Row,
-    Source, SourceSummary, Tally, Trials, exact_severity,
+    Severity, Source, SourceSummary, Tally, Trials, exact_severity, severity_of_instance,
 };
 use crate::case::Case;
 use crate::contract::{Boundary, Extent};
@@ -109,12 +109,15 @@ pub(super) fn planned_source(source: &Source) -> PlannedSource {
 /// The digest of the stored cases and their names: another file of the same name is another plan.
 fn corpus_digest(set: &CorpusSet) -> String {
     let mut digest = Hash::new();
-    let mut add = |name: &str, bits: [u64; 17]| {
+    let mut add = |name: &str, bits: &[u64]| {
         digest.update(name.as_bytes());
         bits.iter().for_each(|bits| digest.update(bits.to_le_bytes()));
     };
-    set.f32.iter().for_each(|(name, case)| add(name, case.bits()));
-    set.f64.iter().for_each(|(name, case)| add(name, case.bits()));
+    set.f32.iter().for_each(|(name, case)| add(name, &case.bits()));
+    set.f64.iter().for_each(|(name, case)| add(name, &case.bits()));
+    if let Some(matrix) = &set.instance {
+        add("instance", &[0, 1, 2].map(|row| matrix[row].map(f64::to_bits)).concat());
+    }
     hex(&digest.finalize()[..8])
 }
 
@@ -224,25 +227,30 @@ pub(super) fn finding_part(
 fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: bool) -> Example {
     let made = source.make::<F>(place.index);
     let case: &Case<F> = &made.cases()[place.triangle as usize];
+    let extent = row.contract.extent;
+    let severity = || match source.instance() {
+        Some(instance) => severity_of_instance(case, &instance, extent),
+        None => exact_severity(case, extent),
+    };
     let triangle = (made.cases().len() > 1).then_some(place.triangle as usize);
     Example {
         case: source.id::<F>(place.index, triangle),
-        bits: case.hex(),
-        severity: with_severity.then(|| severity_part(case, row.contract.extent)).flatten(),
+        bits: source.seen(case).hex(),
+        severity: with_severity.then(severity).flatten().map(severity_part),
         command: explain_command::<F>(source, row, place.index, triangle),
     }
 }
 
-/// How far a case is from where the verdict would be right; none of invalid input.
-pub(super) fn severity_part<F: Float>(case: &Case<F>, extent: Extent) -> Option<SeverityPart> {
-    exact_severity(case, extent).map(|severity| SeverityPart {
+/// How far a case is from where the verdict would be right.
+pub(super) fn severity_part(severity: Severity) -> SeverityPart {
+    SeverityPart {
         in_plane: severity.in_plane,
         in_space: severity.in_space,
         edge_in_ulps: severity.edge_in_ulps,
         along: severity.along,
         value_off: None,
         off_end: severity.off_end.map(|place| place.name().to_owned()),
-    })
+    }
 }
 
 /// The outcomes of groups for which the contract promises something, with the id of each.

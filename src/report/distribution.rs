@@ -13,8 +13,9 @@ pub(super) fn causes(causes: &Causes, found: u64) -> CausesPart {
         let sample = trials.of + causes.untold < found;
         (why, Rate::new(trials, sample))
     };
-    // Only of kernels that do not show their formula.
-    let is_told = |why: &Attribution| *why != Attribution::NotEpsilon || 0 < causes.of(*why).count;
+    // Only of kernels that do not show their formula, and of instances.
+    let is_rare = |why| matches!(why, Attribution::NotEpsilon | Attribution::Transform);
+    let is_told = |why: &Attribution| !is_rare(*why) || 0 < causes.of(*why).count;
     let told = Attribution::ALL.into_iter().filter(is_told);
     CausesPart { by: told.map(share).collect(), untold: causes.untold }
 }

@@ -190,7 +190,8 @@ fn an_instance_is_held_against_the_exact_triangle_in_the_world() {
     for (matrix, message) in [
         ("1,0,0,0,0,1,0,0,0,0,1", "expected 12 numbers, row by row, found 11"),
         ("1,0,0,0,0,1,0,0,0,0,1,x", "'x' is not a number"),
-        ("1,0,0,0,0,1,0,0,0,0,0,0", "its inverse is not finite in f32"),
+        ("1,0,0,0,0,1,0,0,0,0,0,0", "the matrix is singular in f32: it has no inverse"),
+        ("1e30,0,0,0,0,1e30,0,0,0,0,1e30,0", "its inverse is not finite in f32"),
     ] {
         let error = screen(matrix, 2).1;
         assert!(error.starts_with(&format!("hairline: --instance: {message}")), "{error}");

@@ -17,6 +17,7 @@ mod found;
 mod fuzz;
 mod generate;
 mod html;
+mod instances;
 mod io;
 mod json_schema;
 mod map_command;

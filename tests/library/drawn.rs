@@ -242,8 +242,19 @@ fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does()
     let wrong = |words: &str| {
         let (scene, _) = Scene::parse(words).unwrap();
         let (row, scene, schemes) = (&row, &scene, &schemes);
-        let plan =
-            Plan { row, scene, mesh: None, kind, schemes, wall, fold, with_least, seed, count };
+        let plan = Plan {
+            row,
+            scene,
+            mesh: None,
+            kind,
+            schemes,
+            wall,
+            fold,
+            instance: None,
+            with_least,
+            seed,
+            count,
+        };
         let of = &run::<f32>(&plan, &Unobserved).schemes[0];
         of.wrong as f64 / of.rays as f64
     };
@@ -257,8 +268,19 @@ fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does()
             let derived = derived_normal::<f32>(&scene, 0.0).unwrap();
             let (row, scene, kind) = (&row, &scene, PointKind::Weights);
             let schemes = &[parse(&format!("normal={derived}")).unwrap()];
-            let plan =
-                Plan { row, scene, mesh: None, kind, schemes, wall, fold, with_least, seed, count };
+            let plan = Plan {
+                row,
+                scene,
+                mesh: None,
+                kind,
+                schemes,
+                wall,
+                fold,
+                instance: None,
+                with_least,
+                seed,
+                count,
+            };
             let sums = run::<f32>(&plan, &Unobserved);
             assert!(0 < sums.schemes[0].rays && sums.schemes[0].wrong == 0, "{scene}");
         }

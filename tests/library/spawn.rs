@@ -87,6 +87,7 @@ fn plan<'a>(row: &'a Row, scene: &'a Scene, schemes: &'a [Scheme], count: u64) -
         schemes,
         wall: 0.01,
         fold: 45.0,
+        instance: None,
         with_least: true,
         seed: 1,
         count,
@@ -298,14 +299,14 @@ fn heights_are_right_where_doubles_are_not() {
     // Sizes whose squares leave the range of f64, and a point so near the plane that everything cancels.
     for scale in [1e-300, 1e-160, 1.0, 1e160, 1e300] {
         let vertices = [[0.0, 0.0, 0.0], [scale, 0.0, 0.0], [0.0, scale, 0.0]];
-        let height = Plane::new(vertices).height([0.3 * scale, 0.2 * scale, 1e-3 * scale]);
+        let height = Plane::new(vertices, None).height([0.3 * scale, 0.2 * scale, 1e-3 * scale]);
         assert!((height * 2f64.sqrt() / 1e-3 - 1.0).abs() < 1e-6, "{scale}: {height}");
     }
-    let plane = Plane::new([[1e8, 1e8, 1e8], [1e8 + 1.0, 1e8, 1e8], [1e8, 1e8 + 1.0, 1e8]]);
+    let plane = Plane::new([[1e8, 1e8, 1e8], [1e8 + 1.0, 1e8, 1e8], [1e8, 1e8 + 1.0, 1e8]], None);
     let height = plane.height([1e8, 1e8, 1e8f64.next_up()]);
     assert!((height * 2f64.sqrt() / 1e8f64.ulp() - 1.0).abs() < 1e-6, "{height}");
     // A triangle without area has no height; nothing panics.
-    assert!(Plane::new([[1.0f32; 3]; 3]).height([2.0; 3]).is_nan());
+    assert!(Plane::new([[1.0f32; 3]; 3], None).height([2.0; 3]).is_nan());
     assert!(plane.height([f64::NAN, 0.0, 0.0]).is_nan());
 }
 
@@ -342,7 +343,7 @@ fn triangles_of_any_size_and_none_do_no_harm() {
         let of = of(right(size), down);
         assert_eq!(counts(&of), [1, 0, 0], "{size}");
         let trial = &of.trials[0];
-        let height = Plane::new(trial.hit.vertices).height([0.0, 0.0, size]);
+        let height = Plane::new(trial.hit.vertices, None).height([0.0, 0.0, size]);
         assert!((height * 2f64.sqrt() - 1.0).abs() < 1e-6, "{size}: {height}");
         for scheme in all() {
             // Where the normal underflows or overflows the start is no number, which a run counts as wrong.

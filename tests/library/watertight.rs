@@ -316,7 +316,15 @@ fn row(kernel: &str) -> Vec<Row> {
 }
 
 fn plan(rows: Vec<Row>, directions: u64) -> Plan {
-    Plan { rows, directions, seed: 1, unit_direction: false, examples: 5, places: 0 }
+    Plan {
+        rows,
+        directions,
+        seed: 1,
+        unit_direction: false,
+        instance: None,
+        examples: 5,
+        places: 0,
+    }
 }
 
 fn surface(mesh: &Mesh) -> Arc<Surface> {

@@ -13,7 +13,7 @@ mod scene;
 pub use any::{AnyCase, AnyScalar};
 #[cfg(test)]
 pub use hard::hard_cases;
-pub use instance::Instance;
+pub use instance::{Instance, Matrix};
 pub use literal::{rust_case, rust_list};
 pub use scene::Number;
 pub use scene::{
@@ -148,12 +148,19 @@ pub struct Parameters {
     pub scene: Option<Scene>,
     /// The kernel at whose hit points a scene's shadow rays start.
     pub kernel: Option<String>,
+    /// Where the triangle is put: rays are brought to the world by this, and kernels get them by its inverse.
+    pub instance: Option<Matrix<f64>>,
 }
 
 impl Parameters {
     /// True if the parameters leave each case's truth alone (up to overflow and underflow).
     pub fn keep_truth(&self) -> bool {
         self.offset == [0.0; 3] && !self.unit_direction
+    }
+
+    /// The instance in a scalar, if there is one.
+    pub fn instance_in<F: Float>(&self) -> Option<Instance<F>> {
+        Instance::new(self.instance?.map(|row| row.map(F::from_f64)))
     }
 }
 
@@ -176,6 +183,9 @@ impl fmt::Display for Parameters {
         words.extend(self.mesh.iter().map(|digest| format!("mesh={digest}")));
         words.extend(self.scene.iter().map(Scene::to_string));
         words.extend(self.kernel.iter().map(|kernel| format!("kernel={kernel}")));
+        words.extend(
+            self.instance.iter().map(|matrix| format!("instance={}", instance::text(matrix))),
+        );
         f.write_str(if words.is_empty() { "-".to_owned() } else { words.join(",") }.as_str())
     }
 }
@@ -199,9 +209,10 @@ impl FromStr for Parameters {
                 "unit" => parameters.unit_direction = true,
                 "mesh" => parameters.mesh = Some(value.to_owned()),
                 "kernel" => parameters.kernel = Some(value.to_owned()),
+                "instance" => parameters.instance = Some(instance::parsed(value)?),
                 _ => {
                     let known = "scale=2^k, scale-direction, offset=x:y:z, unit, mesh=digest, \
-                                 the words of a scene, kernel=name";
+                                 the words of a scene, kernel=name, instance=12 numbers";
                     return Err(format!("unknown parameter '{key}'; there are {known}"));
                 }
             }
@@ -387,12 +398,18 @@ mod tests {
             "fan@3/f64/scale=2^-10,scale-direction,offset=1e6:0e0:-2.5e0,unit/0/5.2",
             "mesh@1/f32/mesh=0123456789abcdef/7/1000000",
             "scene-shadow@1/f32/extent=5,edge=0.01..3,distance=0..10,direction=unit,kernel=cramer/1/2",
+            "fan@3/f64/instance=1e0:0e0:-2.5e-1:1e6:0e0:2e0:0e0:0e0:0e0:-0e0:3e0:1e-1/0/5",
         ] {
             assert_eq!(text.parse::<CaseId>().unwrap().to_string(), text);
         }
-        for bad in
-            ["", "edge-near/f32/-/1/2", "a@1/f32/scale=3/1/2", "a@1/f32/-/1/2.x", "a@1/f32/-/1/2/3"]
-        {
+        for bad in [
+            "",
+            "edge-near/f32/-/1/2",
+            "a@1/f32/scale=3/1/2",
+            "a@1/f32/instance=1:2/1/2",
+            "a@1/f32/-/1/2.x",
+            "a@1/f32/-/1/2/3",
+        ] {
             assert!(bad.parse::<CaseId>().is_err(), "{bad}");
         }
     }

@@ -38,7 +38,8 @@ impl Paged for SpawnRecord {
             Some(path) => format!("{} ({})", path.escape_debug(), self.scene),
             None => self.scene.clone(),
         };
-        let title = format!("Where new rays must start in {scene}{unit}");
+        let placed = if self.instance.is_some() { ", in an instance" } else { "" };
+        let title = format!("Where new rays must start in {scene}{unit}{placed}");
         Page { command: "spawn", title, blocks, ..Page::default() }
     }
 }

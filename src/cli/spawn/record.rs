@@ -2,8 +2,8 @@
 
 use super::choice::{best, derived_name, is_too_high};
 use crate::arith::three_digits;
-use crate::audit::{Trials, quoted};
-use crate::case::Case;
+use crate::audit::{Trials, quoted, words};
+use crate::case::{Case, Matrix};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
 use crate::report::Rate;
@@ -39,6 +39,9 @@ pub struct SpawnRecord {
     pub wall: f64,
     /// The angle in degrees at which a neighbour is folded up at the edge nearest to the hit point.
     pub fold: f64,
+    /// Where the triangles are put, if not where they are: row by row, the last column the translation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub instance: Option<Matrix<f64>>,
     /// The kinds of planes on which each scheme was tried. All numbers are about the first, but those of `elsewhere`.
     pub planes: Vec<String>,
     /// By kernel, kind of hit point and scalar.
@@ -284,7 +287,8 @@ impl DerivedPart {
     /// pilot saw others than that. It assumes nothing of how a plane lies, so it holds on every kind of plane; but it
     /// assumes that triangles are not thin, and those of a mesh may be.
     pub fn of<F: Scalar>(plan: &Plan<'_>, pilots: &[Sums]) -> Option<DerivedPart> {
-        let is_covered = plan.kind == PointKind::Weights && plan.mesh.is_none();
+        let is_covered =
+            plan.kind == PointKind::Weights && plan.mesh.is_none() && plan.instance.is_none();
         let of_weights = is_covered.then(|| least_weight(plan.row))?;
         let least_weight = of_weights?;
         let normal = three_digits(derived_normal::<F>(plan.scene, least_weight)?, true);
@@ -379,7 +383,11 @@ impl WrongPart {
         let line = write_case(&StoredCase { is_secondary: true, ..StoredCase::of(case) });
         Some(WrongPart {
             first_ray: plan.source().id::<F>(index, None),
-            explain: plan.row.explain_command(&quoted(&line)),
+            explain: {
+                let words =
+                    plan.instance.map(|matrix| format!(" --instance {}", quoted(&words(&matrix))));
+                plan.row.explain_command(&(quoted(&line) + &words.unwrap_or_default()))
+            },
         })
     }
 }

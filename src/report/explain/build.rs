@@ -24,34 +24,22 @@ use num_traits::ToPrimitive;
 use serde_json::value::RawValue;
 use std::slice;
 
-/// Explains a case or a group with some rows. With an instance the rays are of the world, and kernels get them by the
-/// rounded inverse.
-pub fn explain<F: Scalar>(
-    name: &str,
-    group: Together<F>,
-    instance: Option<&Instance<F>>,
-    rows: &[Row],
-) -> Explanation {
+/// Explains a case or a group with some rows.
+pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Explanation {
     let is_secondary = group.grouping == Grouping::SecondaryRay;
-    let in_object = |cases: &[Case<F>]| -> Vec<Case<F>> {
-        let of = |case: &Case<F>| instance.map_or(*case, |instance| instance.in_object(case));
-        cases.iter().map(of).collect()
-    };
-    let (in_world, cases) = (group.cases, in_object(group.cases));
-    let neighbours = group.neighbours.map(in_object);
-    let group = Together { cases: &cases, neighbours: neighbours.as_deref(), ..group };
+    let (cases, _) = group.asked(group.cases);
     let triangle = |(case, in_world): (&Case<F>, &Case<F>)| TrianglePart {
         rows: rows.iter().map(|row| row_part(case, is_secondary, row)).collect(),
-        instance: instance.map(|it| instance_part(it, [in_world, case], is_secondary, rows)),
+        instance: group.instance.map(|it| instance_part(it, [in_world, case], is_secondary, rows)),
         ..of_case(case, is_secondary)
     };
-    let triangles = cases.iter().zip(in_world).map(triangle).collect();
+    let triangles = cases.iter().zip(group.cases).map(triangle).collect();
     let mut together = Vec::new();
     if 1 < group.cases.len() {
         for row in rows {
             together.extend(group_part(group, row));
             if group.grouping == Grouping::Polygon && row.entry.info.polygons {
-                together.extend(polygon_part(group.cases, row));
+                together.extend(polygon_part(group, row));
             }
         }
     }
@@ -111,7 +99,7 @@ fn instance_part<F: Scalar>(
         let verdict = verdict_of(subject, in_object, &row.epsilons());
         let owed = asked(in_object, &exact.truth, &row.contract, is_secondary);
         // Values belong to the ray that the kernel got.
-        let gives = Gives { t: false, uv: false, facing: false };
+        let gives = Gives::NOTHING;
         let finding = judge((&row.contract, owed), (in_object, &exact.truth), gives, &verdict)?;
         Some((row.label(), finding.name()))
     };
@@ -157,13 +145,14 @@ fn group_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart> 
 }
 
 /// The kernel's answer on a polygon as a whole.
-fn polygon_part<F: Scalar>(cases: &[Case<F>], row: &Row) -> Option<TogetherPart> {
+fn polygon_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart> {
     let subject = F::subject(row.entry)?;
-    let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
-    let owed = polygon_obligation(cases, &truths, &row.contract);
+    let (cases, truths) = &group.asked(group.cases);
+    let owed = polygon_obligation(cases, truths, &row.contract);
     let verdict = polygon_verdict(subject, cases, &row.epsilons());
-    let (asked, union) = ((&row.contract, owed), (&cases[0], &polygon_truth(&truths)));
-    let finding = judge(asked, union, row.entry.info.gives, &verdict);
+    let (asked, union) = ((&row.contract, owed), (&cases[0], &polygon_truth(truths)));
+    let gives = group.instance.map_or(row.entry.info.gives, |_| Gives::NOTHING);
+    let finding = judge(asked, union, gives, &verdict);
     let judged = answered(owed, &verdict, finding).judged();
     let (said, judged) = judged.split_once("; ").unwrap_or(("", &judged));
     Some(TogetherPart {

@@ -2,24 +2,39 @@
 
 use crate::arith::Float;
 use crate::audit::Row;
-use crate::case::Case;
+use crate::case::{Case, Instance};
 use crate::contract::Across;
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, group_obligation, may_be_elsewhere};
 use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
-use crate::oracle;
+use crate::oracle::{self, Layers};
 use crate::truth::Truth;
 use std::slice;
 
 /// One case, or the triangles of a group with one ray.
 #[derive(Clone, Copy)]
 pub struct Together<'a, F: Scalar> {
-    /// The ray and each triangle.
+    /// The ray and each triangle. With an instance the ray is of the world, and kernels get it by the rounded inverse.
     pub cases: &'a [Case<F>],
     /// How they belong together.
     pub grouping: Grouping,
     /// The triangles of a mesh around those of the group; none if they are too many to be asked.
     pub neighbours: Option<&'a [Case<F>]>,
+    /// Where the triangles are put, if not where they are.
+    pub instance: Option<&'a Instance<F>>,
+}
+
+impl<F: Scalar> Together<'_, F> {
+    /// Cases as kernels get them, and their truths, which are of the world.
+    pub(super) fn asked(&self, cases: &[Case<F>]) -> (Vec<Case<F>>, Vec<Truth>) {
+        let (mut truths, layers) = (Vec::new(), &mut Layers::default());
+        let Some(instance) = self.instance else {
+            oracle::truths(cases, &mut truths, layers);
+            return (cases.to_vec(), truths);
+        };
+        oracle::truths_of_instance(cases, instance, &mut truths, layers);
+        (cases.iter().map(|case| instance.in_object(case)).collect(), truths)
+    }
 }
 
 /// The fewest digits that read back as the number in its scalar.
@@ -73,15 +88,14 @@ pub(super) fn group_verdict<F: Scalar>(
     row: &Row,
     subject: &dyn Subject<F>,
 ) -> Result<(usize, &'static str, bool), String> {
-    let cases = group.cases;
-    let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
+    let (cases, truths) = &group.asked(group.cases);
     let mut verdicts = vec![Verdict::miss(None); cases.len()];
     verdicts_of(subject, cases, &row.epsilons::<F>(), &mut verdicts);
     if let Some(failure) = verdicts.iter().find_map(|verdict| verdict.failure) {
         return Err(failure.to_string());
     }
     let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
-    let asked = group_obligation(cases, &truths, &row.contract, group.grouping);
+    let asked = group_obligation(cases, truths, &row.contract, group.grouping);
     let (judged, is_wrong) = match (asked, hits) {
         (GroupTruth::Free, _) => ("nothing is asked of the group", false),
         (GroupTruth::Crossing, 0) if is_elsewhere(&truths[0], group, row) => {
@@ -106,10 +120,10 @@ fn is_elsewhere<F: Scalar>(truth: &Truth, group: Together<F>, row: &Row) -> bool
     let Some(crossing) = truth.crossing() else { return false };
     let Some(neighbours) = group.neighbours else { return true };
     let Some(subject) = F::subject(row.entry) else { return false };
-    let truths: Vec<Truth> = neighbours.iter().map(oracle::truth).collect();
+    let (neighbours, truths) = group.asked(neighbours);
     let mut verdicts = vec![Verdict::miss(None); neighbours.len()];
-    verdicts_of(subject, neighbours, &row.epsilons::<F>(), &mut verdicts);
-    may_be_elsewhere(crossing.facing, neighbours, &truths, &verdicts, &row.contract)
+    verdicts_of(subject, &neighbours, &row.epsilons::<F>(), &mut verdicts);
+    may_be_elsewhere(crossing.facing, &neighbours, &truths, &verdicts, &row.contract)
 }
 
 #[cfg(test)]

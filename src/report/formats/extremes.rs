@@ -153,6 +153,7 @@ impl Extreme<'_> {
             Some(Attribution::Epsilon) => "; cause: the epsilon",
             Some(Attribution::Rounding) => "; cause: rounding",
             Some(Attribution::Range) => "; cause: overflow or underflow",
+            Some(Attribution::Transform) => "; cause: the instance's rounded inverse",
             Some(Attribution::NotEpsilon) => "; cause: not its epsilons",
         };
         format!("{}, {}: {what}{cause}", self.line.label(), self.line.row.scalar)

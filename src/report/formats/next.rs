@@ -31,7 +31,8 @@ pub(super) fn commands(record: &Record, best: Option<&RowPart>, lines: &[Line]) 
         commands.push(Command { line, what: "one kernel" });
     }
     let all_sources = sources.clone();
-    if let Some(tuned) = tuned {
+    // No epsilon is chosen in instances.
+    if let Some(tuned) = tuned.filter(|_| !sources.contains(" --instance ")) {
         // `epsilon` knows no rays at a mesh's edges, and takes a scene whole.
         let sources = sources.split(" --directions").next().unwrap_or_default();
         let sources = if sources.contains(" --scene ") {

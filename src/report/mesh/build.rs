@@ -45,6 +45,7 @@ pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context)
         directions: plan.directions,
         seed: plan.seed,
         unit_directions: plan.unit_direction,
+        instance: plan.instance,
         scalars: parts.scalars,
     };
     MeshReport {

@@ -1,6 +1,7 @@
 //! The record of a mesh audit, versioned: `result` is the same bytes whatever the number of threads.
 
 use super::drawing::Drawing;
+use crate::case::Matrix;
 use crate::report::{Promised, Provenance, Rate, RowPart};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -40,6 +41,9 @@ pub struct MeshResult {
     pub seed: u64,
     /// True if directions are rounded unit vectors.
     pub unit_directions: bool,
+    /// Where the mesh is put, if not where it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub instance: Option<Matrix<f64>>,
     /// The findings in each scalar.
     pub scalars: Vec<ScalarPart>,
 }

@@ -18,7 +18,7 @@ impl Paged for MeshReport {
         let (tone, title) = verdict(result);
         let mesh = &result.mesh;
         let mut blocks = vec![Block::text(format!(
-            "{}, {}, {}{}, seed {}, {:.1} s",
+            "{}, {}, {}{}{}, seed {}, {:.1} s",
             number_of(mesh.triangles, "triangle", "triangles"),
             number_of(mesh.vertices, "vertex", "vertices"),
             number_of(result.directions, "ray", "rays"),
@@ -26,6 +26,7 @@ impl Paged for MeshReport {
                 true => " with unit directions at each edge and vertex",
                 false => " at each edge and vertex",
             },
+            if result.instance.is_some() { " of an instance" } else { "" },
             result.seed,
             record.provenance.seconds
         ))];

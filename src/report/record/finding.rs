@@ -33,8 +33,8 @@ pub struct FindingPart {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CausesPart {
-    /// By `convention`, `epsilon`, `rounding`, `range`, and `not-epsilon` of kernels that do not show their
-    /// formula; with an interval if not all findings were examined.
+    /// By `convention`, `epsilon`, `rounding`, `range`, `transform` in instances, and `not-epsilon` of kernels that do
+    /// not show their formula; with an interval if not all findings were examined.
     #[cfg_attr(test, schemars(with = "BTreeMap<String, Rate>"))]
     pub by: BTreeMap<Attribution, Rate>,
     /// Findings examined of kernels that cannot tell.

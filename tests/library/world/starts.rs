@@ -103,6 +103,7 @@ pub fn theirs<F: Scalar>(
         schemes,
         wall: 0.01,
         fold: 45.0,
+        instance: None,
         with_least: false,
         seed: 1,
         count,

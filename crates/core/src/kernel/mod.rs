@@ -176,6 +176,11 @@ pub struct Gives {
     pub facing: bool,
 }
 
+impl Gives {
+    /// No value.
+    pub const NOTHING: Gives = Gives { t: false, uv: false, facing: false };
+}
+
 /// `facing` from a number that is positive when the ray comes from the front.
 fn facing_of<R: Real>(front_if_positive: &R) -> Option<Facing> {
     if R::zero().is_less(front_if_positive) {

@@ -33,7 +33,7 @@ pub use batch::{Batch, UnequalColumns};
 pub use rational::{Definition, define, define_instance};
 
 use crate::arith::Float;
-use crate::case::Case;
+use crate::case::{Case, Instance};
 use crate::truth::{ExactValues, Truth};
 use scaled::Scaled;
 use serde::{Deserialize, Serialize};
@@ -158,6 +158,25 @@ pub fn exact_values<F: Float>(case: &Case<F>, truth: &Truth) -> ExactValues {
 /// ```
 pub fn truths<F: Float>(cases: &[Case<F>], truths: &mut Vec<Truth>, layers: &mut Layers) {
     batch::decide_all(cases, truths, layers);
+}
+
+/// The truths of rays in the world and triangles that an instance puts there, as [`define_instance`] gives them: in
+/// integers, some ten times as fast. `truths` is cleared first.
+pub fn truths_of_instance<F: Float>(
+    cases: &[Case<F>],
+    instance: &Instance<F>,
+    truths: &mut Vec<Truth>,
+    layers: &mut Layers,
+) {
+    let matrix = instance.matrix().map(|row| row.map(F::to_f64));
+    let is_finite = matrix.as_flattened().iter().all(|x| x.is_finite());
+    truths.clear();
+    truths.extend(cases.iter().map(Case::widen).map(|case| {
+        let valid = is_finite && is_valid(&case);
+        let scaled = if valid { Scaled::of_instance(&case, matrix) } else { None };
+        layers.count(if scaled.is_some() { Layer::BigInteger } else { Layer::Invalid }, 1);
+        scaled.map_or(Truth::Invalid, |scaled| scaled.truth(&case))
+    }));
 }
 
 /// The layers behind the filter.

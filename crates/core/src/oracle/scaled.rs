@@ -7,10 +7,12 @@
 use super::contact;
 use super::determinants::Determinant;
 use super::integer::{Interval, Number, Triple, align, cross, dot, minus};
-use crate::case::Case;
+use super::signs::Signs;
+use crate::case::{Case, Matrix};
 use crate::truth::Truth;
 use num_bigint::BigInt;
 use num_rational::BigRational;
+use std::cmp::Ordering;
 
 /// A case's numbers as integers of any size.
 pub(super) struct Scaled {
@@ -28,6 +30,64 @@ impl Scaled {
         let ([origin, a, b, c], p) = align([o, a, b, c]);
         let ([direction], q) = align([d]);
         Scaled { origin, direction, vertices: [a, b, c], t_exponent: p - q }
+    }
+
+    /// The numbers of a ray of the world and the triangle that an instance puts there, as the object sees them and as
+    /// many times as large as the determinant of the matrix, so that no division is left; none where that is 0.
+    ///
+    /// With M the matrix and m its translation, adj M·(o - m), adj M·d and det M·(a, b, c) are what the exact inverse
+    /// makes of the case, times det M. A negative one is left positive, so that no side is turned.
+    pub fn of_instance(case: &Case<f64>, matrix: Matrix<f64>) -> Option<Scaled> {
+        let [o, d, a, b, c] = case.vectors();
+        let columns = [0, 1, 2].map(|column| matrix.map(|row| row[column]));
+        let ([x, y, z], r) = align(columns);
+        let ([mut origin, moved], p) = align([o, matrix.map(|row| row[3])]);
+        let ([direction], q) = align([d]);
+        let (mut vertices, s) = align([a, b, c]);
+        let mut rows = [cross(&y, &z), cross(&z, &x), cross(&x, &y)];
+        let mut determinant = dot(&z, &rows[2]);
+        match Number::sign(&determinant) {
+            Ordering::Equal => return None,
+            Ordering::Less => {
+                determinant = -determinant;
+                rows = rows.map(|row| row.map(|entry| -entry));
+            }
+            Ordering::Greater => {}
+        }
+        origin = minus(&origin, &moved);
+        // The determinant carries 2^(3r) and the rows 2^(2r): the origin 2^(2r+p), the vertices 2^(3r+s).
+        let (of_origin, of_vertices) = (p, r + s);
+        let common = of_origin.min(of_vertices);
+        let times = |row: &Triple<BigInt>, by: &Triple<BigInt>, shift| dot(row, by) << shift;
+        vertices =
+            vertices.map(|vertex| vertex.map(|x| (x * &determinant) << (of_vertices - common)));
+        Some(Scaled {
+            origin: rows.each_ref().map(|row| times(row, &origin, of_origin - common)),
+            direction: rows.each_ref().map(|row| times(row, &direction, 0)),
+            vertices,
+            t_exponent: common - q,
+        })
+    }
+
+    /// The truth, all of it in integers; of the case only the interval counts.
+    pub fn truth(&self, case: &Case<f64>) -> Truth {
+        let (d, t) = (self.capital_d(), self.capital_t());
+        match (Number::sign(&d), Number::sign(&t)) {
+            (Ordering::Equal, Ordering::Equal) => self.touching(case),
+            (Ordering::Equal, _) => Truth::Parallel,
+            (of_d, of_t) => {
+                let weight = |k| Number::sign(&self.value(Determinant::Weight(k)));
+                let interval = Interval::new(case, self.t_exponent);
+                let signs = Signs {
+                    d: of_d,
+                    weights: [0, 1, 2].map(weight),
+                    t: of_t,
+                    from_min: interval.compare_start(&t, &d),
+                    from_max: interval.compare_end(&t, &d),
+                };
+                signs.truth()
+            }
+        }
     }
 
     /// The sign of one determinant: what the layers before are compared with.

@@ -30,6 +30,8 @@ named! {
         Range = "range",
         /// Not its epsilons: the kernel does not show its formula, and it is wrong with every epsilon 0 too.
         NotEpsilon = "not-epsilon",
+        /// The rounded inverse of an instance: on the ray that the kernel got, it is right.
+        Transform = "transform",
     }
 }
 
@@ -50,6 +52,9 @@ impl Attribution {
             Attribution::NotEpsilon => {
                 "not its epsilons (with every epsilon 0 it is wrong too; whether its formula or rounding is to \
                  blame only the formula tells, and it does not show that)"
+            }
+            Attribution::Transform => {
+                "transform (on the ray that it got it is right: the instance's rounded inverse moved that ray)"
             }
         }
     }

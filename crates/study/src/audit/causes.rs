@@ -8,10 +8,11 @@ use super::tally::Tally;
 use super::trials::Trials;
 use crate::contract::Contract;
 use crate::family::Grouping;
-use crate::judge::{Class, Finding, asked};
-use crate::kernel::Scalar;
+use crate::judge::{Class, Finding, asked, judge};
+use crate::kernel::{Scalar, Verdict, verdicts_of};
 use crate::oracle;
 use std::collections::BTreeMap;
+use std::slice;
 
 /// How often each cause was to blame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,9 +64,17 @@ pub(super) fn causes<F: Scalar>(
     let of_ray = |places: &[Place]| {
         let made = source.make::<F>(places[0].index);
         Causes::of_ray(places.iter().map(|place| {
-            let case = &made.cases()[place.triangle as usize];
+            let case = &source.seen(&made.cases()[place.triangle as usize]);
             let truth = oracle::truth(case);
             let asked = (contract, asked(case, &truth, contract, secondary));
+            if source.instance::<F>().is_some() {
+                let mut verdict = [Verdict::miss(None)];
+                verdicts_of(row.subject, slice::from_ref(case), &row.epsilons, &mut verdict);
+                let gives = row.info.gives;
+                if judge(asked, (case, &truth), gives, &verdict[0]).is_none() {
+                    return Some(Attribution::Transform);
+                }
+            }
             match row.subject.gated() {
                 Some(_) => attribute(row.subject, case, &row.epsilons, &truth, asked),
                 None => {

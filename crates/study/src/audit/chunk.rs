@@ -3,16 +3,16 @@
 use super::digest::Place;
 use super::forms::ScalarName;
 use super::source::Source;
-use crate::case::Case;
+use crate::case::{Case, Instance};
 use crate::contract::Contract;
 use crate::engine::Observer;
 use crate::family::Grouping;
 use crate::judge::{
-    self, Class, Expectations, GroupTruth, Kinds, Limits, Obligation, group_obligation,
+    self, Class, Distances, Expectations, GroupTruth, Kinds, Limits, Obligation, group_obligation,
     owes_groups_alike,
 };
-use crate::kernel::Scalar;
-use crate::oracle::{self, Layers};
+use crate::kernel::{Gives, Scalar};
+use crate::oracle::Layers;
 use crate::truth::Truth;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -66,13 +66,16 @@ impl SourceSummary {
     }
 }
 
-/// The cases of some indices, flat, with their groups.
+/// The cases of some indices, flat, with their groups: as kernels get them, while the truths of an instance are of the
+/// world.
 pub struct Chunk<F: Scalar> {
     pub(crate) grouping: Grouping,
     pub(crate) cases: Vec<Case<F>>,
     pub(crate) places: Vec<Place>,
     pub(crate) truths: Vec<Truth>,
     kinds: Kinds,
+    /// An instance, and the cases with their rays of the world.
+    world: Option<(Instance<F>, Vec<Case<F>>)>,
     /// Where each index's cases start, and the end.
     starts: Vec<usize>,
     first_index: u64,
@@ -104,11 +107,12 @@ impl<F: Scalar> Chunk<F> {
         }
         let start = observer.now();
         let mut truths = Vec::with_capacity(cases.len());
-        oracle::truths(&cases, &mut truths, &mut summary.layers);
+        let world = source.instance().map(|instance| (instance, cases.clone()));
+        source.ask(&mut cases, &mut truths, &mut summary.layers);
         summary.oracle_nanoseconds += observer.now() - start;
         let kinds = Kinds::new(&truths);
         let grouping = source.grouping();
-        let chunk = Chunk { grouping, cases, places, truths, kinds, starts, first_index };
+        let chunk = Chunk { grouping, cases, places, truths, kinds, world, starts, first_index };
         summary.indices += chunk.starts.len() as u64 - 1;
         summary.cases += chunk.cases.len() as u64;
         for (index, range) in chunk.groups() {
@@ -130,6 +134,20 @@ impl<F: Scalar> Chunk<F> {
     pub fn expectations(&self, contract: &Contract) -> Expectations {
         let secondary = self.grouping == Grouping::SecondaryRay;
         judge::ask_all(&self.cases, &self.truths, &self.kinds, contract, secondary)
+    }
+
+    /// The values of a kernel that are judged. In an instance they belong to the ray that the kernel got, and not to
+    /// the truth.
+    pub fn judged(&self, gives: Gives) -> Gives {
+        if self.world.is_some() { Gives::NOTHING } else { gives }
+    }
+
+    /// How far a valid case is from where its truth would change.
+    pub fn distances(&self, case: usize) -> Distances {
+        match &self.world {
+            Some((it, world)) => Distances::of_instance(&world[case], it, &self.truths[case]),
+            None => Distances::of(&self.cases[case], &self.truths[case]),
+        }
     }
 
     /// The ranges in which the values of a hit on each case are surely right.

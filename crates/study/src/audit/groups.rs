@@ -8,7 +8,7 @@ use crate::case::Case;
 use crate::contract::Contract;
 use crate::judge::{GroupTruth, may_be_elsewhere};
 use crate::kernel::{Scalar, Verdict, verdicts_of};
-use crate::oracle::{self, Layers};
+use crate::oracle::Layers;
 use crate::truth::Facing;
 
 /// Neighbours of crossings without a hit that go through together, about.
@@ -62,12 +62,12 @@ impl<F: Scalar> RowIn<F> {
             }
             waiting.push((index, crossing.facing, cases.len()));
             if cases.len() >= NEIGHBOURS {
-                elsewhere.extend(self.with_hit_nearby(contract, &cases, &waiting));
+                elsewhere.extend(self.with_hit_nearby(source, contract, &mut cases, &waiting));
                 cases.clear();
                 waiting.clear();
             }
         }
-        elsewhere.extend(self.with_hit_nearby(contract, &cases, &waiting));
+        elsewhere.extend(self.with_hit_nearby(source, contract, &mut cases, &waiting));
         elsewhere.sort_unstable();
         elsewhere
     }
@@ -76,12 +76,13 @@ impl<F: Scalar> RowIn<F> {
     /// where its neighbours end.
     fn with_hit_nearby(
         &self,
+        source: &Source,
         contract: &Contract,
-        cases: &[Case<F>],
+        cases: &mut [Case<F>],
         waiting: &[(u64, Facing, usize)],
     ) -> Vec<u64> {
         let mut truths = Vec::with_capacity(cases.len());
-        oracle::truths(cases, &mut truths, &mut Layers::default());
+        source.ask(cases, &mut truths, &mut Layers::default());
         let mut verdicts = vec![Verdict::miss(None); cases.len()];
         if !cases.is_empty() {
             verdicts_of(self.subject, cases, &self.epsilons, &mut verdicts);

@@ -31,7 +31,7 @@ impl Known {
     fn of<F: Scalar>(chunk: &Chunk<F>, case: usize) -> Known {
         let valid = !chunk.class(case).is_invalid();
         Known {
-            distances: valid.then(|| Distances::of(&chunk.cases[case], &chunk.truths[case])),
+            distances: valid.then(|| chunk.distances(case)),
             hash: Digest::hash(chunk.places[case]),
         }
     }
@@ -48,7 +48,7 @@ impl<F: Scalar> RowIn<F> {
         tally: &mut Tally,
     ) {
         tally.ask(&asked.classes);
-        let gives = self.info.gives;
+        let gives = chunk.judged(self.info.gives);
         let class = |i: usize| chunk.class(i);
         // Who is no suspect hit where a hit was asked, and missed where a miss was.
         let mut hits: [u64; Class::COUNT] = std::array::from_fn(|i| asked.classes[i].must_hit);
@@ -107,7 +107,7 @@ impl<F: Scalar> RowIn<F> {
         verdicts: &[Verdict<F>],
         tally: &mut Tally,
     ) {
-        let gives = self.info.gives;
+        let gives = chunk.judged(self.info.gives);
         for &i in sample {
             let (truth, verdict) = (&chunk.truths[i], &verdicts[i]);
             let Some(crossing) = truth.crossing() else { continue };
@@ -121,12 +121,13 @@ impl<F: Scalar> RowIn<F> {
 
     /// Judges each polygon as a whole; its truth is that of the union of its fan.
     pub fn judge_polygons(&self, chunk: &Chunk<F>, contract: &Contract, tally: &mut Tally) {
+        let gives = chunk.judged(self.info.gives);
         for (index, range) in chunk.groups() {
             let (cases, truths) = (&chunk.cases[range.clone()], &chunk.truths[range]);
             let owed = polygon_obligation(cases, truths, contract);
             let verdict = polygon_verdict(self.subject, cases, &self.epsilons);
             let union = (&cases[0], &polygon_truth(truths));
-            let finding = judge::judge((contract, owed), union, self.info.gives, &verdict);
+            let finding = judge::judge((contract, owed), union, gives, &verdict);
             tally.polygon(index, (owed, verdict.hit, finding));
         }
     }

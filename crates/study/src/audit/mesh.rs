@@ -8,7 +8,7 @@ pub use super::places::{Seen, Wrong};
 use super::row::Row;
 use super::rows::Rows;
 use super::source::Source;
-use crate::case::Parameters;
+use crate::case::{Matrix, Parameters};
 use crate::contract::Across;
 use crate::engine::{self, Merge, Observer};
 use crate::kernel::{Scalar, Verdict};
@@ -29,6 +29,8 @@ pub struct Plan {
     pub seed: u64,
     /// True if directions are replaced by their rounded unit vectors.
     pub unit_direction: bool,
+    /// Where the mesh is put, if not where it is.
+    pub instance: Option<Matrix<f64>>,
     /// How many examples of each class and kind to keep, by index.
     pub examples: usize,
     /// How many places of each row, part and scalar to keep for a drawing.
@@ -38,7 +40,8 @@ pub struct Plan {
 impl Plan {
     /// The parameters of the cases.
     pub fn parameters(&self) -> Parameters {
-        Parameters { unit_direction: self.unit_direction, ..Parameters::default() }
+        let Plan { unit_direction, instance, .. } = *self;
+        Parameters { unit_direction, instance, ..Parameters::default() }
     }
 
     /// The groups at a part of a mesh.

@@ -237,7 +237,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
             let contract = &self.rows.contracts[row.contract];
             let asked = &asked[row.contract];
             let of = (&asked.expectations.of[..], &limits[..]);
-            judge::suspects(of, row.info.gives, &verdicts, &mut suspects);
+            judge::suspects(of, chunk.judged(row.info.gives), &verdicts, &mut suspects);
             let found = (&verdicts[..], &suspects[..]);
             row.judge((source, &chunk), (contract, asked), found, &mut known, tally);
             row.measure(&chunk, &sample, asked, &verdicts, tally);

@@ -4,11 +4,12 @@
 //! the distributions count; what a report shows of the chosen ones is computed from exact squares.
 
 use crate::arith::{Exact, ExactVector, Float, Real, Vector};
-use crate::case::{Case, Ray, Triangle};
+use crate::case::{Case, Instance, Ray, Triangle};
 use crate::contract::Extent;
 use crate::judge::{Squares, is_in_extent, nearest_on_segment, square, ulp_of_points};
-use crate::oracle;
-use crate::truth::{Crossing, Place};
+use crate::oracle::{self, Layers};
+use crate::truth::{Crossing, Place, Truth};
+use std::slice;
 
 /// The exact distances behind a finding, rounded to floats from exact squares, in units of the
 /// triangle's longest edge (of length, for a triangle that is a point). `None` where a distance does
@@ -34,12 +35,40 @@ pub fn exact_severity<F: Float>(case: &Case<F>, extent: Extent) -> Option<Severi
     if vectors.iter().flatten().any(|x| !x.is_finite()) || vectors[1].iter().all(F::is_zero) {
         return None;
     }
-    let (ray, triangle) = case.exact();
-    let (Ray { origin: o, direction: d, .. }, Triangle { a, b, c }) = (&ray, &triangle);
+    let ulp = Exact::from_f64(ulp_of_points(case).to_f64());
+    Some(severity(&case.exact(), ulp, &oracle::truth(case), extent))
+}
+
+/// The same of a ray of the world and the triangle that an instance puts there, as the object has them.
+pub fn severity_of_instance<F: Float>(
+    case: &Case<F>,
+    instance: &Instance<F>,
+    extent: Extent,
+) -> Option<Severity> {
+    let mut truths = Vec::new();
+    oracle::truths_of_instance(
+        slice::from_ref(case),
+        instance,
+        &mut truths,
+        &mut Layers::default(),
+    );
+    let truth = truths.first().filter(|truth| **truth != Truth::Invalid)?;
+    let (ray, triangle, times) = instance.lift(case, Exact::from_f64);
+    let ulp = Exact::from_f64(ulp_of_points(case).to_f64()) * times;
+    Some(severity(&(ray, triangle), ulp, truth, extent))
+}
+
+fn severity(
+    (ray, triangle): &(Ray<ExactVector>, Triangle<ExactVector>),
+    ulp: Exact,
+    truth: &Truth,
+    extent: Extent,
+) -> Severity {
+    let (Ray { origin: o, direction: d, .. }, Triangle { a, b, c }) = (ray, triangle);
     let n = b.minus(a).cross(&c.minus(a));
     let capital_d = n.dot(d);
     let crosses = !capital_d.is_zero();
-    let Squares { longest, in_space, along } = Squares::of(&ray, &triangle, crosses);
+    let Squares { longest, in_space, along } = Squares::of(ray, triangle, crosses);
     let unit = if longest.is_zero() { Exact::one() } else { longest };
     let relative = |square: Exact| (square / &unit).approximate_root();
 
@@ -49,14 +78,13 @@ pub fn exact_severity<F: Float>(case: &Case<F>, extent: Extent) -> Option<Severi
     });
     let in_plane = in_plane.and_then(|squares| squares.into_iter().reduce(Exact::smaller));
     let along = ends(extent).iter().filter_map(|&end| along[end].clone()).reduce(Exact::smaller);
-    let ulp = Exact::from_f64(ulp_of_points(case).to_f64());
-    Some(Severity {
+    Severity {
         in_plane: in_plane.map(relative),
         in_space: relative(in_space),
         along: along.map(relative),
-        off_end: oracle::truth(case).crossing().and_then(|crossing| off_end(crossing, extent)),
+        off_end: truth.crossing().and_then(|crossing| off_end(crossing, extent)),
         edge_in_ulps: (unit.clone() / (ulp.clone() * ulp)).approximate_root(),
-    })
+    }
 }
 
 /// Where a crossing lies that is not in an extent. That of a ray begins at 0, whatever the interval is.

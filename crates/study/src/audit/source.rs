@@ -1,11 +1,13 @@
 //! Where a plan's cases come from, by index.
 
+use super::corpus_set::CorpusSet;
 use super::row::quoted;
 use crate::arith::Float;
-use crate::case::{Case, Parameters, Ray, SceneKind, Toward};
+use crate::case::{Case, Instance, Matrix, Parameters, Ray, SceneKind, Toward};
 use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum};
 use crate::kernel::Scalar;
 use crate::mesh::{Part, SceneMesh, Surface, Targets};
+use crate::oracle::{self, Layers};
 use crate::truth::Truth;
 use std::sync::Arc;
 
@@ -84,50 +86,9 @@ pub fn kind_of(name: &str) -> SceneKind {
     kind.unwrap_or(SceneKind::ALL[0])
 }
 
-/// The stored cases of one file of which all are secondary rays, or none is.
-#[derive(Clone, Default)]
-pub struct CorpusSet {
-    /// The file's name.
-    pub file: String,
-    /// True if each ray starts at a computed hit point on its triangle.
-    pub is_secondary: bool,
-    /// Names and cases in `f32`.
-    pub f32: Vec<(String, Case<f32>)>,
-    /// Names and cases in `f64`.
-    pub f64: Vec<(String, Case<f64>)>,
-}
-
-impl CorpusSet {
-    /// The names of cases whose rays start more than twice the triangle's longest edge from every vertex: no hit
-    /// point on it, unless rounding moved it by that much.
-    pub fn far_starts(&self) -> impl Iterator<Item = &str> {
-        fn is_far(case: &Case<f64>) -> bool {
-            let [origin, _, a, b, c] = case.vectors();
-            let distance = |p: [f64; 3], q: [f64; 3]| {
-                p.iter().zip(q).fold(0.0, |sum: f64, (p, q)| sum.hypot(p - q))
-            };
-            let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
-            [a, b, c].into_iter().all(|vertex| 2.0 * longest < distance(origin, vertex))
-        }
-        let in_f32 = self.f32.iter().filter(|(_, case)| is_far(&case.widen()));
-        let in_f64 = self.f64.iter().filter(|(_, case)| is_far(case));
-        in_f32.map(|(name, _)| name.as_str()).chain(in_f64.map(|(name, _)| name.as_str()))
-    }
-
-    fn get<F: Float>(&self, index: u64) -> (&str, Case<F>) {
-        // The scalar of the run is F; its cases are stored in full, so the way through f64 is exact.
-        let narrow = |case: Case<f64>| {
-            let [o, d, a, b, c] = case.vectors().map(|v| v.map(F::from_f64));
-            Case::new(o, d, [a, b, c]).on(F::from_f64(case.ray.t_min), F::from_f64(case.ray.t_max))
-        };
-        if F::NAME == f32::NAME {
-            let (name, case) = &self.f32[index as usize];
-            (name, narrow(case.widen()))
-        } else {
-            let (name, case) = &self.f64[index as usize];
-            (name, narrow(*case))
-        }
-    }
+/// A matrix as `--instance` takes it.
+pub fn words(matrix: &Matrix<f64>) -> String {
+    matrix.as_flattened().iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
 }
 
 impl Source {
@@ -146,6 +107,58 @@ impl Source {
         let digest = mesh.surface().mesh().digest.clone();
         let parameters = Parameters { mesh: Some(digest), ..parameters };
         Source::SceneMesh { mesh: mesh.clone(), stratum, parameters, seed, count }
+    }
+
+    /// The same source with its triangles put somewhere.
+    pub fn placed(mut self, matrix: Matrix<f64>) -> Source {
+        let instance = match &mut self {
+            Source::Family { parameters, .. }
+            | Source::Mesh { parameters, .. }
+            | Source::MeshPart { parameters, .. }
+            | Source::SceneMesh { parameters, .. } => &mut parameters.instance,
+            Source::Corpus(set) => &mut set.instance,
+        };
+        *instance = Some(matrix);
+        self
+    }
+
+    /// Where its triangles are put, if not where they are.
+    pub fn instance<F: Float>(&self) -> Option<Instance<F>> {
+        match self {
+            Source::Corpus(set) => Instance::new(set.instance?.map(|row| row.map(F::from_f64))),
+            _ => self.parameters()?.instance_in(),
+        }
+    }
+
+    /// The parameters of cases that are made.
+    fn parameters(&self) -> Option<&Parameters> {
+        match self {
+            Source::Family { parameters, .. }
+            | Source::Mesh { parameters, .. }
+            | Source::MeshPart { parameters, .. }
+            | Source::SceneMesh { parameters, .. } => Some(parameters),
+            Source::Corpus(_) => None,
+        }
+    }
+
+    /// The truths of cases that it makes, which become those that kernels get: of an instance the ray by the rounded
+    /// inverse.
+    pub fn ask<F: Float>(
+        &self,
+        cases: &mut [Case<F>],
+        truths: &mut Vec<Truth>,
+        layers: &mut Layers,
+    ) {
+        let Some(instance) = self.instance() else {
+            return oracle::truths(cases, truths, layers);
+        };
+        oracle::truths_of_instance(cases, &instance, truths, layers);
+        cases.iter_mut().for_each(|case| *case = instance.in_object(case));
+    }
+
+    /// A case that it makes, as kernels get it.
+    pub fn seen<F: Float>(&self, case: &Case<F>) -> Case<F> {
+        self.instance().map_or(*case, |instance| instance.in_object(case))
     }
 
     /// The same stratum of a scene in the other kinds of planes and rays that it can have; none of other sources.
@@ -259,15 +272,20 @@ impl Source {
 
     /// Adds the triangles around those of an index, with its ray; false if they are too many, or if there are
     /// none.
-    pub fn add_neighbours<F: Float>(
+    pub fn add_neighbours<F: Scalar>(
         &self,
         index: u64,
         ray: &Ray<F::Vector>,
         cases: &mut Vec<Case<F>>,
     ) -> bool {
         let Source::MeshPart { part, .. } = self else { return false };
+        // Of an instance the ray is another for the kernel than in the world.
+        let ray = match self.instance::<F>() {
+            Some(_) => self.make::<F>(index).cases()[0].ray,
+            None => *ray,
+        };
         let targets = self.targets::<F>();
-        targets.is_some_and(|targets| targets.add_neighbours((*part, index), ray, cases))
+        targets.is_some_and(|targets| targets.add_neighbours((*part, index), &ray, cases))
     }
 
     /// True if its rates are those of a random sample, which has an interval; false if those of a whole set.
@@ -292,9 +310,9 @@ impl Source {
         }
     }
 
-    /// The cases of an index.
+    /// The cases of an index. Of an instance the rays are of the world and the triangles of the object.
     pub fn make<F: Scalar>(&self, index: u64) -> Made<F> {
-        match self {
+        let mut made = match self {
             Source::Family { family, parameters, exhaustive: true, .. } => {
                 family.make_in_order(parameters, index)
             }
@@ -304,22 +322,28 @@ impl Source {
             Source::Mesh { family, parameters, seed, .. } => {
                 Made::One(family.make(parameters, *seed, index))
             }
-            Source::MeshPart { .. } => {
+            Source::MeshPart { part, .. } => {
                 let mut cases = Vec::new();
-                self.add(index, &mut cases);
+                let targets = self.targets::<F>().expect("a scalar of the run");
+                targets.make(*part, index, &mut cases);
                 Made::Group(cases)
             }
             Source::SceneMesh { mesh, stratum, parameters, seed, .. } => {
                 mesh.make(*stratum, parameters, *seed, index)
             }
-            Source::Corpus(set) => Made::One(set.get(index).1),
+            // Stored rays are of the world, as they are.
+            Source::Corpus(set) => return Made::One(set.get(index).1),
+        };
+        if let Some(instance) = self.instance() {
+            made.cases_mut().iter_mut().for_each(|case| *case = instance.in_world(case));
         }
+        made
     }
 
     /// Adds the cases of an index.
     pub fn add<F: Scalar>(&self, index: u64, cases: &mut Vec<Case<F>>) {
         match self {
-            Source::MeshPart { part, .. } => {
+            Source::MeshPart { part, parameters, .. } if parameters.instance.is_none() => {
                 self.targets::<F>().expect("a scalar of the run").make(*part, index, cases);
             }
             _ => cases.extend_from_slice(self.make(index).cases()),
@@ -338,20 +362,16 @@ impl Source {
     pub fn promises(&self) -> bool {
         match self {
             // Scaling can leave the range at either end.
-            Source::Family { parameters, .. } => parameters.keep_truth() && parameters.scale == 0,
+            Source::Family { parameters, .. } => {
+                parameters.keep_truth() && parameters.scale == 0 && parameters.instance.is_none()
+            }
             _ => true,
         }
     }
 
     /// True if the parameters do not change truths, except at the ends of the range.
     pub fn keeps_truth(&self) -> bool {
-        match self {
-            Source::Family { parameters, .. }
-            | Source::Mesh { parameters, .. }
-            | Source::MeshPart { parameters, .. }
-            | Source::SceneMesh { parameters, .. } => parameters.keep_truth(),
-            Source::Corpus(_) => true,
-        }
+        self.parameters().is_none_or(Parameters::keep_truth)
     }
 
     /// The id of a case, or of triangle k of a group.
@@ -399,7 +419,12 @@ impl Source {
             Source::SceneMesh { mesh, .. } => {
                 Some(format!("--mesh {}", quoted(mesh.surface().path())))
             }
-            Source::Corpus(set) => Some(format!("--corpus {}", quoted(&set.file))),
+            Source::Corpus(CorpusSet { file, instance: None, .. }) => {
+                Some(format!("--corpus {}", quoted(file)))
+            }
+            Source::Corpus(CorpusSet { file, instance: Some(matrix), .. }) => {
+                Some(format!("--corpus {} --instance {}", quoted(file), quoted(&words(matrix))))
+            }
         }
     }
 }

@@ -4,7 +4,7 @@ use super::plan::Plan;
 use super::row::{Row, RowSpec};
 use super::run::Audit;
 use super::source::Source;
-use crate::case::Parameters;
+use crate::case::{Matrix, Parameters};
 use crate::family;
 use crate::judge::Class;
 use serde::{Deserialize, Serialize};
@@ -81,6 +81,9 @@ pub enum StoredSource {
         /// True for the cases that start on their triangle, false for the others.
         #[serde(default)]
         is_secondary: bool,
+        /// Where their triangles are put.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        instance: Option<Matrix<f64>>,
     },
 }
 
@@ -151,9 +154,11 @@ impl StoredSource {
                     count: *count,
                 }
             }
-            Source::Corpus(set) => {
-                StoredSource::Corpus { file: set.file.clone(), is_secondary: set.is_secondary }
-            }
+            Source::Corpus(set) => StoredSource::Corpus {
+                file: set.file.clone(),
+                is_secondary: set.is_secondary,
+                instance: set.instance,
+            },
         }
     }
 

@@ -59,7 +59,7 @@ impl<F: Float> Made<F> {
         }
     }
 
-    fn cases_mut(&mut self) -> &mut [Case<F>] {
+    pub(crate) fn cases_mut(&mut self) -> &mut [Case<F>] {
         match self {
             Made::One(case) => std::slice::from_mut(case),
             Made::Group(cases) => cases,

@@ -9,9 +9,9 @@ mod integers;
 mod tests;
 
 use crate::arith::{
-    Bounded, Float, Real, Triple, Vector, bounded, scale_by_power_of_two as scaled,
+    Bounded, Exact, Float, Real, Triple, Vector, bounded, scale_by_power_of_two as scaled,
 };
-use crate::case::{Case, Ray, Triangle};
+use crate::case::{Case, Instance, Ray, Triangle};
 use crate::truth::{Contact, Place, Truth};
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -113,6 +113,21 @@ impl Distances {
         Distances::and_step(case, truth).0
     }
 
+    /// Those of a ray of the world and the triangle that an instance puts there, as the object has them.
+    pub fn of_instance<F: Float>(
+        case: &Case<F>,
+        instance: &Instance<F>,
+        truth: &Truth,
+    ) -> Distances {
+        let (zeros, ulp) = (Zeros::of(truth), ulp_of_points(case).to_f64());
+        let root = |square: &Bounded| Some(square.approximate()?.sqrt());
+        let found = bounded(|| relative((case, instance), Bounded::new, &zeros, ulp, root));
+        found.flatten().unwrap_or_else(|| {
+            let root = |square: &Exact| Some(square.approximate_root());
+            relative((case, instance), Exact::from_f64, &zeros, ulp, root).expect("always a root")
+        })
+    }
+
     /// As floats see them, right or not: for a search to climb on.
     pub fn at_a_glance<F: Float>(case: &Case<F>, truth: &Truth) -> Distances {
         let near = NearOne::of(&case.widen());
@@ -143,6 +158,35 @@ impl Distances {
             None => (integers::distances(&wide, ulp, zeros.along.is_some()), Step::Integers),
         }
     }
+}
+
+/// The distances of an instance, from squares in an arithmetic that does not round; none where no root is known.
+fn relative<F: Float, R: Real>(
+    (case, instance): (&Case<F>, &Instance<F>),
+    number: fn(f64) -> R,
+    zeros: &Zeros,
+    ulp: f64,
+    root: impl Fn(&R) -> Option<f64>,
+) -> Option<Distances> {
+    let (ray, triangle, times) = instance.lift(case, number);
+    let ulp = number(ulp) * times;
+    let Squares { longest, in_space, along } = Squares::of(&ray, &triangle, zeros.along.is_some());
+    let unit = if longest.is_zero() { R::one() } else { longest };
+    let relative = |square: R| root(&(square / &unit));
+    let mut ends = [f64::NAN; 3];
+    for (i, square) in along.into_iter().enumerate() {
+        ends[i] = match (zeros.along, square) {
+            (None, _) => f64::NAN,
+            (Some(at), _) if at[i] => 0.0,
+            (Some(_), None) => f64::INFINITY,
+            (Some(_), Some(square)) => relative(square)?,
+        };
+    }
+    Some(Distances {
+        in_space: if zeros.in_space { 0.0 } else { relative(in_space)? },
+        along: ends,
+        edge_in_ulps: root(&(unit.clone() / (ulp.clone() * ulp)))?,
+    })
 }
 
 /// The distances that a truth knows to be zero, or not to be.

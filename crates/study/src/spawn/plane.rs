@@ -1,10 +1,12 @@
 //! Heights over a triangle's exact plane, as numbers for people; the oracle decides sides.
 
 use crate::arith::{Bounded, Exact, Float, Real, Triple, Vector};
+use crate::case::Instance;
 
-/// A triangle's plane, in double-doubles.
+/// A triangle's plane, in double-doubles; of an instance that of the exact triangle in the world.
 pub struct Plane {
     vertices: [[f64; 3]; 3],
+    instance: Option<Instance<f64>>,
     near: Measures<Bounded>,
 }
 
@@ -21,8 +23,19 @@ fn triple<R>(point: [f64; 3], number: fn(f64) -> R) -> Triple<R> {
 }
 
 impl<R: Real> Measures<R> {
-    fn new(vertices: [[f64; 3]; 3], number: fn(f64) -> R) -> Measures<R> {
-        let [a, b, c] = vertices.map(|vertex| triple(vertex, number));
+    fn new(
+        vertices: [[f64; 3]; 3],
+        instance: &Option<Instance<f64>>,
+        number: fn(f64) -> R,
+    ) -> Measures<R> {
+        let [mut a, mut b, mut c] = vertices.map(|vertex| triple(vertex, number));
+        if let Some(instance) = instance {
+            [a, b, c] = instance.place(vertices, number);
+            // Above stays the side of the object's front.
+            if instance.is_mirrored() {
+                std::mem::swap(&mut b, &mut c);
+            }
+        }
         let edges = [b.minus(&a), c.minus(&a), c.minus(&b)];
         let normal = edges[0].cross(&edges[1]);
         let squares = edges.map(|edge| edge.dot(&edge));
@@ -51,9 +64,10 @@ enum What {
 
 impl Plane {
     /// The plane of a triangle with an area.
-    pub fn new<F: Float>(vertices: [[F; 3]; 3]) -> Plane {
+    pub fn new<F: Float>(vertices: [[F; 3]; 3], instance: Option<Instance<F>>) -> Plane {
         let vertices = vertices.map(|vertex| vertex.map(F::to_f64));
-        Plane { vertices, near: Measures::new(vertices, Bounded::new) }
+        let instance = instance.map(|it| it.widen());
+        Plane { vertices, near: Measures::new(vertices, &instance, Bounded::new), instance }
     }
 
     /// How high a point lies above the plane, in longest edges of the triangle, within a millionth of
@@ -84,7 +98,7 @@ impl Plane {
                 return height;
             }
         }
-        let measures = Measures::new(self.vertices, Exact::from_f64);
+        let measures = Measures::new(self.vertices, &self.instance, Exact::from_f64);
         let product = measures.product(what, triple(vector, Exact::from_f64));
         let squares = measures.normal_squared * &measures.edge_squared;
         let height = (product.clone() * &product / &squares).approximate_root();

@@ -10,13 +10,13 @@ use super::sums::{OfScheme, Sums};
 use super::trial::{PointKind, Trial, Trials};
 use crate::arith::Float;
 use crate::audit::{Row, Source};
-use crate::case::{Case, Parameters, Scene};
+use crate::case::{Case, Matrix, Parameters, Scene};
 use crate::contract::Extent;
 use crate::engine::{self, Observer};
 use crate::family::Stratum;
 use crate::kernel::{Scalar, Verdict};
 use crate::mesh::SceneMesh;
-use crate::oracle::{self, Layers};
+use crate::oracle::Layers;
 use crate::truth::{Place, Truth};
 use std::ops::Range;
 use std::sync::Arc;
@@ -37,6 +37,8 @@ pub struct Plan<'a> {
     pub wall: f64,
     /// The angle in degrees at which a neighbour is folded up.
     pub fold: f64,
+    /// Where triangles are put, if not where they are.
+    pub instance: Option<Matrix<f64>>,
     /// True if the smallest safe offset of each hit point is looked for.
     pub with_least: bool,
     /// Which random rays.
@@ -55,7 +57,9 @@ pub fn run<F: Scalar>(plan: &Plan<'_>, observer: &dyn Observer) -> Sums {
         Sums { schemes, ..Sums::default() }
     };
     let source = plan.source();
-    let add = |sums: &mut Sums, indices| add_chunk::<F>(plan, plan.trials(&source, indices), sums);
+    let add = |sums: &mut Sums, indices| {
+        add_chunk::<F>((plan, &source), plan.trials(&source, indices), sums)
+    };
     engine::sum(0..plan.count, CHUNK, observer, empty, add)
 }
 
@@ -77,7 +81,11 @@ impl Plan<'_> {
     pub fn source(&self) -> Source {
         let Plan { scene, mesh, seed, count, .. } = *self;
         let parameters = Parameters { scene: Some(scene.clone()), ..Parameters::default() };
-        Source::of_stratum(Stratum::Interior, mesh, parameters, seed, count)
+        let source = Source::of_stratum(Stratum::Interior, mesh, parameters, seed, count);
+        match self.instance {
+            Some(matrix) => source.placed(matrix),
+            None => source,
+        }
     }
 
     fn trials<F: Scalar>(&self, source: &Source, indices: Range<u64>) -> Trials<F> {
@@ -111,9 +119,9 @@ struct Measured<F: Float> {
 impl<F: Float> Measured<F> {
     fn of(trial: &Trial<F>, fold: f64, with_least: bool) -> Measured<F> {
         let hit = &trial.hit;
-        let (plane, side) = (Plane::new(hit.vertices), if trial.is_front { 1.0 } else { -1.0 });
-        let is_right =
-            |origin: [F; 3]| starts_right(&oracle::truth(&trial.case(origin, F::zero())));
+        let (plane, side) =
+            (Plane::new(trial.object, trial.instance), if trial.is_front { 1.0 } else { -1.0 });
+        let is_right = |origin: [F; 3]| starts_right(&trial.truth(origin, F::zero()));
         let [a, b, c] = hit.vertices.map(|vertex| vertex.map(F::to_f64));
         let length = |p: [f64; 3], q: [f64; 3]| glam::DVec3::from(p).distance(glam::DVec3::from(q));
         let edge = length(a, b).max(length(b, c)).max(length(c, a));
@@ -143,7 +151,7 @@ impl<F: Float> Measured<F> {
     }
 }
 
-fn add_chunk<F: Scalar>(plan: &Plan<'_>, trials: Trials<F>, sums: &mut Sums) {
+fn add_chunk<F: Scalar>((plan, source): (&Plan<'_>, &Source), trials: Trials<F>, sums: &mut Sums) {
     let Trials { trials, missed, without_side, not_finite } = trials;
     sums.hits += trials.len() as u64;
     sums.missed += missed;
@@ -173,9 +181,9 @@ fn add_chunk<F: Scalar>(plan: &Plan<'_>, trials: Trials<F>, sums: &mut Sums) {
         let Some(offset) = scheme.offset::<F>() else { continue };
         let starts = offset.starts(&hits);
         let with_starts = trials.iter().zip(&starts);
-        let cases: Vec<Case<F>> =
+        let mut cases: Vec<Case<F>> =
             with_starts.map(|(trial, start)| trial.case(start.origin, start.t_min)).collect();
-        oracle::truths(&cases, &mut truths, &mut layers);
+        source.ask(&mut cases, &mut truths, &mut layers);
         kernel.run(&cases, &epsilons, &mut verdicts);
         for (i, (trial, start)) in trials.iter().zip(&starts).enumerate() {
             let is_right = starts_right(&truths[i]);

@@ -3,12 +3,13 @@
 use super::hit::HitPoint;
 use crate::arith::{Float, Vector};
 use crate::audit::Source;
-use crate::case::{Case, Draw};
+use crate::case::{Case, Draw, Instance};
 use crate::family::{any_direction, combination};
 use crate::kernel::{Entry, Scalar, Verdict};
-use crate::oracle;
+use crate::oracle::{self, Layers};
 use crate::truth::{Facing, Truth};
 use std::ops::Range;
+use std::slice;
 
 named! {
     pub names
@@ -41,12 +42,21 @@ pub struct Trial<F: Float> {
     pub hit: HitPoint<F>,
     /// True if the new ray leaves to the side that (b - a) × (c - a) points to.
     pub is_front: bool,
+    /// The triangle as the object has it; that of the hit is rounded to the world.
+    pub object: [[F; 3]; 3],
+    /// Where the triangle is put, if not where it is.
+    pub instance: Option<Instance<F>>,
 }
 
 impl<F: Float> Trial<F> {
-    /// The new ray from an origin, with the triangle.
+    /// The new ray from an origin, with the triangle as the object has it.
     pub fn case(&self, origin: [F; 3], t_min: F) -> Case<F> {
-        Case::new(origin, self.hit.direction, self.hit.vertices).on(t_min, F::infinity())
+        Case::new(origin, self.hit.direction, self.object).on(t_min, F::infinity())
+    }
+
+    /// The truth of that ray, which is of the world.
+    pub fn truth(&self, origin: [F; 3], t_min: F) -> Truth {
+        truth_in(&self.case(origin, t_min), self.instance.as_ref())
     }
 }
 
@@ -74,7 +84,8 @@ impl<F: Scalar> Trials<F> {
         indices: Range<u64>,
     ) -> Trials<F> {
         let made = indices.map(|index| (index, source.make::<F>(index).cases()[0]));
-        Trials::of(entry, epsilons, kind, seed, &made.collect::<Vec<_>>())
+        let made: Vec<_> = made.collect();
+        Trials::placed((entry, epsilons), kind, seed, &made, source.instance())
     }
 
     /// The trials of a kernel on given first rays.
@@ -85,24 +96,39 @@ impl<F: Scalar> Trials<F> {
         seed: u64,
         first_rays: &[(u64, Case<F>)],
     ) -> Trials<F> {
+        Trials::placed((entry, epsilons), kind, seed, first_rays, None)
+    }
+
+    /// The first rays are of the world if there is an instance.
+    fn placed(
+        (entry, epsilons): (&Entry, &[F]),
+        kind: PointKind,
+        seed: u64,
+        first_rays: &[(u64, Case<F>)],
+        instance: Option<Instance<F>>,
+    ) -> Trials<F> {
         let mut all = Trials { trials: Vec::new(), missed: 0, without_side: 0, not_finite: 0 };
         let Some(kernel) = F::subject(entry) else { return all };
-        let cases: Vec<Case<F>> = first_rays.iter().map(|(_, case)| *case).collect();
+        let cases: Vec<Case<F>> = first_rays
+            .iter()
+            .map(|(_, case)| instance.map_or(*case, |it| it.in_object(case)))
+            .collect();
         let mut verdicts = vec![Verdict::miss(None); cases.len()];
         kernel.run(&cases, epsilons, &mut verdicts);
-        for ((index, case), verdict) in first_rays.iter().zip(verdicts) {
+        for (((index, in_world), case), verdict) in first_rays.iter().zip(&cases).zip(verdicts) {
             if !verdict.hit {
                 all.missed += 1;
                 continue;
             }
             let draw = &mut Draw::new("spawn", seed, *index);
-            let Some((direction, is_front)) = leaving(case, draw) else {
+            let Some((direction, is_front)) = leaving(in_world, instance.as_ref(), draw) else {
                 all.without_side += 1;
                 continue;
             };
-            let hit = hit_point(entry, kind, case, &verdict, direction, is_front);
+            let object = [case.triangle.a, case.triangle.b, case.triangle.c].map(Into::into);
+            let hit = hit_point((entry, kind), case, instance, &verdict, direction, is_front);
             if hit.point.iter().all(|x| x.is_finite()) {
-                all.trials.push(Trial { index: *index, hit, is_front });
+                all.trials.push(Trial { index: *index, hit, is_front, object, instance });
             } else {
                 all.not_finite += 1;
             }
@@ -111,16 +137,28 @@ impl<F: Scalar> Trials<F> {
     }
 }
 
+/// The truth of a ray, which is of the world if there is an instance.
+fn truth_in<F: Float>(case: &Case<F>, instance: Option<&Instance<F>>) -> Truth {
+    let Some(instance) = instance else { return oracle::truth(case) };
+    let (mut truths, layers) = (Vec::new(), &mut Layers::default());
+    oracle::truths_of_instance(slice::from_ref(case), instance, &mut truths, layers);
+    truths[0]
+}
+
 /// A direction over the half-space from which a ray came, uniform, and whether that is the triangle's
 /// front. None if the ray does not cross the triangle's plane.
-fn leaving<F: Float>(case: &Case<F>, draw: &mut Draw) -> Option<([F; 3], bool)> {
+fn leaving<F: Float>(
+    case: &Case<F>,
+    instance: Option<&Instance<F>>,
+    draw: &mut Draw,
+) -> Option<([F; 3], bool)> {
     let facing = |truth: Truth| truth.crossing().map(|crossing| crossing.facing);
-    let came_from = facing(oracle::truth(case))?;
+    let came_from = facing(truth_in(case, instance))?;
     let [origin, _, a, b, c] = case.vectors();
     // Directions exactly in the plane are drawn again.
     for _ in 0..64 {
         let direction = any_direction(draw).to_array().map(F::from_f64);
-        let leaving = facing(oracle::truth(&Case::new(origin, direction, [a, b, c])));
+        let leaving = facing(truth_in(&Case::new(origin, direction, [a, b, c]), instance));
         let turned = match leaving {
             // It leaves as the first ray arrived.
             Some(facing) if facing == came_from => direction.map(|x| -x),
@@ -132,10 +170,11 @@ fn leaving<F: Float>(case: &Case<F>, draw: &mut Draw) -> Option<([F; 3], bool)> 
     None
 }
 
+/// The hit as a scheme knows it; of an instance in the world, each number rounded.
 fn hit_point<F: Float>(
-    entry: &Entry,
-    kind: PointKind,
+    (entry, kind): (&Entry, PointKind),
     case: &Case<F>,
+    instance: Option<Instance<F>>,
     verdict: &Verdict<F>,
     direction: [F; 3],
     is_front: bool,
@@ -149,12 +188,14 @@ fn hit_point<F: Float>(
         _ => case.ray.origin.plus(&case.ray.direction.times(&verdict.t)).into(),
     };
     let triangle = case.triangle;
-    let normal = triangle.b.minus(&triangle.a).cross(&triangle.c.minus(&triangle.a)).normalize();
-    let normal: [F; 3] = normal.into();
+    let normal = triangle.b.minus(&triangle.a).cross(&triangle.c.minus(&triangle.a));
+    let in_world = |point| instance.map_or(point, |instance| instance.point_in_world(point));
+    let turned = |it: Instance<F>| it.normal_in_world(normal.into()).into();
+    let normal: [F; 3] = instance.map_or(normal, turned).normalize().into();
     HitPoint {
-        point,
+        point: in_world(point),
         normal: if is_front { normal } else { normal.map(|x| -x) },
-        vertices,
+        vertices: vertices.map(in_world),
         weights,
         t: verdict.t,
         direction,
