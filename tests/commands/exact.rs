@@ -58,8 +58,19 @@ fn it_is_right_on_every_family_in_c_and_in_cpp_contracted_or_not() {
 #[test]
 fn exactly_one_triangle_is_hit_at_shared_edges_and_vertices() {
     let Some(library) = exact("exact-once", "ONCE", &["-std=c99", "-pedantic"]) else { return };
-    let (of_families, _) = record(&["-n", "3000", "--kernel-lib", &library]);
-    assert_eq!(wrong(&of_families), [""; 0]);
+    let mut crossings = 0;
+    for cases in [&["-n", "3000"][..], &["-n", "2000", "--scene", "unit"]] {
+        let (of_families, _) = record(&[cases, &["--kernel-lib", &library]].concat());
+        assert_eq!(wrong(&of_families), [""; 0]);
+        let results = of_families["result"]["results"].as_array().unwrap();
+        for across in results.iter().map(|part| &part["across"]).filter(|it| !it.is_null()) {
+            for kind in ["cracks", "doubles", "odd_folds"] {
+                assert_eq!(across[kind]["count"], 0, "{kind}: {across}");
+            }
+            crossings += across["cracks"]["of"].as_u64().unwrap();
+        }
+    }
+    assert!(30_000 < crossings, "{crossings}");
     let folder = scratch("exact-once");
     let mut crossings = 0;
     for mesh in ["far.obj", "icosphere.obj", "torus.obj"] {
