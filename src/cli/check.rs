@@ -369,6 +369,6 @@ mod tests {
             .collect();
         // Three flags are false, which takes no word.
         let words = read_settings(&examples.join("\n"), "h.toml").unwrap();
-        assert_eq!(words.len(), 24, "{words:?}");
+        assert_eq!(words.len(), 25, "{words:?}");
     }
 }
