@@ -5,7 +5,7 @@ use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
     Audit, Cell, CorpusSet, EpsilonText, Examples, GroupCount, Place, Plan, PolygonCount, Row,
-    Severity, Source, SourceSummary, Tally, Trials, exact_severity, severity_of_instance,
+    Severity, Source, SourceSummary, Tally, Trials, exact_severity, severity_of_instance, words,
 };
 use crate::case::Case;
 use crate::contract::{Boundary, Extent};
@@ -99,7 +99,11 @@ pub(super) fn planned_source(source: &Source) -> PlannedSource {
     PlannedSource {
         family: source.name(),
         set: match source {
-            Source::Corpus(set) => format!("{}@{}", set.file, corpus_digest(set)),
+            Source::Corpus(set) => {
+                let place =
+                    set.instance.map(|it| format!("/instance={}", words(&it).replace(' ', ":")));
+                format!("{}@{}{}", set.file, corpus_digest(set), place.unwrap_or_default())
+            }
             _ => set_of_id(&source.id::<f64>(0, None)),
         },
         count: source.count::<f32>().max(source.count::<f64>()),
@@ -171,9 +175,17 @@ pub(super) fn counts(tally: &Tally, class: Option<Class>, sample: bool) -> Count
 fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
     let (source, row, tally) = (&plan.sources[cell.source], &plan.rows[cell.row], &cell.tally);
     let sample = source.is_sample();
+    // In an instance values belong to another ray than the truth.
+    let judged = |counts: Counts| match source.instance::<F>() {
+        Some(_) => {
+            let (bad_values, wrong_values) = Default::default();
+            Counts { bad_values, wrong_values, ..counts }
+        }
+        None => counts,
+    };
     let classes = Class::all()
         .filter(|class| tally.classes[class.number()].cases > 0)
-        .map(|class| (class.name(), counts(tally, Some(class), sample)));
+        .map(|class| (class.name(), judged(counts(tally, Some(class), sample))));
     let findings = tally.examples.iter().map(|((class, finding), examples)| {
         let trials = tally.trials(Some(class), finding);
         let causes = cell.causes.get(&(class, finding));
@@ -187,7 +199,7 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
         kernel: row.entry.info.name.to_owned(),
         set: row.set.clone(),
         family: source.name(),
-        total: counts(tally, None, sample),
+        total: judged(counts(tally, None, sample)),
         classes: classes.collect(),
         findings: findings.collect(),
         severity: distribution::severities(&tally.severities),

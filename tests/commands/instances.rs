@@ -50,6 +50,9 @@ fn the_identity_changes_no_verdict_and_no_truth() {
         results.flat_map(|result| [of_classes(result), of_groups(result)].concat()).collect()
     };
     assert_eq!(counts(&plain), counts(&placed));
+    // Values are not judged there, and so none is right.
+    let values = [&plain, &placed].map(|it| sum(it, "moller-trumbore", "/total/wrong_values/of"));
+    assert!(0 < values[0] && values[1] == 0, "{values:?}");
     assert!(0 < sum(&plain, "moller-trumbore", "/across/cracks/count"));
     assert!(0 < sum(&plain, "convex-polygon", "/polygons/false_misses/of"));
     assert_ne!(plain["result"]["plan"]["hash"], placed["result"]["plan"]["hash"]);
@@ -190,6 +193,19 @@ fn shards_of_an_instance_merge_to_the_whole_and_a_check_is_held_to_it() {
     ends(&folder, &["check", "-q"], 0);
     let (out, _) = ends(&folder, &["check", "-q", "--instance", IDENTITY], 3);
     assert!(flat(&out).contains("which is of other cases"), "{out}");
+}
+
+#[test]
+fn an_audit_says_that_it_is_of_an_instance() {
+    let folder = scratch("instances-said");
+    let placed = ["audit", "-q", "-n", "50", "-k", "cramer,plucker", "--instance", FAR];
+    let stored = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpora/curated.jsonl");
+    for cases in [["-f", "interior,fan"], ["--corpus", stored.to_str().unwrap()]] {
+        let text = flat(&ends(&folder, &[&placed[..], &cases].concat(), 0).0);
+        assert!(text.contains(" in an instance, "), "{text}");
+        let text = flat(&ends(&folder, &[&placed[..6], &cases].concat(), 0).0);
+        assert!(!text.contains(" in an instance, "), "{text}");
+    }
 }
 
 #[test]

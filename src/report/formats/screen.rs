@@ -73,9 +73,11 @@ fn head(record: &Record) -> String {
         1 => String::new(),
         several => format!(" in {several} kinds of planes and rays"),
     };
+    let is_placed = |source: &PlannedSource| source.set.contains("/instance=");
+    let placed = if result.plan.sources.iter().any(is_placed) { " in an instance" } else { "" };
     let kernels: BTreeSet<&str> = result.plan.rows.iter().map(|row| &*row.kernel).collect();
     format!(
-        "{}: {} ({}) on {sources}{kinds}, {}, {:.1} s, plan {}",
+        "{}: {} ({}) on {sources}{kinds}{placed}, {}, {:.1} s, plan {}",
         provenance.tool,
         number_of(result.plan.rows.len() as u64, "row", "rows"),
         number_of(kernels.len() as u64, "kernel", "kernels"),
