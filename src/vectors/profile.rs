@@ -48,10 +48,17 @@ struct Answers {
 #[serde(deny_unknown_fields)]
 struct Answer<T> {
     result: T,
+    /// The answer that it only advises: a "should".
+    #[serde(default = "none")]
+    advised: Option<T>,
     /// The section of the specification; null where it says nothing.
     section: Option<String>,
     /// Its words, or why there is no answer.
     sentence: String,
+}
+
+fn none<T>() -> Option<T> {
+    None
 }
 
 impl<T> Answer<T> {
@@ -164,6 +171,21 @@ impl Profile {
     /// The demand on groups on which readings differ.
     pub fn of_groups(&self) -> Groups {
         self.answers.groups.result
+    }
+
+    /// The sentence that an answer is against although it is right: the specification only advises what is not so.
+    pub fn advice_against(&self, test: &Test, answered: Answered) -> Option<Saying> {
+        let groups = &self.answers.groups;
+        let is_free = demanded(test, Some(self)) == "free";
+        let group = test.group.as_ref().filter(|_| is_free)?;
+        let advised = match groups.advised? {
+            _ if group.result() != "at-least-one" => group.result(),
+            Groups::ExactlyOne => "exactly-one",
+            Groups::AtLeastOne => "at-least-one",
+            Groups::Parity => group.parity(),
+            Groups::Free => "free",
+        };
+        (is_right(advised, answered) == Some(false)).then(|| groups.saying("groups"))
     }
 
     /// The sentences of the specification that decide a test; none if it is decided without them.

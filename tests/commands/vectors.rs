@@ -285,6 +285,34 @@ fn right_results_end_with_0_and_wrong_ones_with_1_under_every_profile() {
     }
 }
 
+#[test]
+fn what_a_specification_only_advises_is_said_and_not_wrong() {
+    let tests = tests();
+    let is_crossing = |test: &&Value| test["result"] == "at-least-one";
+    let crossings: Vec<&Value> = tests.iter().filter(is_crossing).collect();
+    let answers = |hits: u64| {
+        let answer = |test: &&Value| (test["id"].as_str().unwrap().to_owned(), json!(hits));
+        results(&crossings.iter().map(answer).collect::<Vec<_>>())
+    };
+    let by = |hits: u64, profile: &str, code: i32| -> Value {
+        let (report, _) = verify(&answers(hits), &["--format", "json", "--profile", profile], code);
+        serde_json::from_str(&report).unwrap()
+    };
+    // "Should" in the one, "must" in the other.
+    for (hits, against) in [(0, crossings.len()), (1, 0), (2, crossings.len())] {
+        let report = by(hits, "vulkan", 0);
+        let told = report["unadvised"].as_array().map_or(0, Vec::len);
+        assert_eq!((told, report["total"]["wrong"].as_u64()), (against, Some(0)));
+        assert_eq!(report["sayings"].as_array().unwrap().len(), usize::from(0 < against));
+    }
+    let report = by(2, "dxr", 1);
+    assert_eq!(report["total"]["wrong"].as_u64(), Some(crossings.len() as u64));
+    let (text, _) = verify(&answers(2), &["--profile", "vulkan"], 0);
+    let text = unwrapped(&text);
+    assert!(text.contains("Against what the specification advises (a \"should\")"), "{text}");
+    assert!(text.contains("should not double-hit or miss"), "{text}");
+}
+
 /// A text without the ends of its lines.
 fn unwrapped(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")

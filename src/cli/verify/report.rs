@@ -76,6 +76,9 @@ pub struct Report {
     topics: Vec<(&'static str, Counts)>,
     wrong: Vec<Wrong>,
     missing: Vec<String>,
+    /// The ids of answers against what the profile's specification only advises: they are not wrong.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    unadvised: Vec<String>,
     /// The sentences of the profile's specification that make an answer wrong.
     sayings: Vec<Saying>,
 }
@@ -162,8 +165,17 @@ impl<'a> Sheet<'a> {
                 .flat_map(|topic| &topic.missing)
                 .map(|id| id.to_string())
                 .collect(),
+            unadvised: Vec::new(),
             sayings: Vec::new(),
         };
+        for Judged { test, answer, .. } in self.judged() {
+            let Some(profile) = self.profile else { break };
+            let Some(saying) = profile.advice_against(test, *answer) else { continue };
+            report.unadvised.push(test.id.clone());
+            if !report.sayings.contains(&saying) {
+                report.sayings.push(saying);
+            }
+        }
         report.topics.iter().for_each(|(_, counts)| report.total.add(counts));
         // What only the profile demands comes first.
         let by_profile = |judged: &&Judged| self.sayings_of(judged.test, judged.answer).is_empty();
@@ -266,7 +278,8 @@ impl Counts {
 
 impl Paged for Judgement {
     fn page(&self) -> Page {
-        let Report { product, profile, total, topics, wrong, sayings, .. } = &self.report;
+        let Report { product, profile, total, topics, wrong, unadvised, sayings, .. } =
+            &self.report;
         let Counts { tests, right, wrong: count, free, missing } = total;
         let answers = number_of(*count as u64, "wrong answer", "wrong answers");
         let by = profile.as_ref().map_or(String::new(), |name| format!(" by profile {name}"));
@@ -288,6 +301,16 @@ impl Paged for Judgement {
             "Wrong answers",
             SHOWN,
             wrong.iter().map(Wrong::item).collect(),
+        ));
+        let advised = unadvised.iter().map(|id| Item {
+            text: id.clone(),
+            lines: vec![format!("hairline explain {id}")],
+            ..Item::default()
+        });
+        blocks.extend(Block::items(
+            "Against what the specification advises (a \"should\"), and so not wrong",
+            SHOWN,
+            advised.collect(),
         ));
         let saying = |Saying { word, section, sentence }: &Saying| {
             let section = section.as_ref().map_or(String::new(), |section| format!(" ({section})"));
