@@ -1,6 +1,6 @@
 /* hairline_exact.h: does a ray hit a triangle? The right answer for every finite float and double.
  *
- * One file without dependencies, in C99 and C++. Plain arithmetic decides where it provably can; integers decide the rest.
+ * One file without dependencies, in C99 and C++17. Plain arithmetic decides where it provably can; integers decide the rest.
  *
  * Edges: before you include this file, you may define HAIRLINE_EDGES as
  *   HAIRLINE_ONCE    a ray through an edge or a vertex where triangles meet hits exactly one of them (the default):
@@ -9,7 +9,8 @@
  *   HAIRLINE_OPEN    it hits none
  *
  * A ray that lies in the plane of the triangle misses it, and so does every ray a triangle without area. A number that is
- * not finite is a miss (but t_max may be infinite). Both ends of the ray count: t_min <= t <= t_max, exactly.
+ * not finite is a miss (but both ends may be infinite). The ends of the ray count: t_min <= t <= t_max, exactly. Subnormal
+ * numbers must not be flushed to zero.
  *
  * Why this is right (docs/guide/exact.md has the derivation): with A, B, C the corners minus the origin, the ray's line passes
  * inside where U = d.(CxB), V = d.(AxC) and W = d.(BxA) have one sign, and t = A.(CxB) / (U + V + W). A number computed from
@@ -30,15 +31,19 @@
 #ifndef HAIRLINE_EDGES
 #define HAIRLINE_EDGES HAIRLINE_ONCE
 #endif
-#ifdef __FAST_MATH__
-#error "hairline_exact.h: -ffast-math changes results: compile without it"
+#if HAIRLINE_EDGES != HAIRLINE_ONCE && HAIRLINE_EDGES != HAIRLINE_CLOSED && HAIRLINE_EDGES != HAIRLINE_OPEN
+#error "hairline_exact.h: HAIRLINE_EDGES is HAIRLINE_ONCE, HAIRLINE_CLOSED or HAIRLINE_OPEN"
 #endif
-#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "hairline_exact.h: -ffast-math changes results: compile without it, and without its parts"
+#endif
+/* 16, 32 and 64 are about types narrower than double. */
+#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1 && FLT_EVAL_METHOD != 16 && FLT_EVAL_METHOD != 32 && FLT_EVAL_METHOD != 64
 #error "hairline_exact.h: doubles are computed with more than 53 bits: compile with -msse2 -mfpmath=sse, or the like"
 #endif
 
 /* A hit: t along the direction, u and v the weights of b and c, and whether the front was hit (a, b, c counter-clockwise as
- * the ray sees them). hit is 0 or 1. asked is 1 if integers were needed. */
+ * the ray sees them). hit is 1. asked is 1 if integers were needed. */
 typedef struct {
     int hit, front, asked;
     double t, u, v;
@@ -209,6 +214,10 @@ static inline int hx_past(const hx_int *n, const hx_int *d, double t, int expone
     return left.sign;
 }
 
+static inline double hx_larger(double a, double b) { return a > b ? a : b; }
+
+static inline double hx_within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
+
 /* The answer by integers. */
 static inline void hx_exact(double points[4][3], const double d[3], double t_min, double t_max, hairline_answer *answer) {
     hx_int p[4][3], direction[3], edges[3], det, n;
@@ -245,8 +254,8 @@ static inline void hx_exact(double points[4][3], const double d[3], double t_min
     if (t_max <= DBL_MAX && det.sign * hx_past(&n, &det, t_max, exponent) > 0) return;
     answer->hit = 1, answer->front = det.sign > 0;
     answer->t = hx_quotient(&n, &det, exponent);
-    answer->u = hx_quotient(&edges[1], &det, 0);
-    answer->v = hx_quotient(&edges[2], &det, 0);
+    answer->u = hx_within(hx_quotient(&edges[1], &det, 0), 0, 1);
+    answer->v = hx_within(hx_quotient(&edges[2], &det, 0), 0, 1 - answer->u);
 }
 
 /* ---- plain arithmetic, with a margin ---- */
@@ -269,8 +278,11 @@ static inline int hx_sign(double x, double margin) { return x > margin ? 1 : x <
 
 /* The sign of n - t * det: below 0 before the end at t, above it beyond; 0 where it is open. */
 static inline int hx_plain_past(double n, double det, double t, double size_n, double size_det) {
-    if (fabs(t) > 0x1p128) return 0;
-    return hx_sign(n - t * det, 0x1p-48 * (size_n + fabs(t) * size_det) + 0x1p-620);
+    double end = hx_within(t, -0x1p128, 0x1p128);
+    int past = hx_sign(n - end * det, 0x1p-48 * (size_n + fabs(end) * size_det) + 0x1p-620);
+    /* An end farther off is only known to be farther off. */
+    if (end != t && ((t > 0) == (det > 0) ? past > 0 : past < 0)) return 0;
+    return past;
 }
 
 /* The values of a hit, as Moeller and Trumbore have them: differences from the corner a. 0 if u, v, or the point in longest
@@ -281,7 +293,7 @@ static inline int hx_values(double points[4][3], const double d[3], double loss,
     for (i = 0; i < 3; i++) {
         e1[i] = points[2][i] - points[1][i], e2[i] = points[3][i] - points[1][i];
         s[i] = points[0][i] - points[1][i];
-        edge = fmax(edge, fmax(fabs(e1[i]), fabs(e2[i]))), step = fmax(step, fabs(d[i]));
+        edge = hx_larger(edge, hx_larger(fabs(e1[i]), fabs(e2[i]))), step = hx_larger(step, fabs(d[i]));
     }
     det = hx_plain(d, e2, e1, &of_det);
     answer->t = hx_plain(e2, s, e1, &of_t) / det;
@@ -289,8 +301,8 @@ static inline int hx_values(double points[4][3], const double d[3], double loss,
     answer->v = hx_plain(d, s, e1, &of_v) / det;
     loss *= fabs(det) * 0x1p49;
     if (!(of_det + 0x1p-700 < loss && of_u < loss && of_v < loss)) return 0;
-    if (!(of_t * step < loss * fmax(edge, fabs(answer->t) * step))) return 0;
-    answer->u = fmin(fmax(answer->u, 0), 1), answer->v = fmin(fmax(answer->v, 0), 1 - answer->u);
+    if (!(of_t + 0x1p-760 < loss * hx_larger(edge / step, fabs(answer->t)))) return 0;
+    answer->u = hx_within(answer->u, 0, 1), answer->v = hx_within(answer->v, 0, 1 - answer->u);
     return 1;
 }
 
@@ -325,21 +337,25 @@ static inline int hx_filter(double points[4][3], const double d[3], double t_min
 
 static inline int hx_answer(double points[4][3], const double d[3], double t_min, double t_max, double largest,
                             double loss, hairline_answer *answer) {
+    hairline_answer found;
     int i, k;
-    memset(answer, 0, sizeof *answer);
     if (!(t_min <= t_max) || t_min > DBL_MAX || t_max < -DBL_MAX) return 0;
     for (i = 0; i < 3; i++) {
         if (!(fabs(d[i]) <= DBL_MAX)) return 0;
         for (k = 0; k < 4; k++)
             if (!(fabs(points[k][i]) <= DBL_MAX)) return 0;
     }
-    if (hx_filter(points, d, t_min, t_max, loss, answer) == 2) hx_exact(points, d, t_min, t_max, answer);
+    memset(&found, 0, sizeof found);
+    if (hx_filter(points, d, t_min, t_max, loss, &found) == 2) hx_exact(points, d, t_min, t_max, &found);
+    if (!found.hit) return 0;
     /* What was rounded stays between the ends, and finite. */
-    answer->t = fmin(fmax(answer->t, fmax(t_min, -largest)), fmin(t_max, largest));
-    return answer->hit;
+    found.t = hx_within(found.t, hx_larger(t_min, -largest), t_max < largest ? t_max : largest);
+    *answer = found;
+    return 1;
 }
 
-/* Does the ray o + t * d, t_min <= t <= t_max, hit the triangle? Vectors are arrays of three. Returns answer->hit. */
+/* Does the ray o + t * d, t_min <= t <= t_max, hit the triangle? Vectors are arrays of three. Returns 1 for a hit, 0 for a miss.
+ * A miss leaves *answer as it was: with its t as t_max, one answer can hold the nearest hit. */
 static inline int hairline_exact_f64(const double o[3], const double d[3], const double a[3], const double b[3], const double c[3],
                               double t_min, double t_max, hairline_answer *answer) {
     double points[4][3];

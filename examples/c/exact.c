@@ -1,6 +1,6 @@
 /* hairline_exact.h as a kernel: the right answer for every finite float and double.
  *
- *     cc -O2 -shared -fPIC -I../../include -o libexact.so exact.c -lm
+ *     cc -O2 -shared -fPIC -I../../include -o libexact.so exact.c
  *     hairline audit --kernel-lib ./libexact.so
  */
 #include <hairline.h>
@@ -28,7 +28,7 @@ const hairline_kernel *hairline_describe(void) { return &KERNEL; }
         (void)epsilons;                                                                                                \
         for (i = 0; i < count; i++) {                                                                                  \
             const hairline_case_##SUFFIX *c = &cases[i];                                                               \
-            hairline_answer answer;                                                                                    \
+            hairline_answer answer = {0, 0, 0, 0, 0, 0};                                                                                   \
             verdicts[i].hit = hairline_exact_##SUFFIX(c->origin, c->direction, c->a, c->b, c->c, c->t_min,    \
                                                                c->t_max, &answer);                                     \
             verdicts[i].facing = answer.front ? HAIRLINE_FRONT : HAIRLINE_BACK;                                        \

@@ -2,7 +2,7 @@
 //! worse nor better.
 
 use super::plugins;
-use crate::audit::{self, Plan, Shard};
+use crate::audit::{self, Plan, Shard, Source};
 use crate::case::CaseId;
 use crate::engine::Unobserved;
 use crate::expect::{self, Expectations};
@@ -95,9 +95,12 @@ fn part(plan: &Plan, found: &Deviation) -> Option<(Plan, u64, u64)> {
     let case = found.case.as_ref().filter(|_| !row.entry.is_built_in())?;
     let (count, index) = in_named_scalar!(found.scalar, F => {
         let count = source.count::<F>();
-        // The name of a stored case does not tell its place.
-        let stored = || (0..count).find(|index| source.id::<F>(*index, None) == *case);
-        (count, case.parse().ok().map(|id: CaseId| id.index).or_else(stored)?)
+        // The name of a stored case does not tell its place, even if it is the id of another source.
+        let index = match source {
+            Source::Corpus(_) => (0..count).find(|index| source.id::<F>(*index, None) == *case),
+            _ => case.parse().ok().map(|id: CaseId| id.index),
+        };
+        (count, index.filter(|index| *index < count)?)
     });
     let scalars = [found.scalar == "f32", found.scalar == "f64"];
     let (rows, sources) = (vec![row.clone()], vec![source.clone()]);

@@ -191,7 +191,7 @@ fn checked(
         let change = conformance.change;
         if !conformance.unsteady.is_empty() {
             eprintln!(
-                "hairline: {file} stays as it is: no run meets what answers that differ from run to run give"
+                "hairline: {file} is not written: answers that differ from run to run can be no known disagreements"
             );
         } else if known_file.is_some() && change.is_worse() && !arguments.accept_worse {
             let instead = match conformance.method {

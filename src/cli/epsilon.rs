@@ -170,7 +170,8 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     }
     progress.finish();
     let context = Context { seconds: progress.seconds(), threads };
-    let record = scene_record(&studied, &costs, max_error, seed, count, &context, parts);
+    let mut record = scene_record(&studied, &costs, max_error, seed, count, &context, parts);
+    record.left_out = arguments.sources.left_out()?;
     arguments.output.write(outputs, &record)?;
     Ok(Status::Success)
 }

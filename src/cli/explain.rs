@@ -5,6 +5,7 @@ use super::exit::{Failure, Status};
 use super::flags::{matrix, placed};
 use super::output::OutputArguments;
 use super::select::KernelArguments;
+use crate::arith::Float;
 use crate::report::Format;
 use crate::report::explain::{Together, explain};
 use clap::Args;
@@ -38,7 +39,9 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
     let name = &arguments.case.case;
     rows.iter().try_for_each(|row| row.check_in(cases.scalars()))?;
     let record = either_scalar!(&cases, group => {
-        let given = arguments.instance.as_deref().map(|text| placed(matrix(text)?)).transpose()?;
+        // As a run reads it, whose numbers are doubles at first.
+        let narrow = |text| placed(matrix(text)?.map(|row| row.map(Float::from_f64)));
+        let given = arguments.instance.as_deref().map(narrow).transpose()?;
         if given.is_some() && group.instance.is_some() {
             return Err(Failure::usage("--instance: the case's id has an instance of its own"));
         }

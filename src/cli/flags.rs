@@ -76,10 +76,10 @@ pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
 }
 
 /// Reads the matrix of `--instance`: twelve numbers, row by row.
-pub fn matrix<F: Float>(text: &str) -> Result<Matrix<F>, Failure> {
+pub fn matrix(text: &str) -> Result<Matrix<f64>, Failure> {
     let wrong = |message: String| Failure::usage(format!("--instance: {message}"));
     let words = text.split([',', ' ', ';', '\n']).filter(|word| !word.is_empty());
-    let numbers = words.map(number::parse).collect::<Result<Vec<F>, _>>().map_err(wrong)?;
+    let numbers = words.map(number::parse).collect::<Result<Vec<f64>, _>>().map_err(wrong)?;
     let count = || wrong(format!("expected 12 numbers, row by row, found {}", numbers.len()));
     let (rows, []) = numbers.as_chunks::<4>() else { return Err(count()) };
     rows.try_into().map_err(|_| count())
@@ -93,7 +93,7 @@ pub fn placed<F: Float>(matrix: Matrix<F>) -> Result<Instance<F>, Failure> {
 /// Reads the matrix of `--instance`, if it is given, for a run in some scalars.
 pub fn matrix_in(text: Option<&str>, scalars: [bool; 2]) -> Result<Option<Matrix<f64>>, Failure> {
     let Some(text) = text else { return Ok(None) };
-    let wide = matrix::<f64>(text)?;
+    let wide = matrix(text)?;
     if scalars[0] {
         placed(wide.map(|row| row.map(f32::from_f64)))?;
     }

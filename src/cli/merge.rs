@@ -1,6 +1,7 @@
 //! `hairline merge`: the records of parts of a run become the record of the whole.
 
 use super::exit::{Failure, Status};
+use super::flags::placed;
 use super::input::{corpus_sets, read_mesh, read_record};
 use super::plugins::PluginArguments;
 use super::progress::Progress;
@@ -119,6 +120,7 @@ fn open(source: &StoredSource, scalars: [bool; 2], quiet: bool) -> Result<Source
         StoredSource::Corpus { file, is_secondary, instance } => {
             let [others, secondary] = corpus_sets(file)?;
             let set = if *is_secondary { secondary } else { others };
+            instance.map(placed).transpose()?;
             Ok(Source::Corpus(CorpusSet { instance: *instance, ..set }))
         }
         StoredSource::Family { family, .. } => {

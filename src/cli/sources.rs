@@ -210,6 +210,11 @@ impl SourceArguments {
         Ok(self.held_in(chosen).map_or(chosen, |(held, _)| held))
     }
 
+    /// The reason for which one of the scalars is left out.
+    pub fn left_out(&self) -> Result<Option<String>, Failure> {
+        Ok(self.held_in(chosen_scalars(&self.scalar)?).and_then(|(_, why)| why))
+    }
+
     /// The scalars that can hold the scene that the words are of, and why another cannot; none without a scene.
     fn held_in(&self, chosen: [bool; 2]) -> Option<([bool; 2], Option<String>)> {
         let words = self.scene.as_ref().filter(|_| self.mesh.is_empty())?;
@@ -286,8 +291,7 @@ impl SourceArguments {
         mesh: Option<&SceneMesh>,
         quiet: bool,
     ) -> Result<(), Failure> {
-        let left_out = self.held_in(chosen_scalars(&self.scalar)?).and_then(|(_, why)| why);
-        if let Some(why) = left_out.filter(|_| !quiet) {
+        if let Some(why) = self.left_out()?.filter(|_| !quiet) {
             eprintln!("left out: {why}");
         }
         let name = Stratum::Grazing.family().name;

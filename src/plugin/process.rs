@@ -261,7 +261,7 @@ impl Process {
         }
         if !state.has_answered && failures >= self.limits.first_failures {
             return Err(format!(
-                "it ended on each of its first {failures} cases (--kernel-failures N goes on until more than N fail); \
+                "it failed on each of its first {failures} cases (--kernel-failures N goes on until more than N fail); \
                  first: {first}"
             ));
         }

@@ -17,7 +17,7 @@ pub(super) fn causes(causes: &Causes, found: u64) -> CausesPart {
     let is_rare = |why| matches!(why, Attribution::NotEpsilon | Attribution::Transform);
     let is_told = |why: &Attribution| !is_rare(*why) || 0 < causes.of(*why).count;
     let told = Attribution::ALL.into_iter().filter(is_told);
-    CausesPart { by: told.map(share).collect(), untold: causes.untold }
+    CausesPart { by: told.map(share).collect(), untold: causes.untold, worst: causes.worst }
 }
 
 /// By finding.

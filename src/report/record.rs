@@ -77,6 +77,11 @@ pub struct ResultPart {
 }
 
 impl ResultPart {
+    /// True if triangles are put into the world by a matrix.
+    pub(crate) fn is_placed(&self) -> bool {
+        self.plan.sources.iter().any(|source| source.set.contains("/instance="))
+    }
+
     /// The results by kernel, epsilon set, scalar and family.
     pub(crate) fn by_place(&self) -> BTreeMap<[&str; 4], &KernelResult> {
         let results = self.results.iter();

@@ -49,7 +49,7 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
         out.contains("e = 1e-6 (source, truck) is proved to refuse every parallel ray"),
         "{out}"
     );
-    assert!(out.contains("Watertight: not proved"), "{out}");
+    assert!(out.contains("edges: Not watertight: at an edge epsilon of 0"), "{out}");
     // What underflow adds is of the domain: see crates/prove/src/tests/permanent.rs.
     let relative = "Where nothing overflows and no product underflows, it is wrong by at most 7.01 u times its permanent";
     assert!(
@@ -60,7 +60,7 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
     // The three sentences that people ask for stand on the first screen.
     let first = hairline(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"]);
     let first = words(&String::from_utf8(first.stdout).unwrap());
-    for part in ["An epsilon above 1.02e-6", "An epsilon below -7.87e-6", "Watertight: not"] {
+    for part in ["An epsilon above 1.02e-6", "An epsilon below -7.87e-6", "Not watertight: at"] {
         assert!(first.contains(part), "{part}: {first}");
     }
     assert!(!first.contains("at any exponents") && first.len() < out.len() / 2, "{first}");
@@ -147,7 +147,7 @@ fn beside_a_kernel_that_leaks_stands_a_ray_that_does() {
             ["case", "command"].map(|key| record["kernels"][0]["leak"][key].as_str().unwrap());
         let out = text(&prove);
         let said = format!(
-            "At an edge epsilon of 0 they do for the ray of {case}, which crosses the edge and hits neither."
+            "Not watertight: at an edge epsilon of 0 both triangles of an edge refuse the ray of {case}, which crosses it."
         );
         assert!(words(&out).contains(&said) && out.contains(command), "{out}");
         let (start, epsilons) = command.split_once(" --epsilon ").unwrap();

@@ -61,13 +61,13 @@ fn of_one(report: &Report) -> Page {
             all.map(|statement| format!("{}: {}", gate.gate, statement.text)).collect()
         };
         let mut notes: Vec<String> = gates.iter().flat_map(key).collect();
-        let leak = kernel.leak.as_ref().map_or(String::new(), |leak| {
-            format!(
-                " At an edge epsilon of 0 they do for the ray of {}, which crosses the edge and hits neither.",
+        notes.push(match &kernel.leak {
+            Some(leak) => format!(
+                "edges: Not watertight: at an edge epsilon of 0 both triangles of an edge refuse the ray of {}, which crosses it.",
                 leak.case
-            )
+            ),
+            None => format!("edges: {}", kernel.edges),
         });
-        notes.push(format!("edges: {}{leak}", kernel.edges));
         blocks.push(Block::Notes(notes));
         blocks.push(Block::Table(table(kernel, &gates)));
         let all = gates.iter().flat_map(|gate| {

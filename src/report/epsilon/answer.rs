@@ -163,6 +163,15 @@ pub(super) fn column(part: &SceneKernelPart, name: &str) -> String {
 /// The row of the holes in a picture.
 pub(super) const PICTURE: &str = "of a million pixels: holes";
 
+/// Holes in a million pixels, in two digits.
+pub(super) fn holes_text(holes: f64) -> String {
+    match holes {
+        0.0 => "0".to_owned(),
+        ..1e-4 => "< 0.0001".to_owned(),
+        _ => human(&format!("{:e}", two_digits(holes, true))),
+    }
+}
+
 fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     for (i, count) in part.counts.iter().enumerate() {
@@ -173,13 +182,8 @@ fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
         let cells = columns(part).map(|tried| share(&tried.wrong[i])).collect();
         rows.push((label(count), cells));
         if count.rays == Rays::Stratum(Stratum::Edges) {
-            let told = |holes: f64| match holes {
-                0.0 => "0".to_owned(),
-                ..1e-4 => "< 0.0001".to_owned(),
-                _ => human(&format!("{:e}", two_digits(holes, true))),
-            };
             let holes: Option<Vec<String>> =
-                columns(part).map(|tried| tried.holes_per_million.map(told)).collect();
+                columns(part).map(|tried| tried.holes_per_million.map(holes_text)).collect();
             rows.extend(holes.map(|holes| (PICTURE.to_owned(), holes)));
         }
         let several = match (count.rays, count.kind) {

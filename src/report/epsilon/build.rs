@@ -39,6 +39,7 @@ pub fn scene_record(
         sources: sources.iter().map(Source::name).collect(),
         flags: flags.clone(),
         unit: (*unit).to_owned(),
+        left_out: None,
         reach: reach(&scene),
         mesh: mesh.as_ref().map(|mesh| mesh.surface()).map(|surface| MeshPart {
             path: surface.path().to_owned(),

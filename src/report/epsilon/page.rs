@@ -9,9 +9,17 @@ use crate::report::page::{Block, Page, Paged, Tone};
 
 impl Paged for SceneRecord {
     fn page(&self) -> Page {
-        if ranking::is_needed(self) {
-            return ranking::page(self);
-        }
+        let mut page =
+            if ranking::is_needed(self) { ranking::page(self) } else { self.of_kernels() };
+        let left_out = self.left_out.iter().map(|why| Block::Text(format!("Left out: {why}.")));
+        page.blocks.splice(0..0, left_out);
+        page
+    }
+}
+
+impl SceneRecord {
+    /// Each kernel in each scalar by itself.
+    fn of_kernels(&self) -> Page {
         let answers: Vec<Answer> = self.kernels.iter().map(|part| answer(self, part)).collect();
         let mut page = Page { command: "epsilon", ..Page::default() };
         for (i, (part, answer)) in self.kernels.iter().zip(&answers).enumerate() {

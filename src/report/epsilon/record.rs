@@ -27,6 +27,9 @@ pub struct SceneRecord {
     pub flags: String,
     /// Its unit of length; empty if it has none.
     pub unit: String,
+    /// The reason for which a scalar that was asked for is left out: it cannot hold the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<String>,
     /// The largest coordinate of a ray's start.
     pub reach: f64,
     /// The mesh that it is, if it is one.

@@ -1,5 +1,6 @@
 //! May these numbers be used? The sentence that stands first: good, a trade, or no good; and the rows that argue for it.
 
+use super::answer::holes_text;
 use super::fitness::{fitness, is_fine};
 use super::notes::{is_no_good, no_good};
 use super::record::*;
@@ -17,7 +18,7 @@ pub(super) fn standing(record: &SceneRecord, part: &SceneKernelPart) -> (Tone, S
         return (Tone::Bad, sentences(&flaws));
     }
     let trades: Vec<String> = (0..part.knobs.len()).filter_map(|knob| trade(part, knob)).collect();
-    match (&trades[..], remains(record, part, &part.tried[0], 2)) {
+    match (&trades[..], remains(record, part, &part.tried[0], None, 2)) {
         ([], None) => {
             let within = "Good: every number is within all of its limits.";
             (Tone::Good, format!("{within}{}", one_sided(part)))
@@ -50,11 +51,15 @@ pub(super) fn of_given(record: &SceneRecord, part: &SceneKernelPart) -> Option<S
             let [own, best] = [tried, best].map(|tried| cost(record, part, tried));
             own - best <= (AS_GOOD * best).clamp(TELLING, 10.0 * TELLING)
         };
-        let costs = format!("cost {:.3} against {:.3}", tried.cost, best.cost);
-        let rest = remains(record, part, tried, 1);
+        let holes = |holes: f64| format!(", {} holes in a million pixels", holes_text(holes));
+        let holes = tried.holes_per_million.map_or(String::new(), holes);
+        let costs = format!("cost {:.3} against {:.3}{holes}", tried.cost, best.cost);
+        let rest = remains(record, part, tried, Some(best), 1);
         let rest = rest.map_or(String::new(), |rest| format!(": {rest}"));
-        let judged = match is_no_good(record, part, tried) {
-            _ if is_as_good(|_, _, tried| tried.cost) => format!("as good ({costs})"),
+        let is_bad = is_no_good(record, part, tried);
+        let is_worse = is_bad && !is_no_good(record, part, best);
+        let judged = match is_bad {
+            _ if !is_worse && is_as_good(|_, _, tried| tried.cost) => format!("as good ({costs})"),
             _ if is_as_good(cost_without_self_hits) => {
                 format!("as good once shadow rays start off the surface; else not ({costs})")
             }
@@ -135,19 +140,23 @@ fn beyond_limits(part: &SceneKernelPart, knob: usize) -> Option<&str> {
     part.limits.iter().any(is_beyond).then_some(epsilon)
 }
 
-/// The wrong answers that make most of the cost, so many of them, in words, if that is worth a word.
+/// The wrong answers that make most of the cost, or of what it is above the cost of others, so many of them, in words, if that
+/// is worth a word.
 fn remains(
     record: &SceneRecord,
     part: &SceneKernelPart,
     tried: &TriedPart,
+    beside: Option<&TriedPart>,
     most: usize,
 ) -> Option<String> {
-    let of_count = |(count, rate): (&Count, &Rate)| {
-        let part = rate.rate.filter(|_| 0 < rate.count)?;
-        Some((cost_of(record, count) * part, phrase(count, &share(rate))))
+    let of_count = |(place, (count, rate)): (usize, (&Count, &Rate))| {
+        let share_of = |rate: &Rate| rate.rate.filter(|_| 0 < rate.count);
+        let more =
+            share_of(rate)? - beside.and_then(|it| share_of(&it.wrong[place])).unwrap_or(0.0);
+        Some((cost_of(record, count) * more, phrase(count, &share(rate))))
     };
-    let mut all: Vec<(f64, String)> =
-        part.counts.iter().zip(&tried.wrong).filter_map(of_count).collect();
+    let counts = part.counts.iter().zip(&tried.wrong).enumerate();
+    let mut all: Vec<(f64, String)> = counts.filter_map(of_count).collect();
     all.retain(|(cost, _)| TELLING < *cost);
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
     all.truncate(most);

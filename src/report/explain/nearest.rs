@@ -71,7 +71,7 @@ pub(super) fn nearest<F: Scalar>(
     }
     let info = nearest.row.entry.info;
     let text = format!(
-        "{} of {} cases around this one it answers as {} does, and on {same} of {hits} hits of both with the same bits",
+        "{} of {} cases like this one it answers as {} does, and on {same} of {hits} hits of both with the same bits",
         group_digits(agreed as u64),
         group_digits(CASES as u64),
         info.name

@@ -66,7 +66,24 @@ impl Explanation {
                 true => format!("{}: {}", row.label(), row.said),
                 false => format!("{}: {}", row.label(), row.judged()),
             };
-            return (text, row.finding.is_some());
+            let Some(instance) = self.triangles.first().and_then(|it| it.instance.as_ref()) else {
+                return (text, row.finding.is_some());
+            };
+            // The verdict that counts is that of the world.
+            let in_world = instance.wrong.iter().find(|(label, _)| *label == row.label());
+            let text = match (in_world, row.finding) {
+                (Some((label, finding)), None) => format!(
+                    "{label}: {} of the exact instance in the world, by the rounded inverse (transform): on the ray that it got, it \
+                     is right",
+                    finding.to_uppercase()
+                ),
+                (Some(_), Some(_)) => format!("{text}, in the world as well"),
+                (None, Some(_)) => {
+                    format!("{text} on the ray that it got; in the world, as it should")
+                }
+                (None, None) => text,
+            };
+            return (text, in_world.is_some());
         }
         let wrong: Vec<String> =
             rows.iter().filter(|row| row.finding.is_some()).map(|row| row.label()).collect();

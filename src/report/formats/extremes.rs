@@ -73,19 +73,11 @@ fn all<'a>(columns: &[Column], lines: &'a [Line<'a>]) -> Vec<Extreme<'a>> {
                 line,
                 part,
                 distance: severity_of(part),
-                cause: main_cause(part),
+                cause: part.causes.as_ref().and_then(|causes| causes.worst),
             }));
         }
     }
     all
-}
-
-/// The most frequent cause of a class's findings, as far as is known.
-fn main_cause(part: &FindingPart) -> Option<Attribution> {
-    let by = &part.causes.as_ref()?.by;
-    let share = |cause: &Attribution| by.get(cause).and_then(|rate| rate.rate).unwrap_or(0.0);
-    let most = Attribution::ALL.into_iter().max_by(|a, b| share(a).total_cmp(&share(b)))?;
-    (0.0 < share(&most)).then_some(most)
 }
 
 /// The worst first; then the worst of what differs from those before it.

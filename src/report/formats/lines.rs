@@ -51,12 +51,20 @@ pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
     parts.join("; ")
 }
 
+/// How to read a run in an instance.
+const OF_INSTANCE: &str = "In an instance rays are rounded once more in the world, so fewer of them meet an edge exactly, and a \
+                           total may even fall. What the matrix costs are the findings whose cause is transform: the kernel \
+                           is right on the ray that it got. t, u and v are not judged.";
+
 /// Notes on the kernels besides their verdicts, and on values that are good for nothing.
 pub(super) fn notes(record: &Record) -> Vec<Block> {
     let of_kernels = record.provenance.kernel_notes.iter();
     let of_kernels = of_kernels
         .flat_map(|(kernel, notes)| notes.iter().map(move |note| format!("{kernel}: {note}.")));
     let mut all: Vec<String> = of_kernels.collect();
+    if record.result.is_placed() {
+        all.push(OF_INSTANCE.to_owned());
+    }
     let scalars = record.result.plan.scalars.iter();
     for row in scalars.flat_map(|scalar| RowView::all(record, scalar)) {
         let label = format!("{} ({}), {}", row.part.kernel, row.part.set, row.scalar);

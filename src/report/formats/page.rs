@@ -83,7 +83,9 @@ fn about(record: &Record) -> Vec<Block> {
 
 /// The sources that are not what their family promises.
 fn broken_families(record: &Record) -> Vec<String> {
-    let broken = record.result.sources.iter().filter(|source| 0 < source.promise_broken);
+    // In an instance none is kept, as the notes say.
+    let is_broken = |source: &&SourcePart| 0 < source.promise_broken && !record.result.is_placed();
+    let broken = record.result.sources.iter().filter(is_broken);
     let sentence = |source: &SourcePart| {
         let (n, of) = (group_digits(source.promise_broken), group_digits(source.indices));
         let first = source.first_broken.as_deref().unwrap_or("-");

@@ -73,8 +73,7 @@ fn head(record: &Record) -> String {
         1 => String::new(),
         several => format!(" in {several} kinds of planes and rays"),
     };
-    let is_placed = |source: &PlannedSource| source.set.contains("/instance=");
-    let placed = if result.plan.sources.iter().any(is_placed) { " in an instance" } else { "" };
+    let placed = if result.is_placed() { " in an instance" } else { "" };
     let kernels: BTreeSet<&str> = result.plan.rows.iter().map(|row| &*row.kernel).collect();
     format!(
         "{}: {} ({}) on {sources}{kinds}{placed}, {}, {:.1} s, plan {}",

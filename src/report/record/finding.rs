@@ -39,6 +39,10 @@ pub struct CausesPart {
     pub by: BTreeMap<Attribution, Rate>,
     /// Findings examined of kernels that cannot tell.
     pub untold: u64,
+    /// The cause of the worst finding, whichever the others have.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<String>"))]
+    pub worst: Option<Attribution>,
 }
 
 /// How far cases with a finding are from where the verdict would be right.

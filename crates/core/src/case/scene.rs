@@ -321,10 +321,14 @@ impl Scene {
         let spacing = F::from_f64(self.largest()).ulp().to_f64();
         if shortest < 32.0 * spacing {
             return Err(format!(
-                "triangles of edge {} collapse at coordinates of {}, where the numbers of {name} are {spacing:.1e} apart{}",
+                "triangles of edge {} nearly collapse at coordinates of {}, where the numbers of {name} are {spacing:.1e} apart{}",
                 Number(shortest),
                 Number(self.largest()),
-                if F::NAME == f32::NAME { " (see --scalar f64)" } else { "" }
+                if F::NAME == f32::NAME {
+                    ": use f64, or move the origin to the camera"
+                } else {
+                    ""
+                }
             ));
         }
         Ok(())

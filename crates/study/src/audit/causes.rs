@@ -9,7 +9,7 @@ use super::trials::Trials;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding, asked, judge};
-use crate::kernel::{Scalar, Verdict, verdicts_of};
+use crate::kernel::{Gives, Scalar, Verdict, verdicts_of};
 use crate::oracle;
 use std::collections::BTreeMap;
 use std::slice;
@@ -20,6 +20,8 @@ pub struct Causes {
     by: [Trials; Attribution::ALL.len()],
     /// Findings of kernels that do not run in exact arithmetic, and take no epsilons.
     pub untold: u64,
+    /// The cause of the worst finding.
+    pub worst: Option<Attribution>,
 }
 
 impl Causes {
@@ -61,17 +63,17 @@ pub(super) fn causes<F: Scalar>(
     most: usize,
 ) -> BTreeMap<(Class, Finding), Causes> {
     let secondary = source.grouping() == Grouping::SecondaryRay;
-    let of_ray = |places: &[Place]| {
+    let on_ray = |places: &[Place]| -> Vec<Option<Attribution>> {
         let made = source.make::<F>(places[0].index);
-        Causes::of_ray(places.iter().map(|place| {
+        let of_place = |place: &Place| {
             let case = &source.seen(&made.cases()[place.triangle as usize]);
             let truth = oracle::truth(case);
             let asked = (contract, asked(case, &truth, contract, secondary));
             if source.instance::<F>().is_some() {
                 let mut verdict = [Verdict::miss(None)];
                 verdicts_of(row.subject, slice::from_ref(case), &row.epsilons, &mut verdict);
-                let gives = row.info.gives;
-                if judge(asked, (case, &truth), gives, &verdict[0]).is_none() {
+                // Values are not judged in an instance.
+                if judge(asked, (case, &truth), Gives::NOTHING, &verdict[0]).is_none() {
                     return Some(Attribution::Transform);
                 }
             }
@@ -81,13 +83,17 @@ pub(super) fn causes<F: Scalar>(
                     attribute_by_running(row.subject, row.info, case, &row.epsilons, &truth, asked)
                 }
             }
-        }))
+        };
+        places.iter().map(of_place).collect()
     };
+    let of_ray = |places: &[Place]| Causes::of_ray(on_ray(places).into_iter());
     let told = tally.examples.iter().filter(|((_, finding), _)| !finding.is_failure());
     let counted = told.map(|(key, examples)| {
         let places = &examples.first[..examples.first.len().min(most)];
         let rays = places.chunk_by(|a, b| a.index == b.index);
-        (key, rays.map(of_ray).fold(Causes::default(), Causes::merged))
+        let causes = rays.map(of_ray).fold(Causes::default(), Causes::merged);
+        let worst = examples.worst.and_then(|(_, place)| on_ray(&[place]).remove(0));
+        (key, Causes { worst, ..causes })
     });
     if most == 0 { BTreeMap::new() } else { counted.collect() }
 }
