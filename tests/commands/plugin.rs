@@ -525,7 +525,7 @@ fn the_example_in_c_is_moller_trumbore_bit_for_bit() {
     let shown = text(&hairline(&tiny).stdout);
     // The same formula is found, and what it does here; other epsilons part from it, and other answers are of none.
     let said = flat(&shown);
-    let found = "compared, not proved: on 1,000 of 1,000 cases around this one it answers as moller-trumbore does";
+    let found = "compared, not proved: on 1,000 of 1,000 cases like this one it answers as moller-trumbore does";
     let here = "here that formula refuses by its gate parallel (abs(det) < e) too: epsilon";
     assert!(said.contains(found) && said.contains(here), "{said}");
     let plain = ["explain", "interior@1/f32/-/1/0", "--kernel-lib", &library, "--epsilon"];
