@@ -6,7 +6,7 @@ use hairline::internals::case::{Case, Parameters, PlaneKind, Scene};
 use hairline::internals::family::Stratum;
 use hairline::internals::kernel::{Scalar, find};
 use hairline::internals::oracle;
-use hairline::internals::spawn::{Plan, PointKind, Trials, derived_normal, parse, run};
+use hairline::internals::spawn::{Plan, PointKind, Scheme, Trials, derived_normal, parse, run};
 use hairline::internals::truth::{Feature, Truth};
 use num_rational::BigRational as Rational;
 use num_traits::{One, ToPrimitive};
@@ -237,25 +237,16 @@ fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does()
     let row =
         EpsilonChoice::Source.rows(&[find("moller-trumbore").unwrap()], None).unwrap().remove(0);
     let schemes = [parse("waechter-binder").unwrap()];
-    let (kind, wall, fold, with_least, seed, count) =
-        (PointKind::Ray, 0.01, 45.0, false, 1, 20_000);
+    let run = |scene: &Scene, kind: PointKind, schemes: &[Scheme]| {
+        let (mesh, instance, wall, fold) = (None, None, 0.01, 45.0);
+        let (row, with_least, seed, count) = (&row, false, 1, 20_000);
+        let plan =
+            Plan { row, scene, mesh, kind, schemes, wall, fold, instance, with_least, seed, count };
+        run::<f32>(&plan, &Unobserved)
+    };
     let wrong = |words: &str| {
         let (scene, _) = Scene::parse(words).unwrap();
-        let (row, scene, schemes) = (&row, &scene, &schemes);
-        let plan = Plan {
-            row,
-            scene,
-            mesh: None,
-            kind,
-            schemes,
-            wall,
-            fold,
-            instance: None,
-            with_least,
-            seed,
-            count,
-        };
-        let of = &run::<f32>(&plan, &Unobserved).schemes[0];
+        let of = &run(&scene, PointKind::Ray, &schemes).schemes[0];
         of.wrong as f64 / of.rays as f64
     };
     let place = "extent=1000,edge=100..1000,distance=0..1000";
@@ -266,22 +257,8 @@ fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does()
     for text in ["unit", "room", "city", "cad-mm", place] {
         for scene in Scene::parse(text).unwrap().0.of_all_kinds() {
             let derived = derived_normal::<f32>(&scene, 0.0).unwrap();
-            let (row, scene, kind) = (&row, &scene, PointKind::Weights);
-            let schemes = &[parse(&format!("normal={derived}")).unwrap()];
-            let plan = Plan {
-                row,
-                scene,
-                mesh: None,
-                kind,
-                schemes,
-                wall,
-                fold,
-                instance: None,
-                with_least,
-                seed,
-                count,
-            };
-            let sums = run::<f32>(&plan, &Unobserved);
+            let schemes = [parse(&format!("normal={derived}")).unwrap()];
+            let sums = run(&scene, PointKind::Weights, &schemes);
             assert!(0 < sums.schemes[0].rays && sums.schemes[0].wrong == 0, "{scene}");
         }
     }

@@ -72,8 +72,8 @@ pub(super) fn of_given(record: &SceneRecord, part: &SceneKernelPart) -> Option<S
         }
     };
     // The last ones are those of `--at`.
-    let mut given = part.tried[1..].iter().rev().filter(|tried| tried.name != "zero");
-    let mut sentences: Vec<String> = given.by_ref().take(MOST_GIVEN).map(sentence).collect();
+    let given = part.tried[1..].iter().rev().filter(|tried| tried.name != "zero");
+    let mut sentences: Vec<String> = given.take(MOST_GIVEN).map(sentence).collect();
     sentences.reverse();
     (!sentences.is_empty()).then(|| sentences.join(" "))
 }
