@@ -34,7 +34,7 @@ use hairline_core::{arith, case, contract, engine, kernel, oracle, suggest};
 use hairline_prove as prove;
 use hairline_study::{audit, corpus, family, judge, mesh, plot};
 #[cfg(feature = "studies")]
-use hairline_study::{epsilon, explore, map, orientation, selfcheck, spawn, studied};
+use hairline_study::{epsilon, explore, map, selfcheck, spawn, studied};
 
 // The floors, from the ground up: each module uses only those above it in this list.
 #[cfg(feature = "studies")]

@@ -11,12 +11,7 @@ use hairline::internals::explore::{Signature, mutate};
 use hairline::internals::judge::{self, Obligation};
 use hairline::internals::kernel::{Scalar, Subject, Tunable, Verdict, refused_by};
 use hairline::internals::oracle::{self, Batch, Layers};
-use hairline::internals::orientation::{
-    self, Points, ScaledPoints, default_rows, defined_determinant,
-};
 use hairline::internals::truth::Truth;
-use num_rational::BigRational;
-use num_traits::Zero;
 use std::fmt;
 
 /// Two parts of this crate disagree: a bug in one of them.
@@ -73,48 +68,6 @@ fn in_lanes<F: Float>(some: &[Case<F>], i: usize) -> Case<F> {
         Case::new(float([0.25, 0.25, 1.0]), float([0.0, 0.0, -1.0]), triangle.map(float))
     };
     if i % 4 == i / 4 % 4 { some[i / 4] } else { quick() }
-}
-
-/// The orientation predicates' exact sign is that of the definition on the points of a case, and
-/// `robust` gives it where it promises to.
-pub fn check_orientation<F: Float + orientation::Scalar>(
-    case: &Case<F>,
-) -> Result<(), Contradiction> {
-    let [o, d, a, b, c] = case.vectors();
-    let projected = |axes: [usize; 2], points: [[F; 3]; 3]| {
-        Points::two(points.map(|point| axes.map(|axis| point[axis])))
-    };
-    for points in [
-        Points::three([o, a, b, c]),
-        Points::three([a, d, c, b]),
-        projected([0, 1], [a, b, c]),
-        projected([1, 2], [a, b, o]),
-        projected([2, 0], [o, b, c]),
-    ] {
-        check_points(&points)?;
-    }
-    Ok(())
-}
-
-fn check_points<F: Float + orientation::Scalar>(points: &Points<F>) -> Result<(), Contradiction> {
-    let defined = defined_determinant(points);
-    let exact = ScaledPoints::new(points).map(|scaled| scaled.determinant());
-    let about = format!("the exact determinant and its definition on {points:?}");
-    agree(&about, exact.as_ref().map(|exact| exact.to_rational()), defined.clone())?;
-    let Some(defined) = defined else { return Ok(()) };
-    let sign = defined.cmp(&BigRational::zero());
-    let (low, high) = (2f64.powi(-250), 2f64.powi(250));
-    let in_range = |x: &F| x.is_zero() || (low..=high).contains(&x.to_f64().abs());
-    if !points.iter().flatten().all(in_range) {
-        return Ok(());
-    }
-    for row in default_rows(&[]) {
-        if let Some((_, answer)) = row.answer(points) {
-            let finding = orientation::judge(answer, sign);
-            agree(&format!("{} on {points:?}", row.label()), finding, None)?;
-        }
-    }
-    Ok(())
 }
 
 fn verdict<F: Float>(subject: &dyn Subject<F>, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {

@@ -34,7 +34,6 @@ pub const EXAMPLES: &[(&str, &str)] = &[
     ("verify", "hairline verify results.json --profile dxr"),
     ("selfcheck", "hairline selfcheck"),
     ("corpus", "hairline corpus verify"),
-    ("orient", "hairline orient --dimension 3 --scalar f32"),
     ("help", "hairline help ulp"),
     (
         "completions",

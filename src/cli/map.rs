@@ -1,12 +1,10 @@
-//! `hairline map`: where a kernel or a predicate is wrong, one pixel one input; and a case drawn.
+//! `hairline map`: where a kernel is wrong, one pixel one input; and a case drawn.
 
 mod input;
 mod summary;
 
 use super::before::set_threads;
 use super::exit::{Failure, Status};
-use super::flags::unknown;
-use super::orient::check_epsilon;
 use super::output::{paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
@@ -14,18 +12,15 @@ use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::kernel::Scalar;
-use crate::map::{self, Grid, Map, MapError, POINT_NAMES, Part, Step};
-use crate::orientation::{self, Dimension, PREDICATES, Points};
+use crate::map::{self, Grid, Map, MapError, Part, Step};
 use clap::Args;
-use input::Input;
 use std::io::{self, Write};
 use std::path::Path;
 
 /// Which input, whose verdicts, which pixels, and where to.
 #[derive(Args)]
 pub struct MapArguments {
-    /// A case id, the name of a stored case, or a case as JSON; or points: an id as
-    /// orient2d:near@1/f64/1/17, the name of a known case of `orient`, or JSON with "points"
+    /// A case id, the name of a stored case, or a case as JSON
     #[arg(value_name = "CASE")]
     case: Option<String>,
 
@@ -37,25 +32,23 @@ pub struct MapArguments {
     #[arg(long, value_name = "FILE|DIR")]
     corpus: Option<String>,
 
-    /// A standard spot instead of a case: edge, vertex, grazing; of points: collinear, coplanar
-    /// [default: edge]
+    /// A standard spot instead of a case: edge, vertex, grazing [default: edge]
     #[arg(long, value_name = "SPOT", conflicts_with = "case")]
     at: Option<String>,
 
-    /// The scalar of --at: f32 or f64 [default: f32, and of points f64]
+    /// The scalar of --at: f32 or f64 [default: f32]
     #[arg(long, value_name = "SCALAR", conflicts_with = "case")]
     scalar: Option<String>,
 
     #[command(flatten)]
     kernels: KernelArguments,
 
-    /// Which point to vary: origin, direction, a, b or c; of points a, b, c or d [default: origin; of
-    /// points the last, with --at the one near the line or plane of the others]
+    /// Which point to vary: origin, direction, a, b or c [default: origin]
     #[arg(long, value_name = "POINT")]
     vary: Option<String>,
 
     /// The coordinates to vary, to the right and upwards [default: the two that lie most in the
-    /// triangle's plane; of points x,y]
+    /// triangle's plane]
     #[arg(long, value_name = "AXIS,AXIS")]
     axes: Option<String>,
 
@@ -123,12 +116,7 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
             "--size: {width}x{height} pixels are too many for an SVG, which takes {MOST_SVG_PIXELS} (512x512); write a PNG"
         )));
     }
-    let picture = match arguments.input()? {
-        Input::Case(case) => either_scalar!(&case, case => arguments.of_case(case))?,
-        Input::Points(points, point) => {
-            either_scalar!(&points, points => arguments.of_points(points, point))?
-        }
-    };
+    let picture = either_scalar!(&arguments.input()?, case => arguments.of_case(case))?;
     let quiet = arguments.quiet || wants("text");
     let mut pictures = Vec::new();
     for (format, path) in outputs {
@@ -182,49 +170,23 @@ impl MapArguments {
             let svg = map::drawing_document(case, &row)?;
             return Ok(Picture { summary: summary::of_drawing(case, &row), svg, map: None });
         }
-        let names = Part::ALL.map(Part::name);
-        let part = Part::ALL[self.varied(&names, 0)?];
+        let part = self.varied()?;
         let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
         let grid = map::grid_of_case(case, part, axes, step, size)?;
         let map = map::of_kernel(case, &row, &grid, &self.progress(&grid))?;
         let again = |pixel| summary::explain(&map::case_at(case, &grid, pixel), &row);
-        Ok(self.picture(map, &grid, &again))
-    }
-
-    fn of_points<F: orientation::Scalar>(
-        &self,
-        points: &Points<F>,
-        point: usize,
-    ) -> Result<Picture, Failure> {
-        if self.drawing {
-            return Err(Failure::usage("--drawing is of a ray and a triangle, not of points"));
-        }
-        let row = self.predicate::<F>(points.dimension())?;
-        let names = &POINT_NAMES[..=points.dimension().number()];
-        let point = self.varied(names, point)?;
-        let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
-        let grid = map::grid_of_points(points, point, axes, step, size)?;
-        let map = map::of_predicate(points, &row, &grid, &self.progress(&grid))?;
-        let again = |pixel| summary::points(&map::points_at(points, &grid, pixel), &row);
-        Ok(self.picture(map, &grid, &again))
+        let summary = summary::of_map(&map, &grid, &again);
+        let svg = if size[0] * size[1] > MOST_SVG_PIXELS {
+            String::new()
+        } else {
+            map::svg_document(&map)
+        };
+        Ok(Picture { summary, svg, map: Some(map) })
     }
 
     fn progress<F: Float>(&self, grid: &Grid<F>) -> Progress {
         let [width, height] = grid.size();
         Progress::new((width * height) as u64, "pixels", self.quiet)
-    }
-
-    fn picture<F: Float>(
-        &self,
-        map: Map,
-        grid: &Grid<F>,
-        again: &dyn Fn([usize; 2]) -> String,
-    ) -> Picture {
-        let summary = summary::of_map(&map, grid, again);
-        let [width, height] = map.size();
-        let svg =
-            if width * height > MOST_SVG_PIXELS { String::new() } else { map::svg_document(&map) };
-        Picture { summary, svg, map: Some(map) }
     }
 
     /// The one kernel with its epsilons.
@@ -247,37 +209,12 @@ impl MapArguments {
         Ok(rows.swap_remove(0))
     }
 
-    /// The one predicate with its epsilon.
-    fn predicate<F: Float>(&self, dimension: Dimension) -> Result<orientation::Row, Failure> {
-        let (names, epsilon) = self.kernels.of_predicate()?;
-        let name = match names {
-            [] => dimension.name(),
-            [name] => name.as_str(),
-            _ => return Err(Failure::usage("a map is of one predicate: name one by --kernel")),
-        };
-        let known = PREDICATES.iter().map(|predicate| predicate.name);
-        let predicate = PREDICATES
-            .iter()
-            .find(|predicate| predicate.name == name)
-            .ok_or_else(|| unknown("predicate", name, known, "hairline orient"))?;
-        if let Some(text) = epsilon {
-            if !predicate.takes_epsilon {
-                return Err(Failure::usage(format!("predicate '{name}' takes no epsilon")));
-            }
-            check_epsilon::<F>(text)?;
-        }
-        let epsilon = predicate.takes_epsilon.then(|| epsilon.unwrap_or("0").to_owned());
-        Ok(orientation::Row { predicate, epsilon })
-    }
-
-    /// Which point is varied.
-    fn varied(&self, names: &[&'static str], default: usize) -> Result<usize, Failure> {
-        let Some(name) = &self.vary else { return Ok(default) };
-        names.iter().position(|other| other == name).ok_or_else(|| {
-            Failure::usage(format!(
-                "--vary: unknown point '{name}': there are {}",
-                names.join(", ")
-            ))
+    /// Which vector is varied.
+    fn varied(&self) -> Result<Part, Failure> {
+        let Some(name) = &self.vary else { return Ok(Part::Origin) };
+        Part::named(name).ok_or_else(|| {
+            let names = Part::ALL.map(Part::name).join(", ");
+            Failure::usage(format!("--vary: unknown point '{name}': there are {names}"))
         })
     }
 

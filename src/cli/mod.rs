@@ -30,7 +30,6 @@ mod list;
 mod map;
 mod merge;
 mod mesh;
-mod orient;
 mod output;
 mod plugins;
 mod progress;
@@ -102,8 +101,6 @@ enum Command {
     Vectors(vectors::VectorsArguments),
     /// Judge what a product answered to the test vectors
     Verify(verify::VerifyArguments),
-    /// Report wrong signs of orientation predicates
-    Orient(Box<orient::OrientArguments>),
     /// Describe a command, or say what a word on a screen means
     Help(help::HelpArguments),
     /// Print a script that completes commands and flags in a shell
@@ -127,7 +124,7 @@ const GROUPS: [(&str, &[&str]); 6] = [
     ("Hunt with a fuzzer", &["fuzz"]),
     ("Gate a CI", &["check", "merge", "diff"]),
     ("Bring your own", &["generate", "truth", "vectors", "verify"]),
-    ("Trust it", &["selfcheck", "corpus", "orient"]),
+    ("Trust it", &["selfcheck", "corpus"]),
     ("Find your way", &["help", "completions", "man"]),
 ];
 
@@ -241,7 +238,6 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Corpus(arguments) => corpus::run(&arguments),
         Command::Vectors(arguments) => vectors::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
-        Command::Orient(arguments) => orient::run(&arguments),
         Command::Help(arguments) => help::run(&arguments, self::command()),
         Command::Completions(arguments) => help::completions(&arguments, self::command()),
         Command::Man(arguments) => help::man(&arguments, self::command()),

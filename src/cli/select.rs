@@ -121,20 +121,6 @@ impl KernelArguments {
         }
     }
 
-    /// The names and the epsilon, for an orientation predicate, which takes nothing else.
-    pub fn of_predicate(&self) -> Result<(&[String], Option<&str>), Failure> {
-        let of_kernels = [
-            ("--epsilon-preset", self.epsilon_preset.is_some()),
-            ("--contract", self.names_contract()),
-            ("--band", self.band.is_some()),
-            ("a kernel of your own", self.plugins.names_kernels()),
-        ];
-        match of_kernels.iter().find(|(_, given)| *given) {
-            Some((what, _)) => Err(Failure::usage(format!("{what} is not for points"))),
-            None => Ok((&self.kernel, self.epsilon.as_deref())),
-        }
-    }
-
     /// The files of kernels of one's own, with the digests of their contents.
     pub fn files(&self) -> BTreeMap<String, String> {
         self.plugins.files()

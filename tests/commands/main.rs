@@ -24,7 +24,6 @@ mod map_command;
 mod mesh;
 mod mesh_files;
 mod mesh_page;
-mod orientation;
 mod own;
 mod plugin;
 mod program;

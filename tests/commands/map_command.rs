@@ -75,32 +75,6 @@ fn options_choose_what_is_varied() {
 }
 
 #[test]
-fn points_are_mapped_by_id_by_name_and_as_json() {
-    let folder = scratch("map-points");
-    let text = |arguments: &[&str]| ends(&folder, &[&["map"], arguments].concat(), 0).0;
-    let out = text(&["--at", "collinear", "--size", "64"]);
-    assert!(out.contains("orient2d (0) in f64: 64 x 64 pixels,") && out.contains("false zero"));
-    let exact = text(&["--at", "coplanar", "--kernel", "robust::orient3d", "--size", "32"]);
-    assert!(exact.contains("robust::orient3d in f64: 32 x 32 pixels, 0 wrong"), "{exact}");
-    let out = text(&["orient3d:near@1/f32/1/17", "--vary", "b", "--axes", "z,y", "--size", "16"]);
-    assert!(out.contains("orient3d (0) in f32") && out.contains("to the right: b.z"), "{out}");
-    let known = text(&["corner-underflow-2d", "--kernel", "robust::orient2d", "--size", "4"]);
-    assert!(known.contains("robust::orient2d in f64: 4 x 4 pixels,"), "{known}");
-    let json = r#"{"scalar":"f64","points":[[12,12],[24,24],[0.5,0.5]]}"#;
-    let given = text(&[json, "--size", "64", "--epsilon", "1e-14"]);
-    assert!(given.contains("orient2d (1e-14) in f64") && given.contains("about 0.5"), "{given}");
-    let small = text(&[json, "--size", "4", "--epsilon", "1e-60"]);
-    assert!(small.contains("orient2d (1e-60) in f64"), "{small}");
-    // The command beside a finding shows it again.
-    let command = given.split_once("hairline orient --case '").unwrap().1.lines().next().unwrap();
-    let (points, rest) = command.split_once("' ").unwrap();
-    let words: Vec<&str> =
-        ["orient", "--case", points].into_iter().chain(rest.split(' ')).collect();
-    let (again, _) = ends(&folder, &words, 0);
-    assert!(again.contains("orient2d (1e-14)") && again.contains("false-zero"), "{again}");
-}
-
-#[test]
 fn a_drawing_is_an_svg_with_the_exact_words() {
     let folder = scratch("map-drawing");
     let id = "tiny@2/f32/-/1/2314";
@@ -128,15 +102,6 @@ fn wrong_usage_and_bad_input_end_with_their_codes() {
         (&["map", "nonsense", "--kernel", "cramer"], 2, "is not a case id"),
         (&["map", "fan@2/f32/-/1/2", "--kernel", "cramer"], 2, "say which"),
         (&["map", "{\"scalar\":\"f32\"}", "--kernel", "cramer"], 65, "missing field 'origin'"),
-        (&["map", "{\"points\":[]}"], 65, "argument:1: missing field 'scalar'"),
-        (&["map", "{\"points\":[[0]],\"scalar\":\"f64\"}"], 65, "expected 3 points"),
-        (&["map", "orient2d:near@9/f64/1/1"], 2, "is at version 1"),
-        (&["map", "--at", "collinear", "--kernel", "cramer"], 2, "unknown predicate"),
-        (&["map", "--at", "collinear", "--kernel", "robust::orient3d"], 2, "does not run"),
-        (&["map", "--at", "collinear", "--epsilon", "t=1"], 2, "is not a finite number in f64"),
-        (&["map", "--at", "collinear", "--contract", "open-ray"], 2, "is not for points"),
-        (&["map", "--at", "collinear", "--drawing"], 2, "not of points"),
-        (&["map", "--at", "collinear", "--vary", "d"], 2, "unknown point 'd': there are a, b, c"),
     ];
     let with_kernel: &[(&[&str], i32, &str)] = &[
         (&["--size", "0"], 2, "sides from 1 to 2048"),

@@ -56,7 +56,7 @@ fn every_screen_fits_a_terminal() {
         let run = ["audit", "-q", "-n", "150", "--seed", seed, "--format", "json", "-o", file];
         ends(&folder, &run, 0);
     }
-    let screens: [(&[&str], usize); 12] = [
+    let screens: [(&[&str], usize); 11] = [
         (&["audit", "-n", "150"], 40),
         (&["audit", "-n", "150", "--kernel", "moller-trumbore"], 45),
         (&["epsilon", "--scene", "room", "--scalar", "f32", "-n", "1000"], 30),
@@ -65,7 +65,6 @@ fn every_screen_fits_a_terminal() {
         (&["explain", "edge-near@1/f32/-/1/41", "--kernel", "cramer"], 40),
         (&["explain", "edge-near@1/f32/-/1/41"], 40),
         (&["check", "--kernel", "moller-trumbore", "--family", "edge-near", "-n", "300"], 50),
-        (&["orient", "-n", "300"], 40),
         (&["diff", "old.json", "new.json"], 40),
         (&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"], 40),
         (&["mesh", mesh.to_str().unwrap(), "--scalar", "f32"], 40),

@@ -5,31 +5,12 @@ use hairline::internals::audit::{Row, Unobserved};
 use hairline::internals::case::Case;
 use hairline::internals::judge::Finding;
 use hairline::internals::kernel::{Scalar, Verdict};
-use hairline::internals::map::{
-    self, Grid, Ink, Map, Part, Pixels, RayPixel, SignPixel, Spot, Step, grid_of_case,
-    grid_of_points, of_kernel, of_predicate, standard_points,
-};
+use hairline::internals::map::{self, Ink, Map, Part, Spot, Step, grid_of_case, of_kernel};
 use hairline::internals::oracle;
-use hairline::internals::orientation::{self, Answer, Dimension, PREDICATES};
 use hairline::internals::truth::{Feature, Truth};
-use std::cmp::Ordering;
 
 fn row(kernel: &str, epsilons: Option<&str>, contract: &str) -> Row {
     Row::named(kernel, epsilons, contract).unwrap()
-}
-
-fn rays(map: &Map) -> &[RayPixel] {
-    match &map.pixels {
-        Pixels::Rays(pixels) => pixels,
-        Pixels::Signs(_) => panic!("a kernel's map"),
-    }
-}
-
-fn signs(map: &Map) -> &[SignPixel] {
-    match &map.pixels {
-        Pixels::Signs(pixels) => pixels,
-        Pixels::Rays(_) => panic!("a predicate's map"),
-    }
 }
 
 /// The float so many bit patterns from a positive one.
@@ -45,7 +26,7 @@ fn agrees_with_direct_evaluation<F: Scalar>(kernel: &str, spot: Spot) {
     let (case, [width, height]) = (spot.case::<F>(), [23, 14]);
     let grid = grid_of_case(&case, Part::Origin, Some([0, 1]), Some(Step::Ulps(3)), [23, 14]);
     let map = of_kernel(&case, &row, &grid.unwrap(), &Unobserved).unwrap();
-    let pixels = rays(&map);
+    let pixels = &map.pixels;
     assert_eq!(pixels.len(), width * height);
     for (index, pixel) in pixels.iter().enumerate() {
         let (x, y) = (index % width, height - 1 - index / width);
@@ -142,7 +123,7 @@ fn exchanged_axes_transpose_the_map() {
         for y in 0..31 {
             // From the top.
             let (one, other) = ((30 - y) * 20 + x, (19 - x) * 31 + y);
-            assert_eq!(rays(&plain)[one], rays(&exchanged)[other], "{x},{y}");
+            assert_eq!(plain.pixels[one], exchanged.pixels[other], "{x},{y}");
         }
     }
 }
@@ -215,75 +196,6 @@ fn impossible_grids_are_refused() {
     assert!(refused(None, None, [0, 8]).contains("1 to 2048"));
     assert!(refused(None, None, [8, 2049]).contains("1 to 2048"));
     assert!(refused(None, Some(Step::Ulps(0)), [8, 8]).contains("at least 1 ulp"));
-    let (points, _) = standard_points::<f64>(Dimension::Two);
-    assert!(grid_of_points(&points, 3, None, None, [8, 8]).unwrap_err().0.contains("3 points"));
-    assert!(grid_of_points(&points, 0, Some([0, 2]), None, [8, 8]).is_err());
-    let row = orientation::Row { predicate: &PREDICATES[2], epsilon: Some("0".to_owned()) };
-    let grid: Grid<f64> = grid_of_points(&points, 2, None, None, [8, 8]).unwrap();
-    assert!(
-        of_predicate(&points, &row, &grid, &Unobserved).unwrap_err().0.contains("does not run")
-    );
-}
-
-/// Kettner et al., figure 2 (a): p = (0.5 + x·2^-53, 0.5 + y·2^-53), q = (12, 12), r = (24, 24), x and y
-/// from 0 to 255. Their picture shows blocks of all three answers on both sides of the diagonal.
-#[test]
-fn the_published_picture_of_orient2d_comes_out() {
-    let (points, moved) = standard_points::<f64>(Dimension::Two);
-    let u = 2f64.powi(-53);
-    // The centre is at 128, so that the lowest pixel is at 0.5.
-    let points = points.with_moved(moved, |_| [0.5 + 128.0 * u, 0.5 + 128.0 * u, 0.0]);
-    let grid = grid_of_points(&points, moved, None, None, [256, 256]).unwrap();
-    let map = |name: &str| {
-        let predicate = PREDICATES.iter().find(|predicate| predicate.name == name).unwrap();
-        let epsilon = predicate.takes_epsilon.then(|| "0".to_owned());
-        of_predicate(&points, &orientation::Row { predicate, epsilon }, &grid, &Unobserved).unwrap()
-    };
-    let plain = map("orient2d");
-    let mut findings = [0; 3];
-    for (index, pixel) in signs(&plain).iter().enumerate() {
-        let (x, y) = (index % 256, 255 - index / 256);
-        let [px, py] = [x, y].map(|i| 0.5 + i as f64 * u);
-        let float_orient = (12.0 - px) * (24.0 - py) - (12.0 - py) * (24.0 - px);
-        let answer = if float_orient > 0.0 {
-            Answer::Plus
-        } else if float_orient < 0.0 {
-            Answer::Minus
-        } else {
-            Answer::Zero
-        };
-        // The determinant is 12 (py - px).
-        let exact = y.cmp(&x);
-        assert_eq!((pixel.answer, pixel.exact), (answer, Some(exact)), "{x},{y}");
-        match (answer, exact) {
-            (Answer::Plus, Ordering::Less) | (Answer::Minus, Ordering::Greater) => findings[0] += 1,
-            (Answer::Zero, Ordering::Less | Ordering::Greater) => findings[1] += 1,
-            (Answer::Plus | Answer::Minus, Ordering::Equal) => findings[2] += 1,
-            _ => {}
-        }
-    }
-    assert_eq!(plain.wrong(), findings.iter().sum::<usize>());
-    assert!(findings[0] > 0 && findings[1] > findings[0], "{findings:?}");
-    let robust = map("robust::orient2d");
-    assert_eq!(robust.wrong(), 0);
-    assert!(signs(&robust).iter().all(|p| p.exact.map(Answer::from) == Some(p.answer)));
-}
-
-#[test]
-fn exchanged_points_exchange_the_signs_of_orient3d() {
-    let (points, moved) = standard_points::<f64>(Dimension::Three);
-    let map = |points: &orientation::Points<f64>, moved, predicate: usize| {
-        let predicate = &PREDICATES[predicate];
-        let epsilon = predicate.takes_epsilon.then(|| "0".to_owned());
-        let grid = grid_of_points(points, moved, None, None, [60, 40]).unwrap();
-        of_predicate(points, &orientation::Row { predicate, epsilon }, &grid, &Unobserved).unwrap()
-    };
-    assert!(map(&points, moved, 2).wrong() > 0);
-    let [plain, swapped] = [map(&points, 0, 3), map(&points.swapped(1, 2), 0, 3)];
-    assert_eq!((plain.wrong(), swapped.wrong()), (0, 0));
-    for (one, other) in signs(&plain).iter().zip(signs(&swapped)) {
-        assert_eq!(one.exact.map(Ordering::reverse), other.exact);
-    }
 }
 
 fn vertex_map() -> Map {

@@ -29,7 +29,6 @@ pub mod explore;
 #[cfg(feature = "studies")]
 pub mod map;
 #[cfg(feature = "studies")]
-pub mod orientation;
 #[cfg(feature = "studies")]
 pub mod selfcheck;
 #[cfg(feature = "studies")]

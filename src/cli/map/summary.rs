@@ -4,11 +4,9 @@ use crate::arith::{Exact, Float};
 use crate::audit::{Row, exact_severity, quoted};
 use crate::case::Case;
 use crate::corpus::lines::{StoredCase, write_case};
-use crate::corpus::number;
 use crate::kernel::Scalar;
 use crate::map::{Grid, Ink, Map};
 use crate::oracle;
-use crate::orientation::{self, Points};
 use std::fmt::Write;
 
 /// Counts of both sides, the axes, and the pixel nearest to the middle of each kind of finding with a
@@ -67,23 +65,6 @@ fn nearest(map: &Map, ink: Ink) -> Option<[usize; 2]> {
 pub fn explain<F: Scalar>(case: &Case<F>, row: &Row) -> String {
     let stored = StoredCase::of(*case);
     row.explain_command(&quoted(&write_case(&stored)))
-}
-
-/// The command that shows points with every predicate, and the plain one with the row's epsilon.
-pub fn points<F: orientation::Scalar>(points: &Points<F>, row: &orientation::Row) -> String {
-    let written: Vec<String> = points
-        .iter()
-        .map(|point| {
-            let numbers: Vec<String> = point.iter().map(|x| number::write(*x)).collect();
-            format!("[{}]", numbers.join(","))
-        })
-        .collect();
-    let epsilon = row.epsilon.as_ref().map_or(String::new(), |text| format!(" --epsilon {text}"));
-    format!(
-        "hairline orient --case '{{\"scalar\":\"{}\",\"points\":[{}]}}'{epsilon}",
-        F::NAME,
-        written.join(","),
-    )
 }
 
 /// A drawing in words, and the command that says all about its case.

@@ -63,7 +63,7 @@ impl<F: Float> Axis<F> {
 /// The pixels of a map: one point of the input takes all pairs of values of two of its coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid<F> {
-    /// Which point is varied: its place among origin, direction, a, b, c, or among a, b, c, d.
+    /// Which point is varied: its place among origin, direction, a, b, c.
     pub point: usize,
     /// To the right, and upwards.
     pub axes: [Axis<F>; 2],

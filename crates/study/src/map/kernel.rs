@@ -1,6 +1,6 @@
 //! A ray-triangle kernel on the cases of a grid.
 
-use super::{AxisText, Grid, Map, MapError, Pixels, RayPixel, Step};
+use super::{AxisText, Grid, Map, MapError, RayPixel, Step};
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
@@ -88,7 +88,7 @@ pub fn of_kernel<F: Scalar>(
         scalar: F::NAME,
         measure: row.contract.describe(),
         axes: grid.axes.map(|axis| AxisText::of(&axis, part.name())),
-        pixels: Pixels::Rays(pixels),
+        pixels,
     })
 }
 

@@ -3,9 +3,7 @@
 //! problems in geometric computations", figure 2.
 //!
 //! ```text
-//! Case, Row, Grid ──► of_kernel ────┐
-//!                                   ├─► Map ──► svg, png, counts
-//! Points, Row, Grid ─► of_predicate ┘
+//! Case, Row, Grid ──► of_kernel ──► Map ──► svg, png, counts
 //! Case, Row ──► drawing: the triangle, the ray, where they meet and where the kernel says so
 //! ```
 //!
@@ -28,7 +26,6 @@ mod drawing;
 mod frame;
 mod grid;
 mod kernel;
-mod orientation;
 mod panel;
 #[cfg(feature = "files")]
 mod png;
@@ -39,18 +36,15 @@ mod svg;
 pub use self::drawing::{drawing, drawing_document};
 pub use self::grid::{Axis, Grid, MOST_PIXELS, Step};
 pub use self::kernel::{Part, case_at, grid_of_case, of_kernel};
-pub use self::orientation::{POINT_NAMES, grid_of_points, of_predicate, points_at};
 #[cfg(feature = "files")]
 pub use self::png::png;
-pub use self::spot::{Spot, standard, standard_points};
+pub use self::spot::{Spot, standard};
 pub use self::svg::{svg, svg_document};
 
 use crate::arith::Float;
 use crate::corpus::number;
 use crate::judge::{Finding, Obligation};
-use crate::orientation as points;
 use crate::truth::Truth;
-use std::cmp::Ordering;
 use std::fmt;
 
 /// Why there is no map; one line.
@@ -68,16 +62,16 @@ impl std::error::Error for MapError {}
 /// The results at each pixel of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// The kernel or predicate that was run: `moller-trumbore (source)`.
+    /// The kernel that was run: `moller-trumbore (source)`.
     pub subject: String,
     /// `f32` or `f64`.
     pub scalar: &'static str,
-    /// The measure of what is right: the contract, or the exact sign.
+    /// The measure of what is right: the contract.
     pub measure: String,
     /// To the right, and upwards.
     pub axes: [AxisText; 2],
     /// Row by row, the top row (the highest values of the second axis) first.
-    pub pixels: Pixels,
+    pub pixels: Vec<RayPixel>,
 }
 
 /// An axis in words and numbers.
@@ -107,15 +101,6 @@ impl AxisText {
     }
 }
 
-/// The pixels of a kernel's map or of a predicate's.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Pixels {
-    /// The pixels of a ray-triangle kernel.
-    Rays(Vec<RayPixel>),
-    /// The pixels of an orientation predicate.
-    Signs(Vec<SignPixel>),
-}
-
 /// A kernel on the case of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RayPixel {
@@ -132,36 +117,25 @@ pub struct RayPixel {
     pub finding: Option<Finding>,
 }
 
-/// A predicate on the points of one pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SignPixel {
-    /// The predicate's answer.
-    pub answer: points::Answer,
-    /// The exact sign; none of points that are not finite.
-    pub exact: Option<Ordering>,
-    /// The kind of wrong answer; none if the predicate is right.
-    pub finding: Option<points::Finding>,
-}
-
 /// The look of a pixel. Right is pale and wrong is dark, so that wrong pixels are seen without
 /// telling colours apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Ink {
-    /// A hit, or +.
+    /// A hit.
     Yes,
-    /// A miss, or -.
+    /// A miss.
     No,
-    /// Exactly on the boundary, or 0.
+    /// Exactly on the boundary.
     Boundary,
     /// Nothing is demanded.
     Free,
-    /// A false hit, or a wrong sign.
+    /// A false hit.
     FalseYes,
-    /// A false miss, or a false 0.
+    /// A false miss.
     FalseNo,
-    /// A hit with a bad or a wrong value, or a 0 that was missed.
+    /// A hit with a bad or a wrong value.
     Bad,
-    /// No verdict, or no sign.
+    /// No verdict.
     Failed,
 }
 
@@ -205,62 +179,42 @@ impl Map {
         [self.axes[0].count, self.axes[1].count]
     }
 
-    /// The result of the kernel or the predicate at a pixel, row by row from the top: its answer where
+    /// The result of the kernel at a pixel, row by row from the top: its answer where
     /// that is right, and the kind of error where it is wrong.
     pub fn computed(&self, pixel: usize) -> Ink {
-        match &self.pixels {
-            Pixels::Rays(pixels) => pixels[pixel].computed(),
-            Pixels::Signs(pixels) => pixels[pixel].computed(),
-        }
+        self.pixels[pixel].computed()
     }
 
     /// The exact truth at a pixel.
     pub fn exact(&self, pixel: usize) -> Ink {
-        match &self.pixels {
-            Pixels::Rays(pixels) => pixels[pixel].exact(),
-            Pixels::Signs(pixels) => pixels[pixel].exact(),
-        }
+        self.pixels[pixel].exact()
     }
 
     /// How many pixels are wrong.
     pub fn wrong(&self) -> usize {
-        match &self.pixels {
-            Pixels::Rays(pixels) => pixels.iter().filter(|p| p.finding.is_some()).count(),
-            Pixels::Signs(pixels) => pixels.iter().filter(|p| p.finding.is_some()).count(),
-        }
+        self.pixels.iter().filter(|pixel| pixel.finding.is_some()).count()
     }
 
     /// The inks of the computed side that occur, what they mean and how many pixels have them.
     pub fn computed_legend(&self) -> Vec<(Ink, &'static str, usize)> {
-        let words = |ink| match (&self.pixels, ink) {
-            (Pixels::Rays(_), Ink::Yes) => "hit",
-            (Pixels::Rays(_), Ink::FalseYes) => "false hit",
-            (Pixels::Rays(_), Ink::FalseNo) => "false miss",
-            (Pixels::Rays(_), Ink::Bad) => "hit with a wrong value",
-            (Pixels::Rays(_), Ink::Failed) => "failed: no verdict",
-            (Pixels::Rays(_), _) => "miss",
-            (Pixels::Signs(_), Ink::Yes) => "positive",
-            (Pixels::Signs(_), Ink::No) => "negative",
-            (Pixels::Signs(_), Ink::FalseYes) => "wrong sign",
-            (Pixels::Signs(_), Ink::FalseNo) => "false zero",
-            (Pixels::Signs(_), Ink::Bad) => "missed zero",
-            (Pixels::Signs(_), Ink::Failed) => "no sign: NaN",
-            (Pixels::Signs(_), _) => "zero",
+        let words = |ink| match ink {
+            Ink::Yes => "hit",
+            Ink::FalseYes => "false hit",
+            Ink::FalseNo => "false miss",
+            Ink::Bad => "hit with a wrong value",
+            Ink::Failed => "failed: no verdict",
+            _ => "miss",
         };
         self.legend(words, |pixel| self.computed(pixel))
     }
 
     /// The same of the exact side.
     pub fn exact_legend(&self) -> Vec<(Ink, &'static str, usize)> {
-        let words = |ink| match (&self.pixels, ink) {
-            (Pixels::Rays(_), Ink::Yes) => "a hit is asked",
-            (Pixels::Rays(_), Ink::No) => "a miss is asked",
-            (Pixels::Rays(_), Ink::Boundary) => "exactly on an edge or a vertex",
-            (Pixels::Rays(_), _) => "nothing is asked",
-            (Pixels::Signs(_), Ink::Yes) => "positive",
-            (Pixels::Signs(_), Ink::No) => "negative",
-            (Pixels::Signs(_), Ink::Boundary) => "zero",
-            (Pixels::Signs(_), _) => "not finite",
+        let words = |ink| match ink {
+            Ink::Yes => "a hit is asked",
+            Ink::No => "a miss is asked",
+            Ink::Boundary => "exactly on an edge or a vertex",
+            _ => "nothing is asked",
         };
         self.legend(words, |pixel| self.exact(pixel))
     }
@@ -296,29 +250,6 @@ impl RayPixel {
             Obligation::MustHit => Ink::Yes,
             Obligation::MustMiss => Ink::No,
             Obligation::Free => Ink::Free,
-        }
-    }
-}
-
-impl SignPixel {
-    fn computed(&self) -> Ink {
-        match (self.finding, self.answer) {
-            (_, points::Answer::NaN) => Ink::Failed,
-            (Some(points::Finding::WrongSign), _) => Ink::FalseYes,
-            (Some(points::Finding::FalseZero), _) => Ink::FalseNo,
-            (Some(points::Finding::MissedZero), _) => Ink::Bad,
-            (None, points::Answer::Plus) => Ink::Yes,
-            (None, points::Answer::Minus) => Ink::No,
-            (None, points::Answer::Zero) => Ink::Boundary,
-        }
-    }
-
-    fn exact(&self) -> Ink {
-        match self.exact {
-            None => Ink::Free,
-            Some(Ordering::Greater) => Ink::Yes,
-            Some(Ordering::Less) => Ink::No,
-            Some(Ordering::Equal) => Ink::Boundary,
         }
     }
 }

@@ -6,7 +6,6 @@ use crate::audit::Row;
 use crate::case::Case;
 use crate::engine::Unobserved;
 use crate::kernel::Scalar;
-use crate::orientation::{Dimension, Points};
 
 named! {
     pub names
@@ -57,24 +56,4 @@ pub fn standard<F: Scalar>(row: &Row, spot: Spot, size: [usize; 2]) -> Result<Ma
     let case = spot.case::<F>();
     let grid = grid_of_case(&case, Part::Origin, None, None, size)?;
     of_kernel(&case, row, &grid, &Unobserved)
-}
-
-/// Points of a dimension whose last or first one is at 0.5 and lies on a line or a plane with the others,
-/// far off; with them, the place of that point.
-///
-/// Those of the plane are Kettner et al.'s, figure 2 (a): their p, q, r are our c, a, b, so that
-/// [`orient2d`](crate::orientation::PREDICATES) is their formula.
-pub fn standard_points<F: Float>(dimension: Dimension) -> (Points<F>, usize) {
-    let float = F::from_f64;
-    match dimension {
-        Dimension::Two => {
-            let points = [[12.0, 12.0], [24.0, 24.0], [0.5, 0.5]];
-            (Points::two(points.map(|p| p.map(float))), 2)
-        }
-        Dimension::Three => {
-            let points =
-                [[0.5, 0.5, 0.5], [12.0, 12.0, 24.0], [24.0, 24.0, -12.0], [-6.0, -6.0, 3.0]];
-            (Points::three(points.map(|p| p.map(float))), 0)
-        }
-    }
 }

@@ -15,7 +15,7 @@ use std::path::Path;
 const WITH_INPUTS: [&str; 4] = ["kernels", "pinned", "response", "oracle"];
 
 /// Targets whose inputs hold no case.
-const WITHOUT_CASES: [&str; 3] = ["mesh", "orientation", "settings"];
+const WITHOUT_CASES: [&str; 2] = ["mesh", "settings"];
 
 /// Adds what the rows get wrong in a file or folder.
 pub fn read_path(path: &Path, rows: &[Row], finds: &mut Vec<Find>) -> Result<(), Failure> {
