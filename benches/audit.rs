@@ -38,13 +38,7 @@ fn median(mut numbers: Vec<f64>) -> f64 {
 
 fn plan(families: &[&'static Family], count: u64, scalars: [bool; 2]) -> Plan {
     let entries: Vec<_> = KERNELS.iter().collect();
-    let source = |family: &&'static Family| Source::Family {
-        family,
-        parameters: Parameters::default(),
-        seed: 1,
-        count,
-        exhaustive: false,
-    };
+    let source = |family: &&'static Family| Source::of(family, Parameters::default(), 1, count);
     let rows = EpsilonChoice::Source.rows(&entries, None).expect("the default plan");
     Plan {
         rows,
@@ -103,8 +97,8 @@ fn line<F: Scalar>(name: &str, families: &[&'static Family], count: u64) {
 fn main() {
     // cargo passes --bench; a filter would be the first other word.
     let filter = std::env::args().skip(1).find(|word| !word.starts_with('-')).unwrap_or_default();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
-    pool.install(|| {
+    let stock = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    stock.install(|| {
         println!("ns a case, one thread, {} kernels with their default epsilons", KERNELS.len());
         println!(
             "{:<26} {:>10} {:>10} {:>10} {:>8}",

@@ -37,12 +37,8 @@ const COUNT: u64 = 20_000;
 
 fn sources() -> Vec<Source> {
     let families = ["interior", "outside", "edge-near", "grazing", "coplanar", "shared-edge"];
-    let source = |family: &'static hairline::internals::family::Family| Source::Family {
-        family,
-        parameters: Parameters::default(),
-        seed: 1,
-        count: COUNT,
-        exhaustive: false,
+    let source = |family: &'static hairline::internals::family::Family| {
+        Source::of(family, Parameters::default(), 1, COUNT)
     };
     FAMILIES.iter().filter(|family| families.contains(&family.name)).map(source).collect()
 }
@@ -114,8 +110,8 @@ fn lines<F: Scalar>() {
 }
 
 fn main() {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
-    pool.install(|| {
+    let stock = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    stock.install(|| {
         println!("ns a case, one thread; the last two: a pass over making, kernel and oracle,");
         println!("and a pass less making over kernel and oracle");
         println!(

@@ -218,13 +218,7 @@ impl Request {
         }
         let rows = self.rows()?;
         let parameters = Parameters { scene: self.parsed_scene()?, ..self.parameters.clone() };
-        let source = |family| Source::Family {
-            family,
-            parameters: parameters.clone(),
-            seed: self.seed,
-            count: self.count,
-            exhaustive: false,
-        };
+        let source = |family| Source::of(family, parameters.clone(), self.seed, self.count);
         let plan = Plan {
             rows,
             sources: self.chosen_families()?.into_iter().map(source).collect(),

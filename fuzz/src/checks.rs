@@ -124,7 +124,7 @@ where
     let (row, (subject, gated)) = (input.row(), of_kernel::<F>(entry));
     let asked = |case| judge::asked(case, &oracle::truth(case), &row.contract, false);
     let asked: Vec<Obligation> = cases.iter().map(asked).collect();
-    let sources = [Source::Corpus(stored(&cases))];
+    let sources = [Source::stored(stored(&cases), None)];
     let gates = entry.info.gates;
     let tunable = (0..gates.len()).filter(|gate| gates[*gate].epsilon != Tunable::Fixed);
     for gate in tunable {

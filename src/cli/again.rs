@@ -2,7 +2,7 @@
 //! worse nor better.
 
 use super::plugins;
-use crate::audit::{self, Plan, Shard, Source};
+use crate::audit::{self, Plan, Shard, Stock};
 use crate::case::CaseId;
 use crate::engine::Unobserved;
 use crate::expect::{self, Expectations};
@@ -96,8 +96,8 @@ fn part(plan: &Plan, found: &Deviation) -> Option<(Plan, u64, u64)> {
     let (count, index) = in_named_scalar!(found.scalar, F => {
         let count = source.count::<F>();
         // The name of a stored case does not tell its place, even if it is the id of another source.
-        let index = match source {
-            Source::Corpus(_) => (0..count).find(|index| source.id::<F>(*index, None) == *case),
+        let index = match source.stock {
+            Stock::Corpus(_) => (0..count).find(|index| source.id::<F>(*index, None) == *case),
             _ => case.parse().ok().map(|id: CaseId| id.index),
         };
         (count, index.filter(|index| *index < count)?)

@@ -4,7 +4,7 @@
 use super::exit::{Failure, Status};
 use super::flags::chosen_scalars;
 use crate::arith::Float;
-use crate::audit::{self, CorpusSet, Plan, Row, Source};
+use crate::audit::{self, CorpusSet, Plan, Row, Source, Stock};
 use crate::case::{Parameters, Scene};
 use crate::contract::Direction;
 use crate::engine::Unobserved;
@@ -38,7 +38,7 @@ pub fn refuse_wrong_values(rows: &[Row], scalars: [bool; 2]) -> Result<(), Failu
     let unit_direction = rows.iter().any(|row| row.contract.direction != Direction::Any);
     let parameters = Parameters { unit_direction, ..Parameters::default() };
     let family = family::find("interior").expect("the control family");
-    let source = Source::Family { family, parameters, seed: 1, count: 1024, exhaustive: false };
+    let source = Source::of(family, parameters, 1, 1024);
     let plan =
         Plan { rows: rows.to_vec(), sources: vec![source], scalars, examples: 1, attribute: 0 };
     for cell in audit::run(&plan, &Unobserved).cells {
@@ -62,8 +62,8 @@ pub fn refuse_wrong_values(rows: &[Row], scalars: [bool; 2]) -> Result<(), Failu
 /// Notes what is strange about the stored rays that start on their triangle, or should: that there are none though
 /// the run asks about self-hits, and those that start far from it.
 pub fn note_secondary_rays(rows: &[Row], sources: &[Source]) {
-    let sets = sources.iter().filter_map(|source| match source {
-        Source::Corpus(set) => Some(set),
+    let sets = sources.iter().filter_map(|source| match &source.stock {
+        Stock::Corpus(set) => Some(set),
         _ => None,
     });
     let (marked, plain): (Vec<_>, Vec<_>) = sets.partition(|set| set.is_secondary);

@@ -1,12 +1,11 @@
 //! `hairline merge`: the records of parts of a run become the record of the whole.
 
 use super::exit::{Failure, Status};
-use super::flags::placed;
 use super::input::{corpus_sets, read_mesh, read_record};
 use super::plugins::PluginArguments;
 use super::progress::Progress;
 use super::reporting::{Outputs, ReportArguments, illustrated, self_check};
-use crate::audit::{CorpusSet, Plan, Source, StoredSource};
+use crate::audit::{Plan, Stock, StoredStock};
 use crate::corpus::InputError;
 use crate::family::{MeshFamily, Stratum};
 use crate::kernel;
@@ -66,7 +65,7 @@ fn joined(arguments: &MergeArguments, outputs: &Outputs<'_>) -> Result<Status, F
     let progress = Progress::new(0, "indices", true);
     let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrated(plan));
     let mut record =
-        merged(parts, illustrate, &progress, |source, scalars| open(source, scalars, quiet))
+        merged(parts, illustrate, &progress, |stock, scalars| open(stock, scalars, quiet))
             .map_err(|Unmergeable(failure)| failure)?;
     self_check(&record)?;
     outputs.write(&mut record)?;
@@ -88,43 +87,29 @@ impl From<Failure> for Unmergeable {
     }
 }
 
-fn open(source: &StoredSource, scalars: [bool; 2], quiet: bool) -> Result<Source, Unmergeable> {
-    match source {
-        StoredSource::Mesh { path, parameters, seed, count } => {
-            let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
-            let parameters = parameters.parse()?;
-            Ok(Source::Mesh { family, parameters, seed: *seed, count: *count })
-        }
-        StoredSource::MeshPart { path, part, parameters, seed, directions } => {
-            let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
+fn open(stock: &StoredStock, scalars: [bool; 2], quiet: bool) -> Result<Stock, Unmergeable> {
+    let family = |path| -> Result<_, Unmergeable> {
+        Ok(Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path)))
+    };
+    Ok(match stock {
+        StoredStock::Mesh(path) => Stock::Mesh(family(path)?),
+        StoredStock::MeshPart(path, part) => {
             let unknown = || format!("unknown part of a mesh '{part}'");
-            Ok(Source::MeshPart {
-                surface: Arc::new(Surface::new(family, scalars)),
-                part: Part::named(part).ok_or_else(unknown)?,
-                parameters: parameters.parse()?,
-                seed: *seed,
-                directions: *directions,
-            })
+            let part = Part::named(part).ok_or_else(unknown)?;
+            Stock::MeshPart(Arc::new(Surface::new(family(path)?, scalars)), part)
         }
-        StoredSource::SceneMesh { path, stratum, parameters, seed, count } => {
-            let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
+        StoredStock::SceneMesh(path, stratum) => {
             let unknown = || format!("unknown part of a scene '{stratum}'");
-            Ok(Source::SceneMesh {
-                mesh: Arc::new(SceneMesh::new(Surface::new(family, scalars))),
-                stratum: Stratum::named(stratum).ok_or_else(unknown)?,
-                parameters: parameters.parse()?,
-                seed: *seed,
-                count: *count,
-            })
+            let stratum = Stratum::named(stratum).ok_or_else(unknown)?;
+            let surface = Surface::new(family(path)?, scalars);
+            Stock::SceneMesh(Arc::new(SceneMesh::new(surface)), stratum)
         }
-        StoredSource::Corpus { file, is_secondary, instance } => {
+        StoredStock::Corpus(file, is_secondary) => {
             let [others, secondary] = corpus_sets(file)?;
-            let set = if *is_secondary { secondary } else { others };
-            instance.map(placed).transpose()?;
-            Ok(Source::Corpus(CorpusSet { instance: *instance, ..set }))
+            Stock::Corpus(if *is_secondary { secondary } else { others })
         }
-        StoredSource::Family { family, .. } => {
-            Err(format!("family '{family}' needs no file").into())
+        StoredStock::Family(family) | StoredStock::Whole(family) => {
+            return Err(format!("family '{family}' needs no file").into());
         }
-    }
+    })
 }

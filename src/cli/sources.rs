@@ -5,7 +5,7 @@ use super::exit::Failure;
 use super::flags::{RUNNING, case_count, chosen_scalars, find_family, refuse_twice};
 use super::input::{corpus_files, corpus_sets, read_mesh};
 use crate::arith::Float;
-use crate::audit::{CorpusSet, Source, shell_word};
+use crate::audit::{CorpusSet, Source, Stock, shell_word};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
 use crate::corpus::InputError;
 use crate::epsilon::StudiedRays;
@@ -246,14 +246,11 @@ impl SourceArguments {
             return Err(Failure::usage("--exhaustive: only the family 'lattice' is finite"));
         }
         for family in families {
-            let exhaustive = self.exhaustive && family.size.is_some();
-            sources.push(Source::Family {
-                family,
-                parameters: parameters.clone(),
-                seed,
-                count,
-                exhaustive,
-            });
+            let stock = match self.exhaustive && family.size.is_some() {
+                true => Stock::Whole(family),
+                false => Stock::Family(family),
+            };
+            sources.push(Source { stock, parameters: parameters.clone(), seed, count });
         }
         for (i, path) in self.mesh.iter().enumerate() {
             // Reports name a mesh by its file alone.
@@ -263,7 +260,8 @@ impl SourceArguments {
                 return Err(Failure::usage(message));
             }
             let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
-            sources.push(Source::Mesh { family, parameters: parameters.clone(), seed, count });
+            let stock = Stock::Mesh(family);
+            sources.push(Source { stock, parameters: parameters.clone(), seed, count });
         }
         let mut seen = HashSet::new();
         for path in &self.corpus {
@@ -274,10 +272,10 @@ impl SourceArguments {
                 let [others, secondary] = corpus_sets(&file)?;
                 let is_empty = |set: &CorpusSet| set.f32.is_empty() && set.f64.is_empty();
                 if !is_empty(&others) || is_empty(&secondary) {
-                    sources.push(Source::Corpus(others));
+                    sources.push(Source::stored(others, None));
                 }
                 if !is_empty(&secondary) {
-                    sources.push(Source::Corpus(secondary));
+                    sources.push(Source::stored(secondary, None));
                 }
             }
         }

@@ -5,9 +5,10 @@ use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
     Audit, Cell, CorpusSet, EpsilonText, Examples, GroupCount, Place, Plan, PolygonCount, Row,
-    Severity, Source, SourceSummary, Tally, Trials, exact_severity, severity_of_instance, words,
+    Severity, Source, SourceSummary, Stock, Tally, Trials, exact_severity, severity_of_instance,
+    words,
 };
-use crate::case::Case;
+use crate::case::{Case, Matrix};
 use crate::contract::{Boundary, Extent};
 use crate::corpus::hex;
 use crate::engine;
@@ -98,11 +99,12 @@ impl PlanPart {
 pub(super) fn planned_source(source: &Source) -> PlannedSource {
     PlannedSource {
         family: source.name(),
-        set: match source {
-            Source::Corpus(set) => {
-                let place =
-                    set.instance.map(|it| format!("/instance={}", words(&it).replace(' ', ":")));
-                format!("{}@{}{}", set.file, corpus_digest(set), place.unwrap_or_default())
+        set: match &source.stock {
+            Stock::Corpus(set) => {
+                let instance = source.parameters.instance.as_ref();
+                let place = instance.map(|it| format!("/instance={}", words(it).replace(' ', ":")));
+                let digest = corpus_digest(set, instance);
+                format!("{}@{digest}{}", set.file, place.unwrap_or_default())
             }
             _ => set_of_id(&source.id::<f64>(0, None)),
         },
@@ -111,7 +113,7 @@ pub(super) fn planned_source(source: &Source) -> PlannedSource {
 }
 
 /// The digest of the stored cases and their names: another file of the same name is another plan.
-fn corpus_digest(set: &CorpusSet) -> String {
+fn corpus_digest(set: &CorpusSet, instance: Option<&Matrix<f64>>) -> String {
     let mut digest = Hash::new();
     let mut add = |name: &str, bits: &[u64]| {
         digest.update(name.as_bytes());
@@ -119,7 +121,7 @@ fn corpus_digest(set: &CorpusSet) -> String {
     };
     set.f32.iter().for_each(|(name, case)| add(name, &case.bits()));
     set.f64.iter().for_each(|(name, case)| add(name, &case.bits()));
-    if let Some(matrix) = &set.instance {
+    if let Some(matrix) = instance {
         add("instance", &[0, 1, 2].map(|row| matrix[row].map(f64::to_bits)).concat());
     }
     hex(&digest.finalize()[..8])
@@ -292,10 +294,11 @@ pub(super) fn across_part(
 
 fn across_in_source<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> AcrossPart {
     let sample = source.is_sample();
-    let elsewhere = matches!(source, Source::MeshPart { .. });
     AcrossPart {
         file: source.file_flag(),
-        elsewhere: elsewhere.then(|| rate(groups.elsewhere, groups.crossings, sample)),
+        elsewhere: source
+            .has_neighbours()
+            .then(|| rate(groups.elsewhere, groups.crossings, sample)),
         ..across_part(row.contract.across.into(), groups, sample, |i| source.id::<F>(i, None))
     }
 }

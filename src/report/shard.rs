@@ -2,7 +2,7 @@
 
 use super::build::plan_part;
 use super::{Context, Illustrations, PartialPart, Provenance, Record, ShardPart, build};
-use crate::audit::{self, Audit, MOST_SHARDS, Observer, Plan, Source, StoredPlan, StoredSource};
+use crate::audit::{self, Audit, MOST_SHARDS, Observer, Plan, Stock, StoredPlan, StoredStock};
 use crate::corpus::hex;
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
@@ -124,7 +124,7 @@ pub fn merged<E: From<String>>(
     parts: Mergeable,
     illustrate: impl FnOnce(&Plan) -> Option<Illustrations>,
     observer: &dyn Observer,
-    open: impl FnMut(&StoredSource, [bool; 2]) -> Result<Source, E>,
+    open: impl FnMut(&StoredStock, [bool; 2]) -> Result<Stock, E>,
 ) -> Result<Record, E> {
     let complete = parts.missing().next().is_none();
     let plan = parts.plan.plan(open)?;

@@ -118,13 +118,12 @@ fn rows_of_different_scalars_keep_their_places() {
     ];
     let plan = audit::Plan {
         rows: EpsilonChoice::Source.rows(&entries, None).unwrap(),
-        sources: vec![audit::Source::Family {
-            family: hairline::internals::family::find("interior").unwrap(),
-            parameters: Parameters::default(),
-            seed: 1,
-            count: 10,
-            exhaustive: false,
-        }],
+        sources: vec![audit::Source::of(
+            hairline::internals::family::find("interior").unwrap(),
+            Parameters::default(),
+            1,
+            10,
+        )],
         scalars: [true, true],
         examples: 1,
         attribute: 0,

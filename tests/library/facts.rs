@@ -1,7 +1,7 @@
 //! Known facts about the kernels come out of a run.
 
 use hairline::internals::arith::Float;
-use hairline::internals::audit::{Audit, EpsilonChoice, Observer, Plan, Source, Tally, run};
+use hairline::internals::audit::{Audit, EpsilonChoice, Observer, Plan, Source, Stock, Tally, run};
 use hairline::internals::case::{Case, Parameters};
 use hairline::internals::family;
 use hairline::internals::judge::{Class, Finding};
@@ -25,12 +25,12 @@ fn audit(
     count: Option<u64>,
 ) -> (Plan, Audit) {
     let entries: Vec<_> = kernels.iter().map(|name| kernel::find(name).unwrap()).collect();
-    let source = Source::Family {
-        family: family::find(name).unwrap(),
+    let family = family::find(name).unwrap();
+    let source = Source {
+        stock: count.map_or(Stock::Whole(family), |_| Stock::Family(family)),
         parameters: Parameters::default(),
         seed: 1,
         count: count.unwrap_or(0),
-        exhaustive: count.is_none(),
     };
     let rows = choice.rows(&entries, contract).unwrap();
     let plan =

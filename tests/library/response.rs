@@ -34,13 +34,7 @@ const FAMILIES: [&str; 12] = [
 ];
 
 fn source(name: &str, count: u64) -> Source {
-    Source::Family {
-        family: find(name).expect("a family"),
-        parameters: Parameters::default(),
-        seed: 1,
-        count,
-        exhaustive: false,
-    }
+    Source::of(find(name).expect("a family"), Parameters::default(), 1, count)
 }
 
 fn base_rows() -> Vec<Row> {
@@ -143,8 +137,8 @@ fn counts_do_not_depend_on_the_number_of_threads() {
     let setting = setting::<f32>(row, &knobs, &counts, &sources);
     let attempt = [Attempt::new(vec![1e-6; knobs.len()])];
     let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| count_at(&setting, &attempt, 1, 5000, &Silent))
+        let stock = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        stock.install(|| count_at(&setting, &attempt, 1, 5000, &Silent))
     };
     let one = with(1);
     assert_eq!(one, with(2));

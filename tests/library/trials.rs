@@ -13,13 +13,7 @@ fn samples(kernel: &str, epsilons: &[(&str, &str)], family: &str) -> [Vec<Trials
     let entry = kernel::find(kernel).unwrap();
     let owned = |(gate, value): &(&str, &str)| ((*gate).to_owned(), (*value).to_owned());
     let choice = EpsilonChoice::Given(epsilons.iter().map(owned).collect());
-    let source = |seed| Source::Family {
-        family: family::find(family).unwrap(),
-        parameters: Parameters::default(),
-        seed,
-        count: 400,
-        exhaustive: false,
-    };
+    let source = |seed| Source::of(family::find(family).unwrap(), Parameters::default(), seed, 400);
     let plan = Plan {
         rows: choice.rows(&[entry], None).unwrap(),
         sources: (1..=SEEDS).map(source).collect(),

@@ -34,8 +34,8 @@ pub fn leak<F: Scalar>(entry: &'static Entry) -> Option<Leak> {
     let family = family::find("shared-edge").expect("a family");
     let unit_direction = row.contract.direction != Direction::Any;
     let parameters = Parameters { unit_direction, ..Parameters::default() };
-    let (seed, count, exhaustive) = (1, TRIES, false);
-    let source = Source::Family { family, parameters: parameters.clone(), seed, count, exhaustive };
+    let seed = 1;
+    let source = Source::of(family, parameters.clone(), seed, TRIES);
     let scalars = [F::NAME == "f32", F::NAME == "f64"];
     let (rows, sources) = (vec![row.clone()], vec![source]);
     let plan = Plan { rows, sources, scalars, examples: 64, attribute: 0 };

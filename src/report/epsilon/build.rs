@@ -42,7 +42,7 @@ pub fn scene_record(
         left_out: None,
         reach: reach(&scene),
         mesh: mesh.as_ref().map(|mesh| mesh.surface()).map(|surface| MeshPart {
-            path: surface.path().to_owned(),
+            path: surface.family().path().to_owned(),
             digest: surface.mesh().digest.clone(),
             triangles: surface.mesh().triangles.len() as u64,
         }),

@@ -35,7 +35,7 @@ pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context)
     }
     let result = MeshResult {
         mesh: MeshPart {
-            file: surface.path().to_owned(),
+            file: surface.family().path().to_owned(),
             digest: mesh.digest.clone(),
             triangles: mesh.triangles.len() as u64,
             vertices: mesh.positions_f64.len() as u64,
@@ -192,7 +192,8 @@ impl<F: Float> Builder<'_, F> {
             let places: Vec<u32> = faces.map(|face| mesh.places[*face as usize]).collect();
             let (lines, faces) =
                 if mesh.has_lines { (places, Vec::new()) } else { (Vec::new(), places) };
-            let arguments = format!("{} --mesh {}", quoted(&id), quoted(self.surface.path()));
+            let arguments =
+                format!("{} --mesh {}", quoted(&id), quoted(self.surface.family().path()));
             MeshExample {
                 points: self.points(&self.targets.points(part, target)),
                 lines,

@@ -100,7 +100,7 @@ pub(super) fn row<F: Float>(
     marks.truncate(plan.places);
     let command = |part: Part| {
         let id = surface.id::<F>(part, &plan.parameters(), plan.seed, 0).to_string();
-        let arguments = format!("{} --mesh {}", quoted(&id), quoted(surface.path()));
+        let arguments = format!("{} --mesh {}", quoted(&id), quoted(surface.family().path()));
         let command = plan.rows[found.row].explain_command(&arguments);
         // The id ends with the index, 0.
         let (before, after) = command.split_once(&id).expect("the command holds the id");

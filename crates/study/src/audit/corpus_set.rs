@@ -1,7 +1,7 @@
 //! Stored cases as a source of cases.
 
 use crate::arith::Float;
-use crate::case::{Case, Matrix};
+use crate::case::Case;
 
 /// The stored cases of one file of which all are secondary rays, or none is.
 #[derive(Clone, Default)]
@@ -14,8 +14,6 @@ pub struct CorpusSet {
     pub f32: Vec<(String, Case<f32>)>,
     /// Names and cases in `f64`.
     pub f64: Vec<(String, Case<f64>)>,
-    /// Where the triangles are put; the rays are of the world.
-    pub instance: Option<Matrix<f64>>,
 }
 
 impl CorpusSet {

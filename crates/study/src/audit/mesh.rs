@@ -7,7 +7,7 @@ use super::places::Places;
 pub use super::places::{Seen, Wrong};
 use super::row::Row;
 use super::rows::Rows;
-use super::source::Source;
+use super::source::{Source, Stock};
 use crate::case::{Matrix, Parameters};
 use crate::contract::Across;
 use crate::engine::{self, Merge, Observer};
@@ -46,12 +46,11 @@ impl Plan {
 
     /// The groups at a part of a mesh.
     fn source(&self, surface: &Arc<Surface>, part: Part) -> Source {
-        Source::MeshPart {
-            surface: surface.clone(),
-            part,
+        Source {
+            stock: Stock::MeshPart(surface.clone(), part),
             parameters: self.parameters(),
             seed: self.seed,
-            directions: self.directions,
+            count: self.directions,
         }
     }
 }

@@ -16,57 +16,31 @@ pub const CHUNK: u64 = 1024;
 
 /// A source of cases.
 #[derive(Clone)]
-pub enum Source {
-    /// A family's set.
-    Family {
-        /// The family.
-        family: &'static Family,
-        /// The parameters of its cases.
-        parameters: Parameters,
-        /// The seed of the set.
-        seed: u64,
-        /// How many indices.
-        count: u64,
-        /// Every case of a finite family, in its natural order.
-        exhaustive: bool,
-    },
+pub struct Source {
+    /// What they are drawn from.
+    pub stock: Stock,
+    /// The parameters of its cases.
+    pub parameters: Parameters,
+    /// The seed of the set.
+    pub seed: u64,
+    /// How many indices; of a mesh's part, rays at each edge or vertex. What is taken whole has its own number.
+    pub count: u64,
+}
+
+/// What the cases of a source are drawn from.
+#[derive(Clone)]
+pub enum Stock {
+    /// A family.
+    Family(&'static Family),
+    /// Every case of a finite family, in its natural order.
+    Whole(&'static Family),
     /// Rays at a mesh.
-    Mesh {
-        /// The mesh and its rays.
-        family: Arc<MeshFamily>,
-        /// The parameters of its cases.
-        parameters: Parameters,
-        /// The seed of the set.
-        seed: u64,
-        /// How many indices.
-        count: u64,
-    },
-    /// Groups at the edges, or at the vertices, of a mesh: a ray and the triangles around its target.
-    MeshPart {
-        /// The mesh, in the scalars of the run.
-        surface: Arc<Surface>,
-        /// Edges or vertices.
-        part: Part,
-        /// The parameters of its cases.
-        parameters: Parameters,
-        /// The seed of the set.
-        seed: u64,
-        /// Rays at each edge or vertex.
-        directions: u64,
-    },
+    Mesh(Arc<MeshFamily>),
+    /// Groups at the edges, or at the vertices, of a mesh, in the scalars of the run: a ray and the triangles around
+    /// its target.
+    MeshPart(Arc<Surface>, Part),
     /// A stratum of the scene that a mesh is.
-    SceneMesh {
-        /// The mesh.
-        mesh: Arc<SceneMesh>,
-        /// Which rays.
-        stratum: Stratum,
-        /// The mesh's digest, and what rays there are.
-        parameters: Parameters,
-        /// The seed of the set.
-        seed: u64,
-        /// How many indices.
-        count: u64,
-    },
+    SceneMesh(Arc<SceneMesh>, Stratum),
     /// Stored cases.
     Corpus(CorpusSet),
 }
@@ -92,6 +66,11 @@ pub fn words(matrix: &Matrix<f64>) -> String {
 }
 
 impl Source {
+    /// So many cases of a family.
+    pub fn of(family: &'static Family, parameters: Parameters, seed: u64, count: u64) -> Source {
+        Source { stock: Stock::Family(family), parameters, seed, count }
+    }
+
     /// A stratum of a scene, or of the scene that a mesh is: its parameters get the mesh's digest.
     pub fn of_stratum(
         stratum: Stratum,
@@ -101,43 +80,37 @@ impl Source {
         count: u64,
     ) -> Source {
         let Some(mesh) = mesh else {
-            let family = stratum.family();
-            return Source::Family { family, parameters, seed, count, exhaustive: false };
+            return Source::of(stratum.family(), parameters, seed, count);
         };
         let digest = mesh.surface().mesh().digest.clone();
         let parameters = Parameters { mesh: Some(digest), ..parameters };
-        Source::SceneMesh { mesh: mesh.clone(), stratum, parameters, seed, count }
+        Source { stock: Stock::SceneMesh(mesh.clone(), stratum), parameters, seed, count }
+    }
+
+    /// Stored cases; a matrix puts their triangles somewhere.
+    pub fn stored(set: CorpusSet, instance: Option<Matrix<f64>>) -> Source {
+        let parameters = Parameters { instance, ..Parameters::default() };
+        Source { stock: Stock::Corpus(set), parameters, seed: 0, count: 0 }
     }
 
     /// The same source with its triangles put somewhere.
     pub fn placed(mut self, matrix: Matrix<f64>) -> Source {
-        let instance = match &mut self {
-            Source::Family { parameters, .. }
-            | Source::Mesh { parameters, .. }
-            | Source::MeshPart { parameters, .. }
-            | Source::SceneMesh { parameters, .. } => &mut parameters.instance,
-            Source::Corpus(set) => &mut set.instance,
-        };
-        *instance = Some(matrix);
+        self.parameters.instance = Some(matrix);
         self
     }
 
     /// Where its triangles are put, if not where they are.
     pub fn instance<F: Float>(&self) -> Option<Instance<F>> {
-        match self {
-            Source::Corpus(set) => Instance::new(set.instance?.map(|row| row.map(F::from_f64))),
-            _ => self.parameters()?.instance_in(),
-        }
+        self.parameters.instance_in()
     }
 
-    /// The parameters of cases that are made.
-    fn parameters(&self) -> Option<&Parameters> {
-        match self {
-            Source::Family { parameters, .. }
-            | Source::Mesh { parameters, .. }
-            | Source::MeshPart { parameters, .. }
-            | Source::SceneMesh { parameters, .. } => Some(parameters),
-            Source::Corpus(_) => None,
+    /// The mesh that its rays are aimed at.
+    fn mesh(&self) -> Option<&MeshFamily> {
+        match &self.stock {
+            Stock::Mesh(family) => Some(family),
+            Stock::MeshPart(surface, _) => Some(surface.family()),
+            Stock::SceneMesh(mesh, _) => Some(mesh.surface().family()),
+            Stock::Family(_) | Stock::Whole(_) | Stock::Corpus(_) => None,
         }
     }
 
@@ -163,43 +136,40 @@ impl Source {
 
     /// The same stratum of a scene in the other kinds of planes and rays that it can have; none of other sources.
     pub fn in_other_kinds(&self) -> Vec<Source> {
-        let Source::Family { family, parameters, seed, count, exhaustive } = self else {
+        let (Stock::Family(family), Some(scene)) = (&self.stock, &self.parameters.scene) else {
             return Vec::new();
         };
-        let Some(scene) = &parameters.scene else { return Vec::new() };
         // Rays that are parallel to a triangle, or almost, go where that needs.
         let is_flat =
             [Stratum::Grazing, Stratum::Parallel].map(|it| it.family().name).contains(&family.name);
         let others = scene.of_all_kinds().into_iter().skip(1);
         let others = others.filter(|scene| !is_flat || scene.toward == Toward::Any);
-        let of = |scene| Source::Family {
-            family,
-            parameters: Parameters { scene: Some(scene), ..parameters.clone() },
-            seed: *seed,
-            count: *count,
-            exhaustive: *exhaustive,
+        let of = |scene| {
+            let mut other = self.clone();
+            other.parameters.scene = Some(scene);
+            other
         };
         others.map(of).collect()
     }
 
     /// The name in tables: one line, whatever a file is called.
     pub fn name(&self) -> String {
-        let name = match self {
-            Source::Family { family, parameters, .. } => match &parameters.scene {
+        let name = match &self.stock {
+            Stock::Family(family) | Stock::Whole(family) => match &self.parameters.scene {
                 Some(scene) if scene.kind() != SceneKind::ALL[0] => {
                     format!("{}:{}", family.name, scene.kind())
                 }
                 _ => family.name.to_owned(),
             },
-            Source::Mesh { family, .. } => format!("mesh:{}", family.file_name()),
-            Source::MeshPart { surface, part, .. } => {
-                format!("{}:{}", part.name(), surface.file_name())
+            Stock::Mesh(family) => format!("mesh:{}", family.file_name()),
+            Stock::MeshPart(surface, part) => {
+                format!("{}:{}", part.name(), surface.family().file_name())
             }
-            Source::SceneMesh { mesh, stratum, .. } => {
-                format!("{}:{}", stratum.family().name, mesh.surface().file_name())
+            Stock::SceneMesh(mesh, stratum) => {
+                format!("{}:{}", stratum.family().name, mesh.surface().family().file_name())
             }
-            Source::Corpus(set) if set.is_secondary => format!("corpus-secondary:{}", set.file),
-            Source::Corpus(set) => format!("corpus:{}", set.file),
+            Stock::Corpus(set) if set.is_secondary => format!("corpus-secondary:{}", set.file),
+            Stock::Corpus(set) => format!("corpus:{}", set.file),
         };
         let shown = |c: char| match c.is_control() {
             true => c.escape_default().to_string(),
@@ -210,25 +180,23 @@ impl Source {
 
     /// The number of indices in a scalar.
     pub fn count<F: Float>(&self) -> u64 {
-        match self {
-            Source::Family { exhaustive: true, family, .. } => family.size.unwrap_or(LATTICE_SIZE),
-            Source::Family { family, count, .. } => {
-                family.size.map_or(*count, |size| size.min(*count))
+        match &self.stock {
+            Stock::Whole(family) => family.size.unwrap_or(LATTICE_SIZE),
+            Stock::Family(family) => family.size.map_or(self.count, |size| size.min(self.count)),
+            Stock::Mesh(_) => self.count,
+            Stock::MeshPart(_, part) => {
+                self.targets::<F>().map_or(0, |targets| targets.count(*part) * self.count)
             }
-            Source::Mesh { count, .. } => *count,
-            Source::MeshPart { part, directions, .. } => {
-                self.targets::<F>().map_or(0, |targets| targets.count(*part) * directions)
-            }
-            Source::SceneMesh { mesh, stratum, count, .. } => mesh.count::<F>(*stratum, *count),
-            Source::Corpus(set) if F::NAME == f32::NAME => set.f32.len() as u64,
-            Source::Corpus(set) => set.f64.len() as u64,
+            Stock::SceneMesh(mesh, stratum) => mesh.count::<F>(*stratum, self.count),
+            Stock::Corpus(set) if F::NAME == f32::NAME => set.f32.len() as u64,
+            Stock::Corpus(set) => set.f64.len() as u64,
         }
     }
 
     /// Indices that go through a run together; of vertices fewer, which have more triangles.
     pub fn chunk(&self) -> u64 {
-        match self {
-            Source::MeshPart { part: Part::Vertices, .. } => CHUNK / 4,
+        match self.stock {
+            Stock::MeshPart(_, Part::Vertices) => CHUNK / 4,
             _ => CHUNK,
         }
     }
@@ -236,38 +204,30 @@ impl Source {
     /// The groups at the edges and at the vertices of a mesh, in some scalars; none of other sources.
     #[cfg(feature = "studies")]
     pub fn mesh_parts(&self, directions: u64, scalars: [bool; 2]) -> Vec<Source> {
-        let Source::Mesh { family, parameters, seed, .. } = self else { return Vec::new() };
+        let Stock::Mesh(family) = &self.stock else { return Vec::new() };
         let surface = Arc::new(Surface::new(family.clone(), scalars));
-        let of = |part| Source::MeshPart {
-            surface: surface.clone(),
-            part,
-            parameters: parameters.clone(),
-            seed: *seed,
-            directions,
+        let of = |part| Source {
+            stock: Stock::MeshPart(surface.clone(), part),
+            count: directions,
+            ..self.clone()
         };
         Part::ALL.map(of).into()
     }
 
     /// The edges and vertices of a mesh; none of other sources, or in another scalar.
     fn targets<F: Float>(&self) -> Option<Targets<'_>> {
-        let Source::MeshPart { surface, parameters, seed, .. } = self else { return None };
-        surface.targets::<F>(parameters, *seed)
+        let Stock::MeshPart(surface, _) = &self.stock else { return None };
+        surface.targets::<F>(&self.parameters, self.seed)
     }
 
     /// How many polygons of its mesh's file are not in the mesh.
     pub fn left_out(&self) -> usize {
-        let mesh = match self {
-            Source::Mesh { family, .. } => family.mesh(),
-            Source::MeshPart { surface, .. } => surface.mesh(),
-            Source::SceneMesh { mesh, .. } => mesh.surface().mesh(),
-            Source::Family { .. } | Source::Corpus(_) => return 0,
-        };
-        mesh.left_out().map_or(0, |note| note.count)
+        self.mesh().and_then(|family| family.mesh().left_out()).map_or(0, |note| note.count)
     }
 
     /// True if there are triangles around those of a group, which may have the hit that it lacks.
     pub fn has_neighbours(&self) -> bool {
-        matches!(self, Source::MeshPart { .. })
+        matches!(self.stock, Stock::MeshPart(..))
     }
 
     /// Adds the triangles around those of an index, with its ray; false if they are too many, or if there are
@@ -278,7 +238,7 @@ impl Source {
         ray: &Ray<F::Vector>,
         cases: &mut Vec<Case<F>>,
     ) -> bool {
-        let Source::MeshPart { part, .. } = self else { return false };
+        let Stock::MeshPart(_, part) = &self.stock else { return false };
         // Of an instance the ray is another for the kernel than in the world.
         let ray = match self.instance::<F>() {
             Some(_) => self.make::<F>(index).cases()[0].ray,
@@ -290,49 +250,40 @@ impl Source {
 
     /// True if its rates are those of a random sample, which has an interval; false if those of a whole set.
     pub fn is_sample(&self) -> bool {
-        match self {
-            Source::Family { exhaustive, family, count, .. } => {
-                !exhaustive && family.size.is_none_or(|size| *count < size)
-            }
-            Source::Mesh { .. } | Source::MeshPart { .. } | Source::SceneMesh { .. } => true,
-            Source::Corpus(_) => false,
+        match &self.stock {
+            Stock::Family(family) => family.size.is_none_or(|size| self.count < size),
+            Stock::Mesh(_) | Stock::MeshPart(..) | Stock::SceneMesh(..) => true,
+            Stock::Whole(_) | Stock::Corpus(_) => false,
         }
     }
 
     /// How the triangles of one index belong together.
     pub fn grouping(&self) -> Grouping {
-        match self {
-            Source::Family { family, .. } => family.grouping,
-            Source::MeshPart { part, .. } => part.grouping(),
-            Source::SceneMesh { stratum, .. } => stratum.family().grouping,
-            Source::Corpus(set) if set.is_secondary => Grouping::SecondaryRay,
-            Source::Mesh { .. } | Source::Corpus(_) => Grouping::Single,
+        match &self.stock {
+            Stock::Family(family) | Stock::Whole(family) => family.grouping,
+            Stock::MeshPart(_, part) => part.grouping(),
+            Stock::SceneMesh(_, stratum) => stratum.family().grouping,
+            Stock::Corpus(set) if set.is_secondary => Grouping::SecondaryRay,
+            Stock::Mesh(_) | Stock::Corpus(_) => Grouping::Single,
         }
     }
 
     /// The cases of an index. Of an instance the rays are of the world and the triangles of the object.
     pub fn make<F: Scalar>(&self, index: u64) -> Made<F> {
-        let mut made = match self {
-            Source::Family { family, parameters, exhaustive: true, .. } => {
-                family.make_in_order(parameters, index)
-            }
-            Source::Family { family, parameters, seed, .. } => {
-                family.make(parameters, *seed, index)
-            }
-            Source::Mesh { family, parameters, seed, .. } => {
-                Made::One(family.make(parameters, *seed, index))
-            }
-            Source::MeshPart { part, .. } => {
+        let Source { parameters, seed, .. } = self;
+        let mut made = match &self.stock {
+            Stock::Whole(family) => family.make_in_order(parameters, index),
+            Stock::Family(family) => family.make(parameters, *seed, index),
+            Stock::Mesh(family) => Made::One(family.make(parameters, *seed, index)),
+            Stock::MeshPart(_, part) => {
                 let mut cases = Vec::new();
                 let targets = self.targets::<F>().expect("a scalar of the run");
                 targets.make(*part, index, &mut cases);
                 Made::Group(cases)
             }
-            Source::SceneMesh { mesh, stratum, parameters, seed, .. } => {
-                mesh.make(*stratum, parameters, *seed, index)
-            }
+            Stock::SceneMesh(mesh, stratum) => mesh.make(*stratum, parameters, *seed, index),
             // Stored rays are of the world, as they are.
-            Source::Corpus(set) => return Made::One(set.get(index).1),
+            Stock::Corpus(set) => return Made::One(set.get(index).1),
         };
         if let Some(instance) = self.instance() {
             made.cases_mut().iter_mut().for_each(|case| *case = instance.in_world(case));
@@ -342,8 +293,8 @@ impl Source {
 
     /// Adds the cases of an index.
     pub fn add<F: Scalar>(&self, index: u64, cases: &mut Vec<Case<F>>) {
-        match self {
-            Source::MeshPart { part, parameters, .. } if parameters.instance.is_none() => {
+        match &self.stock {
+            Stock::MeshPart(_, part) if self.parameters.instance.is_none() => {
                 self.targets::<F>().expect("a scalar of the run").make(*part, index, cases);
             }
             _ => cases.extend_from_slice(self.make(index).cases()),
@@ -352,51 +303,41 @@ impl Source {
 
     /// True if the truths of an index keep the family's promise; it counts only if [`Source::promises`].
     pub fn keeps_promise(&self, truths: &[Truth]) -> bool {
-        match self {
-            Source::Family { family, .. } => family.keeps(truths),
+        match &self.stock {
+            Stock::Family(family) | Stock::Whole(family) => family.keeps(truths),
             _ => true,
         }
     }
 
     /// True if the parameters leave the promise standing.
     pub fn promises(&self) -> bool {
-        match self {
-            // Scaling can leave the range at either end.
-            Source::Family { parameters, .. } => {
-                parameters.keep_truth() && parameters.scale == 0 && parameters.instance.is_none()
-            }
-            _ => true,
-        }
+        let Parameters { scale, instance, .. } = &self.parameters;
+        // Scaling can leave the range at either end.
+        !matches!(self.stock, Stock::Family(_) | Stock::Whole(_))
+            || self.keeps_truth() && *scale == 0 && instance.is_none()
     }
 
     /// True if the parameters do not change truths, except at the ends of the range.
     pub fn keeps_truth(&self) -> bool {
-        self.parameters().is_none_or(Parameters::keep_truth)
+        self.parameters.keep_truth()
     }
 
     /// The id of a case, or of triangle k of a group.
     pub fn id<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
-        let id = match self {
-            Source::Family { family, parameters, exhaustive: true, .. } => {
+        let Source { parameters, seed, .. } = self;
+        let id = match &self.stock {
+            Stock::Whole(family) => {
                 // In its natural order the lattice has a name of its own: `lattice-all@1/f32/-/0/17`,
                 // whose seed is always 0.
                 let mut id = family.id::<F>(parameters, 0, index);
                 id.family = format!("{}-all", family.name);
                 id
             }
-            Source::Family { family, parameters, seed, .. } => {
-                family.id::<F>(parameters, *seed, index)
-            }
-            Source::Mesh { family, parameters, seed, .. } => {
-                family.id::<F>(parameters, *seed, index)
-            }
-            Source::MeshPart { surface, part, parameters, seed, .. } => {
-                surface.id::<F>(*part, parameters, *seed, index)
-            }
-            Source::SceneMesh { stratum, parameters, seed, .. } => {
-                stratum.family().id::<F>(parameters, *seed, index)
-            }
-            Source::Corpus(set) => return set.get::<F>(index).0.to_owned(),
+            Stock::Family(family) => family.id::<F>(parameters, *seed, index),
+            Stock::Mesh(family) => family.id::<F>(parameters, *seed, index),
+            Stock::MeshPart(surface, part) => surface.id::<F>(*part, parameters, *seed, index),
+            Stock::SceneMesh(_, stratum) => stratum.family().id::<F>(parameters, *seed, index),
+            Stock::Corpus(set) => return set.get::<F>(index).0.to_owned(),
         };
         crate::case::CaseId { triangle, ..id }.to_string()
     }
@@ -412,19 +353,11 @@ impl Source {
 
     /// The flag that names the file from which an id makes its case; none of families.
     pub fn file_flag(&self) -> Option<String> {
-        match self {
-            Source::Family { .. } => None,
-            Source::Mesh { family, .. } => Some(format!("--mesh {}", quoted(family.path()))),
-            Source::MeshPart { surface, .. } => Some(format!("--mesh {}", quoted(surface.path()))),
-            Source::SceneMesh { mesh, .. } => {
-                Some(format!("--mesh {}", quoted(mesh.surface().path())))
-            }
-            Source::Corpus(CorpusSet { file, instance: None, .. }) => {
-                Some(format!("--corpus {}", quoted(file)))
-            }
-            Source::Corpus(CorpusSet { file, instance: Some(matrix), .. }) => {
-                Some(format!("--corpus {} --instance {}", quoted(file), quoted(&words(matrix))))
-            }
-        }
+        let Stock::Corpus(set) = &self.stock else {
+            return self.mesh().map(|family| format!("--mesh {}", quoted(family.path())));
+        };
+        let instance = self.parameters.instance.as_ref();
+        let instance = instance.map(|matrix| format!(" --instance {}", quoted(&words(matrix))));
+        Some(format!("--corpus {}{}", quoted(&set.file), instance.unwrap_or_default()))
     }
 }

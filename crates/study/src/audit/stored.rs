@@ -3,8 +3,7 @@
 use super::plan::Plan;
 use super::row::{Row, RowSpec};
 use super::run::Audit;
-use super::source::Source;
-use crate::case::{Matrix, Parameters};
+use super::source::{Source, Stock};
 use crate::family;
 use crate::judge::Class;
 use serde::{Deserialize, Serialize};
@@ -22,69 +21,34 @@ pub struct StoredPlan {
 
 /// A source that can be opened again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub enum StoredSource {
-    /// A family's set.
-    Family {
-        /// The family's name.
-        family: String,
-        /// As in case ids.
-        parameters: String,
-        /// The seed of the set.
-        seed: u64,
-        /// How many indices.
-        count: u64,
-        /// Every case of a finite family.
-        exhaustive: bool,
-    },
+#[serde(deny_unknown_fields)]
+pub struct StoredSource {
+    /// What the cases are drawn from.
+    pub stock: StoredStock,
+    /// As in case ids.
+    pub parameters: String,
+    /// The seed of the set.
+    pub seed: u64,
+    /// How many indices.
+    pub count: u64,
+}
+
+/// What cases are drawn from, by names and paths.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StoredStock {
+    /// A family.
+    Family(String),
+    /// Every case of a finite family.
+    Whole(String),
     /// Rays at a mesh.
-    Mesh {
-        /// The mesh's file.
-        path: String,
-        /// As in case ids.
-        parameters: String,
-        /// The seed of the set.
-        seed: u64,
-        /// How many indices.
-        count: u64,
-    },
-    /// Groups at the edges or vertices of a mesh.
-    MeshPart {
-        /// The mesh's file.
-        path: String,
-        /// `mesh-edges` or `mesh-vertices`.
-        part: String,
-        /// As in case ids.
-        parameters: String,
-        /// The seed of the set.
-        seed: u64,
-        /// Rays at each edge or vertex.
-        directions: u64,
-    },
-    /// A stratum of the scene that a mesh is.
-    SceneMesh {
-        /// Its path.
-        path: String,
-        /// The stratum's family.
-        stratum: String,
-        /// The parameters of the rays.
-        parameters: String,
-        /// The seed of the set.
-        seed: u64,
-        /// How many indices.
-        count: u64,
-    },
-    /// Stored cases.
-    Corpus {
-        /// Their file.
-        file: String,
-        /// True for the cases that start on their triangle, false for the others.
-        #[serde(default)]
-        is_secondary: bool,
-        /// Where their triangles are put.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        instance: Option<Matrix<f64>>,
-    },
+    Mesh(String),
+    /// Groups at the part of a mesh, `mesh-edges` or `mesh-vertices`.
+    MeshPart(String, String),
+    /// The family of a stratum, of the scene that a mesh is.
+    SceneMesh(String, String),
+    /// The stored cases of a file: those that start on their triangle, or the others.
+    Corpus(String, bool),
 }
 
 impl StoredPlan {
@@ -102,12 +66,10 @@ impl StoredPlan {
     /// The plan again; `open` reads meshes, in the scalars of the run, and corpora.
     pub fn plan<E: From<String>>(
         &self,
-        mut open: impl FnMut(&StoredSource, [bool; 2]) -> Result<Source, E>,
+        mut open: impl FnMut(&StoredStock, [bool; 2]) -> Result<Stock, E>,
     ) -> Result<Plan, E> {
-        let sources = self.sources.iter().map(|source| match source.family()? {
-            Some(source) => Ok(source),
-            None => open(source, self.scalars),
-        });
+        let mut open = |stock: &StoredStock| open(stock, self.scalars);
+        let sources = self.sources.iter().map(|source| source.open(&mut open));
         Ok(Plan {
             sources: sources.collect::<Result<_, E>>()?,
             rows: self.rows.iter().map(RowSpec::row).collect::<Result<_, _>>().map_err(|e| e.0)?,
@@ -120,57 +82,37 @@ impl StoredPlan {
 
 impl StoredSource {
     fn of(source: &Source) -> StoredSource {
-        match source {
-            Source::Family { family, parameters, seed, count, exhaustive } => {
-                StoredSource::Family {
-                    family: family.name.to_owned(),
-                    parameters: parameters.to_string(),
-                    seed: *seed,
-                    count: *count,
-                    exhaustive: *exhaustive,
-                }
+        let stock = match &source.stock {
+            Stock::Family(family) => StoredStock::Family(family.name.to_owned()),
+            Stock::Whole(family) => StoredStock::Whole(family.name.to_owned()),
+            Stock::Mesh(family) => StoredStock::Mesh(family.path().to_owned()),
+            Stock::MeshPart(surface, part) => {
+                StoredStock::MeshPart(surface.family().path().to_owned(), part.name().to_owned())
             }
-            Source::Mesh { family, parameters, seed, count } => StoredSource::Mesh {
-                path: family.path().to_owned(),
-                parameters: parameters.to_string(),
-                seed: *seed,
-                count: *count,
-            },
-            Source::MeshPart { surface, part, parameters, seed, directions } => {
-                StoredSource::MeshPart {
-                    path: surface.path().to_owned(),
-                    part: part.name().to_owned(),
-                    parameters: parameters.to_string(),
-                    seed: *seed,
-                    directions: *directions,
-                }
+            Stock::SceneMesh(mesh, stratum) => {
+                let stratum = stratum.family().name.to_owned();
+                StoredStock::SceneMesh(mesh.surface().family().path().to_owned(), stratum)
             }
-            Source::SceneMesh { mesh, stratum, parameters, seed, count } => {
-                StoredSource::SceneMesh {
-                    path: mesh.surface().path().to_owned(),
-                    stratum: stratum.family().name.to_owned(),
-                    parameters: parameters.to_string(),
-                    seed: *seed,
-                    count: *count,
-                }
-            }
-            Source::Corpus(set) => StoredSource::Corpus {
-                file: set.file.clone(),
-                is_secondary: set.is_secondary,
-                instance: set.instance,
-            },
-        }
+            Stock::Corpus(set) => StoredStock::Corpus(set.file.clone(), set.is_secondary),
+        };
+        let Source { parameters, seed, count, .. } = source;
+        StoredSource { stock, parameters: parameters.to_string(), seed: *seed, count: *count }
     }
 
-    /// A family, which needs no file.
-    fn family(&self) -> Result<Option<Source>, String> {
-        let StoredSource::Family { family, parameters, seed, count, exhaustive } = self else {
-            return Ok(None);
+    /// The source again; `open` reads what is in a file.
+    fn open<E: From<String>>(
+        &self,
+        open: &mut impl FnMut(&StoredStock) -> Result<Stock, E>,
+    ) -> Result<Source, E> {
+        let found =
+            |name: &str| family::find(name).ok_or_else(|| format!("unknown family '{name}'"));
+        let stock = match &self.stock {
+            StoredStock::Family(name) => Stock::Family(found(name)?),
+            StoredStock::Whole(name) => Stock::Whole(found(name)?),
+            stock => open(stock)?,
         };
-        let found = family::find(family).ok_or_else(|| format!("unknown family '{family}'"))?;
-        let parameters: Parameters = parameters.parse()?;
-        let (seed, count, exhaustive) = (*seed, *count, *exhaustive);
-        Ok(Some(Source::Family { family: found, parameters, seed, count, exhaustive }))
+        let parameters = self.parameters.parse()?;
+        Ok(Source { stock, parameters, seed: self.seed, count: self.count })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::duty::Duty;
 use super::knob::Knob;
-use crate::audit::{Row, Source};
+use crate::audit::{Row, Source, Stock};
 use crate::contract::{Contract, Extent, Sides};
 use crate::family::{Family, Grouping, Stratum, find};
 use serde::de::Error;
@@ -46,8 +46,8 @@ pub enum Rays {
 impl Rays {
     /// The rays of a source.
     pub fn of(source: &Source) -> Rays {
-        match source {
-            Source::Family { family, .. } => {
+        match source.stock {
+            Stock::Family(family) | Stock::Whole(family) => {
                 Rays::named(family.name).unwrap_or(Rays::Family(family))
             }
             _ => Rays::Stored,

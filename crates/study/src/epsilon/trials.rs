@@ -6,7 +6,7 @@ use super::prepared::{Part, Prepared, Store};
 use super::rays::{Count, Kind, Rays};
 use super::relative::Scales;
 use crate::arith::Float;
-use crate::audit::{Chunk, Row, Source, SourceSummary};
+use crate::audit::{Chunk, Row, Source, SourceSummary, Stock};
 use crate::case::{Case, Parameters, Scene};
 use crate::contract::Contract;
 use crate::engine::{self, Merge, Observer, Unobserved};
@@ -157,11 +157,9 @@ impl<F: Scalar> Setting<'_, F> {
 
     /// The first indices of the rays of one kind; of stored cases all.
     fn sources_of(&self, rays: Rays, seed: u64, count: u64) -> Vec<Source> {
-        let reseeded = |source: &Source| match source.clone() {
-            Source::Family { family, parameters, exhaustive: false, .. } => {
-                Source::Family { family, parameters, seed, count, exhaustive: false }
-            }
-            source => source,
+        let reseeded = |source: &Source| match source.stock {
+            Stock::Family(_) => Source { seed, count, ..source.clone() },
+            _ => source.clone(),
         };
         match rays {
             Rays::Stratum(stratum) => vec![self.source(stratum, seed, count)],

@@ -24,19 +24,14 @@ impl Surface {
         Surface { family, topologies: [f32, f64] }
     }
 
+    /// The mesh and where it comes from.
+    pub fn family(&self) -> &MeshFamily {
+        &self.family
+    }
+
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
         self.family.mesh()
-    }
-
-    /// The path as the user gave it.
-    pub fn path(&self) -> &str {
-        self.family.path()
-    }
-
-    /// The last part of the path.
-    pub fn file_name(&self) -> &str {
-        self.family.file_name()
     }
 
     /// The topology of the mesh in a scalar; none if the scalar was not chosen.
