@@ -16,7 +16,7 @@ const PLAN: &[&str] = &[
     "--family",
     "edge-near,tiny,fan",
     "-n",
-    "300",
+    "100",
     "--attribute",
     "5",
 ];

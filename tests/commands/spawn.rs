@@ -16,7 +16,7 @@ fn json(folder: &std::path::Path, more: &[&str]) -> Value {
 #[test]
 fn the_screen_says_what_to_use_and_its_command_works() {
     let folder = scratch("spawn-screen");
-    let (screen, error) = ends(&folder, &["spawn", "--scene", "room", "-n", "20000"], 0);
+    let (screen, error) = ends(&folder, &["spawn", "--scene", "room", "-n", "4000"], 0);
     assert_eq!(error, "");
     let lines: Vec<&str> = screen.lines().collect();
     assert!(lines.len() <= 60, "{} lines", lines.len());
@@ -60,7 +60,7 @@ fn an_offset_that_jumps_over_the_scene_is_not_recommended() {
 #[test]
 fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_threads() {
     let folder = scratch("spawn-record");
-    let far = ["--scene", "extent=10,center=1e5,edge=1", "-n", "5000", "--scalar", "f32,f64"];
+    let far = ["--scene", "extent=10,center=1e5,edge=1", "-n", "2000", "--scalar", "f32,f64"];
     let record = json(&folder, &[&far[..], &["--threads", "1"]].concat());
     assert_eq!(record, json(&folder, &[&far[..], &["--threads", "3"]].concat()));
     assert_eq!(record["schema"], "hairline-spawn/1");
@@ -284,11 +284,8 @@ fn neighbours_are_passed_where_they_are_folded_up_steeply_enough() {
 #[test]
 fn a_derived_bound_is_larger_than_any_that_was_needed() {
     let folder = scratch("spawn-derived");
-    let scenes = [
-        ("unit", "f32", "20000"),
-        ("city", "f64", "1000"),
-        ("extent=1e3,edge=900", "f32", "20000"),
-    ];
+    let scenes =
+        [("unit", "f32", "5000"), ("city", "f64", "1000"), ("extent=1e3,edge=900", "f32", "5000")];
     for (scene, scalar, count) in scenes {
         let flags = ["--scene", scene, "--scalar", scalar, "-n", count, "--scheme", "none"];
         let record = json(&folder, &flags);

@@ -126,7 +126,7 @@ fn check_planes<F: Scalar>(kind: PlaneKind, words: &str) {
             let truths: Vec<Truth> = made.iter().map(oracle::truth).collect();
             assert!(stratum.family().keeps(&truths), "{words} {stratum:?}");
             for case in &made {
-                let name = format!("{words} {stratum:?} {case:?}");
+                let name = || format!("{words} {stratum:?} {case:?}");
                 let normal = normal(case);
                 let squares = dot(&normal, &normal);
                 let flat = level(case);
@@ -135,19 +135,19 @@ fn check_planes<F: Scalar>(kind: PlaneKind, words: &str) {
                 }
                 match kind {
                     PlaneKind::Generic => {}
-                    PlaneKind::Axis | PlaneKind::Box => assert!(flat.is_some(), "{name}"),
+                    PlaneKind::Axis | PlaneKind::Box => assert!(flat.is_some(), "{}", name()),
                     PlaneKind::AxisAtZero => assert!(flat.is_some_and(|(_, at)| at.is_zero())),
                     PlaneKind::AxisNearZero => {
                         let share = flat.unwrap().1.to_f64().abs() / scene.extent;
-                        assert!((0.999e-6..1.001e-3).contains(&share), "{name}");
+                        assert!((0.999e-6..1.001e-3).contains(&share), "{}", name());
                     }
                     // Exactly parallel rays are made on steeper ground too.
                     PlaneKind::Terrain if stratum == Stratum::Parallel => {}
                     PlaneKind::Terrain => {
                         let upright = normal.iter().map(|x| x * x / &squares).max().unwrap();
                         let sine = (Rational::one() - upright).to_f64().unwrap().sqrt();
-                        assert!(sine < 0.25, "{name}: {sine}");
-                        assert!(stratum != Stratum::Interior || sine < 0.11, "{name}: {sine}");
+                        assert!(sine < 0.25, "{}: {sine}", name());
+                        assert!(stratum != Stratum::Interior || sine < 0.11, "{}: {sine}", name());
                     }
                 }
             }

@@ -1,11 +1,14 @@
 //! Known facts about the kernels come out of a run.
 
 use hairline::internals::arith::Float;
-use hairline::internals::audit::{Audit, EpsilonChoice, Observer, Plan, Source, Stock, Tally, run};
+use hairline::internals::audit::{
+    Audit, EpsilonChoice, Observer, Plan, Row, Source, Stock, Tally, run,
+};
 use hairline::internals::case::{Case, Parameters};
 use hairline::internals::family;
 use hairline::internals::judge::{Class, Finding};
 use hairline::internals::kernel::{self, KERNELS, Scalar, Verdict};
+use std::sync::LazyLock;
 
 struct Quiet;
 
@@ -16,28 +19,40 @@ impl Observer for Quiet {
     }
 }
 
-/// Runs kernels on a family; `count` none is the whole lattice.
-fn audit(
-    kernels: &[&str],
-    choice: EpsilonChoice,
-    contract: Option<&str>,
-    name: &str,
-    count: Option<u64>,
-) -> (Plan, Audit) {
+fn rows(kernels: &[&str], contract: Option<&str>) -> Vec<Row> {
     let entries: Vec<_> = kernels.iter().map(|name| kernel::find(name).unwrap()).collect();
+    EpsilonChoice::Source.rows(&entries, contract).unwrap()
+}
+
+/// Runs kernels, with the epsilons of their sources, on a family.
+fn audit(kernels: &[&str], name: &str, count: u64) -> (Plan, Audit) {
     let family = family::find(name).unwrap();
-    let source = Source {
-        stock: count.map_or(Stock::Whole(family), |_| Stock::Family(family)),
-        parameters: Parameters::default(),
-        seed: 1,
-        count: count.unwrap_or(0),
-    };
-    let rows = choice.rows(&entries, contract).unwrap();
+    audit_of(rows(kernels, None), Source::of(family, Parameters::default(), 1, count))
+}
+
+fn audit_of(rows: Vec<Row>, source: Source) -> (Plan, Audit) {
     let plan =
         Plan { rows, sources: vec![source], scalars: [true, true], examples: 1, attribute: 0 };
     let audit = run(&plan, &Quiet);
     (plan, audit)
 }
+
+/// The whole lattice, once for all tests that look at it.
+static LATTICE: LazyLock<(Plan, Audit)> = LazyLock::new(|| {
+    let kernels = [
+        "plane-inside-out",
+        "cramer",
+        "moller-trumbore",
+        "scalar-triple",
+        "woop-watertight",
+        "plucker",
+        "havel-herout",
+    ];
+    let two_sided = rows(&["scalar-triple-two-sided"], Some("closed-line"));
+    let stock = Stock::Whole(family::find("lattice").unwrap());
+    let source = Source { stock, parameters: Parameters::default(), seed: 1, count: 0 };
+    audit_of([rows(&kernels, None), two_sided].concat(), source)
+});
 
 fn tally<'a>((plan, audit): &'a (Plan, Audit), scalar: &str, label: &str) -> &'a Tally {
     let found = audit
@@ -57,15 +72,7 @@ fn false_misses(tally: &Tally) -> u64 {
 
 #[test]
 fn false_misses_over_the_whole_lattice_are_those_known() {
-    let kernels = [
-        "plane-inside-out",
-        "cramer",
-        "moller-trumbore",
-        "scalar-triple",
-        "woop-watertight",
-        "plucker",
-    ];
-    let run = audit(&kernels, EpsilonChoice::Source, None, "lattice", None);
+    let run = &*LATTICE;
     for (label, in_f32, in_f64) in [
         ("plane-inside-out (zero)", 33_552, 29_520),
         ("plane-inside-out (1e-6)", 33_552, 29_520),
@@ -75,12 +82,12 @@ fn false_misses_over_the_whole_lattice_are_those_known() {
         ("woop-watertight (source)", 0, 0),
         ("plucker (source)", 0, 0),
     ] {
-        assert_eq!(false_misses(tally(&run, "f32", label)), in_f32, "{label} in f32");
-        assert_eq!(false_misses(tally(&run, "f64", label)), in_f64, "{label} in f64");
+        assert_eq!(false_misses(tally(run, "f32", label)), in_f32, "{label} in f32");
+        assert_eq!(false_misses(tally(run, "f64", label)), in_f64, "{label} in f64");
     }
     // All three products are zero on a coplanar line, so scalar-triple hits with NaN coordinates.
     for scalar in ["f32", "f64"] {
-        let coplanar = of_class(tally(&run, scalar, "scalar-triple (source)"), "coplanar");
+        let coplanar = of_class(tally(run, scalar, "scalar-triple (source)"), "coplanar");
         assert_eq!(coplanar.hits, coplanar.cases);
         assert_eq!(coplanar.of(Finding::BadValue), coplanar.cases);
     }
@@ -88,10 +95,8 @@ fn false_misses_over_the_whole_lattice_are_those_known() {
 
 #[test]
 fn scalar_triple_two_sided_misses_every_exact_edge_of_the_lattice() {
-    let kernels = ["scalar-triple-two-sided"];
-    let run = audit(&kernels, EpsilonChoice::Source, Some("closed-line"), "lattice", None);
     for scalar in ["f32", "f64"] {
-        let found = tally(&run, scalar, "scalar-triple-two-sided (source)");
+        let found = tally(&LATTICE, scalar, "scalar-triple-two-sided (source)");
         for class in ["edge/front/within", "edge/back/within", "edge/front/before"] {
             let edges = of_class(found, class);
             assert!(edges.must_hit > 100_000);
@@ -102,8 +107,7 @@ fn scalar_triple_two_sided_misses_every_exact_edge_of_the_lattice() {
 
 #[test]
 fn havel_herout_treats_lattice_edges_differently_by_side() {
-    let run = audit(&["havel-herout"], EpsilonChoice::Source, None, "lattice", None);
-    let found = tally(&run, "f32", "havel-herout (source)");
+    let found = tally(&LATTICE, "f32", "havel-herout (source)");
     let share = |class: &str| {
         let count = of_class(found, class);
         count.hits as f64 / count.cases as f64
@@ -116,7 +120,7 @@ fn havel_herout_treats_lattice_edges_differently_by_side() {
 #[test]
 fn a_positive_edge_epsilon_loses_exact_edges() {
     let kernels = ["plane-unit-normal"];
-    let run = audit(&kernels, EpsilonChoice::Source, None, "edge-exact", Some(5000));
+    let run = audit(&kernels, "edge-exact", 5000);
     for scalar in ["f32", "f64"] {
         let zero = tally(&run, scalar, "plane-unit-normal (zero)").total();
         let positive = tally(&run, scalar, "plane-unit-normal (1e-6)").total();
@@ -127,7 +131,7 @@ fn a_positive_edge_epsilon_loses_exact_edges() {
 
 #[test]
 fn an_absolute_determinant_epsilon_loses_tiny_triangles() {
-    let run = audit(&["plane-inside-out"], EpsilonChoice::Source, None, "tiny", Some(5000));
+    let run = audit(&["plane-inside-out"], "tiny", 5000);
     for scalar in ["f32", "f64"] {
         let zero = tally(&run, scalar, "plane-inside-out (zero)").total();
         let positive = tally(&run, scalar, "plane-inside-out (1e-6)").total();
@@ -140,7 +144,7 @@ fn an_absolute_determinant_epsilon_loses_tiny_triangles() {
 fn woop_leaves_no_crack_but_misses_triangle_by_triangle() {
     let label = "woop-watertight (source)";
     for name in ["shared-edge", "fan"] {
-        let run = audit(&["woop-watertight"], EpsilonChoice::Source, None, name, Some(50_000));
+        let run = audit(&["woop-watertight"], name, 50_000);
         let groups = &tally(&run, "f32", label).groups;
         assert!(groups.crossings > 10_000);
         assert_eq!(groups.cracks, 0, "{name}");
@@ -148,7 +152,7 @@ fn woop_leaves_no_crack_but_misses_triangle_by_triangle() {
             assert!(groups.missed_folds > 0, "at a fold it may miss both");
         }
     }
-    let run = audit(&["woop-watertight"], EpsilonChoice::Source, None, "edge-near", Some(20_000));
+    let run = audit(&["woop-watertight"], "edge-near", 20_000);
     assert!(false_misses(tally(&run, "f32", label)) > 0);
 }
 
@@ -200,7 +204,7 @@ fn convex_polygon_is_plane_inside_out_on_triangles_and_right_on_lattice_polygons
         };
         assert_eq!(bits("convex-polygon"), bits("plane-inside-out"), "{}", family.name);
     }
-    let run = audit(&["convex-polygon"], EpsilonChoice::Source, None, "polygon", Some(5000));
+    let run = audit(&["convex-polygon"], "polygon", 5000);
     let polygons = &tally(&run, "f64", "convex-polygon (zero)").polygons;
     assert!(polygons.count.must_hit > 1000 && polygons.count.must_miss > 500);
     assert_eq!(polygons.count.findings.iter().sum::<u64>(), 0);
