@@ -17,7 +17,7 @@ pub const CHUNK: u64 = 1024;
 /// A source of cases.
 #[derive(Clone)]
 pub struct Source {
-    /// What they are drawn from.
+    /// The family, mesh or file behind them.
     pub stock: Stock,
     /// The parameters of its cases.
     pub parameters: Parameters,
@@ -27,7 +27,7 @@ pub struct Source {
     pub count: u64,
 }
 
-/// What the cases of a source are drawn from.
+/// A family, a mesh or a file of cases.
 #[derive(Clone)]
 pub enum Stock {
     /// A family.

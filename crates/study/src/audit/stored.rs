@@ -23,7 +23,7 @@ pub struct StoredPlan {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StoredSource {
-    /// What the cases are drawn from.
+    /// The stock.
     pub stock: StoredStock,
     /// As in case ids.
     pub parameters: String,
@@ -33,7 +33,7 @@ pub struct StoredSource {
     pub count: u64,
 }
 
-/// What cases are drawn from, by names and paths.
+/// A stock by names and paths.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum StoredStock {
