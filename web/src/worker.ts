@@ -1,0 +1,58 @@
+// Where a pasted kernel runs, with the module that asks it: no page, no network, and an end when its time is over.
+import { describe, runner, type Described } from "./kernel.js";
+import { Instance } from "./wasm.js";
+
+/** The page's messages, one answer each. */
+export type Message =
+  | { module: WebAssembly.Module; text?: string }
+  | { file: Uint8Array }
+  | { request: object };
+export type Answer = { described?: Described; json?: string; error?: string };
+
+// What could carry something out. Imports of other addresses and connections are refused by the page's policy too.
+for (const name of ["fetch", "XMLHttpRequest", "WebSocket", "WebSocketStream", "WebTransport", "EventSource", "Worker",
+  "SharedWorker", "BroadcastChannel", "indexedDB", "caches", "importScripts", "navigator", "Notification"]) {
+  for (let of: object | null = globalThis; of; of = Object.getPrototypeOf(of)) {
+    if (Object.hasOwn(of, name)) Reflect.deleteProperty(of, name);
+  }
+  Object.defineProperty(globalThis, name, { value: undefined });
+}
+
+let instance: Instance | undefined;
+const post = globalThis.postMessage.bind(globalThis) as (answer: Answer) => void;
+
+async function answer(message: Message): Promise<Answer> {
+  if ("module" in message) {
+    let described: Described | undefined;
+    let run = (_: Float64Array, __: Float64Array, verdicts: Float64Array) => verdicts.fill(0);
+    if (message.text !== undefined) {
+      const address = URL.createObjectURL(new Blob([message.text], { type: "text/javascript" }));
+      try {
+        const { kernel, ...rest } = describe(await import(address));
+        described = rest;
+        const run_of = runner(kernel, Object.keys(rest.epsilons));
+        run = (cases, epsilons, verdicts) => (run_of(cases, epsilons, verdicts), verdicts);
+      } finally {
+        URL.revokeObjectURL(address);
+      }
+    }
+    instance = new Instance(message.module, run);
+    return { described };
+  }
+  if (!instance) return { error: "the module is not there yet" };
+  if ("file" in message) {
+    instance.keepFile(message.file);
+    return {};
+  }
+  return { json: instance.ask(message.request) };
+}
+
+globalThis.addEventListener("message", async ({ data }: MessageEvent<Message>) => {
+  try {
+    post(await answer(data));
+  } catch (error) {
+    post({ error: error instanceof Error ? `${error.name}: ${error.message}` : String(error) });
+  }
+});
+
+
