@@ -178,10 +178,64 @@ test("the map moves, zooms and leads to its pixels' cases", async (t) => {
   const same = await lab(t, new URL(page.url()).hash);
   assert.ok(await picture(same, "exact") === moved);
   await changed(() => page.getByRole("button", { name: "Centre" }).click());
+  // The same case stands in the list.
+  await page.locator("#around").selectOption("edge");
+  await page.waitForFunction(() => /around=edge/.test(location.hash));
+  assert.match(await legend(), /false (hit|miss): \d/);
   const box = await page.locator("#computed").boundingBox();
   await page.mouse.click(box.x + box.width / 4, box.y + box.height / 4);
   await page.waitForFunction(() => /A case from the map/.test(document.getElementById("case-name").textContent));
   assert.match(await page.textContent("#case-command"), /^hairline explain '\{"scalar":"f64","origin":\[0\.62[45]/);
+});
+
+describe("a kernel in WGSL", () => {
+  const wgsl = async (t, cases) => {
+    const page = await lab(t, `#kernel=moller-trumbore&scalar=f32&cases=${cases}`);
+    const adapter = await page.evaluate(async () => Boolean(await navigator.gpu?.requestAdapter()));
+    if (!adapter) {
+      t.skip("this browser has no WebGPU");
+      return undefined;
+    }
+    await then(page, () => page.locator("#kernel").selectOption("wgsl"));
+    return page;
+  };
+
+  test("runs on the device, with its epsilons, and is judged as the same kernel in JavaScript", async (t) => {
+    const page = await wgsl(t, "room");
+    if (!page) return;
+    assert.match(await title(page), /^yours \(parallel=1e-6\) is wrong on \d/);
+    // Comparisons alone, which every machine does alike.
+    await then(page, () => edit(page, `// epsilon edge = 0.5
+      fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {
+        return Hit(ray.origin.x > triangle.a.y && ray.direction.z < epsilon.edge, ray.origin.y, triangle.b.x, triangle.c.z);
+      }`));
+    const numbers = () => page.$$eval("#report td", (all) => all.map((cell) => cell.textContent).filter((text) => !text.includes("hairline")));
+    const on_device = [await title(page), ...await numbers()];
+    assert.match(on_device[0], /^yours \(edge=0\.5\) is wrong/);
+    assert.ok(on_device.length > 500);
+    await then(page, () => page.locator("#kernel").selectOption("js"));
+    await then(page, () => page.locator("#scalar").selectOption("f32"));
+    await then(page, () => edit(page, `export const epsilons = { edge: 0.5 };
+      export default ({ origin, direction }, { a, b, c }, { edge }) =>
+        (origin[0] > a[1] && direction[2] < edge ? { t: origin[1], u: b[0], v: c[2] } : null);`));
+    assert.deepEqual([await title(page), ...await numbers()], on_device);
+  });
+
+  test("tells its mistakes with their lines, and the device's arithmetic as JSON", async (t) => {
+    const page = await wgsl(t, "all");
+    if (!page) return;
+    assert.match(await title(page), /^yours \(parallel=1e-6\) is wrong on \d/);
+    await page.locator("#signature").click();
+    await page.waitForFunction(() => !document.getElementById("signature-json").hidden);
+    const told = JSON.parse(await page.textContent("#signature-json"));
+    assert.equal(told.schema, "hairline-device/1");
+    assert.match(told.product_and_sum, /^(fused|rounded twice)$/);
+    assert.match(told.dot, /first$/);
+    assert.equal(told.division.of, 4096);
+    assert.ok(told.division.most_ulps <= 3, "what WGSL demands is 2.5 ulps");
+    await then(page, () => edit(page, "fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {\n  return nothing;\n}"));
+    assert.match(await page.textContent("#error"), /^Error: line 2: |^line 2: /);
+  });
 });
 
 test("an epsilon has a curve", async (t) => {

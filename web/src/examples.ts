@@ -111,3 +111,27 @@ export default function kernel({ origin, direction }, { a, b, c }) {
 }
 `,
 };
+
+/** One to start from in WGSL. */
+export const WGSL = `// Möller and Trumbore's test on your own graphics device, in single precision.
+// A comment "epsilon NAME = VALUE" makes a slider and a member of Epsilon.
+// epsilon parallel = 1e-6
+// contract closed-ray,boundary=free,coplanar=free,degenerate=free,invalid=free
+
+fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {
+  let miss = Hit(false, 0.0, 0.0, 0.0);
+  let ab = triangle.b - triangle.a;
+  let ac = triangle.c - triangle.a;
+  let p = cross(ray.direction, ac);
+  let det = dot(ab, p);
+  if (abs(det) < epsilon.parallel) { return miss; }
+  let s = ray.origin - triangle.a;
+  let u = dot(s, p) / det;
+  if (u < 0.0 || u > 1.0) { return miss; }
+  let q = cross(s, ab);
+  let v = dot(ray.direction, q) / det;
+  if (v < 0.0 || u + v > 1.0) { return miss; }
+  let t = dot(ac, q) / det;
+  return Hit(t >= 0.0, t, u, v);
+}
+`;

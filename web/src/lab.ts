@@ -1,9 +1,9 @@
 // The page: what is chosen, what is asked of the worker, and where the answers go.
 import { afterwards, digits, element, made } from "./dom";
 import { editor } from "./editor";
-import { EXAMPLES } from "./examples";
+import { EXAMPLES, WGSL } from "./examples";
 import { asChosen, decimal, type Described } from "./kernel.js";
-import { Session } from "./session";
+import { Session, type Source } from "./session";
 import { read, START, written, type State } from "./state";
 import { takeHome } from "./take-home";
 import { curve, POINTS, type Point } from "./views/curve";
@@ -17,6 +17,8 @@ interface About {
   scenes: string[];
   contracts: [string, string][];
   inks: string[];
+  /** By scalar: standard cases of maps, name and JSON. */
+  spots: Record<string, [string, string][]>;
 }
 interface Record_ { result: { sources: { cases: number }[]; results: Result[] } }
 interface Result { findings: { worst: { case: string } }[] }
@@ -29,10 +31,11 @@ const session = new Session("hairline.wasm");
 const FIRST = Object.keys(EXAMPLES)[0];
 const SELECTOR = "--kernel-cmd 'node kernel.mjs'";
 let state = await read(location.hash, EXAMPLES[FIRST]);
-const isOwn = () => state.kernel === "js";
+const isOwn = () => state.kernel === "js" || state.kernel === "wgsl";
+const source = (): Source | undefined => (isOwn() ? { language: state.kernel as Source["language"], text: state.text } : undefined);
 // With the kernel at once; one that cannot be loaded is told of when it runs.
-const about = await session.ask<About>({ do: "about" }, isOwn() ? state.text : undefined)
-  .catch(() => session.ask<About>({ do: "about" }));
+const about = await session.ask<About>({ do: "about" }, source()).catch(() => session.ask<About>({ do: "about" }))
+  .catch((error: Error) => { fail(error); throw error; });
 let described: Described | undefined;
 
 const code = editor(element("editor"), afterwards(700, () => void edited()), () => void run());
@@ -50,7 +53,7 @@ function chosen(epsilons?: Record<string, string>) {
   const all = gates().map(([gate, , own]) => `${gate}=${epsilons?.[gate] ?? epsilonOf(gate, own)}`);
   const contract = state.contract || undefined;
   const choice = { epsilons: all.join(","), contract };
-  return isOwn() ? { ...choice, ...asChosen(described!, SELECTOR) } : { ...choice, name: state.kernel };
+  return isOwn() ? { ...choice, ...asChosen(described!, state.kernel === "js" ? SELECTOR : "") } : { ...choice, name: state.kernel };
 }
 
 const cases = () => ({
@@ -58,7 +61,7 @@ const cases = () => ({
   ...(state.cases === "all" ? {} : { scene: state.cases }),
 });
 
-const ask = <T>(request: object) => session.ask<T>(request, isOwn() ? state.text : undefined);
+const ask = <T>(request: object) => session.ask<T>(request, source());
 
 /** Puts the state into the address. */
 const remember = async () => history.replaceState(null, "", await written(state, EXAMPLES[FIRST]));
@@ -75,7 +78,7 @@ async function run() {
   document.body.classList.add("running");
   const start = performance.now();
   try {
-    if (isOwn()) described = await session.describe(state.text);
+    if (isOwn()) described = await session.describe(source()!);
     if (isLate()) return;
     sliders();
     const answer = await ask<{ title: string; html: string; record: Record_ }>({ do: "audit", kernel: chosen(), cases: cases() });
@@ -88,12 +91,16 @@ async function run() {
     if (!isLate()) await ofEpsilon();
   } catch (error) {
     if (isLate()) return;
-    element("error").textContent = (error as Error).message;
-    element("error").hidden = false;
-    element("status").textContent = "";
+    fail(error as Error);
   } finally {
     if (!isLate()) document.body.classList.remove("running");
   }
+}
+
+function fail({ message }: Error) {
+  element("error").textContent = message;
+  element("error").hidden = false;
+  element("status").textContent = "";
 }
 
 function report(title: string, html: string, record: Record_, seconds: number) {
@@ -135,7 +142,8 @@ function worst(record: Record_): string | undefined {
 
 /** Goes to a case, which the address then names. */
 async function go(name: string) {
-  state = { ...state, shown: name, shift: [0, 0], zoom: 1 };
+  state = { ...state, shown: name, around: "", shift: [0, 0], zoom: 1 };
+  element<HTMLSelectElement>("around").value = "";
   await remember();
   await show(name);
   element("case-part").scrollIntoView();
@@ -166,12 +174,15 @@ async function show(name: string | undefined) {
   element("case-name").textContent = `${name.startsWith("{") ? "A case from the map" : name}${of}: ${said}.`;
   const contract = state.contract ? ` --contract ${state.contract}` : "";
   const epsilons = gates().map(([gate, , own]) => `${gate}=${epsilonOf(gate, own)}`).join(",");
-  const kernel = isOwn() ? SELECTOR : `--kernel ${state.kernel}`;
-  element("case-command").textContent = `hairline explain '${name}' ${kernel}${epsilons ? ` --epsilon '${epsilons}'` : ""}${contract}`;
+  // A kernel in WGSL is here alone: the program shows the case with its own.
+  const kernel = state.kernel === "js" ? SELECTOR : isOwn() ? "" : `--kernel ${state.kernel}`;
+  element("case-command").textContent = kernel
+    ? `hairline explain '${name}' ${kernel}${epsilons ? ` --epsilon '${epsilons}'` : ""}${contract}`
+    : `hairline explain '${name}'`;
   element("drawing").innerHTML = drawing ?? "";
   space(element("space"), numbers, quotient(truth.t_exact ?? null));
   fill(element("explained"), told.html);
-  await around(name);
+  await around();
 }
 
 /** The number of a fraction of whole numbers of any size. */
@@ -184,13 +195,16 @@ function quotient(text: string | null): number | null {
   return Number((p << shift) / q) / 2 ** Number(shift);
 }
 
-const mapRequest = (name: string) => ({
-  do: "map", kernel: chosen(), case: name, vary: state.vary, shift: state.shift, zoom: state.zoom, size: [SIDE, SIDE],
+/** The case that the map is around. */
+const middle = () => about.spots[state.scalar].find(([name]) => name === state.around)?.[1] ?? shown!;
+
+const mapRequest = () => ({
+  do: "map", kernel: chosen(), case: middle(), vary: state.vary, shift: state.shift, zoom: state.zoom, size: [SIDE, SIDE],
 });
 
-async function around(name: string) {
+async function around() {
   try {
-    draw(await ask<MapAnswer>(mapRequest(name)), about.inks);
+    draw(await ask<MapAnswer>(mapRequest()), about.inks);
   } catch (error) {
     element("axes").textContent = (error as Error).message;
   }
@@ -199,9 +213,8 @@ async function around(name: string) {
 async function ofMap(change: Partial<State>) {
   state = { ...state, ...change };
   if (shown === undefined) return;
-  state.shown = shown;
   await remember();
-  await around(shown);
+  await around();
 }
 
 /** The curve of the epsilon that is chosen, on fewer cases. */
@@ -262,18 +275,23 @@ function sliders() {
 /** Puts the state into the controls. */
 function controls() {
   const kernel = element<HTMLSelectElement>("kernel");
-  kernel.value = isOwn() ? "js" : state.kernel;
+  kernel.value = state.kernel;
   if (kernel.value === "") {
     state.kernel = START.kernel;
     kernel.value = START.kernel;
   }
   element<HTMLSelectElement>("cases").value = state.cases;
-  element<HTMLSelectElement>("scalar").value = state.scalar;
   element<HTMLInputElement>("count").value = String(state.count);
   element<HTMLSelectElement>("contract").value = state.contract;
   element<HTMLSelectElement>("vary").value = state.vary;
+  element<HTMLSelectElement>("around").value = state.around;
   element("editor").hidden = !isOwn();
   element("editing").hidden = !isOwn();
+  element("take").hidden = state.kernel !== "js";
+  element("device").hidden = state.kernel !== "wgsl";
+  if (state.kernel === "wgsl") state.scalar = "f32";
+  element<HTMLSelectElement>("scalar").value = state.scalar;
+  element<HTMLSelectElement>("scalar").disabled = state.kernel === "wgsl";
   element("source").textContent = isOwn() ? "" : `${builtIn()!.source}. Its contract: ${builtIn()!.contract}.`;
   if (isOwn() && code.text !== state.text) code.text = state.text;
   if (!isOwn()) sliders();
@@ -291,7 +309,7 @@ function choices() {
   const option = (value: string, text: string) => made("option", { value }, text);
   const group = (label: string, ...options: HTMLElement[]) => made("optgroup", { label }, ...options);
   element("kernel").append(
-    group("JavaScript", option("js", "in the editor")),
+    group("In the editor", option("js", "JavaScript"), option("wgsl", "WGSL, on your graphics device")),
     group("Start from", ...Object.keys(EXAMPLES).map((name) => option(`example:${name}`, name))),
     group("Built in", ...about.kernels.map(({ name }) => option(name, name))),
   );
@@ -314,8 +332,10 @@ function listen() {
     });
   };
   changed("kernel", (value) => {
-    const example = value.startsWith("example:") ? EXAMPLES[value.slice(8)] : undefined;
-    return { kernel: example ? "js" : value, epsilons: {}, contract: "", ...(example ? { text: example } : {}) };
+    const other = (value === "js" || value === "wgsl") && value !== state.kernel;
+    const example = value.startsWith("example:") ? EXAMPLES[value.slice(8)]
+      : other ? (value === "js" ? EXAMPLES[FIRST] : WGSL) : undefined;
+    return { kernel: value.startsWith("example:") ? "js" : value, epsilons: {}, contract: "", ...(example ? { text: example } : {}) };
   });
   changed("cases", (value) => ({ cases: value }));
   changed("scalar", (value) => ({ scalar: value as State["scalar"] }));
@@ -332,14 +352,21 @@ function listen() {
     link.click();
     URL.revokeObjectURL(link.href);
   });
+  element("signature").addEventListener("click", async () => {
+    const text = await session.gpu.then((gpu) => gpu.signature())
+      .then((found) => JSON.stringify(found, null, 2), (error: Error) => error.message);
+    element("signature-json").textContent = text;
+    element("signature-json").hidden = false;
+  });
   element("gate").addEventListener("change", () => void ofEpsilon());
   element("vary").addEventListener("change", (event) => void ofMap({ vary: (event.target as HTMLSelectElement).value, shift: [0, 0] }));
+  element("around").addEventListener("change", (event) => void ofMap({ around: (event.target as HTMLSelectElement).value, shift: [0, 0], zoom: 1 }));
   element("centre").addEventListener("click", () => void ofMap({ shift: [0, 0], zoom: 1 }));
   control({
     move: (x, y) => void ofMap({ shift: [state.shift[0] + x * state.zoom, state.shift[1] + y * state.zoom] }),
     zoom: (factor) => void ofMap({ zoom: Math.max(1, Math.min(2 ** 24, state.zoom * factor)) }),
     pick: async (x, y) => {
-      const { case: name } = await ask<{ case: string }>({ ...mapRequest(shown!), pixel: [x, y] });
+      const { case: name } = await ask<{ case: string }>({ ...mapRequest(), pixel: [x, y] });
       await go(name);
     },
   });

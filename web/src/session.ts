@@ -1,4 +1,5 @@
 // The worker in which everything is computed. What does not answer in time is ended, and the next question starts anew.
+import { described, Gpu } from "./gpu.js";
 import type { Described } from "./kernel.js";
 import type { Answer, Message } from "./worker";
 import workerText from "virtual:worker";
@@ -6,11 +7,15 @@ import workerText from "virtual:worker";
 /** Milliseconds after which a kernel is ended. */
 export const LIMIT = 20_000;
 
+/** A kernel's text. */
+export interface Source { language: "js" | "wgsl"; text: string }
+
 export class Session {
   #module: Promise<WebAssembly.Module>;
   #worker: Worker | undefined;
-  /** The text of the kernel that the worker has. */
-  #text: string | undefined;
+  /** The kernel that the worker has. */
+  #source: Source | undefined;
+  #gpu: Promise<Gpu> | undefined;
   #file: Uint8Array | undefined;
   #described: Described | undefined;
   /** One question at a time. */
@@ -27,18 +32,29 @@ export class Session {
     this.#worker = undefined;
   }
 
-  /** Takes a kernel's text, if it is another than before, and says what its module says of it. */
-  async describe(text: string): Promise<Described> {
-    await this.#inTurn(() => this.#start(text));
+  /** The visitor's device. */
+  get gpu(): Promise<Gpu> {
+    this.#gpu ??= Gpu.open();
+    this.#gpu.catch(() => { this.#gpu = undefined; });
+    return this.#gpu;
+  }
+
+  /** Takes a kernel, if it is another than before, and says what its text says of it. */
+  async describe(source: Source): Promise<Described> {
+    await this.#inTurn(() => this.#start(source));
     return this.#described!;
   }
 
-  /** The answer to a request about the kernel of a text, or about one of the program's. */
-  ask<T>(request: object, text?: string): Promise<T> {
+  /** The answer to a request about a kernel, or about one of the program's. */
+  ask<T>(request: object, source?: Source): Promise<T> {
     return this.#inTurn(async () => {
-      await this.#start(text);
-      const { json } = await this.#send({ request });
-      const answer = JSON.parse(json!) as T & { error?: string };
+      await this.#start(source);
+      let told = await this.#send({ request });
+      while (told.asked) {
+        const answers = await (await this.gpu).run(told.asked);
+        told = await this.#send({ request, answers });
+      }
+      const answer = JSON.parse(told.json!) as T & { error?: string };
       if (answer.error !== undefined) throw new Error(answer.error);
       return answer;
     });
@@ -50,16 +66,23 @@ export class Session {
     return next;
   }
 
-  async #start(text: string | undefined) {
-    if (this.#worker && (text === undefined || text === this.#text)) return;
+  async #start(source: Source | undefined) {
+    const isSame = source?.text === this.#source?.text && source?.language === this.#source?.language;
+    if (this.#worker && (source === undefined || isSame)) return;
     this.#worker?.terminate();
     const address = URL.createObjectURL(new Blob([workerText], { type: "text/javascript" }));
     this.#worker = new Worker(address, { type: "module", name: "hairline" });
     URL.revokeObjectURL(address);
-    this.#text = text;
+    this.#source = undefined;
     const module = await this.#module;
-    const answer = await this.#send({ module, text });
-    this.#described = answer.described;
+    if (source?.language === "wgsl") {
+      this.#described = described(source.text);
+      await (await this.gpu).compile(source.text, Object.keys(this.#described.epsilons));
+      await this.#send({ module, later: true });
+    } else {
+      this.#described = (await this.#send({ module, text: source?.text })).described;
+    }
+    this.#source = source;
     if (this.#file) await this.#send({ file: this.#file });
   }
 

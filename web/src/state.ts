@@ -16,6 +16,8 @@ export interface State {
   epsilons: Record<string, string>;
   /** An id, or a case as JSON; none if the worst is to be shown. */
   shown?: string;
+  /** What the map is around: the case that is shown, if empty, or a standard case. */
+  around: string;
   vary: string;
   shift: [number, number];
   zoom: number;
@@ -23,7 +25,7 @@ export interface State {
 
 export const START: Omit<State, "text"> = {
   kernel: "js", scalar: "f64", cases: "all", count: 500, seed: 1, contract: "", epsilons: {},
-  vary: "origin", shift: [0, 0], zoom: 1,
+  around: "edge", vary: "origin", shift: [0, 0], zoom: 1,
 };
 
 /** The state of an address; what it does not say is as at the start. */
@@ -45,6 +47,7 @@ export async function read(hash: string, text: string): Promise<State> {
     contract: words.get("contract") ?? "",
     epsilons: Object.fromEntries(pairs),
     shown: words.get("case") ?? undefined,
+    around: words.get("around") ?? (words.has("case") ? "" : START.around),
     vary: words.get("vary") ?? START.vary,
     shift: [whole("x", -(2 ** 29), 2 ** 29, 0), whole("y", -(2 ** 29), 2 ** 29, 0)],
     zoom: whole("zoom", 1, 2 ** 24, 1),
@@ -65,6 +68,7 @@ export async function written(state: State, text: string): Promise<string> {
   set("contract", state.contract, "");
   for (const [gate, value] of Object.entries(state.epsilons)) words.set(`e.${gate}`, value);
   if (state.shown) words.set("case", state.shown);
+  set("around", state.around, state.shown ? "" : START.around);
   set("vary", state.vary, START.vary);
   set("x", state.shift[0], 0);
   set("y", state.shift[1], 0);

@@ -1,13 +1,18 @@
 // Where a pasted kernel runs, with the module that asks it: no page, no network, and an end when its time is over.
 import { describe, runner, type Described } from "./kernel.js";
+import type { Asked } from "./gpu.js";
+import { Replay } from "./replay.js";
 import { Instance } from "./wasm.js";
 
 /** The page's messages, one answer each. */
 export type Message =
-  | { module: WebAssembly.Module; text?: string }
+  /** A kernel in JavaScript, one that answers later, or none. */
+  | { module: WebAssembly.Module; text?: string; later?: boolean }
   | { file: Uint8Array }
-  | { request: object };
-export type Answer = { described?: Described; json?: string; error?: string };
+  /** With answers it is asked again. */
+  | { request: object; answers?: Float64Array[] };
+/** Calls without answers make the rest of no worth. */
+export type Answer = { described?: Described; json?: string; asked?: Asked[]; error?: string };
 
 // What could carry something out. Imports of other addresses and connections are refused by the page's policy too.
 for (const name of ["fetch", "XMLHttpRequest", "WebSocket", "WebSocketStream", "WebTransport", "EventSource", "Worker",
@@ -19,6 +24,7 @@ for (const name of ["fetch", "XMLHttpRequest", "WebSocket", "WebSocketStream", "
 }
 
 let instance: Instance | undefined;
+let replay: Replay | undefined;
 const post = globalThis.postMessage.bind(globalThis) as (answer: Answer) => void;
 
 async function answer(message: Message): Promise<Answer> {
@@ -36,7 +42,8 @@ async function answer(message: Message): Promise<Answer> {
         URL.revokeObjectURL(address);
       }
     }
-    instance = new Instance(message.module, run);
+    replay = message.later ? new Replay() : undefined;
+    instance = new Instance(message.module, replay?.run ?? run);
     return { described };
   }
   if (!instance) return { error: "the module is not there yet" };
@@ -44,7 +51,10 @@ async function answer(message: Message): Promise<Answer> {
     instance.keepFile(message.file);
     return {};
   }
-  return { json: instance.ask(message.request) };
+  if (message.answers) replay?.learn(message.answers);
+  replay?.begin(!message.answers);
+  const json = instance.ask(message.request);
+  return replay?.asked.length ? { asked: replay.asked } : { json };
 }
 
 globalThis.addEventListener("message", async ({ data }: MessageEvent<Message>) => {

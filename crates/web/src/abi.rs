@@ -7,11 +7,11 @@ use crate::{request, truths};
 use std::cell::RefCell;
 
 thread_local! {
-    /// What JavaScript writes; of doubles, so that it is aligned for them.
+    /// The bytes that JavaScript writes; in doubles, so that it is aligned for them.
     static INPUT: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
     /// A file that requests may be about.
     static FILE: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
-    /// What JavaScript reads.
+    /// The bytes that JavaScript reads.
     static OUTPUT: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 

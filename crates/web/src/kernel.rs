@@ -26,7 +26,7 @@ pub struct Chosen {
     contract: Option<String>,
 }
 
-/// What the page says of its kernel.
+/// The page's description of its kernel.
 #[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Own {

@@ -1,4 +1,4 @@
-//! What may be asked. An answer is a JSON object; one with the field `error` says in a line what is wrong.
+//! The requests. An answer is a JSON object; one with the field `error` says in a line what is wrong.
 
 use crate::answers;
 use crate::kernel::Chosen;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case")]
 enum Request {
-    /// What there is to choose.
+    /// The choices.
     About,
     Audit(Audit),
     Curve(Curve),
@@ -39,7 +39,7 @@ pub struct Cases {
     /// By name; all if there are none.
     #[serde(default)]
     pub families: Vec<String>,
-    /// Of each family.
+    /// In each family.
     pub count: u64,
     #[serde(default = "first")]
     pub seed: u64,
@@ -49,7 +49,7 @@ fn first() -> u64 {
     1
 }
 
-/// What false hits and false misses do as one epsilon grows.
+/// The shares of false hits and false misses as one epsilon grows.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Curve {

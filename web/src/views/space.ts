@@ -28,18 +28,20 @@ export function space(parent: HTMLElement, numbers: (number | null)[], t: number
   const start = Math.max(Math.min(0, middle), middle - 1.2);
   const ends = [along(origin, direction, start), along(origin, direction, middle + 1)];
   const isCut = start > 0;
+  const reach = Math.max(...[...corners.map(small), ...ends].map(length));
   const crossing = meets === undefined ? undefined : along(origin, direction, middle);
   let [yaw, pitch] = [0.6, 0.5];
+  const scale = (0.43 * SIZE) / reach;
   const svg = drawn("svg", { viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`, class: "space", tabindex: 0, role: "img",
     "aria-label": "The triangle and its ray in space; arrows turn it" });
   const flat = ([x, y, z]: Point): [number, number] => {
     const [c, s, k, n] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
     const [across, deep] = [c * x + s * z, c * z - s * x];
-    return [95 * across, -95 * (k * y - n * deep)];
+    return [scale * across, -scale * (k * y - n * deep)];
   };
   const draw = () => {
     const text = (p: Point, word: string) => {
-      const [x, y] = flat(p.map((value) => value * 1.12) as Point);
+      const [x, y] = flat(p.map((value) => value * 1.15) as Point);
       return drawn("text", { x, y: y + 4, "text-anchor": "middle" }, word);
     };
     const [from, to] = ends.map(flat);

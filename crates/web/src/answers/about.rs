@@ -1,11 +1,13 @@
-//! What there is to choose: kernels, families, scenes, contracts.
+//! The choices: kernels, families, scenes, contracts.
 
-use hairline::NAMED;
 use hairline::internals::case::SCENES;
+use hairline::internals::corpus::lines::bare_case;
 use hairline::internals::family::FAMILIES;
 use hairline::internals::kernel::{KERNELS, Tunable};
-use hairline::internals::map::Ink;
+use hairline::internals::map::{Ink, Spot};
+use hairline::{Float, NAMED};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 #[derive(Serialize)]
 pub struct About {
@@ -15,6 +17,8 @@ pub struct About {
     contracts: Vec<[&'static str; 2]>,
     /// The colours of a map, by number.
     inks: Vec<String>,
+    /// By scalar: the standard cases of maps as JSON.
+    spots: BTreeMap<&'static str, Vec<(&'static str, String)>>,
 }
 
 #[derive(Serialize)]
@@ -47,6 +51,11 @@ pub fn about() -> About {
         families: FAMILIES.iter().map(|family| [family.name, family.promise]).collect(),
         scenes: SCENES.iter().map(|preset| preset.name).collect(),
         contracts: NAMED.iter().map(|named| [named.name, named.about]).collect(),
+        spots: [(f32::NAME, spots::<f32>()), (f64::NAME, spots::<f64>())].into(),
         inks: Ink::ALL.map(Ink::hex).to_vec(),
     }
+}
+
+fn spots<F: Float>() -> Vec<(&'static str, String)> {
+    Spot::ALL.map(|spot| (spot.name(), bare_case(spot.case::<F>()))).to_vec()
 }

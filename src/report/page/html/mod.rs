@@ -33,7 +33,7 @@ pub(super) fn write(page: &Page, out: &mut dyn Write) -> io::Result<()> {
     out.write_all(within(page, LIMIT).as_bytes())
 }
 
-/// What stands below the title, as elements to be put into a page with the style of this folder.
+/// The content below the title, as elements to be put into a page with the style of this folder.
 pub fn elements(record: &impl Paged) -> String {
     let page = record.page();
     let mut anchors = BTreeSet::new();
