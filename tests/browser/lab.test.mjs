@@ -212,7 +212,7 @@ describe("a kernel in WGSL", () => {
     const numbers = () => page.$$eval("#report td", (all) => all.map((cell) => cell.textContent).filter((text) => !text.includes("hairline")));
     const on_device = [await title(page), ...await numbers()];
     assert.match(on_device[0], /^yours \(edge=0\.5\) is wrong/);
-    assert.ok(on_device.length > 500);
+    assert.ok(on_device.length > 100, `${on_device.length} numbers`);
     await then(page, () => page.locator("#kernel").selectOption("js"));
     await then(page, () => page.locator("#scalar").selectOption("f32"));
     await then(page, () => edit(page, `export const epsilons = { edge: 0.5 };

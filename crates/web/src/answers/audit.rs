@@ -106,13 +106,7 @@ fn sources(cases: &Cases, scalars: [bool; 2]) -> Result<Vec<Source>, String> {
         true => all.iter().collect(),
         false => cases.families.iter().map(family).collect::<Result<Vec<_>, _>>()?,
     };
-    let source = |family| Source::Family {
-        family,
-        parameters: parameters.clone(),
-        seed: cases.seed,
-        count: cases.count,
-        exhaustive: false,
-    };
+    let source = |family| Source::of(family, parameters.clone(), cases.seed, cases.count);
     let sources: Vec<Source> = chosen.into_iter().map(source).collect();
     let named = cases.scene.as_deref().is_some_and(Scene::names_kind);
     let others: Vec<Source> =
