@@ -8,8 +8,8 @@ import { read, START, written, type State } from "./state";
 import { takeHome } from "./take-home";
 import { curve, POINTS, type Point } from "./views/curve";
 import { control, draw, SIDE, type MapAnswer } from "./views/map";
+import { meshes } from "./views/mesh";
 import { space } from "./views/space";
-import meshScript from "virtual:mesh-script";
 
 interface About {
   kernels: { name: string; source: string; gates: [string, string, string, boolean][]; contract: string }[];
@@ -38,7 +38,7 @@ const about = await session.ask<About>({ do: "about" }, source()).catch(() => se
   .catch((error: Error) => { fail(error); throw error; });
 let described: Described | undefined;
 
-const code = editor(element("editor"), afterwards(700, () => void edited()), () => void run());
+const code = editor(element("editor"), afterwards(700, () => void edited(false)), () => void edited(true));
 const builtIn = () => about.kernels.find(({ name }) => name === state.kernel);
 
 /** The epsilons of the kernel as it has them: name, comparison, value. */
@@ -73,6 +73,7 @@ let asked = 0;
 async function run() {
   const mine = ++asked;
   const isLate = () => mine !== asked;
+  session.stop();
   element("error").hidden = true;
   element("status").textContent = "Running…";
   document.body.classList.add("running");
@@ -103,11 +104,21 @@ function fail({ message }: Error) {
   element("status").textContent = "";
 }
 
-function report(title: string, html: string, record: Record_, seconds: number) {
+/** The record of the last audit. */
+let record: Record_ | undefined;
+
+function save(name: string, type: string, text: string) {
+  const link = made("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+function report(title: string, html: string, found: Record_, seconds: number) {
+  record = found;
   element("verdict").hidden = false;
   element("mesh-part").hidden = false;
   element("title").textContent = title;
-  const count = record.result.sources.reduce((sum, source) => sum + source.cases, 0);
+  const count = found.result.sources.reduce((sum, source) => sum + source.cases, 0);
   element("sums").textContent = `${digits(count)} cases in ${state.scalar}, ${seconds.toFixed(1)} s.`;
   element("status").textContent = "";
   fill(element("report"), html);
@@ -159,10 +170,12 @@ async function show(name: string | undefined) {
   element("case-part").hidden = none;
   element("map-part").hidden = none;
   if (name === undefined) return;
+  const mine = asked;
   let told: Explained;
   try {
     told = await ask<Explained>({ do: "explain", kernel: chosen(), case: name });
   } catch (error) {
+    if (mine !== asked) return;
     element("map-part").hidden = true;
     element("case-name").textContent = `${name}: ${(error as Error).message}`;
     return;
@@ -180,19 +193,9 @@ async function show(name: string | undefined) {
     ? `hairline explain '${name}' ${kernel}${epsilons ? ` --epsilon '${epsilons}'` : ""}${contract}`
     : `hairline explain '${name}'`;
   element("drawing").innerHTML = drawing ?? "";
-  space(element("space"), numbers, quotient(truth.t_exact ?? null));
+  space(element("space"), numbers, truth.t_exact ?? null);
   fill(element("explained"), told.html);
   await around();
-}
-
-/** The number of a fraction of whole numbers of any size. */
-function quotient(text: string | null): number | null {
-  if (text === null) return null;
-  const [above, below = "1"] = text.split("/").map((part) => part.trim());
-  const [p, q] = [BigInt(above), BigInt(below)];
-  // 60 digits in binary are enough, whatever the sizes.
-  const shift = BigInt(Math.max(0, 60 + q.toString(2).length - p.toString(2).length));
-  return Number((p << shift) / q) / 2 ** Number(shift);
 }
 
 /** The case that the map is around. */
@@ -203,10 +206,11 @@ const mapRequest = () => ({
 });
 
 async function around() {
+  const mine = asked;
   try {
     draw(await ask<MapAnswer>(mapRequest()), about.inks);
   } catch (error) {
-    element("axes").textContent = (error as Error).message;
+    if (mine === asked) element("axes").textContent = (error as Error).message;
   }
 }
 
@@ -297,8 +301,10 @@ function controls() {
   if (!isOwn()) sliders();
 }
 
-function edited() {
-  if (!isOwn() || code.text === state.text) return;
+/** Runs what is in the editor, if it is another text than before or if it is to run again. */
+function edited(again: boolean) {
+  if (!isOwn()) return;
+  if (code.text === state.text) return again ? run() : undefined;
   state = { ...state, text: code.text, epsilons: {} };
   element("sliders").dataset.key = "";
   return run();
@@ -342,16 +348,11 @@ function listen() {
   changed("count", (value) => ({ count: Math.max(1, Math.min(100_000, Math.round(Number(value)) || START.count)) }));
   changed("contract", (value) => ({ contract: value }));
   element("controls").addEventListener("submit", (event) => event.preventDefault());
-  element("run").addEventListener("click", () => {
-    state = { ...state, text: code.text };
-    void run();
-  });
+  element("run").addEventListener("click", () => void edited(true));
   element("take").addEventListener("click", () => {
-    if (!described) return;
-    const link = made("a", { href: URL.createObjectURL(new Blob([takeHome(state.text, described)], { type: "text/javascript" })), download: "kernel.mjs" });
-    link.click();
-    URL.revokeObjectURL(link.href);
+    if (described) save("kernel.mjs", "text/javascript", takeHome(state.text, described));
   });
+  element("record").addEventListener("click", () => save("record.json", "application/json", JSON.stringify(record, null, 2)));
   element("signature").addEventListener("click", async () => {
     const text = await session.gpu.then((gpu) => gpu.signature())
       .then((found) => JSON.stringify(found, null, 2), (error: Error) => error.message);
@@ -383,41 +384,12 @@ function listen() {
   });
 }
 
-/** The cracks of a mesh's file. */
-async function ofMesh(file: File) {
-  element("mesh-title").hidden = false;
-  element("mesh-title").textContent = "Running…";
-  element("mesh").replaceChildren();
-  try {
-    session.keepFile(new Uint8Array(await file.arrayBuffer()));
-    const request = { do: "mesh", kernel: chosen(), file: file.name, scalar: state.scalar, directions: 8 };
-    const { title, html } = await ask<{ title: string; html: string }>(request);
-    element("mesh-title").textContent = title;
-    fill(element("mesh"), html);
-    // The program's own script for its drawing.
-    const address = URL.createObjectURL(new Blob([meshScript], { type: "text/javascript" }));
-    await import(address).finally(() => URL.revokeObjectURL(address));
-  } catch (error) {
-    element("mesh-title").textContent = (error as Error).message;
-  }
-}
-
-function meshes() {
-  element("file").addEventListener("change", (event) => {
-    const file = (event.target as HTMLInputElement).files?.[0];
-    if (file) void ofMesh(file);
-  });
-  const drop = element("drop");
-  drop.addEventListener("dragover", (event) => event.preventDefault());
-  drop.addEventListener("drop", (event) => {
-    event.preventDefault();
-    const file = event.dataTransfer?.files[0];
-    if (file) void ofMesh(file);
-  });
-}
-
 choices();
 controls();
 listen();
-meshes();
+meshes(async (file) => {
+  session.keepFile(new Uint8Array(await file.arrayBuffer()));
+  const request = { do: "mesh", kernel: chosen(), file: file.name, scalar: state.scalar, directions: 8 };
+  return ask<{ title: string; html: string }>(request);
+}, fill);
 await run();

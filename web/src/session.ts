@@ -18,11 +18,18 @@ export class Session {
   #gpu: Promise<Gpu> | undefined;
   #file: Uint8Array | undefined;
   #described: Described | undefined;
+  /** Ends the question that waits for its answer. */
+  #end: ((why: string) => void) | undefined;
   /** One question at a time. */
   #last: Promise<unknown> = Promise.resolve();
 
   constructor(address: string) {
     this.#module = WebAssembly.compileStreaming(fetch(address));
+  }
+
+  /** Ends what is running, since something else is asked. */
+  stop() {
+    this.#end?.("something else was asked");
   }
 
   /** Keeps a mesh's file for the requests that follow. */
@@ -90,6 +97,8 @@ export class Session {
     const worker = this.#worker!;
     return new Promise((resolve, reject) => {
       const fail = (text: string) => {
+        clearTimeout(timer);
+        this.#end = undefined;
         worker.terminate();
         if (this.#worker === worker) this.#worker = undefined;
         reject(new Error(text));
@@ -97,13 +106,14 @@ export class Session {
       const timer = setTimeout(() => fail(`it gave no answer in ${LIMIT / 1000} s, and was ended`), LIMIT);
       worker.onmessage = ({ data }: MessageEvent<Answer>) => {
         clearTimeout(timer);
+        this.#end = undefined;
         if (data.error === undefined) resolve(data);
         else fail(data.error);
       };
+      this.#end = fail;
       worker.postMessage(message);
       worker.onerror = (event) => {
         event.preventDefault();
-        clearTimeout(timer);
         fail(event.message || "the worker could not start");
       };
     });

@@ -8,10 +8,21 @@ const minus = (p: Point, q: Point): Point => [p[0] - q[0], p[1] - q[1], p[2] - q
 const along = (p: Point, d: Point, t: number): Point => [p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]];
 const length = (p: Point) => Math.hypot(...p);
 
-/** Puts the drawing of 17 numbers into an element; nothing if they are not all finite. `t` is where the line meets the
- * plane, if it does. */
-export function space(parent: HTMLElement, numbers: (number | null)[], t: number | null) {
+/** The number of a fraction of whole numbers of any size. */
+function quotient(text: string | null): number | null {
+  if (text === null) return null;
+  const [above, below = "1"] = text.split("/").map((part) => part.trim());
+  const [p, q] = [BigInt(above), BigInt(below)];
+  // 60 digits in binary are enough, whatever the sizes.
+  const shift = BigInt(Math.max(0, 60 + q.toString(2).length - p.toString(2).length));
+  return Number((p << shift) / q) / 2 ** Number(shift);
+}
+
+/** Puts the drawing of 17 numbers into an element; nothing if they are not all finite. The fraction is the t at which the
+ * line meets the plane, if it does. */
+export function space(parent: HTMLElement, numbers: (number | null)[], fraction: string | null) {
   parent.replaceChildren();
+  const t = quotient(fraction);
   if (numbers.slice(0, 15).includes(null)) return;
   const at = (i: number) => numbers.slice(3 * i, 3 * i + 3) as Point;
   const corners = [at(2), at(3), at(4)];
