@@ -272,6 +272,12 @@ test("a mesh shows its cracks", async (t) => {
   });
   assert.equal(blank, false);
   await page.screenshot({ path: out("lab-mesh.png") });
+  // An open corner in STL: three faces around a point.
+  const faces = [[[1, 0, 0], [0, 1, 0]], [[0, 1, 0], [0, 0, 1]], [[0, 0, 1], [1, 0, 0]]];
+  const stl = faces.map(([p, q]) => `facet normal 0 0 0\nouter loop\n${[[0, 0, 0], p, q].map((v) => `vertex ${v.join(" ")}`).join("\n")}\nendloop\nendfacet`);
+  const buffer = Buffer.from(`solid corner\n${stl.join("\n")}\nendsolid corner\n`);
+  await page.locator("#file").setInputFiles({ name: "corner.stl", mimeType: "model/stl", buffer });
+  await page.waitForFunction(() => /3 triangles, 4 vertices/.test(document.getElementById("mesh").textContent));
   await page.locator("#file").setInputFiles({ name: "bad.obj", mimeType: "text/plain", buffer: Buffer.from("v 1 2\n") });
   await page.waitForFunction(() => /^bad\.obj:1: /.test(document.getElementById("mesh-title").textContent));
 });

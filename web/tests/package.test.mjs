@@ -1,7 +1,7 @@
 // The npm package under node, held to the program: HAIRLINE=path, or target/release/hairline. See run.sh.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, symlinkSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { test } from "node:test";
@@ -170,7 +170,24 @@ test("an exception on a plain ray is the user's to see", () => {
   assert.throws(() => hairline.audit(() => { throw new TypeError("no"); }), { name: "TypeError", message: "no" });
 });
 
-test("the package's types are there", () => {
-  const text = readFileSync(new URL("../package/types/package.d.ts", import.meta.url), "utf8");
-  assert.match(text, /export declare function load\(bytes\?: BufferSource\): Promise<Hairline>/);
+test("a TypeScript program can use it, and is told what it cannot do", () => {
+  const folder = mkdtempSync(path.join(tmpdir(), "types-"));
+  mkdirSync(path.join(folder, "node_modules"));
+  symlinkSync(path.resolve(import.meta.dirname, "../package"), path.join(folder, "node_modules/hairline-audit"));
+  writeFileSync(path.join(folder, "package.json"), '{ "type": "module" }');
+  const start = 'import { load, truthOf, type Kernel, type Truth } from "hairline-audit";\nconst hairline = await load();\n';
+  const check = (text) => {
+    writeFileSync(path.join(folder, "program.ts"), start + text);
+    const tsc = path.resolve(import.meta.dirname, "../node_modules/.bin/tsc");
+    const args = ["--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "program.ts"];
+    return spawnSync(tsc, args, { cwd: folder, encoding: "utf8" }).stdout;
+  };
+  assert.equal(check(`
+    const kernel: Kernel = ({ origin: [x] }, { a }, { edge }) => (x - a[0] < edge ? null : { t: 1 });
+    const title: string = hairline.audit(kernel, { scene: "room", epsilons: { edge: 0 } }).title;
+    const truth: Truth = truthOf(hairline.truths(new Float64Array(17))[0]);
+    console.log(title, truth.class === "transversal" ? truth.feature : truth.class);
+  `), "");
+  assert.match(check("hairline.audit(() => 'hit');"), /error TS2345[^]*'string' is not assignable to type 'Hit'/);
+  assert.match(check("hairline.truths([1, 2]);"), /error TS2345/);
 });
