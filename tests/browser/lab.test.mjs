@@ -82,6 +82,8 @@ describe("a kernel in JavaScript", () => {
       ["export default (", /^SyntaxError: /],
       ["export const epsilons = {};", /^Error: the module has no kernel: write `export default function/],
       ["export default () => nobody;", /^ReferenceError: nobody is not defined/],
+      ["import { Ray } from 'three';\nexport default () => null;", /^TypeError: .*The lab loads no other modules: paste here what yours needs$/],
+      ["const dot = require('gl-vec3/dot');\nexport default () => null;", /^ReferenceError: require is not defined\. The lab loads no other/],
       ["export const contract = 'most';\nexport default () => null;", /^contract: /],
     ]) {
       await then(page, () => edit(page, text));
