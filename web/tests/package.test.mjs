@@ -157,9 +157,21 @@ test("what is wrong with a request is said in a line", () => {
   assert.equal(hairline.truth("edge-near@1/f64/-/1/2").class, "transversal");
 });
 
+test("what a hit does not report is not judged, from whichever side it comes", () => {
+  const kinds = (kernel) => new Set(hairline.audit(kernel, { count: 50 }).record.result.results
+    .flatMap(({ findings }) => findings.map(({ finding }) => finding)));
+  const isFront = ({ origin: [, , z] }) => z > 0;
+  for (const [hit, expected] of [[() => true, false], [() => ({ t: 1 }), true], [() => 1, true],
+    [(ray) => (isFront(ray) ? null : { t: 1 }), true], [(ray) => (isFront(ray) ? null : true), false]]) {
+    const found = kinds(hit);
+    assert.ok(found.has("false-hit"), String(hit));
+    assert.equal(found.has("wrong-value"), expected, String(hit));
+  }
+});
+
 test("an exception is a finding, and does not end the audit", () => {
   const { record } = hairline.audit(({ direction }) => {
-    if (direction[2] > 0.5) throw new Error("no");
+    if (direction[0] > 0.5) throw new Error("no");
     return null;
   }, { count: 100 });
   const kinds = new Set(record.result.results.flatMap(({ findings }) => findings.map(({ finding }) => finding)));
