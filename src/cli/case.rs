@@ -7,10 +7,9 @@ use crate::arith::Float;
 use crate::case::{AnyScalar, Case, CaseId, Instance};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::Mesh;
-use crate::family::{Family, Grouping, Made, MeshFamily, Stratum};
+use crate::family::{self, Family, Grouping, MeshFamily, Stratum};
 use crate::kernel::Scalar;
 use crate::mesh::{Part, SceneMesh, Surface, Targets, Topology};
-use crate::report::number_of;
 use crate::vectors::{self, DIGITS, Test};
 use clap::Args;
 use std::sync::Arc;
@@ -186,32 +185,15 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
         let case = family.make(&id.parameters, id.seed, id.index);
         return Ok(Group::alone(vec![case], Grouping::Single));
     }
-    let (name, in_order) = match id.family.strip_suffix("-all") {
-        Some(name) => (name, true),
-        None => (id.family.as_str(), false),
-    };
-    let family = family_of(id, name)?;
-    if let Some(scene) = &id.parameters.scene {
-        scene.check_in::<F>().map_err(|error| Failure::usage(format!("'{id}': {error}")))?;
-    }
-    if family.size.map_or(in_order, |size| id.index >= size) {
-        return Err(Failure::usage(format!("'{id}': family '{name}' has no case of that index")));
-    }
-    let made: Made<F> = if in_order {
-        family.make_in_order(&id.parameters, id.index)
-    } else {
-        family.make(&id.parameters, id.seed, id.index)
-    };
-    Ok(Group::alone(chosen_triangle(id, made.cases().to_vec())?, family.grouping))
+    family_of(id, id.family.strip_suffix("-all").unwrap_or(&id.family))?;
+    let (cases, grouping) = family::cases_of(id).map_err(Failure::usage)?;
+    Ok(Group::alone(cases, grouping))
 }
 
 /// The triangle of a group that an id names, or all.
 fn chosen_triangle<F: Scalar>(id: &CaseId, cases: Vec<Case<F>>) -> Result<Vec<Case<F>>, Failure> {
     let Some(triangle) = id.triangle else { return Ok(cases) };
-    let count = number_of(cases.len() as u64, "triangle", "triangles");
-    let case = cases.get(triangle).copied();
-    let case = case.ok_or_else(|| Failure::usage(format!("'{id}' has {count}, counted from 0")))?;
-    Ok(vec![case])
+    Ok(vec![family::chosen_triangle(id, triangle, &cases).map_err(Failure::usage)?])
 }
 
 /// The cases of a ray at an edge or vertex of a mesh.

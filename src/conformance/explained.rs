@@ -3,7 +3,7 @@
 use super::PlanError;
 use crate::audit::Row;
 use crate::case::CaseId;
-use crate::family::find;
+use crate::family::cases_of;
 use crate::report::Format;
 use crate::report::explain::{Together, explain};
 
@@ -22,21 +22,12 @@ pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, PlanError>) -> Option<Str
 fn explained(rows: &[Row], name: &str) -> Result<String, PlanError> {
     let wrong = |message: String| PlanError(format!("{VARIABLE}: {message}"));
     let id: CaseId = name.parse().map_err(wrong)?;
-    let family = find(&id.family).filter(|family| family.version == id.version);
-    let unknown =
-        || wrong(format!("this program makes no cases of '{}@{}'", id.family, id.version));
-    let family = family.ok_or_else(unknown)?;
     if id.parameters.instance.is_some() {
         return Err(wrong(format!("'{id}' is a case of an instance: `hairline explain` takes it")));
     }
     let explanation = in_named_scalar!(id.scalar, F => {
-        let made = family.make::<F>(&id.parameters, id.seed, id.index);
-        let mut cases = made.cases().to_vec();
-        if let Some(triangle) = id.triangle {
-            let case = cases.get(triangle).copied();
-            cases = vec![case.ok_or_else(|| wrong(format!("'{id}' has no such triangle")))?];
-        }
-        let group = Together { cases: &cases, grouping: family.grouping, neighbours: Some(&[]), instance: None };
+        let (cases, grouping) = cases_of::<F>(&id).map_err(wrong)?;
+        let group = Together { cases: &cases, grouping, neighbours: Some(&[]), instance: None };
         explain(name, group, rows)
     });
     let mut text = Vec::new();

@@ -17,13 +17,16 @@ before(async () => {
   browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-      "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+      "--disable-background-networking", "--disable-component-update", "--disable-sync",
+      // WebGPU without a graphics device.
+      "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan,WebGPU", "--use-vulkan=swiftshader"],
   });
 });
 after(() => browser.close());
 
-/** Opens a page; whatever the console, the page or the network says is a failure. */
-export async function visit(t, url, { width = 1280, height = 900, theme = "light", scripts = true } = {}) {
+/** Opens a page; whatever the console, the page or the network says is a failure, but for files of the page's own folder
+ * where it has some. */
+export async function visit(t, url, { width = 1280, height = 900, theme = "light", scripts = true, folder } = {}) {
   const context = await browser.newContext({
     viewport: { width, height }, colorScheme: theme, javaScriptEnabled: scripts, reducedMotion: "reduce", hasTouch: true,
   });
@@ -32,7 +35,12 @@ export async function visit(t, url, { width = 1280, height = 900, theme = "light
   page.on("console", (message) => trouble.push(`${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => trouble.push(error.message));
   page.on("request", (request) => {
-    if (request.url() !== url && !request.url().startsWith("data:")) trouble.push(request.url());
+    const isOwn = folder && (request.url().startsWith(folder) || request.url().startsWith(`blob:${folder}`));
+    if (request.url() !== url && !request.url().startsWith("data:") && !isOwn) trouble.push(request.url());
+  });
+  // What the page's own policy refused has not left it.
+  page.on("requestfailed", (request) => {
+    if (request.failure().errorText === "csp") trouble.splice(trouble.indexOf(request.url()), 1);
   });
   t.after(async () => {
     await context.close();

@@ -33,7 +33,7 @@ pub const SCENE_FORMATS: &[Format<SceneRecord>] = &[
     Format { name: "c", write: |record, _, out| snippet::write(record, Language::C, out) },
     Format { name: "rust", write: |record, _, out| snippet::write(record, Language::Rust, out) },
     Format { name: "glsl", write: |record, _, out| snippet::write(record, Language::Glsl, out) },
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pages")]
     Format::HTML,
 ];
 

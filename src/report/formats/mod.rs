@@ -87,6 +87,6 @@ pub const FORMATS: &[Format] = &[
     Format { name: "junit", write: junit::write },
     Format { name: "sarif", write: sarif::write },
     Format::MARKDOWN,
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pages")]
     Format::HTML,
 ];

@@ -2,13 +2,13 @@
 
 mod build;
 mod drawing;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pages")]
 mod picture;
 mod record;
 mod screen;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pages")]
 mod shown;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pages")]
 mod stage;
 
 pub use build::build;
@@ -22,6 +22,6 @@ pub const MESH_FORMATS: &[Format<MeshReport>] = &[
     Format::TEXT,
     Format::MARKDOWN,
     Format { name: "json", write: |report, _, out| write_json(&report.record, out) },
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pages")]
     Format::HTML,
 ];

@@ -35,7 +35,7 @@ impl Paged for MeshReport {
             blocks.extend((!grain.is_fine()).then(|| Block::Text(grain.sentence("mesh"))));
             blocks.extend(of_scalar(record, part));
         }
-        #[cfg(feature = "cli")]
+        #[cfg(feature = "pages")]
         blocks.extend(super::stage::block(self));
         let places = first_places(result);
         if !places.is_empty() {

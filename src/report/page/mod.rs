@@ -2,17 +2,19 @@
 //!
 //! A study's record implements [`Paged`], and is then text, Markdown and HTML.
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "pages")]
 pub(in crate::report) mod html;
 mod markdown;
 mod table;
 mod text;
 
+#[cfg(feature = "pages")]
+pub use html::elements;
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub use table::{Cell, Head, Row, Table};
 
 use super::Format;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pages")]
 use serde::Serialize;
 
 /// The answer of one command.
@@ -172,12 +174,12 @@ impl<R: Paged> Format<R> {
         write: |record, style, out| markdown::write(&record.page(), style, out),
     };
     /// One file that needs nothing else: light and dark, wide and narrow, without scripts and without a network.
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pages")]
     pub const HTML: Format<R> =
         Format { name: super::HTML, write: |record, _, out| html::write(&record.page(), out) };
 }
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "pages")]
 impl<R: Paged + Serialize> Format<R> {
     /// The formats of a record that is a page, and data.
     pub const OF_PAGE: &'static [Format<R>] =

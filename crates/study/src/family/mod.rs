@@ -37,7 +37,7 @@ pub use scene::{Pixel, STRATA, Stratum, TRIES, missed_sine, pixel};
 use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;
 use crate::case::{Case, CaseId, Draw, Parameters};
-use crate::kernel::Scalar;
+use crate::kernel::{self, Scalar};
 use crate::truth::Truth;
 use std::any::Any;
 
@@ -186,6 +186,47 @@ pub static FAMILIES: &[Family] = &[
 /// The family of a name, be it a stratum of a scene.
 pub fn find(name: &str) -> Option<&'static Family> {
     FAMILIES.iter().chain(STRATA).find(|family| family.name == name)
+}
+
+/// The cases that an id makes without a mesh, in the scalar that it names, and how they belong together. An error says
+/// what is wrong with it.
+pub fn cases_of<F: Scalar>(id: &CaseId) -> Result<(Vec<Case<F>>, Grouping), String> {
+    let in_order = id.family.strip_suffix("-all");
+    let name = in_order.unwrap_or(&id.family);
+    let family = find(name).filter(|family| family.version == id.version);
+    let Some(family) = family else {
+        return Err(format!("this program makes no cases of '{}@{}'", id.family, id.version));
+    };
+    if let Some(name) = id.parameters.kernel.as_deref().filter(|name| kernel::find(name).is_none())
+    {
+        return Err(format!("'{id}': there is no kernel '{name}'"));
+    }
+    if let Some(scene) = &id.parameters.scene {
+        scene.check_in::<F>().map_err(|error| format!("'{id}': {error}"))?;
+    }
+    if family.size.map_or(in_order.is_some(), |size| id.index >= size) {
+        return Err(format!("'{id}': family '{name}' has no case of that index"));
+    }
+    let made: Made<F> = match in_order {
+        Some(_) => family.make_in_order(&id.parameters, id.index),
+        None => family.make(&id.parameters, id.seed, id.index),
+    };
+    let mut cases = made.cases().to_vec();
+    if let Some(triangle) = id.triangle {
+        cases = vec![chosen_triangle(id, triangle, &cases)?];
+    }
+    Ok((cases, family.grouping))
+}
+
+/// The triangle of a group that an id names.
+pub fn chosen_triangle<F: Float>(
+    id: &CaseId,
+    triangle: usize,
+    cases: &[Case<F>],
+) -> Result<Case<F>, String> {
+    let noun = if cases.len() == 1 { "triangle" } else { "triangles" };
+    let error = || format!("'{id}' has {} {noun}, counted from 0", cases.len());
+    cases.get(triangle).copied().ok_or_else(error)
 }
 
 impl Family {

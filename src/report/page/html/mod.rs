@@ -6,7 +6,7 @@
 pub(in crate::report) mod room;
 pub(in crate::report) mod words;
 
-use super::{Block, Drawing, Head, Item, Items, Page, Picture, Row, Table, Tone, Use};
+use super::{Block, Drawing, Head, Item, Items, Page, Paged, Picture, Row, Table, Tone, Use};
 use crate::report::chart;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -31,6 +31,15 @@ const SCRIPT: &str = include_str!("script.js");
 /// Writes a page; what only some read is folded.
 pub(super) fn write(page: &Page, out: &mut dyn Write) -> io::Result<()> {
     out.write_all(within(page, LIMIT).as_bytes())
+}
+
+/// The content below the title, as elements to be put into a page with the style of this folder.
+pub fn elements(record: &impl Paged) -> String {
+    let page = record.page();
+    let mut anchors = BTreeSet::new();
+    add_anchors(&page.blocks, &mut anchors);
+    let writer = Writer { anchors: &anchors, used: RefCell::default() };
+    writer.blocks(&page.blocks, 0, &mut Room::new(LIMIT))
 }
 
 /// The page in fewer bytes than a limit.

@@ -1,0 +1,67 @@
+//! The cracks of a mesh.
+
+use super::scalars_of;
+use crate::request::Mesh;
+use hairline::internals::audit::Unobserved;
+use hairline::internals::audit::mesh::{Plan, run};
+use hairline::internals::corpus::mesh::read;
+use hairline::internals::family::MeshFamily;
+use hairline::internals::mesh::Surface;
+use hairline::internals::report::Context;
+use hairline::internals::report::mesh::{MeshRecord, build, places};
+use hairline::internals::report::page::{Paged, elements};
+use serde::Serialize;
+use std::io;
+use std::sync::Arc;
+
+/// The most triangles: some seconds.
+const MOST: usize = 500_000;
+
+#[derive(Serialize)]
+pub struct MeshAnswer {
+    title: String,
+    /// As `hairline mesh --format json` writes it.
+    record: MeshRecord,
+    html: String,
+}
+
+pub fn mesh(asked: &Mesh, file: &[u8]) -> Result<MeshAnswer, String> {
+    let scalars = scalars_of(&asked.scalar)?;
+    let row = asked.kernel.row()?;
+    row.check_in(scalars).map_err(|error| error.0)?;
+    if !(1..=64).contains(&asked.directions) {
+        return Err(format!("directions: {} is not 1 to 64", asked.directions));
+    }
+    let mut beside = |name: &str, _: u64| {
+        Err(io::Error::other(format!("'{name}' is a file of its own: convert it to a .glb")))
+    };
+    let mesh =
+        read(file, &asked.file, &mut beside, &mut |_| {}).map_err(|error| error.to_string())?;
+    if MOST < mesh.triangles.len() {
+        let count = mesh.triangles.len();
+        return Err(format!("{count} triangles are more than {MOST}: use `hairline mesh`"));
+    }
+    let family = MeshFamily::new(mesh, &asked.file);
+    let plan = Plan {
+        rows: vec![row],
+        directions: asked.directions,
+        seed: 1,
+        unit_direction: false,
+        instance: None,
+        examples: 3,
+        places: places(family.mesh()),
+    };
+    let surface = Arc::new(Surface::new(Arc::new(family), scalars));
+    let found = match scalars {
+        [true, _] => run::<f32>(&surface, &plan, &Unobserved),
+        _ => run::<f64>(&surface, &plan, &Unobserved),
+    };
+    if found.cases == 0 {
+        let nothing =
+            "nothing to ask: no edge lies between two sound faces that are wound consistently";
+        return Err(format!("{}: {nothing}", asked.file));
+    }
+    let report = build(&surface, &plan, &[found], &Context { seconds: 0.0, threads: 1 });
+    let title = report.page().title;
+    Ok(MeshAnswer { title, html: elements(&report), record: report.record })
+}

@@ -1,0 +1,95 @@
+// A kernel in JavaScript: what it is called with, what it may return, and how many cases go through it.
+
+export type Vector = [number, number, number];
+export interface Ray { origin: Vector; direction: Vector; tMin: number; tMax: number }
+export interface Triangle { a: Vector; b: Vector; c: Vector }
+export type Epsilons = Record<string, number>;
+/** A miss is null, undefined or false. A hit is true, its t, or an object with t, and u and v if it has them. */
+export type Hit = boolean | number | null | undefined | { t?: number; u?: number; v?: number };
+export type Kernel = (ray: Ray, triangle: Triangle, epsilons: Epsilons) => Hit;
+
+/** What a module says of its kernel. */
+export interface Described {
+  /** By name; sorted by it. */
+  epsilons: Epsilons;
+  /** As `hairline --contract` takes it. */
+  contract: string;
+  /** True if hits have t, and true if they have u and v. */
+  gives: [boolean, boolean];
+}
+
+/** A kernel over columns of numbers: of a case origin, direction, a, b, c, t_min, t_max; of a verdict what it is (0 a
+ * miss, 1 a hit, 2 an exception), t, u, v. */
+export function runner(kernel: Kernel, names: string[]) {
+  const ray: Ray = { origin: [0, 0, 0], direction: [0, 0, 0], tMin: 0, tMax: 0 };
+  const triangle: Triangle = { a: [0, 0, 0], b: [0, 0, 0], c: [0, 0, 0] };
+  const vectors = [ray.origin, ray.direction, triangle.a, triangle.b, triangle.c];
+  const held: Epsilons = {};
+  return (cases: Float64Array, epsilons: Float64Array, verdicts: Float64Array) => {
+    names.forEach((name, i) => { held[name] = epsilons[i]; });
+    for (let i = 0, at = 0, to = 0; to < verdicts.length; i++, at = 17 * i, to = 4 * i) {
+      for (const vector of vectors) {
+        vector[0] = cases[at++];
+        vector[1] = cases[at++];
+        vector[2] = cases[at++];
+      }
+      ray.tMin = cases[at];
+      ray.tMax = cases[at + 1];
+      let hit: Hit;
+      try {
+        hit = kernel(ray, triangle, held);
+      } catch {
+        verdicts[to] = 2;
+        continue;
+      }
+      const isMiss = hit === null || hit === undefined || hit === false;
+      verdicts[to] = isMiss ? 0 : 1;
+      if (isMiss) continue;
+      const { t, u, v }: { t?: number; u?: number; v?: number } = typeof hit === "object" ? hit! : typeof hit === "number" ? { t: hit } : {};
+      verdicts[to + 1] = Number(t ?? NaN);
+      verdicts[to + 2] = Number(u ?? NaN);
+      verdicts[to + 3] = Number(v ?? NaN);
+    }
+  };
+}
+
+/** Which values the hits of a kernel have: those of a hit that no kernel can miss, from one side or from the other. */
+export function given(kernel: Kernel, epsilons: Epsilons): [boolean, boolean] {
+  const names = Object.keys(epsilons);
+  const verdict = new Float64Array(4);
+  for (const z of [4, -4]) {
+    const plain = Float64Array.of(1, 1, z, 0, 0, -z, 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, Infinity);
+    runner(kernel, names)(plain, Float64Array.from(Object.values(epsilons)), verdict);
+    // Its mistake is the user's to see.
+    if (verdict[0] === 2) kernel({ origin: [1, 1, z], direction: [0, 0, -z], tMin: 0, tMax: Infinity }, { a: [0, 0, 0], b: [4, 0, 0], c: [0, 4, 0] }, epsilons);
+    if (verdict[0] === 1) return [!Number.isNaN(verdict[1]), !Number.isNaN(verdict[2]) && !Number.isNaN(verdict[3])];
+  }
+  return [false, false];
+}
+
+const PLAIN_CONTRACT = "closed-ray,boundary=free,coplanar=free,degenerate=free,invalid=free";
+
+/** The description of a module's kernel; an error says what the module should have. */
+export function describe(module: Record<string, unknown>): Described & { kernel: Kernel } {
+  const kernel = module.default as Kernel;
+  if (typeof kernel !== "function") {
+    throw new Error("the module has no kernel: write `export default function kernel(ray, triangle, epsilon) { … }`");
+  }
+  const named = Object.entries(module.epsilons ?? {}).sort(([a], [b]) => (a < b ? -1 : 1));
+  for (const [name, value] of named) {
+    if (typeof value !== "number" || !Number.isFinite(value)) throw new Error(`epsilon ${name}: expected a finite number, found ${value}`);
+    if (!/^[A-Za-z][\w-]*$/.test(name)) throw new Error(`epsilon ${name}: a name has letters, digits, - and _ only`);
+  }
+  const epsilons = Object.fromEntries(named) as Epsilons;
+  const contract = String(module.contract ?? PLAIN_CONTRACT);
+  return { kernel, epsilons, contract, gives: given(kernel, epsilons) };
+}
+
+/** The kernel of a request, as the module takes it. */
+export function asChosen({ epsilons, contract, gives }: Described, selector: string) {
+  const words = Object.fromEntries(Object.entries(epsilons).map(([name, value]) => [name, decimal(value)]));
+  return { own: { contract, gives, epsilons: words, selector } };
+}
+
+/** A number as `--epsilon` takes it. */
+export const decimal = (value: number) => (value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential() : String(value)).replace("e+", "e");
