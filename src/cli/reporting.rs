@@ -19,7 +19,7 @@ use clap::{Args, ValueEnum};
 /// The flags that say how to report.
 #[derive(Args)]
 #[command(mut_arg("format", |format| {
-    format.help("text, json, jsonl, junit, sarif, markdown or html, or several separated by commas")
+    format.help("text, json, junit, sarif, markdown or html, or several separated by commas")
 }))]
 pub struct ReportArguments {
     #[command(flatten)]

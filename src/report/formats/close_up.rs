@@ -48,7 +48,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> Vec
             "not-epsilon: with every epsilon 0 it is wrong too; runs cannot tell rounding from the formula itself",
         ));
     }
-    blocks.push(Block::Text(column_legend(columns, &[])));
+    blocks.push(Block::Text(column_legend(columns)));
     blocks
 }
 

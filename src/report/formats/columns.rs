@@ -128,11 +128,6 @@ pub(super) struct Cell {
 const FAR: i32 = -10;
 
 impl Cell {
-    /// True if more than one verdict in a thousand is wrong and [`FAR`] off.
-    pub(super) fn is_far(&self) -> bool {
-        self.wrong.of < 1000 * self.far
-    }
-
     /// The values of a row's hits, in the columns of ordinary sizes.
     pub(super) fn of_values(columns: &[Column], row: &RowView) -> Cell {
         let mut cell = Cell::default();

@@ -2,8 +2,7 @@
 //! every class of its findings.
 
 use super::pictures;
-use super::pool::Pool;
-use super::rate::interval_of;
+use super::pool::{Pool, counted};
 use super::record::*;
 use super::row_view::RowView;
 use super::why::{causes_text, of_kind, short};
@@ -15,12 +14,7 @@ use crate::report::page::{Block, Cell, Head, Row, Table};
 use std::collections::HashMap;
 
 /// A row with its views in each scalar.
-pub(super) fn blocks(
-    record: &Record,
-    part: &RowPart,
-    views: &[RowView],
-    examples: usize,
-) -> Vec<Block> {
+pub(super) fn blocks(record: &Record, part: &RowPart, views: &[RowView]) -> Vec<Block> {
     let mut blocks = vec![Block::Terms(facts(record, part, views))];
     blocks.extend(gates(record, part));
     blocks.push(Block::Table(rates(record, part, views)));
@@ -28,14 +22,10 @@ pub(super) fn blocks(
     blocks.extend(pictures::blocks(record, part, views));
     let families = Block::Table(by_family(record, views));
     blocks.push(Block::Details("Family by family".to_owned(), vec![families]));
-    let items: Vec<_> = views.iter().flat_map(|view| findings(view, examples)).collect();
+    let items: Vec<_> = views.iter().flat_map(findings).collect();
     match items.is_empty() {
         true => blocks.push(Block::text("No findings.")),
-        false => blocks.extend(Block::items(
-            "Findings of each kind and of each class",
-            usize::MAX,
-            items,
-        )),
+        false => blocks.extend(Block::items("The worst of each class", usize::MAX, items)),
     }
     blocks
 }
@@ -167,7 +157,7 @@ fn rates(record: &Record, part: &RowPart, views: &[RowView]) -> Table {
     for (name, get) in columns {
         let pools: Vec<Pool> = views.iter().map(|view| view.total(get)).collect();
         if pools.iter().any(|pool| 0 < pool.counts()[1]) {
-            rows.push(Row::new(name, pools.iter().map(counts)));
+            rows.push(Row::new(name, pools.iter().map(Pool::to_string)));
         }
     }
     if views.iter().any(|view| 0 < view.hits_on_invalid()) {
@@ -183,17 +173,6 @@ fn rates(record: &Record, part: &RowPart, views: &[RowView]) -> Table {
     let name = if is_emulated { "ns a ray, emulated" } else { "ns a ray" };
     rows.push(Row::new(name, views.iter().map(|view| time(view).unwrap_or("-".to_owned()))));
     Table::new(heads.map(Head::of).collect(), rows)
-}
-
-/// `1,597 of 10,092 (15.8% [15.1, 16.6]); stored cases 3 of 57`.
-fn counts(pool: &Pool) -> String {
-    let apart = pool.apart().map_or(String::new(), |apart| format!("; stored cases {apart}"));
-    format!("{}{apart}", of(pool.rate()))
-}
-
-fn of(rate: &Rate) -> String {
-    let (count, of) = (group_digits(rate.count), group_digits(rate.of));
-    format!("{count} of {of}{}", interval_of(rate))
 }
 
 /// How far off findings are, and the errors of right hits.
@@ -249,7 +228,7 @@ fn by_family(record: &Record, views: &[RowView]) -> Table {
                 .map(|rate| {
                     let rate = result.map(|result| rate(&result.total)).filter(|rate| 0 < rate.of);
                     Cell {
-                        text: rate.as_ref().map_or("-".to_owned(), of),
+                        text: rate.as_ref().map_or("-".to_owned(), counted),
                         share: rate.and_then(|rate| rate.rate),
                         ..Default::default()
                     }
@@ -258,19 +237,4 @@ fn by_family(record: &Record, views: &[RowView]) -> Table {
         Row::new(&source.family, cells.collect::<Vec<_>>())
     };
     Table::new(heads, record.result.plan.sources.iter().map(row).collect())
-}
-
-/// As many examples a class as fit into some bytes, the same for all classes.
-pub(super) fn depth(record: &Record, mut room: usize) -> usize {
-    let parts = || record.result.results.iter().flat_map(|result| &result.findings);
-    let size = |example: &Example| example.command.len() + example.bits.len() + 64;
-    let deepest = parts().map(|part| part.first.len()).max().unwrap_or(0);
-    for depth in 0..deepest {
-        let further: usize = parts().filter_map(|part| part.first.get(depth)).map(size).sum();
-        match room.checked_sub(further) {
-            Some(rest) => room = rest,
-            None => return depth,
-        }
-    }
-    deepest
 }

@@ -5,12 +5,9 @@ use super::kernel;
 use super::lines::lines;
 use super::record::*;
 use super::row_view::RowView;
-use super::{Record, Verdict, group_digits, number_of, questions, screen, verdict};
+use super::{Record, Verdict, group_digits, number_of, ranking, screen, verdict};
 use crate::report::page::{Block, Page, Paged, Tone};
 use std::collections::BTreeSet;
-
-/// Bytes for the first examples of all classes, beside the worst of each.
-const EXAMPLES: usize = 400_000;
 
 impl Paged for Record {
     fn page(&self) -> Page {
@@ -36,9 +33,9 @@ impl Paged for Record {
         page.blocks.extend(broken_families(self).into_iter().map(Block::Text));
         page.blocks.extend(incomplete_meshes(self).into_iter().map(Block::Text));
         let scalars = &self.result.plan.scalars;
-        let all = questions::blocks(scalars, &columns, &lines);
-        page.blocks.push(Block::Details("Every question".to_owned(), all));
-        let examples = kernel::depth(self, EXAMPLES);
+        let of_scalars = lines.chunk_by(|one, other| one.row.scalar == other.row.scalar);
+        let tables = of_scalars.map(|lines| ranking::of_scalar(self, &columns, lines));
+        page.blocks.push(Block::Details("Every question".to_owned(), tables.collect()));
         let rows = &self.result.plan.rows;
         let mut views: Vec<Vec<RowView>> = rows.iter().map(|_| Vec::new()).collect();
         for scalar in scalars {
@@ -50,7 +47,7 @@ impl Paged for Record {
         }
         for (row, views) in rows.iter().zip(&views).filter(|(_, views)| !views.is_empty()) {
             let title = format!("{} ({})", row.kernel, row.set);
-            page.blocks.push(Block::Details(title, kernel::blocks(self, row, views, examples)));
+            page.blocks.push(Block::Details(title, kernel::blocks(self, row, views)));
         }
         page.blocks.push(Block::Details("About this run".to_owned(), about(self)));
         page

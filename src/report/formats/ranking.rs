@@ -2,8 +2,9 @@
 
 use super::columns::{Column, short_percent};
 use super::group_digits;
+use super::lines::Line;
 use super::record::*;
-use super::standing::Standing;
+use super::standing::{Standing, standings};
 use crate::report::page::{Block, Cell, Head, Row, Table};
 use std::collections::BTreeSet;
 
@@ -127,13 +128,40 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
 
 /// The table, and what its columns hold.
 pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]) -> Vec<Block> {
+    let scalars: Vec<&str> = record.result.plan.scalars.iter().map(String::as_str).collect();
+    let worse = match scalars.len() {
+        1 => "",
+        _ => " in the worse of the scalars",
+    };
+    let others =
+        format!("Other cells: % wrong{worse} on rays aimed at hard places, not of your pixels.");
+    let table = table(record, "kernel", columns, standings, &scalars);
+    vec![Block::Table(table.at_most(MOST)), Block::Text(others)]
+}
+
+/// The same of one scalar alone.
+pub(super) fn of_scalar(record: &Record, columns: &[Column], lines: &[Line]) -> Block {
+    let scalar = lines[0].row.scalar;
+    let standings = standings(record, columns, lines);
+    let head = format!("{scalar} kernel");
+    let mut table = table(record, &head, columns, &standings, &[scalar]);
+    table.heads.iter_mut().for_each(|head| head.is_optional = false);
+    Block::Table(table)
+}
+
+fn table(
+    record: &Record,
+    head: &str,
+    columns: &[Column],
+    standings: &[Standing],
+    scalars: &[&str],
+) -> Table {
     let place = |column: &Column| ORDER.iter().position(|name| *name == column.label());
     let mut order: Vec<usize> = (0..columns.len()).collect();
     order.sort_by_key(|i| (!columns[*i].is_ordinary(), place(&columns[*i]).unwrap_or(ORDER.len())));
     let has_leaks = standings.iter().any(|it| it.leaks().is_some());
-    let scalars = &record.result.plan.scalars;
     let mut table = Table::default();
-    table.heads.push(Head::of("kernel"));
+    table.heads.push(Head::of(head));
     let mut about = "% of rays at shared edges and vertices that hit nothing".to_owned();
     if standings.iter().any(Standing::breaks_promise) {
         about += " (!: its documentation rules that out)";
@@ -171,7 +199,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
             });
         }
         for scalar in scalars {
-            let times = record.provenance.kernel_nanoseconds.get(scalar);
+            let times = record.provenance.kernel_nanoseconds.get(*scalar);
             let name = format!("{} ({})", standing.part.kernel, standing.part.set);
             let time = times.and_then(|times| times.get(&name));
             cells.push(time.map_or("-".to_owned(), |time| format!("{time:.0}")).into());
@@ -184,11 +212,5 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
             about: Some(format!("{} ({})", standing.part.kernel, standing.part.set)),
         });
     }
-    let worse = match scalars.len() {
-        1 => "",
-        _ => " in the worse of the scalars",
-    };
-    let others =
-        format!("Other cells: % wrong{worse} on rays aimed at hard places, not of your pixels.");
-    vec![Block::Table(table.at_most(MOST)), Block::Text(others)]
+    table
 }
