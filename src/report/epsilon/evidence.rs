@@ -75,13 +75,13 @@ pub(super) fn of_kernel(
 /// Where the recommended epsilons are more often wrong on planes, or with rays, of other kinds.
 fn of_elsewhere(record: &SceneRecord, name: &str, part: &SceneKernelPart) -> Vec<Block> {
     let own = Scene::parse(&record.scene).map_or(SceneKind::ALL[0], |(scene, _)| scene.kind());
-    let others = part.elsewhere.iter().map(|other| other.plane.clone());
-    let kinds: Vec<String> = [own.to_string()].into_iter().chain(others).collect();
+    let planes = part.elsewhere.iter().map(|other| other.plane.clone());
+    let kinds: Vec<String> = [own.to_string()].into_iter().chain(planes).collect();
+    let others = |place: usize| part.elsewhere.iter().map(move |other| &other.wrong[place]);
     let rows: Vec<Compared> = (part.counts.iter().zip(&part.tried[0].wrong).enumerate())
         .map(|(place, (count, own))| Compared {
             label: label(count),
-            own,
-            others: part.elsewhere.iter().map(|other| &other.wrong[place]).collect(),
+            rates: [own].into_iter().chain(others(place)).cloned().collect(),
         })
         .collect();
     elsewhere::blocks(&format!("{name}: more often wrong"), &kinds, &rows, share)
