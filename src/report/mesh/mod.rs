@@ -2,8 +2,6 @@
 
 mod build;
 mod drawing;
-#[cfg(feature = "cli")]
-mod picture;
 mod record;
 mod screen;
 #[cfg(feature = "cli")]
