@@ -18,8 +18,6 @@ pub mod epsilon;
 pub mod explain;
 #[cfg(feature = "studies")]
 pub mod formats;
-#[cfg(feature = "cli")]
-mod illustrate;
 mod illustration;
 #[cfg(feature = "studies")]
 mod json;
@@ -40,9 +38,7 @@ pub(crate) use disagreement::counts_alone;
 pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
 #[cfg(feature = "studies")]
 pub use formats::{FORMATS, Format, HTML, ON_FAILURE, Style};
-#[cfg(feature = "cli")]
-pub use illustrate::illustrations;
-pub use illustration::{Illustrations, MapPart, ProofPart, ProvedGate};
+pub use illustration::{Illustrations, ProofPart, ProvedGate};
 #[cfg(feature = "cli")]
 pub use json::JSON_SCHEMA;
 #[cfg(feature = "studies")]

@@ -266,9 +266,6 @@ fn block(block: &Block) -> Markup {
                         svg.chart viewBox=(format!("0 0 {width} {height}")) role="img" aria-label=(about) { (PreEscaped(elements)) }
                     },
                     Drawing::Svg(svg) => { div.drawing role="group" aria-label=(about) tabindex="0" { (PreEscaped(svg)) } },
-                    Drawing::Png(png, [width, height]) => {
-                        img.map src={ "data:image/png;base64," (png) } alt=(about) width=(width) height=(height) loading="lazy";
-                    },
                 }
                 @if !caption.is_empty() { figcaption { (caption) } }
             }
