@@ -1,8 +1,8 @@
 //! Pictures of what goes wrong: drawings of the worst witnesses.
 
+use super::Record;
 use super::row_view::RowView;
 use super::worst::severity;
-use super::Record;
 use crate::audit;
 use crate::case::Case;
 use crate::kernel::Scalar;

@@ -4,8 +4,8 @@ use super::super::Paged;
 use super::*;
 use crate::report::{
     Conformance, Counts, Deviation, Example, FindingKind, FindingPart, Illustrations, KernelResult,
-    Method, NetChange, PlanPart, PlannedSource, ProofPart, ProvedGate, Provenance, Rate,
-    Record, ResultPart, RowChange, RowPart, SCHEMA, Unproved, Verdict,
+    Method, NetChange, PlanPart, PlannedSource, ProofPart, ProvedGate, Provenance, Rate, Record,
+    ResultPart, RowChange, RowPart, SCHEMA, Unproved, Verdict,
 };
 use std::collections::BTreeMap;
 
