@@ -101,10 +101,10 @@ fn limits(answer: &Answer) -> Vec<Block> {
     let row = |row: &LimitRow| {
         let star = if row.is_of_scene { " *" } else { "" };
         let what = format!("{}{star}", row.what);
-        Row::new(&row.knob, [row.bound.clone(), what, row.most.clone(), row.fresh.clone()])
+        let cells = [row.bound.clone(), what, row.most.clone(), row.fresh.clone()];
+        Row { below: row.price.iter().cloned().collect(), ..Row::new(&row.knob, cells) }
     };
     let mut blocks = vec![Block::Table(Table::new(heads, answer.limits.iter().map(row).collect()))];
-    blocks.extend(answer.conflicts.iter().map(|conflict| Block::text(conflict.join(" "))));
-    blocks.push(Block::Notes(answer.prices.clone()));
+    blocks.extend(answer.conflicts.iter().cloned().map(Block::Text));
     blocks
 }
