@@ -2,7 +2,6 @@
 
 use super::changed::{Change, UNSURE, changed_case};
 use super::known::{Found, Known};
-use super::order::{Harm, worst_first};
 use super::planned::Planned;
 use super::repaired::repaired;
 use super::rows::changed_rows;
@@ -12,6 +11,7 @@ use crate::report::{
     Conformance, Deviation, Example, FindingKind, Key, Method, NetChange, Rate, ResultPart,
     Verdict, group_digits, rate_of,
 };
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The probability that at least one of all comparisons by interval reports a difference by chance.
@@ -38,7 +38,6 @@ pub fn compare(
     let keys: BTreeSet<&Key> = entries.keys().chain(found.keys().copied()).collect();
     let judge = Judge { method, tail: tail(keys.len()) };
     let planned = Planned::of(result);
-    let mut unexpected = Vec::new();
     let mut conformance = Conformance {
         verdict: Verdict::Conforms,
         method,
@@ -109,17 +108,23 @@ pub fn compare(
                 if entry.is_some() {
                     show(&mut deviation, Change::New, shown(Change::New));
                 }
-                unexpected.push((Harm::of(key.finding, entry, &rate, same_plan), deviation));
+                conformance.unexpected.push(deviation);
             }
         }
     }
-    conformance.unexpected = worst_first(unexpected);
+    conformance.unexpected.sort_by_key(|found| Reverse(harm(found)));
     conformance.verdict = match (conformance.unexpected.len(), conformance.stale.len()) {
         (0, 0) => Verdict::Conforms,
         (0, _) => Verdict::Stale,
         _ => Verdict::Disagreements,
     };
     conformance
+}
+
+/// How much harm a disagreement does: cases without a verdict are worst, then what has the most cases more than expected.
+fn harm(found: &Deviation) -> (bool, u64) {
+    let expected = found.expected_count.unwrap_or(0);
+    (found.finding.is_failure(), found.found.count.saturating_sub(expected))
 }
 
 /// The probability at each end of each interval.

@@ -16,7 +16,6 @@ mod file;
 mod files;
 mod known;
 mod lock;
-mod order;
 mod planned;
 mod repaired;
 mod rows;
