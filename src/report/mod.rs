@@ -54,6 +54,32 @@ pub(crate) fn number_of(count: u64, one: &str, many: &str) -> String {
     format!("{} {}", group_digits(count), if count == 1 { one } else { many })
 }
 
+/// Names in a sentence; of many the first, and how many more there are.
+#[cfg(feature = "studies")]
+pub(crate) fn listed(names: &[impl AsRef<str>], most: usize) -> String {
+    let shown: Vec<&str> = names.iter().take(most).map(AsRef::as_ref).collect();
+    match names.len().saturating_sub(most) {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
+}
+
+/// Each thing with those after it that are like it.
+#[cfg(feature = "studies")]
+pub(crate) fn alike<T>(
+    all: impl IntoIterator<Item = T>,
+    is_like: impl Fn(&T, &T) -> bool,
+) -> Vec<(T, Vec<T>)> {
+    let mut groups: Vec<(T, Vec<T>)> = Vec::new();
+    for one in all {
+        match groups.iter_mut().find(|(first, _)| is_like(first, &one)) {
+            Some((_, like)) => like.push(one),
+            None => groups.push((one, Vec::new())),
+        }
+    }
+    groups
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     pub mod schema;

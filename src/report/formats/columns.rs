@@ -214,14 +214,10 @@ impl Across {
         self.promised.rules_out().into_iter().zip(happened).any(|(ruled_out, n)| ruled_out && 0 < n)
     }
 
-    /// The promise, and the word `kept` or `BROKEN`.
-    pub(super) fn words(&self) -> String {
-        match self.promised.in_short() {
-            None => "nothing".to_owned(),
-            Some(promise) => {
-                format!("{promise}: {}", if self.is_broken() { "BROKEN" } else { "kept" })
-            }
-        }
+    /// The promise, and the word `kept` or `BROKEN`; none without a promise.
+    pub(super) fn promise(&self) -> Option<String> {
+        let kept = if self.is_broken() { "BROKEN" } else { "kept" };
+        self.promised.in_short().map(|promise| format!("{promise}: {kept}"))
     }
 }
 

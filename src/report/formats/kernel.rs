@@ -4,7 +4,7 @@
 use super::pictures;
 use super::pool::{Pool, counted};
 use super::record::*;
-use super::row_view::RowView;
+use super::row_view::{COUNTED, RowView};
 use super::why::{causes_text, of_kind, short};
 use super::worst::findings;
 use super::{ProofPart, ProvedGate, group_digits};
@@ -138,23 +138,9 @@ fn proved(proof: &ProofPart, gate: &str) -> String {
 
 /// The sums over all sources, scalar by scalar.
 fn rates(record: &Record, part: &RowPart, views: &[RowView]) -> Table {
-    type Get = fn(&KernelResult) -> Option<&Rate>;
-    let columns: [(&str, Get); 11] = [
-        ("false misses", |r| Some(&r.total.false_misses)),
-        ("false hits", |r| Some(&r.total.false_hits)),
-        ("bad values", |r| Some(&r.total.bad_values)),
-        ("wrong values", |r| Some(&r.total.wrong_values)),
-        ("cracks", |r| Some(&r.across.as_ref()?.cracks)),
-        ("doubles", |r| Some(&r.across.as_ref()?.doubles)),
-        ("odd folds", |r| Some(&r.across.as_ref()?.odd_folds)),
-        ("missed folds", |r| Some(&r.across.as_ref()?.missed_folds)),
-        ("self-hits", |r| r.self_hits.as_ref()),
-        ("polygon false misses", |r| Some(&r.polygons.as_ref()?.false_misses)),
-        ("polygon false hits", |r| Some(&r.polygons.as_ref()?.false_hits)),
-    ];
     let heads = ["all families"].into_iter().chain(views.iter().map(|view| view.scalar));
     let mut rows = Vec::new();
-    for (name, get) in columns {
+    for (name, get) in COUNTED {
         let pools: Vec<Pool> = views.iter().map(|view| view.total(get)).collect();
         if pools.iter().any(|pool| 0 < pool.counts()[1]) {
             rows.push(Row::new(name, pools.iter().map(Pool::to_string)));
