@@ -292,13 +292,7 @@ impl Conformance {
 
     /// One line.
     pub fn summary(&self) -> String {
-        let count = |list: &[Deviation], one: &str, many: &str| {
-            format!(
-                "{} {}",
-                group_digits(list.len() as u64),
-                if list.len() == 1 { one } else { many }
-            )
-        };
+        let count = |list: &[Deviation], one, many| number_of(list.len() as u64, one, many);
         let verdict = match self.verdict {
             Verdict::Conforms => "conforms",
             Verdict::Disagreements => "does not conform",

@@ -1,4 +1,4 @@
-//! The three worst findings of a record, in words, each with the command that shows it.
+//! The worst findings of a record, in words, each with the command that shows it.
 
 use super::columns::Column;
 use super::group_digits;
@@ -9,6 +9,7 @@ use crate::audit::Attribution;
 use crate::report::page::{Block, Item};
 
 /// A class of findings, by its worst case.
+#[derive(Clone, Copy)]
 struct Extreme<'a> {
     line: &'a Line<'a>,
     part: &'a FindingPart,
@@ -22,7 +23,7 @@ pub(super) fn blocks(columns: &[Column], lines: &[Line], most: usize) -> Vec<Blo
     let place = if is_all { "" } else { " in ordinary sizes" };
     let head = match most {
         1 => format!("Worst{place}, in longest edges of the triangle:"),
-        _ => format!("Worst{place}, in longest edges, of different causes and kernels:"),
+        _ => format!("Worst{place}, in longest edges, of different causes:"),
     };
     let commands = broken.into_iter().map(|(line, (text, command))| {
         (format!("{}, {}: {text}", line.label(), line.row.scalar), command)
@@ -75,28 +76,16 @@ fn all<'a>(columns: &[Column], lines: &'a [Line<'a>]) -> Vec<Extreme<'a>> {
     all
 }
 
-/// The worst first; then the worst of what differs from those before it.
+/// The worst, and the worst of another cause, or else of another kind; at most so many.
 fn chosen(mut all: Vec<Extreme>, most: usize) -> Vec<Extreme> {
     all.sort_by(|a, b| severity(b.part).total_cmp(&severity(a.part)));
-    let mut chosen: Vec<Extreme> = Vec::new();
-    while chosen.len() < most {
-        let is_new = |differs: &dyn Fn(&Extreme, &Extreme) -> bool| {
-            all.iter().position(|one| chosen.iter().all(|other| differs(one, other)))
-        };
-        let cause = |a: &Extreme, b: &Extreme| group(a.part) != group(b.part);
-        let kernel = |a: &Extreme, b: &Extreme| {
-            let is_other = a.line.row.part.kernel != b.line.row.part.kernel;
-            is_other && a.part.worst.case != b.part.worst.case
-        };
-        let kind = |a: &Extreme, b: &Extreme| a.part.finding != b.part.finding;
-        let next = is_new(&|a, b| cause(a, b) && kernel(a, b))
-            .or_else(|| is_new(&cause))
-            .or_else(|| is_new(&kernel))
-            .or_else(|| is_new(&kind));
-        let Some(next) = next else { break };
-        chosen.push(all.remove(next));
-    }
-    chosen
+    let other = |differs: &dyn Fn(&Extreme) -> bool| all.iter().position(differs);
+    let second = all.first().and_then(|first| {
+        let of_cause = other(&|it| group(it.part) != group(first.part));
+        of_cause.or_else(|| other(&|it| it.part.finding != first.part.finding))
+    });
+    let places = (!all.is_empty()).then_some(0).into_iter().chain(second);
+    places.take(most).map(|place| all[place]).collect()
 }
 
 /// Causes that are alike: rounding, overflow and underflow are all the arithmetic.
