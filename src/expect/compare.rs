@@ -1,12 +1,12 @@
 //! A run beside its expectations.
 
-use super::changed::{Change, UNSURE, changed_case};
+use super::changed::{Change, changed_case};
 use super::known::{Found, Known};
 use super::planned::Planned;
 use super::repaired::repaired;
 use super::rows::changed_rows;
 use super::{Amount, Entry, Expectations};
-use crate::audit::{Digest, Interval};
+use crate::audit::Interval;
 use crate::report::{
     Conformance, Deviation, Example, FindingKind, Key, Method, NetChange, Rate, ResultPart,
     Verdict, group_digits, rate_of,
@@ -135,9 +135,8 @@ pub(super) fn tail(comparisons: usize) -> f64 {
 /// A case of a class that changed, if the digests tell one.
 fn changed(result: &ResultPart, entry: &Entry, found: &Found, change: Change) -> Option<Example> {
     let Amount::Count { cases: Some((_, expected)), .. } = &entry.amount else { return None };
-    let read = |digest: &str| Digest::try_from(digest.to_owned()).ok();
-    let (before, now) = (read(expected)?, read(found.digest?)?);
-    changed_case(result, &found.key, found.example.as_ref()?, change.of(&before, &now))
+    let digests = [Some(expected.as_str()), Some(found.digest?)];
+    changed_case(result, &found.key, found.example.as_ref()?, change, digests)
 }
 
 enum Outcome {
@@ -254,11 +253,7 @@ fn deviation(key: &Key, entry: Option<&Entry>, rate: &Rate, found: Option<&Found
 /// Shows a case that changed. Else what got worse says that the case shown may have failed before, and what
 /// got better shows none: it may still be wrong.
 fn show(deviation: &mut Deviation, change: Change, changed: Option<Example>) {
-    deviation.expected += match (change, &changed) {
-        (_, Some(_)) => change.note(),
-        (Change::New, None) if deviation.case.is_some() => UNSURE,
-        (_, None) => "",
-    };
+    deviation.expected += change.note(changed.is_some(), deviation.case.is_some());
     match changed {
         Some(Example { case, bits, command, .. }) => {
             (deviation.case, deviation.command) = (Some(case), Some(command));
