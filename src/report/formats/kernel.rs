@@ -14,7 +14,7 @@ use crate::report::page::{Block, Cell, Head, Row, Table};
 use std::collections::HashMap;
 
 /// A row with its views in each scalar.
-pub(super) fn blocks(record: &Record, part: &RowPart, views: &[RowView]) -> Vec<Block> {
+pub(super) fn blocks(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<Block> {
     let mut blocks = vec![Block::Terms(facts(record, part, views))];
     blocks.extend(gates(record, part));
     blocks.push(Block::Table(rates(record, part, views)));
@@ -22,7 +22,7 @@ pub(super) fn blocks(record: &Record, part: &RowPart, views: &[RowView]) -> Vec<
     blocks.extend(pictures::blocks(record, part, views));
     let families = Block::Table(by_family(record, views));
     blocks.push(Block::Details("Family by family".to_owned(), vec![families]));
-    let items: Vec<_> = views.iter().flat_map(findings).collect();
+    let items: Vec<_> = views.iter().flat_map(|view| findings(view)).collect();
     match items.is_empty() {
         true => blocks.push(Block::text("No findings.")),
         false => blocks.extend(Block::items("The worst of each class", usize::MAX, items)),
@@ -31,7 +31,7 @@ pub(super) fn blocks(record: &Record, part: &RowPart, views: &[RowView]) -> Vec<
 }
 
 /// The promise, where it comes from, what is proved of its edges, and how it runs again.
-fn facts(record: &Record, part: &RowPart, views: &[RowView]) -> Vec<(String, String)> {
+fn facts(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<(String, String)> {
     let plan_flags = record.provenance.plan_flags.clone().unwrap_or_default();
     let mut facts = vec![("contract", part.contract.clone())];
     facts.extend(info(part).map(|info| ("source", info.source.to_owned())));
@@ -137,7 +137,7 @@ fn proved(proof: &ProofPart, gate: &str) -> String {
 }
 
 /// The sums over all sources, scalar by scalar.
-fn rates(record: &Record, part: &RowPart, views: &[RowView]) -> Table {
+fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
     let heads = ["all families"].into_iter().chain(views.iter().map(|view| view.scalar));
     let mut rows = Vec::new();
     for (name, get) in COUNTED {
@@ -162,7 +162,7 @@ fn rates(record: &Record, part: &RowPart, views: &[RowView]) -> Table {
 }
 
 /// How far off findings are, and the errors of right hits.
-fn quantiles_of(views: &[RowView]) -> Vec<Block> {
+fn quantiles_of(views: &[&RowView]) -> Vec<Block> {
     let heads = |first: &str| -> Vec<Head> {
         [first, "half within", "90 %", "99 %", "all"].map(Head::of).into()
     };
@@ -196,7 +196,7 @@ fn quantiles_of(views: &[RowView]) -> Vec<Block> {
 }
 
 /// Every source with its counts and intervals.
-fn by_family(record: &Record, views: &[RowView]) -> Table {
+fn by_family(record: &Record, views: &[&RowView]) -> Table {
     let mut heads = vec![Head::of("family")];
     for view in views {
         heads.extend(

@@ -32,22 +32,17 @@ impl Paged for Record {
         }
         page.blocks.extend(broken_families(self).into_iter().map(Block::Text));
         page.blocks.extend(incomplete_meshes(self).into_iter().map(Block::Text));
-        let scalars = &self.result.plan.scalars;
         let of_scalars = lines.chunk_by(|one, other| one.row.scalar == other.row.scalar);
         let tables = of_scalars.map(|lines| ranking::of_scalar(self, &columns, lines));
         page.blocks.push(Block::Details("Every question".to_owned(), tables.collect()));
         let rows = &self.result.plan.rows;
-        let mut views: Vec<Vec<RowView>> = rows.iter().map(|_| Vec::new()).collect();
-        for scalar in scalars {
-            // In the order of the plan, some left out.
-            let mut of_scalar = RowView::all(self, scalar).into_iter().peekable();
-            for (row, views) in rows.iter().zip(&mut views) {
-                views.extend(of_scalar.next_if(|view| std::ptr::eq(view.part, row)));
+        for row in rows {
+            let of_row = lines.iter().filter(|line| std::ptr::eq(line.row.part, row));
+            let views: Vec<&RowView> = of_row.map(|line| &line.row).collect();
+            if !views.is_empty() {
+                let title = format!("{} ({})", row.kernel, row.set);
+                page.blocks.push(Block::Details(title, kernel::blocks(self, row, &views)));
             }
-        }
-        for (row, views) in rows.iter().zip(&views).filter(|(_, views)| !views.is_empty()) {
-            let title = format!("{} ({})", row.kernel, row.set);
-            page.blocks.push(Block::Details(title, kernel::blocks(self, row, views)));
         }
         page.blocks.push(Block::Details("About this run".to_owned(), about(self)));
         page

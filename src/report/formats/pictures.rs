@@ -16,14 +16,14 @@ const SPANNING: [&str; 6] =
     ["tiny", "huge", "direction-length", "mixed-scale", "range-ends", "invalid"];
 
 /// The worst false miss and false hit of each scalar, drawn.
-pub(super) fn blocks(record: &Record, part: &RowPart, views: &[RowView]) -> Vec<Block> {
+pub(super) fn blocks(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<Block> {
     let is_asked = record.illustrations.is_some();
     let drawings = is_asked.then(|| drawings(part, views)).unwrap_or_default();
     drawings.into_iter().map(Block::Picture).collect()
 }
 
 /// In each scalar the worst of each kind that can be drawn, if the kernel is known here.
-fn drawings(part: &RowPart, views: &[RowView]) -> Vec<Picture> {
+fn drawings(part: &RowPart, views: &[&RowView]) -> Vec<Picture> {
     let Ok(run) = part.spec().row() else { return Vec::new() };
     let mut all = Vec::new();
     for view in views {
