@@ -98,20 +98,16 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
         .filter(|column| !column.is_ordinary())
         .map(|column| column.label())
         .collect();
-    let place = match (&special[..], is_close_up(record)) {
-        ([], _) => String::new(),
+    let place = match &special[..] {
+        [] => String::new(),
         // Each is a row of a close-up.
-        (special, true) => {
+        special if is_close_up(record) => {
             format!(" in ordinary sizes (all rows but {})", special.join(" and "))
         }
-        (_, false) => " in ordinary sizes".to_owned(),
+        _ => " in ordinary sizes".to_owned(),
     };
     let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
-    let mean = match &special[..] {
-        _ if meant <= 1 => place.clone(),
-        [] => " (the mean of the table's rows)".to_owned(),
-        special => format!(" in ordinary sizes (the mean without {})", special.join(" and ")),
-    };
+    let mean = if 1 < meant { ", the mean of the rows" } else { "" };
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
     let label = |standing: &Standing| format!("{} ({})", standing.part.kernel, standing.part.set);
     let text = match standings {
@@ -128,21 +124,18 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
             format!("{}: no false miss and no false hit{place}.", label(only))
         }
         [only] => format!(
-            "{} is wrong on {} % of the cases{mean}, {} by over 1/1000 of an edge.",
+            "{} is wrong on {} % of the cases{place}{mean}, {} by over 1/1000 of an edge.",
             label(only),
             percent(only.share.unwrap_or_default()),
             number_of(only.far, "time", "times"),
         ),
         all => ranking::answer(all, judged(record), &place),
     };
-    let broken: BTreeMap<FindingKind, u64> = standings
-        .iter()
-        .flat_map(|standing| standing.others.clone())
-        .fold(BTreeMap::new(), |mut sums, (finding, count)| {
-            *sums.entry(finding).or_default() += count;
-            sums
-        });
     // Of several the table tells.
+    let broken = match standings {
+        [only] => only.others.clone(),
+        _ => BTreeMap::new(),
+    };
     let is_across = |kind: &FindingKind| {
         matches!(kind, FindingKind::Crack | FindingKind::Double | FindingKind::OddFold)
     };
@@ -153,9 +146,9 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
             number_of(*count, finding.name(), &format!("{finding}{ending}"))
         });
         let counts: Vec<String> = counts.collect();
-        match standings.len() == 1 && !counts.is_empty() {
-            true => format!(" {lead}: {}.", counts.join(", ")),
-            false => String::new(),
+        match counts.is_empty() {
+            true => String::new(),
+            false => format!(" {lead}: {}.", counts.join(", ")),
         }
     };
     let others = told("Breaks its promise across triangles", true) + &told("Besides", false);
