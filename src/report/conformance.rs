@@ -74,7 +74,7 @@ pub struct NetChange {
     pub new: u64,
     /// As many cases as expected, but not the same ones.
     pub other_cases: u64,
-    /// Of the worse and the new: those with cases on which the kernel failed before, so that they were not judged.
+    /// Those of the worse and the new that have cases on which the kernel failed before, so that they were not judged.
     #[serde(default)]
     pub newly_judged: u64,
     /// As expected.

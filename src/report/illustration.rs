@@ -1,9 +1,9 @@
-//! What a page shows beside a run: no part of its result.
+//! Proofs that a page shows beside a run: no part of its result.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What is proved of the kernels; only where it was asked for. Records of earlier versions have pictures too.
+/// The proofs about the kernels; only where it was asked for. Records of earlier versions have pictures too.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Illustrations {

@@ -45,7 +45,7 @@ pub(super) struct LimitRow {
     pub fresh: String,
     /// True if the scene's sizes set it as much as rounding does.
     pub is_of_scene: bool,
-    /// What it costs, if that is much.
+    /// Its price, if that is high.
     pub price: Option<String>,
 }
 

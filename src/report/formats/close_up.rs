@@ -137,8 +137,8 @@ fn row(column: &Column, place: usize, lines: &[&Line]) -> Option<Row> {
     Some(row)
 }
 
-/// What is counted besides false misses and false hits, and if the promise across triangles is kept; and why no causes
-/// are told.
+/// The counts besides false misses and false hits, and if the promise across triangles is kept; and why no causes are
+/// told.
 fn others(line: &Line) -> Vec<String> {
     let mut all = Vec::new();
     let parts = line.row.results.iter().flat_map(|result| &result.findings);
