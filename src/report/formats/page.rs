@@ -34,7 +34,11 @@ impl Paged for Record {
         page.blocks.extend(incomplete_meshes(self).into_iter().map(Block::Text));
         let of_scalars = lines.chunk_by(|one, other| one.row.scalar == other.row.scalar);
         let tables = of_scalars.map(|lines| ranking::of_scalar(self, &columns, lines));
-        page.blocks.push(Block::Details("Every question".to_owned(), tables.collect()));
+        let tables: Vec<Block> = tables.collect();
+        // That of one scalar is on the screen.
+        if 1 < tables.len() {
+            page.blocks.push(Block::Details("Every question".to_owned(), tables));
+        }
         let rows = &self.result.plan.rows;
         for row in rows {
             let of_row = lines.iter().filter(|line| std::ptr::eq(line.row.part, row));
