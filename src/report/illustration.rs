@@ -37,3 +37,15 @@ pub struct ProvedGate {
     /// The largest error that is known.
     pub known: Option<f64>,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_of_earlier_versions_are_passed_over() {
+        let text = r#"{"gates":[], "maps":[{"kernel":"k","png":"QUJD"}],"proofs":[]}"#;
+        let all: Illustrations = serde_json::from_str(text).unwrap();
+        assert!(all.proofs.is_empty());
+    }
+}
