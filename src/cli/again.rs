@@ -46,11 +46,8 @@ fn unsteady(plan: &Plan, result: &ResultPart, conformance: &mut Conformance) -> 
     let mut whole = BTreeMap::new();
     let Conformance { unexpected, stale, .. } = conformance;
     let unexpected = unexpected.iter_mut().map(|found| (found, true));
-    // A case of a stale entry is right now, unless it was not judged before.
-    let stale = stale.iter_mut().map(|found| {
-        let shows_it = found.expected_count.is_none();
-        (found, shows_it)
-    });
+    // A case of a stale entry is right now.
+    let stale = stale.iter_mut().map(|found| (found, false));
     for (found, shows_it) in unexpected.chain(stale) {
         let key = found.key();
         if unsteady.iter().any(|other| other.key().is_of_row(&key)) {

@@ -12,20 +12,20 @@ use super::sources::{SourceArguments, rays_at_each};
 use crate::audit::{self, Plan, Shard, Source, shell_word};
 use crate::report::{
     Context, FORMATS, Format, HTML, Illustrations, ON_FAILURE, PartialPart, PlanFlags, Record,
-    build, group_digits, illustrations, number_of, shard_part,
+    build, group_digits, number_of, shard_part,
 };
 use clap::{Args, ValueEnum};
 
 /// The flags that say how to report.
 #[derive(Args)]
 #[command(mut_arg("format", |format| {
-    format.help("text, json, jsonl, junit, sarif, markdown or html, or several separated by commas")
+    format.help("text, json, junit, sarif, markdown or html, or several separated by commas")
 }))]
 pub struct ReportArguments {
     #[command(flatten)]
     pub output: OutputArguments,
 
-    /// When to compute the maps of the HTML report; auto: for --format html
+    /// When to draw the worst cases and to say what is proved, on the HTML report; auto: for --format html
     #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
     illustrate: IllustrateChoice,
 }
@@ -205,7 +205,7 @@ impl RunArguments {
             Some(PlanFlags { kernels: self.kernels.flags(), sources: self.source_flags() });
         if illustrate {
             let progress = Progress::without_end(self.report.output.quiet);
-            progress.tell("maps for the pictures".to_owned());
+            progress.tell("what is proved of the kernels".to_owned());
             record.illustrations = Some(illustrated(plan));
             progress.finish();
         }
@@ -213,10 +213,9 @@ impl RunArguments {
     }
 }
 
-/// The data for the pictures of a plan's report, and the proofs about its kernels.
+/// The proofs about the kernels of a plan.
 pub fn illustrated(plan: &Plan) -> Illustrations {
-    let proofs = prove::proofs(&plan.rows, plan.scalars);
-    Illustrations { proofs, ..illustrations(plan) }
+    Illustrations { proofs: prove::proofs(&plan.rows, plan.scalars) }
 }
 
 /// A family that breaks its own promise is a fault of this tool.

@@ -120,7 +120,11 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     refuse_wrong_values(&rows, scalars)?;
     let FirstRays { scene, scalars, unit, mesh } = arguments.first_rays(scalars)?;
     let instance = matrix_in(arguments.instance.as_deref(), scalars)?;
-    let (kinds, wall, fold) = (arguments.kinds()?, arguments.wall()?, arguments.fold()?);
+    let kinds = arguments.kinds()?;
+    let distance = "a distance above 0 in longest edges, such as 0.01";
+    let wall = number_below("--wall", &arguments.wall, f64::INFINITY, distance)?;
+    let angle = "an angle between 0 and 180 degrees, such as 45";
+    let fold = number_below("--fold", &arguments.fold, 180.0, angle)?;
     // A mesh has planes of its own.
     let scenes = match Scene::names_kind(&arguments.scene) || mesh.is_some() {
         true => vec![scene.clone()],
@@ -192,6 +196,12 @@ type Study<'a> = Box<dyn Fn(&Progress) -> PointsPart + 'a>;
 /// True if any scheme runs in a scalar.
 fn has<F: Scalar>(schemes: &[Scheme]) -> bool {
     schemes.iter().any(|scheme| scheme.offset::<F>().is_some())
+}
+
+/// The number of a flag, above 0 and below a limit; `expected` says so.
+fn number_below(flag: &str, text: &str, limit: f64, expected: &str) -> Result<f64, Failure> {
+    let number = text.trim().parse().ok().filter(|number| 0.0 < *number && *number < limit);
+    number.ok_or_else(|| Failure::usage(format!("{flag}: '{text}' is not {expected}")))
 }
 
 /// The seed of the rays on which schemes are chosen and made: the next one.
@@ -314,26 +324,6 @@ impl SpawnArguments {
         };
         refuse_twice("--point", &self.point)?;
         self.point.iter().map(chosen).collect()
-    }
-
-    fn wall(&self) -> Result<f64, Failure> {
-        let wall: Option<f64> = self.wall.trim().parse().ok();
-        wall.filter(|wall| wall.is_finite() && 0.0 < *wall).ok_or_else(|| {
-            Failure::usage(format!(
-                "--wall: '{}' is not a distance above 0 in longest edges, such as 0.01",
-                self.wall
-            ))
-        })
-    }
-
-    fn fold(&self) -> Result<f64, Failure> {
-        let fold: Option<f64> = self.fold.trim().parse().ok();
-        fold.filter(|fold| 0.0 < *fold && *fold < 180.0).ok_or_else(|| {
-            Failure::usage(format!(
-                "--fold: '{}' is not an angle between 0 and 180 degrees, such as 45",
-                self.fold
-            ))
-        })
     }
 
     /// Starts the commands that answer for offsets, and makes their names known.

@@ -20,8 +20,8 @@ use values::Answer;
 #[derive(Args)]
 #[command(mut_arg("format", |format| {
     format.help(
-        "text; json: every wrong answer and every missing id; record: what `hairline diff` compares; or jsonl, junit, \
-         sarif, markdown or html; or several separated by commas",
+        "text; json: every wrong answer and every missing id; record: what `hairline diff` compares; or junit, sarif, \
+         markdown or html; or several separated by commas",
     )
 }))]
 pub struct VerifyArguments {

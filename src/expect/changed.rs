@@ -15,43 +15,43 @@ pub enum Change {
     Right,
 }
 
-/// The note on a case that is shown, if no digest tells whether it changed.
-pub const UNSURE: &str = "; the case shown may have failed before";
-
 impl Change {
-    /// The digests of what was wrong before and of what is wrong now: the one that has the case, and the one
-    /// that has not.
-    pub fn of<'a>(self, before: &'a Digest, now: &'a Digest) -> [&'a Digest; 2] {
-        match self {
-            Change::New => [now, before],
-            Change::Right => [before, now],
-        }
-    }
-
-    /// The note on a case that is shown.
-    pub fn note(self) -> &'static str {
-        match self {
-            Change::New => "; the case shown is new",
-            Change::Right => "; the case shown no longer shows it",
+    /// The note on a case that is shown, if one is: whether it changed, as far as the digests tell.
+    pub fn note(self, is_changed: bool, is_shown: bool) -> &'static str {
+        match (self, is_changed) {
+            (Change::New, true) => "; the case shown is new",
+            (Change::Right, true) => "; the case shown no longer shows it",
+            (Change::New, false) if is_shown => "; the case shown may have failed before",
+            _ => "",
         }
     }
 }
 
-/// A case of a class that is in the first set and not in the second, if their digests tell one; `example` is
-/// another of the class, shown again by a command like its.
+/// A case of a class that changed, if the digests of what was wrong before and of what is wrong now tell one; nothing was wrong
+/// where there is none. `example` is another of the class, shown again by a command like its.
 pub fn changed_case(
     result: &ResultPart,
     key: &Key,
     example: &Example,
-    [has, has_not]: [&Digest; 2],
+    change: Change,
+    digests: [Option<&str>; 2],
 ) -> Option<Example> {
+    let [before, now] = digests.map(|digest| match digest {
+        None => Some(Digest::default()),
+        Some(text) => Digest::try_from(text.to_owned()).ok(),
+    });
+    let (before, now) = (before?, now?);
+    let (has, has_not) = match change {
+        Change::New => (now, before),
+        Change::Right => (before, now),
+    };
     // The place of a stored case does not tell its name, which may be another case's id.
     if key.family.starts_with("corpus:") {
         return None;
     }
     let is_source = |scalar: &str, family: &str| scalar == key.scalar && family == key.family;
     let source = result.sources.iter().find(|source| is_source(&source.scalar, &source.family))?;
-    let place = has.beyond(has_not, source.indices).min()?;
+    let place = has.beyond(&has_not, source.indices).min()?;
     let mut id: CaseId = example.case.parse().ok()?;
     // Of a family of single cases another triangle is none: several places were taken for one.
     if id.triangle.is_none() && place.triangle != 0 {

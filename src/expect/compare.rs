@@ -1,17 +1,17 @@
 //! A run beside its expectations.
 
-use super::changed::{Change, UNSURE, changed_case};
+use super::changed::{Change, changed_case};
 use super::known::{Found, Known};
-use super::order::{Harm, worst_first};
 use super::planned::Planned;
+use super::repaired::repaired;
 use super::rows::changed_rows;
-use super::unjudged::{newly_judged_groups, not_judged_before};
 use super::{Amount, Entry, Expectations};
-use crate::audit::{Digest, Interval};
+use crate::audit::Interval;
 use crate::report::{
     Conformance, Deviation, Example, FindingKind, Key, Method, NetChange, Rate, ResultPart,
     Verdict, group_digits, rate_of,
 };
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The probability that at least one of all comparisons by interval reports a difference by chance.
@@ -34,9 +34,10 @@ pub fn compare(
     let all = known.found(result);
     let method = if same_plan { Method::CaseByCase } else { Method::Intervals };
     let entries = &known.entries;
-    let compared: BTreeSet<&Key> =
-        entries.keys().chain(all.iter().map(|found| &found.key)).collect();
-    let judge = Judge { method, tail: tail(compared.len()) };
+    let found: BTreeMap<&Key, &Found> = all.iter().map(|found| (&found.key, found)).collect();
+    let keys: BTreeSet<&Key> = entries.keys().chain(found.keys().copied()).collect();
+    let judge = Judge { method, tail: tail(keys.len()) };
+    let planned = Planned::of(result);
     let mut conformance = Conformance {
         verdict: Verdict::Conforms,
         method,
@@ -53,93 +54,77 @@ pub fn compare(
         too_rare_to_tell: 0,
         outside_the_plan: 0,
     };
-    let planned = Planned::of(result);
-    let newly_judged = |found: &Found| {
-        let part = planned.result(&found.key).filter(|_| same_plan)?;
-        let groups = newly_judged_groups(known.target, part, &found.key);
-        not_judged_before(entries, &all, (planned.indices(&found.key), groups), found)
-    };
-    let mut unexpected = Vec::new();
-    for found in &all {
-        if !entries.contains_key(&found.key) {
-            if judge.is_unexpected(found, entries) {
-                let mut deviation = deviation(&found.key, None, &found.rate, Some(found));
-                if let Some(why) = newly_judged(found) {
-                    deviation.expected += &why;
-                    deviation.expected_count = None;
-                    conformance.stale.push(deviation);
-                    conformance.change.newly_judged += 1;
-                } else {
-                    let harm = Harm::of(found.key.finding, None, &found.rate, same_plan);
-                    unexpected.push((harm, deviation));
-                    conformance.change.new += 1;
-                }
-            } else {
-                conformance.too_rare_to_tell += 1;
-            }
-        }
-    }
-    let found: BTreeMap<&Key, &Found> = all.iter().map(|found| (&found.key, found)).collect();
-    for (key, entry) in entries {
-        let Some(part) = planned.result(key) else {
-            if planned.leaves_out(key) {
+    for key in keys {
+        let (entry, found, part) = (entries.get(key), found.get(key).copied(), planned.result(key));
+        let rate = part.map_or_else(Rate::default, |part| rate_of(part, &key.class, key.finding));
+        let mut deviation = deviation(key, entry, &rate, found);
+        let outcome = match (entry, part) {
+            (Some(_), None) if planned.leaves_out(key) => {
                 conformance.outside_the_plan += 1;
-            } else {
-                conformance.stale.push(deviation(key, Some(entry), &Rate::default(), None));
+                continue;
             }
-            continue;
+            (None, _) if !found.is_some_and(|found| judge.is_unexpected(found, entries)) => {
+                conformance.too_rare_to_tell += 1;
+                continue;
+            }
+            (Some(_), None) => Outcome::Better,
+            (Some(entry), Some(_)) => {
+                judge.outcome(entry, &rate, found.and_then(|found| found.digest))
+            }
+            (None, _) => Outcome::Worse,
         };
-        let found = found.get(key).copied();
-        let rate = rate_of(part, &key.class, key.finding);
-        let mut deviation = deviation(key, Some(entry), &rate, found);
-        match judge.outcome(entry, &rate, found.and_then(|found| found.digest)) {
-            Outcome::Same => conformance.known.push(deviation),
+        let shown = |change| {
+            let (entry, found) = entry.zip(found).filter(|_| same_plan)?;
+            changed(result, entry, found, change)
+        };
+        let change = &mut conformance.change;
+        match outcome {
+            Outcome::Same => {
+                // What is known needs no example: with them a record would be half as large again.
+                (deviation.case, deviation.bits, deviation.command) = (None, None, None);
+                change.unchanged += 1;
+                conformance.known.push(deviation);
+            }
             Outcome::Better => {
-                let right = found
-                    .filter(|_| same_plan)
-                    .and_then(|found| changed(result, entry, found, Change::Right));
-                if rate.of == 0 {
+                if part.is_some() && rate.of == 0 {
                     deviation.expected +=
                         "; nothing is demanded there now: has the contract changed?";
                 }
-                show(&mut deviation, Change::Right, right);
+                show(&mut deviation, Change::Right, shown(Change::Right));
+                change.better += 1;
                 conformance.stale.push(deviation);
             }
             Outcome::Worse => {
-                let unjudged = found.and_then(newly_judged);
-                deviation.expected += unjudged.as_deref().unwrap_or_default();
-                let new = found
-                    .filter(|_| same_plan)
-                    .and_then(|found| changed(result, entry, found, Change::New));
-                show(&mut deviation, Change::New, new);
-                if unjudged.is_some() {
-                    deviation.expected_count = None;
-                    conformance.stale.push(deviation);
-                    conformance.change.newly_judged += 1;
-                    continue;
-                }
-                *match same_plan && is_as_many(&entry.amount, &rate) {
-                    true => &mut conformance.change.other_cases,
-                    false => &mut conformance.change.worse,
+                let repaired = repaired(entries, &all, key).filter(|_| same_plan);
+                change.newly_judged += u64::from(repaired.is_some());
+                deviation.expected += &repaired.unwrap_or_default();
+                *match entry {
+                    None => &mut change.new,
+                    Some(entry) if same_plan && is_as_many(&entry.amount, &rate) => {
+                        &mut change.other_cases
+                    }
+                    Some(_) => &mut change.worse,
                 } += 1;
-                let harm = Harm::of(key.finding, Some(entry), &rate, same_plan);
-                unexpected.push((harm, deviation));
+                if entry.is_some() {
+                    show(&mut deviation, Change::New, shown(Change::New));
+                }
+                conformance.unexpected.push(deviation);
             }
         }
     }
-    conformance.unexpected = worst_first(unexpected);
-    conformance.change.better = conformance.stale.len() as u64 - conformance.change.newly_judged;
-    conformance.change.unchanged = conformance.known.len() as u64;
-    // What is known needs no example: with them a record would be half as large again.
-    for known in &mut conformance.known {
-        (known.case, known.bits, known.command) = (None, None, None);
-    }
+    conformance.unexpected.sort_by_key(|found| Reverse(harm(found)));
     conformance.verdict = match (conformance.unexpected.len(), conformance.stale.len()) {
         (0, 0) => Verdict::Conforms,
         (0, _) => Verdict::Stale,
         _ => Verdict::Disagreements,
     };
     conformance
+}
+
+/// How much harm a disagreement does: cases without a verdict are worst, then what has the most cases more than expected.
+fn harm(found: &Deviation) -> (bool, u64) {
+    let expected = found.expected_count.unwrap_or(0);
+    (found.finding.is_failure(), found.found.count.saturating_sub(expected))
 }
 
 /// The probability at each end of each interval.
@@ -150,9 +135,8 @@ pub(super) fn tail(comparisons: usize) -> f64 {
 /// A case of a class that changed, if the digests tell one.
 fn changed(result: &ResultPart, entry: &Entry, found: &Found, change: Change) -> Option<Example> {
     let Amount::Count { cases: Some((_, expected)), .. } = &entry.amount else { return None };
-    let read = |digest: &str| Digest::try_from(digest.to_owned()).ok();
-    let (before, now) = (read(expected)?, read(found.digest?)?);
-    changed_case(result, &found.key, found.example.as_ref()?, change.of(&before, &now))
+    let digests = [Some(expected.as_str()), Some(found.digest?)];
+    changed_case(result, &found.key, found.example.as_ref()?, change, digests)
 }
 
 enum Outcome {
@@ -269,11 +253,7 @@ fn deviation(key: &Key, entry: Option<&Entry>, rate: &Rate, found: Option<&Found
 /// Shows a case that changed. Else what got worse says that the case shown may have failed before, and what
 /// got better shows none: it may still be wrong.
 fn show(deviation: &mut Deviation, change: Change, changed: Option<Example>) {
-    deviation.expected += match (change, &changed) {
-        (_, Some(_)) => change.note(),
-        (Change::New, None) if deviation.case.is_some() => UNSURE,
-        (_, None) => "",
-    };
+    deviation.expected += change.note(changed.is_some(), deviation.case.is_some());
     match changed {
         Some(Example { case, bits, command, .. }) => {
             (deviation.case, deviation.command) = (Some(case), Some(command));

@@ -1,8 +1,7 @@
 //! Two records side by side: what got better, what got worse.
 
-use super::changed::{Change, UNSURE, changed_case};
+use super::changed::{Change, changed_case};
 use super::compare::tail;
-use crate::audit::Digest;
 use crate::report::page::{Block, Item, Page, Paged, Tone};
 use crate::report::{
     Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, RowPart, disagreements,
@@ -186,19 +185,10 @@ impl Judge {
             }
             Some(example)
         });
-        let changed = example.as_ref().filter(|_| same_cases).and_then(|example| {
-            let read = |digest: Option<&str>| match digest {
-                None => Some(Digest::default()),
-                Some(text) => Digest::try_from(text.to_owned()).ok(),
-            };
-            let (before, now) = (read(digests[0])?, read(digests[1])?);
-            changed_case(new.result, key, example, which.of(&before, &now))
-        });
-        let shown = match (&changed, same_cases) {
-            (Some(_), _) => which.note(),
-            (None, true) if example.is_some() && which == Change::New => UNSURE,
-            (None, _) => "",
-        };
+        let changed = example.as_ref().filter(|_| same_cases);
+        let changed =
+            changed.and_then(|example| changed_case(new.result, key, example, which, digests));
+        let shown = which.note(changed.is_some(), same_cases && example.is_some());
         // What may still be wrong shows nothing better.
         let is_unsure = same_cases && which == Change::Right;
         let example = changed.or(example.filter(|_| !is_unsure));

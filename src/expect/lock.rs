@@ -4,7 +4,7 @@
 use super::{Amount, Expectations};
 use crate::audit::Digest;
 use crate::corpus::InputError;
-use crate::report::{FindingKind, KernelResult, Key, ResultPart, RowPart, disagreements};
+use crate::report::{FindingKind, Key, ResultPart, RowPart, disagreements};
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
@@ -28,9 +28,6 @@ pub struct Lock {
 pub struct Target {
     /// How its rows were set, by kernel and by what their epsilons are called.
     pub rows: BTreeMap<[String; 2], Settings>,
-    /// How many crossings and folds of groups were judged, where a kernel failed on some triangles: by kernel,
-    /// epsilons, scalar and family.
-    pub judged: BTreeMap<[String; 4], [u64; 2]>,
     /// The cases, by class of finding.
     pub cases: BTreeMap<Key, Cases>,
 }
@@ -56,15 +53,6 @@ impl Target {
     /// The findings of a run.
     pub fn of(result: &ResultPart) -> Target {
         let rows = result.plan.rows.iter();
-        let failed_on_some = |part: &&KernelResult| {
-            let total = &part.total;
-            [&total.panics, &total.crashes, &total.timeouts].into_iter().any(|count| 0 < *count)
-        };
-        let judged = result.results.iter().filter(failed_on_some).filter_map(|part| {
-            let across = part.across.as_ref()?;
-            let place = [&part.kernel, &part.set, &part.scalar, &part.family].map(Clone::clone);
-            Some((place, [across.cracks.of, across.odd_folds.of]))
-        });
         let cases = disagreements(result).into_iter().map(|found| {
             let (count, of, digest) = (found.rate.count, found.rate.of, found.digest.to_owned());
             (found.key, Cases { count, of, digest })
@@ -73,7 +61,6 @@ impl Target {
             rows: rows
                 .map(|row| ([row.kernel.clone(), row.set.clone()], Settings::of(row)))
                 .collect(),
-            judged: judged.collect(),
             cases: cases.collect(),
         }
     }
@@ -158,19 +145,15 @@ impl Target {
             }
             Err(words) => words,
         };
-        let words = match <[String; 6]>::try_from(words) {
-            Ok([kernel, set, scalar, family, crossings, folds]) => {
-                let judged = [number(&crossings)?, number(&folds)?];
-                return Ok(self.judged.insert([kernel, set, scalar, family], judged).is_some());
-            }
-            Err(words) => words,
-        };
+        // Until 0.1.0 a line of six words had how many groups were judged.
+        if words.len() == 6 {
+            return Ok(false);
+        }
         let Ok([kernel, set, scalar, family, class, finding, count, of, digest]) =
             <[String; 9]>::try_from(words)
         else {
             let shape = "9 words between tabs: kernel, epsilons, scalar, family, class, finding, count, of, digest; or 4 \
-                         of a row: kernel, name, epsilons, contract; or 6 of groups: kernel, epsilons, scalar, family, \
-                         crossings, folds";
+                         of a row: kernel, name, epsilons, contract";
             return Err(shape.to_owned());
         };
         let (count, of) = (number(&count)?, number(&of)?);
@@ -196,9 +179,6 @@ impl fmt::Display for Lock {
             writeln!(f, "[{target}]")?;
             for ([kernel, set], Settings { epsilons, contract }) in &entries.rows {
                 writeln!(f, "{kernel}\t{set}\t{epsilons}\t{contract}")?;
-            }
-            for (place, [crossings, folds]) in &entries.judged {
-                writeln!(f, "{}\t{crossings}\t{folds}", place.join("\t"))?;
             }
             for (Key { kernel, set, scalar, family, class, finding }, cases) in &entries.cases {
                 let Cases { count, of, digest } = cases;
@@ -282,7 +262,6 @@ mod tests {
         assert_eq!(Lock::read(&lock.to_string(), "e.lock").unwrap().targets, lock.targets);
         let target = &lock.targets["pdp11-unix"];
         assert_eq!(target.rows.values().next().unwrap().epsilons, "parallel=1e-7");
-        assert_eq!(target.judged.values().next(), Some(&[90, 3]));
     }
 
     #[test]
@@ -300,7 +279,6 @@ mod tests {
             ("\t3\t", "\t10\t", "e.lock:4: expected a count from 1 to 9, not 10; "),
             ("0a:", "0a", "e.lock:4: expected the digest of a set of cases; "),
             (LINE, &ROW.replace("\tray", " ray"), "e.lock:4: expected 9 words between tabs: "),
-            (LINE, &JUDGED.replace("90", "ninety"), "e.lock:4: expected a number, not 'ninety'; "),
             (LINE, &format!("{ROW}\n{ROW}"), "e.lock:5: expected each row, and each class of a "),
             (
                 LINE,

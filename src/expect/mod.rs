@@ -16,11 +16,10 @@ mod file;
 mod files;
 mod known;
 mod lock;
-mod order;
 mod planned;
+mod repaired;
 mod rows;
 mod scene;
-mod unjudged;
 
 pub use bless::{Blessed, Unblessable, bless};
 pub use compare::compare;

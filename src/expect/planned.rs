@@ -6,7 +6,6 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The contents of the plan.
 pub(super) struct Planned<'a> {
     results: BTreeMap<[&'a str; 4], &'a KernelResult>,
-    sources: BTreeMap<[&'a str; 2], u64>,
     kernels: BTreeSet<&'a str>,
     scalars: BTreeSet<&'a str>,
     families: BTreeSet<&'a str>,
@@ -16,11 +15,6 @@ impl<'a> Planned<'a> {
     pub fn of(result: &'a ResultPart) -> Planned<'a> {
         Planned {
             results: result.by_place(),
-            sources: result
-                .sources
-                .iter()
-                .map(|source| ([source.scalar.as_str(), &source.family], source.indices))
-                .collect(),
             kernels: result.plan.rows.iter().map(|row| row.kernel.as_str()).collect(),
             scalars: result.plan.scalars.iter().map(String::as_str).collect(),
             families: result.plan.sources.iter().map(|source| source.family.as_str()).collect(),
@@ -29,12 +23,6 @@ impl<'a> Planned<'a> {
 
     pub fn result(&self, key: &Key) -> Option<&'a KernelResult> {
         self.results.get(&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]).copied()
-    }
-
-    /// How many indices a key's source has.
-    pub fn indices(&self, key: &Key) -> u64 {
-        let source = [key.scalar.as_str(), &key.family];
-        self.sources.get(&source).copied().unwrap_or_default()
     }
 
     /// True if the plan leaves out the kernel, the scalar or the family: then the expectation is about

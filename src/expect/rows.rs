@@ -37,20 +37,13 @@ impl Expectations {
         let entries = std::mem::take(&mut self.entries).into_iter();
         self.entries = entries.map(|(place, entry)| (key(place), entry)).collect();
         for target in self.lock.iter_mut().flat_map(|lock| lock.targets.values_mut()) {
-            let Target { rows, judged, cases } = std::mem::take(target);
+            let Target { rows, cases } = std::mem::take(target);
             *target = Target {
                 rows: rows
                     .into_iter()
                     .map(|([kernel, mut set], settings)| {
                         name(&kernel, &mut set);
                         ([kernel, set], settings)
-                    })
-                    .collect(),
-                judged: judged
-                    .into_iter()
-                    .map(|([kernel, mut set, scalar, family], counts)| {
-                        name(&kernel, &mut set);
-                        ([kernel, set, scalar, family], counts)
                     })
                     .collect(),
                 cases: cases.into_iter().map(|(place, cases)| (key(place), cases)).collect(),

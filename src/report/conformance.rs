@@ -74,8 +74,7 @@ pub struct NetChange {
     pub new: u64,
     /// As many cases as expected, but not the same ones.
     pub other_cases: u64,
-    /// More cases than expected, all of which may be such that were not judged before, because the kernel crashed
-    /// on them.
+    /// Those of the worse and the new that have cases on which the kernel failed before, so that they were not judged.
     #[serde(default)]
     pub newly_judged: u64,
     /// As expected.
@@ -92,11 +91,14 @@ impl NetChange {
 impl fmt::Display for NetChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let NetChange { better, worse, new, other_cases, newly_judged, unchanged } = self;
-        write!(f, "{better} better, {worse} worse, {new} new, {other_cases} of other cases, ")?;
-        if 0 < *newly_judged {
-            write!(f, "{newly_judged} not judged before, ")?;
+        write!(
+            f,
+            "{better} better, {worse} worse, {new} new, {other_cases} of other cases, {unchanged} unchanged"
+        )?;
+        match *newly_judged {
+            0 => Ok(()),
+            count => write!(f, " ({count} where the kernel failed before)"),
         }
-        write!(f, "{unchanged} unchanged")
     }
 }
 
@@ -214,7 +216,7 @@ pub struct Deviation {
     pub finding: FindingKind,
     /// The expectation, in words.
     pub expected: String,
-    /// How many cases were expected; absent where a share was, and where some cases were not judged before.
+    /// How many cases were expected; absent where a share was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected_count: Option<u64>,
     /// How often it happened.
@@ -290,13 +292,7 @@ impl Conformance {
 
     /// One line.
     pub fn summary(&self) -> String {
-        let count = |list: &[Deviation], one: &str, many: &str| {
-            format!(
-                "{} {}",
-                group_digits(list.len() as u64),
-                if list.len() == 1 { one } else { many }
-            )
-        };
+        let count = |list: &[Deviation], one, many| number_of(list.len() as u64, one, many);
         let verdict = match self.verdict {
             Verdict::Conforms => "conforms",
             Verdict::Disagreements => "does not conform",

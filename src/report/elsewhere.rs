@@ -3,59 +3,51 @@
 use super::page::{Block, Head, Row, Table};
 use super::record::Rate;
 
-/// The rates of one thing: on the first kind, and on each of the others.
-pub(crate) struct Compared<'a> {
+/// The rates of one thing.
+pub(crate) struct Compared {
     /// Its name.
     pub label: String,
-    /// On the kind that the table is about.
-    pub own: &'a Rate,
-    /// On the others, in order.
-    pub others: Vec<&'a Rate>,
+    /// One a kind; the first is the one that tables are about.
+    pub rates: Vec<Rate>,
 }
 
-/// True if a rate is higher than another by more than chance explains.
-pub(crate) fn is_worse(own: &Rate, other: &Rate) -> bool {
-    let [_, most] = own.interval.unwrap_or([0.0, 1.0]);
-    other.interval.is_some_and(|[least, _]| most < least)
-}
+/// The most rows on a screen.
+const MOST: usize = 10;
 
-impl Compared<'_> {
-    /// True if it is more often wrong on any other kind.
-    pub fn is_worse(&self) -> bool {
-        self.others.iter().any(|other| is_worse(self.own, other))
-    }
-}
-
-/// The most kinds that have columns: more do not fit on a line.
-const MOST_KINDS: usize = 4;
-
-/// Those rows that are worse on some kind, with a column for each kind on which one is; one sentence if none is.
+/// The rows that are more often wrong on some other kind than on the first, by more than chance explains, each with the
+/// kind on which it is most; the worst first, or one sentence if there is none.
 pub(crate) fn blocks(
     title: &str,
     kinds: &[String],
     rows: &[Compared],
     share: fn(&Rate) -> String,
 ) -> Vec<Block> {
-    let Some((own, others)) = kinds.split_first().filter(|(_, others)| !others.is_empty()) else {
+    let [first, others @ ..] = kinds else { return Vec::new() };
+    if others.is_empty() {
         return Vec::new();
+    }
+    let of_rate = |rate: &Rate| rate.rate.unwrap_or(0.0);
+    let most = |row: &Compared| {
+        let (own, others) = row.rates.split_first()?;
+        let [_, high] = own.interval.unwrap_or([0.0, 1.0]);
+        let is_worse = |rate: &Rate| rate.interval.is_some_and(|[low, _]| high < low);
+        let worse = others.iter().zip(&kinds[1..]).filter(|(rate, _)| is_worse(rate));
+        let (most, kind) = worse.max_by(|(a, _), (b, _)| of_rate(a).total_cmp(&of_rate(b)))?;
+        let cells = [share(own), share(most), kind.clone()];
+        Some((of_rate(most) - of_rate(own), Row::new(&row.label, cells)))
     };
-    let worse: Vec<&Compared> = rows.iter().filter(|row| row.is_worse()).collect();
+    let mut worse: Vec<(f64, Row)> = rows.iter().filter_map(most).collect();
     if worse.is_empty() {
-        return vec![Block::text(format!("{title} on other planes or rays: nothing"))];
+        let others = others.join(", ");
+        return vec![Block::text(format!("{title} on other planes or rays: nothing ({others})"))];
     }
-    let is_shown = |place: &usize| worse.iter().any(|row| is_worse(row.own, row.others[*place]));
-    let mut shown: Vec<usize> = (0..others.len()).filter(is_shown).collect();
-    let more = shown.split_off(shown.len().min(MOST_KINDS));
-    let mut heads = vec![Head::of(format!("{title} on")), Head::of(own)];
-    heads.extend(shown.iter().map(|place| Head::of(&others[*place])));
-    let row = |row: &&Compared| {
-        let rates = [row.own].into_iter().chain(shown.iter().map(|place| row.others[*place]));
-        Row::new(&row.label, rates.map(share))
-    };
-    let mut blocks = vec![Block::Table(Table::new(heads, worse.iter().map(row).collect()))];
-    if !more.is_empty() {
-        let more: Vec<&str> = more.iter().map(|place| others[*place].as_str()).collect();
-        blocks.push(Block::text(format!("(also on {})", more.join(", "))));
-    }
-    blocks
+    worse.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let heads = vec![
+        Head::of(format!("{title} elsewhere")),
+        Head::of(first),
+        Head::of("most"),
+        Head::text("on"),
+    ];
+    let rows = worse.into_iter().map(|(_, row)| row).collect();
+    vec![Block::Table(Table::new(heads, rows).at_most(MOST))]
 }

@@ -18,8 +18,6 @@ pub mod epsilon;
 pub mod explain;
 #[cfg(feature = "studies")]
 pub mod formats;
-#[cfg(feature = "cli")]
-mod illustrate;
 mod illustration;
 #[cfg(feature = "studies")]
 mod json;
@@ -40,9 +38,7 @@ pub(crate) use disagreement::counts_alone;
 pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
 #[cfg(feature = "studies")]
 pub use formats::{FORMATS, Format, HTML, ON_FAILURE, Style};
-#[cfg(feature = "cli")]
-pub use illustrate::illustrations;
-pub use illustration::{Illustrations, MapPart, ProofPart, ProvedGate};
+pub use illustration::{Illustrations, ProofPart, ProvedGate};
 #[cfg(feature = "cli")]
 pub use json::JSON_SCHEMA;
 #[cfg(feature = "studies")]
@@ -56,6 +52,32 @@ pub(crate) use crate::plot::group_digits;
 /// `3 findings`, `1 finding`.
 pub(crate) fn number_of(count: u64, one: &str, many: &str) -> String {
     format!("{} {}", group_digits(count), if count == 1 { one } else { many })
+}
+
+/// Names in a sentence; of many the first, and how many more there are.
+#[cfg(feature = "studies")]
+pub(crate) fn listed(names: &[impl AsRef<str>], most: usize) -> String {
+    let shown: Vec<&str> = names.iter().take(most).map(AsRef::as_ref).collect();
+    match names.len().saturating_sub(most) {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
+}
+
+/// Each thing with those after it that are like it.
+#[cfg(feature = "studies")]
+pub(crate) fn alike<T>(
+    all: impl IntoIterator<Item = T>,
+    is_like: impl Fn(&T, &T) -> bool,
+) -> Vec<(T, Vec<T>)> {
+    let mut groups: Vec<(T, Vec<T>)> = Vec::new();
+    for one in all {
+        match groups.iter_mut().find(|(first, _)| is_like(first, &one)) {
+            Some((_, like)) => like.push(one),
+            None => groups.push((one, Vec::new())),
+        }
+    }
+    groups
 }
 
 #[cfg(test)]

@@ -121,9 +121,9 @@ describe("the drawing", () => {
   });
 });
 
-test("without scripts a picture stands there, and the first places", async (t) => {
+test("without scripts the first places stand there", async (t) => {
   const page = await visit(t, SPHERE, { scripts: false });
-  assert.ok(await page.locator("svg#still").isVisible());
+  assert.ok(await page.getByText("A script draws the mesh.").isVisible());
   for (const hidden of ["#view", "#stage-controls", "#place"]) assert.equal(await page.locator(hidden).isVisible(), false);
   await page.locator("#r0 > summary").click();
   assert.equal(await page.locator("#r0 tbody tr").count(), 20);

@@ -460,7 +460,7 @@ fn closed_streams_are_errors_and_readers_who_leave_are_not() {
         &folder,
         "mkfifo p; : < p & \
          hairline check --config /dev/null --kernel moller-trumbore --family tiny -n 20000 --details \
-         --format jsonl,json -o p -o whole.json --quiet",
+         --format markdown,json -o p -o whole.json --quiet",
     );
     assert_eq!(code, 1);
     let mut whole = String::new();
@@ -484,14 +484,14 @@ fn a_thousand_files_are_read_one_after_the_other() {
 #[test]
 fn one_place_is_not_written_twice_and_one_name_is_not_two_meshes() {
     let folder = scratch("io-twice");
-    let twice = ["audit", "-n", "1", "--format", "json,jsonl", "-o", "a", "-o", "./a"];
+    let twice = ["audit", "-n", "1", "--format", "json,markdown", "-o", "a", "-o", "./a"];
     let (_, error) = ends(&folder, &twice, 2);
     assert!(error.contains("'./a' is given twice"), "{error}");
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("a", folder.join("link")).unwrap();
         for [one, other] in [["a", "link"], ["-", "/dev/stdout"]] {
-            let twice = ["audit", "-n", "1", "--format", "json,jsonl", "-o", one, "-o", other];
+            let twice = ["audit", "-n", "1", "--format", "json,markdown", "-o", one, "-o", other];
             let (_, error) = ends(&folder, &twice, 2);
             assert!(error.contains(&format!("'{other}' is given twice")), "{error}");
         }

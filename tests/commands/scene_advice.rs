@@ -420,7 +420,7 @@ fn what_is_recommended_is_tried_on_every_kind_of_plane() {
     }
     assert!(record("room,plane=axis-0").kernels[0].elsewhere.is_empty());
     let (screen, _) = ends(&folder, &[&study[..], &["--scene", "room", "--details"]].concat(), 0);
-    assert!(screen.contains("\nrecommended: more often wrong on "), "{screen}");
+    assert!(screen.contains("\nrecommended: more often wrong elsewhere "), "{screen}");
     assert!(screen.contains("\n  rays: aimed from their rounded origin"), "{screen}");
 }
 

@@ -185,7 +185,7 @@ fn the_recommended_offset_holds_on_every_kind_of_plane() {
         assert!(part["point"] == "uv" || (0.12..0.22).contains(&rate), "{at_zero}");
     }
     let (screen, _) = ends(&folder, &[&["spawn", "-q", "--details"], &place[..]].concat(), 0);
-    assert!(screen.contains("\nmore wrong sides on  "), "{screen}");
+    assert!(screen.contains("\nmore wrong sides elsewhere "), "{screen}");
     // A scene that names a kind is about it alone.
     let floor = ["--scene", "room,plane=axis-0", "-n", "500", "--point", "uv"];
     let record = json(&folder, &floor);

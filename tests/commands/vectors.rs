@@ -356,7 +356,7 @@ fn every_report_of_an_audit_is_one_of_results_and_each_case_in_it_is_explained()
     assert!(text.contains(&format!("{end}: hit, expected miss by 'ends'")), "{text}");
     assert!(text.contains(&format!("{group}: 2, expected exactly-one by 'groups'")), "{text}");
     assert!(text.contains("'ends' (Ray extents): ") && text.contains(sentence), "{text}");
-    for format in ["jsonl", "junit", "sarif", "markdown", "html"] {
+    for format in ["junit", "sarif", "markdown", "html"] {
         let report = of(&["--profile", "dxr", "--format", format]);
         for id in [&single, &group, &end] {
             assert!(report.contains(id), "{format}: {id}");

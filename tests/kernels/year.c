@@ -1,7 +1,6 @@
 /* A project's kernel over a year, for tests/commands/action.rs: Moller and Trumbore's test in float, and what
  * becomes of it with -DREFACTORED, -DEPSILON=..., -DEDGE=..., -DWIDE and -DCRASH; with -DBACKWARDS its epsilon is none; with
- * -DASSERTING it ends at a large one. With -DCRASH_BELOW=x and -DMISS_BELOW=x it crashes, or misses, whatever the
- * triangle, if the first coordinate of the origin is from 0 to x. */
+ * -DASSERTING it ends at a large one. */
 #include "hairline.h"
 #include <math.h>
 #include <stdlib.h>
@@ -70,12 +69,6 @@ void hairline_test_f32(const hairline_case_f32 *cases, size_t count, const float
         verdict->hit = 0;
 #ifdef CRASH
         if (c->a[0] > 0.995f && c->a[0] < 1) abort();
-#endif
-#ifdef CRASH_BELOW
-        if (c->origin[0] > 0 && c->origin[0] < CRASH_BELOW) abort();
-#endif
-#ifdef MISS_BELOW
-        if (c->origin[0] > 0 && c->origin[0] < MISS_BELOW) continue;
 #endif
 #ifdef ASSERTING
         if (epsilons[0] > 1e30f) abort();

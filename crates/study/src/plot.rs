@@ -53,12 +53,6 @@ impl EpsilonAxis {
         }
     }
 
-    /// The epsilons at both ends.
-    pub fn ends(&self) -> [f64; 2] {
-        let power = |span: Option<Decades>| span.map_or(0.0, |(_, high)| 10f64.powi(high));
-        [-power(self.decades[0]), power(self.decades[1])]
-    }
-
     /// Zero and powers of ten, as many as fit with labels of some width; none beyond an edge.
     pub fn ticks(&self, label: f64, edge: f64) -> Ticks {
         let middle = self.x(0.0);
@@ -221,7 +215,6 @@ mod tests {
             [0.0, 20.0, 50.0, 60.0, 140.0, 220.0]
         );
         assert_eq!([axis.x(f64::MIN), axis.x(f64::MAX)], [0.0, 220.0]);
-        assert_eq!(axis.ends(), [-1e-2, 1e2]);
         // Two decades take 40: every second one has a label, and none leaves the picture.
         assert_eq!(labels(axis.ticks(40.0, 220.0)), ["0", "−10⁻²", "10⁻⁴", "10⁻²", "10⁰"]);
         let positive = EpsilonAxis::new(0.0, 100.0, 20.0, [None, None]);

@@ -215,8 +215,11 @@ fn table(record: &SpawnRecord, schemes: Vec<&SchemePart>, is_whole: bool) -> Tab
 fn of_elsewhere(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
     let rows = part.schemes.iter().map(|scheme| Compared {
         label: scheme.name.clone(),
-        own: &scheme.wrong,
-        others: scheme.elsewhere.iter().map(|other| &other.wrong).collect(),
+        rates: [&scheme.wrong]
+            .into_iter()
+            .chain(scheme.elsewhere.iter().map(|other| &other.wrong))
+            .cloned()
+            .collect(),
     });
     elsewhere::blocks("more wrong sides", &record.planes, &rows.collect::<Vec<_>>(), share)
 }

@@ -21,7 +21,6 @@ pub const FORMATS: &[Format<Judgement>] = &[
     Format::TEXT,
     Format { name: "json", write: |judgement, _, out| write_json(&judgement.report, out) },
     Format { name: "record", write: |judgement, _, out| write_json(&judgement.record, out) },
-    Format { name: "jsonl", write: |judgement, style, out| judgement.write("jsonl", style, out) },
     Format { name: "junit", write: |judgement, style, out| judgement.write("junit", style, out) },
     Format { name: "sarif", write: |judgement, style, out| judgement.write("sarif", style, out) },
     Format::MARKDOWN,

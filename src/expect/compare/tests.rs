@@ -134,11 +134,14 @@ fn a_case_is_shown_that_is_new_or_right_now_and_none_that_may_still_be_wrong() {
     for change in [Change::New, Change::Right] {
         let case = ["new", "n", "explain new"];
         let found = shown(old(), change, Some(example("new", "n")));
-        assert_eq!(found, told(change.note(), case));
+        assert_eq!(found, told(change.note(true, true), case));
         let found = shown(old(), change, Some(example("new", "")));
-        assert_eq!(found, told(change.note(), ["new", "", "explain new"]));
+        assert_eq!(found, told(change.note(true, true), ["new", "", "explain new"]));
     }
-    assert_eq!(shown(old(), Change::New, None), told(UNSURE, ["old", "o", "explain old"]));
+    assert_eq!(
+        shown(old(), Change::New, None),
+        told(Change::New.note(false, true), ["old", "o", "explain old"])
+    );
     assert_eq!(shown(None, Change::New, None), told("", [""; 3]));
     assert_eq!(shown(old(), Change::Right, None), told("", [""; 3]));
 }

@@ -1,11 +1,11 @@
 //! The answer of one kernel in words: the same on the screen and in a page.
 
 use super::commands::commands;
-use super::notes::{accuracy, is_coarse, is_no_good, no_good, notes};
+use super::notes::{accuracy, is_coarse, is_no_good, no_good, notes, price};
 use super::record::*;
 use super::words::{
-    bound, flag, human, interval, label, least_normal, least_t, number, of_unit, share,
-    short_error, unit_of, unit_of_t, where_of,
+    bound, flag, human, interval, label, least_normal, least_t, of_unit, share, short_error,
+    unit_of, unit_of_t, where_of,
 };
 use crate::arith::two_digits;
 use crate::report::page::Use;
@@ -30,10 +30,8 @@ pub(super) struct Answer {
     pub errors: Vec<(String, Vec<String>)>,
     /// How far each number may move.
     pub limits: Vec<LimitRow>,
-    /// Limits that do not meet, and what helps.
-    pub conflicts: Vec<[String; 2]>,
-    /// Limits that cost much, a sentence each.
-    pub prices: Vec<String>,
+    /// Limits that do not meet, and what helps, a sentence each.
+    pub conflicts: Vec<String>,
     /// The subject of the commands, and the commands that show more of it.
     pub next: Vec<String>,
 }
@@ -47,6 +45,8 @@ pub(super) struct LimitRow {
     pub fresh: String,
     /// True if the scene's sizes set it as much as rounding does.
     pub is_of_scene: bool,
+    /// Its price, if that is high.
+    pub price: Option<String>,
 }
 
 /// The answer for a part of a record.
@@ -75,8 +75,7 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
         rows: rows(part),
         errors: error_rows(record, part),
         limits: limit_rows(record, part),
-        conflicts: part.conflicts.iter().map(|it| conflict_lines(record, part, it)).collect(),
-        prices: prices(record, part),
+        conflicts: part.conflicts.iter().map(|it| conflict(record, part, it)).collect(),
         // No command runs a form that is no number.
         next: match is_scale_free_better(record, part) {
             true => Vec::new(),
@@ -280,6 +279,7 @@ fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
             most: format!("1 in {}", group_digits(limit.one_in)),
             fresh,
             is_of_scene: limit.set_by.is_some(),
+            price: dear(part, limit.price.as_ref().filter(|_| !limit.is_unsure)),
         }
     });
     let proved = part.proved.iter().map(|proved| {
@@ -294,44 +294,15 @@ fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
                 _ => group_digits(proved.fresh.count),
             },
             is_of_scene: false,
+            price: dear(part, proved.price.as_ref()),
         }
     });
     limits.chain(proved).collect()
 }
 
-fn conflict_lines(
-    record: &SceneRecord,
-    part: &SceneKernelPart,
-    conflict: &ConflictPart,
-) -> [String; 2] {
-    let (lower, upper) = (&part.limits[conflict.lower], &part.limits[conflict.upper]);
-    let knob = &part.knobs[lower.knob];
-    let name = &knob.name;
-    let what = |limit: &LimitPart| {
-        let count = &part.counts[limit.count];
-        let most = group_digits(limit.one_in);
-        format!("no value of {name} keeps this below 1 in {most}: {}", label(count))
-    };
-    let conflict_line = match (&lower.value, &upper.value) {
-        (None, _) => what(lower),
-        (_, None) => what(upper),
-        _ => {
-            // At the far ends of their intervals both may be kept after all.
-            let far = [lower, upper].map(|limit| limit.far.as_ref());
-            let [low, high] = far.map(number);
-            let (is, ends) = match low.zip(high).is_some_and(|(low, high)| high < low) {
-                true => ("is", far),
-                false => ("is shown to be", [lower, upper].map(|limit| limit.value.as_ref())),
-            };
-            let [low, high] = ends.map(|end| end.map(String::as_str));
-            let unit = unit_of(record, knob);
-            format!(
-                "no value of {name} {is} both {} and {}:",
-                bound(low, true, &unit),
-                bound(high, false, &unit)
-            )
-        }
-    };
+/// Limits of a knob that do not meet, and what helps.
+fn conflict(record: &SceneRecord, part: &SceneKernelPart, conflict: &ConflictPart) -> String {
+    let knob = &part.knobs[part.limits[conflict.lower].knob];
     let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {
         // With directions of unit length a share of |d| is the number itself.
         (Some([from, to]), Some(form), _)
@@ -349,45 +320,14 @@ fn conflict_lines(
         _ => "these numbers cost least; to meet both takes wider numbers (f64) or another kernel"
             .to_owned(),
     };
-    [conflict_line, instead]
+    format!("no value of {} is within all of its limits: {instead}", knob.name)
 }
 
 /// From this share on, a limit's price is said.
 const DEAR: f64 = 0.01;
 
-/// The prices of limits that nobody would pay unwarned; those that a conflict names are said there.
-fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
-    let is_told = |place: &usize| part.conflicts.iter().any(|conflict| conflict.lower == *place);
-    let seen = part.limits.iter().enumerate();
-    let seen = seen.filter(|(place, limit)| !limit.is_unsure && !is_told(place));
-    let seen =
-        seen.map(|(_, limit)| (limit.knob, limit.value.as_ref(), limit.is_lower, &limit.price));
-    let proved = part.proved.iter();
-    let proved = proved.map(|it| (it.knob, Some(&it.value), it.is_lower, &it.price));
-    let sentence =
-        |(knob, value, is_lower, price): (usize, Option<&String>, bool, &Option<PricePart>)| {
-            let PricePart { count, wrong } = price.as_ref()?;
-            let knob = &part.knobs[knob];
-            let bound = bound(Some(value?), is_lower, &unit_of(record, knob));
-            let does = match part.counts[*count].kind {
-                Kind::Miss => "loses",
-                _ => "makes false hits of",
-            };
-            let whom = match part.counts[*count].kind {
-                Kind::Miss => "of the hits at a triangle",
-                _ => "of the rays beside a triangle",
-            };
-            // What is wrong at the recommended numbers too is no price of the limit.
-            let more = wrong.rate? - part.tried[0].wrong[*count].rate?;
-            let name = &knob.name;
-            (DEAR < more).then(|| format!("{name} {bound} {does} {:.1}% more {whom}", 100.0 * more))
-        };
-    let mut all: Vec<String> = Vec::new();
-    for line in seen.chain(proved).filter_map(sentence) {
-        // Two counts may set the same limit.
-        if !all.contains(&line) {
-            all.push(line);
-        }
-    }
-    all
+/// The price in words, if it is one that nobody would pay unwarned.
+fn dear(part: &SceneKernelPart, of: Option<&PricePart>) -> Option<String> {
+    let (more, what) = price(part, of).filter(|(more, _)| DEAR < *more)?;
+    Some(format!("costs: {:.1}% {what}", 100.0 * more))
 }

@@ -75,13 +75,13 @@ pub(super) fn of_kernel(
 /// Where the recommended epsilons are more often wrong on planes, or with rays, of other kinds.
 fn of_elsewhere(record: &SceneRecord, name: &str, part: &SceneKernelPart) -> Vec<Block> {
     let own = Scene::parse(&record.scene).map_or(SceneKind::ALL[0], |(scene, _)| scene.kind());
-    let others = part.elsewhere.iter().map(|other| other.plane.clone());
-    let kinds: Vec<String> = [own.to_string()].into_iter().chain(others).collect();
+    let planes = part.elsewhere.iter().map(|other| other.plane.clone());
+    let kinds: Vec<String> = [own.to_string()].into_iter().chain(planes).collect();
+    let others = |place: usize| part.elsewhere.iter().map(move |other| &other.wrong[place]);
     let rows: Vec<Compared> = (part.counts.iter().zip(&part.tried[0].wrong).enumerate())
         .map(|(place, (count, own))| Compared {
             label: label(count),
-            own,
-            others: part.elsewhere.iter().map(|other| &other.wrong[place]).collect(),
+            rates: [own].into_iter().chain(others(place)).cloned().collect(),
         })
         .collect();
     elsewhere::blocks(&format!("{name}: more often wrong"), &kinds, &rows, share)
@@ -101,10 +101,10 @@ fn limits(answer: &Answer) -> Vec<Block> {
     let row = |row: &LimitRow| {
         let star = if row.is_of_scene { " *" } else { "" };
         let what = format!("{}{star}", row.what);
-        Row::new(&row.knob, [row.bound.clone(), what, row.most.clone(), row.fresh.clone()])
+        let cells = [row.bound.clone(), what, row.most.clone(), row.fresh.clone()];
+        Row { below: row.price.iter().cloned().collect(), ..Row::new(&row.knob, cells) }
     };
     let mut blocks = vec![Block::Table(Table::new(heads, answer.limits.iter().map(row).collect()))];
-    blocks.extend(answer.conflicts.iter().map(|conflict| Block::text(conflict.join(" "))));
-    blocks.push(Block::Notes(answer.prices.clone()));
+    blocks.extend(answer.conflicts.iter().cloned().map(Block::Text));
     blocks
 }

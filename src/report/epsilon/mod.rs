@@ -3,7 +3,6 @@
 mod answer;
 mod build;
 mod commands;
-mod csv;
 mod evidence;
 pub(super) mod fitness;
 mod legend;
@@ -28,7 +27,6 @@ pub const SCENE_FORMATS: &[Format<SceneRecord>] = &[
     Format::TEXT,
     Format::JSON,
     Format::MARKDOWN,
-    Format { name: "csv", write: csv::write },
     Format { name: "svg", write: plot::write },
     Format { name: "c", write: |record, _, out| snippet::write(record, Language::C, out) },
     Format { name: "rust", write: |record, _, out| snippet::write(record, Language::Rust, out) },

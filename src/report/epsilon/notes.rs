@@ -45,14 +45,27 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
     notes
 }
 
+/// How much more of the plain hits a limit loses than the recommended numbers do, or makes false hits of more rays beside
+/// triangles; none if it has no such price.
+pub(super) fn price(
+    part: &SceneKernelPart,
+    price: Option<&PricePart>,
+) -> Option<(f64, &'static str)> {
+    let PricePart { count, wrong } = price?;
+    let what = match part.counts[*count].kind {
+        Kind::Miss => "more of the hits at a triangle lost",
+        _ => "more of the rays beside a triangle hit it",
+    };
+    Some((wrong.rate? - part.tried[0].wrong[*count].rate?, what))
+}
+
 /// The numbers beyond the recommended ones that are proved to refuse every parallel ray, with their price.
 fn proofs(part: &SceneKernelPart) -> impl Iterator<Item = String> {
     part.proved.iter().filter(|proved| proved.is_lower).filter_map(|proved| {
         let (name, value) = (&part.knobs[proved.knob].name, &proved.value);
         let is_beyond =
             part.tried[0].epsilons[proved.knob].parse::<f64>().ok()? < value.parse().ok()?;
-        let PricePart { count, wrong } = proved.price.as_ref().filter(|_| is_beyond)?;
-        let more = wrong.rate? - part.tried[0].wrong[*count].rate?;
+        let (more, _) = price(part, proved.price.as_ref().filter(|_| is_beyond))?;
         let price = match more {
             ..0.0005 => "no hits lost".to_owned(),
             _ => format!("{:.1}% of hits lost", 100.0 * more),
@@ -227,12 +240,6 @@ fn cracks_of_its_own(record: &SceneRecord, part: &SceneKernelPart) -> Option<Str
             best.cost
         )
     })
-}
-
-/// True if the recommended numbers tolerate a little beside the edges.
-pub(super) fn tolerates(part: &SceneKernelPart) -> bool {
-    let mut pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
-    pairs.any(|(knob, epsilon)| knob.role == "edge" && epsilon.starts_with('-'))
 }
 
 /// The limit of errors for which the epsilons were chosen, in words; none if there is none.

@@ -7,17 +7,12 @@ use super::fitness::{fitness, is_fine};
 use super::notes::few_rays;
 use super::record::{Count, Kind, Rays, SceneKernelPart, SceneRecord, Stratum, TriedPart};
 use super::words::{of_unit, share};
+use crate::report::alike;
 use crate::report::page::{Block, Command, Head, Page, Row, Table};
 use crate::report::record::Rate;
 
-/// One row: kernels that answer alike.
-struct Alike<'a> {
-    part: &'a SceneKernelPart,
-    /// The results of what its `use` line says.
-    best: &'a TriedPart,
-    /// The others that do the same with the same numbers.
-    names: Vec<&'a str>,
-}
+/// A kernel, and the results of what its `use` line says.
+type Best<'a> = (&'a SceneKernelPart, &'a TriedPart);
 
 /// True if a record has too many kernels for a screen of each.
 pub(super) fn is_needed(record: &SceneRecord) -> bool {
@@ -34,25 +29,26 @@ pub(super) fn page(record: &SceneRecord) -> Page {
         None => record.sources.join(", "),
     };
     let mut blocks: Vec<Block> = few_rays(record).map(Block::Text).into_iter().collect();
-    let all = ["f32", "f64"].map(|scalar| (scalar, alike(record, scalar)));
+    let all = ["f32", "f64"].map(|scalar| (scalar, ranked(record, scalar)));
     let scalars = all.iter().filter(|(_, rows)| !rows.is_empty()).count();
     // About as many lines as a screen has.
     let most = if scalars == 1 { 6 } else { 3 };
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
-        blocks.extend(record.has_scene().then(|| Block::text(fitness(record, best.part))));
+        blocks.extend(record.has_scene().then(|| Block::text(fitness(record, best.0.0))));
         let heads = [*scalar, "cost", "leaks", "lost inside", "self-hits", "ns a ray"];
         let heads = heads.map(Head::of).into();
-        let all = rows.iter().map(|alike| row(record, alike)).collect();
+        let all = rows.iter().map(|one| row(record, one)).collect();
         blocks.push(Block::Table(Table::new(heads, all).at_most(most)));
     }
-    let shown = || all.iter().flat_map(|(_, rows)| rows.iter().take(most));
-    let forms = match shown().any(|row| is_scale_free_better(record, row.part)) {
+    let shown =
+        || all.iter().flat_map(|(_, rows)| rows.iter().take(most).map(|((part, _), _)| *part));
+    let forms = match shown().any(|part| is_scale_free_better(record, part)) {
         true => " L: the triangle's longest edge; M: the largest coordinate.",
         false => "",
     };
     let has_no_t = |part: &SceneKernelPart| part.counts.iter().all(|it| it.kind != Kind::SelfHit);
-    let no_t = if shown().any(|row| has_no_t(row.part)) { " (-: the kernel has no t)" } else { "" };
+    let no_t = if shown().any(has_no_t) { " (-: the kernel has no t)" } else { "" };
     blocks.push(Block::text(format!(
         "leaks: at shared edges or vertices; self-hits: of shadow rays{no_t}. Shares are of rays aimed there, not of your \
          pixels. cost: each share times its weight, false hits and almost parallel rays too.{forms}"
@@ -63,11 +59,9 @@ pub(super) fn page(record: &SceneRecord) -> Page {
             .push(Block::Details(answer.title.clone(), evidence::of_kernel(record, part, answer)));
     }
     blocks.push(Block::Details("How to read".to_owned(), evidence::how_to_read(record)));
-    let best = shown().find(|row| is_fine(record, row.part)).or(shown().next());
-    let next = best.map(|best| Command {
-        line: of_kernel(record, best.part),
-        what: "may I use these numbers?",
-    });
+    let best = shown().find(|part| is_fine(record, part)).or(shown().next());
+    let next = best
+        .map(|best| Command { line: of_kernel(record, best), what: "may I use these numbers?" });
     blocks.extend(next.map(|next| Block::Commands("next", vec![next])));
     Page {
         command: "epsilon",
@@ -77,38 +71,25 @@ pub(super) fn page(record: &SceneRecord) -> Page {
     }
 }
 
-/// The rows of a scalar, the cheapest first.
-fn alike<'a>(record: &'a SceneRecord, scalar: &str) -> Vec<Alike<'a>> {
+/// The kernels of a scalar, the cheapest first, each with those that were wrong as often with the same numbers.
+fn ranked<'a>(record: &'a SceneRecord, scalar: &str) -> Vec<(Best<'a>, Vec<Best<'a>>)> {
     let best = |part: &'a SceneKernelPart| match &part.relative {
         Some(relative) if is_scale_free_better(record, part) => relative,
         _ => &part.tried[0],
     };
     let parts = record.kernels.iter().filter(|part| part.scalar == scalar);
-    let mut parts: Vec<_> = parts.map(|part| (part, best(part))).collect();
+    let mut parts: Vec<Best> = parts.map(|part| (part, best(part))).collect();
     parts.sort_by(|(_, a), (_, b)| a.cost.total_cmp(&b.cost));
-    let mut rows: Vec<Alike> = Vec::new();
-    for (part, best) in parts {
-        match rows.iter_mut().find(|row| row.is_like(part, best)) {
-            Some(row) => row.names.push(&part.kernel),
-            None => rows.push(Alike { part, best, names: Vec::new() }),
-        }
-    }
-    rows
+    let wrong = |tried: &TriedPart| -> Vec<[u64; 2]> {
+        tried.wrong.iter().map(|rate| [rate.count, rate.of]).collect()
+    };
+    alike(parts, |(one, best), (other, its)| {
+        let is_same_numbers = one.counts == other.counts && best.epsilons == its.epsilons;
+        is_same_numbers && wrong(best) == wrong(its)
+    })
 }
 
-impl Alike<'_> {
-    /// True if another kernel was wrong as often with the same numbers.
-    fn is_like(&self, part: &SceneKernelPart, best: &TriedPart) -> bool {
-        let wrong = |tried: &TriedPart| -> Vec<[u64; 2]> {
-            tried.wrong.iter().map(|rate| [rate.count, rate.of]).collect()
-        };
-        self.part.counts == part.counts
-            && self.best.epsilons == best.epsilons
-            && wrong(self.best) == wrong(best)
-    }
-}
-
-fn row(record: &SceneRecord, Alike { part, best, names }: &Alike) -> Row {
+fn row(record: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
     let cell = |is_of: fn(&Count) -> bool| {
         let counts = part.counts.iter().zip(&best.wrong);
         let rates = counts.filter(|(count, _)| is_of(count));
@@ -127,6 +108,7 @@ fn row(record: &SceneRecord, Alike { part, best, names }: &Alike) -> Row {
         let lead = if used.lead == USE { "use" } else { "no numbers are good; least bad:" };
         format!("{lead} {}", used.text)
     });
+    let names: Vec<&str> = like.iter().map(|(part, _)| part.kernel.as_str()).collect();
     let alike = format!("as often wrong with the same numbers: {}", names.join(", "));
     let alike = (!names.is_empty()).then_some(alike);
     Row { below: used.into_iter().chain(alike).collect(), ..Row::new(&part.kernel, cells) }

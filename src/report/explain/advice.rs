@@ -10,6 +10,7 @@ use crate::judge::{Finding, asked, judge};
 use crate::kernel::{self, Entry, Role, Scalar, Subject, Tunable, Verdict};
 use crate::oracle;
 use crate::report::epsilon::shortest;
+use crate::report::listed;
 use crate::truth::Facing;
 use std::slice;
 
@@ -75,13 +76,7 @@ fn others(row: &Row, is_right: impl Fn(&Row) -> bool) -> Option<String> {
     };
     let names: Vec<&str> =
         kernel::KERNELS.iter().filter(other).map(|entry| entry.info.name).collect();
-    let more = names.len().saturating_sub(MOST_NAMES);
-    let shown = names[..names.len() - more].join(", ");
-    match (names.is_empty(), more) {
-        (true, _) => None,
-        (false, 0) => Some(shown),
-        (false, _) => Some(format!("{shown} and {more} more")),
-    }
+    (!names.is_empty()).then(|| listed(&names, MOST_NAMES))
 }
 
 /// True if the kernel, run with these epsilons, does as a row's contract asks.

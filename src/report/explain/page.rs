@@ -3,6 +3,7 @@
 
 use super::verdict::{self, plain, short};
 use super::{Explanation, GatePart, InstancePart, RowPart, TogetherPart, TrianglePart};
+use crate::report::listed;
 use crate::report::page::{Block, Cell, Head, Page, Paged, Row, Table, Tone};
 
 /// With so many rows each is shown by itself.
@@ -87,11 +88,7 @@ impl Explanation {
         }
         let wrong: Vec<String> =
             rows.iter().filter(|row| row.finding.is_some()).map(|row| row.label()).collect();
-        let more = match wrong.len().saturating_sub(MOST_NAMES) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        let names = wrong[..wrong.len().min(MOST_NAMES)].join(", ");
+        let names = listed(&wrong, MOST_NAMES);
         let (case, scalar) = (&self.case, self.scalar);
         let hits = rows.iter().filter(|row| row.said == "hit").count();
         match wrong.len() {
@@ -108,7 +105,7 @@ impl Explanation {
             count => {
                 let are = if count == 1 { "is" } else { "are" };
                 let text = format!(
-                    "{count} of {} rows {are} wrong on {case} in {scalar}: {names}{more}.",
+                    "{count} of {} rows {are} wrong on {case} in {scalar}: {names}.",
                     rows.len()
                 );
                 (text, true)

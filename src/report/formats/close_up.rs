@@ -1,13 +1,14 @@
 //! A few rows, each by itself: its contract and gates, and for each question its false misses, its false
 //! hits and what most of them come from.
 
-use super::columns::{Column, far, short_percent};
+use super::columns::{Across, Column, far, short_percent};
 use super::disagreement::is_shared_in_scene;
 use super::group_digits;
 use super::lines::{Line, column_legend};
 use super::pool::Pool;
 use super::rate::percent;
 use super::record::*;
+use super::row_view::COUNTED;
 use super::why::{cause_shares, of_kind};
 use crate::audit::Attribution;
 use crate::kernel::{self, Role};
@@ -48,7 +49,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> Vec
             "not-epsilon: with every epsilon 0 it is wrong too; runs cannot tell rounding from the formula itself",
         ));
     }
-    blocks.push(Block::Text(column_legend(columns, &[])));
+    blocks.push(Block::Text(column_legend(columns)));
     blocks
 }
 
@@ -136,7 +137,8 @@ fn row(column: &Column, place: usize, lines: &[&Line]) -> Option<Row> {
     Some(row)
 }
 
-/// Cracks and doubles, whole polygons, bad and wrong values, where there are any to count; and why no causes are told.
+/// The counts besides false misses and false hits, and if the promise across triangles is kept; and why no causes are
+/// told.
 fn others(line: &Line) -> Vec<String> {
     let mut all = Vec::new();
     let parts = line.row.results.iter().flat_map(|result| &result.findings);
@@ -147,37 +149,13 @@ fn others(line: &Line) -> Vec<String> {
         let why = "no causes: it does not show its formula, and has no epsilons at which it could be run otherwise";
         all.push(why.to_owned());
     }
-    if let Some(across) = &line.across {
-        let [cracks, doubles] = [across.cracks, across.doubles].map(short_percent);
-        let of = group_digits(across.cracks[1]);
-        let promised = match across.words().as_str() {
-            "nothing" => String::new(),
-            words => format!("; promised across triangles: {words}"),
-        };
-        all.push(format!("of {of} crossings {cracks} % cracks and {doubles} % doubles{promised}"));
-    }
-    let polygons = |rate: fn(&PolygonPart) -> &Rate| {
-        Pool::of(line.row.results.iter().filter_map(|result| result.polygons.as_ref()).map(rate))
-            .counts()
-    };
-    let [misses, hits] = [polygons(|part| &part.false_misses), polygons(|part| &part.false_hits)];
-    if 0 < misses[1] + hits[1] {
-        let [misses, hits] = [misses, hits].map(count_of);
-        all.push(format!("whole polygons: false misses {misses}, false hits {hits}"));
-    }
-    let bad = line.row.total(|result| Some(&result.total.bad_values)).counts();
-    if 0 < bad[0] {
-        let bad = count_of(bad);
-        all.push(format!("bad values: {bad} other hits, not finite or of the wrong side"));
-    }
-    let values = &line.values.wrong;
-    if 0 < values.count {
-        all.push(format!(
-            "wrong t, u or v in ordinary sizes: {} right hits, {} visibly",
-            count_of([values.count, values.of]),
-            group_digits(line.values.far),
-        ));
-    }
+    // Hits of the triangle that a ray leaves are no promise's, unless they are false hits.
+    let counted = COUNTED[2..].iter().filter(|(name, _)| *name != "self-hits");
+    let counted = counted.map(|(name, get)| (name, line.row.total(get)));
+    let counted = counted.filter(|(_, pool)| 0 < pool.counts()[0]);
+    all.extend(counted.map(|(name, pool)| format!("{name}: {pool}")));
+    let promised = line.across.as_ref().and_then(Across::promise);
+    all.extend(promised.map(|words| format!("promised across triangles: {words}")));
     all
 }
 

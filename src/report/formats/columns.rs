@@ -128,11 +128,6 @@ pub(super) struct Cell {
 const FAR: i32 = -10;
 
 impl Cell {
-    /// True if more than one verdict in a thousand is wrong and [`FAR`] off.
-    pub(super) fn is_far(&self) -> bool {
-        self.wrong.of < 1000 * self.far
-    }
-
     /// The values of a row's hits, in the columns of ordinary sizes.
     pub(super) fn of_values(columns: &[Column], row: &RowView) -> Cell {
         let mut cell = Cell::default();
@@ -219,14 +214,10 @@ impl Across {
         self.promised.rules_out().into_iter().zip(happened).any(|(ruled_out, n)| ruled_out && 0 < n)
     }
 
-    /// The promise, and the word `kept` or `BROKEN`.
-    pub(super) fn words(&self) -> String {
-        match self.promised.in_short() {
-            None => "nothing".to_owned(),
-            Some(promise) => {
-                format!("{promise}: {}", if self.is_broken() { "BROKEN" } else { "kept" })
-            }
-        }
+    /// The promise, and the word `kept` or `BROKEN`; none without a promise.
+    pub(super) fn promise(&self) -> Option<String> {
+        let kept = if self.is_broken() { "BROKEN" } else { "kept" };
+        self.promised.in_short().map(|promise| format!("{promise}: {kept}"))
     }
 }
 

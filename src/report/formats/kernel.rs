@@ -2,10 +2,9 @@
 //! every class of its findings.
 
 use super::pictures;
-use super::pool::Pool;
-use super::rate::interval_of;
+use super::pool::{Pool, counted};
 use super::record::*;
-use super::row_view::RowView;
+use super::row_view::{COUNTED, RowView};
 use super::why::{causes_text, of_kind, short};
 use super::worst::findings;
 use super::{ProofPart, ProvedGate, group_digits};
@@ -15,12 +14,7 @@ use crate::report::page::{Block, Cell, Head, Row, Table};
 use std::collections::HashMap;
 
 /// A row with its views in each scalar.
-pub(super) fn blocks(
-    record: &Record,
-    part: &RowPart,
-    views: &[RowView],
-    examples: usize,
-) -> Vec<Block> {
+pub(super) fn blocks(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<Block> {
     let mut blocks = vec![Block::Terms(facts(record, part, views))];
     blocks.extend(gates(record, part));
     blocks.push(Block::Table(rates(record, part, views)));
@@ -28,20 +22,16 @@ pub(super) fn blocks(
     blocks.extend(pictures::blocks(record, part, views));
     let families = Block::Table(by_family(record, views));
     blocks.push(Block::Details("Family by family".to_owned(), vec![families]));
-    let items: Vec<_> = views.iter().flat_map(|view| findings(view, examples)).collect();
+    let items: Vec<_> = views.iter().flat_map(|view| findings(view)).collect();
     match items.is_empty() {
         true => blocks.push(Block::text("No findings.")),
-        false => blocks.extend(Block::items(
-            "Findings of each kind and of each class",
-            usize::MAX,
-            items,
-        )),
+        false => blocks.extend(Block::items("The worst of each class", usize::MAX, items)),
     }
     blocks
 }
 
 /// The promise, where it comes from, what is proved of its edges, and how it runs again.
-fn facts(record: &Record, part: &RowPart, views: &[RowView]) -> Vec<(String, String)> {
+fn facts(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<(String, String)> {
     let plan_flags = record.provenance.plan_flags.clone().unwrap_or_default();
     let mut facts = vec![("contract", part.contract.clone())];
     facts.extend(info(part).map(|info| ("source", info.source.to_owned())));
@@ -147,27 +137,13 @@ fn proved(proof: &ProofPart, gate: &str) -> String {
 }
 
 /// The sums over all sources, scalar by scalar.
-fn rates(record: &Record, part: &RowPart, views: &[RowView]) -> Table {
-    type Get = fn(&KernelResult) -> Option<&Rate>;
-    let columns: [(&str, Get); 11] = [
-        ("false misses", |r| Some(&r.total.false_misses)),
-        ("false hits", |r| Some(&r.total.false_hits)),
-        ("bad values", |r| Some(&r.total.bad_values)),
-        ("wrong values", |r| Some(&r.total.wrong_values)),
-        ("cracks", |r| Some(&r.across.as_ref()?.cracks)),
-        ("doubles", |r| Some(&r.across.as_ref()?.doubles)),
-        ("odd folds", |r| Some(&r.across.as_ref()?.odd_folds)),
-        ("missed folds", |r| Some(&r.across.as_ref()?.missed_folds)),
-        ("self-hits", |r| r.self_hits.as_ref()),
-        ("polygon false misses", |r| Some(&r.polygons.as_ref()?.false_misses)),
-        ("polygon false hits", |r| Some(&r.polygons.as_ref()?.false_hits)),
-    ];
+fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
     let heads = ["all families"].into_iter().chain(views.iter().map(|view| view.scalar));
     let mut rows = Vec::new();
-    for (name, get) in columns {
+    for (name, get) in COUNTED {
         let pools: Vec<Pool> = views.iter().map(|view| view.total(get)).collect();
         if pools.iter().any(|pool| 0 < pool.counts()[1]) {
-            rows.push(Row::new(name, pools.iter().map(counts)));
+            rows.push(Row::new(name, pools.iter().map(Pool::to_string)));
         }
     }
     if views.iter().any(|view| 0 < view.hits_on_invalid()) {
@@ -185,19 +161,8 @@ fn rates(record: &Record, part: &RowPart, views: &[RowView]) -> Table {
     Table::new(heads.map(Head::of).collect(), rows)
 }
 
-/// `1,597 of 10,092 (15.8% [15.1, 16.6]); stored cases 3 of 57`.
-fn counts(pool: &Pool) -> String {
-    let apart = pool.apart().map_or(String::new(), |apart| format!("; stored cases {apart}"));
-    format!("{}{apart}", of(pool.rate()))
-}
-
-fn of(rate: &Rate) -> String {
-    let (count, of) = (group_digits(rate.count), group_digits(rate.of));
-    format!("{count} of {of}{}", interval_of(rate))
-}
-
 /// How far off findings are, and the errors of right hits.
-fn quantiles_of(views: &[RowView]) -> Vec<Block> {
+fn quantiles_of(views: &[&RowView]) -> Vec<Block> {
     let heads = |first: &str| -> Vec<Head> {
         [first, "half within", "90 %", "99 %", "all"].map(Head::of).into()
     };
@@ -231,7 +196,7 @@ fn quantiles_of(views: &[RowView]) -> Vec<Block> {
 }
 
 /// Every source with its counts and intervals.
-fn by_family(record: &Record, views: &[RowView]) -> Table {
+fn by_family(record: &Record, views: &[&RowView]) -> Table {
     let mut heads = vec![Head::of("family")];
     for view in views {
         heads.extend(
@@ -249,7 +214,7 @@ fn by_family(record: &Record, views: &[RowView]) -> Table {
                 .map(|rate| {
                     let rate = result.map(|result| rate(&result.total)).filter(|rate| 0 < rate.of);
                     Cell {
-                        text: rate.as_ref().map_or("-".to_owned(), of),
+                        text: rate.as_ref().map_or("-".to_owned(), counted),
                         share: rate.and_then(|rate| rate.rate),
                         ..Default::default()
                     }
@@ -258,19 +223,4 @@ fn by_family(record: &Record, views: &[RowView]) -> Table {
         Row::new(&source.family, cells.collect::<Vec<_>>())
     };
     Table::new(heads, record.result.plan.sources.iter().map(row).collect())
-}
-
-/// As many examples a class as fit into some bytes, the same for all classes.
-pub(super) fn depth(record: &Record, mut room: usize) -> usize {
-    let parts = || record.result.results.iter().flat_map(|result| &result.findings);
-    let size = |example: &Example| example.command.len() + example.bits.len() + 64;
-    let deepest = parts().map(|part| part.first.len()).max().unwrap_or(0);
-    for depth in 0..deepest {
-        let further: usize = parts().filter_map(|part| part.first.get(depth)).map(size).sum();
-        match room.checked_sub(further) {
-            Some(rest) => room = rest,
-            None => return depth,
-        }
-    }
-    deepest
 }

@@ -40,15 +40,10 @@ pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>>
 }
 
 /// The contents of the columns.
-pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
+pub(super) fn column_legend(columns: &[Column]) -> String {
     let told = columns.iter().filter(|column| !column.about().is_empty());
-    let mut parts: Vec<String> =
-        told.map(|column| format!("{}: {}", column.label(), column.about())).collect();
-    if lines.iter().any(|line| line.across.is_some()) {
-        parts.push("values: wrong t, u, v".to_owned());
-        parts.push("cracks, doubles: shared edges with no hit, two; promised: how many".to_owned());
-    }
-    parts.join("; ")
+    let told = told.map(|column| format!("{}: {}", column.label(), column.about()));
+    told.collect::<Vec<_>>().join("; ")
 }
 
 /// How to read a run in an instance.

@@ -6,7 +6,6 @@
 mod close_up;
 mod columns;
 mod extremes;
-mod jsonl;
 mod junit;
 mod kernel;
 mod lines;
@@ -15,7 +14,6 @@ mod next;
 mod page;
 mod pictures;
 mod pool;
-mod questions;
 mod ranking;
 mod row_view;
 mod sarif;
@@ -83,7 +81,6 @@ pub const HTML: &str = "html";
 pub const FORMATS: &[Format] = &[
     Format::TEXT,
     Format::JSON,
-    Format { name: "jsonl", write: jsonl::write },
     Format { name: "junit", write: junit::write },
     Format { name: "sarif", write: sarif::write },
     Format::MARKDOWN,

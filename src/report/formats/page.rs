@@ -5,12 +5,9 @@ use super::kernel;
 use super::lines::lines;
 use super::record::*;
 use super::row_view::RowView;
-use super::{Record, Verdict, group_digits, number_of, questions, screen, verdict};
+use super::{Record, Verdict, group_digits, number_of, ranking, screen, verdict};
 use crate::report::page::{Block, Page, Paged, Tone};
 use std::collections::BTreeSet;
-
-/// Bytes for the first examples of all classes, beside the worst of each.
-const EXAMPLES: usize = 400_000;
 
 impl Paged for Record {
     fn page(&self) -> Page {
@@ -35,22 +32,21 @@ impl Paged for Record {
         }
         page.blocks.extend(broken_families(self).into_iter().map(Block::Text));
         page.blocks.extend(incomplete_meshes(self).into_iter().map(Block::Text));
-        let scalars = &self.result.plan.scalars;
-        let all = questions::blocks(scalars, &columns, &lines);
-        page.blocks.push(Block::Details("Every question".to_owned(), all));
-        let examples = kernel::depth(self, EXAMPLES);
-        let rows = &self.result.plan.rows;
-        let mut views: Vec<Vec<RowView>> = rows.iter().map(|_| Vec::new()).collect();
-        for scalar in scalars {
-            // In the order of the plan, some left out.
-            let mut of_scalar = RowView::all(self, scalar).into_iter().peekable();
-            for (row, views) in rows.iter().zip(&mut views) {
-                views.extend(of_scalar.next_if(|view| std::ptr::eq(view.part, row)));
-            }
+        let of_scalars = lines.chunk_by(|one, other| one.row.scalar == other.row.scalar);
+        let tables = of_scalars.map(|lines| ranking::of_scalar(self, &columns, lines));
+        let tables: Vec<Block> = tables.collect();
+        // That of one scalar is on the screen.
+        if 1 < tables.len() {
+            page.blocks.push(Block::Details("Every question".to_owned(), tables));
         }
-        for (row, views) in rows.iter().zip(&views).filter(|(_, views)| !views.is_empty()) {
-            let title = format!("{} ({})", row.kernel, row.set);
-            page.blocks.push(Block::Details(title, kernel::blocks(self, row, views, examples)));
+        let rows = &self.result.plan.rows;
+        for row in rows {
+            let of_row = lines.iter().filter(|line| std::ptr::eq(line.row.part, row));
+            let views: Vec<&RowView> = of_row.map(|line| &line.row).collect();
+            if !views.is_empty() {
+                let title = format!("{} ({})", row.kernel, row.set);
+                page.blocks.push(Block::Details(title, kernel::blocks(self, row, &views)));
+            }
         }
         page.blocks.push(Block::Details("About this run".to_owned(), about(self)));
         page

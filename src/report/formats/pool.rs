@@ -2,7 +2,9 @@
 //! are the whole of what they are: they have counts, and are never added to a sample.
 
 use super::group_digits;
+use super::rate::interval_of;
 use super::record::Rate;
+use std::fmt;
 
 /// A sum over the sources that are random samples, and one over the others.
 #[derive(Clone, Debug)]
@@ -23,17 +25,26 @@ impl Pool {
         if self.sample.of == 0 { &self.complete } else { &self.sample }
     }
 
-    /// The counts that [`Pool::rate`] leaves out: `3 of 57`.
-    pub(super) fn apart(&self) -> Option<String> {
-        let Rate { count, of, .. } = self.complete;
-        let both = 0 < of && 0 < self.sample.of;
-        both.then(|| format!("{} of {}", group_digits(count), group_digits(of)))
-    }
-
     /// The counts over both, without an interval.
     pub(super) fn counts(&self) -> [u64; 2] {
         [self.sample.count + self.complete.count, self.sample.of + self.complete.of]
     }
+}
+
+/// `1,597 of 10,092 (15.8% [15.1, 16.6]); stored cases 3 of 57`.
+impl fmt::Display for Pool {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", counted(self.rate()))?;
+        match 0 < self.sample.of && 0 < self.complete.of {
+            true => write!(f, "; stored cases {}", counted(&self.complete)),
+            false => Ok(()),
+        }
+    }
+}
+
+/// A count of a number, with its interval if it has one.
+pub(super) fn counted(rate: &Rate) -> String {
+    format!("{} of {}{}", group_digits(rate.count), group_digits(rate.of), interval_of(rate))
 }
 
 #[cfg(test)]
@@ -51,11 +62,12 @@ mod tests {
         let pool = Pool::of([&sample, &stored].into_iter());
         assert_eq!((pool.rate().count, pool.rate().of), (10, 500));
         assert_eq!(pool.rate().interval, sample.interval);
-        assert_eq!(pool.apart().as_deref(), Some("3 of 57"));
+        assert!(pool.to_string().ends_with("%]); stored cases 3 of 57"), "{pool}");
         assert_eq!(pool.counts(), [13, 557]);
         let pool = Pool::of(std::iter::once(&stored));
         assert_eq!((pool.rate().count, pool.rate().of), (3, 57));
-        assert!(pool.rate().interval.is_none() && pool.apart().is_none());
+        assert!(pool.rate().interval.is_none());
+        assert_eq!(pool.to_string(), "3 of 57");
         // A sample without a trial has no interval either, and counts for nothing.
         let none = rate(0, 0, true);
         assert_eq!(Pool::of(std::iter::once(&none)).counts(), [0, 0]);

@@ -1,9 +1,10 @@
 //! Every row on one line, the one that is visibly wrong least often first: the table of the screen, and its answer.
 
 use super::columns::{Column, short_percent};
-use super::group_digits;
+use super::lines::Line;
 use super::record::*;
-use super::standing::Standing;
+use super::standing::{Standing, standings};
+use super::{alike, group_digits, listed};
 use crate::report::page::{Block, Cell, Head, Row, Table};
 use std::collections::BTreeSet;
 
@@ -17,12 +18,6 @@ const MOST_NAMES: usize = 4;
 const ORDER: [&str; 10] =
     ["mesh", "stored", "sizes", "flat", "ends", "edges", "vertex", "inside", "grid", "lattice"];
 
-/// A row with those that answer alike.
-struct Ranked<'a> {
-    standing: &'a Standing<'a>,
-    alike: Vec<String>,
-}
-
 /// A row's name: its author's epsilons have none.
 fn label(part: &RowPart) -> String {
     let RowPart { kernel, set, .. } = part;
@@ -34,8 +29,9 @@ fn label(part: &RowPart) -> String {
     }
 }
 
-/// The best first: without leaks, seldom visibly wrong, few leaks, few wrong answers.
-fn ranked<'a>(standings: &'a [Standing<'a>]) -> Vec<Ranked<'a>> {
+/// The rows, each with those that answer alike; the best first: without leaks, seldom visibly wrong, few leaks, few wrong
+/// answers.
+fn ranked<'a>(standings: &'a [Standing<'a>]) -> Vec<(&'a Standing<'a>, Vec<&'a Standing<'a>>)> {
     let mut sorted: Vec<&Standing> = standings.iter().collect();
     let leaks = |standing: &Standing| {
         standing.leaks().map_or(0.0, |[count, of]| count as f64 / of.max(1) as f64)
@@ -46,50 +42,37 @@ fn ranked<'a>(standings: &'a [Standing<'a>]) -> Vec<Ranked<'a>> {
         let by_far = by_leak.then(a.all_far().cmp(&b.all_far()));
         by_far.then(leaks(a).total_cmp(&leaks(b))).then(share(a).total_cmp(&share(b)))
     });
-    let mut rows: Vec<Ranked> = Vec::new();
-    for standing in sorted {
-        match rows.iter_mut().find(|row| row.standing.is_like(standing)) {
-            Some(row) => row.alike.push(label(standing.part)),
-            None => rows.push(Ranked { standing, alike: Vec::new() }),
-        }
-    }
-    rows
+    alike(sorted, |one, other| one.is_like(other))
 }
 
 /// The row to look at first.
 pub(super) fn best<'a>(standings: &'a [Standing<'a>]) -> Option<&'a RowPart> {
-    ranked(standings).first().map(|row| row.standing.part)
+    ranked(standings).first().map(|(standing, _)| standing.part)
 }
 
-/// Names in a sentence; of many the first.
-fn listed<'a>(all: impl Iterator<Item = &'a Standing<'a>>) -> Option<String> {
+/// The names of some rows in a sentence; none without a row.
+fn names<'a>(all: impl Iterator<Item = &'a Standing<'a>>) -> Option<String> {
     let names: Vec<String> = all.map(|standing| label(standing.part)).collect();
-    let more = names.len().saturating_sub(MOST_NAMES);
-    let shown = names[..names.len() - more].join(", ");
-    match (names.is_empty(), more) {
-        (true, _) => None,
-        (_, 0) => Some(shown),
-        _ => Some(format!("{shown} and {more} more")),
-    }
+    (!names.is_empty()).then(|| listed(&names, MOST_NAMES))
 }
 
 /// The answer in sentences.
 pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String {
     let rows = ranked(standings);
-    let sorted = || rows.iter().map(|row| row.standing);
+    let sorted = || rows.iter().map(|(standing, _)| *standing);
     let mut text = Vec::new();
     let is_right = |it: &&Standing| it.wrong == 0 && it.others.is_empty() && it.share.is_some();
-    if let Some(names) = listed(sorted().filter(is_right)) {
+    if let Some(names) = names(sorted().filter(is_right)) {
         text.push(format!("Right on every case{place}: {names}."));
     }
     if standings.iter().any(|it| it.leaks().is_some()) {
         let is_tight = |it: &&Standing| it.leaks().is_some_and(|[count, _]| count == 0);
-        text.push(match listed(sorted().filter(is_tight)) {
+        text.push(match names(sorted().filter(is_tight)) {
             Some(names) => format!("No leak at shared edges and vertices: {names}."),
             None => "Every kernel leaks at shared edges or vertices.".to_owned(),
         });
     }
-    if let Some(names) = listed(sorted().filter(|it| it.breaks_promise())) {
+    if let Some(names) = names(sorted().filter(|it| it.breaks_promise())) {
         text.push(format!("Breaks what its documentation promises there: {names}."));
     }
     let counts = |it: &Standing| (label(it.part), group_digits(it.all_far()));
@@ -127,13 +110,40 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
 
 /// The table, and what its columns hold.
 pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]) -> Vec<Block> {
+    let scalars: Vec<&str> = record.result.plan.scalars.iter().map(String::as_str).collect();
+    let worse = match scalars.len() {
+        1 => "",
+        _ => " in the worse of the scalars",
+    };
+    let others =
+        format!("Other cells: % wrong{worse} on rays aimed at hard places, not of your pixels.");
+    let table = table(record, "kernel", columns, standings, &scalars);
+    vec![Block::Table(table.at_most(MOST)), Block::Text(others)]
+}
+
+/// The same of one scalar alone.
+pub(super) fn of_scalar(record: &Record, columns: &[Column], lines: &[Line]) -> Block {
+    let scalar = lines[0].row.scalar;
+    let standings = standings(record, columns, lines);
+    let head = format!("{scalar} kernel");
+    let mut table = table(record, &head, columns, &standings, &[scalar]);
+    table.heads.iter_mut().for_each(|head| head.is_optional = false);
+    Block::Table(table)
+}
+
+fn table(
+    record: &Record,
+    head: &str,
+    columns: &[Column],
+    standings: &[Standing],
+    scalars: &[&str],
+) -> Table {
     let place = |column: &Column| ORDER.iter().position(|name| *name == column.label());
     let mut order: Vec<usize> = (0..columns.len()).collect();
     order.sort_by_key(|i| (!columns[*i].is_ordinary(), place(&columns[*i]).unwrap_or(ORDER.len())));
     let has_leaks = standings.iter().any(|it| it.leaks().is_some());
-    let scalars = &record.result.plan.scalars;
     let mut table = Table::default();
-    table.heads.push(Head::of("kernel"));
+    table.heads.push(Head::of(head));
     let mut about = "% of rays at shared edges and vertices that hit nothing".to_owned();
     if standings.iter().any(Standing::breaks_promise) {
         about += " (!: its documentation rules that out)";
@@ -146,7 +156,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
     table.heads.extend(order.iter().map(question));
     table.heads.extend(scalars.iter().map(|scalar| Head::of(format!("ns {scalar}"))));
     let rows = ranked(standings);
-    for Ranked { standing, alike } in rows {
+    for (standing, alike) in rows {
         let mut cells: Vec<Cell> = Vec::new();
         if has_leaks {
             let text = standing.leaks().map_or("-".to_owned(), short_percent);
@@ -171,11 +181,12 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
             });
         }
         for scalar in scalars {
-            let times = record.provenance.kernel_nanoseconds.get(scalar);
+            let times = record.provenance.kernel_nanoseconds.get(*scalar);
             let name = format!("{} ({})", standing.part.kernel, standing.part.set);
             let time = times.and_then(|times| times.get(&name));
             cells.push(time.map_or("-".to_owned(), |time| format!("{time:.0}")).into());
         }
+        let alike: Vec<String> = alike.iter().map(|other| label(other.part)).collect();
         let alike = (!alike.is_empty()).then(|| format!("same answers: {}", alike.join(", ")));
         table.rows.push(Row {
             label: label(standing.part),
@@ -184,11 +195,5 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
             about: Some(format!("{} ({})", standing.part.kernel, standing.part.set)),
         });
     }
-    let worse = match scalars.len() {
-        1 => "",
-        _ => " in the worse of the scalars",
-    };
-    let others =
-        format!("Other cells: % wrong{worse} on rays aimed at hard places, not of your pixels.");
-    vec![Block::Table(table.at_most(MOST)), Block::Text(others)]
+    table
 }

@@ -5,6 +5,24 @@ use super::pool::Pool;
 use super::record::*;
 use std::collections::HashMap;
 
+/// A rate of a result, if it has it.
+type Get = fn(&KernelResult) -> Option<&Rate>;
+
+/// Everything that is counted of a row, by its name.
+pub(super) const COUNTED: [(&str, Get); 11] = [
+    ("false misses", |r| Some(&r.total.false_misses)),
+    ("false hits", |r| Some(&r.total.false_hits)),
+    ("bad values", |r| Some(&r.total.bad_values)),
+    ("wrong values", |r| Some(&r.total.wrong_values)),
+    ("cracks", |r| Some(&r.across.as_ref()?.cracks)),
+    ("doubles", |r| Some(&r.across.as_ref()?.doubles)),
+    ("odd folds", |r| Some(&r.across.as_ref()?.odd_folds)),
+    ("missed folds", |r| Some(&r.across.as_ref()?.missed_folds)),
+    ("polygon false misses", |r| Some(&r.polygons.as_ref()?.false_misses)),
+    ("polygon false hits", |r| Some(&r.polygons.as_ref()?.false_hits)),
+    ("self-hits", |r| r.self_hits.as_ref()),
+];
+
 /// All families of one kernel row in one scalar.
 pub(super) struct RowView<'a> {
     pub(super) part: &'a RowPart,

@@ -9,8 +9,8 @@ use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid};
 use super::standing::{Standing, standings};
 use super::{close_up, extremes, next, number_of, ranking};
 use crate::case::SceneKind;
-use crate::report::elsewhere::is_worse;
-use crate::report::page::{Block, Head, Row, Table};
+use crate::report::elsewhere::{self, Compared};
+use crate::report::page::Block;
 use crate::report::percent;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -98,20 +98,16 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
         .filter(|column| !column.is_ordinary())
         .map(|column| column.label())
         .collect();
-    let place = match (&special[..], is_close_up(record)) {
-        ([], _) => String::new(),
+    let place = match &special[..] {
+        [] => String::new(),
         // Each is a row of a close-up.
-        (special, true) => {
+        special if is_close_up(record) => {
             format!(" in ordinary sizes (all rows but {})", special.join(" and "))
         }
-        (_, false) => " in ordinary sizes".to_owned(),
+        _ => " in ordinary sizes".to_owned(),
     };
     let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
-    let mean = match &special[..] {
-        _ if meant <= 1 => place.clone(),
-        [] => " (the mean of the table's rows)".to_owned(),
-        special => format!(" in ordinary sizes (the mean without {})", special.join(" and ")),
-    };
+    let mean = if 1 < meant { ", the mean of the rows" } else { "" };
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
     let label = |standing: &Standing| format!("{} ({})", standing.part.kernel, standing.part.set);
     let text = match standings {
@@ -128,21 +124,18 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
             format!("{}: no false miss and no false hit{place}.", label(only))
         }
         [only] => format!(
-            "{} is wrong on {} % of the cases{mean}, {} by over 1/1000 of an edge.",
+            "{} is wrong on {} % of the cases{place}{mean}, {} by over 1/1000 of an edge.",
             label(only),
             percent(only.share.unwrap_or_default()),
             number_of(only.far, "time", "times"),
         ),
         all => ranking::answer(all, judged(record), &place),
     };
-    let broken: BTreeMap<FindingKind, u64> = standings
-        .iter()
-        .flat_map(|standing| standing.others.clone())
-        .fold(BTreeMap::new(), |mut sums, (finding, count)| {
-            *sums.entry(finding).or_default() += count;
-            sums
-        });
     // Of several the table tells.
+    let broken = match standings {
+        [only] => only.others.clone(),
+        _ => BTreeMap::new(),
+    };
     let is_across = |kind: &FindingKind| {
         matches!(kind, FindingKind::Crack | FindingKind::Double | FindingKind::OddFold)
     };
@@ -153,9 +146,9 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
             number_of(*count, finding.name(), &format!("{finding}{ending}"))
         });
         let counts: Vec<String> = counts.collect();
-        match standings.len() == 1 && !counts.is_empty() {
-            true => format!(" {lead}: {}.", counts.join(", ")),
-            false => String::new(),
+        match counts.is_empty() {
+            true => String::new(),
+            false => format!(" {lead}: {}.", counts.join(", ")),
         }
     };
     let others = told("Breaks its promise across triangles", true) + &told("Besides", false);
@@ -174,56 +167,25 @@ fn judged(record: &Record) -> u64 {
     record.result.sources.iter().map(|source| source.cases).sum()
 }
 
-/// The most rows of what is more often wrong on planes, or with rays, of other kinds.
-const MOST_ELSEWHERE: usize = 10;
-
 /// Which rows are more often wrong on planes, or with rays, of other kinds than the table's, and where most.
 fn of_elsewhere(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Block> {
     let kinds = kinds(record);
-    let [own_kind, others @ ..] = &kinds[..] else { return Vec::new() };
-    if others.is_empty() {
-        return Vec::new();
-    }
-    let rate = |cell: &Cell| Rate::new(cell.wrong, true);
-    let mut rows: Vec<(String, Rate, Rate, SceneKind)> = Vec::new();
-    for line in lines {
-        for (column, cell) in columns.iter().zip(&line.cells) {
-            let own = rate(cell);
-            let of = |kind: &SceneKind| {
-                (rate(&Cell::sum(&column.of_kind(*kind).results(&line.row))), *kind)
-            };
-            let worse = others.iter().map(of).filter(|(other, _)| is_worse(&own, other));
-            let most = worse
-                .max_by(|(a, _), (b, _)| a.rate.unwrap_or(0.0).total_cmp(&b.rate.unwrap_or(0.0)));
-            if let Some((other, kind)) = most {
-                let label = format!("{}, {}: {}", line.label(), line.row.scalar, column.label());
-                rows.push((label, own, other, kind));
-            }
-        }
-    }
-    let names: Vec<String> =
-        others.iter().map(|kind| format!("{kind} ({})", kind.in_words())).collect();
-    let names = names.join(", ");
-    if rows.is_empty() {
-        return vec![Block::Text(format!(
-            "On no other planes or rays is a row clearly more often wrong: {names}"
-        ))];
-    }
-    let excess = |(_, own, other, _): &(String, Rate, Rate, SceneKind)| {
-        other.rate.unwrap_or(0.0) - own.rate.unwrap_or(0.0)
+    let compared = |line: &Line, column: &Column| Compared {
+        label: format!("{}, {}: {}", line.label(), line.row.scalar, column.label()),
+        rates: (kinds.iter())
+            .map(|kind| Cell::sum(&column.of_kind(*kind).results(&line.row)))
+            .map(|cell| Rate::new(cell.wrong, true))
+            .collect(),
     };
-    rows.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
-    let heads = vec![
-        Head::of("Clearly more often wrong elsewhere"),
-        Head::of(own_kind.to_string()),
-        Head::of("most"),
-        Head::text("on"),
-    ];
-    let row = |(label, own, other, kind): &(String, Rate, Rate, SceneKind)| {
-        let [own, other] = [own, other].map(|rate| rate.rate.map_or("-".to_owned(), percent));
-        Row::new(label, [own, other, kind.to_string()])
-    };
-    let table = Table::new(heads, rows.iter().map(row).collect()).at_most(MOST_ELSEWHERE);
-    let of = "Shares are of all verdicts that are demanded, misses and hits together.";
-    vec![Block::Table(table), Block::Text(format!("{names}. {of}"))]
+    let rows = lines.iter().flat_map(|line| columns.iter().map(|column| compared(line, column)));
+    let names: Vec<String> = kinds.iter().map(SceneKind::to_string).collect();
+    let share = |rate: &Rate| rate.rate.map_or("-".to_owned(), percent);
+    let mut blocks =
+        elsewhere::blocks("Clearly more often wrong", &names, &rows.collect::<Vec<_>>(), share);
+    if !blocks.is_empty() {
+        let words = kinds[1..].iter().map(|kind| format!("{kind}: {}", kind.in_words()));
+        let of = "Shares are of all verdicts that are demanded, misses and hits together.";
+        blocks.push(Block::Text(format!("{}. {of}", words.collect::<Vec<_>>().join("; "))));
+    }
+    blocks
 }

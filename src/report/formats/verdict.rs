@@ -53,7 +53,7 @@ pub(super) fn blocks(record: &Record, conformance: &Conformance) -> Vec<Block> {
     });
     let title = "Proofs that [proved] demands and that are missing";
     blocks.extend(Block::items(title, MOST_LISTED, unproved.collect()));
-    let net = net_lines(conformance, usize::MAX);
+    let net = net_lines(conformance);
     let net = net.into_iter().map(|text| Item { text, ..Item::default() }).collect();
     blocks.extend(Block::items(NET_TITLE, MOST_LISTED, net));
     let stale =

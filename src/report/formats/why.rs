@@ -1,4 +1,4 @@
-//! Why and how far, in the text: shares of causes, quantiles of severities and of errors.
+//! Why, in the text: shares of causes.
 
 use super::rate::percent;
 use super::record::*;
@@ -59,15 +59,6 @@ pub(super) fn cause_shares<'a>(
         (share > 0.0).then_some((attribution, share, sampled.then_some([low, high])))
     };
     Some(Attribution::ALL.into_iter().filter_map(share).collect())
-}
-
-/// The quantiles of a severity: `half within 1e-7 longest edges, 90% 3e-6, 99% 2e-5 (2, 40, 300 ulps)`.
-pub(super) fn severity_text(severity: &SeverityDistribution) -> String {
-    let [edges, ulps] = [&severity.edges, &severity.ulps]
-        .map(|part| [part.median, part.percent_90, part.percent_99].map(short));
-    let ulps = ulps.join(", ");
-    let [median, most, nearly_all] = edges;
-    format!("half within {median} longest edges, 90% {most}, 99% {nearly_all} ({ulps} ulps)")
 }
 
 /// A number that is not negative, in few characters; none is infinite.

@@ -1,62 +1,31 @@
-//! The worst examples in words: by how much a verdict is wrong, and the command that shows it.
+//! The worst examples in words: by how much a verdict is wrong and why, and the command that shows it.
 
 use super::disagreement::{across, cracks, polygons};
-use super::group_digits;
-use super::pool::Pool;
-use super::rate::interval_of;
+use super::pool::{Pool, counted};
 use super::record::{FindingKind, FindingPart, Rate};
 use super::row_view::RowView;
-use super::why::{causes_text, severity_text};
+use crate::audit::Attribution;
 use crate::report::page::Item;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-/// The findings of a row in a scalar, of each kind and of each class: how many, how far off, why, and the worst with so
-/// many of the first; then cracks and whole polygons.
-pub(super) fn findings(row: &RowView, examples: usize) -> Vec<Item> {
-    // The empty class stands for all.
+/// The findings of a row in a scalar, of each kind and of each class: how many, and the worst; then cracks and whole polygons.
+pub(super) fn findings(row: &RowView) -> Vec<Item> {
     let mut parts: BTreeMap<(FindingKind, &str), Vec<&FindingPart>> = BTreeMap::new();
     for finding in row.results.iter().flat_map(|result| &result.findings) {
-        for class in ["", &finding.class] {
-            parts.entry((finding.finding, class)).or_default().push(finding);
-        }
+        parts.entry((finding.finding, &finding.class)).or_default().push(finding);
     }
-    let scalar = row.scalar;
-    let mut items = Vec::new();
-    for ((kind, class), parts) in &parts {
-        let first = parts[0];
-        let finding = parts
-            .iter()
-            .fold(first, |worst, part| if severity(worst) < severity(part) { part } else { worst });
-        let pool = row.found(*kind, class);
-        let rate = pool.rate();
-        let share = interval_of(rate);
-        let (count, of) = (group_digits(rate.count), group_digits(rate.of));
-        let apart = pool.apart().map_or(String::new(), |apart| format!(", stored cases {apart}"));
-        let distance = describe_severity(finding);
-        let (named, worst) = match *class {
-            "" => (String::new(), format!("{}, ", finding.class)),
-            class => (format!(" {class}"), String::new()),
-        };
-        let text = format!(
-            "{scalar} {kind}{named}: {count} of {of}{share}{apart}; worst {worst}{distance}"
-        );
-        let mut notes = Vec::new();
-        let severity = row.total.and_then(|total| total.severity.get(kind));
-        notes.extend(severity.filter(|_| class.is_empty()).map(severity_text));
-        let causes = causes_text(parts.iter().copied());
-        notes.extend(causes.map(|causes| format!("why: {causes}")));
-        let mut lines = vec![finding.worst.command.clone(), finding.worst.bits.clone()];
-        if !class.is_empty() {
-            let first =
-                parts.iter().flat_map(|part| part.first.iter().take(examples).chain([&part.worst]));
-            for example in first.filter(|_| 0 < examples) {
-                lines.extend([example.command.clone(), example.bits.clone()]);
-            }
-        }
-        let mut seen = BTreeSet::new();
-        lines.retain(|line| !line.is_empty() && seen.insert(line.clone()));
-        items.push(Item { text, notes, lines, ..Item::default() });
-    }
+    let item = |text: String, command: String| Item {
+        text: format!("{} {text}", row.scalar),
+        lines: vec![command],
+        ..Item::default()
+    };
+    let of_class = |((kind, class), parts): (&(FindingKind, &str), &Vec<&FindingPart>)| {
+        let worse = |worst, part| if severity(worst) < severity(part) { part } else { worst };
+        let worst: &FindingPart = parts.iter().copied().reduce(worse)?;
+        let (count, how) = (row.found(*kind, class), describe(worst));
+        Some(item(format!("{kind} of {class}: {count}; worst: {how}"), worst.worst.command.clone()))
+    };
+    let mut items: Vec<Item> = parts.iter().filter_map(of_class).collect();
     for result in &row.results {
         let mut groups = across(result);
         // Those that leak are shown, whether they promise not to or not.
@@ -64,27 +33,18 @@ pub(super) fn findings(row: &RowView, examples: usize) -> Vec<Item> {
             groups.extend(cracks(result));
         }
         groups.extend(polygons(result));
-        for (kind, rate, _, first) in groups.into_iter().filter(|(_, rate, ..)| 0 < rate.count) {
-            let (count, of) = (group_digits(rate.count), group_digits(rate.of));
-            let promised = result.across.as_ref().map_or(String::new(), |across| {
-                format!("; promised across triangles: {}", across.promised)
-            });
-            let text = format!("{scalar} {kind} in {}: {count} of {of}{promised}", result.family);
-            let ids = first.iter().take(examples.max(1));
-            let lines = ids.map(|id| row.part.explain_group(result, id)).collect();
-            items.push(Item { text, lines, ..Item::default() });
-        }
+        items.extend(groups.into_iter().filter_map(|(kind, rate, _, first)| {
+            let command = row.part.explain_group(result, first.first()?);
+            Some(item(format!("{kind} in {}: {}", result.family, counted(rate)), command))
+        }));
     }
     items
 }
 
 impl RowView<'_> {
-    /// The findings of a kind, of a class or of all.
+    /// The findings of a kind and a class.
     fn found(&self, kind: FindingKind, class: &str) -> Pool {
-        let counts = self.results.iter().filter_map(|result| match class {
-            "" => Some(&result.total),
-            class => result.classes.get(class),
-        });
+        let counts = self.results.iter().filter_map(|result| result.classes.get(class));
         let rates: Vec<Rate> = counts.filter_map(|counts| counts.rate(kind)).collect();
         Pool::of(rates.iter())
     }
@@ -92,7 +52,7 @@ impl RowView<'_> {
 
 /// By how far the verdict is wrong, and whether that is a distance along the ray: for a false hit
 /// before or beyond the extent it is.
-pub(super) fn severity_of(finding: &FindingPart) -> (f64, bool) {
+fn severity_of(finding: &FindingPart) -> (f64, bool) {
     let Some(severity) = &finding.worst.severity else { return (0.0, false) };
     if let Some(off) = severity.value_off {
         return (off, false);
@@ -118,33 +78,56 @@ pub(super) fn severity_of(finding: &FindingPart) -> (f64, bool) {
     }
 }
 
+/// By how far the worst of a class is wrong, in longest edges of the triangle.
 pub(super) fn severity(finding: &FindingPart) -> f64 {
     severity_of(finding).0
 }
 
-pub(super) fn describe_severity(finding: &FindingPart) -> String {
-    if finding.finding.is_failure() {
-        return "on the case below".to_owned();
-    }
-    let Some(severity) = &finding.worst.severity else { return "on invalid input".to_owned() };
-    let (distance, along) = severity_of(finding);
-    if distance == 0.0 && severity.value_off.is_none() {
-        return if along {
-            "exactly at an end".to_owned()
-        } else {
-            "exactly on the boundary".to_owned()
-        };
-    }
-    let ulps = distance * severity.edge_in_ulps;
-    if severity.value_off.is_some() {
-        return format!(
-            "by {distance:.2e} of the longest edge from the exact point ({ulps:.2e} ulps of the largest coordinate)"
-        );
-    }
-    let what = if along {
-        "of the longest edge from an end of the extent"
-    } else {
-        "of the longest edge from the boundary"
+/// The cause of the worst of a class.
+pub(super) fn cause(finding: &FindingPart) -> Option<Attribution> {
+    finding.causes.as_ref().and_then(|causes| causes.worst)
+}
+
+/// Describes the fault of the worst of a class, its size in longest edges and its cause.
+pub(super) fn describe(part: &FindingPart) -> String {
+    let ((distance, along), class) = (severity_of(part), &part.class);
+    let at_rim = distance == 0.0;
+    let distance = match distance {
+        d if (0.01..1000.0).contains(&d) => format!("{d:.2}"),
+        d => format!("{d:.1e}"),
     };
-    format!("by {distance:.2e} {what} ({ulps:.2e} ulps of the largest coordinate)")
+    let off_end = part.worst.severity.as_ref().and_then(|severity| severity.off_end.as_deref());
+    let touches = ["interior/", "edge/", "vertex/"].iter().any(|start| class.starts_with(start));
+    let is_hit = part.finding == FindingKind::FalseHit;
+    let hit = if is_hit { "a hit" } else { "a miss" };
+    let what = match (part.finding, is_hit, along) {
+        (FindingKind::WrongValue, ..) => {
+            format!("a right hit with a wrong value: its point is {distance} edges off")
+        }
+        (FindingKind::BadValue, ..) => {
+            "a value that is not finite, or of the wrong side".to_owned()
+        }
+        (kind, ..) if kind.is_failure() => "no verdict".to_owned(),
+        _ if part.worst.severity.is_none() => format!("{hit}, on invalid input"),
+        _ if at_rim && along => format!("{hit} exactly at an end of the ray"),
+        _ if at_rim => format!("{hit} exactly on the boundary"),
+        (_, true, true) if off_end == Some("beyond") => {
+            format!("a hit {distance} edges beyond the end of the ray")
+        }
+        (_, true, true) => format!("a hit {distance} edges before the start of the ray"),
+        (_, true, false) if touches => "a hit of the triangle that must be missed".to_owned(),
+        (_, true, false) => format!("a hit, but the ray passes {distance} edges away"),
+        (_, false, true) => format!("a miss, but the hit is {distance} edges within the ray"),
+        (_, false, false) => format!("a miss, but the ray hits {distance} edges inside"),
+    };
+    let cause = match cause(part) {
+        None => "",
+        Some(Attribution::Convention) => "; cause: the formula",
+        Some(Attribution::Epsilon) => "; cause: the epsilon",
+        Some(Attribution::Rounding) => "; cause: rounding",
+        Some(Attribution::Range) => "; cause: overflow or underflow",
+        Some(Attribution::Transform) => "; cause: the instance's rounded inverse",
+        Some(Attribution::NotEpsilon) => "; cause: not its epsilons",
+    };
+    format!("{what}{cause}")
 }

@@ -2,8 +2,6 @@
 
 mod build;
 mod drawing;
-#[cfg(feature = "pages")]
-mod picture;
 mod record;
 mod screen;
 #[cfg(feature = "pages")]

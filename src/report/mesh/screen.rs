@@ -3,7 +3,7 @@
 use super::record::*;
 use crate::report::epsilon::fitness::Grain;
 use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Tone};
-use crate::report::{Promised, Rate, group_digits, interval_of, number_of, percent};
+use crate::report::{Promised, Rate, alike, group_digits, interval_of, number_of, percent};
 
 /// So many rows stand on the screen.
 const MOST_ROWS: usize = 8;
@@ -94,18 +94,12 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
     }
     let mut rows: Vec<&MeshRowResult> = part.results.iter().collect();
     rows.sort_by_key(|row| (row.leaks(), row.both(|rates| &rates.doubles).count));
-    let mut shown: Vec<(&MeshRowResult, Vec<String>)> = Vec::new();
-    for row in rows {
-        let counts = |row: &MeshRowResult| {
-            let rates: [fn(&AcrossRates) -> &Rate; 3] =
-                [|rates| &rates.cracks, |rates| &rates.doubles, |rates| &rates.odd_folds];
-            (row.edges.cracked, row.vertices.cracked, rates.map(|rate| row.both(rate).count))
-        };
-        match shown.iter_mut().find(|(other, _)| counts(other) == counts(row)) {
-            Some((_, alike)) => alike.push(short_label(row)),
-            None => shown.push((row, Vec::new())),
-        }
-    }
+    let counts = |row: &MeshRowResult| {
+        let rates: [fn(&AcrossRates) -> &Rate; 3] =
+            [|rates| &rates.cracks, |rates| &rates.doubles, |rates| &rates.odd_folds];
+        (row.edges.cracked, row.vertices.cracked, rates.map(|rate| row.both(rate).count))
+    };
+    let shown = alike(rows, |one, other| counts(one) == counts(other));
     let heads = vec![
         Head::of(format!("{} kernel", part.scalar)),
         Head::of("cracks at edges"),
@@ -117,7 +111,7 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
         Head::of("ns a ray").optional(),
     ];
     let times = record.provenance.kernel_nanoseconds.get(part.scalar);
-    let row = |(row, alike): &(&MeshRowResult, Vec<String>)| {
+    let row = |(row, alike): &(&MeshRowResult, Vec<&MeshRowResult>)| {
         let time = times.and_then(|times| times.get(&row.label()));
         let promised = row.promised != Promised::Nothing;
         let exactly = row.promised == Promised::ExactlyOne;
@@ -137,6 +131,7 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
         ];
         let mut below = Vec::new();
         if !alike.is_empty() {
+            let alike: Vec<String> = alike.iter().map(|other| short_label(other)).collect();
             below.push(format!("same counts: {}", alike.join(", ")));
         }
         if let Some((hits, is_kept)) = row.promise() {

@@ -2,7 +2,6 @@
 
 use super::drawing::{Drawing, DrawnRow, Mark};
 use super::record::*;
-use crate::report::page::html::room::Room;
 
 /// Bytes for all marks. A row that leaves some of its share leaves them to the next.
 const MARKS: usize = 3_500_000;
@@ -21,13 +20,19 @@ pub(super) struct Shown<'a> {
 pub(super) fn shown<'a>(record: &'a MeshRecord, drawing: &'a Drawing) -> Vec<Shown<'a>> {
     let parts = &record.result.scalars;
     let results = parts.iter().flat_map(|part| part.results.iter().map(move |row| (part, row)));
-    let mut room = Room::new(MARKS);
+    let mut left = MARKS;
     let mut rows = Vec::new();
     for (i, ((part, result), drawn)) in results.zip(&drawing.rows).enumerate() {
-        let mut own = room.part(room.left() / (drawing.rows.len() - i));
-        let marks = own.fill(drawn.marks.iter(), mark_text);
-        let marked = drawn.marks.len() - own.left_out as usize;
-        room.take_back(own);
+        let share = left / (drawing.rows.len() - i);
+        let (mut marks, mut marked) = (String::new(), 0);
+        for text in drawn.marks.iter().map(mark_text) {
+            if share < marks.len() + text.len() {
+                break;
+            }
+            marks += &text;
+            marked += 1;
+        }
+        left -= marks.len();
         rows.push(Shown { scalar: part.scalar, result, drawn, marks, marked });
     }
     rows

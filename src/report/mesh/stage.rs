@@ -1,8 +1,7 @@
 //! The part of a page that shows where: the drawing with its controls, and the first places of each row. A script turns the
-//! mesh; without it a picture stands still.
+//! mesh; without it the tables of places are what there is.
 
 use super::drawing::{AROUND, Drawing, Mark, PLACES};
-use super::picture;
 use super::record::*;
 use super::shown::{Shown, lines, shown};
 use crate::mesh::Part;
@@ -34,7 +33,7 @@ pub(super) fn block(report: &MeshReport) -> Option<Block> {
     Some(Block::Stage(Stage { markup: markup.into_string(), style, script }))
 }
 
-/// The drawing: a canvas for the script, and a picture without it.
+/// The drawing: a canvas for the script.
 fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
     let numbers = |values: &mut dyn Iterator<Item = i64>| {
         values.map(|value| value.to_string()).collect::<Vec<_>>().join(" ")
@@ -43,7 +42,7 @@ fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
     let vertices = numbers(&mut drawing.points.iter().map(|(number, _)| i64::from(*number)));
     let triangles = numbers(&mut drawing.triangles.iter().flat_map(|face| face.map(i64::from)));
     let kinds: Vec<usize> = (0..WRONG.len()).filter(|kind| has_kind(rows, *kind)).collect();
-    // Drawn first, or alone: what breaks its promise, otherwise what leaks most.
+    // Drawn first: what breaks its promise, otherwise what leaks most.
     let badness = |row: &Shown| (row.result.promise().is_some_and(|(_, kept)| !kept), row.marked);
     let worst = (0..rows.len()).rev().max_by_key(|i| badness(&rows[*i])).unwrap_or(0);
     html! {
@@ -81,12 +80,11 @@ fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
                     button #next type="button" { "Next place" }
                     output #sum for="row" aria-live="polite" {}
                 }
-                div.stage {
-                    canvas #view hidden tabindex="0" role="application" aria-describedby="keys"
+                div.stage #stage hidden {
+                    canvas #view tabindex="0" role="application" aria-describedby="keys"
                         aria-label="The mesh, with the places where the chosen kernel row goes wrong"
                         data-points=(points) data-vertices=(vertices) data-triangles=(triangles)
                         data-whole[drawing.whole] data-directions=(result.directions) data-faces=(drawing.faces()) data-file=(shortened(&result.mesh.file, 120)) {}
-                    (picture::still(drawing, &rows[worst].drawn.marks[..rows[worst].marked]))
                 }
                 div #place hidden {
                     div aria-live="polite" { p #what {} p { code #command {} } }
@@ -95,7 +93,7 @@ fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
                         "reset; n and p for the next and the previous place."
                     }
                 }
-                noscript { p.note { "Drawn are the places of " (shortened(&rows[worst].result.label(), 80)) " " (rows[worst].scalar) ". With scripts every row is drawn, and the mesh can be turned." } }
+                noscript { p.note { "A script draws the mesh. Without it the places are those of the tables below." } }
             }
         }
     }

@@ -1,4 +1,4 @@
-// The mesh, turned by pointer, touch and keys. Without this a picture stands still, and tables hold the first places.
+// The mesh, turned by pointer, touch and keys. Without this tables hold the first places.
 (() => {
   const canvas = document.getElementById("view");
   const brush = canvas && canvas.getContext("2d");
@@ -230,8 +230,7 @@
       canvas.focus();
     });
   }));
-  get("still").setAttribute("hidden", "");
-  for (const id of ["view", "stage-controls", "place"]) get(id).hidden = false;
+  for (const id of ["stage", "stage-controls", "place"]) get(id).hidden = false;
   addEventListener("resize", redraw);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
   take();

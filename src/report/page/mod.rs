@@ -146,8 +146,6 @@ pub enum Drawing {
     Chart(String, [f64; 2]),
     /// A whole SVG.
     Svg(String),
-    /// A PNG in base64, with its width and height on the page.
-    Png(String, [u32; 2]),
 }
 
 /// A record that is a page.

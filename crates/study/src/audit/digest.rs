@@ -56,11 +56,6 @@ impl Digest {
         let places = places.map(|(index, triangle)| Place { index, triangle });
         places.filter(move |place| place.index < indices)
     }
-
-    /// True if a place may be in the set, whose source has so many indices; false if the sketch shows that it is not.
-    pub fn may_have(&self, place: Place, indices: u64) -> bool {
-        self.sketch.may_have((place.index, place.triangle), indices)
-    }
 }
 
 impl fmt::Display for Digest {

@@ -64,16 +64,6 @@ impl Sketch {
         })
     }
 
-    /// True if a place may be in the set, one of places below a number of indices; false if its cell is empty or has
-    /// another place alone.
-    pub fn may_have(&self, (index, triangle): (u64, u32), indices: u64) -> bool {
-        let key = scrambled(u64::from(triangle) << INDEX_BITS | index);
-        let cell = self.0[cell_of(key)];
-        let index_of_cell = restored(cell) & ((1 << INDEX_BITS) - 1);
-        let is_one_place = cell_of(cell) == cell_of(key) && index_of_cell < indices;
-        cell != 0 && (cell == key || !is_one_place)
-    }
-
     /// The cells that are not 0: each its number, and its sum.
     pub fn text(&self) -> String {
         let mut text = String::new();
@@ -156,15 +146,6 @@ mod tests {
             1,
             "the first place counts"
         );
-    }
-
-    #[test]
-    fn what_is_in_a_set_may_be_and_little_else_if_it_is_small() {
-        let set = sketch((0..10).map(|i| (i * 7, 0)));
-        assert!((0..10).all(|i| set.may_have((i * 7, 0), 1000)));
-        let others = (0..1000).filter(|i| i % 7 != 0 && set.may_have((*i, 0), 1000)).count();
-        assert!(others < 500, "{others}");
-        assert!(!sketch([]).may_have((0, 0), 1000));
     }
 
     /// How often a place is found of 200 pairs of sets, with `new` places in one and `gone` in the other.

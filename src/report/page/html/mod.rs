@@ -3,7 +3,6 @@
 //!
 //! Whatever a page says is escaped by the templates; the file's own policy lets only its own style and script run.
 
-pub(in crate::report) mod room;
 pub(in crate::report) mod words;
 
 use super::{Block, Drawing, Head, Item, Items, Page, Paged, Picture, Row, Table, Tone, Use};
@@ -12,8 +11,6 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use hmac_sha256::Hash;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use room::Room;
-use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use words::{code, link, shortened};
@@ -67,9 +64,9 @@ fn within(page: &Page, mut limit: usize) -> String {
     let title = shortened(&page.title, LONGEST);
     let mut anchors = BTreeSet::new();
     add_anchors(&page.blocks, &mut anchors);
-    let mut room = Room::new(limit.saturating_sub(around));
-    let writer = Writer { anchors: &anchors, used: RefCell::default() };
-    let blocks = writer.blocks(&page.blocks, 0, &mut room);
+    let left = limit.saturating_sub(around);
+    let mut writer = Writer { anchors: &anchors, used: BTreeMap::new(), left };
+    let blocks = writer.blocks(&page.blocks, 0);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -132,82 +129,113 @@ const TABLE: &str = "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-la
 struct Writer<'a> {
     anchors: &'a BTreeSet<String>,
     /// How many parts have begun at each anchor.
-    used: RefCell<BTreeMap<String, usize>>,
+    used: BTreeMap<String, usize>,
+    /// How many bytes more the page may have.
+    left: usize,
 }
 
 impl Writer<'_> {
     /// Some blocks, as many as there is room for. Each folded part has its share of the room.
-    fn blocks(&self, all: &[Block], depth: usize, room: &mut Room) -> String {
-        let Some(mut own) = room.within(note(u64::MAX).len()) else { return String::new() };
+    fn blocks(&mut self, all: &[Block], depth: usize) -> String {
         let mut text = String::new();
+        if !self.takes(note(u64::MAX).len()) {
+            return text;
+        }
         let mut folded = all.iter().filter(|block| matches!(block, Block::Details(..))).count();
+        let mut left_out = 0;
         for block in all {
-            match block {
+            left_out += match block {
                 Block::Details(title, inner) => {
-                    let mut part = own.part(own.left() / folded);
+                    let for_others = self.left - self.left / folded;
                     folded -= 1;
+                    self.left -= for_others;
                     let head = html! { summary { (heading(title, depth)) } }.into_string();
-                    let start = format!(
-                        "<details class=\"kernel\" id=\"{}\">{head}<div class=\"body\">",
-                        self.id(title)
-                    );
-                    text += &part.frame(&start, "</div></details>", |part| {
-                        self.blocks(inner, depth + 1, part)
-                    });
-                    own.take_back(part);
+                    let id = self.id(title);
+                    let start =
+                        format!("<details class=\"kernel\" id=\"{id}\">{head}<div class=\"body\">");
+                    let end = "</div></details>";
+                    let fits = self.takes(start.len() + end.len());
+                    if fits {
+                        text += &format!("{start}{}{end}", self.blocks(inner, depth + 1));
+                    }
+                    self.left += for_others;
+                    u64::from(!fits)
                 }
                 Block::Items(Items { items, .. }) => {
-                    text += &own.frame("<ul class=\"cards\">", "</ul>", |room| {
-                        room.fill(items.iter(), |one| item(one).into_string())
-                    });
+                    let items = items.iter().map(|one| item(one).into_string());
+                    self.add(&mut text, ["<ul class=\"cards\">", "</ul>"], items)
                 }
                 Block::Table(table) => {
                     let start = format!("{TABLE}{}<tbody>", heads(table).into_string());
                     let legend = Table::legend(table.heads.iter());
                     let legend = html! { @if !legend.is_empty() { p.note { (legend) } } };
                     let end = format!("</tbody></table></div>{}", legend.into_string());
-                    text += &own.frame(&start, &end, |room| {
-                        room.fill(table.rows.iter(), |row| self.row(table, row).into_string())
-                    });
+                    let anchors = self.anchors;
+                    let rows = table.rows.iter().map(|one| row(anchors, table, one).into_string());
+                    self.add(&mut text, [&start, &end], rows)
                 }
-                Block::Heading(title) => {
-                    own.add(&mut text, &heading(title, depth).into_string());
-                }
-                block => _ = own.add(&mut text, &self::block(block).into_string()),
-            }
+                Block::Heading(title) => self.add_one(&mut text, heading(title, depth)),
+                block => self.add_one(&mut text, self::block(block)),
+            };
         }
-        // Said here, and not again around it.
-        match std::mem::take(&mut own.left_out) {
-            0 => {}
-            left_out => text += &note(left_out),
+        if 0 < left_out {
+            text += &note(left_out);
         }
-        room.take_back(own);
         text
     }
 
+    fn add_one(&mut self, text: &mut String, markup: Markup) -> u64 {
+        self.add(text, ["", ""], std::iter::once(markup.into_string()))
+    }
+
+    /// Adds a start, as many pieces as there is room for, and an end. Returns how many pieces are left out.
+    fn add(
+        &mut self,
+        text: &mut String,
+        [start, end]: [&str; 2],
+        pieces: impl ExactSizeIterator<Item = String>,
+    ) -> u64 {
+        let mut left_out = pieces.len() as u64;
+        if self.takes(start.len() + end.len()) {
+            *text += start;
+            for piece in pieces.take_while(|piece| self.takes(piece.len())) {
+                *text += &piece;
+                left_out -= 1;
+            }
+            *text += end;
+        }
+        left_out
+    }
+
+    /// Takes so many bytes of the room, if there are as many.
+    fn takes(&mut self, bytes: usize) -> bool {
+        let left = self.left.checked_sub(bytes);
+        self.left = left.unwrap_or(self.left);
+        left.is_some()
+    }
+
     /// The anchor of a title, and a number after it where it is not the first.
-    fn id(&self, title: &str) -> String {
+    fn id(&mut self, title: &str) -> String {
         let anchor = anchor(title);
-        let mut used = self.used.borrow_mut();
-        let number = used.entry(anchor.clone()).or_insert(0);
+        let number = self.used.entry(anchor.clone()).or_insert(0);
         *number += 1;
         if *number == 1 { anchor } else { format!("{anchor}.{number}") }
     }
+}
 
-    fn row(&self, table: &Table, row: &Row) -> Markup {
-        let anchor = anchor(row.about.as_ref().unwrap_or(&row.label));
-        html! {
-            tr {
-                th scope="row" {
-                    @if self.anchors.contains(&anchor) { a href={ "#" (anchor) } { (row.label) } } @else { (row.label) }
-                    @for below in &row.below { span.what { (below) } }
-                }
-                @for (cell, head) in row.cells.iter().zip(&table.heads[1..]) {
-                    @let class = cell.share.map_or(String::new(), |share| format!("m{} ", shade(share)));
-                    @let class = format!("{class}{}{}", if head.is_text { "text " } else { "" }, if cell.is_broken { "broken" } else { "" });
-                    @let key = sort_key(cell.share, &cell.text).filter(|_| !head.is_text);
-                    td class=[Some(class.trim()).filter(|class| !class.is_empty())] data-v=[key] { (cell.text) }
-                }
+fn row(anchors: &BTreeSet<String>, table: &Table, row: &Row) -> Markup {
+    let anchor = anchor(row.about.as_ref().unwrap_or(&row.label));
+    html! {
+        tr {
+            th scope="row" {
+                @if anchors.contains(&anchor) { a href={ "#" (anchor) } { (row.label) } } @else { (row.label) }
+                @for below in &row.below { span.what { (below) } }
+            }
+            @for (cell, head) in row.cells.iter().zip(&table.heads[1..]) {
+                @let class = cell.share.map_or(String::new(), |share| format!("m{} ", shade(share)));
+                @let class = format!("{class}{}{}", if head.is_text { "text " } else { "" }, if cell.is_broken { "broken" } else { "" });
+                @let key = sort_key(cell.share, &cell.text).filter(|_| !head.is_text);
+                td class=[Some(class.trim()).filter(|class| !class.is_empty())] data-v=[key] { (cell.text) }
             }
         }
     }
@@ -275,9 +303,6 @@ fn block(block: &Block) -> Markup {
                         svg.chart viewBox=(format!("0 0 {width} {height}")) role="img" aria-label=(about) { (PreEscaped(elements)) }
                     },
                     Drawing::Svg(svg) => { div.drawing role="group" aria-label=(about) tabindex="0" { (PreEscaped(svg)) } },
-                    Drawing::Png(png, [width, height]) => {
-                        img.map src={ "data:image/png;base64," (png) } alt=(about) width=(width) height=(height) loading="lazy";
-                    },
                 }
                 @if !caption.is_empty() { figcaption { (caption) } }
             }
