@@ -18,7 +18,7 @@ const SPANNING: [&str; 6] =
 /// The worst false miss and false hit of each scalar, drawn.
 pub(super) fn blocks(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<Block> {
     let is_asked = record.illustrations.is_some();
-    let drawings = is_asked.then(|| drawings(part, views)).unwrap_or_default();
+    let drawings = if is_asked { drawings(part, views) } else { Vec::new() };
     drawings.into_iter().map(Block::Picture).collect()
 }
 

@@ -32,11 +32,14 @@ pub(super) fn write(page: &Page, out: &mut dyn Write) -> io::Result<()> {
 
 /// The content below the title, as elements to be put into a page with the style of this folder.
 pub fn elements(record: &impl Paged) -> String {
-    let page = record.page();
+    of_blocks(&record.page().blocks, LIMIT)
+}
+
+/// Blocks, as many as a number of bytes has room for.
+fn of_blocks(blocks: &[Block], left: usize) -> String {
     let mut anchors = BTreeSet::new();
-    add_anchors(&page.blocks, &mut anchors);
-    let writer = Writer { anchors: &anchors, used: RefCell::default() };
-    writer.blocks(&page.blocks, 0, &mut Room::new(LIMIT))
+    add_anchors(blocks, &mut anchors);
+    Writer { anchors: &anchors, used: BTreeMap::new(), left }.blocks(blocks, 0)
 }
 
 /// The page in fewer bytes than a limit.
@@ -62,11 +65,7 @@ fn within(page: &Page, mut limit: usize) -> String {
         Tone::Stale => ("stale", "△ "),
     };
     let title = shortened(&page.title, LONGEST);
-    let mut anchors = BTreeSet::new();
-    add_anchors(&page.blocks, &mut anchors);
-    let left = limit.saturating_sub(around);
-    let mut writer = Writer { anchors: &anchors, used: BTreeMap::new(), left };
-    let blocks = writer.blocks(&page.blocks, 0);
+    let blocks = of_blocks(&page.blocks, limit.saturating_sub(around));
     let page = html! {
         (DOCTYPE)
         html lang="en" {
