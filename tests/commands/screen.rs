@@ -142,7 +142,7 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
     let lines: Vec<&str> = everything.lines().collect();
     for scalar in ["f32", "f64"] {
         let is_head = |line: &&str| line.starts_with(&format!("{scalar} kernel  "));
-        let head = lines.iter().position(|line| is_head(line)).unwrap();
+        let head = lines.iter().position(is_head).unwrap();
         let heads: Vec<&str> = lines[head].split_whitespace().skip(2).collect();
         assert!(COLUMNS.iter().all(|(name, _)| heads.contains(name)), "{heads:?}");
         for row in rows {
