@@ -6,11 +6,16 @@
 
 use hairline::internals::audit::{EpsilonChoice, Observer, Plan, Source, run};
 use hairline::internals::case::{Case, Parameters};
-use hairline::internals::family::{FAMILIES, Family};
-use hairline::internals::kernel::{KERNELS, Scalar, Verdict};
+use hairline::internals::family::{FAMILIES, Family, STRATA};
+use hairline::internals::kernel::{KERNELS, Scalar, Verdict, find};
 use hairline::internals::oracle;
 use std::hint::black_box;
 use std::time::Instant;
+
+/// The kernel that `hairline repair --kernel moller-trumbore --emit rust` writes; a test compares them.
+#[rustfmt::skip]
+#[path = "audit/repaired.rs"]
+mod repaired;
 
 struct Clock(Instant);
 
@@ -94,10 +99,59 @@ fn line<F: Scalar>(name: &str, families: &[&'static Family], count: u64) {
     );
 }
 
+/// A guarded kernel beside others on the same rays, in nanoseconds a ray.
+fn repaired(family: &'static Family) {
+    let cases: Vec<Case<f32>> = (0..20_000)
+        .flat_map(|i| family.make::<f32>(&Parameters::default(), 1, i).cases().to_vec())
+        .collect();
+    let wide: Vec<Case<f64>> = cases.iter().map(Case::widen).collect();
+    let plain = |name: &str| f32::subject(find(name).expect("built in")).expect("in f32");
+    let (moller, woop) = (plain("moller-trumbore"), plain("woop-watertight"));
+    let double = f64::subject(find("moller-trumbore").expect("built in")).expect("in f64");
+    let (mut verdicts, mut doubles) =
+        (vec![Verdict::miss(None); cases.len()], vec![Verdict::miss(None); cases.len()]);
+    let mut asks = 0;
+    let rounds: Vec<[f64; 4]> = (0..ROUNDS)
+        .map(|_| {
+            let plain = time(&mut || moller.run(black_box(&cases), &[0.0; 2], &mut verdicts));
+            let guarded = time(&mut || {
+                asks = 0;
+                for case in black_box(&cases) {
+                    let [o, d, a, b, c] = case.vectors();
+                    let answer = black_box(repaired::moller_trumbore_f32(o, d, a, b, c));
+                    asks += usize::from(answer == repaired::Answer::Ask);
+                }
+            });
+            let woop = time(&mut || woop.run(black_box(&cases), &[0.0; 3], &mut verdicts));
+            let double = time(&mut || double.run(black_box(&wide), &[0.0; 2], &mut doubles));
+            [plain, guarded, woop, double]
+        })
+        .collect();
+    let of = |place: usize| median(rounds.iter().map(|round| round[place]).collect());
+    let nanoseconds = [0, 1, 2, 3].map(|place| of(place) / cases.len() as f64);
+    let ratio = median(rounds.iter().map(|round| round[1] / round[0]).collect());
+    let [plain, guarded, woop, double] = nanoseconds;
+    println!(
+        "{:<26} {plain:>10.1} {guarded:>10.1} {woop:>10.1} {double:>10.1} {ratio:>8.2} {:>7.2} %",
+        family.name,
+        100.0 * asks as f64 / cases.len() as f64
+    );
+}
+
 fn main() {
     // cargo passes --bench; a filter would be the first other word.
     let filter = std::env::args().skip(1).find(|word| !word.starts_with('-')).unwrap_or_default();
     let stock = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    if "repaired".contains(&filter) {
+        println!("ns a ray, f32, one thread: moller-trumbore, the same guarded, and others");
+        println!(
+            "{:<26} {:>10} {:>10} {:>10} {:>10} {:>8} {:>9}",
+            "family", "plain", "guarded", "woop", "in f64", "ratio", "asks"
+        );
+        let names = ["interior", "outside", "edge-near", "scene-interior", "scene-outside"];
+        let all = FAMILIES.iter().chain(STRATA);
+        all.filter(|family| names.contains(&family.name)).for_each(repaired);
+    }
     stock.install(|| {
         println!("ns a case, one thread, {} kernels with their default epsilons", KERNELS.len());
         println!(

@@ -20,6 +20,7 @@ pub const EXAMPLES: &[(&str, &str)] = &[
     ("epsilon", "hairline epsilon --kernel moller-trumbore --scene room"),
     ("spawn", "hairline spawn --kernel moller-trumbore --scene room"),
     ("prove", "hairline prove --kernel moller-trumbore --scalar f32"),
+    ("repair", "hairline repair --kernel moller-trumbore --emit c -o guarded.h"),
     ("mesh", "hairline mesh model.obj"),
     ("explain", "hairline explain 'tiny@2/f32/-/1/15467' --kernel moller-trumbore"),
     ("map", "hairline map 'tiny@2/f32/-/1/15467' --kernel moller-trumbore -o map.svg"),

@@ -34,6 +34,7 @@ mod output;
 mod plugins;
 mod progress;
 mod prove;
+mod repair;
 mod reporting;
 mod select;
 mod selfcheck;
@@ -75,6 +76,8 @@ enum Command {
     Mesh(Box<mesh::MeshArguments>),
     /// Prove what a kernel can never do wrong, whatever the floats
     Prove(Box<prove::ProveArguments>),
+    /// Write a kernel that says hit, miss or ask, and is proved right
+    Repair(Box<repair::RepairArguments>),
     /// Show one case: its exact truth, and why a kernel was wrong
     Explain(explain::ExplainArguments),
     /// Draw where a kernel is wrong around a case, a pixel a float
@@ -119,7 +122,7 @@ enum Command {
 const GROUPS: [(&str, &[&str]); 6] = [
     (
         "Choose an epsilon",
-        &["audit", "epsilon", "spawn", "prove", "mesh", "explain", "map", "list"],
+        &["audit", "epsilon", "spawn", "prove", "repair", "mesh", "explain", "map", "list"],
     ),
     ("Hunt with a fuzzer", &["fuzz"]),
     ("Gate a CI", &["check", "merge", "diff"]),
@@ -225,6 +228,7 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Spawn(arguments) => spawn::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Prove(arguments) => prove::run(&arguments),
+        Command::Repair(arguments) => repair::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
         Command::List(arguments) => list::run(&arguments),

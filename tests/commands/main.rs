@@ -28,6 +28,8 @@ mod own;
 mod plugin;
 mod program;
 mod prove;
+#[cfg(unix)]
+mod repair;
 mod rows;
 mod scene;
 mod scene_advice;

@@ -525,7 +525,8 @@ fn an_error_whose_effect_is_no_share_of_the_divisor_is_refused() {
     let mut operations: Vec<Operation> = [3, 6, 7, 8, 9, 10, 11].map(Input).to_vec();
     operations.extend([Sub(4, 1), Sub(5, 2), Sub(6, 3), Mul(7, 8), Mul(10, 9), Div(11, 0)]);
     operations.extend([Div(7, 0), Div(8, 0), Div(9, 0), Add(12, 13), Add(14, 15), Add(16, 17)]);
-    let path = Path { operations, decisions: vec![], compared: vec![], hits: true };
+    let path =
+        Path { operations, decisions: vec![], compared: vec![], hits: true, values: [None; 3] };
     let text = certificate_of(&path, "f32", Domain::UNIT, &[18]);
     check(&text).unwrap();
     assert!(!text.contains(" over "), "{text}");

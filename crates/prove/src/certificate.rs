@@ -7,7 +7,7 @@ use super::formula::{Formula, Maximum, Source, Step};
 use super::run::cone;
 use super::watertight::symmetry_of;
 use super::{Domain, Dyadic, Format, Lemma, Limit, Names, Rule, Symmetry};
-use crate::arith::recorded::{Operation, Place};
+use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::kernel::{Gate, Path, Role};
 use std::collections::BTreeSet;
 use std::fmt::{self, Display, Write};
@@ -100,7 +100,8 @@ pub fn program(path: &Path, lemmas: &[Lemma], claim: &Claim) -> String {
     text
 }
 
-fn operation_text(operation: &Operation) -> String {
+/// An operation in words.
+pub(super) fn operation_text(operation: &Operation) -> String {
     match *operation {
         Operation::Input(i) => format!("input {i}"),
         Operation::Number(value) => format!("number {value}"),
@@ -113,6 +114,16 @@ fn operation_text(operation: &Operation) -> String {
         Operation::Sqrt(a) => format!("sqrt {a}"),
         Operation::Fma(a, b, c) => format!("fma {a} {b} {c}"),
         Operation::Minor(a, b, c, d) => format!("minor {a} {b} {c} {d}"),
+    }
+}
+
+/// A comparison in words.
+pub(super) fn comparison_text(comparison: &Comparison) -> String {
+    match comparison {
+        Comparison::Less(a, b) => format!("less {a} {b}"),
+        Comparison::AtMost(a, b) => format!("at-most {a} {b}"),
+        Comparison::Zero(a) => format!("zero {a}"),
+        Comparison::Negative(a) => format!("negative {a}"),
     }
 }
 

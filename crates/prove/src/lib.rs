@@ -3,7 +3,7 @@
 
 #![forbid(unsafe_code)]
 
-use hairline_core::{arith, case, kernel};
+use hairline_core::{arith, case, contract, kernel};
 
 mod bound;
 mod builder;
@@ -24,6 +24,7 @@ mod normal;
 mod order;
 mod permanent;
 mod quotient;
+pub mod repair;
 mod rows;
 mod run;
 mod scene;

@@ -72,19 +72,7 @@ pub fn cone(operations: &[Operation], last: Place) -> (Vec<Operation>, Vec<Optio
         }
         open.pop();
         let of = |place: Place| -> Place { renamed[place as usize].expect("operands come first") };
-        use Operation::*;
-        kept.push(match operation {
-            Input(_) | Number(_) => operation,
-            Add(a, b) => Add(of(a), of(b)),
-            Sub(a, b) => Sub(of(a), of(b)),
-            Mul(a, b) => Mul(of(a), of(b)),
-            Div(a, b) => Div(of(a), of(b)),
-            Neg(a) => Neg(of(a)),
-            Abs(a) => Abs(of(a)),
-            Sqrt(a) => Sqrt(of(a)),
-            Fma(a, b, c) => Fma(of(a), of(b), of(c)),
-            Minor(a, b, c, d) => Minor(of(a), of(b), of(c), of(d)),
-        });
+        kept.push(operation.with(of));
         renamed[place as usize] = Some(kept.len() as Place - 1);
     }
     (kept, renamed)

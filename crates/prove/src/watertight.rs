@@ -133,7 +133,7 @@ fn accepts_surely(acceptance: &Acceptance, value: impl Fn(Place) -> (bool, i8)) 
         Comparison::Negative(a) => Some(sign(a) < 0).filter(|_| sign(a) != 0),
     };
     match acceptance {
-        Acceptance::Fixed => false,
+        Acceptance::Fixed(..) => false,
         Acceptance::Clauses(refuse, clauses) => {
             let least = match refuse {
                 Refuse::Below | Refuse::UnlessAtLeast => 0,

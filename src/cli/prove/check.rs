@@ -8,6 +8,7 @@ use crate::corpus::InputError;
 use crate::kernel::{self, Entry, Path, Role, Scalar};
 use crate::prove::certificate::operations;
 use crate::prove::checker::{self, Number, Proved};
+use crate::prove::repair::Guarded;
 use crate::prove::{compared, is_at_most, is_impossible, paths_of};
 use crate::report::number_of;
 use num_traits::ToPrimitive;
@@ -26,6 +27,9 @@ pub fn check(arguments: &ProveArguments) -> Result<Status, Failure> {
 
 fn checked(file: &str) -> Result<String, Failure> {
     let text = read_text(file)?;
+    if text.lines().nth(3).is_some_and(|line| line.starts_with("guarded ")) {
+        return guarded(file, &text);
+    }
     let proved = checker::check(&text)
         .map_err(|refusal| InputError::at(file, refusal.line, refusal.message))?;
     let bounds = number_of(proved.len() as u64, "bound", "bounds");
@@ -93,6 +97,30 @@ fn checked(file: &str) -> Result<String, Failure> {
         said.push_str(&format!("\n  for every float with {inputs}{errors}{missing}"));
     }
     Ok(said)
+}
+
+/// The same of the certificate of a guarded kernel.
+fn guarded(file: &str, text: &str) -> Result<String, Failure> {
+    let margins = checker::check_guarded(text)
+        .map_err(|refusal| InputError::at(file, refusal.line, refusal.message))?;
+    let kernel = text.lines().nth(1).unwrap_or_default().trim_start_matches("kernel ");
+    let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
+    let entry = kernel::find(name).filter(|_| scalar != "float");
+    let made = entry.map(|entry| in_named_scalar!(scalar, F => Guarded::new::<F>(entry)));
+    let whose = match made {
+        Some(Ok(made)) if made.certificate() == text => "that `hairline repair` writes here",
+        Some(_) => {
+            let message = format!(
+                "{file}: the proof is right, but {name} is repaired in another way here: write its certificate again"
+            );
+            return Err(Failure::Message(Status::Disagreements, message));
+        }
+        None => "no kernel of that name is here to compare",
+    };
+    let margins = number_of(margins as u64, "margin", "margins");
+    Ok(format!(
+        "{file}: every hit and every miss of the guarded {kernel} is right, by {margins} ({whose})"
+    ))
 }
 
 fn float(x: &Number) -> f64 {

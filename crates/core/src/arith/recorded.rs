@@ -56,6 +56,23 @@ impl Operation {
             Minor(a, b, c, d) => vec![a, b, c, d],
         }
     }
+
+    /// The same with other operands.
+    pub fn with(&self, mut of: impl FnMut(Place) -> Place) -> Operation {
+        use Operation::*;
+        match *self {
+            Input(_) | Number(_) => *self,
+            Add(a, b) => Add(of(a), of(b)),
+            Sub(a, b) => Sub(of(a), of(b)),
+            Mul(a, b) => Mul(of(a), of(b)),
+            Div(a, b) => Div(of(a), of(b)),
+            Neg(a) => Neg(of(a)),
+            Abs(a) => Abs(of(a)),
+            Sqrt(a) => Sqrt(of(a)),
+            Fma(a, b, c) => Fma(of(a), of(b), of(c)),
+            Minor(a, b, c, d) => Minor(of(a), of(b), of(c), of(d)),
+        }
+    }
 }
 
 /// A comparison of numbers on the tape.

@@ -25,6 +25,8 @@ pub struct Path {
     pub compared: Vec<Compared>,
     /// True if it is a hit when every gate accepts; false if something refuses it that is not a gate.
     pub hits: bool,
+    /// Its t, u and v of a hit, if it reports them.
+    pub values: [Option<Place>; 3],
 }
 
 /// The quantities that a gate compares, and how it decides.
@@ -54,8 +56,8 @@ pub enum Acceptance {
     Clauses(Refuse, Vec<Vec<Place>>),
     /// It rounds with its epsilon: every way through its comparisons at an epsilon of 0.
     Rounded(Vec<Outcome>),
-    /// It takes no epsilon. How its comparisons decide is not known.
-    Fixed,
+    /// It takes no epsilon: the comparisons since the fixed test before, and whether it accepts on this path.
+    Fixed(Vec<Comparison>, bool),
 }
 
 /// The sink that writes down what each gate compares, and goes on.
@@ -108,10 +110,11 @@ impl Sink<Recorded> for Recording {
     }
 
     /// Notes all comparisons since the fixed test before.
-    fn fixed(&mut self, gate: usize, _: bool) -> bool {
+    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
         let compared = asked_from(self.asked);
         self.asked = asked_so_far();
-        self.note(gate, Acceptance::Fixed, compared.iter().flat_map(Comparison::places).collect())
+        let quantities = compared.iter().flat_map(Comparison::places).collect();
+        self.note(gate, Acceptance::Fixed(compared, accepts), quantities)
     }
 }
 
@@ -123,7 +126,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
     let mut paths = Vec::new();
     let mut script = Vec::new();
     loop {
-        let ((sink, hits), tape) = record(&script, arithmetic.fused, || run::<K>(None));
+        let ((sink, hit), tape) = record(&script, arithmetic.fused, || run::<K>(None));
         let decisions = tape.decisions;
         if tape.operations.contains(&Operation::INFINITY) {
             return Err("it computes with infinity".to_owned());
@@ -140,14 +143,21 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
                 continue;
             }
             let refused = || run::<K>(Some(number));
-            let ((sink, hits), tape) = record(&script, arithmetic.fused, refused);
+            let ((sink, hit), tape) = record(&script, arithmetic.fused, refused);
             let goes_on = sink.compared.len() > number + 1 || tape.decisions.len() > *before;
-            if hits || goes_on {
+            if hit.is_some() || goes_on {
                 let name = K::INFO.gates[*gate].name;
                 return Err(format!("it goes on after gate '{name}' has refused"));
             }
         }
-        paths.push(Path { operations: tape.operations, compared, decisions, hits });
+        let values = hit.unwrap_or_default();
+        paths.push(Path {
+            operations: tape.operations,
+            compared,
+            decisions,
+            hits: hit.is_some(),
+            values,
+        });
         if paths.len() > MOST_PATHS {
             return Err(format!("its program has more than {MOST_PATHS} paths"));
         }
@@ -158,8 +168,8 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
     }
 }
 
-/// Records a run: the gates' comparisons, of which one may refuse, and true if the run is a hit.
-fn run<K: Kernel>(refused: Option<usize>) -> (Recording, bool) {
+/// Records a run: the gates' comparisons, of which one may refuse, and t, u and v if the run is a hit.
+fn run<K: Kernel>(refused: Option<usize>) -> (Recording, Option<[Option<Place>; 3]>) {
     let number = |i: u8| Recorded::input(i);
     let triple = |i: u8| Triple::from([number(i), number(i + 1), number(i + 2)]);
     let ray = Ray { origin: triple(0), direction: triple(3), t_min: number(15), t_max: number(16) };
@@ -167,6 +177,9 @@ fn run<K: Kernel>(refused: Option<usize>) -> (Recording, bool) {
     let mut sink = Recording { refused, ..Recording::default() };
     let prepared = K::prepare(&triangle);
     sink.asked = asked_so_far();
-    let hits = K::test(&prepared, &ray, &mut sink).is_some();
-    (sink, hits)
+    let hit = K::test(&prepared, &ray, &mut sink).map(|hit| {
+        let (u, v) = hit.uv.unzip();
+        [hit.t, u, v].map(|value| value.map(|value| value.place()))
+    });
+    (sink, hit)
 }

@@ -6,11 +6,14 @@
 mod corners;
 mod edges;
 mod formula;
+mod guarded;
 mod names;
 mod number;
 mod opposite;
+mod points;
 mod program;
 mod reader;
+mod signs;
 mod variables;
 
 pub use number::{Bound, Number};
@@ -65,16 +68,29 @@ impl Display for Refusal {
 
 /// Everything that a certificate proves, or why it is refused.
 pub fn check(text: &str) -> Result<Vec<Proved>, Refusal> {
+    checked(text, certificate)
+}
+
+/// How many margins make the hits and misses of a guarded kernel right, or why a certificate is refused.
+pub fn check_guarded(text: &str) -> Result<usize, Refusal> {
+    checked(text, |reader| guarded::check(heading(reader)?, reader))
+}
+
+fn checked<'a, T>(
+    text: &'a str,
+    check: impl FnOnce(&mut Reader<'a>) -> Outcome<T>,
+) -> Result<T, Refusal> {
     let mut reader = Reader { lines: text.lines().peekable(), line: 0 };
     let checked = ensure(text.len() <= MOST_BYTES, format!("found more than {MOST_BYTES} bytes"));
-    let checked = checked.and_then(|()| certificate(&mut reader));
+    let checked = checked.and_then(|()| check(&mut reader));
     checked.map_err(|message| Refusal { line: reader.line, message })
 }
 
-fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
+/// The first lines.
+fn heading(reader: &mut Reader) -> Outcome<Format> {
     reader.read("hairline proof 2", |words| (words == ["proof", "2"]).then_some(()))?;
     let scalar = reader.read("kernel NAME SCALAR", |words| (words.len() == 2).then(|| words[1]))?;
-    let format = reader.read("format DIGITS SMALLEST LARGEST, as of the scalar", |words| {
+    reader.read("format DIGITS SMALLEST LARGEST, as of the scalar", |words| {
         let format: Option<Vec<i64>> = words.iter().map(|word| whole(word)).collect();
         let format: [i64; 3] = format?.try_into().ok()?;
         let is_right = match (scalar, format) {
@@ -84,7 +100,11 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
             _ => false,
         };
         is_right.then(|| Format::of(format))
-    })?;
+    })
+}
+
+fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
+    let format = heading(reader)?;
     let form = "domain edge X reach X world X direction X …";
     let mut domain = reader.read(form, Domain::parse)?;
     let (mut proved, mut work) = (Vec::new(), 0);

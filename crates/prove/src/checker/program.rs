@@ -5,6 +5,7 @@ use super::number::{Bound, Format, Number, number, power, whole};
 use super::reader::{Outcome, Reader, ensure};
 use num_bigint::BigInt;
 use num_traits::Signed;
+use std::array::from_fn;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Longer programs and formulas are refused.
@@ -108,33 +109,19 @@ pub struct Lemma {
 }
 
 impl<'a> Program<'a> {
+    /// Operations alone.
+    pub fn of_operations(format: Format, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
+        let operations = operations(&format, reader)?;
+        let (orders, lemmas, also) = (BTreeSet::new(), HashMap::new(), Vec::new());
+        let (limits, domain) =
+            ([HashMap::new(), HashMap::new()], Domain(from_fn(|_| Number::default())));
+        Ok(Program { format, domain, operations, orders, limits, also, lemmas })
+    }
+
     /// The operations, and what the proof supposes of them.
     pub fn read(format: Format, domain: Domain, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
         reader.read("program", |words| words.is_empty().then_some(()))?;
-        let mut operations: Vec<Operation> = Vec::new();
-        let most = power(format.parameters[0]).to_integer();
-        while reader.is_next("op") && operations.len() < MOST_ROWS {
-            let next = operations.len();
-            let form = format!("op {next} OPERATION OPERANDS, each an earlier one");
-            operations.push(reader.read(&form, |words| {
-                let (&[place, name], words) = words.split_first_chunk()?;
-                let parsed: Option<Vec<i64>> = words.iter().map(|word| whole(word)).collect();
-                let parsed = parsed.filter(|_| whole(place) == Some(next))?;
-                if let ("input" | "number", &[value]) = (name, &parsed[..]) {
-                    let is_input = name == "input" && (0..INPUTS as i64).contains(&value);
-                    let is_exact = name == "number" && BigInt::from(value).abs() <= most;
-                    let operation = Operation { name, operands: vec![], value };
-                    return (is_input || is_exact).then_some(operation);
-                }
-                let operands = indices(words, next)?;
-                let is_known = matches!((name, operands.len()), ("abs" | "sqrt", 1) | ("div", 2));
-                (is_known || terms(name, &operands).is_some()).then_some(Operation {
-                    name,
-                    operands,
-                    value: 0,
-                })
-            })?);
-        }
+        let operations = operations(&format, reader)?;
         let (orders, lemmas, also) = (BTreeSet::new(), HashMap::new(), Vec::new());
         let limits = [HashMap::new(), HashMap::new()];
         let mut program = Program { format, domain, operations, orders, limits, also, lemmas };
@@ -284,6 +271,35 @@ impl<'a> Program<'a> {
         let missing = || format!("found operation {place}, expected one with a lemma above");
         self.lemmas.get(&inner).ok_or_else(missing)
     }
+}
+
+/// The lines of operations.
+fn operations<'a>(format: &Format, reader: &mut Reader<'a>) -> Outcome<Vec<Operation<'a>>> {
+    let mut operations: Vec<Operation> = Vec::new();
+    let most = power(format.parameters[0]).to_integer();
+    while reader.is_next("op") && operations.len() < MOST_ROWS {
+        let next = operations.len();
+        let form = format!("op {next} OPERATION OPERANDS, each an earlier one");
+        operations.push(reader.read(&form, |words| {
+            let (&[place, name], words) = words.split_first_chunk()?;
+            let parsed: Option<Vec<i64>> = words.iter().map(|word| whole(word)).collect();
+            let parsed = parsed.filter(|_| whole(place) == Some(next))?;
+            if let ("input" | "number", &[value]) = (name, &parsed[..]) {
+                let is_input = name == "input" && (0..INPUTS as i64).contains(&value);
+                let is_exact = name == "number" && BigInt::from(value).abs() <= most;
+                let operation = Operation { name, operands: vec![], value };
+                return (is_input || is_exact).then_some(operation);
+            }
+            let operands = indices(words, next)?;
+            let is_known = matches!((name, operands.len()), ("abs" | "sqrt", 1) | ("div", 2));
+            (is_known || terms(name, &operands).is_some()).then_some(Operation {
+                name,
+                operands,
+                value: 0,
+            })
+        })?);
+    }
+    Ok(operations)
 }
 
 /// Whole numbers below `end`.

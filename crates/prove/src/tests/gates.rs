@@ -9,7 +9,7 @@ fn path(operations: Vec<Operation>, quantities: &[Place]) -> Path {
     let clauses = quantities.iter().map(|place| vec![*place]).collect();
     let accepts = Acceptance::Clauses(Refuse::Below, clauses);
     let compared = Compared { gate: 0, accepts, quantities: quantities.to_vec(), decisions: 0 };
-    Path { operations, decisions: vec![], compared: vec![compared], hits: true }
+    Path { operations, decisions: vec![], compared: vec![compared], hits: true, values: [None; 3] }
 }
 
 /// -999 (x + y) and (-999 + x) y: one number more than the codes of operations.

@@ -1,0 +1,222 @@
+//! The languages that guarded kernels are written in.
+
+/// A language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Language {
+    /// C99 and C++17.
+    C,
+    /// Rust.
+    Rust,
+    /// The OpenGL shading language, 4.00 and later.
+    Glsl,
+    /// The WebGPU shading language.
+    Wgsl,
+    /// The high-level shading language of Direct3D.
+    Hlsl,
+}
+
+use Language::{C, Glsl, Hlsl, Rust, Wgsl};
+
+impl Language {
+    /// True if it runs on GPUs: infinities are not sure to exist there.
+    pub fn is_of_shaders(self) -> bool {
+        matches!(self, Glsl | Wgsl | Hlsl)
+    }
+
+    /// The end of a file's name.
+    pub fn extension(self) -> &'static str {
+        match self {
+            C => "h",
+            Rust => "rs",
+            Glsl => "glsl",
+            Wgsl => "wgsl",
+            Hlsl => "hlsl",
+        }
+    }
+
+    /// The type of a scalar.
+    pub fn scalar(self, is_f32: bool) -> &'static str {
+        match (self, is_f32) {
+            (Rust | Wgsl, true) => "f32",
+            (Rust | Wgsl, false) => "f64",
+            (_, true) => "float",
+            (_, false) => "double",
+        }
+    }
+
+    /// A number, so that it is read as the same one.
+    pub fn number(self, x: f64, is_f32: bool) -> String {
+        let shortest = if is_f32 { format!("{:?}", x as f32) } else { format!("{x:?}") };
+        let point =
+            |text: String| if text.contains(['.', 'e']) { text } else { format!("{text}.0") };
+        let text = point(shortest);
+        match (self, is_f32) {
+            (C | Hlsl, true) => format!("{text}f"),
+            (Wgsl, _) => format!("{text}f"),
+            (Glsl, false) => format!("{text}lf"),
+            _ => text,
+        }
+    }
+
+    pub fn coordinate(self, vector: &str, axis: usize) -> String {
+        match self {
+            C | Rust => format!("{vector}[{axis}]"),
+            _ => format!("{vector}.{}", ["x", "y", "z"][axis]),
+        }
+    }
+
+    pub fn abs(self, x: &str, is_f32: bool) -> String {
+        match (self, is_f32) {
+            (C, true) => format!("fabsf({x})"),
+            (C, false) => format!("fabs({x})"),
+            (Rust, _) => format!("({x}).abs()"),
+            _ => format!("abs({x})"),
+        }
+    }
+
+    pub fn sqrt(self, x: &str, is_f32: bool) -> String {
+        match (self, is_f32) {
+            (C, true) => format!("sqrtf({x})"),
+            (Rust, _) => format!("({x}).sqrt()"),
+            _ => format!("sqrt({x})"),
+        }
+    }
+
+    /// Definitions of numbers, on one line.
+    pub fn definitions(self, all: &[(String, String)], is_f32: bool) -> String {
+        let scalar = self.scalar(is_f32);
+        let each = |form: &dyn Fn(&str, &str) -> String, with: &str| {
+            all.iter().map(|(name, text)| form(name, text)).collect::<Vec<_>>().join(with)
+        };
+        let plain = |name: &str, text: &str| format!("{name} = {text}");
+        match self {
+            C => format!("const {scalar} {};", each(&plain, ", ")),
+            Glsl | Hlsl => format!("precise {scalar} {};", each(&plain, ", ")),
+            Rust | Wgsl => each(&|name, text| format!("let {name} = {text};"), " "),
+        }
+    }
+
+    pub fn integer(self, name: &str, text: &str) -> String {
+        match self {
+            C | Glsl | Hlsl => {
+                format!("{}int {name} = {text};", if self == C { "const " } else { "" })
+            }
+            Rust | Wgsl => format!("let {name} = {text};"),
+        }
+    }
+
+    /// The variable that says whether a gate could not decide.
+    pub fn open(self) -> &'static str {
+        match self {
+            C => "int open = 0;",
+            Glsl | Hlsl => "bool open = false;",
+            Rust => "let mut open = false;",
+            Wgsl => "var open = false;",
+        }
+    }
+
+    /// It is open unless a condition holds.
+    pub fn assign_open(self, condition: &str) -> String {
+        match (self, condition) {
+            (C, "") => "open = 1;".to_owned(),
+            (_, "") => "open = true;".to_owned(),
+            (C | Rust, _) => format!("open |= !({condition});"),
+            _ => format!("open = open || !({condition});"),
+        }
+    }
+
+    pub fn if_(self, condition: &str) -> String {
+        match self {
+            Rust => format!("if {condition} {{"),
+            _ => format!("if ({condition}) {{"),
+        }
+    }
+
+    /// Returns an answer if a condition holds.
+    pub fn early(self, condition: &str, answer: &str) -> String {
+        match self {
+            C | Glsl | Hlsl => format!("if ({condition}) {}", self.answer(answer)),
+            Rust | Wgsl => format!("{} {} }}", self.if_(condition), self.answer(answer)),
+        }
+    }
+
+    /// Returns an answer without values.
+    pub fn answer(self, answer: &str) -> String {
+        match (self, answer) {
+            (Rust, "MISS") => "return Answer::Miss;".to_owned(),
+            (Rust, _) => "return Answer::Ask;".to_owned(),
+            _ => format!("return HAIRLINE_{answer};"),
+        }
+    }
+
+    /// Returns a hit with its t, u and v.
+    pub fn hit(self, values: &[Option<String>]) -> Vec<String> {
+        let given = || {
+            ["t", "u", "v"]
+                .iter()
+                .zip(values)
+                .filter_map(|(name, text)| Some((*name, text.as_ref()?)))
+        };
+        if self == Rust {
+            let fields: Vec<String> = given()
+                .map(
+                    |(name, text)| {
+                        if name == text { name.to_owned() } else { format!("{name}: {text}") }
+                    },
+                )
+                .collect();
+            return vec![format!("Answer::Hit {{ {} }}", fields.join(", "))];
+        }
+        let set = |(name, text): (&str, &String)| match self {
+            C => format!("answer->{name} = {text};"),
+            Wgsl => format!(
+                "(*answer).{} = {text};",
+                if name == "t" {
+                    "x"
+                } else if name == "u" {
+                    "y"
+                } else {
+                    "z"
+                }
+            ),
+            _ => format!(
+                "answer.{} = {text};",
+                if name == "t" {
+                    "x"
+                } else if name == "u" {
+                    "y"
+                } else {
+                    "z"
+                }
+            ),
+        };
+        let mut lines: Vec<String> = given().map(set).collect();
+        lines.push("return HAIRLINE_HIT;".to_owned());
+        lines
+    }
+
+    /// The variables that name the axes.
+    pub fn axes(self) -> Vec<&'static str> {
+        match self {
+            C | Glsl | Hlsl => vec!["int x, y, z;"],
+            Rust => vec!["let (x, y, z): (usize, usize, usize);"],
+            Wgsl => vec!["var x: i32; var y: i32; var z: i32;"],
+        }
+    }
+
+    /// The name of a function that several kernels share.
+    pub fn function(self, name: &str, is_f32: bool) -> String {
+        match self {
+            Rust => name.to_owned(),
+            _ => format!("hairline_{name}_{}", if is_f32 { "f32" } else { "f64" }),
+        }
+    }
+
+    /// A line's comment after `//`.
+    pub fn comment(self, line: &str) -> String {
+        match self {
+            C => format!("{} */", line.replacen("//", "/*", 1)),
+            _ => line.to_owned(),
+        }
+    }
+}

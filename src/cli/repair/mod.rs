@@ -1,0 +1,169 @@
+//! `hairline repair`: a kernel that says hit, miss or ask, as source code with a proof.
+
+mod asks;
+mod code;
+mod frame;
+mod language;
+mod names;
+mod nodes;
+
+use super::exit::{Failure, Status};
+use super::flags::{case_count, chosen_scalars, find_kernel};
+use super::output::{write_page, write_result};
+use super::sources::mesh_scene;
+use crate::audit::Source;
+use crate::case::{Parameters, Scene};
+use crate::family::Stratum;
+use crate::kernel::{self, Entry};
+use crate::prove::repair::Guarded;
+use asks::Asks;
+use clap::Args;
+use frame::{function_name, source};
+use language::Language;
+
+/// The kernel, and what to write.
+#[derive(Args)]
+pub struct RepairArguments {
+    /// A kernel [default: with --emit and a folder, all]
+    #[arg(long, short, value_name = "NAME")]
+    kernel: Option<String>,
+
+    /// f32, f64, or both separated by a comma
+    #[arg(long, value_delimiter = ',', default_value = "f32", value_name = "SCALAR")]
+    scalar: Vec<String>,
+
+    /// Write the kernel in this language
+    #[arg(long, value_name = "LANGUAGE")]
+    emit: Option<Language>,
+
+    /// Count how often it asks, in a scene as `epsilon` takes it: room, or a few numbers
+    #[arg(long, value_name = "SCENE")]
+    scene: Option<String>,
+
+    /// The same in the scene that a mesh is
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<String>,
+
+    /// How many rays of each kind
+    #[arg(long, short = 'n', default_value_t = 20_000, value_name = "N", value_parser = case_count)]
+    count: u64,
+
+    /// Seed of the rays
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    /// Write the proof to this file, for `hairline prove --check`
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<String>,
+
+    /// Where to write; - is standard output, and a folder takes a file for each kernel and scalar
+    #[arg(short, long, default_value = "-", value_name = "FILE|FOLDER/")]
+    output: String,
+
+    /// Say nothing but what was asked for
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Runs the command.
+pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
+    let scalars = chosen_scalars(&arguments.scalar)?;
+    let sources = arguments.sources(scalars)?;
+    let is_folder = arguments.output.ends_with('/');
+    let entries: Vec<&Entry> = match &arguments.kernel {
+        Some(name) => vec![find_kernel(name)?],
+        None if is_folder => kernel::all(),
+        None => return Err(Failure::usage("repair is of one --kernel, or of all with -o FOLDER/")),
+    };
+    let is_single = entries.len() == 1 && scalars[0] != scalars[1];
+    let is_nothing =
+        arguments.emit.is_none() && arguments.certificate.is_none() && sources.is_empty();
+    if is_nothing {
+        return Err(Failure::usage(
+            "what to write: --emit c, --certificate FILE, or --scene room for how often it asks",
+        ));
+    }
+    if !is_folder && !is_single {
+        return Err(Failure::usage("two scalars are two files: name one, or -o FOLDER/"));
+    }
+    let mut written = 0;
+    for entry in entries {
+        for (is_chosen, is_f32) in scalars.into_iter().zip([true, false]) {
+            if !is_chosen {
+                continue;
+            }
+            let made = if is_f32 { Guarded::new::<f32>(entry) } else { Guarded::new::<f64>(entry) };
+            match made {
+                Ok(guarded) => {
+                    arguments.write(&guarded, &sources)?;
+                    written += 1;
+                }
+                Err(why) => {
+                    let message = format!("{} is not repaired: {why}", entry.info.name);
+                    if arguments.kernel.is_some() {
+                        return Err(Failure::Message(Status::NothingSelected, message));
+                    }
+                    if !arguments.quiet {
+                        eprintln!("{message}");
+                    }
+                }
+            }
+        }
+    }
+    if written == 0 {
+        let message = "no kernel here can be repaired".to_owned();
+        return Err(Failure::Message(Status::NothingSelected, message));
+    }
+    Ok(Status::Success)
+}
+
+impl RepairArguments {
+    /// The rays on which asks are counted.
+    fn sources(&self, scalars: [bool; 2]) -> Result<Vec<(Stratum, Source)>, Failure> {
+        let (scene, mesh) = match (&self.scene, &self.mesh) {
+            (None, None) => return Ok(Vec::new()),
+            (words, Some(path)) => {
+                let (scene, mesh) = mesh_scene(path, words.as_deref(), scalars, self.quiet)?;
+                (scene, Some(mesh))
+            }
+            (Some(words), None) => {
+                let wrong = |message: String| Failure::usage(format!("--scene: {message}"));
+                let (scene, _) = Scene::parse(words).map_err(wrong)?;
+                scene.held_in(scalars).map_err(wrong)?;
+                (scene, None)
+            }
+        };
+        let parameters = Parameters { scene: Some(scene), ..Parameters::default() };
+        let of = |stratum| {
+            let parameters = parameters.clone();
+            let source =
+                Source::of_stratum(stratum, mesh.as_ref(), parameters, self.seed, self.count);
+            (stratum, source)
+        };
+        Ok(Stratum::ALL.into_iter().map(of).collect())
+    }
+
+    fn write(&self, guarded: &Guarded, sources: &[(Stratum, Source)]) -> Result<(), Failure> {
+        if let Some(path) = &self.certificate {
+            write_result(path, |out| out.write_all(guarded.certificate().as_bytes()))?;
+        }
+        let asks = (!sources.is_empty())
+            .then(|| in_named_scalar!(guarded.scalar, F => Asks::count::<F>(guarded, sources)));
+        let Some(language) = self.emit else {
+            return asks.map_or(Ok(()), |asks| write_page(asks.page()));
+        };
+        if guarded.scalar == "f64" && matches!(language, Language::Wgsl | Language::Hlsl) {
+            return Err(Failure::usage(
+                "WGSL has no f64, and HLSL no functions of it: --scalar f32",
+            ));
+        }
+        let where_ = self.mesh.as_ref().or(self.scene.as_ref());
+        let shares = asks.zip(where_).map(|(asks, place)| format!("{place}: {}", asks.line()));
+        let text = source(guarded, language, shares.as_deref());
+        let path = match self.output.strip_suffix('/') {
+            Some(folder) => format!("{folder}/{}.{}", function_name(guarded), language.extension()),
+            None => self.output.clone(),
+        };
+        write_result(&path, |out| out.write_all(text.as_bytes()))
+    }
+}

@@ -1,0 +1,375 @@
+//! `hairline repair`: kernels that say hit, miss or ask, held to integers of any length and to hairline's own run of them.
+
+use crate::program::{ends, scratch};
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::family::FAMILIES;
+use hairline::internals::kernel::{Scalar, find};
+use hairline::internals::prove::repair::{Answer, Guarded};
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const HERE: &str = env!("CARGO_MANIFEST_DIR");
+
+const STRICT: [&str; 6] = [
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-Wconversion",
+    "-fsanitize=undefined",
+    "-fno-sanitize-recover=all",
+];
+
+fn has_compiler() -> bool {
+    let found = Command::new("cc").arg("--version").output().is_ok();
+    if !found {
+        eprintln!("skipped: no C compiler");
+    }
+    found
+}
+
+/// Writes a kernel in C; its file.
+fn emitted(folder: &Path, kernel: &str, scalar: &str) -> PathBuf {
+    let file = folder.join(format!("{}_{scalar}.h", kernel.replace('-', "_")));
+    let all = [
+        "repair",
+        "--kernel",
+        kernel,
+        "--scalar",
+        scalar,
+        "--emit",
+        "c",
+        "-o",
+        file.to_str().unwrap(),
+    ];
+    ends(folder, &all, 0);
+    file
+}
+
+/// Compiles a program; the compiler's words are the test's if it refuses.
+fn compile(source: &Path, output: &Path, flags: &[&str]) {
+    let built = Command::new("cc")
+        .args(flags)
+        .arg("-o")
+        .arg(output)
+        .arg(source)
+        .arg("-lm")
+        .output()
+        .unwrap();
+    assert!(built.status.success(), "{flags:?}: {}", String::from_utf8_lossy(&built.stderr));
+}
+
+/// The adversarial rays against what a file has: hits, misses, asks and wrong answers.
+fn tried(folder: &Path, file: &Path, promise: [&str; 2], flags: &[&str]) -> [u64; 4] {
+    let kernel = file.file_stem().unwrap().to_str().unwrap();
+    let double = usize::from(kernel.ends_with("f64"));
+    let defines = [format!("-DKERNEL={kernel}"), format!("-DDOUBLE={double}")];
+    let defines: Vec<&str> = defines.iter().map(String::as_str).chain(promise).collect();
+    let include = ["-include", file.to_str().unwrap(), "-pthread"];
+    let program = folder.join("check");
+    compile(
+        &Path::new(HERE).join("tests/repair/check.c"),
+        &program,
+        &[&include, &defines[..], flags].concat(),
+    );
+    let run = Command::new(&program).args(["2", "100000", "7"]).output().unwrap();
+    let text = String::from_utf8(run.stdout).unwrap();
+    let all = text.lines().last().unwrap().strip_prefix("all").unwrap();
+    let counts: Vec<u64> = all.split_whitespace().map(|word| word.parse().unwrap()).collect();
+    assert_eq!(run.status.success(), counts[3] == 0, "{text}");
+    counts.try_into().unwrap()
+}
+
+const LINE: [&str; 2] = ["-DEXTENT=0", "-DFRONT=0"];
+const INTERVAL: [&str; 2] = ["-DEXTENT=2", "-DFRONT=0"];
+
+#[test]
+fn no_answer_is_wrong_however_it_is_compiled_and_without_margins_many_are() {
+    if !has_compiler() {
+        return;
+    }
+    let folder = scratch("repair-check");
+    let fast = ["-O3", "-march=native", "-ffp-contract=fast"];
+    for (kernel, promise) in
+        [("moller-trumbore", LINE), ("woop-watertight", INTERVAL), ("havel-herout", INTERVAL)]
+    {
+        for scalar in ["f32", "f64"] {
+            let file = emitted(&folder, kernel, scalar);
+            for flags in [&["-O1"][..], &fast] {
+                let [hits, misses, asks, wrong] = tried(&folder, &file, promise, flags);
+                assert_eq!(wrong, 0, "{kernel} {scalar} {flags:?}");
+                assert!(5_000 < hits && 30_000 < misses && 10_000 < asks, "{hits} {misses} {asks}");
+            }
+        }
+    }
+    for (kernel, promise) in [("moller-trumbore", LINE), ("woop-watertight", INTERVAL)] {
+        let file = emitted(&folder, kernel, "f32");
+        let text = fs::read_to_string(&file).unwrap();
+        // A fiftieth of each margin is not enough.
+        let weaker = text.replace("margin = factor * size", "margin = 0.02f * factor * size");
+        assert_ne!(text, weaker);
+        fs::write(&file, weaker).unwrap();
+        let [.., wrong] = tried(&folder, &file, promise, &["-O1"]);
+        assert!(10 < wrong, "{wrong}");
+    }
+}
+
+/// A program that reads cases and writes answers.
+const ANSWERS: &str = r"
+#include <stdio.h>
+#include <string.h>
+int main(void) {
+    REAL x[17], values[3];
+    while (fread(x, sizeof x, 1, stdin) == 1) {
+        HIT hit;
+        memset(&hit, 0, sizeof hit);
+        int answer = KERNEL(x, x + 3, x + 6, x + 9, x + 12, x[15], x[16], &hit);
+        values[0] = (REAL)answer, values[1] = hit.u, values[2] = hit.v;
+        fwrite(values, sizeof values, 1, stdout);
+    }
+    return 0;
+}
+";
+
+/// The answers of hairline's own run, as the program writes them.
+fn own<F: Scalar>(guarded: &Guarded, cases: &[Case<F>]) -> Vec<[f64; 3]> {
+    let answer = |case| match guarded.answer::<F>(case) {
+        Answer::Miss => [0.0; 3],
+        Answer::Ask => [2.0, 0.0, 0.0],
+        Answer::Hit([_, u, v]) => [1.0, u.unwrap().to_f64(), v.unwrap().to_f64()],
+    };
+    cases.iter().map(answer).collect()
+}
+
+fn is_alike<F: Scalar>(
+    kernel: &str,
+    bytes: impl Fn(F) -> Vec<u8>,
+    numbers: impl Fn(&[u8]) -> Vec<f64>,
+) {
+    let folder = scratch(&format!("repair-bits-{kernel}-{}", F::NAME));
+    let file = emitted(&folder, kernel, F::NAME);
+    let name = file.file_stem().unwrap().to_str().unwrap();
+    let (real, source, program) = (
+        if F::DIGITS == 24 { "float" } else { "double" },
+        folder.join("answers.c"),
+        folder.join("answers"),
+    );
+    fs::write(&source, ANSWERS).unwrap();
+    let defines =
+        [format!("-DKERNEL={name}"), format!("-DHIT={name}_hit"), format!("-DREAL={real}")];
+    let defines: Vec<&str> = defines.iter().map(String::as_str).collect();
+    let c =
+        ["-std=c99", "-pedantic", "-O2", "-ffp-contract=off", "-include", file.to_str().unwrap()];
+    compile(&source, &program, &[&STRICT[..], &c, &defines].concat());
+    // C++17 as well.
+    let cpp = ["-xc++", "-std=c++17", "-O2", "-include", file.to_str().unwrap()];
+    compile(&source, &folder.join("answers-cpp"), &[&STRICT[..5], &cpp, &defines].concat());
+    let each: u64 =
+        std::env::var("HAIRLINE_REPAIR_CASES").map_or(300, |count| count.parse().unwrap());
+    let cases: Vec<Case<F>> = FAMILIES
+        .iter()
+        .flat_map(|family| {
+            (0..each).flat_map(|i| family.make::<F>(&Parameters::default(), 5, i).cases().to_vec())
+        })
+        .collect();
+    let mut input = Vec::new();
+    for case in &cases {
+        let ends = [case.ray.t_min, case.ray.t_max];
+        case.vectors().iter().flatten().chain(&ends).for_each(|x| input.extend(bytes(*x)));
+    }
+    let mut child =
+        Command::new(&program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut pipe = child.stdin.take().unwrap();
+    let writer = std::thread::spawn(move || pipe.write_all(&input).unwrap());
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap();
+    assert!(output.status.success());
+    let found: Vec<f64> = numbers(&output.stdout);
+    let guarded = Guarded::new::<F>(find(kernel).unwrap()).unwrap();
+    let (mut hits, mut asks) = (0, 0);
+    for ((case, right), found) in cases.iter().zip(own(&guarded, &cases)).zip(found.chunks(3)) {
+        let bits = |x: &f64| if x.is_nan() { u64::MAX } else { x.to_bits() };
+        assert!(
+            right.iter().map(bits).eq(found.iter().map(bits)),
+            "{right:?} {found:?} {}",
+            case.hex()
+        );
+        hits += usize::from(right[0] == 1.0);
+        asks += usize::from(right[0] == 2.0);
+    }
+    assert!(
+        found.len() == 3 * cases.len() && cases.len() / 20 < hits && cases.len() / 20 < asks,
+        "{hits} {asks}"
+    );
+}
+
+#[test]
+fn the_c_answers_bit_for_bit_what_the_recorded_program_does() {
+    if !has_compiler() {
+        return;
+    }
+    for kernel in ["moller-trumbore", "woop-watertight", "baldwin-weber"] {
+        is_alike::<f32>(
+            kernel,
+            |x| x.to_ne_bytes().to_vec(),
+            |bytes| {
+                bytes.chunks(4).map(|x| f32::from_ne_bytes(x.try_into().unwrap()).into()).collect()
+            },
+        );
+        is_alike::<f64>(
+            kernel,
+            |x| x.to_ne_bytes().to_vec(),
+            |bytes| bytes.chunks(8).map(|x| f64::from_ne_bytes(x.try_into().unwrap())).collect(),
+        );
+    }
+}
+
+#[test]
+fn a_certificate_is_checked_and_a_changed_one_is_refused() {
+    let folder = scratch("repair-proof");
+    let all = ["repair", "--kernel", "plucker", "--certificate", "proof.txt"];
+    ends(&folder, &all, 0);
+    let check = ["prove", "--check", "proof.txt"];
+    let (said, _) = ends(&folder, &check, 0);
+    let right =
+        "proof.txt: every hit and every miss of the guarded plucker f32 is right, by 8 margins";
+    assert!(said.starts_with(right), "{said}");
+    let path = folder.join("proof.txt");
+    let text = fs::read_to_string(&path).unwrap();
+    let refused = |from: &str, to: &str, words: &str| {
+        assert!(text.contains(from), "{from}: {text}");
+        fs::write(&path, text.replacen(from, to, 1)).unwrap();
+        let (_, error) = ends(&folder, &check, 65);
+        assert!(error.contains(words), "{words}: {error}");
+    };
+    // One rounding less, another sign, a gate that is left out, another promise.
+    let margin =
+        text.lines().find(|line| line.starts_with("margin ") && !line.ends_with(" 0 0")).unwrap();
+    let fewer = format!("{}1", margin);
+    refused(margin, &fewer, "expected `");
+    let hit = text.lines().find(|line| line.starts_with("hit +")).unwrap();
+    refused(hit, &hit.replacen('+', "-", 1), "its gates accept rays that");
+    let miss = text.lines().find(|line| line.starts_with("miss ")).unwrap();
+    refused(miss, &miss[..miss.rfind(' ').unwrap()], "gate 'edge' rejects rays that may hit");
+    refused("guarded interval both", "guarded interval front", "hit the back");
+    // The proof of another program is right, and not about this kernel.
+    fs::write(&path, text.replacen("gate edge", "gate side", 1)).unwrap();
+    let (_, error) = ends(&folder, &check, 1);
+    assert!(error.contains("plucker is repaired in another way here"), "{error}");
+}
+
+#[test]
+fn what_cannot_be_repaired_is_refused_with_the_reason() {
+    let folder = scratch("repair-refused");
+    let refused = |all: &[&str], code: i32, words: &str| {
+        let (out, error) = ends(&folder, &[&["repair"], all].concat(), code);
+        assert!(out.is_empty() && error.contains(words), "{words}: {error}");
+    };
+    refused(
+        &["--kernel", "half-space", "--emit", "c"],
+        4,
+        "its gates accept rays that meet the triangle at t <= 0",
+    );
+    refused(
+        &["--kernel", "moller-trumbore+fma", "--emit", "c"],
+        4,
+        "name the kernel without its arithmetic",
+    );
+    refused(&["--emit", "c"], 2, "repair is of one --kernel");
+    refused(
+        &["--kernel", "plucker", "--scalar", "f32,f64", "--emit", "c"],
+        2,
+        "two scalars are two files",
+    );
+    refused(&["--kernel", "plucker", "--scalar", "f64", "--emit", "wgsl"], 2, "WGSL has no f64");
+    refused(&["--kernel", "pluckre"], 2, "unknown kernel 'pluckre'");
+    refused(&["--kernel", "plucker", "--emit", "java"], 2, "java");
+}
+
+/// The names under which shading languages are tried here.
+fn validates(language: &str, file: &Path) -> Option<bool> {
+    let mut command = match language {
+        "wgsl" => Command::new("naga"),
+        _ => {
+            let mut command = Command::new("glslangValidator");
+            command.args(["-S", "comp"]);
+            command.args(if language == "hlsl" {
+                &["-D", "-e", "main", "-V", "-o", "/dev/null"][..]
+            } else {
+                &[]
+            });
+            command
+        }
+    };
+    match command.arg(file).output() {
+        Ok(output) => {
+            let words = String::from_utf8_lossy(&output.stdout).into_owned();
+            assert!(
+                output.status.success(),
+                "{}: {words}{}",
+                file.display(),
+                String::from_utf8_lossy(&output.stderr)
+            );
+            Some(true)
+        }
+        Err(_) => {
+            eprintln!("skipped: no validator of {language}");
+            None
+        }
+    }
+}
+
+#[test]
+fn shading_languages_and_rust_take_what_is_written() {
+    let folder = scratch("repair-languages");
+    for kernel in ["moller-trumbore", "woop-watertight", "baldwin-weber", "plane-unit-normal"] {
+        for language in ["glsl", "wgsl", "hlsl", "rust"] {
+            let (text, _) = ends(&folder, &["repair", "--kernel", kernel, "--emit", language], 0);
+            let file = folder.join(format!("kernel.{language}"));
+            let (head, tail) = match language {
+                "glsl" => ("#version 450\n", "void main() {}\n"),
+                "hlsl" => ("", "[numthreads(1, 1, 1)] void main() {}\n"),
+                _ => ("", ""),
+            };
+            fs::write(&file, format!("{head}{text}{tail}")).unwrap();
+            if language != "rust" {
+                validates(language, &file);
+                continue;
+            }
+            let strict =
+                ["--edition", "2021", "--crate-type", "lib", "-D", "warnings", "-o", "kernel.rlib"];
+            let built = Command::new("rustc")
+                .args(strict)
+                .arg(&file)
+                .current_dir(&folder)
+                .output()
+                .unwrap();
+            assert!(built.status.success(), "{kernel}: {}", String::from_utf8_lossy(&built.stderr));
+        }
+    }
+}
+
+#[test]
+fn the_kernel_of_the_bench_is_the_one_that_is_written() {
+    let folder = scratch("repair-bench");
+    let (text, _) = ends(&folder, &["repair", "--kernel", "moller-trumbore", "--emit", "rust"], 0);
+    assert_eq!(
+        text,
+        fs::read_to_string(Path::new(HERE).join("benches/audit/repaired.rs")).unwrap()
+    );
+}
+
+#[test]
+fn plain_rays_of_a_room_seldom_ask() {
+    let folder = scratch("repair-asks");
+    let all = ["repair", "--kernel", "moller-trumbore", "--scene", "room", "-n", "2000"];
+    let (text, _) = ends(&folder, &all, 0);
+    let share = |kind: &str| -> f64 {
+        let line = text.lines().find(|line| line.trim_start().starts_with(kind)).expect(kind);
+        let numbers = line.split_whitespace().filter_map(|word| word.parse().ok());
+        numbers.last().unwrap()
+    };
+    assert!(share("interior") <= 1.0 && share("outside") <= 1.0, "{text}");
+    assert!(20.0 < share("edges"), "{text}");
+}

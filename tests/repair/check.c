@@ -1,0 +1,431 @@
+/* Adversarial rays against one guarded kernel that `hairline repair --emit c` wrote. It shares nothing with hairline: it
+ * draws its own rays, and decides each in integers of as many digits as it takes.
+ *
+ *     cc -O2 -pthread -include KERNEL_SCALAR.h -DKERNEL=KERNEL_SCALAR -DDOUBLE=0 -DEXTENT=0 -DFRONT=0 check.c -lm
+ *     ./a.out THREADS COUNT SEED
+ *
+ * EXTENT is 0 for a line, 1 for a ray, 2 for an interval; FRONT is 1 if it hits the front only; run.sh sets them all.
+ * Prints how many answers of each kind of ray were hit, miss, ask and wrong; ends with 1 if one is wrong. */
+#include <inttypes.h>
+#include <pthread.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if DOUBLE
+typedef double real;
+typedef uint64_t bits_t;
+#define MANTISSA 52
+#define BIAS 1075
+#define MOST_EXPONENT 2047
+#else
+typedef float real;
+typedef uint32_t bits_t;
+#define MANTISSA 23
+#define BIAS 150
+#define MOST_EXPONENT 255
+#endif
+#define PASTE_(a, b) a##b
+#define PASTE(a, b) PASTE_(a, b)
+
+/* Integers: sign and 64-bit limbs, the lowest first. 3 differences of up to 2,151 bits, and two more factors. */
+#define LIMBS 180
+typedef struct {
+    int sign, size;
+    uint64_t limb[LIMBS];
+} integer;
+
+static void trim(integer *x) {
+    while (x->size > 0 && x->limb[x->size - 1] == 0) x->size--;
+    if (x->size == 0) x->sign = 0;
+}
+
+static int compare_sizes(const integer *x, const integer *y) {
+    int i;
+    if (x->size != y->size) return x->size < y->size ? -1 : 1;
+    for (i = x->size - 1; i >= 0; i--)
+        if (x->limb[i] != y->limb[i]) return x->limb[i] < y->limb[i] ? -1 : 1;
+    return 0;
+}
+
+/* z = x + sign * y; z may be x or y. */
+static void add(integer *z, const integer *x, const integer *y, int sign) {
+    integer sum;
+    int y_sign = y->sign * sign, i;
+    if (y_sign == 0 || x->sign == 0) {
+        const integer *only = y_sign == 0 ? x : y;
+        int only_sign = y_sign == 0 ? x->sign : y_sign;
+        memmove(z, only, sizeof(int) * 2 + sizeof(uint64_t) * (size_t)only->size);
+        z->sign = only_sign;
+        return;
+    }
+    if (x->sign == y_sign) {
+        unsigned carry = 0;
+        const integer *longer = x->size < y->size ? y : x, *shorter = x->size < y->size ? x : y;
+        for (i = 0; i < longer->size; i++) {
+            unsigned __int128 s = (unsigned __int128)longer->limb[i] + (i < shorter->size ? shorter->limb[i] : 0) + carry;
+            sum.limb[i] = (uint64_t)s, carry = (unsigned)(s >> 64);
+        }
+        sum.size = longer->size;
+        if (carry) sum.limb[sum.size++] = carry;
+        sum.sign = x->sign;
+    } else {
+        int order = compare_sizes(x, y);
+        const integer *larger = order < 0 ? y : x, *smaller = order < 0 ? x : y;
+        unsigned borrow = 0;
+        for (i = 0; i < larger->size; i++) {
+            unsigned __int128 take = (unsigned __int128)(i < smaller->size ? smaller->limb[i] : 0) + borrow;
+            borrow = larger->limb[i] < take;
+            sum.limb[i] = (uint64_t)(larger->limb[i] - take);
+        }
+        sum.size = larger->size;
+        sum.sign = order < 0 ? y_sign : x->sign;
+    }
+    trim(&sum);
+    memcpy(z, &sum, sizeof(int) * 2 + sizeof(uint64_t) * (size_t)sum.size);
+}
+
+/* z = x * y; z is neither. */
+static void multiply(integer *z, const integer *x, const integer *y) {
+    int i, j;
+    z->sign = x->sign * y->sign;
+    if (z->sign == 0) {
+        z->size = 0;
+        return;
+    }
+    z->size = x->size + y->size;
+    memset(z->limb, 0, sizeof(uint64_t) * (size_t)z->size);
+    for (i = 0; i < x->size; i++) {
+        uint64_t carry = 0;
+        for (j = 0; j < y->size; j++) {
+            unsigned __int128 s = (unsigned __int128)x->limb[i] * y->limb[j] + z->limb[i + j] + carry;
+            z->limb[i + j] = (uint64_t)s, carry = (uint64_t)(s >> 64);
+        }
+        z->limb[i + y->size] = carry;
+    }
+    trim(z);
+}
+
+/* x * 2^shift. */
+static void shift_up(integer *z, const integer *x, int shift) {
+    int limbs = shift / 64, rest = shift % 64, i;
+    integer out;
+    if (x->sign == 0) {
+        z->sign = z->size = 0;
+        return;
+    }
+    memset(out.limb, 0, sizeof(uint64_t) * (size_t)(x->size + limbs + 1));
+    for (i = 0; i < x->size; i++) {
+        out.limb[i + limbs] |= x->limb[i] << rest;
+        if (rest) out.limb[i + limbs + 1] |= x->limb[i] >> (64 - rest);
+    }
+    out.sign = x->sign, out.size = x->size + limbs + 1;
+    trim(&out);
+    memcpy(z, &out, sizeof(int) * 2 + sizeof(uint64_t) * (size_t)out.size);
+}
+
+static bits_t bits_of(real x) {
+    bits_t bits;
+    memcpy(&bits, &x, sizeof x);
+    return bits;
+}
+
+static real real_of(bits_t bits) {
+    real x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static int is_finite(real x) { return ((bits_of(x) >> MANTISSA) & MOST_EXPONENT) != MOST_EXPONENT; }
+
+/* x = mantissa * 2^exponent. */
+static int64_t mantissa_of(real x, int *exponent) {
+    bits_t bits = bits_of(x);
+    int raw = (int)((bits >> MANTISSA) & MOST_EXPONENT);
+    int64_t mantissa = (int64_t)(bits & (((bits_t)1 << MANTISSA) - 1));
+    if (raw > 0) mantissa |= (int64_t)1 << MANTISSA;
+    *exponent = (raw > 0 ? raw : 1) - BIAS;
+    while (mantissa && !(mantissa & 1)) mantissa >>= 1, ++*exponent;
+    return x < 0 ? -mantissa : mantissa;
+}
+
+/* The least exponent of some numbers. */
+static int least_exponent(const real *x, int count) {
+    int i, exponent, least = 5000;
+    for (i = 0; i < count; i++)
+        if (x[i] != 0) mantissa_of(x[i], &exponent), least = exponent < least ? exponent : least;
+    return least == 5000 ? 0 : least;
+}
+
+static void integer_of(integer *z, real x, int least) {
+    int exponent;
+    int64_t mantissa = mantissa_of(x, &exponent);
+    integer small;
+    small.sign = (mantissa > 0) - (mantissa < 0), small.size = mantissa != 0;
+    small.limb[0] = (uint64_t)(mantissa < 0 ? -mantissa : mantissa);
+    if (mantissa == 0) {
+        z->sign = z->size = 0;
+        return;
+    }
+    shift_up(z, &small, exponent - least);
+}
+
+/* Rays and triangles: o, d, a, b, c, t_min and t_max. */
+typedef struct {
+    real x[15], end[2];
+} ray;
+
+static void cross(integer z[3], const integer p[3], const integer q[3]) {
+    int i;
+    integer m, n;
+    for (i = 0; i < 3; i++) {
+        multiply(&m, &p[(i + 1) % 3], &q[(i + 2) % 3]);
+        multiply(&n, &p[(i + 2) % 3], &q[(i + 1) % 3]);
+        add(&z[i], &m, &n, -1);
+    }
+}
+
+static void dot(integer *z, const integer p[3], const integer q[3]) {
+    int i;
+    integer m;
+    z->sign = z->size = 0;
+    for (i = 0; i < 3; i++) multiply(&m, &p[i], &q[i]), add(z, z, &m, 1);
+}
+
+/* The sign of t - end, where t = n / det * 2^scale and end is a number. */
+static int past(const integer *n, const integer *det, int scale, real end) {
+    int exponent;
+    integer e, right, left, difference;
+    if (!is_finite(end)) return end > 0 ? -1 : 1;
+    mantissa_of(end, &exponent);
+    if (end == 0) return n->sign * det->sign;
+    integer_of(&e, end, exponent);
+    multiply(&right, &e, det);
+    if (scale >= exponent) {
+        shift_up(&left, n, scale - exponent);
+    } else {
+        left = *n;
+        shift_up(&right, &right, exponent - scale);
+    }
+    add(&difference, &left, &right, -1);
+    return difference.sign * det->sign;
+}
+
+/* 2 if the ray passes through the inside of the triangle, strictly between the ends; 0 if it misses it with its edges and
+ * ends; 1 if neither. */
+static int truth(const ray *r) {
+    static _Thread_local integer p[3][3], d[3], normal[3], w[3], sum, n, det, o, x;
+    real points[12];
+    int i, k, least, least_d, s[3], inside, closed, before = 1, after = -1;
+    memcpy(points, r->x, sizeof(real) * 3);
+    memcpy(points + 3, r->x + 6, sizeof(real) * 9);
+    least = least_exponent(points, 12), least_d = least_exponent(r->x + 3, 3);
+    for (i = 0; i < 3; i++) {
+        integer_of(&o, r->x[i], least);
+        integer_of(&d[i], r->x[3 + i], least_d);
+        for (k = 0; k < 3; k++) integer_of(&x, r->x[6 + 3 * k + i], least), add(&p[k][i], &x, &o, -1);
+    }
+    sum.sign = sum.size = 0;
+    for (k = 0; k < 3; k++) {
+        cross(normal, p[(k + 2) % 3], p[(k + 1) % 3]);
+        dot(&w[k], d, normal);
+        add(&sum, &sum, &w[k], 1);
+        s[k] = w[k].sign;
+    }
+    inside = s[0] && s[0] == s[1] && s[1] == s[2];
+    closed = sum.sign && ((s[0] >= 0 && s[1] >= 0 && s[2] >= 0) || (s[0] <= 0 && s[1] <= 0 && s[2] <= 0));
+    if (!closed) return 0;
+    if (FRONT && sum.sign < 0) return 0;
+    /* t = A·(B×C) / -sum. */
+    cross(normal, p[1], p[2]);
+    dot(&n, p[0], normal);
+    det = sum, det.sign = -det.sign;
+    if (EXTENT == 1) before = past(&n, &det, least - least_d, 0);
+    if (EXTENT == 2) {
+        before = past(&n, &det, least - least_d, r->end[0]);
+        after = past(&n, &det, least - least_d, r->end[1]);
+    }
+    if (before < 0 || after > 0) return 0;
+    return inside && before > 0 && after < 0 ? 2 : 1;
+}
+
+static uint64_t next(uint64_t *state) {
+    uint64_t x = *state += 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+
+static uint64_t below(uint64_t *state, uint64_t count) { return next(state) % count; }
+
+/* Uniform in [-1, 1]. */
+static double uniform(uint64_t *state) { return (double)(int64_t)(next(state) >> 11) / 4503599627370496.0 - 1; }
+
+static double power(int exponent) {
+    double x = 1, factor = exponent < 0 ? 0.5 : 2;
+    unsigned left = (unsigned)(exponent < 0 ? -exponent : exponent);
+    for (; left; left >>= 1, factor *= factor)
+        if (left & 1) x *= factor;
+    return x;
+}
+
+static real any_finite(uint64_t *state) {
+    real x;
+    do x = real_of((bits_t)next(state));
+    while (!is_finite(x));
+    return x;
+}
+
+/* A few floats up or down. */
+static real nudged(uint64_t *state, real x) {
+    static const int most[4] = {1, 2, 16, 4096};
+    int steps = (int)below(state, (uint64_t)(2 * most[below(state, 4)] + 1));
+    real y = real_of(bits_of(x) + (bits_t)steps / 2 * (steps % 2 ? 1u : (bits_t)-1));
+    return is_finite(y) ? y : x;
+}
+
+enum { PLAIN, EDGE, VERTEX, GRAZING, EXPONENTS, LATTICE, ENDS, SCALES, THIN, SPARSE, KINDS };
+static const char *const NAMES[KINDS] = {"plain", "near edges", "near vertices", "grazing", "any exponents",
+                                         "lattice", "near ends", "scales", "thin", "sparse"};
+
+static ray draw(int kind, uint64_t *state) {
+    double x[15], u, v, w, t = 0.5 + below(state, 1000) / 100.0, size = power((int)below(state, 9) - 4);
+    double offset = below(state, 4) ? 0 : power((int)below(state, 20)), shift[3];
+    ray r;
+    int i, k, exact = 1;
+    if (kind == EXPONENTS) {
+        for (i = 0; i < 15; i++) r.x[i] = any_finite(state);
+        r.end[0] = any_finite(state), r.end[1] = any_finite(state);
+        return r;
+    }
+    for (i = 0; i < 3; i++) shift[i] = offset * uniform(state);
+    for (k = 2; k < 5; k++)
+        for (i = 0; i < 3; i++) x[3 * k + i] = shift[i] + size * uniform(state);
+    if (kind == THIN || !below(state, 16)) {
+        double along = uniform(state), off = power(-(int)below(state, 60));
+        for (i = 0; i < 3; i++) x[12 + i] = x[6 + i] + along * (x[9 + i] - x[6 + i]) + off * size * uniform(state);
+    }
+    /* A point of the plane, and the ray through it. */
+    u = (uniform(state) + 1) / 2, v = (uniform(state) + 1) / 2 * (1 - u), w = 1 - u - v;
+    if (kind == PLAIN) u = uniform(state) * 2, v = uniform(state) * 2, w = 1 - u - v;
+    if (kind == EDGE || kind == THIN) w = 0, v = 1 - u;
+    if (kind == VERTEX) u = 1, v = w = 0;
+    for (i = 0; i < 3; i++) {
+        double point = u * x[6 + i] + v * x[9 + i] + w * x[12 + i];
+        x[3 + i] = uniform(state) * power((int)below(state, 3));
+        if (kind == GRAZING) {
+            double along = 0;
+            int n = (int)below(state, 50);
+            along = u * (x[9 + i] - x[6 + i]) + (v - 0.5) * (x[12 + i] - x[6 + i]);
+            x[3 + i] = along + power(-n) * x[3 + i] * size;
+        }
+        x[i] = point - t * x[3 + i];
+    }
+    if (below(state, 2)) /* The direction from the rounded points, as a program aims. */
+        for (i = 0; i < 3; i++) x[3 + i] = (u * x[6 + i] + v * x[9 + i] + w * x[12 + i] - (double)(real)x[i]) / (below(state, 2) ? 1 : t), exact = 0;
+    if (kind == LATTICE) {
+        int most = 1 << below(state, 5);
+        for (i = 0; i < 15; i++) x[i] = (double)below(state, (uint64_t)(2 * most + 1)) - most;
+        if (below(state, 2)) /* Through a point of an edge. */
+            for (i = 0; i < 3; i++) x[3 + i] = (x[6 + i] + x[9 + i]) / 2 - x[i];
+        exact = 1;
+    }
+    {
+        double scale = 1, along = 1;
+        int full = DOUBLE ? 1000 : 120;
+        if (kind == SCALES || !below(state, 8)) {
+            scale = power((int)below(state, (uint64_t)(2 * full)) - full);
+            along = power((int)below(state, (uint64_t)(2 * full)) - full);
+            if (below(state, 2)) along = scale;
+        }
+        for (i = 0; i < 15; i++) {
+            double y = x[i] * (i / 3 == 1 ? along : scale);
+            r.x[i] = is_finite((real)y) ? (real)y : (real)x[i];
+        }
+        t = t * scale / along;
+    }
+    if (kind == SPARSE)
+        for (i = 0; i < 15; i++) {
+            int what = (int)below(state, 6);
+            if (what == 0) r.x[i] = 0;
+            if (what == 1) r.x[i] = (real)power((int)below(state, 60) - 30);
+            if (what == 2) r.x[i] = real_of((bits_t)below(state, 8));
+            if (what == 3) r.x[i] = r.x[3 * (2 + below(state, 3)) + (uint64_t)(i % 3)];
+        }
+    if (kind != PLAIN && (exact || below(state, 2)))
+        for (i = 0; i < 15; i++)
+            if (!below(state, 3)) r.x[i] = nudged(state, r.x[i]);
+    if (kind == ENDS && below(state, 2)) /* It starts near the plane. */
+        for (i = 0; i < 3; i++) r.x[i] = nudged(state, (real)(r.x[i] + (real)t * r.x[3 + i]));
+    r.end[0] = 0, r.end[1] = real_of((bits_t)MOST_EXPONENT << MANTISSA);
+    if (kind == ENDS || !below(state, 4)) {
+        real near = is_finite((real)t) ? nudged(state, (real)t) : 1;
+        if (below(state, 2)) r.end[0] = near;
+        else r.end[1] = near;
+        if (!below(state, 4)) r.end[0] = any_finite(state);
+        if (!below(state, 4)) r.end[1] = any_finite(state);
+    }
+    return r;
+}
+
+typedef struct {
+    uint64_t seed, count, kinds[KINDS][4];
+} work;
+
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static int shown = 0;
+
+static void show(const ray *r, int answer, int right) {
+    int i;
+    pthread_mutex_lock(&lock);
+    if (shown++ < 5) {
+        printf("wrong: answer %d, truth %d:", answer, right);
+        for (i = 0; i < 17; i++) printf(" %a", (double)(i < 15 ? r->x[i] : r->end[i - 15]));
+        printf("\n");
+    }
+    pthread_mutex_unlock(&lock);
+}
+
+static void *run(void *given) {
+    work *w = given;
+    uint64_t i, state = w->seed;
+    PASTE(KERNEL, _hit) hit;
+    for (i = 0; i < w->count; i++) {
+        int kind = (int)(i % KINDS), answer;
+        ray r = draw(kind, &state);
+        answer = KERNEL(r.x, r.x + 3, r.x + 6, r.x + 9, r.x + 12, r.end[0], r.end[1], &hit);
+        w->kinds[kind][answer]++;
+        if (answer != HAIRLINE_ASK) {
+            int right = truth(&r);
+            if ((EXTENT == 2 && !(r.end[0] <= r.end[1])) || right != (answer == HAIRLINE_HIT ? 2 : 0))
+                w->kinds[kind][3]++, show(&r, answer, right);
+        }
+    }
+    return 0;
+}
+
+int main(int count, char **words) {
+    int threads = count > 1 ? atoi(words[1]) : 1, i, k, j;
+    uint64_t rays = count > 2 ? strtoull(words[2], 0, 10) : 1000000, seed = count > 3 ? strtoull(words[3], 0, 10) : 1;
+    uint64_t all[4] = {0, 0, 0, 0};
+    work *works = calloc((size_t)threads, sizeof *works);
+    pthread_t *ids = calloc((size_t)threads, sizeof *ids);
+    for (i = 0; i < threads; i++) {
+        uint64_t state = seed * 1000003 + (uint64_t)i;
+        works[i].seed = next(&state);
+        works[i].count = rays / (uint64_t)threads + ((uint64_t)i < rays % (uint64_t)threads);
+        pthread_create(&ids[i], 0, run, &works[i]);
+    }
+    for (i = 0; i < threads; i++) pthread_join(ids[i], 0);
+    printf("%-14s %12s %12s %12s %8s\n", "rays", "hit", "miss", "ask", "wrong");
+    for (k = 0; k < KINDS; k++) {
+        uint64_t sums[4] = {0, 0, 0, 0};
+        for (i = 0; i < threads; i++)
+            for (j = 0; j < 4; j++) sums[j] += works[i].kinds[k][j], all[j] += works[i].kinds[k][j];
+        printf("%-14s %12" PRIu64 " %12" PRIu64 " %12" PRIu64 " %8" PRIu64 "\n", NAMES[k], sums[1], sums[0], sums[2], sums[3]);
+    }
+    printf("%-14s %12" PRIu64 " %12" PRIu64 " %12" PRIu64 " %8" PRIu64 "\n", "all", all[1], all[0], all[2], all[3]);
+    free(works), free(ids);
+    return all[3] != 0;
+}
