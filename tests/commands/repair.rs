@@ -17,7 +17,7 @@ const STRICT: [&str; 6] = [
     "-Wextra",
     "-Werror",
     "-Wconversion",
-    "-fsanitize=undefined",
+    "-fsanitize=address,undefined",
     "-fno-sanitize-recover=all",
 ];
 
@@ -367,8 +367,8 @@ fn plain_rays_of_a_room_seldom_ask() {
     let (text, _) = ends(&folder, &all, 0);
     let share = |kind: &str| -> f64 {
         let line = text.lines().find(|line| line.trim_start().starts_with(kind)).expect(kind);
-        let numbers = line.split_whitespace().filter_map(|word| word.parse().ok());
-        numbers.last().unwrap()
+        let mut numbers = line.split_whitespace().filter_map(|word| word.parse().ok());
+        numbers.next_back().unwrap()
     };
     assert!(share("interior") <= 1.0 && share("outside") <= 1.0, "{text}");
     assert!(20.0 < share("edges"), "{text}");
