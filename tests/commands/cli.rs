@@ -365,14 +365,13 @@ fn a_mesh_and_a_corpus_are_audited() {
         .sum();
     assert!(cases >= 150);
     // A finding on a mesh can be shown again.
-    let mut lines =
-        table.lines().skip_while(|line| !line.starts_with("f32 false-hit outside/back"));
+    let mut lines = table.lines().skip_while(|line| !line.starts_with("f32 false-"));
     let command = lines.find(|line| line.contains("hairline explain") && line.contains("--mesh"));
     let command = command.expect("a finding on the mesh");
     let words: Vec<&str> =
         command.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
     let shown = text(&hairline(&words).stdout);
-    assert!(shown.contains("FALSE-HIT"), "{shown}");
+    assert!(shown.contains("FALSE-"), "{shown}");
 }
 
 #[test]

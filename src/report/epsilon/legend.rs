@@ -1,7 +1,7 @@
 //! The lines below a study of a scene: what the words of its tables mean.
 
 use super::record::SceneRecord;
-use super::words::{RAYS, flatness};
+use super::words::{RAYS, flatness, is_subnormal};
 
 /// The meaning of the words in the tables, a line each.
 pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
@@ -18,7 +18,7 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         "another seed may name other numbers at nearly the same cost",
         "limits: at the first number at most that share is wrong, past the one in brackets more; unsure: these rays do not show the \
          limit within a factor of 30, more of them (-n) do; * set by the scene's own sizes, distances and angles as much as by \
-         rounding; a number below the normal ones is 0 on machines that flush to zero",
+         rounding",
         "at most: what this number alone makes wrong; what is recommended may be beyond it if cheaper",
         "exactly parallel: unit vectors that are so lie along axes or in level planes; other rays may be parallel to any plane, \
          and pass an epsilon below a proved one (`hairline prove`)",
@@ -37,6 +37,11 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
             let line = knob.refuses.as_ref().map(line).filter(|line| !lines.contains(line));
             lines.extend(line);
         }
+        let values = part.limits.iter().filter_map(|limit| limit.value.as_ref());
+        let subnormal = values.filter(|value| is_subnormal(&part.scalar, value)).map(|value| {
+            format!("{value} is a subnormal number, which machines that flush to zero take for 0")
+        });
+        lines.extend(subnormal);
     }
     lines
 }

@@ -257,6 +257,11 @@ pub(crate) fn shortest<F: Float>(epsilon: F) -> String {
     if epsilon.is_zero() { "0".to_owned() } else { format!("{epsilon:e}") }
 }
 
+/// True if an epsilon is below the normal numbers of its scalar.
+pub(super) fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
+    epsilon.parse().is_ok_and(|e: f64| e != 0.0 && e.abs() < least_normal(scalar))
+}
+
 /// The smallest normal number of the scalar of a name.
 pub(super) fn least_normal(scalar: &str) -> f64 {
     if scalar == f32::NAME { smallest_normal::<f32>() } else { smallest_normal::<f64>() }

@@ -5,7 +5,7 @@ use super::*;
 use crate::report::{
     Conformance, Counts, Deviation, Example, FindingKind, FindingPart, Illustrations, KernelResult,
     Method, NetChange, PlanPart, PlannedSource, ProofPart, ProvedGate, Provenance, Rate, Record,
-    ResultPart, RowChange, RowPart, SCHEMA, Unproved, Verdict,
+    ResultPart, RowChange, RowPart, SCHEMA, SourcePart, Unproved, Verdict,
 };
 use std::collections::BTreeMap;
 
@@ -80,6 +80,17 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
     };
     let source =
         |family: &String| PlannedSource { family: family.clone(), set: family.clone(), count: 100 };
+    let summary = |family: &String| SourcePart {
+        scalar: "f32".to_owned(),
+        family: family.clone(),
+        sample: true,
+        promises: true,
+        indices: 100,
+        cases: 100,
+        promise_broken: 0,
+        first_broken: None,
+        left_out: None,
+    };
     let results = kernels.iter().flat_map(|k| families.iter().map(move |f| result(k, f)));
     Record {
         schema: SCHEMA.to_owned(),
@@ -91,7 +102,7 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
                 scalars: vec!["f32".to_owned()],
             },
             partial: None,
-            sources: Vec::new(),
+            sources: families.iter().map(summary).collect(),
             results: results.collect(),
             totals: Vec::new(),
         },
