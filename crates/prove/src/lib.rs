@@ -3,7 +3,7 @@
 
 #![forbid(unsafe_code)]
 
-use hairline_core::{arith, case, kernel};
+use hairline_core::{arith, case, contract, kernel};
 
 mod bound;
 mod builder;
@@ -11,12 +11,15 @@ pub mod certificate;
 pub mod checker;
 mod climb;
 mod corners;
+mod depth;
 mod domain;
 mod dyadic;
 mod forms;
 mod formula;
 mod gappa;
 mod gates;
+mod judged;
+mod meaning;
 mod measures;
 mod mirrors;
 mod names;
@@ -34,16 +37,20 @@ mod summary;
 mod tests;
 mod unit;
 mod useful;
+mod verdict;
 mod watertight;
 mod witness;
 
 pub use bound::{Bound, Lemma, Prover, Rule};
+pub use depth::case_of;
 pub use domain::{Domain, Format};
 pub use dyadic::Dyadic;
 pub use forms::Leaf;
 pub use formula::{Formula, Maximum, Source, Step};
 pub use gappa::gappa;
 pub use gates::{Proof, Quantity, Supposed, Uses, compared};
+pub use judged::{Judged, VERDICTS};
+pub use meaning::Scale;
 pub use measures::{Limit, Measures};
 pub use names::Names;
 pub use order::{is_at_most, is_impossible};
@@ -51,9 +58,11 @@ pub use permanent::{Relative, Roundings, relative};
 pub use run::{Number, run};
 pub use scene::{Scene, Shape};
 pub use sizes::BySize;
-pub use statement::{Published, Statement, Triangles, about_edges, statements, units};
+pub use statement::{Published, Triangles, about_edges, above, below, statements, units};
 pub use summary::{
     Effort, GOALS, GateSummary, Summary, Witness, bound_of_gate, format_of, paths_of,
 };
+pub use useful::useful_scenes;
+pub use verdict::{Depth, Farthest, May, Other, USELESS, Verdicts, supposes_weights, verdicts};
 pub use watertight::Symmetry;
 pub use witness::{Goal, Inputs, Search, Searched};
