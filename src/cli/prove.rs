@@ -8,6 +8,7 @@ mod leaks;
 mod page;
 mod record;
 mod scenes;
+mod verdicts;
 mod witnesses;
 
 use super::exit::{Failure, Status};
@@ -192,7 +193,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     let job = Job { scene, shapes, domain, parts, effort, epsilons, stored: &stored, shared };
     let results = job.run_all(&entries, scalars, arguments.output.quiet);
     let mut record = Record {
-        schema: "hairline/proof-1",
+        schema: "hairline/proof-2",
         version: env!("CARGO_PKG_VERSION"),
         domain: DomainPart::new(&domain),
         gates: Vec::new(),

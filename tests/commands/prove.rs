@@ -2,6 +2,7 @@
 
 use crate::program::{self, scratch};
 use num_rational::BigRational;
+use num_traits::ToPrimitive;
 use std::fs;
 use std::path::Path;
 use std::process::Output;
@@ -60,7 +61,11 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
     // The three sentences that people ask for stand on the first screen.
     let first = hairline(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"]);
     let first = words(&String::from_utf8(first.stdout).unwrap());
-    for part in ["An epsilon above 1.02e-6", "An epsilon below -7.87e-6", "Not watertight: at"] {
+    for part in [
+        "No false miss is farther inside an edge than 7.87e-6 of the triangle's longest edge",
+        "No false hit is farther outside an edge than 7.88e-6 of the triangle's longest edge",
+        "Not watertight: at",
+    ] {
         assert!(first.contains(part), "{part}: {first}");
     }
     assert!(!first.contains("at any exponents") && first.len() < out.len() / 2, "{first}");
@@ -76,14 +81,29 @@ fn the_readme_says_what_is_proved_and_known() {
     let sentence =
         format!("never wrong by more than {}, and {} is known", number(bound), number(known));
     assert!(readme.contains(&sentence), "{sentence}");
+    let record =
+        json(&hairline(&["prove", "-k", "moller-trumbore", "--scalar", "f32", "--format", "json"]));
+    let number = |side: &str, known: bool| {
+        let part = &record["kernels"][0]["verdicts"][side];
+        let number = if known { &part["known"]["share"] } else { &part["share"] };
+        three_digits(number.as_f64().unwrap(), !known)
+    };
+    let verdicts = format!(
+        "no false miss is farther inside an edge than {} of the triangle's longest edge, and no false hit farther outside an \
+         edge than {}; rays are known that are wrong at {} and {}.",
+        number("misses", false),
+        number("hits", false),
+        number("misses", true),
+        number("hits", true)
+    );
+    assert!(readme.contains(&verdicts), "{verdicts}");
     // A bound of more than is there to be wrong says nothing of hits.
     let far = ["--coordinates", "1000", "--edge", "0.01..10", "--distance", "2000"];
     let out = words(&text(
         &[&["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "0"], &far[..]]
             .concat(),
     ));
-    assert!(out.contains("Nothing useful follows for hits at edges"), "{out}");
-    assert!(!out.contains("loses no hit at an edge"), "{out}");
+    assert!(out.contains("Nothing useful follows for false misses"), "{out}");
     let next = "next: hairline epsilon --kernel moller-trumbore --scene \
                 extent=1000,edge=0.01..10,distance=0..2000 ";
     assert!(out.contains(next), "{out}");
@@ -169,6 +189,82 @@ fn beside_a_kernel_that_leaks_stands_a_ray_that_does() {
     }
 }
 
+/// How far inside the nearest edge the line of a case meets the plane, over the longest edge, from rationals.
+fn depth(case: &serde_json::Value) -> f64 {
+    let point = |name: &str| {
+        let numbers = case[name].as_array().unwrap().iter();
+        let exact = |x: &serde_json::Value| {
+            let text = x.to_string();
+            let value = match case["scalar"] == "f32" {
+                true => text.parse::<f32>().unwrap().into(),
+                false => text.parse::<f64>().unwrap(),
+            };
+            BigRational::from_float(value).unwrap()
+        };
+        <[BigRational; 3]>::try_from(numbers.map(exact).collect::<Vec<_>>()).unwrap()
+    };
+    let minus = |p: &[BigRational; 3], q: &[BigRational; 3]| [0, 1, 2].map(|i| &p[i] - &q[i]);
+    let cross = |p: &[BigRational; 3], q: &[BigRational; 3]| {
+        [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &p[i] * &q[j] - &p[j] * &q[i])
+    };
+    let dot =
+        |p: &[BigRational; 3], q: &[BigRational; 3]| &p[0] * &q[0] + &p[1] * &q[1] + &p[2] * &q[2];
+    let (o, d) = (point("origin"), point("direction"));
+    let [a, b, c] = ["a", "b", "c"].map(point);
+    let normal = cross(&minus(&b, &a), &minus(&c, &a));
+    let t = dot(&normal, &minus(&a, &o)) / dot(&normal, &d);
+    let at = [0, 1, 2].map(|i| &o[i] + &t * &d[i]);
+    let length = |v: &[BigRational; 3]| dot(v, v).to_f64().unwrap().sqrt();
+    let edges = [(&a, &b), (&b, &c), (&c, &a)].map(|(p, q)| (minus(q, p), p));
+    let longest = edges.iter().map(|(edge, _)| length(edge)).fold(0.0, f64::max);
+    let inside = edges.iter().map(|(edge, from)| {
+        let side = dot(&cross(edge, &minus(&at, from)), &normal).to_f64().unwrap();
+        side / (length(&normal) * length(edge))
+    });
+    inside.fold(f64::INFINITY, f64::min) / longest
+}
+
+/// Of each kernel and scalar the known wrong verdict is below its bound, is as far off as is said, and `explain` says that it is
+/// wrong.
+#[test]
+fn known_verdicts_are_as_wrong_as_is_said_and_no_worse_than_proved() {
+    let record = json(&hairline(&["prove", "--format", "json", "--quiet"]));
+    let (mut near, mut explained) = (0, 0);
+    for kernel in record["kernels"].as_array().unwrap() {
+        for (name, finding, side) in [("misses", "false miss", 1.0), ("hits", "false hit", -1.0)] {
+            let part = &kernel["verdicts"][name];
+            let text = format!("{} {} {name}: {part}", kernel["kernel"], kernel["scalar"]);
+            if kernel["kernel"] == "havel-herout" {
+                assert!(part["why"].is_string() && part["known"].is_null(), "{text}");
+                continue;
+            }
+            let share = part["share"].as_f64().unwrap();
+            let known = part["known"]["share"].as_f64().unwrap_or_else(|| panic!("{text}"));
+            assert!(0.0 < known && known <= share, "{text}");
+            near += usize::from(share <= 4.0 * known);
+            let command = part["known"]["command"].as_str().unwrap();
+            let (case, rest) =
+                command.strip_prefix("hairline explain '").unwrap().split_once("' ").unwrap();
+            let quoted = ["scalar", "f32", "f64", "origin", "direction", "a", "b", "c"];
+            let json = quoted.iter().fold(case.to_owned(), |json, word| {
+                json.replace(&format!("{word}:"), &format!("\"{word}\":"))
+            });
+            let json = json.replace(":f32", ":\"f32\"").replace(":f64", ":\"f64\"");
+            let json = json.replace("\"direction\"", "\"direction\"");
+            let deep = side * depth(&serde_json::from_str(&json).unwrap());
+            assert!((deep / known - 1.0).abs() < 1e-6, "{text}: {deep}");
+            if kernel["scalar"] == "f32" {
+                let rest = rest.replace('\'', "");
+                let words = [&["explain", case], &rest.split(' ').collect::<Vec<_>>()[..]].concat();
+                let out = String::from_utf8(hairline(&words).stdout).unwrap();
+                assert!(out.to_lowercase().contains(finding), "{command}: {out}");
+                explained += 1;
+            }
+        }
+    }
+    assert!(explained == 32 && near >= 10, "{explained} {near}");
+}
+
 #[test]
 fn every_witness_is_below_its_bound_and_near_it() {
     let record = json(&hairline(&["prove", "--format", "json", "--quiet"]));
@@ -195,7 +291,7 @@ fn where_nothing_follows_for_edges_the_least_change_is_named_with_which_somethin
     let follows = |scene: &str, scalar: &str| {
         let flags = ["prove", "--kernel", "moller-trumbore", "-n", "0", "--scene", scene];
         let out = words(&text(&[&flags[..], &["--scalar", scalar]].concat()));
-        let (_, nothing) = out.split_once("Nothing useful follows for hits at edges").unzip();
+        let (_, nothing) = out.split_once("Nothing useful follows for false misses").unzip();
         nothing.map(str::to_owned)
     };
     let nothing = follows("room", "f32").unwrap();
@@ -250,14 +346,15 @@ fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
         out.contains("e = 1e-7 is proved to refuse every parallel ray where coordinates of edges")
     );
     assert!(!out.contains("(jolt)"), "{out}");
-    let all = "e = -1e-5 loses no hit; it lets no miss of this domain through farther outside than 1.79e-5 of the way";
+    let all = "No false miss at an edge. No false hit is farther outside an edge than 1.79e-5 of the triangle";
     assert!(out.contains(all), "{out}");
     let out = words("edge=1e-5");
-    let none = "e = 1e-5 loses no hit deeper inside than 1.79e-5 of the way across the triangle; it lets no miss of this domain through.";
-    assert!(out.contains(none), "{out}");
+    let none =
+        "No false miss is farther inside an edge than 1.79e-5 of the triangle's longest edge";
+    assert!(out.contains(none) && out.contains("No false hit at an edge."), "{out}");
     let out = words("edge=2e-6");
-    let both = "deeper inside than 9.87e-6 of the way across the triangle; it lets no miss of this domain through farther outside than 5.87e-6 of";
-    assert!(out.contains(both), "{out}");
+    let both = ["inside an edge than 9.87e-6 of", "outside an edge than 5.88e-6 of"];
+    assert!(both.iter().all(|part| out.contains(part)), "{out}");
     let wrong = |epsilon: &str, message: &str| {
         refused(&[&kernel[..], &["--epsilon", epsilon]].concat(), 2, message);
     };
@@ -270,7 +367,7 @@ fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
     let room =
         ["prove", "--kernel", "scalar-triple", "--scalar", "f32", "--scene", "room", "-n", "0"];
     let out = text(&[&room[..], &["--epsilon", "edge=-1e-3"]].concat());
-    assert!(out.contains("e = -1e-3 loses no hit"), "{out}");
+    assert!(crate::prove::words(&out).contains("No false miss at an edge."), "{out}");
 }
 
 #[test]
@@ -645,6 +742,13 @@ fn scripts_are_written_for_gappa() {
     refused(&[&gappa[..], &["--gate", "edgy"]].concat(), 2, "unknown gate 'edgy'");
 }
 
+/// A number in three digits, not below it, or not above it.
+fn three_digits(x: f64, up: bool) -> String {
+    let scale = 10f64.powi(2 - x.log10().floor() as i32);
+    let digits = if up { (x * scale - 1e-9).ceil() } else { (x * scale + 1e-9).floor() };
+    format!("{:.2e}", digits / scale)
+}
+
 /// A number in two decimals, not below it, or not above it.
 fn hundredths(x: f64, up: bool) -> String {
     let hundreds = if up { (x * 100.0 - 1e-9).ceil() } else { (x * 100.0 + 1e-9).floor() };
@@ -679,6 +783,35 @@ fn the_guides_table_is_what_is_proved_and_known() {
     let guide = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/proof.md");
     let guide = fs::read_to_string(guide).unwrap();
     assert!(guide.contains(&table), "the table of docs/guide/proof.md should be\n{table}");
+    // And the table of verdicts.
+    let kernels = record["kernels"].as_array().unwrap();
+    let mut table = String::new();
+    for single in kernels.iter().filter(|kernel| kernel["scalar"] == "f32") {
+        table += &format!("| {} |", single["kernel"].as_str().unwrap());
+        for scalar in ["f32", "f64"] {
+            let is_same = |it: &&serde_json::Value| {
+                it["scalar"] == scalar && it["kernel"] == single["kernel"]
+            };
+            let kernel = kernels.iter().find(is_same).unwrap();
+            for side in ["misses", "hits"] {
+                let part = &kernel["verdicts"][side];
+                let number = |part: &serde_json::Value, up: bool| {
+                    part.as_f64().map_or("-".to_owned(), |x| three_digits(x, up))
+                };
+                let factor = part["factor"].as_f64().map_or("-".to_owned(), |x| format!("{x:.1}"));
+                table += &format!(
+                    " {} | {} | {factor} |",
+                    number(&part["share"], true),
+                    number(&part["known"]["share"], false)
+                );
+            }
+        }
+        table += "\n";
+    }
+    assert!(
+        guide.contains(&table),
+        "the table of verdicts of docs/guide/proof.md should be\n{table}"
+    );
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! The search for witnesses.
 
+use super::depth::Judge;
+use super::measures::Sample;
 use super::witness::{Goal, Inputs, Search, Searched};
 use super::{Domain, Leaf, Measures, Source};
 use crate::arith::Float;
@@ -9,6 +11,8 @@ use glam::DVec3;
 
 /// After so many evaluations without anything better a climb starts elsewhere.
 const STALE: u64 = 20_000;
+/// The same for verdicts.
+const SHORT: u64 = 6_000;
 /// In a scene, where inputs differ by much: a climb begins at the worst of so many.
 const STARTS: u64 = 1_000;
 /// Steps to where the errors could be large.
@@ -31,17 +35,22 @@ impl<F: Searched> Search<'_, F> {
         let mut best: Option<(Inputs<F>, f64)> = None;
         let mut current: Option<(Inputs<F>, f64)> = None;
         let (mut stale, mut left) = (0, evaluations);
+        let mut highest = f64::INFINITY;
+        let patience = if self.judge.is_some() { SHORT } else { STALE };
         while 0 < left {
             left -= 1;
             // Starts again where nothing better came for long; sometimes from a known case.
-            if current.is_none() || stale > STALE {
+            if current.is_none() || stale > patience {
                 let starts = if self.domain.measures.is_some() { left.min(STARTS) } else { 0 };
                 left -= starts;
                 let started = (0..=starts).filter_map(|_| {
-                    let inputs = match known {
+                    let mut inputs = match known {
                         [_, ..] if draw.below(4) == 0 => draw.pick(known),
                         _ => self.start(goal, draw),
                     };
+                    if let Some(judge) = self.judge {
+                        judge.move_to_boundary(&mut inputs, draw);
+                    }
                     self.score(&inputs, goal, &mut near).map(|score| (inputs, score))
                 });
                 current = started.max_by(|(_, a), (_, b)| a.total_cmp(b));
@@ -54,8 +63,10 @@ impl<F: Searched> Search<'_, F> {
                     *inputs = self.ascend(*inputs, goal, steps, draw);
                     *score = self.score(inputs, goal, &mut near).unwrap_or(*score);
                 }
-                best = best.into_iter().chain(current).max_by(|(_, a), (_, b)| a.total_cmp(b));
+                let started = current.filter(|_| self.judge.is_none());
+                best = best.into_iter().chain(started).max_by(|(_, a), (_, b)| a.total_cmp(b));
                 stale = 0;
+                highest = current.map_or(f64::INFINITY, |(_, score)| score);
                 continue;
             }
             let Some((inputs, score)) = current else { continue };
@@ -66,18 +77,27 @@ impl<F: Searched> Search<'_, F> {
             if goal == Goal::Zero {
                 make_parallel(&mut tried, draw);
             }
+            if let Some(judge) = self.judge
+                && draw.below(8) == 0
+            {
+                judge.move_to_boundary(&mut tried, draw);
+            }
             stale += 1;
             let Some(found) = self.score(&tried, goal, &mut near) else { continue };
             // A little worse is allowed now and then.
             let slack = if draw.below(64) == 0 { 0.02 * score.abs() } else { 0.0 };
             if found >= score - slack {
-                if found > score {
+                if found > score && self.judge.is_none() {
                     stale = stale.min(STALE / 2);
+                }
+                if found > highest + 0.01 * highest.abs() {
+                    (highest, stale) = (found, 0);
                 }
                 current = Some((tried, found));
             }
-            if best.is_none_or(|(_, best)| found > best) {
-                (best, stale) = (Some((tried, found)), 0);
+            if self.counts && best.is_none_or(|(_, best)| found > best) {
+                best = Some((tried, found));
+                stale = if self.judge.is_none() { 0 } else { stale };
             }
         }
         let (inputs, _) = best?;
@@ -105,8 +125,12 @@ impl<F: Searched> Search<'_, F> {
                     _ => tried[i] + F::from_f64(by * scale),
                 };
             }
+            if let Some(judge) = self.judge {
+                judge.move_to_boundary(&mut tried, draw);
+            }
             if self.score(&tried, goal, &mut near).is_some() {
-                let found = self.amplitude();
+                let scale = |judge: &Judge<F>| judge.scale(&Sample::of(&tried.map(F::to_f64)));
+                let found = self.amplitude() / self.judge.map_or(1.0, scale);
                 if found >= highest {
                     (inputs, highest) = (tried, found);
                 }

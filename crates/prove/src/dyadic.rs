@@ -24,6 +24,8 @@ impl Dyadic {
     pub const ONE: Dyadic = Dyadic { mantissa: 1, exponent: 0 };
     /// 1 - 2^-10.
     pub const BELOW_ONE: Dyadic = Dyadic { mantissa: 1023, exponent: -10 };
+    /// 1 + 2^-9.
+    pub const ABOVE_ONE: Dyadic = Dyadic { mantissa: 513, exponent: -9 };
     /// A half.
     pub const HALF: Dyadic = Dyadic { mantissa: 1, exponent: -1 };
     /// The usual floor of a divisor.

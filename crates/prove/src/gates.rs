@@ -18,11 +18,15 @@ pub struct Proof {
     pub paths: Vec<Path>,
     /// The numbers that its gates compare; the same program on several paths is there once.
     pub quantities: Vec<Quantity>,
+    /// The program that a gate compares at a place of a path, as its quantities call it.
+    pub programs: HashMap<(usize, usize, Place), usize>,
 }
 
 /// A number that a gate compares, on one of the paths where its program is the same.
 #[derive(Clone, Debug)]
 pub struct Quantity {
+    /// Its program; the same in every part of a domain.
+    pub program: usize,
     /// The gate.
     pub gate: usize,
     /// The path.
@@ -130,12 +134,15 @@ impl Proof {
         let paths: Vec<Path> = paths.into_iter().filter(|path| !is_impossible(path)).collect();
         let mut quantities: Vec<Quantity> = Vec::new();
         let mut known: HashMap<Key, (usize, Names)> = HashMap::new();
+        let mut programs = HashMap::new();
         for (index, path) in paths.iter().enumerate() {
             let mut prover = Prover::new(path, domain, format);
             let is_wanted =
                 |(compared, _): &(&Compared, Place)| gate.is_none_or(|gate| compared.gate == gate);
             for (compared, place) in compared(path).filter(is_wanted) {
                 let (key, names) = key(&prover, compared.gate, place);
+                let program = known.get(&key).map_or(quantities.len(), |(known, _)| *known);
+                programs.insert((compared.gate, index, place), program);
                 if let Some((known, from)) = known.get(&key) {
                     let Quantity { also, .. } = &mut quantities[*known];
                     let to = from.to(names);
@@ -147,6 +154,7 @@ impl Proof {
                 known.insert(key, (quantities.len(), names));
                 prover.limit_to(place);
                 quantities.push(Quantity {
+                    program,
                     gate: compared.gate,
                     path: index,
                     is_margin: compared.is_margin(),
@@ -161,13 +169,13 @@ impl Proof {
             }
         }
         quantities.sort_by_key(|quantity| quantity.gate);
-        Proof { paths, quantities }
+        Proof { paths, quantities, programs }
     }
 
     /// The same where the inputs lie in one of several domains, each a part of this one: what divides is proved in
     /// each of them.
     pub fn split(mut self, domains: &[Domain], format: Format) -> Proof {
-        let Proof { paths, quantities } = &mut self;
+        let Proof { paths, quantities, .. } = &mut self;
         let divides = |quantity: &Quantity| quantity.bound.is_err() || quantity.uses().floor;
         let prove = |quantity: &Quantity| {
             let path = &paths[quantity.path];

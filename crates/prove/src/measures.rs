@@ -4,7 +4,7 @@
 use super::Dyadic;
 use super::order::largest_axes;
 use super::run::{cone, run};
-use crate::arith::recorded::Place;
+use crate::arith::recorded::{Comparison, Place};
 use crate::arith::{Exact, Real, Triple, Vector};
 use crate::case::Draw;
 use crate::kernel::Path;
@@ -19,6 +19,8 @@ pub struct Measures {
     pub area: Dyadic,
     /// |N·d|/|N| at least, for |d| = 1.
     pub sine: Dyadic,
+    /// The longest edge.
+    pub longest: Dyadic,
     /// The length of an edge over |N| at most: the reciprocal of a height.
     pub slope: Dyadic,
     /// Every coordinate of a point at most.
@@ -69,24 +71,36 @@ const SAMPLES: u64 = 3;
 #[derive(Debug)]
 pub(super) struct Samples<'a> {
     path: &'a Path,
-    values: Vec<(Vec<f64>, Sample<f64>)>,
+    pub values: Vec<(Vec<f64>, Sample<f64>)>,
     /// The exact inputs of one of them, once they are needed.
     exact: OnceCell<([Exact; 17], Sample<Exact>)>,
     /// The axis of N's largest coordinate, if the path chose it. All axes if no N takes the path.
     axes: Vec<usize>,
 }
 
-/// Short numbers, so that exact arithmetic is fast.
-fn inputs(i: u64) -> [f64; 17] {
+/// Short numbers, so that exact arithmetic is fast. The triangle faces the ray as a path's signs say, if they do.
+fn inputs(path: &Path, i: u64) -> [f64; 17] {
     let mut draw = Draw::new("measures", 1, i);
-    std::array::from_fn(|_| draw.integer(-(1 << 20), 1 << 20) as f64 / f64::from(1 << 20))
+    let drawn: [f64; 17] =
+        std::array::from_fn(|_| draw.integer(-(1 << 20), 1 << 20) as f64 / f64::from(1 << 20));
+    let mut turned = drawn;
+    (9..12).for_each(|i| turned.swap(i, i + 3));
+    let has_signs = |inputs: &[f64; 17]| {
+        let mut values = Vec::new();
+        run(&path.operations, path.operations.len() as Place - 1, inputs, &mut values);
+        path.decisions.iter().all(|(comparison, answer)| match *comparison {
+            Comparison::Negative(place) => (values[place as usize] < 0.0) == *answer,
+            _ => true,
+        })
+    };
+    if !has_signs(&drawn) && has_signs(&turned) { turned } else { drawn }
 }
 
 impl<'a> Samples<'a> {
     pub fn new(path: &'a Path) -> Samples<'a> {
         let sample = |i: u64| {
             let mut values = Vec::new();
-            let inputs = inputs(i);
+            let inputs = inputs(path, i);
             run(&path.operations, path.operations.len() as Place - 1, &inputs, &mut values);
             (values, Sample::of(&inputs))
         };
@@ -102,7 +116,7 @@ impl<'a> Samples<'a> {
     }
 
     /// True if a number may be another one up to its sign, given that one's values.
-    fn may_be(&self, place: Place, other: impl Fn(usize) -> f64) -> bool {
+    pub fn may_be(&self, place: Place, other: impl Fn(usize) -> f64) -> bool {
         self.values.iter().enumerate().all(|(i, (values, _))| {
             let (x, y) = (values[place as usize].abs(), other(i).abs());
             (x - y).abs() <= 1e-9 * y
@@ -110,9 +124,9 @@ impl<'a> Samples<'a> {
     }
 
     /// True if it is the other one up to its sign at exact inputs.
-    fn is_exactly(&self, place: Place, other: impl Fn(&Sample<Exact>) -> Exact) -> bool {
+    pub fn is_exactly(&self, place: Place, other: impl Fn(&Sample<Exact>) -> Exact) -> bool {
         let (inputs, sample) = self.exact.get_or_init(|| {
-            let inputs = inputs(SAMPLES).map(Exact::from_f64);
+            let inputs = inputs(self.path, SAMPLES).map(Exact::from_f64);
             let sample = Sample::of(&inputs);
             (inputs, sample)
         });
@@ -142,11 +156,13 @@ impl<'a> Samples<'a> {
 /// A triangle and a ray.
 #[derive(Debug)]
 pub(super) struct Sample<R> {
-    origin: Triple<R>,
-    direction: Triple<R>,
-    vertices: [Triple<R>; 3],
-    edges: [Triple<R>; 3],
+    pub origin: Triple<R>,
+    pub direction: Triple<R>,
+    pub vertices: [Triple<R>; 3],
+    /// From a to b, from a to c, from b to c.
+    pub edges: [Triple<R>; 3],
     pub normal: Triple<R>,
+    pub ends: [R; 2],
 }
 
 impl<R: Real> Sample<R> {
@@ -155,7 +171,24 @@ impl<R: Real> Sample<R> {
         let [origin, direction, a, b, c] = [0, 3, 6, 9, 12].map(at);
         let edges = [b.minus(&a), c.minus(&a), c.minus(&b)];
         let normal = edges[0].cross(&edges[1]);
-        Sample { origin, direction, vertices: [a, b, c], edges, normal }
+        let ends = [inputs[15].clone(), inputs[16].clone()];
+        Sample { origin, direction, vertices: [a, b, c], edges, normal, ends }
+    }
+
+    /// N·d.
+    pub fn volume(&self) -> R {
+        self.normal.dot(&self.direction)
+    }
+
+    /// The barycentric coordinate of a vertex where the line meets the plane.
+    pub fn weight(&self, vertex: usize) -> R {
+        let [p, q] = [1, 2].map(|i| self.vertices[(vertex + i) % 3].minus(&self.origin));
+        p.cross(&q).dot(&self.direction) / self.volume()
+    }
+
+    /// The ray's t there.
+    pub fn time(&self) -> R {
+        self.normal.dot(&self.vertices[0].minus(&self.origin)) / self.volume()
     }
 }
 
@@ -213,7 +246,7 @@ impl Measures {
 
     fn quotients<R: Real>(&self, sample: &Sample<R>, axes: &[usize]) -> Vec<Known<R>> {
         let Measures { slope, world, distance, .. } = *self;
-        let Sample { origin, direction, vertices, edges, normal } = sample;
+        let Sample { origin, direction, vertices, edges, normal, .. } = sample;
         let [a, b, c] = vertices;
         let known =
             |name, limit: Dyadic, value| Known { name, limit: limit.round_up(DIGITS), value };
@@ -223,7 +256,8 @@ impl Measures {
         let [v, u] = [edges[0].cross(&p), p.cross(&edges[1])].map(|x| normal.dot(&x) / &square);
         let w = R::one() - &u - &v;
         let mut all = vec![known("|t|", distance, t)];
-        all.extend([u, v, w].map(|w| known("|u|", Dyadic::ONE, w)));
+        // Slightly more, for the points next to a vertex.
+        all.extend([u, v, w].map(|w| known("|u|", Dyadic::ABOVE_ONE, w)));
         for k in axes.iter().copied() {
             let over = |name, limit, value: R| known(name, limit, value / normal.at(k));
             for i in (0..3).filter(|i| *i != k) {

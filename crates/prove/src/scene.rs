@@ -112,6 +112,7 @@ impl Scene {
         let measures = Measures {
             area: down(shape),
             sine: down(sine(grazing)),
+            longest: up(longest),
             slope: up(slope),
             world: up(coordinates),
             distance: up(distance),

@@ -2,27 +2,9 @@
 
 use super::sizes::BySize;
 use super::summary::{GateSummary, Summary, Witness};
-use super::useful::{USELESS, share, useful_scenes};
 use super::witness::Searched;
 use super::{Domain, Relative, Scene, Shape, Supposed, Symmetry};
 use crate::kernel::{Entry, Role, Scalar};
-
-/// A sentence about a gate.
-#[derive(Clone, Debug)]
-pub struct Statement {
-    /// The sentence.
-    pub text: String,
-    /// True if it is one of those that people ask for first.
-    pub is_key: bool,
-}
-
-fn key(text: String) -> Statement {
-    Statement { text, is_key: true }
-}
-
-fn said(text: String) -> Statement {
-    Statement { text, is_key: false }
-}
 
 /// An epsilon, and where it comes from.
 pub type Published = (String, f64);
@@ -44,10 +26,10 @@ pub fn statements<F: Searched + Scalar>(
     gate: &GateSummary<F>,
     scene: Option<Triangles>,
     published: &[Published],
-) -> Vec<Statement> {
+) -> Vec<String> {
     let bound = match &gate.bound {
         Ok(bound) => *bound,
-        Err(why) => return vec![key(format!("No bound: {why}."))],
+        Err(why) => return vec![format!("No bound: {why}.")],
     };
     let beta = bound.to_f64();
     let unit = summary.format.unit().to_f64();
@@ -66,55 +48,54 @@ pub fn statements<F: Searched + Scalar>(
         format!("; {} ({} u) is known", below(*score), units(score / unit, false))
     });
     let what = "What it compares is never wrong by more than";
-    let mut lines = vec![said(format!("{what} {}{where_}{known}.", in_units(beta)))];
+    let mut lines = vec![format!("{what} {}{where_}{known}.", in_units(beta))];
     if scene.is_some() && !gate.limits.is_empty() {
-        lines.push(said(supposed(&gate.limits)));
+        lines.push(supposed(&gate.limits));
     }
     if let Some(Relative { factor, underflow, .. }) = &gate.relative {
-        lines.push(said(format!(
+        lines.push(format!(
             "Where nothing overflows and no product underflows, it is wrong by at most {} u times its permanent (the \
              sum of the sizes of its terms), at any exponents. In {} it is, underflow or not, wrong by at most that \
              and {}; a product that underflows in larger numbers may cost more.",
             units(factor.to_f64() / unit, true),
             if scene.is_some() { "this scene" } else { "the unit domain" },
             above(underflow.to_f64())
-        )));
+        ));
     }
     let tunable = gate.gate.epsilon != crate::kernel::Tunable::Fixed;
     match gate.gate.role {
-        _ if !gate.is_margin => lines.push(said(format!(
+        _ if !gate.is_margin => lines.push(format!(
             "At an epsilon of 0 this gate decides otherwise than exact arithmetic only where the exact number \
              is within {} of 0.",
             above(beta)
-        ))),
+        )),
         Role::Parallel if tunable => {
             let mut sizes = BySize::<F>::new(entry, gate.index);
             let own = sizes.as_mut().filter(|_| gate.uses.is_of_edges_alone());
             parallel(gate, scene, own, beta, published, &mut lines);
             let sizes = sizes.filter(|_| scene.is_none() && !gate.uses.floor);
             if let Some(mut sizes) = sizes {
-                for (i, epsilon) in published.iter().filter(|(_, e)| *e > 0.0).enumerate() {
-                    let text = about_epsilon(summary, gate, &mut sizes, epsilon);
-                    lines.push(Statement { text, is_key: i == 0 });
+                for epsilon in published.iter().filter(|(_, e)| *e > 0.0) {
+                    lines.push(about_epsilon(summary, gate, &mut sizes, epsilon));
                 }
             }
         }
-        Role::Edge => {
-            let scene = scene.map(|triangles| triangles.scene);
-            edge(entry, gate, scene, beta, tunable.then_some(published), &mut lines);
-        }
+        Role::Edge => lines.push(format!(
+            "An epsilon below {} loses no hit at an edge.",
+            signed(-beta, false)
+        )),
         _ if tunable => {
-            lines.push(said(format!(
+            lines.push(format!(
                 "An epsilon below -{0} loses nothing that the exact formula accepts; one above {0} accepts nothing \
                  that it refuses.",
                 above(beta)
-            )));
+            ));
             lines.extend(published.iter().map(|(name, value)| {
-                said(format!(
+                format!(
                     "e = {name} refuses no exact value of {} and more, and accepts none of {} and less.",
                     signed(value + beta, true),
                     signed(value - beta, false)
-                ))
+                )
             }));
         }
         _ => {}
@@ -154,21 +135,21 @@ fn parallel<F: Searched + Scalar>(
     own: Option<&mut BySize<F>>,
     beta: f64,
     published: &[Published],
-    lines: &mut Vec<Statement>,
+    lines: &mut Vec<String>,
 ) {
     let passes = gate.witnesses[1].as_ref().filter(|witness| witness.score > 0.0);
     let known = passes.map_or(String::new(), |witness| {
         format!(" A parallel ray is known that reaches {}.", below(witness.score))
     });
-    lines.push(key(format!(
+    lines.push(format!(
         "An epsilon above {} refuses every ray that is exactly parallel.{known}",
         above(beta)
-    )));
+    ));
     let Some(Triangles { shapes, scene }) = scene else {
-        lines.push(said(format!(
+        lines.push(format!(
             "With an epsilon e this gate refuses a hit only where the exact value is below e + {}.",
             above(beta)
-        )));
+        ));
         return;
     };
     // Each triangle with its own bound, where the gate knows nothing but its edges.
@@ -180,7 +161,7 @@ fn parallel<F: Searched + Scalar>(
     }
     let is_angle = gate.gate.dimension.length == 0;
     let is_mesh = scene.shape.is_some();
-    let mut say = |name: &str, value: f64, is_key: bool| {
+    let mut say = |name: &str, value: f64| {
         // |det| = 2 * area * |d| * sine of the angle to the plane.
         let sine = shapes
             .iter()
@@ -211,12 +192,11 @@ fn parallel<F: Searched + Scalar>(
                 ),
             }
         };
-        let text = format!("In this scene, for |d| = 1, {name} {refuses}; {cost}.");
-        lines.push(Statement { text, is_key });
+        lines.push(format!("In this scene, for |d| = 1, {name} {refuses}; {cost}."));
     };
-    say("that epsilon", beta * (1.0 + 1e-9), false);
-    for (i, (name, value)) in published.iter().filter(|(_, e)| *e > 0.0).enumerate() {
-        say(&format!("e = {name}"), *value, i == 0);
+    say("that epsilon", beta * (1.0 + 1e-9));
+    for (name, value) in published.iter().filter(|(_, e)| *e > 0.0) {
+        say(&format!("e = {name}"), *value);
     }
 }
 
@@ -249,69 +229,6 @@ fn about_epsilon<F: Searched + Scalar>(
     format!("{proved}{}", fails.unwrap_or_default())
 }
 
-fn edge<F: Searched + Scalar>(
-    entry: &Entry,
-    gate: &GateSummary<F>,
-    scene: Option<&Scene>,
-    beta: f64,
-    epsilons: Option<&[Published]>,
-    lines: &mut Vec<Statement>,
-) {
-    let length = gate.gate.dimension.length;
-    let share = share(length, scene);
-    let flat = scene.map_or(String::new(), |scene| {
-        format!(", for rays with |d| = 1 that meet the plane at {} or more", degrees(scene.grazing))
-    });
-    if share.is_some_and(|share| beta * share >= USELESS) {
-        let useful = scene.map_or(String::new(), |it| useful_scenes::<F>(entry, gate.index, it));
-        lines.push(key(format!(
-            "Nothing useful follows for hits at edges: that is half of the way across the smallest triangles, or \
-             more{flat}.{useful}"
-        )));
-    } else if epsilons.is_some() {
-        let lost = gate.witnesses[2].as_ref().filter(|witness| witness.score > 0.0);
-        let known = lost.map_or(String::new(), |witness| {
-            format!(
-                " A number that is not below 0 is known to be computed as {}.",
-                signed(-witness.score, true)
-            )
-        });
-        let least = signed(-beta, false);
-        lines.push(key(format!("An epsilon below {least} loses no hit at an edge.{known}")));
-    }
-    // How deep inside or far outside, none where that says nothing.
-    let across = |x: f64| match share {
-        Some(share) if x * share >= USELESS => None,
-        Some(share) => Some(format!("{} of the way across the triangle{flat}", above(x * share))),
-        None => Some(format!(
-            "{} / S of the way across the triangle, S being the sum of its three edge values",
-            above(x)
-        )),
-    };
-    if let Some(most) = across(beta) {
-        lines.push(key(format!(
-            "At an epsilon of 0 this gate loses no hit deeper inside, and lets no miss of this domain through \
-             farther outside, than {most}."
-        )));
-    }
-    for (name, value) in epsilons.into_iter().flatten().filter(|(_, value)| *value != 0.0) {
-        let inside = match value + beta {
-            depth if depth < 0.0 => Some("loses no hit".to_owned()),
-            depth => across(depth).map(|most| format!("loses no hit deeper inside than {most}")),
-        };
-        let outside = match beta - value {
-            depth if depth <= 0.0 => Some("lets no miss of this domain through".to_owned()),
-            depth => across(depth).map(|most| {
-                format!("lets no miss of this domain through farther outside than {most}")
-            }),
-        };
-        let does: Vec<String> = [inside, outside].into_iter().flatten().collect();
-        if !does.is_empty() {
-            lines.push(said(format!("e = {name} {}.", does.join("; it "))));
-        }
-    }
-}
-
 /// The statement that follows from the symmetry of the edge values.
 pub fn about_edges(symmetry: Symmetry) -> &'static str {
     match symmetry {
@@ -338,12 +255,12 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
 }
 
 /// A positive number in three digits, not below it.
-fn above(x: f64) -> String {
+pub fn above(x: f64) -> String {
     short(x, true)
 }
 
 /// A positive number in three digits, not above it.
-fn below(x: f64) -> String {
+pub fn below(x: f64) -> String {
     short(x, false)
 }
 

@@ -1,5 +1,6 @@
 //! Everything that is proved of a kernel, and the worst that is known, gate by gate.
 
+use super::depth::Judge;
 use super::gates::{Proof, Quantity, Supposed, Uses};
 use super::permanent::{Relative, relative};
 use super::watertight::{Symmetry, symmetry};
@@ -45,7 +46,7 @@ pub struct GateSummary<F> {
     /// True if what it compares is compared with the epsilon itself; false if with zero, at an epsilon of 0.
     pub is_margin: bool,
     /// The worst inputs known for each goal, in the order of [`GOALS`].
-    pub witnesses: [Option<Witness<F>>; 3],
+    pub witnesses: [Option<Witness<F>>; 2],
 }
 
 /// Inputs, and how bad they are.
@@ -58,7 +59,7 @@ pub struct Witness<F> {
 }
 
 /// The goals of the search, in the order of [`GateSummary::witnesses`].
-pub const GOALS: [Goal; 3] = [Goal::Error, Goal::Zero, Goal::Lost];
+pub const GOALS: [Goal; 2] = [Goal::Error, Goal::Zero];
 
 impl<F> GateSummary<F> {
     /// The bound over the witness.
@@ -98,6 +99,23 @@ pub struct Effort {
     pub seed: u64,
 }
 
+impl Effort {
+    /// The parts of a domain share the evaluations: most of them where most may be wrong.
+    pub(super) fn shared(self, proof: &Proof, quantity: &Quantity) -> Effort {
+        let parts = proof.quantities.iter().filter(|it| it.program == quantity.program);
+        let bound = quantity.error();
+        let share = bound / parts.map(Quantity::error).sum::<f64>().max(bound);
+        Effort { evaluations: (self.evaluations as f64 * share) as u64, ..self }
+    }
+}
+
+impl Quantity {
+    /// Its bound, or 0.
+    fn error(&self) -> f64 {
+        self.bound.as_ref().map_or(0.0, |bound| bound.error.to_f64())
+    }
+}
+
 impl<F: Searched + Scalar> Summary<F> {
     /// Proves and searches, in a domain and where things are divided in each of its parts, if it has some; an error
     /// in one sentence if the kernel has no program.
@@ -135,18 +153,12 @@ impl<F: Searched + Scalar> Summary<F> {
             let relative = forms.and_then(|forms| forms.into_iter().max_by_key(|form| form.factor));
             let is_margin = of_gate().all(|quantity| quantity.is_margin);
             let witnesses = GOALS.map(|goal| {
-                let wanted = goal == Goal::Error || goal == goal_of(gate.role);
+                let wanted = goal == Goal::Error || gate.role == Role::Parallel;
                 let quantities = of_gate().filter(|q| wanted && q.bound.is_ok());
-                let error = |q: &Quantity| q.bound.as_ref().map_or(0.0, |b| b.error.to_f64());
-                let found = quantities.clone().filter_map(|quantity| {
-                    let bound = error(quantity);
-                    // The parts of a domain share the evaluations: most of them where most may be wrong.
-                    let number = (quantity.path, quantity.place);
-                    let parts = quantities.clone().filter(|q| (q.path, q.place) == number);
-                    let share = bound / parts.map(error).sum::<f64>().max(bound);
-                    let evaluations = (effort.evaluations as f64 * share) as u64;
-                    let effort = Effort { evaluations, ..effort };
-                    let found = worst::<F>(&proof, quantity, goal, known, effort)?;
+                let found = quantities.filter_map(|quantity| {
+                    let effort = effort.shared(&proof, quantity);
+                    let found = worst::<F>((&proof, quantity), goal, None, known, effort)?;
+                    let bound = quantity.error();
                     // Both are rounded to floats.
                     if goal == Goal::Error && found.score > bound * (1.0 + 1e-12) {
                         let Witness { score, .. } = found;
@@ -178,19 +190,15 @@ impl<F: Searched + Scalar> Summary<F> {
     }
 }
 
-/// The other goal that a gate's witnesses are searched for.
-fn goal_of(role: Role) -> Goal {
-    if role == Role::Parallel { Goal::Zero } else { Goal::Lost }
-}
-
-fn worst<F: Searched>(
-    proof: &Proof,
-    quantity: &Quantity,
+/// The worst inputs for a number of a proof that are known, or that a search finds.
+pub(super) fn worst<F: Searched>(
+    (proof, quantity): (&Proof, &Quantity),
     goal: Goal,
+    judge: Option<&Judge<F>>,
     known: &[Inputs<F>],
     effort: Effort,
 ) -> Option<Witness<F>> {
-    let mut search = Search::<F>::new(proof, quantity, quantity.domain);
+    let mut search = Search::<F>::new(proof, quantity, quantity.domain).judged(judge);
     let known = scaled(known, &quantity.domain);
     let witness = |inputs: Inputs<F>, score: f64| Witness { inputs, score };
     let from_known = known

@@ -152,7 +152,7 @@ fn accepts_surely(acceptance: &Acceptance, value: impl Fn(Place) -> (bool, i8)) 
 }
 
 /// A number without the signs around it, and whether they make it the negative.
-fn signed(path: &Path, place: Place) -> (bool, Place) {
+pub(super) fn signed(path: &Path, place: Place) -> (bool, Place) {
     match path.operations[place as usize] {
         Operation::Neg(inner) => {
             let (minus, place) = signed(path, inner);

@@ -1,5 +1,6 @@
 //! Witnesses: inputs of a proof's domain on which a number is as wrong as a search (`climb`) can make it.
 
+use super::depth::Judge;
 use super::gates::Quantity;
 use super::measures::Sample;
 use super::run::{Number, cone, run};
@@ -46,8 +47,10 @@ pub enum Goal {
     Error,
     /// The size of the computed number where the exact one is zero.
     Zero,
-    /// How far below zero the computed number is where the exact one is not.
-    Lost,
+    /// How far inside the line passes of a hit that an edge gate refuses, as a share of the longest edge.
+    Missed,
+    /// How far outside it passes of a miss that all gates let through.
+    Hit,
 }
 
 impl Goal {
@@ -56,7 +59,8 @@ impl Goal {
         match self {
             Goal::Error => "error",
             Goal::Zero => "parallel",
-            Goal::Lost => "lost",
+            Goal::Missed => "missed",
+            Goal::Hit => "hit",
         }
     }
 }
@@ -84,6 +88,10 @@ pub struct Search<'a, F> {
     divides: bool,
     pub(super) domain: Domain,
     pub(super) computed: Vec<F>,
+    /// The judge of verdicts, for the goals that are about them.
+    pub(super) judge: Option<&'a Judge<'a, F>>,
+    /// False if the last score is of a verdict that is not yet wrong.
+    pub(super) counts: bool,
 }
 
 impl<'a, F: Searched> Search<'a, F> {
@@ -140,7 +148,14 @@ impl<'a, F: Searched> Search<'a, F> {
             divides: quantity.uses().floor,
             domain,
             computed: Vec::new(),
+            judge: None,
+            counts: true,
         }
+    }
+
+    /// The same for wrong verdicts.
+    pub(super) fn judged(self, judge: Option<&'a Judge<'a, F>>) -> Search<'a, F> {
+        Search { judge, ..self }
     }
 
     /// The score of inputs; none outside the domain or the path.
@@ -181,12 +196,19 @@ impl<'a, F: Searched> Search<'a, F> {
                 return None;
             }
         }
+        if matches!(goal, Goal::Missed | Goal::Hit) {
+            let sample = Sample::of(&inputs.map(F::near));
+            let (judge, is_hit) = (self.judge?, goal == Goal::Hit);
+            let found = judge.score(inputs, is_hit, &self.domain, &sample, F::approximate)?;
+            self.counts = found.1;
+            return Some(found.0);
+        }
         let (exact, computed) = (&near[self.place as usize], computed[self.place as usize]);
         let error = F::approximate(&(exact.clone() - &computed.near()))?;
         match goal {
             Goal::Error => Some(error.abs()),
             Goal::Zero => (F::approximate(exact)? == 0.0).then(|| computed.to_f64().abs()),
-            Goal::Lost => (F::approximate(exact)? >= 0.0).then(|| -computed.to_f64()),
+            Goal::Missed | Goal::Hit => None,
         }
     }
 
@@ -245,7 +267,14 @@ impl<'a, F: Searched> Search<'a, F> {
         match goal {
             Goal::Error => approximate(&(exact.clone() - &number(computed)).abs()),
             Goal::Zero => (compare(exact, &zero)? == Ordering::Equal).then(|| computed.abs()),
-            Goal::Lost => (compare(exact, &zero)? != Ordering::Less).then_some(-computed),
+            Goal::Missed | Goal::Hit => {
+                let sample = Sample::of(&inputs.map(|x| number(x.to_f64())));
+                let is_hit = goal == Goal::Hit;
+                let judge = self.judge?;
+                let (score, counts) =
+                    judge.score(inputs, is_hit, &self.domain, &sample, approximate)?;
+                counts.then_some(score)
+            }
         }
     }
 }

@@ -291,11 +291,13 @@ fn proved(kernel: &str, gate: &str, set: &str, scalar: &str) -> Result<Markup, S
         ["prove", "--kernel", kernel, "--gate", gate, "--epsilon", set, "--scalar", scalar];
     let record: Value = program::json(&arguments)?;
     let part = &record["gates"][0];
-    let sentences = part["statements"].as_array().map_or(&[][..], Vec::as_slice);
+    let verdicts = &record["kernels"][0]["verdicts"];
+    let sentences = [&verdicts["sentences"], &part["statements"]].into_iter();
+    let sentences = sentences.flat_map(|it| it.as_array().map_or(&[][..], Vec::as_slice));
     Ok(html! {
         h4 { (scalar) }
         @if let Some(why) = part["why"].as_str() { p { "No bound: " (why) "." } }
-        ul { @for sentence in sentences.iter().filter_map(Value::as_str) { li { (sentence) } } }
+        ul { @for sentence in sentences.filter_map(Value::as_str) { li { (sentence) } } }
     })
 }
 

@@ -1,14 +1,15 @@
 //! One kernel in one scalar: what is proved of it, as parts of the record.
 
 use super::record::{GatePart, KernelPart, LimitPart, WitnessPart};
+use super::verdicts::{VerdictPart, is_useful};
 use super::witnesses::StoredWitness;
 use crate::arith::Float;
-use crate::audit::{EpsilonText, Observer};
+use crate::audit::{EpsilonChoice, EpsilonText, Observer, Row};
 use crate::cli::progress::Progress;
 use crate::kernel::{Entry, PRESETS, Scalar};
 use crate::prove::{
-    Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Shape, Summary, Symmetry,
-    Triangles, about_edges, statements,
+    Domain, Effort, GOALS, GateSummary, Judged, Published, Scene, Searched, Shape, Summary,
+    Symmetry, Triangles, VERDICTS, about_edges, statements, useful_scenes,
 };
 use crate::report::{ProofPart, ProvedGate};
 use rayon::prelude::*;
@@ -40,6 +41,15 @@ pub enum Epsilons {
 }
 
 impl Epsilons {
+    /// The row of a kernel whose verdicts are proved: with the epsilons of its source, where nothing else is given.
+    fn row(&self, entry: &'static Entry) -> Option<Row> {
+        let choice = match self {
+            Epsilons::Given(all) => EpsilonChoice::Given(all.clone()),
+            _ => EpsilonChoice::Source,
+        };
+        choice.rows(&[entry], None).ok()?.into_iter().next()
+    }
+
     /// Those of a gate, with their names.
     fn of<F: Float>(&self, entry: &Entry, gate: &GateSummary<F>) -> Vec<Published> {
         match self {
@@ -84,14 +94,19 @@ impl Parts {
 
 impl Job<'_> {
     /// Proves and searches for each kernel in each chosen scalar.
-    pub fn run_all(&self, entries: &[&Entry], scalars: [bool; 2], quiet: bool) -> Vec<Parts> {
-        let tasks: Vec<(&Entry, bool)> = entries
+    pub fn run_all(
+        &self,
+        entries: &[&'static Entry],
+        scalars: [bool; 2],
+        quiet: bool,
+    ) -> Vec<Parts> {
+        let tasks: Vec<(&'static Entry, bool)> = entries
             .iter()
             .flat_map(|entry| [(*entry, false), (*entry, true)])
             .filter(|(_, is_f64)| scalars[usize::from(*is_f64)])
             .collect();
         let progress = Progress::new(tasks.len() as u64, "proofs", quiet);
-        let run = |(entry, is_f64): &(&Entry, bool)| {
+        let run = |(entry, is_f64): &(&'static Entry, bool)| {
             let parts = match is_f64 {
                 false => self.run::<f32>(entry),
                 true => self.run::<f64>(entry),
@@ -105,7 +120,7 @@ impl Job<'_> {
     }
 
     /// Proves and searches.
-    pub fn run<F: Searched + Scalar>(&self, entry: &Entry) -> Parts {
+    pub fn run<F: Searched + Scalar>(&self, entry: &'static Entry) -> Parts {
         let name = entry.info.name;
         // A search begins at the witnesses of the other scalar too.
         let is_scalar = |w: &StoredWitness| w.scalar == F::NAME || 0 < self.effort.evaluations;
@@ -120,10 +135,24 @@ impl Job<'_> {
                 return Parts { note, ..Parts::default() };
             }
         };
-        if let Some(contradiction) = &summary.contradiction {
+        let row = self.epsilons.row(entry);
+        let judged = row.as_ref().and_then(|row| {
+            let whole = [self.domain];
+            let parts = if self.parts.is_empty() { &whole[..] } else { &self.parts };
+            let effort = (&known[..], self.effort);
+            Judged::<F>::new(entry, &summary, &row.epsilons::<F>(), parts, effort)
+        });
+        let of_verdicts = judged.as_ref().and_then(|judged| judged.contradiction.as_ref());
+        if let Some(contradiction) = summary.contradiction.as_ref().or(of_verdicts) {
             let contradiction = Some(format!("self-check: {name}, {}: {contradiction}", F::NAME));
             return Parts { contradiction, ..Parts::default() };
         }
+        let verdicts = judged.as_ref().zip(row.as_ref()).map(|(judged, row)| {
+            let useful = || useful_scenes::<F>(entry, self.scene.as_ref()?, &row.epsilons::<F>());
+            let is_useless = judged.verdicts.misses.is_ok() && !is_useful(&judged.verdicts.misses);
+            let useful = if is_useless { useful() } else { None };
+            VerdictPart::new(judged, row, useful.unwrap_or_default())
+        });
         let unit = summary.format.unit().to_f64();
         let shapes = &self.shapes;
         let triangles = self.scene.as_ref().map(|scene| Triangles { scene, shapes });
@@ -149,26 +178,30 @@ impl Job<'_> {
                 supposes: supposes(gate),
                 limits: gate.limits.iter().map(LimitPart::new).collect(),
                 parallel_passes: witness(1),
-                computed_below_zero: witness(2),
                 statements: statements(entry, &summary, gate, triangles, &published),
             }
         };
-        let witnesses = summary.gates.iter().flat_map(|gate| {
-            gate.witnesses.iter().zip(GOALS).filter_map(move |(witness, goal)| {
-                let witness = witness.filter(|witness| witness.score > 0.0)?;
-                Some(StoredWitness {
-                    kernel: name.to_owned(),
-                    scalar: F::NAME.to_owned(),
-                    gate: gate.gate.name.to_owned(),
-                    goal: goal.name().to_owned(),
-                    inputs: witness.inputs.iter().map(|x| x.hex()).collect(),
-                    units: witness.score / unit,
-                })
+        let of_gates = summary.gates.iter().flat_map(|gate| {
+            let witnesses = gate.witnesses.iter().zip(GOALS);
+            witnesses.map(move |(witness, goal)| (gate.gate.name, witness, goal))
+        });
+        let of_verdicts = judged.iter().flat_map(|judged| judged.known.iter().zip(VERDICTS));
+        let of_verdicts = of_verdicts.map(|(witness, goal)| ("edge", witness, goal));
+        let witnesses = of_gates.chain(of_verdicts).filter_map(|(gate, witness, goal)| {
+            let witness = witness.filter(|witness| witness.score > 0.0)?;
+            Some(StoredWitness {
+                kernel: name.to_owned(),
+                scalar: F::NAME.to_owned(),
+                gate: gate.to_owned(),
+                goal: goal.name().to_owned(),
+                inputs: witness.inputs.iter().map(|x| x.hex()).collect(),
+                units: witness.score / unit,
             })
         });
         Parts {
             witnesses: witnesses.collect(),
             kernel: Some(KernelPart {
+                verdicts,
                 kernel: name.to_owned(),
                 scalar: F::NAME,
                 paths: summary.proof.paths.len(),

@@ -14,7 +14,17 @@ impl Paged for Report {
 fn of_all(report: &Report) -> Page {
     let record = &report.record;
     let mut blocks = vec![Block::Text(domain(report))];
+    let mut details = Vec::new();
     for scalar in ["f32", "f64"] {
+        let kernels = record.kernels.iter().filter(|kernel| kernel.scalar == scalar);
+        let verdicts: Vec<Row> = kernels
+            .filter_map(|kernel| Some(kernel.verdicts.as_ref()?.row(&kernel.kernel)))
+            .collect();
+        if !verdicts.is_empty() {
+            let heads =
+                [scalar, "miss inside", "known", "factor", "hit outside", "known", "factor"];
+            blocks.push(Block::Table(Table::new(heads.map(Head::of).to_vec(), verdicts)));
+        }
         let gates: Vec<&GatePart> =
             record.gates.iter().filter(|gate| gate.scalar == scalar).collect();
         if gates.is_empty() {
@@ -30,8 +40,12 @@ fn of_all(report: &Report) -> Page {
             let why = gate.why.as_ref().map(|why| format!("no bound: {why}"));
             Row { below: why.into_iter().collect(), ..Row::new(&gate.kernel, cells) }
         };
-        blocks.push(Block::Table(Table::new(heads, gates.iter().map(row).collect())));
+        details.push(Block::Table(Table::new(heads, gates.iter().map(row).collect())));
     }
+    blocks.push(Block::Text(
+        "In longest edges of the triangle; e as the sources have it.".to_owned(),
+    ));
+    blocks.push(Block::Details("How wrong each gate's numbers can be".to_owned(), details));
     let watertight = record.kernels.iter().filter(|kernel| kernel.watertight);
     let watertight: Vec<String> =
         watertight.map(|kernel| format!("{} ({})", kernel.kernel, kernel.scalar)).collect();
@@ -43,7 +57,7 @@ fn of_all(report: &Report) -> Page {
     }
     let line = "hairline prove --kernel NAME".to_owned();
     blocks.push(Block::Commands("next", vec![Command { line, what: "what follows for epsilons" }]));
-    let title = "No float of the domain makes a gate more wrong than its bound; the witness is the worst known.";
+    let title = "No float of the domain makes a verdict wrong farther from the edges than this";
     Page { command: "prove", title: title.to_owned(), tone: Tone::Plain, blocks }
 }
 
@@ -56,11 +70,8 @@ fn of_one(report: &Report) -> Page {
         let gates: Vec<&GatePart> =
             record.gates.iter().filter(|gate| gate.scalar == kernel.scalar).collect();
         blocks.push(Block::Heading(format!("{} in {}", kernel.kernel, kernel.scalar)));
-        let key = |gate: &&GatePart| -> Vec<String> {
-            let all = gate.statements.iter().filter(|statement| statement.is_key);
-            all.map(|statement| format!("{}: {}", gate.gate, statement.text)).collect()
-        };
-        let mut notes: Vec<String> = gates.iter().flat_map(key).collect();
+        let sentences = kernel.verdicts.iter().flat_map(|it| &it.sentences);
+        let mut notes: Vec<String> = sentences.cloned().collect();
         notes.push(match &kernel.leak {
             Some(leak) => format!(
                 "edges: Not watertight: at an edge epsilon of 0 both triangles of an edge refuse the ray of {}, which crosses it.",
@@ -71,7 +82,7 @@ fn of_one(report: &Report) -> Page {
         blocks.push(Block::Notes(notes));
         blocks.push(Block::Table(table(kernel, &gates)));
         let all = gates.iter().flat_map(|gate| {
-            let texts = gate.statements.iter().map(|statement| statement.text.clone());
+            let texts = gate.statements.iter().cloned();
             let title = format!("{}: {}", gate.gate, gate.compares);
             [Block::Text(String::new()), Block::Text(title), Block::Notes(texts.collect())]
         });
@@ -85,6 +96,13 @@ fn of_one(report: &Report) -> Page {
     };
     let line = format!("hairline epsilon --kernel {name} {}{scalar}", report.rays);
     let mut commands = vec![Command { line, what: "which epsilons cost least" }];
+    for verdicts in record.kernels.iter().filter_map(|kernel| kernel.verdicts.as_ref()) {
+        let known = [(&verdicts.misses, "a false miss"), (&verdicts.hits, "a false hit")];
+        commands.extend(known.into_iter().filter_map(|(depth, what)| {
+            let line = depth.known.as_ref()?.command.clone();
+            Some(Command { line, what })
+        }));
+    }
     commands.extend(record.kernels.iter().filter_map(|kernel| {
         let line = kernel.leak.as_ref()?.command.clone();
         Some(Command { line, what: "leaks at an epsilon of 0" })

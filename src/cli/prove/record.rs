@@ -1,8 +1,9 @@
 //! The record of `hairline prove`: what `--format json` writes, and what the text is made from.
 
 use super::leaks::Leak;
-use crate::prove::{Domain, Statement, Supposed};
-use serde::{Serialize, Serializer};
+use super::verdicts::VerdictPart;
+use crate::prove::{Domain, Supposed};
+use serde::Serialize;
 
 /// The record of a run, with what a page says beside it.
 pub struct Report {
@@ -59,14 +60,7 @@ pub struct GatePart {
     pub limits: Vec<LimitPart>,
     /// The largest computed number of a ray that is exactly parallel, of those known.
     pub parallel_passes: Option<WitnessPart>,
-    /// A number that is not below zero: how far below it is computed, of those known.
-    pub computed_below_zero: Option<WitnessPart>,
-    #[serde(serialize_with = "texts")]
-    pub statements: Vec<Statement>,
-}
-
-fn texts<S: Serializer>(statements: &[Statement], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(statements.iter().map(|statement| &statement.text))
+    pub statements: Vec<String>,
 }
 
 /// At least or at most so large is a number that a kernel divides by, or gets by dividing.
@@ -92,6 +86,8 @@ pub struct KernelPart {
     pub kernel: String,
     pub scalar: &'static str,
     pub paths: usize,
+    /// None of a kernel without epsilons.
+    pub verdicts: Option<VerdictPart>,
     pub edges: &'static str,
     pub watertight: bool,
     /// A ray that both triangles of an edge refuse, if one was found; looked for where one kernel is chosen.

@@ -10,6 +10,7 @@ mod rows;
 mod sign;
 mod tiny;
 mod unit;
+mod verdict;
 mod watertight;
 
 use crate::arith::recorded::{Place, Recorded, record};

@@ -1,0 +1,138 @@
+//! How wrong a verdict is: how far from the triangle's boundary the line meets its plane.
+
+use super::Domain;
+use super::gates::Uses;
+use super::meaning::Scale;
+use super::measures::Sample;
+use crate::arith::{Float, Real, Triple, Vector};
+use crate::case::{Case, Draw};
+use crate::contract::Sides;
+use crate::kernel::gate::refused_by;
+use crate::kernel::{Gated, Role};
+
+/// A case by its numbers, with the default interval.
+pub fn case_of<F: Float>(inputs: &[F; 17]) -> Case<F> {
+    let mut inputs = *inputs;
+    (inputs[15], inputs[16]) = (F::zero(), F::infinity());
+    Case::from_bits(&inputs.map(|x| x.to_bits()))
+}
+
+/// A kernel at some epsilons, whose verdicts are looked at in a domain.
+pub struct Judge<'a, F> {
+    pub(super) gated: &'a dyn Gated<F>,
+    pub(super) epsilons: &'a [F],
+    /// The bounds of inputs that the edge gates suppose.
+    pub(super) uses: Uses,
+    /// What the edge gates multiply barycentric coordinates by.
+    pub(super) scales: Vec<Scale>,
+}
+
+impl<F> std::fmt::Debug for Judge<'_, F> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Judge").field("uses", &self.uses).finish_non_exhaustive()
+    }
+}
+
+impl<F: Float> Judge<'_, F> {
+    /// On a case of the domain whose t is positive, how wrong the verdict is, and true if it is of the wanted kind. Where it is
+    /// not, the score counts what the verdict lacks of it twice, so that a search finds large errors first.
+    pub(super) fn score<R: Real>(
+        &self,
+        inputs: &[F; 17],
+        is_hit: bool,
+        domain: &Domain,
+        sample: &Sample<R>,
+        float: impl Fn(&R) -> Option<f64>,
+    ) -> Option<(f64, bool)> {
+        let gates = self.gated.info().gates;
+        let is_front = float(&sample.volume())? < 0.0;
+        let is_asked = is_front || self.gated.info().contract.sides == Sides::Both;
+        let measures = domain.measures.as_ref();
+        let is_of_scene = measures.is_none_or(|it| it.hold(&Sample::of(&inputs.map(F::to_f64))));
+        let is_ahead = 0.0 < float(&sample.time())?;
+        if !(is_asked && is_ahead && is_of_scene && self.holds(domain, sample, &float)?) {
+            return None;
+        }
+        let margins = self.gated.thresholds(&case_of(inputs));
+        let refused = refused_by(&self.gated.measure(&case_of(inputs)).margins, self.epsilons);
+        if refused.is_some_and(|gate| gates[gate].role != Role::Edge) {
+            return None;
+        }
+        let is_edge = |gate: &usize| gates[*gate].role == Role::Edge;
+        let slack = |gate: usize| margins[gate].to_f64() - self.epsilons[gate].to_f64();
+        let slack = (0..gates.len()).filter(is_edge).map(slack).fold(f64::INFINITY, f64::min);
+        let scale = self.scale(&Sample::of(&inputs.map(F::to_f64)));
+        let depth = depth(sample, float)?;
+        let score = if is_hit { -depth } else { depth };
+        let is_wanted = refused.is_none() == is_hit;
+        Some(if is_wanted { (score, true) } else { (score - 2.0 * slack.abs() / scale, false) })
+    }
+
+    /// What the edge gates multiply barycentric coordinates by.
+    pub(super) fn scale(&self, sample: &Sample<f64>) -> f64 {
+        self.scales.iter().map(|scale| scale.of(sample).abs()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Moves a ray so that it passes near an edge, or near a vertex.
+    pub(super) fn move_to_boundary(&self, inputs: &mut [F; 17], draw: &mut Draw) {
+        let sample = Sample::of(&inputs.map(F::to_f64));
+        let to = draw.below(3);
+        let from = [(to + 1) % 3, (to + 2) % 3];
+        let is_vertex = draw.below(4) == 0;
+        for vertex in from.into_iter().skip(usize::from(!is_vertex && draw.coin())) {
+            let by = sample.vertices[to].minus(&sample.vertices[vertex]);
+            for axis in 0..3 {
+                let x = inputs[axis].to_f64() + sample.weight(vertex) * by.at(axis);
+                inputs[axis] = F::from_f64(x);
+            }
+            if !is_vertex {
+                break;
+            }
+        }
+    }
+
+    fn holds<R: Real>(
+        &self,
+        domain: &Domain,
+        sample: &Sample<R>,
+        float: &impl Fn(&R) -> Option<f64>,
+    ) -> Option<bool> {
+        let Sample { origin, direction, vertices, edges, .. } = sample;
+        let reach = vertices.each_ref().map(|vertex| vertex.minus(origin));
+        let boxes: [(bool, &[Triple<R>], _); 5] = [
+            (self.uses.edge, edges, domain.edge),
+            (self.uses.reach, &reach, domain.reach),
+            (self.uses.world, vertices, domain.world),
+            (self.uses.world, std::slice::from_ref(origin), domain.world),
+            (true, std::slice::from_ref(direction), domain.direction),
+        ];
+        for (_, vectors, most) in boxes.into_iter().filter(|(is_used, ..)| *is_used) {
+            for vector in vectors {
+                for axis in 0..3 {
+                    if most.to_f64() < float(&vector.at(axis))?.abs() {
+                        return Some(false);
+                    }
+                }
+            }
+        }
+        for scale in &self.scales {
+            if float(&scale.of(sample))?.abs() < scale.least(domain) {
+                return Some(false);
+            }
+        }
+        Some(true)
+    }
+}
+
+/// How far inside the nearest edge's line the ray's line meets the plane, over the longest edge; negative outside. None where a
+/// number is not known well enough.
+fn depth<R: Real>(sample: &Sample<R>, float: impl Fn(&R) -> Option<f64>) -> Option<f64> {
+    let length = |v: &Triple<R>| Some(v.dot(v)).and_then(|square| float(&square)).map(f64::sqrt);
+    let [ab, ac, bc] = &sample.edges;
+    let (edges, normal) = ([length(bc)?, length(ac)?, length(ab)?], length(&sample.normal)?);
+    let mut least = f64::INFINITY;
+    for (vertex, edge) in edges.into_iter().enumerate() {
+        least = least.min(float(&sample.weight(vertex))? * normal / edge);
+    }
+    Some(least / edges.into_iter().fold(0.0, f64::max))
+}

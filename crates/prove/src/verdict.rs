@@ -1,0 +1,478 @@
+//! From bounds of numbers to bounds of verdicts: how far from the boundary of its triangle a ray that is judged wrongly can
+//! pass. docs/guide/proof.md has the theorem.
+//!
+//! An edge gate compares λ·s with e: λ is a barycentric coordinate, s a scale that is at least σ. Its error is at most β. So it
+//! refuses only where λ < (e + β)/σ, and accepts only where λ ≥ -(β - e)/σ. A height is no longer than the longest edge.
+
+use super::gates::Quantity;
+use super::meaning::{Meaning, Meanings, Scale, What};
+use super::watertight::signed;
+use super::{Domain, Lemma, Proof, Rule, Source, Step};
+use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
+use crate::contract::Sides;
+use crate::kernel::{Acceptance, Compared, Entry, Path, Refuse, Role};
+use std::collections::HashSet;
+
+/// At a share of half a triangle's longest edge and more a bound says nothing.
+pub const USELESS: f64 = 0.5;
+
+/// How far from its triangle's boundary a wrong verdict can be, or why nothing is known.
+pub type Depth = Result<Farthest, String>;
+
+/// A distance between the line of a triangle's edge and where the ray's line meets the plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Farthest {
+    /// As a share of the triangle's longest edge.
+    pub share: f64,
+    /// Of a false hit, the distance from the triangle itself, which is more beyond a vertex.
+    pub apart: f64,
+    /// In a scene, the share as a length.
+    pub length: Option<f64>,
+}
+
+/// The bounds of a kernel's verdicts at some epsilons.
+#[derive(Clone, Debug)]
+pub struct Verdicts {
+    /// Hits that the edge gates refuse: inside.
+    pub misses: Depth,
+    /// Misses that they let through: outside.
+    pub hits: Depth,
+    /// What the gates do that are not about edges.
+    pub others: Vec<Other>,
+    /// What the edge gates multiply barycentric coordinates by, and the least that it is.
+    pub scales: Vec<(Scale, f64)>,
+}
+
+/// A gate that is not about edges, and where it may decide wrongly.
+#[derive(Clone, Debug)]
+pub struct Other {
+    /// The gate.
+    pub gate: usize,
+    /// Where.
+    pub may: May,
+}
+
+/// Where a gate that is not about edges may decide wrongly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum May {
+    /// It never refuses a hit of the domain.
+    Never,
+    /// It may refuse a hit where the size of a number of this name is below this.
+    Refuse(&'static str, f64),
+    /// It may refuse a hit whose t is nearer to an end than the first, and let one through that is farther beyond than the second.
+    Ends(f64, f64),
+    /// Nothing is known.
+    Unknown,
+}
+
+/// A number on one side of what a gate compares it with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct Fact {
+    program: usize,
+    what: What,
+    scale: Scale,
+    /// True if it says that what times scale is large enough; false if that its negative is.
+    is_plus: bool,
+    is_strict: bool,
+}
+
+/// An edge gate: each way to be accepted, and for either sign of the scale the numbers of which one is too small where it
+/// refuses; none if it may refuse although all are large.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Form {
+    gate: usize,
+    ways: Vec<Vec<Fact>>,
+    refuses: [Option<Vec<Fact>>; 2],
+}
+
+/// The edge gates of a path, and true if nothing but gates refuses there.
+type Forms = (Vec<Form>, bool);
+
+/// The verdicts of a kernel at these epsilons, from the bounds of a domain or of its parts. For hits the exact weights may be
+/// slightly above 1: `wide` has the bounds where they are.
+pub fn verdicts(
+    entry: &Entry,
+    (proof, wide): (&Proof, &Proof),
+    epsilons: &[f64],
+    parts: &[Domain],
+) -> Verdicts {
+    let mut meanings = Meanings::new(proof);
+    let others = others(entry, proof, &mut meanings, epsilons, parts);
+    let is_edge = |gate: usize| entry.info.gates[gate].role == Role::Edge;
+    let mut forms: HashSet<Forms> = HashSet::new();
+    for (index, path) in proof.paths.iter().enumerate() {
+        let gates = path.compared.iter().filter(|compared| is_edge(compared.gate));
+        let forms_of = |compared: &Compared| {
+            let name = entry.info.gates[compared.gate].name;
+            if !compared.is_margin() && epsilons[compared.gate] != 0.0 {
+                return Err(format!("gate '{name}' rounds with its epsilon"));
+            }
+            let mut reader = Reader { proof, index, path, meanings: &mut meanings };
+            reader.form(compared).ok_or(format!("what gate '{name}' compares is not read"))
+        };
+        match gates.map(forms_of).collect::<Result<Vec<Form>, String>>() {
+            Ok(found) => forms.insert((found, path.hits)),
+            Err(why) => {
+                let (misses, hits) = (Err(why.clone()), Err(why));
+                return Verdicts { misses, hits, others, scales: Vec::new() };
+            }
+        };
+    }
+    let farthest = |share_of: &dyn Fn(&Domain) -> Result<[f64; 2], String>| {
+        let mut most = Farthest::default();
+        for domain in parts {
+            let [share, apart] = share_of(domain)?;
+            (most.share, most.apart) = (most.share.max(share), most.apart.max(apart));
+            let longest = domain.measures.map(|it| it.longest.to_f64());
+            most.length = longest.map(|edge| (share * edge).max(most.length.unwrap_or(0.0)));
+        }
+        Ok(most)
+    };
+    let sides = entry.info.contract.sides;
+    let misses = farthest(&|domain| {
+        let bounds = Bounds { proof, domain, epsilons, is_wide: false };
+        let mut shares = forms.iter().map(|forms| bounds.inside(forms, sides));
+        shares.try_fold([0.0; 2], |most, share| Ok(larger(most, [share?; 2])))
+    });
+    let is_wide = supposes_weights(entry, proof);
+    let is_edge = |quantity: &&Quantity| entry.info.gates[quantity.gate].role == Role::Edge;
+    let mut lemmas = wide.quantities.iter().filter(is_edge).flat_map(|it| &it.lemmas);
+    let is_linear = !is_wide || lemmas.all(is_linear);
+    let hits = farthest(&|domain| {
+        if !is_linear {
+            return Err("barycentric coordinates are multiplied with each other".to_owned());
+        }
+        let bounds = Bounds { proof: wide, domain, epsilons, is_wide };
+        let mut shares = forms.iter().map(|forms| bounds.outside(&forms.0));
+        shares.try_fold([0.0; 2], |most, share| Ok(larger(most, share?)))
+    });
+    let facts = forms.iter().flat_map(|(forms, _)| forms).flat_map(|form| form.ways.concat());
+    let scales: HashSet<Scale> = facts.map(|fact| fact.scale).collect();
+    let least = |scale: Scale| {
+        let least = parts.iter().map(|domain| scale.least(domain));
+        (scale, least.fold(f64::INFINITY, f64::min))
+    };
+    let mut scales: Vec<(Scale, f64)> = scales.into_iter().map(least).collect();
+    scales.sort_by_key(|(scale, _)| *scale);
+    Verdicts { misses, hits, others, scales }
+}
+
+/// True if no step of a lemma multiplies two numbers that depend on quotients: then its error grows no faster than they do.
+fn is_linear(lemma: &Lemma) -> bool {
+    let mut depends: Vec<bool> = Vec::new();
+    for step in &lemma.formula.steps {
+        let of = |step: &usize| depends[*step];
+        let is_product = |a: &usize, b: &usize| of(a) && of(b);
+        let is_cut = |(v, _): &(usize, i8)| !matches!(lemma.formula.sources[*v], Source::Leaf(_));
+        let (depends_too, is_square) = match step {
+            Step::Variables(sum) => (sum.iter().any(is_cut), false),
+            Step::Number(_) => (false, false),
+            Step::Neg(a) => (of(a), false),
+            Step::Add(a, b) | Step::Sub(a, b) => (of(a) || of(b), false),
+            Step::Mul(a, b) => (of(a) || of(b), is_product(a, b)),
+            Step::Fma(a, b, c) => (of(a) || of(b) || of(c), is_product(a, b)),
+            Step::Minor(a, b, c, d) => {
+                ([a, b, c, d].into_iter().any(of), is_product(a, b) || is_product(c, d))
+            }
+        };
+        if is_square {
+            return false;
+        }
+        depends.push(depends_too);
+    }
+    true
+}
+
+fn larger([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+    [a.max(c), b.max(d)]
+}
+
+/// True if a program divides to get a barycentric coordinate that its proof supposes to be at most 1.
+pub fn supposes_weights(entry: &Entry, proof: &Proof) -> bool {
+    let mut meanings = Meanings::new(proof);
+    let is_edge = |quantity: &&Quantity| entry.info.gates[quantity.gate].role == Role::Edge;
+    proof.quantities.iter().filter(is_edge).any(|quantity| {
+        quantity.lemmas.iter().filter(|lemma| matches!(lemma.rule, Rule::Quotient { .. })).any(
+            |lemma| {
+                let meaning = meanings.of(quantity.path, lemma.place);
+                meaning.is_some_and(|it| matches!(it.what, What::Weight(_) | What::Rest(_)))
+            },
+        )
+    })
+}
+
+/// Reads what the gates of one path compare.
+struct Reader<'a, 'b> {
+    proof: &'a Proof,
+    index: usize,
+    path: &'a Path,
+    meanings: &'b mut Meanings<'a>,
+}
+
+impl Reader<'_, '_> {
+    fn form(&mut self, compared: &Compared) -> Option<Form> {
+        let gate = compared.gate;
+        let (ways, refuses) = match &compared.accepts {
+            Acceptance::Fixed => return None,
+            Acceptance::Clauses(refuse, clauses) => {
+                let is_strict = matches!(refuse, Refuse::AtMost | Refuse::UnlessAbove);
+                let clause = |places: &Vec<Place>| {
+                    let facts = places.iter().map(|place| self.fact(gate, *place, is_strict));
+                    facts.collect::<Option<Vec<Fact>>>()
+                };
+                let ways = clauses.iter().map(clause).collect::<Option<Vec<_>>>()?;
+                let refuses = [true, false].map(|side| {
+                    ways.iter().find(|way| way.iter().all(|fact| fact.is_side(side))).cloned()
+                });
+                (ways, refuses)
+            }
+            Acceptance::Rounded(outcomes) => {
+                let facts = |outcome: &Outcome| {
+                    let facts = outcome.answers.iter().map(|answer| self.facts(gate, *answer));
+                    Some((outcome.accepts, facts.collect::<Option<Vec<_>>>()?.concat()))
+                };
+                let all = outcomes.iter().map(facts).collect::<Option<Vec<_>>>()?;
+                let ways = |accepts: bool| {
+                    let ways = all.iter().filter(move |(it, _)| *it == accepts);
+                    ways.map(|(_, facts)| facts.clone())
+                };
+                let refuses = [true, false].map(|side| {
+                    // Each refusal takes a number that is not on this side.
+                    let against = |way: Vec<Fact>| way.into_iter().find(|it| !it.is_side(side));
+                    let against: Option<Vec<Fact>> = ways(false).map(against).collect();
+                    Some(against?.into_iter().map(Fact::negative).collect())
+                });
+                (ways(true).collect(), refuses)
+            }
+        };
+        Some(Form { gate, ways, refuses })
+    }
+
+    /// A number that is large enough.
+    fn fact(&mut self, gate: usize, place: Place, is_strict: bool) -> Option<Fact> {
+        let (minus, place) = signed(self.path, place);
+        let program = *self.proof.programs.get(&(gate, self.index, place))?;
+        let Meaning { what, scale, is_minus } = self.meanings.of(self.index, place)?;
+        let is_weight = matches!(what, What::Weight(_) | What::Rest(_));
+        is_weight.then_some(Fact { program, what, scale, is_plus: minus == is_minus, is_strict })
+    }
+
+    /// The facts that an answer to a comparison with 0 is.
+    fn facts(
+        &mut self,
+        gate: usize,
+        (comparison, answer): (Comparison, bool),
+    ) -> Option<Vec<Fact>> {
+        let is_zero = |place: Place| {
+            self.path.operations[signed(self.path, place).1 as usize] == Operation::Number(0)
+        };
+        // x >= 0 or x > 0 where it is large.
+        let (place, is_large, is_strict) = match (comparison, answer) {
+            (Comparison::Less(a, b), _) if is_zero(a) => (b, answer, answer),
+            (Comparison::Less(a, b), _) if is_zero(b) => (a, !answer, answer),
+            (Comparison::AtMost(a, b), _) if is_zero(a) => (b, answer, !answer),
+            (Comparison::AtMost(a, b), _) if is_zero(b) => (a, !answer, !answer),
+            (Comparison::Negative(a), _) => (a, !answer, false),
+            _ => return None,
+        };
+        if is_zero(place) {
+            return Some(Vec::new());
+        }
+        let fact = self.fact(gate, place, is_strict)?;
+        Some(vec![if is_large { fact } else { fact.negative() }])
+    }
+}
+
+impl Fact {
+    fn negative(self) -> Fact {
+        Fact { is_plus: !self.is_plus, ..self }
+    }
+
+    /// True if it says that λ is large, where the scale is positive, or negative.
+    fn is_side(&self, is_positive: bool) -> bool {
+        self.is_plus == is_positive
+    }
+}
+
+/// The bounds of numbers in one domain, and the epsilons.
+struct Bounds<'a> {
+    proof: &'a Proof,
+    domain: &'a Domain,
+    epsilons: &'a [f64],
+    /// True if the proof supposes that no weight is above [`WIDE`].
+    is_wide: bool,
+}
+
+/// Exact weights up to this are proved, in the wide domain; beyond they are done in steps of two.
+const WIDE: f64 = 1.0 + 1.0 / 512.0;
+
+impl Bounds<'_> {
+    /// The error of a number over the least size of its scale.
+    fn share(&self, fact: &Fact) -> Result<f64, String> {
+        let error = error(self.proof, fact.program, self.domain)?;
+        Ok(error / fact.scale.least(self.domain))
+    }
+
+    fn epsilon(&self, gate: usize, fact: &Fact) -> f64 {
+        self.epsilons[gate] / fact.scale.least(self.domain)
+    }
+
+    /// The farthest inside that a gate of a path refuses, on the sides that the contract has.
+    fn inside(&self, (forms, hits): &Forms, sides: Sides) -> Result<f64, String> {
+        if !hits {
+            return Err("something refuses that is no gate".to_owned());
+        }
+        let facts = || forms.iter().flat_map(|form| form.ways.concat());
+        let has_sign = facts().any(|fact| fact.scale.has_sign());
+        let is_turned = facts().any(|fact| matches!(fact.scale, Scale::Over(_)));
+        let wanted: &[usize] = match (has_sign, sides) {
+            (false, _) => &[0],
+            (true, Sides::Both) => &[0, 1],
+            // Met from the front, N·d is negative.
+            (true, _) if !is_turned => &[1],
+            (true, _) => &[0, 1],
+        };
+        let mut most: f64 = 0.0;
+        for side in wanted {
+            for Form { gate, refuses, .. } in forms {
+                let refuses = refuses[*side].as_ref();
+                for fact in refuses.ok_or("its edge gates may refuse any hit of one side")? {
+                    let share = self.epsilon(*gate, fact) + self.share(fact)?;
+                    // If no weight is below δ, 1 less one of them is not below 2δ.
+                    let is_rest = matches!(fact.what, What::Rest(_));
+                    most = most.max(if is_rest { share / 2.0 } else { share });
+                }
+            }
+        }
+        Ok(most)
+    }
+
+    /// The farthest outside an edge, and from the triangle, that a path's gates let through.
+    fn outside(&self, forms: &[Form]) -> Result<[f64; 2], String> {
+        let ways = forms.iter().fold(vec![Vec::new()], |all: Vec<Vec<(usize, Fact)>>, form| {
+            let more = |way: &Vec<(usize, Fact)>, facts: &Vec<Fact>| {
+                let facts = facts.iter().map(|fact| (form.gate, *fact));
+                way.iter().copied().chain(facts).collect()
+            };
+            all.iter().flat_map(|way| form.ways.iter().map(move |facts| more(way, facts))).collect()
+        });
+        let mut most = [0.0; 2];
+        for way in &ways {
+            for side in [true, false] {
+                most = larger(most, self.outside_on(way, side)?);
+            }
+        }
+        Ok(most)
+    }
+
+    /// The same of one way to be accepted, where the scale is positive or negative.
+    fn outside_on(&self, way: &[(usize, Fact)], side: bool) -> Result<[f64; 2], String> {
+        let is_impossible = way.iter().any(|(gate, x)| {
+            way.iter().any(|(_, y)| {
+                let is_negative =
+                    (x.program, x.what) == (y.program, y.what) && x.is_plus != y.is_plus;
+                let e = self.epsilons[*gate];
+                is_negative && (e > 0.0 || e == 0.0 && (x.is_strict || y.is_strict))
+            })
+        });
+        let has_sign = way.iter().any(|(_, fact)| fact.scale.has_sign());
+        if is_impossible || !has_sign && !side {
+            return Ok([0.0; 2]);
+        }
+        // Of each weight the least that is known, and its error: on this side, or on the other one.
+        let known = |is_side: bool| -> Result<Option<[(f64, f64); 3]>, String> {
+            let mut all = [None; 3];
+            for (gate, fact) in way.iter().filter(|(_, fact)| fact.is_side(side) == is_side) {
+                if let What::Weight(vertex) = fact.what {
+                    all[vertex] = Some((self.epsilon(*gate, fact), self.share(fact)?));
+                }
+            }
+            let [Some(a), Some(b), Some(c)] = all else { return Ok(None) };
+            Ok(Some([a, b, c]))
+        };
+        let at = |weights: &[(f64, f64); 3], times: f64| {
+            weights.map(|(epsilon, error)| (times * error - epsilon).max(0.0))
+        };
+        let Some(weights) = known(true)? else {
+            // All weights are small, and their sum is 1.
+            let is_none = known(false)?.is_some_and(|it| at(&it, 1.0).iter().sum::<f64>() < 1.0);
+            return if is_none {
+                Ok([0.0; 2])
+            } else {
+                Err("its edge gates accept without all three edges".to_owned())
+            };
+        };
+        // Where a weight is above 1 by something, another one is below 0 by half of that.
+        let mut most = [0.0; 2];
+        let (mut times, mut least) = (1.0, 0.0);
+        loop {
+            let outside = at(&weights, times);
+            let largest = outside.into_iter().fold(0.0, f64::max);
+            if 1.0 < times && largest < least {
+                return Ok(most);
+            }
+            // Near a vertex two weights may be below 0.
+            let smallest = outside.into_iter().fold(f64::INFINITY, f64::min);
+            most = larger(most, [largest, outside.iter().sum::<f64>() - smallest]);
+            if !self.is_wide {
+                return Ok(most);
+            }
+            if 0.5 < largest {
+                return Err("its numbers are too far off for any miss to be refused".to_owned());
+            }
+            least = (times * WIDE - 1.0) / 2.0;
+            times *= 2.0;
+        }
+    }
+}
+
+/// The bound of a program's error in a domain.
+fn error(proof: &Proof, program: usize, domain: &Domain) -> Result<f64, String> {
+    let mut of_program = proof.quantities.iter().filter(|it| it.program == program).peekable();
+    let first = of_program.peek().expect("it has one").bound.as_ref();
+    let own = of_program.find(|it| it.domain == *domain).map(|it| it.bound.as_ref());
+    own.unwrap_or(first).map(|bound| bound.error.to_f64()).map_err(|why| format!("no bound: {why}"))
+}
+
+/// What the gates that are not about edges may do.
+fn others(
+    entry: &Entry,
+    proof: &Proof,
+    meanings: &mut Meanings,
+    epsilons: &[f64],
+    parts: &[Domain],
+) -> Vec<Other> {
+    let gates = entry.info.gates.iter().enumerate();
+    let others = gates.filter(|(_, gate)| gate.role != Role::Edge);
+    let may = |gate: usize| -> Option<May> {
+        let e = epsilons[gate];
+        let mut may = None;
+        let of_gate = proof.paths.iter().flat_map(|path| &path.compared);
+        if of_gate.filter(|it| it.gate == gate).any(|it| it.accepts == Acceptance::Fixed) {
+            return None;
+        }
+        for quantity in proof.quantities.iter().filter(|quantity| quantity.gate == gate) {
+            let Meaning { what, scale, .. } = meanings.of(quantity.path, quantity.place)?;
+            for domain in parts {
+                let error = error(proof, quantity.program, domain).ok()?;
+                let least = scale.least(domain);
+                may = Some(match (what, may) {
+                    (What::One, Some(May::Refuse(name, x))) => May::Refuse(name, x.max(e + error)),
+                    (What::One, before) if e + error < least => before.unwrap_or(May::Never),
+                    (What::One, _) => May::Refuse(scale.name(), e + error),
+                    (What::Weight(_) | What::Rest(_), _) => return None,
+                    (_, before) => {
+                        let [early, late] = [e + error, error - e].map(|x| x.max(0.0) / least);
+                        match before {
+                            Some(May::Ends(x, y)) => May::Ends(x.max(early), y.max(late)),
+                            _ => May::Ends(early, late),
+                        }
+                    }
+                });
+            }
+        }
+        may
+    };
+    let mut may = may;
+    others.map(|(gate, _)| Other { gate, may: may(gate).unwrap_or(May::Unknown) }).collect()
+}
