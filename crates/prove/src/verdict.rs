@@ -213,7 +213,7 @@ impl Reader<'_, '_> {
     fn form(&mut self, compared: &Compared) -> Option<Form> {
         let gate = compared.gate;
         let (ways, refuses) = match &compared.accepts {
-            Acceptance::Fixed => return None,
+            Acceptance::Fixed(..) => return None,
             Acceptance::Clauses(refuse, clauses) => {
                 let is_strict = matches!(refuse, Refuse::AtMost | Refuse::UnlessAbove);
                 let clause = |places: &Vec<Place>| {
@@ -448,7 +448,7 @@ fn others(
         let e = epsilons[gate];
         let mut may = None;
         let of_gate = proof.paths.iter().flat_map(|path| &path.compared);
-        if of_gate.filter(|it| it.gate == gate).any(|it| it.accepts == Acceptance::Fixed) {
+        if of_gate.filter(|it| it.gate == gate).any(|it| matches!(it.accepts, Acceptance::Fixed(..))) {
             return None;
         }
         for quantity in proof.quantities.iter().filter(|quantity| quantity.gate == gate) {
