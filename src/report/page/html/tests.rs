@@ -102,7 +102,7 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
                 scalars: vec!["f32".to_owned()],
             },
             partial: None,
-            sources: families.iter().map(summary).collect(),
+            sources: families.iter().take(1).map(summary).collect(),
             results: results.collect(),
             totals: Vec::new(),
         },
