@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The proofs about the kernels; only where it was asked for. Records of earlier versions have pictures too.
+/// The proofs about the kernels; only where they were asked for. Records of earlier versions have pictures too.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Illustrations {
