@@ -158,7 +158,10 @@ fn is_alike<F: Scalar>(
     fs::write(&source, ANSWERS).unwrap();
     let defines =
         [format!("-DKERNEL={name}"), format!("-DHIT={name}_hit"), format!("-DREAL={real}")];
-    let defines: Vec<&str> = defines.iter().map(String::as_str).collect();
+    // The exact test that decides where it asks is compiled too.
+    let include = format!("-I{HERE}/include");
+    let exact = ["-DHAIRLINE_ASK_EXACT", include.as_str()];
+    let defines: Vec<&str> = defines.iter().map(String::as_str).chain(exact).collect();
     let c =
         ["-std=c99", "-pedantic", "-O2", "-ffp-contract=off", "-include", file.to_str().unwrap()];
     compile(&source, &program, &[&STRICT[..], &c, &defines].concat());
