@@ -23,7 +23,7 @@ pub struct Judge<'a, F> {
     pub(super) epsilons: &'a [F],
     /// The bounds of inputs that the edge gates suppose.
     pub(super) uses: Uses,
-    /// What the edge gates multiply barycentric coordinates by.
+    /// The numbers that the edge gates multiply barycentric coordinates by.
     pub(super) scales: Vec<Scale>,
 }
 
@@ -68,7 +68,7 @@ impl<F: Float> Judge<'_, F> {
         Some(if is_wanted { (score, true) } else { (score - 2.0 * slack.abs() / scale, false) })
     }
 
-    /// What the edge gates multiply barycentric coordinates by.
+    /// The least size of the numbers that the edge gates multiply barycentric coordinates by.
     pub(super) fn scale(&self, sample: &Sample<f64>) -> f64 {
         self.scales.iter().map(|scale| scale.of(sample).abs()).fold(f64::INFINITY, f64::min)
     }
