@@ -81,9 +81,8 @@ impl<F: Float> Judge<'_, F> {
         let is_vertex = draw.below(4) == 0;
         for vertex in from.into_iter().skip(usize::from(!is_vertex && draw.coin())) {
             let by = sample.vertices[to].minus(&sample.vertices[vertex]);
-            for axis in 0..3 {
-                let x = inputs[axis].to_f64() + sample.weight(vertex) * by.at(axis);
-                inputs[axis] = F::from_f64(x);
+            for (axis, input) in inputs.iter_mut().take(3).enumerate() {
+                *input = F::from_f64(input.to_f64() + sample.weight(vertex) * by.at(axis));
             }
             if !is_vertex {
                 break;
