@@ -57,7 +57,9 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
         out.contains(relative) && out.contains("In the unit domain it is, underflow or not,"),
         "{out}"
     );
-    assert!(all.lines().all(|line| line.chars().count() <= 160), "{all}");
+    // Commands are not broken.
+    let mut lines = all.lines().filter(|line| !line.contains("hairline explain "));
+    assert!(lines.all(|line| line.chars().count() <= 160), "{all}");
     // The three sentences that people ask for stand on the first screen.
     let first = hairline(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"]);
     let first = words(&String::from_utf8(first.stdout).unwrap());
@@ -231,7 +233,7 @@ fn known_verdicts_are_as_wrong_as_is_said_and_no_worse_than_proved() {
     let record = json(&hairline(&["prove", "--format", "json", "--quiet"]));
     let (mut near, mut explained) = (0, 0);
     for kernel in record["kernels"].as_array().unwrap() {
-        for (name, finding, side) in [("misses", "false miss", 1.0), ("hits", "false hit", -1.0)] {
+        for (name, finding, side) in [("misses", "false-miss", 1.0), ("hits", "false-hit", -1.0)] {
             let part = &kernel["verdicts"][name];
             let text = format!("{} {} {name}: {part}", kernel["kernel"], kernel["scalar"]);
             if kernel["kernel"] == "havel-herout" {

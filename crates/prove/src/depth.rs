@@ -23,7 +23,7 @@ pub struct Judge<'a, F> {
     pub(super) epsilons: &'a [F],
     /// The bounds of inputs that the edge gates suppose.
     pub(super) uses: Uses,
-    /// What the edge gates multiply barycentric coordinates by.
+    /// The numbers that the edge gates multiply barycentric coordinates by.
     pub(super) scales: Vec<Scale>,
 }
 
@@ -68,7 +68,7 @@ impl<F: Float> Judge<'_, F> {
         Some(if is_wanted { (score, true) } else { (score - 2.0 * slack.abs() / scale, false) })
     }
 
-    /// What the edge gates multiply barycentric coordinates by.
+    /// The least size of the numbers that the edge gates multiply barycentric coordinates by.
     pub(super) fn scale(&self, sample: &Sample<f64>) -> f64 {
         self.scales.iter().map(|scale| scale.of(sample).abs()).fold(f64::INFINITY, f64::min)
     }
@@ -81,9 +81,8 @@ impl<F: Float> Judge<'_, F> {
         let is_vertex = draw.below(4) == 0;
         for vertex in from.into_iter().skip(usize::from(!is_vertex && draw.coin())) {
             let by = sample.vertices[to].minus(&sample.vertices[vertex]);
-            for axis in 0..3 {
-                let x = inputs[axis].to_f64() + sample.weight(vertex) * by.at(axis);
-                inputs[axis] = F::from_f64(x);
+            for (axis, input) in inputs.iter_mut().take(3).enumerate() {
+                *input = F::from_f64(input.to_f64() + sample.weight(vertex) * by.at(axis));
             }
             if !is_vertex {
                 break;

@@ -23,7 +23,7 @@ pub struct Judged<F> {
 pub const VERDICTS: [Goal; 2] = [Goal::Missed, Goal::Hit];
 
 impl<F: Searched + Scalar> Judged<F> {
-    /// Of a kernel that is proved, in the domain or its parts.
+    /// The verdicts of a kernel that is proved, in the domain or its parts.
     pub fn new(
         entry: &Entry,
         summary: &Summary<F>,

@@ -14,6 +14,7 @@ mod corners;
 mod depth;
 mod domain;
 mod dyadic;
+mod facts;
 mod forms;
 mod formula;
 mod gappa;

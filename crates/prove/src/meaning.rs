@@ -26,7 +26,7 @@ pub(super) enum What {
     BeforeMax,
 }
 
-/// What it is multiplied by.
+/// The factor that depends on the kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Scale {
     /// 1.

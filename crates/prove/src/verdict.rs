@@ -4,13 +4,12 @@
 //! An edge gate compares λ·s with e: λ is a barycentric coordinate, s a scale that is at least σ. Its error is at most β. So it
 //! refuses only where λ < (e + β)/σ, and accepts only where λ ≥ -(β - e)/σ. A height is no longer than the longest edge.
 
+use super::facts::{Fact, Form, Reader};
 use super::gates::Quantity;
 use super::meaning::{Meaning, Meanings, Scale, What};
-use super::watertight::signed;
 use super::{Domain, Lemma, Proof, Rule, Source, Step};
-use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
 use crate::contract::Sides;
-use crate::kernel::{Acceptance, Compared, Entry, Path, Refuse, Role};
+use crate::kernel::{Acceptance, Compared, Entry, Role};
 use std::collections::HashSet;
 
 /// At a share of half a triangle's longest edge and more a bound says nothing.
@@ -24,7 +23,7 @@ pub type Depth = Result<Farthest, String>;
 pub struct Farthest {
     /// As a share of the triangle's longest edge.
     pub share: f64,
-    /// Of a false hit, the distance from the triangle itself, which is more beyond a vertex.
+    /// The distance of a false hit from the triangle itself, which is more beyond a vertex.
     pub apart: f64,
     /// In a scene, the share as a length.
     pub length: Option<f64>,
@@ -37,9 +36,9 @@ pub struct Verdicts {
     pub misses: Depth,
     /// Misses that they let through: outside.
     pub hits: Depth,
-    /// What the gates do that are not about edges.
+    /// The gates that are not about edges.
     pub others: Vec<Other>,
-    /// What the edge gates multiply barycentric coordinates by, and the least that it is.
+    /// The numbers that the edge gates multiply barycentric coordinates by, and the least size of each.
     pub scales: Vec<(Scale, f64)>,
 }
 
@@ -63,26 +62,6 @@ pub enum May {
     Ends(f64, f64),
     /// Nothing is known.
     Unknown,
-}
-
-/// A number on one side of what a gate compares it with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct Fact {
-    program: usize,
-    what: What,
-    scale: Scale,
-    /// True if it says that what times scale is large enough; false if that its negative is.
-    is_plus: bool,
-    is_strict: bool,
-}
-
-/// An edge gate: each way to be accepted, and for either sign of the scale the numbers of which one is too small where it
-/// refuses; none if it may refuse although all are large.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct Form {
-    gate: usize,
-    ways: Vec<Vec<Fact>>,
-    refuses: [Option<Vec<Fact>>; 2],
 }
 
 /// The edge gates of a path, and true if nothing but gates refuses there.
@@ -199,99 +178,6 @@ pub fn supposes_weights(entry: &Entry, proof: &Proof) -> bool {
             },
         )
     })
-}
-
-/// Reads what the gates of one path compare.
-struct Reader<'a, 'b> {
-    proof: &'a Proof,
-    index: usize,
-    path: &'a Path,
-    meanings: &'b mut Meanings<'a>,
-}
-
-impl Reader<'_, '_> {
-    fn form(&mut self, compared: &Compared) -> Option<Form> {
-        let gate = compared.gate;
-        let (ways, refuses) = match &compared.accepts {
-            Acceptance::Fixed(..) => return None,
-            Acceptance::Clauses(refuse, clauses) => {
-                let is_strict = matches!(refuse, Refuse::AtMost | Refuse::UnlessAbove);
-                let clause = |places: &Vec<Place>| {
-                    let facts = places.iter().map(|place| self.fact(gate, *place, is_strict));
-                    facts.collect::<Option<Vec<Fact>>>()
-                };
-                let ways = clauses.iter().map(clause).collect::<Option<Vec<_>>>()?;
-                let refuses = [true, false].map(|side| {
-                    ways.iter().find(|way| way.iter().all(|fact| fact.is_side(side))).cloned()
-                });
-                (ways, refuses)
-            }
-            Acceptance::Rounded(outcomes) => {
-                let facts = |outcome: &Outcome| {
-                    let facts = outcome.answers.iter().map(|answer| self.facts(gate, *answer));
-                    Some((outcome.accepts, facts.collect::<Option<Vec<_>>>()?.concat()))
-                };
-                let all = outcomes.iter().map(facts).collect::<Option<Vec<_>>>()?;
-                let ways = |accepts: bool| {
-                    let ways = all.iter().filter(move |(it, _)| *it == accepts);
-                    ways.map(|(_, facts)| facts.clone())
-                };
-                let refuses = [true, false].map(|side| {
-                    // Each refusal takes a number that is not on this side.
-                    let against = |way: Vec<Fact>| way.into_iter().find(|it| !it.is_side(side));
-                    let against: Option<Vec<Fact>> = ways(false).map(against).collect();
-                    Some(against?.into_iter().map(Fact::negative).collect())
-                });
-                (ways(true).collect(), refuses)
-            }
-        };
-        Some(Form { gate, ways, refuses })
-    }
-
-    /// A number that is large enough.
-    fn fact(&mut self, gate: usize, place: Place, is_strict: bool) -> Option<Fact> {
-        let (minus, place) = signed(self.path, place);
-        let program = *self.proof.programs.get(&(gate, self.index, place))?;
-        let Meaning { what, scale, is_minus } = self.meanings.of(self.index, place)?;
-        let is_weight = matches!(what, What::Weight(_) | What::Rest(_));
-        is_weight.then_some(Fact { program, what, scale, is_plus: minus == is_minus, is_strict })
-    }
-
-    /// The facts that an answer to a comparison with 0 is.
-    fn facts(
-        &mut self,
-        gate: usize,
-        (comparison, answer): (Comparison, bool),
-    ) -> Option<Vec<Fact>> {
-        let is_zero = |place: Place| {
-            self.path.operations[signed(self.path, place).1 as usize] == Operation::Number(0)
-        };
-        // x >= 0 or x > 0 where it is large.
-        let (place, is_large, is_strict) = match (comparison, answer) {
-            (Comparison::Less(a, b), _) if is_zero(a) => (b, answer, answer),
-            (Comparison::Less(a, b), _) if is_zero(b) => (a, !answer, answer),
-            (Comparison::AtMost(a, b), _) if is_zero(a) => (b, answer, !answer),
-            (Comparison::AtMost(a, b), _) if is_zero(b) => (a, !answer, !answer),
-            (Comparison::Negative(a), _) => (a, !answer, false),
-            _ => return None,
-        };
-        if is_zero(place) {
-            return Some(Vec::new());
-        }
-        let fact = self.fact(gate, place, is_strict)?;
-        Some(vec![if is_large { fact } else { fact.negative() }])
-    }
-}
-
-impl Fact {
-    fn negative(self) -> Fact {
-        Fact { is_plus: !self.is_plus, ..self }
-    }
-
-    /// True if it says that λ is large, where the scale is positive, or negative.
-    fn is_side(&self, is_positive: bool) -> bool {
-        self.is_plus == is_positive
-    }
 }
 
 /// The bounds of numbers in one domain, and the epsilons.
@@ -434,7 +320,7 @@ fn error(proof: &Proof, program: usize, domain: &Domain) -> Result<f64, String> 
     own.unwrap_or(first).map(|bound| bound.error.to_f64()).map_err(|why| format!("no bound: {why}"))
 }
 
-/// What the gates that are not about edges may do.
+/// The wrong decisions of gates that are not about edges.
 fn others(
     entry: &Entry,
     proof: &Proof,
@@ -448,7 +334,10 @@ fn others(
         let e = epsilons[gate];
         let mut may = None;
         let of_gate = proof.paths.iter().flat_map(|path| &path.compared);
-        if of_gate.filter(|it| it.gate == gate).any(|it| matches!(it.accepts, Acceptance::Fixed(..))) {
+        if of_gate
+            .filter(|it| it.gate == gate)
+            .any(|it| matches!(it.accepts, Acceptance::Fixed(..)))
+        {
             return None;
         }
         for quantity in proof.quantities.iter().filter(|quantity| quantity.gate == gate) {

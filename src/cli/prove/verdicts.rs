@@ -17,7 +17,7 @@ pub struct VerdictPart {
     pub epsilons: Option<String>,
     pub misses: DepthPart,
     pub hits: DepthPart,
-    /// What a gate compares is a barycentric coordinate times this number.
+    /// The numbers that edge gates multiply barycentric coordinates by.
     pub scales: Vec<ScalePart>,
     /// Where other gates may decide wrongly.
     pub others: Vec<OtherPart>,
@@ -30,7 +30,7 @@ pub struct VerdictPart {
 pub struct DepthPart {
     /// At most, as a share of the triangle's longest edge: inside or outside the line of some edge.
     pub share: Option<f64>,
-    /// Of a hit, the distance from the triangle, which is more beyond a vertex.
+    /// The distance of a hit from the triangle, which is more beyond a vertex.
     pub apart: Option<f64>,
     /// The same as a length of the scene.
     pub length: Option<f64>,
@@ -68,7 +68,7 @@ pub struct OtherPart {
 }
 
 impl VerdictPart {
-    /// Of a row.
+    /// The verdicts of a row.
     pub fn new<F: Searched>(judged: &Judged<F>, row: &audit::Row, useful: String) -> VerdictPart {
         let verdicts = &judged.verdicts;
         let depth = |bound: &Depth, known: &Option<Witness<F>>| DepthPart {

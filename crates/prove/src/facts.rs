@@ -1,0 +1,121 @@
+//! The decisions of edge gates: which weights are large enough, by each way to be accepted.
+
+use super::Proof;
+use super::meaning::{Meaning, Meanings, Scale, What};
+use super::watertight::signed;
+use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
+use crate::kernel::{Acceptance, Compared, Path, Refuse};
+
+/// A number on one side of what a gate compares it with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Fact {
+    pub program: usize,
+    pub what: What,
+    pub scale: Scale,
+    /// True if it says that what times scale is large enough; false if that its negative is.
+    pub is_plus: bool,
+    pub is_strict: bool,
+}
+
+/// An edge gate: each way to be accepted, and for either sign of the scale the numbers of which one is too small where it
+/// refuses; none if it may refuse although all are large.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Form {
+    pub gate: usize,
+    pub ways: Vec<Vec<Fact>>,
+    pub refuses: [Option<Vec<Fact>>; 2],
+}
+
+/// Reads what the gates of one path compare.
+pub(super) struct Reader<'a, 'b> {
+    pub proof: &'a Proof,
+    pub index: usize,
+    pub path: &'a Path,
+    pub meanings: &'b mut Meanings<'a>,
+}
+
+impl Reader<'_, '_> {
+    /// An edge gate, if all that it compares is known.
+    pub fn form(&mut self, compared: &Compared) -> Option<Form> {
+        let gate = compared.gate;
+        let (ways, refuses) = match &compared.accepts {
+            Acceptance::Fixed(..) => return None,
+            Acceptance::Clauses(refuse, clauses) => {
+                let is_strict = matches!(refuse, Refuse::AtMost | Refuse::UnlessAbove);
+                let clause = |places: &Vec<Place>| {
+                    let facts = places.iter().map(|place| self.fact(gate, *place, is_strict));
+                    facts.collect::<Option<Vec<Fact>>>()
+                };
+                let ways = clauses.iter().map(clause).collect::<Option<Vec<_>>>()?;
+                let refuses = [true, false].map(|side| {
+                    ways.iter().find(|way| way.iter().all(|fact| fact.is_side(side))).cloned()
+                });
+                (ways, refuses)
+            }
+            Acceptance::Rounded(outcomes) => {
+                let facts = |outcome: &Outcome| {
+                    let facts = outcome.answers.iter().map(|answer| self.facts(gate, *answer));
+                    Some((outcome.accepts, facts.collect::<Option<Vec<_>>>()?.concat()))
+                };
+                let all = outcomes.iter().map(facts).collect::<Option<Vec<_>>>()?;
+                let ways = |accepts: bool| {
+                    let ways = all.iter().filter(move |(it, _)| *it == accepts);
+                    ways.map(|(_, facts)| facts.clone())
+                };
+                let refuses = [true, false].map(|side| {
+                    // Each refusal takes a number that is not on this side.
+                    let against = |way: Vec<Fact>| way.into_iter().find(|it| !it.is_side(side));
+                    let against: Option<Vec<Fact>> = ways(false).map(against).collect();
+                    Some(against?.into_iter().map(Fact::negative).collect())
+                });
+                (ways(true).collect(), refuses)
+            }
+        };
+        Some(Form { gate, ways, refuses })
+    }
+
+    /// A number that is large enough.
+    fn fact(&mut self, gate: usize, place: Place, is_strict: bool) -> Option<Fact> {
+        let (minus, place) = signed(self.path, place);
+        let program = *self.proof.programs.get(&(gate, self.index, place))?;
+        let Meaning { what, scale, is_minus } = self.meanings.of(self.index, place)?;
+        let is_weight = matches!(what, What::Weight(_) | What::Rest(_));
+        is_weight.then_some(Fact { program, what, scale, is_plus: minus == is_minus, is_strict })
+    }
+
+    /// The facts that an answer to a comparison with 0 is.
+    fn facts(
+        &mut self,
+        gate: usize,
+        (comparison, answer): (Comparison, bool),
+    ) -> Option<Vec<Fact>> {
+        let is_zero = |place: Place| {
+            self.path.operations[signed(self.path, place).1 as usize] == Operation::Number(0)
+        };
+        // x >= 0 or x > 0 where it is large.
+        let (place, is_large, is_strict) = match (comparison, answer) {
+            (Comparison::Less(a, b), _) if is_zero(a) => (b, answer, answer),
+            (Comparison::Less(a, b), _) if is_zero(b) => (a, !answer, answer),
+            (Comparison::AtMost(a, b), _) if is_zero(a) => (b, answer, !answer),
+            (Comparison::AtMost(a, b), _) if is_zero(b) => (a, !answer, !answer),
+            (Comparison::Negative(a), _) => (a, !answer, false),
+            _ => return None,
+        };
+        if is_zero(place) {
+            return Some(Vec::new());
+        }
+        let fact = self.fact(gate, place, is_strict)?;
+        Some(vec![if is_large { fact } else { fact.negative() }])
+    }
+}
+
+impl Fact {
+    fn negative(self) -> Fact {
+        Fact { is_plus: !self.is_plus, ..self }
+    }
+
+    /// True if it says that λ is large, where the scale is positive, or negative.
+    pub fn is_side(&self, is_positive: bool) -> bool {
+        self.is_plus == is_positive
+    }
+}
