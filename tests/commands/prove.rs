@@ -252,7 +252,6 @@ fn known_verdicts_are_as_wrong_as_is_said_and_no_worse_than_proved() {
                 json.replace(&format!("{word}:"), &format!("\"{word}\":"))
             });
             let json = json.replace(":f32", ":\"f32\"").replace(":f64", ":\"f64\"");
-            let json = json.replace("\"direction\"", "\"direction\"");
             let deep = side * depth(&serde_json::from_str(&json).unwrap());
             assert!((deep / known - 1.0).abs() < 1e-6, "{text}: {deep}");
             if kernel["scalar"] == "f32" {

@@ -185,7 +185,8 @@ impl Frame<'_> {
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST)
 #error \"-ffast-math changes results: its margins do not cover what that does to infinities and products\"
 #endif
-#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+/* 16 and 32 are about types narrower than float. */
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16 && FLT_EVAL_METHOD != 32
 #error \"float and double have to be rounded to their own precision, as with -msse2 -mfpmath=sse\"
 #endif
 

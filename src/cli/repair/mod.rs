@@ -86,6 +86,10 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
     if !is_folder && !is_single {
         return Err(Failure::usage("two scalars are two files: name one, or -o FOLDER/"));
     }
+    if is_folder {
+        std::fs::create_dir_all(&arguments.output)
+            .map_err(|error| Failure::of_file(&arguments.output, &error))?;
+    }
     let mut written = 0;
     for entry in entries {
         for (is_chosen, is_f32) in scalars.into_iter().zip([true, false]) {
