@@ -57,50 +57,58 @@ fn truth_in<'py, F: Float + Element>(
 ) -> PyResult<Bound<'py, PyArray1<u8>>> {
     let arrays = columns.each_ref().map(|column| column.extract::<PyReadonlyArrayDyn<'py, F>>());
     let arrays = arrays.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let mut columns = [const { Column::<F> { numbers: &[], step: 0 } }; 7];
-    for (i, (array, column)) in arrays.iter().zip(&mut columns).enumerate() {
-        let width = if i < 5 { 3 } else { 1 };
-        let numbers = array.as_slice()?;
-        if numbers.len() != width && numbers.len() != width * count {
-            return Err(PyValueError::new_err("columns of different lengths"));
-        }
-        *column = Column { numbers, step: if numbers.len() == width { 0 } else { width } };
-    }
+    let numbers = |k: usize| Ok::<_, PyErr>(arrays[k].as_slice()?);
+    let vector = |k| Column::new(numbers(k)?.as_chunks().0, count);
+    let [o, d, a, b, c] = [vector(0)?, vector(1)?, vector(2)?, vector(3)?, vector(4)?];
+    let ends = [Column::new(numbers(5)?, count)?, Column::new(numbers(6)?, count)?];
     let bytes = PyArray1::<u8>::zeros(py, count * FIELDS, false);
     {
         let mut bytes = bytes.try_readwrite()?;
         let bytes = bytes.as_slice_mut()?;
-        py.detach(|| decide(&columns, bytes));
+        py.detach(|| decide(&[o, d, a, b, c], &ends, bytes));
     }
     Ok(bytes)
 }
 
-/// The numbers of a vector or an end, and how many numbers lie from one case to the next.
-struct Column<'a, F> {
-    numbers: &'a [F],
-    step: usize,
+/// A vector or an end of each case.
+enum Column<'a, T> {
+    Each(&'a [T]),
+    /// The same in every case: as many as a block has.
+    All([T; BLOCK]),
 }
 
-impl<F: Float> Column<'_, F> {
-    fn vector(&self, index: usize) -> [F; 3] {
-        *self.numbers[index * self.step..].first_chunk().expect("three numbers a case")
+impl<'a, T: Copy> Column<'a, T> {
+    fn new(items: &'a [T], count: usize) -> PyResult<Self> {
+        match items {
+            [all] => Ok(Column::All([*all; BLOCK])),
+            _ if items.len() == count => Ok(Column::Each(items)),
+            _ => Err(PyValueError::new_err("columns of different lengths")),
+        }
     }
 
-    fn end(&self, index: usize) -> F {
-        self.numbers[index * self.step]
+    /// So many from some case on.
+    fn block(&self, start: usize, count: usize) -> &[T] {
+        match self {
+            Column::Each(items) => &items[start..][..count],
+            Column::All(items) => &items[..count],
+        }
     }
 }
 
-fn decide<F: Float>([o, d, a, b, c, t_min, t_max]: &[Column<'_, F>; 7], bytes: &mut [u8]) {
-    let case = |i: usize| {
-        let triangle = [a.vector(i), b.vector(i), c.vector(i)];
-        Case::new(o.vector(i), d.vector(i), triangle).on(t_min.end(i), t_max.end(i))
-    };
+fn decide<F: Float>(
+    vectors: &[Column<'_, [F; 3]>; 5],
+    ends: &[Column<'_, F>; 2],
+    bytes: &mut [u8],
+) {
     let blocks = bytes.par_chunks_mut(BLOCK * FIELDS).enumerate();
     let empty = || (Vec::new(), Vec::new(), Layers::default());
     blocks.for_each_init(empty, |(cases, found, layers), (block, bytes)| {
+        let (start, count) = (block * BLOCK, bytes.len() / FIELDS);
+        let [o, d, a, b, c] = vectors.each_ref().map(|column| column.block(start, count));
+        let [t_min, t_max] = ends.each_ref().map(|column| column.block(start, count));
         cases.clear();
-        cases.extend((block * BLOCK..).take(bytes.len() / FIELDS).map(case));
+        let case = |i: usize| Case::new(o[i], d[i], [a[i], b[i], c[i]]).on(t_min[i], t_max[i]);
+        cases.extend((0..count).map(case));
         truths(cases, found, layers);
         for (truth, bytes) in found.iter().zip(bytes.as_chunks_mut::<FIELDS>().0) {
             *bytes = code(truth);
