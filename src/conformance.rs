@@ -381,6 +381,25 @@ mod tests {
     }
 
     #[test]
+    fn all_kinds_of_a_scene_causes_and_a_case_are_there_for_the_asking() {
+        let kernel = KERNELS.iter().find(|entry| entry.info.name == "moller-trumbore").unwrap();
+        let request = audit(kernel).scene("room").families(["scene-edges"]).count(50);
+        let sources = |request: &Request| request.run().unwrap().record.result.plan.sources.len();
+        assert_eq!(sources(&request), 1);
+        assert!(5 < sources(&request.clone().all_kinds()));
+        let with_causes = |request: &Request| {
+            request.run().unwrap().findings().filter(|finding| finding.causes.is_some()).count()
+        };
+        let request = audit(kernel).families(["edge-near"]).count(100);
+        assert_eq!(with_causes(&request), 0);
+        assert!(0 < with_causes(&request.clone().attribute(10)));
+        let text = request.explain("edge-near@1/f32/-/1/7").unwrap();
+        assert!(text.starts_with("moller-trumbore (source): "), "{text}");
+        let error = request.explain("edge-near").unwrap_err().to_string();
+        assert!(error.contains("edge-near"), "{error}");
+    }
+
+    #[test]
     fn a_promise_a_band_and_a_scene_change_what_is_asked() {
         let kernel = KERNELS.iter().find(|entry| entry.info.name == "moller-trumbore").unwrap();
         let scene = |request: Request| request.scene("room").families(["scene-edges"]).count(500);

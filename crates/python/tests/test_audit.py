@@ -5,6 +5,8 @@ import json
 import pathlib
 import re
 import shlex
+import shutil
+import subprocess
 import sys
 
 import kernels
@@ -146,7 +148,6 @@ def test_an_exception_in_the_kernel_comes_out_with_the_case():
 
 
 def test_the_program_is_in_the_wheel():
-    import subprocess
     run = lambda *words: subprocess.run([sys.executable, "-m", "hairline", *words], capture_output=True, text=True)
     assert re.match(r"hairline \d", run("--version").stdout)
     assert run("audit", "--family", "nonsense").returncode == 2
@@ -156,6 +157,17 @@ def test_the_program_is_in_the_wheel():
     assert record["schema"] and "moller-trumbore" in json.dumps(record)
     with pytest.raises(ValueError, match="morel"):
         hairline.advise("room", "morel")
+
+
+def test_the_programs_libraries_run_too(tmp_path):
+    """It starts itself again for that, which is not Python's own executable."""
+    compiler = shutil.which("cc") or pytest.skip("there is no C compiler")
+    library = tmp_path / "mine.so"
+    source = ROOT / "examples/c/moller_trumbore.c"
+    subprocess.run([compiler, "-O1", "-shared", "-fPIC", "-I", ROOT / "include", source, "-o", library, "-lm"], check=True)
+    words = ["audit", "--kernel-lib", str(library), "--family", "interior", "-n", "100", "--scalar", "f32"]
+    done = subprocess.run([sys.executable, "-m", "hairline", *words], capture_output=True, text=True)
+    assert done.returncode == 0 and "100 cases in f32" in done.stdout, done.stderr
 
 
 def test_the_notebook_runs():
