@@ -56,6 +56,8 @@ pub fn audit(kernel: &Entry) -> Request {
         promise: None,
         band: None,
         scene: None,
+        all_kinds: false,
+        attribute: 0,
         allowed: BTreeMap::new(),
         #[cfg(feature = "cli")]
         expectations: None,
@@ -75,6 +77,8 @@ pub struct Request {
     promise: Option<Across>,
     band: Option<String>,
     scene: Option<String>,
+    all_kinds: bool,
+    attribute: usize,
     allowed: BTreeMap<String, f64>,
     #[cfg(feature = "cli")]
     expectations: Option<String>,
@@ -135,6 +139,18 @@ impl Request {
     /// `extent=1000,edge=0.01..10,distance=0..2000`. [`Request::families`] may choose its strata.
     pub fn scene(mut self, words: &str) -> Request {
         self.scene = Some(words.to_owned());
+        self
+    }
+
+    /// All kinds of planes and rays that the scene can have, told apart, as `hairline audit --scene` runs them.
+    pub fn all_kinds(mut self) -> Request {
+        self.all_kinds = true;
+        self
+    }
+
+    /// Attributes this many findings of each class of each family to a cause; 0 unless said otherwise.
+    pub fn attribute(mut self, count: usize) -> Request {
+        self.attribute = count;
         self
     }
 
@@ -219,12 +235,17 @@ impl Request {
         let rows = self.rows()?;
         let parameters = Parameters { scene: self.parsed_scene()?, ..self.parameters.clone() };
         let source = |family| Source::of(family, parameters.clone(), self.seed, self.count);
+        let mut sources: Vec<Source> = self.chosen_families()?.into_iter().map(source).collect();
+        if self.all_kinds {
+            let others: Vec<Source> = sources.iter().flat_map(Source::in_other_kinds).collect();
+            sources.extend(others);
+        }
         let plan = Plan {
             rows,
-            sources: self.chosen_families()?.into_iter().map(source).collect(),
+            sources,
             scalars: self.entry.scalars(),
             examples: 3,
-            attribute: 0,
+            attribute: self.attribute,
         };
         let sums = audit::run(&plan, &Unobserved);
         let context = Context { seconds: 0.0, threads: engine::threads() };
@@ -253,6 +274,13 @@ impl Request {
             Ok(outcome) => outcome.assert_conforms(),
             Err(error) => panic!("{error}"),
         }
+    }
+
+    /// One case of it with the kernel's answer, as `hairline explain` shows it; an error says what is wrong with the id
+    /// (feature `studies`).
+    #[cfg(feature = "studies")]
+    pub fn explain(&self, case: &str) -> Result<String, PlanError> {
+        explained::explained(&self.rows()?, case).map_err(PlanError)
     }
 
     fn rows(&self) -> Result<Vec<Row>, PlanError> {
@@ -350,6 +378,25 @@ mod tests {
         assert!(!outcome.conforms() && !text.contains("(source): false-hit"), "{text}");
         assert!(text.contains("allowed: false-miss in up to"), "{text}");
         assert!(text.contains("::new([") && text.contains(" --kernel moller-trumbore"), "{text}");
+    }
+
+    #[test]
+    fn all_kinds_of_a_scene_causes_and_a_case_are_there_for_the_asking() {
+        let kernel = KERNELS.iter().find(|entry| entry.info.name == "moller-trumbore").unwrap();
+        let request = audit(kernel).scene("room").families(["scene-edges"]).count(50);
+        let sources = |request: &Request| request.run().unwrap().record.result.plan.sources.len();
+        assert_eq!(sources(&request), 1);
+        assert!(5 < sources(&request.clone().all_kinds()));
+        let with_causes = |request: &Request| {
+            request.run().unwrap().findings().filter(|finding| finding.causes.is_some()).count()
+        };
+        let request = audit(kernel).families(["edge-near"]).count(100);
+        assert_eq!(with_causes(&request), 0);
+        assert!(0 < with_causes(&request.clone().attribute(10)));
+        let text = request.explain("edge-near@1/f32/-/1/7").unwrap();
+        assert!(text.starts_with("moller-trumbore (source): "), "{text}");
+        let error = request.explain("edge-near").unwrap_err().to_string();
+        assert!(error.contains("edge-near"), "{error}");
     }
 
     #[test]

@@ -4,7 +4,6 @@ use crate::audit::PlanError;
 use crate::corpus::InputError;
 use std::io;
 use std::path::Path;
-use std::process::ExitCode;
 
 /// How the program ends. The README's table is tested against this one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,12 +24,6 @@ pub enum Status {
     SelfCheck = 70,
     /// Input or output failed.
     InputOutput = 74,
-}
-
-impl From<Status> for ExitCode {
-    fn from(status: Status) -> ExitCode {
-        ExitCode::from(status as u8)
-    }
 }
 
 /// Why a command stops.

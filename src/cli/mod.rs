@@ -45,6 +45,8 @@ mod truth;
 mod vectors;
 mod verify;
 
+pub use plugins::started_by;
+
 use exit::{Failure, Status};
 use help::EXAMPLES;
 
@@ -53,6 +55,7 @@ use crate::kernel::{self, Entry};
 use crate::plugin;
 use clap::builder::Styles;
 use clap::{Arg, ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -185,33 +188,39 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     for kernel in kernels {
         if let Err(message) = kernel::register(kernel) {
             eprintln!("hairline: {message}");
-            return Status::Usage.into();
+            return (Status::Usage as u8).into();
         }
     }
+    run(std::env::args_os()).into()
+}
+
+/// Runs the program on a command line, which begins with the program's name; returns the exit code.
+pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let words: Vec<OsString> = words.into_iter().collect();
     let floats = FloatEnvironment::now();
     if !floats.is_default() {
         eprintln!(
             "hairline: this program computes with {floats} from the start, so no truth that it computes would be \
              right: link it without -ffast-math, or bring the kernel as a library with --kernel-lib"
         );
-        return Status::SelfCheck.into();
+        return Status::SelfCheck as u8;
     }
     let parsed = command()
-        .try_get_matches()
+        .try_get_matches_from(&words)
         .and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?.command, matches)));
     let (command, matches) = match parsed {
         Ok(parsed) => parsed,
         Err(error) => {
             if error.kind() == clap::error::ErrorKind::InvalidUtf8 {
-                return ended(not_utf8());
+                return ended(not_utf8(&words));
             }
             if error.use_stderr() {
                 let _ = error.print();
-                return Status::Usage.into();
+                return Status::Usage as u8;
             }
             // Help and version are no errors.
             let printed = output::standard_output().map(drop).and_then(|()| Ok(error.print()?));
-            return printed.map_or_else(ended, |()| Status::Success.into());
+            return printed.map_or_else(ended, |()| Status::Success as u8);
         }
     };
     if is_quiet(&matches) {
@@ -245,12 +254,12 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Help(arguments) => help::run(&arguments, self::command()),
         Command::Completions(arguments) => help::completions(&arguments, self::command()),
         Command::Man(arguments) => help::man(&arguments, self::command()),
-        Command::KernelHost { file } => return plugin::serve(&file).into(),
+        Command::KernelHost { file } => return plugin::serve(&file),
     };
     plugins::finish();
     // A broken kernel of the user's is reported before anything that its verdicts led to.
     match plugins::check().and(outcome) {
-        Ok(status) => status.into(),
+        Ok(status) => status as u8,
         Err(failure) => ended(failure),
     }
 }
@@ -276,18 +285,18 @@ fn check_outputs(command: &clap::Command, matches: &ArgMatches) -> Result<(), Fa
 }
 
 /// The first argument that is not UTF-8, and what to do.
-fn not_utf8() -> Failure {
-    let wrong = std::env::args_os().find(|word| word.to_str().is_none()).unwrap_or_default();
-    let wrong = wrong.to_string_lossy();
+fn not_utf8(words: &[OsString]) -> Failure {
+    let wrong = words.iter().find(|word| word.to_str().is_none());
+    let wrong = wrong.map_or_else(Default::default, |word| word.to_string_lossy());
     Failure::usage(format!("'{wrong}' is not UTF-8: rename the file, or hand it in as - < FILE"))
 }
 
 /// Says why a command stops.
-fn ended(failure: Failure) -> ExitCode {
+fn ended(failure: Failure) -> u8 {
     if let Some(message) = failure.message() {
         eprintln!("hairline: {message}");
     }
-    failure.status().into()
+    failure.status() as u8
 }
 
 #[cfg(test)]

@@ -10,8 +10,10 @@ use clap::Args;
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -178,6 +180,14 @@ fn started(
     known.map_or_else(|| start(flag), Ok)
 }
 
+/// The words that start this program again, where that is not the process's own file.
+static AGAIN: OnceLock<Vec<String>> = OnceLock::new();
+
+/// Says how this program is started from a shell, where it runs inside another one: the first call counts.
+pub fn started_by(words: Vec<String>) {
+    AGAIN.get_or_init(|| words);
+}
+
 /// This program again, as the process that loads a library.
 fn host_of(path: &str) -> Result<Program, Failure> {
     if !cfg!(unix) {
@@ -185,11 +195,13 @@ fn host_of(path: &str) -> Result<Program, Failure> {
         return Err(Failure::usage(message));
     }
     let whole = Path::new(path).canonicalize().map_err(|error| Failure::of_file(path, &error))?;
-    let this: PathBuf =
-        std::env::current_exe().map_err(|error| Failure::of_file("this program", &error))?;
-    let words = [this.as_os_str(), HOST_COMMAND.as_ref(), whole.as_os_str()];
-    let words = words.map(|word| word.to_str().map(str::to_owned));
-    let words = words.into_iter().collect::<Option<Vec<String>>>();
+    let own = || std::env::current_exe().map(PathBuf::into_os_string);
+    let this = match AGAIN.get() {
+        Some(words) => words.iter().map(OsString::from).collect(),
+        None => vec![own().map_err(|error| Failure::of_file("this program", &error))?],
+    };
+    let words = this.into_iter().chain([HOST_COMMAND.into(), whole.into_os_string()]);
+    let words = words.map(|word| word.into_string().ok()).collect::<Option<Vec<String>>>();
     words
         .map(Program::host)
         .ok_or_else(|| Failure::usage(format!("--kernel-lib {path}: a path that is not UTF-8")))

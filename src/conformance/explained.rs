@@ -13,20 +13,20 @@ pub const VARIABLE: &str = "HAIRLINE_CASE";
 /// The explanation of the case that the environment names, or what is wrong with it; none if it names none.
 pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, PlanError>) -> Option<String> {
     let case = std::env::var(VARIABLE).ok()?;
-    match rows().and_then(|rows| explained(&rows, &case)) {
-        Ok(text) | Err(PlanError(text)) => Some(text),
-    }
+    let of_rows = |rows: Vec<Row>| {
+        explained(&rows, &case).unwrap_or_else(|message| format!("{VARIABLE}: {message}"))
+    };
+    Some(rows().map_or_else(|PlanError(text)| text, of_rows))
 }
 
 /// The explanation of a case as text. An error says what is wrong with its name.
-fn explained(rows: &[Row], name: &str) -> Result<String, PlanError> {
-    let wrong = |message: String| PlanError(format!("{VARIABLE}: {message}"));
-    let id: CaseId = name.parse().map_err(wrong)?;
+pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, String> {
+    let id: CaseId = name.parse()?;
     if id.parameters.instance.is_some() {
-        return Err(wrong(format!("'{id}' is a case of an instance: `hairline explain` takes it")));
+        return Err(format!("'{id}' is a case of an instance: `hairline explain` takes it"));
     }
     let explanation = in_named_scalar!(id.scalar, F => {
-        let (cases, grouping) = cases_of::<F>(&id).map_err(wrong)?;
+        let (cases, grouping) = cases_of::<F>(&id)?;
         let group = Together { cases: &cases, grouping, neighbours: Some(&[]), instance: None };
         explain(name, group, rows)
     });

@@ -163,7 +163,7 @@ fn beside_expectations(conformance: &Conformance, f: &mut fmt::Formatter<'_>) ->
 fn write_case(kernel: &str, example: &Example, text: &mut String) -> fmt::Result {
     writeln!(text, "    {}", shown_by(kernel, example))?;
     let bits = example.bits.as_str();
-    if let Some(case) = literal(bits) {
+    if let Some(case) = literal(bits).filter(|_| !runs_elsewhere(kernel, example)) {
         writeln!(text, "        {case}")?;
     }
     if !bits.is_empty() {
@@ -174,7 +174,7 @@ fn write_case(kernel: &str, example: &Example, text: &mut String) -> fmt::Result
 
 /// The command that shows an example; a kernel of one's own is known to its own tests only.
 fn shown_by(kernel: &str, example: &Example) -> String {
-    if KERNELS.iter().any(|entry| entry.info.name == kernel) {
+    if KERNELS.iter().any(|entry| entry.info.name == kernel) || runs_elsewhere(kernel, example) {
         return example.command.clone();
     }
     let case = quoted(&example.case);
@@ -188,6 +188,11 @@ fn shown_by(kernel: &str, example: &Example) -> String {
     }
     #[cfg(not(feature = "studies"))]
     format!("case {case}")
+}
+
+/// True if a flag of its own chooses the kernel on the program's command line, as it does for one in another language.
+fn runs_elsewhere(kernel: &str, example: &Example) -> bool {
+    !example.command.contains(&format!(" --kernel {kernel}"))
 }
 
 /// A case as a literal in Rust, from its bits; none of a group.

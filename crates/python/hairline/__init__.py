@@ -1,0 +1,18 @@
+"""hairline: ray-triangle tests and their epsilons against exact predicates.
+
+    >>> import hairline, numpy as np
+    >>> hairline.audit(my_kernel, scene="room").summary()     # where is my function wrong?
+    >>> hairline.assert_conforms(my_kernel)                   # the same as a test
+    >>> hairline.truth(origin, direction, a, b, c)["hit"]     # what would be right?
+
+Triangles a, b, c run counter-clockwise seen from the front; u is the weight of b and v that of c; t is the ray's
+parameter, in lengths of the direction. The command `hairline` comes with the package.
+"""
+
+from ._audit import Audit, advise, assert_conforms, audit
+from ._kernel import KernelError
+from ._truth import Class, Facing, Feature, Place, truth
+
+__all__ = [
+    "Audit", "Class", "Facing", "Feature", "KernelError", "Place", "advise", "assert_conforms", "audit", "truth",
+]

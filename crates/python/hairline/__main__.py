@@ -1,0 +1,5 @@
+"""`python -m hairline`: the program."""
+
+from .program import main
+
+main()

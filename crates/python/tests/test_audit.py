@@ -1,0 +1,179 @@
+"""Audits of functions are the program's audits, and errors are Python's."""
+
+import builtins
+import json
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+import kernels
+import numpy as np
+import pytest
+
+import hairline
+
+ROOT = pathlib.Path(__file__).parents[3]
+FAMILIES = ["interior", "edge-near", "vertex-exact", "sliver", "grazing", "degenerate", "shared-edge"]
+
+
+def without_kernel(result):
+    """Findings without what names the kernel."""
+    part = lambda finding: {**finding, "causes": None, "worst": finding["worst"]["case"], "first": None}
+    return {**result, "kernel": "", "set": "", "accuracy": None, "findings": [part(f) for f in result["findings"]]}
+
+
+@pytest.mark.parametrize("scalar, name", [("f32", "float32"), ("f64", "float64")])
+def test_an_audit_is_the_programs_audit_of_the_same_kernel_over_a_pipe(program, scalar, name):
+    flags = ["--scalar", scalar, "--family", ",".join(FAMILIES), "-n", "700", "--seed", "3", "--contract", "closed-ray"]
+    pipe = shlex.join([sys.executable, str(ROOT / "examples/python/numpy_kernel.py")])
+    record = json.loads(program("audit", "--quiet", "--format", "json", "--kernel-cmd", pipe, *flags))
+    audited = hairline.audit(kernels.moller_trumbore, scalar=name, families=FAMILIES, count=700, seed=3)
+    expected = [without_kernel(result) for result in record["result"]["results"]]
+    assert [without_kernel(result) for result in audited.record["result"]["results"]] == expected
+    assert sum(row["count"] for row in audited.findings) > 300
+    # Case by case it is the same kernel.
+    one = hairline.audit(kernels.one_by_one, scalar=name, families=FAMILIES, count=700, seed=3, vectorized=False)
+    assert [without_kernel(result) for result in one.record["result"]["results"]] == expected
+
+
+def test_a_scene_is_run_in_the_kinds_of_the_program(program):
+    pipe = shlex.join([sys.executable, str(ROOT / "examples/python/numpy_kernel.py")])
+    flags = ["--scene", "room", "--scalar", "f32", "-n", "50", "--contract", "closed-ray"]
+    record = json.loads(program("audit", "--quiet", "--format", "json", "--kernel-cmd", pipe, *flags))
+    audited = hairline.audit(kernels.moller_trumbore, scene="room", count=50)
+    parts = lambda record: list(map(without_kernel, record["result"]["results"]))
+    assert len(parts(record)) > 40 and parts(audited.record) == parts(record)
+    # The screen is the command's too, but for the seconds and the flag.
+    mine = f"{shlex.quote(sys.executable)} -m hairline.pipe {kernels.__file__}:moller_trumbore closed-ray"
+    screen = program("audit", "--quiet", "--kernel-cmd", mine, *flags[:-2])
+    untimed = lambda text: re.sub(r"[\d.]+ s, plan|[0-9a-f]{16}|--kernel-cmd '.*?'", "", text)
+    assert untimed(audited.summary()) == untimed(screen)
+
+
+def test_the_outcome_has_the_screen_the_page_and_the_worst_cases(program):
+    audited = hairline.audit(kernels.moller_trumbore, families=["edge-near"], count=300)
+    assert "moller_trumbore.py" in audited.summary() and "false misses" in audited.summary()
+    assert repr(audited).startswith("<hairline.Audit: moller_trumbore.py")
+    assert audited._repr_html_().startswith("<iframe srcdoc=") and "&lt;table" in audited._repr_html_()
+    worst = audited.worst
+    assert [row["distance"] for row in worst] == sorted((row["distance"] for row in worst), reverse=True)
+    # The command shows the same case with the same kernel, and so does the method.
+    command = shlex.split(worst[0]["command"].replace("python3", shlex.quote(sys.executable)))
+    shown = program(*command[1:])
+    assert shown.startswith("moller_trumbore.py (own): ")
+    # Over the pipe it runs in both scalars.
+    assert set(audited.explain(worst[0]["case"]).splitlines()) < set(shown.splitlines())
+    with pytest.raises(ValueError, match="nonsense"):
+        audited.explain("nonsense")
+
+
+def test_a_data_frame_needs_pandas(monkeypatch):
+    audited = hairline.audit(kernels.moller_trumbore, families=["edge-near"], count=100)
+    real = builtins.__import__
+    def missing(name, *rest):
+        if name == "pandas":
+            raise ImportError("no pandas")
+        return real(name, *rest)
+    monkeypatch.setattr(builtins, "__import__", missing)
+    with pytest.raises(ImportError, match="pip install pandas; without it there is .findings"):
+        audited.to_pandas()
+    monkeypatch.undo()
+    frame = pytest.importorskip("pandas") and audited.to_pandas()
+    assert frame["count"].sum() == sum(row["count"] for row in audited.findings)
+
+
+def exact(origin, direction, a, b, c, t_min, t_max):
+    return hairline.truth(origin, direction, a, b, c)["hit"]
+
+
+def test_a_right_kernel_conforms_and_a_wrong_one_says_where():
+    hairline.assert_conforms(exact, contract="extent=ray,sides=both,boundary=closed,coplanar=hit,degenerate=hit", count=200)
+    with pytest.raises(AssertionError) as raised:
+        hairline.assert_conforms(kernels.moller_trumbore, families=["edge-near"], count=300)
+    text = str(raised.value)
+    assert re.search(r"f32 edge-near .*: false-hit .*: \d+ of \d+", text), text
+    assert "hairline explain 'edge-near@" in text and "hairline.pipe" in text and "cargo" not in text, text
+    # What is allowed may occur.
+    hairline.assert_conforms(
+        kernels.moller_trumbore, families=["edge-near"], count=300, allow={"false-hit": 0.5, "false-miss": 0.5}
+    )
+
+
+@pytest.mark.parametrize("answer, expected", [
+    (lambda n: np.ones((n, 1), np.float32), r"t of shape \(\d+, 1\) for n = \d+ rays; expected t of shape \(n,\)"),
+    (lambda n: 1.0, r"t of shape \(\) for n"),
+    (lambda n: (np.ones(n), np.ones(n)), "a tuple of 2; expected"),
+    (lambda n: {"t": np.ones(n), "w": np.ones(n)}, r"a dict of \['t', 'w'\]; expected"),
+    (lambda n: {"hit": np.ones(n)}, "hit of float64; expected"),
+    (lambda n: None, "returned None; expected"),
+    (lambda n: ["no"] * n, "t of <U2; expected"),
+])
+def test_wrong_answers_are_value_errors_that_say_what_is_expected(answer, expected):
+    with pytest.raises(ValueError, match=expected):
+        hairline.audit(lambda *arrays: answer(len(arrays[0])), families=["interior"], count=10)
+
+
+@pytest.mark.parametrize("options, expected", [
+    ({"families": ["edge-neer"]}, "unknown family 'edge-neer'.*edge-near"),
+    ({"contract": "closed-rey"}, "contract: .*closed-rey"),
+    ({"scene": "rooom"}, "scene: .*rooom"),
+    ({"scalar": "float16"}, "expected 'float32' or 'float64'"),
+    ({"count": 0}, "count is 1 or more"),
+    ({"allow": {"false-hits": 0.1}}, "expected one of false-miss"),
+])
+def test_wrong_options_are_value_errors(options, expected):
+    with pytest.raises(ValueError, match=expected):
+        hairline.audit(exact, **{"count": 10, **options})
+
+
+def test_an_exception_in_the_kernel_comes_out_with_the_case():
+    def fails(origin, direction, a, b, c, t_min, t_max):
+        if (np.abs(a) > 1e3).any():
+            raise ZeroDivisionError("far away")
+        return np.full(len(origin), np.nan)
+    with pytest.raises(hairline.KernelError, match="ZeroDivisionError: far away; on origin=.*t_max=") as raised:
+        hairline.audit(fails, families=["interior", "huge"], count=100)
+    assert isinstance(raised.value.__cause__, ZeroDivisionError)
+    assert np.abs(raised.value.case["a"]).max() > 1e3
+    # A function that changes what it returns.
+    calls = []
+    def changes(origin, *rest):
+        calls.append(1)
+        return np.ones(len(origin)) if len(calls) == 1 else np.ones(len(origin), bool)
+    with pytest.raises(ValueError, match="returned t before, and now does not"):
+        hairline.audit(changes, families=["interior"], count=10)
+
+
+def test_the_program_is_in_the_wheel():
+    run = lambda *words: subprocess.run([sys.executable, "-m", "hairline", *words], capture_output=True, text=True)
+    assert re.match(r"hairline \d", run("--version").stdout)
+    assert run("audit", "--family", "nonsense").returncode == 2
+    assert run("truth", "/nowhere.jsonl").returncode == 74
+    assert run("check", "--kernel", "moller-trumbore", "--expect", "/nowhere.toml").returncode != 0
+    record = hairline.advise("room", "moller-trumbore", count=200)
+    assert record["schema"] and "moller-trumbore" in json.dumps(record)
+    with pytest.raises(ValueError, match="morel"):
+        hairline.advise("room", "morel")
+
+
+def test_the_programs_libraries_run_too(tmp_path):
+    """It starts itself again for that, which is not Python's own executable."""
+    compiler = shutil.which("cc") or pytest.skip("there is no C compiler")
+    library = tmp_path / "mine.so"
+    source = ROOT / "examples/c/moller_trumbore.c"
+    subprocess.run([compiler, "-O1", "-shared", "-fPIC", "-I", ROOT / "include", source, "-o", library, "-lm"], check=True)
+    words = ["audit", "--kernel-lib", str(library), "--family", "interior", "-n", "100", "--scalar", "f32"]
+    done = subprocess.run([sys.executable, "-m", "hairline", *words], capture_output=True, text=True)
+    assert done.returncode == 0 and "100 cases in f32" in done.stdout, done.stderr
+
+
+def test_the_notebook_runs():
+    cells = (ROOT / "examples/python/notebook.py").read_text().split("# %%")
+    assert len(cells) > 4
+    names = {"__name__": "notebook"}
+    for cell in cells:
+        exec(compile(cell.partition("\n")[2] if cell.startswith(" ") else cell, "notebook.py", "exec"), names)
+    assert not names["audited"].conforms
