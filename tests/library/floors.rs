@@ -131,7 +131,7 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
 
 /// Lines of code of each crate, without tests, comments and blank lines. A cut lowers its number. It is raised only with
 /// a capability that was asked for, in the same commit.
-const MOST_LINES: [usize; 4] = [7_900, 6_300, 19_500, 23_500];
+const MOST_LINES: [usize; 4] = [7_900, 8_700, 19_500, 24_200];
 
 #[test]
 fn no_crate_grows() {
