@@ -171,8 +171,8 @@ fn numbers_that_are_no_good_are_not_to_be_used() {
 
 #[test]
 fn an_audit_of_a_scene_draws_every_kind_of_planes_and_rays_unless_one_is_named() {
-    const AT_ZERO: &str = "axis-0 (floors and walls at coordinate 0)";
-    const BOXES: &str = "box (boxes along the axes)";
+    const AT_ZERO: &str = "axis-0: floors and walls at coordinate 0";
+    const BOXES: &str = "box: boxes along the axes";
     let squeezed = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let folder = scratch("claims-planes");
     for (flags, parts) in [

@@ -48,7 +48,7 @@ export default function kernel({ origin, direction }, { a, b, c }) {
   const ac = sub(c, a);
   const n = cross(ab, ac);
   const along = dot(direction, n);
-  if (along === 0) return null;
+  if (!(along > 0 || along < 0)) return null;
   const sign = along > 0 ? 1 : -1;
   const scale = Math.abs(along);
   const from = sub(origin, a);

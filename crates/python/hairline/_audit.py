@@ -3,6 +3,7 @@
 import functools
 import html
 import json
+import math
 import os
 import shlex
 import subprocess
@@ -13,6 +14,24 @@ import numpy as np
 
 from . import _hairline
 from ._kernel import Answers
+
+
+def _distance(part: "dict[str, Any]") -> "float | None":
+    """How far the worst verdict of a finding is from being right, in longest edges of the triangle: as the program says it."""
+    severity = part["worst"]["severity"]
+    if severity is None:
+        return None
+    if severity.get("value_off") is not None:
+        return severity["value_off"]
+    space = math.inf if severity["in_space"] is None else severity["in_space"]
+    along, is_outside = severity.get("along"), part["class"].startswith("outside")
+    if along is None:
+        return space
+    if part["finding"] == "false-hit" and severity.get("off_end"):
+        return max(along, space if is_outside else 0.0)
+    if part["finding"] == "false-hit" and along == 0 and not is_outside:
+        return 0.0
+    return min(along, space) if part["finding"] == "false-miss" else space
 
 
 class Audit:
@@ -48,7 +67,7 @@ class Audit:
                 rows.append({
                     "scalar": result["scalar"], "family": result["family"], "class": part["class"],
                     "finding": part["finding"], "count": rate["count"], "of": rate["of"], "rate": rate["rate"],
-                    "low": low, "high": high, "distance": (worst["severity"] or {}).get("in_space"),
+                    "low": low, "high": high, "distance": _distance(part),
                     "case": worst["case"], "command": worst["command"],
                 })
         return rows

@@ -2,6 +2,7 @@
 
 import builtins
 import json
+import math
 import pathlib
 import re
 import shlex
@@ -14,6 +15,7 @@ import numpy as np
 import pytest
 
 import hairline
+from hairline import _audit
 
 ROOT = pathlib.Path(__file__).parents[3]
 FAMILIES = ["interior", "edge-near", "vertex-exact", "sliver", "grazing", "degenerate", "shared-edge"]
@@ -177,3 +179,18 @@ def test_the_notebook_runs():
     for cell in cells:
         exec(compile(cell.partition("\n")[2] if cell.startswith(" ") else cell, "notebook.py", "exec"), names)
     assert not names["audited"].conforms
+
+
+def test_a_verdict_is_as_far_off_as_its_nearest_change() -> None:
+    def distance(finding: str, of_class: str, **severity: object) -> "float | None":
+        part = {"finding": finding, "class": of_class, "worst": {"severity": {"in_space": 0.05, **severity}}}
+        return _audit._distance(part)
+
+    # A shadow ray that hits its own surface a hair before its start is off by that hair, wherever the edges are.
+    assert distance("false-hit", "interior/front/before", along=1e-8, off_end="before") == 1e-8
+    assert distance("false-hit", "outside/front/before", along=1e-8, off_end="before") == 0.05
+    assert distance("false-miss", "interior/front/within", along=1e-3) == 1e-3
+    assert distance("false-hit", "outside/front/within", along=3.0) == 0.05
+    assert distance("wrong-value", "interior/front/within", along=3.0, value_off=0.7) == 0.7
+    assert distance("false-miss", "interior/front/within", in_space=None, along=None) == math.inf
+    assert _audit._distance({"worst": {"severity": None}}) is None

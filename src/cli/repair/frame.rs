@@ -47,8 +47,8 @@ impl Frame<'_> {
         let language = format!("{:?}", self.language).to_lowercase();
         let command = format!("hairline repair --kernel {} --scalar {scalar}", info.name);
         let between = match extent {
-            Extent::Line => "at any t",
-            Extent::Ray => "at t >= 0",
+            Extent::Line => "at any t (t_min and t_max are not looked at)",
+            Extent::Ray => "at t >= 0 (t_min and t_max are not looked at)",
             Extent::Interval => "at t_min <= t <= t_max",
         };
         let sides = if is_front { "front" } else { "both sides" };
