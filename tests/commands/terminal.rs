@@ -60,7 +60,7 @@ fn every_screen_fits_a_terminal() {
         (&["audit", "-n", "150"], 40),
         (&["audit", "-n", "150", "--kernel", "moller-trumbore"], 45),
         (&["epsilon", "--scene", "room", "--scalar", "f32", "-n", "1000"], 30),
-        (&["epsilon", "--scene", "room", "--kernel", "moller-trumbore", "-n", "2000"], 44),
+        (&["epsilon", "--scene", "room", "--kernel", "moller-trumbore", "-n", "10000"], 44),
         (&["spawn", "-n", "300", "--scalar", "f32"], 40),
         (&["explain", "edge-near@1/f32/-/1/41", "--kernel", "cramer"], 40),
         (&["explain", "edge-near@1/f32/-/1/41"], 40),

@@ -24,12 +24,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> Vec
         blocks.push(Block::Heading(format!("{}, contract: {}", first.label(), part.contract)));
         blocks.push(Block::Notes(gates(first)));
         blocks.push(Block::Table(table(columns, &of_part)));
-        let notes = of_part.iter().flat_map(|line| {
-            let scalar = if of_part.len() == 1 { "" } else { line.row.scalar };
-            let lead = if scalar.is_empty() { String::new() } else { format!("{scalar}: ") };
-            others(line).into_iter().map(move |note| format!("{lead}{note}"))
-        });
-        blocks.push(Block::Notes(notes.collect()));
+        blocks.push(Block::Notes(others(&of_part)));
     }
     let intervals = match record.result.plan.scalars.len() {
         1 => ", with 95 % intervals",
@@ -137,26 +132,44 @@ fn row(column: &Column, place: usize, lines: &[&Line]) -> Option<Row> {
     Some(row)
 }
 
-/// The counts besides false misses and false hits, and if the promise across triangles is kept; and why no causes are
-/// told.
-fn others(line: &Line) -> Vec<String> {
+/// The counts besides false misses and false hits, a line each; why no causes are told, and if the promise across triangles
+/// is kept.
+fn others(lines: &[&Line]) -> Vec<String> {
+    let is_alone = lines.len() == 1;
     let mut all = Vec::new();
-    let parts = line.row.results.iter().flat_map(|result| &result.findings);
-    let mut causes = parts.filter_map(|part| part.causes.as_ref()).peekable();
-    let is_untold = causes.peek().is_some()
-        && causes.all(|part| 0 < part.untold && part.by.values().all(|rate| rate.of == 0));
-    if is_untold {
+    if lines.iter().any(|line| is_untold(line)) {
         let why = "no causes: it does not show its formula, and has no epsilons at which it could be run otherwise";
         all.push(why.to_owned());
     }
     // Hits of the triangle that a ray leaves are no promise's, unless they are false hits.
-    let counted = COUNTED[2..].iter().filter(|(name, _)| *name != "self-hits");
-    let counted = counted.map(|(name, get)| (name, line.row.total(get)));
-    let counted = counted.filter(|(_, pool)| 0 < pool.counts()[0]);
-    all.extend(counted.map(|(name, pool)| format!("{name}: {pool}")));
-    let promised = line.across.as_ref().and_then(Across::promise);
-    all.extend(promised.map(|words| format!("promised across triangles: {words}")));
+    for (name, get) in COUNTED[2..].iter().filter(|(name, _)| *name != "self-hits") {
+        let pools = lines.iter().map(|line| (line.row.scalar, line.row.total(get)));
+        let counts = pools.filter(|(_, pool)| 0 < pool.counts()[0]).map(|(scalar, pool)| {
+            if is_alone {
+                pool.to_string()
+            } else {
+                format!("{scalar} {}", count_of(pool.counts()))
+            }
+        });
+        let counts: Vec<String> = counts.collect();
+        if !counts.is_empty() {
+            all.push(format!("{name}: {}", counts.join(", ")));
+        }
+    }
+    for line in lines {
+        let lead = if is_alone { String::new() } else { format!("{}: ", line.row.scalar) };
+        let promised = line.across.as_ref().and_then(Across::promise);
+        all.extend(promised.map(|words| format!("{lead}promised across triangles: {words}")));
+    }
     all
+}
+
+/// True if no cause of any finding could be told.
+fn is_untold(line: &Line) -> bool {
+    let parts = line.row.results.iter().flat_map(|result| &result.findings);
+    let mut causes = parts.filter_map(|part| part.causes.as_ref()).peekable();
+    causes.peek().is_some()
+        && causes.all(|part| 0 < part.untold && part.by.values().all(|rate| rate.of == 0))
 }
 
 /// `3 of 57`.
