@@ -262,6 +262,47 @@ fn a_certificate_is_checked_and_a_changed_one_is_refused() {
     assert!(error.contains("plucker is repaired in another way here"), "{error}");
 }
 
+/// The checker knows a number by its values modulo 2^61 - 1. So what is added is a multiple of that: nothing there, and much
+/// everywhere else.
+#[test]
+fn a_number_that_is_another_only_modulo_the_prime_is_refused() {
+    let folder = scratch("repair-forged");
+    ends(&folder, &["repair", "--kernel", "moller-trumbore-t", "--certificate", "proof.txt"], 0);
+    let path = folder.join("proof.txt");
+    let text = fs::read_to_string(&path).unwrap();
+    let (head, margins) = text.split_once("margin ").unwrap();
+    let last = head.lines().filter(|line| line.starts_with("op ")).count();
+    let weight = text.split_once("hit +").and_then(|(_, rest)| rest.split_once("hit +")).unwrap().1;
+    let (determinant, weight) = weight.lines().next().unwrap().split_once('*').unwrap();
+    let place = |i: usize| last + i;
+    let operations = [
+        "number 1048576".to_owned(),
+        "number 2097152".to_owned(),
+        format!("mul {} {}", place(0), place(0)),
+        format!("mul {} {}", place(2), place(1)),
+        "number 1".to_owned(),
+        format!("sub {} {}", place(3), place(4)),
+        format!("mul {} 0", place(5)),
+        format!("add {weight} {}", place(6)),
+    ];
+    let operations = operations.iter().enumerate();
+    let operations: String =
+        operations.map(|(i, words)| format!("op {} {words}\n", place(i))).collect();
+    let (sum, old) = (place(7), format!("{determinant}*{weight}\n"));
+    let forged = |margin: &str| {
+        let margins = margins.replace(&old, &format!("{determinant}*{sum}\n"));
+        let gates = margins.find("gate ").unwrap();
+        let (margins, gates) = margins.split_at(gates);
+        let all = format!("{head}{operations}margin {margins}margin {sum} {margin}\n{gates}");
+        fs::write(&path, all).unwrap();
+        ends(&folder, &["prove", "--check", "proof.txt"], 65).1
+    };
+    let error = forged("0 0");
+    let right = error.split_once("expected `").unwrap_or_else(|| panic!("{error}")).1;
+    let error = forged(right.split('`').next().unwrap());
+    assert!(error.contains("gate 'edge' rejects rays that may hit"), "{error}");
+}
+
 #[test]
 fn what_cannot_be_repaired_is_refused_with_the_reason() {
     let folder = scratch("repair-refused");

@@ -66,17 +66,15 @@ impl Frame<'_> {
             String::new(),
             "Why: a sum of products, each of which passes at most K roundings before the last sum, is off by at most".to_owned(),
             format!("((1+u)^K - 1) times the sum of their sizes, u = 2^-{digits}. Its sign is right beyond factor * sizes; the factor"),
-            "covers the rounding of the sizes too. K is that of the worst order of a sum, so the compiler may fuse and".to_owned(),
-            "reorder sums; SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. What".to_owned(),
+            "covers the rounding of the sizes too. It supposes rounding to nearest, and differences of points that are computed".to_owned(),
+            "as they stand here. K is that of the worst order of a sum, so sums of products may be fused and reordered;".to_owned(),
+            "SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. What".to_owned(),
             "overflows is no finite number, and asks.".to_owned(),
         ];
         if self.language.is_of_shaders() {
             lines.pop();
-            lines.push(format!("overflows does not occur where coordinates are below {}: others ask. It supposes finite", self.largest()));
-            lines.push(
-                "inputs, and differences of points that are computed as they stand here."
-                    .to_owned(),
-            );
+            lines.push(format!("overflows does not occur where coordinates are below {}: others ask. It supposes finite inputs.", self.largest()));
+            lines.push("The language does not promise rounding to nearest; graphics devices that are known do so.".to_owned());
         }
         let names = names(self.guarded);
         for (place, margin) in &self.guarded.margins {
@@ -182,8 +180,9 @@ impl Frame<'_> {
 #include <float.h>
 #include <math.h>
 
-#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
-#error \"-ffast-math changes results: its margins do not cover what that does to infinities and products\"
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) \
+    || defined(__ASSOCIATIVE_MATH__)
+#error \"-ffast-math changes results: compile without it, and without -ffinite-math-only and -fassociative-math\"
 #endif
 /* 16 and 32 are about types narrower than float. */
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16 && FLT_EVAL_METHOD != 32

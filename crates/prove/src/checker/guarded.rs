@@ -11,6 +11,9 @@ use std::collections::HashMap;
 /// A tree of decisions is not deeper.
 const MOST_STEPS: usize = 1 << 9;
 
+/// A number with more roundings, terms, shares or underflows has no margin.
+const MOST_COUNT: u64 = 1 << 14;
+
 /// How wrong a number may be: see the guide.
 #[derive(Clone, Copy)]
 struct Count {
@@ -50,7 +53,7 @@ pub fn check<'a>(format: Format, reader: &mut Reader<'a>) -> Outcome<usize> {
         is_known.then(|| Promise { extent: extent.to_owned(), is_front })
     })?;
     let program = Program::of_operations(format, reader)?;
-    let signs = Signs::new(promise);
+    let signs = Signs::new(promise, &program);
     let mut guarded = Guarded { program, margins: HashMap::new(), signs, steps: 0 };
     let mut counts = HashMap::new();
     while reader.is_next("margin") {
@@ -136,6 +139,9 @@ impl<'a> Guarded<'a> {
             }
             _ => return Err(format!("found a margin of a number with `{name}`, which has none")),
         };
+        let Count { roundings, terms, shares, underflows } = found;
+        let is_small = [roundings, terms, shares, underflows].iter().all(|n| *n <= MOST_COUNT);
+        ensure(is_small, format!("found operation {place} with too many roundings"))?;
         counts.insert((place, of_size), found);
         Ok(found)
     }

@@ -103,6 +103,46 @@ impl Point {
     }
 }
 
+/// A seed of points that depends on every operation, so that no program can be chosen for its points.
+pub fn seed(program: &Program) -> u64 {
+    let mix = |state: u64, word: u64| {
+        let x = (state ^ word).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        (x ^ (x >> 29)).wrapping_mul(0x94d0_49bb_1331_11eb).rotate_left(31)
+    };
+    program.operations.iter().fold(0, |state, Operation { name, operands, value }| {
+        let name = name.bytes().map(u64::from);
+        let operands = operands.iter().map(|place| *place as u64);
+        name.chain(operands).chain([*value as u64]).fold(state, mix)
+    })
+}
+
+/// The most that a number's degree and the sum of its coefficients' sizes may be: two such polynomials that differ also differ modulo
+/// the prime, and agree at a point with a chance below 2^-54.
+const MOST_DEGREE: u64 = 64;
+const MOST_COEFFICIENTS: u64 = 1 << 50;
+
+/// True if a number is a polynomial within these bounds.
+pub fn is_small(program: &Program, last: usize) -> bool {
+    let mut all: Vec<Option<(u64, u64)>> = Vec::with_capacity(last + 1);
+    for Operation { name, operands, value } in &program.operations[..=last] {
+        let of = |i: usize| -> Option<(u64, u64)> { all[operands[i]] };
+        let both = || Some((of(0)?, of(1)?));
+        let found = match *name {
+            "input" => Some((1, 1)),
+            "number" => Some((0, value.unsigned_abs())),
+            "add" | "sub" => {
+                both().and_then(|((p, a), (q, b))| Some((p.max(q), a.checked_add(b)?)))
+            }
+            "mul" => both().and_then(|((p, a), (q, b))| Some((p + q, a.checked_mul(b)?))),
+            "neg" | "abs" => of(0),
+            // No number with a margin is made from it.
+            _ => Some((0, 0)),
+        };
+        all.push(found.filter(|(degree, sum)| *degree <= MOST_DEGREE && *sum <= MOST_COEFFICIENTS));
+    }
+    all[last].is_some()
+}
+
 /// Known numbers and their powers.
 pub type Factors = [(usize, u64); 5];
 

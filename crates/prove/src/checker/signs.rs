@@ -1,17 +1,20 @@
 //! The meaning of the signs of a guarded kernel's numbers for the ray and the triangle.
 //!
-//! Each number is known by its value modulo a prime at random inputs: polynomials of small degree that agree there are
-//! equal, but for a chance below 2^-200. The known ones are, with N = (b-a)×(c-a),
+//! Each number is known by its value modulo a prime at inputs that depend on the whole program: polynomials of small degree and
+//! small coefficients that agree there are equal, but for a chance below 2^-200. The known ones are, with N = (b-a)×(c-a),
 //! the scalar triple products U, V, W of d with two vertices, their sums, D = d·N = -(U+V+W), T = N·(a-o), T - t_min·D
 //! and t_max·D - T, each times powers of D, of N·N, and of one coordinate of N and of d. Then every combination of
 //! signs that can occur is tried.
 
 use super::points::{COUNT, FAR, Factors, NEAR, POINTS, PRIME, Point, SUM, T, U, UV, V, VW, W, WU};
-use super::points::{inverse, product, products, times, value};
+use super::points::{inverse, is_small, product, products, seed, times, value};
 use super::program::{Operation, Program};
-use super::reader::Outcome;
+use super::reader::{Outcome, ensure};
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
+
+/// More signs inside absolute values are not tried.
+const MOST_SIZED: usize = 8;
 
 /// A condition: the signs of `signs` have a product that is negative, or not, and no number is zero.
 #[derive(Clone, Debug)]
@@ -78,8 +81,10 @@ type Asked = (usize, Inner, [usize; 3]);
 type Inner = Vec<(usize, bool)>;
 
 impl Signs {
-    pub fn new(promise: Promise) -> Signs {
-        let points: Vec<Point> = (1..=POINTS as u64).map(Point::new).collect();
+    pub fn new(promise: Promise, program: &Program) -> Signs {
+        let seed = seed(program);
+        let points: Vec<Point> =
+            (1..=POINTS as u64).map(|i| Point::new(seed.wrapping_add(i << 32))).collect();
         let (products, known) = (products(&points), RefCell::default());
         Signs { promise, points, products, axes: vec![], known }
     }
@@ -147,8 +152,12 @@ impl Signs {
             known.iter().chain(of_gates).flat_map(Literal::places).collect();
         let mut sized = BTreeSet::new();
         places.iter().for_each(|place| inner(program, *place, &mut sized));
+        ensure(
+            sized.len() <= MOST_SIZED,
+            format!("needs the signs of more than {MOST_SIZED} numbers inside absolute values"),
+        )?;
         for axes in &self.axes {
-            for bits in 0..1_u32 << sized.len().min(8) {
+            for bits in 0..1_u32 << sized.len() {
                 let inner: Inner =
                     (0..).zip(&sized).map(|(i, place)| (*place, bits >> i & 1 == 1)).collect();
                 let all = places.iter().chain(&sized);
@@ -226,6 +235,9 @@ impl Signs {
         inner: &Inner,
         axes: &[usize; 3],
     ) -> Option<Monomial> {
+        if !is_small(program, place) {
+            return None;
+        }
         let values: Vec<u64> =
             self.points.iter().map(|point| value(program, place, point, inner, axes)).collect();
         let alike = self.products.get(&times(values[1], inverse(values[0])));
