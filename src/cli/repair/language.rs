@@ -151,46 +151,23 @@ impl Language {
 
     /// Returns a hit with its t, u and v.
     pub fn hit(self, values: &[Option<String>]) -> Vec<String> {
-        let given = || {
-            ["t", "u", "v"]
-                .iter()
-                .zip(values)
-                .filter_map(|(name, text)| Some((*name, text.as_ref()?)))
-        };
+        // Shaders have the three in a vector.
+        let names = [("t", "x"), ("u", "y"), ("v", "z")].into_iter();
+        let given = names.zip(values).filter_map(|(names, text)| Some((names, text.as_ref()?)));
         if self == Rust {
-            let fields: Vec<String> = given()
-                .map(
-                    |(name, text)| {
-                        if name == text { name.to_owned() } else { format!("{name}: {text}") }
-                    },
-                )
-                .collect();
+            let field = |((name, _), text): ((&str, _), &String)| match name == text {
+                true => name.to_owned(),
+                false => format!("{name}: {text}"),
+            };
+            let fields: Vec<String> = given.map(field).collect();
             return vec![format!("Answer::Hit {{ {} }}", fields.join(", "))];
         }
-        let set = |(name, text): (&str, &String)| match self {
+        let set = |((name, axis), text): ((&str, &str), &String)| match self {
             C => format!("answer->{name} = {text};"),
-            Wgsl => format!(
-                "(*answer).{} = {text};",
-                if name == "t" {
-                    "x"
-                } else if name == "u" {
-                    "y"
-                } else {
-                    "z"
-                }
-            ),
-            _ => format!(
-                "answer.{} = {text};",
-                if name == "t" {
-                    "x"
-                } else if name == "u" {
-                    "y"
-                } else {
-                    "z"
-                }
-            ),
+            Wgsl => format!("(*answer).{axis} = {text};"),
+            _ => format!("answer.{axis} = {text};"),
         };
-        let mut lines: Vec<String> = given().map(set).collect();
+        let mut lines: Vec<String> = given.map(set).collect();
         lines.push("return HAIRLINE_HIT;".to_owned());
         lines
     }
