@@ -26,10 +26,12 @@
 // Some of the modules' items serve only this project's own tests, through `internals`.
 #![cfg_attr(not(all(feature = "internals", feature = "cli")), allow(dead_code, unused_imports))]
 
-// What stands below: the words, the numbers, the kernels, the truth; the proofs; cases, counts and studies.
+// What stands below: the words, the numbers, the kernels, the truth; the proofs; cases, counts and studies; kernels of others.
 #[macro_use(either_scalar, in_named_scalar, named)]
 extern crate hairline_core;
 use hairline_core::{arith, case, contract, engine, kernel, oracle, suggest};
+#[cfg(feature = "cli")]
+use hairline_plugin as plugin;
 #[cfg(feature = "studies")]
 use hairline_prove as prove;
 use hairline_study::{audit, corpus, family, judge, mesh, plot};
@@ -47,8 +49,6 @@ mod conformance;
 mod descriptors;
 #[cfg(feature = "cli")]
 mod expect;
-#[cfg(feature = "cli")]
-mod plugin;
 
 #[cfg(feature = "cli")]
 pub mod cli;

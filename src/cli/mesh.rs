@@ -9,12 +9,12 @@ use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::rays_at_each;
-use crate::audit::mesh::{self, Found, Plan};
+use crate::audit::mesh::{Found, Plan};
 use crate::family::MeshFamily;
-use crate::kernel::Scalar;
 use crate::mesh::{Part, Surface};
 use crate::report::mesh::{MESH_FORMATS, build, places};
 use crate::report::{Context, HTML, number_of};
+use crate::studied::Studied;
 use clap::Args;
 use std::sync::Arc;
 
@@ -114,7 +114,7 @@ impl MeshArguments {
         Ok(Plan { rows, directions, seed, unit_direction, instance: None, examples, places: 0 })
     }
 
-    fn run_scalar<F: Scalar>(
+    fn run_scalar<F: Studied>(
         &self,
         surface: &Arc<Surface>,
         plan: &Plan,
@@ -130,6 +130,6 @@ impl MeshArguments {
             let rows = number_of(rows as u64, "kernel row", "kernel rows");
             eprintln!("{rows} on {rays} rays in {}", F::NAME);
         }
-        mesh::run::<F>(surface, plan, progress)
+        F::mesh(surface, plan, progress)
     }
 }

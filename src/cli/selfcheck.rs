@@ -5,7 +5,8 @@ use super::output::write_result;
 use super::progress::Progress;
 use crate::family::{FAMILIES, LATTICE_SIZE};
 use crate::oracle::Layers;
-use crate::selfcheck::{Check, Reference, family, lattice, thresholds, whole_range};
+use crate::selfcheck::{Check, Reference, lattice, thresholds};
+use crate::studied::Studied;
 use clap::Args;
 use std::io::{self, Write};
 
@@ -70,12 +71,12 @@ pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
         let (p, many) = (&progress, THRESHOLDS * n);
         let set = |name: &str| format!("{name}, {held_to}");
         add(set("thresholds f64"), &|| thresholds(reference, seed, many, p));
-        add(set("any finite f32"), &|| whole_range::<f32>(reference, seed, n, p));
-        add(set("any finite f64"), &|| whole_range::<f64>(reference, seed, n, p));
+        add(set("any finite f32"), &|| f32::check_range(reference, seed, n, p));
+        add(set("any finite f64"), &|| f64::check_range(reference, seed, n, p));
         for row in FAMILIES {
             let of = |scalar: &str| set(&format!("{} {scalar}", row.name));
-            add(of("f32"), &|| family::<f32>(row, reference, seed, n, p));
-            add(of("f64"), &|| family::<f64>(row, reference, seed, n, p));
+            add(of("f32"), &|| f32::check_family(row, reference, seed, n, p));
+            add(of("f64"), &|| f64::check_family(row, reference, seed, n, p));
         }
     }
     progress.finish();

@@ -48,11 +48,7 @@ pub use record::*;
 #[cfg(feature = "studies")]
 pub use shard::{Mergeable, ShardError, mergeable, merged, shard_part};
 
-pub(crate) use crate::plot::group_digits;
-/// `3 findings`, `1 finding`.
-pub(crate) fn number_of(count: u64, one: &str, many: &str) -> String {
-    format!("{} {}", group_digits(count), if count == 1 { one } else { many })
-}
+pub(crate) use crate::plot::{group_digits, number_of};
 
 /// Names in a sentence; of many the first, and how many more there are.
 #[cfg(feature = "studies")]

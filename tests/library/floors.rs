@@ -6,7 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates' sources, the lowest first.
-const CRATES: [&str; 4] = ["crates/core/src", "crates/prove/src", "crates/study/src", "src"];
+const CRATES: [&str; 5] =
+    ["crates/core/src", "crates/prove/src", "crates/study/src", "crates/plugin/src", "src"];
 
 fn source(of_crate: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(of_crate)
@@ -63,8 +64,8 @@ fn names_after(text: &str, prefix: &str) -> BTreeSet<String> {
     names
 }
 
-/// The floors, the lowest first: the `mod` lines of the crates' `lib.rs`, in blocks between blank lines. The prover is
-/// one module with its crate's name.
+/// The floors, the lowest first: the `mod` lines of the crates' `lib.rs`, in blocks between blank lines. The prover and
+/// the plug-ins are each one module with its crate's name.
 fn floors() -> Vec<BTreeSet<String>> {
     let module = |line: &str| {
         let line = line.strip_prefix("pub ").unwrap_or(line);
@@ -74,11 +75,12 @@ fn floors() -> Vec<BTreeSet<String>> {
         let text = code(&source(of_crate).join("lib.rs"));
         text.split("\n\n").map(|block| block.lines().filter_map(module).collect()).collect()
     };
-    let prover = BTreeSet::from([String::from("prove")]);
-    let [core, _, study, top] = CRATES;
+    let alone = |name: &str| BTreeSet::from([name.to_owned()]);
+    let [core, _, study, _, top] = CRATES;
     let mut floors = of_crate(core);
-    floors.push(prover);
+    floors.push(alone("prove"));
     floors.extend(of_crate(study));
+    floors.push(alone("plugin"));
     floors.extend(of_crate(top));
     floors.iter_mut().for_each(|floor| floor.retain(|name| name != "internals"));
     floors.retain(|floor| !floor.is_empty());
@@ -88,7 +90,7 @@ fn floors() -> Vec<BTreeSet<String>> {
 /// What each module uses of the others.
 fn uses() -> BTreeMap<String, BTreeSet<String>> {
     let mut uses: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    let [core, prover, study, top] = CRATES;
+    let [core, prover, study, plugin, top] = CRATES;
     for (file, place) in [core, study, top].into_iter().flat_map(rust_files) {
         let module = place.iter().next().unwrap().to_str().unwrap().trim_end_matches(".rs");
         if ["lib", "main", "internals"].contains(&module) || place.ends_with("tests.rs") {
@@ -96,8 +98,11 @@ fn uses() -> BTreeMap<String, BTreeSet<String>> {
         }
         uses.entry(module.to_owned()).or_default().extend(names_after(&code(&file), "crate::"));
     }
-    let lib = code(&source(prover).join("lib.rs"));
-    uses.insert("prove".into(), names_after(&lib, "hairline_core::"));
+    for (name, of_crate) in [("prove", prover), ("plugin", plugin)] {
+        let lib = code(&source(of_crate).join("lib.rs"));
+        let crates = ["hairline_core::", "hairline_study::"].map(|below| names_after(&lib, below));
+        uses.insert(name.into(), crates.into_iter().flatten().collect());
+    }
     for (module, used) in &mut uses {
         used.remove(module);
     }
@@ -131,7 +136,7 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
 
 /// Lines of code of each crate, without tests, comments and blank lines. A cut lowers its number. It is raised only with
 /// a capability that was asked for, in the same commit.
-const MOST_LINES: [usize; 4] = [7_900, 8_700, 19_500, 24_200];
+const MOST_LINES: [usize; 5] = [7_900, 8_700, 19_500, 1_900, 22_300];
 
 #[test]
 fn no_crate_grows() {
@@ -191,7 +196,7 @@ fn below_the_command_line_nothing_prints_opens_files_or_reads_a_clock() {
     for (file, place) in CRATES.into_iter().flat_map(rust_files) {
         // A kernel's process is a kernel: it has pipes, patience and a clock. A user's test has its files.
         let is_test = place.components().any(|part| part.as_os_str() == "tests");
-        let may = place.starts_with("cli") || place.starts_with("plugin") || is_test;
+        let may = place.starts_with("cli") || is_test || file.starts_with(source("crates/plugin"));
         let may = may || place.ends_with("conformance/expectations.rs");
         if may || place.ends_with("main.rs") {
             continue;

@@ -29,7 +29,6 @@ pub mod explore;
 #[cfg(feature = "studies")]
 pub mod map;
 #[cfg(feature = "studies")]
-#[cfg(feature = "studies")]
 pub mod selfcheck;
 #[cfg(feature = "studies")]
 pub mod spawn;

@@ -170,6 +170,11 @@ pub fn group_digits(number: u64) -> String {
     text
 }
 
+/// `3 findings`, `1 finding`.
+pub fn number_of(count: u64, one: &str, many: &str) -> String {
+    format!("{} {}", group_digits(count), if count == 1 { one } else { many })
+}
+
 /// An exponent in raised digits.
 fn superscript(exponent: i32) -> String {
     let raised = |c: char| match c {

@@ -1,15 +1,36 @@
 //! The longest runs, compiled in this crate for both scalars. A crate that called them by a type parameter would compile
 //! them once more, with its own optimisation.
 
-use crate::epsilon::{Costs, MaxError, SceneStudy, Setting, study_scene, try_elsewhere};
-use crate::explore::worst::{Entry, Goal, find_worst};
+use crate::audit::mesh;
+use crate::epsilon::{self, Costs, MaxError, SceneStudy, Setting};
+use crate::explore::worst::{self, Entry, Goal};
+use crate::family::Family;
+use crate::mesh::Surface;
+use crate::selfcheck::{self, Check, Reference};
 use crate::spawn;
 use crate::{case::Scene, engine::Observer, kernel::Scalar};
+use std::sync::Arc;
 
-/// A scalar in which everything is studied.
-pub trait Studied: Scalar {
-    /// [`study_scene`].
-    fn study_scene(
+macro_rules! studied {
+    ($($run:path: fn $name:ident($($argument:ident: $type:ty),* $(,)?) -> $result:ty;)*) => {
+        /// A scalar in which everything is studied: each function is the one of its name in another module.
+        #[allow(missing_docs)]
+        pub trait Studied: Scalar {
+            $(fn $name($($argument: $type),*) -> $result;)*
+        }
+
+        impl Studied for f32 {
+            $(fn $name($($argument: $type),*) -> $result { $run($($argument),*) })*
+        }
+
+        impl Studied for f64 {
+            $(fn $name($($argument: $type),*) -> $result { $run($($argument),*) })*
+        }
+    };
+}
+
+studied! {
+    epsilon::study_scene: fn study_scene(
         setting: &Setting<'_, Self>,
         costs: &Costs,
         max_error: Option<&MaxError>,
@@ -18,57 +39,39 @@ pub trait Studied: Scalar {
         count: u64,
         observer: &dyn Observer,
     ) -> Result<SceneStudy<Self>, String>;
-    /// [`try_elsewhere`].
-    fn try_elsewhere(
+    epsilon::try_elsewhere: fn try_elsewhere(
         setting: &Setting<'_, Self>,
         study: &mut SceneStudy<Self>,
         scenes: &[Scene],
         seed: u64,
         count: u64,
         observer: &dyn Observer,
-    );
-    /// [`spawn::run`].
-    fn spawn(plan: &spawn::Plan<'_>, observer: &dyn Observer) -> spawn::Sums;
-    /// [`find_worst`].
-    fn find_worst(goals: &[Goal], evaluations: u64, seed: u64) -> Vec<Option<Entry>>;
+    ) -> ();
+    mesh::run::<Self>: fn mesh(
+        surface: &Arc<Surface>,
+        plan: &mesh::Plan,
+        observer: &dyn Observer,
+    ) -> mesh::Found;
+    spawn::run::<Self>: fn spawn(
+        plan: &spawn::Plan<'_>,
+        observer: &dyn Observer,
+    ) -> spawn::Sums;
+    worst::find_worst::<Self>: fn find_worst(
+        goals: &[Goal],
+        evaluations: u64,
+        seed: u64,
+    ) -> Vec<Option<Entry>>;
+    selfcheck::family::<Self>: fn check_family(
+        family: &Family,
+        reference: Reference,
+        seed: u64,
+        indices: u64,
+        observer: &dyn Observer,
+    ) -> Check;
+    selfcheck::whole_range::<Self>: fn check_range(
+        reference: Reference,
+        seed: u64,
+        indices: u64,
+        observer: &dyn Observer,
+    ) -> Check;
 }
-
-macro_rules! studied {
-    ($scalar:ty) => {
-        impl Studied for $scalar {
-            fn study_scene(
-                setting: &Setting<'_, Self>,
-                costs: &Costs,
-                max_error: Option<&MaxError>,
-                named: &[(String, Vec<Self>)],
-                seed: u64,
-                count: u64,
-                observer: &dyn Observer,
-            ) -> Result<SceneStudy<Self>, String> {
-                study_scene(setting, costs, max_error, named, seed, count, observer)
-            }
-
-            fn try_elsewhere(
-                setting: &Setting<'_, Self>,
-                study: &mut SceneStudy<Self>,
-                scenes: &[Scene],
-                seed: u64,
-                count: u64,
-                observer: &dyn Observer,
-            ) {
-                try_elsewhere(setting, study, scenes, seed, count, observer);
-            }
-
-            fn spawn(plan: &spawn::Plan<'_>, observer: &dyn Observer) -> spawn::Sums {
-                spawn::run::<Self>(plan, observer)
-            }
-
-            fn find_worst(goals: &[Goal], evaluations: u64, seed: u64) -> Vec<Option<Entry>> {
-                find_worst::<Self>(goals, evaluations, seed)
-            }
-        }
-    };
-}
-
-studied!(f32);
-studied!(f64);

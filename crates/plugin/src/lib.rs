@@ -1,11 +1,13 @@
-//! Floor 6, beside the command line: kernels in processes of their own. A command that speaks the
-//! protocol of docs/protocol.md over its pipes, or a shared library with the functions of
-//! include/hairline.h, which a child of this program loads.
+//! Kernels in processes of their own. A command that speaks the protocol of docs/protocol.md over its pipes, or a
+//! shared library with the functions of include/hairline.h, which a child of this program loads.
 //!
 //! A process may crash, hang, exit or write outside its buffers: that is a finding about the case, and
 //! the run goes on with a new process. An invalid answer ends the run.
 
 #![deny(unsafe_code)]
+
+use hairline_core::{arith, case, contract, kernel, truth};
+use hairline_study::{corpus, plot, spawn};
 
 mod binary;
 mod exchange;

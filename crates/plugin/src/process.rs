@@ -13,7 +13,7 @@ use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
 use crate::corpus::lines::bare_case;
 use crate::kernel::{Entry, Failure, Hit, KernelInfo, Subject, Verdict, open_epsilons, values_of};
-use crate::report::{group_digits, number_of};
+use crate::plot::{group_digits, number_of};
 use std::io;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
