@@ -8,7 +8,7 @@
 
 use hairline::internals::case::Draw;
 use hairline::internals::corpus::mesh::write_obj;
-use hairline::internals::corpus::shapes::Shape;
+use hairline::internals::corpus::shapes::MadeMesh;
 use std::collections::HashMap;
 use std::io::{self, BufWriter, Write};
 
@@ -23,7 +23,7 @@ fn main() -> io::Result<()> {
 }
 
 /// A cube of n × n squares a side, brought to a sphere with bumps.
-fn bumpy_sphere(n: i32) -> Shape {
+fn bumpy_sphere(n: i32) -> MadeMesh {
     let mut numbers: HashMap<[i32; 3], u32> = HashMap::new();
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     for side in 0..6 {
@@ -52,7 +52,7 @@ fn bumpy_sphere(n: i32) -> Shape {
             }
         }
     }
-    Shape { name: "sphere", about: "a bumpy sphere", vertices, faces }
+    MadeMesh { name: "sphere", about: "a bumpy sphere", vertices, faces }
 }
 
 fn bumpy(point: [i32; 3], number: u64) -> [f64; 3] {

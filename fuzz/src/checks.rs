@@ -5,7 +5,7 @@ use hairline::internals::arith::Float;
 use hairline::internals::audit::{CorpusSet, Source, Unobserved};
 use hairline::internals::case::{Case, Draw};
 use hairline::internals::corpus::lines::AnyCase;
-use hairline::internals::epsilon::{Attempt, Count, Kind, Knob, Rays, Setting, count_at};
+use hairline::internals::epsilon::{Attempt, Knob, RayCount, Rays, Setting, WrongKind, count_at};
 use hairline::internals::explore::inputs::{Input, of_kernel};
 use hairline::internals::explore::{Signature, mutate};
 use hairline::internals::judge::{self, Obligation};
@@ -129,7 +129,8 @@ where
     let tunable = (0..gates.len()).filter(|gate| gates[*gate].epsilon != Tunable::Fixed);
     for gate in tunable {
         let knobs = [Knob::Gate(gate)];
-        let counts = [Kind::Miss, Kind::Hit].map(|kind| Count { rays: Rays::Stored, kind });
+        let counts =
+            [WrongKind::Miss, WrongKind::Hit].map(|kind| RayCount { rays: Rays::Stored, kind });
         let setting = Setting {
             row: &row,
             subject,

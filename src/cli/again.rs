@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 const TIMES: usize = 4;
 
 /// The findings of a class: digests by key.
-type Findings = BTreeMap<Key, String>;
+type FindingDigests = BTreeMap<Key, String>;
 
 /// Compares a run with its expectations, without the kernel rows of the plan whose answers differ from run to run.
 pub fn compare(
@@ -111,7 +111,7 @@ fn run(plan: &Plan, shard: Shard) -> ResultPart {
 }
 
 /// Those of a class, or of all classes together.
-fn findings(result: &ResultPart, key: &Key) -> Findings {
+fn findings(result: &ResultPart, key: &Key) -> FindingDigests {
     let found = disagreements(result).into_iter();
     let of_key = found.filter(|found| found.key == *key || found.key.of_all_classes() == *key);
     of_key.map(|found| (found.key, found.digest.to_owned())).collect()

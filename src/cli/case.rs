@@ -9,8 +9,8 @@ use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::Mesh;
 use crate::family::{self, Family, Grouping, MeshFamily, Stratum};
 use crate::kernel::Scalar;
-use crate::mesh::{Part, SceneMesh, Surface, Targets, Topology};
-use crate::vectors::{self, DIGITS, Test};
+use crate::mesh::{AimedPart, SceneMesh, Surface, Targets, Topology};
+use crate::vectors::{self, DIGITS, VectorTest};
 use clap::Args;
 use std::sync::Arc;
 
@@ -99,7 +99,8 @@ impl CaseArguments {
             return None;
         }
         let mut tests = vectors::core().into_iter().flat_map(|(_, tests)| tests);
-        let Some(Test { cases, grouping, .. }) = tests.find(|test| test.id == self.case) else {
+        let Some(VectorTest { cases, grouping, .. }) = tests.find(|test| test.id == self.case)
+        else {
             let message = format!("no test of the core set of vectors has the id '{}'", self.case);
             return Some(Err(Failure::usage(message)));
         };
@@ -175,7 +176,7 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
                 format!("{path}: its digest is {}, the case's mesh has {digest}", mesh.digest);
             return Err(Failure::Message(Status::BadInput, message));
         }
-        if let Some(part) = Part::named(&id.family) {
+        if let Some(part) = AimedPart::named(&id.family) {
             return around_target(id, &mesh, part);
         }
         let family = MeshFamily::new(mesh, path);
@@ -197,7 +198,11 @@ fn chosen_triangle<F: Scalar>(id: &CaseId, cases: Vec<Case<F>>) -> Result<Vec<Ca
 }
 
 /// The cases of a ray at an edge or vertex of a mesh.
-fn around_target<F: Scalar>(id: &CaseId, mesh: &Mesh, part: Part) -> Result<Group<F>, Failure> {
+fn around_target<F: Scalar>(
+    id: &CaseId,
+    mesh: &Mesh,
+    part: AimedPart,
+) -> Result<Group<F>, Failure> {
     if !Targets::makes(id) {
         let message = format!("'{id}': this program makes another version of its family");
         return Err(Failure::Message(Status::BadInput, message));

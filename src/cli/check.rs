@@ -14,7 +14,9 @@ use crate::audit::Plan;
 use crate::conformance::locked;
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError, Expectations};
-use crate::report::{Conformance, JSON_SCHEMA, Method, PartialPart, Record, Verdict, number_of};
+use crate::report::{
+    ComparisonVerdict, Conformance, JSON_SCHEMA, Method, PartialPart, Record, number_of,
+};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
 use std::path::Path;
@@ -219,9 +221,9 @@ fn checked(
     outputs.write(&mut record)?;
     github::announce(&record)?;
     Ok(match record.conformance.map(|conformance| conformance.verdict) {
-        Some(Verdict::Disagreements) => Status::Disagreements,
-        Some(Verdict::Unsteady) => Status::BadInput,
-        Some(Verdict::Stale) => Status::Stale,
+        Some(ComparisonVerdict::Disagreements) => Status::Disagreements,
+        Some(ComparisonVerdict::Unsteady) => Status::BadInput,
+        Some(ComparisonVerdict::Stale) => Status::Stale,
         _ => Status::Success,
     })
 }

@@ -14,8 +14,8 @@ use crate::arith::Float;
 use crate::arith::smallest_normal;
 use crate::audit::Row;
 use crate::epsilon::{
-    COUNT, Costs, Count, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedRays, contract_with,
-    counts, counts_of, own_epsilons,
+    COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, RayCount, Setting, StudiedRays,
+    contract_with, counts, counts_of, own_epsilons,
 };
 use crate::family::STRATA;
 use crate::kernel::{Entry, Scalar, Subject};
@@ -147,7 +147,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     let kinds = if studied.scene.is_some() { STRATA.len() } else { studied.sources.len() };
     let total = passes * kinds as u64 * count * studies as u64;
     let progress = Progress::new(total, "indices", arguments.output.quiet);
-    let run = Run {
+    let run = EpsilonRun {
         studied: &studied,
         costs: &costs,
         max_error,
@@ -183,7 +183,7 @@ struct Tuned<'a> {
     knobs: Vec<Knob>,
 }
 
-struct Run<'a> {
+struct EpsilonRun<'a> {
     studied: &'a StudiedRays,
     costs: &'a Costs,
     max_error: Option<&'a MaxError>,
@@ -196,9 +196,9 @@ struct Run<'a> {
     progress: &'a Progress,
 }
 
-impl Run<'_> {
+impl EpsilonRun<'_> {
     /// The counts of a kernel: in a scene only of the strata that are named, if some are.
-    fn counts(&self, knobs: &[Knob], row: &Row) -> Vec<Count> {
+    fn counts(&self, knobs: &[Knob], row: &Row) -> Vec<RayCount> {
         let StudiedRays { scene, sources, strata, .. } = self.studied;
         if scene.is_none() {
             return counts_of(sources, knobs, row);
@@ -261,7 +261,7 @@ impl Run<'_> {
             }
             named.push((text.clone(), vec![value]));
         }
-        let Run { costs, max_error, seed, count, progress, .. } = *self;
+        let EpsilonRun { costs, max_error, seed, count, progress, .. } = *self;
         let study = F::study_scene(&setting, costs, max_error, &named, seed, count, progress);
         found_margins(name, setting.subject)?;
         let mut study = study.map_err(|error| fault(row.entry, error))?;

@@ -13,7 +13,7 @@ use super::flags::chosen_scalars;
 use super::output::{standard_output, write_result};
 use super::progress::Progress;
 use super::select::KernelArguments;
-use crate::explore::campaign::{Campaign, Find, Plan, State};
+use crate::explore::campaign::{Campaign, CampaignPlan, CampaignState, Find};
 use clap::{Args, Subcommand};
 use directory::{Begun, CAMPAIGN, Directory, NO_BAND};
 use std::io::Write;
@@ -125,11 +125,11 @@ pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
 }
 
 /// The plan of a campaign.
-fn plan(begun: &Begun) -> Result<Plan, Failure> {
+fn plan(begun: &Begun) -> Result<CampaignPlan, Failure> {
     let rows = begun.kernels.rows_without_band(NO_BAND)?;
     let scalars = scalars_in_use(&rows, chosen_scalars(&begun.scalar)?)?;
     let varies = !begun.kernels.chooses_epsilons();
-    Ok(Plan { rows, varies, scalars, seed: begun.seed })
+    Ok(CampaignPlan { rows, varies, scalars, seed: begun.seed })
 }
 
 impl FuzzArguments {
@@ -185,7 +185,7 @@ impl Session {
         directory: Directory,
         campaign: Campaign,
         finds: Vec<Find>,
-        state: &State,
+        state: &CampaignState,
     ) -> Session {
         // Finds may be younger than the state.
         let last = finds.iter().filter_map(|find| find.seconds).fold(0.0, f64::max);

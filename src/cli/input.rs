@@ -45,12 +45,12 @@ pub fn read_text(path: &str) -> Result<String, Failure> {
 /// Reads a record. One of another version is refused as such.
 pub fn read_record(path: &str) -> Result<Record, Failure> {
     #[derive(Deserialize)]
-    struct Version {
+    struct RecordVersion {
         schema: String,
     }
     let text = read_text(path)?;
     let bad = |error: serde_json::Error| InputError::at(path, error.line(), error.to_string());
-    let version: Version = serde_json::from_str(&text).map_err(bad)?;
+    let version: RecordVersion = serde_json::from_str(&text).map_err(bad)?;
     if version.schema != SCHEMA {
         let message = format!("a record of schema '{}', expected '{SCHEMA}'", version.schema);
         return Err(InputError::of(path, message).into());

@@ -9,7 +9,7 @@ use crate::contract::NAMED;
 use crate::family::{FAMILIES, Family, STRATA};
 use crate::kernel::{self, KernelInfo, PRESETS, Preset, PresetValue, Tunable};
 use crate::report::page::{Block, Item, Items, Page};
-use crate::spawn::{PUBLISHED, Published, describe};
+use crate::spawn::{PUBLISHED, PublishedScheme, describe};
 use clap::{Args, ValueEnum};
 use std::io::{self, Write};
 
@@ -17,7 +17,7 @@ use std::io::{self, Write};
 #[derive(Args)]
 pub struct ListArguments {
     #[arg(value_enum)]
-    what: What,
+    what: Listed,
 
     /// For families: the share of the cases, in percent, that meet each corner, edge and side, each orientation of
     /// plane and ray, each size, distance and place of t; of the strata in the scene room. '.' is none
@@ -29,7 +29,7 @@ pub struct ListArguments {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum What {
+enum Listed {
     /// Kernels with their sources, contracts, gates and epsilons
     Kernels,
     /// Case families with their promises
@@ -49,7 +49,7 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
     arguments.plugins.entries()?;
     if arguments.coverage {
         return match arguments.what {
-            What::Families => {
+            Listed::Families => {
                 write_result("-", write_coverage)?;
                 Ok(Status::Success)
             }
@@ -57,15 +57,15 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
         };
     }
     let blocks = match arguments.what {
-        What::Kernels => all(kernel::all().iter().map(|entry| of_kernel(entry.info))),
-        What::Families => {
+        Listed::Kernels => all(kernel::all().iter().map(|entry| of_kernel(entry.info))),
+        Listed::Families => {
             let term = |family: &Family| (family.name.to_owned(), family.promise.to_owned());
             vec![Block::Terms(FAMILIES.iter().chain(STRATA).map(term).collect())]
         }
-        What::Contracts => contracts(),
-        What::Presets => presets(),
-        What::Schemes => all(PUBLISHED.iter().map(of_scheme)),
-        What::Arithmetics => {
+        Listed::Contracts => contracts(),
+        Listed::Presets => presets(),
+        Listed::Schemes => all(PUBLISHED.iter().map(of_scheme)),
+        Listed::Arithmetics => {
             let term = |a: &Arithmetic| (a.name().to_owned(), a.describe().to_owned());
             vec![Block::Terms(Arithmetic::ALL.iter().map(term).collect())]
         }
@@ -165,7 +165,7 @@ fn of_kernel(info: &KernelInfo) -> Item {
     Item { text: info.name.to_owned(), notes, ..Item::default() }
 }
 
-fn of_scheme(published: &Published) -> Item {
+fn of_scheme(published: &PublishedScheme) -> Item {
     let (name, source) = (published.name, published.source);
     let parameter = published
         .parameter

@@ -12,7 +12,7 @@ use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::kernel::Scalar;
-use crate::map::{self, Grid, Map, MapError, Part, Step};
+use crate::map::{self, CaseVector, Grid, Map, MapError, PixelStep};
 use clap::Args;
 use std::io::{self, Write};
 use std::path::Path;
@@ -95,7 +95,7 @@ const FORMATS: &[&str] = &["text", "svg", "png"];
 const MOST_SVG_PIXELS: usize = 1 << 18;
 
 /// A picture and what is said about it.
-struct Picture {
+struct MapPicture {
     summary: String,
     svg: String,
     map: Option<Map>,
@@ -163,12 +163,12 @@ impl MapArguments {
         self.output.iter().map(of).collect()
     }
 
-    fn of_case<F: Scalar>(&self, case: &Case<F>) -> Result<Picture, Failure> {
+    fn of_case<F: Scalar>(&self, case: &Case<F>) -> Result<MapPicture, Failure> {
         let row = self.row()?;
         row.check::<F>()?;
         if self.drawing {
             let svg = map::drawing_document(case, &row)?;
-            return Ok(Picture { summary: summary::of_drawing(case, &row), svg, map: None });
+            return Ok(MapPicture { summary: summary::of_drawing(case, &row), svg, map: None });
         }
         let part = self.varied()?;
         let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
@@ -181,7 +181,7 @@ impl MapArguments {
         } else {
             map::svg_document(&map)
         };
-        Ok(Picture { summary, svg, map: Some(map) })
+        Ok(MapPicture { summary, svg, map: Some(map) })
     }
 
     fn progress<F: Float>(&self, grid: &Grid<F>) -> Progress {
@@ -210,10 +210,10 @@ impl MapArguments {
     }
 
     /// Which vector is varied.
-    fn varied(&self) -> Result<Part, Failure> {
-        let Some(name) = &self.vary else { return Ok(Part::Origin) };
-        Part::named(name).ok_or_else(|| {
-            let names = Part::ALL.map(Part::name).join(", ");
+    fn varied(&self) -> Result<CaseVector, Failure> {
+        let Some(name) = &self.vary else { return Ok(CaseVector::Origin) };
+        CaseVector::named(name).ok_or_else(|| {
+            let names = CaseVector::ALL.map(CaseVector::name).join(", ");
             Failure::usage(format!("--vary: unknown point '{name}': there are {names}"))
         })
     }
@@ -229,13 +229,14 @@ impl MapArguments {
             })
     }
 
-    fn step(&self) -> Result<Option<Step>, Failure> {
+    fn step(&self) -> Result<Option<PixelStep>, Failure> {
         let Some(text) = &self.step else { return Ok(None) };
-        let power =
-            |k: &str| k.parse().ok().filter(|k| (-1100..=1100).contains(k)).map(Step::PowerOfTwo);
+        let power = |k: &str| {
+            k.parse().ok().filter(|k| (-1100..=1100).contains(k)).map(PixelStep::PowerOfTwo)
+        };
         let step = match text.strip_prefix("2^") {
             Some(k) => power(k),
-            None => text.parse().ok().filter(|ulps| *ulps >= 1).map(Step::Ulps),
+            None => text.parse().ok().filter(|ulps| *ulps >= 1).map(PixelStep::Ulps),
         };
         step.map(Some).ok_or_else(|| {
             Failure::usage(format!(

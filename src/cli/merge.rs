@@ -9,7 +9,7 @@ use crate::audit::{Plan, Stock, StoredStock};
 use crate::corpus::InputError;
 use crate::family::{MeshFamily, Stratum};
 use crate::kernel;
-use crate::mesh::{Part, SceneMesh, Surface};
+use crate::mesh::{AimedPart, SceneMesh, Surface};
 use crate::report::{mergeable, merged};
 use clap::Args;
 use std::collections::BTreeMap;
@@ -95,7 +95,7 @@ fn open(stock: &StoredStock, scalars: [bool; 2], quiet: bool) -> Result<Stock, U
         StoredStock::Mesh(path) => Stock::Mesh(family(path)?),
         StoredStock::MeshPart(path, part) => {
             let unknown = || format!("unknown part of a mesh '{part}'");
-            let part = Part::named(part).ok_or_else(unknown)?;
+            let part = AimedPart::named(part).ok_or_else(unknown)?;
             Stock::MeshPart(Arc::new(Surface::new(family(path)?, scalars)), part)
         }
         StoredStock::SceneMesh(path, stratum) => {

@@ -9,9 +9,9 @@ use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::rays_at_each;
-use crate::audit::mesh::{Found, Plan};
+use crate::audit::mesh::{MeshFound, MeshPlan};
 use crate::family::MeshFamily;
-use crate::mesh::{Part, Surface};
+use crate::mesh::{AimedPart, Surface};
 use crate::report::mesh::{MESH_FORMATS, build, places};
 use crate::report::{Context, HTML, number_of};
 use crate::studied::Studied;
@@ -107,23 +107,23 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
 }
 
 impl MeshArguments {
-    fn plan(&self) -> Result<Plan, Failure> {
+    fn plan(&self) -> Result<MeshPlan, Failure> {
         let unit_direction = self.direction.is_some();
         let MeshArguments { directions, seed, examples, .. } = *self;
         let rows = self.kernels.rows_without_band("every ray goes to an edge or a vertex")?;
-        Ok(Plan { rows, directions, seed, unit_direction, instance: None, examples, places: 0 })
+        Ok(MeshPlan { rows, directions, seed, unit_direction, instance: None, examples, places: 0 })
     }
 
     fn run_scalar<F: Studied>(
         &self,
         surface: &Arc<Surface>,
-        plan: &Plan,
+        plan: &MeshPlan,
         progress: &Progress,
-    ) -> Found {
+    ) -> MeshFound {
         let parameters = plan.parameters();
         let targets = surface.targets::<F>(&parameters, plan.seed);
         let count = |part| targets.as_ref().map_or(0, |targets| targets.count(part));
-        let rays: u64 = Part::ALL.map(|part| count(part) * plan.directions).iter().sum();
+        let rays: u64 = AimedPart::ALL.map(|part| count(part) * plan.directions).iter().sum();
         progress.add_total(rays);
         if !self.output.quiet {
             let rows = plan.rows.iter().filter(|row| F::subject(row.entry).is_some()).count();

@@ -64,11 +64,11 @@ use std::process::ExitCode;
 #[command(name = "hairline", version, disable_help_subcommand = true)]
 struct Arguments {
     #[command(subcommand)]
-    command: Command,
+    command: Chosen,
 }
 
 #[derive(Subcommand)]
-enum Command {
+enum Chosen {
     /// Run kernels on hard cases, and report where they are wrong
     Audit(Box<audit::AuditArguments>),
     /// Recommend epsilons for a scene, a mesh or families of cases
@@ -230,31 +230,31 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         return ended(failure);
     }
     let outcome = match command {
-        Command::Audit(arguments) => audit::run(&arguments),
-        Command::Epsilon(arguments) => {
+        Chosen::Audit(arguments) => audit::run(&arguments),
+        Chosen::Epsilon(arguments) => {
             epsilon::run(&arguments, matches.subcommand_matches("epsilon"))
         }
-        Command::Spawn(arguments) => spawn::run(&arguments),
-        Command::Mesh(arguments) => mesh::run(&arguments),
-        Command::Prove(arguments) => prove::run(&arguments),
-        Command::Repair(arguments) => repair::run(&arguments),
-        Command::Explain(arguments) => explain::run(&arguments),
-        Command::Map(arguments) => map::run(&arguments),
-        Command::List(arguments) => list::run(&arguments),
-        Command::Fuzz(arguments) => fuzz::run(&arguments),
-        Command::Check(arguments) => check::run(*arguments, matches.subcommand_matches("check")),
-        Command::Merge(arguments) => merge::run(&arguments),
-        Command::Diff(arguments) => diff::run(&arguments),
-        Command::Generate(arguments) => generate::run(&arguments),
-        Command::Truth(arguments) => truth::run(&arguments),
-        Command::Selfcheck(arguments) => selfcheck::run(&arguments),
-        Command::Corpus(arguments) => corpus::run(&arguments),
-        Command::Vectors(arguments) => vectors::run(&arguments),
-        Command::Verify(arguments) => verify::run(&arguments),
-        Command::Help(arguments) => help::run(&arguments, self::command()),
-        Command::Completions(arguments) => help::completions(&arguments, self::command()),
-        Command::Man(arguments) => help::man(&arguments, self::command()),
-        Command::KernelHost { file } => return plugin::serve(&file),
+        Chosen::Spawn(arguments) => spawn::run(&arguments),
+        Chosen::Mesh(arguments) => mesh::run(&arguments),
+        Chosen::Prove(arguments) => prove::run(&arguments),
+        Chosen::Repair(arguments) => repair::run(&arguments),
+        Chosen::Explain(arguments) => explain::run(&arguments),
+        Chosen::Map(arguments) => map::run(&arguments),
+        Chosen::List(arguments) => list::run(&arguments),
+        Chosen::Fuzz(arguments) => fuzz::run(&arguments),
+        Chosen::Check(arguments) => check::run(*arguments, matches.subcommand_matches("check")),
+        Chosen::Merge(arguments) => merge::run(&arguments),
+        Chosen::Diff(arguments) => diff::run(&arguments),
+        Chosen::Generate(arguments) => generate::run(&arguments),
+        Chosen::Truth(arguments) => truth::run(&arguments),
+        Chosen::Selfcheck(arguments) => selfcheck::run(&arguments),
+        Chosen::Corpus(arguments) => corpus::run(&arguments),
+        Chosen::Vectors(arguments) => vectors::run(&arguments),
+        Chosen::Verify(arguments) => verify::run(&arguments),
+        Chosen::Help(arguments) => help::run(&arguments, self::command()),
+        Chosen::Completions(arguments) => help::completions(&arguments, self::command()),
+        Chosen::Man(arguments) => help::man(&arguments, self::command()),
+        Chosen::KernelHost { file } => return plugin::serve(&file),
     };
     plugins::finish();
     // A broken kernel of the user's is reported before anything that its verdicts led to.

@@ -176,7 +176,7 @@ pub fn write_result(
     let file = written(path.as_ref(), write)?;
     // What a kernel wrote that is given up is no result.
     plugins::check()?;
-    file.map_or(Ok(()), Beside::put_in_place)
+    file.map_or(Ok(()), FileBeside::put_in_place)
 }
 
 /// Writes several results. Files take their places after all are written, so a full disk changes none of them.
@@ -186,7 +186,7 @@ pub fn write_results<T>(
 ) -> Result<(), Failure> {
     let files = all_written(outputs, write)?;
     plugins::check()?;
-    files.into_iter().try_for_each(Beside::put_in_place)
+    files.into_iter().try_for_each(FileBeside::put_in_place)
 }
 
 /// Writes that there are no results; why may be a kernel that is given up.
@@ -194,13 +194,13 @@ pub fn write_failure<T>(
     outputs: Vec<(T, &str)>,
     write: impl Fn(T, &str, &mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    all_written(outputs, write)?.into_iter().try_for_each(Beside::put_in_place)
+    all_written(outputs, write)?.into_iter().try_for_each(FileBeside::put_in_place)
 }
 
 fn all_written<T>(
     outputs: Vec<(T, &str)>,
     write: impl Fn(T, &str, &mut dyn Write) -> io::Result<()>,
-) -> Result<Vec<Beside>, Failure> {
+) -> Result<Vec<FileBeside>, Failure> {
     let written = outputs
         .into_iter()
         .map(|(what, path)| written(Path::new(path), |out| write(what, path, out)));
@@ -215,23 +215,29 @@ pub fn check_place(name: &str) -> Result<(), Failure> {
     if name == "-" || is_stream || is_descriptor(&path) {
         return Ok(());
     }
-    Place::of(Path::new(name)).map(drop).map_err(|error| Failure::of_path(Path::new(name), &error))
+    Destination::of(Path::new(name))
+        .map(drop)
+        .map_err(|error| Failure::of_path(Path::new(name), &error))
 }
 
 /// Writes a result; a file still has to be put in its place.
 fn written(
     name: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<Option<Beside>, Failure> {
+) -> Result<Option<FileBeside>, Failure> {
     let failed = |error: io::Error| Failure::of_path(name, &error);
     let through = |to: &mut dyn Write| {
         let mut out = BufWriter::new(to);
         write(&mut out).and_then(|()| out.flush())
     };
-    let (outcome, file) = match Place::of(name).map_err(failed)? {
-        Place::StandardOutput => (through(&mut standard_output()?).map_err(Failure::from), None),
-        Place::Stream(mut file) => (through(&mut file).map_err(failed), None),
-        Place::Beside(mut beside) => (through(&mut beside.file).map_err(failed), Some(beside)),
+    let (outcome, file) = match Destination::of(name).map_err(failed)? {
+        Destination::StandardOutput => {
+            (through(&mut standard_output()?).map_err(Failure::from), None)
+        }
+        Destination::Stream(mut file) => (through(&mut file).map_err(failed), None),
+        Destination::Beside(mut beside) => {
+            (through(&mut beside.file).map_err(failed), Some(beside))
+        }
     };
     match outcome {
         Err(Failure::ClosedPipe) => Ok(None),
@@ -246,26 +252,26 @@ pub fn standard_output() -> Result<StdoutLock<'static>, Failure> {
 }
 
 /// Where a result is written.
-enum Place {
+enum Destination {
     StandardOutput,
     /// A device, a pipe, or a file that a descriptor names.
     Stream(File),
-    Beside(Beside),
+    Beside(FileBeside),
 }
 
-impl Place {
-    fn of(name: &Path) -> io::Result<Place> {
+impl Destination {
+    fn of(name: &Path) -> io::Result<Destination> {
         let path = linked(name);
         if is_standard_output(&path) {
-            return Ok(Place::StandardOutput);
+            return Ok(Destination::StandardOutput);
         }
         match fs::metadata(&path) {
             Ok(metadata) if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
             // What a shell has opened goes on at its end.
             Ok(metadata) if !metadata.is_file() || is_descriptor(&path) => {
-                File::options().append(true).open(&path).map(Place::Stream)
+                File::options().append(true).open(&path).map(Destination::Stream)
             }
-            _ => Beside::new(path).map(Place::Beside),
+            _ => FileBeside::new(path).map(Destination::Beside),
         }
     }
 }
@@ -300,14 +306,14 @@ fn is_descriptor(path: &Path) -> bool {
 const BESIDE: &str = ".hairline-";
 
 /// A file that is written beside its place; it is removed unless it is put there.
-struct Beside {
+struct FileBeside {
     file: File,
     path: PathBuf,
     place: PathBuf,
 }
 
-impl Beside {
-    fn new(place: PathBuf) -> io::Result<Beside> {
+impl FileBeside {
+    fn new(place: PathBuf) -> io::Result<FileBeside> {
         // A file that may not be written may not be replaced either.
         let permissions = match File::options().write(true).open(&place) {
             Ok(old) => Some(old.metadata()?.permissions()),
@@ -330,7 +336,7 @@ impl Beside {
                 }
             }
         };
-        let beside = Beside { file, path, place };
+        let beside = FileBeside { file, path, place };
         permissions.map_or(Ok(()), |old| beside.file.set_permissions(old))?;
         Ok(beside)
     }
@@ -355,7 +361,7 @@ fn remove_abandoned(place: &Path) {
     }
 }
 
-impl Drop for Beside {
+impl Drop for FileBeside {
     fn drop(&mut self) {
         // It is gone already if it was put in its place.
         let _ = fs::remove_file(&self.path);

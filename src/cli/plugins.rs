@@ -5,7 +5,7 @@ use super::flags::refuse_twice;
 use crate::audit::{quoted, shell_word};
 use crate::corpus::hex;
 use crate::kernel::{self, Entry, Scalar};
-use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};
+use crate::plugin::{HOST_COMMAND, KernelProgram, LoadError, ProcessLimits, load};
 use clap::Args;
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
@@ -138,7 +138,7 @@ impl PluginArguments {
             started(flag, |flag| register(path, load(host_of(path)?, limits, flag)))
         });
         let commands = self.kernel_cmd.iter().map(|line| {
-            let program = Program::parse(line)
+            let program = KernelProgram::parse(line)
                 .map_err(|error| Failure::usage(format!("--kernel-cmd '{line}': {error}")))?;
             let flag = format!("--kernel-cmd {}", quoted(line));
             started(flag, |flag| register(line, load(program, limits, flag)))
@@ -148,7 +148,7 @@ impl PluginArguments {
         libraries.chain(commands).collect()
     }
 
-    fn limits(&self) -> Result<Limits, Failure> {
+    fn limits(&self) -> Result<ProcessLimits, Failure> {
         let seconds = self.kernel_timeout;
         if !(0.001..=86_400.0).contains(&seconds) {
             let message = format!("--kernel-timeout: {seconds} is not from 0.001 to 86400 seconds");
@@ -167,7 +167,7 @@ impl PluginArguments {
             }
         };
         let require_ieee = self.require_ieee;
-        Ok(Limits { silence, failures, first_failures, timeouts, tell, require_ieee })
+        Ok(ProcessLimits { silence, failures, first_failures, timeouts, tell, require_ieee })
     }
 }
 
@@ -189,7 +189,7 @@ pub fn started_by(words: Vec<String>) {
 }
 
 /// This program again, as the process that loads a library.
-fn host_of(path: &str) -> Result<Program, Failure> {
+fn host_of(path: &str) -> Result<KernelProgram, Failure> {
     if !cfg!(unix) {
         let message = "--kernel-lib needs a Unix system; --kernel-cmd works everywhere".to_owned();
         return Err(Failure::usage(message));
@@ -203,7 +203,7 @@ fn host_of(path: &str) -> Result<Program, Failure> {
     let words = this.into_iter().chain([HOST_COMMAND.into(), whole.into_os_string()]);
     let words = words.map(|word| word.into_string().ok()).collect::<Option<Vec<String>>>();
     words
-        .map(Program::host)
+        .map(KernelProgram::host)
         .ok_or_else(|| Failure::usage(format!("--kernel-lib {path}: a path that is not UTF-8")))
 }
 

@@ -10,7 +10,7 @@ pub const FILE: &str = "hairline.toml";
 
 /// The form of a setting's value.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum ValueKind {
     /// A list of names, or one.
     Names,
     /// A list of files, or one; from the folder of `hairline.toml`.
@@ -28,46 +28,46 @@ enum Kind {
 }
 
 /// A setting: a flag of `check` that may also stand in the file or the environment.
-struct Setting {
+struct FlagSetting {
     key: &'static str,
-    kind: Kind,
+    kind: ValueKind,
     /// A value, for a flag without a default.
     example: &'static str,
 }
 
-const fn setting(key: &'static str, kind: Kind, example: &'static str) -> Setting {
-    Setting { key, kind, example }
+const fn setting(key: &'static str, kind: ValueKind, example: &'static str) -> FlagSetting {
+    FlagSetting { key, kind, example }
 }
 
-const SETTINGS: &[Setting] = &[
-    setting("kernel", Kind::Names, "moller-trumbore"),
-    setting("kernel-lib", Kind::Files, "libmine.so"),
-    setting("kernel-cmd", Kind::Commands, "node kernel.mjs"),
-    setting("kernel-timeout", Kind::Text, ""),
-    setting("kernel-failures", Kind::Text, "1000"),
-    setting("require-ieee", Kind::Flag, ""),
-    setting("arithmetic", Kind::Names, "ieee,fma"),
-    setting("epsilon", Kind::Text, "parallel=1e-6,edge=0"),
-    setting("epsilon-preset", Kind::Text, "bvh"),
-    setting("contract", Kind::Text, "own,coplanar=free"),
-    setting("band", Kind::Text, "4ulps"),
-    setting("scalar", Kind::Names, ""),
-    setting("family", Kind::Names, "tiny"),
-    setting("count", Kind::Text, ""),
-    setting("seed", Kind::Text, ""),
-    setting("exhaustive", Kind::Flag, ""),
-    setting("scale", Kind::Text, ""),
-    setting("scale-direction", Kind::Flag, ""),
-    setting("offset", Kind::Text, "1e6:0:0"),
-    setting("direction", Kind::Text, "unit"),
-    setting("scene", Kind::Text, "room"),
-    setting("mesh", Kind::Files, "model.obj"),
-    setting("directions", Kind::Text, ""),
-    setting("instance", Kind::Text, "0 0 -2 1000  2 0 0 0.5  0 -2 0 -64"),
-    setting("corpus", Kind::Files, "cases.jsonl"),
-    setting("examples", Kind::Text, ""),
-    setting("proved", Kind::Demands, "woop-watertight/f32/watertight=true"),
-    setting("expectations", Kind::File, ""),
+const SETTINGS: &[FlagSetting] = &[
+    setting("kernel", ValueKind::Names, "moller-trumbore"),
+    setting("kernel-lib", ValueKind::Files, "libmine.so"),
+    setting("kernel-cmd", ValueKind::Commands, "node kernel.mjs"),
+    setting("kernel-timeout", ValueKind::Text, ""),
+    setting("kernel-failures", ValueKind::Text, "1000"),
+    setting("require-ieee", ValueKind::Flag, ""),
+    setting("arithmetic", ValueKind::Names, "ieee,fma"),
+    setting("epsilon", ValueKind::Text, "parallel=1e-6,edge=0"),
+    setting("epsilon-preset", ValueKind::Text, "bvh"),
+    setting("contract", ValueKind::Text, "own,coplanar=free"),
+    setting("band", ValueKind::Text, "4ulps"),
+    setting("scalar", ValueKind::Names, ""),
+    setting("family", ValueKind::Names, "tiny"),
+    setting("count", ValueKind::Text, ""),
+    setting("seed", ValueKind::Text, ""),
+    setting("exhaustive", ValueKind::Flag, ""),
+    setting("scale", ValueKind::Text, ""),
+    setting("scale-direction", ValueKind::Flag, ""),
+    setting("offset", ValueKind::Text, "1e6:0:0"),
+    setting("direction", ValueKind::Text, "unit"),
+    setting("scene", ValueKind::Text, "room"),
+    setting("mesh", ValueKind::Files, "model.obj"),
+    setting("directions", ValueKind::Text, ""),
+    setting("instance", ValueKind::Text, "0 0 -2 1000  2 0 0 0.5  0 -2 0 -64"),
+    setting("corpus", ValueKind::Files, "cases.jsonl"),
+    setting("examples", ValueKind::Text, ""),
+    setting("proved", ValueKind::Demands, "woop-watertight/f32/watertight=true"),
+    setting("expectations", ValueKind::File, ""),
 ];
 
 /// The file of default settings, commented: what the flags of `check` say of themselves.
@@ -75,7 +75,7 @@ pub fn default_file(check: &clap::Command) -> String {
     let mut text = "# hairline.toml: what `hairline check` runs. A flag of the command line wins over a variable\n\
                     # (HAIRLINE_COUNT for count), which wins over this file. Paths are from this file's folder.\n"
         .to_owned();
-    for Setting { key, kind, example } in SETTINGS {
+    for FlagSetting { key, kind, example } in SETTINGS {
         let Some(flag) = check.get_arguments().find(|flag| flag.get_long() == Some(key)) else {
             continue;
         };
@@ -83,15 +83,15 @@ pub fn default_file(check: &clap::Command) -> String {
         let default = flag.get_default_values().first().map(|value| value.to_string_lossy());
         let (sign, value) = match (&default, kind) {
             (Some(value), _) => ("", &**value),
-            (None, Kind::Flag) => ("", "false"),
+            (None, ValueKind::Flag) => ("", "false"),
             (None, _) => ("# ", *example),
         };
         let quoted = |text: &str| format!("\"{text}\"");
         let value = match kind {
-            Kind::Names | Kind::Files | Kind::Commands | Kind::Demands => {
+            ValueKind::Names | ValueKind::Files | ValueKind::Commands | ValueKind::Demands => {
                 format!("[{}]", value.split(',').map(quoted).collect::<Vec<_>>().join(", "))
             }
-            Kind::Flag => value.to_owned(),
+            ValueKind::Flag => value.to_owned(),
             _ if value.parse::<u64>().is_ok() && *key != "scale" => value.to_owned(),
             _ => quoted(value),
         };
@@ -155,9 +155,9 @@ pub fn from_environment(get: impl Fn(&str) -> Option<String>) -> Result<Vec<Give
         let place = variable(setting.key);
         let Some(text) = get(&place).filter(|text| !text.is_empty()) else { continue };
         let words = match (setting.kind, text.as_str()) {
-            (Kind::Flag, "1" | "true") => vec![format!("--{}", setting.key)],
-            (Kind::Flag, "0" | "false") => Vec::new(),
-            (Kind::Flag, _) => {
+            (ValueKind::Flag, "1" | "true") => vec![format!("--{}", setting.key)],
+            (ValueKind::Flag, "0" | "false") => Vec::new(),
+            (ValueKind::Flag, _) => {
                 return Err(Failure::usage(format!(
                     "{place}: expected true or false, not '{text}'"
                 )));
@@ -201,20 +201,22 @@ fn unknown_key(name: &str) -> String {
     }
 }
 
-fn words(setting: &Setting, value: &DeValue, folder: &Path) -> Result<Vec<String>, String> {
+fn words(setting: &FlagSetting, value: &DeValue, folder: &Path) -> Result<Vec<String>, String> {
     let key = setting.key;
-    if let Kind::Flag = setting.kind {
+    if let ValueKind::Flag = setting.kind {
         return match value {
             DeValue::Boolean(true) => Ok(vec![format!("--{key}")]),
             DeValue::Boolean(false) => Ok(Vec::new()),
             _ => Err(format!("{key}: expected true or false")),
         };
     }
-    if let (Kind::Demands, DeValue::Table(kernels)) = (setting.kind, value) {
+    if let (ValueKind::Demands, DeValue::Table(kernels)) = (setting.kind, value) {
         return demands(kernels).map(|all| vec![format!("--{key}={}", all.join(","))]);
     }
-    let is_list =
-        matches!(setting.kind, Kind::Names | Kind::Files | Kind::Commands | Kind::Demands);
+    let is_list = matches!(
+        setting.kind,
+        ValueKind::Names | ValueKind::Files | ValueKind::Commands | ValueKind::Demands
+    );
     let texts = match value {
         DeValue::Array(items) if is_list => {
             items.iter().map(|item| scalar_text(item.get_ref())).collect::<Option<Vec<_>>>()
@@ -227,11 +229,11 @@ fn words(setting: &Setting, value: &DeValue, folder: &Path) -> Result<Vec<String
         return Err(format!("{key}: the list is empty; leave it out for the default"));
     }
     Ok(match setting.kind {
-        Kind::Names | Kind::Demands => vec![format!("--{key}={}", texts.join(","))],
-        Kind::Files | Kind::File => {
+        ValueKind::Names | ValueKind::Demands => vec![format!("--{key}={}", texts.join(","))],
+        ValueKind::Files | ValueKind::File => {
             texts.iter().map(|text| format!("--{key}={}", folder.join(text).display())).collect()
         }
-        Kind::Commands => texts.iter().map(|text| format!("--{key}={text}")).collect(),
+        ValueKind::Commands => texts.iter().map(|text| format!("--{key}={text}")).collect(),
         _ => vec![format!("--{key}={}", texts[0])],
     })
 }

@@ -16,9 +16,11 @@ use crate::case::{Case, Matrix, Scene};
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
 use crate::mesh::SceneMesh;
-use crate::plugin::{OffsetCommand, Program};
+use crate::plugin::{KernelProgram, OffsetCommand};
 use crate::report::Format;
-use crate::spawn::{Plan, PointKind, Scheme, Sums, default_schemes, needs_t, parse, register};
+use crate::spawn::{
+    PointKind, Scheme, SpawnPlan, SpawnSums, default_schemes, needs_t, parse, register,
+};
 use crate::studied::Studied;
 use choice::{least_without_failure, made_for};
 use clap::Args;
@@ -237,7 +239,7 @@ impl Settings<'_> {
         let [tried_on, counted_on] = [pilot_seed(arguments.seed), arguments.seed];
         let (with_least, scene, no_schemes) = (true, &scenes[0], &[]);
         let seed = tried_on;
-        let plan = Plan {
+        let plan = SpawnPlan {
             row,
             scene,
             mesh,
@@ -250,20 +252,20 @@ impl Settings<'_> {
             seed,
             count,
         };
-        let run = |plans: &[Plan<'_>]| -> Vec<Sums> {
+        let run = |plans: &[SpawnPlan<'_>]| -> Vec<SpawnSums> {
             plans.iter().map(|plan| F::spawn(plan, progress)).collect()
         };
-        let pilots = run(&on_each(scenes, &Plan { schemes: &schemes, ..plan }));
+        let pilots = run(&on_each(scenes, &SpawnPlan { schemes: &schemes, ..plan }));
         let (given, derived) = (schemes.len(), DerivedPart::of::<F>(&plan, &pilots));
         if arguments.makes_schemes() {
             let made = made_for(&pilots, derived.as_ref().map(|derived| derived.normal));
             let all = made.concat();
-            let tried = Plan { schemes: &all, with_least: false, ..plan };
+            let tried = SpawnPlan { schemes: &all, with_least: false, ..plan };
             let tried = run(&on_each(scenes, &tried));
             schemes.extend(least_without_failure(made, &tried));
         }
         let made: Vec<usize> = (given..schemes.len()).collect();
-        let mut plans = on_each(scenes, &Plan { schemes: &schemes, seed: counted_on, ..plan });
+        let mut plans = on_each(scenes, &SpawnPlan { schemes: &schemes, seed: counted_on, ..plan });
         // How much a hit point needs is reported of the first kind of plane.
         plans[1..].iter_mut().for_each(|plan| plan.with_least = false);
         let sums = run(&plans);
@@ -272,8 +274,8 @@ impl Settings<'_> {
 }
 
 /// A plan in each of some scenes.
-fn on_each<'a>(scenes: &'a [Scene], plan: &Plan<'a>) -> Vec<Plan<'a>> {
-    scenes.iter().map(|scene| Plan { scene, ..*plan }).collect()
+fn on_each<'a>(scenes: &'a [Scene], plan: &SpawnPlan<'a>) -> Vec<SpawnPlan<'a>> {
+    scenes.iter().map(|scene| SpawnPlan { scene, ..*plan }).collect()
 }
 
 impl SpawnArguments {
@@ -333,7 +335,7 @@ impl SpawnArguments {
             let missing = || wrong("write NAME=COMMAND, as mine=./mine".to_owned());
             let (name, line) = text.split_once('=').ok_or_else(missing)?;
             let name = name.trim();
-            let program = Program::parse(line).map_err(wrong)?;
+            let program = KernelProgram::parse(line).map_err(wrong)?;
             let command = OffsetCommand::new(program);
             let scheme = Scheme::own(name).f32(command.clone()).f64(command.clone());
             let flags = format!("--scheme-cmd {} --scheme {name}", shell_word(text));

@@ -48,7 +48,7 @@ pub fn run(arguments: &TruthArguments) -> Result<Status, Failure> {
         let mut batch = read_batch(&mut reader);
         let mut before: Vec<Decided> = Vec::new();
         while !(batch.blocks.is_empty() && before.is_empty()) {
-            let Batch { blocks, is_last } = batch;
+            let BlockBatch { blocks, is_last } = batch;
             let mut decided = Vec::new();
             batch = rayon::in_place_scope(|scope| {
                 let decide = |block| decide(block, file, arguments.exact);
@@ -63,7 +63,7 @@ pub fn run(arguments: &TruthArguments) -> Result<Status, Failure> {
                     lines_before += block.lines;
                     cases += block.cases;
                 }
-                Ok(if is_last { Batch::default() } else { read_batch(&mut reader) })
+                Ok(if is_last { BlockBatch::default() } else { read_batch(&mut reader) })
             })?;
             before = decided;
         }
@@ -78,21 +78,21 @@ pub fn run(arguments: &TruthArguments) -> Result<Status, Failure> {
 }
 
 /// Whole lines, and a failure to read on behind them.
-struct Block {
+struct LineBlock {
     bytes: Vec<u8>,
     failure: Failing,
 }
 
 /// The blocks that are decided together; none at the end.
 #[derive(Default)]
-struct Batch {
-    blocks: Vec<Block>,
+struct BlockBatch {
+    blocks: Vec<LineBlock>,
     /// True if nothing more is read: at the end, where reading fails, and where a line is too long.
     is_last: bool,
 }
 
-fn read_batch(reader: &mut impl BufRead) -> Batch {
-    let mut batch = Batch::default();
+fn read_batch(reader: &mut impl BufRead) -> BlockBatch {
+    let mut batch = BlockBatch::default();
     while batch.blocks.len() < BLOCKS && !batch.is_last {
         // A line more, as a rule; grown step by step it would be copied again and again.
         let mut bytes = Vec::with_capacity(BLOCK as usize + (1 << 12));
@@ -102,7 +102,7 @@ fn read_batch(reader: &mut impl BufRead) -> Batch {
         let failure = start.and_then(|_| rest()).err();
         batch.is_last = bytes.last() != Some(&b'\n') || failure.is_some();
         if failure.is_some() || !bytes.is_empty() {
-            batch.blocks.push(Block { bytes, failure: Failing(failure) });
+            batch.blocks.push(LineBlock { bytes, failure: Failing(failure) });
         }
     }
     batch
@@ -128,7 +128,7 @@ struct Decided {
     error: Option<InputError>,
 }
 
-fn decide(block: Block, file: &str, exact: bool) -> Decided {
+fn decide(block: LineBlock, file: &str, exact: bool) -> Decided {
     // A truth is about as long as its case.
     let truths = Vec::with_capacity(block.bytes.len() * 5 / 4);
     let mut decided = Decided { truths, ..Decided::default() };

@@ -3,7 +3,7 @@
 use super::exit::{Failure, Status};
 use super::output::{write_result, write_results};
 use super::progress::Progress;
-use crate::vectors::{Test, core, csv, digest, json, numbered};
+use crate::vectors::{VectorTest, core, csv, digest, json, numbered};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::fs;
@@ -19,7 +19,7 @@ pub struct VectorsArguments {
 
     /// Write one file of this format instead
     #[arg(long, value_enum)]
-    format: Option<Format>,
+    format: Option<VectorFormat>,
 
     /// The first N tests of the full set instead of the core set
     #[arg(short = 'n', long, value_name = "N", requires = "format", value_parser = clap::value_parser!(u64).range(1..=1 << 32))]
@@ -31,7 +31,7 @@ pub struct VectorsArguments {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum Format {
+enum VectorFormat {
     /// A JSON object a line
     Json,
     /// A row a triangle
@@ -74,7 +74,7 @@ fn write_core(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-fn write_tests(out: &mut dyn Write, format: Format) -> io::Result<()> {
+fn write_tests(out: &mut dyn Write, format: VectorFormat) -> io::Result<()> {
     out.write_all(head(format).as_bytes())?;
     let topics = core();
     let mut tests = topics.iter().flat_map(|(_, tests)| tests);
@@ -83,7 +83,7 @@ fn write_tests(out: &mut dyn Write, format: Format) -> io::Result<()> {
 
 fn write_numbered(
     out: &mut dyn Write,
-    format: Format,
+    format: VectorFormat,
     count: u64,
     progress: &Progress,
 ) -> io::Result<()> {
@@ -99,16 +99,16 @@ fn write_numbered(
 }
 
 /// The text before the tests.
-fn head(format: Format) -> String {
+fn head(format: VectorFormat) -> String {
     match format {
-        Format::Json => String::new(),
-        Format::Csv => format!("{}\n", csv::HEADER),
+        VectorFormat::Json => String::new(),
+        VectorFormat::Csv => format!("{}\n", csv::HEADER),
     }
 }
 
-fn written(format: Format, test: &Test) -> String {
+fn written(format: VectorFormat, test: &VectorTest) -> String {
     match format {
-        Format::Json => format!("{}\n", json::line(test)),
-        Format::Csv => csv::rows(test),
+        VectorFormat::Json => format!("{}\n", json::line(test)),
+        VectorFormat::Csv => csv::rows(test),
     }
 }

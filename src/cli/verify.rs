@@ -9,12 +9,12 @@ use super::input::read_text;
 use super::output::OutputArguments;
 use crate::corpus::{InputError, json};
 use crate::vectors::profile::{Answered, Profile, is_right};
-use crate::vectors::{Test, core, digest, json::topic_file};
+use crate::vectors::{VectorTest, core, digest, json::topic_file};
 use clap::Args;
-use report::{FORMATS, Judged, Judgement, Sheet};
+use report::{FORMATS, JudgedAnswer, Judgement, Sheet};
 use serde::de::IgnoredAny;
 use std::collections::HashMap;
-use values::Answer;
+use values::GivenAnswer;
 
 /// Which results, and by what they are judged.
 #[derive(Args)]
@@ -58,10 +58,11 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
         line,
         ..InputError::of(&arguments.file, message)
     })?;
-    let mut answers: HashMap<&str, (Answer, &str)> = HashMap::new();
+    let mut answers: HashMap<&str, (GivenAnswer, &str)> = HashMap::new();
     for (id, value) in &results.answers {
         let error = |message| InputError::at(&arguments.file, line_of(&text, value), message);
-        let answer = Answer::parse(value).map_err(|message| error(format!("{id}: {message}")))?;
+        let answer =
+            GivenAnswer::parse(value).map_err(|message| error(format!("{id}: {message}")))?;
         if answers.insert(id, (answer, value)).is_some() {
             return Err(error(format!("a second result of '{id}'")).into());
         }
@@ -92,7 +93,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
             })?;
             let wrong_values = wrong_values.filter(|_| right);
             let (answer, right) = (answer.answered, right && wrong_values.is_none());
-            sheet.add(Judged { test, demanded, answer, right, wrong_values });
+            sheet.add(JudgedAnswer { test, demanded, answer, right, wrong_values });
         }
     }
     if let Some((id, (_, value))) = answers.iter().min_by_key(|(_, (_, value))| value.as_ptr()) {
@@ -109,7 +110,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
 }
 
 /// The expected form of the answer to a test.
-fn expected(test: &Test) -> &'static str {
+fn expected(test: &VectorTest) -> &'static str {
     match test.group {
         None => "expected \"hit\" or \"miss\", because the test has one triangle",
         Some(_) => "expected the number of its triangles that are hit, because the test is a group",

@@ -4,8 +4,8 @@ use crate::audit::quoted;
 use crate::case::{Case, rust_case};
 use crate::kernel::KERNELS;
 use crate::report::{
-    ALL_CLASSES, Conformance, Example, FindingKind, FindingPart, KernelResult, Key, Promised, Rate,
-    Record, Verdict, counts_alone, disagreements, interval_of, percent, rate_of,
+    ALL_CLASSES, ComparisonVerdict, Conformance, Example, FindingKind, FindingPart, KernelResult,
+    Key, Promised, Rate, Record, counts_alone, disagreements, interval_of, percent, rate_of,
 };
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -33,7 +33,7 @@ impl Outcome {
     /// the findings are what it says.
     pub fn conforms(&self) -> bool {
         if let Some(conformance) = &self.record.conformance {
-            return conformance.verdict == Verdict::Conforms;
+            return conformance.verdict == ComparisonVerdict::Conforms;
         }
         disagreements(&self.record.result).iter().all(|found| self.is_allowed(&found.key))
     }
@@ -154,7 +154,9 @@ fn beside_expectations(conformance: &Conformance, f: &mut fmt::Formatter<'_>) ->
         more => writeln!(f, "and {more} more")?,
     }
     match conformance.verdict {
-        Verdict::Stale => writeln!(f, "HAIRLINE_BLESS=1 cargo test writes what was found"),
+        ComparisonVerdict::Stale => {
+            writeln!(f, "HAIRLINE_BLESS=1 cargo test writes what was found")
+        }
         _ => Ok(()),
     }
 }

@@ -1,7 +1,7 @@
 //! Writing what a run found as what is expected from now on.
 
 use super::scene::scene_of;
-use super::{Amount, Expectations, Lock, SCHEMA, Target};
+use super::{Amount, Expectations, Lock, LockedTarget, SCHEMA};
 use crate::report::{Conformance, Key, Record};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,7 +42,7 @@ pub fn bless(
         Some(lock) => (BTreeMap::new(), lock.targets),
         None => Default::default(),
     };
-    let now = Target::of(result);
+    let now = LockedTarget::of(result);
     // What people took out is expected nowhere.
     for target in kept.values_mut() {
         let is_planned =
@@ -81,7 +81,7 @@ fn reviewed(lock: &Lock, record: &Record, old: &Expectations, compared: &Conform
     let mut most = lock.most();
     let stale: BTreeSet<Key> = compared.stale.iter().map(|found| found.key()).collect();
     // A bound of what did not occur holds, too.
-    let is_bound = |entry: &super::Entry| matches!(entry.amount, Amount::Rate(_));
+    let is_bound = |entry: &super::ExpectedEntry| matches!(entry.amount, Amount::Rate(_));
     let bounds = old.entries.iter().filter(|(key, entry)| is_bound(entry) && !stale.contains(key));
     bounds.for_each(|(key, _)| {
         most.entry(key.clone()).or_insert(0);

@@ -8,20 +8,20 @@ use crate::report::{Example, Key, ResultPart};
 
 /// The change of a case.
 #[derive(Clone, Copy, PartialEq)]
-pub enum Change {
+pub enum CaseChange {
     /// It shows a finding, and did not.
     New,
     /// It showed a finding, and no longer shows that one.
     Right,
 }
 
-impl Change {
+impl CaseChange {
     /// The note on a case that is shown, if one is: whether it changed, as far as the digests tell.
     pub fn note(self, is_changed: bool, is_shown: bool) -> &'static str {
         match (self, is_changed) {
-            (Change::New, true) => "; the case shown is new",
-            (Change::Right, true) => "; the case shown no longer shows it",
-            (Change::New, false) if is_shown => "; the case shown may have failed before",
+            (CaseChange::New, true) => "; the case shown is new",
+            (CaseChange::Right, true) => "; the case shown no longer shows it",
+            (CaseChange::New, false) if is_shown => "; the case shown may have failed before",
             _ => "",
         }
     }
@@ -33,7 +33,7 @@ pub fn changed_case(
     result: &ResultPart,
     key: &Key,
     example: &Example,
-    change: Change,
+    change: CaseChange,
     digests: [Option<&str>; 2],
 ) -> Option<Example> {
     let [before, now] = digests.map(|digest| match digest {
@@ -42,8 +42,8 @@ pub fn changed_case(
     });
     let (before, now) = (before?, now?);
     let (has, has_not) = match change {
-        Change::New => (now, before),
-        Change::Right => (before, now),
+        CaseChange::New => (now, before),
+        CaseChange::Right => (before, now),
     };
     // The place of a stored case does not tell its name, which may be another case's id.
     if key.family.starts_with("corpus:") {

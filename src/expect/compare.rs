@@ -1,15 +1,15 @@
 //! A run beside its expectations.
 
-use super::changed::{Change, changed_case};
-use super::known::{Found, Known};
+use super::changed::{CaseChange, changed_case};
+use super::known::{FoundDisagreement, KnownDisagreements};
 use super::planned::Planned;
 use super::repaired::repaired;
 use super::rows::changed_rows;
-use super::{Amount, Entry, Expectations};
+use super::{Amount, Expectations, ExpectedEntry};
 use crate::audit::Interval;
 use crate::report::{
-    Conformance, Deviation, Example, FindingKind, Key, Method, NetChange, Rate, ResultPart,
-    Verdict, group_digits, rate_of,
+    ComparisonVerdict, Conformance, Deviation, Example, FindingKind, Key, Method, NetChange, Rate,
+    ResultPart, group_digits, rate_of,
 };
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,16 +30,17 @@ pub fn compare(
     file: Option<&str>,
 ) -> Conformance {
     let same_plan = result.plan.hash_of_cases() == expectations.cases;
-    let known = Known::of(expectations, same_plan, target, file.unwrap_or_default());
+    let known = KnownDisagreements::of(expectations, same_plan, target, file.unwrap_or_default());
     let all = known.found(result);
     let method = if same_plan { Method::CaseByCase } else { Method::Intervals };
     let entries = &known.entries;
-    let found: BTreeMap<&Key, &Found> = all.iter().map(|found| (&found.key, found)).collect();
+    let found: BTreeMap<&Key, &FoundDisagreement> =
+        all.iter().map(|found| (&found.key, found)).collect();
     let keys: BTreeSet<&Key> = entries.keys().chain(found.keys().copied()).collect();
-    let judge = Judge { method, tail: tail(keys.len()) };
+    let judge = ClassJudge { method, tail: tail(keys.len()) };
     let planned = Planned::of(result);
     let mut conformance = Conformance {
-        verdict: Verdict::Conforms,
+        verdict: ComparisonVerdict::Conforms,
         method,
         is_by_family: same_plan && known.target.is_none(),
         expectations: file.map(str::to_owned),
@@ -67,11 +68,11 @@ pub fn compare(
                 conformance.too_rare_to_tell += 1;
                 continue;
             }
-            (Some(_), None) => Outcome::Better,
+            (Some(_), None) => ClassOutcome::Better,
             (Some(entry), Some(_)) => {
                 judge.outcome(entry, &rate, found.and_then(|found| found.digest))
             }
-            (None, _) => Outcome::Worse,
+            (None, _) => ClassOutcome::Worse,
         };
         let shown = |change| {
             let (entry, found) = entry.zip(found).filter(|_| same_plan)?;
@@ -79,22 +80,22 @@ pub fn compare(
         };
         let change = &mut conformance.change;
         match outcome {
-            Outcome::Same => {
+            ClassOutcome::Same => {
                 // What is known needs no example: with them a record would be half as large again.
                 (deviation.case, deviation.bits, deviation.command) = (None, None, None);
                 change.unchanged += 1;
                 conformance.known.push(deviation);
             }
-            Outcome::Better => {
+            ClassOutcome::Better => {
                 if part.is_some() && rate.of == 0 {
                     deviation.expected +=
                         "; nothing is demanded there now: has the contract changed?";
                 }
-                show(&mut deviation, Change::Right, shown(Change::Right));
+                show(&mut deviation, CaseChange::Right, shown(CaseChange::Right));
                 change.better += 1;
                 conformance.stale.push(deviation);
             }
-            Outcome::Worse => {
+            ClassOutcome::Worse => {
                 let repaired = repaired(entries, &all, key).filter(|_| same_plan);
                 change.newly_judged += u64::from(repaired.is_some());
                 deviation.expected += &repaired.unwrap_or_default();
@@ -106,7 +107,7 @@ pub fn compare(
                     Some(_) => &mut change.worse,
                 } += 1;
                 if entry.is_some() {
-                    show(&mut deviation, Change::New, shown(Change::New));
+                    show(&mut deviation, CaseChange::New, shown(CaseChange::New));
                 }
                 conformance.unexpected.push(deviation);
             }
@@ -114,9 +115,9 @@ pub fn compare(
     }
     conformance.unexpected.sort_by_key(|found| Reverse(harm(found)));
     conformance.verdict = match (conformance.unexpected.len(), conformance.stale.len()) {
-        (0, 0) => Verdict::Conforms,
-        (0, _) => Verdict::Stale,
-        _ => Verdict::Disagreements,
+        (0, 0) => ComparisonVerdict::Conforms,
+        (0, _) => ComparisonVerdict::Stale,
+        _ => ComparisonVerdict::Disagreements,
     };
     conformance
 }
@@ -133,26 +134,35 @@ pub(super) fn tail(comparisons: usize) -> f64 {
 }
 
 /// A case of a class that changed, if the digests tell one.
-fn changed(result: &ResultPart, entry: &Entry, found: &Found, change: Change) -> Option<Example> {
+fn changed(
+    result: &ResultPart,
+    entry: &ExpectedEntry,
+    found: &FoundDisagreement,
+    change: CaseChange,
+) -> Option<Example> {
     let Amount::Count { cases: Some((_, expected)), .. } = &entry.amount else { return None };
     let digests = [Some(expected.as_str()), Some(found.digest?)];
     changed_case(result, &found.key, found.example.as_ref()?, change, digests)
 }
 
-enum Outcome {
+enum ClassOutcome {
     Same,
     Worse,
     Better,
 }
 
-struct Judge {
+struct ClassJudge {
     method: Method,
     tail: f64,
 }
 
-impl Judge {
+impl ClassJudge {
     /// True if a disagreement without an expectation is one too many.
-    fn is_unexpected(&self, found: &Found, entries: &BTreeMap<Key, Entry>) -> bool {
+    fn is_unexpected(
+        &self,
+        found: &FoundDisagreement,
+        entries: &BTreeMap<Key, ExpectedEntry>,
+    ) -> bool {
         let trials = found.rate.trials();
         let row = |key: &Key| (key.kernel.clone(), key.set.clone(), key.scalar.clone());
         let row_of_found = row(&found.key);
@@ -164,7 +174,7 @@ impl Judge {
                 < trials.interval_at(self.tail).low
     }
 
-    fn outcome(&self, entry: &Entry, found: &Rate, digest: Option<&str>) -> Outcome {
+    fn outcome(&self, entry: &ExpectedEntry, found: &Rate, digest: Option<&str>) -> ClassOutcome {
         match &entry.amount {
             Amount::Rate(bound) => self.within(*bound, found),
             Amount::Count { count, cases } => {
@@ -180,11 +190,11 @@ impl Judge {
                 // The number of trials moves with other findings: a crash gives no verdict, and bad values are
                 // counted among the hits.
                 if found.count < *count {
-                    Outcome::Better
+                    ClassOutcome::Better
                 } else if found.count == *count && same_cases {
-                    Outcome::Same
+                    ClassOutcome::Same
                 } else {
-                    Outcome::Worse
+                    ClassOutcome::Worse
                 }
             }
         }
@@ -192,37 +202,42 @@ impl Judge {
 
     /// Expectations do not say which trials share a ray, so both intervals have the design effect of
     /// this run.
-    fn rates(&self, count: u64, of: u64, found: &Rate) -> Outcome {
+    fn rates(&self, count: u64, of: u64, found: &Rate) -> ClassOutcome {
         let found = found.trials();
         let expected = found.interval_of_others(count, of, self.tail);
         let found = found.interval_at(self.tail);
         if expected.high < found.low {
-            Outcome::Worse
+            ClassOutcome::Worse
         } else if found.high < expected.low {
-            Outcome::Better
+            ClassOutcome::Better
         } else {
-            Outcome::Same
+            ClassOutcome::Same
         }
     }
 
     /// At most a share: of a sample as far as its interval tells. None at all, of enough, is better.
-    fn within(&self, bound: f64, found: &Rate) -> Outcome {
+    fn within(&self, bound: f64, found: &Rate) -> ClassOutcome {
         let share = found.rate.unwrap_or(0.0);
         let interval = match found.interval {
             Some(_) => found.trials().interval_at(self.tail),
             None => Interval { low: share, high: share },
         };
         if bound < interval.low {
-            Outcome::Worse
+            ClassOutcome::Worse
         } else if found.count == 0 && interval.high < bound {
-            Outcome::Better
+            ClassOutcome::Better
         } else {
-            Outcome::Same
+            ClassOutcome::Same
         }
     }
 }
 
-fn deviation(key: &Key, entry: Option<&Entry>, rate: &Rate, found: Option<&Found>) -> Deviation {
+fn deviation(
+    key: &Key,
+    entry: Option<&ExpectedEntry>,
+    rate: &Rate,
+    found: Option<&FoundDisagreement>,
+) -> Deviation {
     let example = found.and_then(|found| found.example.clone());
     let bits = example.as_ref().map(|example| example.bits.clone());
     Deviation {
@@ -252,14 +267,14 @@ fn deviation(key: &Key, entry: Option<&Entry>, rate: &Rate, found: Option<&Found
 
 /// Shows a case that changed. Else what got worse says that the case shown may have failed before, and what
 /// got better shows none: it may still be wrong.
-fn show(deviation: &mut Deviation, change: Change, changed: Option<Example>) {
+fn show(deviation: &mut Deviation, change: CaseChange, changed: Option<Example>) {
     deviation.expected += change.note(changed.is_some(), deviation.case.is_some());
     match changed {
         Some(Example { case, bits, command, .. }) => {
             (deviation.case, deviation.command) = (Some(case), Some(command));
             deviation.bits = Some(bits).filter(|bits| !bits.is_empty());
         }
-        None if change == Change::Right => {
+        None if change == CaseChange::Right => {
             (deviation.case, deviation.bits, deviation.command) = (None, None, None);
         }
         None => {}

@@ -1,6 +1,6 @@
 //! Two records side by side: what got better, what got worse.
 
-use super::changed::{Change, changed_case};
+use super::changed::{CaseChange, changed_case};
 use super::compare::tail;
 use crate::report::page::{Block, Item, Page, Paged, Tone};
 use crate::report::{
@@ -55,7 +55,7 @@ pub struct ContractChange {
 
 /// The comparison of two records: what they have in common, and where they differ.
 #[derive(Clone, Debug, Serialize)]
-pub struct Comparison {
+pub struct RecordComparison {
     /// `hairline-diff/1`.
     pub schema: &'static str,
     /// True if the cases of all families compared are the same, so that any difference counts.
@@ -77,18 +77,19 @@ pub struct Comparison {
 /// Compares. Where both records have the same cases of a family (the same set of the same size) any change
 /// of a count or of the set of failing cases is one. Else rates differ if their Clopper-Pearson intervals, at
 /// 0.05 divided by the number of comparisons, are disjoint.
-pub fn difference(old: &ResultPart, new: &ResultPart) -> Comparison {
+pub fn difference(old: &ResultPart, new: &ResultPart) -> RecordComparison {
     let contracts = contract_changes(old, new);
     let (old, new) = (Side::of(old), Side::of(new));
     let keys: BTreeSet<&Key> = old.found.keys().chain(new.found.keys()).collect();
     let (common, lone): (Vec<&Key>, Vec<&Key>) =
         keys.into_iter().partition(|key| old.result(key).is_some() && new.result(key).is_some());
-    let judge = Judge { same_parts: old.partial == new.partial, tail: tail(common.len()) };
+    let judge =
+        DifferenceJudge { same_parts: old.partial == new.partial, tail: tail(common.len()) };
     let mut differences: Vec<Difference> =
         common.iter().filter_map(|key| judge.difference(key, &old, &new)).collect();
     let size = |it: &Difference| it.old.count.abs_diff(it.new.count);
     differences.sort_by_key(|it| (it.change as u8, std::cmp::Reverse(size(it))));
-    Comparison {
+    RecordComparison {
         schema: "hairline-diff/1",
         same_cases: common.iter().all(|key| judge.same_cases(key, &old, &new)),
         common: old.results.keys().filter(|place| new.results.contains_key(*place)).count(),
@@ -155,12 +156,12 @@ impl<'a> Side<'a> {
     }
 }
 
-struct Judge {
+struct DifferenceJudge {
     same_parts: bool,
     tail: f64,
 }
 
-impl Judge {
+impl DifferenceJudge {
     fn difference(&self, key: &Key, old: &Side, new: &Side) -> Option<Difference> {
         let (old_rate, new_rate) = (old.rate(key)?, new.rate(key)?);
         let digests = [old, new].map(|side| side.found.get(key).map(|found| found.digest));
@@ -170,7 +171,7 @@ impl Judge {
         }
         let same_cases = self.same_cases(key, old, new);
         let change = self.change(same_cases, &old_rate, &new_rate);
-        let which = if change == Trend::Better { Change::Right } else { Change::New };
+        let which = if change == Trend::Better { CaseChange::Right } else { CaseChange::New };
         let of_side =
             |side: &&Side<'_>| side.found.get(key).and_then(|found| found.example.clone());
         // What is right now is shown as the new record runs it, if it says how; on other cases the record
@@ -190,7 +191,7 @@ impl Judge {
             changed.and_then(|example| changed_case(new.result, key, example, which, digests));
         let shown = which.note(changed.is_some(), same_cases && example.is_some());
         // What may still be wrong shows nothing better.
-        let is_unsure = same_cases && which == Change::Right;
+        let is_unsure = same_cases && which == CaseChange::Right;
         let example = changed.or(example.filter(|_| !is_unsure));
         Some(Difference {
             what: key.to_string(),
@@ -231,7 +232,7 @@ impl Judge {
 /// So many of each trend stand on the screen.
 const MOST: usize = 3;
 
-impl Paged for Comparison {
+impl Paged for RecordComparison {
     fn page(&self) -> Page {
         let count = |change| self.differences.iter().filter(|d| d.change == change).count() as u64;
         let [worse, better, other, same] =
@@ -312,7 +313,7 @@ mod tests {
         let change = |same_cases: bool, rates: [(u64, u64, bool); 2]| {
             let [old, new] = rates
                 .map(|(count, of, is_sample)| Rate::new(Trials::independent(count, of), is_sample));
-            Judge { same_parts: true, tail: 1e-5 }.change(same_cases, &old, &new)
+            DifferenceJudge { same_parts: true, tail: 1e-5 }.change(same_cases, &old, &new)
         };
         // The standard deviation is 30: both intervals at 1e-5 reach about 4.3 of it.
         for (count, same, others) in [

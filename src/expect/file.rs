@@ -1,7 +1,7 @@
 //! Reads a file of expectations, strictly: an unknown name, a duplicate or a typing error is an error
 //! that names its line.
 
-use super::{Amount, Entry, Expectations, SCHEMA};
+use super::{Amount, Expectations, ExpectedEntry, SCHEMA};
 use crate::audit::is_of_mesh;
 use crate::case::SceneKind;
 use crate::corpus::InputError;
@@ -60,7 +60,7 @@ struct FindingText {
 /// Reads expectations, without their lock file; `file` is their name in errors. Kernels may also be those of a
 /// record, which this process does not have.
 pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, InputError> {
-    let reader = Reader { text, file, of_record };
+    let reader = ExpectationsReader { text, file, of_record };
     let version: Version = reader.parse()?;
     if version.schema.get_ref() != SCHEMA {
         let found = version.schema.get_ref();
@@ -71,7 +71,7 @@ pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, 
         return Err(reader.error(&version.schema.span(), message));
     }
     let parsed: FileText = reader.parse()?;
-    let mut entries: BTreeMap<Key, Entry> = BTreeMap::new();
+    let mut entries: BTreeMap<Key, ExpectedEntry> = BTreeMap::new();
     for row in &parsed.known {
         reader.check_kernel(&row.kernel)?;
         for finding in &row.findings {
@@ -92,13 +92,13 @@ pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, 
 /// The advice for a kernel that was renamed.
 const RENAMED: &str = " (of a renamed kernel, replace the name here and in the lock file)";
 
-struct Reader<'a> {
+struct ExpectationsReader<'a> {
     text: &'a str,
     file: &'a str,
     of_record: &'a [&'a str],
 }
 
-impl Reader<'_> {
+impl ExpectationsReader<'_> {
     fn parse<T: DeserializeOwned>(&self) -> Result<T, InputError> {
         toml::from_str(self.text).map_err(|error| {
             let message = error.message().replace('\n', "; ");
@@ -155,7 +155,7 @@ impl Reader<'_> {
         &self,
         row: &RowText,
         spanned: &Spanned<FindingText>,
-    ) -> Result<Vec<(Key, Entry)>, InputError> {
+    ) -> Result<Vec<(Key, ExpectedEntry)>, InputError> {
         let FindingText { scalar, finding, counts, rates, why, url } = spanned.get_ref();
         let kinds: Vec<&str> = FindingKind::FOUND.iter().map(|kind| kind.name()).collect();
         let families = FAMILIES.iter().chain(STRATA);
@@ -189,9 +189,12 @@ impl Reader<'_> {
                 finding: FindingKind::named(finding.get_ref()).expect("checked above"),
             };
             let line = self.line(&spanned.span());
-            Ok((key.of_all_classes(), Entry { line, amount, why: why.clone(), url: url.clone() }))
+            Ok((
+                key.of_all_classes(),
+                ExpectedEntry { line, amount, why: why.clone(), url: url.clone() },
+            ))
         };
-        let entries: Vec<(Key, Entry)> = amounts.map(entry).collect::<Result<_, _>>()?;
+        let entries: Vec<(Key, ExpectedEntry)> = amounts.map(entry).collect::<Result<_, _>>()?;
         match entries.is_empty() {
             true => Err(wrong("expected counts or rates by family".to_owned())),
             false => Ok(entries),

@@ -20,46 +20,49 @@ pub struct Lock {
     /// The hash of what chooses the cases, which are the same on all targets.
     pub cases: String,
     /// By target, as a record's provenance names it.
-    pub targets: BTreeMap<String, Target>,
+    pub targets: BTreeMap<String, LockedTarget>,
 }
 
 /// The findings of a run on a target.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Target {
+pub struct LockedTarget {
     /// How its rows were set, by kernel and by what their epsilons are called.
-    pub rows: BTreeMap<[String; 2], Settings>,
+    pub rows: BTreeMap<[String; 2], RowSettings>,
     /// The cases, by class of finding.
-    pub cases: BTreeMap<Key, Cases>,
+    pub cases: BTreeMap<Key, LockedCases>,
 }
 
 /// The settings of a row.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct RowSettings {
     /// As `--epsilon` takes them.
     pub epsilons: String,
     /// The contract in words, its band included.
     pub contract: String,
 }
 
-impl Settings {
+impl RowSettings {
     /// Those of a row.
-    pub fn of(row: &RowPart) -> Settings {
+    pub fn of(row: &RowPart) -> RowSettings {
         let words = row.epsilons.iter().map(|(name, value)| format!("{name}={value}"));
-        Settings { epsilons: words.collect::<Vec<_>>().join(","), contract: row.contract.clone() }
+        RowSettings {
+            epsilons: words.collect::<Vec<_>>().join(","),
+            contract: row.contract.clone(),
+        }
     }
 }
 
-impl Target {
+impl LockedTarget {
     /// The findings of a run.
-    pub fn of(result: &ResultPart) -> Target {
+    pub fn of(result: &ResultPart) -> LockedTarget {
         let rows = result.plan.rows.iter();
         let cases = disagreements(result).into_iter().map(|found| {
             let (count, of, digest) = (found.rate.count, found.rate.of, found.digest.to_owned());
-            (found.key, Cases { count, of, digest })
+            (found.key, LockedCases { count, of, digest })
         });
-        Target {
+        LockedTarget {
             rows: rows
-                .map(|row| ([row.kernel.clone(), row.set.clone()], Settings::of(row)))
+                .map(|row| ([row.kernel.clone(), row.set.clone()], RowSettings::of(row)))
                 .collect(),
             cases: cases.collect(),
         }
@@ -68,7 +71,7 @@ impl Target {
 
 /// The cases of one class that show a finding.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cases {
+pub struct LockedCases {
     /// How many.
     pub count: u64,
     /// The number of cases among which they were found.
@@ -132,7 +135,7 @@ impl Lock {
     }
 }
 
-impl Target {
+impl LockedTarget {
     /// Takes a line; whether there was one of the same. An error says what was expected.
     fn take(&mut self, line: &str) -> Result<bool, String> {
         let words: Vec<String> = line.split('\t').map(str::to_owned).collect();
@@ -140,7 +143,7 @@ impl Target {
             |text: &str| text.parse::<u64>().map_err(|_| format!("a number, not '{text}'"));
         let words = match <[String; 4]>::try_from(words) {
             Ok([kernel, set, epsilons, contract]) => {
-                let settings = Settings { epsilons, contract };
+                let settings = RowSettings { epsilons, contract };
                 return Ok(self.rows.insert([kernel, set], settings).is_some());
             }
             Err(words) => words,
@@ -164,7 +167,7 @@ impl Target {
         let finding = FindingKind::named(&finding)
             .ok_or_else(|| format!("a kind of finding, not '{finding}'"))?;
         let key = Key { kernel, set, scalar, family, class, finding };
-        Ok(self.cases.insert(key, Cases { count, of, digest }).is_some())
+        Ok(self.cases.insert(key, LockedCases { count, of, digest }).is_some())
     }
 }
 
@@ -177,11 +180,11 @@ impl fmt::Display for Lock {
         writeln!(f, "{SCHEMA} cases {}", self.cases)?;
         for (target, entries) in &self.targets {
             writeln!(f, "[{target}]")?;
-            for ([kernel, set], Settings { epsilons, contract }) in &entries.rows {
+            for ([kernel, set], RowSettings { epsilons, contract }) in &entries.rows {
                 writeln!(f, "{kernel}\t{set}\t{epsilons}\t{contract}")?;
             }
             for (Key { kernel, set, scalar, family, class, finding }, cases) in &entries.cases {
-                let Cases { count, of, digest } = cases;
+                let LockedCases { count, of, digest } = cases;
                 writeln!(
                     f,
                     "{kernel}\t{set}\t{scalar}\t{family}\t{class}\t{finding}\t{count}\t{of}\t{digest}"

@@ -23,10 +23,10 @@ mod scene;
 
 pub use bless::{Blessed, Unblessable, bless};
 pub use compare::compare;
-pub use difference::{Comparison, Difference, Trend, difference};
+pub use difference::{Difference, RecordComparison, Trend, difference};
 pub use file::read;
 pub use files::{BlessError, Written, blessed, lock_of, open};
-pub use lock::{Cases, Lock, Settings, Target};
+pub use lock::{Lock, LockedCases, LockedTarget, RowSettings};
 
 use crate::report::Key;
 use std::collections::BTreeMap;
@@ -45,7 +45,7 @@ pub struct Expectations {
     pub scene: Option<String>,
     /// The expectation for each finding on a family, of all classes together. Every other finding is
     /// expected not to occur.
-    pub entries: BTreeMap<Key, Entry>,
+    pub entries: BTreeMap<Key, ExpectedEntry>,
     /// The cases behind the counts; none if there is no such file.
     pub lock: Option<Lock>,
 }
@@ -62,7 +62,7 @@ impl Expectations {
 
 /// The expectation for a disagreement.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct ExpectedEntry {
     /// The line of the file, counted from 1.
     pub line: usize,
     /// How much of it.

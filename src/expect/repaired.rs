@@ -1,7 +1,7 @@
 //! Cases that had no verdict, because the kernel failed on them: once it is repaired, what it does wrong there is new.
 
-use super::known::Found;
-use super::{Amount, Entry};
+use super::known::FoundDisagreement;
+use super::{Amount, ExpectedEntry};
 use crate::report::{FindingKind, Key};
 use std::collections::BTreeMap;
 
@@ -26,12 +26,16 @@ fn keeps(failure: &Key, key: &Key) -> bool {
 }
 
 /// A note on a class of which there is more than expected, if the kernel failed on more of its cases before.
-pub(super) fn repaired(entries: &BTreeMap<Key, Entry>, all: &[Found], key: &Key) -> Option<String> {
-    let count = |entry: &Entry| match &entry.amount {
+pub(super) fn repaired(
+    entries: &BTreeMap<Key, ExpectedEntry>,
+    all: &[FoundDisagreement],
+    key: &Key,
+) -> Option<String> {
+    let count = |entry: &ExpectedEntry| match &entry.amount {
         Amount::Count { count, .. } => *count,
         Amount::Rate(_) => 0,
     };
-    let failed: Vec<(&Key, &Entry)> =
+    let failed: Vec<(&Key, &ExpectedEntry)> =
         entries.iter().filter(|(other, _)| keeps(other, key)).collect();
     let failing = all.iter().filter(|other| keeps(&other.key, key));
     let before: u64 = failed.iter().map(|(_, entry)| count(entry)).sum();
@@ -57,20 +61,20 @@ mod tests {
         now: &[(&str, FindingKind, u64)],
         of: (&str, FindingKind),
     ) -> Option<String> {
-        let entry = |count| Entry {
+        let entry = |count| ExpectedEntry {
             line: 1,
             amount: Amount::Count { count, cases: None },
             why: None,
             url: None,
         };
         let entries = before.iter().map(|(class, finding, n)| (key(class, *finding), entry(*n)));
-        let found = |(class, finding, count): &(&str, FindingKind, u64)| Found {
+        let found = |(class, finding, count): &(&str, FindingKind, u64)| FoundDisagreement {
             key: key(class, *finding),
             rate: Rate { count: *count, of: 100, ..Rate::default() },
             digest: None,
             example: None,
         };
-        let all: Vec<Found> = now.iter().map(found).collect();
+        let all: Vec<FoundDisagreement> = now.iter().map(found).collect();
         repaired(&entries.collect(), &all, &key(of.0, of.1))
     }
 

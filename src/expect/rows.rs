@@ -1,6 +1,6 @@
 //! Rows that are set to something else than what was blessed: an epsilon, the contract or its band.
 
-use super::{Expectations, Settings, Target};
+use super::{Expectations, LockedTarget, RowSettings};
 use crate::report::{Key, PlanPart, RowChange, RowPart};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -37,8 +37,8 @@ impl Expectations {
         let entries = std::mem::take(&mut self.entries).into_iter();
         self.entries = entries.map(|(place, entry)| (key(place), entry)).collect();
         for target in self.lock.iter_mut().flat_map(|lock| lock.targets.values_mut()) {
-            let Target { rows, cases } = std::mem::take(target);
-            *target = Target {
+            let LockedTarget { rows, cases } = std::mem::take(target);
+            *target = LockedTarget {
                 rows: rows
                     .into_iter()
                     .map(|([kernel, mut set], settings)| {
@@ -53,12 +53,12 @@ impl Expectations {
 }
 
 /// Where the rows of a plan differ from those of the expectations, in the order of the plan.
-pub(super) fn changed_rows(plan: &PlanPart, known: &Target) -> Vec<RowChange> {
+pub(super) fn changed_rows(plan: &PlanPart, known: &LockedTarget) -> Vec<RowChange> {
     plan.rows.iter().flat_map(|row| changes(row, plan, known)).collect()
 }
 
-fn changes(row: &RowPart, plan: &PlanPart, known: &Target) -> Vec<RowChange> {
-    let now = Settings::of(row);
+fn changes(row: &RowPart, plan: &PlanPart, known: &LockedTarget) -> Vec<RowChange> {
+    let now = RowSettings::of(row);
     let change = |what: &str, before: &str, now: &str| RowChange {
         row: format!("{} ({})", row.kernel, row.set),
         what: what.to_owned(),
@@ -76,7 +76,7 @@ fn changes(row: &RowPart, plan: &PlanPart, known: &Target) -> Vec<RowChange> {
         let gone = gone.map(|(_, before)| change("epsilons", &before.epsilons, &now.epsilons));
         return gone.collect();
     };
-    let value = |settings: &Settings, name: &str| {
+    let value = |settings: &RowSettings, name: &str| {
         let mut words = settings.epsilons.split(',').filter_map(|word| word.split_once('='));
         words.find(|(word, _)| *word == name).map_or("none", |(_, value)| value).to_owned()
     };

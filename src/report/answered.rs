@@ -6,11 +6,11 @@ use super::{
     RowPart, RowTotal, SCHEMA, SourcePart, distribution,
 };
 use crate::arith::Float;
-use crate::audit::{Digest, Judged, Place, Severities, Tally, exact_severity};
+use crate::audit::{CasePlace, Digest, JudgedGroup, Severities, Tally, exact_severity};
 use crate::contract::Extent;
 use crate::corpus::hex;
 use crate::judge::{Class, Distances, Finding, GroupTruth, Obligation};
-use crate::vectors::{CLOSED, PREFIX, Test};
+use crate::vectors::{CLOSED, PREFIX, VectorTest};
 use hmac_sha256::Hash;
 use std::collections::BTreeMap;
 
@@ -22,7 +22,7 @@ pub struct AnsweredTest<'a> {
     /// The topic of the test.
     pub topic: &'a str,
     /// The test.
-    pub test: &'a Test,
+    pub test: &'a VectorTest,
     /// The demand of the test.
     pub asked: Asked,
     /// How many of its triangles are hit, by the answer.
@@ -156,7 +156,7 @@ impl<'a> Set<'a> {
             let hit = 0 < answered.hits;
             match answered.asked {
                 Asked::Single(obligation) => {
-                    add(&mut tally, Place { index, triangle: 0 }, answered, (obligation, hit));
+                    add(&mut tally, CasePlace { index, triangle: 0 }, answered, (obligation, hit));
                 }
                 Asked::Group(truth) => {
                     // Where one hit is right by every reading, a second is on a triangle that must be missed.
@@ -164,10 +164,10 @@ impl<'a> Set<'a> {
                         answered.surely_missed().filter(|_| promised == Promised::AtLeastOne);
                     if let Some(triangle) = must_miss {
                         let asked = (Obligation::MustMiss, 1 < answered.hits);
-                        add(&mut tally, Place { index, triangle }, answered, asked);
+                        add(&mut tally, CasePlace { index, triangle }, answered, asked);
                     }
                     let hits = answered.hits;
-                    tally.group(&Judged { index, truth, hits, elsewhere: false });
+                    tally.group(&JudgedGroup { index, truth, hits, elsewhere: false });
                 }
             }
         }
@@ -233,7 +233,7 @@ impl<'a> Set<'a> {
 /// Counts an answer on one triangle: what was asked, and whether it is hit.
 fn add(
     tally: &mut Tally,
-    place: Place,
+    place: CasePlace,
     answered: &AnsweredTest,
     (obligation, hit): (Obligation, bool),
 ) {
@@ -263,7 +263,7 @@ fn add(
 }
 
 /// A triangle of a test that was answered wrongly.
-fn example(test: &Test, triangle: usize, severe: bool) -> Example {
+fn example(test: &VectorTest, triangle: usize, severe: bool) -> Example {
     let (bits, severity) = either_scalar!(&test.cases[triangle], case => (
         case.hex(),
         severe.then(|| exact_severity(case, Extent::Interval)).flatten().map(severity_part),

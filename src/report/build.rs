@@ -4,9 +4,9 @@ use super::distribution;
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
-    Audit, Cell, CorpusSet, EpsilonText, Examples, GroupCount, Place, Plan, PolygonCount, Row,
-    Severity, Source, SourceSummary, Stock, Tally, Trials, exact_severity, severity_of_instance,
-    words,
+    Audit, CasePlace, CorpusSet, EpsilonText, Examples, GroupCount, Plan, PolygonCount, Row,
+    Severity, Source, SourceCell, SourceSummary, Stock, Tally, Trials, exact_severity,
+    severity_of_instance, words,
 };
 use crate::case::{Case, Matrix};
 use crate::contract::{Boundary, Extent};
@@ -174,7 +174,7 @@ pub(super) fn counts(tally: &Tally, class: Option<Class>, sample: bool) -> Count
     }
 }
 
-fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
+fn kernel_result<F: Scalar>(plan: &Plan, cell: &SourceCell) -> KernelResult {
     let (source, row, tally) = (&plan.sources[cell.source], &plan.rows[cell.row], &cell.tally);
     let sample = source.is_sample();
     // In an instance values belong to another ray than the truth.
@@ -220,7 +220,7 @@ pub(super) fn finding_part(
     rate: Rate,
     examples: &Examples,
     causes: Option<CausesPart>,
-    example: impl Fn(Place, bool) -> Example,
+    example: impl Fn(CasePlace, bool) -> Example,
 ) -> FindingPart {
     let (edges, worst) = examples.worst.expect("a finding has a worst example");
     let mut worst = example(worst, true);
@@ -238,7 +238,12 @@ pub(super) fn finding_part(
     }
 }
 
-fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: bool) -> Example {
+fn example<F: Scalar>(
+    source: &Source,
+    row: &Row,
+    place: CasePlace,
+    with_severity: bool,
+) -> Example {
     let made = source.make::<F>(place.index);
     let case: &Case<F> = &made.cases()[place.triangle as usize];
     let extent = row.contract.extent;

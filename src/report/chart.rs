@@ -69,7 +69,7 @@ pub(super) fn wrapped(text: &str, width: f64) -> Vec<String> {
 
 /// Where things stand.
 #[derive(Clone, Copy)]
-pub(super) struct Frame {
+pub(super) struct ChartFrame {
     /// The whole width.
     pub width: f64,
     /// The space to the left of the plot, for the labels of shares.
@@ -85,7 +85,7 @@ pub(super) struct Frame {
 }
 
 /// A value that is marked by a line with its name above the plot.
-pub(super) struct Mark {
+pub(super) struct ChartMark {
     /// Its place on the axis.
     pub value: f64,
     /// Its name.
@@ -96,7 +96,7 @@ pub(super) struct Mark {
 
 /// A plot while it is drawn.
 pub(super) struct Chart {
-    frame: Frame,
+    frame: ChartFrame,
     across: EpsilonAxis,
     down: ShareAxis,
     top: f64,
@@ -109,10 +109,10 @@ pub(super) struct Chart {
 impl Chart {
     /// The axes and the marks. Shares are of so many, or take at most so many decades.
     pub fn new(
-        frame: Frame,
+        frame: ChartFrame,
         decades: [Option<Decades>; 2],
         (of, most_decades): (u64, i32),
-        marks: &[Mark],
+        marks: &[ChartMark],
     ) -> Chart {
         let across = EpsilonAxis::new(frame.left, frame.width - frame.right, frame.zero, decades);
         let (placed, rows) = in_rows(frame, &across, marks);
@@ -198,7 +198,7 @@ impl Chart {
     }
 
     fn axes(&mut self) {
-        let Frame { width, left, right, .. } = self.frame;
+        let ChartFrame { width, left, right, .. } = self.frame;
         let (right, bottom) = (width - right, self.top + self.frame.plot);
         for (y, label) in self.down.ticks().into_iter().chain([(bottom, "none".to_owned())]) {
             let _ = writeln!(
@@ -224,10 +224,10 @@ impl Chart {
 /// The marks in rows, so that no name lies on another: each with the middle of its name and its row. Also how many rows
 /// there are.
 fn in_rows<'a>(
-    frame: Frame,
+    frame: ChartFrame,
     across: &EpsilonAxis,
-    marks: &'a [Mark],
-) -> (Vec<(&'a Mark, f64, usize)>, usize) {
+    marks: &'a [ChartMark],
+) -> (Vec<(&'a ChartMark, f64, usize)>, usize) {
     let mut ends: Vec<f64> = Vec::new();
     let mut placed = Vec::new();
     for mark in marks {

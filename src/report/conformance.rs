@@ -11,7 +11,7 @@ use std::fmt;
 #[serde(deny_unknown_fields)]
 pub struct Conformance {
     /// The verdict of the comparison.
-    pub verdict: Verdict,
+    pub verdict: ComparisonVerdict,
     /// How counts were compared.
     pub method: Method,
     /// True if the lock file says nothing of this run, so that families are compared and not classes.
@@ -50,7 +50,7 @@ pub struct Conformance {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum ComparisonVerdict {
     /// All is as expected.
     Conforms,
     /// There are unexpected disagreements, or proofs missing.
@@ -277,15 +277,15 @@ impl Conformance {
     /// Adds demands on proofs that are not met.
     pub fn demand(&mut self, unproved: Vec<Unproved>) {
         if !unproved.is_empty() {
-            self.verdict = Verdict::Disagreements;
+            self.verdict = ComparisonVerdict::Disagreements;
         }
         self.unproved = unproved;
     }
 
     /// Sets aside what is not compared, because answers differ from run to run.
     pub fn set_aside(&mut self, unsteady: Vec<Deviation>) {
-        if !unsteady.is_empty() && self.verdict != Verdict::Disagreements {
-            self.verdict = Verdict::Unsteady;
+        if !unsteady.is_empty() && self.verdict != ComparisonVerdict::Disagreements {
+            self.verdict = ComparisonVerdict::Unsteady;
         }
         self.unsteady = unsteady;
     }
@@ -294,10 +294,10 @@ impl Conformance {
     pub fn summary(&self) -> String {
         let count = |list: &[Deviation], one, many| number_of(list.len() as u64, one, many);
         let verdict = match self.verdict {
-            Verdict::Conforms => "conforms",
-            Verdict::Disagreements => "does not conform",
-            Verdict::Unsteady => "cannot be compared",
-            Verdict::Stale => "better than expected: the expectations are stale",
+            ComparisonVerdict::Conforms => "conforms",
+            ComparisonVerdict::Disagreements => "does not conform",
+            ComparisonVerdict::Unsteady => "cannot be compared",
+            ComparisonVerdict::Stale => "better than expected: the expectations are stale",
         };
         let NetChange { worse, new, other_cases, .. } = self.change;
         let how = [(worse, "worse"), (new, "new"), (other_cases, "of other cases")];

@@ -109,7 +109,7 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
 }
 
 /// A finding on groups or polygons: its kind, how often, of the set of all, ids of the first.
-pub(super) type Together<'a> = (FindingKind, &'a Rate, &'a str, &'a [String]);
+pub(super) type GroupFinding<'a> = (FindingKind, &'a Rate, &'a str, &'a [String]);
 
 /// True if a finding of a result counts for single triangles. At the shared edges and vertices of a scene a neighbour
 /// may take the ray: there only a ray that none of them takes is wrong.
@@ -118,15 +118,15 @@ pub(crate) fn counts_alone(part: &KernelResult, kind: FindingKind) -> bool {
 }
 
 /// The counts of all that the contract rules out across triangles. In a scene cracks count even where nothing is promised.
-pub(super) fn across(part: &KernelResult) -> Vec<Together<'_>> {
+pub(super) fn across(part: &KernelResult) -> Vec<GroupFinding<'_>> {
     let (Some(across), Some(cracks)) = (&part.across, cracks(part)) else { return Vec::new() };
-    let doubles: Together = (
+    let doubles: GroupFinding = (
         FindingKind::Double,
         &across.doubles,
         &across.double_digest,
         across.first_doubles.as_slice(),
     );
-    let folds: Together =
+    let folds: GroupFinding =
         (FindingKind::OddFold, &across.odd_folds, &across.odd_fold_digest, &across.first_odd_folds);
     match across.promised {
         Promised::Nothing if is_shared_in_scene(&part.family) => vec![cracks],
@@ -138,24 +138,24 @@ pub(super) fn across(part: &KernelResult) -> Vec<Together<'_>> {
 }
 
 /// The count of cracks, whatever is promised.
-pub(super) fn cracks(part: &KernelResult) -> Option<Together<'_>> {
+pub(super) fn cracks(part: &KernelResult) -> Option<GroupFinding<'_>> {
     let across = part.across.as_ref()?;
     Some((FindingKind::Crack, &across.cracks, &across.crack_digest, &across.first_cracks))
 }
 
 /// The findings on whole polygons.
-pub(super) fn polygons(part: &KernelResult) -> Vec<Together<'_>> {
+pub(super) fn polygons(part: &KernelResult) -> Vec<GroupFinding<'_>> {
     let Some(part) = &part.polygons else { return Vec::new() };
     let others = part.others.iter();
     let others = others
-        .map(|found| -> Together { (found.finding, &found.rate, &found.digest, &found.first) });
-    let misses: Together = (
+        .map(|found| -> GroupFinding { (found.finding, &found.rate, &found.digest, &found.first) });
+    let misses: GroupFinding = (
         FindingKind::PolygonFalseMiss,
         &part.false_misses,
         &part.false_miss_digest,
         &part.first_false_misses,
     );
-    let hits: Together = (
+    let hits: GroupFinding = (
         FindingKind::PolygonFalseHit,
         &part.false_hits,
         &part.false_hit_digest,

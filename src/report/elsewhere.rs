@@ -4,7 +4,7 @@ use super::page::{Block, Head, Row, Table};
 use super::record::Rate;
 
 /// The rates of one thing.
-pub(crate) struct Compared {
+pub(crate) struct ComparedRates {
     /// Its name.
     pub label: String,
     /// One a kind; the first is the one that tables are about.
@@ -19,7 +19,7 @@ const MOST: usize = 10;
 pub(crate) fn blocks(
     title: &str,
     kinds: &[String],
-    rows: &[Compared],
+    rows: &[ComparedRates],
     share: fn(&Rate) -> String,
 ) -> Vec<Block> {
     let [first, others @ ..] = kinds else { return Vec::new() };
@@ -27,7 +27,7 @@ pub(crate) fn blocks(
         return Vec::new();
     }
     let of_rate = |rate: &Rate| rate.rate.unwrap_or(0.0);
-    let most = |row: &Compared| {
+    let most = |row: &ComparedRates| {
         let (own, others) = row.rates.split_first()?;
         let [_, high] = own.interval.unwrap_or([0.0, 1.0]);
         let is_worse = |rate: &Rate| rate.interval.is_some_and(|[low, _]| high < low);

@@ -8,14 +8,14 @@ use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
 
 #[derive(Serialize, Deserialize)]
-struct Sums {
+struct ShardSums {
     plan: StoredPlan,
     audit: Audit,
 }
 
 /// The part of a record that merging needs; `audit` is as it is before it is finished.
 pub fn shard_part(plan: &Plan, audit: &Audit) -> ShardPart {
-    let sums = Sums { plan: StoredPlan::of(plan), audit: audit.clone() };
+    let sums = ShardSums { plan: StoredPlan::of(plan), audit: audit.clone() };
     let sums = serde_json::to_string(&sums).unwrap_or_default();
     ShardPart { digest: digest(&sums), sums }
 }
@@ -60,7 +60,7 @@ pub fn mergeable(records: Vec<Record>, allow_partial: bool) -> Result<Mergeable,
         if digest(&shard.sums) != shard.digest {
             return Err(error(i, "damaged: its sums do not have their digest"));
         }
-        let sums: Sums = serde_json::from_str(&shard.sums)
+        let sums: ShardSums = serde_json::from_str(&shard.sums)
             .map_err(|e| error(i, format!("made by another version: {e}")))?;
         let hash = record.result.plan.hash;
         let Some(all) = &mut all else {

@@ -1,7 +1,7 @@
 //! CSV: a row a triangle. No field has a comma or a quote in it.
 
-use super::number::{Number, nearest};
-use super::{Test, word};
+use super::number::{EitherFloat, nearest};
+use super::{VectorTest, word};
 use crate::corpus::number;
 
 /// The first line, without its end.
@@ -9,7 +9,7 @@ pub const HEADER: &str = "id,triangle,triangles,scalar,group,parity,result,close
     where,place,facing,t,u,v,margin,flags,ox,oy,oz,dx,dy,dz,t_min,t_max,ax,ay,az,bx,by,bz,cx,cy,cz";
 
 /// The rows of a test, with their ends.
-pub fn rows(test: &Test) -> String {
+pub fn rows(test: &VectorTest) -> String {
     let mut text = String::new();
     let count = test.triangles.len().to_string();
     for (i, triangle) in test.triangles.iter().enumerate() {
@@ -24,7 +24,7 @@ pub fn rows(test: &Test) -> String {
         let finite = |i: usize| value(i).filter(|value| value.is_finite());
         row.extend([0, 1, 2, 3].map(|i| finite(i).map_or(String::new(), number::write)));
         row.push(test.flags.join(" "));
-        row.extend(test.ray.iter().chain(&triangle.numbers).map(Number::bits));
+        row.extend(test.ray.iter().chain(&triangle.numbers).map(EitherFloat::bits));
         text.push_str(&row.join(","));
         text.push('\n');
     }

@@ -1,6 +1,6 @@
 //! The flags of tests: what may go wrong on them, once a file in words.
 
-use super::number::Number;
+use super::number::EitherFloat;
 use crate::truth::{Crossing, Facing, Feature, Place, Truth};
 
 /// Each flag with its effect.
@@ -106,7 +106,7 @@ pub(super) fn of_truth(truth: &Truth) -> Vec<&'static str> {
 
 /// The flag that follows from the numbers.
 pub(super) fn of_numbers<'a>(
-    mut numbers: impl Iterator<Item = &'a Number>,
+    mut numbers: impl Iterator<Item = &'a EitherFloat>,
 ) -> Option<&'static str> {
     numbers.any(|number| number.is_extreme).then_some("range-ends")
 }

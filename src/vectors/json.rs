@@ -1,8 +1,8 @@
 //! JSON: a file a topic, and one line a test. docs/schema/vectors.json is the schema.
 
 use super::flags::FLAGS;
-use super::number::{Number, nearest};
-use super::{Group, Test, Topic, Triangle, word};
+use super::number::{EitherFloat, nearest};
+use super::{TestGroup, TestTriangle, VectorTest, VectorTopic, word};
 use crate::corpus::json::object;
 use crate::corpus::number;
 use crate::corpus::truth_json::fraction_text;
@@ -16,7 +16,7 @@ pub const SCHEMA: &str = "ray-triangle-vectors-1";
 const LONGEST_FRACTION: usize = 60;
 
 /// A file of the core set, with its name.
-pub fn topic_file(topic: &Topic, tests: &[Test]) -> (String, String) {
+pub fn topic_file(topic: &VectorTopic, tests: &[VectorTest]) -> (String, String) {
     let used = |name: &str| tests.iter().any(|test| test.flags.contains(&name));
     let flags = FLAGS.iter().filter(|(name, _)| used(name));
     let flags: Vec<String> =
@@ -33,14 +33,14 @@ pub fn topic_file(topic: &Topic, tests: &[Test]) -> (String, String) {
 }
 
 /// A test, without the end of the line.
-pub fn line(test: &Test) -> String {
+pub fn line(test: &VectorTest) -> String {
     let mut fields = Fields(Vec::new());
     fields.add("id", json!(test.id));
     fields.add("comment", json!(test.comment));
     fields.0.extend(test.source.as_ref().map(|source| ("source", json!(source).to_string())));
     fields.add("flags", json!(test.flags));
     fields.add("scalar", json!(test.scalar));
-    let text = |numbers: &[Number]| numbers.iter().map(Number::text).collect::<Vec<_>>();
+    let text = |numbers: &[EitherFloat]| numbers.iter().map(EitherFloat::text).collect::<Vec<_>>();
     fields.add("origin", json!(text(&test.ray[..3])));
     fields.add("direction", json!(text(&test.ray[3..6])));
     fields.add("t_min", json!(test.ray[6].text()));
@@ -67,7 +67,7 @@ impl Fields {
         self.0.push((name, value.to_string()));
     }
 
-    fn triangle(&mut self, triangle: &Triangle) {
+    fn triangle(&mut self, triangle: &TestTriangle) {
         self.add("result", json!(word(triangle.result())));
         self.add("closed", json!(word(triangle.closed())));
         self.add("open", json!(word(triangle.open())));
@@ -93,10 +93,15 @@ impl Fields {
     }
 
     /// The vertices once each, and triangles of their indices.
-    fn group(&mut self, test: &Test, group: &Group, text: impl Fn(&[Number]) -> Vec<String>) {
-        let mut vertices: Vec<&[Number]> = Vec::new();
+    fn group(
+        &mut self,
+        test: &VectorTest,
+        group: &TestGroup,
+        text: impl Fn(&[EitherFloat]) -> Vec<String>,
+    ) {
+        let mut vertices: Vec<&[EitherFloat]> = Vec::new();
         let mut index = |vertex| {
-            let same = |other: &&[Number]| patterns(other) == patterns(vertex);
+            let same = |other: &&[EitherFloat]| patterns(other) == patterns(vertex);
             vertices.iter().position(same).unwrap_or_else(|| {
                 vertices.push(vertex);
                 vertices.len() - 1
@@ -115,11 +120,14 @@ impl Fields {
         self.add("closed", json!(group.counts[0]));
         self.add("open", json!(group.counts[1]));
         self.add("parity", json!(group.parity()));
-        self.add("where", json!(test.triangles.iter().map(Triangle::place).collect::<Vec<_>>()));
+        self.add(
+            "where",
+            json!(test.triangles.iter().map(TestTriangle::place).collect::<Vec<_>>()),
+        );
     }
 }
 
-fn patterns(vertex: &[Number]) -> Vec<u64> {
+fn patterns(vertex: &[EitherFloat]) -> Vec<u64> {
     vertex.iter().map(|number| number.pattern).collect()
 }
 

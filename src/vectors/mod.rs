@@ -10,7 +10,7 @@ mod number;
 pub mod profile;
 mod source;
 
-pub use source::{PREFIX, Topic, core, numbered, question_of};
+pub use source::{PREFIX, VectorTopic, core, numbered, question_of};
 
 use crate::arith::Float;
 use crate::case::Case;
@@ -26,7 +26,7 @@ use hmac_sha256::Hash;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Signed;
-use number::Number;
+use number::EitherFloat;
 
 /// Every point of the closed triangle is a hit at every t of the closed interval, a coplanar triangle and
 /// one without area included. Invalid input is free.
@@ -51,7 +51,7 @@ const OPEN: Contract = Contract {
 pub const DIGITS: usize = 16;
 
 /// One test: a ray and a triangle, or a ray and the triangles of a group.
-pub struct Test {
+pub struct VectorTest {
     /// A name, and a digest of the numbers: an id never comes back with other numbers.
     pub id: String,
     /// A description of the test, in one line.
@@ -63,21 +63,21 @@ pub struct Test {
     /// `f32` or `f64`.
     pub scalar: &'static str,
     /// Origin, direction, t_min and t_max.
-    ray: [Number; 8],
+    ray: [EitherFloat; 8],
     /// The ray with each triangle.
     pub cases: Vec<AnyCase>,
     /// One, or those of the group.
-    pub triangles: Vec<Triangle>,
+    pub triangles: Vec<TestTriangle>,
     /// How they belong together.
     pub grouping: Grouping,
     /// The right result for the triangles of a group together; none for a single triangle.
-    pub group: Option<Group>,
+    pub group: Option<TestGroup>,
 }
 
 /// A triangle of a test, and what is right on it.
-pub struct Triangle {
+pub struct TestTriangle {
     /// The coordinates of a, b and c.
-    numbers: [Number; 9],
+    numbers: [EitherFloat; 9],
     /// The exact truth.
     pub truth: Truth,
     /// t, u, v and the margin, if the line crosses the plane.
@@ -86,7 +86,7 @@ pub struct Triangle {
 
 /// The right result for the triangles of a group together.
 #[derive(Clone, Copy)]
-pub struct Group {
+pub struct TestGroup {
     /// How the triangles lie to each other and to the ray.
     pub truth: GroupTruth,
     /// How many triangles the ray hits under the closed reading, and how many under the open one.
@@ -103,18 +103,18 @@ struct Label {
     flag: Option<&'static str>,
 }
 
-impl Test {
+impl VectorTest {
     /// The test of a case, or of the cases of a group; none if nothing is demanded of the group.
-    fn new<F: Float>(label: Label, cases: &[Case<F>], grouping: Grouping) -> Option<Test> {
-        let triangles: Vec<Triangle> = cases.iter().map(Triangle::new).collect();
+    fn new<F: Float>(label: Label, cases: &[Case<F>], grouping: Grouping) -> Option<VectorTest> {
+        let triangles: Vec<TestTriangle> = cases.iter().map(TestTriangle::new).collect();
         let truths: Vec<Truth> = triangles.iter().map(|triangle| triangle.truth).collect();
-        let group = grouping.shares_a_ray().then(|| Group::new(cases, &truths, grouping));
+        let group = grouping.shares_a_ray().then(|| TestGroup::new(cases, &truths, grouping));
         if group.is_some_and(|group| group.truth == GroupTruth::Free) {
             return None;
         }
         let [[ox, oy, oz], [dx, dy, dz], ..] = cases[0].vectors();
         let (t_min, t_max) = (cases[0].ray.t_min, cases[0].ray.t_max);
-        let ray = [ox, oy, oz, dx, dy, dz, t_min, t_max].map(Number::of);
+        let ray = [ox, oy, oz, dx, dy, dz, t_min, t_max].map(EitherFloat::of);
         let Label { name, comment, source, flag } = label;
         let mut flags: Vec<&str> = flag.into_iter().collect();
         let numbers = ray.iter().chain(triangles.iter().flat_map(|triangle| &triangle.numbers));
@@ -126,8 +126,18 @@ impl Test {
         });
         let (id, scalar) = (name, F::NAME);
         let cases = cases.iter().map(|case| (*case).into()).collect();
-        let mut test =
-            Test { id, comment, source, flags, scalar, ray, cases, triangles, grouping, group };
+        let mut test = VectorTest {
+            id,
+            comment,
+            source,
+            flags,
+            scalar,
+            ray,
+            cases,
+            triangles,
+            grouping,
+            group,
+        };
         test.id = format!("{}-{}", test.id, test.digest());
         Some(test)
     }
@@ -135,7 +145,7 @@ impl Test {
     /// The bit patterns of the ray and then of each triangle, in hexadecimal between spaces.
     fn bits(&self) -> String {
         let triangles = self.triangles.iter().flat_map(|triangle| &triangle.numbers);
-        let words: Vec<String> = self.ray.iter().chain(triangles).map(Number::bits).collect();
+        let words: Vec<String> = self.ray.iter().chain(triangles).map(EitherFloat::bits).collect();
         words.join(" ")
     }
 
@@ -145,12 +155,12 @@ impl Test {
     }
 }
 
-impl Triangle {
-    fn new<F: Float>(case: &Case<F>) -> Triangle {
+impl TestTriangle {
+    fn new<F: Float>(case: &Case<F>) -> TestTriangle {
         let vertices = case.vectors();
-        let numbers = std::array::from_fn(|i| Number::of(vertices[2 + i / 3][i % 3]));
+        let numbers = std::array::from_fn(|i| EitherFloat::of(vertices[2 + i / 3][i % 3]));
         let truth = truth(case);
-        Triangle { numbers, truth, values: truth.crossing().map(|_| values(&case.widen())) }
+        TestTriangle { numbers, truth, values: truth.crossing().map(|_| values(&case.widen())) }
     }
 
     /// Hit, miss, or free for invalid input, if edges, vertices, ends and every contact are hits.
@@ -220,14 +230,14 @@ fn place(truth: &Truth) -> &'static str {
     truth.crossing().map_or(truth.class_name(), |crossing| crossing.feature.name())
 }
 
-impl Group {
-    fn new<F: Float>(cases: &[Case<F>], truths: &[Truth], grouping: Grouping) -> Group {
+impl TestGroup {
+    fn new<F: Float>(cases: &[Case<F>], truths: &[Truth], grouping: Grouping) -> TestGroup {
         let hits = |reading| {
             let asked = truths.iter().map(|truth| obligation(truth, &reading, false));
             asked.filter(|asked| *asked == Obligation::MustHit).count()
         };
         let truth = group_obligation(cases, truths, &CLOSED, grouping);
-        Group { truth, counts: [CLOSED, OPEN].map(hits) }
+        TestGroup { truth, counts: [CLOSED, OPEN].map(hits) }
     }
 
     /// The number of hits that is right.

@@ -8,7 +8,7 @@ use num_traits::ToPrimitive;
 
 /// A float of either scalar.
 #[derive(Clone, Copy)]
-pub(super) struct Number {
+pub(super) struct EitherFloat {
     /// In the low bits.
     pub pattern: u64,
     /// True if its square is beyond the range of its scalar, or below the normal numbers.
@@ -17,11 +17,11 @@ pub(super) struct Number {
     digits: usize,
 }
 
-impl Number {
-    pub fn of<F: Float>(x: F) -> Number {
+impl EitherFloat {
+    pub fn of<F: Float>(x: F) -> EitherFloat {
         let square = x * x;
         let is_normal = square.is_finite() && smallest_normal::<F>() <= square.to_f64();
-        Number {
+        EitherFloat {
             pattern: x.to_bits(),
             is_extreme: x.is_finite() && !x.is_zero() && !is_normal,
             value: x.to_f64(),
@@ -91,15 +91,15 @@ mod tests {
             (f64::NEG_INFINITY, "-Infinity"),
             (f64::NAN, "NaN"),
         ] {
-            assert_eq!(Number::of(x).text(), text);
+            assert_eq!(EitherFloat::of(x).text(), text);
         }
-        assert_eq!(Number::of(f32::from_bits(1)).text(), "0x1p-149");
-        assert_eq!(Number::of(1f32).bits(), "3f800000");
+        assert_eq!(EitherFloat::of(f32::from_bits(1)).text(), "0x1p-149");
+        assert_eq!(EitherFloat::of(1f32).bits(), "3f800000");
         let mut draw = Draw::new("numbers", 1, 1);
         for _ in 0..1000 {
             let x = f64::from_bits(draw.bits());
             if x.is_finite() {
-                assert_eq!(parse::<f64>(&Number::of(x).text()), Ok(x));
+                assert_eq!(parse::<f64>(&EitherFloat::of(x).text()), Ok(x));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Profiles: what a specification demands of the tests that are free, with its sentences. They are files
 //! that a reader in any language applies alike.
 
-use super::{Test, Triangle, word};
+use super::{TestTriangle, VectorTest, word};
 use crate::contract::{Boundary, Contract, Demand};
 use crate::judge::{Obligation, obligation};
 use serde::{Deserialize, Serialize};
@@ -29,24 +29,24 @@ pub struct Profile {
     /// Its rules for inputs, each with its sentence: `t_min` may be `at-least-0`. It says nothing about rays that break one.
     #[serde(default)]
     preconditions: Vec<BTreeMap<String, String>>,
-    answers: Answers,
+    answers: FreeAnswers,
 }
 
 /// One answer for each word of `free_because`, and one for groups.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Answers {
-    boundary: Answer<Single>,
-    ends: Answer<Single>,
-    coplanar: Answer<Single>,
-    degenerate: Answer<Single>,
-    invalid: Answer<Single>,
-    groups: Answer<Groups>,
+struct FreeAnswers {
+    boundary: ProfileAnswer<Single>,
+    ends: ProfileAnswer<Single>,
+    coplanar: ProfileAnswer<Single>,
+    degenerate: ProfileAnswer<Single>,
+    invalid: ProfileAnswer<Single>,
+    groups: ProfileAnswer<Groups>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Answer<T> {
+struct ProfileAnswer<T> {
     result: T,
     /// The answer that it only advises: a "should".
     #[serde(default = "none")]
@@ -61,7 +61,7 @@ fn none<T>() -> Option<T> {
     None
 }
 
-impl<T> Answer<T> {
+impl<T> ProfileAnswer<T> {
     fn saying(&self, word: &'static str) -> Saying {
         Saying { word, section: self.section.clone(), sentence: self.sentence.clone() }
     }
@@ -121,13 +121,13 @@ impl Profile {
     }
 
     fn contract(&self) -> Contract {
-        let Answers { boundary, ends, coplanar, degenerate, invalid, .. } = &self.answers;
-        let rim = |answer: &Answer<Single>| match answer.result {
+        let FreeAnswers { boundary, ends, coplanar, degenerate, invalid, .. } = &self.answers;
+        let rim = |answer: &ProfileAnswer<Single>| match answer.result {
             Single::Hit => Boundary::Closed,
             Single::Miss => Boundary::Open,
             Single::Free => Boundary::Free,
         };
-        let demand = |answer: &Answer<Single>| match answer.result {
+        let demand = |answer: &ProfileAnswer<Single>| match answer.result {
             Single::Hit => Demand::Hit,
             Single::Miss => Demand::Miss,
             Single::Free => Demand::Free,
@@ -154,9 +154,9 @@ pub struct Saying {
     pub sentence: String,
 }
 
-impl Answers {
+impl FreeAnswers {
     /// By the words of `free_because`.
-    fn of_single(&self) -> [(&'static str, &Answer<Single>); 5] {
+    fn of_single(&self) -> [(&'static str, &ProfileAnswer<Single>); 5] {
         [
             ("boundary", &self.boundary),
             ("ends", &self.ends),
@@ -174,7 +174,7 @@ impl Profile {
     }
 
     /// The sentence that an answer is against although it is right: the specification only advises what is not so.
-    pub fn advice_against(&self, test: &Test, answered: Answered) -> Option<Saying> {
+    pub fn advice_against(&self, test: &VectorTest, answered: Answered) -> Option<Saying> {
         let groups = &self.answers.groups;
         let is_free = demanded(test, Some(self)) == "free";
         let group = test.group.as_ref().filter(|_| is_free)?;
@@ -189,7 +189,7 @@ impl Profile {
     }
 
     /// The sentences of the specification that decide a test; none if it is decided without them.
-    pub fn sayings(&self, test: &Test) -> Vec<Saying> {
+    pub fn sayings(&self, test: &VectorTest) -> Vec<Saying> {
         if test.group.is_some() {
             let decides = demanded(test, Some(self)) != demanded(test, None);
             return Vec::from_iter(decides.then(|| self.answers.groups.saying("groups")));
@@ -209,7 +209,7 @@ impl Profile {
 }
 
 /// The demand of a test: a word of `result`, `odd` or `even`.
-pub fn demanded(test: &Test, profile: Option<&Profile>) -> &'static str {
+pub fn demanded(test: &VectorTest, profile: Option<&Profile>) -> &'static str {
     let starts_early = || either_scalar!(&test.cases[0], case => case.ray.t_min < 0.0);
     let is_rule =
         |rule: &BTreeMap<String, String>| rule.get("t_min").is_some_and(|t| t == "at-least-0");
@@ -227,7 +227,7 @@ pub fn demanded(test: &Test, profile: Option<&Profile>) -> &'static str {
     }
 }
 
-fn of_triangle(triangle: &Triangle, profile: Option<&Profile>) -> Obligation {
+fn of_triangle(triangle: &TestTriangle, profile: Option<&Profile>) -> Obligation {
     match (triangle.result(), profile) {
         (Obligation::Free, Some(profile)) => {
             obligation(&triangle.truth, &profile.contract(), false)

@@ -1,6 +1,6 @@
 //! Which tests there are: the core set by topic, and as many more as somebody wants, by number.
 
-use super::{Group, Label, Test, flags, place, result, word};
+use super::{Label, TestGroup, VectorTest, flags, place, result, word};
 use crate::case::{Case, Parameters};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::family::{FAMILIES, Family, Grouping, Question, find};
@@ -12,7 +12,7 @@ use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 
 /// A file of the core set.
-pub struct Topic {
+pub struct VectorTopic {
     /// The file's name, and the first word of its ids.
     pub name: &'static str,
     /// The subject of its tests.
@@ -22,59 +22,59 @@ pub struct Topic {
 }
 
 /// The files of the core set, in the order of their names.
-const TOPICS: &[Topic] = &[
-    Topic {
+const TOPICS: &[VectorTopic] = &[
+    VectorTopic {
         name: "basics",
         about: "ordinary hits and misses, and rays and triangles along the axes",
         families: &[("interior", 14), ("outside", 10), ("axis-aligned", 10), ("lattice", 10)],
     },
-    Topic {
+    VectorTopic {
         name: "coplanar",
         about: "rays in the plane of the triangle",
         families: &[("coplanar", 12)],
     },
-    Topic {
+    VectorTopic {
         name: "degenerate",
         about: "triangles without area: segments and points",
         families: &[("degenerate", 10)],
     },
-    Topic {
+    VectorTopic {
         name: "edges",
         about: "lines exactly through an edge, and a few ulps beside one",
         families: &[("edge-exact", 10), ("edge-near", 36)],
     },
-    Topic {
+    VectorTopic {
         name: "fans",
         about: "closed fans of triangles around a vertex, the ray at the vertex or at a spoke",
         families: &[("fan", 16)],
     },
-    Topic {
+    VectorTopic {
         name: "far",
         about: "small triangles far from the origin of the coordinates",
         families: &[("far", 24)],
     },
-    Topic {
+    VectorTopic {
         name: "grazing",
         about: "rays that are nearly parallel to the plane",
         families: &[("grazing", 30)],
     },
-    Topic {
+    VectorTopic {
         name: "invalid",
         about: "NaN, infinities, directions of zeros, empty intervals",
         families: &[("invalid", 10)],
     },
-    Topic {
+    VectorTopic {
         name: "parallel",
         about: "rays that are exactly parallel to the plane, beside it",
         families: &[("parallel-off", 24)],
     },
-    Topic { name: "published", about: "failing inputs that people reported", families: &[] },
-    Topic {
+    VectorTopic { name: "published", about: "failing inputs that people reported", families: &[] },
+    VectorTopic {
         name: "shared-edges",
         about: "two triangles that share an edge, the ray at the edge",
         families: &[("shared-edge", 32)],
     },
-    Topic {
+    VectorTopic {
         name: "sizes",
         about: "tiny, huge and thin triangles, short and long directions, the ends of the exponents",
         families: &[
@@ -86,12 +86,12 @@ const TOPICS: &[Topic] = &[
             ("range-ends", 10),
         ],
     },
-    Topic {
+    VectorTopic {
         name: "starts",
         about: "rays that start on the triangle or beside it, hits behind the start and at the ends of the interval",
         families: &[("origin-on", 8), ("origin-near", 20), ("behind", 8), ("interval-ends", 8)],
     },
-    Topic {
+    VectorTopic {
         name: "vertices",
         about: "lines exactly through a vertex, and a few ulps beside one",
         families: &[("vertex-exact", 10), ("vertex-near", 24)],
@@ -117,11 +117,11 @@ const SEED: u64 = 1;
 const PICKED_FROM: u64 = 200;
 
 /// The core set: the files, each with its tests. No test stands twice in it.
-pub fn core() -> Vec<(&'static Topic, Vec<Test>)> {
+pub fn core() -> Vec<(&'static VectorTopic, Vec<VectorTest>)> {
     let [curated, published] = [CURATED, PUBLISHED].map(stored);
     let mut seen = HashSet::new();
-    let mut tests_of = |topic: &'static Topic| {
-        let mut tests: Vec<Test> = Vec::new();
+    let mut tests_of = |topic: &'static VectorTopic| {
+        let mut tests: Vec<VectorTest> = Vec::new();
         if topic.name == "published" {
             let groups = published.chunk_by(|one, other| group_name(one) == group_name(other));
             tests.extend(groups.filter_map(|cases| named(cases, Some("published"))));
@@ -147,7 +147,7 @@ fn stored(text: &str) -> Vec<StoredCase> {
 }
 
 /// A case with a name of its own, or the cases of a pair on one edge: `name.0` and `name.1`.
-fn named(stored: &[StoredCase], flag: Option<&'static str>) -> Option<Test> {
+fn named(stored: &[StoredCase], flag: Option<&'static str>) -> Option<VectorTest> {
     let label = Label {
         name: group_name(&stored[0])?.to_owned(),
         comment: stored[0].why.clone()?,
@@ -163,8 +163,8 @@ fn named(stored: &[StoredCase], flag: Option<&'static str>) -> Option<Test> {
     }
     let grouping = if stored.len() > 1 { Grouping::SharedEdge } else { Grouping::Single };
     match cases_f32.is_empty() {
-        false => Test::new(label, &cases_f32, grouping),
-        true => Test::new(label, &cases_f64, grouping),
+        false => VectorTest::new(label, &cases_f32, grouping),
+        true => VectorTest::new(label, &cases_f64, grouping),
     }
 }
 
@@ -185,7 +185,11 @@ fn topic_of(truth: &Truth) -> &'static str {
 }
 
 /// Tests of a family's first indices, each kind in turn, so that the rare ones are there.
-fn picked<F: Scalar>(topic: &Topic, family: &'static Family, count: usize) -> Vec<Test> {
+fn picked<F: Scalar>(
+    topic: &VectorTopic,
+    family: &'static Family,
+    count: usize,
+) -> Vec<VectorTest> {
     let mut of_kind: HashMap<String, usize> = HashMap::new();
     let mut ranked: Vec<(usize, u64)> = (0..PICKED_FROM)
         .map(|index| {
@@ -204,7 +208,7 @@ fn picked<F: Scalar>(topic: &Topic, family: &'static Family, count: usize) -> Ve
 fn kind<F: Scalar>(cases: &[Case<F>], grouping: Grouping) -> String {
     let truths: Vec<Truth> = cases.iter().map(truth).collect();
     if grouping.shares_a_ray() {
-        let group = Group::new(cases, &truths, grouping);
+        let group = TestGroup::new(cases, &truths, grouping);
         return format!("{} {} {:?}", group.result(), group.parity(), group.counts);
     }
     match result(&truths[0]) {
@@ -215,7 +219,7 @@ fn kind<F: Scalar>(cases: &[Case<F>], grouping: Grouping) -> String {
 
 /// Test `number` of the full set: families in turn, then scalars, then indices. None where nothing is
 /// demanded of a group.
-pub fn numbered(number: u64) -> Option<Test> {
+pub fn numbered(number: u64) -> Option<VectorTest> {
     // Rays of `secondary-ray` start where a kernel's rounding puts them, and a polygon is no group.
     let is_in =
         |family: &&Family| !matches!(family.grouping, Grouping::SecondaryRay | Grouping::Polygon);
@@ -228,7 +232,7 @@ pub fn numbered(number: u64) -> Option<Test> {
     }
 }
 
-fn generated<F: Scalar>(name: &str, family: &'static Family, index: u64) -> Option<Test> {
+fn generated<F: Scalar>(name: &str, family: &'static Family, index: u64) -> Option<VectorTest> {
     let parameters = Parameters::default();
     let made = family.make::<F>(&parameters, SEED, index);
     let label = Label {
@@ -237,7 +241,7 @@ fn generated<F: Scalar>(name: &str, family: &'static Family, index: u64) -> Opti
         source: None,
         flag: flags::of_family(family.name),
     };
-    let mut test = Test::new(label, made.cases(), family.grouping)?;
+    let mut test = VectorTest::new(label, made.cases(), family.grouping)?;
     let _ = match test.group {
         None => write!(test.comment, ": {}", test.triangles[0].truth),
         Some(group) => {

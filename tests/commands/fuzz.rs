@@ -1,7 +1,7 @@
 //! Campaigns: known facts from scratch, the same finds on any number of threads, nothing lost.
 
 use hairline::internals::audit::{Attribution, EpsilonChoice};
-use hairline::internals::explore::campaign::{Campaign, Find, Plan};
+use hairline::internals::explore::campaign::{Campaign, CampaignPlan, Find};
 use hairline::internals::judge::Finding;
 use hairline::internals::kernel::find;
 use std::collections::BTreeSet;
@@ -54,7 +54,8 @@ fn known_facts_come_out_from_scratch() {
         ["half-space", "scalar-triple", "moller-trumbore", "plane-inside-out", "woop-watertight"];
     let entries: Vec<_> = kernels.iter().map(|name| find(name).unwrap()).collect();
     let rows = EpsilonChoice::Source.rows(&entries, None).unwrap();
-    let mut campaign = Campaign::new(&Plan { rows, varies: false, scalars: [true, true], seed: 7 });
+    let mut campaign =
+        Campaign::new(&CampaignPlan { rows, varies: false, scalars: [true, true], seed: 7 });
     let mut finds: Vec<Find> = Vec::new();
     while campaign.evaluations < 60_000 {
         finds.extend(campaign.round(u64::MAX));

@@ -5,7 +5,8 @@ use hairline::internals::audit::{EpsilonChoice, Row, exact_severity};
 use hairline::internals::case::{Case, Parameters};
 use hairline::internals::corpus::lines::{self, AnyCase};
 use hairline::internals::explore::{
-    Decimal, Domain, Entry, Goal, Objective, Table, Update, exact_score, find_worst, replay, search,
+    Decimal, Objective, SearchDomain, Update, WorstEntry, WorstGoal, WorstTable, exact_score,
+    find_worst, replay, search,
 };
 use hairline::internals::family::FAMILIES;
 use hairline::internals::kernel::{KERNELS, Role, Scalar, Verdict, find};
@@ -23,14 +24,15 @@ fn row(kernel: &str) -> Row {
     EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap().swap_remove(0)
 }
 
-fn goal(kernel: &str, target: &str, domain: Domain) -> Goal {
+fn goal(kernel: &str, target: &str, domain: SearchDomain) -> WorstGoal {
     let row = row(kernel);
-    let goal = Goal::of_row(&row, domain).find(|goal| goal.target.name(row.entry.info) == target);
+    let goal =
+        WorstGoal::of_row(&row, domain).find(|goal| goal.target.name(row.entry.info) == target);
     goal.unwrap()
 }
 
-fn table() -> Table {
-    Table::read(TABLE.as_bytes(), "corpora/worst.jsonl").unwrap()
+fn table() -> WorstTable {
+    WorstTable::read(TABLE.as_bytes(), "corpora/worst.jsonl").unwrap()
 }
 
 #[test]
@@ -76,8 +78,8 @@ fn scores_are_what_the_documentation_says() {
     fn rational<F: Float>(x: F) -> BigRational {
         BigRational::from_float(x.to_f64()).unwrap()
     }
-    fn independent<F: Scalar>(entry: &Entry, case: &Case<F>) -> Option<f64> {
-        let Goal { row, target, .. } = &entry.goal;
+    fn independent<F: Scalar>(entry: &WorstEntry, case: &Case<F>) -> Option<f64> {
+        let WorstGoal { row, target, .. } = &entry.goal;
         let (subject, epsilons) = (F::subject(row.entry).unwrap(), row.epsilons::<F>());
         let mut verdict = [Verdict::miss(None)];
         subject.run(&[*case], &epsilons, &mut verdict);
@@ -179,7 +181,7 @@ fn a_determinant_that_is_zero_exactly_has_no_error_where_zero_is_refused() {
     let (o, x, y) = ([0.0; 3], [1e-30f32, 0.0, 0.0], [0.0, 1e-30, 0.0]);
     let case = Case::<f32>::new([0.0, 0.0, 1e-30], [1e-30, 0.0, 0.0], [o, x, y]);
     for kernel in ["cramer", "plane-inside-out-strict"] {
-        let goal = goal(kernel, "margin:parallel", Domain::Any);
+        let goal = goal(kernel, "margin:parallel", SearchDomain::Any);
         assert_eq!(exact_score(&goal, &case), Some(Decimal::ZERO), "{kernel}");
         assert_eq!(goal.scorer::<f32>().quick(&case), 0.0, "{kernel}");
     }
@@ -188,9 +190,9 @@ fn a_determinant_that_is_zero_exactly_has_no_error_where_zero_is_refused() {
 #[test]
 fn the_result_does_not_depend_on_threads_nor_on_the_other_goals() {
     fn check<F: Scalar>(names: &[(&str, &str)]) {
-        let goals: Vec<Goal> =
-            names.iter().map(|(k, target)| goal(k, target, Domain::Moderate)).collect();
-        let run = |threads: usize, goals: &[Goal]| -> Vec<_> {
+        let goals: Vec<WorstGoal> =
+            names.iter().map(|(k, target)| goal(k, target, SearchDomain::Moderate)).collect();
+        let run = |threads: usize, goals: &[WorstGoal]| -> Vec<_> {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let found = pool.install(|| search::<F>(goals, 900, 7));
             found.into_iter().map(|found| found.map(|f| (f.case.bits(), f.score))).collect()
@@ -212,7 +214,7 @@ fn the_quick_score_of_f32_is_near_the_exact_one() {
     let mut compared = 0;
     for entry in KERNELS {
         let row = row(entry.info.name);
-        for goal in Goal::of_row(&row, Domain::Moderate) {
+        for goal in WorstGoal::of_row(&row, SearchDomain::Moderate) {
             let scorer = goal.scorer::<f32>();
             for family in FAMILIES {
                 for index in 0..40 {
@@ -244,19 +246,23 @@ fn the_search_finds_what_is_known_and_nothing_where_there_is_nothing() {
         search::<f32>(&[goal(kernel, target, domain)], evaluations, 1)[0].map(|f| f.score.to_f64())
     };
     // 1e-6 refuses small triangles through the middle: at most 0.2887 of an edge inside.
-    let middle = found("moller-trumbore", "false-miss:parallel", Domain::Moderate, 8000).unwrap();
+    let middle =
+        found("moller-trumbore", "false-miss:parallel", SearchDomain::Moderate, 8000).unwrap();
     assert!((0.15..0.2887).contains(&middle), "{middle}");
     // A healthy crossing has no determinant of zero.
-    assert_eq!(found("plane-inside-out", "false-miss:parallel", Domain::Moderate, 4000), None);
+    assert_eq!(
+        found("plane-inside-out", "false-miss:parallel", SearchDomain::Moderate, 4000),
+        None
+    );
     // Differences first and nothing divided: a few ulps. Absolute coordinates: thousands.
-    let woop = found("woop-watertight", "margin:edge", Domain::Moderate, 8000).unwrap();
-    let plane = found("plane-inside-out", "margin:t", Domain::Moderate, 8000).unwrap();
+    let woop = found("woop-watertight", "margin:edge", SearchDomain::Moderate, 8000).unwrap();
+    let plane = found("plane-inside-out", "margin:t", SearchDomain::Moderate, 8000).unwrap();
     assert!(woop < 20.0 && plane > 1000.0, "{woop} {plane}");
 }
 
 #[test]
 fn climbing_finds_worse_than_the_same_number_of_cases_of_the_families() {
-    let goal = goal("scalar-triple", "uv", Domain::Moderate);
+    let goal = goal("scalar-triple", "uv", SearchDomain::Moderate);
     let climbed = search::<f32>(std::slice::from_ref(&goal), 8000, 1)[0].unwrap().score.to_f64();
     let scorer = goal.scorer::<f32>();
     let sampled = (0..8000)
@@ -270,7 +276,7 @@ fn climbing_finds_worse_than_the_same_number_of_cases_of_the_families() {
 
 #[test]
 fn the_table_only_grows() {
-    let goal = goal("cramer", "margin:parallel", Domain::Moderate);
+    let goal = goal("cramer", "margin:parallel", SearchDomain::Moderate);
     let entry = |seed, evaluations| {
         find_worst::<f32>(std::slice::from_ref(&goal), evaluations, seed).remove(0).unwrap()
     };
@@ -282,7 +288,7 @@ fn the_table_only_grows() {
         let AnyCase::F32(case) = &entry.case else { panic!() };
         assert_eq!(exact_score(&goal, case), Some(entry.score));
     }
-    let mut table = Table::default();
+    let mut table = WorstTable::default();
     assert_eq!(table.merge(little.clone()), Update::Added);
     assert_eq!(table.merge(little.clone()), Update::Kept, "as bad and no simpler");
     assert_eq!(table.merge(much.clone()), Update::Raised);
@@ -290,10 +296,10 @@ fn the_table_only_grows() {
     assert_eq!(table.entries().next().unwrap().score, much.score);
     let mut text = Vec::new();
     table.write(&mut text).unwrap();
-    let again = Table::read(&text[..], "x").unwrap();
+    let again = WorstTable::read(&text[..], "x").unwrap();
     assert_eq!(again.entries().next().unwrap().name(), much.name());
     let twice = [&text[..], &text[..]].concat();
-    assert!(Table::read(&twice[..], "x").err().unwrap().to_string().contains("x:2: a second"));
+    assert!(WorstTable::read(&twice[..], "x").err().unwrap().to_string().contains("x:2: a second"));
 }
 
 #[test]

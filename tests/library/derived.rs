@@ -5,7 +5,7 @@ use hairline::internals::audit::{EpsilonChoice, Row};
 use hairline::internals::case::{Case, Draw, Scene};
 use hairline::internals::kernel::find;
 use hairline::internals::oracle;
-use hairline::internals::spawn::{PointKind, Trials, derived_normal, least_weight, parse};
+use hairline::internals::spawn::{PointKind, SpawnTrials, derived_normal, least_weight, parse};
 use hairline::internals::truth::Place;
 
 fn row(kernel: &str, epsilon: &str) -> Row {
@@ -26,10 +26,10 @@ fn far_beside(index: u64, reach: f64) -> Case<f32> {
 }
 
 /// The wrong starts among those of `normal=` at a distance.
-fn wrong(trials: &Trials<f32>, distance: f64) -> usize {
+fn wrong(trials: &SpawnTrials<f32>, distance: f64) -> usize {
     let scheme = parse(&format!("normal={distance:e}")).unwrap();
     let offset = scheme.offset::<f32>().unwrap();
-    let is_wrong = |trial: &&hairline::internals::spawn::Trial<f32>| {
+    let is_wrong = |trial: &&hairline::internals::spawn::SpawnTrial<f32>| {
         let start = offset.start(&trial.hit);
         let truth = oracle::truth(&trial.case(start.origin, start.t_min));
         truth.crossing().is_none_or(|crossing| crossing.place != Place::Before)
@@ -45,7 +45,8 @@ fn a_derived_bound_follows_the_weights_that_an_edge_gate_lets_through() {
         let least = least_weight(&row).unwrap();
         assert_eq!(least, edge.min(1.0 + 2.0 * edge));
         let rays: Vec<_> = (0..20_000).map(|i| (i, far_beside(i, -edge))).collect();
-        let trials = Trials::of(row.entry, &row.epsilons::<f32>(), PointKind::Weights, 1, &rays);
+        let trials =
+            SpawnTrials::of(row.entry, &row.epsilons::<f32>(), PointKind::Weights, 1, &rays);
         assert!(1000 < trials.trials.len(), "{}", trials.trials.len());
         let [inside, all] = [0.0, least]
             .map(|least| three_digits(derived_normal::<f32>(&unit, least).unwrap(), true));

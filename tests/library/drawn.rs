@@ -6,7 +6,9 @@ use hairline::internals::case::{Case, Parameters, PlaneKind, Scene};
 use hairline::internals::family::Stratum;
 use hairline::internals::kernel::{Scalar, find};
 use hairline::internals::oracle;
-use hairline::internals::spawn::{Plan, PointKind, Scheme, Trials, derived_normal, parse, run};
+use hairline::internals::spawn::{
+    PointKind, Scheme, SpawnPlan, SpawnTrials, derived_normal, parse, run,
+};
 use hairline::internals::truth::{Feature, Truth};
 use num_rational::BigRational as Rational;
 use num_traits::{One, ToPrimitive};
@@ -225,7 +227,7 @@ fn waechter_binder_fails_at_points_o_plus_t_d_on_a_floor_at_height_0() {
     let row =
         EpsilonChoice::Source.rows(&[find("moller-trumbore").unwrap()], None).unwrap().remove(0);
     let (kind, epsilons) = (PointKind::Ray, row.epsilons::<f32>());
-    let of = Trials::of(row.entry, &epsilons, kind, 1, &[(0, first)]);
+    let of = SpawnTrials::of(row.entry, &epsilons, kind, 1, &[(0, first)]);
     let [trial] = of.trials.as_slice() else { panic!("{of:?}") };
     let start = parse("waechter-binder").unwrap().offset::<f32>().unwrap().start(&trial.hit);
     // The ray came from above, and the start is below.
@@ -240,8 +242,19 @@ fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does()
     let run = |scene: &Scene, kind: PointKind, schemes: &[Scheme]| {
         let (mesh, instance, wall, fold) = (None, None, 0.01, 45.0);
         let (row, with_least, seed, count) = (&row, false, 1, 20_000);
-        let plan =
-            Plan { row, scene, mesh, kind, schemes, wall, fold, instance, with_least, seed, count };
+        let plan = SpawnPlan {
+            row,
+            scene,
+            mesh,
+            kind,
+            schemes,
+            wall,
+            fold,
+            instance,
+            with_least,
+            seed,
+            count,
+        };
         run::<f32>(&plan, &Unobserved)
     };
     let wrong = |words: &str| {

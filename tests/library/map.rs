@@ -5,7 +5,9 @@ use hairline::internals::audit::{Row, Unobserved};
 use hairline::internals::case::Case;
 use hairline::internals::judge::Finding;
 use hairline::internals::kernel::{Scalar, Verdict};
-use hairline::internals::map::{self, Ink, Map, Part, Spot, Step, grid_of_case, of_kernel};
+use hairline::internals::map::{
+    self, CaseVector, Ink, Map, PixelStep, Spot, grid_of_case, of_kernel,
+};
 use hairline::internals::oracle;
 use hairline::internals::truth::{Feature, Truth};
 
@@ -24,7 +26,8 @@ fn neighbour<F: Float>(x: F, ulps: i64) -> F {
 fn agrees_with_direct_evaluation<F: Scalar>(kernel: &str, spot: Spot) {
     let row = row(kernel, None, "closed-line");
     let (case, [width, height]) = (spot.case::<F>(), [23, 14]);
-    let grid = grid_of_case(&case, Part::Origin, Some([0, 1]), Some(Step::Ulps(3)), [23, 14]);
+    let grid =
+        grid_of_case(&case, CaseVector::Origin, Some([0, 1]), Some(PixelStep::Ulps(3)), [23, 14]);
     let map = of_kernel(&case, &row, &grid.unwrap(), &Unobserved).unwrap();
     let pixels = &map.pixels;
     assert_eq!(pixels.len(), width * height);
@@ -100,8 +103,8 @@ fn a_kernel_that_rounds_nowhere_has_no_wrong_pixel() {
         [1.0, -2.0, -3.0],
         [[-6.0, -7.0, 1.0], [19.0, -3.0, 2.0], [2.0, 15.0, -4.0]],
     );
-    let step = Some(Step::PowerOfTwo(0));
-    let grid = grid_of_case(&case, Part::Origin, Some([0, 1]), step, [48, 48]).unwrap();
+    let step = Some(PixelStep::PowerOfTwo(0));
+    let grid = grid_of_case(&case, CaseVector::Origin, Some([0, 1]), step, [48, 48]).unwrap();
     for kernel in ["scalar-triple", "scalar-triple-two-sided", "plucker"] {
         let map = of_kernel(&case, &row(kernel, None, "own"), &grid, &Unobserved).unwrap();
         assert_eq!(map.wrong(), 0, "{kernel}");
@@ -114,7 +117,7 @@ fn a_kernel_that_rounds_nowhere_has_no_wrong_pixel() {
 fn exchanged_axes_transpose_the_map() {
     let (case, row) = (Spot::Edge.case::<f32>(), row("moller-trumbore", None, "own"));
     let of = |coordinates, size| {
-        let grid = grid_of_case(&case, Part::B, Some(coordinates), None, size).unwrap();
+        let grid = grid_of_case(&case, CaseVector::B, Some(coordinates), None, size).unwrap();
         of_kernel(&case, &row, &grid, &Unobserved).unwrap()
     };
     let (plain, exchanged) = (of([0, 2], [20, 31]), of([2, 0], [31, 20]));
@@ -135,7 +138,7 @@ fn a_power_of_two_on_everything_leaves_the_map_alone() {
         let [o, d, a, b, c] =
             Spot::Edge.case::<f32>().vectors().map(|vector| vector.map(|x| x * scale));
         let case = Case::new(o, d, [a, b, c]);
-        let grid = grid_of_case(&case, Part::Origin, None, None, [40, 40]).unwrap();
+        let grid = grid_of_case(&case, CaseVector::Origin, None, None, [40, 40]).unwrap();
         of_kernel(&case, &row, &grid, &Unobserved).unwrap()
     };
     assert_eq!(map(1.0).pixels, map(2f32.powi(12)).pixels);
@@ -156,16 +159,16 @@ fn the_map_does_not_depend_on_the_number_of_threads() {
 fn axes_lie_in_the_triangle_s_plane_and_a_zero_takes_larger_steps() {
     let triangle = [[0.0, 0.0, 0.0], [0.0, 2.0, 0.5], [0.25, 0.0, 3.0]];
     let case = Case::<f64>::new([1.0, 0.0, 1.5], [-1.0, 0.0, 0.0], triangle);
-    let grid = grid_of_case(&case, Part::Origin, None, None, [3, 3]).unwrap();
+    let grid = grid_of_case(&case, CaseVector::Origin, None, None, [3, 3]).unwrap();
     assert_eq!(grid.axes.map(|axis| axis.coordinate), [1, 2]);
-    assert_eq!(grid.axes.map(|axis| axis.step), [Step::PowerOfTwo(-52), Step::Ulps(1)]);
+    assert_eq!(grid.axes.map(|axis| axis.step), [PixelStep::PowerOfTwo(-52), PixelStep::Ulps(1)]);
     let values = grid.axes.map(|axis| [0, 1, 2].map(|pixel| axis.value(pixel)));
     let ulp = f64::EPSILON;
     assert_eq!(values, [[-ulp, 0.0, ulp], [1.5 - ulp, 1.5, 1.5 + ulp]]);
     // A point that is zero takes the steps of the largest coordinate; the centre stays as it is.
     let case = Case::<f32>::new([-0.0; 3], [1.0; 3], triangle.map(|p| p.map(|x| x as f32)));
-    let grid = grid_of_case(&case, Part::Origin, Some([2, 0]), None, [4, 4]).unwrap();
-    assert_eq!(grid.axes[0].step, Step::PowerOfTwo(-22));
+    let grid = grid_of_case(&case, CaseVector::Origin, Some([2, 0]), None, [4, 4]).unwrap();
+    assert_eq!(grid.axes[0].step, PixelStep::PowerOfTwo(-22));
     assert_eq!(grid.axes[0].value(2).to_bits(), (-0.0f32).to_bits());
     assert_eq!(grid.axes[0].value(0), -(2f32.powi(-21)));
 }
@@ -177,11 +180,12 @@ fn the_ends_of_the_range_are_free_and_no_panic() {
         [0.0, 0.0, -1.0],
         [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
     );
-    let grid = grid_of_case(&case, Part::Origin, Some([0, 1]), None, [9, 5]).unwrap();
+    let grid = grid_of_case(&case, CaseVector::Origin, Some([0, 1]), None, [9, 5]).unwrap();
     let map = of_kernel(&case, &row("moller-trumbore", None, "own"), &grid, &Unobserved).unwrap();
     assert_eq!(map.exact_legend(), [(Ink::Free, "nothing is asked", 45)]);
     assert!(!map::svg(&map).contains("NaN,"));
-    let grid = grid_of_case(&case, Part::Direction, None, Some(Step::PowerOfTwo(1100)), [9, 5]);
+    let grid =
+        grid_of_case(&case, CaseVector::Direction, None, Some(PixelStep::PowerOfTwo(1100)), [9, 5]);
     of_kernel(&case, &row("cramer", None, "own"), &grid.unwrap(), &Unobserved).unwrap();
 }
 
@@ -189,13 +193,13 @@ fn the_ends_of_the_range_are_free_and_no_panic() {
 fn impossible_grids_are_refused() {
     let case = Spot::Edge.case::<f32>();
     let refused = |coordinates, step, size| {
-        grid_of_case(&case, Part::A, coordinates, step, size).unwrap_err().0
+        grid_of_case(&case, CaseVector::A, coordinates, step, size).unwrap_err().0
     };
     assert!(refused(Some([1, 1]), None, [8, 8]).contains("two different"));
     assert!(refused(Some([1, 3]), None, [8, 8]).contains("3 coordinates"));
     assert!(refused(None, None, [0, 8]).contains("1 to 2048"));
     assert!(refused(None, None, [8, 2049]).contains("1 to 2048"));
-    assert!(refused(None, Some(Step::Ulps(0)), [8, 8]).contains("at least 1 ulp"));
+    assert!(refused(None, Some(PixelStep::Ulps(0)), [8, 8]).contains("at least 1 ulp"));
 }
 
 fn vertex_map() -> Map {

@@ -4,7 +4,9 @@ use hairline::internals::audit::{
     self, EpsilonChoice, EpsilonText, Observer, Plan, Row, Source, Tally,
 };
 use hairline::internals::case::{Draw, Parameters};
-use hairline::internals::epsilon::{Attempt, Count, Kind, Knob, Setting, count_at, counts_of};
+use hairline::internals::epsilon::{
+    Attempt, Knob, RayCount, Setting, WrongKind, count_at, counts_of,
+};
 use hairline::internals::family::find;
 use hairline::internals::judge::Finding;
 use hairline::internals::kernel::{KERNELS, Scalar, Tunable};
@@ -54,7 +56,7 @@ fn gates(row: &Row) -> Vec<Knob> {
 fn setting<'a, F: Scalar>(
     row: &'a Row,
     knobs: &'a [Knob],
-    counts: &'a [Count],
+    counts: &'a [RayCount],
     sources: &'a [Source],
 ) -> Setting<'a, F> {
     let subject = F::subject(row.entry).unwrap();
@@ -102,10 +104,10 @@ fn counts_agree_with_running<F: Scalar>() {
                 let total = tally.total();
                 for (count, found) in counts.iter().zip(found) {
                     let run = match count.kind {
-                        Kind::Miss => total.of(Finding::FalseMiss),
-                        Kind::Hit => total.of(Finding::FalseHit),
-                        Kind::Crack => tally.groups.cracks,
-                        Kind::SelfHit => tally.self_hits.hits,
+                        WrongKind::Miss => total.of(Finding::FalseMiss),
+                        WrongKind::Hit => total.of(Finding::FalseHit),
+                        WrongKind::Crack => tally.groups.cracks,
+                        WrongKind::SelfHit => tally.self_hits.hits,
                     };
                     let kernel = row.entry.info.name;
                     let told = format!("{kernel} {} at {epsilons:?} on {name}", F::NAME);

@@ -6,8 +6,8 @@ use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Parameters, SCENES, Scene};
 use hairline::internals::corpus::mesh::read_obj;
 use hairline::internals::epsilon::{
-    Attempt, Costs, Count, Kind, Knob, Limit, MaxError, Proved, Rays, Setting, cheapest,
-    contract_with, count_at, counts, limits, proved,
+    Attempt, Costs, Knob, KnobLimit, MaxError, ProvedValue, RayCount, Rays, Setting, WrongKind,
+    cheapest, contract_with, count_at, counts, limits, proved,
 };
 use hairline::internals::family::{MeshFamily, Stratum};
 use hairline::internals::judge::{GroupTruth, Obligation, asked, group_obligation};
@@ -127,7 +127,7 @@ fn shadow_rays_start_at_the_hit_points_of_the_kernel_that_is_named() {
 }
 
 /// A kernel's row in a scene, its knobs and what is counted.
-fn tuned(kernel: &str) -> (Row, Vec<Knob>, Vec<Count>) {
+fn tuned(kernel: &str) -> (Row, Vec<Knob>, Vec<RayCount>) {
     let row = EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap().remove(0);
     let knobs = Knob::all(&row);
     let row = Row { contract: contract_with(&knobs, &row.contract), ..row };
@@ -138,7 +138,7 @@ fn tuned(kernel: &str) -> (Row, Vec<Knob>, Vec<Count>) {
 fn setting<'a>(
     row: &'a Row,
     knobs: &'a [Knob],
-    counts: &'a [Count],
+    counts: &'a [RayCount],
     scene: &'a Scene,
 ) -> Setting<'a, f32> {
     let subject = f32::subject(row.entry).unwrap();
@@ -166,7 +166,7 @@ struct Counted {
 fn all_counted(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Counted> {
     let contract = &setting.row.contract;
     let mut all = Vec::new();
-    for (count, Count { rays, kind }) in setting.counts.iter().enumerate() {
+    for (count, RayCount { rays, kind }) in setting.counts.iter().enumerate() {
         let Rays::Stratum(stratum) = *rays else { panic!("{rays:?} in a scene") };
         let family = stratum.family();
         let source = setting.source(stratum, seed, number);
@@ -175,13 +175,17 @@ fn all_counted(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Counte
             let cases = made.cases().to_vec();
             let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
             let is_counted = match kind {
-                Kind::SelfHit => true,
-                Kind::Crack => {
+                WrongKind::SelfHit => true,
+                WrongKind::Crack => {
                     let owed = group_obligation(&cases, &truths, contract, family.grouping);
                     owed == GroupTruth::Crossing
                 }
-                Kind::Miss => asked(&cases[0], &truths[0], contract, false) == Obligation::MustHit,
-                Kind::Hit => asked(&cases[0], &truths[0], contract, false) == Obligation::MustMiss,
+                WrongKind::Miss => {
+                    asked(&cases[0], &truths[0], contract, false) == Obligation::MustHit
+                }
+                WrongKind::Hit => {
+                    asked(&cases[0], &truths[0], contract, false) == Obligation::MustMiss
+                }
             };
             if is_counted {
                 all.push(Counted { count, cases });
@@ -210,8 +214,9 @@ fn shares(setting: &Setting<'_, f32>, all: &[Counted], epsilons: &[f32]) -> Vec<
         let has_least_t = least_t != f32::NEG_INFINITY;
         let hit = verdicts.iter().any(|v| v.hit && (!has_least_t || least_t <= v.t));
         of[*count] += 1;
-        wrong[*count] +=
-            u64::from(hit != matches!(setting.counts[*count].kind, Kind::Crack | Kind::Miss));
+        wrong[*count] += u64::from(
+            hit != matches!(setting.counts[*count].kind, WrongKind::Crack | WrongKind::Miss),
+        );
     }
     wrong.iter().zip(of).map(|(wrong, of)| *wrong as f64 / f64::from(of.max(1))).collect()
 }
@@ -323,8 +328,8 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
     let kernel = "moller-trumbore";
     let (row, _, _) = tuned(kernel);
     let knobs = [Knob::Gate(0)];
-    let counts =
-        [Kind::Miss, Kind::Hit].map(|kind| Count { rays: Rays::Stratum(Stratum::Grazing), kind });
+    let counts = [WrongKind::Miss, WrongKind::Hit]
+        .map(|kind| RayCount { rays: Rays::Stratum(Stratum::Grazing), kind });
     let setting = setting(&row, &knobs, &counts, &scene);
     let most = 0.02;
     let max_error = MaxError::parse(&format!("t={most}")).unwrap();
@@ -382,16 +387,16 @@ fn proved_values_are_beyond_the_limits_that_rays_show_and_no_ray_contradicts_the
             } else {
                 limits(&setting, &zero, 7, 2000, &Unobserved)
             };
-            for Proved { knob, count, is_lower, value } in proved {
+            for ProvedValue { knob, count, is_lower, value } in proved {
                 let name =
                     format!("{} {} {:?} {value:e}", preset.name, entry.info.name, counts[count]);
                 let at = Some(value);
-                let limit = Limit { knob, count, is_lower, value: at, far: None, one_in: 1 };
+                let limit = KnobLimit { knob, count, is_lower, value: at, far: None, one_in: 1 };
                 let attempt = [Attempt::at_limit(&limit, &zero).unwrap()];
                 let wrong = count_at(&setting, &attempt, 11, 4000, &Unobserved).remove(0)[count];
                 assert_eq!(wrong.count, 0, "{name}");
                 assert!(0 < wrong.of, "{name}");
-                let same = |other: &&Limit<f32>| other.knob == knob && other.count == count;
+                let same = |other: &&KnobLimit<f32>| other.knob == knob && other.count == count;
                 if let Some(seen) = seen.iter().find(same).and_then(|limit| limit.value) {
                     assert!(
                         if is_lower { seen <= value } else { value <= seen },

@@ -8,8 +8,8 @@ use hairline::internals::contract::Contract;
 use hairline::internals::family::Stratum;
 use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo, Scalar, find};
 use hairline::internals::spawn::{
-    HitPoint, Plan, Plane, PointKind, Scheme, Start, Sums, Trial, Trials, all, default_schemes,
-    least, new_ray, parse, register, run,
+    HitPoint, Plane, PointKind, Scheme, SpawnPlan, SpawnSums, SpawnTrial, SpawnTrials, Start, all,
+    default_schemes, least, new_ray, parse, register, run,
 };
 use num_bigint::BigInt;
 use num_rational::BigRational as Rational;
@@ -43,7 +43,7 @@ fn float(x: &Rational) -> f64 {
 }
 
 /// The start's exact point o + t_min·d: above the plane if positive, times the normal's length.
-fn rise<F: Float>(trial: &Trial<F>, start: &Start<F>) -> Rational {
+fn rise<F: Float>(trial: &SpawnTrial<F>, start: &Start<F>) -> Rational {
     let [a, b, c] = trial.hit.vertices.map(exact3);
     let (o, d) = (exact3(start.origin), exact3(trial.hit.direction));
     let t = exact(start.t_min);
@@ -54,7 +54,7 @@ fn rise<F: Float>(trial: &Trial<F>, start: &Start<F>) -> Rational {
 }
 
 /// The same in longest edges.
-fn height<F: Float>(trial: &Trial<F>, start: &Start<F>) -> f64 {
+fn height<F: Float>(trial: &SpawnTrial<F>, start: &Start<F>) -> f64 {
     let [a, b, c] = trial.hit.vertices.map(exact3);
     let edges = [minus(&b, &a), minus(&c, &a), minus(&c, &b)];
     let longest = edges.iter().map(|e| dot(e, e)).max().unwrap();
@@ -77,9 +77,9 @@ fn first_rays(scene: &Scene, seed: u64) -> Source {
     Source::of_stratum(Stratum::Interior, None, parameters, seed, u64::MAX)
 }
 
-fn plan<'a>(row: &'a Row, scene: &'a Scene, schemes: &'a [Scheme], count: u64) -> Plan<'a> {
+fn plan<'a>(row: &'a Row, scene: &'a Scene, schemes: &'a [Scheme], count: u64) -> SpawnPlan<'a> {
     let kind = PointKind::Weights;
-    Plan {
+    SpawnPlan {
         row,
         scene,
         mesh: None,
@@ -188,11 +188,11 @@ fn sides_are_those_of_rationals<F: Scalar>(text: &str, kernel: &str, count: u64)
     let schemes: Vec<Scheme> =
         default_schemes().into_iter().filter(|s| s.offset::<F>().is_some()).collect();
     for kind in PointKind::ALL {
-        let plan = Plan { kind, ..plan(&row, &scene, &schemes, count) };
+        let plan = SpawnPlan { kind, ..plan(&row, &scene, &schemes, count) };
         let sums = run::<F>(&plan, &Unobserved);
         let epsilons = row.epsilons::<F>();
         let trials =
-            Trials::on(row.entry, &epsilons, kind, &first_rays(&scene, 1), 1, 0..count).trials;
+            SpawnTrials::on(row.entry, &epsilons, kind, &first_rays(&scene, 1), 1, 0..count).trials;
         assert_eq!(sums.hits, trials.len() as u64);
         for (scheme, of) in schemes.iter().zip(&sums.schemes) {
             let offset = scheme.offset::<F>().unwrap();
@@ -234,7 +234,8 @@ fn sides_and_heights_are_those_of_a_determinant_in_rationals() {
 fn new_rays_leave_to_the_side_that_the_first_ray_came_from() {
     let (row, scene) = (row("moller-trumbore"), scene("room"));
     let epsilons = row.epsilons::<f32>();
-    let of = Trials::on(row.entry, &epsilons, PointKind::Ray, &first_rays(&scene, 3), 3, 0..2000);
+    let of =
+        SpawnTrials::on(row.entry, &epsilons, PointKind::Ray, &first_rays(&scene, 3), 3, 0..2000);
     let family = hairline::internals::family::Stratum::Interior.family();
     let parameters =
         hairline::internals::case::Parameters { scene: Some(scene.clone()), ..Default::default() };
@@ -259,7 +260,8 @@ fn new_rays_leave_to_the_side_that_the_first_ray_came_from() {
 fn least_is_least<F: Scalar>(text: &str) {
     let (row, scene) = (row("moller-trumbore"), scene(text));
     let epsilons = row.epsilons::<F>();
-    let of = Trials::on(row.entry, &epsilons, PointKind::Weights, &first_rays(&scene, 1), 1, 0..60);
+    let of =
+        SpawnTrials::on(row.entry, &epsilons, PointKind::Weights, &first_rays(&scene, 1), 1, 0..60);
     let mut needed = 0;
     for trial in &of.trials {
         let right = |origin| rise(trial, &Start::at(origin)).is_positive();
@@ -328,9 +330,9 @@ fn triangles_of_any_size_and_none_do_no_harm() {
         [(0, Case::new([0.25, 0.25, 1.0], direction, vertices))]
     };
     let of = |vertices, direction| {
-        Trials::of(&entry, &[], PointKind::Weights, 1, &rays(vertices, direction))
+        SpawnTrials::of(&entry, &[], PointKind::Weights, 1, &rays(vertices, direction))
     };
-    let counts = |of: &Trials<f32>| [of.trials.len() as u64, of.without_side, of.not_finite];
+    let counts = |of: &SpawnTrials<f32>| [of.trials.len() as u64, of.without_side, of.not_finite];
     let down = [0.0, 0.0, -1.0];
     let right = |size: f32| [[0.0, 0.0, 0.0], [size, 0.0, 0.0], [0.0, size, 0.0]];
     // A point, a segment, a ray along the plane, and numbers that are none have no side.
@@ -357,13 +359,13 @@ fn triangles_of_any_size_and_none_do_no_harm() {
 fn sums_do_not_depend_on_the_number_of_threads() {
     let (row, scene, schemes) = (row("moller-trumbore"), scene("city"), default_schemes());
     let plan = plan(&row, &scene, &schemes, 5000);
-    let on = |threads| -> Sums {
+    let on = |threads| -> SpawnSums {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| run::<f32>(&plan, &Unobserved))
     };
     let alone = on(1);
     assert_eq!(alone, on(4));
-    assert!(alone != run::<f32>(&Plan { seed: 2, ..plan }, &Unobserved));
+    assert!(alone != run::<f32>(&SpawnPlan { seed: 2, ..plan }, &Unobserved));
 }
 
 /// Share on the wrong side and median height of each scheme at points from u and v.
@@ -404,7 +406,8 @@ fn waechter_binder_is_wrong_on_a_large_triangle_where_pbrt_is_not() {
     // The only one of 10^7: hairline spawn --scene extent=1e3,edge=900 -n 10000000
     let (row, scene, index) = (row("moller-trumbore"), scene("extent=1e3,edge=900"), 4_467_797);
     let (kind, epsilons) = (PointKind::Weights, row.epsilons::<f32>());
-    let of = Trials::on(row.entry, &epsilons, kind, &first_rays(&scene, 1), 1, index..index + 1);
+    let of =
+        SpawnTrials::on(row.entry, &epsilons, kind, &first_rays(&scene, 1), 1, index..index + 1);
     let [trial] = of.trials.as_slice() else { panic!("{of:?}") };
     let is_right = |scheme: &str| rise(trial, &start(scheme, &trial.hit)).is_positive();
     assert!(!is_right("waechter-binder") && is_right("pbrt-v3") && is_right("pbrt-v4"));

@@ -7,7 +7,7 @@ use hairline::internals::explore::Size;
 use hairline::internals::kernel::{Scalar, Verdict, find};
 use hairline::internals::oracle::define;
 use hairline::internals::truth::{Feature, Place, Truth};
-use hairline::strategy::{self, Promise, STRATEGIES, conforms, conforms_together, named};
+use hairline::strategy::{self, STRATEGIES, StrategyPromise, conforms, conforms_together, named};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use proptest::prelude::*;
@@ -101,7 +101,7 @@ fn share_an_edge<F: Float>(cases: &[Case<F>]) -> bool {
     cases.len() == 2 && same == 2 && ray(0) == ray(1)
 }
 
-fn promised<F: Float>(promise: &Promise, cases: &[Case<F>]) -> bool {
+fn promised<F: Float>(promise: &StrategyPromise, cases: &[Case<F>]) -> bool {
     let name = promise.name();
     cases.iter().all(|case| keeps(name, case)) && (name != "shared-edge" || share_an_edge(cases))
 }

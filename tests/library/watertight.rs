@@ -2,7 +2,7 @@
 //! the definition in rationals; known facts; threads.
 
 use hairline::internals::arith::Float;
-use hairline::internals::audit::mesh::{CLASSES, Found, Plan, run};
+use hairline::internals::audit::mesh::{CLASSES, MeshFound, MeshPlan, run};
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved, exact_severity};
 use hairline::internals::case::{Case, Draw, Parameters};
 use hairline::internals::contract::{Extent, NAMED};
@@ -12,7 +12,7 @@ use hairline::internals::family::MeshFamily;
 use hairline::internals::judge::may_be_elsewhere;
 use hairline::internals::kernel::{Entry, Failure, Scalar, Verdict, find};
 use hairline::internals::mesh::{
-    Aim, EdgeKind, FaceKind, MOST_AROUND, Part, Surface, Targets, Topology, VertexKind,
+    Aim, AimedPart, EdgeKind, FaceKind, MOST_AROUND, Surface, Targets, Topology, VertexKind,
 };
 use hairline::internals::truth::{Crossing, Facing, Feature, Place, Truth};
 use num_rational::BigRational;
@@ -315,8 +315,8 @@ fn row(kernel: &str) -> Vec<Row> {
     EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap()
 }
 
-fn plan(rows: Vec<Row>, directions: u64) -> Plan {
-    Plan {
+fn plan(rows: Vec<Row>, directions: u64) -> MeshPlan {
+    MeshPlan {
         rows,
         directions,
         seed: 1,
@@ -332,12 +332,12 @@ fn surface(mesh: &Mesh) -> Arc<Surface> {
     Arc::new(Surface::new(Arc::new(family), [true, true]))
 }
 
-fn found<F: Scalar>(mesh: &Mesh, plan: &Plan) -> Found {
+fn found<F: Scalar>(mesh: &Mesh, plan: &MeshPlan) -> MeshFound {
     run::<F>(&surface(mesh), plan, &Unobserved)
 }
 
 /// Cracks and doubles of crossings, wrong folds, in all classes: of one part.
-fn sums(found: &Found, row: usize, part: Part) -> [u64; 5] {
+fn sums(found: &MeshFound, row: usize, part: AimedPart) -> [u64; 5] {
     let classes = &found.rows[row].tallies[part as usize].classes;
     let mut sums = [0; 5];
     for class in classes {
@@ -357,12 +357,12 @@ fn woop_leaves_no_crack_and_others_do() {
         let mut rows = row("woop-watertight");
         rows.extend(row("moller-trumbore"));
         let found = found::<f32>(&mesh, &plan(rows, 8));
-        for part in Part::ALL {
+        for part in AimedPart::ALL {
             let [crossings, cracks, ..] = sums(&found, 0, part);
             assert!(crossings > 0 && cracks == 0, "{name}: {cracks} of {crossings}");
         }
         assert_eq!(found.rows[0].cracked, [0, 0]);
-        assert!(sums(&found, 1, Part::Edges)[1] > 0, "{name}");
+        assert!(sums(&found, 1, AimedPart::Edges)[1] > 0, "{name}");
         let first = &found.rows[1].tallies[0].classes[0].first_cracks;
         assert!(first.windows(2).all(|pair| pair[0] < pair[1]));
     }
@@ -375,7 +375,7 @@ fn a_hit_that_a_neighbour_reports_leaves_no_crack() {
     let (topology, parameters) = (Topology::of::<f32>(&mesh), Parameters::default());
     let targets = Targets::new(&mesh, &topology, &parameters, 1);
     let mut elsewhere = 0;
-    for part in Part::ALL {
+    for part in AimedPart::ALL {
         for class in &found.rows[0].tallies[part as usize].classes {
             assert_eq!(class.cracks, 0);
             elsewhere += class.elsewhere;
@@ -424,8 +424,8 @@ fn nobody_is_accused_where_the_neighbours_are_too_many_to_ask() {
             .unwrap()
             .remove(0);
         let found = found::<f64>(&mesh(&points, &faces), &plan(rows, 1));
-        let [crossings, cracks, ..] = sums(&found, 0, Part::Edges);
-        let classes = &found.rows[0].tallies[Part::Edges as usize].classes;
+        let [crossings, cracks, ..] = sums(&found, 0, AimedPart::Edges);
+        let classes = &found.rows[0].tallies[AimedPart::Edges as usize].classes;
         (crossings, cracks, classes.iter().map(|class| class.elsewhere).sum::<u64>())
     };
     let (crossings, cracks, elsewhere) = cone(MOST_AROUND / 2);
@@ -438,17 +438,17 @@ fn nobody_is_accused_where_the_neighbours_are_too_many_to_ask() {
 fn pluecker_coordinates_leave_no_crack_at_edges_but_at_vertices() {
     // Each edge has one sign for both its triangles, but around a vertex all signs may turn one way.
     let found = found::<f32>(&shape("icosphere"), &plan(row("plucker"), 16));
-    let [crossings, cracks, ..] = sums(&found, 0, Part::Edges);
+    let [crossings, cracks, ..] = sums(&found, 0, AimedPart::Edges);
     assert!(crossings > 10_000);
     assert_eq!(cracks, 0);
-    assert!(sums(&found, 0, Part::Vertices)[1] > 0);
+    assert!(sums(&found, 0, AimedPart::Vertices)[1] > 0);
 }
 
 #[test]
 fn nearly_all_rays_that_should_be_exact_are_so() {
     let mesh = shape("torus");
     let found = found::<f32>(&mesh, &plan(row("woop-watertight"), 4));
-    for (part, tally) in Part::ALL.into_iter().zip(&found.rows[0].tallies) {
+    for (part, tally) in AimedPart::ALL.into_iter().zip(&found.rows[0].tallies) {
         let of = |class: &str| {
             let class = &tally.classes[CLASSES.iter().position(|name| *name == class).unwrap()];
             class.crossings + class.folds
@@ -494,7 +494,7 @@ fn signs<F: Float>(case: &Case<F>) -> Option<(bool, bool, [i32; 3])> {
 
 /// What is asked of a ray that is judged on any t > 0 from both sides: `Some(true)` a crossing,
 /// `Some(false)` a fold with this parity.
-fn asked<F: Float>(cases: &[Case<F>], part: Part) -> Option<(bool, bool)> {
+fn asked<F: Float>(cases: &[Case<F>], part: AimedPart) -> Option<(bool, bool)> {
     let signs: Option<Vec<_>> = cases.iter().map(signs).collect();
     let signs = signs?;
     let met: Vec<_> =
@@ -508,16 +508,16 @@ fn asked<F: Float>(cases: &[Case<F>], part: Part) -> Option<(bool, bool)> {
     let inside = (on(0), on(1), on(2));
     if alike {
         let once = match part {
-            Part::Edges => matches!(inside, (1, 0, 0) | (0, 2, 0)),
-            Part::Vertices => {
+            AimedPart::Edges => matches!(inside, (1, 0, 0) | (0, 2, 0)),
+            AimedPart::Vertices => {
                 matches!(inside, (1, 0, 0) | (0, 2, 0)) || inside == (0, 0, cases.len())
             }
         };
         return once.then_some((true, true));
     }
     match (part, inside) {
-        (Part::Edges, (interior, 0, 0)) => Some((false, interior % 2 == 1)),
-        (Part::Edges, (0, 2, 0)) => Some((false, false)),
+        (AimedPart::Edges, (interior, 0, 0)) => Some((false, interior % 2 == 1)),
+        (AimedPart::Edges, (0, 2, 0)) => Some((false, false)),
         _ => None,
     }
 }
@@ -580,7 +580,7 @@ fn counts_are_those_of_the_definition<F: Scalar>(name: &str, kernels: &[&str], d
         let topology = Topology::of::<F>(&mesh);
         let parameters = Parameters::default();
         let targets = Targets::new(&mesh, &topology, &parameters, 1);
-        for part in Part::ALL {
+        for part in AimedPart::ALL {
             let mut expected = [0; 5];
             let mut cracked = BTreeSet::new();
             for index in 0..targets.count(part) * directions {
@@ -620,7 +620,7 @@ fn counts_are_those_of_a_direct_evaluation_in_rationals() {
 }
 
 /// Everything of a run that is not a time.
-fn essence(found: &Found) -> impl PartialEq + std::fmt::Debug + use<> {
+fn essence(found: &MeshFound) -> impl PartialEq + std::fmt::Debug + use<> {
     let rows: Vec<_> =
         found.rows.iter().map(|row| (row.row, row.tallies.clone(), row.cracked)).collect();
     (rows, found.cases)
@@ -673,7 +673,7 @@ fn nothing_is_asked_at_the_centre_of_a_fan_that_goes_around_twice() {
         let mesh = fan_around(times);
         let found = found::<f32>(&mesh, &plan(row("woop-watertight"), 400));
         assert_eq!(Topology::of::<f32>(&mesh).vertices_of(VertexKind::Closed), 1);
-        let tally = &found.rows[0].tallies[Part::Vertices as usize];
+        let tally = &found.rows[0].tallies[AimedPart::Vertices as usize];
         tally.classes[0].crossings
     };
     assert!(at_centre(1) > 50);

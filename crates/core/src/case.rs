@@ -15,7 +15,7 @@ pub use any::{AnyCase, AnyScalar};
 pub use hard::hard_cases;
 pub use instance::{Instance, Matrix};
 pub use literal::{rust_case, rust_list};
-pub use scene::Number;
+pub use scene::ShortNumber;
 pub use scene::{
     DirectionLength, PlaneKind, RayKind, SCENES, Scene, SceneKind, ScenePreset, Toward,
 };

@@ -39,7 +39,7 @@ pub(super) fn in_text<F: Float>(
     for (id, place) in verdicts.iter_mut().enumerate() {
         let line = running.line()?;
         match text::answer::<F>(&line).map_err(Lost::Garbled)? {
-            text::Answer::Verdict(name, verdict) if name.parse() == Ok(id) => *place = verdict,
+            text::AnswerLine::Verdict(name, verdict) if name.parse() == Ok(id) => *place = verdict,
             _ => {
                 let line = shown(&line);
                 let message =
@@ -50,7 +50,9 @@ pub(super) fn in_text<F: Float>(
     }
     let line = running.line()?;
     match text::answer::<F>(&line) {
-        Ok(text::Answer::End { cases, took }) if cases == count => Ok(Said { took, floats: None }),
+        Ok(text::AnswerLine::End { cases, took }) if cases == count => {
+            Ok(Said { took, floats: None })
+        }
         _ => Err(Lost::Garbled(format!(
             "after {count} verdicts expected 'end {count}', found '{}'",
             shown(&line)

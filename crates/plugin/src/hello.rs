@@ -15,7 +15,7 @@ pub struct Hello {
     source: String,
     contract: Contract,
     gives: [bool; 3],
-    epsilons: Vec<Epsilon>,
+    epsilons: Vec<HelloEpsilon>,
     /// True for each scalar in which it runs: `f32`, `f64`.
     pub scalars: [bool; 2],
     /// True if cases and verdicts go in binary.
@@ -27,7 +27,7 @@ pub struct Hello {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-struct Epsilon {
+struct HelloEpsilon {
     name: String,
     /// None if neither its name nor a word says it.
     role: Option<Role>,
@@ -39,7 +39,7 @@ struct Epsilon {
 
 /// A hello line by line.
 #[derive(Default)]
-pub struct Start {
+pub struct HelloLines {
     lines: usize,
     name: Option<String>,
     source: Option<String>,
@@ -49,10 +49,10 @@ pub struct Start {
     binary: Option<bool>,
     floats: Option<FloatEnvironment>,
     margins: Option<()>,
-    epsilons: Vec<Epsilon>,
+    epsilons: Vec<HelloEpsilon>,
 }
 
-impl Start {
+impl HelloLines {
     /// Takes a line; the hello, if it was the last. An error says what was expected.
     pub fn take(&mut self, line: &str) -> Result<Option<Hello>, String> {
         self.lines += 1;
@@ -141,7 +141,7 @@ impl Hello {
     /// Notes on the announcement, each in one line.
     pub fn notes(&self) -> Vec<String> {
         let unknown = self.epsilons.iter().filter(|epsilon| epsilon.role.is_none());
-        let note = |epsilon: &Epsilon| {
+        let note = |epsilon: &HelloEpsilon| {
             format!(
                 "what its epsilon '{}' is there to refuse is not known, so advice about it is poor; begin its \
                  meaning with role=parallel (parallel rays, triangles without area), role=t (off the ends of the \
@@ -160,7 +160,7 @@ impl Hello {
     /// Its entry for the table of kernels, which lives as long as the process.
     pub fn info(&self) -> &'static KernelInfo {
         let [t, uv, facing] = self.gives;
-        let gate = |epsilon: &Epsilon| Gate {
+        let gate = |epsilon: &HelloEpsilon| Gate {
             name: leak(&epsilon.name),
             role: epsilon.role.unwrap_or(Role::Other),
             refuses: leak(&epsilon.refuses),
@@ -216,7 +216,7 @@ fn subset<const N: usize>(text: &str, what: &str, known: [&str; N]) -> Result<[b
 }
 
 /// `NAME VALUE LENGTH DIRECTION signed|non-negative [role=ROLE] MEANING…`.
-fn epsilon(text: &str) -> Result<Epsilon, String> {
+fn epsilon(text: &str) -> Result<HelloEpsilon, String> {
     let shape = || {
         format!(
             "epsilon: '{}' is not NAME VALUE LENGTH DIRECTION signed|non-negative [role=ROLE] [MEANING], as: parallel 1e-6 2 1 non-negative abs(det) < e",
@@ -260,7 +260,7 @@ fn epsilon(text: &str) -> Result<Epsilon, String> {
     let meaning = words.collect::<Vec<_>>().join(" ");
     let refuses = if meaning.is_empty() { "not told".to_owned() } else { meaning };
     let (name, value) = (name.to_owned(), value.to_owned());
-    Ok(Epsilon { name, role, value, dimension, tunable, refuses })
+    Ok(HelloEpsilon { name, role, value, dimension, tunable, refuses })
 }
 
 /// The beginning of what a process wrote, on one line.
@@ -275,7 +275,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Hello, String> {
-        let mut start = Start::default();
+        let mut start = HelloLines::default();
         for line in text.lines() {
             if let Some(hello) = start.take(line)? {
                 return Ok(hello);

@@ -15,7 +15,7 @@ use super::binary::{
 use crate::arith::{Float, FloatEnvironment};
 use crate::kernel::{Failure, by_running, of_miss};
 use guard::{Buffer, watch};
-use library::{Library, Test, one_line};
+use library::{Library, TestFunction, one_line};
 use std::cell::{Cell, RefCell};
 use std::ffi::c_void;
 use std::fs::File;
@@ -28,14 +28,14 @@ use std::time::{Duration, Instant};
 
 /// Loads a library and answers batches from standard input until it ends; returns the exit code.
 pub fn serve(path: &Path) -> u8 {
-    let mut job = Job { path, code: 1 };
+    let mut job = LibraryJob { path, code: 1 };
     // A thread, but none of Rust's: at the end of such a one stands a handler for all exceptions, and a C++
     // runtime that finds a handler does not say what was thrown. For the same reason `on_thread` may unwind;
     // nothing ever does that far.
     //
     // SAFETY: the two kinds of functions are called alike, and the job lives until the thread is joined.
     let is_done = unsafe {
-        let run = std::mem::transmute::<UnwindingStart, Start>(on_thread as UnwindingStart);
+        let run = std::mem::transmute::<UnwindingStart, ThreadStart>(on_thread as UnwindingStart);
         let mut thread = std::mem::zeroed();
         let job = (&raw mut job).cast();
         libc::pthread_create(&mut thread, std::ptr::null(), run, job) == 0
@@ -48,18 +48,18 @@ pub fn serve(path: &Path) -> u8 {
 }
 
 /// The job of a library's thread.
-struct Job<'a> {
+struct LibraryJob<'a> {
     path: &'a Path,
     code: u8,
 }
 
 /// The function that a thread runs, as the C library has it, and the same with leave to unwind.
-type Start = extern "C" fn(*mut c_void) -> *mut c_void;
+type ThreadStart = extern "C" fn(*mut c_void) -> *mut c_void;
 type UnwindingStart = extern "C-unwind" fn(*mut c_void) -> *mut c_void;
 
 extern "C-unwind" fn on_thread(job: *mut c_void) -> *mut c_void {
     // SAFETY: `serve` passes its job, and waits.
-    let job = unsafe { &mut *job.cast::<Job>() };
+    let job = unsafe { &mut *job.cast::<LibraryJob>() };
     job.code = serve_here(job.path);
     std::ptr::null_mut()
 }
@@ -115,7 +115,7 @@ impl Protocol {
     }
 
     /// A batch; none at the end of the input.
-    fn batch(&mut self, library: &Library, room: &mut Room) -> io::Result<Option<Batch>> {
+    fn batch(&mut self, library: &Library, room: &mut Room) -> io::Result<Option<HostBatch>> {
         let mut head = [0; BATCH_HEAD];
         if self.input.read(&mut head[..1])? == 0 {
             return Ok(None);
@@ -136,16 +136,16 @@ impl Protocol {
             self.input.read_exact(buffer.bytes())?;
             buffer.make_read_only()?;
         }
-        Ok(Some(Batch { test, size, count, with_margins }))
+        Ok(Some(HostBatch { test, size, count, with_margins }))
     }
 
     fn answer(
         &mut self,
-        batch: &Batch,
+        batch: &HostBatch,
         room: &mut Room,
         floats: &mut FloatEnvironment,
     ) -> io::Result<()> {
-        let &Batch { test, size, count, with_margins } = batch;
+        let &HostBatch { test, size, count, with_margins } = batch;
         let record = if size == 4 { verdict_bytes::<f32>() } else { verdict_bytes::<f64>() };
         room.verdicts.fit(count * record)?;
         // No verdict has a hit of -1: what stays so was not answered.
@@ -198,8 +198,8 @@ impl Room {
 }
 
 /// A request to a library.
-struct Batch {
-    test: Test,
+struct HostBatch {
+    test: TestFunction,
     /// Bytes of the scalar.
     size: usize,
     /// The number of cases.
@@ -207,7 +207,7 @@ struct Batch {
     with_margins: bool,
 }
 
-impl Batch {
+impl HostBatch {
     /// The bytes of each case's margins, one a gate. An answer that is neither a hit nor a miss, at whatever
     /// epsilons, becomes the case's verdict, which this program's parent refuses; none if it wrote before its
     /// output.

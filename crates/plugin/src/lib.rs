@@ -24,8 +24,8 @@ pub mod text;
 
 pub use hello::Hello;
 pub use offset::OffsetCommand;
-pub use process::{Limits, LoadError, load};
-pub use running::Program;
+pub use process::{LoadError, ProcessLimits, load};
+pub use running::KernelProgram;
 
 #[cfg(unix)]
 pub use host::serve;

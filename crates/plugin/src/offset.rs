@@ -2,7 +2,7 @@
 
 #![forbid(unsafe_code)]
 
-use super::running::{Lost, Program, Running};
+use super::running::{KernelProgram, Lost, Running};
 use super::text::{end_line, number, shown};
 use crate::arith::Float;
 use crate::kernel::Failure;
@@ -18,15 +18,15 @@ const SILENCE: Duration = Duration::from_secs(10);
 /// An offset scheme in processes of its own, one a thread. The first thing that goes wrong ends the run: see
 /// [`OffsetCommand::fault`].
 #[derive(Clone)]
-pub struct OffsetCommand(Arc<Inner>);
+pub struct OffsetCommand(Arc<OffsetInner>);
 
-struct Inner {
-    program: Program,
-    state: Mutex<State>,
+struct OffsetInner {
+    program: KernelProgram,
+    state: Mutex<OffsetState>,
 }
 
 #[derive(Default)]
-struct State {
+struct OffsetState {
     /// Processes that are idle at the moment.
     idle: Vec<Running>,
     fault: Option<String>,
@@ -34,8 +34,8 @@ struct State {
 
 impl OffsetCommand {
     /// The command of a program, which is not started yet.
-    pub fn new(program: Program) -> OffsetCommand {
-        OffsetCommand(Arc::new(Inner { program, state: Mutex::default() }))
+    pub fn new(program: KernelProgram) -> OffsetCommand {
+        OffsetCommand(Arc::new(OffsetInner { program, state: Mutex::default() }))
     }
 
     /// Starts one process, so that what cannot be started shows before the run.
@@ -50,7 +50,7 @@ impl OffsetCommand {
         self.state().fault.clone()
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, OffsetState> {
         self.0.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -5,9 +5,9 @@
 
 use super::binary;
 use super::exchange;
-use super::hello::{Hello, Start};
+use super::hello::{Hello, HelloLines};
 use super::margins::{self, MARGINS_AT_ONCE, MarginFailures};
-use super::running::{self, Lost, Program, Running};
+use super::running::{self, KernelProgram, Lost, Running};
 use super::stderr::MOST_LINES;
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
@@ -20,7 +20,7 @@ use std::time::Duration;
 
 /// How much this program tolerates of a process.
 #[derive(Clone, Copy, Debug)]
-pub struct Limits {
+pub struct ProcessLimits {
     /// How long it may be silent when an answer is due.
     pub silence: Duration,
     /// On how many cases it may crash or hang before the run ends.
@@ -52,7 +52,11 @@ pub enum LoadError {
 
 /// Starts a kernel's process and reads its hello. The entry lives as long as this process; `flag`
 /// chooses it on a command line.
-pub fn load(program: Program, limits: Limits, flag: String) -> Result<Entry, LoadError> {
+pub fn load(
+    program: KernelProgram,
+    limits: ProcessLimits,
+    flag: String,
+) -> Result<Entry, LoadError> {
     let running = program.start(limits.silence).map_err(LoadError::Start)?;
     let (hello, running) = greet(running).map_err(|lost| {
         LoadError::Hello(match lost {
@@ -73,7 +77,7 @@ pub fn load(program: Program, limits: Limits, flag: String) -> Result<Entry, Loa
     }
     let info = hello.info();
     let scalars = hello.scalars;
-    let state = Mutex::new(State { idle: vec![running], notes, ..State::default() });
+    let state = Mutex::new(ProcessState { idle: vec![running], notes, ..ProcessState::default() });
     let kernel = Process { program, limits, hello, state };
     let kernel: &'static Process = Box::leak(Box::new(kernel));
     let mut entry = Entry::new(info).chosen_by(flag.leak());
@@ -95,7 +99,7 @@ fn loaded_with(floats: FloatEnvironment) -> String {
 
 /// Reads a process's hello.
 fn greet(mut running: Running) -> Result<(Hello, Running), Lost> {
-    let mut start = Start::default();
+    let mut start = HelloLines::default();
     loop {
         let line = running.line()?;
         if let Some(hello) = start.take(&line).map_err(Lost::Garbled)? {
@@ -105,14 +109,14 @@ fn greet(mut running: Running) -> Result<(Hello, Running), Lost> {
 }
 
 struct Process {
-    program: Program,
-    limits: Limits,
+    program: KernelProgram,
+    limits: ProcessLimits,
     hello: Hello,
-    state: Mutex<State>,
+    state: Mutex<ProcessState>,
 }
 
 #[derive(Default)]
-struct State {
+struct ProcessState {
     /// Processes that are idle at the moment.
     idle: Vec<Running>,
     /// True if any batch was answered.
@@ -130,14 +134,14 @@ struct State {
     gave_up: Option<String>,
 }
 
-impl State {
+impl ProcessState {
     fn asks_no_margins(&self) -> bool {
         self.gave_up.is_some() || self.margins.gave_up.is_some()
     }
 }
 
 impl Process {
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, ProcessState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -5,7 +5,7 @@
 #![forbid(unsafe_code)]
 
 use super::inbox::{Inbox, ROOM};
-use super::stderr::Lines;
+use super::stderr::StderrLines;
 use crate::kernel::Failure;
 use std::io::{self, ErrorKind, Read, Write};
 #[cfg(unix)]
@@ -17,29 +17,29 @@ use std::time::{Duration, Instant};
 
 /// A program to start, with its arguments.
 #[derive(Clone, Debug)]
-pub struct Program {
+pub struct KernelProgram {
     words: Vec<String>,
     /// True if it is this program as the host of a library.
     is_host: bool,
     /// The lines that it wrote to standard error.
-    pub(super) said: Lines,
+    pub(super) said: StderrLines,
 }
 
-impl Program {
+impl KernelProgram {
     /// This program as the host of a library: its words, the program first.
-    pub fn host(words: Vec<String>) -> Program {
-        Program { words, is_host: true, said: Lines::default() }
+    pub fn host(words: Vec<String>) -> KernelProgram {
+        KernelProgram { words, is_host: true, said: StderrLines::default() }
     }
 
     /// From a line, split as a shell splits it. No shell runs it: variables, pipes and && need
     /// `sh -c '…'`.
-    pub fn parse(line: &str) -> Result<Program, String> {
+    pub fn parse(line: &str) -> Result<KernelProgram, String> {
         let words =
             shlex::split(line).ok_or("a quotation mark or a backslash in it is not closed")?;
         if words.is_empty() {
             Err("it is empty".to_owned())
         } else {
-            Ok(Program { words, is_host: false, said: Lines::default() })
+            Ok(KernelProgram { words, is_host: false, said: StderrLines::default() })
         }
     }
 
@@ -281,7 +281,7 @@ mod tests {
 
     #[test]
     fn a_command_line_is_split_as_a_shell_splits_it() {
-        let words = |line: &str| Program::parse(line).map(|program| program.words);
+        let words = |line: &str| KernelProgram::parse(line).map(|program| program.words);
         assert_eq!(words("node  my.js -x").unwrap(), ["node", "my.js", "-x"]);
         assert_eq!(
             words(r#"sh -c 'a "b" \' "c'd" e\ f "" g"h"'i'"#).unwrap(),

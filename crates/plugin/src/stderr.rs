@@ -18,9 +18,9 @@ const LONGEST: u64 = 4096;
 
 /// The different lines that came from all processes of a program, until there were too many.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Lines(Arc<Mutex<HashSet<Vec<u8>>>>);
+pub(super) struct StderrLines(Arc<Mutex<HashSet<Vec<u8>>>>);
 
-impl Lines {
+impl StderrLines {
     /// True if there were some.
     pub fn are_some(&self) -> bool {
         !self.0.lock().unwrap_or_else(PoisonError::into_inner).is_empty()

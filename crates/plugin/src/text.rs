@@ -39,7 +39,7 @@ pub(super) fn epsilons_line<F: Float>(epsilons: &[F]) -> String {
 
 /// A line that a kernel wrote.
 #[derive(Debug, PartialEq)]
-pub(super) enum Answer<'a, F> {
+pub(super) enum AnswerLine<'a, F> {
     /// The verdict on a case.
     Verdict(&'a str, Verdict<F>),
     /// `end N [took=NANOSECONDS]`.
@@ -53,7 +53,7 @@ pub(super) enum Answer<'a, F> {
 
 /// `ID miss`, `ID hit [t=T] [u=U] [v=V] [facing=front|back]` or `end N`; an error says what was
 /// expected.
-pub(super) fn answer<F: Float>(line: &str) -> Result<Answer<'_, F>, String> {
+pub(super) fn answer<F: Float>(line: &str) -> Result<AnswerLine<'_, F>, String> {
     let shape = || {
         if line.starts_with("HLA1") {
             return "it answers in the binary encoding, and its hello does not say 'encoding binary'"
@@ -75,7 +75,7 @@ pub(super) fn answer<F: Float>(line: &str) -> Result<Answer<'_, F>, String> {
             });
             let took = took.transpose()?;
             return if words.next().is_none() {
-                Ok(Answer::End { cases, took })
+                Ok(AnswerLine::End { cases, took })
             } else {
                 Err(shape())
             };
@@ -86,7 +86,7 @@ pub(super) fn answer<F: Float>(line: &str) -> Result<Answer<'_, F>, String> {
     };
     words
         .try_fold(verdict, |verdict, word| with_value(verdict, word, line)?.ok_or_else(shape))
-        .map(|verdict| Answer::Verdict(first, verdict))
+        .map(|verdict| AnswerLine::Verdict(first, verdict))
 }
 
 /// A verdict with one value more; none if the word is of no value that a hit has.
@@ -141,8 +141,8 @@ mod tests {
 
     fn verdict(line: &str) -> Result<(String, Verdict<f32>), String> {
         match answer::<f32>(line)? {
-            Answer::Verdict(id, verdict) => Ok((id.to_owned(), verdict)),
-            Answer::End { .. } => Err("end".to_owned()),
+            AnswerLine::Verdict(id, verdict) => Ok((id.to_owned(), verdict)),
+            AnswerLine::End { .. } => Err("end".to_owned()),
         }
     }
 
@@ -156,8 +156,11 @@ mod tests {
         assert!(read.t == f32::NEG_INFINITY && read.u.is_nan() && read.facing.is_none());
         let (id, read) = verdict("fan@1/f32/-/1/5.2 miss\r").unwrap();
         assert_eq!((id.as_str(), read.hit), ("fan@1/f32/-/1/5.2", false));
-        assert_eq!(answer::<f64>("end 12"), Ok(Answer::End { cases: 12, took: None }));
-        assert_eq!(answer::<f64>("end 12 took=5"), Ok(Answer::End { cases: 12, took: Some(5) }));
+        assert_eq!(answer::<f64>("end 12"), Ok(AnswerLine::End { cases: 12, took: None }));
+        assert_eq!(
+            answer::<f64>("end 12 took=5"),
+            Ok(AnswerLine::End { cases: 12, took: Some(5) })
+        );
         for line in ["end 12 5", "end 12 took=", "end 12 took=-1", "end 12 took=5 6"] {
             assert!(answer::<f64>(line).is_err(), "{line}");
         }

@@ -52,11 +52,11 @@ pub struct Check {
 }
 
 /// Cases with their indices, and the truths that they should have.
-type Expected<F> = Vec<(u64, Case<F>, Truth)>;
+type ExpectedTruths<F> = Vec<(u64, Case<F>, Truth)>;
 
 impl Check {
     /// Compares the truths that the oracle finds one by one, of a slice, and of columns.
-    fn compare<F: Float>(&mut self, expected: &Expected<F>) {
+    fn compare<F: Float>(&mut self, expected: &ExpectedTruths<F>) {
         let cases: Vec<Case<F>> = expected.iter().map(|(_, case, _)| *case).collect();
         let mut batch = Batch::new();
         cases.iter().for_each(|case| batch.push(case));
@@ -105,7 +105,7 @@ impl Merge for Check {
 fn over<F: Float>(
     indices: u64,
     observer: &dyn Observer,
-    make: impl Fn(u64, &mut Expected<F>) + Sync,
+    make: impl Fn(u64, &mut ExpectedTruths<F>) + Sync,
 ) -> Check {
     let add = |sum: &mut Check, indices: Range<u64>| {
         let mut expected = Vec::new();
@@ -204,7 +204,7 @@ fn with_cuts<F: Float>(
     reference: Reference,
     index: u64,
     case: &Case<F>,
-    expected: &mut Expected<F>,
+    expected: &mut ExpectedTruths<F>,
 ) {
     if index.is_multiple_of(4) {
         with_cut(reference, index, case, expected);
@@ -218,7 +218,7 @@ fn with_cut<F: Float>(
     reference: Reference,
     index: u64,
     case: &Case<F>,
-    expected: &mut Expected<F>,
+    expected: &mut ExpectedTruths<F>,
 ) {
     let (truth, t) = reference.truth(case);
     expected.push((index, *case, truth));

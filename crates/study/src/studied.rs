@@ -3,7 +3,7 @@
 
 use crate::audit::mesh;
 use crate::epsilon::{self, Costs, MaxError, SceneStudy, Setting};
-use crate::explore::worst::{self, Entry, Goal};
+use crate::explore::worst::{self, WorstEntry, WorstGoal};
 use crate::family::Family;
 use crate::mesh::Surface;
 use crate::selfcheck::{self, Check, Reference};
@@ -49,18 +49,18 @@ studied! {
     ) -> ();
     mesh::run::<Self>: fn mesh(
         surface: &Arc<Surface>,
-        plan: &mesh::Plan,
+        plan: &mesh::MeshPlan,
         observer: &dyn Observer,
-    ) -> mesh::Found;
+    ) -> mesh::MeshFound;
     spawn::run::<Self>: fn spawn(
-        plan: &spawn::Plan<'_>,
+        plan: &spawn::SpawnPlan<'_>,
         observer: &dyn Observer,
-    ) -> spawn::Sums;
+    ) -> spawn::SpawnSums;
     worst::find_worst::<Self>: fn find_worst(
-        goals: &[Goal],
+        goals: &[WorstGoal],
         evaluations: u64,
         seed: u64,
-    ) -> Vec<Option<Entry>>;
+    ) -> Vec<Option<WorstEntry>>;
     selfcheck::family::<Self>: fn check_family(
         family: &Family,
         reference: Reference,

@@ -7,13 +7,13 @@
 //!   than the finds;
 //! - `lock`: one process at a time.
 
-use super::lock::{Lock, LockError};
+use super::lock::{FolderLock, LockError};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::write_result;
 use crate::cli::select::KernelArguments;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, write_case};
-use crate::explore::campaign::{Find, State};
+use crate::explore::campaign::{CampaignState, Find};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
@@ -69,7 +69,7 @@ pub struct Directory {
     finds: File,
     /// The length of the finds that are whole.
     length: u64,
-    _lock: Lock,
+    _lock: FolderLock,
 }
 
 impl Directory {
@@ -78,7 +78,7 @@ impl Directory {
         let path = PathBuf::from(path);
         fs::create_dir_all(&path).map_err(|error| Failure::of_path(&path, &error))?;
         let lock_path = path.join("lock");
-        let (lock, taken_over) = Lock::take(&lock_path).map_err(|error| match error {
+        let (lock, taken_over) = FolderLock::take(&lock_path).map_err(|error| match error {
             LockError::Held(message) => {
                 let message = format!("{}: {message}", path.display());
                 Failure::Message(Status::InputOutput, message)
@@ -155,7 +155,7 @@ impl Directory {
     }
 
     /// The counters and the population that were saved last, if any were.
-    pub fn state(&self) -> Result<State, Failure> {
+    pub fn state(&self) -> Result<CampaignState, Failure> {
         Ok(read_json(
             &self.path.join(STATE),
             "; without it the campaign begins anew and knows its finds",
@@ -169,7 +169,7 @@ impl Directory {
     }
 
     /// Saves counters and population.
-    pub fn save(&self, state: &State) -> Result<(), Failure> {
+    pub fn save(&self, state: &CampaignState) -> Result<(), Failure> {
         self.write(STATE, state)
     }
 

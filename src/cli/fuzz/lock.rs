@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 /// Held until it is dropped.
-pub struct Lock {
+pub struct FolderLock {
     file: File,
 }
 
@@ -20,9 +20,9 @@ pub enum LockError {
     Io(io::Error),
 }
 
-impl Lock {
+impl FolderLock {
     /// Takes the lock at a path; true if the last process to hold it was killed.
-    pub fn take(path: &Path) -> Result<(Lock, bool), LockError> {
+    pub fn take(path: &Path) -> Result<(FolderLock, bool), LockError> {
         let file = File::options().create(true).truncate(false).write(true).open(path);
         let mut file = file.map_err(LockError::Io)?;
         let holder = || fs::read_to_string(path).unwrap_or_default();
@@ -38,11 +38,11 @@ impl Lock {
         let owner = format!("process {} on {}\n", std::process::id(), host());
         let written = file.set_len(0).and_then(|()| file.write_all(owner.as_bytes()));
         written.map_err(LockError::Io)?;
-        Ok((Lock { file }, was_killed))
+        Ok((FolderLock { file }, was_killed))
     }
 }
 
-impl Drop for Lock {
+impl Drop for FolderLock {
     fn drop(&mut self) {
         let _ = self.file.set_len(0);
     }

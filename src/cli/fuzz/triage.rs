@@ -61,19 +61,19 @@ enum OneEach {
 
 /// The key of a find: one find is kept for each.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-enum Key {
+enum FindKey {
     Kind(String),
     Cause(&'static str, Finding, Class, Option<Attribution>),
 }
 
 impl OneEach {
-    fn key(self, find: &Find) -> Key {
+    fn key(self, find: &Find) -> FindKey {
         let signature = &find.signature;
         match self {
-            OneEach::Kind => Key::Kind(find.name()),
+            OneEach::Kind => FindKey::Kind(find.name()),
             OneEach::Cause => {
                 let (class, why) = (signature.class, signature.attribution);
-                Key::Cause(signature.kernel, signature.finding, class, why)
+                FindKey::Cause(signature.kernel, signature.finding, class, why)
             }
         }
     }
@@ -111,8 +111,8 @@ pub fn run(arguments: &TriageArguments) -> Result<Status, Failure> {
 }
 
 /// The simplest find of each key; of equals the first.
-fn simplest(finds: impl IntoIterator<Item = Find>, one_each: OneEach) -> BTreeMap<Key, Find> {
-    let mut kept: BTreeMap<Key, Find> = BTreeMap::new();
+fn simplest(finds: impl IntoIterator<Item = Find>, one_each: OneEach) -> BTreeMap<FindKey, Find> {
+    let mut kept: BTreeMap<FindKey, Find> = BTreeMap::new();
     for find in finds {
         let key = one_each.key(&find);
         if kept.get(&key).is_none_or(|known| find.size() < known.size()) {

@@ -10,7 +10,7 @@ use crate::cli::output::write_result;
 use crate::cli::progress::Progress;
 use crate::cli::select::KernelArguments;
 use crate::corpus::lines::{AnyCase, bare_case};
-use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update};
+use crate::explore::{LANES, Objective, SearchDomain, Update, WorstEntry, WorstGoal, WorstTable};
 use crate::kernel::{self, Scalar};
 use crate::prove;
 use crate::studied::Studied;
@@ -96,14 +96,14 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
         Some(path) if fs::exists(path).map_err(|error| Failure::of_file(path, &error))? => {
             read_table(path)?
         }
-        _ => Table::default(),
+        _ => WorstTable::default(),
     };
     let found = search(arguments, &goals);
     let Some(path) = &arguments.update else {
         write_result("-", |out| write_entries(out, found.entries(), None))?;
         return Ok(Status::Success);
     };
-    let updates: Vec<(Update, &Entry)> =
+    let updates: Vec<(Update, &WorstEntry)> =
         found.entries().map(|entry| (known.merge(entry.clone()), entry)).collect();
     write_result(path, |out| known.write(out))?;
     let count = |wanted| updates.iter().filter(|(update, _)| *update == wanted).count();
@@ -117,7 +117,7 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
 
 impl WorstArguments {
     /// The goals in `f32`, and in `f64`.
-    fn goals(&self) -> Result<[Vec<Goal>; 2], Failure> {
+    fn goals(&self) -> Result<[Vec<WorstGoal>; 2], Failure> {
         let no_band = "the worst case is as far as possible from where the verdict would be right";
         let rows = self.kernels.rows_without_band(no_band)?;
         let gates = || rows.iter().flat_map(|row| row.entry.info.gates).map(|gate| gate.name);
@@ -131,14 +131,14 @@ impl WorstArguments {
             }
         }
         let domains = self.domain.iter().map(|name| {
-            let names = Domain::ALL.map(Domain::name);
-            Domain::named(name)
+            let names = SearchDomain::ALL.map(SearchDomain::name);
+            SearchDomain::named(name)
                 .ok_or_else(|| unknown("domain", name, names, "hairline fuzz worst --help"))
         });
-        let domains: Vec<Domain> = domains.collect::<Result<_, _>>()?;
+        let domains: Vec<SearchDomain> = domains.collect::<Result<_, _>>()?;
         let pairs = rows.iter().flat_map(|row| domains.iter().map(move |domain| (row, *domain)));
-        let goals: Vec<Goal> = pairs
-            .flat_map(|(row, domain)| Goal::of_row(row, domain))
+        let goals: Vec<WorstGoal> = pairs
+            .flat_map(|(row, domain)| WorstGoal::of_row(row, domain))
             .filter(|goal| self.wants(goal))
             .collect();
         let scalars = chosen_scalars(&self.scalar)?;
@@ -146,7 +146,7 @@ impl WorstArguments {
         Ok(scalars.map(|chosen| if chosen { goals.clone() } else { Vec::new() }))
     }
 
-    fn wants(&self, goal: &Goal) -> bool {
+    fn wants(&self, goal: &WorstGoal) -> bool {
         let (target, gates) = (goal.target, goal.row.entry.info.gates);
         let gate = target.gate.map(|gate| gates[gate].name);
         let objective = target.objective.name();
@@ -156,13 +156,13 @@ impl WorstArguments {
 }
 
 /// Searches round after round; the first round is always whole.
-fn search(arguments: &WorstArguments, [f32_goals, f64_goals]: &[Vec<Goal>; 2]) -> Table {
+fn search(arguments: &WorstArguments, [f32_goals, f64_goals]: &[Vec<WorstGoal>; 2]) -> WorstTable {
     let goals = (f32_goals.len() + f64_goals.len()) as u64;
     let progress = Progress::new(goals, "goals", arguments.quiet);
     let seconds = || progress.now() as f64 * 1e-9;
-    let mut found = Table::default();
+    let mut found = WorstTable::default();
     let (mut searched, mut round) = (0u64, 0u64);
-    let mut goes_on = |entries: Vec<Option<Entry>>, round: u64| {
+    let mut goes_on = |entries: Vec<Option<WorstEntry>>, round: u64| {
         searched += entries.len() as u64;
         progress.set(searched % goals.max(1));
         entries.into_iter().flatten().for_each(|entry| {
@@ -195,20 +195,20 @@ fn search(arguments: &WorstArguments, [f32_goals, f64_goals]: &[Vec<Goal>; 2]) -
 
 /// The known entries of the chosen kernels, scalars, objectives, gates and domains; of any epsilons,
 /// unless some are chosen.
-fn list(arguments: &WorstArguments, goals: &[Vec<Goal>; 2]) -> Result<Status, Failure> {
+fn list(arguments: &WorstArguments, goals: &[Vec<WorstGoal>; 2]) -> Result<Status, Failure> {
     let table = match &arguments.table {
         Some(path) => read_table(path)?,
-        None => Table::read(KNOWN, "the known table")?,
+        None => WorstTable::read(KNOWN, "the known table")?,
     };
-    let key = |goal: &Goal| {
+    let key = |goal: &WorstGoal| {
         let epsilons = arguments.kernels.chooses_epsilons().then(|| goal.row.epsilon_argument());
         (goal.row.entry.info.name, goal.target, goal.domain, epsilons)
     };
-    let wanted = |entry: &&Entry| {
+    let wanted = |entry: &&WorstEntry| {
         let goals = &goals[usize::from(matches!(entry.case, AnyCase::F64(_)))];
         goals.iter().any(|goal| key(goal) == key(&entry.goal))
     };
-    let entries: Vec<&Entry> = table.entries().filter(wanted).collect();
+    let entries: Vec<&WorstEntry> = table.entries().filter(wanted).collect();
     if entries.is_empty() {
         let message = "the table has no entry for these flags (the program's own is of built-in kernels; without --list \
                        this command searches, which takes minutes)"
@@ -219,25 +219,25 @@ fn list(arguments: &WorstArguments, goals: &[Vec<Goal>; 2]) -> Result<Status, Fa
     Ok(Status::Success)
 }
 
-fn read_table(path: &str) -> Result<Table, Failure> {
-    Ok(Table::read(BufReader::new(open(path)?), path)?)
+fn read_table(path: &str) -> Result<WorstTable, Failure> {
+    Ok(WorstTable::read(BufReader::new(open(path)?), path)?)
 }
 
 /// Two lines an entry: how bad it is, and the command that shows it.
 fn write_entries<'a>(
     out: &mut dyn Write,
-    entries: impl Iterator<Item = &'a Entry>,
+    entries: impl Iterator<Item = &'a WorstEntry>,
     table: Option<&str>,
 ) -> io::Result<()> {
-    let mut entries: Vec<&Entry> = entries.collect();
-    let is_f64 = |entry: &Entry| matches!(entry.case, AnyCase::F64(_));
+    let mut entries: Vec<&WorstEntry> = entries.collect();
+    let is_f64 = |entry: &WorstEntry| matches!(entry.case, AnyCase::F64(_));
     entries.sort_by_key(|entry| {
-        let Goal { row, target, domain } = &entry.goal;
+        let WorstGoal { row, target, domain } = &entry.goal;
         (row.entry.info.name, row.epsilon_argument(), is_f64(entry), *domain, *target)
     });
     let mut kernel = String::new();
     for entry in entries {
-        let Goal { row, target, domain } = &entry.goal;
+        let WorstGoal { row, target, domain } = &entry.goal;
         let info = row.entry.info;
         let epsilons = row.epsilon_argument();
         let scalar = if is_f64(entry) { "f64" } else { "f32" };
@@ -274,7 +274,7 @@ fn write_entries<'a>(
 }
 
 /// The relative error of t, of an entry about t.
-fn relative_error(entry: &Entry) -> Option<f64> {
+fn relative_error(entry: &WorstEntry) -> Option<f64> {
     if entry.goal.target.objective != Objective::T {
         return None;
     }
@@ -284,9 +284,9 @@ fn relative_error(entry: &Entry) -> Option<f64> {
 /// How large the score of a margin can be for any input with the extents of an entry's case; none where the gate divides
 /// by anything but the direction's largest coordinate. Of ordinary sizes only: where numbers overflow or underflow a
 /// bound says nothing.
-fn most_at_its_extents(entry: &Entry) -> Option<f64> {
-    let Goal { row, target, domain } = &entry.goal;
-    let is_ordinary = target.objective == Objective::Margin && *domain == Domain::Moderate;
+fn most_at_its_extents(entry: &WorstEntry) -> Option<f64> {
+    let WorstGoal { row, target, domain } = &entry.goal;
+    let is_ordinary = target.objective == Objective::Margin && *domain == SearchDomain::Moderate;
     let gate = target.gate.filter(|_| is_ordinary)?;
     either_scalar!(&entry.case, case => {
         let bound = bound_at_extents(row.entry, gate, case)?;

@@ -1,7 +1,7 @@
 //! Which scheme to use: a simple one that never fails and is about as low as any.
 
-use crate::case::Number;
-use crate::spawn::{Lengths, OfScheme, Scheme, Sums, parse};
+use crate::case::ShortNumber;
+use crate::spawn::{Lengths, OfScheme, Scheme, SpawnSums, parse};
 
 /// Offsets that are made for a scene are 2, 4, … times the largest that was needed in the pilot.
 const DOUBLINGS: u32 = 10;
@@ -9,8 +9,8 @@ const DOUBLINGS: u32 = 10;
 /// Distances along the normal, and others that follow the coordinates. Of the first the derived one, if there is one;
 /// of others each is the double of the one before, from twice the largest smallest safe offset that a pilot saw on any
 /// kind of plane.
-pub fn made_for(pilots: &[Sums], derived: Option<f64>) -> [Vec<Scheme>; 2] {
-    let largest = |of: fn(&Sums) -> &Lengths| {
+pub fn made_for(pilots: &[SpawnSums], derived: Option<f64>) -> [Vec<Scheme>; 2] {
+    let largest = |of: fn(&SpawnSums) -> &Lengths| {
         pilots.iter().map(|pilot| of(pilot).largest()).fold(0.0, f64::max)
     };
     let made = |name: &str, needed: f64| -> Vec<Scheme> {
@@ -27,11 +27,11 @@ pub fn made_for(pilots: &[Sums], derived: Option<f64>) -> [Vec<Scheme>; 2] {
 
 /// The scheme of a derived distance along the normal.
 pub fn derived_name(derived: f64) -> String {
-    format!("normal={}", Number(derived))
+    format!("normal={}", ShortNumber(derived))
 }
 
 /// The first scheme of each list that never fails, on any kind of plane; the last of the list if all fail.
-pub fn least_without_failure(made: [Vec<Scheme>; 2], tried: &[Sums]) -> Vec<Scheme> {
+pub fn least_without_failure(made: [Vec<Scheme>; 2], tried: &[SpawnSums]) -> Vec<Scheme> {
     let mut places = 0..;
     let mut chosen = Vec::new();
     for schemes in made {
@@ -52,7 +52,7 @@ fn rounded_up(x: f64) -> String {
     let exponent = exponent.parse().unwrap_or(0) - 1;
     let tries = [digits, digits + 1].map(|digits| format!("{digits}e{exponent}"));
     let all: Vec<f64> = tries.iter().filter_map(|text| text.parse().ok()).collect();
-    Number(all.into_iter().find(|y| x <= *y).unwrap_or(x)).to_string()
+    ShortNumber(all.into_iter().find(|y| x <= *y).unwrap_or(x)).to_string()
 }
 
 /// An offset at most this many times as high as the lowest is as good: another seed may turn them round.
@@ -62,7 +62,7 @@ const AS_LOW: f64 = 4.0;
 /// scene were made on, and in the runs: one that is `derived`; else the first of some preferred ones that is about as low
 /// as any; else the lowest. Heights are those on the first kind of plane.
 pub fn best(
-    [pilots, runs]: [&[Sums]; 2],
+    [pilots, runs]: [&[SpawnSums]; 2],
     preferred: &[usize],
     derived: Option<usize>,
 ) -> Option<usize> {

@@ -3,9 +3,9 @@
 
 use super::choice::derived_name;
 use super::record::{BestPart, DerivedPart, PointsPart, SchemePart, SpawnRecord};
-use crate::case::{Number, SceneKind};
+use crate::case::{SceneKind, ShortNumber};
 use crate::kernel::{self, Role};
-use crate::report::elsewhere::{self, Compared};
+use crate::report::elsewhere::{self, ComparedRates};
 use crate::report::page::{Block, Command, Head, Page, Paged, Row, Table, Use};
 use crate::report::{Rate, group_digits, interval_of, percent};
 use crate::spawn::describe;
@@ -145,7 +145,11 @@ fn arguing(part: &PointsPart) -> Vec<&SchemePart> {
 /// The hypothesis of a derived bound.
 fn weights(derived: &DerivedPart) -> String {
     let DerivedPart { least_weight, largest_weight, .. } = derived;
-    format!("u, v and 1-u-v from {} to {}", Number(*least_weight), Number(*largest_weight))
+    format!(
+        "u, v and 1-u-v from {} to {}",
+        ShortNumber(*least_weight),
+        ShortNumber(*largest_weight)
+    )
 }
 
 /// True if the kernel shows a test that keeps the weights in a range; without one only the rays that were tried say so.
@@ -213,7 +217,7 @@ fn table(record: &SpawnRecord, schemes: Vec<&SchemePart>, is_whole: bool) -> Tab
 
 /// The shares of wrong sides on other kinds of planes, of the schemes that are worse there.
 fn of_elsewhere(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
-    let rows = part.schemes.iter().map(|scheme| Compared {
+    let rows = part.schemes.iter().map(|scheme| ComparedRates {
         label: scheme.name.clone(),
         rates: [&scheme.wrong]
             .into_iter()
@@ -247,7 +251,7 @@ fn least(record: &SpawnRecord, part: &PointsPart) -> Vec<String> {
         let range = match derived.least_weight < 0.0 {
             true => format!(
                 "; that range: at this epsilon the edge test lets no weight below {} through, and the three add up to 1",
-                Number(derived.least_weight)
+                ShortNumber(derived.least_weight)
             ),
             false => String::new(),
         };

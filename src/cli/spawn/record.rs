@@ -8,8 +8,8 @@ use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
 use crate::report::Rate;
 use crate::spawn::{
-    Heights, Lengths, OfScheme, Plan, PointKind, ROOM, Scheme, Sums, derived_normal, least_weight,
-    new_ray,
+    Heights, Lengths, OfScheme, PointKind, ROOM, Scheme, SpawnPlan, SpawnSums, derived_normal,
+    least_weight, new_ray,
 };
 use serde::Serialize;
 
@@ -168,14 +168,14 @@ pub struct SchemePart {
     /// The first wrong start.
     pub first_wrong: Option<WrongPart>,
     /// The results on the other kinds of planes.
-    pub elsewhere: Vec<PlanePart>,
+    pub elsewhere: Vec<SchemePlanePart>,
 }
 
 /// The results of a scheme on planes of one kind.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, serde(deny_unknown_fields))]
-pub struct PlanePart {
+pub struct SchemePlanePart {
     /// The name of the kind of planes and rays.
     pub plane: String,
     /// Starts on the plane, behind it, or nowhere.
@@ -216,8 +216,8 @@ impl PointsPart {
     /// Plans and sums by kind of plane. `preferred` are places of schemes that come first where they are about as low
     /// as any; `place` are the flags that name the scene or the mesh.
     pub fn new<F: Scalar>(
-        plans: &[Plan<'_>],
-        [pilots, runs]: [&[Sums]; 2],
+        plans: &[SpawnPlan<'_>],
+        [pilots, runs]: [&[SpawnSums]; 2],
         preferred: &[usize],
         derived: Option<DerivedPart>,
         place: &str,
@@ -286,7 +286,7 @@ impl DerivedPart {
     /// The derived bound of a plan, rounded up; none if what the row's gates let through may have any weights, or a
     /// pilot saw others than that. It assumes nothing of how a plane lies, so it holds on every kind of plane; but it
     /// assumes that triangles are not thin, and those of a mesh may be.
-    pub fn of<F: Scalar>(plan: &Plan<'_>, pilots: &[Sums]) -> Option<DerivedPart> {
+    pub fn of<F: Scalar>(plan: &SpawnPlan<'_>, pilots: &[SpawnSums]) -> Option<DerivedPart> {
         let is_covered =
             plan.kind == PointKind::Weights && plan.mesh.is_none() && plan.instance.is_none();
         let of_weights = is_covered.then(|| least_weight(plan.row))?;
@@ -298,7 +298,7 @@ impl DerivedPart {
     }
 
     /// True if every hit point of these runs has such weights, but for rounding.
-    fn covers(&self, runs: &[Sums]) -> bool {
+    fn covers(&self, runs: &[SpawnSums]) -> bool {
         runs.iter().all(|sums| self.least_weight - ROOM <= sums.least_weight)
     }
 }
@@ -329,15 +329,15 @@ impl HeightsPart {
 
 impl SchemePart {
     /// The results of the scheme at a place.
-    fn new<F: Scalar>(plans: &[Plan<'_>], runs: &[Sums], place: usize) -> SchemePart
+    fn new<F: Scalar>(plans: &[SpawnPlan<'_>], runs: &[SpawnSums], place: usize) -> SchemePart
     where
         AnyCase: From<Case<F>>,
     {
         let (scheme, sums) = (&plans[0].schemes[place], &runs[0].schemes[place]);
         let over_least = &sums.over_least;
         let rate = |count| Rate::new(sums.trials(count), true);
-        let on_plane = |(plan, sums): (&Plan<'_>, &Sums)| {
-            PlanePart::new::<F>(plan, &sums.schemes[place], place)
+        let on_plane = |(plan, sums): (&SpawnPlan<'_>, &SpawnSums)| {
+            SchemePlanePart::new::<F>(plan, &sums.schemes[place], place)
         };
         let mut of_planes = plans.iter().zip(runs).map(on_plane);
         let first = of_planes.next().expect("one kind of plane");
@@ -358,14 +358,14 @@ impl SchemePart {
     }
 }
 
-impl PlanePart {
-    fn new<F: Scalar>(plan: &Plan<'_>, sums: &OfScheme, place: usize) -> PlanePart
+impl SchemePlanePart {
+    fn new<F: Scalar>(plan: &SpawnPlan<'_>, sums: &OfScheme, place: usize) -> SchemePlanePart
     where
         AnyCase: From<Case<F>>,
     {
         let rate = |count| Rate::new(sums.trials(count), true);
         let wrong_at = |index| WrongPart::new::<F>(plan, &plan.schemes[place], index);
-        PlanePart {
+        SchemePlanePart {
             plane: plan.scene.kind().to_string(),
             wrong: rate(sums.wrong),
             self_hits: if plan.tells_self_hits() { rate(sums.self_hits) } else { Rate::default() },
@@ -375,7 +375,7 @@ impl PlanePart {
 }
 
 impl WrongPart {
-    fn new<F: Scalar>(plan: &Plan<'_>, scheme: &Scheme, index: u64) -> Option<WrongPart>
+    fn new<F: Scalar>(plan: &SpawnPlan<'_>, scheme: &Scheme, index: u64) -> Option<WrongPart>
     where
         AnyCase: From<Case<F>>,
     {

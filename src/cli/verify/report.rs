@@ -1,14 +1,14 @@
 //! The answers of a product, judged: as counts and a list, and as the record that every other format is made
 //! from.
 
-use super::values::Wrong as WrongValues;
+use super::values::WrongHit as WrongValues;
 use crate::judge::{GroupTruth, Obligation};
 use crate::report::page::{Block, Head, Item, Page, Paged, Row, Table, Tone};
 use crate::report::{
     AnsweredTest, Asked, FORMATS as OF_RECORD, Format, Product, Promised, Record, Style, answered,
     number_of, write_json,
 };
-use crate::vectors::Test;
+use crate::vectors::VectorTest;
 use crate::vectors::profile::{Answered, Groups, Profile, Saying, demanded, is_right};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -29,7 +29,7 @@ pub const FORMATS: &[Format<Judgement>] = &[
 
 /// All answers of a product, judged: for people and as a record.
 pub struct Judgement {
-    pub report: Report,
+    pub report: VerifyReport,
     pub record: Record,
 }
 
@@ -41,8 +41,8 @@ impl Judgement {
 }
 
 /// An answer that was judged.
-pub struct Judged<'a> {
-    pub test: &'a Test,
+pub struct JudgedAnswer<'a> {
+    pub test: &'a VectorTest,
     pub demanded: &'static str,
     pub answer: Answered,
     pub right: bool,
@@ -55,25 +55,25 @@ pub struct Sheet<'a> {
     product: &'a str,
     vectors: &'a str,
     profile: Option<&'a Profile>,
-    topics: Vec<Topic<'a>>,
+    topics: Vec<TopicAnswers<'a>>,
 }
 
 /// The answers to a file of the vectors.
-struct Topic<'a> {
+struct TopicAnswers<'a> {
     name: &'static str,
-    judged: Vec<Judged<'a>>,
+    judged: Vec<JudgedAnswer<'a>>,
     missing: Vec<&'a str>,
 }
 
 /// The report that `--format json` writes.
 #[derive(Serialize)]
-pub struct Report {
+pub struct VerifyReport {
     product: String,
     vectors: String,
     profile: Option<String>,
-    total: Counts,
-    topics: Vec<(&'static str, Counts)>,
-    wrong: Vec<Wrong>,
+    total: VerifyCounts,
+    topics: Vec<(&'static str, VerifyCounts)>,
+    wrong: Vec<WrongTest>,
     missing: Vec<String>,
     /// The ids of answers against what the profile's specification only advises: they are not wrong.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -83,7 +83,7 @@ pub struct Report {
 }
 
 #[derive(Clone, Copy, Default, Serialize)]
-struct Counts {
+struct VerifyCounts {
     tests: usize,
     right: usize,
     wrong: usize,
@@ -93,7 +93,7 @@ struct Counts {
 }
 
 #[derive(Serialize)]
-struct Wrong {
+struct WrongTest {
     id: String,
     demanded: &'static str,
     answered: String,
@@ -111,21 +111,21 @@ impl<'a> Sheet<'a> {
 
     /// Begins a topic.
     pub fn begin(&mut self, name: &'static str) {
-        self.topics.push(Topic { name, judged: Vec::new(), missing: Vec::new() });
+        self.topics.push(TopicAnswers { name, judged: Vec::new(), missing: Vec::new() });
     }
 
     /// The demand of a test.
-    pub fn demanded(&self, test: &Test) -> &'static str {
+    pub fn demanded(&self, test: &VectorTest) -> &'static str {
         demanded(test, self.profile)
     }
 
     /// Adds an answer to the topic.
-    pub fn add(&mut self, judged: Judged<'a>) {
+    pub fn add(&mut self, judged: JudgedAnswer<'a>) {
         self.topics.last_mut().expect("a topic was begun").judged.push(judged);
     }
 
     /// Adds a test without an answer to the topic.
-    pub fn missing(&mut self, test: &'a Test) {
+    pub fn missing(&mut self, test: &'a VectorTest) {
         self.topics.last_mut().expect("a topic was begun").missing.push(&test.id);
     }
 
@@ -139,23 +139,23 @@ impl<'a> Sheet<'a> {
         self.judged().any(|judged| !judged.right)
     }
 
-    fn judged(&self) -> impl Iterator<Item = &Judged<'a>> {
+    fn judged(&self) -> impl Iterator<Item = &JudgedAnswer<'a>> {
         self.topics.iter().flat_map(|topic| &topic.judged)
     }
 
     /// The sentences that make an answer wrong that is not wrong by every reading.
-    fn sayings_of(&self, test: &Test, answer: Answered) -> Vec<Saying> {
+    fn sayings_of(&self, test: &VectorTest, answer: Answered) -> Vec<Saying> {
         let profile = self.profile.filter(|_| is_right(demanded(test, None), answer) == Some(true));
         profile.map_or(Vec::new(), |profile| profile.sayings(test))
     }
 
     /// Counts, wrong answers and missing ids.
-    pub fn report(&self) -> Report {
-        let mut report = Report {
+    pub fn report(&self) -> VerifyReport {
+        let mut report = VerifyReport {
             product: self.product.to_owned(),
             vectors: self.vectors.to_owned(),
             profile: self.profile.map(|profile| profile.name.clone()),
-            total: Counts::default(),
+            total: VerifyCounts::default(),
             topics: self.topics.iter().map(|topic| (topic.name, topic.counts())).collect(),
             wrong: Vec::new(),
             missing: self
@@ -167,7 +167,7 @@ impl<'a> Sheet<'a> {
             unadvised: Vec::new(),
             sayings: Vec::new(),
         };
-        for Judged { test, answer, .. } in self.judged() {
+        for JudgedAnswer { test, answer, .. } in self.judged() {
             let Some(profile) = self.profile else { break };
             let Some(saying) = profile.advice_against(test, *answer) else { continue };
             report.unadvised.push(test.id.clone());
@@ -177,15 +177,16 @@ impl<'a> Sheet<'a> {
         }
         report.topics.iter().for_each(|(_, counts)| report.total.add(counts));
         // What only the profile demands comes first.
-        let by_profile = |judged: &&Judged| self.sayings_of(judged.test, judged.answer).is_empty();
-        let mut wrong: Vec<&Judged> = self.judged().filter(|judged| !judged.right).collect();
+        let by_profile =
+            |judged: &&JudgedAnswer| self.sayings_of(judged.test, judged.answer).is_empty();
+        let mut wrong: Vec<&JudgedAnswer> = self.judged().filter(|judged| !judged.right).collect();
         wrong.sort_by_key(by_profile);
-        for Judged { test, demanded, answer, wrong_values, .. } in wrong {
+        for JudgedAnswer { test, demanded, answer, wrong_values, .. } in wrong {
             let sayings = match wrong_values {
                 None => self.sayings_of(test, *answer),
                 Some(_) => Vec::new(),
             };
-            report.wrong.push(Wrong {
+            report.wrong.push(WrongTest {
                 id: test.id.clone(),
                 demanded,
                 answered: match wrong_values {
@@ -228,7 +229,7 @@ impl<'a> Sheet<'a> {
     }
 }
 
-impl Judged<'_> {
+impl JudgedAnswer<'_> {
     fn answered<'a>(&'a self, topic: &'a str) -> AnsweredTest<'a> {
         let asked = match (&self.test.group, self.demanded) {
             (None, "hit") => Asked::Single(Obligation::MustHit),
@@ -249,11 +250,11 @@ impl Judged<'_> {
     }
 }
 
-impl Topic<'_> {
-    fn counts(&self) -> Counts {
+impl TopicAnswers<'_> {
+    fn counts(&self) -> VerifyCounts {
         let missing = self.missing.len();
         let mut counts =
-            Counts { tests: self.judged.len() + missing, missing, ..Counts::default() };
+            VerifyCounts { tests: self.judged.len() + missing, missing, ..VerifyCounts::default() };
         for judged in &self.judged {
             match judged.right {
                 false => counts.wrong += 1,
@@ -265,8 +266,8 @@ impl Topic<'_> {
     }
 }
 
-impl Counts {
-    fn add(&mut self, other: &Counts) {
+impl VerifyCounts {
+    fn add(&mut self, other: &VerifyCounts) {
         self.tests += other.tests;
         self.right += other.right;
         self.wrong += other.wrong;
@@ -277,17 +278,17 @@ impl Counts {
 
 impl Paged for Judgement {
     fn page(&self) -> Page {
-        let Report { product, profile, total, topics, wrong, unadvised, sayings, .. } =
+        let VerifyReport { product, profile, total, topics, wrong, unadvised, sayings, .. } =
             &self.report;
-        let Counts { tests, right, wrong: count, free, missing } = total;
+        let VerifyCounts { tests, right, wrong: count, free, missing } = total;
         let answers = number_of(*count as u64, "wrong answer", "wrong answers");
         let by = profile.as_ref().map_or(String::new(), |name| format!(" by profile {name}"));
         let title = format!(
             "{}: {answers}, {right} right{by}; {free} free to be either, {missing} of {tests} tests without a result",
             product.escape_debug()
         );
-        let row = |(name, counts): &(&'static str, Counts)| {
-            let Counts { tests, right, wrong, free, missing } = *counts;
+        let row = |(name, counts): &(&'static str, VerifyCounts)| {
+            let VerifyCounts { tests, right, wrong, free, missing } = *counts;
             let mut row =
                 Row::new(*name, [tests, wrong, right, free, missing].map(|n| n.to_string()));
             row.cells[1].is_broken = 0 < wrong;
@@ -299,7 +300,7 @@ impl Paged for Judgement {
         blocks.extend(Block::items(
             "Wrong answers",
             SHOWN,
-            wrong.iter().map(Wrong::item).collect(),
+            wrong.iter().map(WrongTest::item).collect(),
         ));
         let advised = unadvised.iter().map(|id| Item {
             text: id.clone(),
@@ -327,9 +328,9 @@ impl Paged for Judgement {
     }
 }
 
-impl Wrong {
+impl WrongTest {
     fn item(&self) -> Item {
-        let Wrong { id, demanded, answered, comment, demanded_by } = self;
+        let WrongTest { id, demanded, answered, comment, demanded_by } = self;
         let by = match demanded_by.is_empty() {
             true => String::new(),
             false => format!(" by '{}'", demanded_by.join("' and '")),

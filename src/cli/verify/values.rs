@@ -6,11 +6,11 @@ use crate::contract::Contract;
 use crate::corpus::{json, number};
 use crate::judge::{Finding, Obligation, ValueErrors, judge};
 use crate::kernel::{Gives, Verdict};
-use crate::vectors::Test;
+use crate::vectors::VectorTest;
 use crate::vectors::profile::Answered;
 
 /// The full answer of a product to a test.
-pub struct Answer<'a> {
+pub struct GivenAnswer<'a> {
     /// Hit, miss, or how many triangles.
     pub answered: Answered,
     /// The texts of t, u and v.
@@ -18,7 +18,7 @@ pub struct Answer<'a> {
 }
 
 /// A hit whose values are wrong.
-pub struct Wrong {
+pub struct WrongHit {
     /// `bad-value` or `wrong-value`.
     pub finding: Finding,
     /// How far the point is off in longest edges.
@@ -27,10 +27,10 @@ pub struct Wrong {
     pub text: String,
 }
 
-impl<'a> Answer<'a> {
+impl<'a> GivenAnswer<'a> {
     /// Reads `"hit"`, `"miss"`, a number of hits, or `{"hit": true, "t": 1.5, "u": 0.25, "v": 0.5}`.
-    pub fn parse(text: &'a str) -> Result<Answer<'a>, String> {
-        let alone = |answered| Ok(Answer { answered, values: [None; 3] });
+    pub fn parse(text: &'a str) -> Result<GivenAnswer<'a>, String> {
+        let alone = |answered| Ok(GivenAnswer { answered, values: [None; 3] });
         match text {
             "\"hit\"" => alone(Answered::Single(true)),
             "\"miss\"" => alone(Answered::Single(false)),
@@ -54,7 +54,7 @@ impl<'a> Answer<'a> {
                 if !hit && values.iter().any(Option::is_some) {
                     return Err("t, u and v: expected none with a miss".to_owned());
                 }
-                Ok(Answer { answered: Answered::Single(hit), values })
+                Ok(GivenAnswer { answered: Answered::Single(hit), values })
             }
             other => other
                 .parse()
@@ -70,11 +70,15 @@ impl<'a> Answer<'a> {
     }
 
     /// The fault in the values, whether the hit is demanded or free.
-    pub fn wrong_values(&self, test: &Test) -> Result<Option<Wrong>, String> {
+    pub fn wrong_values(&self, test: &VectorTest) -> Result<Option<WrongHit>, String> {
         either_scalar!(&test.cases[0], case => self.wrong(test, case))
     }
 
-    fn wrong<F: Float>(&self, test: &Test, case: &Case<F>) -> Result<Option<Wrong>, String> {
+    fn wrong<F: Float>(
+        &self,
+        test: &VectorTest,
+        case: &Case<F>,
+    ) -> Result<Option<WrongHit>, String> {
         let nan = F::from_f64(f64::NAN);
         let read = |i: usize| match self.values[i] {
             None => Ok(nan),
@@ -96,7 +100,7 @@ impl<'a> Answer<'a> {
         };
         if finding != Finding::WrongValue {
             let text = "a value that is not finite".to_owned();
-            return Ok(Some(Wrong { finding, edges: 0.0, text }));
+            return Ok(Some(WrongHit { finding, edges: 0.0, text }));
         }
         let errors = ValueErrors::of(case, truth, gives, &verdict);
         let parts = (0..3).filter(|&i| errors.is_wrong(i, 0.0)).map(|i| {
@@ -104,6 +108,6 @@ impl<'a> Answer<'a> {
             format!("{name} = {}, exactly {exact:.9e}", self.values[i].unwrap_or_default())
         });
         let text = parts.collect::<Vec<_>>().join("; ");
-        Ok(Some(Wrong { finding, edges: errors.edges, text }))
+        Ok(Some(WrongHit { finding, edges: errors.edges, text }))
     }
 }

@@ -3,17 +3,17 @@
 use super::*;
 use crate::audit::Trials;
 
-fn entry(amount: Amount) -> Entry {
-    Entry { line: 1, amount, why: None, url: None }
+fn entry(amount: Amount) -> ExpectedEntry {
+    ExpectedEntry { line: 1, amount, why: None, url: None }
 }
 
 fn outcome(method: Method, amount: Amount, found: (u64, u64, bool), digest: &str) -> i32 {
-    let judge = Judge { method, tail: 1e-5 };
+    let judge = ClassJudge { method, tail: 1e-5 };
     let rate = Rate::new(Trials::independent(found.0, found.1), found.2);
     match judge.outcome(&entry(amount), &rate, Some(digest)) {
-        Outcome::Better => -1,
-        Outcome::Same => 0,
-        Outcome::Worse => 1,
+        ClassOutcome::Better => -1,
+        ClassOutcome::Same => 0,
+        ClassOutcome::Worse => 1,
     }
 }
 
@@ -73,8 +73,8 @@ fn what_has_no_expectation_is_unexpected_unless_its_row_has_some_and_it_is_rare(
     let entries = [(key("mine", FindingKind::FalseHit), entry(count(1, 9, "a")))].into();
     let is_unexpected = |method, key: Key, (found, is_sample): (u64, bool)| {
         let rate = Rate::new(Trials::independent(found, 10_000), is_sample);
-        let found = Found { key, rate, digest: None, example: None };
-        Judge { method, tail: 1e-5 }.is_unexpected(&found, &entries)
+        let found = FoundDisagreement { key, rate, digest: None, example: None };
+        ClassJudge { method, tail: 1e-5 }.is_unexpected(&found, &entries)
     };
     let of = |kernel: &str, finding: FindingKind, found| {
         is_unexpected(Method::Intervals, key(kernel, finding), found)
@@ -119,10 +119,14 @@ fn a_case_is_shown_that_is_new_or_right_now_and_none_that_may_still_be_wrong() {
         severity: None,
         command: format!("explain {case}"),
     };
-    let shown = |old: Option<Example>, change: Change, changed: Option<Example>| {
+    let shown = |old: Option<Example>, change: CaseChange, changed: Option<Example>| {
         let rate = Rate::new(Trials::independent(1, 9), true);
-        let found =
-            Found { key: key("mine", FindingKind::Panic), rate, digest: None, example: old };
+        let found = FoundDisagreement {
+            key: key("mine", FindingKind::Panic),
+            rate,
+            digest: None,
+            example: old,
+        };
         let mut deviation = deviation(&found.key, None, &found.rate, Some(&found));
         show(&mut deviation, change, changed);
         let case = [deviation.case, deviation.bits, deviation.command];
@@ -131,7 +135,7 @@ fn a_case_is_shown_that_is_new_or_right_now_and_none_that_may_still_be_wrong() {
     let old = || Some(example("old", "o"));
     let told =
         |expected: &str, case: [&str; 3]| (format!("none{expected}"), case.map(str::to_owned));
-    for change in [Change::New, Change::Right] {
+    for change in [CaseChange::New, CaseChange::Right] {
         let case = ["new", "n", "explain new"];
         let found = shown(old(), change, Some(example("new", "n")));
         assert_eq!(found, told(change.note(true, true), case));
@@ -139,9 +143,9 @@ fn a_case_is_shown_that_is_new_or_right_now_and_none_that_may_still_be_wrong() {
         assert_eq!(found, told(change.note(true, true), ["new", "", "explain new"]));
     }
     assert_eq!(
-        shown(old(), Change::New, None),
-        told(Change::New.note(false, true), ["old", "o", "explain old"])
+        shown(old(), CaseChange::New, None),
+        told(CaseChange::New.note(false, true), ["old", "o", "explain old"])
     );
-    assert_eq!(shown(None, Change::New, None), told("", [""; 3]));
-    assert_eq!(shown(old(), Change::Right, None), told("", [""; 3]));
+    assert_eq!(shown(None, CaseChange::New, None), told("", [""; 3]));
+    assert_eq!(shown(old(), CaseChange::Right, None), told("", [""; 3]));
 }

@@ -13,7 +13,7 @@ use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
 
 /// Everything that is said of one kernel in one scalar.
-pub(super) struct Answer {
+pub(super) struct KernelAnswer {
     /// The kernel, the scalar, and in short the scene.
     pub title: String,
     /// The scene's words.
@@ -50,17 +50,17 @@ pub(super) struct LimitRow {
 }
 
 /// The answer for a part of a record.
-pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
+pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> KernelAnswer {
     let kernel = format!("{} {}", part.kernel, part.scalar);
     let title = match &record.mesh {
-        Some(MeshPart { path, triangles, .. }) => {
+        Some(MeshScenePart { path, triangles, .. }) => {
             let file = path.rsplit('/').next().unwrap_or(path);
             format!("{kernel} in {file} ({})", number_of(*triangles, "triangle", "triangles"))
         }
         None => kernel,
     };
     let name = if lead(record, part, &part.tried[0]) == USE { RECOMMENDED } else { "least bad" };
-    Answer {
+    KernelAnswer {
         title,
         name,
         scene: match record.has_scene() {
@@ -188,7 +188,7 @@ fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
         let several = match (count.rays, count.kind) {
             (Rays::Stratum(Stratum::Edges), _) => "at a shared edge: both hit".to_owned(),
             (Rays::Stratum(Stratum::Vertices), _) => "at a shared vertex: several hit".to_owned(),
-            (rays, Kind::Crack) => format!("{}: several hit", rays.name()),
+            (rays, WrongKind::Crack) => format!("{}: several hit", rays.name()),
             _ => continue,
         };
         let cells = columns(part).map(|tried| share(&tried.doubles[i])).collect();

@@ -8,8 +8,8 @@ use crate::case::{DirectionLength, Scene};
 use crate::contract::{Contract, Extent};
 use crate::epsilon::scale_free_form;
 use crate::epsilon::{
-    Costs, Curve, ERRORS_ONE_IN, Elsewhere, ErrorSums, Kind, Knob, Limit, MaxError, OnFresh,
-    Proved, SceneStudy, Setting, StudiedRays, Tried, Value, fresh_seed,
+    Costs, Curve, ERRORS_ONE_IN, Elsewhere, ErrorSums, Knob, KnobLimit, MaxError, OnFresh,
+    ProvedValue, SceneStudy, Setting, StudiedRays, Tried, Value, WrongKind, fresh_seed,
 };
 use crate::kernel::{Role, Scalar, Tunable};
 use crate::report::Context;
@@ -41,7 +41,7 @@ pub fn scene_record(
         unit: (*unit).to_owned(),
         left_out: None,
         reach: reach(&scene),
-        mesh: mesh.as_ref().map(|mesh| mesh.surface()).map(|surface| MeshPart {
+        mesh: mesh.as_ref().map(|mesh| mesh.surface()).map(|surface| MeshScenePart {
             path: surface.family().path().to_owned(),
             digest: surface.mesh().digest.clone(),
             triangles: surface.mesh().triangles.len() as u64,
@@ -53,7 +53,7 @@ pub fn scene_record(
         seed,
         fresh_seed: fresh_seed(seed),
         count,
-        costs: Kind::ALL.map(|kind| named(kind.name(), costs.of(kind))).into(),
+        costs: WrongKind::ALL.map(|kind| named(kind.name(), costs.of(kind))).into(),
         max_error: Value::ALL
             .into_iter()
             .filter_map(|value| Some(named(value.name(), max_error?.of(value)?)))
@@ -98,7 +98,7 @@ pub fn kernel_part<F: Scalar>(
     let tried = study.tried.iter().map(tried_part).collect();
     let limits = study.limits.iter().map(|OnFresh { bound: limit, wrong, price }| {
         let knob = setting.knobs[limit.knob];
-        LimitPart {
+        KnobLimitPart {
             knob: limit.knob,
             count: limit.count,
             is_lower: limit.is_lower,
@@ -152,7 +152,7 @@ fn plane_part(found: &Elsewhere) -> PlanePart {
 
 /// For each knob the highest limit from below and the lowest from above, where they do not meet.
 fn conflicts<F: Scalar>(study: &SceneStudy<F>) -> Vec<ConflictPart> {
-    let limits: Vec<&Limit<F>> = study.limits.iter().map(|found| &found.bound).collect();
+    let limits: Vec<&KnobLimit<F>> = study.limits.iter().map(|found| &found.bound).collect();
     let strictest = |knob: usize, is_lower: bool| {
         let of_knob = limits.iter().enumerate();
         let of_knob = of_knob.filter(|(_, l)| l.knob == knob && l.is_lower == is_lower);
@@ -167,10 +167,10 @@ fn conflicts<F: Scalar>(study: &SceneStudy<F>) -> Vec<ConflictPart> {
     };
     let conflict = |knob: usize| {
         let ((lower, low), (upper, high)) = (strictest(knob, true)?, strictest(knob, false)?);
-        let meet = |low: &Limit<F>, high: &Limit<F>| {
+        let meet = |low: &KnobLimit<F>, high: &KnobLimit<F>| {
             low.value.zip(high.value).filter(|(low, high)| low <= high)
         };
-        let same = |limit: &&Limit<F>| {
+        let same = |limit: &&KnobLimit<F>| {
             let found = study.relative_limits.iter();
             found.clone().find(|other| other.knob == knob && other.count == limit.count)
         };
@@ -188,7 +188,7 @@ fn price_part(price: Option<(usize, Trials)>) -> Option<PricePart> {
     price.map(|(count, trials)| PricePart { count, wrong: Rate::new(trials, true) })
 }
 
-fn proved_part<F: Float>(found: &OnFresh<Proved<F>>) -> ProvedPart {
+fn proved_part<F: Float>(found: &OnFresh<ProvedValue<F>>) -> ProvedPart {
     let OnFresh { bound: proved, wrong, price } = found;
     ProvedPart {
         knob: proved.knob,

@@ -3,7 +3,7 @@
 use super::notes::{has_default_costs, is_coarse};
 use super::record::{NamedNumber, SceneKernelPart, SceneRecord};
 use crate::audit::shell_word;
-use crate::case::{Number, SCENES};
+use crate::case::{SCENES, ShortNumber};
 use crate::epsilon::COUNT;
 
 /// Commands that show more of what is recommended.
@@ -63,7 +63,7 @@ fn of_scene(record: &SceneRecord) -> String {
 pub(super) fn of_kernel(record: &SceneRecord, part: &SceneKernelPart) -> String {
     let numbers = |flag: &str, numbers: &[NamedNumber]| {
         let words: Vec<String> =
-            numbers.iter().map(|it| format!("{}={}", it.name, Number(it.number))).collect();
+            numbers.iter().map(|it| format!("{}={}", it.name, ShortNumber(it.number))).collect();
         format!(" {flag} {}", words.join(","))
     };
     let mut command =

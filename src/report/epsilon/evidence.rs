@@ -1,6 +1,6 @@
 //! One kernel in one scalar: what to use, what argues for it, and everything else folded.
 
-use super::answer::{Answer, LimitRow, PICTURE};
+use super::answer::{KernelAnswer, LimitRow, PICTURE};
 use super::legend::legend;
 use super::plot::{footer, panels};
 use super::record::{SceneKernelPart, SceneRecord};
@@ -9,7 +9,7 @@ use super::words::{label, share};
 use crate::case::{Scene, SceneKind};
 use crate::epsilon::Rays;
 use crate::family::Stratum;
-use crate::report::elsewhere::{self, Compared};
+use crate::report::elsewhere::{self, ComparedRates};
 use crate::report::page::{Block, Command, Head, Row, Table};
 
 /// So many rows argue for what to use.
@@ -24,7 +24,7 @@ pub(super) fn how_to_read(record: &SceneRecord) -> Vec<Block> {
 pub(super) fn of_kernel(
     record: &SceneRecord,
     part: &SceneKernelPart,
-    answer: &Answer,
+    answer: &KernelAnswer,
 ) -> Vec<Block> {
     let mut blocks = vec![Block::text(standing(record, part).1)];
     blocks.extend(coarse(record, part).map(Block::Text));
@@ -78,8 +78,8 @@ fn of_elsewhere(record: &SceneRecord, name: &str, part: &SceneKernelPart) -> Vec
     let planes = part.elsewhere.iter().map(|other| other.plane.clone());
     let kinds: Vec<String> = [own.to_string()].into_iter().chain(planes).collect();
     let others = |place: usize| part.elsewhere.iter().map(move |other| &other.wrong[place]);
-    let rows: Vec<Compared> = (part.counts.iter().zip(&part.tried[0].wrong).enumerate())
-        .map(|(place, (count, own))| Compared {
+    let rows: Vec<ComparedRates> = (part.counts.iter().zip(&part.tried[0].wrong).enumerate())
+        .map(|(place, (count, own))| ComparedRates {
             label: label(count),
             rates: [own].into_iter().chain(others(place)).cloned().collect(),
         })
@@ -87,7 +87,7 @@ fn of_elsewhere(record: &SceneRecord, name: &str, part: &SceneKernelPart) -> Vec
     elsewhere::blocks(&format!("{name}: more often wrong"), &kinds, &rows, share)
 }
 
-fn limits(answer: &Answer) -> Vec<Block> {
+fn limits(answer: &KernelAnswer) -> Vec<Block> {
     if answer.limits.is_empty() {
         return Vec::new();
     }

@@ -20,7 +20,7 @@ pub use record::*;
 pub(crate) use words::shortest;
 
 use super::Format;
-use snippet::Language;
+use snippet::SnippetLanguage;
 
 /// One row per format.
 pub const SCENE_FORMATS: &[Format<SceneRecord>] = &[
@@ -28,9 +28,15 @@ pub const SCENE_FORMATS: &[Format<SceneRecord>] = &[
     Format::JSON,
     Format::MARKDOWN,
     Format { name: "svg", write: plot::write },
-    Format { name: "c", write: |record, _, out| snippet::write(record, Language::C, out) },
-    Format { name: "rust", write: |record, _, out| snippet::write(record, Language::Rust, out) },
-    Format { name: "glsl", write: |record, _, out| snippet::write(record, Language::Glsl, out) },
+    Format { name: "c", write: |record, _, out| snippet::write(record, SnippetLanguage::C, out) },
+    Format {
+        name: "rust",
+        write: |record, _, out| snippet::write(record, SnippetLanguage::Rust, out),
+    },
+    Format {
+        name: "glsl",
+        write: |record, _, out| snippet::write(record, SnippetLanguage::Glsl, out),
+    },
     #[cfg(feature = "pages")]
     Format::HTML,
 ];

@@ -3,8 +3,8 @@
 use super::record::*;
 use super::words::{human, least_normal, meaning, share, spaced};
 use crate::arith::Float;
-use crate::case::Number;
-use crate::epsilon::{Costs, Kind, SCALE_FREE};
+use crate::case::ShortNumber;
+use crate::epsilon::{Costs, SCALE_FREE, WrongKind};
 use crate::report::number_of;
 use crate::report::record::Rate;
 
@@ -53,7 +53,7 @@ pub(super) fn price(
 ) -> Option<(f64, &'static str)> {
     let PricePart { count, wrong } = price?;
     let what = match part.counts[*count].kind {
-        Kind::Miss => "more of the hits at a triangle lost",
+        WrongKind::Miss => "more of the hits at a triangle lost",
         _ => "more of the rays beside a triangle hit it",
     };
     Some((wrong.rate? - part.tried[0].wrong[*count].rate?, what))
@@ -90,12 +90,12 @@ pub(super) fn few_rays(record: &SceneRecord) -> Option<String> {
 
 /// The share of wrong answers from which on no scene can live with them, by what is counted; none where a scene may
 /// have to.
-fn too_many(part: &SceneKernelPart, count: &Count) -> Option<f64> {
+fn too_many(part: &SceneKernelPart, count: &RayCount) -> Option<f64> {
     let Rays::Stratum(stratum) = count.rays else { return None };
     match (stratum, count.kind) {
-        (Stratum::Interior, Kind::Miss) | (_, Kind::SelfHit) => Some(0.01),
+        (Stratum::Interior, WrongKind::Miss) | (_, WrongKind::SelfHit) => Some(0.01),
         // Without an epsilon at the edges, cracks are the kernel's, whatever the numbers are.
-        (_, Kind::Crack) => part.has_edge_epsilon.then_some(0.01),
+        (_, WrongKind::Crack) => part.has_edge_epsilon.then_some(0.01),
         // About as many as the triangles are made larger.
         (Stratum::Outside, _) => Some(0.1),
         _ => None,
@@ -121,7 +121,7 @@ pub(super) fn no_good(
     let excess = |(count, rate)| Some((surely(rate) / too_many(part, count)?, count, rate));
     let found = all.filter_map(excess).filter(|(excess, ..)| 1.0 < *excess);
     // Self-hits have a remedy of their own, so they are named where nothing else is wrong.
-    let is_own = |count: &Count| count.kind != Kind::SelfHit;
+    let is_own = |count: &RayCount| count.kind != WrongKind::SelfHit;
     let worst = found
         .max_by(|(a, one, _), (b, other, _)| is_own(one).cmp(&is_own(other)).then(a.total_cmp(b)));
     let Some((_, count, rate)) = worst else {
@@ -129,9 +129,11 @@ pub(super) fn no_good(
     };
     let share = share(rate);
     let what = match count.kind {
-        Kind::Miss => format!("lose {share} of the hits at a triangle"),
-        Kind::Crack => format!("let {share} of the rays at shared edges or vertices through"),
-        Kind::SelfHit => format!("let {share} of the shadow rays hit the triangle that they leave"),
+        WrongKind::Miss => format!("lose {share} of the hits at a triangle"),
+        WrongKind::Crack => format!("let {share} of the rays at shared edges or vertices through"),
+        WrongKind::SelfHit => {
+            format!("let {share} of the shadow rays hit the triangle that they leave")
+        }
         _ => format!("make false hits of {share} of the rays beside a triangle"),
     };
     if !record.max_error.is_empty() {
@@ -157,7 +159,7 @@ pub(super) fn no_good(
 pub(super) fn has_default_costs(record: &SceneRecord) -> bool {
     let default = Costs::default();
     record.costs.iter().all(|cost| {
-        let mut kinds = Kind::ALL.into_iter();
+        let mut kinds = WrongKind::ALL.into_iter();
         kinds.any(|kind| kind.name() == cost.name && default.of(kind) == cost.number)
     })
 }
@@ -174,7 +176,7 @@ const HEAVY: f64 = 0.01;
 
 /// A note if one wrong answer among so many rays decides under the given weights: they need more rays.
 fn overweighed(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
-    let of_count = |(count, rate): (&Count, &Rate)| {
+    let of_count = |(count, rate): (&RayCount, &Rate)| {
         let cost = record.costs.iter().find(|cost| cost.name == count.kind.name())?;
         (0 < rate.of).then(|| (cost.number / rate.of as f64, &cost.name))
     };
@@ -200,7 +202,7 @@ fn is_tiny(record: &SceneRecord, part: &SceneKernelPart) -> bool {
 }
 
 /// The advice where no numbers are good.
-fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: Kind) -> String {
+fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: WrongKind) -> String {
     let unit = spaced(&record.unit);
     let is_narrow = part.scalar == "f32";
     if is_coarse(record, part) {
@@ -215,12 +217,12 @@ fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: Kind) -> String {
     if is_tiny(record, part) {
         return format!(
             "products of three lengths such as {}{unit} lose digits at the lower end of {}: use {}a smaller unit of length",
-            Number(record.edge[0]),
+            ShortNumber(record.edge[0]),
             part.scalar,
             if is_narrow { "f64 or " } else { "" }
         );
     }
-    if kind == Kind::SelfHit {
+    if kind == WrongKind::SelfHit {
         return "start shadow rays off the surface (`hairline spawn` finds how far)".to_owned();
     }
     (if is_narrow { "use f64 or another kernel" } else { "use another kernel" }).to_owned()
@@ -229,9 +231,13 @@ fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: Kind) -> String {
 /// A note if cracks that no number closes are most of a kernel's cost, with advice.
 fn cracks_of_its_own(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
     let best = &part.tried[0];
-    let cracks = part.counts.iter().zip(&best.wrong).filter(|(count, _)| count.kind == Kind::Crack);
-    let weight =
-        record.costs.iter().find(|cost| cost.name == Kind::Crack.name()).map_or(0.0, |c| c.number);
+    let cracks =
+        part.counts.iter().zip(&best.wrong).filter(|(count, _)| count.kind == WrongKind::Crack);
+    let weight = record
+        .costs
+        .iter()
+        .find(|cost| cost.name == WrongKind::Crack.name())
+        .map_or(0.0, |c| c.number);
     let cost: f64 = cracks.map(|(_, rate)| weight * rate.rate.unwrap_or(0.0)).sum();
     (!part.has_edge_epsilon && 0.5 * best.cost < cost).then(|| {
         format!(

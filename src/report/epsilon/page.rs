@@ -1,6 +1,6 @@
 //! A study of epsilons as a page: of one kernel or two what to use, and why; of more a table.
 
-use super::answer::{Answer, answer};
+use super::answer::{KernelAnswer, answer};
 use super::evidence::{how_to_read, of_kernel};
 use super::ranking;
 use super::record::SceneRecord;
@@ -20,7 +20,8 @@ impl Paged for SceneRecord {
 impl SceneRecord {
     /// Each kernel in each scalar by itself.
     fn of_kernels(&self) -> Page {
-        let answers: Vec<Answer> = self.kernels.iter().map(|part| answer(self, part)).collect();
+        let answers: Vec<KernelAnswer> =
+            self.kernels.iter().map(|part| answer(self, part)).collect();
         let mut page = Page { command: "epsilon", ..Page::default() };
         for (i, (part, answer)) in self.kernels.iter().zip(&answers).enumerate() {
             let on = if self.has_scene() { "in" } else { "on" };

@@ -1,13 +1,13 @@
 //! Plots of each value of a number while the others stay: wrong answers over the value, what was tried as
 //! lines with names above, limits on the axis. One panel a number, the same in a file and in a page.
 
-use super::answer::{Answer, LimitRow, RECOMMENDED, answer, column};
+use super::answer::{KernelAnswer, LimitRow, RECOMMENDED, answer, column};
 use super::record::*;
 use super::words::{human, label, unit_of};
 use crate::audit::Trials;
 use crate::plot::{Decades, decades_around, group_digits};
 use crate::report::Style;
-use crate::report::chart::{Chart, Frame, LINE, Mark, file, text_at, wrapped};
+use crate::report::chart::{Chart, ChartFrame, ChartMark, LINE, file, text_at, wrapped};
 use crate::report::page::{Drawing, Picture};
 use crate::report::rate::percent;
 use std::fmt::Write as _;
@@ -20,8 +20,8 @@ const MOST_DECADES: i32 = 5;
 
 /// The width of a panel, and of a file.
 const WIDTH: f64 = 460.0;
-const FRAME: Frame =
-    Frame { width: WIDTH, left: 62.0, right: 14.0, above: 56.0, plot: 210.0, zero: 24.0 };
+const FRAME: ChartFrame =
+    ChartFrame { width: WIDTH, left: 62.0, right: 14.0, above: 56.0, plot: 210.0, zero: 24.0 };
 
 /// Writes the recommendation and the panels of each kernel, one below the other.
 pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
@@ -69,39 +69,39 @@ pub(super) fn footer(record: &SceneRecord, part: &SceneKernelPart) -> [String; 2
 pub(super) fn panels(
     record: &SceneRecord,
     part: &SceneKernelPart,
-    answer: &Answer,
+    answer: &KernelAnswer,
 ) -> Vec<Picture> {
     (0..part.curves.len()).map(|knob| Draft::new(record, part, answer, knob).panel()).collect()
 }
 
 /// A count as a line: the wrong answers at each value that this number is to blame for.
-struct Line<'a> {
-    count: &'a Count,
+struct CountLine<'a> {
+    count: &'a RayCount,
     of: u64,
     /// Hits that other numbers refuse, whatever this one is.
     by_others: u64,
     wrong: Vec<u64>,
 }
 
-impl Line<'_> {
+impl CountLine<'_> {
     fn class(&self) -> String {
         class_of(self.count)
     }
 }
 
 /// `grazing hit`.
-fn class_of(count: &Count) -> String {
+fn class_of(count: &RayCount) -> String {
     format!("{} {}", color_of(count), count.kind)
 }
 
 /// The class of a stratum's colour; other rays have that of the kind of error.
-fn color_of(count: &Count) -> &'static str {
+fn color_of(count: &RayCount) -> &'static str {
     match (count.rays, count.kind) {
         (Rays::Stratum(stratum), _) => stratum.name().trim_start_matches("scene-"),
-        (_, Kind::Miss) => "interior",
-        (_, Kind::Hit) => "grazing",
-        (_, Kind::Crack) => "edges",
-        (_, Kind::SelfHit) => "shadow",
+        (_, WrongKind::Miss) => "interior",
+        (_, WrongKind::Hit) => "grazing",
+        (_, WrongKind::Crack) => "edges",
+        (_, WrongKind::SelfHit) => "shadow",
     }
 }
 
@@ -109,11 +109,11 @@ fn color_of(count: &Count) -> &'static str {
 struct Draft<'a> {
     record: &'a SceneRecord,
     part: &'a SceneKernelPart,
-    answer: &'a Answer,
+    answer: &'a KernelAnswer,
     place: usize,
     knob: &'a KnobPart,
     values: Vec<f64>,
-    lines: Vec<Line<'a>>,
+    lines: Vec<CountLine<'a>>,
     /// The values that were tried, with their names, in order.
     tried: Vec<(f64, String)>,
 }
@@ -126,18 +126,18 @@ impl<'a> Draft<'a> {
     fn new(
         record: &'a SceneRecord,
         part: &'a SceneKernelPart,
-        answer: &'a Answer,
+        answer: &'a KernelAnswer,
         place: usize,
     ) -> Draft<'a> {
         let curve = &part.curves[place];
         let lines = part.counts.iter().zip(&curve.counts).map(|(count, points)| {
-            let is_lost = matches!(count.kind, Kind::Crack | Kind::Miss);
+            let is_lost = matches!(count.kind, WrongKind::Crack | WrongKind::Miss);
             let left = points.of - points.refused_by_others;
             let wrong = points.hits.iter().map(|hits| if is_lost { left - hits } else { *hits });
             let by_others = if is_lost { points.refused_by_others } else { 0 };
-            Line { count, of: points.of, by_others, wrong: wrong.collect() }
+            CountLine { count, of: points.of, by_others, wrong: wrong.collect() }
         });
-        let moves = |line: &Line<'_>| {
+        let moves = |line: &CountLine<'_>| {
             let (least, most) = (line.wrong.iter().min(), line.wrong.iter().max());
             let span = most.unwrap_or(&0) - least.unwrap_or(&0);
             0 < line.of && NEGLIGIBLE * (line.of as f64) < span as f64
@@ -166,7 +166,9 @@ impl<'a> Draft<'a> {
     }
 
     /// The limits of this number with their rows; the proved ones come last.
-    fn limits(&self) -> impl Iterator<Item = (&'a LimitRow, Option<f64>, bool, &'a Count, bool)> {
+    fn limits(
+        &self,
+    ) -> impl Iterator<Item = (&'a LimitRow, Option<f64>, bool, &'a RayCount, bool)> {
         let part = self.part;
         let place = self.place;
         let seen = part
@@ -187,7 +189,7 @@ impl<'a> Draft<'a> {
     /// The decades of one sign: of what was tried, of the limits, and where lines move.
     fn decades(&self, sign: f64) -> Option<Decades> {
         let moved = |pair: &[f64], i: usize| {
-            let moves = |line: &Line<'_>| {
+            let moves = |line: &CountLine<'_>| {
                 let change = line.wrong[i].abs_diff(line.wrong[i + 1]) as f64;
                 5.0 * NEGLIGIBLE * (line.of as f64) < change
             };
@@ -231,7 +233,7 @@ impl<'a> Draft<'a> {
         let others: Vec<String> = others
             .map(|(_, (knob, epsilon))| format!("{}={}", knob.name, human(epsilon)))
             .collect();
-        let marks: Vec<Mark> = self.tried.iter().map(mark).collect();
+        let marks: Vec<ChartMark> = self.tried.iter().map(mark).collect();
         let most = self.lines.iter().map(|line| line.of).max().unwrap_or(1);
         let decades = [self.decades(-1.0), self.decades(1.0)];
         let mut chart = Chart::new(FRAME, decades, (most, MOST_DECADES), &marks);
@@ -306,10 +308,10 @@ impl<'a> Draft<'a> {
 }
 
 /// A value that was tried.
-fn mark((value, names): &(f64, String)) -> Mark {
+fn mark((value, names): &(f64, String)) -> ChartMark {
     let text = if *value == 0.0 { "0".to_owned() } else { human(&format!("{value:e}")) };
     let is_this = names.split(", ").any(|name| name == RECOMMENDED);
-    Mark { value: *value, text: format!("{names}: {text}"), is_this }
+    ChartMark { value: *value, text: format!("{names}: {text}"), is_this }
 }
 
 /// True if limits are on one side only.
@@ -318,7 +320,7 @@ fn is_open(ends: [f64; 2]) -> bool {
 }
 
 /// A triangle on the axis that points to the side that a limit allows.
-fn marker([x, y]: [f64; 2], is_lower: bool, count: &Count, is_proved: bool) -> String {
+fn marker([x, y]: [f64; 2], is_lower: bool, count: &RayCount, is_proved: bool) -> String {
     let ahead = if is_lower { 9.0 } else { -9.0 };
     let class = if is_proved { "limit proved" } else { "limit" };
     let stratum = color_of(count);

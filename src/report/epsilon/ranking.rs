@@ -1,11 +1,11 @@
 //! Which kernel for a scene: all kernels in one table, the one that costs least first.
 
-use super::answer::{Answer, USE, answer, is_scale_free_better};
+use super::answer::{KernelAnswer, USE, answer, is_scale_free_better};
 use super::commands::{of_kernel, scene_words};
 use super::evidence;
 use super::fitness::{fitness, is_fine};
 use super::notes::few_rays;
-use super::record::{Count, Kind, Rays, SceneKernelPart, SceneRecord, Stratum, TriedPart};
+use super::record::{RayCount, Rays, SceneKernelPart, SceneRecord, Stratum, TriedPart, WrongKind};
 use super::words::{of_unit, share};
 use crate::report::alike;
 use crate::report::page::{Block, Command, Head, Page, Row, Table};
@@ -47,13 +47,15 @@ pub(super) fn page(record: &SceneRecord) -> Page {
         true => " L: the triangle's longest edge; M: the largest coordinate.",
         false => "",
     };
-    let has_no_t = |part: &SceneKernelPart| part.counts.iter().all(|it| it.kind != Kind::SelfHit);
+    let has_no_t =
+        |part: &SceneKernelPart| part.counts.iter().all(|it| it.kind != WrongKind::SelfHit);
     let no_t = if shown().any(has_no_t) { " (-: the kernel has no t)" } else { "" };
     blocks.push(Block::text(format!(
         "leaks: at shared edges or vertices; self-hits: of shadow rays{no_t}. Shares are of rays aimed there, not of your \
          pixels. cost: each share times its weight, false hits and almost parallel rays too.{forms}"
     )));
-    let answers: Vec<Answer> = record.kernels.iter().map(|part| answer(record, part)).collect();
+    let answers: Vec<KernelAnswer> =
+        record.kernels.iter().map(|part| answer(record, part)).collect();
     for (part, answer) in record.kernels.iter().zip(&answers) {
         blocks
             .push(Block::Details(answer.title.clone(), evidence::of_kernel(record, part, answer)));
@@ -90,7 +92,7 @@ fn ranked<'a>(record: &'a SceneRecord, scalar: &str) -> Vec<(Best<'a>, Vec<Best<
 }
 
 fn row(record: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
-    let cell = |is_of: fn(&Count) -> bool| {
+    let cell = |is_of: fn(&RayCount) -> bool| {
         let counts = part.counts.iter().zip(&best.wrong);
         let rates = counts.filter(|(count, _)| is_of(count));
         let worst = |a: &&Rate, b: &&Rate| a.rate.unwrap_or(0.0).total_cmp(&b.rate.unwrap_or(0.0));
@@ -98,9 +100,9 @@ fn row(record: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
     };
     let cells = [
         format!("{:.3}", best.cost),
-        cell(|count| count.kind == Kind::Crack),
+        cell(|count| count.kind == WrongKind::Crack),
         cell(is_lost),
-        cell(|count| count.kind == Kind::SelfHit),
+        cell(|count| count.kind == WrongKind::SelfHit),
         record.nanoseconds(part).map_or("-".to_owned(), |time| format!("{time:.0}")),
     ];
     let used = answer(record, part).used.into_iter().next();
@@ -115,7 +117,7 @@ fn row(record: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
 }
 
 /// True if a count is of hits inside triangles that are lost; of other sources of all hits that are.
-fn is_lost(count: &Count) -> bool {
+fn is_lost(count: &RayCount) -> bool {
     let inside = !matches!(count.rays, Rays::Stratum(stratum) if stratum != Stratum::Interior);
-    inside && count.kind == Kind::Miss
+    inside && count.kind == WrongKind::Miss
 }

@@ -1,6 +1,6 @@
 //! The versioned record of a study of a scene.
 
-pub(super) use crate::epsilon::{Count, Kind, Rays};
+pub(super) use crate::epsilon::{RayCount, Rays, WrongKind};
 pub(super) use crate::family::Stratum;
 use crate::report::record::{Provenance, Rate};
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ pub struct SceneRecord {
     /// The largest coordinate of a ray's start.
     pub reach: f64,
     /// The mesh that it is, if it is one.
-    pub mesh: Option<MeshPart>,
+    pub mesh: Option<MeshScenePart>,
     /// True if directions have unit length, so that t is a length.
     pub unit_directions: bool,
     /// The shortest and the longest longest edge of a triangle.
@@ -85,7 +85,7 @@ pub struct NamedNumber {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct MeshPart {
+pub struct MeshScenePart {
     /// The file, as it was named.
     pub path: String,
     /// The digest in case ids.
@@ -123,14 +123,14 @@ pub struct SceneKernelPart {
     /// The epsilons of the gates that are not chosen.
     pub others: BTreeMap<String, String>,
     /// The kinds of wrong answers that are counted.
-    pub counts: Vec<Count>,
+    pub counts: Vec<RayCount>,
     /// If errors are limited: whether 99 % of the hits that remain keep the limit with the recommended
     /// epsilons, in each kind of ray and with a confidence of 95 %. If they do not, none do.
     pub is_accurate: Option<bool>,
     /// The results of epsilons on fresh rays; the cheapest first.
     pub tried: Vec<TriedPart>,
     /// How far each knob may move while the others stay.
-    pub limits: Vec<LimitPart>,
+    pub limits: Vec<KnobLimitPart>,
     /// Values that are proved.
     pub proved: Vec<ProvedPart>,
     /// By knob: what each value does.
@@ -225,7 +225,7 @@ pub struct ErrorPart {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct LimitPart {
+pub struct KnobLimitPart {
     /// The knob's place.
     pub knob: usize,
     /// The count's place.

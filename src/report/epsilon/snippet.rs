@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 /// A language of kernels.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Language {
+pub(super) enum SnippetLanguage {
     C,
     Rust,
     Glsl,
@@ -17,7 +17,7 @@ pub(super) enum Language {
 /// Writes the numbers of each kernel as constants, each with the comparison that takes it.
 pub(super) fn write(
     record: &SceneRecord,
-    language: Language,
+    language: SnippetLanguage,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     for (i, part) in record.kernels.iter().enumerate() {
@@ -54,7 +54,7 @@ fn name(knob: &KnobPart) -> String {
 
 /// One number with its comparison, as the kernel's listing has it; with what it is multiplied by, if its form says.
 fn constant(
-    language: Language,
+    language: SnippetLanguage,
     scalar: &str,
     knob: &KnobPart,
     value: &str,
@@ -76,11 +76,11 @@ fn constant(
     let is_float = value.contains(['.', 'e', 'E']);
     let number = if is_float { value.to_owned() } else { format!("{value}.0") };
     let constant = match (language, scalar) {
-        (Language::C, "f32") => format!("static const float {name} = {number}f;"),
-        (Language::C, _) => format!("static const double {name} = {number};"),
-        (Language::Rust, scalar) => format!("const {name}: {scalar} = {number};"),
-        (Language::Glsl, "f32") => format!("const float {name} = {number};"),
-        (Language::Glsl, _) => format!("const double {name} = {number}lf;"),
+        (SnippetLanguage::C, "f32") => format!("static const float {name} = {number}f;"),
+        (SnippetLanguage::C, _) => format!("static const double {name} = {number};"),
+        (SnippetLanguage::Rust, scalar) => format!("const {name}: {scalar} = {number};"),
+        (SnippetLanguage::Glsl, "f32") => format!("const float {name} = {number};"),
+        (SnippetLanguage::Glsl, _) => format!("const double {name} = {number}lf;"),
     };
     format!("{constant}  // {comparison}")
 }
@@ -121,19 +121,19 @@ mod tests {
         let of = |language, scalar| constant(language, scalar, &knob, "5e-10", None);
         let comparison = "  // refuse where det > -PARALLEL_EPSILON && det < PARALLEL_EPSILON";
         assert_eq!(
-            of(Language::C, "f32"),
+            of(SnippetLanguage::C, "f32"),
             format!("static const float PARALLEL_EPSILON = 5e-10f;{comparison}")
         );
         assert_eq!(
-            of(Language::Rust, "f64"),
+            of(SnippetLanguage::Rust, "f64"),
             format!("const PARALLEL_EPSILON: f64 = 5e-10;{comparison}")
         );
         let form = "e * L^4".to_owned();
-        let text = constant(Language::C, "f32", &knob, "-2e-3", Some(&form));
+        let text = constant(SnippetLanguage::C, "f32", &knob, "-2e-3", Some(&form));
         assert!(text.ends_with("det < PARALLEL_EPSILON * L^4"), "{text}");
         let least =
             KnobPart { name: "t_min".to_owned(), is_gate: false, refuses: None, ..knob.clone() };
-        let text = constant(Language::Glsl, "f32", &least, "0", None);
+        let text = constant(SnippetLanguage::Glsl, "f32", &least, "0", None);
         assert_eq!(text, "const float T_MIN = 0.0;  // count a hit only where t >= T_MIN");
     }
 }

@@ -81,7 +81,7 @@ pub(super) fn of_given(record: &SceneRecord, part: &SceneKernelPart) -> Option<S
 /// The cost of all wrong answers but self-hits, which starts off the surface end too.
 fn cost_without_self_hits(record: &SceneRecord, part: &SceneKernelPart, tried: &TriedPart) -> f64 {
     let counts = part.counts.iter().zip(&tried.wrong);
-    let others = counts.filter(|(count, _)| count.kind != Kind::SelfHit);
+    let others = counts.filter(|(count, _)| count.kind != WrongKind::SelfHit);
     others.map(|(count, rate)| cost_of(record, count) * rate.rate.unwrap_or(0.0)).sum()
 }
 
@@ -114,7 +114,7 @@ fn trade(part: &SceneKernelPart, knob: usize) -> Option<String> {
     let conflict = part.conflicts.iter().find(|conflict| part.limits[conflict.lower].knob == knob);
     if let Some(ConflictPart { lower, upper, .. }) = conflict {
         let [lower, upper] = [lower, upper].map(|place| &part.limits[*place]);
-        let noun = |limit: &LimitPart| noun(&part.counts[limit.count]);
+        let noun = |limit: &KnobLimitPart| noun(&part.counts[limit.count]);
         return Some(match (&lower.value, &upper.value) {
             (None, _) => format!("no {name} ends {}", noun(lower)),
             (_, None) => format!("no {name} ends {}", noun(upper)),
@@ -130,7 +130,7 @@ fn trade(part: &SceneKernelPart, knob: usize) -> Option<String> {
 fn beyond_limits(part: &SceneKernelPart, knob: usize) -> Option<&str> {
     let epsilon = &part.tried[0].epsilons[knob];
     let chosen: f64 = epsilon.parse().ok()?;
-    let is_beyond = |limit: &LimitPart| {
+    let is_beyond = |limit: &KnobLimitPart| {
         // Past the far end of an unsure limit it is outside all the same.
         let end = if limit.is_unsure { &limit.far } else { &limit.value };
         let bound: Option<f64> = end.as_ref().and_then(|value| value.parse().ok());
@@ -149,7 +149,7 @@ fn remains(
     beside: Option<&TriedPart>,
     most: usize,
 ) -> Option<String> {
-    let of_count = |(place, (count, rate)): (usize, (&Count, &Rate))| {
+    let of_count = |(place, (count, rate)): (usize, (&RayCount, &Rate))| {
         let share_of = |rate: &Rate| rate.rate.filter(|_| 0 < rate.count);
         let more =
             share_of(rate)? - beside.and_then(|it| share_of(&it.wrong[place])).unwrap_or(0.0);
@@ -164,7 +164,7 @@ fn remains(
     (!words.is_empty()).then(|| words.join(", "))
 }
 
-fn cost_of(record: &SceneRecord, count: &Count) -> f64 {
+fn cost_of(record: &SceneRecord, count: &RayCount) -> f64 {
     record.costs.iter().find(|cost| cost.name == count.kind.name()).map_or(0.0, |cost| cost.number)
 }
 
@@ -190,12 +190,12 @@ pub(super) fn telling(record: &SceneRecord, part: &SceneKernelPart, most: usize)
 }
 
 /// `lost hits inside triangles`.
-fn noun(count: &Count) -> String {
+fn noun(count: &RayCount) -> String {
     let what = match count.kind {
-        Kind::Crack => "leaks",
-        Kind::Miss => "lost hits",
-        Kind::Hit => "false hits",
-        Kind::SelfHit => "self-hits",
+        WrongKind::Crack => "leaks",
+        WrongKind::Miss => "lost hits",
+        WrongKind::Hit => "false hits",
+        WrongKind::SelfHit => "self-hits",
     };
     let place = match count.rays {
         Rays::Stratum(Stratum::Edges) => "at shared edges",
@@ -204,7 +204,7 @@ fn noun(count: &Count) -> String {
         Rays::Stratum(Stratum::Parallel) => "of parallel rays",
         Rays::Stratum(Stratum::Shadow) => "of shadow rays",
         Rays::Stratum(Stratum::Outside) => "beside triangles",
-        Rays::Stratum(Stratum::Interior) if count.kind == Kind::Miss => "inside triangles",
+        Rays::Stratum(Stratum::Interior) if count.kind == WrongKind::Miss => "inside triangles",
         Rays::Stratum(Stratum::Interior) => "at the back",
         rays => return format!("{what} of {}", rays.name()),
     };
@@ -212,25 +212,25 @@ fn noun(count: &Count) -> String {
 }
 
 /// `2.9% of the shadow rays hit their own start`.
-fn phrase(count: &Count, share: &str) -> String {
+fn phrase(count: &RayCount, share: &str) -> String {
     let Rays::Stratum(stratum) = count.rays else {
         let [of, does] = match count.kind {
-            Kind::Miss => ["hits", "are lost"],
-            Kind::Hit => ["misses", "are false hits"],
-            Kind::Crack => ["crossings", "leak"],
-            Kind::SelfHit => ["rays", "hit their own start"],
+            WrongKind::Miss => ["hits", "are lost"],
+            WrongKind::Hit => ["misses", "are false hits"],
+            WrongKind::Crack => ["crossings", "leak"],
+            WrongKind::SelfHit => ["rays", "hit their own start"],
         };
         return format!("{share} of the {of} of {} {does}", count.rays.name());
     };
     let [of, does] = match (stratum, count.kind) {
         (Stratum::Edges, _) => ["rays at a shared edge", "leak"],
         (Stratum::Vertices, _) => ["rays at a shared vertex", "leak"],
-        (Stratum::Grazing, Kind::Miss) => ["almost parallel hits", "are lost"],
+        (Stratum::Grazing, WrongKind::Miss) => ["almost parallel hits", "are lost"],
         (Stratum::Grazing, _) => ["almost parallel rays", "hit falsely"],
         (Stratum::Parallel, _) => ["parallel rays", "hit falsely"],
         (Stratum::Shadow, _) => ["shadow rays", "hit their own start"],
         (Stratum::Outside, _) => ["rays beside a triangle", "hit it"],
-        (Stratum::Interior, Kind::Miss) => ["hits inside a triangle", "are lost"],
+        (Stratum::Interior, WrongKind::Miss) => ["hits inside a triangle", "are lost"],
         (Stratum::Interior, _) => ["rays at its back", "hit"],
     };
     format!("{share} of the {of} {does}")

@@ -2,7 +2,7 @@
 
 use super::record::*;
 use crate::arith::{Float, smallest_normal};
-use crate::case::Number;
+use crate::case::ShortNumber;
 use crate::kernel::Role;
 use crate::report::group_digits;
 use crate::report::record::Rate;
@@ -11,15 +11,15 @@ use crate::report::record::Rate;
 pub(super) const RAYS: &str = "rays: aimed from their rounded origin; ray=generated in --scene aims them before it is rounded";
 
 /// The name of a count.
-pub(super) fn label(count: &Count) -> String {
+pub(super) fn label(count: &RayCount) -> String {
     let what = match count.kind {
-        Kind::Miss => "hits lost",
-        Kind::Hit => "false hits",
-        Kind::Crack => "cracks",
-        Kind::SelfHit => "self-hits",
+        WrongKind::Miss => "hits lost",
+        WrongKind::Hit => "false hits",
+        WrongKind::Crack => "cracks",
+        WrongKind::SelfHit => "self-hits",
     };
     let place = match (count.rays, count.kind) {
-        (Rays::Stratum(Stratum::Interior), Kind::Miss) => "at a triangle",
+        (Rays::Stratum(Stratum::Interior), WrongKind::Miss) => "at a triangle",
         (Rays::Stratum(Stratum::Interior), _) => "at its back",
         (Rays::Stratum(Stratum::Edges), _) => "at a shared edge",
         (Rays::Stratum(Stratum::Vertices), _) => "at a shared vertex",
@@ -42,11 +42,13 @@ pub(super) fn where_of(rays: Rays) -> &'static str {
 }
 
 /// The property of the scene, not of the kernel, that sets a limit.
-pub(super) fn set_by(role: Role, count: Count) -> Option<&'static str> {
+pub(super) fn set_by(role: Role, count: RayCount) -> Option<&'static str> {
     let Rays::Stratum(stratum) = count.rays else { return None };
     match (role, stratum, count.kind) {
-        (Role::T, Stratum::Interior, Kind::Miss) => Some("the scene's distances"),
-        (Role::Parallel, Stratum::Interior, Kind::Miss) => Some("the scene's smallest triangles"),
+        (Role::T, Stratum::Interior, WrongKind::Miss) => Some("the scene's distances"),
+        (Role::Parallel, Stratum::Interior, WrongKind::Miss) => {
+            Some("the scene's smallest triangles")
+        }
         (Role::Parallel, Stratum::Grazing, _) => Some("how flat the almost parallel rays are"),
         _ => None,
     }
@@ -153,7 +155,8 @@ pub(super) fn meaning(
         ("edge", [length, _]) if 0 < length => {
             let share = value.abs() / record.edge[0].powi(i32::from(length));
             let size = human(&format!("{share:.0e}"));
-            let whose = format!("the smallest triangles (edge {}{unit})", Number(record.edge[0]));
+            let whose =
+                format!("the smallest triangles (edge {}{unit})", ShortNumber(record.edge[0]));
             Some(match (value < 0.0, 0.1 < share) {
                 (true, false) => {
                     format!("rays up to about {size} of their size beside {whose} hit them")
@@ -216,7 +219,7 @@ pub(super) fn bound(value: Option<&str>, is_lower: bool, unit: &str) -> String {
 }
 
 /// A limit from its safe end to its far one, or that it is unsure.
-pub(super) fn interval(limit: &LimitPart, unit: &str) -> String {
+pub(super) fn interval(limit: &KnobLimitPart, unit: &str) -> String {
     let safe = bound(limit.value.as_deref(), limit.is_lower, "");
     let Some(value) = &limit.value else { return safe };
     match (&limit.far, limit.is_unsure) {
@@ -248,7 +251,9 @@ pub(super) fn unit_of(record: &SceneRecord, knob: &KnobPart) -> String {
 pub(super) fn flatness(record: &SceneRecord) -> String {
     match record.sine {
         None => "from 7 degrees down to below rounding".to_owned(),
-        Some([low, high]) => format!("whose sines go from {} to {}", Number(low), Number(high)),
+        Some([low, high]) => {
+            format!("whose sines go from {} to {}", ShortNumber(low), ShortNumber(high))
+        }
     }
 }
 

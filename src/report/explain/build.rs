@@ -4,7 +4,7 @@ use super::advice::{advice, group_advice, of_line};
 use super::margin::margin_text;
 use super::nearest::nearest;
 use super::verdict::{Together, group_verdict, number, plain, short, verdict_of};
-use super::{Explanation, GatePart, InstancePart, RowPart, TogetherPart, TrianglePart};
+use super::{ExplainedGate, ExplainedRow, Explanation, InstancePart, TogetherPart, TrianglePart};
 use crate::arith::{Exact, Float};
 use crate::audit::{
     Attribution, Errors, Row, attribute, attribute_by_running, exact_severity, polygon_verdict,
@@ -165,7 +165,7 @@ fn polygon_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart
 }
 
 /// A verdict beside what is asked.
-fn answered<F>(owed: Obligation, verdict: &Verdict<F>, finding: Option<Finding>) -> RowPart {
+fn answered<F>(owed: Obligation, verdict: &Verdict<F>, finding: Option<Finding>) -> ExplainedRow {
     let said = match verdict.failure {
         Some(failure) => failure.to_string(),
         None => if verdict.hit { "hit" } else { "miss" }.to_owned(),
@@ -175,11 +175,11 @@ fn answered<F>(owed: Obligation, verdict: &Verdict<F>, finding: Option<Finding>)
         Obligation::MustMiss => "a miss",
         Obligation::Free => "nothing",
     };
-    RowPart { said, asked, finding: finding.map(Finding::name), ..RowPart::default() }
+    ExplainedRow { said, asked, finding: finding.map(Finding::name), ..ExplainedRow::default() }
 }
 
 /// The answer of a row, and all that explains it.
-fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> RowPart {
+fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> ExplainedRow {
     let (kernel, set) = (row.entry.info.name.to_owned(), row.set.clone());
     let contract = row.contract.describe();
     let Some(subject) = F::subject(row.entry) else {
@@ -187,7 +187,7 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> RowPart
         let others = others.filter(|(_, runs)| *runs).map(|(scalar, _)| scalar);
         let others = others.collect::<Vec<_>>().join(", ");
         let said = format!("does not run in {} (it does in {others})", F::NAME);
-        return RowPart { kernel, set, contract, said, ..RowPart::default() };
+        return ExplainedRow { kernel, set, contract, said, ..ExplainedRow::default() };
     };
     let truth = oracle::define(case).truth;
     let epsilons: Vec<F> = row.epsilons();
@@ -195,7 +195,7 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> RowPart
     let owed = asked(case, &truth, &row.contract, is_secondary);
     let gives = row.entry.info.gives;
     let finding = judge((&row.contract, owed), (case, &truth), gives, &verdict);
-    let mut part = RowPart { kernel, set, contract, ..answered(owed, &verdict, finding) };
+    let mut part = ExplainedRow { kernel, set, contract, ..answered(owed, &verdict, finding) };
     if verdict.failure.is_some() {
         return part;
     }
@@ -241,7 +241,7 @@ fn in_words(cause: Option<Attribution>, shows_gates: bool) -> &'static str {
 /// The epsilons that the kernel was given, where it does not show its gates, and the margins that runs at other
 /// epsilons find.
 fn add_epsilons<F: Scalar>(
-    part: &mut RowPart,
+    part: &mut ExplainedRow,
     case: &Case<F>,
     subject: &dyn Subject<F>,
     verdict: &Verdict<F>,
@@ -267,14 +267,14 @@ fn add_epsilons<F: Scalar>(
             Some(margin_text(&Exact::from_f64(margin.to_f64()), e, false))
         };
         let decides = !verdict.hit && margin.to_f64().is_finite() && margin < e;
-        part.gates.push(GatePart {
+        part.gates.push(ExplainedGate {
             gate: gate.name,
             refuses: gate.refuses,
             epsilon: Some(shortest(e)),
             margin: accepted,
             decision: decides.then_some("refuses"),
             decides,
-            ..GatePart::default()
+            ..ExplainedGate::default()
         });
     }
     let note = "it does not show its formula: no exact margins, no run without rounding";
@@ -283,7 +283,7 @@ fn add_epsilons<F: Scalar>(
 
 /// Each gate's margin, computed and exact, and what it decided.
 fn add_gates<F: Scalar>(
-    part: &mut RowPart,
+    part: &mut ExplainedRow,
     case: &Case<F>,
     gated: &dyn Gated<F>,
     verdict: &Verdict<F>,
@@ -303,7 +303,7 @@ fn add_gates<F: Scalar>(
             [shortest(e), computed, exact]
         });
         let [epsilon, computed, exact] = numbers.map_or([None, None, None], |all| all.map(Some));
-        part.gates.push(GatePart {
+        part.gates.push(ExplainedGate {
             gate: gate.name,
             refuses: gate.refuses,
             epsilon,

@@ -44,7 +44,7 @@ pub struct TrianglePart {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub instance: Option<InstancePart>,
     /// Every row.
-    pub rows: Vec<RowPart>,
+    pub rows: Vec<ExplainedRow>,
     /// The exact answer in words.
     #[serde(skip)]
     pub in_words: String,
@@ -71,7 +71,7 @@ pub struct InstancePart {
 
 /// The answer of a row on one triangle.
 #[derive(Debug, Default, Serialize)]
-pub struct RowPart {
+pub struct ExplainedRow {
     /// The kernel.
     pub kernel: String,
     /// The name of its epsilons.
@@ -85,7 +85,7 @@ pub struct RowPart {
     /// The contract.
     pub contract: String,
     /// Its gates, in the order of the test.
-    pub gates: Vec<GatePart>,
+    pub gates: Vec<ExplainedGate>,
     /// The verdict of the same formula without rounding.
     pub without_rounding: Option<&'static str>,
     /// The cause, if it is wrong.
@@ -100,7 +100,7 @@ pub struct RowPart {
 
 /// A gate of a row on one triangle.
 #[derive(Debug, Default, Serialize)]
-pub struct GatePart {
+pub struct ExplainedGate {
     /// Its name.
     pub gate: &'static str,
     /// Its comparison, `e` standing for the epsilon.
@@ -134,7 +134,7 @@ pub struct TogetherPart {
     pub is_wrong: bool,
 }
 
-impl RowPart {
+impl ExplainedRow {
     /// `kernel (epsilons)`.
     pub fn label(&self) -> String {
         format!("{} ({})", self.kernel, self.set)
@@ -151,7 +151,7 @@ impl RowPart {
     }
 
     /// The gate that made the verdict.
-    pub fn decisive(&self) -> Option<&GatePart> {
+    pub fn decisive(&self) -> Option<&ExplainedGate> {
         self.gates.iter().find(|gate| gate.decides)
     }
 }

@@ -17,7 +17,7 @@ const FEWEST_HITS: usize = 20;
 const SAME: f64 = 0.9;
 
 /// The answers of a formula beside a kernel's.
-struct Beside {
+struct FormulaBeside {
     row: Row,
     /// Hits of both.
     hits: usize,
@@ -57,7 +57,7 @@ pub(super) fn nearest<F: Scalar>(
             let values = |it: &Verdict<F>| if gives_uv { [it.t, it.u, it.v] } else { [it.t; 3] };
             values(one).map(Float::to_bits) == values(other).map(Float::to_bits)
         };
-        Some(Beside {
+        Some(FormulaBeside {
             row: other,
             hits: both().count(),
             same: both().filter(is_same).count(),
@@ -65,7 +65,7 @@ pub(super) fn nearest<F: Scalar>(
         })
     });
     let nearest = beside.max_by_key(|it| (it.same, it.agreed))?;
-    let Beside { hits, same, agreed, .. } = nearest;
+    let FormulaBeside { hits, same, agreed, .. } = nearest;
     if hits < FEWEST_HITS || (same as f64) < SAME * hits as f64 {
         return None;
     }

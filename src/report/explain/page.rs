@@ -2,7 +2,7 @@
 //! inputs.
 
 use super::verdict::{self, plain, short};
-use super::{Explanation, GatePart, InstancePart, RowPart, TogetherPart, TrianglePart};
+use super::{ExplainedGate, ExplainedRow, Explanation, InstancePart, TogetherPart, TrianglePart};
 use crate::report::listed;
 use crate::report::page::{Block, Cell, Head, Page, Paged, Row, Table, Tone};
 
@@ -60,7 +60,7 @@ impl Explanation {
             );
             return (text, 0 < wrong);
         }
-        let rows: Vec<&RowPart> =
+        let rows: Vec<&ExplainedRow> =
             self.triangles.iter().flat_map(|triangle| &triangle.rows).collect();
         if let [row] = rows[..] {
             let text = match row.said.starts_with("does not run") {
@@ -239,7 +239,7 @@ fn exact(triangle: &TrianglePart) -> String {
     if values.is_empty() { String::new() } else { format!("; {}", values.join(", ")) }
 }
 
-fn sentence(row: &RowPart) -> String {
+fn sentence(row: &ExplainedRow) -> String {
     match row.said.starts_with("does not run") {
         true => format!("{}: {}", row.label(), row.said),
         false => format!("{}: {}", row.label(), row.judged()),
@@ -247,7 +247,7 @@ fn sentence(row: &RowPart) -> String {
 }
 
 /// Why, what to do, and the gates.
-fn of_row(row: &RowPart, is_first: bool) -> Vec<Block> {
+fn of_row(row: &ExplainedRow, is_first: bool) -> Vec<Block> {
     let mut blocks = Vec::new();
     let finding = row.finding.unwrap_or_default();
     blocks.extend(row.why.iter().map(|why| Block::Text(format!("why the {finding}: {why}"))));
@@ -256,7 +256,7 @@ fn of_row(row: &RowPart, is_first: bool) -> Vec<Block> {
         blocks.push(Block::Notes(row.advice.clone()));
     }
     blocks.extend(row.notes.iter().cloned().map(Block::Text));
-    let is_shown = |gate: &GatePart| gate.margin.is_some() || gate.decision.is_some();
+    let is_shown = |gate: &ExplainedGate| gate.margin.is_some() || gate.decision.is_some();
     if row.gates.iter().any(is_shown) {
         blocks.push(Block::Table(gates(row, is_first)));
     } else if !row.gates.is_empty() {
@@ -277,7 +277,7 @@ fn of_row(row: &RowPart, is_first: bool) -> Vec<Block> {
 }
 
 /// The gates in the order of the test; the comparison of each below it.
-fn gates(row: &RowPart, is_first: bool) -> Table {
+fn gates(row: &ExplainedRow, is_first: bool) -> Table {
     let runs = row.gates.iter().all(|gate| gate.exact.is_none() && gate.exactly.is_none());
     let mut heads = vec![Head::of("gate")];
     heads.push(Head::of(if runs { "accepts up to e =" } else { "compares" }));
@@ -287,7 +287,7 @@ fn gates(row: &RowPart, is_first: bool) -> Table {
     heads.push(Head::of("e"));
     heads.push(Head::text("decision"));
     let text = |value: &Option<String>| value.as_deref().map_or("-".to_owned(), plain);
-    let table_row = |gate: &GatePart| {
+    let table_row = |gate: &ExplainedGate| {
         let mut decision = gate.decision.unwrap_or("-").to_owned();
         if gate.margin.as_deref().is_some_and(|margin| margin.ends_with("inf")) {
             decision += " at every e";
@@ -316,7 +316,7 @@ fn gates(row: &RowPart, is_first: bool) -> Table {
 }
 
 /// Many rows: the verdict of each, the gate that made it, and the cause.
-fn all_rows(rows: &[RowPart]) -> Table {
+fn all_rows(rows: &[ExplainedRow]) -> Table {
     let heads = vec![
         Head::of("kernel (epsilons)"),
         Head::text("says"),
@@ -324,7 +324,7 @@ fn all_rows(rows: &[RowPart]) -> Table {
         Head::text("decided by"),
         Head::text("cause"),
     ];
-    let row = |row: &RowPart| {
+    let row = |row: &ExplainedRow| {
         let judged = match (row.asked, row.finding) {
             ("", _) => "-".to_owned(),
             (_, Some(finding)) => finding.to_uppercase(),

@@ -1,10 +1,10 @@
 //! A few rows, each by itself: its contract and gates, and for each question its false misses, its false
 //! hits and what most of them come from.
 
-use super::columns::{Across, Column, far, short_percent};
+use super::columns::{AcrossColumn, Column, far, short_percent};
 use super::disagreement::is_shared_in_scene;
 use super::group_digits;
-use super::lines::{Line, column_legend};
+use super::lines::{RowLine, column_legend};
 use super::pool::Pool;
 use super::rate::percent;
 use super::record::*;
@@ -15,11 +15,11 @@ use crate::kernel::{self, Role};
 use crate::report::page::{Block, Cell, Head, Row, Table};
 
 /// Each row in all scalars.
-pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Block> {
+pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[RowLine]) -> Vec<Block> {
     let mut blocks = Vec::new();
     for part in &record.result.plan.rows {
         let of_part = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
-        let of_part: Vec<&Line> = of_part.collect();
+        let of_part: Vec<&RowLine> = of_part.collect();
         let Some(first) = of_part.first() else { continue };
         blocks.push(Block::Heading(format!("{}, contract: {}", first.label(), part.contract)));
         blocks.push(Block::Notes(gates(first)));
@@ -33,7 +33,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> Vec
     blocks.push(Block::Text(format!(
         "On cases chosen to be hard, % of those that must be hit, and missed{intervals}."
     )));
-    let has_other_causes = |line: &Line| {
+    let has_other_causes = |line: &RowLine| {
         let mut shares = [FindingKind::FalseMiss, FindingKind::FalseHit]
             .into_iter()
             .filter_map(|kind| cause_shares(of_kind(&line.row.results, kind)));
@@ -49,7 +49,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> Vec
 }
 
 /// The gates, a line each.
-fn gates(line: &Line) -> Vec<String> {
+fn gates(line: &RowLine) -> Vec<String> {
     let part = line.row.part;
     let gates = kernel::find(&part.kernel).map_or(&[][..], |entry| entry.info.gates);
     let gate = |(name, value): (&String, &String)| {
@@ -66,7 +66,7 @@ fn gates(line: &Line) -> Vec<String> {
 }
 
 /// A row of the table for each question, and a column for each scalar.
-fn table(columns: &[Column], lines: &[&Line]) -> Table {
+fn table(columns: &[Column], lines: &[&RowLine]) -> Table {
     let scalars = || lines.iter().map(|line| line.row.scalar);
     let mut heads = vec![Head::of(if lines.len() == 1 { lines[0].row.scalar } else { "cases" })];
     for what in ["false misses", "false hits"] {
@@ -83,8 +83,9 @@ fn table(columns: &[Column], lines: &[&Line]) -> Table {
 }
 
 /// The row of a question; none if it demands nothing.
-fn row(column: &Column, place: usize, lines: &[&Line]) -> Option<Row> {
-    let cells: Vec<&super::columns::Cell> = lines.iter().map(|line| &line.cells[place]).collect();
+fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
+    let cells: Vec<&super::columns::ColumnCell> =
+        lines.iter().map(|line| &line.cells[place]).collect();
     if cells.iter().all(|cell| cell.wrong.of == 0) {
         return None;
     }
@@ -134,7 +135,7 @@ fn row(column: &Column, place: usize, lines: &[&Line]) -> Option<Row> {
 
 /// The counts besides false misses and false hits, a line each; why no causes are told, and if the promise across triangles
 /// is kept.
-fn others(lines: &[&Line]) -> Vec<String> {
+fn others(lines: &[&RowLine]) -> Vec<String> {
     let is_alone = lines.len() == 1;
     let mut all = Vec::new();
     if lines.iter().any(|line| is_untold(line)) {
@@ -158,14 +159,14 @@ fn others(lines: &[&Line]) -> Vec<String> {
     }
     for line in lines {
         let lead = if is_alone { String::new() } else { format!("{}: ", line.row.scalar) };
-        let promised = line.across.as_ref().and_then(Across::promise);
+        let promised = line.across.as_ref().and_then(AcrossColumn::promise);
         all.extend(promised.map(|words| format!("{lead}promised across triangles: {words}")));
     }
     all
 }
 
 /// True if no cause of any finding could be told.
-fn is_untold(line: &Line) -> bool {
+fn is_untold(line: &RowLine) -> bool {
     let parts = line.row.results.iter().flat_map(|result| &result.findings);
     let mut causes = parts.filter_map(|part| part.causes.as_ref()).peekable();
     causes.peek().is_some()

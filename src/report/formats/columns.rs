@@ -13,13 +13,13 @@ use crate::vectors;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Column {
     kind: SceneKind,
-    topic: Topic,
+    topic: ColumnTopic,
     /// True if its sources are whole sets, which have counts, and no interval.
     pub(super) complete: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Topic {
+enum ColumnTopic {
     Families(Question),
     Mesh,
     Stored,
@@ -30,9 +30,9 @@ impl Column {
     fn of(family: &str, complete: bool) -> Column {
         let question = family_of(family).map(|family| family.question);
         let topic = match question.or_else(|| vectors::question_of(family)) {
-            Some(question) => Topic::Families(question),
-            None if is_of_mesh(family) => Topic::Mesh,
-            None => Topic::Stored,
+            Some(question) => ColumnTopic::Families(question),
+            None if is_of_mesh(family) => ColumnTopic::Mesh,
+            None => ColumnTopic::Stored,
         };
         Column { kind: kind_of(family), topic, complete }
     }
@@ -68,25 +68,25 @@ impl Column {
     /// Its head.
     pub(super) fn label(self) -> &'static str {
         match self.topic {
-            Topic::Families(Question::Grid) if self.complete => "lattice",
-            Topic::Families(question) => question.label(),
-            Topic::Mesh => "mesh",
-            Topic::Stored => "stored",
+            ColumnTopic::Families(Question::Grid) if self.complete => "lattice",
+            ColumnTopic::Families(question) => question.label(),
+            ColumnTopic::Mesh => "mesh",
+            ColumnTopic::Stored => "stored",
         }
     }
 
     /// The contents of the column, where its head does not say them.
     pub(super) fn about(self) -> &'static str {
         match self.topic {
-            Topic::Families(Question::Grid) if self.complete => "every case of the lattice",
-            Topic::Families(question) => question.about(),
-            Topic::Mesh | Topic::Stored => "",
+            ColumnTopic::Families(Question::Grid) if self.complete => "every case of the lattice",
+            ColumnTopic::Families(question) => question.about(),
+            ColumnTopic::Mesh | ColumnTopic::Stored => "",
         }
     }
 
     /// True if its cases are of sizes that occur.
     pub(super) fn is_ordinary(self) -> bool {
-        !matches!(self.topic, Topic::Families(question) if !question.is_ordinary())
+        !matches!(self.topic, ColumnTopic::Families(question) if !question.is_ordinary())
     }
 
     /// One row's results in it.
@@ -117,7 +117,7 @@ fn is_complete(sources: &[SourcePart], part: &KernelResult) -> bool {
 
 /// The verdicts of one row in one column.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Cell {
+pub(super) struct ColumnCell {
     /// False misses and false hits among the cases on which the contract demands a verdict.
     pub(super) wrong: Trials,
     /// Wrong verdicts that are off by [`FAR`] longest edges or more.
@@ -127,10 +127,10 @@ pub(super) struct Cell {
 /// A wrong verdict that can be seen: 2^-10 longest edges, about a thousandth.
 const FAR: i32 = -10;
 
-impl Cell {
+impl ColumnCell {
     /// The values of a row's hits, in the columns of ordinary sizes.
-    pub(super) fn of_values(columns: &[Column], row: &RowView) -> Cell {
-        let mut cell = Cell::default();
+    pub(super) fn of_values(columns: &[Column], row: &RowView) -> ColumnCell {
+        let mut cell = ColumnCell::default();
         for column in columns.iter().filter(|column| column.is_ordinary()) {
             for result in column.results(row) {
                 cell.wrong.merge(&result.total.wrong_values.trials());
@@ -141,8 +141,8 @@ impl Cell {
     }
 
     /// The sum of results.
-    pub(super) fn sum(results: &[&KernelResult]) -> Cell {
-        let mut cell = Cell::default();
+    pub(super) fn sum(results: &[&KernelResult]) -> ColumnCell {
+        let mut cell = ColumnCell::default();
         for result in results {
             if let (true, Some(across)) = (is_shared_in_scene(&result.family), &result.across) {
                 cell.wrong.merge(&across.cracks.trials());
@@ -178,7 +178,7 @@ pub(super) fn far(result: &KernelResult, kind: FindingKind) -> u64 {
 
 /// The outcomes of groups of triangles, for one row.
 #[derive(Clone, Debug)]
-pub(super) struct Across {
+pub(super) struct AcrossColumn {
     promised: Promised,
     /// Crossings without a hit: how many, of how many.
     pub(super) cracks: [u64; 2],
@@ -188,9 +188,9 @@ pub(super) struct Across {
     odd_folds: u64,
 }
 
-impl Across {
+impl AcrossColumn {
     /// The sum of a row's results of a kind of planes; none without a crossing.
-    pub(super) fn of(row: &RowView, kind: SceneKind) -> Option<Across> {
+    pub(super) fn of(row: &RowView, kind: SceneKind) -> Option<AcrossColumn> {
         let results = || row.results.iter().filter(|result| kind_of(&result.family) == kind);
         let parts = || results().filter_map(|result| result.across.as_ref());
         let sum = |rate: fn(&AcrossPart) -> &Rate| {
@@ -199,7 +199,7 @@ impl Across {
         let [cracks, doubles] = [sum(|part| &part.cracks), sum(|part| &part.doubles)];
         let odd_folds = sum(|part| &part.odd_folds)[0];
         let promised = parts().next()?.promised;
-        (0 < cracks[1]).then_some(Across { promised, cracks, doubles, odd_folds })
+        (0 < cracks[1]).then_some(AcrossColumn { promised, cracks, doubles, odd_folds })
     }
 
     /// True if the contract rules out cracks, and true if it rules out doubles.

@@ -2,7 +2,7 @@
 
 use super::columns::Column;
 use super::group_digits;
-use super::lines::Line;
+use super::lines::RowLine;
 use super::record::*;
 use super::worst::{cause, describe, severity};
 use crate::audit::Attribution;
@@ -11,12 +11,12 @@ use crate::report::page::{Block, Item};
 /// A class of findings, by its worst case.
 #[derive(Clone, Copy)]
 struct Extreme<'a> {
-    line: &'a Line<'a>,
+    line: &'a RowLine<'a>,
     part: &'a FindingPart,
 }
 
 /// A promise across triangles that was broken, and the worst verdicts in ordinary sizes; at most so many.
-pub(super) fn blocks(columns: &[Column], lines: &[Line], most: usize) -> Vec<Block> {
+pub(super) fn blocks(columns: &[Column], lines: &[RowLine], most: usize) -> Vec<Block> {
     let broken = lines.iter().find_map(|line| Some((line, broken_promise(line)?)));
     let worst = chosen(all(columns, lines), most - usize::from(broken.is_some()));
     let is_all = columns.iter().all(|column| column.is_ordinary());
@@ -41,7 +41,7 @@ pub(super) fn blocks(columns: &[Column], lines: &[Line], most: usize) -> Vec<Blo
 }
 
 /// The promise across triangles that a row broke, and the command that shows the first case.
-fn broken_promise(line: &Line) -> Option<(String, String)> {
+fn broken_promise(line: &RowLine) -> Option<(String, String)> {
     let across = line.across.as_ref().filter(|across| across.is_broken())?;
     let first = |ids: fn(&AcrossPart) -> &[String]| {
         let first = |result: &KernelResult| Some(ids(result.across.as_ref()?).first()?.clone());
@@ -60,7 +60,7 @@ fn broken_promise(line: &Line) -> Option<(String, String)> {
 
 /// The worst of each class of false misses, false hits and wrong values in ordinary sizes. A triangle without area may
 /// be a point, which has no edge to measure by.
-fn all<'a>(columns: &[Column], lines: &'a [Line<'a>]) -> Vec<Extreme<'a>> {
+fn all<'a>(columns: &[Column], lines: &'a [RowLine<'a>]) -> Vec<Extreme<'a>> {
     let mut all = Vec::new();
     for line in lines {
         for column in columns.iter().filter(|column| column.is_ordinary()) {

@@ -10,7 +10,7 @@ use std::io::{self, Write};
 
 /// One test.
 #[derive(Default)]
-struct Case {
+struct JunitCase {
     /// Heading and text of what failed.
     failures: Vec<(String, String)>,
     /// The faults that are known.
@@ -18,7 +18,7 @@ struct Case {
 }
 
 /// Tests by scalar with family, and kind of finding.
-type Suite = BTreeMap<(String, String), Case>;
+type Suite = BTreeMap<(String, String), JunitCase>;
 
 /// Writes the record.
 pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Result<()> {
@@ -63,7 +63,7 @@ pub(super) fn write_failure(code: u8, message: &str, out: &mut dyn Write) -> io:
     )
 }
 
-fn failures<'a>(cases: impl Iterator<Item = &'a Case>) -> usize {
+fn failures<'a>(cases: impl Iterator<Item = &'a JunitCase>) -> usize {
     cases.filter(|case| !case.failures.is_empty()).count()
 }
 
@@ -107,7 +107,7 @@ fn suites(record: &Record) -> BTreeMap<String, Suite> {
     suites
 }
 
-fn case_of<'a>(suites: &'a mut BTreeMap<String, Suite>, key: &Key) -> &'a mut Case {
+fn case_of<'a>(suites: &'a mut BTreeMap<String, Suite>, key: &Key) -> &'a mut JunitCase {
     let suite = suites.entry(key.row()).or_default();
     suite.entry((format!("{}.{}", key.scalar, key.family), key.finding.to_string())).or_default()
 }
@@ -121,7 +121,7 @@ fn write_case(
     suite: &str,
     place: &str,
     kind: &str,
-    case: &Case,
+    case: &JunitCase,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let (class_name, name) = (escaped(&format!("{suite}.{place}")), escaped(kind));

@@ -1,22 +1,22 @@
 //! The lines of the tables: rows with their cells; and notes on kernels.
 
-use super::columns::{Across, Cell, Column, kinds};
+use super::columns::{AcrossColumn, Column, ColumnCell, kinds};
 use super::group_digits;
 use super::record::*;
 use super::row_view::{RowView, cases_in};
 use crate::report::page::Block;
 
 /// One row in one scalar.
-pub(super) struct Line<'a> {
+pub(super) struct RowLine<'a> {
     pub(super) row: RowView<'a>,
     /// One a column.
-    pub(super) cells: Vec<Cell>,
+    pub(super) cells: Vec<ColumnCell>,
     /// The values of hits, in the columns of ordinary sizes.
-    pub(super) values: Cell,
-    pub(super) across: Option<Across>,
+    pub(super) values: ColumnCell,
+    pub(super) across: Option<AcrossColumn>,
 }
 
-impl Line<'_> {
+impl RowLine<'_> {
     /// `kernel (epsilons)`.
     pub(super) fn label(&self) -> String {
         format!("{} ({})", self.row.part.kernel, self.row.part.set)
@@ -24,14 +24,14 @@ impl Line<'_> {
 }
 
 /// Every row in every scalar that has cases.
-pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>> {
+pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<RowLine<'a>> {
     let own = kinds(record)[0];
     let in_scalar = |scalar: &'a String| {
         let rows = RowView::all(record, scalar).into_iter();
-        rows.map(move |row| Line {
-            cells: columns.iter().map(|column| Cell::sum(&column.results(&row))).collect(),
-            values: Cell::of_values(columns, &row),
-            across: Across::of(&row, own),
+        rows.map(move |row| RowLine {
+            cells: columns.iter().map(|column| ColumnCell::sum(&column.results(&row))).collect(),
+            values: ColumnCell::of_values(columns, &row),
+            across: AcrossColumn::of(&row, own),
             row,
         })
     };

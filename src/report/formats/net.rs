@@ -10,31 +10,31 @@ pub(super) const NET_TITLE: &str = "What changed, in cases";
 const MOST_FAMILIES: usize = 3;
 
 /// By finding and family, how many cases more than expected.
-type Findings<'a> = BTreeMap<FindingKind, BTreeMap<&'a str, i64>>;
+type NetFindings<'a> = BTreeMap<FindingKind, BTreeMap<&'a str, i64>>;
 
 /// A line for each row in a scalar, those that changed most first; none where rates were compared.
 pub(super) fn net_lines(conformance: &Conformance) -> Vec<String> {
     if conformance.method != Method::CaseByCase {
         return Vec::new();
     }
-    let mut rows: BTreeMap<String, Findings<'_>> = BTreeMap::new();
+    let mut rows: BTreeMap<String, NetFindings<'_>> = BTreeMap::new();
     for found in conformance.unexpected.iter().chain(&conformance.stale) {
         let Some(more) = more_than_expected(found) else { continue };
         let row = format!("{} {}", found.key().row(), found.scalar);
         let findings = rows.entry(row).or_default();
         *findings.entry(found.finding).or_default().entry(&found.family).or_default() += more;
     }
-    let mut rows: Vec<(String, Findings<'_>)> = rows.into_iter().collect();
+    let mut rows: Vec<(String, NetFindings<'_>)> = rows.into_iter().collect();
     for (_, findings) in &mut rows {
         findings.values_mut().for_each(|families| families.retain(|_, more| *more != 0));
         findings.retain(|_, families| !families.is_empty());
     }
     rows.retain(|(_, findings)| !findings.is_empty());
-    let size = |findings: &Findings<'_>| {
+    let size = |findings: &NetFindings<'_>| {
         findings.values().flat_map(BTreeMap::values).map(|more| more.unsigned_abs()).sum::<u64>()
     };
     rows.sort_by_cached_key(|(row, findings)| (u64::MAX - size(findings), row.clone()));
-    let line = |(row, findings): &(String, Findings<'_>)| {
+    let line = |(row, findings): &(String, NetFindings<'_>)| {
         let findings: Vec<String> = findings.iter().map(finding_words).collect();
         format!("{row}: {}", findings.join("; "))
     };

@@ -1,12 +1,12 @@
 //! The end of what `hairline audit` prints: the commands that lead on.
 
-use super::lines::Line;
+use super::lines::RowLine;
 use super::record::{Record, RowPart};
 use crate::kernel;
 use crate::report::page::Command;
 
 /// The commands.
-pub(super) fn commands(record: &Record, best: Option<&RowPart>, lines: &[Line]) -> Vec<Command> {
+pub(super) fn commands(record: &Record, best: Option<&RowPart>, lines: &[RowLine]) -> Vec<Command> {
     // The product of `verify` cannot be chosen by a flag.
     let all = best.into_iter().chain(lines.iter().map(|line| line.row.part));
     let mut rows: Vec<&RowPart> = all.filter(|row| !row.selector.is_empty()).collect();

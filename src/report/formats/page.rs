@@ -5,7 +5,7 @@ use super::kernel;
 use super::lines::lines;
 use super::record::*;
 use super::row_view::RowView;
-use super::{Record, Verdict, group_digits, number_of, ranking, screen, verdict};
+use super::{ComparisonVerdict, Record, group_digits, number_of, ranking, screen, verdict};
 use crate::report::page::{Block, Page, Paged, Tone};
 use std::collections::BTreeSet;
 
@@ -20,9 +20,9 @@ impl Paged for Record {
             Some(conformance) => {
                 let title = std::mem::replace(&mut page.title, capitalised(&conformance.summary()));
                 page.tone = match conformance.verdict {
-                    Verdict::Conforms => Tone::Good,
-                    Verdict::Disagreements | Verdict::Unsteady => Tone::Bad,
-                    Verdict::Stale => Tone::Stale,
+                    ComparisonVerdict::Conforms => Tone::Good,
+                    ComparisonVerdict::Disagreements | ComparisonVerdict::Unsteady => Tone::Bad,
+                    ComparisonVerdict::Stale => Tone::Stale,
                 };
                 page.command = "check";
                 page.blocks = verdict::blocks(self, conformance);

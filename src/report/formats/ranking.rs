@@ -1,7 +1,7 @@
 //! Every row on one line, the one that is visibly wrong least often first: the table of the screen, and its answer.
 
 use super::columns::{Column, short_percent};
-use super::lines::Line;
+use super::lines::RowLine;
 use super::record::*;
 use super::standing::{Standing, standings};
 use super::{alike, group_digits, listed};
@@ -122,7 +122,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
 }
 
 /// The same of one scalar alone.
-pub(super) fn of_scalar(record: &Record, columns: &[Column], lines: &[Line]) -> Block {
+pub(super) fn of_scalar(record: &Record, columns: &[Column], lines: &[RowLine]) -> Block {
     let scalar = lines[0].row.scalar;
     let standings = standings(record, columns, lines);
     let head = format!("{scalar} kernel");

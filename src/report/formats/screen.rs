@@ -1,15 +1,15 @@
 //! The screen of `hairline audit`: the answer, one table with the best row first, the worst finding, and what to do next.
 //! Everything else is behind `--details`.
 
-use super::columns::{Cell, Column, kinds, shared_in_scenes, short_percent};
+use super::columns::{Column, ColumnCell, kinds, shared_in_scenes, short_percent};
 use super::disagreement::family_of;
-use super::lines::{Line, notes};
+use super::lines::{RowLine, notes};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid};
 use super::standing::{Standing, standings};
 use super::{close_up, extremes, next, number_of, ranking};
 use crate::case::SceneKind;
-use crate::report::elsewhere::{self, Compared};
+use crate::report::elsewhere::{self, ComparedRates};
 use crate::report::page::Block;
 use crate::report::percent;
 
@@ -19,7 +19,11 @@ use std::collections::{BTreeMap, BTreeSet};
 const MOST_CLOSE_UPS: usize = 2;
 
 /// The answer, and everything below it on the screen.
-pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> (String, Vec<Block>) {
+pub(super) fn blocks(
+    record: &Record,
+    columns: &[Column],
+    lines: &[RowLine],
+) -> (String, Vec<Block>) {
     let standings = standings(record, columns, lines);
     let (title, rest) = answer(record, columns, &standings);
     let mut blocks = vec![Block::Text(rest), Block::Text(head(record))];
@@ -168,12 +172,12 @@ fn judged(record: &Record) -> u64 {
 }
 
 /// Which rows are more often wrong on planes, or with rays, of other kinds than the table's, and where most.
-fn of_elsewhere(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Block> {
+fn of_elsewhere(record: &Record, columns: &[Column], lines: &[RowLine]) -> Vec<Block> {
     let kinds = kinds(record);
-    let compared = |line: &Line, column: &Column| Compared {
+    let compared = |line: &RowLine, column: &Column| ComparedRates {
         label: format!("{}, {}: {}", line.label(), line.row.scalar, column.label()),
         rates: (kinds.iter())
-            .map(|kind| Cell::sum(&column.of_kind(*kind).results(&line.row)))
+            .map(|kind| ColumnCell::sum(&column.of_kind(*kind).results(&line.row)))
             .map(|cell| Rate::new(cell.wrong, true))
             .collect(),
     };

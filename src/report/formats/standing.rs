@@ -1,8 +1,8 @@
 //! How well each row did, in all scalars and in the columns of ordinary sizes.
 
-use super::columns::{Cell, Column};
+use super::columns::{Column, ColumnCell};
 use super::disagreement::{Key, disagreements, is_shared_in_scene};
-use super::lines::Line;
+use super::lines::RowLine;
 use super::record::*;
 use crate::audit::Trials;
 use std::collections::{BTreeMap, HashMap};
@@ -12,7 +12,7 @@ pub(super) struct Standing<'a> {
     /// The row.
     pub part: &'a RowPart,
     /// Its lines, one a scalar.
-    pub lines: Vec<&'a Line<'a>>,
+    pub lines: Vec<&'a RowLine<'a>>,
     /// The mean of the cells' shares; none if no case of ordinary size demands a verdict.
     pub share: Option<f64>,
     /// Wrong verdicts, in every kind of planes and rays.
@@ -44,8 +44,8 @@ impl Standing<'_> {
     }
 
     /// The trials in the scalar in which more are wrong.
-    pub fn worse(&self, of: impl Fn(&Line) -> Cell) -> Cell {
-        let share = |cell: &Cell| cell.wrong.share().unwrap_or(-1.0);
+    pub fn worse(&self, of: impl Fn(&RowLine) -> ColumnCell) -> ColumnCell {
+        let share = |cell: &ColumnCell| cell.wrong.share().unwrap_or(-1.0);
         let cells = self.lines.iter().map(|line| of(line));
         cells.max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or_default()
     }
@@ -53,8 +53,8 @@ impl Standing<'_> {
     /// True if another row was wrong exactly as often, in every column and scalar.
     pub fn is_like(&self, other: &Standing) -> bool {
         let count = |trials: &Trials| [trials.count, trials.of];
-        let cell = |cell: &Cell| (count(&cell.wrong), cell.far);
-        let numbers = |line: &&Line| {
+        let cell = |cell: &ColumnCell| (count(&cell.wrong), cell.far);
+        let numbers = |line: &&RowLine| {
             let cells: Vec<_> = line.cells.iter().map(cell).collect();
             let across = line.across.as_ref().map(|across| (across.cracks, across.doubles));
             (cells, cell(&line.values), across)
@@ -90,19 +90,19 @@ fn other_findings(record: &Record) -> Others {
 pub(super) fn standings<'a>(
     record: &'a Record,
     columns: &[Column],
-    lines: &'a [Line<'a>],
+    lines: &'a [RowLine<'a>],
 ) -> Vec<Standing<'a>> {
     let (everywhere, others) = (Column::in_all_kinds(record), other_findings(record));
-    let wrong_in = |columns: &[Column], line: &Line| -> u64 {
+    let wrong_in = |columns: &[Column], line: &RowLine| -> u64 {
         let columns = columns.iter().filter(|column| column.is_ordinary());
-        columns.map(|column| Cell::sum(&column.results(&line.row)).wrong.count).sum()
+        columns.map(|column| ColumnCell::sum(&column.results(&line.row)).wrong.count).sum()
     };
     // Stored cases stay out of the mean of samples.
     let all_complete = columns.iter().all(|column| column.complete);
     let of_row = |part: &'a RowPart| {
         let of_part = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
-        let lines: Vec<&Line> = of_part.collect();
-        let cells: Vec<(&Column, &Cell)> = lines
+        let lines: Vec<&RowLine> = of_part.collect();
+        let cells: Vec<(&Column, &ColumnCell)> = lines
             .iter()
             .flat_map(|line| columns.iter().zip(&line.cells))
             .filter(|(column, cell)| column.is_ordinary() && 0 < cell.wrong.of)

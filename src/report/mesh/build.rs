@@ -1,12 +1,12 @@
 //! From the sums of a mesh audit to its record.
 
-use super::drawing::{self, Drawing, DrawnRow};
+use super::drawing::{self, DrawnRow, MeshDrawing};
 use super::record::*;
 use crate::arith::Float;
-use crate::audit::mesh::{CLASSES, Found, Plan, RowFound, Tally};
+use crate::audit::mesh::{CLASSES, MeshFound, MeshPlan, MeshTally, RowFound};
 use crate::audit::{GroupCount, Row, Trials, quoted};
 use crate::corpus::mesh::Mesh;
-use crate::mesh::{Noted, Part, Surface, Targets, Topology};
+use crate::mesh::{AimedPart, Noted, Surface, Targets, Topology};
 use crate::report::build::{kernel_notes, provenance_of, row_part};
 use crate::report::{Context, Rate};
 use std::collections::BTreeMap;
@@ -17,8 +17,13 @@ const EDGES: [&str; 5] = ["shared", "open", "inconsistent", "non_manifold", "uns
 const VERTICES: [&str; 4] = ["closed_fan", "open_fan", "several_fans", "irregular"];
 
 /// Makes the report of a mesh audit.
-pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context) -> MeshReport {
-    let mut parts = Parts::default();
+pub fn build(
+    surface: &Surface,
+    plan: &MeshPlan,
+    found: &[MeshFound],
+    context: &Context,
+) -> MeshReport {
+    let mut parts = MeshParts::default();
     let mesh = surface.mesh();
     let mut provenance = provenance_of(context);
     provenance.kernel_notes = kernel_notes(&plan.rows);
@@ -50,25 +55,30 @@ pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context)
     };
     MeshReport {
         record: MeshRecord { schema: MESH_SCHEMA, result, provenance },
-        drawing: (0 < plan.places).then(|| Drawing::new(mesh, parts.rows)),
+        drawing: (0 < plan.places).then(|| MeshDrawing::new(mesh, parts.rows)),
     }
 }
 
 /// The sums to which every scalar adds.
 #[derive(Default)]
-struct Parts {
+struct MeshParts {
     scalars: Vec<ScalarPart>,
     rows: Vec<DrawnRow>,
 }
 
-fn add_scalar<F: Float>(surface: &Surface, plan: &Plan, found: &Found, parts: &mut Parts) {
+fn add_scalar<F: Float>(
+    surface: &Surface,
+    plan: &MeshPlan,
+    found: &MeshFound,
+    parts: &mut MeshParts,
+) {
     let parameters = plan.parameters();
     let (Some(targets), Some(topology)) =
         (surface.targets::<F>(&parameters, plan.seed), surface.topology::<F>())
     else {
         return;
     };
-    let builder = Builder::<F> { surface, plan, targets: &targets, scalar: PhantomData };
+    let builder = ReportBuilder::<F> { surface, plan, targets: &targets, scalar: PhantomData };
     let draw = |row| drawing::row::<F>(surface, &targets, topology, plan, row);
     parts.rows.extend(found.rows.iter().map(draw));
     parts.scalars.push(ScalarPart {
@@ -76,7 +86,7 @@ fn add_scalar<F: Float>(surface: &Surface, plan: &Plan, found: &Found, parts: &m
         topology: builder.topology(topology),
         spacing: F::from_f64(reach(surface.mesh())).ulp().to_f64(),
         smallest: smallest(surface.mesh()),
-        rays: Part::ALL.map(|part| targets.count(part) * plan.directions),
+        rays: AimedPart::ALL.map(|part| targets.count(part) * plan.directions),
         cases: found.cases,
         results: found.rows.iter().map(|row| builder.row(&plan.rows[row.row], row)).collect(),
     });
@@ -100,14 +110,14 @@ fn smallest(mesh: &Mesh) -> f64 {
     all.fold(f64::INFINITY, f64::min)
 }
 
-struct Builder<'a, F> {
+struct ReportBuilder<'a, F> {
     surface: &'a Surface,
-    plan: &'a Plan,
+    plan: &'a MeshPlan,
     targets: &'a Targets<'a>,
     scalar: PhantomData<F>,
 }
 
-impl<F: Float> Builder<'_, F> {
+impl<F: Float> ReportBuilder<'_, F> {
     fn points(&self, points: &[u32]) -> Vec<[f64; 3]> {
         points.iter().map(|point| self.targets.position::<F>(*point)).collect()
     }
@@ -149,7 +159,7 @@ impl<F: Float> Builder<'_, F> {
     }
 
     fn row(&self, row: &Row, found: &RowFound) -> MeshRowResult {
-        let part = |part: Part| {
+        let part = |part: AimedPart| {
             let number = part as usize;
             self.part(row, part, &found.tallies[number], found.cracked[number])
         };
@@ -157,12 +167,12 @@ impl<F: Float> Builder<'_, F> {
             kernel: row.entry.info.name.to_owned(),
             set: row.set.clone(),
             promised: row.contract.across.into(),
-            edges: part(Part::Edges),
-            vertices: part(Part::Vertices),
+            edges: part(AimedPart::Edges),
+            vertices: part(AimedPart::Vertices),
         }
     }
 
-    fn part(&self, row: &Row, part: Part, tally: &Tally, cracked: u64) -> MeshPartResult {
+    fn part(&self, row: &Row, part: AimedPart, tally: &MeshTally, cracked: u64) -> MeshPartResult {
         let class = |sums: &GroupCount| MeshClassResult {
             rates: rates(std::slice::from_ref(sums)),
             first_cracks: self.examples(row, part, &sums.first_cracks),
@@ -182,9 +192,9 @@ impl<F: Float> Builder<'_, F> {
         }
     }
 
-    fn examples(&self, row: &Row, part: Part, indices: &[u64]) -> Vec<MeshExample> {
+    fn examples(&self, row: &Row, part: AimedPart, indices: &[u64]) -> Vec<MeshExample> {
         let example = |index: &u64| {
-            let Plan { seed, .. } = *self.plan;
+            let MeshPlan { seed, .. } = *self.plan;
             let id = self.surface.id::<F>(part, &self.plan.parameters(), seed, *index).to_string();
             let (target, _) = self.targets.place(part, *index);
             let mesh = self.surface.mesh();

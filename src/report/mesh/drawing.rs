@@ -2,10 +2,10 @@
 //! and those places, each with the ray that shows it.
 
 use crate::arith::Float;
-use crate::audit::mesh::{Plan, RowFound, Wrong};
+use crate::audit::mesh::{MeshPlan, PlaceFault, RowFound};
 use crate::audit::quoted;
 use crate::corpus::mesh::Mesh;
-use crate::mesh::{Part, Surface, Targets, Topology};
+use crate::mesh::{AimedPart, Surface, Targets, Topology};
 use std::collections::{BTreeSet, HashMap};
 
 /// A mesh of at most so many triangles is drawn whole, with every place.
@@ -24,7 +24,7 @@ pub fn places(mesh: &Mesh) -> usize {
 
 /// The drawing of a mesh.
 #[derive(Debug, Default)]
-pub struct Drawing {
+pub struct MeshDrawing {
     /// True if it is the whole mesh.
     pub whole: bool,
     /// True if faces have lines in the file; else they are counted.
@@ -47,16 +47,16 @@ pub struct DrawnRow {
     /// By [`Part::ALL`]: what stands in a command before and after a ray's index.
     pub commands: [[String; 2]; 2],
     /// Cracks first; otherwise in no order, so that the first are spread over the mesh.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<MeshMark>,
 }
 
 /// A place where a row goes wrong.
 #[derive(Debug)]
-pub struct Mark {
+pub struct MeshMark {
     /// The fault.
-    pub wrong: Wrong,
+    pub wrong: PlaceFault,
     /// At an edge or a vertex.
-    pub part: Part,
+    pub part: AimedPart,
     /// Its two ends, or its vertex twice: vertices of the mesh at first, then points of the drawing.
     pub ends: [u32; 2],
     /// The lines of the faces around it, or their numbers.
@@ -74,12 +74,12 @@ pub(super) fn row<F: Float>(
     surface: &Surface,
     targets: &Targets,
     topology: &Topology,
-    plan: &Plan,
+    plan: &MeshPlan,
     found: &RowFound,
 ) -> DrawnRow {
     let mesh = surface.mesh();
     let mut marks = Vec::new();
-    for part in Part::ALL {
+    for part in AimedPart::ALL {
         for (order, target, seen) in found.tallies[part as usize].places.iter() {
             let (faces, points) =
                 (targets.faces(part, target as usize), targets.points(part, target as usize));
@@ -93,12 +93,12 @@ pub(super) fn row<F: Float>(
             }
             let ends = [points[0], points[points.len() - 1]];
             let (wrong, rays, index) = (order.0, seen.rays, seen.first);
-            marks.push((order, Mark { wrong, part, ends, lines, rays, index, around }));
+            marks.push((order, MeshMark { wrong, part, ends, lines, rays, index, around }));
         }
     }
     marks.sort_by_key(|(order, _)| *order);
     marks.truncate(plan.places);
-    let command = |part: Part| {
+    let command = |part: AimedPart| {
         let id = surface.id::<F>(part, &plan.parameters(), plan.seed, 0).to_string();
         let arguments = format!("{} --mesh {}", quoted(&id), quoted(surface.family().path()));
         let command = plan.rows[found.row].explain_command(&arguments);
@@ -107,12 +107,12 @@ pub(super) fn row<F: Float>(
         [format!("{before}{}", &id[..id.len() - 1]), after.to_owned()]
     };
     DrawnRow {
-        commands: Part::ALL.map(command),
+        commands: AimedPart::ALL.map(command),
         marks: marks.into_iter().map(|(_, mark)| mark).collect(),
     }
 }
 
-impl Drawing {
+impl MeshDrawing {
     /// The words before the numbers of faces.
     pub(super) fn faces(&self) -> &'static str {
         if self.has_lines { "faces at lines" } else { "faces" }
@@ -120,7 +120,7 @@ impl Drawing {
 
     /// The drawing of the rows' places on a mesh. Places whose triangles would be too many are left out, the last of
     /// every row first.
-    pub(super) fn new(mesh: &Mesh, mut rows: Vec<DrawnRow>) -> Drawing {
+    pub(super) fn new(mesh: &Mesh, mut rows: Vec<DrawnRow>) -> MeshDrawing {
         let whole = mesh.triangles.len() <= WHOLE;
         let faces: Vec<u32> = match whole {
             true => (0..mesh.triangles.len() as u32).collect(),
@@ -143,7 +143,7 @@ impl Drawing {
             vertices.iter().map(|vertex| mesh.positions_f64[*vertex as usize]).collect();
         let numbers = vertices.iter().map(|vertex| vertex + 1);
         let points = numbers.zip(drawn(&positions)).collect();
-        Drawing { whole, has_lines: mesh.has_lines, points, triangles, rows }
+        MeshDrawing { whole, has_lines: mesh.has_lines, points, triangles, rows }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The record of a mesh audit, versioned: `result` is the same bytes whatever the number of threads.
 
-use super::drawing::Drawing;
+use super::drawing::MeshDrawing;
 use crate::case::Matrix;
 use crate::report::{Promised, Provenance, Rate, RowPart};
 use serde::Serialize;
@@ -14,7 +14,7 @@ pub struct MeshReport {
     /// The record of the findings.
     pub record: MeshRecord,
     /// The drawing in a page, if the plan keeps places.
-    pub drawing: Option<Drawing>,
+    pub drawing: Option<MeshDrawing>,
 }
 
 /// Everything that a mesh audit found.

@@ -1,10 +1,10 @@
 //! The part of a page that shows where: the drawing with its controls, and the first places of each row. A script turns the
 //! mesh; without it the tables of places are what there is.
 
-use super::drawing::{AROUND, Drawing, Mark, PLACES};
+use super::drawing::{AROUND, MeshDrawing, MeshMark, PLACES};
 use super::record::*;
-use super::shown::{Shown, lines, shown};
-use crate::mesh::Part;
+use super::shown::{ShownRow, lines, shown};
+use crate::mesh::AimedPart;
 use crate::report::page::html::words::{code, shortened};
 use crate::report::page::{Block, Stage};
 use crate::report::{group_digits, number_of};
@@ -34,7 +34,7 @@ pub(super) fn block(report: &MeshReport) -> Option<Block> {
 }
 
 /// The drawing: a canvas for the script.
-fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
+fn drawing(result: &MeshResult, drawing: &MeshDrawing, rows: &[ShownRow]) -> Markup {
     let numbers = |values: &mut dyn Iterator<Item = i64>| {
         values.map(|value| value.to_string()).collect::<Vec<_>>().join(" ")
     };
@@ -43,7 +43,8 @@ fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
     let triangles = numbers(&mut drawing.triangles.iter().flat_map(|face| face.map(i64::from)));
     let kinds: Vec<usize> = (0..WRONG.len()).filter(|kind| has_kind(rows, *kind)).collect();
     // Drawn first: what breaks its promise, otherwise what leaks most.
-    let badness = |row: &Shown| (row.result.promise().is_some_and(|(_, kept)| !kept), row.marked);
+    let badness =
+        |row: &ShownRow| (row.result.promise().is_some_and(|(_, kept)| !kept), row.marked);
     let worst = (0..rows.len()).rev().max_by_key(|i| badness(&rows[*i])).unwrap_or(0);
     html! {
         h2 { "Where" }
@@ -99,17 +100,17 @@ fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
     }
 }
 
-fn has_kind(rows: &[Shown], kind: usize) -> bool {
+fn has_kind(rows: &[ShownRow], kind: usize) -> bool {
     let mut marks = rows.iter().flat_map(|row| &row.drawn.marks);
     marks.any(|mark| mark.wrong as usize == kind)
 }
 
 /// A row's first places, with its marks for the script.
-fn places(i: usize, drawing: &Drawing, row: &Shown) -> Markup {
+fn places(i: usize, drawing: &MeshDrawing, row: &ShownRow) -> Markup {
     let [edges, vertices] = &row.drawn.commands;
     let MeshRowResult { edges: at_edges, vertices: at_vertices, .. } = row.result;
-    let number = |mark: &Mark, end: usize| drawing.points[mark.ends[end] as usize].0;
-    let index = |part: Part| &row.drawn.commands[part as usize];
+    let number = |mark: &MeshMark, end: usize| drawing.points[mark.ends[end] as usize].0;
+    let index = |part: AimedPart| &row.drawn.commands[part as usize];
     html! {
         details.row id={ "r" (i) } data-marks=(row.marks) data-edges=(edges[0]) data-vertices=(vertices[0]) data-after=(edges[1]) {
             summary {
@@ -129,8 +130,8 @@ fn places(i: usize, drawing: &Drawing, row: &Shown) -> Markup {
                             @for mark in row.drawn.marks.iter().take(row.marked.min(LISTED)) {
                                 tr {
                                     th scope="row" { @match mark.part {
-                                        Part::Edges => { "edge " (number(mark, 0)) "–" (number(mark, 1)) },
-                                        Part::Vertices => { "vertex " (number(mark, 0)) },
+                                        AimedPart::Edges => { "edge " (number(mark, 0)) "–" (number(mark, 1)) },
+                                        AimedPart::Vertices => { "vertex " (number(mark, 0)) },
                                     } }
                                     td.text { span class={ "w" (mark.wrong as usize) } { (WRONG[mark.wrong as usize]) } }
                                     td { (mark.rays) }

@@ -17,7 +17,7 @@ pub(super) fn write(page: &Page, style: Style, out: &mut dyn Write) -> io::Resul
 
 /// The page in at most so many bytes, cut after a line, with a note of it.
 pub fn within(page: &Page, style: Style, limit: usize) -> String {
-    let mut writer = Writer { text: String::new(), style };
+    let mut writer = MarkdownWriter { text: String::new(), style };
     writer.page(page);
     let text = writer.text;
     if text.len() <= limit {
@@ -28,12 +28,12 @@ pub fn within(page: &Page, style: Style, limit: usize) -> String {
     format!("{}{REST}", &text[..end])
 }
 
-struct Writer {
+struct MarkdownWriter {
     text: String,
     style: Style,
 }
 
-impl Writer {
+impl MarkdownWriter {
     fn page(&mut self, page: &Page) {
         if !page.title.is_empty() {
             self.text += &format!("## {}\n", words(&page.title));

@@ -10,7 +10,7 @@ pub(super) fn write(page: &Page, style: Style, out: &mut dyn Write) -> io::Resul
     if !page.title.is_empty() {
         write_wrapped(&page.title, style.width, out)?;
     }
-    let mut writer = Writer { style, is_first: page.title.is_empty(), out };
+    let mut writer = TextWriter { style, is_first: page.title.is_empty(), out };
     writer.blocks(&page.blocks)?;
     let has_more = page.blocks.iter().any(|block| matches!(block, Block::Details(..)));
     if style.details || !has_more {
@@ -24,14 +24,14 @@ pub(super) fn write(page: &Page, style: Style, out: &mut dyn Write) -> io::Resul
     writeln!(out, "{lead} the same with --details, or --format html -o {}.html", page.command)
 }
 
-struct Writer<'a> {
+struct TextWriter<'a> {
     style: Style,
     /// True if nothing stands above.
     is_first: bool,
     out: &'a mut dyn Write,
 }
 
-impl Writer<'_> {
+impl TextWriter<'_> {
     fn blocks(&mut self, blocks: &[Block]) -> io::Result<()> {
         let mut after_heading = false;
         for block in blocks {

@@ -5,7 +5,7 @@ use super::meshes::Mesh;
 use super::rays::{Aim, Shot};
 use hairline::internals::audit::Unobserved;
 use hairline::internals::case::Case;
-use hairline::internals::epsilon::{Costs, Kind, study_scene};
+use hairline::internals::epsilon::{Costs, WrongKind, study_scene};
 use hairline::internals::family::Stratum;
 use hairline::internals::kernel::Scalar;
 
@@ -102,7 +102,8 @@ pub fn recommended<F: Scalar>(mesh: &Mesh, plane: &str, kernel: &str, count: u64
                 || aims.contains(count),
             "{count:?}"
         );
-        let price = if count.kind == Kind::Crack { price(Aim::Edge) } else { price(Aim::Inside) };
+        let price =
+            if count.kind == WrongKind::Crack { price(Aim::Edge) } else { price(Aim::Inside) };
         let is_counted =
             count.rays != hairline::internals::epsilon::Rays::Stratum(Stratum::Parallel);
         if is_counted { price * wrong.share().unwrap_or(0.0) } else { 0.0 }

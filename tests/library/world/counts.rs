@@ -7,7 +7,7 @@ use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Scene};
 use hairline::internals::corpus::mesh::read_obj;
 use hairline::internals::epsilon::{
-    Attempt, Count, Kind, Knob, Setting, contract_with, count_at, counts, own_epsilons,
+    Attempt, Knob, RayCount, Setting, WrongKind, contract_with, count_at, counts, own_epsilons,
 };
 use hairline::internals::family::{MeshFamily, Stratum};
 use hairline::internals::kernel::{Scalar, Verdict, find};
@@ -53,7 +53,7 @@ impl fmt::Display for Rate {
 pub struct Tuned {
     pub row: Row,
     pub knobs: Vec<Knob>,
-    pub counts: Vec<Count>,
+    pub counts: Vec<RayCount>,
 }
 
 impl Tuned {
@@ -68,7 +68,7 @@ impl Tuned {
     pub fn setting<'a, F: Scalar>(
         &'a self,
         scene: &'a Scene,
-        counts: &'a [Count],
+        counts: &'a [RayCount],
     ) -> Setting<'a, F> {
         Setting {
             row: &self.row,
@@ -129,17 +129,17 @@ impl Tuned {
 }
 
 /// What hairline calls it.
-pub fn count_of(aim: Aim) -> Count {
+pub fn count_of(aim: Aim) -> RayCount {
     let (stratum, kind) = match aim {
-        Aim::Inside => (Stratum::Interior, Kind::Miss),
-        Aim::Edge => (Stratum::Edges, Kind::Crack),
-        Aim::Vertex => (Stratum::Vertices, Kind::Crack),
-        Aim::Along => (Stratum::Grazing, Kind::Miss),
-        Aim::AlongBeside => (Stratum::Grazing, Kind::Hit),
-        Aim::Beside => (Stratum::Outside, Kind::Hit),
-        Aim::Leave => (Stratum::Shadow, Kind::SelfHit),
+        Aim::Inside => (Stratum::Interior, WrongKind::Miss),
+        Aim::Edge => (Stratum::Edges, WrongKind::Crack),
+        Aim::Vertex => (Stratum::Vertices, WrongKind::Crack),
+        Aim::Along => (Stratum::Grazing, WrongKind::Miss),
+        Aim::AlongBeside => (Stratum::Grazing, WrongKind::Hit),
+        Aim::Beside => (Stratum::Outside, WrongKind::Hit),
+        Aim::Leave => (Stratum::Shadow, WrongKind::SelfHit),
     };
-    Count { rays: hairline::internals::epsilon::Rays::Stratum(stratum), kind }
+    RayCount { rays: hairline::internals::epsilon::Rays::Stratum(stratum), kind }
 }
 
 /// The rays of an aim by where their planes lie.

@@ -9,7 +9,7 @@ use hairline::internals::arith::Float;
 use hairline::internals::audit::Unobserved;
 use hairline::internals::case::Scene;
 use hairline::internals::kernel::{Scalar, Verdict};
-use hairline::internals::spawn::{HitPoint, Plan, PointKind, Scheme, Start, run};
+use hairline::internals::spawn::{HitPoint, PointKind, Scheme, SpawnPlan, Start, run};
 use std::collections::BTreeMap;
 
 /// A hit point of the second world, and on which side of its triangle's plane the new ray is to start.
@@ -95,7 +95,7 @@ pub fn theirs<F: Scalar>(
     count: u64,
 ) -> Vec<Rate> {
     let row = &tuned.row;
-    let plan = Plan {
+    let plan = SpawnPlan {
         row,
         scene,
         mesh: None,

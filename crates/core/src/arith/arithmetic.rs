@@ -100,7 +100,7 @@ pub(super) fn smallest_normal<F: Float>() -> F {
 
 /// One rounded operation on floats.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Operation<F> {
+pub(super) enum RoundedOperation<F> {
     /// `a + b`.
     Sum(F, F),
     /// `a * b`.
@@ -113,16 +113,16 @@ pub(super) enum Operation<F> {
     Root(F),
 }
 
-impl<F: Float> Operation<F> {
+impl<F: Float> RoundedOperation<F> {
     /// The result.
     #[inline]
     pub fn run(self, arithmetic: Arithmetic) -> F {
         arithmetic.flush(match self {
-            Operation::Sum(a, b) => a + b,
-            Operation::Product(a, b) => a * b,
-            Operation::Fused(a, b, c) => a.mul_add(b, c),
-            Operation::Quotient(a, b) => a / b,
-            Operation::Root(a) => a.sqrt(),
+            RoundedOperation::Sum(a, b) => a + b,
+            RoundedOperation::Product(a, b) => a * b,
+            RoundedOperation::Fused(a, b, c) => a.mul_add(b, c),
+            RoundedOperation::Quotient(a, b) => a / b,
+            RoundedOperation::Root(a) => a.sqrt(),
         })
     }
 }

@@ -13,7 +13,7 @@
 //! x*y - z*w   = fma(x, y, -(z*w)),  x - y*z = fma(-y, z, x)
 //! ```
 
-use super::arithmetic::{Arithmetic, Operation};
+use super::arithmetic::{Arithmetic, RoundedOperation};
 use super::{Float, Real};
 
 /// A float of another machine.
@@ -63,19 +63,19 @@ impl<F: Float> Emulated<F> {
 
     /// The operation that `self + other` is.
     #[inline]
-    pub(super) fn operation_of_sum(&self, other: &Self) -> Operation<F> {
+    pub(super) fn operation_of_sum(&self, other: &Self) -> RoundedOperation<F> {
         match (self.factors, other.factors) {
-            (Some([a, b]), _) => Operation::Fused(a, b, other.value),
-            (None, Some([a, b])) => Operation::Fused(a, b, self.value),
-            (None, None) => Operation::Sum(self.value, other.value),
+            (Some([a, b]), _) => RoundedOperation::Fused(a, b, other.value),
+            (None, Some([a, b])) => RoundedOperation::Fused(a, b, self.value),
+            (None, None) => RoundedOperation::Sum(self.value, other.value),
         }
     }
 
     /// The result of an operation on two numbers.
     #[inline]
-    pub(super) fn made(operation: Operation<F>, arithmetic: Arithmetic) -> Self {
+    pub(super) fn made(operation: RoundedOperation<F>, arithmetic: Arithmetic) -> Self {
         let factors = match operation {
-            Operation::Product(a, b) if arithmetic.fused => Some([a, b]),
+            RoundedOperation::Product(a, b) if arithmetic.fused => Some([a, b]),
             _ => None,
         };
         Emulated { value: operation.run(arithmetic), factors, arithmetic }
@@ -98,13 +98,13 @@ impl<F: Float> Emulated<F> {
 
     #[inline(never)]
     fn product(&self, other: &Self) -> Self {
-        let operation = Operation::Product(self.value, other.value);
+        let operation = RoundedOperation::Product(self.value, other.value);
         Emulated::made(operation, self.arithmetic.and(other.arithmetic))
     }
 
     #[inline(never)]
     fn quotient(&self, other: &Self) -> Self {
-        let operation = Operation::Quotient(self.value, other.value);
+        let operation = RoundedOperation::Quotient(self.value, other.value);
         Emulated::made(operation, self.arithmetic.and(other.arithmetic))
     }
 }
@@ -122,7 +122,7 @@ impl<F: Float> Real for Emulated<F> {
         Emulated { value: self.value.abs(), ..self.clone() }
     }
     fn sqrt(&self) -> Self {
-        Emulated::made(Operation::Root(self.value), self.arithmetic)
+        Emulated::made(RoundedOperation::Root(self.value), self.arithmetic)
     }
     fn is_sign_negative(&self) -> bool {
         self.value.is_sign_negative()

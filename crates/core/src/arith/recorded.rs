@@ -112,12 +112,12 @@ pub struct Tape {
     script: Vec<bool>,
     fused: bool,
     /// As long as this is some, comparisons follow its script, and are no decisions of the path.
-    tried: Option<Tried>,
+    tried: Option<TriedPath>,
 }
 
 /// One way through the comparisons of a test.
 #[derive(Clone, Debug, Default)]
-struct Tried {
+struct TriedPath {
     script: Vec<bool>,
     made: Vec<(Comparison, bool)>,
 }
@@ -161,7 +161,7 @@ pub fn outcomes(most: usize, test: impl Fn() -> bool) -> Option<Vec<Outcome>> {
     let mut outcomes = Vec::new();
     let mut script = Some(Vec::new());
     while let Some(next) = script {
-        on_tape(|tape| tape.tried = Some(Tried { script: next, made: Vec::new() }));
+        on_tape(|tape| tape.tried = Some(TriedPath { script: next, made: Vec::new() }));
         let accepts = test();
         let answers = on_tape(|tape| tape.tried.take()).unwrap_or_default().made;
         script = next_script(&answers);
@@ -236,7 +236,7 @@ impl Recorded {
 
     fn ask(comparison: Comparison) -> bool {
         on_tape(|tape| {
-            if let Some(Tried { script, made }) = &mut tape.tried {
+            if let Some(TriedPath { script, made }) = &mut tape.tried {
                 if let Some((_, answer)) = made.iter().find(|(known, _)| *known == comparison) {
                     return *answer;
                 }

@@ -7,7 +7,7 @@
 //! numbers into a decision, so it adds their exceptions to the run's. Values that are computed but never
 //! compared, such as those of a hit, do not count.
 
-use super::arithmetic::{Arithmetic, Operation, smallest_normal};
+use super::arithmetic::{Arithmetic, RoundedOperation, smallest_normal};
 use super::{Emulated, Exact, Float, Real, decompose};
 use std::cell::Cell;
 use std::ops::BitOr;
@@ -92,7 +92,7 @@ impl<F: Float> Tracked<F> {
 
     /// The result of an operation. One on finite operands may raise exceptions; one on infinities
     /// and NaN, and a division by zero, is never inexact.
-    fn made(operation: Operation<F>, arithmetic: Arithmetic, earlier: Exceptions) -> Self {
+    fn made(operation: RoundedOperation<F>, arithmetic: Arithmetic, earlier: Exceptions) -> Self {
         let number = Emulated::made(operation, arithmetic);
         let raised = earlier | operation.raises(number.value());
         Tracked { number, raised, before: earlier }
@@ -122,13 +122,13 @@ impl<F: Float> Tracked<F> {
 
     #[inline(never)]
     fn product(&self, other: &Self) -> Self {
-        let operation = Operation::Product(self.value(), other.value());
+        let operation = RoundedOperation::Product(self.value(), other.value());
         Tracked::made(operation, self.arithmetic_with(other), self.raised | other.raised)
     }
 
     #[inline(never)]
     fn quotient(&self, other: &Self) -> Self {
-        let operation = Operation::Quotient(self.value(), other.value());
+        let operation = RoundedOperation::Quotient(self.value(), other.value());
         Tracked::made(operation, self.arithmetic_with(other), self.raised | other.raised)
     }
 
@@ -148,14 +148,16 @@ impl<F: Float> Tracked<F> {
     }
 }
 
-impl<F: Float> Operation<F> {
+impl<F: Float> RoundedOperation<F> {
     /// The exceptions of this operation alone, whose result this is.
     fn raises(self, result: F) -> Exceptions {
         let is_special = match self {
-            Operation::Sum(a, b) | Operation::Product(a, b) => !(a.is_finite() && b.is_finite()),
-            Operation::Fused(a, b, c) => !(a.is_finite() && b.is_finite() && c.is_finite()),
-            Operation::Quotient(a, b) => !(a.is_finite() && b.is_finite()) || b.is_zero(),
-            Operation::Root(a) => !a.is_finite() || a < F::zero(),
+            RoundedOperation::Sum(a, b) | RoundedOperation::Product(a, b) => {
+                !(a.is_finite() && b.is_finite())
+            }
+            RoundedOperation::Fused(a, b, c) => !(a.is_finite() && b.is_finite() && c.is_finite()),
+            RoundedOperation::Quotient(a, b) => !(a.is_finite() && b.is_finite()) || b.is_zero(),
+            RoundedOperation::Root(a) => !a.is_finite() || a < F::zero(),
         };
         if is_special {
             return Exceptions::default();
@@ -166,20 +168,20 @@ impl<F: Float> Operation<F> {
     /// True if the finite result of finite operands is not rounded.
     fn is_exact(self, result: F) -> bool {
         match self {
-            Operation::Sum(a, b) => {
+            RoundedOperation::Sum(a, b) => {
                 // Knuth's two-sum: the rounding error of a sum is a float. Where it overflows on the
                 // way it says inexact, which is the safe side.
                 let high = a + b;
                 let part = high - a;
                 high == result && ((a - (high - part)) + (b - part)).is_zero()
             }
-            Operation::Product(a, b) => is_product(result, a, b),
-            Operation::Fused(a, b, c) => {
+            RoundedOperation::Product(a, b) => is_product(result, a, b),
+            RoundedOperation::Fused(a, b, c) => {
                 let [a, b, c, result] = [a, b, c, result].map(|x| Exact::from_f64(x.to_f64()));
                 (a * b + c - result).is_zero()
             }
-            Operation::Quotient(a, b) => is_product(a, result, b),
-            Operation::Root(a) => is_product(a, result, result),
+            RoundedOperation::Quotient(a, b) => is_product(a, result, b),
+            RoundedOperation::Root(a) => is_product(a, result, result),
         }
     }
 }
@@ -204,7 +206,7 @@ impl<F: Float> Real for Tracked<F> {
         Tracked { number: self.number.abs(), ..*self }
     }
     fn sqrt(&self) -> Self {
-        Tracked::made(Operation::Root(self.value()), self.number.arithmetic(), self.raised)
+        Tracked::made(RoundedOperation::Root(self.value()), self.number.arithmetic(), self.raised)
     }
     fn is_sign_negative(&self) -> bool {
         self.note();

@@ -4,7 +4,7 @@
 use crate::arith::{Float, smallest_normal};
 use crate::suggest::nearest_name;
 pub use kinds::{PlaneKind, RayKind, SceneKind, Toward};
-pub use text::Number;
+pub use text::ShortNumber;
 use text::{Range, Sizes, extent_in, number, one_of, range, sizes};
 
 /// The sizes of a scene's rays and triangles, in the scene's own unit of length.
@@ -245,7 +245,7 @@ impl Scene {
             ));
         }
         if self.plane.is_near_zero() && self.center != 0.0 {
-            let (plane, center) = (self.plane.name(), Number(self.center));
+            let (plane, center) = (self.plane.name(), ShortNumber(self.center));
             return Err(format!(
                 "plane={plane}: such planes are at coordinate 0, not around center={center}"
             ));
@@ -288,7 +288,7 @@ impl Scene {
             return Err(format!(
                 "edge={}: the longest edge is at most the extent, {}",
                 Sizes(self.edge, self.median_edge),
-                Number(self.extent)
+                ShortNumber(self.extent)
             ));
         }
         Ok(())
@@ -300,7 +300,7 @@ impl Scene {
         if !F::from_f64(reach * reach * reach).is_finite() {
             return Err(format!(
                 "products of three lengths such as {} overflow in {}: use a larger unit of length",
-                Number(reach),
+                ShortNumber(reach),
                 F::NAME
             ));
         }
@@ -315,15 +315,15 @@ impl Scene {
         if shortest * shortest * F::EPSILON.to_f64() < smallest_normal::<F>() {
             return Err(format!(
                 "the areas of triangles of edge {} underflow in {name}: use a smaller unit of length",
-                Number(shortest)
+                ShortNumber(shortest)
             ));
         }
         let spacing = F::from_f64(self.largest()).ulp().to_f64();
         if shortest < 32.0 * spacing {
             return Err(format!(
                 "triangles of edge {} nearly collapse at coordinates of {}, where the numbers of {name} are {spacing:.1e} apart{}",
-                Number(shortest),
-                Number(self.largest()),
+                ShortNumber(shortest),
+                ShortNumber(self.largest()),
                 if F::NAME == f32::NAME {
                     ": use f64, or move the origin to the camera"
                 } else {

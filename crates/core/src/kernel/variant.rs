@@ -40,12 +40,12 @@ impl<K: Kernel> Variant<K> {
     }
 }
 
-type Numbers<F> = Triple<Emulated<F>>;
+type EmulatedVector<F> = Triple<Emulated<F>>;
 
 fn lift<F: Float>(
     case: &Case<F>,
     arithmetic: Arithmetic,
-) -> (Ray<Numbers<F>>, Triangle<Numbers<F>>) {
+) -> (Ray<EmulatedVector<F>>, Triangle<EmulatedVector<F>>) {
     case.lift(|x| Emulated::new(x, arithmetic))
 }
 
@@ -56,8 +56,8 @@ fn numbers<F: Float>(values: &[F], arithmetic: Arithmetic) -> Vec<Emulated<F>> {
 /// Not inlined, and one for both sinks: a kernel's code is large.
 #[inline(never)]
 fn test<F: Float, K: Kernel>(
-    ray: &Ray<Numbers<F>>,
-    triangle: &Triangle<Numbers<F>>,
+    ray: &Ray<EmulatedVector<F>>,
+    triangle: &Triangle<EmulatedVector<F>>,
     sink: &mut Either<&mut Deciding<Emulated<F>>, &mut Measuring<Emulated<F>>>,
 ) -> Option<Hit<Emulated<F>>> {
     K::test(&K::prepare(triangle), ray, sink)
@@ -90,7 +90,8 @@ impl<F: Float, K: Kernel> Subject<F> for Variant<K> {
             lift(&Case { ray: *ray, triangle }, self.arithmetic)
         };
         let Some((ray, _)) = vertices.first().map(lifted) else { return Verdict::miss(None) };
-        let vertices: Vec<Numbers<F>> = vertices.iter().map(|vertex| lifted(vertex).1.a).collect();
+        let vertices: Vec<EmulatedVector<F>> =
+            vertices.iter().map(|vertex| lifted(vertex).1.a).collect();
         let epsilons = numbers(epsilons, self.arithmetic);
         let mut sink = Deciding::new(&epsilons);
         let hit = K::test_polygon(&vertices, &ray, &mut sink);

@@ -1,7 +1,7 @@
 //! Many cases at once, as arrays of coordinates (columns) or as a slice of cases; either way the
 //! filter takes them in groups.
 
-use super::filter::{self, Code};
+use super::filter::{self, SignCode};
 use super::{Layer, Layers};
 use crate::arith::Float;
 use crate::case::Case;
@@ -138,12 +138,12 @@ impl<F: Float, C: Deref<Target = [F]>> Batch<C> {
 const GROUP: usize = 32;
 
 /// Cases that the filter can take in groups, however they are stored.
-pub(super) trait Stored<F: Float> {
+pub(super) trait StoredCases<F: Float> {
     fn count(&self) -> usize;
     /// One of them.
     fn get(&self, index: usize) -> Case<F>;
     /// The codes of a group.
-    fn codes(&self, group: usize) -> [Code; GROUP];
+    fn codes(&self, group: usize) -> [SignCode; GROUP];
     /// The layers behind the filter. They are compiled into each way of storing: a case that is handed
     /// over in memory is written in pieces that are not those in which it is read, which costs more than
     /// some of the layers.
@@ -162,8 +162,8 @@ pub(super) fn widened<F: Float>(case: &Case<F>) -> ([[f64; 3]; 5], [f64; 2]) {
 
 /// The codes of cases that are columns: a loop without a branch, over as many cases at a time as a vector holds.
 #[inline(always)]
-fn codes_of<F: Float>(vectors: [[&[F; GROUP]; 3]; 5], ends: [&[F; GROUP]; 2]) -> [Code; GROUP] {
-    let mut codes = [Code::NONE; GROUP];
+fn codes_of<F: Float>(vectors: [[&[F; GROUP]; 3]; 5], ends: [&[F; GROUP]; 2]) -> [SignCode; GROUP] {
+    let mut codes = [SignCode::NONE; GROUP];
     for (k, code) in codes.iter_mut().enumerate() {
         let at = |[x, y, z]: [&[F; GROUP]; 3]| [x[k].to_f64(), y[k].to_f64(), z[k].to_f64()];
         let [o, d, a, b, c] = vectors;
@@ -179,7 +179,7 @@ fn part<F>(column: &impl Deref<Target = [F]>, group: usize) -> &[F; GROUP] {
     &column.as_chunks::<GROUP>().0[group]
 }
 
-impl<F: Float> Stored<F> for [Case<F>] {
+impl<F: Float> StoredCases<F> for [Case<F>] {
     #[inline(always)]
     fn count(&self) -> usize {
         self.len()
@@ -189,8 +189,8 @@ impl<F: Float> Stored<F> for [Case<F>] {
         self[index]
     }
     #[inline(always)]
-    fn codes(&self, group: usize) -> [Code; GROUP] {
-        let mut codes = [Code::NONE; GROUP];
+    fn codes(&self, group: usize) -> [SignCode; GROUP] {
+        let mut codes = [SignCode::NONE; GROUP];
         for (code, case) in codes.iter_mut().zip(&self.as_chunks::<GROUP>().0[group]) {
             let (vectors, ends) = widened(case);
             *code = filter::compute(vectors).code(ends);
@@ -203,7 +203,7 @@ impl<F: Float> Stored<F> for [Case<F>] {
     }
 }
 
-impl<F: Float, C: Deref<Target = [F]>> Stored<F> for Batch<C> {
+impl<F: Float, C: Deref<Target = [F]>> StoredCases<F> for Batch<C> {
     #[inline(always)]
     fn count(&self) -> usize {
         self.len()
@@ -213,7 +213,7 @@ impl<F: Float, C: Deref<Target = [F]>> Stored<F> for Batch<C> {
         self.case(index)
     }
     #[inline(always)]
-    fn codes(&self, group: usize) -> [Code; GROUP] {
+    fn codes(&self, group: usize) -> [SignCode; GROUP] {
         let vectors =
             self.vectors.each_ref().map(|v| v.each_ref().map(|column| part(column, group)));
         codes_of(vectors, self.interval.each_ref().map(|column| part(column, group)))
@@ -227,7 +227,7 @@ impl<F: Float, C: Deref<Target = [F]>> Stored<F> for Batch<C> {
 /// The truths of stored cases, on the widest vectors that the machine has: the same operations in the same order, none
 /// fused, so that no bit changes.
 pub(super) fn decide_all<F: Float>(
-    cases: &(impl Stored<F> + ?Sized),
+    cases: &(impl StoredCases<F> + ?Sized),
     truths: &mut Vec<Truth>,
     layers: &mut Layers,
 ) {
@@ -244,7 +244,7 @@ pub(super) fn decide_all<F: Float>(
 /// In groups of [`GROUP`] and then one by one.
 #[inline(always)]
 fn decide_groups<F: Float>(
-    cases: &(impl Stored<F> + ?Sized),
+    cases: &(impl StoredCases<F> + ?Sized),
     truths: &mut Vec<Truth>,
     layers: &mut Layers,
 ) {
@@ -252,7 +252,7 @@ fn decide_groups<F: Float>(
     let count = cases.count();
     truths.reserve(count);
     let mut certain = 0;
-    let mut take = |code: Code, index: usize| {
+    let mut take = |code: SignCode, index: usize| {
         let past = || {
             let (vectors, ends) = widened(&cases.get(index));
             filter::compute(vectors).past(ends)

@@ -5,7 +5,7 @@
 //! one component s that does not vanish identically tells the side of each vertex. An edge whose
 //! ends have opposite s crosses the line at a point whose t is a fraction of the ends' values.
 
-use super::integer::{Integer, Interval, Number, Triple, cross};
+use super::integer::{ExactInteger, Integer, IntegerVector, RayInterval, cross};
 use crate::truth::{Contact, ContactKind, Feature};
 use std::cmp::Ordering;
 
@@ -42,10 +42,10 @@ impl<I: Integer> Touch<I> {
 /// The contact of the line with the triangle whose vertices, relative to the origin, are `r`. Either
 /// `n` is zero (no area) or the line lies in the triangle's plane, whose normal is `n`.
 pub(super) fn decide<I: Integer>(
-    interval: &Interval,
-    d: &Triple<I>,
-    r: [&Triple<I>; 3],
-    n: &Triple<I>,
+    interval: &RayInterval,
+    d: &IntegerVector<I>,
+    r: [&IntegerVector<I>; 3],
+    n: &IntegerVector<I>,
 ) -> Contact {
     let offsets = r.map(|r| cross(d, r));
     let touches = touches(d, r, &offsets, n);
@@ -109,14 +109,14 @@ impl<I> Touches<I> {
 }
 
 fn touches<I: Integer>(
-    d: &Triple<I>,
-    r: [&Triple<I>; 3],
-    offsets: &[Triple<I>; 3],
-    n: &Triple<I>,
+    d: &IntegerVector<I>,
+    r: [&IntegerVector<I>; 3],
+    offsets: &[IntegerVector<I>; 3],
+    n: &IntegerVector<I>,
 ) -> Touches<I> {
     // t of a point of the line is r_m / d_m for any m with d_m ≠ 0.
     let m = (0..3).find(|&m| !d[m].is_zero()).expect("a direction that is not zero");
-    let has_area = !n.iter().all(Number::is_zero);
+    let has_area = !n.iter().all(ExactInteger::is_zero);
     // In a plane one component of the offsets tells all; without one that differs, all vertices are
     // equally far from the line.
     let component = if has_area {
@@ -124,9 +124,9 @@ fn touches<I: Integer>(
     } else {
         (0..3).find(|&k| offsets[0][k] != offsets[1][k] || offsets[1][k] != offsets[2][k])
     };
-    let on_line = |offset: &Triple<I>| match (has_area, component) {
+    let on_line = |offset: &IntegerVector<I>| match (has_area, component) {
         (true, Some(k)) => offset[k].is_zero(),
-        _ => offset.iter().all(Number::is_zero),
+        _ => offset.iter().all(ExactInteger::is_zero),
     };
     let vertex = |i: usize| {
         on_line(&offsets[i]).then(|| Touch::new(r[i][m].clone(), d[m].clone(), VERTICES[i]))

@@ -1,6 +1,6 @@
 //! The contact of a ray with a triangle in whose plane it lies, from the sides of the vertices.
 
-use super::integer::Number;
+use super::integer::ExactInteger;
 use super::width::Width;
 use crate::truth::{Contact, ContactKind, Feature};
 use std::cmp::Ordering;
@@ -34,7 +34,7 @@ pub(super) fn coplanar_contact<W: Width>(
 
 /// Where a line in the plane meets the boundary of a triangle, and what that makes of the contact.
 #[derive(Clone, Copy)]
-struct Met {
+struct MetBoundary {
     /// The points, up to two: each lies between two vertices that are not on one side, at the first if
     /// that is on the line.
     between: [(usize, usize); 2],
@@ -44,11 +44,11 @@ struct Met {
 
 /// By the sides of the vertices: 9, 3 and 1 times 0, 1 or 2 for the negative side, the line and the
 /// positive side.
-const MET: [Met; 27] = {
+const MET: [MetBoundary; 27] = {
     const VERTICES: [Feature; 3] = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
     const EDGES: [Feature; 3] = [Feature::EdgeAb, Feature::EdgeBc, Feature::EdgeCa];
     let none = Contact { kind: ContactKind::None, meets_ray: false, meets_line: false };
-    let mut all = [Met { between: [(0, 0); 2], contacts: [none; 9] }; 27];
+    let mut all = [MetBoundary { between: [(0, 0); 2], contacts: [none; 9] }; 27];
     let mut sides = 0;
     while sides < 27 {
         let side = [sides / 9, sides / 3 % 3, sides % 3];

@@ -1,7 +1,7 @@
 //! The sign of one determinant where the filter is in doubt: double-double arithmetic with a bound,
 //! then `robust`'s adaptive predicate where its conditions hold, then the determinant multiplied out.
 
-use super::determinants::{Determinant, Point, rows};
+use super::determinants::{Determinant, FloatPoint, rows};
 use super::{Layer, monomials};
 use crate::case::Case;
 use robust::{Coord3D, orient3d};
@@ -106,7 +106,7 @@ fn double_double(determinant: Determinant, case: &Case<f64>) -> Option<Ordering>
     if largest > LARGEST {
         return None;
     }
-    let difference = |x: Point| [0, 1, 2].map(|i| two_sum(x[i], -base[i]));
+    let difference = |x: FloatPoint| [0, 1, 2].map(|i| two_sum(x[i], -base[i]));
     let (p, q) = (difference(p), difference(q));
     let first = match determinant {
         Determinant::T => difference(first),
@@ -133,7 +133,7 @@ const ROBUST_RANGE: u64 = 250;
 /// times such a product, is far above what underflow can add. Products of three sums stay below
 /// 2^760. Without the condition wrong signs begin at 2^-338 for points of full size, and earlier for points
 /// close together, because the extent counts.
-fn robust_holds(points: &[Point]) -> bool {
+fn robust_holds(points: &[FloatPoint]) -> bool {
     const LOW: f64 = f64::from_bits((1023 - ROBUST_RANGE) << 52);
     const HIGH: f64 = f64::from_bits((1023 + ROBUST_RANGE) << 52);
     points.as_flattened().iter().all(|x| *x == 0.0 || (LOW..=HIGH).contains(&x.abs()))
@@ -146,7 +146,7 @@ fn by_robust(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
     let points = if determinant == Determinant::T {
         [first, p, q, base]
     } else {
-        let exact = |x: Point| -> Option<Point> {
+        let exact = |x: FloatPoint| -> Option<FloatPoint> {
             let differences = [0, 1, 2].map(|i| two_sum(x[i], -base[i]));
             differences.iter().all(|x| x.low == 0.0).then(|| differences.map(|x| x.high))
         };

@@ -13,11 +13,14 @@ pub(super) enum Determinant {
     T,
 }
 
-pub(super) type Point = [f64; 3];
+pub(super) type FloatPoint = [f64; 3];
 
 /// The rows of a determinant first·(second × third): d or a point, and points from which a base is
 /// subtracted. D and the weights have d first.
-pub(super) fn rows(determinant: Determinant, case: &Case<f64>) -> (Point, Point, Point, Point) {
+pub(super) fn rows(
+    determinant: Determinant,
+    case: &Case<f64>,
+) -> (FloatPoint, FloatPoint, FloatPoint, FloatPoint) {
     let [o, d, a, b, c] = case.vectors();
     match determinant {
         Determinant::Weight(0) => (d, c, b, o),

@@ -22,7 +22,7 @@
 //! is certain. A zero direction makes every weight zero, which is never certain either.
 
 use super::determinants::Determinant;
-use super::signs::Signs;
+use super::signs::DecidingSigns;
 use crate::truth::Truth;
 use std::cmp::Ordering;
 
@@ -30,7 +30,7 @@ const U: f64 = f64::EPSILON / 2.0;
 /// More than underflow can add, relative to a vector's length: 2^-1000.
 const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
 
-type Vector = [f64; 3];
+type Floats = [f64; 3];
 
 /// The computed predicates of a case, with bounds of their errors.
 pub(super) struct Computed {
@@ -46,10 +46,10 @@ pub(super) struct Computed {
 
 /// The predicates of o, d, a, b and c. The code has no branch, so a loop over cases becomes vector instructions.
 #[inline(always)]
-pub(super) fn compute([o, direction, a, b, c]: [Vector; 5]) -> Computed {
-    let from_origin = |p: Vector| [p[0] - o[0], p[1] - o[1], p[2] - o[2]];
+pub(super) fn compute([o, direction, a, b, c]: [Floats; 5]) -> Computed {
+    let from_origin = |p: Floats| [p[0] - o[0], p[1] - o[1], p[2] - o[2]];
     let (a, b, c) = (from_origin(a), from_origin(b), from_origin(c));
-    let abs = |v: Vector| [v[0].abs(), v[1].abs(), v[2].abs()];
+    let abs = |v: Floats| [v[0].abs(), v[1].abs(), v[2].abs()];
     let (abs_a, abs_d) = (abs(a), abs(direction));
     let d_underflow = UNDERFLOW * (abs_d[0] + abs_d[1] + abs_d[2] + 1.0);
     let a_underflow = UNDERFLOW * (abs_a[0] + abs_a[1] + abs_a[2] + 1.0);
@@ -72,7 +72,7 @@ pub(super) fn compute([o, direction, a, b, c]: [Vector; 5]) -> Computed {
 /// The signs that are known of a case. The bits are that t > 0, that the line meets the triangle, that D < 0, that the
 /// case's interval is from 0 to infinity, and that all these signs are certain.
 #[derive(Clone, Copy)]
-pub(super) struct Code(u64);
+pub(super) struct SignCode(u64);
 
 const POSITIVE_T: u64 = 1;
 const INSIDE: u64 = 2;
@@ -81,8 +81,8 @@ const RAY: u64 = 8;
 const CERTAIN: u64 = 16;
 const CERTAIN_RAY: u64 = CERTAIN | RAY;
 
-impl Code {
-    pub const NONE: Code = Code(0);
+impl SignCode {
+    pub const NONE: SignCode = SignCode(0);
 
     /// The truth; `past` says whether t lies past each end of the interval, if that is certain.
     #[inline(always)]
@@ -97,10 +97,10 @@ impl Code {
 
     /// The truth of a certain case.
     const fn on(self, past_min: bool, before_max: bool) -> Truth {
-        let Code(code) = self;
+        let SignCode(code) = self;
         let (front, inside, positive) =
             (code & FRONT != 0, code & INSIDE != 0, code & POSITIVE_T != 0);
-        Signs::certain(front, inside, positive, past_min, before_max)
+        DecidingSigns::certain(front, inside, positive, past_min, before_max)
     }
 }
 
@@ -109,7 +109,7 @@ const OF_A_RAY: [Truth; 8] = {
     let mut truths = [Truth::Invalid; 8];
     let mut code = 0;
     while code < 8 {
-        truths[code] = Code(code as u64).on(code as u64 & POSITIVE_T != 0, true);
+        truths[code] = SignCode(code as u64).on(code as u64 & POSITIVE_T != 0, true);
         code += 1;
     }
     truths
@@ -138,7 +138,7 @@ impl Computed {
 
     /// All signs at once, without a branch.
     #[inline(always)]
-    pub fn code(&self, [t_min, t_max]: [f64; 2]) -> Code {
+    pub fn code(&self, [t_min, t_max]: [f64; 2]) -> SignCode {
         let ([u, v, w], [u_error, v_error, w_error]) = (self.weights, self.weight_errors);
         let (t, d) = (self.t, self.d);
         let front = d < 0.0;
@@ -154,7 +154,7 @@ impl Computed {
         let ray = (t_min == 0.0) & (t_max == f64::INFINITY);
         let positive_t = (t < 0.0) == front;
         let bit = |is_set: bool, bit: u64| u64::from(is_set) * bit;
-        Code(
+        SignCode(
             bit(certain, CERTAIN)
                 | bit(ray, RAY)
                 | bit(front, FRONT)
@@ -181,13 +181,13 @@ fn is_past(end: f64, (t, t_error): (f64, f64), (d, d_error): (f64, f64)) -> Opti
 }
 
 #[inline(always)]
-fn dot(a: &Vector, b: &Vector) -> f64 {
+fn dot(a: &Floats, b: &Floats) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The cross product and its permanents.
 #[inline(always)]
-fn cross(a: &Vector, b: &Vector) -> (Vector, Vector) {
+fn cross(a: &Floats, b: &Floats) -> (Floats, Floats) {
     let (p0, q0) = (a[1] * b[2], a[2] * b[1]);
     let (p1, q1) = (a[2] * b[0], a[0] * b[2]);
     let (p2, q2) = (a[0] * b[1], a[1] * b[0]);

@@ -4,8 +4,8 @@
 //! other.
 
 use super::coplanar::coplanar_contact;
-use super::integer::{Interval, Number};
-use super::signs::Signs;
+use super::integer::{ExactInteger, RayInterval};
+use super::signs::DecidingSigns;
 use super::width::Width;
 use crate::case::Case;
 use crate::truth::Truth;
@@ -30,14 +30,14 @@ pub(super) fn decide<W: Width>(case: &Case<f64>) -> Option<Truth> {
     let normal = [0, 1, 2].map(|i| bc[i] + ca[i] + ab[i]);
     let capital_d = wide_dot::<W>(d, normal);
     let capital_t = wide_dot::<W>(a, bc);
-    let interval = Interval::new(case, p - q);
+    let interval = RayInterval::new(case, p - q);
     if capital_d.is_zero() {
         return Some(flat::<W>(&interval, d, [a, b, c], normal, capital_t));
     }
     // The negated weights, whose sum is D.
     let (u, v) = (wide_dot::<W>(d, bc), wide_dot::<W>(d, ca));
     let weights = [u, v, capital_d - u - v];
-    let signs = Signs {
+    let signs = DecidingSigns {
         d: capital_d.sign(),
         weights: weights.map(|x| x.sign().reverse()),
         t: capital_t.sign(),
@@ -50,13 +50,13 @@ pub(super) fn decide<W: Width>(case: &Case<f64>) -> Option<Truth> {
 /// Lines parallel to the plane, and triangles without area.
 #[inline(never)]
 fn flat<W: Width>(
-    interval: &Interval,
+    interval: &RayInterval,
     d: [i64; 3],
     vertices: [[i64; 3]; 3],
     n: [W::Minor; 3],
     capital_t: W::Determinant,
 ) -> Truth {
-    let degenerate = n.iter().all(Number::is_zero);
+    let degenerate = n.iter().all(ExactInteger::is_zero);
     if !degenerate && !capital_t.is_zero() {
         return Truth::Parallel;
     }

@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// An exact integer of some width.
-pub trait Number {
+pub trait ExactInteger {
     /// In any size.
     fn big(&self) -> BigInt;
     /// Less, equal or greater than zero.
@@ -20,7 +20,7 @@ pub trait Number {
     }
 }
 
-impl Number for i64 {
+impl ExactInteger for i64 {
     fn big(&self) -> BigInt {
         BigInt::from(*self)
     }
@@ -30,7 +30,7 @@ impl Number for i64 {
     }
 }
 
-impl Number for i128 {
+impl ExactInteger for i128 {
     fn big(&self) -> BigInt {
         BigInt::from(*self)
     }
@@ -40,7 +40,7 @@ impl Number for i128 {
     }
 }
 
-impl Number for BigInt {
+impl ExactInteger for BigInt {
     fn big(&self) -> BigInt {
         self.clone()
     }
@@ -51,7 +51,7 @@ impl Number for BigInt {
 
 /// A [`Number`] that computes: `i128` or `BigInt`.
 pub trait Integer:
-    Number
+    ExactInteger
     + Clone
     + Ord
     + Neg<Output = Self>
@@ -84,19 +84,19 @@ impl Integer for BigInt {
 }
 
 /// An integer vector.
-pub type Triple<I> = [I; 3];
+pub type IntegerVector<I> = [I; 3];
 
 /// The interval of a case whose t = numerator / denominator carries a power of two.
-pub(super) struct Interval {
+pub(super) struct RayInterval {
     t_min: f64,
     t_max: f64,
     exponent: i64,
 }
 
-impl Interval {
+impl RayInterval {
     /// With t = numerator / denominator * 2^exponent.
-    pub fn new(case: &Case<f64>, exponent: i64) -> Interval {
-        Interval { t_min: case.ray.t_min, t_max: case.ray.t_max, exponent }
+    pub fn new(case: &Case<f64>, exponent: i64) -> RayInterval {
+        RayInterval { t_min: case.ray.t_min, t_max: case.ray.t_max, exponent }
     }
 
     /// True if the interval is `[0, +inf]`.
@@ -110,17 +110,17 @@ impl Interval {
     }
 
     /// The sign of t - t_min; the denominator is not zero.
-    pub fn compare_start<I: Number>(&self, numerator: &I, denominator: &I) -> Ordering {
+    pub fn compare_start<I: ExactInteger>(&self, numerator: &I, denominator: &I) -> Ordering {
         self.compare(numerator, denominator, self.t_min)
     }
 
     /// The sign of t - t_max; the denominator is not zero.
-    pub fn compare_end<I: Number>(&self, numerator: &I, denominator: &I) -> Ordering {
+    pub fn compare_end<I: ExactInteger>(&self, numerator: &I, denominator: &I) -> Ordering {
         self.compare(numerator, denominator, self.t_max)
     }
 
     #[inline]
-    fn compare<I: Number>(&self, numerator: &I, denominator: &I, end: f64) -> Ordering {
+    fn compare<I: ExactInteger>(&self, numerator: &I, denominator: &I, end: f64) -> Ordering {
         let negative = denominator.sign() == Ordering::Less;
         let relative = |sign: Ordering| if negative { sign.reverse() } else { sign };
         if end == 0.0 {
@@ -142,7 +142,7 @@ impl Interval {
 }
 
 /// Points as integers on a common grid, and the grid's exponent.
-pub fn align<const N: usize>(points: [[f64; 3]; N]) -> ([Triple<BigInt>; N], i64) {
+pub fn align<const N: usize>(points: [[f64; 3]; N]) -> ([IntegerVector<BigInt>; N], i64) {
     let parts = points.map(|point| point.map(decompose));
     let nonzero = parts.iter().flatten().filter(|(digits, _)| *digits != 0);
     let grid = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);
@@ -153,15 +153,15 @@ pub fn align<const N: usize>(points: [[f64; 3]; N]) -> ([Triple<BigInt>; N], i64
     (parts.map(|point| point.map(integer)), grid)
 }
 
-pub fn minus<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> Triple<I> {
+pub fn minus<I: Integer>(a: &IntegerVector<I>, b: &IntegerVector<I>) -> IntegerVector<I> {
     std::array::from_fn(|i| a[i].clone() - &b[i])
 }
 
-pub fn dot<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> I {
+pub fn dot<I: Integer>(a: &IntegerVector<I>, b: &IntegerVector<I>) -> I {
     a[0].clone() * &b[0] + &(a[1].clone() * &b[1]) + &(a[2].clone() * &b[2])
 }
 
-pub fn cross<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> Triple<I> {
+pub fn cross<I: Integer>(a: &IntegerVector<I>, b: &IntegerVector<I>) -> IntegerVector<I> {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         I::minor(&a[j], &b[k], &a[k], &b[j])
@@ -177,7 +177,7 @@ mod tests {
         let case = Case::<f64>::new([0.0; 3], [1.0; 3], [[0.0; 3]; 3]);
         // 3·2^exponent / -6 on [-4, -2].
         let order = |exponent: i64| {
-            let interval = Interval::new(&case.on(-4.0, -2.0), exponent);
+            let interval = RayInterval::new(&case.on(-4.0, -2.0), exponent);
             (interval.compare_start(&3i128, &-6), interval.compare_end(&3i128, &-6))
         };
         assert_eq!(order(1), (Ordering::Greater, Ordering::Greater));
@@ -186,14 +186,14 @@ mod tests {
         assert_eq!(order(4), (Ordering::Less, Ordering::Less));
         // Also of a t beyond every float.
         for exponent in [0, 2000] {
-            let all = Interval::new(&case.on(f64::NEG_INFINITY, f64::INFINITY), exponent);
+            let all = RayInterval::new(&case.on(f64::NEG_INFINITY, f64::INFINITY), exponent);
             for denominator in [1, -1] {
                 assert_eq!(all.compare_start(&1i128, &denominator), Ordering::Greater);
                 assert_eq!(all.compare_end(&1i128, &denominator), Ordering::Less);
             }
         }
         let kinds = |low: f64, high: f64| {
-            let interval = Interval::new(&case.on(low, high), 0);
+            let interval = RayInterval::new(&case.on(low, high), 0);
             (interval.is_default(), interval.is_point())
         };
         assert_eq!(kinds(0.0, f64::INFINITY), (true, false));

@@ -7,8 +7,8 @@
 //! out, o×o is gone, what is left are 18 products (24 in T) whose exponents mostly lie far apart, and
 //! the largest decides.
 
-use super::determinants::{Determinant, Point, rows};
-use super::sum::{Product, sign_of_sum};
+use super::determinants::{Determinant, FloatPoint, rows};
+use super::sum::{ExactProduct, sign_of_sum};
 use crate::case::Case;
 use std::cmp::Ordering;
 
@@ -32,12 +32,13 @@ fn sign_of<const N: usize>(sum: &[(Determinant, f64)], case: &Case<f64>) -> Orde
 /// The same sign, exactly, whatever cancels.
 #[inline(never)]
 fn exactly<const N: usize>(sum: &[(Determinant, f64)], case: &Case<f64>) -> Ordering {
-    let (products, count) = multiplied_out::<_, N>(sum, case, Product::ZERO, |factors| Product {
-        // Digits times 2^52 are whole numbers of 53 bits. So each product is 2^208 times too large, all alike:
-        // the sign stays.
-        factors: factors.map(|factor| (factor.digits * (1u64 << 52) as f64) as i64),
-        exponent: factors.iter().map(|factor| factor.exponent).sum(),
-    });
+    let (products, count) =
+        multiplied_out::<_, N>(sum, case, ExactProduct::ZERO, |factors| ExactProduct {
+            // Digits times 2^52 are whole numbers of 53 bits. So each product is 2^208 times too large, all alike:
+            // the sign stays.
+            factors: factors.map(|factor| (factor.digits * (1u64 << 52) as f64) as i64),
+            exponent: factors.iter().map(|factor| factor.exponent).sum(),
+        });
     sign_of_sum(&products[..count])
 }
 
@@ -52,7 +53,7 @@ fn multiplied_out<P: Copy, const N: usize>(
     let (mut products, mut count) = ([zero; N], 0);
     for (determinant, by) in sum {
         let (first, p, q, base) = rows(*determinant, case);
-        let [first, p, q, base] = [first, p, q, base].map(|v: Point| v.map(Extended::of));
+        let [first, p, q, base] = [first, p, q, base].map(|v: FloatPoint| v.map(Extended::of));
         let [by, minus] = [*by, -by].map(Extended::of);
         // (p-base)×(q-base) = p×q + q×base + base×p. Where base is subtracted from the first vector too,
         // base·(p×q) is subtracted: the other two are orthogonal to base.

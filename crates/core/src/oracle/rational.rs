@@ -8,7 +8,7 @@ use num_rational::BigRational as Rational;
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 
-type Point = [Rational; 3];
+type RationalPoint = [Rational; 3];
 
 /// The truth of a case by definition, with the exact values behind it.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Definition {
 
 /// An end of an interval: a number or an infinity.
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
-enum End {
+enum RationalEnd {
     MinusInfinity,
     At(Rational),
     PlusInfinity,
@@ -42,19 +42,20 @@ pub fn define_instance<F: Float>(case: &Case<F>, instance: &Instance<F>) -> Defi
         let [x, y, z, moved] = [column(0)?, column(1)?, column(2)?, column(3)?];
         let rows = [cross(&y, &z), cross(&z, &x), cross(&x, &y)];
         let determinant = dot(&z, &rows[2]);
-        let solved = |point: &Point| rows.each_ref().map(|row| dot(row, point) / &determinant);
+        let solved =
+            |point: &RationalPoint| rows.each_ref().map(|row| dot(row, point) / &determinant);
         (!determinant.is_zero()).then(|| [solved(&minus(&origin, &moved)), solved(&direction)])
     })
 }
 
 fn define_with<F: Float>(
     case: &Case<F>,
-    seen: impl FnOnce([Point; 2]) -> Option<[Point; 2]>,
+    seen: impl FnOnce([RationalPoint; 2]) -> Option<[RationalPoint; 2]>,
 ) -> Definition {
     let invalid = Definition { truth: Truth::Invalid, exact: ExactValues::default() };
     let case = case.widen();
     let rational = |x: f64| Rational::from_float(x);
-    let point = |v: [f64; 3]| -> Option<Point> {
+    let point = |v: [f64; 3]| -> Option<RationalPoint> {
         let [x, y, z] = v.map(rational);
         Some([x?, y?, z?])
     };
@@ -65,9 +66,9 @@ fn define_with<F: Float>(
         return invalid;
     };
     let end = |t: f64| match rational(t) {
-        Some(t) => Some(End::At(t)),
-        None if t == f64::INFINITY => Some(End::PlusInfinity),
-        None if t == f64::NEG_INFINITY => Some(End::MinusInfinity),
+        Some(t) => Some(RationalEnd::At(t)),
+        None if t == f64::INFINITY => Some(RationalEnd::PlusInfinity),
+        None if t == f64::NEG_INFINITY => Some(RationalEnd::MinusInfinity),
         None => None,
     };
     let (Some(t_min), Some(t_max)) = (end(case.ray.t_min), end(case.ray.t_max)) else {
@@ -95,7 +96,7 @@ fn define_with<F: Float>(
     let t = capital_t / &capital_d;
     // U, V, W: d with (c-o, b-o), (a-o, c-o), (b-o, a-o). Their sum is -D.
     let [ra, rb, rc] = [&a, &b, &c].map(|p| minus(p, &o));
-    let triple = |p: &Point, q: &Point| dot(&d, &cross(p, q));
+    let triple = |p: &RationalPoint, q: &RationalPoint| dot(&d, &cross(p, q));
     let [u, v, w] =
         [triple(&rc, &rb), triple(&ra, &rc), triple(&rb, &ra)].map(|weight| -weight / &capital_d);
     let truth = Truth::Transversal(Crossing {
@@ -114,21 +115,21 @@ fn flat(truth: Truth, contact_t: Option<[Rational; 2]>) -> Definition {
 /// The common points of a line in the triangle's plane and the triangle: the t at which the three
 /// edge functions, linear in t, are all at least zero.
 fn line_in_plane(
-    o: &Point,
-    d: &Point,
-    [a, b, c]: [&Point; 3],
-    n: &Point,
-    t_min: &End,
-    t_max: &End,
+    o: &RationalPoint,
+    d: &RationalPoint,
+    [a, b, c]: [&RationalPoint; 3],
+    n: &RationalPoint,
+    t_min: &RationalEnd,
+    t_max: &RationalEnd,
 ) -> (Contact, Option<[Rational; 2]>) {
     // Constant and slope of N·((to - from) × (o + t d - from)).
     let edges = [(a, b), (b, c), (c, a)].map(|(from, to)| {
         let edge = minus(to, from);
         (dot(n, &cross(&edge, &minus(o, from))), dot(n, &cross(&edge, d)))
     });
-    let solve = |mut low: End, mut high: End| {
+    let solve = |mut low: RationalEnd, mut high: RationalEnd| {
         for (constant, slope) in &edges {
-            let bound = || End::At(-constant / slope);
+            let bound = || RationalEnd::At(-constant / slope);
             match slope.cmp(&Rational::zero()) {
                 Ordering::Greater if low < bound() => low = bound(),
                 Ordering::Less if bound() < high => high = bound(),
@@ -137,7 +138,7 @@ fn line_in_plane(
             }
         }
         match (low, high) {
-            (End::At(low), End::At(high)) if low <= high => Some([low, high]),
+            (RationalEnd::At(low), RationalEnd::At(high)) if low <= high => Some([low, high]),
             _ => None,
         }
     };
@@ -148,8 +149,8 @@ fn line_in_plane(
     };
     contact(
         solve(t_min.clone(), t_max.clone()),
-        solve(End::At(Rational::zero()), End::PlusInfinity).is_some(),
-        solve(End::MinusInfinity, End::PlusInfinity).is_some(),
+        solve(RationalEnd::At(Rational::zero()), RationalEnd::PlusInfinity).is_some(),
+        solve(RationalEnd::MinusInfinity, RationalEnd::PlusInfinity).is_some(),
         feature,
     )
 }
@@ -157,11 +158,11 @@ fn line_in_plane(
 /// The common points of any line and a triangle without area, which is the segment between two of
 /// its vertices.
 fn line_and_segment(
-    o: &Point,
-    d: &Point,
-    vertices: [&Point; 3],
-    t_min: &End,
-    t_max: &End,
+    o: &RationalPoint,
+    d: &RationalPoint,
+    vertices: [&RationalPoint; 3],
+    t_min: &RationalEnd,
+    t_max: &RationalEnd,
 ) -> (Contact, Option<[Rational; 2]>) {
     let [a, b, c] = vertices;
     let (p, q) = [(a, b), (b, c), (c, a)]
@@ -170,8 +171,8 @@ fn line_and_segment(
         .expect("three edges");
     let d_squared = dot(d, d);
     // The t of the point of the line nearest to a point.
-    let parameter = |x: &Point| dot(&minus(x, o), d) / &d_squared;
-    let on_line = |x: &Point| cross(&minus(x, o), d).iter().all(Zero::is_zero);
+    let parameter = |x: &RationalPoint| dot(&minus(x, o), d) / &d_squared;
+    let on_line = |x: &RationalPoint| cross(&minus(x, o), d).iter().all(Zero::is_zero);
 
     let whole: Option<[Rational; 2]> = if on_line(p) && on_line(q) {
         let (s, t) = (parameter(p), parameter(q));
@@ -187,12 +188,12 @@ fn line_and_segment(
         })
     };
 
-    let cut = |low: &End, high: &End| {
+    let cut = |low: &RationalEnd, high: &RationalEnd| {
         let [s, t] = whole.clone()?;
-        let s = if End::At(s.clone()) < *low { low.clone() } else { End::At(s) };
-        let t = if *high < End::At(t.clone()) { high.clone() } else { End::At(t) };
+        let s = if RationalEnd::At(s.clone()) < *low { low.clone() } else { RationalEnd::At(s) };
+        let t = if *high < RationalEnd::At(t.clone()) { high.clone() } else { RationalEnd::At(t) };
         match (s, t) {
-            (End::At(s), End::At(t)) if s <= t => Some([s, t]),
+            (RationalEnd::At(s), RationalEnd::At(t)) if s <= t => Some([s, t]),
             _ => None,
         }
     };
@@ -202,7 +203,8 @@ fn line_and_segment(
         if let Some(i) = vertices.iter().position(|vertex| **vertex == x) {
             return named[i];
         }
-        let between = |p: &Point, q: &Point| !dot(&minus(p, &x), &minus(q, &x)).is_positive();
+        let between =
+            |p: &RationalPoint, q: &RationalPoint| !dot(&minus(p, &x), &minus(q, &x)).is_positive();
         if between(a, b) {
             Feature::EdgeAb
         } else if between(b, c) {
@@ -213,7 +215,7 @@ fn line_and_segment(
     };
     contact(
         cut(t_min, t_max),
-        cut(&End::At(Rational::zero()), &End::PlusInfinity).is_some(),
+        cut(&RationalEnd::At(Rational::zero()), &RationalEnd::PlusInfinity).is_some(),
         whole.is_some(),
         feature,
     )
@@ -233,27 +235,27 @@ fn contact(
     (Contact { kind, meets_ray, meets_line }, range)
 }
 
-fn compare(t: &Rational, end: &End) -> Ordering {
+fn compare(t: &Rational, end: &RationalEnd) -> Ordering {
     match end {
-        End::MinusInfinity => Ordering::Greater,
-        End::At(end) => t.cmp(end),
-        End::PlusInfinity => Ordering::Less,
+        RationalEnd::MinusInfinity => Ordering::Greater,
+        RationalEnd::At(end) => t.cmp(end),
+        RationalEnd::PlusInfinity => Ordering::Less,
     }
 }
 
-fn minus(a: &Point, b: &Point) -> Point {
+fn minus(a: &RationalPoint, b: &RationalPoint) -> RationalPoint {
     std::array::from_fn(|i| &a[i] - &b[i])
 }
 
-fn along(o: &Point, d: &Point, t: &Rational) -> Point {
+fn along(o: &RationalPoint, d: &RationalPoint, t: &Rational) -> RationalPoint {
     std::array::from_fn(|i| &o[i] + t * &d[i])
 }
 
-fn dot(a: &Point, b: &Point) -> Rational {
+fn dot(a: &RationalPoint, b: &RationalPoint) -> Rational {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
-fn cross(a: &Point, b: &Point) -> Point {
+fn cross(a: &RationalPoint, b: &RationalPoint) -> RationalPoint {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         &a[j] * &b[k] - &a[k] * &b[j]

@@ -6,7 +6,7 @@ use super::determinants::Determinant;
 use super::filter;
 use super::monomials;
 use super::scaled::Scaled;
-use super::signs::Signs;
+use super::signs::DecidingSigns;
 use crate::arith::scale_by_power_of_two;
 use crate::case::Case;
 use crate::truth::Truth;
@@ -59,7 +59,7 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
         }
     };
     let (from_min, from_max) = (from(case.ray.t_min), from(case.ray.t_max));
-    (Signs { d, weights, t, from_min, from_max }.truth(), deepest)
+    (DecidingSigns { d, weights, t, from_min, from_max }.truth(), deepest)
 }
 
 /// True if scaling can be left out. Coordinates are zero or within 2^±150, so all differences are multiples of 2^-202,

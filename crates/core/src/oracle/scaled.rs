@@ -6,8 +6,8 @@
 
 use super::contact;
 use super::determinants::Determinant;
-use super::integer::{Interval, Number, Triple, align, cross, dot, minus};
-use super::signs::Signs;
+use super::integer::{ExactInteger, IntegerVector, RayInterval, align, cross, dot, minus};
+use super::signs::DecidingSigns;
 use crate::case::{Case, Matrix};
 use crate::truth::Truth;
 use num_bigint::BigInt;
@@ -16,9 +16,9 @@ use std::cmp::Ordering;
 
 /// A case's numbers as integers of any size.
 pub(super) struct Scaled {
-    origin: Triple<BigInt>,
-    direction: Triple<BigInt>,
-    vertices: [Triple<BigInt>; 3],
+    origin: IntegerVector<BigInt>,
+    direction: IntegerVector<BigInt>,
+    vertices: [IntegerVector<BigInt>; 3],
     /// The exponent that t = T/D carries.
     t_exponent: i64,
 }
@@ -46,7 +46,7 @@ impl Scaled {
         let (mut vertices, s) = align([a, b, c]);
         let mut rows = [cross(&y, &z), cross(&z, &x), cross(&x, &y)];
         let mut determinant = dot(&z, &rows[2]);
-        match Number::sign(&determinant) {
+        match ExactInteger::sign(&determinant) {
             Ordering::Equal => return None,
             Ordering::Less => {
                 determinant = -determinant;
@@ -58,7 +58,8 @@ impl Scaled {
         // The determinant carries 2^(3r) and the rows 2^(2r): the origin 2^(2r+p), the vertices 2^(3r+s).
         let (of_origin, of_vertices) = (p, r + s);
         let common = of_origin.min(of_vertices);
-        let times = |row: &Triple<BigInt>, by: &Triple<BigInt>, shift| dot(row, by) << shift;
+        let times =
+            |row: &IntegerVector<BigInt>, by: &IntegerVector<BigInt>, shift| dot(row, by) << shift;
         vertices =
             vertices.map(|vertex| vertex.map(|x| (x * &determinant) << (of_vertices - common)));
         Some(Scaled {
@@ -72,13 +73,13 @@ impl Scaled {
     /// The truth, all of it in integers; of the case only the interval counts.
     pub fn truth(&self, case: &Case<f64>) -> Truth {
         let (d, t) = (self.capital_d(), self.capital_t());
-        match (Number::sign(&d), Number::sign(&t)) {
+        match (ExactInteger::sign(&d), ExactInteger::sign(&t)) {
             (Ordering::Equal, Ordering::Equal) => self.touching(case),
             (Ordering::Equal, _) => Truth::Parallel,
             (of_d, of_t) => {
-                let weight = |k| Number::sign(&self.value(Determinant::Weight(k)));
-                let interval = Interval::new(case, self.t_exponent);
-                let signs = Signs {
+                let weight = |k| ExactInteger::sign(&self.value(Determinant::Weight(k)));
+                let interval = RayInterval::new(case, self.t_exponent);
+                let signs = DecidingSigns {
                     d: of_d,
                     weights: [0, 1, 2].map(weight),
                     t: of_t,
@@ -93,7 +94,7 @@ impl Scaled {
     /// The sign of one determinant: what the layers before are compared with.
     #[cfg(test)]
     pub fn sign(&self, determinant: Determinant) -> std::cmp::Ordering {
-        Number::sign(&self.value(determinant))
+        ExactInteger::sign(&self.value(determinant))
     }
 
     fn value(&self, determinant: Determinant) -> BigInt {
@@ -121,7 +122,7 @@ impl Scaled {
         [BigRational::new(t, over), weight(1), weight(2)]
     }
 
-    fn normal(&self) -> Triple<BigInt> {
+    fn normal(&self) -> IntegerVector<BigInt> {
         let [a, b, c] = &self.vertices;
         cross(&minus(b, a), &minus(c, a))
     }
@@ -137,9 +138,9 @@ impl Scaled {
     /// The truth where D and T are zero: the triangle has no area, or the line lies in its plane.
     pub fn touching(&self, case: &Case<f64>) -> Truth {
         let n = self.normal();
-        let degenerate = n.iter().all(Number::is_zero);
+        let degenerate = n.iter().all(ExactInteger::is_zero);
         let [a, b, c] = self.vertices.each_ref().map(|v| minus(v, &self.origin));
-        let interval = Interval::new(case, self.t_exponent);
+        let interval = RayInterval::new(case, self.t_exponent);
         let contact = contact::decide(&interval, &self.direction, [&a, &b, &c], &n);
         if degenerate { Truth::Degenerate(contact) } else { Truth::Coplanar(contact) }
     }

@@ -4,7 +4,7 @@ use crate::truth::{Crossing, Facing, Feature, Place, Truth};
 use std::cmp::Ordering;
 
 /// The signs that decide a transversal case. D is not zero.
-pub(super) struct Signs {
+pub(super) struct DecidingSigns {
     /// The sign of D = d·N.
     pub d: Ordering,
     /// The signs of U, V, W, the scalar triple products that weigh a, b and c.
@@ -17,7 +17,7 @@ pub(super) struct Signs {
     pub from_max: Ordering,
 }
 
-impl Signs {
+impl DecidingSigns {
     /// U+V+W = -D, so the weights divided by their sum have the sign of U·(-D).
     #[inline(always)]
     pub fn truth(&self) -> Truth {

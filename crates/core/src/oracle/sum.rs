@@ -5,16 +5,16 @@ use std::ops::{Add, Neg};
 
 /// Four integers of up to 53 bits times 2^exponent.
 #[derive(Clone, Copy)]
-pub(super) struct Product {
+pub(super) struct ExactProduct {
     /// The four integers that are multiplied.
     pub factors: [i64; 4],
     /// At least -2^19 and below 2^19. The exponent of a zero need only be below that of any other.
     pub exponent: i32,
 }
 
-impl Product {
+impl ExactProduct {
     /// For places that are not used.
-    pub const ZERO: Product = Product { factors: [0; 4], exponent: 0 };
+    pub const ZERO: ExactProduct = ExactProduct { factors: [0; 4], exponent: 0 };
 
     fn digits(&self) -> I256 {
         let [x, y, z, w] = self.factors.map(i128::from);
@@ -32,7 +32,7 @@ const BITS: u32 = 6 + 4 * 53;
 /// Products are added from the largest exponent down. Before each one the sum is put into its unit, 2^exponent. All
 /// that is still to come is below 2^[`BITS`] units. If the sum is as large as that, its sign is decided. If not, it
 /// is below that, and below twice that after the addition: 256 bits hold it.
-pub(super) fn sign_of_sum(products: &[Product]) -> Ordering {
+pub(super) fn sign_of_sum(products: &[ExactProduct]) -> Ordering {
     // To be sorted: the exponent, and in the lowest six bits the place of the product.
     let mut keys = [0; 64];
     let keys = &mut keys[..products.len()];
@@ -168,16 +168,20 @@ mod tests {
                 i64::try_from(number(&mut draw, bits)).expect("53 bits")
             });
             let product: BigInt = factors.iter().map(|x| BigInt::from(*x)).product();
-            assert_eq!(Product { factors, exponent: 0 }.digits().big(), product, "{factors:?}");
+            assert_eq!(
+                ExactProduct { factors, exponent: 0 }.digits().big(),
+                product,
+                "{factors:?}"
+            );
         }
     }
 
     #[test]
     fn a_sum_decides_only_if_it_outweighs_all_that_may_come() {
         let most = (1 << 53) - 1;
-        let large = Product { factors: [-most, most, most, most], exponent: 0 };
+        let large = ExactProduct { factors: [-most, most, most, most], exponent: 0 };
         let mut products = vec![large; 42];
-        products[0] = Product { factors: [1; 4], exponent: 217 };
+        products[0] = ExactProduct { factors: [1; 4], exponent: 217 };
         assert_eq!(sign_of_sum(&products), Ordering::Less);
     }
 
@@ -195,7 +199,7 @@ mod tests {
                 let mut add = |factors: [i64; 4], more: i64| {
                     let product: BigInt = factors.iter().map(|x| BigInt::from(*x)).product();
                     sum += product << (exponent + more);
-                    products.push(Product { factors, exponent: (exponent + more) as i32 });
+                    products.push(ExactProduct { factors, exponent: (exponent + more) as i32 });
                 };
                 let factors = [0; 4].map(|_| {
                     let bits = draw.pick(&[1, 40, 53, 53]);

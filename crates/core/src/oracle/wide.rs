@@ -1,6 +1,6 @@
 //! Integers of 192 bits: what determinants of coordinates of 61 bits need, and no more than that.
 
-use super::integer::Number;
+use super::integer::ExactInteger;
 use num_bigint::BigInt;
 use std::cmp::Ordering;
 use std::ops::{Add, Sub};
@@ -40,7 +40,7 @@ impl Sub for I192 {
     }
 }
 
-impl Number for I192 {
+impl ExactInteger for I192 {
     fn big(&self) -> BigInt {
         (BigInt::from(self.high) << 64) + self.low
     }

@@ -4,7 +4,7 @@
 //! below 2^(2n+3), and a determinant of differences below 2^(3n+6).
 
 use super::contact;
-use super::integer::{Interval, Number};
+use super::integer::{ExactInteger, RayInterval};
 use super::wide::I192;
 use crate::truth::Contact;
 use num_bigint::BigInt;
@@ -17,9 +17,9 @@ pub(super) trait Width {
     /// How many numbers are rounded before it is asked whether they are on the grid.
     const AT_ONCE: usize;
     /// Holds a minor, and a sum of three.
-    type Minor: Number + Copy + Add<Output = Self::Minor> + Sub<Output = Self::Minor>;
+    type Minor: ExactInteger + Copy + Add<Output = Self::Minor> + Sub<Output = Self::Minor>;
     /// Holds a determinant.
-    type Determinant: Number
+    type Determinant: ExactInteger
         + Copy
         + Add<Output = Self::Determinant>
         + Sub<Output = Self::Determinant>;
@@ -32,7 +32,7 @@ pub(super) trait Width {
     fn wide_product(a: i64, b: Self::Minor) -> Self::Determinant;
     /// The contact of a line that holds part of the triangle, in whatever integers.
     fn contact(
-        interval: &Interval,
+        interval: &RayInterval,
         d: [i64; 3],
         vertices: [[i64; 3]; 3],
         n: [Self::Minor; 3],
@@ -67,7 +67,12 @@ impl Width for Narrow {
     fn wide_product(a: i64, b: i64) -> i128 {
         i128::from(a) * i128::from(b)
     }
-    fn contact(interval: &Interval, d: [i64; 3], vertices: [[i64; 3]; 3], n: [i64; 3]) -> Contact {
+    fn contact(
+        interval: &RayInterval,
+        d: [i64; 3],
+        vertices: [[i64; 3]; 3],
+        n: [i64; 3],
+    ) -> Contact {
         let wide = |v: [i64; 3]| v.map(i128::from);
         let [a, b, c] = vertices.map(wide);
         contact::decide(interval, &wide(d), [&a, &b, &c], &wide(n))
@@ -97,7 +102,12 @@ impl Width for Wide {
     fn wide_product(a: i64, b: i128) -> I192 {
         I192::product(a, b)
     }
-    fn contact(interval: &Interval, d: [i64; 3], vertices: [[i64; 3]; 3], n: [i128; 3]) -> Contact {
+    fn contact(
+        interval: &RayInterval,
+        d: [i64; 3],
+        vertices: [[i64; 3]; 3],
+        n: [i128; 3],
+    ) -> Contact {
         let [a, b, c] = vertices.map(|v| v.map(BigInt::from));
         contact::decide(interval, &d.map(BigInt::from), [&a, &b, &c], &n.map(BigInt::from))
     }

@@ -12,7 +12,7 @@ const ABI: u32 = 1;
 
 /// `hairline_epsilon`.
 #[repr(C)]
-struct Epsilon {
+struct CEpsilon {
     name: *const c_char,
     value: *const c_char,
     refuses: *const c_char,
@@ -24,24 +24,24 @@ struct Epsilon {
 
 /// `hairline_kernel`.
 #[repr(C)]
-struct Kernel {
+struct CKernel {
     name: *const c_char,
     source: *const c_char,
     contract: *const c_char,
     gives: u32,
     epsilon_count: u32,
-    epsilons: *const Epsilon,
+    epsilons: *const CEpsilon,
 }
 
 /// `hairline_test_f32` and `hairline_test_f64`: cases, count, epsilons, verdicts.
-pub(super) type Test =
+pub(super) type TestFunction =
     unsafe extern "C-unwind" fn(*const c_void, usize, *const c_void, *mut c_void);
 
 /// A loaded library; it stays loaded until the process ends.
 pub(super) struct Library {
     library: ManuallyDrop<unix::Library>,
-    pub f32: Option<Test>,
-    pub f64: Option<Test>,
+    pub f32: Option<TestFunction>,
+    pub f64: Option<TestFunction>,
 }
 
 impl Library {
@@ -68,8 +68,8 @@ impl Library {
         }
         // SAFETY: by include/hairline.h these symbols have this type.
         unsafe {
-            library.f32 = library.symbol::<Test>("hairline_test_f32");
-            library.f64 = library.symbol::<Test>("hairline_test_f64");
+            library.f32 = library.symbol::<TestFunction>("hairline_test_f32");
+            library.f64 = library.symbol::<TestFunction>("hairline_test_f64");
         }
         if library.f32.is_none() && library.f64.is_none() {
             return Err("it has neither hairline_test_f32 nor hairline_test_f64".to_owned());
@@ -98,7 +98,7 @@ impl Library {
         // SAFETY: by include/hairline.h the symbol has this type, and what it returns stays valid.
         let kernel = unsafe {
             let describe =
-                self.symbol::<unsafe extern "C" fn() -> *const Kernel>("hairline_describe");
+                self.symbol::<unsafe extern "C" fn() -> *const CKernel>("hairline_describe");
             let describe = describe.ok_or("it has no function hairline_describe")?;
             describe().as_ref().ok_or("hairline_describe returned NULL")?
         };
@@ -135,7 +135,7 @@ impl Library {
     }
 }
 
-fn epsilon_line(epsilon: &Epsilon) -> Result<String, String> {
+fn epsilon_line(epsilon: &CEpsilon) -> Result<String, String> {
     // SAFETY: strings by include/hairline.h.
     let [name, value, refuses] =
         unsafe { [epsilon.name, epsilon.value, epsilon.refuses].map(|text| text_of(text)) };

@@ -1,7 +1,7 @@
 //! Counts the causes of the first findings of each class, by index.
 
 use super::attribution::{Attribution, attribute, attribute_by_running};
-use super::digest::Place;
+use super::digest::CasePlace;
 use super::rows::RowIn;
 use super::source::Source;
 use super::tally::Tally;
@@ -63,9 +63,9 @@ pub(super) fn causes<F: Scalar>(
     most: usize,
 ) -> BTreeMap<(Class, Finding), Causes> {
     let secondary = source.grouping() == Grouping::SecondaryRay;
-    let on_ray = |places: &[Place]| -> Vec<Option<Attribution>> {
+    let on_ray = |places: &[CasePlace]| -> Vec<Option<Attribution>> {
         let made = source.make::<F>(places[0].index);
-        let of_place = |place: &Place| {
+        let of_place = |place: &CasePlace| {
             let case = &source.seen(&made.cases()[place.triangle as usize]);
             let truth = oracle::truth(case);
             let asked = (contract, asked(case, &truth, contract, secondary));
@@ -86,7 +86,7 @@ pub(super) fn causes<F: Scalar>(
         };
         places.iter().map(of_place).collect()
     };
-    let of_ray = |places: &[Place]| Causes::of_ray(on_ray(places).into_iter());
+    let of_ray = |places: &[CasePlace]| Causes::of_ray(on_ray(places).into_iter());
     let told = tally.examples.iter().filter(|((_, finding), _)| !finding.is_failure());
     let counted = told.map(|(key, examples)| {
         let places = &examples.first[..examples.first.len().min(most)];

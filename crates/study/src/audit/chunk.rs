@@ -1,6 +1,6 @@
 //! Some indices of a source together: their cases, truths and groups.
 
-use super::digest::Place;
+use super::digest::CasePlace;
 use super::forms::ScalarName;
 use super::source::Source;
 use crate::case::{Case, Instance};
@@ -8,7 +8,7 @@ use crate::contract::Contract;
 use crate::engine::Observer;
 use crate::family::Grouping;
 use crate::judge::{
-    self, Class, Distances, Expectations, GroupTruth, Kinds, Limits, Obligation, group_obligation,
+    self, Class, Demands, Distances, GroupTruth, Kinds, Obligation, ValueLimits, group_obligation,
     owes_groups_alike,
 };
 use crate::kernel::{Gives, Scalar};
@@ -71,7 +71,7 @@ impl SourceSummary {
 pub struct Chunk<F: Scalar> {
     pub(crate) grouping: Grouping,
     pub(crate) cases: Vec<Case<F>>,
-    pub(crate) places: Vec<Place>,
+    pub(crate) places: Vec<CasePlace>,
     pub(crate) truths: Vec<Truth>,
     kinds: Kinds,
     /// An instance, and the cases with their rays of the world.
@@ -102,7 +102,7 @@ impl<F: Scalar> Chunk<F> {
                 cases.reserve(count * cases.len());
             }
             let triangles = 0..(cases.len() - start) as u32;
-            places.extend(triangles.map(|triangle| Place { index, triangle }));
+            places.extend(triangles.map(|triangle| CasePlace { index, triangle }));
             starts.push(cases.len());
         }
         let start = observer.now();
@@ -131,7 +131,7 @@ impl<F: Scalar> Chunk<F> {
     }
 
     /// The contract's demands on each case.
-    pub fn expectations(&self, contract: &Contract) -> Expectations {
+    pub fn expectations(&self, contract: &Contract) -> Demands {
         let secondary = self.grouping == Grouping::SecondaryRay;
         judge::ask_all(&self.cases, &self.truths, &self.kinds, contract, secondary)
     }
@@ -151,8 +151,12 @@ impl<F: Scalar> Chunk<F> {
     }
 
     /// The ranges in which the values of a hit on each case are surely right.
-    pub fn limits(&self) -> Vec<Limits<F>> {
-        self.cases.iter().zip(&self.truths).map(|(case, truth)| Limits::of(case, truth)).collect()
+    pub fn limits(&self) -> Vec<ValueLimits<F>> {
+        self.cases
+            .iter()
+            .zip(&self.truths)
+            .map(|(case, truth)| ValueLimits::of(case, truth))
+            .collect()
     }
 
     /// The same, without what else is known of the cases.

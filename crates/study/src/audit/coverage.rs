@@ -15,11 +15,11 @@ pub struct Aspect {
     pub kind: &'static str,
     /// The name of the kind: `a`, `along an axis`.
     pub name: &'static str,
-    is_met: fn(&Shape) -> bool,
+    is_met: fn(&CaseShape) -> bool,
 }
 
 /// The data of a case that tell its kinds: the triangle, the ray and the exact truth, in numbers near enough for that.
-struct Shape {
+struct CaseShape {
     truth: Truth,
     /// Weights of a, b and c where the line meets the plane; NaN where it does not.
     weights: [f64; 3],
@@ -92,8 +92,8 @@ fn length(v: DVec3) -> f64 {
     if largest == 0.0 { 0.0 } else { largest * (v / largest).length() }
 }
 
-impl Shape {
-    fn of<F: Float>(case: &Case<F>) -> Shape {
+impl CaseShape {
+    fn of<F: Float>(case: &Case<F>) -> CaseShape {
         let Case { ray: Ray { origin, direction, .. }, triangle } = case.widen();
         let [a, b, c] = triangle.vertices();
         let edge = [b - a, c - b, a - c].map(length).into_iter().fold(0.0, f64::max);
@@ -104,7 +104,7 @@ impl Shape {
         let determinant = unit.dot(normal);
         let of = |row: DVec3| row.dot(start) / determinant;
         let (u, v) = (of(unit.cross(ac)), of(ab.cross(unit)));
-        Shape {
+        CaseShape {
             truth: oracle::truth(case),
             weights: [1.0 - u - v, u, v],
             origin,
@@ -186,7 +186,7 @@ fn add<F: Scalar>(
     let made = (0..indices).map(|index| family.make::<F>(parameters, 1, index));
     let mut cases = 0;
     for case in made.flat_map(|made| made.cases().to_vec()) {
-        let shape = Shape::of(&case);
+        let shape = CaseShape::of(&case);
         cases += 1;
         for (count, cell) in counts.iter_mut().zip(ASPECTS) {
             *count += u64::from((cell.is_met)(&shape));
@@ -233,7 +233,7 @@ mod tests {
             [0.0, 0.0, -1.0],
             [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
         );
-        let shape = Shape::of(&case);
+        let shape = CaseShape::of(&case);
         let met: Vec<&str> =
             ASPECTS.iter().filter(|aspect| (aspect.is_met)(&shape)).map(|a| a.name).collect();
         let expected = [

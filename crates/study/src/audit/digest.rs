@@ -8,7 +8,7 @@ use std::fmt;
 
 /// Where a case stands in its source: the index, and the triangle of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct Place {
+pub struct CasePlace {
     /// The index.
     pub index: u64,
     /// The triangle of a group; 0 alone.
@@ -31,7 +31,7 @@ const STREAM: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Digest {
     /// The number that a place adds to the sum.
-    pub fn hash(place: Place) -> u128 {
+    pub fn hash(place: CasePlace) -> u128 {
         let triangle = mix(u64::from(place.triangle) ^ STREAM);
         let low = mix(place.index ^ triangle);
         let high = mix(low.wrapping_add(place.index ^ STREAM));
@@ -39,7 +39,7 @@ impl Digest {
     }
 
     /// Adds a place, whose hash is known.
-    pub fn add(&mut self, place: Place, hash: u128) {
+    pub fn add(&mut self, place: CasePlace, hash: u128) {
         self.sum = self.sum.wrapping_add(hash);
         self.sketch.add((place.index, place.triangle));
     }
@@ -51,9 +51,9 @@ impl Digest {
     }
 
     /// Places that this set has and another does not, of a source of so many indices: those that the sketches show.
-    pub fn beyond(&self, other: &Digest, indices: u64) -> impl Iterator<Item = Place> {
+    pub fn beyond(&self, other: &Digest, indices: u64) -> impl Iterator<Item = CasePlace> {
         let places = self.sketch.beyond(&other.sketch);
-        let places = places.map(|(index, triangle)| Place { index, triangle });
+        let places = places.map(|(index, triangle)| CasePlace { index, triangle });
         places.filter(move |place| place.index < indices)
     }
 }
@@ -90,7 +90,7 @@ mod tests {
     fn digest(places: &[(u64, u32)]) -> Digest {
         let mut digest = Digest::default();
         for &(index, triangle) in places {
-            let place = Place { index, triangle };
+            let place = CasePlace { index, triangle };
             digest.add(place, Digest::hash(place));
         }
         digest
@@ -108,7 +108,7 @@ mod tests {
         assert_eq!(Digest::try_from(whole.to_string()), Ok(whole.clone()));
         assert_eq!(
             parts.beyond(&digest(&[(1, 0), (2, 0), (2, 1)]), 10).min(),
-            Some(Place { index: 9, triangle: 3 })
+            Some(CasePlace { index: 9, triangle: 3 })
         );
         assert_eq!(parts.beyond(&digest(&[(1, 0), (2, 0), (2, 1)]), 9).min(), None);
         // Index and triangle are not exchangeable, and no small places collide.

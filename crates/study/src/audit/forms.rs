@@ -34,11 +34,11 @@ pub(super) mod bits {
 
 /// A place with its score.
 pub(super) mod scored {
-    use crate::audit::Place;
+    use crate::audit::CasePlace;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub fn serialize<S: Serializer>(
-        value: &Option<(f64, Place)>,
+        value: &Option<(f64, CasePlace)>,
         to: S,
     ) -> Result<S::Ok, S::Error> {
         value.map(|(score, place)| (score.to_bits(), place)).serialize(to)
@@ -46,8 +46,8 @@ pub(super) mod scored {
 
     pub fn deserialize<'de, D: Deserializer<'de>>(
         from: D,
-    ) -> Result<Option<(f64, Place)>, D::Error> {
-        let stored = Option::<(u64, Place)>::deserialize(from)?;
+    ) -> Result<Option<(f64, CasePlace)>, D::Error> {
+        let stored = Option::<(u64, CasePlace)>::deserialize(from)?;
         Ok(stored.map(|(score, place)| (f64::from_bits(score), place)))
     }
 }

@@ -1,11 +1,11 @@
 //! Sums of what the triangles of groups did together: a commutative monoid.
 
-use super::digest::{Digest, Place};
+use super::digest::{CasePlace, Digest};
 use crate::judge::GroupTruth;
 use serde::{Deserialize, Serialize};
 
 /// A group that a kernel gave all verdicts on.
-pub struct Judged {
+pub struct JudgedGroup {
     /// The index of the group in its source.
     pub index: u64,
     /// The contract's demand on the group.
@@ -53,7 +53,7 @@ pub struct GroupCount {
 
 /// The outcome of a group of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Outcome {
+pub(super) enum GroupOutcome {
     /// The number of hits is right, or the contract asks nothing.
     Right,
     /// A crossing without a hit.
@@ -66,28 +66,28 @@ pub(super) enum Outcome {
     OddFold,
 }
 
-impl Outcome {
-    fn of(group: &Judged) -> Outcome {
+impl GroupOutcome {
+    fn of(group: &JudgedGroup) -> GroupOutcome {
         match (group.truth, group.hits) {
-            (GroupTruth::Crossing, 0) if group.elsewhere => Outcome::Elsewhere,
-            (GroupTruth::Crossing, 0) => Outcome::Crack,
-            (GroupTruth::Crossing, 2..) => Outcome::Double,
-            (GroupTruth::Fold { odd }, hits) if (hits % 2 == 1) != odd => Outcome::OddFold,
-            _ => Outcome::Right,
+            (GroupTruth::Crossing, 0) if group.elsewhere => GroupOutcome::Elsewhere,
+            (GroupTruth::Crossing, 0) => GroupOutcome::Crack,
+            (GroupTruth::Crossing, 2..) => GroupOutcome::Double,
+            (GroupTruth::Fold { odd }, hits) if (hits % 2 == 1) != odd => GroupOutcome::OddFold,
+            _ => GroupOutcome::Right,
         }
     }
 }
 
 impl GroupCount {
     /// Counts a group; returns what it shows.
-    pub(super) fn add(&mut self, group: &Judged, limit: usize) -> Outcome {
-        let Judged { index, truth, hits, .. } = *group;
-        let outcome = Outcome::of(group);
+    pub(super) fn add(&mut self, group: &JudgedGroup, limit: usize) -> GroupOutcome {
+        let JudgedGroup { index, truth, hits, .. } = *group;
+        let outcome = GroupOutcome::of(group);
         match truth {
             GroupTruth::Free => {}
             GroupTruth::Crossing => {
                 self.crossings += 1;
-                let is_even = hits.is_multiple_of(2) && outcome != Outcome::Elsewhere;
+                let is_even = hits.is_multiple_of(2) && outcome != GroupOutcome::Elsewhere;
                 self.even += u64::from(is_even);
             }
             GroupTruth::Fold { odd } => {
@@ -96,15 +96,15 @@ impl GroupCount {
             }
         }
         let (count, first, digest) = match outcome {
-            Outcome::Right => return outcome,
-            Outcome::Crack => {
+            GroupOutcome::Right => return outcome,
+            GroupOutcome::Crack => {
                 (&mut self.cracks, &mut self.first_cracks, Some(&mut self.crack_digest))
             }
-            Outcome::Elsewhere => (&mut self.elsewhere, &mut self.first_elsewhere, None),
-            Outcome::Double => {
+            GroupOutcome::Elsewhere => (&mut self.elsewhere, &mut self.first_elsewhere, None),
+            GroupOutcome::Double => {
                 (&mut self.doubles, &mut self.first_doubles, Some(&mut self.double_digest))
             }
-            Outcome::OddFold => {
+            GroupOutcome::OddFold => {
                 (&mut self.odd_folds, &mut self.first_odd_folds, Some(&mut self.odd_fold_digest))
             }
         };
@@ -113,7 +113,7 @@ impl GroupCount {
             first.push(index);
         }
         if let Some(digest) = digest {
-            let place = Place { index, triangle: 0 };
+            let place = CasePlace { index, triangle: 0 };
             digest.add(place, Digest::hash(place));
         }
         outcome

@@ -1,7 +1,7 @@
 //! Judges the groups of a chunk by the verdicts of one row.
 
 use super::chunk::Chunk;
-use super::group_count::Judged;
+use super::group_count::JudgedGroup;
 use super::rows::RowIn;
 use super::source::Source;
 use crate::case::Case;
@@ -23,7 +23,7 @@ impl<F: Scalar> RowIn<F> {
         chunk: &'c Chunk<F>,
         (contract, truths): (&Contract, &'c [GroupTruth]),
         verdicts: &'c [Verdict<F>],
-    ) -> impl Iterator<Item = Result<Judged, u64>> + use<'c, F> {
+    ) -> impl Iterator<Item = Result<JudgedGroup, u64>> + use<'c, F> {
         let elsewhere = match source.has_neighbours() {
             true => self.elsewhere(source, chunk, (contract, truths), verdicts),
             false => Vec::new(),
@@ -35,7 +35,7 @@ impl<F: Scalar> RowIn<F> {
             }
             let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
             let elsewhere = elsewhere.binary_search(&index).is_ok();
-            Ok(Judged { index, truth: *truth, hits, elsewhere })
+            Ok(JudgedGroup { index, truth: *truth, hits, elsewhere })
         })
     }
 

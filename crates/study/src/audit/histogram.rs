@@ -7,7 +7,7 @@ use std::fmt;
 /// Counts of numbers that are not negative, in 2^`BITS` bins to the octave. Merging is commutative, and
 /// the number of bins is bounded by the range of `f64`.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-#[serde(into = "Stored", from = "Stored")]
+#[serde(into = "StoredHistogram", from = "StoredHistogram")]
 pub struct Histogram<const BITS: u32 = 3> {
     zeros: u64,
     infinite: u64,
@@ -176,22 +176,22 @@ impl<const BITS: u32> PartialEq for Histogram<BITS> {
 
 /// As shards hand it on.
 #[derive(Serialize, Deserialize)]
-struct Stored {
+struct StoredHistogram {
     bins: BTreeMap<u32, u64>,
     count: u64,
     #[serde(with = "super::forms::bits")]
     largest: f64,
 }
 
-impl<const BITS: u32> From<Histogram<BITS>> for Stored {
-    fn from(histogram: Histogram<BITS>) -> Stored {
+impl<const BITS: u32> From<Histogram<BITS>> for StoredHistogram {
+    fn from(histogram: Histogram<BITS>) -> StoredHistogram {
         let bins = histogram.bins().collect();
-        Stored { bins, count: histogram.count, largest: histogram.largest }
+        StoredHistogram { bins, count: histogram.count, largest: histogram.largest }
     }
 }
 
-impl<const BITS: u32> From<Stored> for Histogram<BITS> {
-    fn from(Stored { bins, count, largest }: Stored) -> Self {
+impl<const BITS: u32> From<StoredHistogram> for Histogram<BITS> {
+    fn from(StoredHistogram { bins, count, largest }: StoredHistogram) -> Self {
         let mut histogram = Self { count, largest, ..Self::default() };
         for (bin, count) in bins {
             // A number beyond the bins is none that a histogram wrote.

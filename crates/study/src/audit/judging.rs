@@ -4,7 +4,7 @@ use super::accuracy::Errors;
 use super::chunk::Chunk;
 use super::digest::Digest;
 use super::rows::RowIn;
-use super::run::Asked;
+use super::run::ChunkDemands;
 use super::source::Source;
 use super::tally::{ClassCount, Tally};
 use super::trials::RayProducts;
@@ -20,17 +20,17 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Per-case data, computed lazily when some kernel is wrong on the case.
 #[derive(Clone, Copy)]
-pub(super) struct Known {
+pub(super) struct LazyCase {
     /// None of invalid input.
     distances: Option<Distances>,
     /// The hash of the case's place.
     hash: u128,
 }
 
-impl Known {
-    fn of<F: Scalar>(chunk: &Chunk<F>, case: usize) -> Known {
+impl LazyCase {
+    fn of<F: Scalar>(chunk: &Chunk<F>, case: usize) -> LazyCase {
         let valid = !chunk.class(case).is_invalid();
-        Known {
+        LazyCase {
             distances: valid.then(|| chunk.distances(case)),
             hash: Digest::hash(chunk.places[case]),
         }
@@ -42,9 +42,9 @@ impl<F: Scalar> RowIn<F> {
     pub fn judge(
         &self,
         (source, chunk): (&Source, &Chunk<F>),
-        (contract, asked): (&Contract, &Asked),
+        (contract, asked): (&Contract, &ChunkDemands),
         (verdicts, suspects): (&[Verdict<F>], &[usize]),
-        known: &mut [Option<Known>],
+        known: &mut [Option<LazyCase>],
         tally: &mut Tally,
     ) {
         tally.ask(&asked.classes);
@@ -69,7 +69,8 @@ impl<F: Scalar> RowIn<F> {
             let asked = (contract, obligation);
             if let Some(finding) = judge::judge(asked, (case, truth), gives, verdict) {
                 // Kernels tend to be wrong on the same cases.
-                let Known { distances, hash } = known[i].get_or_insert_with(|| Known::of(chunk, i));
+                let LazyCase { distances, hash } =
+                    known[i].get_or_insert_with(|| LazyCase::of(chunk, i));
                 let severity = distances.as_ref().map(|distances| {
                     let edges = match finding {
                         Finding::WrongValue => ValueErrors::of(case, truth, gives, verdict).edges,
@@ -103,7 +104,7 @@ impl<F: Scalar> RowIn<F> {
         &self,
         chunk: &Chunk<F>,
         sample: &[usize],
-        asked: &Asked,
+        asked: &ChunkDemands,
         verdicts: &[Verdict<F>],
         tally: &mut Tally,
     ) {
@@ -136,7 +137,7 @@ impl<F: Scalar> RowIn<F> {
 /// Adds up, ray by ray, what was found on the triangles of each.
 fn add_rays<F: Scalar>(
     chunk: &Chunk<F>,
-    asked: &Asked,
+    asked: &ChunkDemands,
     verdicts: &[Verdict<F>],
     found: &[(usize, Finding)],
     tally: &mut Tally,

@@ -2,9 +2,9 @@
 //! vertices have a crack.
 
 use super::chunk::{Chunk, SourceSummary};
-use super::group_count::{GroupCount, Outcome};
+use super::group_count::{GroupCount, GroupOutcome};
 use super::places::Places;
-pub use super::places::{Seen, Wrong};
+pub use super::places::{PlaceFault, Seen};
 use super::row::Row;
 use super::rows::Rows;
 use super::source::{Source, Stock};
@@ -12,7 +12,7 @@ use crate::case::{Matrix, Parameters};
 use crate::contract::Across;
 use crate::engine::{self, Merge, Observer};
 use crate::kernel::{Scalar, Verdict};
-use crate::mesh::{Aim, Part, Surface};
+use crate::mesh::{Aim, AimedPart, Surface};
 use crate::oracle::Layers;
 use crate::truth::Truth;
 use std::ops::Range;
@@ -20,7 +20,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The plan of a run on a mesh.
-pub struct Plan {
+pub struct MeshPlan {
     /// The kernels with their epsilons and contracts.
     pub rows: Vec<Row>,
     /// Rays at each edge and vertex.
@@ -37,15 +37,15 @@ pub struct Plan {
     pub places: usize,
 }
 
-impl Plan {
+impl MeshPlan {
     /// The parameters of the cases.
     pub fn parameters(&self) -> Parameters {
-        let Plan { unit_direction, instance, .. } = *self;
+        let MeshPlan { unit_direction, instance, .. } = *self;
         Parameters { unit_direction, instance, ..Parameters::default() }
     }
 
     /// The groups at a part of a mesh.
-    fn source(&self, surface: &Arc<Surface>, part: Part) -> Source {
+    fn source(&self, surface: &Arc<Surface>, part: AimedPart) -> Source {
         Source {
             stock: Stock::MeshPart(surface.clone(), part),
             parameters: self.parameters(),
@@ -56,7 +56,7 @@ impl Plan {
 }
 
 /// The results of a run in one scalar.
-pub struct Found {
+pub struct MeshFound {
     /// `f32` or `f64`.
     pub scalar: &'static str,
     /// The rows whose kernels run in this scalar.
@@ -72,7 +72,7 @@ pub struct RowFound {
     /// The row's place in the plan.
     pub row: usize,
     /// By [`Part::ALL`].
-    pub tallies: [Tally; 2],
+    pub tallies: [MeshTally; 2],
     /// How many edges, and how many vertices, have a crack.
     pub cracked: [u64; 2],
     /// Time spent in the kernel, over all threads.
@@ -85,7 +85,7 @@ pub const CLASSES: [&str; 4] = ["exact", "exact-grazing", "near", "near-grazing"
 
 /// Everything that is added up for one row at one part of a mesh in one scalar.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tally {
+pub struct MeshTally {
     /// By [`CLASSES`].
     pub classes: [GroupCount; 4],
     /// Rays on which the kernel gave no verdict on some triangle: they are not judged.
@@ -98,12 +98,16 @@ pub struct Tally {
 
 /// Runs a plan on a mesh in one scalar, which the surface has. The sums do not depend on the number of
 /// threads.
-pub fn run<F: Scalar>(surface: &Arc<Surface>, plan: &Plan, observer: &dyn Observer) -> Found {
+pub fn run<F: Scalar>(
+    surface: &Arc<Surface>,
+    plan: &MeshPlan,
+    observer: &dyn Observer,
+) -> MeshFound {
     let rows = Rows::<F>::new(&plan.rows);
-    let parts = Part::ALL.map(|part| {
+    let parts = AimedPart::ALL.map(|part| {
         let source = plan.source(surface, part);
         let targets = source.count::<F>() / plan.directions;
-        let run = Run { plan, part, source, rows: &rows, observer };
+        let run = MeshRun { plan, part, source, rows: &rows, observer };
         run.sums(Cracked::new(targets, rows.each.len()))
     });
     let found = rows.each.iter().enumerate().map(|(i, row)| RowFound {
@@ -114,7 +118,7 @@ pub fn run<F: Scalar>(surface: &Arc<Surface>, plan: &Plan, observer: &dyn Observ
     });
     let mut layers = Layers::default();
     parts.iter().for_each(|(_, sums)| layers.merge(&sums.summary.layers));
-    Found {
+    MeshFound {
         scalar: F::NAME,
         rows: found.collect(),
         cases: parts.iter().map(|(_, sums)| sums.summary.cases).sum(),
@@ -123,24 +127,24 @@ pub fn run<F: Scalar>(surface: &Arc<Surface>, plan: &Plan, observer: &dyn Observ
 }
 
 /// One part of a mesh.
-struct Run<'a, F: 'static> {
-    plan: &'a Plan,
-    part: Part,
+struct MeshRun<'a, F: 'static> {
+    plan: &'a MeshPlan,
+    part: AimedPart,
     source: Source,
     rows: &'a Rows<F>,
     observer: &'a dyn Observer,
 }
 
 /// The sums over chunks.
-struct Sums {
+struct MeshSums {
     summary: SourceSummary,
-    rows: Vec<(Tally, u64)>,
+    rows: Vec<(MeshTally, u64)>,
     /// The most examples, and the most places.
     limits: [usize; 2],
 }
 
-impl Merge for Sums {
-    fn merge(&mut self, other: Sums) {
+impl Merge for MeshSums {
+    fn merge(&mut self, other: MeshSums) {
         self.summary.merge(&other.summary);
         let [examples, places] = self.limits;
         for ((tally, time), (more, more_time)) in self.rows.iter_mut().zip(other.rows) {
@@ -157,20 +161,20 @@ impl Merge for Sums {
     }
 }
 
-impl<F: Scalar> Run<'_, F> {
-    fn sums(&self, cracked: Cracked) -> (Cracked, Sums) {
-        let empty = || Sums {
+impl<F: Scalar> MeshRun<'_, F> {
+    fn sums(&self, cracked: Cracked) -> (Cracked, MeshSums) {
+        let empty = || MeshSums {
             summary: SourceSummary::new(0, F::NAME),
             rows: vec![Default::default(); self.rows.each.len()],
             limits: [self.plan.examples, self.plan.places],
         };
-        let add = |sums: &mut Sums, indices| self.add_chunk(indices, &cracked, sums);
+        let add = |sums: &mut MeshSums, indices| self.add_chunk(indices, &cracked, sums);
         let indices = 0..self.source.count::<F>();
         let sums = engine::sum(indices, self.source.chunk(), self.observer, empty, add);
         (cracked, sums)
     }
 
-    fn add_chunk(&self, indices: Range<u64>, cracked: &Cracked, sums: &mut Sums) {
+    fn add_chunk(&self, indices: Range<u64>, cracked: &Cracked, sums: &mut MeshSums) {
         let (limit, first) = (self.plan.examples, indices.start);
         let chunk = Chunk::<F>::make(&self.source, indices, self.observer, &mut sums.summary);
         let contracts = &self.rows.contracts;
@@ -200,7 +204,7 @@ impl<F: Scalar> Run<'_, F> {
                 let class = &mut tally.classes[2 * usize::from(near) + usize::from(aim.grazing)];
                 let outcome = class.add(&group, limit);
                 if let Some(wrong) = wrong_by(outcome, asked.0.across) {
-                    if wrong == Wrong::Crack {
+                    if wrong == PlaceFault::Crack {
                         cracked.note(number, target as usize);
                     }
                     tally.places.add(wrong, target as u32, group.index, self.plan.places);
@@ -211,24 +215,24 @@ impl<F: Scalar> Run<'_, F> {
 }
 
 /// True if the exact line meets the edge that the triangles share, or the centre of the fan.
-fn is_on_target(part: Part, truths: &[Truth]) -> bool {
+fn is_on_target(part: AimedPart, truths: &[Truth]) -> bool {
     truths.iter().all(|truth| {
         truth.crossing().is_some_and(|crossing| match part {
-            Part::Edges => crossing.feature.is_edge(),
-            Part::Vertices => crossing.feature.is_vertex(),
+            AimedPart::Edges => crossing.feature.is_edge(),
+            AimedPart::Vertices => crossing.feature.is_vertex(),
         })
     })
 }
 
 /// The fault in an outcome: a crack whatever the contract, the others where it promises exactly one hit.
-fn wrong_by(outcome: Outcome, across: Across) -> Option<Wrong> {
+fn wrong_by(outcome: GroupOutcome, across: Across) -> Option<PlaceFault> {
     match outcome {
-        Outcome::Right | Outcome::Elsewhere => None,
-        Outcome::Crack => Some(Wrong::Crack),
+        GroupOutcome::Right | GroupOutcome::Elsewhere => None,
+        GroupOutcome::Crack => Some(PlaceFault::Crack),
         // Who does not promise it is not blamed for it.
         _ if across != Across::ExactlyOne => None,
-        Outcome::Double => Some(Wrong::Double),
-        Outcome::OddFold => Some(Wrong::OddFold),
+        GroupOutcome::Double => Some(PlaceFault::Double),
+        GroupOutcome::OddFold => Some(PlaceFault::OddFold),
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 /// A fault at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Wrong {
+pub enum PlaceFault {
     /// A crossing without a hit.
     Crack,
     /// A crossing with two hits or more, of a row that promises exactly one.
@@ -24,16 +24,16 @@ pub struct Seen {
 }
 
 /// In the order in which they are kept: what is wrong, a scrambled number, the place among the targets.
-type Key = (Wrong, u64, u32);
+type PlaceKey = (PlaceFault, u64, u32);
 
 /// The first places in the order of their keys. What is kept does not depend on the order in which rays are
 /// added: a place that is dropped has a limit's worth of places before it, and so it has in every sum.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Places(BTreeMap<Key, Seen>);
+pub struct Places(BTreeMap<PlaceKey, Seen>);
 
 impl Places {
     /// Adds a ray.
-    pub(super) fn add(&mut self, wrong: Wrong, target: u32, index: u64, limit: usize) {
+    pub(super) fn add(&mut self, wrong: PlaceFault, target: u32, index: u64, limit: usize) {
         let key = (wrong, mix(u64::from(target)), target);
         self.add_seen(key, Seen { rays: 1, first: index }, limit);
     }
@@ -45,7 +45,7 @@ impl Places {
         }
     }
 
-    fn add_seen(&mut self, key: Key, seen: Seen, limit: usize) {
+    fn add_seen(&mut self, key: PlaceKey, seen: Seen, limit: usize) {
         let is_full = limit <= self.0.len();
         if is_full && self.0.last_key_value().is_none_or(|(last, _)| *last < key) {
             return;
@@ -58,7 +58,7 @@ impl Places {
     }
 
     /// Each fault with a number to merge several by, its target, and how often it was seen.
-    pub fn iter(&self) -> impl Iterator<Item = ((Wrong, u64), u32, Seen)> + '_ {
+    pub fn iter(&self) -> impl Iterator<Item = ((PlaceFault, u64), u32, Seen)> + '_ {
         self.0.iter().map(|((wrong, order, target), seen)| ((*wrong, *order), *target, *seen))
     }
 }
@@ -69,13 +69,14 @@ mod tests {
 
     #[test]
     fn what_is_kept_does_not_depend_on_the_order_and_counts_all_rays() {
-        let rays: Vec<(Wrong, u32, u64)> = (0..4000)
+        let rays: Vec<(PlaceFault, u32, u64)> = (0..4000)
             .map(|index| {
-                let wrong = [Wrong::Double, Wrong::Crack, Wrong::OddFold][mix(index) as usize % 3];
+                let wrong = [PlaceFault::Double, PlaceFault::Crack, PlaceFault::OddFold]
+                    [mix(index) as usize % 3];
                 (wrong, (mix(index + 9000) % 50) as u32, index)
             })
             .collect();
-        let sum = |rays: &[(Wrong, u32, u64)], limit| {
+        let sum = |rays: &[(PlaceFault, u32, u64)], limit| {
             let mut places = Places::default();
             rays.iter().for_each(|(wrong, target, i)| places.add(*wrong, *target, *i, limit));
             places

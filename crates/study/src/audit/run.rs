@@ -11,7 +11,7 @@ use super::source::Source;
 use super::tally::{ClassCount, Tally};
 use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
-use crate::judge::{self, Class, Expectations, Finding, GroupTruth};
+use crate::judge::{self, Class, Demands, Finding, GroupTruth};
 use crate::kernel::{Scalar, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 /// One kernel row on one source in one scalar.
 #[derive(Clone, Serialize, Deserialize)]
-pub struct Cell {
+pub struct SourceCell {
     /// The row's place in the plan.
     pub row: usize,
     /// The source's place in the plan.
@@ -37,7 +37,7 @@ pub struct Cell {
     pub nanoseconds: u64,
 }
 
-impl Cell {
+impl SourceCell {
     /// A cell with a tally; its causes are not looked for yet.
     fn new(
         row: usize,
@@ -45,8 +45,8 @@ impl Cell {
         scalar: &'static str,
         tally: Tally,
         nanoseconds: u64,
-    ) -> Cell {
-        Cell { row, source, scalar, tally, causes: BTreeMap::new(), nanoseconds }
+    ) -> SourceCell {
+        SourceCell { row, source, scalar, tally, causes: BTreeMap::new(), nanoseconds }
     }
 }
 
@@ -54,7 +54,7 @@ impl Cell {
 #[derive(Clone, Default, Serialize, Deserialize)]
 pub struct Audit {
     /// By scalar, source and row, in the order of the plan.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<SourceCell>,
     /// By scalar and source, in the order of the plan.
     pub sources: Vec<SourceSummary>,
 }
@@ -94,7 +94,7 @@ fn sum_scalar<F: Scalar>(plan: &Plan, shard: Shard, observer: &dyn Observer, aud
     let runner = Runner::<F>::new(&plan.rows, plan.attribute, observer);
     for (number, source) in plan.sources.iter().enumerate() {
         let empty = || runner.no_sums(plan.examples, number);
-        let add = |sums: &mut Sums, indices| runner.add_chunk(source, indices, sums);
+        let add = |sums: &mut SourceSums, indices| runner.add_chunk(source, indices, sums);
         let indices = shard.range(source.count::<F>());
         runner.add_to(engine::sum(indices, source.chunk(), observer, empty, add), audit);
     }
@@ -102,7 +102,7 @@ fn sum_scalar<F: Scalar>(plan: &Plan, shard: Shard, observer: &dyn Observer, aud
 
 fn finish_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut Audit) {
     let runner = Runner::<F>::new(&plan.rows, plan.attribute, observer);
-    let cells: Vec<&mut Cell> =
+    let cells: Vec<&mut SourceCell> =
         audit.cells.iter_mut().filter(|cell| cell.scalar == F::NAME).collect();
     let causes = engine::map(&cells, |cell| runner.causes(&plan.sources[cell.source], cell));
     for (cell, causes) in cells.into_iter().zip(causes) {
@@ -130,20 +130,20 @@ impl Audit {
             let rows = plan.rows.iter().enumerate();
             let running = rows.filter(|(_, row)| F::subject(row.entry).is_some());
             self.cells.extend(running.map(|(row, _)| {
-                Cell::new(row, source, F::NAME, Tally::new(plan.examples, plan.attribute), 0)
+                SourceCell::new(row, source, F::NAME, Tally::new(plan.examples, plan.attribute), 0)
             }));
         }
     }
 }
 
 /// The sums over a source.
-struct Sums {
+struct SourceSums {
     summary: SourceSummary,
     rows: Vec<(Tally, u64)>,
 }
 
-impl Merge for Sums {
-    fn merge(&mut self, other: Sums) {
+impl Merge for SourceSums {
+    fn merge(&mut self, other: SourceSums) {
         self.summary.merge(&other.summary);
         for ((tally, time), (more, more_time)) in self.rows.iter_mut().zip(other.rows) {
             tally.merge(more);
@@ -162,8 +162,8 @@ struct Runner<'a, F: Scalar> {
 }
 
 /// A contract's demands on a chunk.
-pub(super) struct Asked {
-    pub expectations: Expectations,
+pub(super) struct ChunkDemands {
+    pub expectations: Demands,
     /// The demands, counted by class.
     pub classes: Vec<ClassCount>,
     pub groups: Arc<[GroupTruth]>,
@@ -174,25 +174,25 @@ impl<'a, F: Scalar> Runner<'a, F> {
         Runner { rows: Rows::new(rows), attribute, observer }
     }
 
-    fn no_sums(&self, examples: usize, source: usize) -> Sums {
+    fn no_sums(&self, examples: usize, source: usize) -> SourceSums {
         let tally = || Tally::new(examples, self.attribute);
-        Sums {
+        SourceSums {
             summary: SourceSummary::new(source, F::NAME),
             rows: self.rows.each.iter().map(|_| (tally(), 0)).collect(),
         }
     }
 
     /// Puts what a source added up to at the end of the sums.
-    fn add_to(&self, sums: Sums, audit: &mut Audit) {
+    fn add_to(&self, sums: SourceSums, audit: &mut Audit) {
         let source = sums.summary.source;
         audit.sources.push(sums.summary);
         let rows = self.rows.each.iter().zip(sums.rows);
         audit.cells.extend(rows.map(|(row, (tally, nanoseconds))| {
-            Cell::new(row.number, source, F::NAME, tally, nanoseconds)
+            SourceCell::new(row.number, source, F::NAME, tally, nanoseconds)
         }));
     }
 
-    fn causes(&self, source: &Source, cell: &Cell) -> BTreeMap<(Class, Finding), Causes> {
+    fn causes(&self, source: &Source, cell: &SourceCell) -> BTreeMap<(Class, Finding), Causes> {
         let row = self.rows.each.iter().find(|row| row.number == cell.row);
         row.map_or_else(BTreeMap::new, |row| {
             let contract = &self.rows.contracts[row.contract];
@@ -201,14 +201,14 @@ impl<'a, F: Scalar> Runner<'a, F> {
     }
 
     /// The demands of each contract on a chunk.
-    fn ask(&self, chunk: &Chunk<F>) -> Vec<Asked> {
+    fn ask(&self, chunk: &Chunk<F>) -> Vec<ChunkDemands> {
         let ask = |(contract, groups)| {
             let expectations = chunk.expectations(contract);
             let mut classes = vec![ClassCount::default(); Class::COUNT];
             for (class, obligation, cases) in &expectations.counts {
                 classes[class.number()].ask(*obligation, *cases);
             }
-            Asked { expectations, classes, groups }
+            ChunkDemands { expectations, classes, groups }
         };
         let contracts = &self.rows.contracts;
         contracts.iter().zip(chunk.group_truths_of_all(contracts)).map(ask).collect()
@@ -224,7 +224,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
         sampled.flat_map(|(_, cases)| cases).collect()
     }
 
-    fn add_chunk(&self, source: &Source, indices: Range<u64>, sums: &mut Sums) {
+    fn add_chunk(&self, source: &Source, indices: Range<u64>, sums: &mut SourceSums) {
         let chunk = Chunk::make(source, indices, self.observer, &mut sums.summary);
         let sample = self.sample(source, &chunk);
         let asked = self.ask(&chunk);

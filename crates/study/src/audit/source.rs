@@ -6,7 +6,7 @@ use crate::arith::Float;
 use crate::case::{Case, Instance, Matrix, Parameters, Ray, SceneKind, Toward};
 use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum};
 use crate::kernel::Scalar;
-use crate::mesh::{Part, SceneMesh, Surface, Targets};
+use crate::mesh::{AimedPart, SceneMesh, Surface, Targets};
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
 use std::sync::Arc;
@@ -38,7 +38,7 @@ pub enum Stock {
     Mesh(Arc<MeshFamily>),
     /// Groups at the edges, or at the vertices, of a mesh, in the scalars of the run: a ray and the triangles around
     /// its target.
-    MeshPart(Arc<Surface>, Part),
+    MeshPart(Arc<Surface>, AimedPart),
     /// A stratum of the scene that a mesh is.
     SceneMesh(Arc<SceneMesh>, Stratum),
     /// Stored cases.
@@ -49,7 +49,7 @@ pub enum Stock {
 pub fn is_of_mesh(name: &str) -> bool {
     name.split_once(':').is_some_and(|(kind, file)| {
         kind == "mesh"
-            || Part::named(kind).is_some()
+            || AimedPart::named(kind).is_some()
             || Stratum::named(kind).is_some() && SceneKind::named(file).is_none()
     })
 }
@@ -196,7 +196,7 @@ impl Source {
     /// Indices that go through a run together; of vertices fewer, which have more triangles.
     pub fn chunk(&self) -> u64 {
         match self.stock {
-            Stock::MeshPart(_, Part::Vertices) => CHUNK / 4,
+            Stock::MeshPart(_, AimedPart::Vertices) => CHUNK / 4,
             _ => CHUNK,
         }
     }
@@ -211,7 +211,7 @@ impl Source {
             count: directions,
             ..self.clone()
         };
-        Part::ALL.map(of).into()
+        AimedPart::ALL.map(of).into()
     }
 
     /// The edges and vertices of a mesh; none of other sources, or in another scalar.

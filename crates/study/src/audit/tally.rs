@@ -2,8 +2,8 @@
 
 use super::accuracy::Accuracy;
 use super::by_finding::ByFinding;
-use super::digest::{Digest, Place};
-use super::group_count::{GroupCount, Judged};
+use super::digest::{CasePlace, Digest};
+use super::group_count::{GroupCount, JudgedGroup};
 use super::histogram::Histogram;
 use super::trials::{RayProducts, Trials};
 use crate::judge::{Class, Finding, Obligation};
@@ -94,16 +94,16 @@ impl ClassCount {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Examples {
     /// In order of their place.
-    pub first: Vec<Place>,
+    pub first: Vec<CasePlace>,
     /// The one with the largest approximate severity, the first of equals.
     #[serde(with = "super::forms::scored")]
-    pub worst: Option<(f64, Place)>,
+    pub worst: Option<(f64, CasePlace)>,
     /// The digest of all places with the finding.
     pub digest: Digest,
 }
 
 impl Examples {
-    fn add(&mut self, (place, hash): (Place, u128), severity: f64, limit: usize) {
+    fn add(&mut self, (place, hash): (CasePlace, u128), severity: f64, limit: usize) {
         if self.first.len() < limit {
             self.first.push(place);
         }
@@ -111,7 +111,7 @@ impl Examples {
         self.propose((severity, place));
     }
 
-    fn propose(&mut self, (severity, place): (f64, Place)) {
+    fn propose(&mut self, (severity, place): (f64, CasePlace)) {
         let better = self.worst.is_none_or(|(worst, at)| match severity.total_cmp(&worst) {
             Ordering::Greater => true,
             Ordering::Equal => place < at,
@@ -155,7 +155,7 @@ impl PolygonCount {
         if finding.is_failure() {
             self.count.fail(obligation);
         }
-        let place = Place { index, triangle: 0 };
+        let place = CasePlace { index, triangle: 0 };
         self.examples.entry(finding).or_default().add((place, Digest::hash(place)), 0.0, limit);
     }
 
@@ -270,7 +270,7 @@ impl Tally {
         &mut self,
         class: Class,
         finding: Finding,
-        place: (Place, u128),
+        place: (CasePlace, u128),
         severity: Option<(f64, f64)>,
     ) {
         self.classes[class.number()].find(finding, !class.is_invalid());
@@ -286,7 +286,7 @@ impl Tally {
     }
 
     /// Counts a group.
-    pub fn group(&mut self, group: &Judged) {
+    pub fn group(&mut self, group: &JudgedGroup) {
         self.groups.add(group, self.group_limit);
     }
 
@@ -345,14 +345,14 @@ mod tests {
         let event = |tally: &mut Tally, index: u64| {
             tally.classes[class.number()].ask(Obligation::MustHit, 1);
             if index.is_multiple_of(3) {
-                let place = Place { index, triangle: 0 };
+                let place = CasePlace { index, triangle: 0 };
                 let severity = Some(((index * 7 % 11) as f64, 2.0));
                 tally.find(class, Finding::FalseMiss, (place, Digest::hash(place)), severity);
             }
             let products = tally.products.entry((Some(class), Finding::FalseMiss)).or_default();
             products.add_ray(index % 4, 4);
             let (truth, hits) = (GroupTruth::Crossing, (index % 4) as usize);
-            tally.group(&Judged { index, truth, hits, elsewhere: index % 8 == 4 });
+            tally.group(&JudgedGroup { index, truth, hits, elsewhere: index % 8 == 4 });
         };
         let mut whole = Tally::new(5, 0);
         (0..100).for_each(|index| event(&mut whole, index));

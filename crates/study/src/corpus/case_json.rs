@@ -108,12 +108,12 @@ fn parse_case<F: Float>(object: &Object) -> Result<Case<F>, String> {
 }
 
 /// `origin[2]`, written only where something is wrong.
-struct Path {
+struct JsonPath {
     field: &'static str,
     axis: usize,
 }
 
-impl fmt::Display for Path {
+impl fmt::Display for JsonPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}[{}]", self.field, self.axis)
     }
@@ -146,7 +146,7 @@ fn parse_vector<F: Float>(
     let mut vector = [F::zero(); 3];
     for (axis, number) in vector.iter_mut().enumerate() {
         let [value, bits] = [values, bits].map(|them| them.map(|them| them[axis]));
-        *number = number_of(Path { field, axis }, value, bits)?.unwrap_or(*number);
+        *number = number_of(JsonPath { field, axis }, value, bits)?.unwrap_or(*number);
     }
     Ok(vector)
 }

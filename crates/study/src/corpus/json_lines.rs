@@ -10,7 +10,7 @@ const MARK: &[u8] = b"\xef\xbb\xbf";
 /// stands, so that who reads the lines finds it. Keeps a chunk in memory, however long an object is.
 pub struct JsonLines<R> {
     reader: R,
-    lines: Lines,
+    lines: LinesRead,
     /// How much of the lines was handed on.
     read: usize,
 }
@@ -18,7 +18,7 @@ pub struct JsonLines<R> {
 impl<R: BufRead> JsonLines<R> {
     /// A reader's text as JSON lines.
     pub fn new(reader: R) -> JsonLines<R> {
-        JsonLines { reader, lines: Lines::default(), read: 0 }
+        JsonLines { reader, lines: LinesRead::default(), read: 0 }
     }
 }
 
@@ -54,7 +54,7 @@ impl<R: BufRead> Read for JsonLines<R> {
 
 /// Where a byte stands.
 #[derive(Clone, Copy, Default, PartialEq)]
-enum Place {
+enum BytePlace {
     /// Before everything but a mark and blanks.
     #[default]
     Start,
@@ -70,10 +70,10 @@ enum Place {
 }
 
 #[derive(Default)]
-struct Lines {
+struct LinesRead {
     /// The lines made of the last chunk.
     out: Vec<u8>,
-    place: Place,
+    place: BytePlace,
     /// How many bytes of the mark were met.
     mark: usize,
     /// True between the objects of an array, and in them.
@@ -89,15 +89,16 @@ struct Lines {
     begins_line: bool,
 }
 
-impl Lines {
+impl LinesRead {
     fn add_all(&mut self, mut text: &[u8]) {
         while let Some((first, rest)) = text.split_first() {
-            let begins = matches!(self.place, Place::Start | Place::LineStart) && !self.in_array;
+            let begins =
+                matches!(self.place, BytePlace::Start | BytePlace::LineStart) && !self.in_array;
             if begins && *first == b'{' {
                 // As most lines are: copied whole, which is several times as fast.
                 let (start, mut behind) = (self.out.len(), text);
                 if behind.read_until(b'\n', &mut self.out).is_ok() && is_plain(&self.out[start..]) {
-                    (self.place, text) = (Place::LineStart, behind);
+                    (self.place, text) = (BytePlace::LineStart, behind);
                     continue;
                 }
                 self.out.truncate(start);
@@ -108,32 +109,32 @@ impl Lines {
     }
 
     fn add(&mut self, byte: u8) {
-        if self.place == Place::Object {
+        if self.place == BytePlace::Object {
             return self.add_inside(byte);
         }
         let is_blank = byte == b' ' || byte == b'\t' || byte == b'\r';
         match (self.place, byte) {
-            (Place::Start, _) if MARK.get(self.mark) == Some(&byte) => self.mark += 1,
-            (Place::Start, b'\n') => self.out.push(byte),
-            (Place::Start, b'[') => self.place = Place::Bracket,
-            (Place::Bracket, b'{') => {
+            (BytePlace::Start, _) if MARK.get(self.mark) == Some(&byte) => self.mark += 1,
+            (BytePlace::Start, b'\n') => self.out.push(byte),
+            (BytePlace::Start, b'[') => self.place = BytePlace::Bracket,
+            (BytePlace::Bracket, b'{') => {
                 self.in_array = true;
                 self.begin();
             }
-            (Place::Bracket, b'\n') => self.held += 1,
-            (Place::Bracket, _) if is_blank => {}
-            (Place::Bracket, b']') => self.place = Place::Rest,
-            (Place::Bracket, _) => {
+            (BytePlace::Bracket, b'\n') => self.held += 1,
+            (BytePlace::Bracket, _) if is_blank => {}
+            (BytePlace::Bracket, b']') => self.place = BytePlace::Rest,
+            (BytePlace::Bracket, _) => {
                 self.out.extend([b'[', byte]);
-                self.place = Place::Rest;
+                self.place = BytePlace::Rest;
             }
             (_, b'\n') => self.end_line(),
-            (Place::Start | Place::LineStart, b'{') => self.begin(),
-            (Place::Behind | Place::LineStart, b',') if self.in_array => {}
-            (Place::Behind | Place::LineStart, b']') if self.in_array => {
-                (self.place, self.in_array) = (Place::Rest, false);
+            (BytePlace::Start | BytePlace::LineStart, b'{') => self.begin(),
+            (BytePlace::Behind | BytePlace::LineStart, b',') if self.in_array => {}
+            (BytePlace::Behind | BytePlace::LineStart, b']') if self.in_array => {
+                (self.place, self.in_array) = (BytePlace::Rest, false);
             }
-            (Place::Behind, _) if !is_blank => {
+            (BytePlace::Behind, _) if !is_blank => {
                 // Another object in the line, which begins one of its own.
                 self.held = self.held.saturating_sub(1);
                 self.end_line();
@@ -141,7 +142,7 @@ impl Lines {
             }
             _ => {
                 self.out.push(byte);
-                self.place = if is_blank { self.place } else { Place::Rest };
+                self.place = if is_blank { self.place } else { BytePlace::Rest };
             }
         }
     }
@@ -149,12 +150,12 @@ impl Lines {
     fn begin(&mut self) {
         self.out.extend(repeat_n(b'\n', take(&mut self.held)));
         self.out.push(b'{');
-        (self.place, self.depth, self.last, self.begins_line) = (Place::Object, 1, b'{', false);
+        (self.place, self.depth, self.last, self.begins_line) = (BytePlace::Object, 1, b'{', false);
     }
 
     fn end_line(&mut self) {
         self.out.extend(repeat_n(b'\n', 1 + take(&mut self.held)));
-        (self.place, self.in_string) = (Place::LineStart, false);
+        (self.place, self.in_string) = (BytePlace::LineStart, false);
     }
 
     fn add_inside(&mut self, byte: u8) {
@@ -183,7 +184,7 @@ impl Lines {
             }
             (self.last, self.begins_line) = (byte, false);
             if self.depth == 0 {
-                self.place = if self.in_array { Place::Behind } else { Place::Rest };
+                self.place = if self.in_array { BytePlace::Behind } else { BytePlace::Rest };
             }
         }
         self.out.push(byte);
@@ -191,12 +192,12 @@ impl Lines {
 
     /// Says what is missing at the end.
     fn end(&mut self) {
-        if self.place == Place::Bracket {
+        if self.place == BytePlace::Bracket {
             self.out.push(b'[');
-        } else if take(&mut self.in_array) && self.place != Place::Object {
+        } else if take(&mut self.in_array) && self.place != BytePlace::Object {
             self.out.extend(b"\nthe end of an array without its ]");
         }
-        self.place = Place::Rest;
+        self.place = BytePlace::Rest;
     }
 }
 

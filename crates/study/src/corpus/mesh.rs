@@ -21,13 +21,13 @@ mod stl;
 
 use super::InputError;
 use crate::arith::Float;
-pub use builder::{Note, Place};
+pub use builder::{FilePlace, Note};
 #[cfg(feature = "studies")]
 pub use files::number_text;
 #[cfg(feature = "studies")]
 pub use files::{read_obj, write_obj};
 #[cfg(feature = "files")]
-pub use formats::{Beside, read};
+pub use formats::{ReadBeside, read};
 
 /// A mesh of triangles, as read from a file.
 #[derive(Clone, Debug, PartialEq)]

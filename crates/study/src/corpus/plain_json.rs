@@ -13,15 +13,15 @@ const LONGEST: usize = 4096;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, bound = "F: Float")]
-struct Line<'a, F> {
+struct PlainLine<'a, F> {
     #[serde(default, deserialize_with = "not_null")]
     name: Option<String>,
     scalar: &'a str,
-    origin: [Number<F>; 3],
-    direction: [Number<F>; 3],
-    a: [Number<F>; 3],
-    b: [Number<F>; 3],
-    c: [Number<F>; 3],
+    origin: [RoundedOnce<F>; 3],
+    direction: [RoundedOnce<F>; 3],
+    a: [RoundedOnce<F>; 3],
+    b: [RoundedOnce<F>; 3],
+    c: [RoundedOnce<F>; 3],
 }
 
 /// The case, made of such a line; none of any other line, or of a wrong one.
@@ -30,21 +30,21 @@ pub fn read<F: Float>(text: &str, case: fn(Case<F>) -> AnyCase) -> Option<Stored
     if text.len() > LONGEST || !text.starts_with('{') {
         return None;
     }
-    let Line { name, scalar, origin, direction, a, b, c } =
-        serde_json::from_str::<Line<F>>(text).ok()?;
+    let PlainLine { name, scalar, origin, direction, a, b, c } =
+        serde_json::from_str::<PlainLine<F>>(text).ok()?;
     let name = name.map(check_name).transpose().ok()?;
     let [origin, direction, a, b, c] =
-        [origin, direction, a, b, c].map(|vector| vector.map(|Number(number)| number));
+        [origin, direction, a, b, c].map(|vector| vector.map(|RoundedOnce(number)| number));
     let case = case(Case::new(origin, direction, [a, b, c]));
     (scalar == F::NAME).then(|| StoredCase { name, ..StoredCase::of(case) })
 }
 
 /// A number that is rounded once, from its text; an error if `serde_json` may have rounded it before.
 #[derive(Clone, Copy)]
-struct Number<F>(F);
+struct RoundedOnce<F>(F);
 
-impl<'a, F: Float> Deserialize<'a> for Number<F> {
-    fn deserialize<D: Deserializer<'a>>(value: D) -> Result<Number<F>, D::Error> {
+impl<'a, F: Float> Deserialize<'a> for RoundedOnce<F> {
+    fn deserialize<D: Deserializer<'a>>(value: D) -> Result<RoundedOnce<F>, D::Error> {
         // Tells it how to round.
         match F::NAME == f32::NAME {
             true => value.deserialize_f32(Once(PhantomData)),
@@ -56,33 +56,33 @@ impl<'a, F: Float> Deserialize<'a> for Number<F> {
 struct Once<F>(PhantomData<F>);
 
 impl<F: Float> Once<F> {
-    fn exactly<E: Error>(value: f64) -> Result<Number<F>, E> {
+    fn exactly<E: Error>(value: f64) -> Result<RoundedOnce<F>, E> {
         let number = F::from_f64(value);
         match number.to_f64() == value {
-            true => Ok(Number(number)),
+            true => Ok(RoundedOnce(number)),
             false => Err(E::custom("rounded twice")),
         }
     }
 }
 
 impl<F: Float> Visitor<'_> for Once<F> {
-    type Value = Number<F>;
+    type Value = RoundedOnce<F>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a number")
     }
 
     /// An integer of 2^64 and more comes in `f64`, whatever was asked for.
-    fn visit_f64<E: Error>(self, value: f64) -> Result<Number<F>, E> {
+    fn visit_f64<E: Error>(self, value: f64) -> Result<RoundedOnce<F>, E> {
         Once::exactly(value)
     }
 
-    fn visit_u64<E: Error>(self, value: u64) -> Result<Number<F>, E> {
-        u32::try_from(value).map_err(E::custom).map(|value| Number(F::from_f64(value.into())))
+    fn visit_u64<E: Error>(self, value: u64) -> Result<RoundedOnce<F>, E> {
+        u32::try_from(value).map_err(E::custom).map(|value| RoundedOnce(F::from_f64(value.into())))
     }
 
-    fn visit_i64<E: Error>(self, value: i64) -> Result<Number<F>, E> {
-        i32::try_from(value).map_err(E::custom).map(|value| Number(F::from_f64(value.into())))
+    fn visit_i64<E: Error>(self, value: i64) -> Result<RoundedOnce<F>, E> {
+        i32::try_from(value).map_err(E::custom).map(|value| RoundedOnce(F::from_f64(value.into())))
     }
 }
 
@@ -124,7 +124,7 @@ mod tests {
             let vectors = VECTORS.map(&mut vector).join(", ");
             let name = ["", ",\"name\":\"one \\u0041\"", ",\"name\":\"\""][vectors.len() % 3];
             let line = format!("{{\"scalar\":\"{}\",{vectors}{name}}}", F::NAME);
-            let plain = serde_json::from_str::<Line<F>>(&line).is_ok();
+            let plain = serde_json::from_str::<PlainLine<F>>(&line).is_ok();
             *read += usize::from(plain);
             let show = |read: Result<StoredCase, String>| read.map(|stored| format!("{stored:?}"));
             assert_eq!(show(parse(&line, 3)), show(parse_any(&line, 3)), "{line}");

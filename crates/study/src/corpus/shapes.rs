@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// A mesh in memory: what [`write_obj`](super::mesh::write_obj) writes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shape {
+pub struct MadeMesh {
     /// Lower-case letters: the name of its object and of its file.
     pub name: &'static str,
     /// A description in one line.
@@ -18,7 +18,7 @@ pub struct Shape {
 }
 
 /// All shapes, always the same.
-pub fn all() -> Vec<Shape> {
+pub fn all() -> Vec<MadeMesh> {
     vec![icosphere(), torus(), heightfield(), needles(), far()]
 }
 
@@ -68,19 +68,19 @@ fn shape(
     about: &'static str,
     mut vertices: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
-) -> Shape {
+) -> MadeMesh {
     for coordinate in vertices.as_flattened_mut() {
         *coordinate = f64::from(*coordinate as f32);
     }
-    Shape { name, about, vertices, faces: triangles.into_iter().map(Vec::from).collect() }
+    MadeMesh { name, about, vertices, faces: triangles.into_iter().map(Vec::from).collect() }
 }
 
-fn icosphere() -> Shape {
+fn icosphere() -> MadeMesh {
     let (vertices, triangles) = subdivided_icosahedron(3);
     shape("icosphere", "a closed unit sphere of 1,280 even triangles", vertices, triangles)
 }
 
-fn far() -> Shape {
+fn far() -> MadeMesh {
     let (mut vertices, triangles) = subdivided_icosahedron(1);
     for vertex in &mut vertices {
         let centre = [1e6, -2e6, 3e6];
@@ -169,7 +169,7 @@ fn circle(points: u32) -> Vec<[f64; 2]> {
     (0..points).map(place).collect()
 }
 
-fn torus() -> Shape {
+fn torus() -> MadeMesh {
     let (around, across) = (48, 24);
     let mut vertices = Vec::new();
     for [x, y] in circle(around) {
@@ -194,7 +194,7 @@ fn torus() -> Shape {
     )
 }
 
-fn heightfield() -> Shape {
+fn heightfield() -> MadeMesh {
     const ROWS: u32 = 39;
     let half = |power: u32| 1.0 / f64::from(1u32 << power);
     let widths: Vec<f64> = (0..=12).chain((0..=12).rev()).map(half).collect();
@@ -238,7 +238,7 @@ fn is_shifted(column: u32) -> bool {
     column & 2 != 0
 }
 
-fn needles() -> Shape {
+fn needles() -> MadeMesh {
     let rim = circle(1000);
     let mut vertices = vec![[0.0; 3]];
     vertices.extend(rim.iter().map(|[x, y]| [*x, *y, (x * x - y * y) / 32.0]));
@@ -253,7 +253,7 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    fn written(shape: &Shape) -> Vec<u8> {
+    fn written(shape: &MadeMesh) -> Vec<u8> {
         let mut text = Vec::new();
         write_obj(shape, &mut text).unwrap();
         text
@@ -363,7 +363,7 @@ mod tests {
 
     #[test]
     fn needles_are_needles_and_the_height_field_has_caps_too() {
-        let slender = |shape: Shape| -> Vec<(f64, f64)> {
+        let slender = |shape: MadeMesh| -> Vec<(f64, f64)> {
             let mesh = read(&written(&shape));
             (0..mesh.triangles.len()).map(|i| slenderness(mesh.vertices::<f64>(i))).collect()
         };

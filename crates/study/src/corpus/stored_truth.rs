@@ -32,11 +32,11 @@ const CONTACT_FIELDS: [&str; 3] = ["kind", "feature", "t"];
 /// The truth beside a case in a corpus file: the fields of [`TruthLine`] (or of its contact), any of them,
 /// in their order. Fractions are kept as [`TruthLine`] writes them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct StoredTruth(Vec<(&'static str, Stored)>);
+pub struct StoredTruth(Vec<(&'static str, StoredValue)>);
 
 /// The value of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Stored {
+enum StoredValue {
     Null,
     Text(String),
     Flag(bool),
@@ -49,14 +49,14 @@ impl StoredTruth {
     /// are errors, which name the field.
     pub fn parse(text: &str) -> Result<StoredTruth, String> {
         StoredTruth::read(text, &FIELDS, |field, value| match field {
-            "name" => json::string(value).map(Stored::Text),
+            "name" => json::string(value).map(StoredValue::Text),
             "class" => word(value, &CLASSES),
             "facing" => word(value, &[Facing::Front, Facing::Back].map(Facing::name)),
             "t" => word(value, &Place::ALL.map(Place::name)),
             "feature" => word(value, &Feature::ALL.map(Feature::name)),
-            "contact" => StoredTruth::parse_contact(value).map(Stored::Contact),
-            "hits_closed" => boolean(value).map(Stored::Flag),
-            _ => fraction(value).map(Stored::Text),
+            "contact" => StoredTruth::parse_contact(value).map(StoredValue::Contact),
+            "hits_closed" => boolean(value).map(StoredValue::Flag),
+            _ => fraction(value).map(StoredValue::Text),
         })
     }
 
@@ -66,7 +66,7 @@ impl StoredTruth {
             "feature" => word(value, &Feature::ALL.map(Feature::name)),
             _ => {
                 let [first, last] = json::array(value, "fractions")?;
-                Ok(Stored::Ends([fraction(first)?, fraction(last)?]))
+                Ok(StoredValue::Ends([fraction(first)?, fraction(last)?]))
             }
         })
     }
@@ -74,13 +74,13 @@ impl StoredTruth {
     fn read(
         text: &str,
         known: &[&'static str],
-        read: impl Fn(&str, &str) -> Result<Stored, String>,
+        read: impl Fn(&str, &str) -> Result<StoredValue, String>,
     ) -> Result<StoredTruth, String> {
         let object = Object::parse(text, known)?;
         let stored = known.iter().filter_map(|&field| {
             let value = object.read(field, |value| match (value, field) {
                 ("null", "class" | "kind") => Err("cannot be null".to_owned()),
-                ("null", _) => Ok(Stored::Null),
+                ("null", _) => Ok(StoredValue::Null),
                 _ => read(field, value),
             });
             Some(value.transpose()?.map(|value| (field, value)))
@@ -90,26 +90,26 @@ impl StoredTruth {
 
     fn of_contact(contact: &ContactLine) -> StoredTruth {
         let mut fields = vec![
-            ("kind", Stored::Text(contact.kind.to_owned())),
-            ("feature", Stored::word(contact.feature)),
+            ("kind", StoredValue::Text(contact.kind.to_owned())),
+            ("feature", StoredValue::word(contact.feature)),
         ];
-        let ends = |t: &Option<_>| t.clone().map_or(Stored::Null, Stored::Ends);
+        let ends = |t: &Option<_>| t.clone().map_or(StoredValue::Null, StoredValue::Ends);
         fields.extend(contact.t.as_ref().map(|t| ("t", ends(t))));
         StoredTruth(fields)
     }
 
-    fn get(&self, field: &str) -> Option<&Stored> {
+    fn get(&self, field: &str) -> Option<&StoredValue> {
         self.0.iter().find(|(name, _)| *name == field).map(|(_, stored)| stored)
     }
 
     /// The stored fields, on one line.
     pub fn to_json(&self) -> String {
-        let value = |stored: &Stored| match stored {
-            Stored::Null => "null".to_owned(),
-            Stored::Text(text) => json!(text).to_string(),
-            Stored::Flag(flag) => flag.to_string(),
-            Stored::Ends(ends) => json!(ends).to_string(),
-            Stored::Contact(contact) => contact.to_json(),
+        let value = |stored: &StoredValue| match stored {
+            StoredValue::Null => "null".to_owned(),
+            StoredValue::Text(text) => json!(text).to_string(),
+            StoredValue::Flag(flag) => flag.to_string(),
+            StoredValue::Ends(ends) => json!(ends).to_string(),
+            StoredValue::Contact(contact) => contact.to_json(),
         };
         json::object(self.0.iter().map(|(field, stored)| (*field, value(stored))))
     }
@@ -121,8 +121,8 @@ impl StoredTruth {
 
     fn compare(&self, path: &str, found: &StoredTruth) -> Result<(), String> {
         for (field, stored) in self.0.iter().filter(|(field, _)| *field != "name") {
-            match (stored, found.get(field).unwrap_or(&Stored::Null)) {
-                (Stored::Contact(stored), Stored::Contact(found)) => {
+            match (stored, found.get(field).unwrap_or(&StoredValue::Null)) {
+                (StoredValue::Contact(stored), StoredValue::Contact(found)) => {
                     stored.compare("contact.", found)?;
                 }
                 (stored, found) if stored != found => {
@@ -138,7 +138,7 @@ impl StoredTruth {
 
     /// True if a fraction is stored, or null for one.
     pub fn has_fractions(&self) -> bool {
-        let has_t = |stored: &Stored| matches!(stored, Stored::Contact(c) if c.get("t").is_some());
+        let has_t = |stored: &StoredValue| matches!(stored, StoredValue::Contact(c) if c.get("t").is_some());
         self.0.iter().any(|(field, stored)| field.ends_with("_exact") || has_t(stored))
     }
 }
@@ -148,37 +148,37 @@ impl From<&TruthLine> for StoredTruth {
     fn from(line: &TruthLine) -> StoredTruth {
         let contact = line.contact.as_ref().map(StoredTruth::of_contact);
         let mut fields = vec![
-            ("class", Stored::word(Some(line.class))),
-            ("facing", Stored::word(line.facing)),
-            ("t", Stored::word(line.t)),
-            ("feature", Stored::word(line.feature)),
-            ("contact", contact.map_or(Stored::Null, Stored::Contact)),
-            ("hits_closed", line.hits_closed.map_or(Stored::Null, Stored::Flag)),
+            ("class", StoredValue::word(Some(line.class))),
+            ("facing", StoredValue::word(line.facing)),
+            ("t", StoredValue::word(line.t)),
+            ("feature", StoredValue::word(line.feature)),
+            ("contact", contact.map_or(StoredValue::Null, StoredValue::Contact)),
+            ("hits_closed", line.hits_closed.map_or(StoredValue::Null, StoredValue::Flag)),
         ];
         let fractions =
             [("t_exact", &line.t_exact), ("u_exact", &line.u_exact), ("v_exact", &line.v_exact)];
         for (field, fraction) in fractions {
-            let fraction = fraction.as_ref().map(|fraction| Stored::word(fraction.as_deref()));
+            let fraction = fraction.as_ref().map(|fraction| StoredValue::word(fraction.as_deref()));
             fields.extend(fraction.map(|fraction| (field, fraction)));
         }
         StoredTruth(fields)
     }
 }
 
-impl Stored {
-    fn word(word: Option<&str>) -> Stored {
-        word.map_or(Stored::Null, |word| Stored::Text(word.to_owned()))
+impl StoredValue {
+    fn word(word: Option<&str>) -> StoredValue {
+        word.map_or(StoredValue::Null, |word| StoredValue::Text(word.to_owned()))
     }
 }
 
-impl fmt::Display for Stored {
+impl fmt::Display for StoredValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Stored::Null => f.write_str("null"),
-            Stored::Text(text) => write!(f, "'{text}'"),
-            Stored::Flag(flag) => write!(f, "'{flag}'"),
-            Stored::Ends([first, last]) => write!(f, "'[{first}, {last}]'"),
-            Stored::Contact(contact) => match contact.get("kind") {
+            StoredValue::Null => f.write_str("null"),
+            StoredValue::Text(text) => write!(f, "'{text}'"),
+            StoredValue::Flag(flag) => write!(f, "'{flag}'"),
+            StoredValue::Ends([first, last]) => write!(f, "'[{first}, {last}]'"),
+            StoredValue::Contact(contact) => match contact.get("kind") {
                 Some(kind) => write!(f, "{kind}"),
                 None => f.write_str("'some'"),
             },
@@ -186,10 +186,10 @@ impl fmt::Display for Stored {
     }
 }
 
-fn word(value: &str, known: &[&str]) -> Result<Stored, String> {
+fn word(value: &str, known: &[&str]) -> Result<StoredValue, String> {
     let text = json::string(value)?;
     if known.contains(&text.as_str()) {
-        return Ok(Stored::Text(text));
+        return Ok(StoredValue::Text(text));
     }
     Err(format!("{} is none of {}", json::quoted(&text), known.join(", ")))
 }

@@ -1,9 +1,9 @@
 //! The values that are weighed for each knob: round numbers over the range in which they matter.
 
 use super::errors::{MaxError, errors_of};
-use super::joint::Grid;
+use super::joint::KnobGrid;
 use super::knob::{Knob, MOST_KNOBS};
-use super::rays::{Kind, Rays};
+use super::rays::{Rays, WrongKind};
 use super::trials::{Setting, Trial};
 use crate::arith::{Float, smallest_normal};
 use crate::case::{DirectionLength, Scene};
@@ -76,7 +76,7 @@ pub fn grid<F: Scalar>(
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-) -> (Grid<F>, usize) {
+) -> (KnobGrid<F>, usize) {
     let gates = setting.row.entry.info.gates;
     let empty = || Ranges { above: [None; MOST_KNOBS], below: [None; MOST_KNOBS] };
     let add = |ranges: &mut Ranges, trial: Trial<'_, F>| {
@@ -84,10 +84,10 @@ pub fn grid<F: Scalar>(
         let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(&trial));
         let is_refused = match kind {
             // A hit that is too far off is to be refused too.
-            Kind::Miss => max_error.is_some_and(is_exceeded),
+            WrongKind::Miss => max_error.is_some_and(is_exceeded),
             kind => !kind.is_wrong_if_refused(),
         };
-        let is_self_hit = kind == Kind::SelfHit;
+        let is_self_hit = kind == WrongKind::SelfHit;
         for (k, knob) in setting.knobs.iter().enumerate() {
             let margins = trial.margins.iter().map(|margins| margins[k]);
             let margin = margins.fold(-F::infinity(), |most, m| if most < m { m } else { most });
@@ -111,12 +111,12 @@ pub fn grid<F: Scalar>(
             // would speak for a least t as large: for a property of these rays, and not of the kernel.
             let is_of_t = knob.role(gates) == Role::T;
             let is_in_reach = match is_of_scene {
-                true => !is_of_t || is_self_hit || kind == Kind::Miss,
-                false => trial.guards[k] || kind == Kind::Miss,
+                true => !is_of_t || is_self_hit || kind == WrongKind::Miss,
+                false => trial.guards[k] || kind == WrongKind::Miss,
             };
             if F::zero() < margin && is_refused && is_in_reach {
                 widen(&mut ranges.above[k], size);
-                if is_of_t || kind == Kind::Miss {
+                if is_of_t || kind == WrongKind::Miss {
                     widen(&mut ranges.above[k], beyond);
                 }
             }
@@ -140,7 +140,7 @@ pub fn grid<F: Scalar>(
             setting.knobs.iter().enumerate().map(of_knob).unzip();
         let points: usize = values.iter().map(|values| values.len() + 1).product();
         if points <= most_points || step == 8 {
-            return (Grid::new(values), steps.into_iter().fold(step, usize::max));
+            return (KnobGrid::new(values), steps.into_iter().fold(step, usize::max));
         }
         step += 1;
     }
@@ -216,13 +216,13 @@ pub fn middle<F: Float>(low: F, high: F) -> F {
 }
 
 /// The grid of some values of each knob.
-pub fn of_values<F: Float>(values: impl Iterator<Item = Vec<F>>) -> Grid<F> {
-    Grid::new(values.map(in_order).collect())
+pub fn of_values<F: Float>(values: impl Iterator<Item = Vec<F>>) -> KnobGrid<F> {
+    KnobGrid::new(values.map(in_order).collect())
 }
 
 /// The grid of a point, zero, and the round numbers of a step on the point's side of zero, as far on each side as the
 /// neighbours of the next coarser grid.
-pub fn around<F: Float>(point: &[F], step: usize) -> Grid<F> {
+pub fn around<F: Float>(point: &[F], step: usize) -> KnobGrid<F> {
     let factor = 10f64.powi(1 << step);
     let near = |x: &F| {
         let size = x.to_f64().abs();
@@ -235,7 +235,7 @@ pub fn around<F: Float>(point: &[F], step: usize) -> Grid<F> {
         }
         in_order(values)
     };
-    Grid::new(point.iter().map(near).collect())
+    KnobGrid::new(point.iter().map(near).collect())
 }
 
 #[cfg(test)]

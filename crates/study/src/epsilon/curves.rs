@@ -1,8 +1,8 @@
 //! The wrong answers at every value of one knob while the others stay.
 
 use super::candidates::round_values;
-use super::limits::{Limit, alone};
-use super::proved::Proved;
+use super::limits::{KnobLimit, alone};
+use super::proved::ProvedValue;
 use super::trials::{Setting, Trial};
 use crate::arith::Float;
 use crate::engine::{Merge, Observer};
@@ -74,8 +74,8 @@ pub fn curves<F: Scalar>(
 /// proved, zero, and round numbers from far below to far above them, many if fine.
 pub fn axes<F: Float>(
     tried: &[(String, Vec<F>)],
-    limits: &[Limit<F>],
-    proofs: &[Proved<F>],
+    limits: &[KnobLimit<F>],
+    proofs: &[ProvedValue<F>],
     is_fine: bool,
 ) -> Vec<Vec<F>> {
     let of_knob = |knob: usize| {

@@ -1,8 +1,8 @@
 //! All knobs together: the counts at every combination of some values, and the cheapest of them.
 
 use super::errors::{MaxError, errors_of};
-use super::knob::Margins;
-use super::rays::{Count, Kind};
+use super::knob::KnobMargins;
+use super::rays::{RayCount, WrongKind};
 use super::trials::{Setting, Trial};
 use crate::arith::Float;
 use crate::audit::Trials;
@@ -13,7 +13,7 @@ use crate::suggest::nearest_name;
 /// The costs of wrong answers, by kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Costs {
-    of: [f64; Kind::ALL.len()],
+    of: [f64; WrongKind::ALL.len()],
 }
 
 impl Default for Costs {
@@ -31,9 +31,9 @@ impl Costs {
             let expected = "write crack=10,miss=1,hit=1,self-hit=1";
             let (key, value) =
                 word.split_once('=').ok_or_else(|| format!("'{word}' is no cost: {expected}"))?;
-            let kind = Kind::named(key.trim());
+            let kind = WrongKind::named(key.trim());
             let kind = kind.ok_or_else(|| {
-                let near = nearest_name(key.trim(), Kind::ALL.map(Kind::name));
+                let near = nearest_name(key.trim(), WrongKind::ALL.map(WrongKind::name));
                 let near = near.map_or(String::new(), |near| format!("did you mean '{near}'? "));
                 format!("unknown kind '{key}': {near}{expected}")
             })?;
@@ -53,17 +53,17 @@ impl Costs {
     }
 
     /// The cost of one wrong answer.
-    pub fn of(&self, kind: Kind) -> f64 {
+    pub fn of(&self, kind: WrongKind) -> f64 {
         self.of[kind as usize]
     }
 
     /// The total of what was wrong; where there was no trial, nothing.
-    pub fn of_trials(&self, counts: &[Count], wrong: &[Trials]) -> f64 {
+    pub fn of_trials(&self, counts: &[RayCount], wrong: &[Trials]) -> f64 {
         self.total(counts, wrong.iter().map(|trials| trials.share().unwrap_or(0.0)))
     }
 
     /// The sum of the shares of wrong answers, each times its cost.
-    pub fn total(&self, counts: &[Count], shares: impl IntoIterator<Item = f64>) -> f64 {
+    pub fn total(&self, counts: &[RayCount], shares: impl IntoIterator<Item = f64>) -> f64 {
         counts.iter().zip(shares).map(|(count, share)| self.of(count.kind) * share).sum()
     }
 }
@@ -75,13 +75,13 @@ const PLATEAU: usize = 3;
 const NEGLIGIBLE: f64 = 0.01;
 
 /// The values that are weighed for each knob, in order.
-pub struct Grid<F> {
+pub struct KnobGrid<F> {
     values: Vec<Vec<F>>,
 }
 
 /// The counts at every point of a grid.
 pub struct Joint<F> {
-    grid: Grid<F>,
+    grid: KnobGrid<F>,
     /// By count: how many trials.
     of: Vec<u64>,
     /// By count, then by point: how many trials report a hit.
@@ -90,10 +90,10 @@ pub struct Joint<F> {
     exceeded: Option<Vec<Vec<i64>>>,
 }
 
-impl<F: Float> Grid<F> {
+impl<F: Float> KnobGrid<F> {
     /// From each knob's values, in order.
-    pub fn new(values: Vec<Vec<F>>) -> Grid<F> {
-        Grid { values }
+    pub fn new(values: Vec<Vec<F>>) -> KnobGrid<F> {
+        KnobGrid { values }
     }
 
     /// By knob.
@@ -108,7 +108,7 @@ impl<F: Float> Grid<F> {
     }
 
     /// How many values of each knob accept margins.
-    fn accepted(&self, margins: &Margins<F>) -> Vec<usize> {
+    fn accepted(&self, margins: &KnobMargins<F>) -> Vec<usize> {
         let axes = self.values.iter().zip(margins);
         axes.map(|(values, margin)| values.partition_point(|value| value <= margin)).collect()
     }
@@ -123,14 +123,14 @@ impl<F: Float> Grid<F> {
     }
 }
 
-struct Sums {
+struct JointSums {
     of: Vec<u64>,
     cells: Vec<Vec<i64>>,
     exceeded: Vec<Vec<i64>>,
 }
 
-impl Merge for Sums {
-    fn merge(&mut self, other: Sums) {
+impl Merge for JointSums {
+    fn merge(&mut self, other: JointSums) {
         self.of.iter_mut().zip(other.of).for_each(|(sum, more)| *sum += more);
         let cells = self.cells.iter_mut().zip(other.cells);
         for (cells, more) in cells.chain(self.exceeded.iter_mut().zip(other.exceeded)) {
@@ -147,7 +147,7 @@ impl<F: Scalar> Joint<F> {
     /// Counts at every point of a grid.
     pub fn count(
         setting: &Setting<'_, F>,
-        grid: Grid<F>,
+        grid: KnobGrid<F>,
         max_error: Option<&MaxError>,
         seed: u64,
         count: u64,
@@ -155,8 +155,9 @@ impl<F: Scalar> Joint<F> {
     ) -> Joint<F> {
         let number = setting.counts.len();
         let none = vec![Vec::new(); number];
-        let empty = || Sums { of: vec![0; number], cells: none.clone(), exceeded: none.clone() };
-        let add = |sums: &mut Sums, trial: Trial<'_, F>| {
+        let empty =
+            || JointSums { of: vec![0; number], cells: none.clone(), exceeded: none.clone() };
+        let add = |sums: &mut JointSums, trial: Trial<'_, F>| {
             sums.of[trial.count] += 1;
             let terms = union(trial.margins.iter().map(|m| grid.accepted(m)).collect());
             let add_to = |cells: &mut Vec<i64>| {
@@ -165,12 +166,12 @@ impl<F: Scalar> Joint<F> {
             };
             add_to(&mut sums.cells[trial.count]);
             let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(&trial));
-            let is_hit = setting.counts[trial.count].kind == Kind::Miss;
+            let is_hit = setting.counts[trial.count].kind == WrongKind::Miss;
             if is_hit && max_error.is_some_and(is_exceeded) {
                 add_to(&mut sums.exceeded[trial.count]);
             }
         };
-        let Sums { of, cells, exceeded } = setting.sum(seed, count, observer, empty, add);
+        let JointSums { of, cells, exceeded } = setting.sum(seed, count, observer, empty, add);
         let all = |cells: Vec<Vec<i64>>| {
             cells.into_iter().map(|cells| accumulated(&grid, cells)).collect()
         };
@@ -185,17 +186,17 @@ impl<F: Scalar> Joint<F> {
     }
 
     /// True if the hits that remain at a point have errors as small as is wanted, in each stratum.
-    fn is_accurate(&self, counts: &[Count], places: &[usize]) -> bool {
+    fn is_accurate(&self, counts: &[RayCount], places: &[usize]) -> bool {
         let Some(exceeded) = &self.exceeded else { return true };
         let cell = self.cell_of(places);
         let at = |of: &[i64]| of.get(cell).copied().unwrap_or(0) as u64;
         let pairs = counts.iter().zip(self.hits.iter().zip(exceeded));
-        let mut of_hits = pairs.filter(|(count, _)| count.kind == Kind::Miss);
+        let mut of_hits = pairs.filter(|(count, _)| count.kind == WrongKind::Miss);
         of_hits.all(|(_, (hits, exceeded))| MaxError::is_kept(at(exceeded), at(hits)))
     }
 
     /// The share of wrong answers of each count at a point; 0 of nothing.
-    fn shares(&self, counts: &[Count], places: &[usize]) -> Vec<f64> {
+    fn shares(&self, counts: &[RayCount], places: &[usize]) -> Vec<f64> {
         let cell = self.cell_of(places);
         let wrong = counts.iter().zip(&self.of).zip(&self.hits).map(|((count, of), hits)| {
             let hits = hits.get(cell).copied().unwrap_or(0) as u64;
@@ -208,7 +209,7 @@ impl<F: Scalar> Joint<F> {
     /// A point as good as the cheapest ([`NEGLIGIBLE`]); none if errors are larger everywhere. Of these points a
     /// knob is 0, which needs no explanation, or else in the middle along it, so that another seed finds much the
     /// same.
-    pub fn best(&self, counts: &[Count], costs: &Costs) -> Option<Vec<F>> {
+    pub fn best(&self, counts: &[RayCount], costs: &Costs) -> Option<Vec<F>> {
         let cost = |places: &[usize]| costs.total(counts, self.shares(counts, places));
         let mut best: Option<(f64, Vec<usize>)> = None;
         let mut places = vec![0; self.grid.values.len()];
@@ -264,7 +265,7 @@ impl<F: Scalar> Joint<F> {
     /// chance explains.
     pub fn moved(
         &self,
-        counts: &[Count],
+        counts: &[RayCount],
         costs: &Costs,
         from: &[F],
         to: &[Option<F>],
@@ -289,7 +290,7 @@ impl<F: Scalar> Joint<F> {
     /// of their difference. The same rays are wrong at both points but for those that make the difference.
     fn is_surely_dearer(
         &self,
-        counts: &[Count],
+        counts: &[RayCount],
         costs: &Costs,
         places: &[usize],
         shares: &[f64],
@@ -330,7 +331,7 @@ fn union(boxes: Vec<Vec<usize>>) -> Vec<(i64, Vec<usize>)> {
 }
 
 /// By cell, the sum over all cells at or above it in every direction.
-fn accumulated<F: Float>(grid: &Grid<F>, mut cells: Vec<i64>) -> Vec<i64> {
+fn accumulated<F: Float>(grid: &KnobGrid<F>, mut cells: Vec<i64>) -> Vec<i64> {
     let mut stride = 1;
     for values in grid.values.iter().rev() {
         let length = values.len() + 1;

@@ -8,7 +8,7 @@ use crate::kernel::{Dimension, Gate, Role, Tunable};
 pub const MOST_KNOBS: usize = 3;
 
 /// The largest epsilon of each knob at which one triangle is accepted; +inf beyond the last knob.
-pub type Margins<F> = [F; MOST_KNOBS];
+pub type KnobMargins<F> = [F; MOST_KNOBS];
 
 /// By knob: if it is there to refuse a ray.
 pub(super) type Guards = [bool; MOST_KNOBS];

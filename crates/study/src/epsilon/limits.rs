@@ -8,7 +8,7 @@
 
 use super::candidates::middle;
 use super::confidence::{Ranks, kept, ranks};
-use super::rays::{Count, Kind, Rays};
+use super::rays::{RayCount, Rays, WrongKind};
 use super::trials::{Setting, Trial, accepts};
 use crate::arith::{Float, smallest_normal, two_digits};
 use crate::engine::{Merge, Observer};
@@ -17,7 +17,7 @@ use crate::kernel::{Role, Scalar};
 
 /// A limit of one knob by one count.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Limit<F> {
+pub struct KnobLimit<F> {
     /// The knob's place in the setting.
     pub knob: usize,
     /// The count's place in the setting.
@@ -35,7 +35,7 @@ pub struct Limit<F> {
 /// A limit that is known no better than within this factor moves a hundredfold with the seed.
 const UNSURE: f64 = 30.0;
 
-impl<F: Float> Limit<F> {
+impl<F: Float> KnobLimit<F> {
     /// True if these rays show so little of where the limit is that nobody should act on its value.
     pub fn is_unsure(&self) -> bool {
         let Some(value) = self.value else { return false };
@@ -81,26 +81,29 @@ impl<F: Float> Merge for Tails<F> {
 
 /// True if a limit comes from the rays beside a triangle. It shows how near they pass, so it is not printed; but the
 /// middle between it and the cracks is a good value for an edge.
-fn is_beside(count: Count) -> bool {
+fn is_beside(count: RayCount) -> bool {
     count.rays == Rays::Stratum(Stratum::Outside)
 }
 
 /// True if a count limits a knob from below, false if from above; none if such a knob is not chosen by what it counts.
-fn side(role: Role, count: Count) -> Option<bool> {
+fn side(role: Role, count: RayCount) -> Option<bool> {
     let Rays::Stratum(stratum) = count.rays else {
         return Some(match (role, count.kind) {
-            (Role::Parallel | Role::T, Kind::Miss) => false,
-            (Role::Parallel | Role::T, Kind::Hit) | (Role::T, Kind::SelfHit) => true,
+            (Role::Parallel | Role::T, WrongKind::Miss) => false,
+            (Role::Parallel | Role::T, WrongKind::Hit) | (Role::T, WrongKind::SelfHit) => true,
             (Role::Edge | Role::Other, kind) => !kind.is_wrong_if_refused(),
-            (Role::Parallel, Kind::Crack | Kind::SelfHit) | (Role::T, Kind::Crack) => return None,
+            (Role::Parallel, WrongKind::Crack | WrongKind::SelfHit)
+            | (Role::T, WrongKind::Crack) => return None,
         });
     };
     match (role, stratum, count.kind) {
-        (Role::Parallel, Stratum::Grazing | Stratum::Parallel, Kind::Hit) => Some(true),
-        (Role::T, Stratum::Shadow, Kind::SelfHit) => Some(true),
-        (Role::Parallel | Role::T, Stratum::Interior, Kind::Miss) => Some(false),
-        (Role::Edge | Role::Other, Stratum::Edges | Stratum::Vertices, Kind::Crack) => Some(false),
-        (Role::Edge | Role::Other, Stratum::Outside, Kind::Hit) => Some(true),
+        (Role::Parallel, Stratum::Grazing | Stratum::Parallel, WrongKind::Hit) => Some(true),
+        (Role::T, Stratum::Shadow, WrongKind::SelfHit) => Some(true),
+        (Role::Parallel | Role::T, Stratum::Interior, WrongKind::Miss) => Some(false),
+        (Role::Edge | Role::Other, Stratum::Edges | Stratum::Vertices, WrongKind::Crack) => {
+            Some(false)
+        }
+        (Role::Edge | Role::Other, Stratum::Outside, WrongKind::Hit) => Some(true),
         _ => None,
     }
 }
@@ -112,12 +115,15 @@ pub fn limits<F: Scalar>(
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-) -> Vec<Limit<F>> {
+) -> Vec<KnobLimit<F>> {
     printed(setting, all_limits(setting, epsilons, seed, count, observer))
 }
 
 /// The limits that say something of the kernel, which are printed.
-pub fn printed<F: Scalar>(setting: &Setting<'_, F>, mut limits: Vec<Limit<F>>) -> Vec<Limit<F>> {
+pub fn printed<F: Scalar>(
+    setting: &Setting<'_, F>,
+    mut limits: Vec<KnobLimit<F>>,
+) -> Vec<KnobLimit<F>> {
     limits.retain(|limit| !is_beside(setting.counts[limit.count]));
     limits
 }
@@ -129,7 +135,7 @@ pub fn all_limits<F: Scalar>(
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-) -> Vec<Limit<F>> {
+) -> Vec<KnobLimit<F>> {
     let gates = setting.row.entry.info.gates;
     let mut pairs = Vec::new();
     for (k, knob) in setting.knobs.iter().enumerate() {
@@ -162,7 +168,7 @@ pub fn all_limits<F: Scalar>(
         let margin = |rank: u64| tail.margins.get(rank as usize - 1).copied();
         let value = value(margin(safe)?, is_lower)?;
         let far = margin(far).and_then(|margin| beyond(margin, is_lower));
-        Some(Limit { knob, count, is_lower, value, far, one_in })
+        Some(KnobLimit { knob, count, is_lower, value, far, one_in })
     };
     tails.into_iter().filter_map(limit).collect()
 }
@@ -184,7 +190,7 @@ fn beyond<F: Float>(margin: F, is_lower: bool) -> Option<F> {
 }
 
 /// By knob: a round number in the middle between its limits, if they meet on one side of zero.
-pub fn between<F: Float>(limits: &[Limit<F>], knobs: usize) -> Vec<Option<F>> {
+pub fn between<F: Float>(limits: &[KnobLimit<F>], knobs: usize) -> Vec<Option<F>> {
     let between = |knob: usize| {
         let of_side = |is_lower: bool| {
             let found =
@@ -305,8 +311,14 @@ mod tests {
 
     #[test]
     fn between_limits_that_meet_is_a_round_number() {
-        let limit =
-            |is_lower, value| Limit { knob: 1, count: 0, is_lower, value, far: None, one_in: 9 };
+        let limit = |is_lower, value| KnobLimit {
+            knob: 1,
+            count: 0,
+            is_lower,
+            value,
+            far: None,
+            one_in: 9,
+        };
         let (low, high) = (limit(true, Some(7.9e-12)), limit(false, Some(3.6e-4)));
         for (limits, middle) in [
             (vec![low.clone(), high.clone()], Some(5e-8)),
@@ -375,7 +387,7 @@ mod tests {
     #[test]
     fn a_limit_that_could_as_well_be_elsewhere_is_unsure() {
         let limit = |value: Option<f64>, far| {
-            Limit { knob: 0, count: 0, is_lower: false, value, far, one_in: 9 }.is_unsure()
+            KnobLimit { knob: 0, count: 0, is_lower: false, value, far, one_in: 9 }.is_unsure()
         };
         for (value, far, is_unsure) in [
             (1e-6, Some(2.9e-5), false),

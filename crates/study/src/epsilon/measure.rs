@@ -2,9 +2,9 @@
 //! whether the kernel's own runs agree.
 
 use super::errors::{ErrorSums, MaxError, errors_of};
-use super::knob::{Knob, Margins};
-use super::limits::{Limit, alone, is_own};
-use super::rays::{Count, Kind};
+use super::knob::{Knob, KnobMargins};
+use super::limits::{KnobLimit, alone, is_own};
+use super::rays::{RayCount, WrongKind};
 use super::trials::{Setting, Trial, accepts, is_unknown};
 use crate::arith::Float;
 use crate::audit::Trials;
@@ -27,7 +27,7 @@ impl<F: Float> Attempt<F> {
     }
 
     /// A limit, where the other knobs stay; none if it has no value.
-    pub fn at_limit(limit: &Limit<F>, others: &[F]) -> Option<Attempt<F>> {
+    pub fn at_limit(limit: &KnobLimit<F>, others: &[F]) -> Option<Attempt<F>> {
         Some(Attempt::alone(limit.knob, limit.value?, limit.is_lower, others))
     }
 
@@ -39,7 +39,7 @@ impl<F: Float> Attempt<F> {
 }
 
 /// The wrong answers at some attempts.
-pub(super) struct Wrong {
+pub(super) struct WrongAnswers {
     /// By attempt, by count.
     pub trials: Vec<Vec<Trials>>,
     /// The errors of the hits that remain, for the first attempts.
@@ -88,8 +88,8 @@ impl Merge for OfHits {
     }
 }
 
-impl Merge for Wrong {
-    fn merge(&mut self, other: Wrong) {
+impl Merge for WrongAnswers {
+    fn merge(&mut self, other: WrongAnswers) {
         let counts = self.trials.iter_mut().flatten().zip(other.trials.iter().flatten());
         counts.for_each(|(sum, more)| sum.merge(more));
         self.of_hits.iter_mut().zip(other.of_hits).for_each(|(sum, more)| sum.merge(more));
@@ -97,14 +97,14 @@ impl Merge for Wrong {
     }
 }
 
-impl Wrong {
+impl WrongAnswers {
     /// Errors are kept of so many attempts.
-    fn new(attempts: usize, with_errors: usize, counts: &[Count]) -> Wrong {
+    fn new(attempts: usize, with_errors: usize, counts: &[RayCount]) -> WrongAnswers {
         let none = vec![Trials::default(); counts.len()];
         let errors = vec![ErrorSums::default(); counts.len()];
         let (exceeded, doubles) = (none.clone(), none.clone());
         let of_hits = vec![OfHits { errors, exceeded, doubles }; with_errors];
-        Wrong { trials: vec![none; attempts], of_hits, ran: Ran::default() }
+        WrongAnswers { trials: vec![none; attempts], of_hits, ran: Ran::default() }
     }
 
     fn add_errors<F: Scalar>(
@@ -115,13 +115,13 @@ impl Wrong {
         trial: &Trial<'_, F>,
     ) {
         let kind = setting.counts[trial.count].kind;
-        if kind == Kind::Crack {
+        if kind == WrongKind::Crack {
             for (attempt, sums) in attempts.iter().zip(&mut self.of_hits) {
                 let hits = trial.margins.iter().filter(|m| accepts(m, &attempt.epsilons));
                 sums.doubles[trial.count].add_ray(u64::from(1 < hits.count()), 1);
             }
         }
-        if kind != Kind::Miss {
+        if kind != WrongKind::Miss {
             return;
         }
         let errors = errors_of(trial);
@@ -135,7 +135,12 @@ impl Wrong {
         }
     }
 
-    fn add<F: Scalar>(&mut self, counts: &[Count], attempts: &[Attempt<F>], trial: &Trial<'_, F>) {
+    fn add<F: Scalar>(
+        &mut self,
+        counts: &[RayCount],
+        attempts: &[Attempt<F>],
+        trial: &Trial<'_, F>,
+    ) {
         let if_refused = counts[trial.count].kind.is_wrong_if_refused();
         for (trials, Attempt { epsilons, of_knob }) in self.trials.iter_mut().zip(attempts) {
             let is_others = |knob: usize| !is_own(trial, knob, alone(trial, knob, epsilons));
@@ -169,16 +174,16 @@ pub(super) fn measure<F: Scalar>(
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-    check: impl Fn(&[Case<F>], &[Margins<F>]) -> Ran + Sync,
-) -> Wrong {
-    let empty = || Wrong::new(attempts.len(), with_errors, setting.counts);
-    let add = |sums: &mut Wrong, trial: Trial<'_, F>| {
+    check: impl Fn(&[Case<F>], &[KnobMargins<F>]) -> Ran + Sync,
+) -> WrongAnswers {
+    let empty = || WrongAnswers::new(attempts.len(), with_errors, setting.counts);
+    let add = |sums: &mut WrongAnswers, trial: Trial<'_, F>| {
         sums.add(setting.counts, attempts, &trial);
         if 0 < with_errors {
             sums.add_errors(setting, attempts, max_error, &trial);
         }
     };
-    let look = |sums: &mut Wrong, cases: &[Case<F>], margins: &[Margins<F>]| {
+    let look = |sums: &mut WrongAnswers, cases: &[Case<F>], margins: &[KnobMargins<F>]| {
         sums.ran.merge(check(cases, margins));
     };
     setting.sum_with(seed, count, observer, empty, add, look)
@@ -189,7 +194,7 @@ pub(super) fn differs<F: Scalar>(
     setting: &Setting<'_, F>,
     at: &[Vec<F>],
     observer: &dyn Observer,
-) -> impl Fn(&[Case<F>], &[Margins<F>]) -> Ran + Sync {
+) -> impl Fn(&[Case<F>], &[KnobMargins<F>]) -> Ran + Sync {
     let with_least_t = |at: &Vec<F>| {
         let (mut epsilons, mut least_t) = (setting.row.epsilons::<F>(), -F::infinity());
         for (knob, epsilon) in setting.knobs.iter().zip(at) {
@@ -246,10 +251,10 @@ mod tests {
         let margins = [[0.5, 1.0, f64::INFINITY], [-0.3, 9.0, f64::INFINITY]];
         let trial =
             Trial { count: 0, guards: [true; 3], margins: &margins, cases: &[], values: &[] };
-        let counts = [Count { rays: Rays::Stratum(Stratum::Edges), kind: Kind::Crack }];
+        let counts = [RayCount { rays: Rays::Stratum(Stratum::Edges), kind: WrongKind::Crack }];
         let cracks = |least_t: f64, of_knob: Option<usize>| {
             let attempt = Attempt { epsilons: vec![0.6, least_t], of_knob };
-            let mut wrong = Wrong::new(1, 0, &counts);
+            let mut wrong = WrongAnswers::new(1, 0, &counts);
             wrong.add(&counts, &[attempt], &trial);
             (wrong.trials[0][0].count, wrong.trials[0][0].of)
         };

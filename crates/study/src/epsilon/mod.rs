@@ -37,11 +37,11 @@ pub use elsewhere::try_elsewhere;
 pub use errors::{ERRORS_ONE_IN, ErrorSums, HitErrors, MaxError, Value, hit_errors};
 pub use joint::Costs;
 pub use knob::{Knob, LEAST_T, MOST_KNOBS, contract_with};
-pub use limits::{Limit, limits};
+pub use limits::{KnobLimit, limits};
 pub use measure::{Attempt, count_at};
 pub use prepared::Store;
-pub use proved::{Proved, proved};
-pub use rays::{Count, Kind, Rays, counts, counts_of};
+pub use proved::{ProvedValue, proved};
+pub use rays::{RayCount, Rays, WrongKind, counts, counts_of};
 pub use relative::scale_free_form;
 pub use study::{
     Elsewhere, OnFresh, SCALE_FREE, SceneStudy, Tried, cheapest, fresh_seed, own_epsilons,

@@ -16,7 +16,7 @@ const CHUNK: u64 = 1024;
 
 /// The sums of some rays.
 #[derive(Clone)]
-struct Sums {
+struct RaySums {
     /// By epsilons: the area of leaks.
     leaks: Vec<f64>,
     triangles: f64,
@@ -33,7 +33,7 @@ pub fn holes<F: Scalar>(
 ) -> Vec<Option<f64>> {
     // Families are no scene, whose triangles could cover a picture.
     let Some(scene) = setting.scene else { return vec![None; epsilons.len()] };
-    let empty = Sums { leaks: vec![0.0; epsilons.len()], triangles: 0.0 };
+    let empty = RaySums { leaks: vec![0.0; epsilons.len()], triangles: 0.0 };
     let count = setting.source(Stratum::Edges, seed, count).count::<F>();
     let starts: Vec<u64> = (0..count).step_by(CHUNK as usize).collect();
     let of_chunk = |start: &u64| {
@@ -44,15 +44,16 @@ pub fn holes<F: Scalar>(
         sums
     };
     // In their order: sums of floats depend on it.
-    let sums = engine::map(&starts, of_chunk).into_iter().fold(empty.clone(), |sums, part| Sums {
-        leaks: sums.leaks.iter().zip(part.leaks).map(|(sum, more)| sum + more).collect(),
-        triangles: sums.triangles + part.triangles,
-    });
+    let sums =
+        engine::map(&starts, of_chunk).into_iter().fold(empty.clone(), |sums, part| RaySums {
+            leaks: sums.leaks.iter().zip(part.leaks).map(|(sum, more)| sum + more).collect(),
+            triangles: sums.triangles + part.triangles,
+        });
     let share = |leaks: &f64| (0.0 < sums.triangles).then(|| leaks / sums.triangles);
     sums.leaks.iter().map(share).collect()
 }
 
-impl Sums {
+impl RaySums {
     fn add<F: Scalar>(&mut self, setting: &Setting<'_, F>, epsilons: &[Vec<F>], pixel: &Pixel<F>) {
         let Pixel { cases, area, triangles } = pixel;
         let (mut margins, _) = setting.margins(cases);

@@ -1,6 +1,6 @@
 //! Rays of a scene with what the kernel makes of them, kept between the passes over them.
 
-use super::knob::{Guards, Margins};
+use super::knob::{Guards, KnobMargins};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::kernel::Hit;
@@ -16,9 +16,9 @@ pub(super) struct Prepared<F: Float> {
     /// The cases.
     pub cases: Vec<Case<F>>,
     /// The margins of each case.
-    pub margins: Vec<Margins<F>>,
+    pub margins: Vec<KnobMargins<F>>,
     /// The same as multiples of each case's own size, once they were asked for.
-    pub relative: OnceLock<Vec<Margins<F>>>,
+    pub relative: OnceLock<Vec<KnobMargins<F>>>,
     /// The values that a hit of each case would report.
     pub values: Vec<Option<Hit<F>>>,
     /// Which count each trial is for, which knobs guard it, and its cases.
@@ -27,7 +27,7 @@ pub(super) struct Prepared<F: Float> {
 
 /// Some indices of a source of the rays of one kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Part {
+pub(super) struct PreparedPart {
     pub group: usize,
     pub source: usize,
     pub start: u64,
@@ -40,7 +40,7 @@ pub struct Store<F: Float>(Mutex<Kept<F>>);
 struct Kept<F: Float> {
     seed: u64,
     cases: usize,
-    parts: BTreeMap<Part, Arc<Prepared<F>>>,
+    parts: BTreeMap<PreparedPart, Arc<Prepared<F>>>,
 }
 
 impl<F: Float> Default for Store<F> {
@@ -54,7 +54,7 @@ impl<F: Float> Store<F> {
     pub(super) fn part(
         &self,
         seed: u64,
-        place: Part,
+        place: PreparedPart,
         make: impl FnOnce() -> Prepared<F>,
     ) -> Arc<Prepared<F>> {
         let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -81,10 +81,10 @@ impl<F: Float> Store<F> {
 mod tests {
     use super::*;
 
-    const PLACES: [Part; 3] = [
-        Part { group: 1, source: 0, start: 0, end: 1 },
-        Part { group: 1, source: 0, start: 1, end: 2 },
-        Part { group: 0, source: 0, start: 0, end: 1 },
+    const PLACES: [PreparedPart; 3] = [
+        PreparedPart { group: 1, source: 0, start: 0, end: 1 },
+        PreparedPart { group: 1, source: 0, start: 1, end: 2 },
+        PreparedPart { group: 0, source: 0, start: 0, end: 1 },
     ];
 
     /// So many cases; nothing else of a part matters to what keeps it.

@@ -1,7 +1,7 @@
 //! The proofs of `prove` for the knobs in a scene: epsilons at which some wrong answers occur on no ray of the scene.
 
 use super::knob::Knob;
-use super::rays::{Count, Kind, Rays};
+use super::rays::{RayCount, Rays, WrongKind};
 use super::trials::Setting;
 use crate::arith::{Float, smallest_normal, three_digits};
 use crate::case::{DirectionLength, Scene};
@@ -11,7 +11,7 @@ use crate::prove::{self, Proof, Quantity, Uses, format_of, paths_of};
 
 /// A value of a knob that is proved.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Proved<F> {
+pub struct ProvedValue<F> {
     /// The knob's place in the setting.
     pub knob: usize,
     /// The count's place in the setting.
@@ -24,7 +24,7 @@ pub struct Proved<F> {
 
 /// The values that are proved for each knob; none in scenes whose directions have any length, nor where a proof
 /// assumes more than the sizes of triangles and distances.
-pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
+pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<ProvedValue<F>> {
     let Some(scene) = setting.scene else { return Vec::new() };
     let is_unit = scene.direction == DirectionLength::Unit;
     // Else rounding moves vertices and starts by more than the room that the domain has for it.
@@ -35,11 +35,15 @@ pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
         let Knob::Gate(gate) = *knob else { return Vec::new() };
         let role = setting.row.entry.info.gates[gate].role;
         let is_lower = role == Role::Parallel;
-        let decided = |count: &Count| {
+        let decided = |count: &RayCount| {
             matches!(
                 (role, count.rays, count.kind),
-                (Role::Parallel, Rays::Stratum(Stratum::Parallel), Kind::Hit)
-                    | (Role::Edge, Rays::Stratum(Stratum::Edges | Stratum::Vertices), Kind::Crack)
+                (Role::Parallel, Rays::Stratum(Stratum::Parallel), WrongKind::Hit)
+                    | (
+                        Role::Edge,
+                        Rays::Stratum(Stratum::Edges | Stratum::Vertices),
+                        WrongKind::Crack
+                    )
             )
         };
         let counts = setting.counts.iter().enumerate().filter(|(_, count)| decided(count));
@@ -47,7 +51,7 @@ pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
         let bound = if places.is_empty() { None } else { bound(setting, scene, gate) };
         let Some(bound) = bound else { return Vec::new() };
         let value = beyond(bound, is_lower);
-        places.into_iter().map(|count| Proved { knob: k, count, is_lower, value }).collect()
+        places.into_iter().map(|count| ProvedValue { knob: k, count, is_lower, value }).collect()
     };
     setting.knobs.iter().enumerate().flat_map(of_knob).collect()
 }

@@ -13,7 +13,7 @@ named! {
     pub names
     /// How an answer is wrong in a scene; the word in `--cost`.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-    pub enum Kind {
+    pub enum WrongKind {
         /// A ray slips through between triangles that share an edge or a vertex.
         Crack = "crack",
         /// A hit is lost.
@@ -25,10 +25,10 @@ named! {
     }
 }
 
-impl Kind {
+impl WrongKind {
     /// True if it is the refusal that is wrong.
     pub fn is_wrong_if_refused(self) -> bool {
-        matches!(self, Kind::Crack | Kind::Miss)
+        matches!(self, WrongKind::Crack | WrongKind::Miss)
     }
 }
 
@@ -101,60 +101,60 @@ impl<'de> Deserialize<'de> for Rays {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct Count {
+pub struct RayCount {
     /// The family of the rays, `scene-…` for a stratum.
     #[serde(rename = "stratum")]
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub rays: Rays,
     /// `crack`, `miss`, `hit` or `self-hit`.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
-    pub kind: Kind,
+    pub kind: WrongKind,
 }
 
 /// The counts of a kernel with these knobs under a contract, in the order of reports. Without a
 /// least t nothing can keep a ray from hitting the triangle that it starts on.
-pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<Count> {
+pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<RayCount> {
     use Stratum::*;
     let starts = contract.extent != Extent::Line;
     let culls = contract.sides == Sides::Front;
     let all = [
-        (Interior, Kind::Miss, true),
-        (Interior, Kind::Hit, culls),
-        (Edges, Kind::Crack, true),
-        (Vertices, Kind::Crack, true),
-        (Grazing, Kind::Miss, true),
-        (Grazing, Kind::Hit, true),
-        (Parallel, Kind::Hit, true),
-        (Shadow, Kind::SelfHit, starts && !knobs.is_empty()),
-        (Outside, Kind::Hit, true),
+        (Interior, WrongKind::Miss, true),
+        (Interior, WrongKind::Hit, culls),
+        (Edges, WrongKind::Crack, true),
+        (Vertices, WrongKind::Crack, true),
+        (Grazing, WrongKind::Miss, true),
+        (Grazing, WrongKind::Hit, true),
+        (Parallel, WrongKind::Hit, true),
+        (Shadow, WrongKind::SelfHit, starts && !knobs.is_empty()),
+        (Outside, WrongKind::Hit, true),
     ];
     let counted = all.into_iter().filter(|(.., is_counted)| *is_counted);
-    counted.map(|(stratum, kind, _)| Count { rays: Rays::Stratum(stratum), kind }).collect()
+    counted.map(|(stratum, kind, _)| RayCount { rays: Rays::Stratum(stratum), kind }).collect()
 }
 
 /// The counts on sources: of strata those of a scene; of other rays all that they can show. On a ray that starts on a
 /// triangle self-hits are counted, if a knob can prevent them, and nothing else.
-pub fn counts_of(sources: &[Source], knobs: &[Knob], row: &Row) -> Vec<Count> {
+pub fn counts_of(sources: &[Source], knobs: &[Knob], row: &Row) -> Vec<RayCount> {
     let of_scene = counts(knobs, &row.contract);
     let guards_start = knobs.iter().any(|knob| {
         let role = knob.role(row.entry.info.gates);
         Duty::of(row.entry.info.gates, role, &row.contract).guards_start()
     });
-    let mut counts: Vec<Count> = Vec::new();
+    let mut counts: Vec<RayCount> = Vec::new();
     for source in sources {
         let (rays, grouping) = (Rays::of(source), source.grouping());
         let starts = guards_start && grouping == Grouping::SecondaryRay;
-        let of_rays = |kind: Kind| match rays {
-            Rays::Stratum(_) => of_scene.contains(&Count { rays, kind }),
+        let of_rays = |kind: WrongKind| match rays {
+            Rays::Stratum(_) => of_scene.contains(&RayCount { rays, kind }),
             _ => match kind {
-                Kind::SelfHit => starts,
-                Kind::Crack => grouping.shares_a_ray(),
-                Kind::Miss | Kind::Hit => !starts,
+                WrongKind::SelfHit => starts,
+                WrongKind::Crack => grouping.shares_a_ray(),
+                WrongKind::Miss | WrongKind::Hit => !starts,
             },
         };
-        let of_rays = Kind::ALL.into_iter().filter(|kind| of_rays(*kind));
-        let found = of_rays.map(|kind| Count { rays, kind });
-        let new: Vec<Count> = found.filter(|count| !counts.contains(count)).collect();
+        let of_rays = WrongKind::ALL.into_iter().filter(|kind| of_rays(*kind));
+        let found = of_rays.map(|kind| RayCount { rays, kind });
+        let new: Vec<RayCount> = found.filter(|count| !counts.contains(count)).collect();
         counts.extend(new);
     }
     counts

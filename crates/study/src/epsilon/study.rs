@@ -4,14 +4,14 @@
 use super::candidates::{MOST_POINTS, around, grid, of_values};
 use super::curves::{Curve, axes, curves};
 use super::errors::{ErrorSums, MaxError};
-use super::joint::{Costs, Grid, Joint};
-use super::knob::{Knob, Margins};
-use super::limits::{Limit, all_limits, between, limits, printed};
-use super::measure::{Attempt, OfHits, Ran, Wrong, differs, measure};
+use super::joint::{Costs, Joint, KnobGrid};
+use super::knob::{Knob, KnobMargins};
+use super::limits::{KnobLimit, all_limits, between, limits, printed};
+use super::measure::{Attempt, OfHits, Ran, WrongAnswers, differs, measure};
 use super::picture::holes;
 use super::prepared::Store;
-use super::proved::{Proved, proved};
-use super::rays::{Count, Kind, Rays};
+use super::proved::{ProvedValue, proved};
+use super::rays::{RayCount, Rays, WrongKind};
 use super::trials::Setting;
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
@@ -31,16 +31,16 @@ pub struct SceneStudy<F> {
     /// one before.
     pub tried: Vec<Tried<F>>,
     /// How far each knob may move.
-    pub limits: Vec<OnFresh<Limit<F>>>,
+    pub limits: Vec<OnFresh<KnobLimit<F>>>,
     /// Values that are proved: never wrong on fresh rays, or a proof is.
-    pub proved: Vec<OnFresh<Proved<F>>>,
+    pub proved: Vec<OnFresh<ProvedValue<F>>>,
     /// By knob: what each value does on fresh rays while the others stay.
     pub curves: Vec<Curve<F>>,
     /// The cheapest epsilons that follow each case's size, if they are cheaper by a fifth, or if only they
     /// keep the errors as small as was wanted.
     pub relative: Option<Tried<F>>,
     /// How far such epsilons may move.
-    pub relative_limits: Vec<Limit<F>>,
+    pub relative_limits: Vec<KnobLimit<F>>,
     /// The results of the cheapest epsilons on planes of other kinds, once they are tried.
     pub elsewhere: Vec<Elsewhere>,
     /// The kernel's nanoseconds a ray, with the cheapest epsilons.
@@ -133,13 +133,13 @@ pub fn study_scene<F: Scalar>(
     attempts.extend(found.iter().filter_map(|limit| Attempt::at_limit(limit, &best)));
     let proofs = proved(setting);
     let at_proved =
-        |proved: &Proved<F>| Attempt::alone(proved.knob, proved.value, proved.is_lower, &best);
+        |proved: &ProvedValue<F>| Attempt::alone(proved.knob, proved.value, proved.is_lower, &best);
     attempts.extend(proofs.iter().map(at_proved));
     let plain_ones: Vec<Vec<F>> =
         attempts[..plain].iter().map(|attempt| attempt.epsilons.clone()).collect();
     let differs = differs(setting, &plain_ones, observer);
     let run = measure(setting, &attempts, plain, max_error, fresh, count, observer, differs);
-    let Wrong { trials: mut wrong, of_hits, ran } = run;
+    let WrongAnswers { trials: mut wrong, of_hits, ran } = run;
     ran.fault.map_or(Ok(()), Err)?;
     let of_proofs = wrong.split_off(attempts.len() - proofs.len());
     let mut of_limits = wrong.split_off(plain).into_iter();
@@ -149,7 +149,7 @@ pub fn study_scene<F: Scalar>(
         let place = price(setting, knob, is_lower)?;
         Some((place, Trials::independent(wrong[place].count, rays[place])))
     };
-    let of_proof = |(bound, wrong): (Proved<F>, Vec<Trials>)| OnFresh {
+    let of_proof = |(bound, wrong): (ProvedValue<F>, Vec<Trials>)| OnFresh {
         wrong: wrong[bound.count],
         price: price(bound.knob, bound.is_lower, &wrong),
         bound,
@@ -157,7 +157,7 @@ pub fn study_scene<F: Scalar>(
     let axes = axes(&vectors, &found, &proofs, setting.fine_curves);
     let proofs: Vec<_> = proofs.into_iter().zip(of_proofs).map(of_proof).collect();
     refuted(&proofs).map_or(Ok(()), Err)?;
-    let of_limit = |bound: Limit<F>| match bound.value.and_then(|_| of_limits.next()) {
+    let of_limit = |bound: KnobLimit<F>| match bound.value.and_then(|_| of_limits.next()) {
         Some(wrong) => OnFresh {
             wrong: wrong[bound.count],
             price: price(bound.knob, bound.is_lower, &wrong),
@@ -184,7 +184,7 @@ pub fn study_scene<F: Scalar>(
     let (relative, relative_limits) = match followed {
         Some((followed, found)) => {
             let attempt = [Attempt::new(followed.clone())];
-            let no_run = |_: &[Case<F>], _: &[Margins<F>]| Ran::default();
+            let no_run = |_: &[Case<F>], _: &[KnobMargins<F>]| Ran::default();
             let mut sums =
                 measure(&following, &attempt, 1, max_error, fresh, count, observer, no_run);
             let holes = pictures(&following, slice::from_ref(&followed)).remove(0);
@@ -221,7 +221,7 @@ pub fn within_limits<F: Scalar>(
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-) -> (Vec<F>, Vec<Limit<F>>) {
+) -> (Vec<F>, Vec<KnobLimit<F>>) {
     let all = all_limits(setting, &best, seed, count, observer);
     let pairs = between(&all, best.len()).into_iter().zip(&best);
     let found = printed(setting, all);
@@ -248,24 +248,29 @@ pub fn within_limits<F: Scalar>(
 }
 
 /// A fault of this tool: a value that is proved to be never wrong, and was.
-fn refuted<F: Float>(proofs: &[OnFresh<Proved<F>>]) -> Option<String> {
+fn refuted<F: Float>(proofs: &[OnFresh<ProvedValue<F>>]) -> Option<String> {
     let OnFresh { bound, wrong, .. } = proofs.iter().find(|found| 0 < found.wrong.count)?;
     let value = bound.value.to_f64();
     Some(format!("{value:e} is proved to be never wrong, and was {} times", wrong.count))
 }
 
 /// True if a form is cheaper than fixed epsilons by enough, and by more than chance explains.
-fn is_worth_saying<F>(counts: &[Count], costs: &Costs, form: &Tried<F>, fixed: &Tried<F>) -> bool {
+fn is_worth_saying<F>(
+    counts: &[RayCount],
+    costs: &Costs,
+    form: &Tried<F>,
+    fixed: &Tried<F>,
+) -> bool {
     form.cost < WORTH_SAYING * fixed.cost && is_beyond_chance(counts, costs, [form, fixed])
 }
 
 /// True if the costs of two epsilons differ by more than three standard deviations, as if they were of different rays:
 /// they are of the same, so chance explains even less.
-fn is_beyond_chance<F>(counts: &[Count], costs: &Costs, tried: [&Tried<F>; 2]) -> bool {
+fn is_beyond_chance<F>(counts: &[RayCount], costs: &Costs, tried: [&Tried<F>; 2]) -> bool {
     let variance =
         |wrong: &Trials| wrong.share().map_or(0.0, |share| share * (1.0 - share) / wrong.of as f64);
     let of_count =
-        |(count, wrong): (&Count, &Trials)| costs.of(count.kind).powi(2) * variance(wrong);
+        |(count, wrong): (&RayCount, &Trials)| costs.of(count.kind).powi(2) * variance(wrong);
     let variances = tried.map(|tried| counts.iter().zip(&tried.wrong).map(of_count).sum::<f64>());
     let [one, other] = tried.map(|tried| tried.cost);
     3.0 * (variances[0] + variances[1]).sqrt() < (one - other).abs()
@@ -276,12 +281,12 @@ fn is_beyond_chance<F>(counts: &[Count], costs: &Costs, tried: [&Tried<F>; 2]) -
 fn price<F: Scalar>(setting: &Setting<'_, F>, knob: usize, is_lower: bool) -> Option<usize> {
     let role = setting.knobs[knob].role(setting.row.entry.info.gates);
     let wanted = match (role, is_lower) {
-        (Role::Parallel | Role::T, true) => (Stratum::Interior, Kind::Miss),
-        (Role::Edge | Role::Other, false) => (Stratum::Outside, Kind::Hit),
+        (Role::Parallel | Role::T, true) => (Stratum::Interior, WrongKind::Miss),
+        (Role::Edge | Role::Other, false) => (Stratum::Outside, WrongKind::Hit),
         _ => return None,
     };
     let (rays, kind) = (Rays::Stratum(wanted.0), wanted.1);
-    setting.counts.iter().position(|count| *count == Count { rays, kind })
+    setting.counts.iter().position(|count| *count == RayCount { rays, kind })
 }
 
 /// The epsilons of a row by knob, and the least t.
@@ -304,7 +309,7 @@ pub fn cheapest<F: Scalar>(
     count: u64,
     observer: &dyn Observer,
 ) -> Option<Vec<F>> {
-    let best = |grid: Grid<F>| {
+    let best = |grid: KnobGrid<F>| {
         let joint = Joint::count(setting, grid, max_error, seed, count, observer);
         joint.best(setting.counts, costs)
     };
@@ -317,10 +322,10 @@ pub fn cheapest<F: Scalar>(
 mod tests {
     use super::*;
 
-    const COUNTS: [Count; 3] = [
-        Count { rays: Rays::Stratum(Stratum::Edges), kind: Kind::Crack },
-        Count { rays: Rays::Stratum(Stratum::Interior), kind: Kind::Miss },
-        Count { rays: Rays::Stratum(Stratum::Shadow), kind: Kind::SelfHit },
+    const COUNTS: [RayCount; 3] = [
+        RayCount { rays: Rays::Stratum(Stratum::Edges), kind: WrongKind::Crack },
+        RayCount { rays: Rays::Stratum(Stratum::Interior), kind: WrongKind::Miss },
+        RayCount { rays: Rays::Stratum(Stratum::Shadow), kind: WrongKind::SelfHit },
     ];
 
     /// So many cracks of 10,000 rays and misses of 500; of self-hits there was no ray.
@@ -366,7 +371,7 @@ mod tests {
     #[test]
     fn one_wrong_answer_refutes_a_proof() {
         let proof = |value: f64, wrong: u64| OnFresh {
-            bound: Proved { knob: 0, count: 0, is_lower: true, value },
+            bound: ProvedValue { knob: 0, count: 0, is_lower: true, value },
             wrong: Trials::independent(wrong, 9),
             price: None,
         };

@@ -7,8 +7,8 @@ use super::candidates::grid;
 use super::confidence::{Ranks, ranks};
 use super::curves::curves;
 use super::errors::{HitErrors, errors_of};
-use super::joint::Grid;
-use super::knob::Margins;
+use super::joint::KnobGrid;
+use super::knob::KnobMargins;
 use super::limits::{all_limits, between};
 use super::study::within_limits;
 use super::*;
@@ -23,7 +23,7 @@ use crate::kernel::{Role, Scalar, find};
 /// One trial of a pass.
 pub(super) struct Kept {
     pub count: usize,
-    margins: Vec<Margins<f32>>,
+    margins: Vec<KnobMargins<f32>>,
     pub errors: HitErrors,
 }
 
@@ -38,7 +38,7 @@ impl Merge for All {
 pub(super) struct Tuned {
     row: Row,
     pub knobs: Vec<Knob>,
-    pub counts: Vec<Count>,
+    pub counts: Vec<RayCount>,
     scene: Scene,
 }
 
@@ -77,12 +77,12 @@ impl Tuned {
     }
 
     fn is_miss(&self, count: usize) -> bool {
-        self.counts[count].kind == Kind::Miss
+        self.counts[count].kind == WrongKind::Miss
     }
 
     /// True if a refusal is wrong for this count.
     fn is_lost(&self, count: usize) -> bool {
-        matches!(self.counts[count].kind, Kind::Miss | Kind::Crack)
+        matches!(self.counts[count].kind, WrongKind::Miss | WrongKind::Crack)
     }
 }
 
@@ -116,11 +116,11 @@ pub(super) const KERNELS: [(&str, [f32; 3]); 4] = [
 
 #[test]
 fn what_is_counted_depends_on_the_least_t_and_the_sides() {
-    use Kind::*;
     use Stratum::*;
+    use WrongKind::*;
     let of = |knobs: &[Knob], extent, sides| {
         let contract = Contract { extent, sides, ..Contract::CLOSED_RAY };
-        let stratum = |count: &Count| match count.rays {
+        let stratum = |count: &RayCount| match count.rays {
             Rays::Stratum(stratum) => (stratum, count.kind),
             other => panic!("{other:?} in a scene"),
         };
@@ -142,8 +142,8 @@ fn what_is_counted_depends_on_the_least_t_and_the_sides() {
     assert_eq!(of(&[Knob::LeastT], Extent::Ray, Sides::Both), more);
     more.insert(1, (Interior, Hit));
     assert_eq!(of(&[Knob::LeastT], Extent::Ray, Sides::Front), more);
-    assert_eq!(Kind::ALL.map(Kind::name), ["crack", "miss", "hit", "self-hit"]);
-    assert_eq!(Kind::ALL.map(Kind::is_wrong_if_refused), [true, true, false, false]);
+    assert_eq!(WrongKind::ALL.map(WrongKind::name), ["crack", "miss", "hit", "self-hit"]);
+    assert_eq!(WrongKind::ALL.map(WrongKind::is_wrong_if_refused), [true, true, false, false]);
 }
 
 #[test]
@@ -229,7 +229,7 @@ fn limits_are_margins_of_their_rank() {
                     false => two_digits(m, true),
                 };
                 let far = far.is_finite().then(|| beyond(far));
-                let expected = Limit { knob: k, count: c, is_lower, value, far, one_in };
+                let expected = KnobLimit { knob: k, count: c, is_lower, value, far, one_in };
                 assert_eq!(found.next(), Some(expected), "{kernel} {knob:?} {count:?}");
                 found_some[usize::from(is_lower)] += 1;
             }
@@ -257,7 +257,7 @@ fn a_grid_holds_round_numbers_over_the_margins_that_matter() {
         for (most_points, max_error) in [(300_000, None), (300_000, Some(&max_error)), (1000, None)]
         {
             let all = tuned.all(5, 200);
-            let (found, step): (Grid<f32>, usize) =
+            let (found, step): (KnobGrid<f32>, usize) =
                 grid(&tuned.setting(), most_points, max_error, 5, 200, &Unobserved);
             let is_thin = 0 < step;
             assert!(!is_thin || most_points == 1000, "{kernel}");
@@ -279,7 +279,7 @@ fn a_grid_holds_round_numbers_over_the_margins_that_matter() {
                         (tuned.counts[kept.count].kind, tuned.is_miss(kept.count));
                     let is_of_t = knob.role(tuned.row.entry.info.gates) == Role::T;
                     // False hits that start elsewhere say nothing of a least t.
-                    let is_in_reach = !is_of_t || is_miss || kind == Kind::SelfHit;
+                    let is_in_reach = !is_of_t || is_miss || kind == WrongKind::SelfHit;
                     let is_refused = !tuned.is_lost(kept.count) || is_miss && is_off;
                     if margin > 0.0 && is_refused && is_in_reach {
                         above.push(size);

@@ -1,9 +1,9 @@
 //! The trials of a kernel in a scene, or on other sources, and one pass over them.
 
 use super::duty::Duty;
-use super::knob::{Guards, Knob, MOST_KNOBS, Margins};
-use super::prepared::{Part, Prepared, Store};
-use super::rays::{Count, Kind, Rays};
+use super::knob::{Guards, Knob, KnobMargins, MOST_KNOBS};
+use super::prepared::{Prepared, PreparedPart, Store};
+use super::rays::{RayCount, Rays, WrongKind};
 use super::relative::Scales;
 use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, SourceSummary, Stock};
@@ -45,7 +45,7 @@ pub struct Setting<'a, F: Float> {
     /// At most [`MOST_KNOBS`].
     pub knobs: &'a [Knob],
     /// The kinds and rays whose wrong answers are counted.
-    pub counts: &'a [Count],
+    pub counts: &'a [RayCount],
     /// The scene; none on sources.
     pub scene: Option<&'a Scene>,
     /// The sources; none in a scene.
@@ -67,7 +67,7 @@ pub struct Trial<'a, F: Float> {
     /// By knob: true if it is there to refuse such a ray, where refusing it is right.
     pub guards: Guards,
     /// The margins of each triangle; a hit is reported if one is accepted.
-    pub margins: &'a [Margins<F>],
+    pub margins: &'a [KnobMargins<F>],
     /// The triangles with their ray.
     pub cases: &'a [Case<F>],
     /// The values that a hit of each triangle would report.
@@ -91,12 +91,12 @@ fn crossings<'a, F: Scalar>(
 }
 
 /// True if the kernel failed while its margins were looked for.
-pub fn is_unknown<F: Float>(margins: &Margins<F>) -> bool {
+pub fn is_unknown<F: Float>(margins: &KnobMargins<F>) -> bool {
     margins[0].is_nan()
 }
 
 /// True if margins accept epsilons.
-pub fn accepts<F: Float>(margins: &Margins<F>, epsilons: &[F]) -> bool {
+pub fn accepts<F: Float>(margins: &KnobMargins<F>, epsilons: &[F]) -> bool {
     epsilons.iter().zip(margins).all(|(epsilon, margin)| epsilon <= margin)
 }
 
@@ -121,7 +121,7 @@ impl<F: Scalar> Setting<'_, F> {
         observer: &dyn Observer,
         empty: impl Fn() -> S + Sync,
         add: impl Fn(&mut S, Trial<'_, F>) + Sync,
-        look: impl Fn(&mut S, &[Case<F>], &[Margins<F>]) + Sync,
+        look: impl Fn(&mut S, &[Case<F>], &[KnobMargins<F>]) + Sync,
     ) -> S {
         let mut total = empty();
         let mut all: Vec<Rays> = self.counts.iter().map(|count| count.rays).collect();
@@ -129,8 +129,12 @@ impl<F: Scalar> Setting<'_, F> {
         for (group, rays) in all.into_iter().enumerate() {
             for (place, source) in self.sources_of(rays, seed, count).into_iter().enumerate() {
                 let add = |sums: &mut S, indices: Range<u64>| {
-                    let place =
-                        Part { group, source: place, start: indices.start, end: indices.end };
+                    let place = PreparedPart {
+                        group,
+                        source: place,
+                        start: indices.start,
+                        end: indices.end,
+                    };
                     let make = || self.prepare(&source, rays, indices);
                     let part = match self.store {
                         Some(store) => store.part(seed, place, make),
@@ -202,23 +206,23 @@ impl<F: Scalar> Setting<'_, F> {
     }
 
     /// The place of a count, if it is counted.
-    fn place(&self, rays: Rays, kind: Kind) -> Option<usize> {
-        self.counts.iter().position(|count| *count == Count { rays, kind })
+    fn place(&self, rays: Rays, kind: WrongKind) -> Option<usize> {
+        self.counts.iter().position(|count| *count == RayCount { rays, kind })
     }
 
     /// Which cases of a stratum are a trial together, and of which count.
     fn trials(&self, chunk: &Chunk<F>, stratum: Stratum) -> Vec<(usize, Guards, Range<usize>)> {
         let contract = &self.row.contract;
-        let of = |kind: Kind| self.place(Rays::Stratum(stratum), kind);
+        let of = |kind: WrongKind| self.place(Rays::Stratum(stratum), kind);
         // A stratum is what a knob is there for, or is not.
         let all = [true; MOST_KNOBS];
-        if let Some(count) = of(Kind::SelfHit) {
+        if let Some(count) = of(WrongKind::SelfHit) {
             return (0..chunk.cases.len()).map(|i| (count, all, i..i + 1)).collect();
         }
-        if let Some(count) = of(Kind::Crack) {
+        if let Some(count) = of(WrongKind::Crack) {
             return crossings(chunk, contract).map(|range| (count, all, range)).collect();
         }
-        let [misses, hits] = [of(Kind::Miss), of(Kind::Hit)];
+        let [misses, hits] = [of(WrongKind::Miss), of(WrongKind::Hit)];
         let family = stratum.family();
         let obligations = chunk.obligations(contract).into_iter().enumerate();
         let counted = obligations.filter_map(|(i, obligation)| {
@@ -237,7 +241,7 @@ impl<F: Scalar> Setting<'_, F> {
     /// The same of other rays, each of which may count for several things.
     fn trials_of(&self, chunk: &Chunk<F>, rays: Rays) -> Vec<(usize, Guards, Range<usize>)> {
         let (contract, gates) = (&self.row.contract, self.row.entry.info.gates);
-        let [cracks, misses, hits, self_hits] = Kind::ALL.map(|kind| self.place(rays, kind));
+        let [cracks, misses, hits, self_hits] = WrongKind::ALL.map(|kind| self.place(rays, kind));
         let duties: Vec<Duty> =
             self.knobs.iter().map(|knob| Duty::of(gates, knob.role(gates), contract)).collect();
         let starts = self_hits.filter(|_| chunk.grouping == Grouping::SecondaryRay);
@@ -267,7 +271,7 @@ impl<F: Scalar> Setting<'_, F> {
 
     /// Each case's margins of the knobs, -inf where another gate refuses, NaN where they are unknown; and what a
     /// hit would report.
-    pub(super) fn margins(&self, cases: &[Case<F>]) -> (Vec<Margins<F>>, Vec<Option<Hit<F>>>) {
+    pub(super) fn margins(&self, cases: &[Case<F>]) -> (Vec<KnobMargins<F>>, Vec<Option<Hit<F>>>) {
         let info = self.row.entry.info;
         let gates = info.gates;
         let epsilons = self.row.epsilons::<F>();
@@ -300,8 +304,8 @@ impl<F: Scalar> Setting<'_, F> {
     pub(super) fn relative_margins(
         &self,
         cases: &[Case<F>],
-        margins: &[Margins<F>],
-    ) -> Vec<Margins<F>> {
+        margins: &[KnobMargins<F>],
+    ) -> Vec<KnobMargins<F>> {
         let mut relative = margins.to_vec();
         for (k, knob) in self.knobs.iter().enumerate() {
             let dimension = knob.dimension(self.row.entry.info.gates);

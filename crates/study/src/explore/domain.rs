@@ -8,7 +8,7 @@ named! {
     pub names
     /// Which cases count.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-    pub enum Domain {
+    pub enum SearchDomain {
         /// Ordinary cases:
         /// - every coordinate zero or from 2^-20 to 2^20 in size, and the default interval;
         /// - the longest edge at least 2^-10 of the largest coordinate of a point (not far away);
@@ -21,11 +21,11 @@ named! {
     }
 }
 
-impl Domain {
+impl SearchDomain {
     /// True if a case is in the domain, decided exactly.
     pub fn holds<F: Float>(self, case: &Case<F>) -> bool {
         self.allows_numbers(case)
-            && (self == Domain::Any || {
+            && (self == SearchDomain::Any || {
                 let (ray, triangle) = case.exact();
                 is_healthy(&ray, &triangle, [FAR, SHARE].map(Exact::from_f64))
             })
@@ -34,7 +34,7 @@ impl Domain {
     /// The same in `f64`, a little stricter, so that rounding lets none in.
     pub(super) fn holds_quickly<F: Float>(self, case: &Case<F>) -> bool {
         self.allows_numbers(case)
-            && (self == Domain::Any || {
+            && (self == SearchDomain::Any || {
                 let wide = case.widen();
                 is_healthy(&wide.ray, &wide.triangle, [FAR, SHARE].map(|share| share * 1.001))
             })
@@ -46,8 +46,8 @@ impl Domain {
         let has_direction = vectors[1].iter().any(|x| !x.is_zero());
         let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
         match self {
-            Domain::Any => has_direction && t_min <= t_max && numbers.all(F::is_finite),
-            Domain::Moderate => {
+            SearchDomain::Any => has_direction && t_min <= t_max && numbers.all(F::is_finite),
+            SearchDomain::Moderate => {
                 let sizes = scale_by_power_of_two(1.0, -20)..=scale_by_power_of_two(1.0, 20);
                 has_direction
                     && t_min.is_zero()
@@ -117,13 +117,16 @@ mod tests {
             down(origin, [0.0; 3], triangle),
             down(origin, direction, [[0.0; 3]; 3]),
         ];
-        assert!(Domain::Moderate.holds(&healthy) && Domain::Moderate.holds_quickly(&healthy));
+        assert!(
+            SearchDomain::Moderate.holds(&healthy)
+                && SearchDomain::Moderate.holds_quickly(&healthy)
+        );
         for (i, case) in strange.iter().enumerate() {
-            assert!(!Domain::Moderate.holds(case), "{i}");
-            assert!(!Domain::Moderate.holds_quickly(case), "{i}");
-            assert_eq!(Domain::Any.holds(case), i != 7, "{i}");
+            assert!(!SearchDomain::Moderate.holds(case), "{i}");
+            assert!(!SearchDomain::Moderate.holds_quickly(case), "{i}");
+            assert_eq!(SearchDomain::Any.holds(case), i != 7, "{i}");
         }
-        assert!(!Domain::Any.holds(&healthy.on(2.0, 1.0)));
-        assert!(!Domain::Any.holds(&down([f64::NAN, 0.0, 0.0], direction, triangle)));
+        assert!(!SearchDomain::Any.holds(&healthy.on(2.0, 1.0)));
+        assert!(!SearchDomain::Any.holds(&down([f64::NAN, 0.0, 0.0], direction, triangle)));
     }
 }

@@ -24,9 +24,9 @@ pub mod strategy;
 pub mod worst;
 
 pub use decimal::Decimal;
-pub use domain::Domain;
+pub use domain::SearchDomain;
 pub use moves::mutate;
-pub use objective::{Objective, Scorer, Target};
+pub use objective::{Objective, Scorer, SearchTarget};
 pub use objective::{scale, verdict_and_finding};
 pub use shrink::{KEPT_SHARE, Shrunk, shrink, shrink_finding, shrink_scored, shrink_within};
 pub use signature::Signature;
@@ -34,5 +34,6 @@ pub use simplify::{Change, SIMPLIFICATIONS, ScaleBy, Simplification, Size};
 pub use snippet::{c_snippet, rust_snippet};
 pub use worst::family_case;
 pub use worst::{
-    Entry, Found, Goal, LANES, Table, Update, exact_score, find_worst, replay, search,
+    FoundWorst, LANES, Update, WorstEntry, WorstGoal, WorstTable, exact_score, find_worst, replay,
+    search,
 };

@@ -15,12 +15,12 @@ const POINTS: [usize; 4] = [0, 2, 3, 4];
 const VERTICES: [usize; 3] = [2, 3, 4];
 
 /// A case taken apart.
-struct Parts<F> {
+struct CaseParts<F> {
     vectors: [[F; 3]; 5],
     interval: [F; 2],
 }
 
-type Move<F> = fn(&mut Parts<F>, &mut Draw);
+type Move<F> = fn(&mut CaseParts<F>, &mut Draw);
 
 /// A case some moves away: mostly one, rarely more than three. The same draw gives the same case.
 pub fn mutate<F: Float>(case: &Case<F>, draw: &mut Draw) -> Case<F> {
@@ -42,7 +42,8 @@ pub fn mutate<F: Float>(case: &Case<F>, draw: &mut Draw) -> Case<F> {
         flatten,
         change_interval,
     ];
-    let mut parts = Parts { vectors: case.vectors(), interval: [case.ray.t_min, case.ray.t_max] };
+    let mut parts =
+        CaseParts { vectors: case.vectors(), interval: [case.ray.t_min, case.ray.t_max] };
     for _ in 0..=draw.bits().trailing_zeros().min(3) {
         draw.pick(&moves)(&mut parts, draw);
     }
@@ -51,7 +52,7 @@ pub fn mutate<F: Float>(case: &Case<F>, draw: &mut Draw) -> Case<F> {
     Case::new(origin, direction, [a, b, c]).on(t_min, t_max)
 }
 
-impl<F: Float> Parts<F> {
+impl<F: Float> CaseParts<F> {
     /// One of the fifteen coordinates.
     fn any(&mut self, draw: &mut Draw) -> &mut F {
         &mut self.vectors[draw.below(5)][draw.below(3)]
@@ -87,7 +88,7 @@ fn power<F: Float>(exponent: i64) -> F {
 }
 
 /// One coordinate by a few ulps.
-fn nudge<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn nudge<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let most = draw.pick(&[1, 1, 4, 16, 1000]);
     let ulps = draw.integer(1, most) * if draw.coin() { 1 } else { -1 };
     let x = parts.any(draw);
@@ -95,7 +96,7 @@ fn nudge<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
 }
 
 /// One coordinate by a power of two, mostly a small one.
-fn change_exponent<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn change_exponent<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let most = draw.pick(&[1, 2, 8, 40]);
     let factor = power::<F>(draw.integer(-most, most));
     let x = parts.any(draw);
@@ -103,14 +104,14 @@ fn change_exponent<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
 }
 
 /// One bit of a significand.
-fn flip_bit<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn flip_bit<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let bit = draw.below(F::DIGITS as usize - 1);
     let x = parts.any(draw);
     *x = F::from_bits(x.to_bits() ^ 1 << bit);
 }
 
 /// One coordinate, or all, to fewer bits: rounded to a multiple of a power of two near their size.
-fn to_lattice<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn to_lattice<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     // Places count in bits: clearing the low ones of a place rounds the significand.
     let step = 1i64 << (i64::from(F::DIGITS) - 1 - draw.integer(0, 6));
     let rounded = |x: F| {
@@ -131,37 +132,37 @@ fn to_lattice<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
 }
 
 /// A coordinate of one point becomes that of another, or one of its neighbours.
-fn copy_coordinate<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn copy_coordinate<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let (from, to, axis) = (draw.pick(&POINTS), draw.pick(&POINTS), draw.below(3));
     let ulps = draw.pick(&[0, 0, 1, -1]);
     parts.vectors[to][axis] = parts.vectors[from][axis].offset_ulps(ulps);
 }
 
-fn zero_or_negate<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn zero_or_negate<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let zero = draw.coin();
     let x = parts.any(draw);
     *x = if zero { F::zero() } else { -*x };
 }
 
 /// The origin along the ray.
-fn slide_origin<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn slide_origin<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let by: F = draw.symmetric::<F>() * power::<F>(draw.integer(-8, 12));
     let direction = parts.point(DIRECTION);
     parts.vectors[ORIGIN] = parts.point(ORIGIN).plus(&direction.times(&by)).into();
 }
 
 /// The direction from the origin to a point of the triangle's plane.
-fn aim<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn aim<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let target = parts.point_of_triangle(draw);
     let factor = power::<F>(draw.pick(&[0, 0, 1, -1, 6, -6]));
     parts.vectors[DIRECTION] = target.minus(&parts.point(ORIGIN)).times(&factor).into();
 }
 
-fn put_origin_on_the_triangle<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn put_origin_on_the_triangle<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     parts.vectors[ORIGIN] = parts.point_of_triangle(draw).into();
 }
 
-fn scale_points<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn scale_points<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let most = draw.pick(&[1, 4, 30]);
     let factor = power::<F>(draw.integer(-most, most));
     for i in POINTS {
@@ -169,14 +170,14 @@ fn scale_points<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
     }
 }
 
-fn scale_direction<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn scale_direction<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let most = draw.pick(&[1, 4, 30]);
     let factor = power::<F>(draw.integer(-most, most));
     parts.vectors[DIRECTION] = parts.vectors[DIRECTION].map(|x| x * factor);
 }
 
 /// All points by one offset, which is a coordinate of one of them or any number of their size.
-fn shift_points<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn shift_points<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let axis = draw.below(3);
     let size = parts.vectors[draw.pick(&POINTS)][axis];
     let by = if draw.coin() {
@@ -189,13 +190,13 @@ fn shift_points<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
     }
 }
 
-fn swap_vertices<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn swap_vertices<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let (i, j) = (draw.pick(&VERTICES), draw.pick(&VERTICES));
     parts.vectors.swap(i, j);
 }
 
 /// A vertex towards the others: near another vertex, or near their line.
-fn flatten<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn flatten<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let (moved, target) = (draw.pick(&VERTICES), parts.point_of_triangle(draw));
     let keep = power::<F>(-draw.integer(1, 12));
     let offset = parts.point(moved).minus(&target);
@@ -203,7 +204,7 @@ fn flatten<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
 }
 
 /// An end of the interval: the default one, near where the line crosses the plane, or any.
-fn change_interval<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
+fn change_interval<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
     let [a, b, c] = VERTICES.map(|i| parts.point(i));
     let normal = b.minus(&a).cross(&c.minus(&a));
     let t = normal.dot(&a.minus(&parts.point(ORIGIN))) / normal.dot(&parts.point(DIRECTION));

@@ -26,7 +26,7 @@
 //! is convention, not error, and has no score. A false hit before or beyond the extent has a score only at
 //! a gate on t.
 
-use super::domain::Domain;
+use super::domain::SearchDomain;
 use crate::arith::{Exact, Float, Real, Vector};
 use crate::audit::{Row, values};
 use crate::case::{Case, Ray, Triangle};
@@ -74,25 +74,26 @@ impl Objective {
 
 /// An objective, at a gate where it has one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Target {
+pub struct SearchTarget {
     /// The quantity that is scored.
     pub objective: Objective,
     /// The gate's place in the kernel's order; none for t, u and v.
     pub gate: Option<usize>,
 }
 
-impl Target {
+impl SearchTarget {
     /// Every target that a kernel has: no margin of a gate without epsilons, no value that it does
     /// not give.
-    pub fn of_kernel(info: &KernelInfo) -> Vec<Target> {
+    pub fn of_kernel(info: &KernelInfo) -> Vec<SearchTarget> {
         let at_gates = |objective| {
             let gates = 0..info.gates.len();
-            gates.map(move |gate| Target { objective, gate: Some(gate) })
+            gates.map(move |gate| SearchTarget { objective, gate: Some(gate) })
         };
-        let value = |objective| Target { objective, gate: None };
-        let tuned =
-            |target: &Target| target.gate.is_some_and(|g| info.gates[g].epsilon != Tunable::Fixed);
-        let mut targets: Vec<Target> = at_gates(Objective::Margin).filter(tuned).collect();
+        let value = |objective| SearchTarget { objective, gate: None };
+        let tuned = |target: &SearchTarget| {
+            target.gate.is_some_and(|g| info.gates[g].epsilon != Tunable::Fixed)
+        };
+        let mut targets: Vec<SearchTarget> = at_gates(Objective::Margin).filter(tuned).collect();
         targets.extend(info.gives.t.then_some(value(Objective::T)));
         targets.extend(info.gives.uv.then_some(value(Objective::Uv)));
         targets.extend((info.gives.t || info.gives.uv).then_some(value(Objective::WrongValue)));
@@ -110,8 +111,8 @@ impl Target {
     }
 
     /// The target of a name.
-    pub fn find(name: &str, info: &KernelInfo) -> Option<Target> {
-        Target::of_kernel(info).into_iter().find(|target| target.name(info) == name)
+    pub fn find(name: &str, info: &KernelInfo) -> Option<SearchTarget> {
+        SearchTarget::of_kernel(info).into_iter().find(|target| target.name(info) == name)
     }
 }
 
@@ -119,8 +120,8 @@ impl Target {
 pub struct Scorer<'a, F> {
     row: &'a Row,
     epsilons: Vec<F>,
-    target: Target,
-    domain: Domain,
+    target: SearchTarget,
+    domain: SearchDomain,
 }
 
 /// A substitute that a search climbs on where there is no score: below every score, and lower the farther
@@ -131,7 +132,7 @@ fn no_score_yet(in_space: f64) -> f64 {
 
 impl<'a, F: Scalar> Scorer<'a, F> {
     /// A kernel with its epsilons, judged by the row's contract.
-    pub fn new(row: &'a Row, target: Target, domain: Domain) -> Self {
+    pub fn new(row: &'a Row, target: SearchTarget, domain: SearchDomain) -> Self {
         Scorer { row, epsilons: row.epsilons(), target, domain }
     }
 

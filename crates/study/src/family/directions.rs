@@ -9,10 +9,10 @@ use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 
-pub(super) struct DirectionLength;
+pub(super) struct DirectionLengthFamily;
 pub(super) struct AxisAligned;
 
-impl Recipe for DirectionLength {
+impl Recipe for DirectionLengthFamily {
     const NAME: &'static str = "direction-length";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, the direction scaled by 2^-60 to 2^60";

@@ -1,7 +1,7 @@
 //! `parallel-off`, `coplanar`, `grazing`: lines parallel to the plane, in it, and almost so.
 
 use super::integer::{
-    IntegerCase, Point, dot, minus, normal, plus, shuffle, times, transversal,
+    IntegerCase, LatticePoint, dot, minus, normal, plus, shuffle, times, transversal,
     triangle_with_edge_point,
 };
 use super::scene::{Stratum, grazing_sine};
@@ -16,7 +16,7 @@ pub(super) struct Coplanar;
 pub(super) struct Grazing;
 
 /// A non-zero combination of two edges.
-fn in_plane(draw: &mut Draw, [a, b, c]: [Point; 3]) -> Point {
+fn in_plane(draw: &mut Draw, [a, b, c]: [LatticePoint; 3]) -> LatticePoint {
     loop {
         let (i, j) = (draw.integer(-3, 3), draw.integer(-3, 3));
         if (i, j) != (0, 0) {

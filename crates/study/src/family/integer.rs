@@ -4,19 +4,19 @@ use super::Made;
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 
-pub(crate) type Point = [i64; 3];
+pub(crate) type LatticePoint = [i64; 3];
 
 /// A case in integers, times a power of two.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IntegerCase {
-    pub origin: Point,
-    pub direction: Point,
-    pub triangle: [Point; 3],
+    pub origin: LatticePoint,
+    pub direction: LatticePoint,
+    pub triangle: [LatticePoint; 3],
 }
 
 impl IntegerCase {
     pub fn case<F: Float>(&self) -> Case<F> {
-        let float = |p: Point| p.map(|x| F::from_f64(x as f64));
+        let float = |p: LatticePoint| p.map(|x| F::from_f64(x as f64));
         Case::new(float(self.origin), float(self.direction), self.triangle.map(float))
     }
 
@@ -25,23 +25,23 @@ impl IntegerCase {
     }
 }
 
-pub(crate) fn plus(a: Point, b: Point) -> Point {
+pub(crate) fn plus(a: LatticePoint, b: LatticePoint) -> LatticePoint {
     std::array::from_fn(|i| a[i] + b[i])
 }
 
-pub(crate) fn minus(a: Point, b: Point) -> Point {
+pub(crate) fn minus(a: LatticePoint, b: LatticePoint) -> LatticePoint {
     std::array::from_fn(|i| a[i] - b[i])
 }
 
-pub(crate) fn times(a: Point, factor: i64) -> Point {
+pub(crate) fn times(a: LatticePoint, factor: i64) -> LatticePoint {
     a.map(|x| x * factor)
 }
 
-pub(super) fn dot(a: Point, b: Point) -> i64 {
+pub(super) fn dot(a: LatticePoint, b: LatticePoint) -> i64 {
     (0..3).map(|i| a[i] * b[i]).sum()
 }
 
-pub(super) fn cross(a: Point, b: Point) -> Point {
+pub(super) fn cross(a: LatticePoint, b: LatticePoint) -> LatticePoint {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         a[j] * b[k] - a[k] * b[j]
@@ -49,12 +49,12 @@ pub(super) fn cross(a: Point, b: Point) -> Point {
 }
 
 /// (b-a)×(c-a).
-pub(super) fn normal([a, b, c]: [Point; 3]) -> Point {
+pub(super) fn normal([a, b, c]: [LatticePoint; 3]) -> LatticePoint {
     cross(minus(b, a), minus(c, a))
 }
 
 /// A direction within the bound that is not parallel to the plane of a normal.
-pub(super) fn transversal(draw: &mut Draw, normal: Point, bound: i64) -> Point {
+pub(super) fn transversal(draw: &mut Draw, normal: LatticePoint, bound: i64) -> LatticePoint {
     loop {
         let direction = draw.lattice_point(bound);
         if dot(direction, normal) != 0 {
@@ -64,7 +64,7 @@ pub(super) fn transversal(draw: &mut Draw, normal: Point, bound: i64) -> Point {
 }
 
 /// A vector within the bound that is not parallel to another.
-pub(super) fn independent(draw: &mut Draw, other: Point, bound: i64) -> Point {
+pub(super) fn independent(draw: &mut Draw, other: LatticePoint, bound: i64) -> LatticePoint {
     loop {
         let vector = draw.lattice_point(bound);
         if cross(vector, other) != [0; 3] {
@@ -87,7 +87,10 @@ pub fn turned<T: Copy>(draw: &mut Draw, triangle: [T; 3]) -> [T; 3] {
 
 /// A triangle with area whose first edge holds lattice points, and one of those points: vertices are
 /// multiples of small steps, so that everything stays within `reach`.
-pub(super) fn triangle_with_edge_point(draw: &mut Draw, reach: i64) -> ([Point; 3], Point) {
+pub(super) fn triangle_with_edge_point(
+    draw: &mut Draw,
+    reach: i64,
+) -> ([LatticePoint; 3], LatticePoint) {
     let parts = draw.integer(2, 4);
     let step = loop {
         let step = draw.lattice_point(reach / 16);

@@ -29,8 +29,8 @@ pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
 pub(crate) use scene::{
-    Corners, Frame, Pair, Parallel, Ring, Triangles, along_axis, any_direction, circle, flat_along,
-    in_plane, rounded, wide,
+    Corners, Pair, Parallel, RayAxes, Ring, TriangleSource, along_axis, any_direction, circle,
+    flat_along, in_plane, rounded, wide,
 };
 pub use scene::{Pixel, STRATA, Stratum, TRIES, missed_sine, pixel};
 
@@ -171,13 +171,13 @@ pub static FAMILIES: &[Family] = &[
     row::<sizes::Tiny>(Question::Sizes),
     row::<sizes::Huge>(Question::Sizes),
     row::<sizes::Far>(Question::Sizes),
-    row::<directions::DirectionLength>(Question::Sizes),
+    row::<directions::DirectionLengthFamily>(Question::Sizes),
     row::<directions::AxisAligned>(Question::Grid),
     row::<range::MixedScale>(Question::Range),
     row::<range::RangeEnds>(Question::Range),
     row::<shape::Degenerate>(Question::Flat),
     row::<range::Invalid>(Question::Invalid),
-    row::<neighbours::SharedEdge>(Question::Edges),
+    row::<neighbours::SharedEdgeFamily>(Question::Edges),
     row::<neighbours::Fan>(Question::Vertices),
     row::<polygon::Polygon>(Question::Edges),
     Family { size: Some(LATTICE_SIZE), ..row::<lattice::Lattice>(Question::Grid) },

@@ -1,17 +1,19 @@
 //! `shared-edge`, `fan`: two triangles on one edge, and a closed fan around a vertex.
 
 use super::control::{combination, is_steep, well_shaped};
-use super::integer::{Point, dot, minus, normal, plus, times, triangle_with_edge_point, turned};
+use super::integer::{
+    LatticePoint, dot, minus, normal, plus, times, triangle_with_edge_point, turned,
+};
 use super::{Grouping, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 
-pub(super) struct SharedEdge;
+pub(super) struct SharedEdgeFamily;
 pub(super) struct Fan;
 
-impl Recipe for SharedEdge {
+impl Recipe for SharedEdgeFamily {
     const NAME: &'static str = "shared-edge";
     const VERSION: u32 = 2;
     const PROMISE: &'static str =
@@ -40,9 +42,10 @@ fn exact_pair<F: Float>(draw: &mut Draw) -> Vec<Case<F>> {
             continue;
         }
         let origin = minus(target, times(direction, draw.integer(1, 4)));
-        let float = |p: Point| p.map(|x| F::from_f64(x as f64));
-        let case =
-            |triangle: [Point; 3]| Case::new(float(origin), float(direction), triangle.map(float));
+        let float = |p: LatticePoint| p.map(|x| F::from_f64(x as f64));
+        let case = |triangle: [LatticePoint; 3]| {
+            Case::new(float(origin), float(direction), triangle.map(float))
+        };
         return [first, second].map(|triangle| case(turned(draw, triangle))).into();
     }
 }
@@ -79,7 +82,7 @@ impl Recipe for Fan {
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let size = draw.pick(&[4, 64]);
         let center = draw.lattice_point(8 * size);
-        let mut ring: Vec<Point> = Vec::with_capacity(8);
+        let mut ring: Vec<LatticePoint> = Vec::with_capacity(8);
         for (i, [x, y]) in RING.into_iter().enumerate() {
             if i % 2 == 0 || draw.coin() {
                 let stretch = size * draw.integer(1, 2);
@@ -98,8 +101,8 @@ impl Recipe for Fan {
         let target = if draw.coin() { times(center, 2) } else { plus(center, spoke) };
         let origin = minus(target, times(direction, 2));
         let nudge = draw.pick(&[0, 1, 4, 16]);
-        let float = |p: Point| p.map(|x| F::from_f64(x as f64));
-        let doubled = |p: Point| float(times(p, 2));
+        let float = |p: LatticePoint| p.map(|x| F::from_f64(x as f64));
+        let doubled = |p: LatticePoint| float(times(p, 2));
         let origin = float(origin).map(|x| x.offset_ulps(draw.integer(-nudge, nudge)));
         let case = |i: usize| {
             let (from, to) = (ring[i], ring[(i + 1) % ring.len()]);

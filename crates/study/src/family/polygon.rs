@@ -1,7 +1,7 @@
 //! `polygon`: exactly planar convex lattice polygons, as the fan of their first vertex. The truth is
 //! that of the union of the fan's triangles; `convex-polygon` tests the polygon as a whole.
 
-use super::integer::{Point, cross, dot, independent, minus, plus, times, transversal};
+use super::integer::{LatticePoint, cross, dot, independent, minus, plus, times, transversal};
 use super::{Grouping, Made, Recipe};
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -28,7 +28,7 @@ impl Recipe for Polygon {
         let x = if x == [0; 3] { [1, 0, 0] } else { x };
         let y = independent(draw, x, 2);
         let at = |[i, j]: [i64; 2]| plus(base, plus(times(x, i), times(y, j)));
-        let vertices: Vec<Point> = outline.iter().map(|corner| at(*corner)).collect();
+        let vertices: Vec<LatticePoint> = outline.iter().map(|corner| at(*corner)).collect();
         let (first, second) = (draw.pick(&vertices), draw.pick(&vertices));
         // The middle of two vertices (doubled), a vertex, or a lattice point of the plane.
         let target = match draw.below(3) {
@@ -40,7 +40,7 @@ impl Recipe for Polygon {
         let direction = transversal(draw, n, 4);
         debug_assert_ne!(dot(direction, n), 0);
         let origin = minus(target, times(direction, draw.integer(1, 4)));
-        let float = |p: Point| p.map(|x| F::from_f64(x as f64));
+        let float = |p: LatticePoint| p.map(|x| F::from_f64(x as f64));
         let corner = |i: usize| float(times(vertices[i], 2));
         let case = |i: usize| {
             Case::new(float(origin), float(direction), [corner(0), corner(i), corner(i + 1)])

@@ -3,9 +3,9 @@
 use super::control::is_steep;
 use super::flat::placed;
 use super::integer::{
-    IntegerCase, Point, cross, independent, minus, normal, plus, shuffle, times, transversal,
+    IntegerCase, LatticePoint, cross, independent, minus, normal, plus, shuffle, times, transversal,
 };
-use super::scene::{Frame, any_direction, rounded, wide};
+use super::scene::{RayAxes, any_direction, rounded, wide};
 use super::{Made, Recipe};
 use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;
@@ -62,7 +62,7 @@ impl Outline {
 fn generic<F: Float>(draw: &mut Draw) -> Case<F> {
     let finest = FINEST.min(i64::from(F::DIGITS) - 4);
     loop {
-        let (frame, corner) = (Frame::draw(draw), wide(draw.point::<F>()));
+        let (frame, corner) = (RayAxes::draw(draw), wide(draw.point::<F>()));
         let Outline { corners, target } = Outline::draw(draw, finest);
         let point = |[x, y]: [f64; 2]| corner + frame.flat(x, y);
         let triangle = corners.map(|corner| rounded(point(corner)));
@@ -108,7 +108,7 @@ impl Recipe for Degenerate {
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let a = draw.lattice_point(16);
         let step = draw.lattice_point(4);
-        let at = |k: i64| -> Point { plus(a, times(step, k)) };
+        let at = |k: i64| -> LatticePoint { plus(a, times(step, k)) };
         let [i, j, k] = [-3, -3, -3].map(|low| draw.integer(low, 3));
         let triangle = draw.pick(&[[a, a, a], [a, a, at(i)], [a, at(i), at(j)]]);
         let triangle = shuffle(draw, triangle);

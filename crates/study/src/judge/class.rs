@@ -7,14 +7,14 @@ use std::cmp::Ordering;
 /// All of a truth that an obligation depends on: its class, and either the sign of t with whether it is
 /// at an end of the interval, or what a line in the plane meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kind(u8);
+pub struct TruthKind(u8);
 
-impl Kind {
+impl TruthKind {
     /// Numbers of kinds are below this.
     pub const COUNT: usize = Class::COUNT * 8;
 
     /// The kind of a truth.
-    pub fn of(truth: &Truth) -> Kind {
+    pub fn of(truth: &Truth) -> TruthKind {
         let digits = match truth {
             Truth::Transversal(Crossing { place, t_sign, .. }) => [
                 matches!(place, Place::AtMin | Place::AtMax),
@@ -27,7 +27,7 @@ impl Kind {
             }
             Truth::Parallel | Truth::Invalid => [false; 3],
         };
-        Kind(
+        TruthKind(
             digits
                 .into_iter()
                 .fold(Class::of(truth).0, |number, digit| 2 * number + u8::from(digit)),
@@ -41,8 +41,8 @@ impl Kind {
 
     /// The side that the ray crosses the plane from; none if it does not.
     pub fn facing(self) -> Option<Facing> {
-        const FACINGS: [Option<Facing>; Kind::COUNT] = {
-            let mut facings = [None; Kind::COUNT];
+        const FACINGS: [Option<Facing>; TruthKind::COUNT] = {
+            let mut facings = [None; TruthKind::COUNT];
             let mut kind = 0;
             while kind < 8 * PARTS.len() * SIDES.len() * PLACES.len() {
                 let is_back = kind / 8 / PLACES.len() % SIDES.len() == 1;

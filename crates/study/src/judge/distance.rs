@@ -31,7 +31,7 @@ pub struct Distances {
 
 /// The arithmetic that found distances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Step {
+enum DistanceStep {
     Floats,
     /// Floats, after the case was moved near 1.
     FloatsNearOne,
@@ -137,7 +137,7 @@ impl Distances {
     }
 
     /// And the step that was certain.
-    fn and_step<F: Float>(case: &Case<F>, truth: &Truth) -> (Distances, Step) {
+    fn and_step<F: Float>(case: &Case<F>, truth: &Truth) -> (Distances, DistanceStep) {
         let zeros = Zeros::of(truth);
         let ulp = ulp_of_points(case).to_f64();
         let wide = case.widen();
@@ -145,17 +145,19 @@ impl Distances {
         if size_of::<F>() == size_of::<f32>()
             && let Some(found) = quick(&wide, 0, ulp, &zeros).and_then(Quick::certain)
         {
-            return (found, Step::Floats);
+            return (found, DistanceStep::Floats);
         }
         let near = NearOne::of(&wide);
         let found = quick(&near.case, near.size, scaled(ulp, -near.size), &zeros);
         if let Some(found) = found.and_then(Quick::certain) {
-            return (found, Step::FloatsNearOne);
+            return (found, DistanceStep::FloatsNearOne);
         }
         let by_bounds = || by_bounds(&near, &found?, &zeros).filter(|_| near.is_exact(&wide));
         match by_bounds() {
-            Some(found) => (found, Step::DoubleDoubles),
-            None => (integers::distances(&wide, ulp, zeros.along.is_some()), Step::Integers),
+            Some(found) => (found, DistanceStep::DoubleDoubles),
+            None => {
+                (integers::distances(&wide, ulp, zeros.along.is_some()), DistanceStep::Integers)
+            }
         }
     }
 }

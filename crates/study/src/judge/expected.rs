@@ -1,6 +1,6 @@
 //! The obligations of many cases, ready to be compared with the verdicts of many kernels.
 
-use super::{Class, Kind, Limits, Obligation, asked, obligation};
+use super::{Class, Obligation, TruthKind, ValueLimits, asked, obligation};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::Contract;
@@ -10,17 +10,17 @@ use crate::truth::{Facing, Truth};
 /// The kinds of many truths.
 pub struct Kinds {
     /// One a truth.
-    pub of: Vec<Kind>,
+    pub of: Vec<TruthKind>,
     /// Each kind that occurs, with the place of its first truth and their number.
-    each: Vec<(Kind, usize, u64)>,
+    each: Vec<(TruthKind, usize, u64)>,
 }
 
 impl Kinds {
     pub(crate) fn new(truths: &[Truth]) -> Kinds {
-        let mut slots = [None; Kind::COUNT];
-        let mut each: Vec<(Kind, usize, u64)> = Vec::new();
+        let mut slots = [None; TruthKind::COUNT];
+        let mut each: Vec<(TruthKind, usize, u64)> = Vec::new();
         let mut count = |(i, truth): (usize, &Truth)| {
-            let kind = Kind::of(truth);
+            let kind = TruthKind::of(truth);
             let slot = *slots[kind.number()].get_or_insert_with(|| {
                 each.push((kind, i, 0));
                 each.len() - 1
@@ -33,7 +33,7 @@ impl Kinds {
 }
 
 /// A contract's demands on many cases.
-pub struct Expectations {
+pub struct Demands {
     /// One a case.
     pub of: Vec<Expected>,
     /// The cases on which nothing is demanded.
@@ -49,11 +49,11 @@ pub fn ask_all<F: Float>(
     kinds: &Kinds,
     contract: &Contract,
     secondary: bool,
-) -> Expectations {
+) -> Demands {
     let (of, counts): (Vec<Expected>, Vec<_>) = if contract.asks_of_truths_alone() {
         // Few kinds occur, and each is asked the same.
-        let mut of_kind = [Expected::FREE; Kind::COUNT];
-        let ask = |&(kind, first, count): &(Kind, usize, u64)| {
+        let mut of_kind = [Expected::FREE; TruthKind::COUNT];
+        let ask = |&(kind, first, count): &(TruthKind, usize, u64)| {
             let asked = obligation(&truths[first], contract, secondary);
             of_kind[kind.number()] = Expected::new(asked, kind);
             (kind.class(), asked, count)
@@ -62,14 +62,14 @@ pub fn ask_all<F: Float>(
         (kinds.of.iter().map(|kind| of_kind[kind.number()]).collect(), counts)
     } else {
         let cases = cases.iter().zip(truths).zip(&kinds.of);
-        let ask = |((case, truth), kind): ((&Case<F>, &Truth), &Kind)| {
+        let ask = |((case, truth), kind): ((&Case<F>, &Truth), &TruthKind)| {
             let asked = asked(case, truth, contract, secondary);
             (Expected::new(asked, *kind), (kind.class(), asked, 1))
         };
         cases.map(ask).unzip()
     };
     let free = (0..of.len()).filter(|&i| of[i].obligation() == Obligation::Free).collect();
-    Expectations { of, free, counts }
+    Demands { of, free, counts }
 }
 
 /// The demand on a case, as flags.
@@ -86,7 +86,7 @@ impl Expected {
     const FREE: Expected = Expected { may_hit: true, may_miss: true, facing: None };
 
     /// The demand on a case with its obligation and the kind of its truth.
-    pub fn new(obligation: Obligation, kind: Kind) -> Expected {
+    pub fn new(obligation: Obligation, kind: TruthKind) -> Expected {
         Expected {
             may_hit: obligation != Obligation::MustMiss,
             may_miss: obligation != Obligation::MustHit,
@@ -107,7 +107,7 @@ impl Expected {
     #[inline(always)]
     fn is_met<F: Float, const T: bool, const UV: bool, const FACING: bool>(
         &self,
-        limits: &Limits<F>,
+        limits: &ValueLimits<F>,
         verdict: &Verdict<F>,
     ) -> bool {
         let near =
@@ -123,7 +123,7 @@ impl Expected {
 /// The places, in order, of the verdicts on which [`super::judge()`] may find something; on all others it
 /// finds nothing. Most verdicts of a run are among these.
 pub fn suspects<F: Float>(
-    (expected, limits): (&[Expected], &[Limits<F>]),
+    (expected, limits): (&[Expected], &[ValueLimits<F>]),
     gives: Gives,
     verdicts: &[Verdict<F>],
     found: &mut Vec<usize>,
@@ -142,7 +142,7 @@ pub fn suspects<F: Float>(
 }
 
 fn collect<F: Float, const T: bool, const UV: bool, const FACING: bool>(
-    (expected, limits): (&[Expected], &[Limits<F>]),
+    (expected, limits): (&[Expected], &[ValueLimits<F>]),
     verdicts: &[Verdict<F>],
     found: &mut Vec<usize>,
 ) {

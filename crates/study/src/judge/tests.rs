@@ -151,9 +151,9 @@ fn truths_of_one_kind_owe_the_same_under_every_contract() {
     }
     let truths = all_truths();
     for contract in contracts {
-        let mut of_kind = [None; Kind::COUNT];
+        let mut of_kind = [None; TruthKind::COUNT];
         for truth in &truths {
-            let kind = Kind::of(truth);
+            let kind = TruthKind::of(truth);
             assert_eq!(kind.class(), Class::of(truth), "{truth:?}");
             assert_eq!(
                 kind.facing(),
@@ -304,10 +304,10 @@ fn cases_that_are_all_free_are_all_listed() {
 fn no_suspect_is_overlooked(
     cases: &[Case<f64>],
     truths: &[Truth],
-    (contract, all): (&Contract, &Expectations),
+    (contract, all): (&Contract, &Demands),
 ) {
-    let of = |(case, truth)| Limits::of(case, truth);
-    let limits: Vec<Limits<f64>> = cases.iter().zip(truths).map(of).collect();
+    let of = |(case, truth)| ValueLimits::of(case, truth);
+    let limits: Vec<ValueLimits<f64>> = cases.iter().zip(truths).map(of).collect();
     let (nan, facings) = (f64::NAN, [None, Some(Facing::Front), Some(Facing::Back)]);
     let mut found = Vec::new();
     for number in 0..144 {

@@ -235,29 +235,29 @@ fn length(v: [f64; 3]) -> f64 {
 
 /// Ranges in which t, u and v of a hit are surely right. Beyond these numbers `are_near` decides.
 #[derive(Clone, Copy, Debug)]
-pub struct Limits<F> {
+pub struct ValueLimits<F> {
     /// The least t, u and v.
     pub low: [F; 3],
     /// The largest t, u and v.
     pub high: [F; 3],
 }
 
-impl<F: Float> Limits<F> {
+impl<F: Float> ValueLimits<F> {
     /// Every finite number.
     fn any() -> Self {
         let largest = F::infinity().offset_ulps(-1);
-        Limits { low: [-largest; 3], high: [largest; 3] }
+        ValueLimits { low: [-largest; 3], high: [largest; 3] }
     }
 
     /// No number.
     fn none() -> Self {
-        Limits { low: [F::infinity(); 3], high: [-F::infinity(); 3] }
+        ValueLimits { low: [F::infinity(); 3], high: [-F::infinity(); 3] }
     }
 
     /// The ranges for a case with its truth.
     pub fn of(case: &Case<F>, truth: &Truth) -> Self {
         if !has_values(truth) {
-            return Limits::any();
+            return ValueLimits::any();
         }
         let found = quick(&case.widen(), roundoff::<F>()).or_else(|| {
             let Allowed { exact, unit, .. } = Allowed::of(case, Bounded::new);
@@ -269,8 +269,8 @@ impl<F: Float> Limits<F> {
             }
             Some(found)
         });
-        found.map_or_else(Limits::none, |found| {
-            let mut limits = Limits::any();
+        found.map_or_else(ValueLimits::none, |found| {
+            let mut limits = ValueLimits::any();
             for (i, (value, off)) in found.into_iter().enumerate() {
                 // Each is rounded once or twice, by less than what is taken off here.
                 let off = off - (value.abs() + off) * (4.0 * f64::EPSILON);
@@ -279,7 +279,7 @@ impl<F: Float> Limits<F> {
                 limits.low[i] = if low.to_f64() < value - off { inside(low, 1) } else { low };
                 limits.high[i] = if high.to_f64() > value + off { inside(high, -1) } else { high };
                 if !(limits.low[i].is_finite() && limits.high[i].is_finite()) {
-                    return Limits::none();
+                    return ValueLimits::none();
                 }
             }
             limits

@@ -7,7 +7,7 @@
 use super::MapError;
 use super::frame::Stretch;
 use super::panel::Panel;
-use super::scene::{Layer, Scene};
+use super::scene::{FloatLayer, MapScene};
 use super::svg::{DOCUMENT_BACKGROUND, DOCUMENT_STYLE, wrapped};
 use crate::arith::{Exact, Float, Real};
 use crate::audit::{Row, exact_severity};
@@ -28,24 +28,24 @@ const LINE: f64 = 18.0;
 /// The drawing of a row on a case, to be put into a page: it has no ids and no styles, and text of the
 /// page's colour.
 pub fn drawing<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, MapError> {
-    Ok(Witness::new(case, row)?.finish("", ""))
+    Ok(DrawingTexts::new(case, row)?.finish("", ""))
 }
 
 /// The drawing as a file of its own, dark where the reader's screen is.
 pub fn drawing_document<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, MapError> {
-    Ok(Witness::new(case, row)?.finish(DOCUMENT_STYLE, DOCUMENT_BACKGROUND))
+    Ok(DrawingTexts::new(case, row)?.finish(DOCUMENT_STYLE, DOCUMENT_BACKGROUND))
 }
 
 /// The texts of the drawing, and its body so far.
-struct Witness {
+struct DrawingTexts {
     title: String,
     lines: Vec<String>,
     body: String,
     y: f64,
 }
 
-impl Witness {
-    fn new<F: Scalar>(case: &Case<F>, row: &Row) -> Result<Witness, MapError> {
+impl DrawingTexts {
+    fn new<F: Scalar>(case: &Case<F>, row: &Row) -> Result<DrawingTexts, MapError> {
         let name = row.entry.info.name;
         let subject = F::subject(row.entry)
             .ok_or_else(|| MapError(format!("kernel '{name}' does not run in {}", F::NAME)))?;
@@ -61,7 +61,7 @@ impl Witness {
             &verdict,
         );
         let judged = finding.map_or("as its contract asks", |finding| finding.name());
-        let mut witness = Witness {
+        let mut witness = DrawingTexts {
             title: format!("{} in {}: {judged}", row.label(), F::NAME),
             lines: vec![exactly(&definition), computed(row, &verdict)],
             body: String::new(),
@@ -71,7 +71,7 @@ impl Witness {
             witness.distances(case, row);
             let [_, direction, ..] = case.vectors();
             if direction.iter().any(|x| !x.is_zero()) {
-                witness.scene(&Scene::new(case, row.entry.info.gives, &verdict, &definition));
+                witness.scene(&MapScene::new(case, row.entry.info.gives, &verdict, &definition));
             } else {
                 witness.lines.push("A direction of zero: there is no line to draw.".to_owned());
             }
@@ -100,7 +100,7 @@ impl Witness {
         self.lines.push(text + ".");
     }
 
-    fn scene(&mut self, scene: &Scene) {
+    fn scene(&mut self, scene: &MapScene) {
         self.lines.push(scene.seen().to_owned());
         if let Some(apart) = scene.apart() {
             let apart = distance(apart);
@@ -126,7 +126,7 @@ impl Witness {
         self.keys(scene);
     }
 
-    fn panel(&mut self, panel: &Panel, layer: &Layer, name: &str) {
+    fn panel(&mut self, panel: &Panel, layer: &FloatLayer, name: &str) {
         let Panel { left, top, side, .. } = *panel;
         let out = &mut self.body;
         let _ = writeln!(
@@ -159,16 +159,16 @@ impl Witness {
         );
         self.names(panel, layer);
         let marks = [
-            (Some(layer.origin), Mark::Origin),
-            (layer.computed, Mark::Computed),
-            (layer.exact, Mark::Exact),
+            (Some(layer.origin), PointMark::Origin),
+            (layer.computed, PointMark::Computed),
+            (layer.exact, PointMark::Exact),
         ];
         for (point, mark) in marks {
             let Some(point) = point else { continue };
             if let Some(place) = panel.place(point) {
                 self.body.push_str(&mark.at(place));
             } else if let (Some(([x, y], [dx, dy])), true) =
-                (panel.pointer(point), mark != Mark::Origin)
+                (panel.pointer(point), mark != PointMark::Origin)
             {
                 // An arrow whose tip is on the rim.
                 let (bx, by) = (x - 12.0 * dx, y - 12.0 * dy);
@@ -186,7 +186,7 @@ impl Witness {
     }
 
     /// The names of the vertices, beside them and off the triangle.
-    fn names(&mut self, panel: &Panel, layer: &Layer) {
+    fn names(&mut self, panel: &Panel, layer: &FloatLayer) {
         let mut named: Vec<([f64; 2], String)> = Vec::new();
         for (vertex, name) in layer.vertices.into_iter().zip(["a", "b", "c"]) {
             let Some(place) = panel.place(vertex) else { continue };
@@ -237,13 +237,13 @@ impl Witness {
     }
 
     /// Draws the key to the marks.
-    fn keys(&mut self, scene: &Scene) {
-        let mut keys = vec![(Mark::Origin, "the ray's origin")];
+    fn keys(&mut self, scene: &MapScene) {
+        let mut keys = vec![(PointMark::Origin, "the ray's origin")];
         if scene.exact.is_some() {
-            keys.push((Mark::Exact, "where its line meets the plane, exactly"));
+            keys.push((PointMark::Exact, "where its line meets the plane, exactly"));
         }
         if scene.computed.is_some() {
-            keys.push((Mark::Computed, "where the kernel says so"));
+            keys.push((PointMark::Computed, "where the kernel says so"));
         }
         let mut x = MARGIN + 8.0;
         self.y += LINE;
@@ -289,33 +289,33 @@ impl Witness {
 
 /// The mark of a point.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Mark {
+enum PointMark {
     Origin,
     Exact,
     Computed,
 }
 
-impl Mark {
+impl PointMark {
     fn color(self) -> &'static str {
         match self {
-            Mark::Origin => "currentColor",
-            Mark::Exact => "#0072b2",
-            Mark::Computed => "#c83e00",
+            PointMark::Origin => "currentColor",
+            PointMark::Exact => "#0072b2",
+            PointMark::Computed => "#c83e00",
         }
     }
 
     fn at(self, [x, y]: [f64; 2]) -> String {
         let color = self.color();
         match self {
-            Mark::Origin => format!(
+            PointMark::Origin => format!(
                 "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"7\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.5\"/>\n"
             ),
-            Mark::Exact => {
+            PointMark::Exact => {
                 format!(
                     "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3.5\" fill=\"{color}\" stroke=\"#fff\"/>\n"
                 )
             }
-            Mark::Computed => format!(
+            PointMark::Computed => format!(
                 "<path d=\"M{:.2} {:.2}l11 11m0 -11l-11 11\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2.5\"/>\n",
                 x - 5.5,
                 y - 5.5
@@ -325,7 +325,7 @@ impl Mark {
 }
 
 /// A window onto the whole triangle, and onto marks that are not far from it.
-fn overview(layer: &Layer, left: f64, top: f64) -> Panel {
+fn overview(layer: &FloatLayer, left: f64, top: f64) -> Panel {
     let mut points: Vec<[f64; 2]> = layer.vertices.to_vec();
     let is_near = |p: &[f64; 2]| p.iter().all(|x| x.abs() < 2.5);
     points.extend([layer.exact, layer.computed].into_iter().flatten().filter(is_near));

@@ -17,7 +17,7 @@ pub(super) enum View {
 }
 
 /// Two exact axes at a right angle, of any length, and the unit of length.
-pub(super) struct Frame {
+pub(super) struct MapFrame {
     /// How it looks at the case.
     pub view: View,
     axes: [ExactVector; 2],
@@ -43,9 +43,9 @@ pub(super) struct Stretch {
     pub to: f64,
 }
 
-impl Frame {
+impl MapFrame {
     /// For finite coordinates and a direction that is not zero.
-    pub fn of(ray: &Ray<ExactVector>, triangle: &Triangle<ExactVector>) -> Frame {
+    pub fn of(ray: &Ray<ExactVector>, triangle: &Triangle<ExactVector>) -> MapFrame {
         let Triangle { a, b, c } = triangle;
         let edges = [b.minus(a), c.minus(b), a.minus(c)];
         let longest = |best: ExactVector, edge: ExactVector| {
@@ -69,7 +69,7 @@ impl Frame {
             (View::Ray, [aside.clone(), d.cross(&aside)])
         };
         let squares = axes.each_ref().map(square);
-        let mut frame = Frame { view, axes, squares, unit: Exact::one() };
+        let mut frame = MapFrame { view, axes, squares, unit: Exact::one() };
         let to_line = frame.flat(&offset);
         let unit = if is_zero(&edge) { frame.dot(&to_line, &to_line) } else { square(&edge) };
         if !unit.is_zero() {

@@ -5,7 +5,7 @@ use crate::arith::{Float, scale_by_power_of_two};
 
 /// How far the neighbouring pixels of an axis are apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
+pub enum PixelStep {
     /// So many floats: with 1, each pixel is a float and the next pixel the next float.
     Ulps(u32),
     /// 2 to this power, the sum with the centre rounded to the nearest float. For a coordinate that is
@@ -13,13 +13,13 @@ pub enum Step {
     PowerOfTwo(i32),
 }
 
-impl Step {
+impl PixelStep {
     /// In words: `1 ulp`, `16 ulps`, `2^-24`.
     pub fn describe(self) -> String {
         match self {
-            Step::Ulps(1) => "1 ulp".to_owned(),
-            Step::Ulps(k) => format!("{k} ulps"),
-            Step::PowerOfTwo(k) => format!("2^{k}"),
+            PixelStep::Ulps(1) => "1 ulp".to_owned(),
+            PixelStep::Ulps(k) => format!("{k} ulps"),
+            PixelStep::PowerOfTwo(k) => format!("2^{k}"),
         }
     }
 }
@@ -32,7 +32,7 @@ pub struct Axis<F> {
     /// The value of the case itself, at pixel `count / 2`.
     pub centre: F,
     /// From pixel to pixel.
-    pub step: Step,
+    pub step: PixelStep,
     /// The number of pixels.
     pub count: usize,
 }
@@ -51,8 +51,8 @@ impl<F: Float> Axis<F> {
             return self.centre;
         }
         match self.step {
-            Step::Ulps(ulps) => self.centre.offset_ulps(offset * i64::from(ulps)),
-            Step::PowerOfTwo(power) => {
+            PixelStep::Ulps(ulps) => self.centre.offset_ulps(offset * i64::from(ulps)),
+            PixelStep::PowerOfTwo(power) => {
                 let distance = F::from_f64(scale_by_power_of_two(offset as f64, power));
                 self.centre + distance
             }
@@ -79,7 +79,7 @@ impl<F: Float> Grid<F> {
         point: usize,
         values: &[F],
         coordinates: [usize; 2],
-        step: Option<Step>,
+        step: Option<PixelStep>,
         [width, height]: [usize; 2],
         extent: F,
     ) -> Result<Grid<F>, MapError> {
@@ -94,7 +94,7 @@ impl<F: Float> Grid<F> {
                 "a map of {width}x{height} pixels is not possible: each side has 1 to {MOST_PIXELS}"
             )));
         }
-        if step == Some(Step::Ulps(0)) {
+        if step == Some(PixelStep::Ulps(0)) {
             return Err(MapError("a step is at least 1 ulp".to_owned()));
         }
         let axis = |coordinate: usize, count| {
@@ -121,14 +121,14 @@ impl<F: Float> Grid<F> {
 
 /// The default step of an axis: 1 ulp, and for a coordinate that is zero the ulp of the
 /// point's largest coordinate (of `extent`, for a point that is zero).
-fn natural_step<F: Float>(centre: F, values: &[F], extent: F) -> Step {
+fn natural_step<F: Float>(centre: F, values: &[F], extent: F) -> PixelStep {
     let larger = |m: F, x: &F| if m < x.abs() { x.abs() } else { m };
     let largest = values.iter().fold(F::zero(), larger);
     let largest = if largest.is_zero() { extent.abs() } else { largest };
     if !centre.is_zero() || largest.is_zero() || !largest.is_finite() {
-        return Step::Ulps(1);
+        return PixelStep::Ulps(1);
     }
     // An ulp is a power of two.
     let (_, exponent) = crate::arith::decompose(largest.ulp().to_f64());
-    Step::PowerOfTwo(exponent as i32)
+    PixelStep::PowerOfTwo(exponent as i32)
 }

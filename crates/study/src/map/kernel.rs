@@ -1,6 +1,6 @@
 //! A ray-triangle kernel on the cases of a grid.
 
-use super::{AxisText, Grid, Map, MapError, RayPixel, Step};
+use super::{AxisText, Grid, Map, MapError, PixelStep, RayPixel};
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
@@ -16,7 +16,7 @@ named! {
     pub names
     /// A vector of a case.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Part {
+    pub enum CaseVector {
         /// Where the ray starts.
         Origin = "origin",
         /// Where it goes.
@@ -35,9 +35,9 @@ named! {
 /// normal, computed in `f64`, is longest (the last, where there is no normal).
 pub fn grid_of_case<F: Float>(
     case: &Case<F>,
-    part: Part,
+    part: CaseVector,
     coordinates: Option<[usize; 2]>,
-    step: Option<Step>,
+    step: Option<PixelStep>,
     size: [usize; 2],
 ) -> Result<Grid<F>, MapError> {
     let vectors = case.vectors();
@@ -82,7 +82,7 @@ pub fn of_kernel<F: Scalar>(
     };
     // From the top.
     let pixels = (0..height).into_par_iter().rev().flat_map_iter(line).collect();
-    let part = Part::ALL[grid.point];
+    let part = CaseVector::ALL[grid.point];
     Ok(Map {
         subject: row.label(),
         scalar: F::NAME,

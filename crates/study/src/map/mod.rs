@@ -34,8 +34,8 @@ mod spot;
 mod svg;
 
 pub use self::drawing::{drawing, drawing_document};
-pub use self::grid::{Axis, Grid, MOST_PIXELS, Step};
-pub use self::kernel::{Part, case_at, grid_of_case, of_kernel};
+pub use self::grid::{Axis, Grid, MOST_PIXELS, PixelStep};
+pub use self::kernel::{CaseVector, case_at, grid_of_case, of_kernel};
 #[cfg(feature = "files")]
 pub use self::png::png;
 pub use self::spot::{Spot, standard};
@@ -84,7 +84,7 @@ pub struct AxisText {
     /// Its bits in hexadecimal.
     pub bits: String,
     /// From pixel to pixel.
-    pub step: Step,
+    pub step: PixelStep,
     /// The number of pixels.
     pub count: usize,
 }

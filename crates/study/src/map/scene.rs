@@ -1,14 +1,14 @@
 //! A case in exact numbers as a drawing shows it, and the same in floats counted from a point.
 
-use super::frame::{Flat, Frame, Stretch, View};
+use super::frame::{Flat, MapFrame, Stretch, View};
 use crate::arith::{Exact, ExactVector, Float, Real, Vector};
 use crate::case::{Case, Ray, Triangle};
 use crate::kernel::{Gives, Verdict};
 use crate::oracle::Definition;
 
 /// A case in exact numbers, with all that is drawn of it.
-pub(super) struct Scene {
-    frame: Frame,
+pub(super) struct MapScene {
+    frame: MapFrame,
     ray: Ray<ExactVector>,
     pub triangle: Triangle<ExactVector>,
     /// Where the line meets the plane.
@@ -20,7 +20,7 @@ pub(super) struct Scene {
 }
 
 /// A scene in floats, in units, counted from a point.
-pub(super) struct Layer {
+pub(super) struct FloatLayer {
     /// True if the triangle has an area, which then lies to the left of its edges.
     pub has_area: bool,
     pub vertices: [[f64; 2]; 3],
@@ -36,15 +36,15 @@ pub(super) struct Layer {
 /// Nearer to the boundary than this, in longest edges, an inset is drawn.
 const NEAR: f64 = 0.04;
 
-impl Scene {
+impl MapScene {
     pub fn new<F: Float>(
         case: &Case<F>,
         gives: Gives,
         verdict: &Verdict<F>,
         definition: &Definition,
-    ) -> Scene {
+    ) -> MapScene {
         let (ray, triangle) = case.exact();
-        let frame = Frame::of(&ray, &triangle);
+        let frame = MapFrame::of(&ray, &triangle);
         let on_line = |t: &Exact| ray.origin.plus(&ray.direction.times(t));
         let exact = definition.exact.t.as_ref().map(|t| on_line(&Exact::from_rational(t)));
         let contact = definition.exact.contact_t.as_ref();
@@ -60,7 +60,7 @@ impl Scene {
         let weighed =
             |(u, v): (Exact, Exact)| a.plus(&b.minus(a).times(&u)).plus(&c.minus(a).times(&v));
         let computed = by_t.map(|t| on_line(&t)).or_else(|| by_weights.map(weighed));
-        Scene { frame, ray, triangle, exact, computed, contact }
+        MapScene { frame, ray, triangle, exact, computed, contact }
     }
 
     /// The point that an inset looks at: where the line meets the plane or first touches the triangle,
@@ -94,7 +94,7 @@ impl Scene {
     }
 
     /// The scene counted from a point.
-    pub fn from(&self, point: &ExactVector) -> Layer {
+    pub fn from(&self, point: &ExactVector) -> FloatLayer {
         let frame = &self.frame;
         let flat = |p: &ExactVector| frame.flat(&p.minus(point));
         let place = |p: &ExactVector| frame.coordinates(&flat(p));
@@ -111,7 +111,7 @@ impl Scene {
             && t_min.is_less(&Exact::infinity())
             && (-Exact::infinity()).is_less(t_max);
         let end = |t: &Exact| t.is_finite().then(|| t.clone());
-        Layer {
+        FloatLayer {
             has_area: frame.view == View::Normal,
             vertices: [a, b, c].map(place),
             edges: [edge(a, b), edge(b, c), edge(c, a)],
@@ -139,7 +139,7 @@ impl Scene {
     }
 }
 
-impl Layer {
+impl FloatLayer {
     /// Half of what an inset shows, so that what is nearest to its middle is well seen; none where an
     /// overview shows it.
     pub fn inset_half(&self) -> Option<f64> {

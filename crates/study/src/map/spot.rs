@@ -1,6 +1,6 @@
 //! The cases that maps are made of when none is named: near an edge, near a vertex, grazing.
 
-use super::{Map, MapError, Part, grid_of_case, of_kernel};
+use super::{CaseVector, Map, MapError, grid_of_case, of_kernel};
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
@@ -54,6 +54,6 @@ impl Spot {
 /// coordinates that lie most in the triangle's plane. `size` in pixels: to the right, and upwards.
 pub fn standard<F: Scalar>(row: &Row, spot: Spot, size: [usize; 2]) -> Result<Map, MapError> {
     let case = spot.case::<F>();
-    let grid = grid_of_case(&case, Part::Origin, None, None, size)?;
+    let grid = grid_of_case(&case, CaseVector::Origin, None, None, size)?;
     of_kernel(&case, row, &grid, &Unobserved)
 }

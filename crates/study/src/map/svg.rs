@@ -3,7 +3,7 @@
 //! The drawing has no ids and no styles, so that many of them go into one page, and its text has the
 //! page's colour. [`svg_document`] is the same as a file of its own, in light and dark.
 
-use super::{AxisText, Ink, Map, Step};
+use super::{AxisText, Ink, Map, PixelStep};
 use crate::plot::{Ticks, escaped, group_digits, pixel_ticks};
 use std::fmt::Write;
 
@@ -20,12 +20,12 @@ const LETTER: f64 = 7.0;
 
 /// The drawing, to be put into a page.
 pub fn svg(map: &Map) -> String {
-    Drawing::new(map).finish("", "")
+    SvgDrawing::new(map).finish("", "")
 }
 
 /// The drawing as a file of its own, dark where the reader's screen is.
 pub fn svg_document(map: &Map) -> String {
-    Drawing::new(map).finish(DOCUMENT_STYLE, DOCUMENT_BACKGROUND)
+    SvgDrawing::new(map).finish(DOCUMENT_STYLE, DOCUMENT_BACKGROUND)
 }
 
 /// The style of drawings in files of their own.
@@ -33,16 +33,16 @@ pub(super) const DOCUMENT_STYLE: &str = "<style>svg{color:#1b1b1b;--paper:#fff}@
 pub(super) const DOCUMENT_BACKGROUND: &str =
     "<rect width=\"100%\" height=\"100%\" fill=\"#fff\" style=\"fill:var(--paper,#fff)\"/>\n";
 
-struct Drawing<'a> {
+struct SvgDrawing<'a> {
     map: &'a Map,
     body: String,
     /// Where the next thing goes.
     y: f64,
 }
 
-impl<'a> Drawing<'a> {
-    fn new(map: &'a Map) -> Drawing<'a> {
-        let mut drawing = Drawing { map, body: String::new(), y: 0.0 };
+impl<'a> SvgDrawing<'a> {
+    fn new(map: &'a Map) -> SvgDrawing<'a> {
+        let mut drawing = SvgDrawing { map, body: String::new(), y: 0.0 };
         drawing.heading();
         drawing.panels();
         drawing.legend();
@@ -187,8 +187,8 @@ fn axis_words(axis: &AxisText) -> String {
 
 fn ticks(axis: &AxisText) -> Ticks {
     let unit = match axis.step {
-        Step::Ulps(k) => k.into(),
-        Step::PowerOfTwo(_) => 1,
+        PixelStep::Ulps(k) => k.into(),
+        PixelStep::PowerOfTwo(_) => 1,
     };
     pixel_ticks(axis.count, unit)
 }

@@ -28,7 +28,7 @@ mod topology;
 pub use fans::{Fans, VertexKind};
 pub use incidence::Incidence;
 pub use neighbours::MOST_AROUND;
-pub use rays::{Aim, Part, Targets};
+pub use rays::{Aim, AimedPart, Targets};
 pub use scene::SceneMesh;
 pub use surface::Surface;
 pub use topology::{EdgeKind, FaceKind, Noted, SharedEdge, Topology};

@@ -15,7 +15,7 @@ named! {
     pub names
     /// The part of a mesh that rays are aimed at.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-    pub enum Part {
+    pub enum AimedPart {
         /// The edges of two faces that are wound consistently.
         Edges = "mesh-edges",
         /// The vertices inside one closed fan.
@@ -23,7 +23,7 @@ named! {
     }
 }
 
-impl Part {
+impl AimedPart {
     /// The id of an index; it holds the mesh's digest.
     pub(super) fn id<F: Float>(
         self,
@@ -46,8 +46,8 @@ impl Part {
     /// How the triangles of one index belong together.
     pub fn grouping(self) -> Grouping {
         match self {
-            Part::Edges => Grouping::SharedEdge,
-            Part::Vertices => Grouping::Fan,
+            AimedPart::Edges => Grouping::SharedEdge,
+            AimedPart::Vertices => Grouping::Fan,
         }
     }
 }
@@ -88,15 +88,15 @@ impl<'m> Targets<'m> {
     }
 
     /// How many targets there are.
-    pub fn count(&self, part: Part) -> u64 {
+    pub fn count(&self, part: AimedPart) -> u64 {
         match part {
-            Part::Edges => self.topology.shared.len() as u64,
-            Part::Vertices => self.topology.fans.len() as u64,
+            AimedPart::Edges => self.topology.shared.len() as u64,
+            AimedPart::Vertices => self.topology.fans.len() as u64,
         }
     }
 
     /// The target and the number of the ray of an index. There is a target.
-    pub fn place(&self, part: Part, index: u64) -> (usize, u64) {
+    pub fn place(&self, part: AimedPart, index: u64) -> (usize, u64) {
         let count = self.count(part);
         ((index % count) as usize, index / count)
     }
@@ -107,18 +107,18 @@ impl<'m> Targets<'m> {
     }
 
     /// The points of a target, as vertices of the mesh: two ends, or one vertex.
-    pub fn points(&self, part: Part, target: usize) -> Vec<u32> {
+    pub fn points(&self, part: AimedPart, target: usize) -> Vec<u32> {
         match part {
-            Part::Edges => self.topology.shared[target].ends.to_vec(),
-            Part::Vertices => vec![self.topology.fans.get(target).0],
+            AimedPart::Edges => self.topology.shared[target].ends.to_vec(),
+            AimedPart::Vertices => vec![self.topology.fans.get(target).0],
         }
     }
 
     /// The triangles around a target; of a fan in their order.
-    pub fn faces(&self, part: Part, target: usize) -> &[u32] {
+    pub fn faces(&self, part: AimedPart, target: usize) -> &[u32] {
         match part {
-            Part::Edges => &self.topology.shared[target].faces,
-            Part::Vertices => self.topology.fans.get(target).1,
+            AimedPart::Edges => &self.topology.shared[target].faces,
+            AimedPart::Vertices => self.topology.fans.get(target).1,
         }
     }
 
@@ -128,7 +128,7 @@ impl<'m> Targets<'m> {
     }
 
     /// Adds the cases of an index: one ray, and each triangle around its target.
-    pub fn make<F: Float>(&self, part: Part, index: u64, cases: &mut Vec<Case<F>>) {
+    pub fn make<F: Float>(&self, part: AimedPart, index: u64, cases: &mut Vec<Case<F>>) {
         let faces = self.faces(part, self.place(part, index).0);
         let (origin, direction) = self.ray(part, index);
         let mut first = Case::new(origin, direction, self.mesh.vertices(faces[0] as usize));
@@ -141,7 +141,7 @@ impl<'m> Targets<'m> {
     /// they are too many ([`super::MOST_AROUND`]).
     pub fn add_neighbours<F: Float>(
         &self,
-        (part, index): (Part, u64),
+        (part, index): (AimedPart, u64),
         ray: &Ray<F::Vector>,
         cases: &mut Vec<Case<F>>,
     ) -> bool {
@@ -162,13 +162,13 @@ impl<'m> Targets<'m> {
     }
 
     /// The ray of an index, before the parameters.
-    fn ray<F: Float>(&self, part: Part, index: u64) -> ([F; 3], [F; 3]) {
+    fn ray<F: Float>(&self, part: AimedPart, index: u64) -> ([F; 3], [F; 3]) {
         let (target, number) = self.place(part, index);
         let mut draw = Draw::new(part.name(), self.seed, index);
         let faces = self.faces(part, target);
         let ends = match part {
-            Part::Edges => self.topology.shared[target].ends,
-            Part::Vertices => [self.topology.fans.get(target).0; 2],
+            AimedPart::Edges => self.topology.shared[target].ends,
+            AimedPart::Vertices => [self.topology.fans.get(target).0; 2],
         };
         let ends = ends.map(|point| self.mesh.position(point));
         let about = self.mesh.vertices(faces[draw.below(faces.len())] as usize);

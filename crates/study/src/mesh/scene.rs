@@ -7,8 +7,8 @@ use crate::arith::{Float, three_digits};
 use crate::case::{DirectionLength, Draw, Parameters, Scene};
 use crate::corpus::is_without_area;
 use crate::family::{
-    Corners, Frame, Made, Pair, Parallel, Ring, Stratum, Triangles, along_axis, circle, flat_along,
-    in_plane, rounded, wide,
+    Corners, Made, Pair, Parallel, RayAxes, Ring, Stratum, TriangleSource, along_axis, circle,
+    flat_along, in_plane, rounded, wide,
 };
 use crate::kernel::Scalar;
 use glam::DVec3;
@@ -102,7 +102,10 @@ impl SceneMesh {
     }
 
     /// Its triangles, for rays of a scene.
-    pub fn triangles<'a, F: Float>(&'a self, scene: &'a Scene) -> impl Triangles<F> + use<'a, F> {
+    pub fn triangles<'a, F: Float>(
+        &'a self,
+        scene: &'a Scene,
+    ) -> impl TriangleSource<F> + use<'a, F> {
         let topology = self.surface.topology::<F>().expect("a scalar of the run");
         OfMesh { mesh: self, topology, scene }
     }
@@ -115,7 +118,7 @@ fn faces_with_area<F: Float>(surface: &Surface) -> Vec<u32> {
         let corners = mesh.vertices::<F>(*face as usize);
         let is_finite = corners.as_flattened().iter().all(|x| x.is_finite());
         is_finite
-            && Frame::of(corners).is_some()
+            && RayAxes::of(corners).is_some()
             && !is_without_area(corners.map(|corner| wide(corner).to_array()))
     };
     match surface.topology::<F>() {
@@ -148,10 +151,10 @@ impl OfMesh<'_> {
     }
 }
 
-impl<F: Float> Triangles<F> for OfMesh<'_> {
-    fn triangle(&self, draw: &mut Draw) -> (Corners<F>, Frame) {
+impl<F: Float> TriangleSource<F> for OfMesh<'_> {
+    fn triangle(&self, draw: &mut Draw) -> (Corners<F>, RayAxes) {
         let triangle = self.any_face(draw);
-        (triangle, Frame::of(triangle).expect("faces without a normal are left out"))
+        (triangle, RayAxes::of(triangle).expect("faces without a normal are left out"))
     }
 
     fn pair(&self, draw: &mut Draw) -> Pair<F> {
@@ -178,7 +181,7 @@ impl<F: Float> Triangles<F> for OfMesh<'_> {
         }
         let direction = direction.unwrap_or_else(|| {
             // A rounded one, which the oracle keeps only if it is exact by chance.
-            let frame = Frame::of(triangle).expect("faces without a normal are left out");
+            let frame = RayAxes::of(triangle).expect("faces without a normal are left out");
             rounded(in_plane(draw, &frame))
         });
         Parallel { triangle, direction, size: longest_edge(triangle) }

@@ -1,6 +1,6 @@
 //! A mesh with what it is in each scalar: the source of the rays at its edges and vertices.
 
-use super::rays::{Part, Targets};
+use super::rays::{AimedPart, Targets};
 use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::{CaseId, Parameters};
@@ -51,7 +51,7 @@ impl Surface {
     /// The id of an index; it holds the mesh's digest.
     pub fn id<F: Float>(
         &self,
-        part: Part,
+        part: AimedPart,
         parameters: &Parameters,
         seed: u64,
         index: u64,

@@ -12,25 +12,25 @@ use num_bigint::BigInt;
 use num_traits::{Float as _, RefNum, Signed, ToPrimitive};
 use std::cmp::Ordering;
 
-type Point<I> = [I; 3];
+type IntegerPoint<I> = [I; 3];
 
 /// A fraction with a positive denominator.
 #[derive(Clone)]
-struct Fraction<I>(I, I);
+struct IntegerFraction<I>(I, I);
 
 /// An end of an interval.
 #[derive(Clone)]
 enum End<I> {
     MinusInfinity,
-    At(Fraction<I>),
+    At(IntegerFraction<I>),
     PlusInfinity,
 }
 
 /// A case in integers.
 pub(super) struct Integers<I> {
-    o: Point<I>,
-    d: Point<I>,
-    vertices: [Point<I>; 3],
+    o: IntegerPoint<I>,
+    d: IntegerPoint<I>,
+    vertices: [IntegerPoint<I>; 3],
     t_min: End<I>,
     t_max: End<I>,
 }
@@ -90,14 +90,20 @@ where
     for<'a> &'a I: RefNum<I>,
 {
     /// From numbers and exponents that are not negative, and an interval.
-    fn new(parts: [Point<(i64, i64)>; 5], ends: [f64; 2], integer: impl Fn(i64, i64) -> I) -> Self {
+    fn new(
+        parts: [IntegerPoint<(i64, i64)>; 5],
+        ends: [f64; 2],
+        integer: impl Fn(i64, i64) -> I,
+    ) -> Self {
         let end = |t: f64| {
             let (odd, exponent) = digits(t);
             match t {
                 f64::NEG_INFINITY => End::MinusInfinity,
                 f64::INFINITY => End::PlusInfinity,
-                _ if exponent < 0 => End::At(Fraction(integer(odd, 0), integer(1, -exponent))),
-                _ => End::At(Fraction(integer(odd, exponent), I::one())),
+                _ if exponent < 0 => {
+                    End::At(IntegerFraction(integer(odd, 0), integer(1, -exponent)))
+                }
+                _ => End::At(IntegerFraction(integer(odd, exponent), I::one())),
             }
         };
         let [t_min, t_max] = ends.map(end);
@@ -107,8 +113,8 @@ where
     }
 
     /// A case on the lattice, on [0, inf).
-    pub fn of_lattice([o, d, vertices @ ..]: [Point<I>; 5]) -> Self {
-        let t_min = End::At(Fraction(I::zero(), I::one()));
+    pub fn of_lattice([o, d, vertices @ ..]: [IntegerPoint<I>; 5]) -> Self {
+        let t_min = End::At(IntegerFraction(I::zero(), I::one()));
         Integers { o, d, vertices, t_min, t_max: End::PlusInfinity }
     }
 
@@ -145,7 +151,7 @@ where
             [_, Ordering::Greater, _] => Feature::VertexB,
             _ => Feature::VertexC,
         };
-        let t = Fraction(t, whole);
+        let t = IntegerFraction(t, whole);
         let place = match (self.t_min.compare(&t), self.t_max.compare(&t)) {
             (Ordering::Less, _) => Place::Before,
             (Ordering::Equal, _) => Place::AtMin,
@@ -190,14 +196,15 @@ where
     }
 
     /// The t between which the line runs through a triangle without area.
-    fn range_of_segment(&self) -> Option<[Fraction<I>; 2]> {
+    fn range_of_segment(&self) -> Option<[IntegerFraction<I>; 2]> {
         // The outermost of points on one line are the first and the last by x, then y, then z.
         let (p, q) = (self.vertices.iter().min()?, self.vertices.iter().max()?);
         let m = self.d.iter().position(|x| !x.is_zero())?;
         let [x, y] = [p, q].map(|v| cross(&minus(v, &self.o), &self.d));
-        let is_zero = |v: &Point<I>| v.iter().all(|x| x.is_zero());
+        let is_zero = |v: &IntegerPoint<I>| v.iter().all(|x| x.is_zero());
         if is_zero(&x) && is_zero(&y) {
-            let [s, t] = [p, q].map(|v| Fraction::new(&v[m] - &self.o[m], self.d[m].clone()));
+            let [s, t] =
+                [p, q].map(|v| IntegerFraction::new(&v[m] - &self.o[m], self.d[m].clone()));
             return Some(if s.compare(&t).is_le() { [s, t] } else { [t, s] });
         }
         // x + s (y-x) = 0 for an s in [0, 1]: x and y opposite, or one of them zero.
@@ -207,14 +214,14 @@ where
         let k = (0..3).find(|&k| x[k] != y[k])?;
         let whole = &x[k] - &y[k];
         let along = &whole * &(&p[m] - &self.o[m]) + &x[k] * &(&q[m] - &p[m]);
-        let t = Fraction::new(along, &whole * &self.d[m]);
+        let t = IntegerFraction::new(along, &whole * &self.d[m]);
         Some([t.clone(), t])
     }
 
     /// The feature of a triangle without area at a point of the line that lies on it.
-    fn feature_on_segment(&self, Fraction(t, whole): &Fraction<I>) -> Feature {
+    fn feature_on_segment(&self, IntegerFraction(t, whole): &IntegerFraction<I>) -> Feature {
         // o + t d against a vertex, coordinate by coordinate.
-        let order = |vertex: &Point<I>| {
+        let order = |vertex: &IntegerPoint<I>| {
             let by_axis =
                 (0..3).map(|i| (&self.o[i] * whole + &self.d[i] * t).cmp(&(&vertex[i] * whole)));
             by_axis.fold(Ordering::Equal, Ordering::then)
@@ -232,8 +239,8 @@ where
     /// A range of t cut to the interval.
     fn cut(
         &self,
-        range: &Option<[Fraction<I>; 2]>,
-        feature: impl Fn(&Fraction<I>) -> Feature,
+        range: &Option<[IntegerFraction<I>; 2]>,
+        feature: impl Fn(&IntegerFraction<I>) -> Feature,
     ) -> Contact {
         let Some([low, high]) = range else {
             return Contact { kind: ContactKind::None, meets_ray: false, meets_line: false };
@@ -255,11 +262,12 @@ where
 /// The t at which three functions, linear in t, are all at least zero.
 fn range_inside<I: Signed + Ord + Clone + ToPrimitive>(
     edges: &[(I, I); 3],
-) -> Option<[Fraction<I>; 2]>
+) -> Option<[IntegerFraction<I>; 2]>
 where
     for<'a> &'a I: RefNum<I>,
 {
-    let (mut low, mut high): (Option<Fraction<I>>, Option<Fraction<I>>) = (None, None);
+    let (mut low, mut high): (Option<IntegerFraction<I>>, Option<IntegerFraction<I>>) =
+        (None, None);
     for (constant, slope) in edges {
         if slope.is_zero() {
             if constant.is_negative() {
@@ -267,7 +275,7 @@ where
             }
             continue;
         }
-        let bound = Fraction::new(-constant.clone(), slope.clone());
+        let bound = IntegerFraction::new(-constant.clone(), slope.clone());
         let (end, tighter) = if slope.is_positive() {
             (&mut low, Ordering::Less)
         } else {
@@ -284,7 +292,7 @@ where
 /// The feature at a point of the line in the closed triangle.
 fn feature_in_plane<I: Signed + Ord + Clone>(
     edges: &[(I, I); 3],
-    Fraction(t, whole): &Fraction<I>,
+    IntegerFraction(t, whole): &IntegerFraction<I>,
 ) -> Feature
 where
     for<'a> &'a I: RefNum<I>,
@@ -301,15 +309,15 @@ where
     }
 }
 
-impl<I: Signed + Ord + Clone + ToPrimitive> Fraction<I>
+impl<I: Signed + Ord + Clone + ToPrimitive> IntegerFraction<I>
 where
     for<'a> &'a I: RefNum<I>,
 {
     fn new(numerator: I, denominator: I) -> Self {
         if denominator.is_negative() {
-            Fraction(-numerator, -denominator)
+            IntegerFraction(-numerator, -denominator)
         } else {
-            Fraction(numerator, denominator)
+            IntegerFraction(numerator, denominator)
         }
     }
 
@@ -334,7 +342,7 @@ where
     for<'a> &'a I: RefNum<I>,
 {
     /// The order of t and this end: less where t comes before it.
-    fn compare(&self, t: &Fraction<I>) -> Ordering {
+    fn compare(&self, t: &IntegerFraction<I>) -> Ordering {
         match self {
             End::MinusInfinity => Ordering::Greater,
             End::At(end) => t.compare(end),
@@ -342,7 +350,7 @@ where
         }
     }
 
-    fn at(&self) -> Option<&Fraction<I>> {
+    fn at(&self) -> Option<&IntegerFraction<I>> {
         match self {
             End::At(end) => Some(end),
             _ => None,
@@ -354,21 +362,21 @@ fn sign<I: Signed + Ord>(x: &I) -> Ordering {
     x.cmp(&I::zero())
 }
 
-fn minus<I>(p: &Point<I>, q: &Point<I>) -> Point<I>
+fn minus<I>(p: &IntegerPoint<I>, q: &IntegerPoint<I>) -> IntegerPoint<I>
 where
     for<'a> &'a I: RefNum<I>,
 {
     std::array::from_fn(|i| &p[i] - &q[i])
 }
 
-fn dot<I: Signed>(p: &Point<I>, q: &Point<I>) -> I
+fn dot<I: Signed>(p: &IntegerPoint<I>, q: &IntegerPoint<I>) -> I
 where
     for<'a> &'a I: RefNum<I>,
 {
     &p[0] * &q[0] + &p[1] * &q[1] + &p[2] * &q[2]
 }
 
-fn cross<I: Signed>(p: &Point<I>, q: &Point<I>) -> Point<I>
+fn cross<I: Signed>(p: &IntegerPoint<I>, q: &IntegerPoint<I>) -> IntegerPoint<I>
 where
     for<'a> &'a I: RefNum<I>,
 {

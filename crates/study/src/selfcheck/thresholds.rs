@@ -6,7 +6,7 @@
 use crate::arith::scale_by_power_of_two;
 use crate::case::{Case, Draw};
 
-type Vector = [f64; 3];
+type Doubles = [f64; 3];
 
 /// Case `index` of a set.
 pub(super) fn case(seed: u64, index: u64) -> Case<f64> {
@@ -38,11 +38,11 @@ fn number(draw: &mut Draw, exponent: i64) -> f64 {
 /// rest being random: one of the weights, T or D.
 fn with_rows(
     draw: &mut Draw,
-    [x, y, z]: [Vector; 3],
-    base: Vector,
-    other: [Vector; 2],
+    [x, y, z]: [Doubles; 3],
+    base: Doubles,
+    other: [Doubles; 2],
 ) -> Case<f64> {
-    let at = |v: Vector| -> Vector { [0, 1, 2].map(|i| base[i] + v[i]) };
+    let at = |v: Doubles| -> Doubles { [0, 1, 2].map(|i| base[i] + v[i]) };
     match draw.below(5) {
         0 => Case::new(base, x, [other[0], at(y), at(z)]),
         1 => Case::new(base, x, [at(z), other[0], at(y)]),
@@ -57,10 +57,10 @@ fn with_rows(
 fn cancelling(draw: &mut Draw) -> (Case<f64>, i32) {
     let bits = draw.pick(&[20, 29, 40, 50, 53]);
     let one = (1i64 << bits) as f64;
-    let grid = |draw: &mut Draw| -> Vector {
+    let grid = |draw: &mut Draw| -> Doubles {
         draw.lattice_point((1i64 << bits) - 1).map(|x| x as f64 / one)
     };
-    let beside = |draw: &mut Draw, v: Vector, units: i64| -> Vector {
+    let beside = |draw: &mut Draw, v: Doubles, units: i64| -> Doubles {
         let by = draw.lattice_point(units);
         [0, 1, 2].map(|i| ((v[i] * one).round() + by[i] as f64) / one)
     };
@@ -108,7 +108,7 @@ fn scaled(draw: &mut Draw, case: &Case<f64>, bits: i32) -> Case<f64> {
         by[axis] = bits - 1074;
     }
     let [o, d, vertices @ ..] = case.vectors();
-    let position = |v: Vector| [0, 1, 2].map(|i| scale_by_power_of_two(v[i], by[i]));
+    let position = |v: Doubles| [0, 1, 2].map(|i| scale_by_power_of_two(v[i], by[i]));
     let d = position(d).map(|x| scale_by_power_of_two(x, direction));
     let mut points = [o, vertices[0], vertices[1], vertices[2]].map(position);
     if let Some(axis) = smallest.filter(|_| draw.coin()) {

@@ -7,11 +7,11 @@ use crate::case::Instance;
 pub struct Plane {
     vertices: [[f64; 3]; 3],
     instance: Option<Instance<f64>>,
-    near: Measures<Bounded>,
+    near: PlaneMeasures<Bounded>,
 }
 
 /// A vertex, the normal, the squares of its length and of the longest edge's.
-struct Measures<R> {
+struct PlaneMeasures<R> {
     corner: Triple<R>,
     normal: Triple<R>,
     normal_squared: R,
@@ -22,12 +22,12 @@ fn triple<R>(point: [f64; 3], number: fn(f64) -> R) -> Triple<R> {
     point.map(number).into()
 }
 
-impl<R: Real> Measures<R> {
+impl<R: Real> PlaneMeasures<R> {
     fn new(
         vertices: [[f64; 3]; 3],
         instance: &Option<Instance<f64>>,
         number: fn(f64) -> R,
-    ) -> Measures<R> {
+    ) -> PlaneMeasures<R> {
         let [mut a, mut b, mut c] = vertices.map(|vertex| triple(vertex, number));
         if let Some(instance) = instance {
             [a, b, c] = instance.place(vertices, number);
@@ -39,7 +39,7 @@ impl<R: Real> Measures<R> {
         let edges = [b.minus(&a), c.minus(&a), c.minus(&b)];
         let normal = edges[0].cross(&edges[1]);
         let squares = edges.map(|edge| edge.dot(&edge));
-        Measures {
+        PlaneMeasures {
             corner: a,
             normal_squared: normal.dot(&normal),
             normal,
@@ -48,16 +48,16 @@ impl<R: Real> Measures<R> {
     }
 
     /// The dot product of the normal with a vector, or with the way from the plane to a point.
-    fn product(&self, what: What, vector: Triple<R>) -> R {
+    fn product(&self, what: PlaneVector, vector: Triple<R>) -> R {
         match what {
-            What::Point => self.normal.dot(&vector.minus(&self.corner)),
-            What::Vector => self.normal.dot(&vector),
+            PlaneVector::Point => self.normal.dot(&vector.minus(&self.corner)),
+            PlaneVector::Vector => self.normal.dot(&vector),
         }
     }
 }
 
 #[derive(Clone, Copy)]
-enum What {
+enum PlaneVector {
     Point,
     Vector,
 }
@@ -67,29 +67,29 @@ impl Plane {
     pub fn new<F: Float>(vertices: [[F; 3]; 3], instance: Option<Instance<F>>) -> Plane {
         let vertices = vertices.map(|vertex| vertex.map(F::to_f64));
         let instance = instance.map(|it| it.widen());
-        Plane { vertices, near: Measures::new(vertices, &instance, Bounded::new), instance }
+        Plane { vertices, near: PlaneMeasures::new(vertices, &instance, Bounded::new), instance }
     }
 
     /// How high a point lies above the plane, in longest edges of the triangle, within a millionth of
     /// itself. Above is where (b - a) × (c - a) points. NaN of a point that is not finite, and over a
     /// triangle without area.
     pub fn height<F: Float>(&self, point: [F; 3]) -> f64 {
-        self.over(What::Point, point)
+        self.over(PlaneVector::Point, point)
     }
 
     /// By how much a vector rises over the plane, in longest edges of the triangle.
     pub fn rise<F: Float>(&self, vector: [F; 3]) -> f64 {
-        self.over(What::Vector, vector)
+        self.over(PlaneVector::Vector, vector)
     }
 
     /// A product with the normal over the lengths of the normal and of the longest edge: in double-doubles
     /// if they are certain, else exactly.
-    fn over<F: Float>(&self, what: What, vector: [F; 3]) -> f64 {
+    fn over<F: Float>(&self, what: PlaneVector, vector: [F; 3]) -> f64 {
         let vector = vector.map(F::to_f64);
         if !vector.iter().all(|x| x.is_finite()) {
             return f64::NAN;
         }
-        let Measures { normal_squared, edge_squared, .. } = &self.near;
+        let PlaneMeasures { normal_squared, edge_squared, .. } = &self.near;
         let product = self.near.product(what, triple(vector, Bounded::new)).approximate();
         let lengths = normal_squared.approximate().zip(edge_squared.approximate());
         if let Some((product, (normal, edge))) = product.zip(lengths) {
@@ -98,7 +98,7 @@ impl Plane {
                 return height;
             }
         }
-        let measures = Measures::new(self.vertices, &self.instance, Exact::from_f64);
+        let measures = PlaneMeasures::new(self.vertices, &self.instance, Exact::from_f64);
         let product = measures.product(what, triple(vector, Exact::from_f64));
         let squares = measures.normal_squared * &measures.edge_squared;
         let height = (product.clone() * &product / &squares).approximate_root();

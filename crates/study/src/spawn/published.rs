@@ -4,7 +4,7 @@ use super::hit::{HitPoint, Start};
 use crate::arith::Float;
 
 /// A published offset scheme: a row of the table.
-pub struct Published {
+pub struct PublishedScheme {
     /// The name on the command line.
     pub name: &'static str,
     /// The formula of the start in the hit point p and the normal n, with # for the scheme's number.
@@ -17,7 +17,7 @@ pub struct Published {
     pub(super) usual: &'static [Option<&'static str>],
     /// True if the scheme has no constants for `f64`.
     pub(super) only_f32: bool,
-    pub(super) formula: Formula,
+    pub(super) formula: OffsetFormula,
 }
 
 /// A scheme's number.
@@ -34,102 +34,102 @@ const fn number(what: &'static str, default: &'static str) -> Option<Parameter> 
 }
 
 /// Every published scheme, in the order of reports.
-pub static PUBLISHED: &[Published] = &[
-    Published {
+pub static PUBLISHED: &[PublishedScheme] = &[
+    PublishedScheme {
         name: "none",
         start: "start at p",
         source: "-",
         parameter: None,
         usual: &[None],
         only_f32: false,
-        formula: Formula::Nothing,
+        formula: OffsetFormula::Nothing,
     },
-    Published {
+    PublishedScheme {
         name: "t-min",
         start: "start at p, and count hits from t = # on",
         source: "Shirley, Black, Hollasch: Ray Tracing in One Weekend, version 4, 2023, section 6.8, https://raytracing.github.io/books/RayTracingInOneWeekend.html",
         parameter: number("the least t", "0.001"),
         usual: &[Some("1e-3")],
         only_f32: false,
-        formula: Formula::TMin,
+        formula: OffsetFormula::TMin,
     },
-    Published {
+    PublishedScheme {
         name: "t-relative",
         start: "start at p, and count hits from # of the first ray's t on",
         source: "Pharr, Humphreys: pbrt-v2, 2010, rayEpsilon in src/shapes/trianglemesh.cpp, https://github.com/mmp/pbrt-v2",
         parameter: number("the share of t", "0.001"),
         usual: &[Some("1e-3")],
         only_f32: false,
-        formula: Formula::TRelative,
+        formula: OffsetFormula::TRelative,
     },
-    Published {
+    PublishedScheme {
         name: "normal",
         start: "start at p + n * #",
         source: "common practice; for example demont-engine, issue 256, 2026, https://github.com/havokentity/demont-engine/issues/256",
         parameter: number("the distance", "0.001"),
         usual: &[Some("1e-4"), Some("1e-3")],
         only_f32: false,
-        formula: Formula::Normal,
+        formula: OffsetFormula::Normal,
     },
-    Published {
+    PublishedScheme {
         name: "ulps",
         start: "start at p + n * (# ulps of the largest |coordinate| of p)",
         source: "this project: the least that follows the coordinates",
         parameter: number("the number of ulps", "4"),
         usual: &[],
         only_f32: false,
-        formula: Formula::Ulps,
+        formula: OffsetFormula::Ulps,
     },
-    Published {
+    PublishedScheme {
         name: "waechter-binder",
         start: "move each coordinate by 256 ulps times n (by 2^-16 times n near 0)",
         source: "Wächter, Binder: A Fast and Robust Method for Avoiding Self-Intersection, Ray Tracing Gems, chapter 6, 2019, https://doi.org/10.1007/978-1-4842-4427-2_6",
         parameter: None,
         usual: &[None],
         only_f32: true,
-        formula: Formula::WaechterBinder,
+        formula: OffsetFormula::WaechterBinder,
     },
-    Published {
+    PublishedScheme {
         name: "pbrt-v3",
         start: "start beyond the error box of gamma # around p, along n",
         source: "Pharr, Jakob, Humphreys: Physically Based Rendering, 3rd edition, 2016, section 3.9.5, https://pbr-book.org/3ed-2018/Shapes/Managing_Rounding_Error",
         parameter: number("the n of gamma n", "7"),
         usual: &[None],
         only_f32: true,
-        formula: Formula::PbrtV3,
+        formula: OffsetFormula::PbrtV3,
     },
-    Published {
+    PublishedScheme {
         name: "pbrt-v4",
         start: "start beyond the error box of gamma # around p, along n",
         source: "Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6, https://pbr-book.org/4ed/Shapes/Managing_Rounding_Error",
         parameter: number("the n of gamma n", "7"),
         usual: &[None],
         only_f32: false,
-        formula: Formula::PbrtV4,
+        formula: OffsetFormula::PbrtV4,
     },
-    Published {
+    PublishedScheme {
         name: "mitsuba-3.9",
         start: "start at p + n * # u * (1 + the largest |coordinate| of p)",
         source: "Jakob and others: Mitsuba 3 up to 3.9, 2022 to 2026, offset_p in include/mitsuba/render/interaction.h, https://github.com/mitsuba-renderer/mitsuba3",
         parameter: number("the number of u", "1500"),
         usual: &[None],
         only_f32: false,
-        formula: Formula::Mitsuba39,
+        formula: OffsetFormula::Mitsuba39,
     },
-    Published {
+    PublishedScheme {
         name: "mitsuba",
         start: "start at p + n * # u * (|n| . the largest |coordinates| of the vertices)",
         source: "Jakob: A better ray epsilon, 2026, by its description, https://github.com/mitsuba-renderer/mitsuba3/pull/1962",
         parameter: number("the number of u", "32"),
         usual: &[None],
         only_f32: false,
-        formula: Formula::Mitsuba,
+        formula: OffsetFormula::Mitsuba,
     },
 ];
 
 /// A scheme's formula.
 #[derive(Clone, Copy)]
-pub(super) enum Formula {
+pub(super) enum OffsetFormula {
     Nothing,
     TMin,
     TRelative,
@@ -142,19 +142,21 @@ pub(super) enum Formula {
     Mitsuba,
 }
 
-impl Formula {
+impl OffsetFormula {
     /// Where the new ray starts.
     pub fn start<F: Float>(self, parameter: F, hit: &HitPoint<F>) -> Start<F> {
         let HitPoint { point, normal, .. } = *hit;
         match self {
-            Formula::Nothing => Start::at(point),
-            Formula::TMin => Start { origin: point, t_min: parameter },
-            Formula::TRelative => Start { origin: point, t_min: parameter * hit.t },
-            Formula::Normal => Start::at(along(point, normal, parameter)),
-            Formula::Ulps => Start::at(along(point, normal, parameter * largest(point).ulp())),
-            Formula::WaechterBinder => Start::at(waechter_binder(point, normal)),
-            Formula::PbrtV3 => Start::at(pbrt(point, error_box(parameter, hit), normal)),
-            Formula::PbrtV4 => {
+            OffsetFormula::Nothing => Start::at(point),
+            OffsetFormula::TMin => Start { origin: point, t_min: parameter },
+            OffsetFormula::TRelative => Start { origin: point, t_min: parameter * hit.t },
+            OffsetFormula::Normal => Start::at(along(point, normal, parameter)),
+            OffsetFormula::Ulps => {
+                Start::at(along(point, normal, parameter * largest(point).ulp()))
+            }
+            OffsetFormula::WaechterBinder => Start::at(waechter_binder(point, normal)),
+            OffsetFormula::PbrtV3 => Start::at(pbrt(point, error_box(parameter, hit), normal)),
+            OffsetFormula::PbrtV4 => {
                 let boxed = rounded_outwards(point, error_box(parameter, hit));
                 Start::at(pbrt(
                     boxed.map(|[middle, _]| middle),
@@ -162,11 +164,11 @@ impl Formula {
                     normal,
                 ))
             }
-            Formula::Mitsuba39 => {
+            OffsetFormula::Mitsuba39 => {
                 let magnitude = (F::one() + largest(point)) * (parameter * unit_roundoff::<F>());
                 Start::at(fused_along(point, normal, magnitude))
             }
-            Formula::Mitsuba => {
+            OffsetFormula::Mitsuba => {
                 let reach = most_of_vertices(hit.vertices);
                 let error =
                     dot(normal.map(|x| x.abs()), reach) * (parameter * unit_roundoff::<F>());

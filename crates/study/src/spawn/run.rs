@@ -6,8 +6,8 @@ use super::plane::Plane;
 use super::published::largest;
 use super::safe::{Least, least};
 use super::scheme::Scheme;
-use super::sums::{OfScheme, Sums};
-use super::trial::{PointKind, Trial, Trials};
+use super::sums::{OfScheme, SpawnSums};
+use super::trial::{PointKind, SpawnTrial, SpawnTrials};
 use crate::arith::Float;
 use crate::audit::{Row, Source};
 use crate::case::{Case, Matrix, Parameters, Scene};
@@ -22,7 +22,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// The plan of a run.
-pub struct Plan<'a> {
+pub struct SpawnPlan<'a> {
     /// The kernel and its epsilons.
     pub row: &'a Row,
     /// Where triangles and first rays come from.
@@ -51,27 +51,27 @@ pub struct Plan<'a> {
 const CHUNK: u64 = 1024;
 
 /// Runs a plan; the sums are the same whatever the number of threads.
-pub fn run<F: Scalar>(plan: &Plan<'_>, observer: &dyn Observer) -> Sums {
+pub fn run<F: Scalar>(plan: &SpawnPlan<'_>, observer: &dyn Observer) -> SpawnSums {
     let empty = || {
         let schemes = vec![OfScheme::default(); plan.schemes.len()];
-        Sums { schemes, ..Sums::default() }
+        SpawnSums { schemes, ..SpawnSums::default() }
     };
     let source = plan.source();
-    let add = |sums: &mut Sums, indices| {
+    let add = |sums: &mut SpawnSums, indices| {
         add_chunk::<F>((plan, &source), plan.trials(&source, indices), sums)
     };
     engine::sum(0..plan.count, CHUNK, observer, empty, add)
 }
 
 /// The new ray of a scheme that leaves the first ray of an index, with its triangle.
-pub fn new_ray<F: Scalar>(plan: &Plan<'_>, scheme: &Scheme, index: u64) -> Option<Case<F>> {
+pub fn new_ray<F: Scalar>(plan: &SpawnPlan<'_>, scheme: &Scheme, index: u64) -> Option<Case<F>> {
     let trials = plan.trials::<F>(&plan.source(), index..index + 1).trials;
     let (trial, offset) = (trials.first()?, scheme.offset::<F>()?);
     let Start { origin, t_min } = offset.start(&trial.hit);
     Some(trial.case(origin, t_min))
 }
 
-impl Plan<'_> {
+impl SpawnPlan<'_> {
     /// True if the kernel can tell a self-hit: one that takes whole lines and reports no t cannot.
     pub fn tells_self_hits(&self) -> bool {
         self.row.entry.info.gives.t || self.row.contract.extent != Extent::Line
@@ -79,7 +79,7 @@ impl Plan<'_> {
 
     /// The first rays: towards the insides of triangles.
     pub fn source(&self) -> Source {
-        let Plan { scene, mesh, seed, count, .. } = *self;
+        let SpawnPlan { scene, mesh, seed, count, .. } = *self;
         let parameters = Parameters { scene: Some(scene.clone()), ..Parameters::default() };
         let source = Source::of_stratum(Stratum::Interior, mesh, parameters, seed, count);
         match self.instance {
@@ -88,9 +88,9 @@ impl Plan<'_> {
         }
     }
 
-    fn trials<F: Scalar>(&self, source: &Source, indices: Range<u64>) -> Trials<F> {
-        let Plan { row, kind, seed, .. } = *self;
-        Trials::on(row.entry, &row.epsilons::<F>(), kind, source, seed, indices)
+    fn trials<F: Scalar>(&self, source: &Source, indices: Range<u64>) -> SpawnTrials<F> {
+        let SpawnPlan { row, kind, seed, .. } = *self;
+        SpawnTrials::on(row.entry, &row.epsilons::<F>(), kind, source, seed, indices)
     }
 }
 
@@ -100,7 +100,7 @@ fn starts_right(truth: &Truth) -> bool {
 }
 
 /// The data of a trial that do not depend on a scheme.
-struct Measured<F: Float> {
+struct MeasuredTrial<F: Float> {
     plane: Plane,
     neighbour: Neighbour,
     /// +1 if the new ray leaves to the front, else -1.
@@ -116,8 +116,8 @@ struct Measured<F: Float> {
     least_way: Option<f64>,
 }
 
-impl<F: Float> Measured<F> {
-    fn of(trial: &Trial<F>, fold: f64, with_least: bool) -> Measured<F> {
+impl<F: Float> MeasuredTrial<F> {
+    fn of(trial: &SpawnTrial<F>, fold: f64, with_least: bool) -> MeasuredTrial<F> {
         let hit = &trial.hit;
         let (plane, side) =
             (Plane::new(trial.object, trial.instance), if trial.is_front { 1.0 } else { -1.0 });
@@ -129,7 +129,7 @@ impl<F: Float> Measured<F> {
         let height = side * plane.height(hit.point);
         let least = if with_least { least(hit, is_right) } else { None };
         let way = |least: &Least<F>| side * plane.height(least.origin) - height;
-        Measured {
+        MeasuredTrial {
             side,
             neighbour: Neighbour::new(hit.vertices, hit.point, fold),
             edge,
@@ -142,7 +142,7 @@ impl<F: Float> Measured<F> {
     }
 
     /// How high a start lies, on the side to which the ray leaves.
-    fn height(&self, trial: &Trial<F>, start: &Start<F>) -> f64 {
+    fn height(&self, trial: &SpawnTrial<F>, start: &Start<F>) -> f64 {
         let origin = self.side * self.plane.height(start.origin);
         if start.t_min.is_zero() {
             return origin;
@@ -151,14 +151,18 @@ impl<F: Float> Measured<F> {
     }
 }
 
-fn add_chunk<F: Scalar>((plan, source): (&Plan<'_>, &Source), trials: Trials<F>, sums: &mut Sums) {
-    let Trials { trials, missed, without_side, not_finite } = trials;
+fn add_chunk<F: Scalar>(
+    (plan, source): (&SpawnPlan<'_>, &Source),
+    trials: SpawnTrials<F>,
+    sums: &mut SpawnSums,
+) {
+    let SpawnTrials { trials, missed, without_side, not_finite } = trials;
     sums.hits += trials.len() as u64;
     sums.missed += missed;
     sums.without_side += without_side;
     sums.not_finite += not_finite;
-    let measured: Vec<Measured<F>> =
-        trials.iter().map(|trial| Measured::of(trial, plan.fold, plan.with_least)).collect();
+    let measured: Vec<MeasuredTrial<F>> =
+        trials.iter().map(|trial| MeasuredTrial::of(trial, plan.fold, plan.with_least)).collect();
     for (trial, measured) in trials.iter().zip(&measured) {
         let weights = trial.hit.weights.into_iter().flatten().map(F::to_f64);
         sums.least_weight = weights.fold(sums.least_weight, f64::min);

@@ -1,7 +1,7 @@
 //! Offset schemes: the published ones by name, and a program's own.
 
 use super::hit::{HitPoint, Offset};
-use super::published::{PUBLISHED, Published};
+use super::published::{PUBLISHED, PublishedScheme};
 use crate::arith::Float;
 use crate::suggest::did_you_mean;
 use std::any::Any;
@@ -60,7 +60,10 @@ impl Scheme {
     }
 
     /// A published scheme with a parameter, which both scalars take if the scheme runs in them.
-    pub(super) fn published(published: &'static Published, parameter: Option<&str>) -> Scheme {
+    pub(super) fn published(
+        published: &'static PublishedScheme,
+        parameter: Option<&str>,
+    ) -> Scheme {
         let formula = published.formula;
         let name = match parameter {
             Some(value) => format!("{}={value}", published.name),
@@ -115,7 +118,7 @@ pub fn all() -> Vec<Scheme> {
 
 /// The schemes that run if nobody names one: the published ones, some with two values, and a program's own.
 pub fn default_schemes() -> Vec<Scheme> {
-    let of = |published: &'static Published| {
+    let of = |published: &'static PublishedScheme| {
         let values = published.usual.iter().map(|value| Scheme::published(published, *value));
         values.collect::<Vec<_>>()
     };

@@ -84,7 +84,7 @@ impl OfScheme {
 
 /// All that a run counts.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sums {
+pub struct SpawnSums {
     /// Hit points.
     pub hits: u64,
     /// First rays on which the kernel reported no hit.
@@ -105,8 +105,8 @@ pub struct Sums {
     pub schemes: Vec<OfScheme>,
 }
 
-impl Merge for Sums {
-    fn merge(&mut self, other: Sums) {
+impl Merge for SpawnSums {
+    fn merge(&mut self, other: SpawnSums) {
         self.hits += other.hits;
         self.missed += other.missed;
         self.without_side += other.without_side;

@@ -35,7 +35,7 @@ impl PointKind {
 
 /// A hit point that a new ray leaves.
 #[derive(Clone, Debug)]
-pub struct Trial<F: Float> {
+pub struct SpawnTrial<F: Float> {
     /// The index of the first ray in its family.
     pub index: u64,
     /// The data of the hit that a scheme may know.
@@ -48,7 +48,7 @@ pub struct Trial<F: Float> {
     pub instance: Option<Instance<F>>,
 }
 
-impl<F: Float> Trial<F> {
+impl<F: Float> SpawnTrial<F> {
     /// The new ray from an origin, with the triangle as the object has it.
     pub fn case(&self, origin: [F; 3], t_min: F) -> Case<F> {
         Case::new(origin, self.hit.direction, self.object).on(t_min, F::infinity())
@@ -62,9 +62,9 @@ impl<F: Float> Trial<F> {
 
 /// The hit points of one kind on some first rays, and the first rays without one.
 #[derive(Clone, Debug)]
-pub struct Trials<F: Float> {
+pub struct SpawnTrials<F: Float> {
     /// The hit points.
-    pub trials: Vec<Trial<F>>,
+    pub trials: Vec<SpawnTrial<F>>,
     /// First rays on which the kernel reported no hit.
     pub missed: u64,
     /// Hits whose triangle has no area, or whose plane the first ray does not cross: no side is right.
@@ -73,7 +73,7 @@ pub struct Trials<F: Float> {
     pub not_finite: u64,
 }
 
-impl<F: Scalar> Trials<F> {
+impl<F: Scalar> SpawnTrials<F> {
     /// The trials of a kernel at some epsilons on the first rays of a source.
     pub fn on(
         entry: &Entry,
@@ -82,10 +82,10 @@ impl<F: Scalar> Trials<F> {
         source: &Source,
         seed: u64,
         indices: Range<u64>,
-    ) -> Trials<F> {
+    ) -> SpawnTrials<F> {
         let made = indices.map(|index| (index, source.make::<F>(index).cases()[0]));
         let made: Vec<_> = made.collect();
-        Trials::placed((entry, epsilons), kind, seed, &made, source.instance())
+        SpawnTrials::placed((entry, epsilons), kind, seed, &made, source.instance())
     }
 
     /// The trials of a kernel on given first rays.
@@ -95,8 +95,8 @@ impl<F: Scalar> Trials<F> {
         kind: PointKind,
         seed: u64,
         first_rays: &[(u64, Case<F>)],
-    ) -> Trials<F> {
-        Trials::placed((entry, epsilons), kind, seed, first_rays, None)
+    ) -> SpawnTrials<F> {
+        SpawnTrials::placed((entry, epsilons), kind, seed, first_rays, None)
     }
 
     /// The first rays are of the world if there is an instance.
@@ -106,8 +106,8 @@ impl<F: Scalar> Trials<F> {
         seed: u64,
         first_rays: &[(u64, Case<F>)],
         instance: Option<Instance<F>>,
-    ) -> Trials<F> {
-        let mut all = Trials { trials: Vec::new(), missed: 0, without_side: 0, not_finite: 0 };
+    ) -> SpawnTrials<F> {
+        let mut all = SpawnTrials { trials: Vec::new(), missed: 0, without_side: 0, not_finite: 0 };
         let Some(kernel) = F::subject(entry) else { return all };
         let cases: Vec<Case<F>> = first_rays
             .iter()
@@ -128,7 +128,7 @@ impl<F: Scalar> Trials<F> {
             let object = [case.triangle.a, case.triangle.b, case.triangle.c].map(Into::into);
             let hit = hit_point((entry, kind), case, instance, &verdict, direction, is_front);
             if hit.point.iter().all(|x| x.is_finite()) {
-                all.trials.push(Trial { index: *index, hit, is_front, object, instance });
+                all.trials.push(SpawnTrial { index: *index, hit, is_front, object, instance });
             } else {
                 all.not_finite += 1;
             }

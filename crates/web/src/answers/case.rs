@@ -8,7 +8,7 @@ use hairline::internals::case::{AnyScalar, CaseId};
 use hairline::internals::corpus::lines::{self, AnyCase, StoredCase, bare_case};
 use hairline::internals::corpus::truth_json::TruthLine;
 use hairline::internals::family::{Grouping, cases_of};
-use hairline::internals::map::{self, Part, Step};
+use hairline::internals::map::{self, CaseVector, PixelStep};
 use hairline::internals::report::explain::{self, Together};
 use hairline::internals::report::page::{Paged, elements};
 use hairline::{Case, Scalar};
@@ -132,15 +132,18 @@ pub fn map(asked: &Map) -> Result<Mapped, String> {
 
 fn mapped<F: Scalar>(asked: &Map, case: &Case<F>, row: &Row) -> Result<Mapped, String> {
     row.check::<F>().map_err(|error| error.0)?;
-    let part = Part::named(&asked.vary).ok_or_else(|| format!("there is no '{}'", asked.vary))?;
+    let part =
+        CaseVector::named(&asked.vary).ok_or_else(|| format!("there is no '{}'", asked.vary))?;
     if !asked.zoom.is_power_of_two() || (1 << 24) < asked.zoom {
         return Err(format!("zoom: {} is not a power of two up to 2^24", asked.zoom));
     }
     let mut grid = map::grid_of_case(case, part, None, None, asked.size).map_err(|e| e.0)?;
     for (axis, shift) in grid.axes.iter_mut().zip(asked.shift) {
         axis.step = match axis.step {
-            Step::Ulps(ulps) => Step::Ulps(ulps.saturating_mul(asked.zoom)),
-            Step::PowerOfTwo(power) => Step::PowerOfTwo(power + asked.zoom.trailing_zeros() as i32),
+            PixelStep::Ulps(ulps) => PixelStep::Ulps(ulps.saturating_mul(asked.zoom)),
+            PixelStep::PowerOfTwo(power) => {
+                PixelStep::PowerOfTwo(power + asked.zoom.trailing_zeros() as i32)
+            }
         };
         // As on a picture wide enough to have that pixel.
         let wide = map::Axis { count: 1 << 31, ..*axis };

@@ -3,7 +3,7 @@
 use super::scalars_of;
 use crate::request::Mesh;
 use hairline::internals::audit::Unobserved;
-use hairline::internals::audit::mesh::{Plan, run};
+use hairline::internals::audit::mesh::{MeshPlan, run};
 use hairline::internals::corpus::mesh::read;
 use hairline::internals::family::MeshFamily;
 use hairline::internals::mesh::Surface;
@@ -42,7 +42,7 @@ pub fn mesh(asked: &Mesh, file: &[u8]) -> Result<MeshAnswer, String> {
         return Err(format!("{count} triangles are more than {MOST}: use `hairline mesh`"));
     }
     let family = MeshFamily::new(mesh, &asked.file);
-    let plan = Plan {
+    let plan = MeshPlan {
         rows: vec![row],
         directions: asked.directions,
         seed: 1,

@@ -39,7 +39,7 @@ pub fn elements(record: &impl Paged) -> String {
 fn of_blocks(blocks: &[Block], left: usize) -> String {
     let mut anchors = BTreeSet::new();
     add_anchors(blocks, &mut anchors);
-    Writer { anchors: &anchors, used: BTreeMap::new(), left }.blocks(blocks, 0)
+    HtmlWriter { anchors: &anchors, used: BTreeMap::new(), left }.blocks(blocks, 0)
 }
 
 /// The page in fewer bytes than a limit.
@@ -125,7 +125,7 @@ fn anchor(title: &str) -> String {
 /// Before the head of a table.
 const TABLE: &str = "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"A table\"><table class=\"heat\">";
 
-struct Writer<'a> {
+struct HtmlWriter<'a> {
     anchors: &'a BTreeSet<String>,
     /// How many parts have begun at each anchor.
     used: BTreeMap<String, usize>,
@@ -133,7 +133,7 @@ struct Writer<'a> {
     left: usize,
 }
 
-impl Writer<'_> {
+impl HtmlWriter<'_> {
     /// Some blocks, as many as there is room for. Each folded part has its share of the room.
     fn blocks(&mut self, all: &[Block], depth: usize) -> String {
         let mut text = String::new();

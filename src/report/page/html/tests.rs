@@ -3,9 +3,9 @@
 use super::super::Paged;
 use super::*;
 use crate::report::{
-    Conformance, Counts, Deviation, Example, FindingKind, FindingPart, Illustrations, KernelResult,
-    Method, NetChange, PlanPart, PlannedSource, ProofPart, ProvedGate, Provenance, Rate, Record,
-    ResultPart, RowChange, RowPart, SCHEMA, SourcePart, Unproved, Verdict,
+    ComparisonVerdict, Conformance, Counts, Deviation, Example, FindingKind, FindingPart,
+    Illustrations, KernelResult, Method, NetChange, PlanPart, PlannedSource, ProofPart, ProvedGate,
+    Provenance, Rate, Record, ResultPart, RowChange, RowPart, SCHEMA, SourcePart, Unproved,
 };
 use std::collections::BTreeMap;
 
@@ -136,7 +136,7 @@ pub fn deviation(text: &str, url: &str) -> Deviation {
 
 pub fn conformance(deviations: Vec<Deviation>) -> Conformance {
     Conformance {
-        verdict: Verdict::Disagreements,
+        verdict: ComparisonVerdict::Disagreements,
         method: Method::CaseByCase,
         is_by_family: false,
         expectations: Some(HOSTILE.to_owned()),

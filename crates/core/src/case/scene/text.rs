@@ -81,9 +81,9 @@ pub(super) fn sizes(key: &str, text: &str) -> Result<([f64; 2], Option<f64>), St
 }
 
 /// A number in as few digits as bring it back.
-pub struct Number(pub f64);
+pub struct ShortNumber(pub f64);
 
-impl fmt::Display for Number {
+impl fmt::Display for ShortNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0.abs() {
             0.0 => f.write_str("0"),
@@ -99,8 +99,8 @@ pub(super) struct Range(pub [f64; 2]);
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
-            [low, high] if low == high => write!(f, "{}", Number(low)),
-            [low, high] => write!(f, "{}..{}", Number(low), Number(high)),
+            [low, high] if low == high => write!(f, "{}", ShortNumber(low)),
+            [low, high] => write!(f, "{}..{}", ShortNumber(low), ShortNumber(high)),
         }
     }
 }
@@ -112,7 +112,7 @@ impl fmt::Display for Sizes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.0, self.1) {
             ([low, high], Some(middle)) => {
-                write!(f, "{}..{}..{}", Number(low), Number(middle), Number(high))
+                write!(f, "{}..{}..{}", ShortNumber(low), ShortNumber(middle), ShortNumber(high))
             }
             (range, None) => Range(range).fmt(f),
         }
@@ -127,10 +127,10 @@ impl fmt::Display for Scene {
             DirectionLength::Target => "target",
         };
         let (edge, distance) = (Sizes(self.edge, self.median_edge), Range(self.distance));
-        let extent = Number(self.extent);
+        let extent = ShortNumber(self.extent);
         write!(f, "extent={extent},")?;
         if self.center != 0.0 {
-            write!(f, "center={},", Number(self.center))?;
+            write!(f, "center={},", ShortNumber(self.center))?;
         }
         write!(f, "edge={edge},distance={distance},direction={direction}")?;
         self.sine.map_or(Ok(()), |sine| write!(f, ",sine={}", Range(sine)))?;

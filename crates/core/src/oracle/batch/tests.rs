@@ -42,7 +42,7 @@ struct Noted<'a> {
     singles: RefCell<Vec<usize>>,
 }
 
-impl Stored<f64> for Noted<'_> {
+impl StoredCases<f64> for Noted<'_> {
     fn count(&self) -> usize {
         self.cases.len()
     }
@@ -50,7 +50,7 @@ impl Stored<f64> for Noted<'_> {
         self.singles.borrow_mut().push(index);
         self.cases[index]
     }
-    fn codes(&self, group: usize) -> [Code; GROUP] {
+    fn codes(&self, group: usize) -> [SignCode; GROUP] {
         self.groups.borrow_mut().push(group);
         self.cases.codes(group)
     }

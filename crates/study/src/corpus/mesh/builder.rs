@@ -7,7 +7,7 @@ use std::fmt;
 
 /// A place in a file, as a number counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum FilePlace {
     /// A line of a text.
     Line(usize),
     /// A vertex of a file without lines.
@@ -16,20 +16,20 @@ pub enum Place {
     Face(usize),
 }
 
-impl Place {
+impl FilePlace {
     /// The number.
     pub fn number(self) -> usize {
-        let (Place::Line(number) | Place::Vertex(number) | Place::Face(number)) = self;
+        let (FilePlace::Line(number) | FilePlace::Vertex(number) | FilePlace::Face(number)) = self;
         number
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Place::Line(number) => write!(f, "line {number}"),
-            Place::Vertex(number) => write!(f, "vertex {number}"),
-            Place::Face(number) => write!(f, "face {number}"),
+            FilePlace::Line(number) => write!(f, "line {number}"),
+            FilePlace::Vertex(number) => write!(f, "vertex {number}"),
+            FilePlace::Face(number) => write!(f, "face {number}"),
         }
     }
 }
@@ -38,7 +38,7 @@ impl fmt::Display for Place {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
     /// Where it was found first.
-    pub first: Option<Place>,
+    pub first: Option<FilePlace>,
     /// How often it was found.
     pub count: usize,
     /// The finding and what was done about it, without the count.
@@ -54,7 +54,7 @@ impl fmt::Display for Note {
 
 /// A mesh that is being read.
 #[derive(Default)]
-pub(super) struct Builder {
+pub(super) struct MeshBuilder {
     pub positions_f32: Vec<[f32; 3]>,
     pub positions_f64: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
@@ -69,15 +69,15 @@ const OVERFLOW: &str = "f32 overflow: vertices with an infinite coordinate in f3
 pub(super) const LEFT_OUT: &str = "polygons left out, because they cross themselves or fold over";
 const NO_AREA: &str = "triangles without area, kept";
 
-impl Builder {
+impl MeshBuilder {
     /// For a file without lines.
     #[cfg(feature = "files")]
-    pub fn without_lines() -> Builder {
-        Builder { without_lines: true, ..Builder::default() }
+    pub fn without_lines() -> MeshBuilder {
+        MeshBuilder { without_lines: true, ..MeshBuilder::default() }
     }
 
     /// Counts one more note of a kind; the place is kept if it is the first.
-    pub fn note(&mut self, message: &str, first: Option<Place>) {
+    pub fn note(&mut self, message: &str, first: Option<FilePlace>) {
         match self.notes.iter_mut().find(|note| note.message == message) {
             Some(note) => note.count += 1,
             None => self.notes.push(Note { first, count: 1, message: message.to_owned() }),
@@ -85,7 +85,7 @@ impl Builder {
     }
 
     /// Adds a vertex, which is finite in `f64`.
-    pub fn vertex(&mut self, wide: [f64; 3], narrow: [f32; 3], place: Place) {
+    pub fn vertex(&mut self, wide: [f64; 3], narrow: [f32; 3], place: FilePlace) {
         if narrow.iter().any(|coordinate| coordinate.is_infinite()) {
             self.note(OVERFLOW, Some(place));
         }
@@ -105,7 +105,8 @@ impl Builder {
     /// faces.
     pub fn face(&mut self, corners: &[u32], number: u32) {
         let count = number as usize;
-        let place = if self.without_lines { Place::Face(count) } else { Place::Line(count) };
+        let place =
+            if self.without_lines { FilePlace::Face(count) } else { FilePlace::Line(count) };
         if let Ok(triangle) = corners.try_into() {
             return self.triangle(triangle, number, place);
         }
@@ -119,7 +120,7 @@ impl Builder {
         }
     }
 
-    fn triangle(&mut self, triangle: [u32; 3], number: u32, place: Place) {
+    fn triangle(&mut self, triangle: [u32; 3], number: u32, place: FilePlace) {
         if fan::is_without_area(triangle.map(|vertex| self.positions_f64[vertex as usize])) {
             self.note(NO_AREA, Some(place));
         }

@@ -6,7 +6,7 @@ const MEBIBYTE: u64 = 1 << 20;
 
 /// How much is read before a file is an error.
 #[derive(Clone, Copy)]
-pub(super) struct Limits {
+pub(super) struct ReadLimits {
     /// Bytes in a line, with what is joined to it by backslashes in an OBJ file; in the header of a PLY file.
     pub line: usize,
     /// Vertices, and triangles after polygons are cut up.
@@ -14,7 +14,7 @@ pub(super) struct Limits {
 }
 
 /// One MiB, and what 32-bit indices hold with room to spare.
-pub(super) const LIMITS: Limits = Limits { line: 1 << 20, elements: 100_000_000 };
+pub(super) const LIMITS: ReadLimits = ReadLimits { line: 1 << 20, elements: 100_000_000 };
 
 /// Calls `progress` about every MiB with the bytes read so far.
 pub(super) struct Counted<'p, R> {

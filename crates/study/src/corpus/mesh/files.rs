@@ -1,9 +1,9 @@
 //! OBJ files: reading and writing.
 
-use super::counted::{Counted, LIMITS, Limits};
+use super::counted::{Counted, LIMITS, ReadLimits};
 use super::{Mesh, obj};
 use crate::corpus::InputError;
-use crate::corpus::shapes::Shape;
+use crate::corpus::shapes::MadeMesh;
 use std::io::{self, BufRead, Write};
 
 /// Reads an OBJ file: `v`, `f`, `o` and `g` count; materials, normals and textures are ignored; anything
@@ -29,7 +29,7 @@ pub fn read_obj<R: BufRead>(
 pub(super) fn read_within<R: BufRead>(
     reader: R,
     name: &str,
-    limits: Limits,
+    limits: ReadLimits,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Mesh, InputError> {
     let mut reader = Counted::new(reader, progress);
@@ -40,7 +40,7 @@ pub(super) fn read_within<R: BufRead>(
 
 /// Writes a shape as an OBJ file. Numbers have the fewest digits that read back as the same `f64`,
 /// with an exponent below 1e-5 and from 1e16. Errors are those of `out`.
-pub fn write_obj(mesh: &Shape, out: &mut impl Write) -> io::Result<()> {
+pub fn write_obj(mesh: &MadeMesh, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "# {}\no {}", mesh.about, mesh.name)?;
     for position in &mesh.vertices {
         let [x, y, z] = position.map(number_text);

@@ -1,11 +1,11 @@
 //! Which format a file of a mesh has, and its reader.
 
-use super::counted::{Counted, LIMITS, Limits};
+use super::counted::{Counted, LIMITS, ReadLimits};
 use super::{InputError, Mesh, gltf, obj, ply, stl};
 use std::io::{self, BufRead, Read};
 
 /// Reads at most so many bytes of a file in the folder of the mesh's own.
-pub type Beside<'a> = dyn FnMut(&str, u64) -> io::Result<Vec<u8>> + 'a;
+pub type ReadBeside<'a> = dyn FnMut(&str, u64) -> io::Result<Vec<u8>> + 'a;
 
 /// Reads an OBJ, PLY, STL or glTF file (text or GLB). The name's extension says which; if it says nothing, the
 /// first bytes do, and what is none of the others is read as OBJ. `beside` reads the buffers that a glTF file
@@ -18,7 +18,7 @@ pub type Beside<'a> = dyn FnMut(&str, u64) -> io::Result<Vec<u8>> + 'a;
 pub fn read<R: BufRead>(
     reader: R,
     name: &str,
-    beside: &mut Beside,
+    beside: &mut ReadBeside,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Mesh, InputError> {
     read_within(reader, name, LIMITS, beside, progress)
@@ -27,13 +27,13 @@ pub fn read<R: BufRead>(
 pub(super) fn read_within<R: BufRead>(
     reader: R,
     name: &str,
-    limits: Limits,
-    beside: &mut Beside,
+    limits: ReadLimits,
+    beside: &mut ReadBeside,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Mesh, InputError> {
     let mut reader = Counted::new(reader, progress);
     let mut head = Vec::new();
-    let format = match Format::of_extension(name) {
+    let format = match MeshFormat::of_extension(name) {
         Some(Ok(format)) => format,
         Some(Err(other)) => {
             let message =
@@ -43,15 +43,15 @@ pub(super) fn read_within<R: BufRead>(
         None => {
             let start = (&mut reader).take(HEAD).read_to_end(&mut head);
             start.map_err(|error| InputError::reading(name, None, &error))?;
-            Format::of_content(&head)
+            MeshFormat::of_content(&head)
         }
     };
     let whole = head.as_slice().chain(&mut reader);
     let mesh = match format {
-        Format::Obj => obj::read(whole, name, limits),
-        Format::Ply => ply::read(whole, name, limits),
-        Format::Stl => stl::read(whole, name, limits),
-        Format::Gltf => gltf::read(whole, name, limits, beside),
+        MeshFormat::Obj => obj::read(whole, name, limits),
+        MeshFormat::Ply => ply::read(whole, name, limits),
+        MeshFormat::Stl => stl::read(whole, name, limits),
+        MeshFormat::Gltf => gltf::read(whole, name, limits, beside),
     }?;
     reader.finish();
     Ok(mesh)
@@ -67,7 +67,7 @@ const OTHERS: &[&str] = &[
     "xyz",
 ];
 
-enum Format {
+enum MeshFormat {
     Obj,
     Ply,
     /// Text or binary.
@@ -76,31 +76,31 @@ enum Format {
     Gltf,
 }
 
-impl Format {
+impl MeshFormat {
     /// An error with the extension if it is that of another format; none if it says nothing.
-    fn of_extension(name: &str) -> Option<Result<Format, String>> {
+    fn of_extension(name: &str) -> Option<Result<MeshFormat, String>> {
         let (_, extension) = name.rsplit_once('.')?;
         let extension = extension.to_ascii_lowercase();
         match extension.as_str() {
-            "obj" => Some(Ok(Format::Obj)),
-            "ply" => Some(Ok(Format::Ply)),
-            "stl" => Some(Ok(Format::Stl)),
-            "gltf" | "glb" => Some(Ok(Format::Gltf)),
+            "obj" => Some(Ok(MeshFormat::Obj)),
+            "ply" => Some(Ok(MeshFormat::Ply)),
+            "stl" => Some(Ok(MeshFormat::Stl)),
+            "gltf" | "glb" => Some(Ok(MeshFormat::Gltf)),
             other => OTHERS.contains(&other).then_some(Err(extension)),
         }
     }
 
-    fn of_content(head: &[u8]) -> Format {
+    fn of_content(head: &[u8]) -> MeshFormat {
         let text = head.trim_ascii_start();
         if head.starts_with(b"ply\n") || head.starts_with(b"ply\r") {
-            Format::Ply
+            MeshFormat::Ply
         } else if head.starts_with(gltf::MAGIC) || text.starts_with(b"{") {
-            Format::Gltf
+            MeshFormat::Gltf
         } else if stl::is_text(head) || head.contains(&0) {
             // An OBJ file is text.
-            Format::Stl
+            MeshFormat::Stl
         } else {
-            Format::Obj
+            MeshFormat::Obj
         }
     }
 }

@@ -5,8 +5,8 @@
 mod buffers;
 mod transform;
 
-use super::builder::{Builder, Place};
-use super::counted::Limits;
+use super::builder::{FilePlace, MeshBuilder};
+use super::counted::ReadLimits;
 use super::{InputError, Mesh};
 use buffers::Buffers;
 use gltf::json;
@@ -26,19 +26,19 @@ pub(super) const MAGIC: &[u8] = b"glTF";
 pub(super) fn read(
     mut reader: impl Read,
     name: &str,
-    limits: Limits,
-    beside: &mut super::Beside,
+    limits: ReadLimits,
+    beside: &mut super::ReadBeside,
 ) -> Result<Mesh, InputError> {
     let mut bytes = Vec::new();
     reader.read_to_end(&mut bytes).map_err(|error| InputError::reading(name, None, &error))?;
     let size = bytes.len();
     let (root, binary) = parse(&bytes, name)?;
     drop(bytes);
-    let mut mesh = Builder::without_lines();
+    let mut mesh = MeshBuilder::without_lines();
     let root = stripped(root, &mut mesh).map_err(|message| InputError::of(name, message))?;
     let document = Document::from_json(root).map_err(|error| InputError::of(name, said(&error)))?;
     let buffers = Buffers::new(name, binary, size, beside);
-    let mut reader = Reader { name, limits, mesh, buffers, groups: 0 };
+    let mut reader = GltfReader { name, limits, mesh, buffers, groups: 0 };
     reader.walk(&document)?;
     reader.mesh.finish(name, reader.groups)
 }
@@ -99,7 +99,7 @@ fn check_extension(name: &str) -> Result<(), String> {
 }
 
 /// Leaves away what does not concern triangles, so that a fault in it is none here.
-fn stripped(mut root: json::Root, mesh: &mut Builder) -> Result<json::Root, String> {
+fn stripped(mut root: json::Root, mesh: &mut MeshBuilder) -> Result<json::Root, String> {
     root.extensions_required.clear();
     if root.extensions_used.iter().any(|name| name == "EXT_mesh_gpu_instancing") {
         mesh.note("instances (EXT_mesh_gpu_instancing) not made", None);
@@ -151,15 +151,15 @@ fn said(error: &gltf::Error) -> String {
     }
 }
 
-struct Reader<'a> {
+struct GltfReader<'a> {
     name: &'a str,
-    limits: Limits,
-    mesh: Builder,
+    limits: ReadLimits,
+    mesh: MeshBuilder,
     buffers: Buffers<'a>,
     groups: usize,
 }
 
-impl Reader<'_> {
+impl GltfReader<'_> {
     fn error<T>(&self, message: String) -> Result<T, InputError> {
         Err(InputError::of(self.name, message))
     }
@@ -254,7 +254,7 @@ impl Reader<'_> {
                 return self
                     .error(format!("{place}: vertex {index} has {number}, which is not finite"));
             }
-            let place = Place::Vertex(self.mesh.vertices() + 1);
+            let place = FilePlace::Vertex(self.mesh.vertices() + 1);
             self.mesh.vertex(wide, wide.map(|number| number as f32), place);
         }
         Ok(())

@@ -3,9 +3,9 @@
 //! The file's text is read here, so that errors carry their line and numbers keep their digits; tobj then
 //! sorts faces into groups and polygons, on vertices that are placeholders for their index.
 
-use super::builder::{Builder, Place, vertices_text};
-use super::counted::Limits;
-use super::text::{Lines, coordinate};
+use super::builder::{FilePlace, MeshBuilder, vertices_text};
+use super::counted::ReadLimits;
+use super::text::{Statements, coordinate};
 use super::{InputError, Mesh};
 use crate::corpus::json::{excerpt, quoted};
 use std::collections::BTreeSet;
@@ -13,8 +13,12 @@ use std::io::{BufRead, Read, Write};
 use std::num::IntErrorKind;
 
 /// Reads a whole file. Errors carry the line.
-pub(super) fn read(reader: impl BufRead, name: &str, limits: Limits) -> Result<Mesh, InputError> {
-    let mut source = Source::of(reader, name, limits)?;
+pub(super) fn read(
+    reader: impl BufRead,
+    name: &str,
+    limits: ReadLimits,
+) -> Result<Mesh, InputError> {
+    let mut source = ObjSource::of(reader, name, limits)?;
     let models = source.models_by_tobj(name)?;
     source.text = Vec::new();
     let mut mesh = source.mesh;
@@ -51,9 +55,9 @@ fn faces(mesh: &tobj::Mesh) -> impl Iterator<Item = Vec<u32>> {
 
 /// The contents of a file's lines.
 #[derive(Default)]
-pub(super) struct Source {
+pub(super) struct ObjSource {
     /// The vertices.
-    pub mesh: Builder,
+    pub mesh: MeshBuilder,
     /// The `f` lines with absolute vertex indices alone, and the `o` and `g` lines as `g` lines.
     pub text: Vec<u8>,
     /// For each `f` line its line number in the file.
@@ -64,10 +68,10 @@ pub(super) struct Source {
     largest: (i64, usize),
 }
 
-impl Source {
-    fn of(reader: impl BufRead, name: &str, limits: Limits) -> Result<Source, InputError> {
-        let mut source = Source::default();
-        let mut lines = Lines::new(reader, name, limits.line);
+impl ObjSource {
+    fn of(reader: impl BufRead, name: &str, limits: ReadLimits) -> Result<ObjSource, InputError> {
+        let mut source = ObjSource::default();
+        let mut lines = Statements::new(reader, name, limits.line);
         while let Some(line) = lines.next_statement()? {
             source
                 .statement(&lines.statement, line, limits.elements)
@@ -112,7 +116,7 @@ impl Source {
     }
 
     fn note(&mut self, message: &str, line: usize) {
-        self.mesh.note(message, Some(Place::Line(line)));
+        self.mesh.note(message, Some(FilePlace::Line(line)));
     }
 
     fn statement(&mut self, text: &str, line: usize, limit: usize) -> Result<(), String> {
@@ -163,7 +167,7 @@ impl Source {
         if count == 4 && weight != 1.0 {
             self.note("weights (w) other than 1 ignored", line);
         }
-        self.mesh.vertex(wide, narrow, Place::Line(line));
+        self.mesh.vertex(wide, narrow, FilePlace::Line(line));
         Ok(())
     }
 

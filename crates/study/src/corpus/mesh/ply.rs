@@ -3,8 +3,8 @@
 //! The crate ply-rs-bw reads the header and single elements. Which elements are read, lines and limits are
 //! decided here.
 
-use super::builder::{Builder, Place, vertices_text};
-use super::counted::Limits;
+use super::builder::{FilePlace, MeshBuilder, vertices_text};
+use super::counted::ReadLimits;
 use super::{InputError, Mesh};
 use crate::corpus::json::{self, quoted};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
@@ -15,7 +15,11 @@ use std::borrow::Cow;
 use std::io::{self, BufRead, ErrorKind, Read, Take};
 
 /// Reads a file.
-pub(super) fn read(reader: impl BufRead, name: &str, limits: Limits) -> Result<Mesh, InputError> {
+pub(super) fn read(
+    reader: impl BufRead,
+    name: &str,
+    limits: ReadLimits,
+) -> Result<Mesh, InputError> {
     let (text, reader) = plain_header(reader, limits.line as u64)
         .map_err(|error| InputError::reading(name, None, &error))?;
     let mut reader = Reader::new(text.as_slice().chain(reader).take(limits.line as u64));
@@ -39,7 +43,7 @@ pub(super) fn read(reader: impl BufRead, name: &str, limits: Limits) -> Result<M
     check_header(&header, limits).map_err(|message| InputError::of(name, message))?;
     let line = reader.line().saturating_sub(1);
     let has_lines = header.encoding == Encoding::Ascii;
-    let mesh = if has_lines { Builder::default() } else { Builder::without_lines() };
+    let mesh = if has_lines { MeshBuilder::default() } else { MeshBuilder::without_lines() };
     let faces = Faces::default();
     let reader = reader.into_inner();
     let mut file = File { reader, name, limits, encoding: header.encoding, line, mesh, faces };
@@ -90,7 +94,7 @@ fn expected(line: usize, words: &[u8]) -> &'static str {
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 /// Checks that the file has vertices with x, y and z, and faces with indices, and not too many.
-fn check_header(header: &Header, limits: Limits) -> Result<(), String> {
+fn check_header(header: &Header, limits: ReadLimits) -> Result<(), String> {
     let element = |name: &str| match header.elements.get(name) {
         Some(element) if element.count > 0 => Ok(element),
         _ => Err(format!("the file has no elements '{name}'")),
@@ -140,11 +144,11 @@ fn refused(name: &str, line: Option<usize>, what: &str, error: &ParseError) -> I
 struct File<'a, R> {
     reader: Take<R>,
     name: &'a str,
-    limits: Limits,
+    limits: ReadLimits,
     encoding: Encoding,
     /// Lines read so far.
     line: usize,
-    mesh: Builder,
+    mesh: MeshBuilder,
     faces: Faces,
 }
 
@@ -175,8 +179,8 @@ impl<R: BufRead> File<'_, R> {
                 _ => self.binary_element(kind, &what)?,
             };
             let (place, at) = match self.encoding {
-                Encoding::Ascii => (Place::Line(self.line), self.line),
-                _ => (Place::Vertex(number), number),
+                Encoding::Ascii => (FilePlace::Line(self.line), self.line),
+                _ => (FilePlace::Vertex(number), number),
             };
             let added = match kind.name.as_str() {
                 "vertex" => self.add_vertex(&element, place),
@@ -232,7 +236,7 @@ impl<R: BufRead> File<'_, R> {
         element.map_err(|error| refused(self.name, Some(self.line), what, &error))
     }
 
-    fn add_vertex(&mut self, element: &Element, place: Place) -> Result<(), String> {
+    fn add_vertex(&mut self, element: &Element, place: FilePlace) -> Result<(), String> {
         let position = element.position;
         if let Some(number) = position.iter().find(|number| !number.is_finite()) {
             return Err(format!("{number} is not finite"));

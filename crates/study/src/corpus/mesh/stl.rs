@@ -3,9 +3,9 @@
 //! Read here rather than by a crate: those round the numbers of the ASCII form to `f32`, and take a binary file that begins
 //! with `solid` for text.
 
-use super::builder::{Builder, Place};
-use super::counted::Limits;
-use super::text::{Lines, coordinate};
+use super::builder::{FilePlace, MeshBuilder};
+use super::counted::ReadLimits;
+use super::text::{Statements, coordinate};
 use super::{InputError, Mesh};
 use crate::corpus::json::quoted;
 use std::collections::HashMap;
@@ -20,7 +20,7 @@ const TRIANGLE: usize = 50;
 pub(super) fn read(
     mut reader: impl BufRead,
     name: &str,
-    limits: Limits,
+    limits: ReadLimits,
 ) -> Result<Mesh, InputError> {
     let mut head = Vec::new();
     let start = (&mut reader).take(HEADER as u64 + 4).read_to_end(&mut head);
@@ -44,12 +44,12 @@ const JOINED: &str = "corners that equal an earlier one in every bit, joined wit
 
 /// The corners so far, by their bits in `f64`.
 struct Joined {
-    mesh: Builder,
+    mesh: MeshBuilder,
     known: HashMap<[u64; 3], u32>,
 }
 
 impl Joined {
-    fn corner(&mut self, wide: [f64; 3], narrow: [f32; 3], place: Place) -> u32 {
+    fn corner(&mut self, wide: [f64; 3], narrow: [f32; 3], place: FilePlace) -> u32 {
         // Both zeros are one place.
         let key = wide.map(|x| (x + 0.0).to_bits());
         let next = self.mesh.vertices() as u32;
@@ -70,9 +70,9 @@ impl Joined {
 }
 
 /// `facet`, `outer loop`, three times `vertex x y z`, `endloop`, `endfacet`, between `solid` and `endsolid`, once or more often.
-fn read_text(reader: impl BufRead, name: &str, limits: Limits) -> Result<Mesh, InputError> {
-    let mut all = Joined { mesh: Builder::default(), known: HashMap::new() };
-    let mut lines = Lines::new(reader, name, limits.line);
+fn read_text(reader: impl BufRead, name: &str, limits: ReadLimits) -> Result<Mesh, InputError> {
+    let mut all = Joined { mesh: MeshBuilder::default(), known: HashMap::new() };
+    let mut lines = Statements::new(reader, name, limits.line);
     let mut corners: Vec<u32> = Vec::new();
     let mut facet = 0;
     while let Some(line) = lines.next_statement()? {
@@ -92,7 +92,7 @@ fn read_text(reader: impl BufRead, name: &str, limits: Limits) -> Result<Mesh, I
                 if count != 3 {
                     return Err(error(format!("vertex has {count} of 3 coordinates")));
                 }
-                corners.push(all.corner(wide, narrow, Place::Line(line)));
+                corners.push(all.corner(wide, narrow, FilePlace::Line(line)));
             }
             "facet" => (corners, facet) = (Vec::new(), line),
             "endfacet" if corners.len() == 3 => {
@@ -118,14 +118,14 @@ fn read_text(reader: impl BufRead, name: &str, limits: Limits) -> Result<Mesh, I
 fn read_binary(
     mut reader: impl BufRead,
     name: &str,
-    limits: Limits,
+    limits: ReadLimits,
     count: usize,
 ) -> Result<Mesh, InputError> {
     if count > limits.elements {
         let message = format!("more than {} triangles: the header says {count}", limits.elements);
         return Err(InputError::of(name, message));
     }
-    let mut all = Joined { mesh: Builder::without_lines(), known: HashMap::new() };
+    let mut all = Joined { mesh: MeshBuilder::without_lines(), known: HashMap::new() };
     for number in 1..=count {
         let mut bytes = [0; TRIANGLE];
         reader.read_exact(&mut bytes).map_err(|error| match error.kind() {
@@ -148,7 +148,7 @@ fn read_binary(
                 let message = format!("triangle {number} has {x}, which is not finite");
                 return Err(InputError::of(name, message));
             }
-            corners.push(all.corner(narrow.map(f64::from), narrow, Place::Face(number)));
+            corners.push(all.corner(narrow.map(f64::from), narrow, FilePlace::Face(number)));
         }
         all.mesh.face(&corners, number as u32);
     }

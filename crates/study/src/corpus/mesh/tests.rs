@@ -1,9 +1,9 @@
-use super::counted::{LIMITS, Limits};
+use super::counted::{LIMITS, ReadLimits};
 use super::files::read_within;
 use super::*;
 use crate::case::Draw;
 use crate::corpus::InputError;
-use crate::corpus::shapes::Shape;
+use crate::corpus::shapes::MadeMesh;
 use std::fmt::Write as _;
 use std::io::{self, ErrorKind, Read};
 
@@ -231,7 +231,7 @@ fn files_without_vertices_faces_or_triangles_are_refused() {
 #[test]
 fn sizes_beyond_the_limits_are_refused_with_their_line() {
     let limited = |text: String| {
-        let limits = Limits { elements: 4, ..LIMITS };
+        let limits = ReadLimits { elements: 4, ..LIMITS };
         let result = read_within(text.as_bytes(), "teapot.obj", limits, &mut |_| {});
         result.map(|mesh| mesh.triangles.len()).map_err(|error| error.to_string())
     };
@@ -278,14 +278,14 @@ fn polygons_become_fans_from_their_first_vertex_unless_they_fold() {
     assert_eq!(mesh.triangles, expected);
     assert_eq!(mesh.places, [7, 7, 7, 8, 8, 9, 9]);
     assert_eq!(notes(&mesh).len(), 1);
-    assert_eq!((mesh.notes[0].first, mesh.notes[0].count), (Some(Place::Line(10)), 1));
+    assert_eq!((mesh.notes[0].first, mesh.notes[0].count), (Some(FilePlace::Line(10)), 1));
     assert_eq!(mesh.left_out(), Some(&mesh.notes[0]));
 }
 
 #[test]
 fn errors_of_tobj_carry_the_line_that_it_reached() {
-    let mut source = obj::Source::default();
-    (1..=3).for_each(|line| source.mesh.vertex([0.0; 3], [0.0; 3], Place::Line(line)));
+    let mut source = obj::ObjSource::default();
+    (1..=3).for_each(|line| source.mesh.vertex([0.0; 3], [0.0; 3], FilePlace::Line(line)));
     source.text = b"g a\nf 1 2 3\nf 1 2 x\nf 1 2 3\n".to_vec();
     source.face_lines = vec![10, 20, 30];
     let error = source.models_by_tobj("teapot.obj").expect_err("bad face");
@@ -353,7 +353,7 @@ fn numbers_are_written_as_short_as_they_read_back() {
         assert_eq!(text.parse::<f64>().map(f64::to_bits), Ok(value.to_bits()));
     }
     let vertices = vec![[0.5, -1e-7, 3.0], [1.0; 3], [0.0, 2.0, 0.0]];
-    let shape = Shape { name: "n", about: "a b", vertices, faces: vec![vec![0, 2, 1]] };
+    let shape = MadeMesh { name: "n", about: "a b", vertices, faces: vec![vec![0, 2, 1]] };
     let mut text = Vec::new();
     write_obj(&shape, &mut text).unwrap();
     let expected = "# a b\no n\nv 0.5 -1e-7 3\nv 1 1 1\nv 0 2 0\nf 1 3 2\n";

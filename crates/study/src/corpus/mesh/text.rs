@@ -19,7 +19,7 @@ pub(super) fn coordinate(word: &str) -> Result<(f64, f32), String> {
 
 /// Goes through a text statement by statement: a line, or lines joined by backslashes at their
 /// ends, without comment.
-pub(super) struct Lines<'a, R> {
+pub(super) struct Statements<'a, R> {
     reader: R,
     name: &'a str,
     limit: usize,
@@ -29,9 +29,9 @@ pub(super) struct Lines<'a, R> {
     pub statement: String,
 }
 
-impl<'a, R: BufRead> Lines<'a, R> {
+impl<'a, R: BufRead> Statements<'a, R> {
     pub fn new(reader: R, name: &'a str, limit: usize) -> Self {
-        Lines { reader, name, limit, number: 0, raw: Vec::new(), statement: String::new() }
+        Statements { reader, name, limit, number: 0, raw: Vec::new(), statement: String::new() }
     }
 
     /// Reads the next statement, perhaps an empty one, and gives the number of its first line.

@@ -32,7 +32,7 @@ fn the_counts_of_a_pass_are_those_of_its_trials_one_by_one() {
         let values: Vec<Vec<f32>> =
             epsilons[..tuned.knobs.len()].iter().map(|e| of_knob(e.abs().max(1e-6))).collect();
         let count = |max_error: Option<&MaxError>| {
-            let grid = Grid::new(values.clone());
+            let grid = KnobGrid::new(values.clone());
             Joint::count(&tuned.setting(), grid, max_error, 6, 200, &Unobserved)
         };
         let joint = count(Some(&max_error));
@@ -47,7 +47,7 @@ fn the_counts_of_a_pass_are_those_of_its_trials_one_by_one() {
                 let hits: Vec<&&Kept> = of.iter().filter(|kept| kept.is_hit(&point)).collect();
                 let off = hits.iter().filter(|kept| max_error.is_exceeded(&kept.errors)).count();
                 // Only where a hit is right its errors count.
-                let off = if count.kind == Kind::Miss { off } else { 0 };
+                let off = if count.kind == WrongKind::Miss { off } else { 0 };
                 off_in_all += off;
                 let found = [joint.of[c] as usize, counted(&joint.hits[c]), counted(&exceeded[c])];
                 assert_eq!(found, [of.len(), hits.len(), off], "{kernel} {count:?} {point:?}");
@@ -60,16 +60,16 @@ fn the_counts_of_a_pass_are_those_of_its_trials_one_by_one() {
 /// Random trials of three counts; each may be there many times, with an error that is too large or not.
 struct Trials {
     /// The count, the margins, how many, and how many of them are too far off.
-    all: Vec<(usize, Vec<Margins<f32>>, i64, i64)>,
+    all: Vec<(usize, Vec<KnobMargins<f32>>, i64, i64)>,
 }
 
-const COUNTS: [Count; 4] = {
+const COUNTS: [RayCount; 4] = {
     use crate::family::Stratum::*;
     [
-        Count { rays: Rays::Stratum(Interior), kind: Kind::Miss },
-        Count { rays: Rays::Stratum(Parallel), kind: Kind::Hit },
-        Count { rays: Rays::Stratum(Edges), kind: Kind::Crack },
-        Count { rays: Rays::Stratum(Shadow), kind: Kind::SelfHit },
+        RayCount { rays: Rays::Stratum(Interior), kind: WrongKind::Miss },
+        RayCount { rays: Rays::Stratum(Parallel), kind: WrongKind::Hit },
+        RayCount { rays: Rays::Stratum(Edges), kind: WrongKind::Crack },
+        RayCount { rays: Rays::Stratum(Shadow), kind: WrongKind::SelfHit },
     ]
 };
 
@@ -127,7 +127,7 @@ fn draw_near(draw: &mut Draw, values: &[f32]) -> f32 {
 
 /// The counts at every point, each by itself.
 fn counted(values: &[Vec<f32>], trials: &Trials, limited: bool) -> Joint<f32> {
-    let grid = Grid::new(values.to_vec());
+    let grid = KnobGrid::new(values.to_vec());
     let mut of = vec![0; 4];
     trials.all.iter().for_each(|(count, _, many, _)| of[*count] += *many as u64);
     let mut sums = [(); 2].map(|()| vec![vec![-1; grid.cells()]; 4]);
@@ -327,7 +327,7 @@ fn cells_are_summed_over_all_above_them() {
     for lengths in [vec![1], vec![4], vec![2, 3], vec![3, 1, 2]] {
         let values: Vec<Vec<f32>> =
             lengths.iter().map(|n| (0..*n).map(|x| x as f32).collect()).collect();
-        let grid = Grid::new(values.clone());
+        let grid = KnobGrid::new(values.clone());
         // One more in each direction.
         let wide: Vec<Vec<f32>> =
             lengths.iter().map(|n| (0..=*n).map(|x| x as f32).collect()).collect();
@@ -347,8 +347,8 @@ fn cells_are_summed_over_all_above_them() {
 #[test]
 fn costs_are_words_between_commas() {
     let costs = Costs::parse("miss=0, crack=2.5").unwrap();
-    assert_eq!(Kind::ALL.map(|kind| costs.of(kind)), [2.5, 0.0, 1.0, 1.0]);
-    let of = |costs: Costs| Kind::ALL.map(|kind| costs.of(kind));
+    assert_eq!(WrongKind::ALL.map(|kind| costs.of(kind)), [2.5, 0.0, 1.0, 1.0]);
+    let of = |costs: Costs| WrongKind::ALL.map(|kind| costs.of(kind));
     assert_eq!(of(Costs::default()), [10.0, 1.0, 1.0, 1.0]);
     assert_eq!(of(Costs::parse("hit=1e9,self-hit=0").unwrap()), [10.0, 1.0, 1e9, 0.0]);
     for (text, part) in [
@@ -368,7 +368,7 @@ fn costs_are_words_between_commas() {
 
 #[test]
 fn a_grid_accepts_a_value_up_to_its_margin() {
-    let grid = Grid::new(vec![vec![-1.0f32, 0.0, 2.0], vec![0.0], vec![1.0, 3.0]]);
+    let grid = KnobGrid::new(vec![vec![-1.0f32, 0.0, 2.0], vec![0.0], vec![1.0, 3.0]]);
     assert_eq!(grid.accepted(&[0.0, f32::INFINITY, 0.5]), [2, 1, 0]);
     assert_eq!(grid.accepted(&[-f32::INFINITY, -0.5, 3.0]), [0, 0, 2]);
     assert_eq!(grid.accepted(&[2.0, 0.0, 2.9]), [3, 1, 1]);
@@ -376,9 +376,12 @@ fn a_grid_accepts_a_value_up_to_its_margin() {
 
 #[test]
 fn sums_of_two_threads_are_added_cell_by_cell() {
-    let mut sums =
-        Sums { of: vec![1, 2], cells: vec![vec![1, 2], vec![]], exceeded: vec![vec![], vec![5]] };
-    sums.merge(Sums {
+    let mut sums = JointSums {
+        of: vec![1, 2],
+        cells: vec![vec![1, 2], vec![]],
+        exceeded: vec![vec![], vec![5]],
+    };
+    sums.merge(JointSums {
         of: vec![10, 20],
         cells: vec![vec![3, 4], vec![7, 9]],
         exceeded: vec![vec![6], vec![8]],

@@ -67,10 +67,10 @@ fn a_study_tries_everything_on_fresh_rays() {
                 assert_eq!(tried.errors[c].each_ref().map(told), sums.each_ref().map(told));
             }
             for (c, found) in tried.doubles.iter().enumerate() {
-                let is_crack = setting.counts[c].kind == Kind::Crack;
+                let is_crack = setting.counts[c].kind == WrongKind::Crack;
                 let rays = fresh.iter().filter(|kept| is_crack && kept.count == c);
                 let accepts =
-                    |m: &&Margins<f32>| tried.epsilons.iter().zip(*m).all(|(e, m)| e <= m);
+                    |m: &&KnobMargins<f32>| tried.epsilons.iter().zip(*m).all(|(e, m)| e <= m);
                 let double = |kept: &&Kept| 1 < kept.margins.iter().filter(accepts).count();
                 let counted = (rays.clone().filter(double).count(), rays.count());
                 assert_eq!((found.count as usize, found.of as usize), counted, "{kernel} {c}");
@@ -129,14 +129,14 @@ fn a_knob_moves_to_the_middle_of_its_limits_where_that_costs_no_more_than_chance
         let (setting, all) = (tuned.setting(), tuned.all(seed, number));
         let of = |c: usize| all.iter().filter(move |kept| kept.count == c);
         let cost = |point: &[f32]| -> f64 {
-            let of_count = |(c, count): (usize, &Count)| {
+            let of_count = |(c, count): (usize, &RayCount)| {
                 let wrong = of(c).filter(|kept| kept.is_hit(point) != tuned.is_lost(c)).count();
                 costs.of(count.kind) * (wrong as f64 / of(c).count().max(1) as f64)
             };
             tuned.counts.iter().enumerate().map(of_count).sum()
         };
         let by_chance = |from: &[f32], to: &[f32]| -> f64 {
-            let of_count = |(c, count): (usize, &Count)| {
+            let of_count = |(c, count): (usize, &RayCount)| {
                 let hits = |point| of(c).filter(|kept| kept.is_hit(point)).count();
                 let weight = costs.of(count.kind) / of(c).count().max(1) as f64;
                 weight * weight * hits(from).abs_diff(hits(to)) as f64
@@ -215,7 +215,7 @@ fn a_pass_tells_a_fault_of_any_chunk_and_the_errors_of_one_attempt() {
     let attempts = [Attempt::new(zero.clone())];
     let with_fault_at = |wanted: usize| {
         let looked = AtomicUsize::new(0);
-        let check = |_: &[Case<f32>], _: &[Margins<f32>]| {
+        let check = |_: &[Case<f32>], _: &[KnobMargins<f32>]| {
             let fault = (looked.fetch_add(1, Relaxed) == wanted).then(|| "off".to_owned());
             Ran { fault, ..Ran::default() }
         };
@@ -242,8 +242,8 @@ fn a_run_that_is_not_what_its_margins_say_is_told() {
         let setting = tuned.setting();
         let point = [epsilons[..tuned.knobs.len()].to_vec()];
         let differs = differs(&setting, &point, &Unobserved);
-        let told = |change: &(dyn Fn(Margins<f32>) -> Margins<f32> + Sync)| {
-            let check = |cases: &[Case<f32>], margins: &[Margins<f32>]| {
+        let told = |change: &(dyn Fn(KnobMargins<f32>) -> KnobMargins<f32> + Sync)| {
+            let check = |cases: &[Case<f32>], margins: &[KnobMargins<f32>]| {
                 differs(cases, &margins.iter().map(|margins| change(*margins)).collect::<Vec<_>>())
             };
             measure(&setting, &[], 0, None, 6, 300, &Unobserved, check).ran.fault

@@ -6,15 +6,15 @@ use crate::kernel::{PRESETS, Tunable};
 use std::sync::Arc;
 
 /// The rows of one kernel that a campaign draws from.
-pub struct Epsilons {
+pub struct CampaignRows {
     rows: Vec<Arc<Row>>,
     varies: bool,
 }
 
-impl Epsilons {
+impl CampaignRows {
     /// The epsilons of a kernel's rows, of which there is at least one. If they may vary, then also the published
     /// epsilons that fit, zero, and numbers between.
-    pub fn new(rows: &[&Row], varies: bool) -> Epsilons {
+    pub fn new(rows: &[&Row], varies: bool) -> CampaignRows {
         let mut all: Vec<Row> = rows.iter().map(|row| (*row).clone()).collect();
         let first = rows[0];
         let published = PRESETS.iter().filter(|_| varies).filter_map(|preset| {
@@ -26,7 +26,7 @@ impl Epsilons {
             }
         }
         let varies = varies && first.tuned().next().is_some();
-        Epsilons { rows: all.into_iter().map(Arc::new).collect(), varies }
+        CampaignRows { rows: all.into_iter().map(Arc::new).collect(), varies }
     }
 
     /// One of the rows, or one with numbers between theirs.
@@ -64,7 +64,7 @@ mod tests {
         let mut draw = Draw::new("epsilons", 1, 0);
         for entry in KERNELS {
             let rows = EpsilonChoice::Source.rows(&[entry], None).unwrap();
-            let epsilons = Epsilons::new(&rows.iter().collect::<Vec<_>>(), true);
+            let epsilons = CampaignRows::new(&rows.iter().collect::<Vec<_>>(), true);
             let mut seen = BTreeSet::new();
             for _ in 0..200 {
                 let row = epsilons.draw(&mut draw);
@@ -75,7 +75,7 @@ mod tests {
                 seen.insert(argument);
             }
             assert!(rows[0].tuned().next().is_none() || seen.len() > 30, "{}", entry.info.name);
-            let fixed = Epsilons::new(&[&rows[0]], false);
+            let fixed = CampaignRows::new(&[&rows[0]], false);
             assert!((0..20).all(|_| fixed.draw(&mut draw).epsilons == rows[0].epsilons));
         }
     }

@@ -1,6 +1,6 @@
 //! One kernel in one scalar: its population, the kinds that it knows, and how both grow.
 
-use super::epsilons::Epsilons;
+use super::epsilons::CampaignRows;
 use super::find::Find;
 use super::population::{Glance, Individual, Niche, Parents, Population};
 use super::state::SavedIndividual;
@@ -34,7 +34,7 @@ pub type Proposals<F> = BTreeMap<Niche, (f64, Individual<F>)>;
 /// A kernel in a scalar.
 pub struct Island<F: Float> {
     name: String,
-    epsilons: Epsilons,
+    epsilons: CampaignRows,
     population: Population<F>,
     known: BTreeSet<Signature>,
 }
@@ -44,7 +44,7 @@ impl<F: Scalar> Island<F> {
     pub fn new(rows: &[&Row], varies: bool) -> Island<F> {
         Island {
             name: format!("fuzz:{}/{}", rows[0].entry.info.name, F::NAME),
-            epsilons: Epsilons::new(rows, varies),
+            epsilons: CampaignRows::new(rows, varies),
             population: Population::new(),
             known: BTreeSet::new(),
         }

@@ -18,5 +18,5 @@ mod run;
 mod state;
 
 pub use find::{Find, FindError};
-pub use run::{Campaign, Plan};
-pub use state::{SavedIndividual, State};
+pub use run::{Campaign, CampaignPlan};
+pub use state::{CampaignState, SavedIndividual};

@@ -2,7 +2,7 @@
 
 use super::find::Find;
 use super::island::{Island, Newcomer};
-use super::state::{SavedIndividual, State};
+use super::state::{CampaignState, SavedIndividual};
 use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
@@ -18,7 +18,7 @@ const FIRST_STEPS: u64 = 8;
 
 /// The plan of a campaign.
 #[derive(Clone)]
-pub struct Plan {
+pub struct CampaignPlan {
     /// Kernels with epsilons and contracts.
     pub rows: Vec<Row>,
     /// True if other epsilons are tried too: published ones, zero, and numbers between.
@@ -42,7 +42,7 @@ pub struct Campaign {
 
 impl Campaign {
     /// At the beginning.
-    pub fn new(plan: &Plan) -> Campaign {
+    pub fn new(plan: &CampaignPlan) -> Campaign {
         let mut kernels: Vec<Vec<&Row>> = Vec::new();
         for row in &plan.rows {
             match kernels.iter_mut().find(|rows| rows[0].entry.info.name == row.entry.info.name) {
@@ -97,14 +97,20 @@ impl Campaign {
     }
 
     /// Counters and population, to be saved.
-    pub fn state(&self, seconds: f64, sessions: u64) -> State {
+    pub fn state(&self, seconds: f64, sessions: u64) -> CampaignState {
         let narrow = self.f32.iter().flat_map(Island::saved);
         let population = narrow.chain(self.f64.iter().flat_map(Island::saved)).collect();
-        State { rounds: self.rounds, evaluations: self.evaluations, seconds, sessions, population }
+        CampaignState {
+            rounds: self.rounds,
+            evaluations: self.evaluations,
+            seconds,
+            sessions,
+            population,
+        }
     }
 
     /// Goes on from what was saved.
-    pub fn restore(&mut self, state: &State) -> Result<(), String> {
+    pub fn restore(&mut self, state: &CampaignState) -> Result<(), String> {
         (self.rounds, self.evaluations) = (state.rounds, state.evaluations);
         state.population.iter().enumerate().try_for_each(|(i, individual)| {
             let restored = match individual.scalar.as_str() {

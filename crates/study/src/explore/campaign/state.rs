@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Counters and population between two rounds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct State {
+pub struct CampaignState {
     /// Rounds until now.
     pub rounds: u64,
     /// Evaluations until now.

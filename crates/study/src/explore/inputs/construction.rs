@@ -4,7 +4,7 @@
 use super::bytes::Bytes;
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::Case;
-use crate::family::integer::{Point, minus, plus, times};
+use crate::family::integer::{LatticePoint, minus, plus, times};
 
 /// The constructions, in the order of their byte. What the line meets, before any nudge:
 pub const CONSTRUCTIONS: [&str; 10] = [
@@ -30,7 +30,8 @@ const FAR: u8 = 9;
 /// Reads a construction, its powers of two, its interval and its nudges.
 pub(super) fn construct<F: Float>(bytes: &mut Bytes) -> Case<F> {
     let kind = bytes.below(CONSTRUCTIONS.len() as u8);
-    let point = |bytes: &mut Bytes, bound: u8| -> Point { [(); 3].map(|()| bytes.small(bound)) };
+    let point =
+        |bytes: &mut Bytes, bound: u8| -> LatticePoint { [(); 3].map(|()| bytes.small(bound)) };
     // Doubled, so that midpoints are integers.
     let offset = if kind == FAR { times(point(bytes, 100), 1 << 10) } else { point(bytes, 8) };
     let a = times(offset, 2);
@@ -59,12 +60,12 @@ pub(super) fn construct<F: Float>(bytes: &mut Bytes) -> Case<F> {
         origin = plus(origin, free);
     }
     let triangle = if kind == SHARED_EDGE { [b, a, c] } else { [a, b, c] };
-    let float = |p: Point| p.map(|x| F::from_f64(x as f64));
+    let float = |p: LatticePoint| p.map(|x| F::from_f64(x as f64));
     let case = Case::new(float(origin), float(direction), rotated(bytes, triangle).map(float));
     finish(bytes, case, steps)
 }
 
-fn rotated(bytes: &mut Bytes, [a, b, c]: [Point; 3]) -> [Point; 3] {
+fn rotated(bytes: &mut Bytes, [a, b, c]: [LatticePoint; 3]) -> [LatticePoint; 3] {
     let orders = [[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]];
     orders[usize::from(bytes.below(orders.len() as u8))]
 }

@@ -13,20 +13,20 @@ use std::fmt;
 
 /// A wrong answer of a kernel, with all that is needed to see it again.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Disagreement {
+pub struct WrongAnswer {
     /// `false-miss`, `false-hit`, `bad-value`, `wrong-value`, `crack` or `double`.
     pub finding: &'static str,
     text: String,
 }
 
-impl fmt::Display for Disagreement {
+impl fmt::Display for WrongAnswer {
     /// Several lines.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}\n{}", self.finding, self.text)
     }
 }
 
-impl std::error::Error for Disagreement {}
+impl std::error::Error for WrongAnswer {}
 
 /// Checks that a kernel does on a case what a contract demands. The kernel gives t of a hit, which is the only
 /// value that is judged.
@@ -34,7 +34,7 @@ pub fn conforms<F: Float>(
     kernel: impl Fn(&Case<F>) -> Option<F>,
     contract: &Contract,
     case: &Case<F>,
-) -> Result<(), Disagreement> {
+) -> Result<(), WrongAnswer> {
     let (truth, t) = (oracle::truth(case), kernel(case));
     let asked = asked(case, &truth, contract, false);
     let gives = Gives { t: true, uv: false, facing: false };
@@ -42,7 +42,7 @@ pub fn conforms<F: Float>(
     let Some(finding) = found.map(Finding::name) else { return Ok(()) };
     let contract = contract.describe();
     let text = format!("contract {contract}\n{}", describe(case, &truth, t));
-    Err(Disagreement { finding, text })
+    Err(WrongAnswer { finding, text })
 }
 
 /// The same of two triangles on one edge and one ray, each alone and both together. If they face the ray
@@ -53,7 +53,7 @@ pub fn conforms_together<F: Float>(
     kernel: impl Fn(&Case<F>) -> Option<F>,
     contract: &Contract,
     cases: &[Case<F>; 2],
-) -> Result<(), Disagreement> {
+) -> Result<(), WrongAnswer> {
     for case in cases {
         conforms(&kernel, contract, case)?;
     }
@@ -67,7 +67,7 @@ pub fn conforms_together<F: Float>(
     };
     let each = |i: usize| describe(&cases[i], &truths[i], answers[i]);
     let contract = contract.describe();
-    Err(Disagreement { finding, text: format!("contract {contract}\n{}\n{}", each(0), each(1)) })
+    Err(WrongAnswer { finding, text: format!("contract {contract}\n{}\n{}", each(0), each(1)) })
 }
 
 fn verdict<F: Float>(t: Option<F>) -> Verdict<F> {

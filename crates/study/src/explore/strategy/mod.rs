@@ -31,27 +31,27 @@ mod conform;
 mod promise;
 mod tree;
 
-pub use conform::{Disagreement, conforms, conforms_together};
-pub use promise::{Promise, STRATEGIES};
+pub use conform::{WrongAnswer, conforms, conforms_together};
+pub use promise::{STRATEGIES, StrategyPromise};
 #[doc(hidden)]
 pub use proptest::test_runner::TestCaseError;
-pub use tree::{CaseTree, Cases};
+pub use tree::{CaseTree, FamilyCases};
 
 use crate::case::Case;
 use crate::kernel::Scalar;
 use proptest::strategy::Strategy;
 
 /// Cases of the strategy of a name in [`STRATEGIES`], `-` written for `_`; none if there is no such.
-pub fn named<F: Scalar>(name: &str) -> Option<Cases<F>> {
+pub fn named<F: Scalar>(name: &str) -> Option<FamilyCases<F>> {
     let promise = STRATEGIES.iter().find(|promise| promise.name() == name)?;
-    Some(Cases::new(vec![promise]))
+    Some(FamilyCases::new(vec![promise]))
 }
 
 /// Cases of any of the strategies but [`invalid`]; each keeps the promise of the one that it is from.
 pub fn any_case<F: Scalar>() -> impl Strategy<Value = Case<F>> {
     let all =
         STRATEGIES.iter().filter(|promise| promise.name() != "invalid" && promise.is_single());
-    Cases::new(all.collect()).prop_map(|cases: Vec<Case<F>>| cases[0])
+    FamilyCases::new(all.collect()).prop_map(|cases: Vec<Case<F>>| cases[0])
 }
 
 /// Two triangles on one edge, both transversal, and one ray near or exactly through the edge. The edge

@@ -9,14 +9,14 @@ use num_rational::BigRational;
 use num_traits::{One, Signed};
 
 /// A family, and what its truths alone do not say.
-pub struct Promise {
+pub struct StrategyPromise {
     family: &'static str,
-    shape: Shape,
+    shape: PromisedNumbers,
 }
 
 /// The promise of a strategy about the numbers of a case besides its truth.
 #[derive(Clone, Copy)]
-enum Shape {
+enum PromisedNumbers {
     Any,
     /// So many weights are near zero: 1 by an edge, 2 by a vertex.
     Near(usize),
@@ -30,36 +30,36 @@ enum Shape {
     SharedEdge,
 }
 
-const fn row(family: &'static str, shape: Shape) -> Promise {
-    Promise { family, shape }
+const fn row(family: &'static str, shape: PromisedNumbers) -> StrategyPromise {
+    StrategyPromise { family, shape }
 }
 
 /// One row a strategy, named as its family.
-pub static STRATEGIES: &[Promise] = &[
-    row("interior", Shape::Any),
-    row("outside", Shape::Any),
-    row("edge-exact", Shape::Any),
-    row("edge-near", Shape::Near(1)),
-    row("vertex-exact", Shape::Any),
-    row("vertex-near", Shape::Near(2)),
-    row("parallel-off", Shape::Any),
-    row("coplanar", Shape::Any),
-    row("grazing", Shape::Grazing),
-    row("origin-on", Shape::Any),
-    row("origin-near", Shape::OriginNear),
-    row("behind", Shape::Any),
-    row("interval-ends", Shape::Any),
-    row("sliver", Shape::Sliver),
-    row("tiny", Shape::Size(-40)),
-    row("huge", Shape::Size(40)),
-    row("far", Shape::Far),
-    row("axis-aligned", Shape::AlongAxis),
-    row("degenerate", Shape::Any),
-    row("invalid", Shape::Any),
-    row("shared-edge", Shape::SharedEdge),
+pub static STRATEGIES: &[StrategyPromise] = &[
+    row("interior", PromisedNumbers::Any),
+    row("outside", PromisedNumbers::Any),
+    row("edge-exact", PromisedNumbers::Any),
+    row("edge-near", PromisedNumbers::Near(1)),
+    row("vertex-exact", PromisedNumbers::Any),
+    row("vertex-near", PromisedNumbers::Near(2)),
+    row("parallel-off", PromisedNumbers::Any),
+    row("coplanar", PromisedNumbers::Any),
+    row("grazing", PromisedNumbers::Grazing),
+    row("origin-on", PromisedNumbers::Any),
+    row("origin-near", PromisedNumbers::OriginNear),
+    row("behind", PromisedNumbers::Any),
+    row("interval-ends", PromisedNumbers::Any),
+    row("sliver", PromisedNumbers::Sliver),
+    row("tiny", PromisedNumbers::Size(-40)),
+    row("huge", PromisedNumbers::Size(40)),
+    row("far", PromisedNumbers::Far),
+    row("axis-aligned", PromisedNumbers::AlongAxis),
+    row("degenerate", PromisedNumbers::Any),
+    row("invalid", PromisedNumbers::Any),
+    row("shared-edge", PromisedNumbers::SharedEdge),
 ];
 
-impl Promise {
+impl StrategyPromise {
     /// The family's name.
     pub fn name(&self) -> &'static str {
         self.family
@@ -82,14 +82,16 @@ impl Promise {
     }
 }
 
-impl Shape {
+impl PromisedNumbers {
     fn holds<F: Float>(self, cases: &[Case<F>]) -> bool {
         let case = &cases[0];
         match self {
-            Shape::Any => true,
-            Shape::Near(count) => is_near(case, count),
-            Shape::SharedEdge => share_an_edge(cases),
-            Shape::AlongAxis => case.vectors()[1].iter().filter(|x| !x.is_zero()).count() == 1,
+            PromisedNumbers::Any => true,
+            PromisedNumbers::Near(count) => is_near(case, count),
+            PromisedNumbers::SharedEdge => share_an_edge(cases),
+            PromisedNumbers::AlongAxis => {
+                case.vectors()[1].iter().filter(|x| !x.is_zero()).count() == 1
+            }
             _ => self.holds_in_f64(case.widen(), F::EPSILON.to_f64()),
         }
     }
@@ -103,14 +105,18 @@ impl Shape {
         let area = normal.length();
         match self {
             // Points within 1 and 16 ulps a coordinate: the plane is within 30 ulps of 1.
-            Shape::OriginNear => (a - origin).dot(normal).abs() <= 1024.0 * ulp * longest * area,
-            Shape::Grazing => direction.dot(normal).abs() <= 0.5 * direction.length() * area,
-            Shape::Sliver => 8.0 * area <= longest * longest,
-            Shape::Size(power) => {
+            PromisedNumbers::OriginNear => {
+                (a - origin).dot(normal).abs() <= 1024.0 * ulp * longest * area
+            }
+            PromisedNumbers::Grazing => {
+                direction.dot(normal).abs() <= 0.5 * direction.length() * area
+            }
+            PromisedNumbers::Sliver => 8.0 * area <= longest * longest,
+            PromisedNumbers::Size(power) => {
                 let size = scale_by_power_of_two(longest, -power);
                 (0.25..=4.0).contains(&size)
             }
-            Shape::Far => {
+            PromisedNumbers::Far => {
                 let largest = [a, b, c].iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
                 8.0 * longest <= largest
             }

@@ -1,6 +1,6 @@
 //! Drawing cases from families, and shrinking them by the search's simplifications.
 
-use super::promise::Promise;
+use super::promise::StrategyPromise;
 use crate::arith::Float;
 use crate::case::{Case, Parameters};
 use crate::explore::{Simplification, Size};
@@ -14,24 +14,24 @@ use std::sync::LazyLock;
 static STEPS: LazyLock<Vec<Simplification>> = LazyLock::new(Simplification::all);
 
 /// The cases of some families: all triangles of one ray.
-pub struct Cases<F> {
-    promises: Vec<&'static Promise>,
+pub struct FamilyCases<F> {
+    promises: Vec<&'static StrategyPromise>,
     scalar: PhantomData<fn() -> F>,
 }
 
-impl<F> Cases<F> {
-    pub(super) fn new(promises: Vec<&'static Promise>) -> Self {
-        Cases { promises, scalar: PhantomData }
+impl<F> FamilyCases<F> {
+    pub(super) fn new(promises: Vec<&'static StrategyPromise>) -> Self {
+        FamilyCases { promises, scalar: PhantomData }
     }
 }
 
-impl<F> std::fmt::Debug for Cases<F> {
+impl<F> std::fmt::Debug for FamilyCases<F> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_list().entries(self.promises.iter().map(|promise| promise.name())).finish()
     }
 }
 
-impl<F: Scalar> Strategy for Cases<F> {
+impl<F: Scalar> Strategy for FamilyCases<F> {
     type Tree = CaseTree<F>;
     type Value = Vec<Case<F>>;
 
@@ -50,7 +50,7 @@ impl<F: Scalar> Strategy for Cases<F> {
 /// The triangles of one ray, and which simpler ones were tried.
 #[derive(Clone)]
 pub struct CaseTree<F: Float> {
-    promise: &'static Promise,
+    promise: &'static StrategyPromise,
     /// The last ones that failed the test; those drawn, at first.
     failing: Vec<Case<F>>,
     current: Vec<Case<F>>,
@@ -66,7 +66,7 @@ impl<F: Float> std::fmt::Debug for CaseTree<F> {
 }
 
 impl<F: Scalar> CaseTree<F> {
-    fn new(promise: &'static Promise, cases: Vec<Case<F>>) -> Self {
+    fn new(promise: &'static StrategyPromise, cases: Vec<Case<F>>) -> Self {
         CaseTree { promise, failing: cases.clone(), current: cases, next: 0, idle: 0 }
     }
 

@@ -8,9 +8,9 @@
 use crate::audit::Row;
 use crate::case::{Case, Draw, Parameters};
 use crate::explore::decimal::Decimal;
-use crate::explore::domain::Domain;
+use crate::explore::domain::SearchDomain;
 use crate::explore::moves::mutate;
-use crate::explore::objective::{Scorer, Target};
+use crate::explore::objective::{Scorer, SearchTarget};
 use crate::family::FAMILIES;
 use crate::kernel::Scalar;
 use rayon::prelude::*;
@@ -26,16 +26,16 @@ const PATIENCE: u64 = 400;
 
 /// One thing to make as bad as it can be.
 #[derive(Clone)]
-pub struct Goal {
+pub struct WorstGoal {
     /// The kernel with its epsilons and its contract.
     pub row: Row,
     /// The objective and the gate.
-    pub target: Target,
+    pub target: SearchTarget,
     /// The cases that count.
-    pub domain: Domain,
+    pub domain: SearchDomain,
 }
 
-impl Goal {
+impl WorstGoal {
     /// `kernel/scalar/epsilons/target/domain`: what its entry in the table is called.
     pub fn name<F: Scalar>(&self) -> String {
         let epsilons = self.row.epsilon_argument().unwrap_or_else(|| "-".to_owned());
@@ -44,9 +44,9 @@ impl Goal {
     }
 
     /// Every goal of a row in a domain.
-    pub fn of_row(row: &Row, domain: Domain) -> impl Iterator<Item = Goal> + use<'_> {
-        let targets = Target::of_kernel(row.entry.info).into_iter();
-        targets.map(move |target| Goal { row: row.clone(), target, domain })
+    pub fn of_row(row: &Row, domain: SearchDomain) -> impl Iterator<Item = WorstGoal> + use<'_> {
+        let targets = SearchTarget::of_kernel(row.entry.info).into_iter();
+        targets.map(move |target| WorstGoal { row: row.clone(), target, domain })
     }
 
     /// The goal's scorer.
@@ -57,7 +57,7 @@ impl Goal {
 
 /// The worst case that a search found.
 #[derive(Clone, Copy, Debug)]
-pub struct Found<F: Scalar> {
+pub struct FoundWorst<F: Scalar> {
     /// The case.
     pub case: Case<F>,
     /// Its exact score, rounded.
@@ -66,9 +66,13 @@ pub struct Found<F: Scalar> {
 
 /// Searches for the worst case of each goal, with this many evaluations each; none where nothing has
 /// a score. Scores are confirmed exactly.
-pub fn search<F: Scalar>(goals: &[Goal], evaluations: u64, seed: u64) -> Vec<Option<Found<F>>> {
+pub fn search<F: Scalar>(
+    goals: &[WorstGoal],
+    evaluations: u64,
+    seed: u64,
+) -> Vec<Option<FoundWorst<F>>> {
     let lanes = goals.len() as u64 * LANES;
-    let climbed: Vec<Option<Found<F>>> = (0..lanes)
+    let climbed: Vec<Option<FoundWorst<F>>> = (0..lanes)
         .into_par_iter()
         .map(|k| {
             let (goal, lane) = (&goals[(k / LANES) as usize], k % LANES);
@@ -77,7 +81,7 @@ pub fn search<F: Scalar>(goals: &[Goal], evaluations: u64, seed: u64) -> Vec<Opt
             let share = evaluations / LANES + u64::from(lane < evaluations % LANES);
             let best = Climb::new(&scorer).run(&mut draw, share)?;
             let score = Decimal::of(&scorer.exact(&best)?)?;
-            Some(Found { case: best, score })
+            Some(FoundWorst { case: best, score })
         })
         .collect();
     climbed
@@ -87,8 +91,8 @@ pub fn search<F: Scalar>(goals: &[Goal], evaluations: u64, seed: u64) -> Vec<Opt
 }
 
 /// The one with the higher score; of equals, the one with the smaller bits.
-fn worse<F: Scalar>(a: Found<F>, b: Found<F>) -> Found<F> {
-    let order = |found: &Found<F>| (found.score, std::cmp::Reverse(found.case.bits()));
+fn worse<F: Scalar>(a: FoundWorst<F>, b: FoundWorst<F>) -> FoundWorst<F> {
+    let order = |found: &FoundWorst<F>| (found.score, std::cmp::Reverse(found.case.bits()));
     if order(&a) < order(&b) { b } else { a }
 }
 
@@ -161,6 +165,6 @@ pub fn family_case<F: Scalar>(parameters: &Parameters, draw: &mut Draw) -> Case<
 }
 
 /// The exact score of a case for a goal, rounded.
-pub fn exact_score<F: Scalar>(goal: &Goal, case: &Case<F>) -> Option<Decimal> {
+pub fn exact_score<F: Scalar>(goal: &WorstGoal, case: &Case<F>) -> Option<Decimal> {
     Decimal::of(&goal.scorer::<F>().exact(case)?)
 }

@@ -4,5 +4,5 @@ mod climb;
 mod table;
 
 pub use climb::family_case;
-pub use climb::{Found, Goal, LANES, exact_score, search};
-pub use table::{Entry, Table, Update, find_worst, replay};
+pub use climb::{FoundWorst, LANES, WorstGoal, exact_score, search};
+pub use table::{Update, WorstEntry, WorstTable, find_worst, replay};

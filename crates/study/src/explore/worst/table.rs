@@ -5,13 +5,13 @@
 //! `score=… found=… seed=… evaluations=… unit=…`: the exact score of this case, rounded to seventeen
 //! digits; the score that the search found, before the case was simplified; and what finds it again.
 
-use super::climb::{Goal, exact_score, search};
+use super::climb::{WorstGoal, exact_score, search};
 use crate::audit::Row;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::explore::decimal::Decimal;
-use crate::explore::domain::Domain;
-use crate::explore::objective::Target;
+use crate::explore::domain::SearchDomain;
+use crate::explore::objective::SearchTarget;
 use crate::explore::shrink::shrink_scored;
 use crate::explore::simplify::Size;
 use crate::kernel::Scalar;
@@ -24,9 +24,9 @@ const PREFIX: &str = "worst:";
 
 /// A row of the table.
 #[derive(Clone)]
-pub struct Entry {
+pub struct WorstEntry {
     /// The goal for which this is the worst case.
-    pub goal: Goal,
+    pub goal: WorstGoal,
     /// The witness.
     pub case: AnyCase,
     /// The witness's exact score, rounded.
@@ -52,12 +52,16 @@ pub enum Update {
 
 /// The worst known entry of each goal.
 #[derive(Clone, Default)]
-pub struct Table {
-    entries: BTreeMap<String, Entry>,
+pub struct WorstTable {
+    entries: BTreeMap<String, WorstEntry>,
 }
 
 /// Searches, and simplifies what was found: an entry a goal, none where nothing has a score.
-pub fn find_worst<F: Scalar>(goals: &[Goal], evaluations: u64, seed: u64) -> Vec<Option<Entry>> {
+pub fn find_worst<F: Scalar>(
+    goals: &[WorstGoal],
+    evaluations: u64,
+    seed: u64,
+) -> Vec<Option<WorstEntry>> {
     let found = search::<F>(goals, evaluations, seed);
     let pairs: Vec<_> = goals.iter().zip(found).collect();
     pairs
@@ -68,12 +72,12 @@ pub fn find_worst<F: Scalar>(goals: &[Goal], evaluations: u64, seed: u64) -> Vec
             let case = shrunk.map_or(found.case, |shrunk| shrunk.case);
             let score = exact_score(goal, &case)?;
             let (goal, case) = (goal.clone(), AnyCase::from(case));
-            Some(Entry { goal, case, score, found: found.score, seed, evaluations })
+            Some(WorstEntry { goal, case, score, found: found.score, seed, evaluations })
         })
         .collect()
 }
 
-impl Entry {
+impl WorstEntry {
     /// The name of its case.
     pub fn name(&self) -> String {
         let name = in_named_scalar!(self.case.scalar(), F => self.goal.name::<F>());
@@ -82,7 +86,7 @@ impl Entry {
 
     /// As a case of a corpus file, its truth included.
     pub fn stored(&self) -> StoredCase {
-        let Entry { score, found, seed, evaluations, .. } = self;
+        let WorstEntry { score, found, seed, evaluations, .. } = self;
         let unit = self.goal.target.objective.unit();
         let why = format!(
             "score={score} found={found} seed={seed} evaluations={evaluations} unit={unit}"
@@ -92,12 +96,12 @@ impl Entry {
     }
 
     /// The entry that a stored case is; none if its name says that it is none.
-    fn of_stored(stored: &StoredCase) -> Option<Result<Entry, String>> {
+    fn of_stored(stored: &StoredCase) -> Option<Result<WorstEntry, String>> {
         let name = stored.name.as_ref()?.strip_prefix(PREFIX)?;
         let parsed = parse_goal(name, &stored.case).and_then(|goal| {
             let [score, found, seed, evaluations] = parse_why(stored.why.as_deref())?;
             let count = |text: &str| text.parse().map_err(|_| format!("'{text}' is no count"));
-            Ok(Entry {
+            Ok(WorstEntry {
                 goal,
                 case: stored.case,
                 score: score.parse()?,
@@ -115,7 +119,7 @@ impl Entry {
     }
 
     /// True if this entry takes the place of a known one.
-    fn replaces(&self, known: &Entry) -> bool {
+    fn replaces(&self, known: &WorstEntry) -> bool {
         let size = |case: &AnyCase| either_scalar!(case, case => Size::of(case));
         match self.score.cmp(&known.score) {
             std::cmp::Ordering::Greater => true,
@@ -126,7 +130,7 @@ impl Entry {
 }
 
 /// `kernel/scalar/epsilons/target/domain`; the scalar is that of the case.
-fn parse_goal(name: &str, case: &AnyCase) -> Result<Goal, String> {
+fn parse_goal(name: &str, case: &AnyCase) -> Result<WorstGoal, String> {
     let shape = || format!("'{name}' is not kernel/scalar/epsilons/target/domain");
     let parts: [&str; 5] = name.split('/').collect::<Vec<_>>().try_into().map_err(|_| shape())?;
     let [kernel, scalar, epsilons, target, domain] = parts;
@@ -136,10 +140,10 @@ fn parse_goal(name: &str, case: &AnyCase) -> Result<Goal, String> {
     let epsilons = Some(epsilons).filter(|text| *text != "-");
     let row = Row::named(kernel, epsilons, "own").map_err(|error| error.0)?;
     row.check_in(case.scalars()).map_err(|error| error.0)?;
-    let target = Target::find(target, row.entry.info)
+    let target = SearchTarget::find(target, row.entry.info)
         .ok_or_else(|| format!("'{target}' is nothing that {kernel} is searched for"))?;
-    let domain = Domain::named(domain).ok_or_else(|| format!("unknown domain '{domain}'"))?;
-    Ok(Goal { row, target, domain })
+    let domain = SearchDomain::named(domain).ok_or_else(|| format!("unknown domain '{domain}'"))?;
+    Ok(WorstGoal { row, target, domain })
 }
 
 /// The values of score, found, seed and evaluations.
@@ -158,7 +162,7 @@ fn parse_why(why: Option<&str>) -> Result<[&str; 4], String> {
 /// Computes the score of a stored case of the table again, exactly. True if it is a case of the
 /// table; an error if the score is another one.
 pub fn replay(stored: &StoredCase) -> Result<bool, String> {
-    let Some(entry) = Entry::of_stored(stored) else { return Ok(false) };
+    let Some(entry) = WorstEntry::of_stored(stored) else { return Ok(false) };
     let entry = entry?;
     match either_scalar!(&entry.case, case => exact_score(&entry.goal, case)) {
         Some(score) if score == entry.score => Ok(true),
@@ -169,15 +173,15 @@ pub fn replay(stored: &StoredCase) -> Result<bool, String> {
     }
 }
 
-impl Table {
+impl WorstTable {
     /// From a corpus file in which every case is an entry, each with the score that it says.
-    pub fn read(reader: impl BufRead, file: &str) -> Result<Table, InputError> {
-        let mut table = Table::default();
+    pub fn read(reader: impl BufRead, file: &str) -> Result<WorstTable, InputError> {
+        let mut table = WorstTable::default();
         for stored in lines::read(reader, file) {
             let stored = stored?;
             let wrong = |message: String| InputError::at(file, stored.line, message);
             let none = || wrong(format!("no entry: its name does not begin with '{PREFIX}'"));
-            let entry = Entry::of_stored(&stored).ok_or_else(none)?.map_err(wrong)?;
+            let entry = WorstEntry::of_stored(&stored).ok_or_else(none)?.map_err(wrong)?;
             replay(&stored).map_err(wrong)?;
             if table.entries.insert(entry.name(), entry).is_some() {
                 return Err(wrong("a second entry of this name".to_owned()));
@@ -187,7 +191,7 @@ impl Table {
     }
 
     /// Takes an entry in if nothing worse is known.
-    pub fn merge(&mut self, entry: Entry) -> Update {
+    pub fn merge(&mut self, entry: WorstEntry) -> Update {
         let name = entry.name();
         let update = match self.entries.get(&name) {
             None => Update::Added,
@@ -199,7 +203,7 @@ impl Table {
     }
 
     /// The entries, in the order of their names.
-    pub fn entries(&self) -> impl Iterator<Item = &Entry> {
+    pub fn entries(&self) -> impl Iterator<Item = &WorstEntry> {
         self.entries.values()
     }
 

@@ -2,7 +2,7 @@
 
 use super::super::Made;
 use super::Setup;
-use super::draw::{Frame, any_direction, beside, inside, point_of, ray, wide};
+use super::draw::{RayAxes, any_direction, beside, inside, point_of, ray, wide};
 use super::planes::{AXES, turn};
 use super::triangles::{Pair, Ring};
 use crate::arith::Float;
@@ -20,7 +20,7 @@ pub fn aim<F: Float>(draw: &mut Draw, scene: &Scene, triangle: [[F; 3]; 3]) -> D
     if scene.toward == Toward::Any {
         return any_direction(draw);
     }
-    let normal = Frame::of(triangle).map_or(DVec3::ZERO, |frame| frame.normal);
+    let normal = RayAxes::of(triangle).map_or(DVec3::ZERO, |frame| frame.normal);
     let mut toward = DVec3::ZERO;
     for _ in 0..AIMS {
         let [i, j, _] = draw.pick(&AXES);

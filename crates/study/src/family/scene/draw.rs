@@ -55,7 +55,7 @@ pub fn any_direction(draw: &mut Draw) -> DVec3 {
 }
 
 /// Three axes at right angles.
-pub struct Frame {
+pub struct RayAxes {
     /// In the plane.
     pub along: DVec3,
     /// In the plane, at a right angle to the first.
@@ -64,24 +64,24 @@ pub struct Frame {
     pub normal: DVec3,
 }
 
-impl Frame {
+impl RayAxes {
     /// Turned uniformly.
-    pub fn draw(draw: &mut Draw) -> Frame {
+    pub fn draw(draw: &mut Draw) -> RayAxes {
         let normal = any_direction(draw);
         loop {
             let across = normal.cross(any_direction(draw));
             let square = across.dot(across);
             if 0.0625 < square {
                 let across = across / square.sqrt();
-                return Frame { along: across.cross(normal), across, normal };
+                return RayAxes { along: across.cross(normal), across, normal };
             }
         }
     }
 
     /// Upright on two axes, the first two of three in cyclic order, and turned about the third by the angle of a
     /// vector of length 1.
-    pub fn upright([i, j, k]: [usize; 3], [x, y]: [f64; 2]) -> Frame {
-        let mut frame = Frame { along: DVec3::ZERO, across: DVec3::ZERO, normal: DVec3::ZERO };
+    pub fn upright([i, j, k]: [usize; 3], [x, y]: [f64; 2]) -> RayAxes {
+        let mut frame = RayAxes { along: DVec3::ZERO, across: DVec3::ZERO, normal: DVec3::ZERO };
         (frame.along[i], frame.along[j]) = (x, y);
         (frame.across[i], frame.across[j]) = (-y, x);
         frame.normal[k] = 1.0;
@@ -89,16 +89,16 @@ impl Frame {
     }
 
     /// Tilted about an axis of its own plane, by the angle of a sine.
-    pub fn tilted(self, [x, y]: [f64; 2], sine: f64) -> Frame {
+    pub fn tilted(self, [x, y]: [f64; 2], sine: f64) -> RayAxes {
         let downhill = self.flat(x, y);
         let normal = self.normal * (1.0 - sine * sine).sqrt() + downhill * sine;
         let across = normal.cross(self.along);
         let across = across / across.dot(across).sqrt();
-        Frame { along: across.cross(normal), across, normal }
+        RayAxes { along: across.cross(normal), across, normal }
     }
 
     /// The frame of a triangle's plane, along its first edge; none if `f64` finds no normal.
-    pub fn of<F: Float>(triangle: [[F; 3]; 3]) -> Option<Frame> {
+    pub fn of<F: Float>(triangle: [[F; 3]; 3]) -> Option<RayAxes> {
         let [a, b, c] = triangle.map(wide);
         let (e, f) = (b - a, c - a);
         // Edges of about 1, so that products neither overflow nor underflow.
@@ -106,7 +106,7 @@ impl Frame {
         let along = (e / largest).normalize();
         let normal = (e / largest).cross(f / largest).normalize();
         let is_frame = along.is_finite() && normal.is_finite();
-        is_frame.then(|| Frame { along, across: normal.cross(along), normal })
+        is_frame.then(|| RayAxes { along, across: normal.cross(along), normal })
     }
 
     /// The vector of coordinates along and across.
@@ -191,7 +191,7 @@ pub fn circle(draw: &mut Draw) -> ([f64; 2], f64) {
 }
 
 /// A unit vector in the plane of a frame, uniform on the circle.
-pub fn in_plane(draw: &mut Draw, frame: &Frame) -> DVec3 {
+pub fn in_plane(draw: &mut Draw, frame: &RayAxes) -> DVec3 {
     let ([x, y], length) = circle(draw);
     frame.flat(x, y) / length
 }

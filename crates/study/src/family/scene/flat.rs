@@ -3,7 +3,7 @@
 use super::super::Made;
 use super::Setup;
 use super::draw::{
-    Frame, any_direction, beside, between, between_powers, in_plane, inside, point_of, ray,
+    RayAxes, any_direction, beside, between, between_powers, in_plane, inside, point_of, ray,
     rounded, wide,
 };
 use super::triangles::Parallel;
@@ -19,7 +19,7 @@ pub fn grazing<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
 pub fn grazing_ray<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> (Case<F>, Option<f64>) {
     let (triangle, drawn) = setup.triangles.triangle(draw);
     // Rounding the vertices tilts the plane: the angle is that to the rounded triangle.
-    let frame = Frame::of(triangle).unwrap_or(drawn);
+    let frame = RayAxes::of(triangle).unwrap_or(drawn);
     // The coin is tossed in any case, so that the other draws stay the same.
     let is_inside = draw.coin() || setup.scene.aims_inside;
     let weights = if is_inside { inside(draw) } else { beside(draw) };
@@ -45,7 +45,7 @@ fn at_an_angle<F: Float>(
     draw: &mut Draw,
     scene: &Scene,
     target: DVec3,
-    frame: &Frame,
+    frame: &RayAxes,
     sine: f64,
 ) -> (([F; 3], [F; 3]), Option<f64>) {
     let is_free = scene.sine.is_none() && sine.abs() < LEAST_ULPS * F::EPSILON.to_f64();
@@ -69,7 +69,7 @@ fn at_an_angle<F: Float>(
 }
 
 /// The sine of the angle between a direction and the plane of a frame.
-fn sine_to<F: Float>(frame: &Frame, direction: [F; 3]) -> f64 {
+fn sine_to<F: Float>(frame: &RayAxes, direction: [F; 3]) -> f64 {
     let direction = wide(direction);
     frame.normal.dot(direction) / direction.dot(direction).sqrt()
 }

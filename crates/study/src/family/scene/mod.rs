@@ -13,12 +13,12 @@ mod planes;
 mod shadow;
 mod triangles;
 
-pub(crate) use draw::{Frame, any_direction, circle, in_plane, rounded, wide};
+pub(crate) use draw::{RayAxes, any_direction, circle, in_plane, rounded, wide};
 pub use flat::TRIES;
 pub(super) use flat::grazing_sine;
 pub use pixel::{Pixel, pixel};
 pub(super) use shadow::hit_point;
-pub(crate) use triangles::{Corners, Pair, Parallel, Ring, Triangles, along_axis, flat_along};
+pub(crate) use triangles::{Corners, Pair, Parallel, Ring, TriangleSource, along_axis, flat_along};
 
 use super::{Family, Grouping, Made, Question};
 use crate::arith::Float;
@@ -60,7 +60,7 @@ impl Stratum {
     /// Case `index` of the set of a seed, at other triangles than those of the scene's numbers.
     pub fn make_at<F: Scalar>(
         self,
-        triangles: &dyn Triangles<F>,
+        triangles: &dyn TriangleSource<F>,
         parameters: &Parameters,
         seed: u64,
         index: u64,
@@ -96,7 +96,7 @@ impl Stratum {
 /// The sine of the angle that an almost parallel ray has because none of [`TRIES`] has the one that was drawn; none if
 /// it has that.
 pub fn missed_sine<F: Float>(
-    triangles: &dyn Triangles<F>,
+    triangles: &dyn TriangleSource<F>,
     scene: &Scene,
     seed: u64,
     index: u64,
@@ -107,7 +107,7 @@ pub fn missed_sine<F: Float>(
 
 /// The data from which a stratum's cases are made.
 struct Setup<'a, F: Float> {
-    triangles: &'a dyn Triangles<F>,
+    triangles: &'a dyn TriangleSource<F>,
     scene: &'a Scene,
     /// The kernel at whose hit points shadow rays start.
     kernel: Option<&'a str>,

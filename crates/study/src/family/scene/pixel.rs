@@ -7,7 +7,7 @@
 use super::Setup;
 use super::aimed::aim;
 use super::draw::{ray, wide};
-use super::triangles::{Pair, Triangles};
+use super::triangles::{Pair, TriangleSource};
 use crate::arith::Float;
 use crate::case::{Case, Draw, Scene};
 use std::f64::consts::LN_2;
@@ -27,7 +27,7 @@ pub struct Pixel<F: Float> {
 
 /// Ray `index` of a seed's.
 pub fn pixel<F: Float>(
-    triangles: &dyn Triangles<F>,
+    triangles: &dyn TriangleSource<F>,
     scene: &Scene,
     seed: u64,
     index: u64,

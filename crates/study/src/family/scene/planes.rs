@@ -1,6 +1,6 @@
 //! Where the planes of a scene's triangles lie, and how they are turned.
 
-use super::draw::{Frame, between_powers, circle, symmetric};
+use super::draw::{RayAxes, between_powers, circle, symmetric};
 use crate::case::{Draw, PlaneKind, Scene};
 use glam::DVec3;
 
@@ -14,10 +14,10 @@ const NEAR_ZERO: [f64; 2] = [1e-6, 1e-3];
 const SLOPES: [f64; 2] = [1e-3, 0.1];
 
 /// A point and the frame of a plane through it, of the scene's kind.
-pub fn plane(draw: &mut Draw, scene: &Scene, size: f64) -> (DVec3, Frame) {
+pub fn plane(draw: &mut Draw, scene: &Scene, size: f64) -> (DVec3, RayAxes) {
     let mut base = place(draw, scene, size);
     if scene.plane == PlaneKind::Generic {
-        return (base, Frame::draw(draw));
+        return (base, RayAxes::draw(draw));
     }
     let axes = draw.pick(&AXES);
     // Floors and boxes mostly have edges along axes.
@@ -27,7 +27,7 @@ pub fn plane(draw: &mut Draw, scene: &Scene, size: f64) -> (DVec3, Frame) {
         _ if draw.coin() => [1.0, 0.0],
         _ => turn(draw),
     };
-    let frame = Frame::upright(axes, turned);
+    let frame = RayAxes::upright(axes, turned);
     let side = if draw.coin() { 1.0 } else { -1.0 };
     let height = &mut base[axes[2]];
     let near_zero = |draw: &mut Draw| side * scene.extent * between_powers(draw, NEAR_ZERO);
@@ -41,9 +41,9 @@ pub fn plane(draw: &mut Draw, scene: &Scene, size: f64) -> (DVec3, Frame) {
             return (base, frame.tilted(downhill, slope));
         }
     }
-    let Frame { along, across, normal } = frame;
+    let RayAxes { along, across, normal } = frame;
     // Half of the planes face down.
-    (base, Frame { along, across: across * side, normal: normal * side })
+    (base, RayAxes { along, across: across * side, normal: normal * side })
 }
 
 /// A point so far inside the extent that all within `size` of it is inside too, where there is one.
@@ -68,7 +68,7 @@ pub fn half_of_a_face(draw: &mut Draw, size: f64) -> [(f64, f64); 2] {
 
 /// The ends of the six edges around a corner of a box: three are the box's, three are diagonals of faces, all at most
 /// about 1 long.
-pub fn faces_at_a_corner(draw: &mut Draw, frame: &Frame) -> [DVec3; 6] {
+pub fn faces_at_a_corner(draw: &mut Draw, frame: &RayAxes) -> [DVec3; 6] {
     let [x, y, z] = [frame.along, frame.across, frame.normal]
         .map(|axis| axis * (0.35 + 0.35 * draw.unit()) * if draw.coin() { 1.0 } else { -1.0 });
     [x, x + y, y, y + z, z, z + x]

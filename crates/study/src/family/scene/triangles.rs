@@ -2,7 +2,7 @@
 
 use super::super::integer::{shuffle, turned};
 use super::super::unit;
-use super::draw::{Frame, edge_length, in_plane, rounded, symmetric};
+use super::draw::{RayAxes, edge_length, in_plane, rounded, symmetric};
 use super::planes::{AXES, faces_at_a_corner, half_of_a_face, place, plane, turn};
 use crate::arith::Float;
 use crate::case::{DirectionLength, Draw, PlaneKind, Scene};
@@ -39,9 +39,9 @@ pub struct Ring<F> {
 
 /// Triangles to aim rays at. Those of a mesh keep the order of their vertices; of others each corner is as
 /// likely to be the one that a ray is aimed at, because kernels do not treat a, b and c alike.
-pub trait Triangles<F: Float> {
+pub trait TriangleSource<F: Float> {
     /// A triangle, and the frame of its plane.
-    fn triangle(&self, draw: &mut Draw) -> (Corners<F>, Frame);
+    fn triangle(&self, draw: &mut Draw) -> (Corners<F>, RayAxes);
 
     /// Two triangles on one edge.
     fn pair(&self, draw: &mut Draw) -> Pair<F>;
@@ -53,8 +53,8 @@ pub trait Triangles<F: Float> {
     fn parallel(&self, draw: &mut Draw) -> Parallel<F>;
 }
 
-impl<F: Float> Triangles<F> for Scene {
-    fn triangle(&self, draw: &mut Draw) -> (Corners<F>, Frame) {
+impl<F: Float> TriangleSource<F> for Scene {
+    fn triangle(&self, draw: &mut Draw) -> (Corners<F>, RayAxes) {
         let size = edge_length(draw, self);
         let (a, frame) = plane(draw, self, size);
         let [base, (x, y)] = match self.plane {
@@ -126,7 +126,7 @@ impl<F: Float> Triangles<F> for Scene {
             (_, 0 | 1) => holding_axis(draw, self, size, axes),
             _ => {
                 let (base, turned) = (place(draw, self, size), turn(draw));
-                level(draw, self, size, base, &Frame::upright(axes, turned))
+                level(draw, self, size, base, &RayAxes::upright(axes, turned))
             }
         };
         Parallel { triangle, direction, size }
@@ -166,7 +166,7 @@ fn on_grid<F: Float>(draw: &mut Draw, scene: &Scene, size: f64) -> ([[F; 3]; 3],
     let spacing = 8.0 * grid::<F>(scene);
     let size = size.max(4.0 * spacing);
     loop {
-        let (a, frame) = (place(draw, scene, size), Frame::draw(draw));
+        let (a, frame) = (place(draw, scene, size), RayAxes::draw(draw));
         let (x, y) = apex(draw, size);
         let corners = [a, a + frame.flat(size, 0.0), a + frame.flat(x, y)];
         let [a, b, c] = corners.map(|p| DVec3::from(p.to_array().map(|x| snapped(x, spacing))));
@@ -225,7 +225,7 @@ fn level<F: Float>(
     scene: &Scene,
     size: f64,
     base: DVec3,
-    frame: &Frame,
+    frame: &RayAxes,
 ) -> ([[F; 3]; 3], [F; 3]) {
     let (x, y) = apex(draw, size);
     let corners = [base, base + frame.flat(size, 0.0), base + frame.flat(x, y)];

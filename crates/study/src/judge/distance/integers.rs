@@ -10,49 +10,49 @@
 use super::Distances;
 use crate::arith::{decompose, scale_by_power_of_two};
 use crate::case::Case;
-use crate::oracle::integer::{Triple, align, cross, dot, minus};
+use crate::oracle::integer::{IntegerVector, align, cross, dot, minus};
 use num_bigint::BigInt;
 use num_traits::ToPrimitive;
 use std::cmp::Ordering;
 
 /// A number that is not negative: a power of two times a float, which is zero, infinite, or from 1 to 2.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-struct Wide {
+struct WideFloat {
     exponent: i64,
     float: f64,
 }
 
-impl Wide {
+impl WideFloat {
     /// In the order of numbers.
-    const ZERO: Wide = Wide { exponent: i64::MIN / 4, float: 0.0 };
+    const ZERO: WideFloat = WideFloat { exponent: i64::MIN / 4, float: 0.0 };
 
-    fn new(float: f64, exponent: i64) -> Wide {
+    fn new(float: f64, exponent: i64) -> WideFloat {
         if float == 0.0 {
-            return Wide::ZERO;
+            return WideFloat::ZERO;
         }
         let (digits, power) = decompose(float);
         let bits = i64::from(63 - digits.leading_zeros());
         let near_one = scale_by_power_of_two(digits as f64, -bits as i32);
-        Wide { float: near_one, exponent: exponent + power + bits }
+        WideFloat { float: near_one, exponent: exponent + power + bits }
     }
 
     /// The magnitude of an integer times a power of two, its first 64 bits.
-    fn of(integer: &BigInt, exponent: i64) -> Wide {
+    fn of(integer: &BigInt, exponent: i64) -> WideFloat {
         let shift = integer.bits().saturating_sub(64);
         let leading = (integer.magnitude() >> shift).to_u64().expect("64 bits");
-        Wide::new(leading as f64, exponent + shift as i64)
+        WideFloat::new(leading as f64, exponent + shift as i64)
     }
 
-    fn times(self, other: Wide) -> Wide {
-        Wide::new(self.float * other.float, self.exponent + other.exponent)
+    fn times(self, other: WideFloat) -> WideFloat {
+        WideFloat::new(self.float * other.float, self.exponent + other.exponent)
     }
 
     /// By a number that is not zero.
-    fn over(self, other: Wide) -> Wide {
-        Wide::new(self.float / other.float, self.exponent - other.exponent)
+    fn over(self, other: WideFloat) -> WideFloat {
+        WideFloat::new(self.float / other.float, self.exponent - other.exponent)
     }
 
-    fn compare(&self, other: &Wide) -> Ordering {
+    fn compare(&self, other: &WideFloat) -> Ordering {
         self.partial_cmp(other).expect("no NaN")
     }
 
@@ -69,7 +69,7 @@ struct WideVector {
 }
 
 impl WideVector {
-    fn of(vector: &Triple<BigInt>, exponent: i64) -> WideVector {
+    fn of(vector: &IntegerVector<BigInt>, exponent: i64) -> WideVector {
         let bits = vector.iter().map(BigInt::bits).max().expect("three components");
         let shift = bits.saturating_sub(64);
         let float = |x: &BigInt| {
@@ -79,9 +79,9 @@ impl WideVector {
         WideVector { floats: vector.each_ref().map(float), exponent: exponent + shift as i64 + 64 }
     }
 
-    fn length(&self) -> Wide {
+    fn length(&self) -> WideFloat {
         let square = self.floats.iter().map(|x| x * x).sum::<f64>();
-        Wide::new(square.sqrt(), self.exponent)
+        WideFloat::new(square.sqrt(), self.exponent)
     }
 
     /// The dot product but for a power of two: its sign is what counts.
@@ -102,23 +102,23 @@ pub(super) fn distances(case: &Case<f64>, ulp: f64, crosses: bool) -> Distances 
 
     let edges = [(0, 1), (1, 2), (2, 0)];
     let sides = edges.map(|(p, q)| WideVector::of(&minus(&points[q], &points[p]), grid).length());
-    let longest = sides.into_iter().max_by(Wide::compare).expect("three edges");
-    let unit = if longest == Wide::ZERO { Wide::new(1.0, 0) } else { longest };
+    let longest = sides.into_iter().max_by(WideFloat::compare).expect("three edges");
+    let unit = if longest == WideFloat::ZERO { WideFloat::new(1.0, 0) } else { longest };
     let to_edges = edges.map(|(p, q)| {
         let slope = WideVector::of(&minus(&offsets[q], &offsets[p]), squared);
         let [at_p, at_q] = [p, q].map(|end| WideVector::of(&offsets[end], squared));
         if at_p.dot(&slope) < 0.0 && 0.0 < at_q.dot(&slope) {
             let determinant = dot(&points[p], &offsets[q]);
-            Wide::of(&determinant, grid + squared).over(slope.length())
+            WideFloat::of(&determinant, grid + squared).over(slope.length())
         } else {
             [at_p.length(), at_q.length()]
                 .into_iter()
-                .min_by(Wide::compare)
+                .min_by(WideFloat::compare)
                 .expect("two")
                 .over(length)
         }
     });
-    let in_space = to_edges.into_iter().min_by(Wide::compare).expect("three edges");
+    let in_space = to_edges.into_iter().min_by(WideFloat::compare).expect("three edges");
 
     let [from_a, ..] = &points;
     let n = cross(&minus(&b, &a), &minus(&c, &a));
@@ -128,24 +128,24 @@ pub(super) fn distances(case: &Case<f64>, ulp: f64, crosses: bool) -> Distances 
             return f64::INFINITY;
         }
         let gap = gap((&capital_t, 3 * grid), (&capital_d, grid + squared), end);
-        gap.over(Wide::of(&capital_d, grid + squared)).times(length).over(unit).to_f64()
+        gap.over(WideFloat::of(&capital_d, grid + squared)).times(length).over(unit).to_f64()
     };
     let along =
         if crosses { [0.0, case.ray.t_min, case.ray.t_max].map(to_end) } else { [f64::NAN; 3] };
     Distances {
         in_space: in_space.over(unit).to_f64(),
         along,
-        edge_in_ulps: unit.over(Wide::new(ulp, 0)).to_f64(),
+        edge_in_ulps: unit.over(WideFloat::new(ulp, 0)).to_f64(),
     }
 }
 
 /// |T - end·D|; T and D as integers times powers of two.
-fn gap((t, t_exponent): (&BigInt, i64), (d, d_exponent): (&BigInt, i64), end: f64) -> Wide {
+fn gap((t, t_exponent): (&BigInt, i64), (d, d_exponent): (&BigInt, i64), end: f64) -> WideFloat {
     let (digits, exponent) = decompose(end);
     let d_exponent = d_exponent + exponent;
     let common = t_exponent.min(d_exponent);
     let gap = (t << (t_exponent - common)) - ((d * digits) << (d_exponent - common));
-    Wide::of(&gap, common)
+    WideFloat::of(&gap, common)
 }
 
 #[cfg(test)]

@@ -135,7 +135,7 @@ fn distances_are_right_to_a_thousandth_and_each_step_finds_what_it_can() {
 fn numbers_lost_beside_a_far_origin_are_not_overlooked() {
     let by_integers = |case: Case<f64>| {
         let (found, step) = Distances::and_step(&case, &truth(&case));
-        assert_eq!(step, Step::Integers, "{}", case.hex());
+        assert_eq!(step, DistanceStep::Integers, "{}", case.hex());
         compare(&case, &mut [0; 4]);
         found
     };
@@ -174,7 +174,7 @@ fn what_a_truth_knows_to_be_zero_is_zero_in_every_step() {
         let start = Case::<f64>::new([0.0, edge, edge], [-1.0, 0.0, 0.0], triangle);
         assert_eq!(Distances::of(&start, &truth(&start)).along[0], 0.0);
     }
-    use Step::{DoubleDoubles, FloatsNearOne, Integers};
+    use DistanceStep::{DoubleDoubles, FloatsNearOne, Integers};
     let near = [FloatsNearOne, FloatsNearOne, DoubleDoubles];
     assert_eq!(steps, [near, near, [Integers; 3]].concat());
 }
@@ -200,9 +200,9 @@ fn a_line_through_the_middle_of_an_edge_is_at_zero_although_floats_round() {
         let case = Case::<f64>::new(o, d, [a, b, c]);
         let (end, above) = (0.5, 0.5f64.next_up());
         for (case, along, step) in [
-            (case.on(end, f64::INFINITY), 1, Step::FloatsNearOne),
-            (case.on(0.0, end), 2, Step::FloatsNearOne),
-            (case.on(end, above), 1, Step::DoubleDoubles),
+            (case.on(end, f64::INFINITY), 1, DistanceStep::FloatsNearOne),
+            (case.on(0.0, end), 2, DistanceStep::FloatsNearOne),
+            (case.on(end, above), 1, DistanceStep::DoubleDoubles),
         ] {
             let (found, by) = Distances::and_step(&case, &truth(&case));
             assert_eq!(
@@ -217,7 +217,7 @@ fn a_line_through_the_middle_of_an_edge_is_at_zero_although_floats_round() {
 
 /// The steps for a distance of a share of 2^-38 times the largest coordinate, 4, which is that of one point
 /// after the other; the points and the direction are multiplied by powers of two.
-fn steps_at<F: Float>(share: f64, [size, length]: [i32; 2]) -> [Step; 4] {
+fn steps_at<F: Float>(share: f64, [size, length]: [i32; 2]) -> [DistanceStep; 4] {
     let at = |x: f64| F::from_f64(scaled(x, size));
     let step = |origin: f64, [a, b, c]: [f64; 3]| {
         let triangle = [[-a, 0.0, 0.0], [b, 0.0, 0.0], [0.0, c, 0.0]].map(|v| v.map(at));
@@ -238,11 +238,11 @@ fn steps_at<F: Float>(share: f64, [size, length]: [i32; 2]) -> [Step; 4] {
 #[test]
 fn floats_are_certain_of_distances_from_a_share_of_the_largest_coordinate_on() {
     for powers in [[0, 0], [40, 20], [-40, 0]] {
-        assert_eq!(steps_at::<f32>(3.0, powers), [Step::DoubleDoubles; 4]);
-        assert_eq!(steps_at::<f64>(3.0, powers), [Step::DoubleDoubles; 4]);
+        assert_eq!(steps_at::<f32>(3.0, powers), [DistanceStep::DoubleDoubles; 4]);
+        assert_eq!(steps_at::<f64>(3.0, powers), [DistanceStep::DoubleDoubles; 4]);
         for share in [4.0, 5.0] {
-            assert_eq!(steps_at::<f32>(share, powers), [Step::Floats; 4]);
-            assert_eq!(steps_at::<f64>(share, powers), [Step::FloatsNearOne; 4]);
+            assert_eq!(steps_at::<f32>(share, powers), [DistanceStep::Floats; 4]);
+            assert_eq!(steps_at::<f64>(share, powers), [DistanceStep::FloatsNearOne; 4]);
         }
     }
 }
@@ -258,11 +258,11 @@ fn edges_whose_squares_could_underflow_are_left_to_integers_but_points_are_not()
     };
     let edge = |exponent: i32| scaled(1.5, exponent);
     // The longest edge is √2·1.5 times as long, against 2^-400.
-    assert_eq!(step([edge(-401); 2]), Step::FloatsNearOne);
-    assert_eq!(step([edge(-402); 2]), Step::Integers);
-    assert_eq!(step([scaled(1.0, -400), 0.0]), Step::FloatsNearOne);
-    assert_eq!(step([0.0, edge(-450)]), Step::Integers);
-    assert_eq!(step([0.0; 2]), Step::FloatsNearOne);
+    assert_eq!(step([edge(-401); 2]), DistanceStep::FloatsNearOne);
+    assert_eq!(step([edge(-402); 2]), DistanceStep::Integers);
+    assert_eq!(step([scaled(1.0, -400), 0.0]), DistanceStep::FloatsNearOne);
+    assert_eq!(step([0.0, edge(-450)]), DistanceStep::Integers);
+    assert_eq!(step([0.0; 2]), DistanceStep::FloatsNearOne);
 }
 
 #[test]

@@ -82,7 +82,7 @@ fn values_are_judged_as_defined<F: Scalar>() {
     let cases = cases_with_values::<F>(12);
     for (case, truth) in &cases {
         let (exact, allowed) = defined(case);
-        let limits = Limits::of(case, truth);
+        let limits = ValueLimits::of(case, truth);
         sure += usize::from(limits.low[0].is_finite());
         let float = |x: &BigRational| F::from_f64(Exact::from_rational(x).approximate());
         let nearest = exact.each_ref().map(float);

@@ -1,6 +1,6 @@
 //! The bytes behind accessors: from a GLB file, a data URI or a file beside it.
 
-use super::super::Beside;
+use super::super::ReadBeside;
 use super::InputError;
 use crate::corpus::json::quoted;
 use base64::Engine;
@@ -21,7 +21,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 pub(super) struct Buffers<'a> {
     name: &'a str,
     binary: Option<Vec<u8>>,
-    beside: &'a mut Beside<'a>,
+    beside: &'a mut ReadBeside<'a>,
     loaded: HashMap<usize, Vec<u8>>,
     /// Bytes read so far.
     bytes: usize,
@@ -33,7 +33,7 @@ impl<'a> Buffers<'a> {
         name: &'a str,
         binary: Option<Vec<u8>>,
         bytes: usize,
-        beside: &'a mut Beside<'a>,
+        beside: &'a mut ReadBeside<'a>,
     ) -> Buffers<'a> {
         Buffers { name, binary, beside, loaded: HashMap::new(), bytes }
     }
