@@ -3,9 +3,9 @@
 use super::exit::{Failure, Status};
 use super::output::{write_result, write_results};
 use super::progress::Progress;
+use crate::engine;
 use crate::vectors::{VectorTest, core, csv, digest, json, numbered};
 use clap::{Args, ValueEnum};
-use rayon::prelude::*;
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
@@ -89,9 +89,8 @@ fn write_numbered(
 ) -> io::Result<()> {
     out.write_all(head(format).as_bytes())?;
     for start in (0..count).step_by(CHUNK as usize) {
-        let numbers = start..count.min(start + CHUNK);
-        let of_number = |number| numbered(number).map(|test| written(format, &test));
-        let parts: Vec<Option<String>> = numbers.into_par_iter().map(of_number).collect();
+        let numbers: Vec<u64> = (start..count.min(start + CHUNK)).collect();
+        let parts = engine::map(&numbers, |n| numbered(*n).map(|test| written(format, &test)));
         parts.iter().flatten().try_for_each(|part| out.write_all(part.as_bytes()))?;
         progress.set(start);
     }

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use std::num::NonZero;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 #[cfg(any(test, not(feature = "rayon")))]
 use std::{panic, thread};
 
@@ -71,6 +72,9 @@ pub fn sum<S: Merge>(
     on_threads(threads, of_thread).into_iter().reduce(merged).unwrap_or_else(&empty)
 }
 
+/// Many items are taken several at a time.
+const MOST_CHUNKS: u64 = 4096;
+
 /// The results of a function for all items, in their order.
 pub fn map<T: Sync, U: Send>(items: &[T], become_of: impl Fn(&T) -> U + Sync) -> Vec<U> {
     struct Numbered<U>(Vec<(u64, U)>);
@@ -79,9 +83,10 @@ pub fn map<T: Sync, U: Send>(items: &[T], become_of: impl Fn(&T) -> U + Sync) ->
             self.0.extend(other.0);
         }
     }
+    let count = items.len() as u64;
     let mut all = sum(
-        0..items.len() as u64,
-        1,
+        0..count,
+        (count / MOST_CHUNKS).max(1),
         &Unobserved,
         || Numbered(Vec::new()),
         |Numbered(some), indices| {
@@ -105,20 +110,28 @@ fn on_threads<S: Send>(threads: usize, run: impl Fn() -> S + Sync) -> Vec<S> {
     if threads == 1 {
         return vec![run()];
     }
+    let results = Mutex::new(Vec::with_capacity(threads));
+    let keep = || {
+        let result = run();
+        results.lock().unwrap_or_else(PoisonError::into_inner).push(result);
+    };
+    // Compiled once for all runs: rayon's part of each would be larger than the run itself.
+    let keep: &(dyn Fn() + Sync) = &keep;
     #[cfg(feature = "rayon")]
-    return (0..threads).into_par_iter().with_max_len(1).map(|_| run()).collect();
+    (0..threads).into_par_iter().with_max_len(1).for_each(|_| keep());
     #[cfg(not(feature = "rayon"))]
-    on_new_threads(threads, run)
+    on_new_threads(threads, keep);
+    results.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The same without a pool: rayon takes longer to build than an audit in a test takes to run.
+/// Without a pool: rayon takes longer to build than an audit in a test takes to run.
 #[cfg(any(test, not(feature = "rayon")))]
-fn on_new_threads<S: Send>(threads: usize, run: impl Fn() -> S + Sync) -> Vec<S> {
+fn on_new_threads(threads: usize, run: &(dyn Fn() + Sync)) {
     thread::scope(|scope| {
-        let threads: Vec<_> = (0..threads).map(|_| scope.spawn(&run)).collect();
-        let sums = threads.into_iter().map(|thread| thread.join());
-        sums.map(|sum| sum.unwrap_or_else(|cause| panic::resume_unwind(cause))).collect()
-    })
+        let threads: Vec<_> = (0..threads).map(|_| scope.spawn(run)).collect();
+        let ended = threads.into_iter().map(|thread| thread.join());
+        ended.for_each(|end| end.unwrap_or_else(|cause| panic::resume_unwind(cause)));
+    });
 }
 
 #[cfg(test)]
@@ -169,17 +182,18 @@ mod tests {
 
     #[test]
     fn every_item_becomes_one_in_their_order() {
-        let squares = map(&(0..1000).collect::<Vec<u64>>(), |n| n * n);
-        assert!(squares.into_iter().eq((0..1000).map(|n| n * n)));
+        let squares = map(&(0..10_000).collect::<Vec<u64>>(), |n| n * n);
+        assert!(squares.into_iter().eq((0..10_000).map(|n| n * n)));
         assert!(map(&[], |item: &u64| *item).is_empty());
     }
 
     #[test]
     fn new_threads_return_once_each_and_hand_a_panic_on() {
         let next = AtomicU64::new(0);
-        let mut numbers = on_new_threads(5, || next.fetch_add(1, Ordering::Relaxed));
-        numbers.sort_unstable();
-        assert_eq!(numbers, [0, 1, 2, 3, 4]);
-        assert!(panic::catch_unwind(|| on_new_threads::<()>(2, || panic!("on purpose"))).is_err());
+        on_new_threads(5, &|| {
+            next.fetch_add(1, Ordering::Relaxed);
+        });
+        assert_eq!(next.into_inner(), 5);
+        assert!(panic::catch_unwind(|| on_new_threads(2, &|| panic!("on purpose"))).is_err());
     }
 }

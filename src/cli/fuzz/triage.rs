@@ -11,11 +11,11 @@ use crate::cli::input::corpus_files;
 use crate::cli::output::write_result;
 use crate::cli::select::KernelArguments;
 use crate::corpus::lines::{self, write_case};
+use crate::engine;
 use crate::explore::campaign::Find;
 use crate::explore::shrink_finding;
 use crate::judge::{Class, Finding};
 use clap::{Args, ValueEnum};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write};
@@ -97,7 +97,7 @@ pub fn run(arguments: &TriageArguments) -> Result<Status, Failure> {
     let stored: Vec<String> = known.iter().map(line_of).collect();
     let read = simplest(read, one_each).into_values().collect::<Vec<_>>();
     // What is there was minimised when it came; a new one may be simpler only afterwards.
-    let minimised: Vec<Find> = read.into_par_iter().map(minimised).collect();
+    let minimised: Vec<Find> = engine::map(&read, |find| minimised(find.clone()));
     let kept = simplest(known.into_iter().chain(minimised), one_each);
     for find in kept.values() {
         replay(find)?;

@@ -5,12 +5,11 @@ use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::contract::Contract;
-use crate::engine::Observer;
+use crate::engine::{self, Observer};
 use crate::judge::{Obligation, asked, judge, obligation};
 use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
 use crate::oracle::{self, Layers};
 use crate::truth::{Crossing, Feature, Truth};
-use rayon::prelude::*;
 
 named! {
     pub names
@@ -74,14 +73,14 @@ pub fn of_kernel<F: Scalar>(
         .ok_or_else(|| MapError(format!("kernel '{name}' does not run in {}", F::NAME)))?;
     let epsilons = row.epsilons::<F>();
     let [width, height] = grid.size();
-    let line = |y: usize| {
+    let line = |&y: &usize| {
         let cases: Vec<Case<F>> = (0..width).map(|x| case_at(case, grid, [x, y])).collect();
         let pixels = pixels(&cases, row, subject, &epsilons);
         observer.advance(width as u64);
         pixels
     };
-    // From the top.
-    let pixels = (0..height).into_par_iter().rev().flat_map_iter(line).collect();
+    let from_the_top: Vec<usize> = (0..height).rev().collect();
+    let pixels = engine::map(&from_the_top, line).concat();
     let part = CaseVector::ALL[grid.point];
     Ok(Map {
         subject: row.label(),

@@ -5,20 +5,17 @@ use super::incidence::Incidence;
 use super::topology::{EdgeKind, FaceKind, Noted, SharedEdge, Topology};
 use crate::arith::Float;
 use crate::corpus::mesh::Mesh;
-use rayon::prelude::*;
+use crate::engine;
+use rayon::slice::ParallelSliceMut;
 use std::collections::HashMap;
 
 impl Topology {
     /// The topology of a mesh's positions in a scalar.
     pub fn of<F: Float>(mesh: &Mesh) -> Topology {
         let points = welded::<F>(mesh);
-        let corners: Vec<[u32; 3]> = mesh
-            .triangles
-            .par_iter()
-            .map(|face| face.map(|vertex| points[vertex as usize]))
-            .collect();
-        let mut kinds: Vec<FaceKind> =
-            corners.par_iter().map(|face| kind_alone::<F>(mesh, *face)).collect();
+        let corners =
+            engine::map(&mesh.triangles, |face| face.map(|vertex| points[vertex as usize]));
+        let mut kinds = engine::map(&corners, |face| kind_alone::<F>(mesh, *face));
         let duplicated_places = mark_duplicates(&corners, &mut kinds);
         let mut faces: [Noted; 5] = Default::default();
         for ((face, kind), corners) in (0..).zip(&kinds).zip(&corners) {

@@ -156,13 +156,13 @@ impl<F: Scalar> Island<F> {
 
 impl<F: Scalar> Newcomer<F> {
     /// The find: the same kind on a simpler case, as simple as some hundred tries make it.
-    pub fn into_find(self, seed: u64, evaluations: u64) -> Find {
+    pub fn find(&self, seed: u64, evaluations: u64) -> Find {
         let Newcomer { individual: Individual { case, row }, kind } = self;
-        let signature = Signature { epsilons: row.epsilon_argument(), ..kind };
-        let case = shrink_within(&case, EFFORT, |case| signature.is_shown(&row, case)).case;
+        let signature = Signature { epsilons: row.epsilon_argument(), ..kind.clone() };
+        let case = shrink_within(case, EFFORT, |case| signature.is_shown(row, case)).case;
         Find {
             case: AnyCase::from(case),
-            row: Row::clone(&row),
+            row: Row::clone(row),
             signature,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             seed: Some(seed),

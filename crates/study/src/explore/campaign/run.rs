@@ -6,8 +6,8 @@ use super::state::{CampaignState, SavedIndividual};
 use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
+use crate::engine;
 use crate::kernel::Scalar;
-use rayon::prelude::*;
 
 /// The lanes of an island, which know nothing of each other within a round.
 const LANES: u64 = 4;
@@ -73,17 +73,12 @@ impl Campaign {
         let share = |task: u64| evaluations / tasks + u64::from(task < evaluations % tasks);
         let (seed, round) = (self.seed, self.rounds);
         let first_wide = self.f32.len() as u64 * LANES;
-        let (narrow, wide) = rayon::join(
-            || grow(&mut self.f32, seed, round, share),
-            || grow(&mut self.f64, seed, round, |task| share(first_wide + task)),
-        );
+        let narrow = grow(&mut self.f32, seed, round, share);
+        let wide = grow(&mut self.f64, seed, round, |task| share(first_wide + task));
         self.rounds += 1;
         self.evaluations += evaluations;
-        let (mut finds, more) = rayon::join(
-            || into_finds(narrow, seed, self.evaluations),
-            || into_finds(wide, seed, self.evaluations),
-        );
-        finds.extend(more);
+        let mut finds = into_finds(&narrow, seed, self.evaluations);
+        finds.extend(into_finds(&wide, seed, self.evaluations));
         finds
     }
 
@@ -131,10 +126,10 @@ fn grow<F: Scalar>(
     share: impl Fn(u64) -> u64 + Sync,
 ) -> Vec<Newcomer<F>> {
     let shared = &*islands;
-    let mut proposals: Vec<_> = (0..shared.len() as u64 * LANES)
-        .into_par_iter()
-        .map(|task| shared[(task / LANES) as usize].propose(seed, round, task % LANES, share(task)))
-        .collect();
+    let tasks: Vec<u64> = (0..shared.len() as u64 * LANES).collect();
+    let mut proposals = engine::map(&tasks, |&task| {
+        shared[(task / LANES) as usize].propose(seed, round, task % LANES, share(task))
+    });
     let lanes = LANES as usize;
     islands
         .iter_mut()
@@ -145,8 +140,8 @@ fn grow<F: Scalar>(
         .collect()
 }
 
-fn into_finds<F: Scalar>(newcomers: Vec<Newcomer<F>>, seed: u64, evaluations: u64) -> Vec<Find> {
-    newcomers.into_par_iter().map(|newcomer| newcomer.into_find(seed, evaluations)).collect()
+fn into_finds<F: Scalar>(newcomers: &[Newcomer<F>], seed: u64, evaluations: u64) -> Vec<Find> {
+    engine::map(newcomers, |newcomer| newcomer.find(seed, evaluations))
 }
 
 fn learn<F: Scalar>(islands: &mut [Island<F>], kernel: &str, kind: crate::explore::Signature) {

@@ -7,13 +7,13 @@
 
 use crate::audit::Row;
 use crate::case::{Case, Draw, Parameters};
+use crate::engine;
 use crate::explore::decimal::Decimal;
 use crate::explore::domain::SearchDomain;
 use crate::explore::moves::mutate;
 use crate::explore::objective::{Scorer, SearchTarget};
 use crate::family::FAMILIES;
 use crate::kernel::Scalar;
-use rayon::prelude::*;
 
 /// The lanes of a goal.
 pub const LANES: u64 = 8;
@@ -71,19 +71,16 @@ pub fn search<F: Scalar>(
     evaluations: u64,
     seed: u64,
 ) -> Vec<Option<FoundWorst<F>>> {
-    let lanes = goals.len() as u64 * LANES;
-    let climbed: Vec<Option<FoundWorst<F>>> = (0..lanes)
-        .into_par_iter()
-        .map(|k| {
-            let (goal, lane) = (&goals[(k / LANES) as usize], k % LANES);
-            let scorer = goal.scorer::<F>();
-            let mut draw = Draw::new(&goal.name::<F>(), seed, lane);
-            let share = evaluations / LANES + u64::from(lane < evaluations % LANES);
-            let best = Climb::new(&scorer).run(&mut draw, share)?;
-            let score = Decimal::of(&scorer.exact(&best)?)?;
-            Some(FoundWorst { case: best, score })
-        })
-        .collect();
+    let lanes: Vec<u64> = (0..goals.len() as u64 * LANES).collect();
+    let climbed = engine::map(&lanes, |k| {
+        let (goal, lane) = (&goals[(k / LANES) as usize], k % LANES);
+        let scorer = goal.scorer::<F>();
+        let mut draw = Draw::new(&goal.name::<F>(), seed, lane);
+        let share = evaluations / LANES + u64::from(lane < evaluations % LANES);
+        let best = Climb::new(&scorer).run(&mut draw, share)?;
+        let score = Decimal::of(&scorer.exact(&best)?)?;
+        Some(FoundWorst { case: best, score })
+    });
     climbed
         .chunks(LANES as usize)
         .map(|lanes| lanes.iter().flatten().copied().reduce(worse))

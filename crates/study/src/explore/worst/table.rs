@@ -9,13 +9,13 @@ use super::climb::{WorstGoal, exact_score, search};
 use crate::audit::Row;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
+use crate::engine;
 use crate::explore::decimal::Decimal;
 use crate::explore::domain::SearchDomain;
 use crate::explore::objective::SearchTarget;
 use crate::explore::shrink::shrink_scored;
 use crate::explore::simplify::Size;
 use crate::kernel::Scalar;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 
@@ -64,17 +64,14 @@ pub fn find_worst<F: Scalar>(
 ) -> Vec<Option<WorstEntry>> {
     let found = search::<F>(goals, evaluations, seed);
     let pairs: Vec<_> = goals.iter().zip(found).collect();
-    pairs
-        .into_par_iter()
-        .map(|(goal, found)| {
-            let found = found?;
-            let shrunk = shrink_scored(&goal.scorer::<F>(), &found.case);
-            let case = shrunk.map_or(found.case, |shrunk| shrunk.case);
-            let score = exact_score(goal, &case)?;
-            let (goal, case) = (goal.clone(), AnyCase::from(case));
-            Some(WorstEntry { goal, case, score, found: found.score, seed, evaluations })
-        })
-        .collect()
+    engine::map(&pairs, |(goal, found)| {
+        let found = found.as_ref()?;
+        let shrunk = shrink_scored(&goal.scorer::<F>(), &found.case);
+        let case = shrunk.map_or(found.case, |shrunk| shrunk.case);
+        let score = exact_score(goal, &case)?;
+        let (goal, case) = ((*goal).clone(), AnyCase::from(case));
+        Some(WorstEntry { goal, case, score, found: found.score, seed, evaluations })
+    })
 }
 
 impl WorstEntry {
