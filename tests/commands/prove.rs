@@ -740,15 +740,6 @@ fn check_holds_what_is_proved() {
     }
 }
 
-#[test]
-fn scripts_are_written_for_gappa() {
-    let gappa = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "--format", "gappa"];
-    let out = text(&[&gappa[..], &["--gate", "parallel"]].concat());
-    assert!(out.contains("float<ieee_32") && out.contains("| in ? }"), "{out}");
-    refused(&gappa, 2, "--format gappa is of one --kernel");
-    refused(&[&gappa[..], &["--gate", "edgy"]].concat(), 2, "unknown gate 'edgy'");
-}
-
 /// A number in three digits, not below it, or not above it.
 fn three_digits(x: f64, up: bool) -> String {
     let scale = 10f64.powi(2 - x.log10().floor() as i32);
