@@ -2,6 +2,7 @@
 //! with a proof.
 
 mod asks;
+mod candidates;
 mod code;
 mod frame;
 mod language;

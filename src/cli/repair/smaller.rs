@@ -1,31 +1,17 @@
 //! Small changes to a kernel: which of them mend what is wrong with it, and what they cost.
 
+use super::candidates::{Candidate, Proved, candidates, proved};
 use super::patch::patch;
-use crate::arith::Arithmetic;
-use crate::audit::{
-    self, Audit, Cell, EpsilonText, Observer, Octave, Place, Plan, Row, Shard, Source,
-};
-use crate::contract::Boundary;
+use crate::audit::{self, Audit, Cell, Observer, Octave, Place, Plan, Row, Shard, Source};
 use crate::judge::{Class, Finding};
-use crate::kernel::{Change, Role, Scalar, Tunable, Verdict, changed, in_arithmetic, verdicts_of};
-use crate::prove::{Domain, Effort, Judged, Searched, Summary, above};
+use crate::kernel::{Change, Scalar, Verdict, verdicts_of};
+use crate::prove::{Searched, above};
 use crate::report::group_digits;
 use crate::report::page::{Block, Command, Head, Item, Items, Row as TableRow, Table};
 use std::marker::PhantomData;
 
 /// How far off, how, and where: the source and the place in it.
 type Worst = (f64, Finding, usize, Place);
-
-/// A change to try.
-struct Candidate {
-    /// The kernel with the change.
-    row: Row,
-    /// Its name in the table.
-    name: String,
-    what: String,
-    change: Option<Change>,
-    is_fused: bool,
-}
 
 /// The counts of a row in all sources.
 #[derive(Default)]
@@ -78,97 +64,14 @@ impl Counts {
     }
 }
 
-/// How far inside a false miss and outside a false hit can be, as shares of the longest edge, in the unit domain.
-type Depths = Option<[f64; 2]>;
-
-/// The depths without a search; and the bound of the edge gate's numbers.
-fn proved<F: Searched + Scalar>(row: &Row) -> (Depths, Option<f64>) {
-    let effort = Effort { evaluations: 0, seed: 1 };
-    let summary = Summary::<F>::new(row.entry, Domain::UNIT, &[], &[], effort);
-    let Ok(summary) = summary else { return (None, None) };
-    let edges = summary.gates.iter().filter(|gate| gate.gate.role == Role::Edge && gate.is_margin);
-    let bounds = edges.map(|gate| Some(gate.bound.as_ref().ok()?.to_f64()));
-    let most = bounds.reduce(|most, bound| Some(most?.max(bound?))).flatten();
-    let effort = (&[][..], effort);
-    let judged = Judged::new(row.entry, &summary, &row.epsilons::<F>(), &[Domain::UNIT], effort);
-    let depths = judged.and_then(|judged| {
-        let [misses, hits] = [judged.verdicts.misses, judged.verdicts.hits];
-        Some([misses.ok()?.share, hits.ok()?.share])
-    });
-    (depths, most)
-}
-
-fn with(row: &Row, epsilons: Vec<EpsilonText>) -> Row {
-    Row { epsilons, ..row.clone() }
-}
-
-/// The changes to try of a kernel, the smallest first.
-fn candidates<F: Scalar>(row: &Row, bound: Option<f64>) -> Vec<Candidate> {
-    let gates = row.entry.info.gates;
-    let mut all = Vec::new();
-    let mut of_epsilons = |text: &dyn Fn(usize) -> Option<String>, what: &str| {
-        let mut epsilons = row.epsilons.clone();
-        let mut words = Vec::new();
-        for (i, epsilon) in epsilons.iter_mut().enumerate() {
-            if let Some(text) = text(i) {
-                words.push(format!("{}={text}", gates[i].name));
-                *epsilon = EpsilonText::Decimal(text);
-            }
-        }
-        if !words.is_empty() {
-            let row = with(row, epsilons);
-            all.push(Candidate {
-                row,
-                name: words.join(","),
-                what: what.to_owned(),
-                change: None,
-                is_fused: false,
-            });
-        }
-    };
-    let value = |i: usize| row.epsilons[i].value::<F>().map_or(0.0, F::to_f64);
-    of_epsilons(&|i| (value(i) != 0.0).then(|| "0".to_owned()), "Without epsilons");
-    let is_edge = |i: usize| gates[i].role == Role::Edge && gates[i].epsilon == Tunable::Signed;
-    if row.entry.info.contract.boundary == Boundary::Open {
-        let least = if F::DIGITS == 24 { "-1e-45" } else { "-5e-324" };
-        let what = "Edges count as hits: >= for >, which is an epsilon of the least float below 0";
-        of_epsilons(&|i| is_edge(i).then(|| least.to_owned()), what);
-    }
-    if let Some(bound) = bound {
-        let is_plain = |i: usize| is_edge(i) && !gates[i].dimension.has_unit();
-        let what = "A tolerance at edges, as large as the rounding errors there can be";
-        of_epsilons(&|i| is_plain(i).then(|| format!("-{}", above(bound))), what);
-    }
-    let fused = in_arithmetic(row.entry, Arithmetic::FMA).map(|entry| (entry, None));
-    let changes = Change::ALL.into_iter().filter_map(|change| {
-        let sizes = change != Change::BySize || row.epsilons.iter().any(|it| it.to_string() != "0");
-        let entry = changed(row.entry, change).filter(|_| sizes)?;
-        (F::subject(entry).is_some()).then_some((entry, Some(change)))
-    });
-    for (entry, change) in fused.into_iter().chain(changes) {
-        let about = change
-            .map_or("Products are fused into sums, by the compiler or by hand", Change::about);
-        let contract = entry.info.contract;
-        let contract = if contract == row.entry.info.contract { row.contract } else { contract };
-        all.push(Candidate {
-            row: Row { entry, contract, ..row.clone() },
-            name: entry.info.name.replacen(row.entry.info.name, "", 1),
-            what: about.to_owned(),
-            change,
-            is_fused: change.is_none(),
-        });
-    }
-    all
-}
-
 /// A kernel and its changes, counted.
 struct Tried<F> {
     plan: Plan,
     candidates: Vec<Candidate>,
     /// As published; a row for each candidate; as published once more, judged as a ray if some candidate is.
     counts: Vec<Counts>,
-    /// Those of the kernel, and of each candidate.
-    depths: Vec<Depths>,
+    /// Of the kernel, and of each candidate.
+    proved: Vec<Proved>,
     scalar: PhantomData<F>,
 }
 
@@ -179,12 +82,12 @@ impl<F: Searched + Scalar> Tried<F> {
         let of = |it: &Candidate| match it.change {
             // Rounding knows no names of vertices, and the edges are as they were.
             Some(Change::Sorted | Change::Ahead) => before,
-            Some(Change::BySize) => None,
+            Some(Change::BySize) => Proved { depths: None, ..before },
             // Every float is a double, and the domain's.
             Some(Change::Double) => proved::<f64>(row).0,
             None => proved::<F>(&it.row).0,
         };
-        let depths = std::iter::once(before).chain(candidates.iter().map(of)).collect();
+        let proved = std::iter::once(before).chain(candidates.iter().map(of)).collect();
         let mut rows = vec![row.clone()];
         rows.extend(candidates.iter().map(|candidate| candidate.row.clone()));
         // The first row waits for the cases, so the kernel is timed as the last.
@@ -194,7 +97,7 @@ impl<F: Searched + Scalar> Tried<F> {
         let plan = Plan { rows, sources, scalars, examples: 1, attribute: 0 };
         let audit = audit::sum(&plan, Shard::WHOLE, observer);
         let counts = (0..plan.rows.len()).map(|row| Counts::of(&audit, row)).collect();
-        Tried { plan, candidates, counts, depths, scalar: PhantomData }
+        Tried { plan, candidates, counts, proved, scalar: PhantomData }
     }
 
     /// True if a row is right where another is wrong.
@@ -229,7 +132,7 @@ impl<F: Searched + Scalar> Tried<F> {
             Head::of("change"),
             Head::of("false misses"),
             Head::of("false hits"),
-            Head::of("leaks").about("% of rays at shared edges and vertices that hit nothing"),
+            Head::of("leaks").about("% of rays at shared edges and vertices that hit nothing; none: proved of edges"),
             Head::of("visible").about("wrong by over 2^-10 of an edge"),
             Head::of("worst").about("whether it is right where the kernel is most wrong"),
             Head::of("proved inside").about("no false miss of the unit domain is farther inside an edge; then the same of hits outside"),
@@ -238,7 +141,8 @@ impl<F: Searched + Scalar> Tried<F> {
         ];
         let row = |i: usize, name: &str| {
             let counts = &self.counts[i];
-            let [inside, outside] = match self.depths.get(i).copied().flatten() {
+            let proved = self.proved.get(i).copied().unwrap_or_default();
+            let [inside, outside] = match proved.depths {
                 Some(depths) => depths.map(above),
                 None => ["-", "-"].map(str::to_owned),
             };
@@ -257,6 +161,7 @@ impl<F: Searched + Scalar> Tried<F> {
                 _ => "wrong",
             };
             let leaks = match counts.crossings {
+                _ if proved.is_tight => "none".to_owned(),
                 0 => "-".to_owned(),
                 of => format!("{:.2}", 100.0 * counts.cracks as f64 / of as f64),
             };
