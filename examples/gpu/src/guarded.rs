@@ -87,9 +87,9 @@ impl Shader {
         let words = promise.and_then(|(_, words)| words.split_once(", "));
         let (extent, sides) = words.ok_or(format!("{file}: no line with its promise"))?;
         let start = if is_glsl { "int " } else { "fn " };
-        let head = text.lines().filter_map(|line| line.strip_prefix(start)?.split_once('('));
+        let mut head = text.lines().filter_map(|line| line.strip_prefix(start)?.split_once('('));
         // The last function is the kernel.
-        let (name, inputs) = head.last().ok_or(format!("{file}: no function"))?;
+        let (name, inputs) = head.next_back().ok_or(format!("{file}: no function"))?;
         let ends = if inputs.contains("t_min") { ", cases[at + 15u], cases[at + 16u]" } else { "" };
         let wrapped = if is_glsl { GLSL } else { WGSL };
         let wrapped =
