@@ -2,7 +2,9 @@
 
 use super::candidates::{Candidate, Proved, candidates, proved};
 use super::patch::patch;
-use crate::audit::{self, Audit, Cell, Observer, Octave, Place, Plan, Row, Shard, Source};
+use crate::audit::{
+    self, Audit, CasePlace, Observer, Octave, Plan, Row, Shard, Source, SourceCell,
+};
 use crate::judge::{Class, Finding};
 use crate::kernel::{Change, Scalar, Verdict, verdicts_of};
 use crate::prove::{Searched, above};
@@ -11,7 +13,7 @@ use crate::report::page::{Block, Command, Head, Item, Items, Row as TableRow, Ta
 use std::marker::PhantomData;
 
 /// How far off, how, and where: the source and the place in it.
-type Worst = (f64, Finding, usize, Place);
+type Worst = (f64, Finding, usize, CasePlace);
 
 /// The counts of a row in all sources.
 #[derive(Default)]
@@ -36,7 +38,7 @@ impl Counts {
         counts
     }
 
-    fn add(&mut self, cell: &Cell) {
+    fn add(&mut self, cell: &SourceCell) {
         let (tally, total) = (&cell.tally, cell.tally.total());
         self.misses += total.of(Finding::FalseMiss);
         self.hits += total.of(Finding::FalseHit);
