@@ -346,6 +346,7 @@ fn plain_rays_of_a_room_seldom_ask() {
     let folder = scratch("repair-asks");
     let all = ["repair", "--kernel", "moller-trumbore", "--scene", "room", "-n", "2000"];
     let (text, _) = ends(&folder, &all, 0);
+    let (_, text) = text.split_once("How often the guarded").unwrap();
     let share = |kind: &str| -> f64 {
         let line = text.lines().find(|line| line.trim_start().starts_with(kind)).expect(kind);
         let mut numbers = line.split_whitespace().filter_map(|word| word.parse().ok());
