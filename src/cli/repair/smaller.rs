@@ -25,8 +25,8 @@ struct Counts {
     crossings: u64,
     /// Farther off than 2^-10 of an edge.
     visible: u64,
-    nanoseconds: u64,
-    cases: u64,
+    /// Nanoseconds in each source.
+    times: Vec<f64>,
     /// The worst false miss or false hit.
     worst: Option<Worst>,
 }
@@ -44,8 +44,7 @@ impl Counts {
         self.hits += total.of(Finding::FalseHit);
         self.cracks += tally.groups.cracks;
         self.crossings += tally.groups.crossings;
-        self.nanoseconds += cell.nanoseconds;
-        self.cases += total.cases;
+        self.times.push(cell.nanoseconds as f64);
         for finding in [Finding::FalseMiss, Finding::FalseHit] {
             let octaves = tally.severities.get(&finding).map(|it| it.edges.octaves());
             let far =
@@ -139,7 +138,7 @@ impl<F: Searched + Scalar> Tried<F> {
             Head::of("worst").about("whether it is right where the kernel is most wrong"),
             Head::of("proved inside").about("no false miss of the unit domain is farther inside an edge; then the same of hits outside"),
             Head::of("outside"),
-            Head::of("cost").about("time a ray, in this run, as a multiple of the kernel's"),
+            Head::of("cost").about("time in this run as a multiple of the kernel's, with a wrapper's call for each ray: at most"),
         ];
         let row = |i: usize, name: &str| {
             let counts = &self.counts[i];
@@ -148,13 +147,16 @@ impl<F: Searched + Scalar> Tried<F> {
                 Some(depths) => depths.map(above),
                 None => ["-", "-"].map(str::to_owned),
             };
-            let cost = |it: &Counts| it.nanoseconds as f64 / it.cases.max(1) as f64;
+            // The median over the sources: a machine's moods fall on few of them.
+            let plain = &self.counts[self.counts.len() - 1].times;
+            let mut costs: Vec<f64> = counts.times.iter().zip(plain).map(|(x, y)| x / y).collect();
+            costs.sort_by(f64::total_cmp);
             let candidate = i.checked_sub(1).and_then(|i| self.candidates.get(i));
             let cost = match candidate {
                 // In software here.
                 Some(it) if it.is_fused => "-".to_owned(),
                 None => "1".to_owned(),
-                _ => format!("{:.1}", cost(counts) / cost(self.counts.last().unwrap_or(counts))),
+                _ => format!("{:.1}", costs[costs.len() / 2]),
             };
             let worst = match (i == 0, self.is_comparable(i)) {
                 (true, _) => "wrong",
