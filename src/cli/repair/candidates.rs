@@ -29,7 +29,7 @@ pub struct Proved {
     pub is_tight: bool,
 }
 
-/// What is proved without a search; and the bound of the edge gate's numbers.
+/// The statements without a search; and the bound of the edge gate's numbers.
 pub fn proved<F: Searched + Scalar>(row: &Row) -> (Proved, Option<f64>) {
     let effort = Effort { evaluations: 0, seed: 1 };
     let summary = Summary::<F>::new(row.entry, Domain::UNIT, &[], &[], effort);

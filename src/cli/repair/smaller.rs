@@ -71,7 +71,7 @@ struct Tried<F> {
     candidates: Vec<Candidate>,
     /// As published; a row for each candidate; as published once more, judged as a ray if some candidate is.
     counts: Vec<Counts>,
-    /// Of the kernel, and of each candidate.
+    /// The kernel's, and each candidate's.
     proved: Vec<Proved>,
     scalar: PhantomData<F>,
 }
