@@ -29,10 +29,9 @@ use witnesses::{KNOWN, merge, read_witnesses};
 
 /// The flags of `prove`: the kernels, and how to report.
 #[derive(Args)]
-#[command(mut_arg("format", |format| format.help(
-    "text, json, markdown or html, or several separated by commas; or gappa: a script that asks Gappa for a bound of one \
-     --gate of one --kernel in one --scalar"
-)))]
+#[command(mut_arg("format", |format| {
+    format.help("text, json, markdown or html, or several separated by commas")
+}))]
 pub struct ProveArguments {
     /// A kernel, or several separated by commas; NAME+fma is NAME with fused products [default: all]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
@@ -119,11 +118,7 @@ const FORMATS: &[Format<Report>] = &[
     Format { name: "json", write: |report, _, out| write_json(&report.record, out) },
     Format::MARKDOWN,
     Format::HTML,
-    // A script for Gappa is of one gate, and none of a record.
-    Format { name: GAPPA, write: |_, _, _| Ok(()) },
 ];
-
-const GAPPA: &str = "gappa";
 
 /// The proofs about the kernels of some rows, each once, with the witnesses that the program was built with.
 pub fn proofs(rows: &[Row], scalars: [bool; 2]) -> Vec<ProofPart> {
@@ -179,9 +174,6 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         arguments.gate_of(entries[0])?;
     }
     let outputs = arguments.output.pairs(FORMATS)?;
-    if let Some((_, path)) = outputs.iter().find(|(format, _)| format.name == GAPPA) {
-        return files::export(arguments, &entries, scalars, (domain, path));
-    }
     if let Some(path) = &arguments.certificate {
         return files::certify(&entries, scalars, (domain, &parts), (path, arguments.output.quiet));
     }

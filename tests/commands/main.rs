@@ -30,6 +30,8 @@ mod program;
 mod prove;
 #[cfg(unix)]
 mod repair;
+mod repair_languages;
+mod repair_smaller;
 mod rows;
 mod scene;
 mod scene_advice;

@@ -44,11 +44,13 @@ impl<F: Searched> Search<'_, F> {
                 let starts = if self.domain.measures.is_some() { left.min(STARTS) } else { 0 };
                 left -= starts;
                 let started = (0..=starts).filter_map(|_| {
-                    let mut inputs = match known {
-                        [_, ..] if draw.below(4) == 0 => draw.pick(known),
-                        _ => self.start(goal, draw),
-                    };
-                    if let Some(judge) = self.judge {
+                    let is_known = !known.is_empty() && draw.below(4) == 0;
+                    let mut inputs =
+                        if is_known { draw.pick(known) } else { self.start(goal, draw) };
+                    // A known one of this scalar is where it should be; one of the other scalar is not.
+                    if let Some(judge) = self.judge
+                        && !(is_known && draw.coin())
+                    {
                         judge.move_to_boundary(&mut inputs, draw);
                     }
                     self.score(&inputs, goal, &mut near).map(|score| (inputs, score))

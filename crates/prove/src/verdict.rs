@@ -304,7 +304,9 @@ impl Bounds<'_> {
                 return Ok(most);
             }
             if 0.5 < largest {
-                return Err("its numbers are too far off for any miss to be refused".to_owned());
+                return Err("the bound of its errors outside reaches half of the longest edge, so from no distance on are all \
+                            rays surely refused"
+                    .to_owned());
             }
             least = (times * WIDE - 1.0) / 2.0;
             times *= 2.0;

@@ -1,5 +1,6 @@
 //! The device: one compute pipeline, and buffers that grow with the batches.
 
+use crate::guarded::{Code, Shader};
 use crate::protocol::{Batch, CASE_BYTES, VERDICT_BYTES};
 use wgpu::{Buffer, BufferUsages};
 
@@ -28,7 +29,7 @@ struct Buffers {
 impl Gpu {
     /// On the first adapter that wgpu finds; an error in one line if there is none.
     /// `WGPU_BACKEND` and `WGPU_ADAPTER_NAME` choose another.
-    pub fn new() -> Result<Gpu, String> {
+    pub fn new(shader: &Shader) -> Result<Gpu, String> {
         let instance =
             wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
         let no_adapter = |error: String| {
@@ -50,9 +51,14 @@ impl Gpu {
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&request))
             .map_err(|error| format!("{}: {error}", adapter.get_info().name))?;
-        let module = device.create_shader_module(wgpu::include_wgsl!("moller_trumbore.wgsl"));
+        let source = match &shader.code {
+            Code::Wgsl(text) => wgpu::ShaderSource::Wgsl(text.into()),
+            Code::SpirV(words) => wgpu::ShaderSource::SpirV(words.into()),
+        };
+        let module = device
+            .create_shader_module(wgpu::ShaderModuleDescriptor { label: Some("kernel"), source });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("Möller-Trumbore"),
+            label: Some("kernel"),
             layout: None,
             module: &module,
             entry_point: Some("main"),

@@ -1,10 +1,13 @@
 //! A ray–triangle test in WGSL that answers hairline over its pipe, in the binary encoding of
-//! docs/protocol.md: `hairline audit --kernel-cmd examples/gpu/target/release/hairline-gpu-example`.
+//! docs/protocol.md: `hairline audit --kernel-cmd examples/gpu/target/release/hairline-gpu-example`; or a guarded one in WGSL
+//! or GLSL: `… hairline-gpu-example guarded.glsl miss`.
 
 mod gpu;
+mod guarded;
 mod protocol;
 
 use gpu::Gpu;
+use guarded::Shader;
 use protocol::Batch;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -29,7 +32,14 @@ fn main() -> ExitCode {
 fn answer() -> io::Result<()> {
     let (mut input, mut output) = (io::stdin().lock(), io::stdout().lock());
     writeln!(output, "hairline-kernel 1")?;
-    let mut gpu = match Gpu::new() {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let shader = match &words[..] {
+        [] => Ok(Shader::published()),
+        [file, ask] => Shader::read(file, ask),
+        _ => Err("expected nothing, or FILE.wgsl|FILE.glsl and what an ask counts as: hit or miss"
+            .to_owned()),
+    };
+    let (mut gpu, hello) = match shader.and_then(|shader| Ok((Gpu::new(&shader)?, shader.hello))) {
         Ok(gpu) => gpu,
         Err(message) => {
             // hairline shows the line; whoever starts this program by hand reads it too.
@@ -37,18 +47,11 @@ fn answer() -> io::Result<()> {
             return output.flush();
         }
     };
-    writeln!(
-        output,
-        "name wgsl-moller-trumbore\n\
-         source Möller and Trumbore (1997) in WGSL on {}; {ROUNDING}\n\
-         scalars f32\n\
-         contract extent=line,sides=both,boundary=closed\n\
-         gives t uv facing\n\
-         epsilon parallel 1e-6 2 1 non-negative abs(det) < e\n\
-         encoding binary\n\
-         ready",
-        gpu.device()
-    )?;
+    let on = format!("; on {}; {ROUNDING}", gpu.device());
+    for line in hello.lines() {
+        writeln!(output, "{line}{}", if line.starts_with("source ") { &on } else { "" })?;
+    }
+    writeln!(output, "encoding binary\nready")?;
     output.flush()?;
     while let Some(batch) = Batch::read(&mut input)? {
         let verdicts = gpu.run(&batch).map_err(io::Error::other)?;

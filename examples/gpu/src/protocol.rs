@@ -28,12 +28,12 @@ impl Batch {
         let word =
             |at: usize| u32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);
         let (bits, count, epsilons) = (word(4), word(8), word(12));
-        if &head[..4] != b"HLB1" || bits != 32 || epsilons != 1 {
-            let told = "expected a batch HLB1 in 32 bits with one epsilon";
+        if &head[..4] != b"HLB1" || bits != 32 || 1 < epsilons {
+            let told = "expected a batch HLB1 in 32 bits with one epsilon or none";
             return Err(io::Error::new(io::ErrorKind::InvalidData, told));
         }
         let mut epsilon = [0; 4];
-        input.read_exact(&mut epsilon)?;
+        input.read_exact(&mut epsilon[..4 * epsilons as usize])?;
         let mut cases = vec![0; count as usize * CASE_BYTES];
         input.read_exact(&mut cases)?;
         Ok(Some(Batch { count, parallel: f32::from_le_bytes(epsilon), cases }))

@@ -1,12 +1,11 @@
-//! Writes certificates, and scripts for Gappa.
+//! Writes certificates.
 
-use super::ProveArguments;
 use crate::audit::shell_word;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::write_result;
 use crate::kernel::{Entry, Scalar};
 use crate::prove::certificate::{self, Claim, Heading, heading, program, symmetry_at};
-use crate::prove::{Domain, Effort, Quantity, Searched, Summary, gappa};
+use crate::prove::{Domain, Effort, Quantity, Searched, Summary};
 use crate::report::number_of;
 
 /// Writes the certificate of one kernel in one scalar.
@@ -60,63 +59,4 @@ fn certificate_of<F: Searched + Scalar>(
         text.push_str(&program(path, &quantity.lemmas, &claim));
     }
     if stated.is_none() { Err("no gate has a bound in this domain".to_owned()) } else { Ok(text) }
-}
-
-/// Scripts of the quantity of a gate that has the largest error, or of all its quantities if one has no bound.
-fn scripts<F: Searched + Scalar>(
-    entry: &Entry,
-    gate: usize,
-    domain: Domain,
-) -> Result<String, String> {
-    let effort = Effort { evaluations: 0, seed: 1 };
-    let summary = Summary::<F>::new(entry, domain, &[], &[], effort)?;
-    let proof = &summary.proof;
-    let worst = proof.gate(gate).and_then(Result::ok);
-    let mut text = String::new();
-    let of_gate = proof.quantities.iter().filter(|quantity| quantity.gate == gate);
-    for (number, quantity) in (1..).zip(of_gate) {
-        if worst.is_some_and(|worst| !std::ptr::eq(worst, quantity)) {
-            continue;
-        }
-        let name =
-            format!("{} {} {} {number}", entry.info.name, F::NAME, entry.info.gates[gate].name);
-        let path = &proof.paths[quantity.path];
-        let script = gappa(path, quantity.place, summary.domain, summary.format, &name, None);
-        if let Ok(script) = script {
-            text.push_str(&script);
-            text.push('\n');
-        }
-    }
-    Ok(text)
-}
-
-/// Writes the script for Gappa of one gate of one kernel in one scalar.
-pub fn export(
-    arguments: &ProveArguments,
-    entries: &[&'static Entry],
-    scalars: [bool; 2],
-    (domain, path): (Domain, &str),
-) -> Result<Status, Failure> {
-    let ([entry], [true, false] | [false, true], Some(_)) = (entries, scalars, &arguments.gate)
-    else {
-        return Err(Failure::usage(
-            "--format gappa is of one --kernel, one --scalar and one --gate",
-        ));
-    };
-    let gate = arguments.gate_of(entry)?.expect("there is --gate");
-    let text = if scalars[0] {
-        scripts::<f32>(entry, gate, domain)
-    } else {
-        scripts::<f64>(entry, gate, domain)
-    };
-    let none = |why: &str| {
-        let message = format!("{}: no program: {why}", entry.info.name);
-        Failure::Message(Status::NothingSelected, message)
-    };
-    let text = text.map_err(|why| none(&why))?;
-    if text.is_empty() {
-        return Err(none("a divisor of the gate has no bound"));
-    }
-    write_result(path, |out| out.write_all(text.as_bytes()))?;
-    Ok(Status::Success)
 }

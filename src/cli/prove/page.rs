@@ -1,8 +1,8 @@
 //! Proofs as a page: of one kernel the sentences that people ask for first, then its gates; of several a table.
 
 use super::record::{GatePart, KernelPart, Record, Report};
-use crate::prove::units;
-use crate::report::page::{Block, Command, Head, Page, Paged, Row, Table, Tone};
+use crate::prove::{USELESS, above, units};
+use crate::report::page::{Block, Command, Head, Item, Items, Page, Paged, Row, Table, Tone};
 
 impl Paged for Report {
     fn page(&self) -> Page {
@@ -65,7 +65,13 @@ fn of_all(report: &Report) -> Page {
 fn of_one(report: &Report) -> Page {
     let record = &report.record;
     let name = record.kernels.first().map_or("K", |kernel| &kernel.kernel);
-    let mut blocks = vec![Block::Text(domain(report))];
+    let mut blocks: Vec<Block> =
+        record.kernels.iter().filter_map(conclusion).map(Block::Text).collect();
+    blocks.push(Block::Text(domain(report)));
+    if report.scene.is_none() {
+        let text = "That is not your scene: --scene room, or --mesh FILE --distance LENGTH, says the same in lengths.";
+        blocks.push(Block::Text(text.to_owned()));
+    }
     for kernel in &record.kernels {
         let gates: Vec<&GatePart> =
             record.gates.iter().filter(|gate| gate.scalar == kernel.scalar).collect();
@@ -95,21 +101,56 @@ fn of_one(report: &Report) -> Page {
         _ => String::new(),
     };
     let line = format!("hairline epsilon --kernel {name} {}{scalar}", report.rays);
-    let mut commands = vec![Command { line, what: "which epsilons cost least" }];
-    for verdicts in record.kernels.iter().filter_map(|kernel| kernel.verdicts.as_ref()) {
-        let known = [(&verdicts.misses, "a false miss"), (&verdicts.hits, "a false hit")];
-        commands.extend(known.into_iter().filter_map(|(depth, what)| {
-            let line = depth.known.as_ref()?.command.clone();
-            Some(Command { line, what })
-        }));
+    let mut items = Vec::new();
+    let mut shown = |kernel: &KernelPart, what: &str, command: &str| {
+        let text = format!("The ray of {what} in {}:", kernel.scalar);
+        items.push(Item { text, lines: vec![command.to_owned()], ..Item::default() });
+    };
+    for kernel in &record.kernels {
+        if let Some(verdicts) = &kernel.verdicts {
+            let known = [
+                (&verdicts.misses, "the deepest known false miss"),
+                (&verdicts.hits, "the farthest known false hit"),
+            ];
+            let known =
+                known.into_iter().filter_map(|(depth, what)| Some((what, depth.known.as_ref()?)));
+            known.for_each(|(what, known)| shown(kernel, what, &known.command));
+        }
+        if let Some(leak) = &kernel.leak {
+            shown(kernel, "the leak at an edge epsilon of 0", &leak.command);
+        }
     }
-    commands.extend(record.kernels.iter().filter_map(|kernel| {
-        let line = kernel.leak.as_ref()?.command.clone();
-        Some(Command { line, what: "leaks at an epsilon of 0" })
-    }));
+    if !items.is_empty() {
+        blocks.push(Block::Text(String::new()));
+        blocks.push(Block::Items(Items { most: items.len(), items }));
+    }
+    let repair = format!("hairline repair --kernel {name}{scalar}");
+    let commands = vec![
+        Command { line, what: "which epsilons cost least" },
+        Command { line: repair, what: "what mends it" },
+    ];
     blocks.push(Block::Commands("next", commands));
     let title = format!("{name}: what holds for every float");
     Page { command: "prove", title, tone: Tone::Plain, blocks }
+}
+
+/// The conclusion of a kernel, in a sentence.
+fn conclusion(kernel: &KernelPart) -> Option<String> {
+    let verdicts = kernel.verdicts.as_ref()?;
+    let all = [verdicts.misses.share?, verdicts.hits.apart.or(verdicts.hits.share)?];
+    let most = all.into_iter().fold(0.0, f64::max);
+    let others = match verdicts.others.iter().any(|other| !other.is_never) {
+        true => ", but where another gate decides (below)",
+        false => "",
+    };
+    (most < USELESS).then(|| {
+        format!(
+            "In {}, for all floats of the domain below, an answer can be wrong only where the ray passes within {} of the triangle's longest \
+             edge of its boundary, in the triangle's plane{others}.",
+            kernel.scalar,
+            above(most)
+        )
+    })
 }
 
 /// The gates of a kernel: how wrong what each compares can be.

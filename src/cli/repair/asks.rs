@@ -2,10 +2,10 @@
 
 use crate::audit::Source;
 use crate::engine::{Merge, Unobserved, sum};
-use crate::family::Stratum;
+use crate::family::Family;
 use crate::kernel::Scalar;
 use crate::prove::repair::{Answer, Guarded};
-use crate::report::page::{Block, Head, Page, Row, Table};
+use crate::report::page::{Block, Head, Row, Table};
 
 /// How many rays got each answer: hit, miss, ask.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,8 +25,8 @@ pub struct Asks {
 
 impl Asks {
     /// Counts the answers to the rays of some sources.
-    pub fn count<F: Scalar>(guarded: &Guarded, sources: &[(Stratum, Source)]) -> Asks {
-        let count = |(stratum, source): &(Stratum, Source)| {
+    pub fn count<F: Scalar>(guarded: &Guarded, sources: &[(&'static Family, Source)]) -> Asks {
+        let count = |(family, source): &(&'static Family, Source)| {
             let answers =
                 sum(0..source.count::<F>(), 1024, &Unobserved, Answers::default, |sum, indices| {
                     for index in indices {
@@ -40,7 +40,6 @@ impl Asks {
                         }
                     }
                 });
-            let family = stratum.family();
             (family.name.trim_start_matches("scene-").to_owned(), family.promise, answers)
         };
         let kernel = format!("{} in {}", guarded.info.name, guarded.scalar);
@@ -54,8 +53,15 @@ impl Asks {
         kinds.collect::<Vec<_>>().join(", ")
     }
 
-    /// As a page.
-    pub fn page(&self) -> Page {
+    /// The share of all rays.
+    pub fn whole(&self) -> String {
+        let mut all = Answers::default();
+        self.kinds.iter().for_each(|(.., answers)| all.merge(*answers));
+        share(&all, 2)
+    }
+
+    /// As blocks of a page.
+    pub fn blocks(&self) -> Vec<Block> {
         let heads = ["rays", "hit", "miss", "ask"].map(Head::of).to_vec();
         let row = |(name, _, answers): &(String, &'static str, Answers)| {
             Row::new(name.clone(), [0, 1, 2].map(|place| share(answers, place)))
@@ -63,9 +69,8 @@ impl Asks {
         let table = Table::new(heads, self.kinds.iter().map(row).collect());
         let terms =
             self.kinds.iter().map(|(name, promise, _)| (name.clone(), (*promise).to_owned()));
-        let blocks = vec![Block::Table(table), Block::Terms(terms.collect())];
         let title = format!("How often the guarded {} asks", self.kernel);
-        Page { command: "repair", title, blocks, ..Page::default() }
+        vec![Block::Heading(title), Block::Table(table), Block::Terms(terms.collect())]
     }
 }
 

@@ -1,21 +1,28 @@
-//! `hairline repair`: a kernel that says hit, miss or ask, as source code with a proof.
+//! `hairline repair`: small changes to a kernel and what they mend; and a kernel that says hit, miss or ask, as source code
+//! with a proof.
 
 mod asks;
+mod candidates;
 mod code;
 mod frame;
 mod language;
 mod names;
 mod nodes;
+mod patch;
+mod smaller;
 
+use super::before::{scalars_in_use, total_indices};
 use super::exit::{Failure, Status};
 use super::flags::{case_count, chosen_scalars, find_kernel};
 use super::output::{write_page, write_result};
+use super::progress::Progress;
 use super::sources::mesh_scene;
-use crate::audit::Source;
+use crate::audit::{EpsilonChoice, PlanError, Source};
 use crate::case::{Parameters, Scene};
-use crate::family::Stratum;
+use crate::family::{FAMILIES, Family, Stratum};
 use crate::kernel::{self, Entry};
 use crate::prove::repair::Guarded;
+use crate::report::page::{Block, Page};
 use asks::Asks;
 use clap::Args;
 use frame::{function_name, source};
@@ -32,11 +39,15 @@ pub struct RepairArguments {
     #[arg(long, value_delimiter = ',', default_value = "f32", value_name = "SCALAR")]
     scalar: Vec<String>,
 
-    /// Write the kernel in this language
+    /// Write the kernel that says hit, miss or ask in this language, instead of small changes
     #[arg(long, value_name = "LANGUAGE")]
     emit: Option<Language>,
 
-    /// Count how often it asks, in a scene as `epsilon` takes it: room, or a few numbers
+    /// Epsilons of your own copy of the kernel, as parallel=1e-7, where it is not written but mended
+    #[arg(long, value_name = "GATE=VALUE,...", allow_hyphen_values = true)]
+    epsilon: Option<String>,
+
+    /// Count in a scene as `epsilon` takes it: room, or a few numbers [default: the families of `audit`]
     #[arg(long, value_name = "SCENE")]
     scene: Option<String>,
 
@@ -76,12 +87,11 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
         None => return Err(Failure::usage("repair is of one --kernel, or of all with -o FOLDER/")),
     };
     let is_single = entries.len() == 1 && scalars[0] != scalars[1];
-    let is_nothing =
-        arguments.emit.is_none() && arguments.certificate.is_none() && sources.is_empty();
-    if is_nothing {
-        return Err(Failure::usage(
-            "what to write: --emit c, --certificate FILE, or --scene room for how often it asks",
-        ));
+    if arguments.emit.is_none() && arguments.certificate.is_none() {
+        let [entry] = entries[..] else {
+            return Err(Failure::usage("all kernels are written with --emit c, into -o FOLDER/"));
+        };
+        return arguments.smaller(entry, scalars, sources);
     }
     if !is_folder && !is_single {
         return Err(Failure::usage("two scalars are two files: name one, or -o FOLDER/"));
@@ -123,7 +133,7 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
 
 impl RepairArguments {
     /// The rays on which asks are counted.
-    fn sources(&self, scalars: [bool; 2]) -> Result<Vec<(Stratum, Source)>, Failure> {
+    fn sources(&self, scalars: [bool; 2]) -> Result<Vec<(&'static Family, Source)>, Failure> {
         let (scene, mesh) = match (&self.scene, &self.mesh) {
             (None, None) => return Ok(Vec::new()),
             (words, Some(path)) => {
@@ -142,20 +152,76 @@ impl RepairArguments {
             let parameters = parameters.clone();
             let source =
                 Source::of_stratum(stratum, mesh.as_ref(), parameters, self.seed, self.count);
-            (stratum, source)
+            (stratum.family(), source)
         };
         Ok(Stratum::ALL.into_iter().map(of).collect())
     }
 
-    fn write(&self, guarded: &Guarded, sources: &[(Stratum, Source)]) -> Result<(), Failure> {
+    /// The screen of small changes.
+    fn smaller(
+        &self,
+        entry: &'static Entry,
+        scalars: [bool; 2],
+        scene: Vec<(&'static Family, Source)>,
+    ) -> Result<Status, Failure> {
+        let wrong = |error: PlanError| Failure::usage(format!("--epsilon: {error}"));
+        let choice = match &self.epsilon {
+            Some(text) => EpsilonChoice::parse(text).map_err(wrong)?,
+            None => EpsilonChoice::Source,
+        };
+        let row = choice.rows(&[entry], None).map_err(wrong)?.remove(0);
+        let scalars = scalars_in_use(std::slice::from_ref(&row), scalars)?;
+        let of =
+            |family| (family, Source::of(family, Parameters::default(), self.seed, self.count));
+        let sources = if scene.is_empty() {
+            FAMILIES.iter().filter(|it| it.question.is_ordinary()).map(of).collect()
+        } else {
+            scene
+        };
+        let is_scene = self.scene.is_some() || self.mesh.is_some();
+        let aimed = if is_scene {
+            ""
+        } else {
+            ", which are aimed at hard places (--scene room: at plain ones too)"
+        };
+        let mut blocks = Vec::new();
+        for (name, _) in ["f32", "f64"].into_iter().zip(scalars).filter(|it| it.1) {
+            let (asks, guarded) = in_named_scalar!(name, F => match Guarded::new::<F>(entry) {
+                Ok(guarded) => {
+                    let asks = Asks::count::<F>(&guarded, &sources);
+                    let text = format!(
+                        "Guarded, as --emit writes it, no answer is wrong, which is proved; it asks on {} of these rays{aimed}.", asks.whole()
+                    );
+                    (Some(asks), text)
+                }
+                Err(why) => (None, format!("It cannot be guarded: {why}.")),
+            });
+            blocks.push(Block::Heading(format!("{} in {name}", row.label())));
+            let only: Vec<Source> = sources.iter().map(|(_, source)| source.clone()).collect();
+            let total = total_indices(&only, [name == "f32", name == "f64"])?;
+            let progress = Progress::new(total, "rays", self.quiet);
+            blocks.extend(
+                in_named_scalar!(name, F => smaller::blocks::<F>(&row, only, guarded, &progress)),
+            );
+            progress.finish();
+            blocks.extend(asks.filter(|_| is_scene).iter().flat_map(Asks::blocks));
+        }
+        let title = format!("{}: the smallest change that mends it", entry.info.name);
+        write_page(Page { command: "repair", title, blocks, ..Page::default() })?;
+        Ok(Status::Success)
+    }
+
+    fn write(
+        &self,
+        guarded: &Guarded,
+        sources: &[(&'static Family, Source)],
+    ) -> Result<(), Failure> {
         if let Some(path) = &self.certificate {
             write_result(path, |out| out.write_all(guarded.certificate().as_bytes()))?;
         }
         let asks = (!sources.is_empty())
             .then(|| in_named_scalar!(guarded.scalar, F => Asks::count::<F>(guarded, sources)));
-        let Some(language) = self.emit else {
-            return asks.map_or(Ok(()), |asks| write_page(asks.page()));
-        };
+        let Some(language) = self.emit else { return Ok(()) };
         if guarded.scalar == "f64" && matches!(language, Language::Wgsl | Language::Hlsl) {
             return Err(Failure::usage(
                 "WGSL has no f64, and HLSL no functions of it: --scalar f32",

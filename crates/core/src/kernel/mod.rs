@@ -3,7 +3,7 @@
 //! Architecture invariant: nothing here knows the oracle.
 //!
 //! A kernel that is written for every arithmetic also runs as other machines would compute it, under a
-//! name such as `moller-trumbore+fma`.
+//! name such as `moller-trumbore+fma`; any kernel with a small change around it, as `moller-trumbore+sorted`.
 //!
 //! To add a kernel: write its file, and give it a row in `registry.rs`. A program of your own adds
 //! its kernels with [`Entry`] and `hairline::cli::main_with`.
@@ -21,6 +21,7 @@ macro_rules! stores_triangle {
     };
 }
 
+mod changed;
 pub mod gate;
 mod generic;
 mod margins;
@@ -47,6 +48,7 @@ mod plucker;
 mod scalar_triple;
 mod woop_watertight;
 
+pub use changed::Change;
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, refused_by};
 pub use generic::Generic;
 pub use margins::{by_running, of_miss, open_epsilons, values_of};
@@ -54,7 +56,7 @@ pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
 pub use recording::{Acceptance, Compared, Path};
 pub use registry::kept;
-pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register, unnamed};
+pub use registry::{Entry, KERNELS, Scalar, all, changed, find, in_arithmetic, register, unnamed};
 pub use runs::{ExactRun, Measured, TrackedRun};
 pub use subject::verdicts_of;
 pub use subject::{Gated, Subject};

@@ -1,8 +1,10 @@
 //! The table of kernels: the built-in ones, and those that a program adds.
 
+use super::changed::{Change, Changed, InDouble, has_size};
 use super::own::{Own, Test};
-use super::{Generic, Kernel, KernelInfo, Subject};
+use super::{Gate, Generic, Kernel, KernelInfo, Subject};
 use crate::arith::{Arithmetic, Float};
+use crate::contract::{Contract, Extent, Sides};
 use std::ptr;
 use std::sync::{Mutex, PoisonError, RwLock};
 
@@ -92,8 +94,9 @@ impl Entry {
     /// True if a program has it without adding it, in whatever arithmetic.
     pub fn is_built_in(&self) -> bool {
         let name = self.info.name;
-        let base = name_and_arithmetic(name).map_or(name, |(base, _)| base);
-        KERNELS.iter().any(|entry| entry.info.name == base)
+        let base = std::iter::successors(Some(name), |name| Some(name_and_variant(name)?.0)).last();
+        let name = base.unwrap_or(name);
+        KERNELS.iter().any(|entry| entry.info.name == name)
     }
 
     /// True if it is the same kernel with the same code.
@@ -162,39 +165,90 @@ static VARIANTS: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
 /// A kernel in an arithmetic, called `NAME+ARITHMETIC` unless that is IEEE 754's; none if the
 /// kernel is not written for every arithmetic, or is in another one already.
 pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'static Entry> {
-    let base = entry.info;
     if arithmetic == Arithmetic::IEEE {
         return Some(entry);
     }
-    if name_and_arithmetic(base.name).is_some() {
+    if name_and_variant(entry.info.name).is_some() {
         return None;
     }
-    let name = format!("{}+{arithmetic}", base.name);
+    let subjects = |info| {
+        let f32 = entry.f32?.in_arithmetic(arithmetic, info)?;
+        Some((Some(f32), Some(entry.f64?.in_arithmetic(arithmetic, info)?)))
+    };
+    variant(entry, arithmetic.name(), arithmetic.describe(), entry.info.contract, subjects)
+}
+
+/// A kernel with a change around it, called `NAME+CHANGE`; none if that would change nothing.
+pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> {
+    let KernelInfo { contract, gates, gives, .. } = *entry.info;
+    let is_some = match change {
+        Change::BySize => gates.iter().any(has_size),
+        // A front-only kernel would see some triangles from behind.
+        Change::Sorted => contract.sides == Sides::Both,
+        Change::Ahead => contract.extent == Extent::Line && gives.t,
+        Change::Double => entry.f32.is_some(),
+    };
+    let contract = match change {
+        Change::Ahead => Contract { extent: Extent::Ray, ..contract },
+        _ => contract,
+    };
+    fn leaked<F: Float>(
+        change: Change,
+        gates: &'static [Gate],
+        kernel: &'static dyn Subject<F>,
+    ) -> &'static dyn Subject<F> {
+        Box::leak(Box::new(Changed { change, gates, kernel }))
+    }
+    let subjects = |_| match change {
+        Change::Double => {
+            let in_double: &'static dyn Subject<f32> = Box::leak(Box::new(InDouble(entry.f64?)));
+            Some((Some(in_double), None))
+        }
+        _ => Some((
+            entry.f32.map(|kernel| leaked(change, gates, kernel)),
+            entry.f64.map(|kernel| leaked(change, gates, kernel)),
+        )),
+    };
+    is_some.then(|| variant(entry, change.name(), change.about(), contract, subjects))?
+}
+
+/// The same kernel in both scalars, in another form.
+type Subjects = (Option<&'static dyn Subject<f32>>, Option<&'static dyn Subject<f64>>);
+
+/// Another form of a kernel, made once.
+fn variant(
+    entry: &'static Entry,
+    form: &str,
+    about: &str,
+    contract: Contract,
+    subjects: impl FnOnce(&'static KernelInfo) -> Option<Subjects>,
+) -> Option<&'static Entry> {
+    let base = entry.info;
+    let name = format!("{}+{form}", base.name);
     let mut variants = VARIANTS.write().unwrap_or_else(PoisonError::into_inner);
     if let Some(variant) = variants.iter().find(|variant| variant.info.name == name) {
         return Some(*variant);
     }
-    let subjects = (entry.f32?, entry.f64?);
-    let source = format!("{}; {}", base.source, arithmetic.describe());
+    let source = format!("{}; {about}", base.source);
     let info: &'static KernelInfo = Box::leak(Box::new(KernelInfo {
         name: String::leak(name),
         source: String::leak(source),
+        contract,
         ..*base
     }));
-    let variant: &'static Entry = Box::leak(Box::new(Entry {
-        info,
-        flag: None,
-        f32: Some(subjects.0.in_arithmetic(arithmetic, info)?),
-        f64: Some(subjects.1.in_arithmetic(arithmetic, info)?),
-    }));
+    let (f32, f64) = subjects(info)?;
+    let variant: &'static Entry = Box::leak(Box::new(Entry { info, flag: None, f32, f64 }));
     variants.push(variant);
     Some(variant)
 }
 
-/// A kernel's name and the arithmetic's, if it ends in one.
-fn name_and_arithmetic(name: &str) -> Option<(&str, Arithmetic)> {
-    let (kernel, arithmetic) = name.rsplit_once('+')?;
-    Some((kernel, arithmetic.parse().ok().filter(|found| *found != Arithmetic::IEEE)?))
+/// A kernel's name, and how its form is made of it, if the name ends in one.
+#[allow(clippy::type_complexity)]
+fn name_and_variant(name: &str) -> Option<(&str, Result<Arithmetic, Change>)> {
+    let (kernel, form) = name.rsplit_once('+')?;
+    let arithmetic = form.parse().ok().filter(|found| *found != Arithmetic::IEEE);
+    let form = arithmetic.map_or_else(|| Change::named(form).map(Err), |it| Some(Ok(it)))?;
+    Some((kernel, form))
 }
 
 /// Entries that live as long as the process without being in the table.
@@ -222,10 +276,13 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
             name.escape_default()
         ));
     }
-    if let Some((_, arithmetic)) = name_and_arithmetic(name) {
-        return Err(format!(
-            "'{name}' is no name for a kernel: +{arithmetic} names a kernel in another arithmetic"
-        ));
+    if let Some((kernel, form)) = name_and_variant(name) {
+        let form_of = match form {
+            Ok(_) => "a kernel in another arithmetic",
+            Err(_) => "a changed kernel",
+        };
+        let form = &name[kernel.len()..];
+        return Err(format!("'{name}' is no name for a kernel: {form} names {form_of}"));
     }
     if find(name).is_some() {
         return Err(format!(
@@ -238,10 +295,12 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
     Ok(entry)
 }
 
-/// The kernel of a name; with the feature `studies` also in another arithmetic, as `moller-trumbore+fma`.
+/// The kernel of a name; with the feature `studies` also in another arithmetic, as `moller-trumbore+fma`, or with a
+/// [`Change`], as `moller-trumbore+sorted`.
 pub fn find(name: &str) -> Option<&'static Entry> {
-    if let Some((kernel, arithmetic)) = name_and_arithmetic(name) {
-        return in_arithmetic(find(kernel)?, arithmetic);
+    if let Some((kernel, form)) = name_and_variant(name) {
+        let kernel = find(kernel)?;
+        return form.map_or_else(|change| changed(kernel, change), |it| in_arithmetic(kernel, it));
     }
     let is_named = |entry: &&'static Entry| entry.info.name == name;
     let added =

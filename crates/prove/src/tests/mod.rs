@@ -1,5 +1,4 @@
 mod constants;
-mod gappa;
 mod gates;
 mod measures;
 mod mirrors;

@@ -1,0 +1,130 @@
+//! A kernel with a small change around it, under a name such as `moller-trumbore+sorted`: what a program can mend without
+//! writing its kernel anew.
+
+use super::{Gate, Role, Subject, Verdict};
+use crate::arith::Float;
+use crate::case::{Case, Triangle};
+use crate::truth::Facing;
+use std::slice;
+
+named! {
+    pub names
+    /// A change to a kernel's call or to the comparison of its epsilons.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Change {
+        /// Epsilons are multiplied by the sizes of the triangle and of the direction, as often as their numbers' units are.
+        BySize = "by-size",
+        /// The vertices are put in order (by x, then y, then z) before the call, so that neighbours start alike.
+        Sorted = "sorted",
+        /// A hit before t = 0 is a miss.
+        Ahead = "ahead",
+        /// Floats are computed by the kernel in double; t, u and v are rounded at the end.
+        Double = "double",
+    }
+}
+
+/// A kernel in some scalar with a change that stays in it: any but [`Change::Double`].
+pub(super) struct Changed<F: Float> {
+    pub change: Change,
+    pub gates: &'static [Gate],
+    pub kernel: &'static dyn Subject<F>,
+}
+
+/// The largest size of some coordinates.
+fn largest<F: Float>(coordinates: impl IntoIterator<Item = F>) -> F {
+    coordinates.into_iter().fold(F::zero(), |most, x| if most < x.abs() { x.abs() } else { most })
+}
+
+/// True if [`Change::BySize`] changes the epsilon of a gate.
+pub(super) fn has_size(gate: &Gate) -> bool {
+    gate.dimension.has_unit() && matches!(gate.role, Role::Parallel | Role::Edge)
+}
+
+impl<F: Float> Changed<F> {
+    /// Epsilons times L, the largest coordinate of b-a and c-a, and D, that of the direction, as often as the gate's
+    /// dimension says.
+    fn by_size(&self, case: &Case<F>, epsilons: &mut [F]) {
+        let [_, direction, a, b, c] = case.vectors();
+        let length = largest((0..3).flat_map(|i| [b[i] - a[i], c[i] - a[i]]));
+        let direction = largest(direction);
+        for (gate, epsilon) in self.gates.iter().zip(epsilons).filter(|(gate, _)| has_size(gate)) {
+            (0..gate.dimension.length).for_each(|_| *epsilon = *epsilon * length);
+            (0..gate.dimension.direction).for_each(|_| *epsilon = *epsilon * direction);
+        }
+    }
+}
+
+/// Which vertices stand first, second and third once they are in order.
+fn order<F: Float>([a, b, c]: [[F; 3]; 3]) -> [usize; 3] {
+    let vertices = [a, b, c];
+    let mut order = [0, 1, 2];
+    let less = |i: usize, j: usize| vertices[i] < vertices[j];
+    for (i, j) in [(0, 1), (1, 2), (0, 1)] {
+        if less(order[j], order[i]) {
+            order.swap(i, j);
+        }
+    }
+    order
+}
+
+/// The answer about vertices in another order, said of them as they were.
+fn renamed<F: Float>(verdict: &mut Verdict<F>, order: [usize; 3]) {
+    let mut weights = [F::zero(); 3];
+    let of_first = F::one() - verdict.u - verdict.v;
+    order.iter().zip([of_first, verdict.u, verdict.v]).for_each(|(i, x)| weights[*i] = x);
+    if order != [0, 1, 2] {
+        (verdict.u, verdict.v) = (weights[1], weights[2]);
+    }
+    let is_even = (order[0] + 1) % 3 == order[1];
+    verdict.facing = match (verdict.facing, is_even) {
+        (Some(Facing::Front), false) => Some(Facing::Back),
+        (Some(Facing::Back), false) => Some(Facing::Front),
+        (facing, _) => facing,
+    };
+}
+
+impl<F: Float> Subject<F> for Changed<F> {
+    fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+        let mut sized = epsilons.to_vec();
+        for (case, verdict) in cases.iter().zip(verdicts) {
+            let place = slice::from_mut(verdict);
+            match self.change {
+                Change::BySize => {
+                    sized.copy_from_slice(epsilons);
+                    self.by_size(case, &mut sized);
+                    self.kernel.run(&[*case], &sized, place);
+                }
+                Change::Sorted => {
+                    let vertices = case.triangle.vertices();
+                    let order = order(vertices.map(Into::into));
+                    let [a, b, c] = order.map(|i| vertices[i]);
+                    let case = Case { ray: case.ray, triangle: Triangle { a, b, c } };
+                    self.kernel.run(&[case], epsilons, place);
+                    renamed(verdict, order);
+                }
+                Change::Ahead | Change::Double => {
+                    self.kernel.run(slice::from_ref(case), epsilons, place);
+                    if verdict.t < F::zero() {
+                        *verdict = Verdict::miss(None);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A kernel for floats that computes in double.
+pub(super) struct InDouble(pub &'static dyn Subject<f64>);
+
+impl Subject<f32> for InDouble {
+    fn run(&self, cases: &[Case<f32>], epsilons: &[f32], verdicts: &mut [Verdict<f32>]) {
+        let epsilons: Vec<f64> = epsilons.iter().map(|x| f64::from(*x)).collect();
+        for (case, verdict) in cases.iter().zip(verdicts) {
+            let mut found = [Verdict::miss(None)];
+            self.0.run(&[case.widen()], &epsilons, &mut found);
+            let [Verdict { hit, refused_by, facing, t, u, v, failure }] = found;
+            let [t, u, v] = [t, u, v].map(|x| x as f32);
+            *verdict = Verdict { hit, refused_by, facing, t, u, v, failure };
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! The small changes that are tried of a kernel, and what is proved of each.
+
+use crate::arith::Arithmetic;
+use crate::audit::{EpsilonText, Row};
+use crate::contract::Boundary;
+use crate::kernel::{Change, Gate, Role, Scalar, Tunable, changed, in_arithmetic};
+use crate::prove::{Domain, Effort, Judged, Searched, Summary, Symmetry, above};
+
+/// A change to try.
+pub struct Candidate {
+    /// The kernel with the change.
+    pub row: Row,
+    /// Its name in the table.
+    pub name: String,
+    /// Its meaning.
+    pub what: String,
+    /// The wrapper; none of other epsilons or other arithmetic.
+    pub change: Option<Change>,
+    /// True if products are fused.
+    pub is_fused: bool,
+}
+
+/// The statements of `prove` about a row.
+#[derive(Clone, Copy, Default)]
+pub struct Proved {
+    /// How far inside a false miss and outside a false hit can be, as shares of the longest edge, in the unit domain.
+    pub depths: Option<[f64; 2]>,
+    /// True if no ray passes between neighbours.
+    pub is_tight: bool,
+}
+
+/// The statements without a search; and the bound of the edge gate's numbers.
+pub fn proved<F: Searched + Scalar>(row: &Row) -> (Proved, Option<f64>) {
+    let effort = Effort { evaluations: 0, seed: 1 };
+    let summary = Summary::<F>::new(row.entry, Domain::UNIT, &[], &[], effort);
+    let Ok(summary) = summary else { return (Proved::default(), None) };
+    let edges = summary.gates.iter().filter(|gate| gate.gate.role == Role::Edge && gate.is_margin);
+    let bounds = edges.map(|gate| Some(gate.bound.as_ref().ok()?.to_f64()));
+    let most = bounds.reduce(|most, bound| Some(most?.max(bound?))).flatten();
+    let effort = (&[][..], effort);
+    let judged = Judged::new(row.entry, &summary, &row.epsilons::<F>(), &[Domain::UNIT], effort);
+    let depths = judged.and_then(|judged| {
+        let [misses, hits] = [judged.verdicts.misses, judged.verdicts.hits];
+        Some([misses.ok()?.share, hits.ok()?.share])
+    });
+    let is_tolerant = |(gate, e): (&Gate, F)| gate.role != Role::Edge || e <= F::zero();
+    let is_tight = summary.symmetry == Symmetry::ExactSigns
+        && row.entry.info.gates.iter().zip(row.epsilons::<F>()).all(is_tolerant);
+    (Proved { depths, is_tight }, most)
+}
+
+fn with(row: &Row, epsilons: Vec<EpsilonText>) -> Row {
+    Row { epsilons, ..row.clone() }
+}
+
+/// The changes to try of a kernel, the smallest first.
+pub fn candidates<F: Scalar>(row: &Row, bound: Option<f64>) -> Vec<Candidate> {
+    let gates = row.entry.info.gates;
+    let mut all = Vec::new();
+    let mut of_epsilons = |text: &dyn Fn(usize) -> Option<String>, what: &str| {
+        let mut epsilons = row.epsilons.clone();
+        let mut words = Vec::new();
+        for (i, epsilon) in epsilons.iter_mut().enumerate() {
+            if let Some(text) = text(i) {
+                words.push(format!("{}={text}", gates[i].name));
+                *epsilon = EpsilonText::Decimal(text);
+            }
+        }
+        if !words.is_empty() {
+            let row = with(row, epsilons);
+            all.push(Candidate {
+                row,
+                name: words.join(","),
+                what: what.to_owned(),
+                change: None,
+                is_fused: false,
+            });
+        }
+    };
+    let value = |i: usize| row.epsilons[i].value::<F>().map_or(0.0, F::to_f64);
+    of_epsilons(&|i| (value(i) != 0.0).then(|| "0".to_owned()), "Without epsilons");
+    let is_edge = |i: usize| gates[i].role == Role::Edge && gates[i].epsilon == Tunable::Signed;
+    if row.entry.info.contract.boundary == Boundary::Open {
+        let least = if F::DIGITS == 24 { "-1e-45" } else { "-5e-324" };
+        let what = "Edges count as hits: >= for >, which is an epsilon of the least float below 0";
+        of_epsilons(&|i| is_edge(i).then(|| least.to_owned()), what);
+    }
+    if let Some(bound) = bound {
+        let is_plain = |i: usize| is_edge(i) && !gates[i].dimension.has_unit();
+        let what = "A tolerance at edges, as large as the rounding errors there can be";
+        of_epsilons(&|i| is_plain(i).then(|| format!("-{}", above(bound))), what);
+    }
+    let fused = in_arithmetic(row.entry, Arithmetic::FMA).map(|entry| (entry, None));
+    let changes = Change::ALL.into_iter().filter_map(|change| {
+        let sizes = change != Change::BySize || row.epsilons.iter().any(|it| it.to_string() != "0");
+        let entry = changed(row.entry, change).filter(|_| sizes)?;
+        (F::subject(entry).is_some()).then_some((entry, Some(change)))
+    });
+    for (entry, change) in fused.into_iter().chain(changes) {
+        let about = change
+            .map_or("Products are fused into sums, by the compiler or by hand", Change::about);
+        let contract = entry.info.contract;
+        let contract = if contract == row.entry.info.contract { row.contract } else { contract };
+        all.push(Candidate {
+            row: Row { entry, contract, ..row.clone() },
+            name: entry.info.name.replacen(row.entry.info.name, "", 1),
+            what: about.to_owned(),
+            change,
+            is_fused: change.is_none(),
+        });
+    }
+    all
+}

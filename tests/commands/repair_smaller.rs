@@ -1,0 +1,153 @@
+//! Small changes to kernels, and the screen of `hairline repair` that says which of them mend what.
+
+use crate::program::{ends, hairline, scratch};
+use hairline::internals::case::{Case, Parameters, Triangle};
+use hairline::internals::family::FAMILIES;
+use hairline::internals::kernel::{Scalar, Verdict, find};
+
+const PUBLISHED: [f32; 2] = [1e-6, 0.0];
+
+fn verdict<F: Scalar>(kernel: &str, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {
+    let mut verdict = [Verdict::miss(None)];
+    F::subject(find(kernel).unwrap()).unwrap().run(&[*case], epsilons, &mut verdict);
+    verdict[0]
+}
+
+fn cases(parameters: &Parameters) -> Vec<Case<f32>> {
+    let of = |family: &'static hairline::internals::family::Family| {
+        (0..40).flat_map(move |i| family.make::<f32>(parameters, 3, i).cases().to_vec())
+    };
+    FAMILIES.iter().filter(|it| it.question.is_ordinary()).flat_map(of).collect()
+}
+
+#[test]
+fn an_epsilon_by_size_decides_alike_at_every_scale() {
+    let small = Parameters { scale: -13, ..Parameters::default() };
+    let (mut changed, mut published) = (0, 0);
+    for (case, small) in cases(&Parameters::default()).iter().zip(cases(&small)) {
+        // Where the epsilon itself does not underflow.
+        let [_, direction, a, b, c] = case.vectors();
+        let size = |x: &[f32; 3]| x.iter().fold(0.0_f32, |most, x| most.max(x.abs()));
+        if [direction, a, b, c].iter().any(|x| size(x) < 1e-3) {
+            continue;
+        }
+        let differ = |kernel| {
+            verdict(kernel, case, &PUBLISHED).hit != verdict(kernel, &small, &PUBLISHED).hit
+        };
+        changed += usize::from(differ("moller-trumbore+by-size"));
+        published += usize::from(differ("moller-trumbore"));
+    }
+    assert!(changed == 0 && 100 < published, "{changed} {published}");
+}
+
+#[test]
+fn a_kernel_in_double_answers_for_floats_as_it_does_for_doubles() {
+    let mut others = 0;
+    for case in cases(&Parameters::default()) {
+        let wide = verdict("cramer", &case.widen(), &[0.0; 3]);
+        let found = verdict("cramer+double", &case, &[0.0; 3]);
+        assert_eq!((found.hit, found.t.to_bits()), (wide.hit, (wide.t as f32).to_bits()));
+        others += usize::from(verdict("cramer", &case, &[0.0; 3]).hit != found.hit);
+    }
+    assert!(20 < others, "{others}");
+}
+
+#[test]
+fn sorted_vertices_keep_their_weights_and_the_side() {
+    for case in cases(&Parameters::default()) {
+        let found = verdict("moller-trumbore+sorted", &case, &PUBLISHED);
+        // All six orders are one triangle, of which half are seen from behind.
+        let [a, b, c] = case.triangle.vertices();
+        let places = [[a, b, c], [b, c, a], [c, a, b], [b, a, c], [a, c, b], [c, b, a]];
+        for (i, [x, y, z]) in places.into_iter().enumerate() {
+            let triangle = Triangle { a: x, b: y, c: z };
+            let again = verdict("moller-trumbore+sorted", &Case { triangle, ..case }, &PUBLISHED);
+            assert_eq!(again.hit, found.hit);
+            let is_behind = again.facing != found.facing;
+            assert!(!found.hit || found.facing.is_none() || is_behind == (2 < i), "{}", case.hex());
+        }
+    }
+    let mut hits = 0;
+    let plain_hits = hairline::internals::family::find("interior").unwrap();
+    for i in 0..500 {
+        let case = plain_hits.make::<f32>(&Parameters::default(), 3, i).cases()[0];
+        let found = verdict("moller-trumbore+sorted", &case, &PUBLISHED);
+        let plain = verdict("moller-trumbore", &case, &PUBLISHED);
+        if found.hit && plain.hit {
+            hits += 1;
+            assert_eq!(found.facing, plain.facing);
+            assert!((found.u - plain.u).abs() + (found.v - plain.v).abs() < 1e-3, "{}", case.hex());
+        }
+    }
+    assert!(100 < hits, "{hits}");
+}
+
+#[test]
+fn what_is_behind_is_no_hit_ahead() {
+    let mut behind = 0;
+    for case in cases(&Parameters::default()) {
+        let plain = verdict("moller-trumbore", &case, &PUBLISHED);
+        let found = verdict("moller-trumbore+ahead", &case, &PUBLISHED);
+        let is_behind = plain.t < 0.0;
+        assert_eq!(found.hit, plain.hit && !is_behind);
+        behind += usize::from(plain.hit && !found.hit);
+    }
+    assert!(10 < behind, "{behind}");
+    // It tests t already.
+    assert!(find("woop-watertight+ahead").is_none());
+}
+
+/// Runs a command line that the program printed.
+fn again(folder: &std::path::Path, line: &str) -> (String, i32) {
+    let words: Vec<String> = line.split('\'').enumerate().fold(Vec::new(), |mut all, (i, part)| {
+        match i % 2 {
+            0 => all.extend(part.split_whitespace().map(str::to_owned)),
+            _ => all.push(part.to_owned()),
+        }
+        all
+    });
+    let words: Vec<&str> = words[1..].iter().map(String::as_str).collect();
+    let output = hairline(folder, &words);
+    (String::from_utf8(output.stdout).unwrap(), output.status.code().unwrap())
+}
+
+#[test]
+fn the_smallest_change_mends_the_worst_and_the_refuted_ones_do_not() {
+    let folder = scratch("repair-smaller");
+    let (text, _) =
+        ends(&folder, &["repair", "--kernel", "moller-trumbore", "-n", "4000", "-q"], 0);
+    let commands: Vec<&str> =
+        text.lines().filter_map(|line| line.find("hairline ").map(|at| &line[at..])).collect();
+    let explain = commands.iter().filter(|line| line.starts_with("hairline explain"));
+    let explain: Vec<&&str> = explain.collect();
+    assert!(2 < explain.len(), "{text}");
+    let is_wrong = |text: &str| text.contains("FALSE-HIT") || text.contains("FALSE-MISS");
+    for line in explain {
+        let (said, _) = again(&folder, line);
+        assert!(is_wrong(&said), "{line}: {said}");
+    }
+    // The same case under the change of the patch.
+    let name = text.lines().find_map(|line| line.strip_prefix("+++ ")).unwrap();
+    let audit = commands.iter().find(|line| line.contains("hairline audit")).unwrap();
+    assert!(audit.ends_with(name), "{audit}: {name}");
+    let case = commands.iter().rfind(|line| line.starts_with("hairline explain")).unwrap();
+    let flags = audit.replacen("hairline audit ", "", 1);
+    let (said, _) =
+        again(&folder, &format!("{} {flags}", &case[..case.find(" --kernel").unwrap()]));
+    assert!(!is_wrong(&said), "{said}");
+    // The counts are those of an audit.
+    let number = |line: &str, i: usize| -> u64 {
+        line.split_whitespace().nth(i).unwrap().replace(',', "").parse().unwrap()
+    };
+    let row = text.lines().find(|line| line.starts_with("as published")).unwrap();
+    let families = FAMILIES.iter().filter(|it| it.question.is_ordinary()).map(|it| it.name);
+    let families = families.collect::<Vec<_>>().join(",");
+    let all = ["audit", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "4000", "--family"];
+    let (json, _) = ends(&folder, &[&all[..], &[&families, "--format", "json"]].concat(), 0);
+    let record: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let results = record["result"]["results"].as_array().unwrap();
+    for (column, finding) in [(2, "false_misses"), (3, "false_hits")] {
+        let sum = results.iter().map(|it| it["total"][finding]["count"].as_u64().unwrap());
+        assert_eq!(number(row, column), sum.sum::<u64>(), "{finding}");
+    }
+}
