@@ -18,6 +18,8 @@ export interface Described {
   gives: [boolean, boolean];
 }
 
+export const isHit = (hit: Hit): hit is Exclude<Hit, false | null | undefined> => hit !== null && hit !== undefined && hit !== false;
+
 /** A kernel over columns of numbers: of a case origin, direction, a, b, c, t_min, t_max; of a verdict what it is (0 a
  * miss, 1 a hit, 2 an exception), t, u, v. */
 export function runner(kernel: Kernel, names: string[]) {
@@ -42,29 +44,33 @@ export function runner(kernel: Kernel, names: string[]) {
         verdicts[to] = 2;
         continue;
       }
-      const isMiss = hit === null || hit === undefined || hit === false;
-      verdicts[to] = isMiss ? 0 : 1;
-      if (isMiss) continue;
-      const { t, u, v }: { t?: number; u?: number; v?: number } = typeof hit === "object" ? hit! : typeof hit === "number" ? { t: hit } : {};
-      verdicts[to + 1] = Number(t ?? NaN);
-      verdicts[to + 2] = Number(u ?? NaN);
-      verdicts[to + 3] = Number(v ?? NaN);
+      verdicts[to] = isHit(hit) ? 1 : 0;
+      if (!isHit(hit)) continue;
+      const { t, u, v } = valuesOf(hit);
+      verdicts[to + 1] = t;
+      verdicts[to + 2] = u;
+      verdicts[to + 3] = v;
     }
   };
 }
 
 /** Which values the hits of a kernel have: those of a hit that no kernel can miss, from one side or from the other. */
 export function given(kernel: Kernel, epsilons: Epsilons): [boolean, boolean] {
-  const names = Object.keys(epsilons);
-  const verdict = new Float64Array(4);
-  for (const z of [4, -4]) {
-    const plain = Float64Array.of(1, 1, z, 0, 0, -z, 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, Infinity);
-    runner(kernel, names)(plain, Float64Array.from(Object.values(epsilons)), verdict);
-    // Its mistake is the user's to see.
-    if (verdict[0] === 2) kernel({ origin: [1, 1, z], direction: [0, 0, -z], tMin: 0, tMax: Infinity }, { a: [0, 0, 0], b: [4, 0, 0], c: [0, 4, 0] }, epsilons);
-    if (verdict[0] === 1) return [!Number.isNaN(verdict[1]), !Number.isNaN(verdict[2]) && !Number.isNaN(verdict[3])];
+  const plain = (z: number) =>
+    kernel({ origin: [1, 1, z], direction: [0, 0, -z], tMin: 0, tMax: Infinity }, { a: [0, 0, 0], b: [4, 0, 0], c: [0, 4, 0] }, epsilons);
+  const hits = [plain(4), plain(-4)];
+  if (hits.every((hit) => hit === undefined)) {
+    throw new Error("the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing, or does it read origin.x of the array origin? A miss is null");
   }
-  return [false, false];
+  const hit = hits.find(isHit);
+  const { t, u, v } = valuesOf(hit ?? true);
+  return [!Number.isNaN(t), !Number.isNaN(u) && !Number.isNaN(v)];
+}
+
+/** The values of a hit; NaN for those that it has not. */
+function valuesOf(hit: Exclude<Hit, false | null | undefined>) {
+  const { t, u, v }: { t?: number; u?: number; v?: number } = typeof hit === "object" ? hit : typeof hit === "number" ? { t: hit } : {};
+  return { t: Number(t ?? NaN), u: Number(u ?? NaN), v: Number(v ?? NaN) };
 }
 
 const PLAIN_CONTRACT = "closed-ray,boundary=free,coplanar=free,degenerate=free,invalid=free";

@@ -4,9 +4,19 @@ from typing import Any, Callable
 
 import numpy as np
 
+from . import _hairline
+
 NAMES = ("origin", "direction", "a", "b", "c", "t_min", "t_max")
 MANY = "t of shape (n,) with nan for a miss, a tuple (t, u, v) of such arrays, a bool array, or a dict of 'hit', 't', 'u', 'v'"
 ONE = "None for a miss, t, a tuple (t, u, v), a bool, or a dict of 'hit', 't', 'u', 'v'"
+
+
+def case(id: str) -> "dict[str, Any]":
+    """The arguments of a case by its id, for a kernel or for `truth`: `my_kernel(**hairline.case("edge-near@1/f32/-/1/7"))`.
+
+    Vectors have the shape (n, 3), t_min and t_max (n,), with n = 1 but for cases of several triangles.
+    """
+    return dict(zip(NAMES, _hairline.case(id)))
 
 
 class KernelError(Exception):
@@ -80,7 +90,7 @@ class Answers:
         expected = MANY if self.vectorized else ONE
         if array.shape != (count,):
             raise ValueError(f"the kernel returned {name} of shape {array.shape} for n = {count} rays; expected {expected}")
-        if array.dtype.kind not in ("b" if name == "hit" else "fiu"):
+        if array.dtype.kind not in {"hit": "b", "t": "f" if self.vectorized else "fiu"}.get(name, "fiu"):
             raise ValueError(f"the kernel returned {name} of {array.dtype}; expected {expected}")
         return np.ascontiguousarray(array, bool if name == "hit" else self.dtype)
 
@@ -99,4 +109,8 @@ def _fields(answer: Any, expected: str) -> "dict[str, Any]":
         return {}
     if answer is None:
         raise ValueError(f"the kernel returned None; expected {expected}")
+    if np.asarray(answer).dtype.kind in "iu":
+        # As t they could say no miss, and 0 and 1 are more likely flags.
+        flags = "bool(hit)" if expected is ONE else "hits.astype(bool)"
+        raise ValueError(f"the kernel returned integers; for flags make them bool, as `{flags}`; expected {expected}")
     return {"hit" if np.asarray(answer).dtype == np.bool_ else "t": answer}
