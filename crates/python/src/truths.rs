@@ -1,7 +1,7 @@
 //! The exact truths of arrays of cases.
 
 use super::check_floats;
-use hairline::{Batch, ContactKind, Facing, Feature, Float, Layers, Place, Truth};
+use hairline::{ContactKind, Facing, Feature, Float, Layers, Place, Truth, truths_of_rows};
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -101,19 +101,12 @@ fn decide<F: Float>(
     bytes: &mut [u8],
 ) {
     let blocks = bytes.par_chunks_mut(BLOCK * FIELDS).enumerate();
-    let empty = || ([[[F::default(); BLOCK]; 3]; 5], Vec::new(), Layers::default());
-    blocks.for_each_init(empty, |(columns, found, layers), (block, bytes)| {
+    let empty = || (Vec::new(), Layers::default());
+    blocks.for_each_init(empty, |(found, layers), (block, bytes)| {
         let (start, count) = (block * BLOCK, bytes.len() / FIELDS);
-        for (columns, vectors) in columns.iter_mut().zip(vectors) {
-            let vectors = vectors.block(start, count);
-            for (k, column) in columns.iter_mut().enumerate() {
-                column.iter_mut().zip(vectors).for_each(|(x, vector)| *x = vector[k]);
-            }
-        }
-        let [o, d, a, b, c] = columns.each_ref().map(|c| c.each_ref().map(|c| &c[..count]));
+        let vectors = vectors.each_ref().map(|column| column.block(start, count));
         let ends = ends.each_ref().map(|end| end.block(start, count));
-        let batch = Batch::from_columns(o, d, [a, b, c], ends).expect("columns of one length");
-        batch.truths(found, layers);
+        truths_of_rows(vectors, ends, found, layers).expect("columns of one length");
         for (truth, bytes) in found.iter().zip(bytes.as_chunks_mut::<FIELDS>().0) {
             *bytes = code(truth);
         }
