@@ -86,6 +86,7 @@ async function run() {
     if (isLate()) return;
     const seconds = (performance.now() - start) / 1000;
     report(answer.title, answer.html, answer.record, seconds);
+    ofRules();
     await remember();
     if (!state.shown) await show(worst(answer.record));
     else await show(state.shown);
@@ -122,6 +123,38 @@ function report(title: string, html: string, found: Record_, seconds: number) {
   element("sums").textContent = `${digits(count)} cases in ${state.scalar}, ${seconds.toFixed(1)} s.`;
   element("status").textContent = "";
   fill(element("report"), html);
+}
+
+/** What WGSL's rules say of the verdicts. */
+function ofRules() {
+  const line = element("rules");
+  line.hidden = state.kernel !== "wgsl";
+  const found = session.permitted;
+  if (line.hidden || found === undefined) return;
+  if (typeof found === "string") {
+    line.textContent = `What WGSL's accuracy rules permit here is not known: ${found}.`;
+    return;
+  }
+  const { looked_at, of, unexplained, undecided, first } = found;
+  const which = looked_at < of ? `${digits(looked_at)} of ${digits(of)} verdicts` : `${digits(of)} verdicts`;
+  line.textContent = unexplained === 0
+    ? `WGSL's accuracy rules permit what this device answers, wrong or right: ${which} were looked at.`
+    : `Of ${which} that were looked at ${digits(unexplained)} are none that WGSL's accuracy rules permit: this device or its compiler computes otherwise. `;
+  if (undecided) line.append(` ${digits(undecided)} have too many ways to follow, and count as permitted.`);
+  if (!first) return;
+  const vectors = Object.fromEntries(["origin", "direction", "a", "b", "c"].map((name, i) => [name, first.slice(3 * i, 3 * i + 3)]));
+  const ends = { t_min: first[15], ...(Number.isFinite(first[16]) ? { t_max: first[16] } : {}) };
+  const button = made("button", { type: "button" }, "Show one");
+  button.addEventListener("click", () => void go(JSON.stringify({ scalar: "f32", ...vectors, ...ends })));
+  line.append(button);
+}
+
+/** A sentence on what WGSL's rules permit for a case. */
+async function permits(numbers: (number | null)[]): Promise<string> {
+  if (state.kernel !== "wgsl") return "";
+  const said = await session.permits(numbers.map((x, i) => x ?? (i === 16 ? Infinity : NaN)), gates().map(([gate, , own]) => Number(epsilonOf(gate, own))));
+  const words: Record<string, string> = { hit: "a hit alone", miss: "a miss alone", both: "either answer" };
+  return words[said] ? ` WGSL's accuracy rules permit ${words[said]} here.` : "";
 }
 
 /** Puts what the program wrote into an element, and makes each of its cases a button. */
@@ -172,19 +205,22 @@ async function show(name: string | undefined) {
   if (name === undefined) return;
   const mine = asked;
   let told: Explained;
+  let rules: string;
+  let which: number;
   try {
     told = await ask<Explained>({ do: "explain", kernel: chosen(), case: name });
+    which = Math.max(0, told.triangles.findIndex(({ finding }) => finding !== null));
+    rules = await permits(told.triangles[which].numbers);
   } catch (error) {
     if (mine !== asked) return;
     element("map-part").hidden = true;
     element("case-name").textContent = `${name}: ${(error as Error).message}`;
     return;
   }
-  const which = Math.max(0, told.triangles.findIndex(({ finding }) => finding !== null));
   const { numbers, truth, finding, said, drawing } = told.triangles[which];
   const of = told.triangles.length > 1 ? `, triangle ${which} of ${told.triangles.length}` : "";
   element("case-title").textContent = finding ? `One case: ${finding.replace("-", " ")}` : "One case";
-  element("case-name").textContent = `${name.startsWith("{") ? "A case from the map" : name}${of}: ${said}.`;
+  element("case-name").textContent = `${name.startsWith("{") ? "A case from the map" : name}${of}: ${said}.${rules}`;
   const contract = state.contract ? ` --contract ${state.contract}` : "";
   const epsilons = gates().map(([gate, , own]) => `${gate}=${epsilonOf(gate, own)}`).join(",");
   // A kernel in WGSL is here alone: the program shows the case with its own.
@@ -355,7 +391,7 @@ function listen() {
   element("record").addEventListener("click", () => save("record.json", "application/json", JSON.stringify(record, null, 2)));
   element("signature").addEventListener("click", async () => {
     const text = await session.gpu.then((gpu) => gpu.signature())
-      .then((found) => JSON.stringify(found, null, 2), (error: Error) => error.message);
+      .then((found) => JSON.stringify({ ...found, verdicts: session.permitted }, null, 2), (error: Error) => error.message);
     element("signature-json").textContent = text;
     element("signature-json").hidden = false;
   });

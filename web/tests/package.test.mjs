@@ -146,6 +146,9 @@ test("what is wrong with a request is said in a line", () => {
     [{ epsilons: { edge: Infinity } }, /^epsilon edge: expected a finite number, found Infinity/],
     [{ scalar: "f16" }, /unknown scalar 'f16'/],
   ]) assert.throws(() => hairline.audit(never, options), { message }, JSON.stringify(options));
+  assert.throws(() => hairline.audit(() => {}), /^Error: the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing/);
+  // Misses may be undefined.
+  assert.match(hairline.audit(({ origin: [, , z] }) => { if (z > 0) return 1; }, { count: 5 }).title, /is wrong/);
   assert.throws(() => hairline.audit("moller"), /no kernel 'moller'/);
   assert.throws(() => hairline.truths(new Float64Array(16)), /17 numbers a case, found 16/);
   for (const [id, message] of [

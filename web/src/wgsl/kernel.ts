@@ -129,6 +129,11 @@ export class Kernel {
 
   /** `prelude` has the structures that the kernel's text uses. */
   constructor(prelude: string, text: string, readonly epsilons: string[]) {
+    // The parser reads no hexadecimal floats.
+    text = text.replace(/\b0x([\da-f]*)(?:\.([\da-f]*))?(?:p([+-]?\d+))?([fh]?)\b/gi, (word, ones: string, rest: string | undefined, power: string | undefined) => {
+      if (rest === undefined && power === undefined) return word;
+      return `${(parseInt(`0${ones}${rest ?? ""}`, 16) * 2 ** (Number(power ?? 0) - 4 * (rest ?? "").length)).toExponential()}f`;
+    });
     for (const [word] of text.matchAll(/(?<![\w.])(\d+\.?\d*|\.\d+)(e[+-]?\d+)?/gi)) {
       const value = Number(word);
       if (Math.fround(value) !== value) this.#between.set(Math.fround(value), value);
@@ -321,6 +326,7 @@ export class Kernel {
     const [, size, kind] = /^vec([234])(.?)$/.exec(type.name) ?? [];
     if (size) {
       const items = args.flatMap((one) => (isList(one) ? one.items : [one]));
+      if (items.length === 0) return this.#zero(type);
       const all = items.length === 1 ? Array<Item>(Number(size)).fill(items[0]) : items;
       return kind === "i" || kind === "u" ? unknown("a vector of whole numbers") : list(...all.map((one) => (isWhole(one) ? float(one) : one)));
     }
