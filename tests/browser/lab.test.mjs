@@ -81,6 +81,7 @@ describe("a kernel in JavaScript", () => {
     for (const [text, error] of [
       ["export default (", /^SyntaxError: /],
       ["export default ({ origin }, { a }) => { origin[0] < a[0] ? 1 : null; };", /^Error: the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing/],
+      ["export default (point, ray, triangle) => triangle[0];", /^TypeError: .*\. It is called as kernel\(\{ origin, direction, tMin, tMax \}, \{ a, b, c \}, epsilon\), with vectors \[x, y, z\]$/],
       ["export const epsilons = {};", /^Error: the module has no kernel: write `export default function/],
       ["export default () => nobody;", /^ReferenceError: nobody is not defined/],
       ["import { Ray } from 'three';\nexport default () => null;", /^TypeError: .*The lab loads no other modules: paste here what yours needs$/],
@@ -95,6 +96,7 @@ describe("a kernel in JavaScript", () => {
     assert.match(await title(page), /^yours \(own\) is wrong/);
     // What leads on names the kernel.
     assert.match(await page.textContent("#report"), /hairline check --kernel-cmd 'node kernel\.mjs' --scalar f64 -n 500 --bless/);
+    assert.match(await page.textContent("#hint"), /^It hits what lies behind the ray's start\. If that is meant, say so: export const contract = ".*,extent=line";$/);
     // With nothing to slide there is no slider.
     assert.ok(await page.locator("#epsilons").isHidden());
   });

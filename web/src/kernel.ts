@@ -16,6 +16,8 @@ export interface Described {
   contract: string;
   /** True if hits have t, and true if they have u and v. */
   gives: [boolean, boolean];
+  /** What it does that the contract forbids, and that may be meant: a sentence, with the contract that would say so. */
+  hint?: string;
 }
 
 export const isHit = (hit: Hit): hit is Exclude<Hit, false | null | undefined> => hit !== null && hit !== undefined && hit !== false;
@@ -54,17 +56,17 @@ export function runner(kernel: Kernel, names: string[]) {
   };
 }
 
-/** Which values the hits of a kernel have: those of a hit that no kernel can miss, from one side or from the other. */
-export function given(kernel: Kernel, epsilons: Epsilons): [boolean, boolean] {
-  const plain = (z: number) =>
-    kernel({ origin: [1, 1, z], direction: [0, 0, -z], tMin: 0, tMax: Infinity }, { a: [0, 0, 0], b: [4, 0, 0], c: [0, 4, 0] }, epsilons);
-  const hits = [plain(4), plain(-4)];
-  if (hits.every((hit) => hit === undefined)) {
+/** What a kernel says of plain rays: which values its hits have, and what it promises less than a contract asks. */
+export function given(kernel: Kernel, epsilons: Epsilons): { gives: [boolean, boolean]; less: string[] } {
+  const plain = (from: number, along: number) =>
+    kernel({ origin: [1, 1, from], direction: [0, 0, along], tMin: 0, tMax: Infinity }, { a: [0, 0, 0], b: [4, 0, 0], c: [0, 4, 0] }, epsilons);
+  const [front, back, ...behind] = [plain(4, -4), plain(-4, 4), plain(4, 4), plain(-4, -4)];
+  if (front === undefined && back === undefined) {
     throw new Error("the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing, or does it read origin.x of the array origin? A miss is null");
   }
-  const hit = hits.find(isHit);
-  const { t, u, v } = valuesOf(hit ?? true);
-  return [!Number.isNaN(t), !Number.isNaN(u) && !Number.isNaN(v)];
+  const { t, u, v } = valuesOf([front, back].find(isHit) ?? true);
+  const less = [...(isHit(front) && !isHit(back) ? ["sides=front"] : []), ...(behind.some(isHit) ? ["extent=line"] : [])];
+  return { gives: [!Number.isNaN(t), !Number.isNaN(u) && !Number.isNaN(v)], less };
 }
 
 /** The values of a hit; NaN for those that it has not. */
@@ -88,7 +90,11 @@ export function describe(module: Record<string, unknown>): Described & { kernel:
   }
   const epsilons = Object.fromEntries(named) as Epsilons;
   const contract = String(module.contract ?? PLAIN_CONTRACT);
-  return { kernel, epsilons, contract, gives: given(kernel, epsilons) };
+  const { gives, less } = given(kernel, epsilons);
+  if (module.contract || less.length === 0) return { kernel, epsilons, contract, gives };
+  const does = less.map((words) => (words === "sides=front" ? "misses a plain triangle from the back" : "hits what lies behind the ray's start"));
+  const hint = `It ${does.join(", and ")}. If that is meant, say so: export const contract = "${[PLAIN_CONTRACT, ...less].join(",")}";`;
+  return { kernel, epsilons, contract, gives, hint };
 }
 
 /** The kernel of a request, as the module takes it. */

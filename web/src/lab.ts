@@ -86,6 +86,8 @@ async function run() {
     if (isLate()) return;
     const seconds = (performance.now() - start) / 1000;
     report(answer.title, answer.html, answer.record, seconds);
+    element("hint").textContent = (isOwn() && described?.hint) || "";
+    element("hint").hidden = element("hint").textContent === "";
     ofRules();
     await remember();
     if (!state.shown) await show(worst(answer.record));

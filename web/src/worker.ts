@@ -44,11 +44,12 @@ async function answer(message: Message): Promise<Answer> {
     if (message.text !== undefined) {
       const address = URL.createObjectURL(new Blob([message.text], { type: "text/javascript" }));
       try {
-        const { kernel, ...rest } = describe(await import(address).catch((error: Error) => {
+        const { kernel, ...rest } = await import(address).then(describe).catch((error: Error) => {
           const asksForMore = /\bimport\b|\brequire\s*\(/.test(message.text!);
           if (asksForMore) error.message += ". The lab loads no other modules: paste here what yours needs";
+          else if (error.name === "TypeError") error.message += ". It is called as kernel({ origin, direction, tMin, tMax }, { a, b, c }, epsilon), with vectors [x, y, z]";
           throw error;
-        }));
+        });
         described = rest;
         const run_of = runner(kernel, Object.keys(rest.epsilons));
         run = (cases, epsilons, verdicts) => (run_of(cases, epsilons, verdicts), verdicts);

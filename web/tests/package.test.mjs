@@ -172,6 +172,26 @@ test("what a hit does not report is not judged, from whichever side it comes", (
   }
 });
 
+test("what a kernel promises less is told with the contract that says so", async () => {
+  const { build } = await import("esbuild");
+  const source = new URL("../src/kernel.ts", import.meta.url).pathname;
+  const folder = mkdtempSync(path.join(tmpdir(), "lab-"));
+  await build({ entryPoints: [source], bundle: true, format: "esm", outfile: path.join(folder, "kernel.mjs") });
+  const { describe } = await import(path.join(folder, "kernel.mjs"));
+  const culling = (ray, { a, b, c }) =>
+    (dot(ray.direction, cross(sub(b, a), sub(c, a))) < 0 ? mollerTrumbore(ray, { a, b, c }, { parallel: 0 }) : null);
+  const { hint, contract, gives } = describe({ default: culling });
+  assert.match(hint, /^It misses a plain triangle from the back, and hits what lies behind the ray's start\. If that is meant, say so: export const contract = "([^"]+)"/);
+  assert.deepEqual(gives, [true, true]);
+  const said = /contract = "([^"]+)"/.exec(hint)[1];
+  const wrong = (contract) => hairline.audit(culling, { count: 50, contract }).record.result.results
+    .filter(({ family }) => family === "behind").flatMap(({ findings }) => findings).length;
+  assert.ok(wrong(contract) > 0);
+  assert.equal(wrong(said), 0);
+  assert.equal(describe({ default: culling, contract: said }).hint, undefined);
+  assert.equal(describe({ default: (ray, triangle) => ((h) => (h && h.t >= 0 ? h : null))(mollerTrumbore(ray, triangle, { parallel: 0 })) }).hint, undefined);
+});
+
 test("an exception is a finding, and does not end the audit", () => {
   const { record } = hairline.audit(({ direction }) => {
     if (direction[0] > 0.5) throw new Error("no");
