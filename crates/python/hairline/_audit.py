@@ -9,6 +9,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import warnings
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
@@ -136,6 +137,11 @@ def audit(
     short = "f32" if dtype == np.float32 else "f64"
     sources = ["--scalar", short, *(["--scene", scene] if scene else []), *(["--family", ",".join(families)] if families else [])]
     answers = Answers(kernel, vectorized, dtype)
+    if answers.less and contract == "closed-ray":
+        does = {"sides=front": "misses a plain triangle from the back", "extent=line": "hits what lies behind the ray's start"}
+        meant = ",".join([contract, *answers.less])
+        message = f"the kernel {' and '.join(does[word] for word in answers.less)}; if that is meant, contract={meant!r}"
+        warnings.warn(message, stacklevel=2)
     name = "".join(c for c in getattr(kernel, "__name__", "kernel") if c.isalnum() and c.isascii() or c == "_")
     return Audit(_hairline.audit(answers, {
         "name": f"{name or 'kernel'}.py",
@@ -186,7 +192,7 @@ def _selector(kernel: Any, contract: str, vectorized: bool) -> str:
     """The flag with which the command line runs the kernel; none of one that cannot be imported."""
     module, name = getattr(kernel, "__module__", None), getattr(kernel, "__qualname__", "<")
     file = getattr(sys.modules.get(module or ""), "__file__", None)
-    if file is None or hasattr(kernel, "__self__") or module == "__main__" or "<" in name:
+    if file is None or hasattr(kernel, "__self__") or "<" in name:
         return ""
     place = module if "." in module else os.path.relpath(file)
     words = [_python("python3"), "-m", "hairline.pipe", f"{place}:{name}", contract, *([] if vectorized else ["--scalar-function"])]

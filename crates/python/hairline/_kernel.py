@@ -38,13 +38,16 @@ class Answers:
 
     def __init__(self, kernel: Callable[..., Any], vectorized: bool, dtype: Any) -> None:
         self.kernel, self.vectorized, self.dtype = kernel, vectorized, np.dtype(dtype)
-        # What does it return? One ray through the middle of a triangle, from both sides.
+        # What does it return? Rays through the middle of a triangle, from both sides, and such that leave it behind.
         corners = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0]], self.dtype)
-        rays = np.array([[[1, 1, 1], [0, 0, -1]], [[1, 1, -1], [0, 0, 1]]], self.dtype)
-        triangles = [np.array([corner] * 2) for corner in corners]
-        ends = np.array([0, 0], self.dtype), np.array([np.inf, np.inf], self.dtype)
-        named = self._named((rays[:, 0], rays[:, 1], *triangles, *ends))
+        from_z, along = (np.array(z, self.dtype)[:, None] * [[0, 0, 1]] for z in ([1, -1, 1, -1], [-1, 1, 1, -1]))
+        rays = [(from_z + [[1, 1, 0]]).astype(self.dtype), along.astype(self.dtype)]
+        ends = np.zeros(4, self.dtype), np.full(4, np.inf, self.dtype)
+        named = self._named((*rays, *(np.array([corner] * 4) for corner in corners), *ends))
         self.gives = ("t" in named, "u" in named and "v" in named)
+        front, back, *behind = named["hit"]
+        # What it promises less than a closed ray, in the words of a contract.
+        self.less = (["sides=front"] if front and not back else []) + (["extent=line"] if any(behind) else [])
 
     def __call__(self, *arrays: Any) -> "tuple[Any, Any, Any, Any]":
         named = self._named(arrays)

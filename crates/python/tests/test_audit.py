@@ -228,3 +228,26 @@ def test_what_a_test_prints_runs_where_no_environment_is_active(tmp_path):
     assert "hairline.case(ID)" in lines[-1]
     shown = subprocess.run(["sh", "-c", command], env=bare, cwd=tmp_path, capture_output=True, text=True)
     assert shown.returncode == 0 and shown.stdout.startswith("moller_trumbore.py"), (command, shown.stderr)
+
+
+def test_a_script_is_run_again_by_its_commands(tmp_path):
+    """The function is in the script that audits it, and the script prints."""
+    script = tmp_path / "mine.py"
+    script.write_text(pathlib.Path(kernels.__file__).read_text() + "import hairline\n"
+                      "print(hairline.audit(moller_trumbore, families=['edge-near'], count=300).worst[0]['command'])\n")
+    done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True)
+    assert "mine.py:moller_trumbore" in done.stdout, done.stderr
+    shown = subprocess.run(["sh", "-c", done.stdout], cwd=tmp_path, capture_output=True, text=True)
+    assert shown.returncode == 0 and shown.stdout.startswith("moller_trumbore.py"), (done.stdout, shown.stderr)
+
+
+def test_what_a_kernel_promises_less_is_a_warning():
+    def culling_line(origin, direction, a, b, c, t_min, t_max):
+        hits = hairline.truth(origin, direction, a, b, c, t_min=-np.inf)
+        return hits["hit"] & (hits["facing"] == hairline.Facing.FRONT)
+    with pytest.warns(UserWarning, match="misses a plain triangle from the back and hits what lies behind the ray's start; "
+                      "if that is meant, contract='closed-ray,sides=front,extent=line'"):
+        audited = hairline.audit(culling_line, families=["behind", "interior"], count=100)
+    assert audited.findings
+    meant = "closed-ray,sides=front,extent=line"
+    assert hairline.audit(culling_line, families=["behind", "interior"], count=100, contract=meant).conforms
