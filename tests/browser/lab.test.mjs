@@ -81,7 +81,7 @@ describe("a kernel in JavaScript", () => {
     for (const [text, error] of [
       ["export default (", /^SyntaxError: /],
       ["export default ({ origin }, { a }) => { origin[0] < a[0] ? 1 : null; };", /^Error: the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing/],
-      ["export default (point, ray, triangle) => triangle[0];", /^TypeError: .*\. It is called as kernel\(\{ origin, direction, tMin, tMax \}, \{ a, b, c \}, epsilon\), with vectors \[x, y, z\]$/],
+      ["export default (point, direction, triangle) => triangle[0][0];", /^TypeError: .*\. It is called as kernel\(\{ origin, direction, tMin, tMax \}, \{ a, b, c \}, epsilon\), with vectors \[x, y, z\]$/],
       ["export const epsilons = {};", /^Error: the module has no kernel: write `export default function/],
       ["export default () => nobody;", /^ReferenceError: nobody is not defined/],
       ["import { Ray } from 'three';\nexport default () => null;", /^TypeError: .*The lab loads no other modules: paste here what yours needs$/],

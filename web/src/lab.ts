@@ -9,10 +9,12 @@ import { takeHome } from "./take-home";
 import { curve, POINTS, type Point } from "./views/curve";
 import { control, draw, SIDE, type MapAnswer } from "./views/map";
 import { meshes } from "./views/mesh";
+import { ofRules, permittedAnswers } from "./views/rules";
+import { drawSliders, type Gate } from "./views/sliders";
 import { space } from "./views/space";
 
 interface About {
-  kernels: { name: string; source: string; gates: [string, string, string, boolean][]; contract: string }[];
+  kernels: { name: string; source: string; gates: Gate[]; contract: string }[];
   families: [string, string][];
   scenes: string[];
   contracts: [string, string][];
@@ -42,7 +44,7 @@ const code = editor(element("editor"), afterwards(700, () => void edited(false))
 const builtIn = () => about.kernels.find(({ name }) => name === state.kernel);
 
 /** The epsilons of the kernel as it has them: name, comparison, value. */
-function gates(): [string, string, string, boolean][] {
+function gates(): Gate[] {
   if (!isOwn()) return builtIn()?.gates ?? [];
   return Object.entries(described?.epsilons ?? {}).map(([name, value]) => [name, "", decimal(value), true]);
 }
@@ -88,7 +90,7 @@ async function run() {
     report(answer.title, answer.html, answer.record, seconds);
     element("hint").textContent = (isOwn() && described?.hint) || "";
     element("hint").hidden = element("hint").textContent === "";
-    ofRules();
+    ofRules(state.kernel === "wgsl" ? session.permitted : undefined, (name) => void go(name));
     await remember();
     if (!state.shown) await show(worst(answer.record));
     else await show(state.shown);
@@ -127,38 +129,6 @@ function report(title: string, html: string, found: Record_, seconds: number) {
   fill(element("report"), html);
 }
 
-/** What WGSL's rules say of the verdicts. */
-function ofRules() {
-  const line = element("rules");
-  line.hidden = state.kernel !== "wgsl";
-  const found = session.permitted;
-  if (line.hidden || found === undefined) return;
-  if (typeof found === "string") {
-    line.textContent = `What WGSL's accuracy rules permit here is not known: ${found}.`;
-    return;
-  }
-  const { looked_at, of, unexplained, undecided, first } = found;
-  const which = looked_at < of ? `${digits(looked_at)} of ${digits(of)} verdicts` : `${digits(of)} verdicts`;
-  line.textContent = unexplained === 0
-    ? `WGSL's accuracy rules permit what this device answers, wrong or right: ${which} were looked at.`
-    : `Of ${which} that were looked at ${digits(unexplained)} are none that WGSL's accuracy rules permit: this device or its compiler computes otherwise. `;
-  if (undecided) line.append(` ${digits(undecided)} have too many ways to follow, and count as permitted.`);
-  if (!first) return;
-  const vectors = Object.fromEntries(["origin", "direction", "a", "b", "c"].map((name, i) => [name, first.slice(3 * i, 3 * i + 3)]));
-  const ends = { t_min: first[15], ...(Number.isFinite(first[16]) ? { t_max: first[16] } : {}) };
-  const button = made("button", { type: "button" }, "Show one");
-  button.addEventListener("click", () => void go(JSON.stringify({ scalar: "f32", ...vectors, ...ends })));
-  line.append(button);
-}
-
-/** A sentence on what WGSL's rules permit for a case. */
-async function permits(numbers: (number | null)[]): Promise<string> {
-  if (state.kernel !== "wgsl") return "";
-  const said = await session.permits(numbers.map((x, i) => x ?? (i === 16 ? Infinity : NaN)), gates().map(([gate, , own]) => Number(epsilonOf(gate, own))));
-  const words: Record<string, string> = { hit: "a hit alone", miss: "a miss alone", both: "either answer" };
-  return words[said] ? ` WGSL's accuracy rules permit ${words[said]} here.` : "";
-}
-
 /** Puts what the program wrote into an element, and makes each of its cases a button. */
 function fill(parent: HTMLElement, html: string) {
   parent.innerHTML = html;
@@ -194,6 +164,13 @@ async function go(name: string) {
   await show(name);
   element("case-part").scrollIntoView();
   element("case-title").focus({ preventScroll: true });
+}
+
+/** A sentence on what WGSL's rules permit for a case. */
+async function permits(numbers: (number | null)[]): Promise<string> {
+  if (state.kernel !== "wgsl") return "";
+  const epsilons = gates().map(([gate, , own]) => Number(epsilonOf(gate, own)));
+  return permittedAnswers(await session.permits(numbers.map((x, i) => x ?? (i === 16 ? Infinity : NaN)), epsilons));
 }
 
 let shown: string | undefined;
@@ -277,41 +254,13 @@ async function ofEpsilon() {
   element("curve-note").textContent = `${digits(count)} cases of each kind.`;
 }
 
-/** The slider's places: 0, and powers of ten in steps of a half. */
-const PLACES = [0, ...Array.from({ length: 37 }, (_, i) => 10 ** (i / 2 - 18))];
-
 /** A slider for each epsilon. */
 function sliders() {
-  const all = gates();
-  const parent = element("sliders");
-  element("epsilons").hidden = all.length === 0;
-  const key = JSON.stringify([state.kernel, all]);
-  if (parent.dataset.key === key) return;
-  parent.dataset.key = key;
-  parent.replaceChildren(...all.map(([gate, refuses, own]) => {
-    const value = epsilonOf(gate, own);
-    const range = made("input", { type: "range", min: "0", max: String(PLACES.length - 1), step: "1", id: `e-${gate}`, autocomplete: "off" });
-    const text = made("input", { type: "text", size: "9", value, "aria-label": `${gate}, as a number`, autocomplete: "off", spellcheck: "false" });
-    const put = (words: string) => {
-      const number = Number(words);
-      range.value = String(number <= 0 ? 0 : PLACES.reduce((best, place, i) => (Math.abs(Math.log(place / number)) < Math.abs(Math.log(PLACES[best] / number)) ? i : best), 1));
-      range.setAttribute("aria-valuetext", words);
-    };
-    const set = afterwards(250, () => {
-      state.epsilons = { ...state.epsilons, [gate]: text.value.trim() };
-      if (text.value.trim() === own) delete state.epsilons[gate];
-      void run();
-    });
-    put(value);
-    range.addEventListener("input", () => {
-      text.value = PLACES[Number(range.value)] === 0 ? "0" : PLACES[Number(range.value)].toExponential(0).replace("e+", "e");
-      range.setAttribute("aria-valuetext", text.value);
-      set();
-    });
-    text.addEventListener("change", () => { put(text.value); set(); });
-    const what = refuses ? made("span", { class: "what" }, `refuses where ${refuses}`) : "";
-    return made("div", { class: "slider" }, made("label", { for: `e-${gate}` }, gate, what), range, text);
-  }));
+  drawSliders(state.kernel, gates(), epsilonOf, (gate, own, value) => {
+    state.epsilons = { ...state.epsilons, [gate]: value };
+    if (value === own) delete state.epsilons[gate];
+    void run();
+  });
 }
 
 /** Puts the state into the controls. */
