@@ -169,6 +169,8 @@ test("numbers have the values that WGSL's rules give", () => {
   // A literal that is no float is either beside it.
   assert.deepEqual(value("0.1"), [Math.fround(0.1) - 2 ** -27, Math.fround(0.1)]);
   assert.deepEqual(value("-0.25 + 0x1.8p1f"), [2.75, 2.75]);
+  // Nothing is folded before it is looked at.
+  for (const text of ["1.0 / 3.0", "0.1 * 0.1", "0.1 + 0.2", "-(1.0 / 3.0)", "2 * 0.1"]) assert.ok(value(text)[0] < value(text)[1], text);
   // Operators bind as in WGSL.
   for (const [text, exact] of [["a - b - c", 3], ["a - b * c", 2], ["-a * b + c", -22], ["(a - b) * -c", -10], ["a - (b - c)", 7], ["a / b / c", 4 / 3]]) {
     const [least, most] = value(text, 8, 3, 2);
@@ -198,6 +200,17 @@ test("branches, loops, variables and functions are followed", () => {
     const [way, ...others] = loop.ways(numbers(x), []);
     assert.deepEqual([others.length, way.hit, way.t.lo, way.t.hi, way.u.lo, way.v.lo], [0, true, t, t, 7, 0.125], `x = ${x}`);
   }
+  // A whole number where a float is declared is one.
+  const declared = kernel_of(`
+    struct Pair { x: f32, y: f32 }
+    fn half(x: f32) -> f32 { return x / 2; }
+    fn one() -> f32 { return 1; }
+    fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {
+      var x: f32; x = 3; let p = Pair(5, 1); let a = array<f32, 2>(7, 1);
+      return Hit(one() / 2 > 0.4 && select(9, 2.0, false) / 2 > 4.4 && 1 / 2 == 0, half(3) + x / 2, p.x / 2, a[0] / 2);
+    }`);
+  const [{ hit, t, u, v }] = declared.ways(numbers(0), []);
+  assert.deepEqual([hit, t.lo, t.hi, u.lo, v.hi].map((x) => (x === true ? x : Math.round(1e5 * x) / 1e5)), [true, 3, 3, 2.5, 3.5]);
   assert.throws(() => of_value("sin(a)").ways(Array(17).fill(1), []), /^Error: the kernel has the function sin, which this page does not evaluate/);
   assert.throws(() => kernel_of("fn test() -> f32 { return 1.0; }"), /no function named kernel/);
   // Without an end it is given up.

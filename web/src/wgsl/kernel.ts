@@ -30,7 +30,7 @@ const list = (...items: Item[]): List => ({ items });
 
 // The parser's nodes, as far as they are looked at.
 interface Node {
-  astNodeType: string; name: string; operator: string; value: any; type: any; args: any[]; body: Node[]; postfix: Node | null;
+  astNodeType: string; name: string; operator: string; value: any; type: any; args: any[]; body: Node[]; returnType: any; postfix: Node | null;
   left: Node; right: Node; index: Node; condition: Node; elseif: Node[] | null; else: Node[] | null; init: Node | null; increment: Node | null;
   variable: Node; initializer: Node; continuing: { body: Node[] } | null; members: { name: string; type: any }[];
 }
@@ -48,7 +48,11 @@ const dot = (a: Item, b: Item) => vector(each(a, b, (x, y) => n.times(float(x), 
 const length = (a: Item) => n.root(dot(a, a));
 const minus = (a: Item, b: Item) => each(a, b, (x, y) => n.minus(float(x), float(y)));
 const select = (no: Item, yes: Item, condition: Truth): Item =>
-  (condition === null ? each(no, yes, (a, b) => (isTruth(a) ? (a === b ? a : null) : n.hull(float(a), float(b)))) : condition ? yes : no);
+  each(no, yes, (a, b) => {
+    if (condition !== null && isWhole(a) && isWhole(b)) return condition ? b : a;
+    if (isTruth(a)) return condition === null ? (a === b ? a : null) : condition ? b : a;
+    return condition === null ? n.hull(float(a), float(b)) : condition ? float(b) : float(a);
+  });
 const number = (truth: Truth, yes = 1, no = 0) => select(n.given(no), n.given(yes), truth) as Value;
 const two = (of: (a: Value, b: Value) => Value) => (a: Item, b: Item) => each(a, b, (x, y) => of(float(x), float(y)));
 const clamped = (x: Value, lo: Value, hi: Value) => (n.less(hi, lo) === false ? n.smaller(n.larger(x, lo), hi) : n.ANYTHING);
@@ -118,7 +122,7 @@ type Leaving = "break" | "continue" | { returned: Item };
 export class Kernel {
   #functions = new Map<string, Node>();
   #globals = new Map<string, Node>();
-  #structs = new Map<string, string[]>();
+  #structs = new Map<string, { name: string; type: any }[]>();
   /** The values of literals that are no floats. */
   #between = new Map<number, number>();
   #scopes: Map<string, Item>[] = [];
@@ -140,7 +144,7 @@ export class Kernel {
     }
     for (const node of new WgslParser().parse(prelude + text) as unknown as Node[]) {
       if (node.astNodeType === "function") this.#functions.set(node.name, node);
-      else if (node.astNodeType === "struct") this.#structs.set(node.name, node.members.map(({ name }) => name));
+      else if (node.astNodeType === "struct") this.#structs.set(node.name, node.members);
       else if (node.astNodeType === "const" || node.astNodeType === "let") this.#globals.set(node.name, node);
       else unknown(`a declaration of ${node.name ?? node.astNodeType}`);
     }
@@ -180,10 +184,10 @@ export class Kernel {
     const called = this.#functions.get(name);
     if (!called) return (Object.hasOwn(BUILT_IN, name) ? BUILT_IN[name] : unknown(`the function ${name}`))(...args);
     const before = this.#scopes;
-    this.#scopes = [new Map(called.args.map((argument, i) => [argument.name, args[i]]))];
+    this.#scopes = [new Map(called.args.map((argument, i) => [argument.name, this.#of_type(argument.type, args[i])]))];
     const left = this.#block(called.body);
     this.#scopes = before;
-    return typeof left === "object" ? left.returned : unknown("a function without a result");
+    return typeof left === "object" ? this.#of_type(called.returnType, left.returned) : unknown("a function without a result");
   }
 
   #block(body: Node[]): Leaving | undefined {
@@ -252,7 +256,7 @@ export class Kernel {
 
   /** An item with a part of it replaced. */
   #put(item: Item, postfix: Node | null, value: Item): Item {
-    if (!postfix) return value;
+    if (!postfix) return isFloat(item) ? float(value) : value;
     const place = this.#place(item, postfix);
     if (isList(item)) {
       if (place.length !== 1) unknown("an assignment to several parts");
@@ -320,9 +324,9 @@ export class Kernel {
     return written === undefined ? n.given(x) : x < 0 ? n.negative(n.literal(written)) : n.literal(written);
   }
 
-  #created(type: { name: string }, args: Item[]): Item {
+  #created(type: { name: string; format?: { name: string } }, args: Item[]): Item {
     const fields = this.#structs.get(type.name);
-    if (fields) return { fields: new Map(fields.map((name, i) => [name, args[i]])) };
+    if (fields) return { fields: new Map(fields.map(({ name, type }, i) => [name, this.#of_type(type, args[i])])) };
     const [, size, kind] = /^vec([234])(.?)$/.exec(type.name) ?? [];
     if (size) {
       const items = args.flatMap((one) => (isList(one) ? one.items : [one]));
@@ -330,7 +334,7 @@ export class Kernel {
       const all = items.length === 1 ? Array<Item>(Number(size)).fill(items[0]) : items;
       return kind === "i" || kind === "u" ? unknown("a vector of whole numbers") : list(...all.map((one) => (isWhole(one) ? float(one) : one)));
     }
-    if (type.name === "array") return list(...args);
+    if (type.name === "array") return list(...args.map((one) => this.#of_type(type.format ?? null, one)));
     if (type.name === "f32" && args.length === 1) return isTruth(args[0]) ? number(args[0]) : float(args[0]);
     if (["i32", "u32"].includes(type.name) && isWhole(args[0])) return args[0];
     return unknown(`the type ${type.name}`);
