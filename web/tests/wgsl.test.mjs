@@ -211,6 +211,20 @@ test("branches, loops, variables and functions are followed", () => {
     }`);
   const [{ hit, t, u, v }] = declared.ways(numbers(0), []);
   assert.deepEqual([hit, t.lo, t.hi, u.lo, v.hi].map((x) => (x === true ? x : Math.round(1e5 * x) / 1e5)), [true, 3, 3, 2.5, 3.5]);
+  // A result that is filled in, as libraries write it.
+  const filled = kernel_of(`
+    struct Found { at: vec3f, ok: bool, side: f32 }
+    fn found(ray: Ray, t: f32) -> Found {
+      var result: Found;
+      result.ok = false;
+      if (t < 0.0) { return result; }
+      result.ok = true; result.at = ray.origin + t * ray.direction; result.side = sign(-t) * length(normalize(vec3f(3.0, 4.0, 0.0)));
+      return result;
+    }
+    fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit { let f = found(ray, ray.origin.x); return Hit(f.ok, f.at.x, f.side, f.at.y); }`);
+  const [hits] = filled.ways(numbers(2), []);
+  assert.deepEqual([hits.hit, hits.t.lo, hits.t.hi, Math.round(hits.u.hi)], [true, 2, 2, -1]);
+  assert.equal(filled.ways(numbers(-2), [])[0].hit, false);
   assert.throws(() => of_value("sin(a)").ways(Array(17).fill(1), []), /^Error: the kernel has the function sin, which this page does not evaluate/);
   assert.throws(() => kernel_of("fn test() -> f32 { return 1.0; }"), /no function named kernel/);
   // Without an end it is given up.

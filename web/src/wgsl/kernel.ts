@@ -53,7 +53,7 @@ const select = (no: Item, yes: Item, condition: Truth): Item =>
     if (isTruth(a)) return condition === null ? (a === b ? a : null) : condition ? b : a;
     return condition === null ? n.hull(float(a), float(b)) : condition ? float(b) : float(a);
   });
-const number = (truth: Truth, yes = 1, no = 0) => select(n.given(no), n.given(yes), truth) as Value;
+const number = (truth: Truth) => select(n.given(0), n.given(1), truth) as Value;
 const two = (of: (a: Value, b: Value) => Value) => (a: Item, b: Item) => each(a, b, (x, y) => of(float(x), float(y)));
 const clamped = (x: Value, lo: Value, hi: Value) => (n.less(hi, lo) === false ? n.smaller(n.larger(x, lo), hi) : n.ANYTHING);
 
@@ -75,7 +75,7 @@ const BUILT_IN: Record<string, (...items: any[]) => Item> = {
   saturate: (a: Item) => map(a, (x) => clamped(x, n.given(0), n.given(1))),
   select: (no: Item, yes: Item, condition: Item) => (isList(condition)
     ? list(...condition.items.map((one, i) => select((no as List).items[i], (yes as List).items[i], one as Truth))) : select(no, yes, condition as Truth)),
-  sign: (a: Item) => map(a, (x) => n.hull(number(n.less(x, n.given(0)), -1, 0), number(n.less(n.given(0), x)))),
+  sign: (a: Item) => map(a, (x) => n.whole(x, Math.sign)),
   sqrt: (a: Item) => map(a, n.root),
   step: two((edge, x) => number(n.not(n.less(x, edge)))),
   trunc: (a: Item) => map(a, (x) => n.whole(x, Math.trunc)),
@@ -347,7 +347,7 @@ export class Kernel {
 
   #zero(type: { name: string; format?: { name: string }; count?: number }): Item {
     const fields = this.#structs.get(type?.name);
-    if (fields) return unknown(`a variable ${type.name} without a value`);
+    if (fields) return { fields: new Map(fields.map(({ name, type }) => [name, this.#zero(type)])) };
     if (type?.name === "bool") return false;
     if (["i32", "u32"].includes(type?.name)) return { whole: 0 };
     if (type?.name === "f32") return n.given(0);
