@@ -223,8 +223,8 @@ describe("a kernel in WGSL", () => {
     if (!page) return;
     assert.match(await title(page), /^yours \(parallel=1e-6\) is wrong on \d/);
     // What the device answers is looked at, and the case that is shown.
-    assert.match(await page.textContent("#rules"), /^WGSL's accuracy rules permit what this device answers, wrong or right: [\d,]+( of [\d,]+)? verdicts were looked at\.$/);
-    assert.match(await page.textContent("#case-name"), /WGSL's accuracy rules permit (a (hit|miss) alone|either answer) here\.$/);
+    assert.match(await page.textContent("#rules"), /^WGSL's accuracy rules forbid none of this device's answers, wrong or right, as far as bounds tell: [\d,]+( of [\d,]+)? verdicts were looked at\.$/);
+    assert.match(await page.textContent("#case-name"), /WGSL's accuracy rules forbid (a hit|a miss|no answer) here\.$/);
     // Comparisons alone, which every machine does alike.
     await then(page, () => edit(page, `// epsilon edge = 0.5
       fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {
@@ -256,7 +256,7 @@ describe("a kernel in WGSL", () => {
     assert.ok(told.division.most_ulps <= 3, "what WGSL demands is 2.5 ulps");
     assert.ok(told.verdicts.looked_at > 1000 && told.verdicts.unexplained === 0, JSON.stringify(told.verdicts));
     await then(page, () => edit(page, "fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {\n  return Hit(sin(ray.origin.x) > 0.5, 1.0, 0.0, 0.0);\n}"));
-    assert.equal(await page.textContent("#rules"), "What WGSL's accuracy rules permit here is not known: the kernel has the function sin, which this page does not evaluate.");
+    assert.equal(await page.textContent("#rules"), "What WGSL's accuracy rules forbid here is not known: the kernel has the function sin, which this page does not evaluate.");
     await then(page, () => edit(page, "fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {\n  return nothing;\n}"));
     assert.match(await page.textContent("#error"), /^Error: line 2: |^line 2: /);
   });

@@ -9,7 +9,7 @@ import { takeHome } from "./take-home";
 import { curve, POINTS, type Point } from "./views/curve";
 import { control, draw, SIDE, type MapAnswer } from "./views/map";
 import { meshes } from "./views/mesh";
-import { ofRules, permittedAnswers } from "./views/rules";
+import { forbidden, ofRules } from "./views/rules";
 import { drawSliders, type Gate } from "./views/sliders";
 import { space } from "./views/space";
 
@@ -166,11 +166,11 @@ async function go(name: string) {
   element("case-title").focus({ preventScroll: true });
 }
 
-/** A sentence on what WGSL's rules permit for a case. */
-async function permits(numbers: (number | null)[]): Promise<string> {
+/** A sentence on what WGSL's rules forbid for a case. */
+async function forbids(numbers: (number | null)[]): Promise<string> {
   if (state.kernel !== "wgsl") return "";
   const epsilons = gates().map(([gate, , own]) => Number(epsilonOf(gate, own)));
-  return permittedAnswers(await session.permits(numbers.map((x, i) => x ?? (i === 16 ? Infinity : NaN)), epsilons));
+  return forbidden(await session.permits(numbers.map((x, i) => x ?? (i === 16 ? Infinity : NaN)), epsilons));
 }
 
 let shown: string | undefined;
@@ -189,7 +189,7 @@ async function show(name: string | undefined) {
   try {
     told = await ask<Explained>({ do: "explain", kernel: chosen(), case: name });
     which = Math.max(0, told.triangles.findIndex(({ finding }) => finding !== null));
-    rules = await permits(told.triangles[which].numbers);
+    rules = await forbids(told.triangles[which].numbers);
   } catch (error) {
     if (mine !== asked) return;
     element("map-part").hidden = true;

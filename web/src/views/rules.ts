@@ -9,14 +9,14 @@ export function ofRules(found: Permitted | string | undefined, go: (name: string
   line.hidden = found === undefined;
   if (found === undefined) return;
   if (typeof found === "string") {
-    line.textContent = `What WGSL's accuracy rules permit here is not known: ${found}.`;
+    line.textContent = `What WGSL's accuracy rules forbid here is not known: ${found}.`;
     return;
   }
   const { looked_at, of, unexplained, undecided, first } = found;
   const which = looked_at < of ? `${digits(looked_at)} of ${digits(of)} verdicts` : `${digits(of)} verdicts`;
   line.textContent = unexplained === 0
-    ? `WGSL's accuracy rules permit what this device answers, wrong or right: ${which} were looked at.`
-    : `Of ${which} that were looked at ${digits(unexplained)} are none that WGSL's accuracy rules permit: this device or its compiler computes otherwise. `;
+    ? `WGSL's accuracy rules forbid none of this device's answers, wrong or right, as far as bounds tell: ${which} were looked at.`
+    : `Of ${which} that were looked at ${digits(unexplained)} are forbidden by WGSL's accuracy rules: this device or its compiler computes otherwise. `;
   if (undecided) line.append(` ${digits(undecided)} have too many ways to follow, and count as permitted.`);
   if (!first) return;
   const vectors = Object.fromEntries(["origin", "direction", "a", "b", "c"].map((name, i) => [name, first.slice(3 * i, 3 * i + 3)]));
@@ -26,8 +26,8 @@ export function ofRules(found: Permitted | string | undefined, go: (name: string
   line.append(button);
 }
 
-/** A sentence on the answers that are permitted for a case; none if they are not known. */
-export function permittedAnswers(answers: string): string {
-  const words: Record<string, string> = { hit: "a hit alone", miss: "a miss alone", both: "either answer" };
-  return words[answers] ? ` WGSL's accuracy rules permit ${words[answers]} here.` : "";
+/** A sentence on the answer that is forbidden for a case; none if that is not known. */
+export function forbidden(answers: string): string {
+  const words: Record<string, string> = { hit: "a miss", miss: "a hit", both: "no answer" };
+  return words[answers] ? ` WGSL's accuracy rules forbid ${words[answers]} here.` : "";
 }
