@@ -283,6 +283,16 @@ impl Request {
         explained::explained(&self.rows()?, case).map_err(PlanError)
     }
 
+    /// The kernel's verdicts around one case of it as an SVG, as `hairline map` draws them: one pixel a float of the ray's
+    /// origin (feature `studies`).
+    #[cfg(feature = "studies")]
+    pub fn map(&self, case: &str) -> Result<String, PlanError> {
+        let rows = self.rows()?;
+        let first =
+            rows.first().ok_or_else(|| PlanError("the kernel has no epsilons".to_owned()))?;
+        explained::mapped(first, case).map_err(PlanError)
+    }
+
     fn rows(&self) -> Result<Vec<Row>, PlanError> {
         let band = self.band.as_deref().map(str::parse).transpose();
         let band = band.map_err(|error| PlanError(format!("band: {error}")))?;

@@ -55,7 +55,7 @@ pub mod cli;
 
 pub use case::{Case, Parameters, Ray, Triangle};
 pub use hairline_core::truth;
-pub use oracle::{Batch, Layers, UnequalColumns, truths};
+pub use oracle::{Batch, Layers, UnequalColumns, truths, truths_of_rows};
 pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 
 pub use contract::{

@@ -1,4 +1,4 @@
-// Bundles the page: lab.js with the worker inside, lab.css with the styles of the program's pages. And the package.
+// Bundles the page: lab.js with the worker inside, lab.css with the styles of the program's pages. And the packages.
 import { build } from "esbuild";
 import { readFileSync } from "node:fs";
 
@@ -17,4 +17,6 @@ const virtual = {
 };
 await build({ ...common, entryPoints: ["src/lab.ts"], format: "esm", outfile: "dist/lab.js", plugins: [virtual] });
 await build({ ...common, entryPoints: ["lab.css"], outfile: "dist/lab.css" });
-await build({ ...common, minify: false, entryPoints: ["src/package.ts"], format: "esm", outfile: "package/hairline.js", external: ["node:*"] });
+for (const [source, outfile] of [["package", "package/hairline.js"], ["vectors", "vectors/index.js"]]) {
+  await build({ ...common, minify: false, entryPoints: [`src/${source}.ts`], format: "esm", outfile, external: ["node:*"] });
+}

@@ -3,7 +3,9 @@
 use super::PlanError;
 use crate::audit::Row;
 use crate::case::CaseId;
+use crate::engine::Unobserved;
 use crate::family::cases_of;
+use crate::map;
 use crate::report::Format;
 use crate::report::explain::{Together, explain};
 
@@ -21,10 +23,7 @@ pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, PlanError>) -> Option<Str
 
 /// The explanation of a case as text. An error says what is wrong with its name.
 pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, String> {
-    let id: CaseId = name.parse()?;
-    if id.parameters.instance.is_some() {
-        return Err(format!("'{id}' is a case of an instance: `hairline explain` takes it"));
-    }
+    let id = named(name)?;
     let explanation = in_named_scalar!(id.scalar, F => {
         let (cases, grouping) = cases_of::<F>(&id)?;
         let group = Together { cases: &cases, grouping, neighbours: Some(&[]), instance: None };
@@ -33,4 +32,24 @@ pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, String> {
     let mut text = Vec::new();
     let _ = (Format::TEXT.write)(&explanation, Default::default(), &mut text);
     Ok(String::from_utf8_lossy(&text).into_owned())
+}
+
+/// The map of a row around a case as SVG, its origin varied. An error says what is wrong with the case's name.
+pub(super) fn mapped(row: &Row, name: &str) -> Result<String, String> {
+    let id = named(name)?;
+    let drawn = in_named_scalar!(id.scalar, F => {
+        let (cases, _) = cases_of::<F>(&id)?;
+        let case = cases.first().ok_or_else(|| format!("'{id}' has no triangle"))?;
+        map::grid_of_case(case, map::CaseVector::Origin, None, None, [128; 2])
+            .and_then(|grid| map::of_kernel(case, row, &grid, &Unobserved))
+    });
+    drawn.map(|drawn| map::svg_document(&drawn)).map_err(|error| error.0)
+}
+
+fn named(name: &str) -> Result<CaseId, String> {
+    let id: CaseId = name.parse()?;
+    if id.parameters.instance.is_some() {
+        return Err(format!("'{id}' is a case of an instance: `hairline explain` takes it"));
+    }
+    Ok(id)
 }

@@ -1,7 +1,8 @@
 //! The outcome of an audit from a test, and the text of its panic.
 
 use crate::audit::quoted;
-use crate::case::{Case, rust_case};
+use crate::case::{AnyScalar, Case, rust_case};
+use crate::corpus::lines::bare_case;
 use crate::kernel::KERNELS;
 use crate::report::{
     ALL_CLASSES, ComparisonVerdict, Conformance, Example, FindingKind, FindingPart, KernelResult,
@@ -161,17 +162,15 @@ fn beside_expectations(conformance: &Conformance, f: &mut fmt::Formatter<'_>) ->
     }
 }
 
-/// A case: the command that shows it, the case in Rust, its bits.
+/// A case: the command that shows it; for a kernel in another language the case as JSON, otherwise in Rust, with its bits.
 fn write_case(kernel: &str, example: &Example, text: &mut String) -> fmt::Result {
     writeln!(text, "    {}", shown_by(kernel, example))?;
     let bits = example.bits.as_str();
-    if let Some(case) = literal(bits).filter(|_| !runs_elsewhere(kernel, example)) {
-        writeln!(text, "        {case}")?;
-    }
-    if !bits.is_empty() {
-        writeln!(text, "        {bits}")?;
-    }
-    Ok(())
+    let is_elsewhere = runs_elsewhere(kernel, example);
+    let case = literal(bits, is_elsewhere);
+    let bits =
+        Some(bits.to_owned()).filter(|bits| !(bits.is_empty() || is_elsewhere && case.is_some()));
+    case.into_iter().chain(bits).try_for_each(|line| writeln!(text, "        {line}"))
 }
 
 /// The command that shows an example; a kernel of one's own is known to its own tests only.
@@ -197,9 +196,12 @@ fn runs_elsewhere(kernel: &str, example: &Example) -> bool {
     !example.command.contains(&format!(" --kernel {kernel}"))
 }
 
-/// A case as a literal in Rust, from its bits; none of a group.
-fn literal(bits: &str) -> Option<String> {
-    let in_f32 = || Some(rust_case(&Case::<f32>::from_hex(bits)?));
-    let in_f64 = || Some(rust_case(&Case::<f64>::from_hex(bits)?));
-    in_f32().or_else(in_f64)
+/// A case as JSON, or as a literal in Rust, from its bits; none of a group.
+fn literal(bits: &str, as_json: bool) -> Option<String> {
+    let in_f32 = Case::<f32>::from_hex(bits).map(AnyScalar::F32);
+    let case = in_f32.or_else(|| Case::<f64>::from_hex(bits).map(AnyScalar::F64))?;
+    Some(match as_json {
+        true => bare_case(case),
+        false => either_scalar!(&case, case => rust_case(case)),
+    })
 }

@@ -37,7 +37,7 @@ pub use conformance::*;
 pub(crate) use disagreement::counts_alone;
 pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
 #[cfg(feature = "studies")]
-pub use formats::{FORMATS, Format, HTML, ON_FAILURE, Style};
+pub use formats::{FORMATS, Format, HTML, ON_FAILURE, Style, severity};
 pub use illustration::{Illustrations, ProofPart, ProvedGate};
 #[cfg(feature = "cli")]
 pub use json::JSON_SCHEMA;

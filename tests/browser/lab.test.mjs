@@ -80,6 +80,8 @@ describe("a kernel in JavaScript", () => {
     const page = await lab(t);
     for (const [text, error] of [
       ["export default (", /^SyntaxError: /],
+      ["export default ({ origin }, { a }) => { origin[0] < a[0] ? 1 : null; };", /^Error: the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing/],
+      ["export default (point, direction, triangle) => triangle[0][0];", /^TypeError: .*\. It is called as kernel\(\{ origin, direction, tMin, tMax \}, \{ a, b, c \}, epsilon\), with vectors \[x, y, z\]$/],
       ["export const epsilons = {};", /^Error: the module has no kernel: write `export default function/],
       ["export default () => nobody;", /^ReferenceError: nobody is not defined/],
       ["import { Ray } from 'three';\nexport default () => null;", /^TypeError: .*The lab loads no other modules: paste here what yours needs$/],
@@ -92,6 +94,9 @@ describe("a kernel in JavaScript", () => {
     await then(page, () => edit(page, "export default () => true;"));
     assert.ok(await page.locator("#error").isHidden());
     assert.match(await title(page), /^yours \(own\) is wrong/);
+    // What leads on names the kernel.
+    assert.match(await page.textContent("#report"), /hairline check --kernel-cmd 'node kernel\.mjs' --scalar f64 -n 500 --bless/);
+    assert.match(await page.textContent("#hint"), /^It hits what lies behind the ray's start\. If that is meant, say so: export const contract = ".*,extent=line";$/);
     // With nothing to slide there is no slider.
     assert.ok(await page.locator("#epsilons").isHidden());
   });
@@ -217,6 +222,9 @@ describe("a kernel in WGSL", () => {
     const page = await wgsl(t, "room");
     if (!page) return;
     assert.match(await title(page), /^yours \(parallel=1e-6\) is wrong on \d/);
+    // What the device answers is looked at, and the case that is shown.
+    assert.match(await page.textContent("#rules"), /^WGSL's accuracy rules forbid none of this device's answers, wrong or right, as far as bounds tell: [\d,]+( of [\d,]+)? verdicts were looked at\.$/);
+    assert.match(await page.textContent("#case-name"), /WGSL's accuracy rules forbid (a hit|a miss|no answer) here\.$/);
     // Comparisons alone, which every machine does alike.
     await then(page, () => edit(page, `// epsilon edge = 0.5
       fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {
@@ -246,6 +254,9 @@ describe("a kernel in WGSL", () => {
     assert.match(told.dot, /first$/);
     assert.equal(told.division.of, 4096);
     assert.ok(told.division.most_ulps <= 3, "what WGSL demands is 2.5 ulps");
+    assert.ok(told.verdicts.looked_at > 1000 && told.verdicts.unexplained === 0, JSON.stringify(told.verdicts));
+    await then(page, () => edit(page, "fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {\n  return Hit(sin(ray.origin.x) > 0.5, 1.0, 0.0, 0.0);\n}"));
+    assert.equal(await page.textContent("#rules"), "What WGSL's accuracy rules forbid here is not known: the kernel has the function sin, which this page does not evaluate.");
     await then(page, () => edit(page, "fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {\n  return nothing;\n}"));
     assert.match(await page.textContent("#error"), /^Error: line 2: |^line 2: /);
   });

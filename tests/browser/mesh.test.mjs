@@ -123,7 +123,7 @@ describe("the drawing", () => {
 
 test("without scripts the first places stand there", async (t) => {
   const page = await visit(t, SPHERE, { scripts: false });
-  assert.ok(await page.getByText("A script draws the mesh.").isVisible());
+  assert.ok(await page.locator("noscript p").isVisible());
   for (const hidden of ["#view", "#stage-controls", "#place"]) assert.equal(await page.locator(hidden).isVisible(), false);
   await page.locator("#r0 > summary").click();
   assert.equal(await page.locator("#r0 tbody tr").count(), 20);

@@ -107,20 +107,6 @@ describe("an audit", () => {
     });
     assert.deepEqual(moved, [0, 50]);
   });
-
-  test("has pictures, with what they show in words", async (t) => {
-    const page = await visit(t, url("audit"));
-    await openAll(page);
-    const images = page.locator("img.map");
-    assert.equal(await images.count(), 4 * 2 * 3, "three spots of each row in each scalar");
-    for (const image of await images.all()) {
-      await image.scrollIntoViewIfNeeded();
-      assert.match(await image.getAttribute("alt"), /Left, computed: \d.*Right, exact: \d/);
-      await image.evaluate((image) => image.decode());
-      assert.equal(await image.evaluate((image) => image.naturalWidth), 136);
-      assert.equal(await image.evaluate((image) => getComputedStyle(image).imageRendering), "pixelated");
-    }
-  });
 });
 
 test("a scene's plots keep their texts apart, inside, and explain themselves", async (t) => {

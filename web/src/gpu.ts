@@ -4,11 +4,17 @@ import type { Described, Epsilons } from "./kernel.js";
 /** The cases of one call, and its epsilons. */
 export interface Asked { cases: Float64Array; epsilons: Float64Array }
 
-const PRELUDE = `
+const STRUCTURES = `
 struct Ray { origin: vec3f, direction: vec3f, t_min: f32, t_max: f32 }
 struct Triangle { a: vec3f, b: vec3f, c: vec3f }
 struct Hit { hit: bool, t: f32, u: f32, v: f32 }
 `;
+
+/** The structures that a kernel's text uses, its epsilons among them. */
+export function prelude(names: string[]): string {
+  const members = names.length ? names.map((name) => `${name}: f32`).join(", ") : "hairline_none: f32";
+  return `${STRUCTURES}struct Epsilon { ${members} }\n`;
+}
 
 const MAIN = `
 @group(0) @binding(0) var<storage, read> hairline_cases: array<f32>;
@@ -55,8 +61,7 @@ export class Gpu {
 
   /** Takes a kernel's text; an error has the line in it. */
   async compile(text: string, names: string[]) {
-    const members = names.length ? names.map((name) => `${name}: f32`).join(", ") : "hairline_none: f32";
-    this.#pipeline = await this.#built(`${PRELUDE}struct Epsilon { ${members} }\n`, text, MAIN, "hairline_main");
+    this.#pipeline = await this.#built(prelude(names), text, MAIN, "hairline_main");
   }
 
   async #built(before: string, text: string, after: string, entryPoint: string) {

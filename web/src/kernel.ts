@@ -16,7 +16,11 @@ export interface Described {
   contract: string;
   /** True if hits have t, and true if they have u and v. */
   gives: [boolean, boolean];
+  /** What it does that the contract forbids, and that may be meant: a sentence, with the contract that would say so. */
+  hint?: string;
 }
+
+export const isHit = (hit: Hit): hit is Exclude<Hit, false | null | undefined> => hit !== null && hit !== undefined && hit !== false;
 
 /** A kernel over columns of numbers: of a case origin, direction, a, b, c, t_min, t_max; of a verdict what it is (0 a
  * miss, 1 a hit, 2 an exception), t, u, v. */
@@ -42,29 +46,33 @@ export function runner(kernel: Kernel, names: string[]) {
         verdicts[to] = 2;
         continue;
       }
-      const isMiss = hit === null || hit === undefined || hit === false;
-      verdicts[to] = isMiss ? 0 : 1;
-      if (isMiss) continue;
-      const { t, u, v }: { t?: number; u?: number; v?: number } = typeof hit === "object" ? hit! : typeof hit === "number" ? { t: hit } : {};
-      verdicts[to + 1] = Number(t ?? NaN);
-      verdicts[to + 2] = Number(u ?? NaN);
-      verdicts[to + 3] = Number(v ?? NaN);
+      verdicts[to] = isHit(hit) ? 1 : 0;
+      if (!isHit(hit)) continue;
+      const { t, u, v } = valuesOf(hit);
+      verdicts[to + 1] = t;
+      verdicts[to + 2] = u;
+      verdicts[to + 3] = v;
     }
   };
 }
 
-/** Which values the hits of a kernel have: those of a hit that no kernel can miss, from one side or from the other. */
-export function given(kernel: Kernel, epsilons: Epsilons): [boolean, boolean] {
-  const names = Object.keys(epsilons);
-  const verdict = new Float64Array(4);
-  for (const z of [4, -4]) {
-    const plain = Float64Array.of(1, 1, z, 0, 0, -z, 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, Infinity);
-    runner(kernel, names)(plain, Float64Array.from(Object.values(epsilons)), verdict);
-    // Its mistake is the user's to see.
-    if (verdict[0] === 2) kernel({ origin: [1, 1, z], direction: [0, 0, -z], tMin: 0, tMax: Infinity }, { a: [0, 0, 0], b: [4, 0, 0], c: [0, 4, 0] }, epsilons);
-    if (verdict[0] === 1) return [!Number.isNaN(verdict[1]), !Number.isNaN(verdict[2]) && !Number.isNaN(verdict[3])];
+/** What a kernel says of plain rays: which values its hits have, and what it promises less than a contract asks. */
+export function given(kernel: Kernel, epsilons: Epsilons): { gives: [boolean, boolean]; less: string[] } {
+  const plain = (from: number, along: number) =>
+    kernel({ origin: [1, 1, from], direction: [0, 0, along], tMin: 0, tMax: Infinity }, { a: [0, 0, 0], b: [4, 0, 0], c: [0, 4, 0] }, epsilons);
+  const [front, back, ...behind] = [plain(4, -4), plain(-4, 4), plain(4, 4), plain(-4, -4)];
+  if (front === undefined && back === undefined) {
+    throw new Error("the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing, or does it read origin.x of the array origin? A miss is null");
   }
-  return [false, false];
+  const { t, u, v } = valuesOf([front, back].find(isHit) ?? true);
+  const less = [...(isHit(front) && !isHit(back) ? ["sides=front"] : []), ...(behind.some(isHit) ? ["extent=line"] : [])];
+  return { gives: [!Number.isNaN(t), !Number.isNaN(u) && !Number.isNaN(v)], less };
+}
+
+/** The values of a hit; NaN for those that it has not. */
+function valuesOf(hit: Exclude<Hit, false | null | undefined>) {
+  const { t, u, v }: { t?: number; u?: number; v?: number } = typeof hit === "object" ? hit : typeof hit === "number" ? { t: hit } : {};
+  return { t: Number(t ?? NaN), u: Number(u ?? NaN), v: Number(v ?? NaN) };
 }
 
 const PLAIN_CONTRACT = "closed-ray,boundary=free,coplanar=free,degenerate=free,invalid=free";
@@ -82,7 +90,11 @@ export function describe(module: Record<string, unknown>): Described & { kernel:
   }
   const epsilons = Object.fromEntries(named) as Epsilons;
   const contract = String(module.contract ?? PLAIN_CONTRACT);
-  return { kernel, epsilons, contract, gives: given(kernel, epsilons) };
+  const { gives, less } = given(kernel, epsilons);
+  if (module.contract || less.length === 0) return { kernel, epsilons, contract, gives };
+  const does = less.map((words) => (words === "sides=front" ? "misses a plain triangle from the back" : "hits what lies behind the ray's start"));
+  const hint = `It ${does.join(", and ")}. If that is meant, say so: export const contract = "${[PLAIN_CONTRACT, ...less].join(",")}";`;
+  return { kernel, epsilons, contract, gives, hint };
 }
 
 /** The kernel of a request, as the module takes it. */

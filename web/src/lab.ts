@@ -9,10 +9,12 @@ import { takeHome } from "./take-home";
 import { curve, POINTS, type Point } from "./views/curve";
 import { control, draw, SIDE, type MapAnswer } from "./views/map";
 import { meshes } from "./views/mesh";
+import { forbidden, ofRules } from "./views/rules";
+import { drawSliders, type Gate } from "./views/sliders";
 import { space } from "./views/space";
 
 interface About {
-  kernels: { name: string; source: string; gates: [string, string, string, boolean][]; contract: string }[];
+  kernels: { name: string; source: string; gates: Gate[]; contract: string }[];
   families: [string, string][];
   scenes: string[];
   contracts: [string, string][];
@@ -42,7 +44,7 @@ const code = editor(element("editor"), afterwards(700, () => void edited(false))
 const builtIn = () => about.kernels.find(({ name }) => name === state.kernel);
 
 /** The epsilons of the kernel as it has them: name, comparison, value. */
-function gates(): [string, string, string, boolean][] {
+function gates(): Gate[] {
   if (!isOwn()) return builtIn()?.gates ?? [];
   return Object.entries(described?.epsilons ?? {}).map(([name, value]) => [name, "", decimal(value), true]);
 }
@@ -86,6 +88,9 @@ async function run() {
     if (isLate()) return;
     const seconds = (performance.now() - start) / 1000;
     report(answer.title, answer.html, answer.record, seconds);
+    element("hint").textContent = (isOwn() && described?.hint) || "";
+    element("hint").hidden = element("hint").textContent === "";
+    ofRules(state.kernel === "wgsl" ? session.permitted : undefined, (name) => void go(name));
     await remember();
     if (!state.shown) await show(worst(answer.record));
     else await show(state.shown);
@@ -161,6 +166,13 @@ async function go(name: string) {
   element("case-title").focus({ preventScroll: true });
 }
 
+/** A sentence on what WGSL's rules forbid for a case. */
+async function forbids(numbers: (number | null)[]): Promise<string> {
+  if (state.kernel !== "wgsl") return "";
+  const epsilons = gates().map(([gate, , own]) => Number(epsilonOf(gate, own)));
+  return forbidden(await session.permits(numbers.map((x, i) => x ?? (i === 16 ? Infinity : NaN)), epsilons));
+}
+
 let shown: string | undefined;
 
 /** Shows a case, and the map around it. */
@@ -172,19 +184,22 @@ async function show(name: string | undefined) {
   if (name === undefined) return;
   const mine = asked;
   let told: Explained;
+  let rules: string;
+  let which: number;
   try {
     told = await ask<Explained>({ do: "explain", kernel: chosen(), case: name });
+    which = Math.max(0, told.triangles.findIndex(({ finding }) => finding !== null));
+    rules = await forbids(told.triangles[which].numbers);
   } catch (error) {
     if (mine !== asked) return;
     element("map-part").hidden = true;
     element("case-name").textContent = `${name}: ${(error as Error).message}`;
     return;
   }
-  const which = Math.max(0, told.triangles.findIndex(({ finding }) => finding !== null));
   const { numbers, truth, finding, said, drawing } = told.triangles[which];
   const of = told.triangles.length > 1 ? `, triangle ${which} of ${told.triangles.length}` : "";
   element("case-title").textContent = finding ? `One case: ${finding.replace("-", " ")}` : "One case";
-  element("case-name").textContent = `${name.startsWith("{") ? "A case from the map" : name}${of}: ${said}.`;
+  element("case-name").textContent = `${name.startsWith("{") ? "A case from the map" : name}${of}: ${said}.${rules}`;
   const contract = state.contract ? ` --contract ${state.contract}` : "";
   const epsilons = gates().map(([gate, , own]) => `${gate}=${epsilonOf(gate, own)}`).join(",");
   // A kernel in WGSL is here alone: the program shows the case with its own.
@@ -239,41 +254,13 @@ async function ofEpsilon() {
   element("curve-note").textContent = `${digits(count)} cases of each kind.`;
 }
 
-/** The slider's places: 0, and powers of ten in steps of a half. */
-const PLACES = [0, ...Array.from({ length: 37 }, (_, i) => 10 ** (i / 2 - 18))];
-
 /** A slider for each epsilon. */
 function sliders() {
-  const all = gates();
-  const parent = element("sliders");
-  element("epsilons").hidden = all.length === 0;
-  const key = JSON.stringify([state.kernel, all]);
-  if (parent.dataset.key === key) return;
-  parent.dataset.key = key;
-  parent.replaceChildren(...all.map(([gate, refuses, own]) => {
-    const value = epsilonOf(gate, own);
-    const range = made("input", { type: "range", min: "0", max: String(PLACES.length - 1), step: "1", id: `e-${gate}`, autocomplete: "off" });
-    const text = made("input", { type: "text", size: "9", value, "aria-label": `${gate}, as a number`, autocomplete: "off", spellcheck: "false" });
-    const put = (words: string) => {
-      const number = Number(words);
-      range.value = String(number <= 0 ? 0 : PLACES.reduce((best, place, i) => (Math.abs(Math.log(place / number)) < Math.abs(Math.log(PLACES[best] / number)) ? i : best), 1));
-      range.setAttribute("aria-valuetext", words);
-    };
-    const set = afterwards(250, () => {
-      state.epsilons = { ...state.epsilons, [gate]: text.value.trim() };
-      if (text.value.trim() === own) delete state.epsilons[gate];
-      void run();
-    });
-    put(value);
-    range.addEventListener("input", () => {
-      text.value = PLACES[Number(range.value)] === 0 ? "0" : PLACES[Number(range.value)].toExponential(0).replace("e+", "e");
-      range.setAttribute("aria-valuetext", text.value);
-      set();
-    });
-    text.addEventListener("change", () => { put(text.value); set(); });
-    const what = refuses ? made("span", { class: "what" }, `refuses where ${refuses}`) : "";
-    return made("div", { class: "slider" }, made("label", { for: `e-${gate}` }, gate, what), range, text);
-  }));
+  drawSliders(state.kernel, gates(), epsilonOf, (gate, own, value) => {
+    state.epsilons = { ...state.epsilons, [gate]: value };
+    if (value === own) delete state.epsilons[gate];
+    void run();
+  });
 }
 
 /** Puts the state into the controls. */
@@ -355,7 +342,7 @@ function listen() {
   element("record").addEventListener("click", () => save("record.json", "application/json", JSON.stringify(record, null, 2)));
   element("signature").addEventListener("click", async () => {
     const text = await session.gpu.then((gpu) => gpu.signature())
-      .then((found) => JSON.stringify(found, null, 2), (error: Error) => error.message);
+      .then((found) => JSON.stringify({ ...found, verdicts: session.permitted }, null, 2), (error: Error) => error.message);
     element("signature-json").textContent = text;
     element("signature-json").hidden = false;
   });

@@ -15,6 +15,11 @@ export class Replay {
     this.#at = 0;
   }
 
+  /** The calls with theirs. */
+  get known(): (Asked & { verdicts: Float64Array })[] {
+    return this.#known;
+  }
+
   /** The calls without an answer; a miss was taken for theirs. */
   get asked(): Asked[] {
     return this.#asked;

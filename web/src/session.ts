@@ -1,5 +1,5 @@
 // The worker in which everything is computed. What does not answer in time is ended, and the next question starts anew.
-import { described, Gpu } from "./gpu.js";
+import { described, Gpu, prelude } from "./gpu.js";
 import type { Described } from "./kernel.js";
 import type { Answer, Message } from "./worker";
 import workerText from "virtual:worker";
@@ -18,6 +18,8 @@ export class Session {
   #gpu: Promise<Gpu> | undefined;
   #file: Uint8Array | undefined;
   #described: Described | undefined;
+  /** What WGSL's rules say of the last audit's verdicts, or why they say nothing. */
+  permitted: Answer["permitted"];
   /** Ends the question that waits for its answer. */
   #end: ((why: string) => void) | undefined;
   /** One question at a time. */
@@ -61,10 +63,16 @@ export class Session {
         const answers = await (await this.gpu).run(told.asked);
         told = await this.#send({ request, answers });
       }
+      if (told.permitted !== undefined) this.permitted = told.permitted;
       const answer = JSON.parse(told.json!) as T & { error?: string };
       if (answer.error !== undefined) throw new Error(answer.error);
       return answer;
     });
+  }
+
+  /** Which answers WGSL permits for a case of the kernel that is there: `hit`, `miss`, `both`, or a sentence why that is not known. */
+  permits(numbers: number[], epsilons: number[]): Promise<string> {
+    return this.#inTurn(async () => (await this.#send({ numbers, epsilons })).permitted as string);
   }
 
   #inTurn<T>(task: () => Promise<T>): Promise<T> {
@@ -85,7 +93,8 @@ export class Session {
     if (source?.language === "wgsl") {
       this.#described = described(source.text);
       await (await this.gpu).compile(source.text, Object.keys(this.#described.epsilons));
-      await this.#send({ module, later: true });
+      const names = Object.keys(this.#described.epsilons);
+      await this.#send({ module, wgsl: [prelude(names), source.text, names] });
     } else {
       this.#described = (await this.#send({ module, text: source?.text })).described;
     }

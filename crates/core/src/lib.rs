@@ -130,7 +130,7 @@ pub mod kernel;
 pub mod oracle;
 
 pub use case::{Case, Parameters, Ray, Triangle};
-pub use oracle::{Batch, Layers, UnequalColumns, truth, truths};
+pub use oracle::{Batch, Layers, UnequalColumns, truth, truths, truths_of_rows};
 pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 
 pub use contract::{

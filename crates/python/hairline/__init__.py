@@ -9,10 +9,11 @@ Triangles a, b, c run counter-clockwise seen from the front; u is the weight of 
 parameter, in lengths of the direction. The command `hairline` comes with the package.
 """
 
-from ._audit import Audit, advise, assert_conforms, audit
-from ._kernel import KernelError
+from ._audit import Audit, Picture, advise, assert_conforms, audit
+from ._kernel import KernelError, case
 from ._truth import Class, Facing, Feature, Place, truth
 
 __all__ = [
-    "Audit", "Class", "Facing", "Feature", "KernelError", "Place", "advise", "assert_conforms", "audit", "truth",
+    "Audit", "Class", "Facing", "Feature", "KernelError", "Picture", "Place", "advise", "assert_conforms",
+    "audit", "case", "truth",
 ]

@@ -3,11 +3,13 @@
 import functools
 import html
 import json
-import math
 import os
+import re
 import shlex
+import shutil
 import subprocess
 import sys
+import warnings
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
@@ -16,22 +18,11 @@ from . import _hairline
 from ._kernel import Answers
 
 
-def _distance(part: "dict[str, Any]") -> "float | None":
-    """How far the worst verdict of a finding is from being right, in longest edges of the triangle: as the program says it."""
-    severity = part["worst"]["severity"]
-    if severity is None:
-        return None
-    if severity.get("value_off") is not None:
-        return severity["value_off"]
-    space = math.inf if severity["in_space"] is None else severity["in_space"]
-    along, is_outside = severity.get("along"), part["class"].startswith("outside")
-    if along is None:
-        return space
-    if part["finding"] == "false-hit" and severity.get("off_end"):
-        return max(along, space if is_outside else 0.0)
-    if part["finding"] == "false-hit" and along == 0 and not is_outside:
-        return 0.0
-    return min(along, space) if part["finding"] == "false-miss" else space
+class Picture(str):
+    """A drawing as the text of an SVG, which a notebook shows."""
+
+    def _repr_svg_(self) -> str:
+        return str(self)
 
 
 class Audit:
@@ -42,7 +33,7 @@ class Audit:
 
     def summary(self, details: bool = False) -> str:
         """The screen of `hairline audit`."""
-        return self._audited.text(details)
+        return _runnable(self._audited.text(details))
 
     @functools.cached_property
     def record(self) -> "dict[str, Any]":
@@ -60,6 +51,7 @@ class Audit:
         `count` among `of`, `rate` and its 95 % interval `low`, `high`; `distance`, how far the worst one is from where the
         verdict would be right, in longest edges of the triangle; the worst `case`, and the `command` that shows it."""
         rows = []
+        distances = iter(self._audited.distances())
         for result in self.record["result"]["results"]:
             for part in result["findings"]:
                 rate, worst = part["rate"], part["worst"]
@@ -67,8 +59,8 @@ class Audit:
                 rows.append({
                     "scalar": result["scalar"], "family": result["family"], "class": part["class"],
                     "finding": part["finding"], "count": rate["count"], "of": rate["of"], "rate": rate["rate"],
-                    "low": low, "high": high, "distance": _distance(part),
-                    "case": worst["case"], "command": worst["command"],
+                    "low": low, "high": high, "distance": next(distances),
+                    "case": worst["case"], "command": _runnable(worst["command"]),
                 })
         return rows
 
@@ -88,6 +80,10 @@ class Audit:
     def explain(self, case: str) -> str:
         """A case of it, by its id: the exact truth, the kernel's answer, and by how much that is wrong."""
         return self._audited.explain(case)
+
+    def map(self, case: str) -> "Picture":
+        """The verdicts around a case of it, one pixel a float of the ray's origin, beside the exact ones."""
+        return Picture(self._audited.map(case))
 
     def html(self) -> str:
         """The page of `hairline audit --format html`, without its maps."""
@@ -141,6 +137,11 @@ def audit(
     short = "f32" if dtype == np.float32 else "f64"
     sources = ["--scalar", short, *(["--scene", scene] if scene else []), *(["--family", ",".join(families)] if families else [])]
     answers = Answers(kernel, vectorized, dtype)
+    if answers.less and contract == "closed-ray":
+        does = {"sides=front": "misses a plain triangle from the back", "extent=line": "hits what lies behind the ray's start"}
+        meant = ",".join([contract, *answers.less])
+        message = f"the kernel {' and '.join(does[word] for word in answers.less)}; if that is meant, contract={meant!r}"
+        warnings.warn(message, stacklevel=2)
     name = "".join(c for c in getattr(kernel, "__name__", "kernel") if c.isalnum() and c.isascii() or c == "_")
     return Audit(_hairline.audit(answers, {
         "name": f"{name or 'kernel'}.py",
@@ -161,13 +162,14 @@ def audit(
 def assert_conforms(kernel: Callable[..., Any], **options: Any) -> None:
     """Audits a kernel and raises an AssertionError unless it keeps its contract: for pytest.
 
-    The options are those of `audit`. The message has each kind of finding, its first cases, and the command that shows
-    each.
+    The options are those of `audit`. The message has each kind of finding, its first cases in decimal numbers, and the
+    command that shows each.
     """
     __tracebackhide__ = True
     audited = audit(kernel, **options)
     if not audited.conforms:
-        raise AssertionError(audited._audited.complaint())
+        hint = "In Python a case is hairline.case(ID), which are the kernel's arguments, and audit(…).explain(ID) shows it"
+        raise AssertionError(f"{_runnable(audited._audited.complaint())}{hint}")
 
 
 def advise(
@@ -190,8 +192,23 @@ def _selector(kernel: Any, contract: str, vectorized: bool) -> str:
     """The flag with which the command line runs the kernel; none of one that cannot be imported."""
     module, name = getattr(kernel, "__module__", None), getattr(kernel, "__qualname__", "<")
     file = getattr(sys.modules.get(module or ""), "__file__", None)
-    if file is None or hasattr(kernel, "__self__") or module == "__main__" or "<" in name:
+    if file is None or hasattr(kernel, "__self__") or "<" in name:
         return ""
     place = module if "." in module else os.path.relpath(file)
-    words = ["python3", "-m", "hairline.pipe", f"{place}:{name}", contract, *([] if vectorized else ["--scalar-function"])]
+    words = [_python("python3"), "-m", "hairline.pipe", f"{place}:{name}", contract, *([] if vectorized else ["--scalar-function"])]
     return f"--kernel-cmd {shlex.quote(shlex.join(words))}"
+
+
+def _python(name: str) -> str:
+    """This interpreter by a name that a shell finds it under, or else by its path."""
+    found = shutil.which(name)
+    return name if found and os.path.samefile(os.path.dirname(found), os.path.dirname(sys.executable)) else sys.executable
+
+
+def _runnable(text: str) -> str:
+    """Commands as a shell can run them, whether this environment is active or not."""
+    program = _python("hairline")
+    if program == "hairline":
+        return text
+    again = f"{shlex.quote(program)} -m hairline"
+    return re.sub(r"(?m)^( *)hairline(?= [a-z]+ )", lambda found: found[1] + again, text)

@@ -4,9 +4,19 @@ from typing import Any, Callable
 
 import numpy as np
 
+from . import _hairline
+
 NAMES = ("origin", "direction", "a", "b", "c", "t_min", "t_max")
 MANY = "t of shape (n,) with nan for a miss, a tuple (t, u, v) of such arrays, a bool array, or a dict of 'hit', 't', 'u', 'v'"
 ONE = "None for a miss, t, a tuple (t, u, v), a bool, or a dict of 'hit', 't', 'u', 'v'"
+
+
+def case(id: str) -> "dict[str, Any]":
+    """The arguments of a case by its id, for a kernel or for `truth`: `my_kernel(**hairline.case("edge-near@1/f32/-/1/7"))`.
+
+    Vectors have the shape (n, 3), t_min and t_max (n,), with n = 1 but for cases of several triangles.
+    """
+    return dict(zip(NAMES, _hairline.case(id)))
 
 
 class KernelError(Exception):
@@ -28,13 +38,16 @@ class Answers:
 
     def __init__(self, kernel: Callable[..., Any], vectorized: bool, dtype: Any) -> None:
         self.kernel, self.vectorized, self.dtype = kernel, vectorized, np.dtype(dtype)
-        # What does it return? One ray through the middle of a triangle, from both sides.
+        # What does it return? Rays through the middle of a triangle, from both sides, and such that leave it behind.
         corners = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0]], self.dtype)
-        rays = np.array([[[1, 1, 1], [0, 0, -1]], [[1, 1, -1], [0, 0, 1]]], self.dtype)
-        triangles = [np.array([corner] * 2) for corner in corners]
-        ends = np.array([0, 0], self.dtype), np.array([np.inf, np.inf], self.dtype)
-        named = self._named((rays[:, 0], rays[:, 1], *triangles, *ends))
+        from_z, along = (np.array(z, self.dtype)[:, None] * [[0, 0, 1]] for z in ([1, -1, 1, -1], [-1, 1, 1, -1]))
+        rays = [(from_z + [[1, 1, 0]]).astype(self.dtype), along.astype(self.dtype)]
+        ends = np.zeros(4, self.dtype), np.full(4, np.inf, self.dtype)
+        named = self._named((*rays, *(np.array([corner] * 4) for corner in corners), *ends))
         self.gives = ("t" in named, "u" in named and "v" in named)
+        front, back, *behind = named["hit"]
+        # What it promises less than a closed ray, in the words of a contract.
+        self.less = (["sides=front"] if front and not back else []) + (["extent=line"] if any(behind) else [])
 
     def __call__(self, *arrays: Any) -> "tuple[Any, Any, Any, Any]":
         named = self._named(arrays)
@@ -80,7 +93,7 @@ class Answers:
         expected = MANY if self.vectorized else ONE
         if array.shape != (count,):
             raise ValueError(f"the kernel returned {name} of shape {array.shape} for n = {count} rays; expected {expected}")
-        if array.dtype.kind not in ("b" if name == "hit" else "fiu"):
+        if array.dtype.kind not in {"hit": "b", "t": "f" if self.vectorized else "fiu"}.get(name, "fiu"):
             raise ValueError(f"the kernel returned {name} of {array.dtype}; expected {expected}")
         return np.ascontiguousarray(array, bool if name == "hit" else self.dtype)
 
@@ -99,4 +112,8 @@ def _fields(answer: Any, expected: str) -> "dict[str, Any]":
         return {}
     if answer is None:
         raise ValueError(f"the kernel returned None; expected {expected}")
+    if np.asarray(answer).dtype.kind in "iu":
+        # As t they could say no miss, and 0 and 1 are more likely flags.
+        flags = "bool(hit)" if expected is ONE else "hits.astype(bool)"
+        raise ValueError(f"the kernel returned integers; for flags make them bool, as `{flags}`; expected {expected}")
     return {"hit" if np.asarray(answer).dtype == np.bool_ else "t": answer}

@@ -3,7 +3,7 @@
     hairline explain 'edge-near@1/f32/-/1/7' --kernel-cmd 'python3 -m hairline.pipe my_module:kernel closed-ray'
 
 Instead of a module's name it may be a file: `tests/my_kernel.py:kernel`. The function is as `hairline.audit` takes it;
-`--scalar-function` says that it takes one case at a time. It must not print.
+`--scalar-function` says that it takes one case at a time.
 """
 
 import importlib
@@ -39,13 +39,12 @@ def read(size: int) -> bytes:
     return data
 
 
-def serve(kernel: Any, contract: str, vectorized: bool) -> None:
+def serve(kernel: Any, contract: str, vectorized: bool, sink: Any) -> None:
     """Answers batches until there are no more."""
     answers = {bits: Answers(kernel, vectorized, f"f{bits // 8}") for bits in (32, 64)}
     t, uv = answers[32].gives
     gives = f"gives {'t' * t} {'uv' * uv}\n" if t or uv else ""
     hello = f"hairline-kernel 1\nname {kernel.__name__}.py\nsource a function in Python\nscalars f32 f64\ncontract {contract}\n{gives}encoding binary\nready\n"
-    sink = sys.stdout.buffer
     sink.write(hello.encode())
     sink.flush()
     while head := read(16):
@@ -64,4 +63,6 @@ def serve(kernel: Any, contract: str, vectorized: bool) -> None:
 
 if __name__ == "__main__":
     words = [word for word in sys.argv[1:] if word != "--scalar-function"]
-    serve(load(words[0]), (words[1:] or ["closed-ray"])[0], len(words) == len(sys.argv) - 1)
+    # What the module or the function prints is not an answer.
+    answered, sys.stdout = sys.stdout.buffer, sys.stderr
+    serve(load(words[0]), (words[1:] or ["closed-ray"])[0], len(words) == len(sys.argv) - 1, answered)

@@ -4,7 +4,7 @@ use super::check_floats;
 use super::kernel::Function;
 use hairline::internals::contract::Contract;
 use hairline::internals::report::page::Paged;
-use hairline::internals::report::{Format, PlanFlags, Record, Style};
+use hairline::internals::report::{FindingPart, Format, PlanFlags, Record, Style, severity};
 use hairline::{Entry, Gives, KernelInfo, Outcome, PlanError, Request};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -143,6 +143,12 @@ impl Audited {
         self.outcome.conforms()
     }
 
+    /// By how far the worst of each finding is wrong, in longest edges of the triangle; none where that is no distance.
+    fn distances(&self) -> Vec<Option<f64>> {
+        let distance = |part: &FindingPart| part.worst.severity.as_ref().map(|_| severity(part));
+        self.outcome.findings().map(distance).collect()
+    }
+
     /// The broken promises, each with its first cases.
     fn complaint(&self) -> String {
         self.outcome.to_string()
@@ -151,6 +157,11 @@ impl Audited {
     /// A case and the function's answer to it, as `hairline explain` shows them.
     fn explain(&self, py: Python<'_>, case: &str) -> PyResult<String> {
         running(py, self.function, &self.answers, || self.request.explain(case))
+    }
+
+    /// The function's verdicts around a case, as SVG.
+    fn map(&self, py: Python<'_>, case: &str) -> PyResult<String> {
+        running(py, self.function, &self.answers, || self.request.map(case))
     }
 }
 

@@ -1,9 +1,12 @@
 //! A function of Python's as a kernel.
 
+use hairline::internals::case::CaseId;
+use hairline::internals::family::cases_of;
 use hairline::{Case, Float, Scalar, Subject, Verdict};
-use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyUntypedArrayMethods};
+use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use std::sync::{Mutex, PoisonError};
 
 /// The function, while there is a run. It takes origin, direction, a, b, c as arrays of (n, 3), t_min and t_max as
@@ -42,17 +45,8 @@ impl Function {
     ) -> PyResult<()> {
         let answers = lock(&self.answers).as_ref().map(|answers| answers.clone_ref(py));
         let Some(answers) = answers else { return Ok(()) };
-        let rows = |k: usize| -> PyResult<_> {
-            let flat: Vec<F> = cases.iter().flat_map(|case| case.vectors()[k]).collect();
-            PyArray1::from_vec(py, flat).reshape([cases.len(), 3])
-        };
-        let ends = |end: fn(&Case<F>) -> F| {
-            PyArray1::from_vec(py, cases.iter().map(end).collect::<Vec<F>>())
-        };
-        let [o, d, a, b, c]: [Bound<'_, PyArray2<F>>; 5] =
-            [rows(0)?, rows(1)?, rows(2)?, rows(3)?, rows(4)?];
-        let (t_min, t_max) = (ends(|case| case.ray.t_min), ends(|case| case.ray.t_max));
-        let answered = answers.bind(py).call1((o, d, a, b, c, t_min, t_max))?;
+        let arguments = PyTuple::new(py, arguments(py, cases)?)?;
+        let answered = answers.bind(py).call1(arguments)?;
         let (hit, t, u, v) = answered.extract::<(
             PyReadonlyArray1<'_, bool>,
             PyReadonlyArray1<'_, F>,
@@ -70,6 +64,36 @@ impl Function {
             }
         }
         Ok(())
+    }
+}
+
+/// What a function gets: origin, direction, a, b, c as arrays of (n, 3), t_min and t_max as (n,).
+pub fn arguments<'py, F: Scalar + Element>(
+    py: Python<'py>,
+    cases: &[Case<F>],
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let vectors = (0..5).map(|k| {
+        let flat: Vec<F> = cases.iter().flat_map(|case| case.vectors()[k]).collect();
+        Ok(PyArray1::from_vec(py, flat).reshape([cases.len(), 3])?.into_any())
+    });
+    let ends = [|case: &Case<F>| case.ray.t_min, |case: &Case<F>| case.ray.t_max].map(|end| {
+        Ok(PyArray1::from_vec(py, cases.iter().map(end).collect::<Vec<F>>()).into_any())
+    });
+    vectors.chain(ends).collect()
+}
+
+/// The arguments of a case, by its id: a row for each of its triangles.
+#[pyfunction]
+pub fn case<'py>(py: Python<'py>, id: &str) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let id: CaseId = id.parse().map_err(PyValueError::new_err)?;
+    if id.parameters.mesh.is_some() || id.parameters.instance.is_some() {
+        let words = "is a case of a mesh or an instance: `hairline explain` takes it";
+        return Err(PyValueError::new_err(format!("'{id}' {words}")));
+    }
+    match id.scalar.as_str() {
+        "f32" => arguments(py, &cases_of::<f32>(&id).map_err(PyValueError::new_err)?.0),
+        "f64" => arguments(py, &cases_of::<f64>(&id).map_err(PyValueError::new_err)?.0),
+        other => Err(PyValueError::new_err(format!("'{id}': unknown scalar '{other}'"))),
     }
 }
 

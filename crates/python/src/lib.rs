@@ -25,6 +25,8 @@ mod _hairline {
     #[pymodule_export]
     use super::audit::{Audited, audit};
     #[pymodule_export]
+    use super::kernel::case;
+    #[pymodule_export]
     use super::run;
     #[pymodule_export]
     use super::truths::{names, truth};

@@ -1,7 +1,7 @@
 //! The exact truths of arrays of cases.
 
 use super::check_floats;
-use hairline::{Case, ContactKind, Facing, Feature, Float, Layers, Place, Truth, truths};
+use hairline::{ContactKind, Facing, Feature, Float, Layers, Place, Truth, truths_of_rows};
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -101,15 +101,12 @@ fn decide<F: Float>(
     bytes: &mut [u8],
 ) {
     let blocks = bytes.par_chunks_mut(BLOCK * FIELDS).enumerate();
-    let empty = || (Vec::new(), Vec::new(), Layers::default());
-    blocks.for_each_init(empty, |(cases, found, layers), (block, bytes)| {
+    let empty = || (Vec::new(), Layers::default());
+    blocks.for_each_init(empty, |(found, layers), (block, bytes)| {
         let (start, count) = (block * BLOCK, bytes.len() / FIELDS);
-        let [o, d, a, b, c] = vectors.each_ref().map(|column| column.block(start, count));
-        let [t_min, t_max] = ends.each_ref().map(|column| column.block(start, count));
-        cases.clear();
-        let case = |i: usize| Case::new(o[i], d[i], [a[i], b[i], c[i]]).on(t_min[i], t_max[i]);
-        cases.extend((0..count).map(case));
-        truths(cases, found, layers);
+        let vectors = vectors.each_ref().map(|column| column.block(start, count));
+        let ends = ends.each_ref().map(|end| end.block(start, count));
+        truths_of_rows(vectors, ends, found, layers).expect("columns of one length");
         for (truth, bytes) in found.iter().zip(bytes.as_chunks_mut::<FIELDS>().0) {
             *bytes = code(truth);
         }

@@ -2,7 +2,6 @@
 
 import builtins
 import json
-import math
 import pathlib
 import re
 import shlex
@@ -15,7 +14,6 @@ import numpy as np
 import pytest
 
 import hairline
-from hairline import _audit
 
 ROOT = pathlib.Path(__file__).parents[3]
 FAMILIES = ["interior", "edge-near", "vertex-exact", "sliver", "grazing", "degenerate", "shared-edge"]
@@ -112,6 +110,8 @@ def test_a_right_kernel_conforms_and_a_wrong_one_says_where():
     (lambda n: {"hit": np.ones(n)}, "hit of float64; expected"),
     (lambda n: None, "returned None; expected"),
     (lambda n: ["no"] * n, "t of <U2; expected"),
+    (lambda n: np.ones(n, np.int64), r"integers; for flags make them bool, as `hits.astype\(bool\)`; expected"),
+    (lambda n: (np.ones(n, int), np.ones(n), np.ones(n)), "t of int64; expected"),
 ])
 def test_wrong_answers_are_value_errors_that_say_what_is_expected(answer, expected):
     with pytest.raises(ValueError, match=expected):
@@ -173,24 +173,81 @@ def test_the_programs_libraries_run_too(tmp_path):
 
 
 def test_the_notebook_runs():
-    cells = (ROOT / "examples/python/notebook.py").read_text().split("# %%")
-    assert len(cells) > 4
-    names = {"__name__": "notebook"}
-    for cell in cells:
-        exec(compile(cell.partition("\n")[2] if cell.startswith(" ") else cell, "notebook.py", "exec"), names)
-    assert not names["audited"].conforms
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
+    notebook = nbformat.read(ROOT / "examples/python/notebook.ipynb", 4)
+    nbformat.validate(notebook)
+    # It is kept without outputs, so that its differences can be read.
+    assert not any(cell.get("outputs") for cell in notebook.cells)
+    nbclient.NotebookClient(notebook, timeout=120).execute()
+    outputs = [out for cell in notebook.cells for out in cell.get("outputs", [])]
+    data = {kind: text for out in outputs for kind, text in out.get("data", {}).items()}
+    assert data["text/html"].startswith("<iframe srcdoc=") and data["image/svg+xml"].startswith("<svg")
+    said = "".join(out["text"] for out in outputs if out.output_type == "stream")
+    assert "my_kernel.py" in said and "recommended" in data["text/plain"], said
 
 
-def test_a_verdict_is_as_far_off_as_its_nearest_change() -> None:
-    def distance(finding: str, of_class: str, **severity: object) -> "float | None":
-        part = {"finding": finding, "class": of_class, "worst": {"severity": {"in_space": 0.05, **severity}}}
-        return _audit._distance(part)
+def test_a_finding_is_as_far_off_as_the_screen_says():
+    audited = hairline.audit(kernels.moller_trumbore, count=300)
+    told = re.search(r"1\. moller_trumbore.*?, f32: .*?([\d.e+-]+) edges.*?explain '(\S+)'", audited.summary(), re.DOTALL)
+    distance = next(row["distance"] for row in audited.findings if row["case"] == told[2])
+    assert distance == pytest.approx(float(told[1]), rel=0.06)
 
-    # A shadow ray that hits its own surface a hair before its start is off by that hair, wherever the edges are.
-    assert distance("false-hit", "interior/front/before", along=1e-8, off_end="before") == 1e-8
-    assert distance("false-hit", "outside/front/before", along=1e-8, off_end="before") == 0.05
-    assert distance("false-miss", "interior/front/within", along=1e-3) == 1e-3
-    assert distance("false-hit", "outside/front/within", along=3.0) == 0.05
-    assert distance("wrong-value", "interior/front/within", along=3.0, value_off=0.7) == 0.7
-    assert distance("false-miss", "interior/front/within", in_space=None, along=None) == math.inf
-    assert _audit._distance({"worst": {"severity": None}}) is None
+
+def test_a_case_is_the_kernels_arguments():
+    for row in hairline.audit(kernels.moller_trumbore, families=["edge-near"], count=300).findings:
+        case = hairline.case(row["case"])
+        assert case["a"].shape == (1, 3) and case["a"].dtype == np.float32 and case["t_max"].shape == (1,)
+        t, _, _ = kernels.moller_trumbore(**case)
+        assert (hairline.truth(**case)["hit"] == np.isnan(t)).all() or row["finding"] == "wrong-value"
+    assert hairline.case("shared-edge@2/f64/-/1/7")["c"].shape == (2, 3)
+    for wrong in ("edge", "edge-near@1/f16/-/1/7", "edge-near@1/f32/-/1"):
+        with pytest.raises(ValueError, match=re.escape(wrong)):
+            hairline.case(wrong)
+
+
+def test_a_map_is_the_programs_map(program, tmp_path):
+    audited = hairline.audit(kernels.moller_trumbore, families=["edge-near"], count=300)
+    case = audited.worst[0]["case"]
+    pipe = shlex.join([sys.executable, "-m", "hairline.pipe", f"{kernels.__file__}:moller_trumbore"])
+    program("map", case, "--kernel-cmd", pipe, "--quiet", "-o", str(tmp_path / "map.svg"))
+    mine = audited.map(case)
+    assert mine._repr_svg_() == str(mine) == (tmp_path / "map.svg").read_text()
+
+
+def test_what_a_test_prints_runs_where_no_environment_is_active(tmp_path):
+    """By hand: the interpreter by its path, the message of the failing test, and its command in a shell."""
+    text = "import hairline, kernels\nhairline.assert_conforms(kernels.moller_trumbore, families=['edge-near'], count=300)\n"
+    bare = {"PATH": "/usr/bin:/bin", "PYTHONPATH": str(pathlib.Path(kernels.__file__).parent)}
+    done = subprocess.run([sys.executable, "-c", text], env=bare, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1, done.stderr
+    lines = done.stderr.splitlines()
+    at, command = next((i, line) for i, line in enumerate(lines) if " explain " in line)
+    # Below it the case in decimals; above all a way back into Python.
+    assert json.loads(lines[at + 1])["scalar"] == "f32"
+    assert "hairline.case(ID)" in lines[-1]
+    shown = subprocess.run(["sh", "-c", command], env=bare, cwd=tmp_path, capture_output=True, text=True)
+    assert shown.returncode == 0 and shown.stdout.startswith("moller_trumbore.py"), (command, shown.stderr)
+
+
+def test_a_script_is_run_again_by_its_commands(tmp_path):
+    """The function is in the script that audits it, and the script prints."""
+    script = tmp_path / "mine.py"
+    script.write_text(pathlib.Path(kernels.__file__).read_text() + "import hairline\n"
+                      "print(hairline.audit(moller_trumbore, families=['edge-near'], count=300).worst[0]['command'])\n")
+    done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True)
+    assert "mine.py:moller_trumbore" in done.stdout, done.stderr
+    shown = subprocess.run(["sh", "-c", done.stdout], cwd=tmp_path, capture_output=True, text=True)
+    assert shown.returncode == 0 and shown.stdout.startswith("moller_trumbore.py"), (done.stdout, shown.stderr)
+
+
+def test_what_a_kernel_promises_less_is_a_warning():
+    def culling_line(origin, direction, a, b, c, t_min, t_max):
+        hits = hairline.truth(origin, direction, a, b, c, t_min=-np.inf)
+        return hits["hit"] & (hits["facing"] == hairline.Facing.FRONT)
+    with pytest.warns(UserWarning, match="misses a plain triangle from the back and hits what lies behind the ray's start; "
+                      "if that is meant, contract='closed-ray,sides=front,extent=line'"):
+        audited = hairline.audit(culling_line, families=["behind", "interior"], count=100)
+    assert audited.findings
+    meant = "closed-ray,sides=front,extent=line"
+    assert hairline.audit(culling_line, families=["behind", "interior"], count=100, contract=meant).conforms

@@ -2,6 +2,7 @@
 
 use crate::answers;
 use crate::kernel::Chosen;
+use hairline::internals::audit::shell_word;
 use serde::{Deserialize, Serialize};
 
 #[derive(Deserialize)]
@@ -43,6 +44,18 @@ pub struct Cases {
     pub count: u64,
     #[serde(default = "first")]
     pub seed: u64,
+}
+
+impl Cases {
+    /// The flags that choose them on a command line.
+    pub fn flags(&self) -> String {
+        let Cases { scalar, scene, families, count, seed } = self;
+        let scene = scene.as_ref().map(|words| format!(" --scene {}", shell_word(words)));
+        let chosen = (!families.is_empty()).then(|| format!(" --family {}", families.join(",")));
+        let seed = (*seed != first()).then(|| format!(" --seed {seed}"));
+        let [scene, chosen, seed] = [scene, chosen, seed].map(Option::unwrap_or_default);
+        format!("--scalar {scalar}{scene}{chosen} -n {count}{seed}")
+    }
 }
 
 fn first() -> u64 {

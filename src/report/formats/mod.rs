@@ -23,6 +23,8 @@ mod verdict;
 mod why;
 mod worst;
 
+pub use worst::severity;
+
 use super::disagreement::kinds_of;
 use super::*;
 use super::{disagreement, rate, record};

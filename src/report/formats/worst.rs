@@ -79,7 +79,7 @@ fn severity_of(finding: &FindingPart) -> (f64, bool) {
 }
 
 /// By how far the worst of a class is wrong, in longest edges of the triangle.
-pub(super) fn severity(finding: &FindingPart) -> f64 {
+pub fn severity(finding: &FindingPart) -> f64 {
     severity_of(finding).0
 }
 

@@ -45,18 +45,18 @@ pub struct Batch<C> {
 /// Columns of different lengths are no batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UnequalColumns {
-    /// The first column whose length differs, as `d.y`.
+    /// The first column whose length differs, as `d.y`, or `d` where vectors lie as rows.
     pub column: &'static str,
-    /// Its length.
+    /// Its length, in cases.
     pub length: usize,
-    /// The length of the first column, `o.x`.
+    /// The length of the first column.
     pub expected: usize,
 }
 
 impl fmt::Display for UnequalColumns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let UnequalColumns { column, length, expected } = self;
-        write!(f, "column {column} holds {length} numbers, column o.x {expected}")
+        write!(f, "column {column} has {length} cases, the first one {expected}")
     }
 }
 
@@ -160,22 +160,25 @@ pub(super) fn widened<F: Float>(case: &Case<F>) -> ([[f64; 3]; 5], [f64; 2]) {
     ([wide(o), wide(d), wide(a), wide(b), wide(c)], ends)
 }
 
-/// The codes of cases that are columns: a loop without a branch, over as many cases at a time as a vector holds.
+/// The codes of cases that are columns or rows: a loop without a branch, over as many cases at a time as a vector holds.
 #[inline(always)]
-fn codes_of<F: Float>(vectors: [[&[F; GROUP]; 3]; 5], ends: [&[F; GROUP]; 2]) -> [SignCode; GROUP] {
+fn codes_of<F: Float>(
+    vectors: impl Fn(usize) -> [[F; 3]; 5],
+    ends: [&[F; GROUP]; 2],
+) -> [SignCode; GROUP] {
     let mut codes = [SignCode::NONE; GROUP];
     for (k, code) in codes.iter_mut().enumerate() {
-        let at = |[x, y, z]: [&[F; GROUP]; 3]| [x[k].to_f64(), y[k].to_f64(), z[k].to_f64()];
-        let [o, d, a, b, c] = vectors;
+        let wide = |[x, y, z]: [F; 3]| [x.to_f64(), y.to_f64(), z.to_f64()];
+        let [o, d, a, b, c] = vectors(k);
         let ends = [ends[0][k].to_f64(), ends[1][k].to_f64()];
-        *code = filter::compute([at(o), at(d), at(a), at(b), at(c)]).code(ends);
+        *code = filter::compute([wide(o), wide(d), wide(a), wide(b), wide(c)]).code(ends);
     }
     codes
 }
 
 /// A group's part of a column.
 #[inline(always)]
-fn part<F>(column: &impl Deref<Target = [F]>, group: usize) -> &[F; GROUP] {
+fn part<T>(column: &impl Deref<Target = [T]>, group: usize) -> &[T; GROUP] {
     &column.as_chunks::<GROUP>().0[group]
 }
 
@@ -214,13 +217,43 @@ impl<F: Float, C: Deref<Target = [F]>> StoredCases<F> for Batch<C> {
     }
     #[inline(always)]
     fn codes(&self, group: usize) -> [SignCode; GROUP] {
-        let vectors =
+        let [o, d, a, b, c] =
             self.vectors.each_ref().map(|v| v.each_ref().map(|column| part(column, group)));
+        let at = |[x, y, z]: [&[F; GROUP]; 3], k: usize| [x[k], y[k], z[k]];
+        let vectors = |k| [at(o, k), at(d, k), at(a, k), at(b, k), at(c, k)];
         codes_of(vectors, self.interval.each_ref().map(|column| part(column, group)))
     }
     #[inline(never)]
     fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth {
         super::behind_the_filter(&self.case(index), layers)
+    }
+}
+
+/// Cases as rows: the vectors o, d, a, b and c of each, and the ends of its interval.
+pub(super) struct RowBatch<'a, F> {
+    pub vectors: [&'a [[F; 3]]; 5],
+    pub interval: [&'a [F]; 2],
+}
+
+impl<F: Float> StoredCases<F> for RowBatch<'_, F> {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.interval[0].len()
+    }
+    #[inline(always)]
+    fn get(&self, index: usize) -> Case<F> {
+        let ([o, d, vertices @ ..], [t_min, t_max]) = (self.vectors, self.interval);
+        Case::new(o[index], d[index], vertices.map(|v| v[index])).on(t_min[index], t_max[index])
+    }
+    #[inline(always)]
+    fn codes(&self, group: usize) -> [SignCode; GROUP] {
+        let [o, d, a, b, c] = self.vectors.each_ref().map(|rows| part(rows, group));
+        let vectors = |k: usize| [o[k], d[k], a[k], b[k], c[k]];
+        codes_of(vectors, self.interval.each_ref().map(|column| part(column, group)))
+    }
+    #[inline(never)]
+    fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth {
+        super::behind_the_filter(&self.get(index), layers)
     }
 }
 

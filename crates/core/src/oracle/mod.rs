@@ -160,6 +160,25 @@ pub fn truths<F: Float>(cases: &[Case<F>], truths: &mut Vec<Truth>, layers: &mut
     batch::decide_all(cases, truths, layers);
 }
 
+/// The truths of cases whose vectors lie as rows, as arrays of points of other languages do: o, d, a, b and c of each, and
+/// the ends of its interval. An error if not all have the same length. `truths` is cleared first.
+pub fn truths_of_rows<F: Float>(
+    vectors: [&[[F; 3]]; 5],
+    interval: [&[F]; 2],
+    truths: &mut Vec<Truth>,
+    layers: &mut Layers,
+) -> Result<(), UnequalColumns> {
+    let expected = vectors[0].len();
+    let lengths = vectors.map(<[_]>::len).into_iter().chain(interval.map(<[_]>::len));
+    for (column, length) in ["o", "d", "a", "b", "c", "t_min", "t_max"].into_iter().zip(lengths) {
+        if length != expected {
+            return Err(UnequalColumns { column, length, expected });
+        }
+    }
+    batch::decide_all(&batch::RowBatch { vectors, interval }, truths, layers);
+    Ok(())
+}
+
 /// The truths of rays in the world and triangles that an instance puts there, as [`define_instance`] gives them: in
 /// integers, some ten times as fast. `truths` is cleared first.
 pub fn truths_of_instance<F: Float>(

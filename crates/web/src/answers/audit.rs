@@ -6,7 +6,7 @@ use hairline::internals::audit::{self, Plan, Row, Source, Unobserved};
 use hairline::internals::case::{Parameters, Scene};
 use hairline::internals::family::{FAMILIES, Family, STRATA};
 use hairline::internals::report::page::{Paged, elements};
-use hairline::internals::report::{Context, Record, build};
+use hairline::internals::report::{Context, PlanFlags, Record, build};
 use serde::Serialize;
 
 /// The most cases of a family in one request: some minutes on a slow machine.
@@ -36,7 +36,13 @@ pub struct Point {
 }
 
 pub fn audit(asked: &Audit) -> Result<AuditAnswer, String> {
-    let record = record(vec![asked.kernel.row()?], &asked.cases, 3, 100)?;
+    let row = asked.kernel.row()?;
+    // The commands that lead on name the kernel and the cases. No command runs a kernel in WGSL.
+    let is_known = !row.entry.selector().is_empty();
+    let flags = PlanFlags { kernels: row.flags(), sources: asked.cases.flags() };
+    let mut record = record(vec![row], &asked.cases, 3, 100)?;
+    record.provenance.plan_flags = Some(flags).filter(|_| is_known);
+    record.checksum = Some(record.checksum_now());
     let title = record.page().title;
     Ok(AuditAnswer { title, html: elements(&record), record })
 }
@@ -79,9 +85,7 @@ fn record(
     let sources = sources(cases, scalars)?;
     let plan = Plan { rows, sources, scalars, examples, attribute };
     let sums = audit::run(&plan, &Unobserved);
-    let mut record = build(&plan, &sums, &Context { seconds: 0.0, threads: 1 });
-    record.checksum = Some(record.checksum_now());
-    Ok(record)
+    Ok(build(&plan, &sums, &Context { seconds: 0.0, threads: 1 }))
 }
 
 fn sources(cases: &Cases, scalars: [bool; 2]) -> Result<Vec<Source>, String> {

@@ -21,6 +21,20 @@ fn columns_and_slices_and_single_cases_have_the_same_truths() {
         let single: Vec<Truth> = cases[..count].iter().map(crate::oracle::truth).collect();
         assert_eq!(of_columns, single);
         assert_eq!(of_slice, single);
+        let rows = [0, 1, 2, 3, 4]
+            .map(|k| Vec::from_iter(cases[..count].iter().map(|case| case.vectors()[k])));
+        let ends: Vec<[f32; 2]> =
+            cases[..count].iter().map(|case| [case.ray.t_min, case.ray.t_max]).collect();
+        let ends = [0, 1].map(|k| Vec::from_iter(ends.iter().map(|ends| ends[k])));
+        let (mut of_rows, mut row_layers) = (vec![Truth::Parallel], Layers::default());
+        let of = |ends: [&[f32]; 2], truths: &mut Vec<Truth>, layers: &mut Layers| {
+            crate::oracle::truths_of_rows(rows.each_ref().map(Vec::as_slice), ends, truths, layers)
+        };
+        of([&ends[0], &ends[1]], &mut of_rows, &mut row_layers).unwrap();
+        assert_eq!((of_rows, row_layers), (single.clone(), layers));
+        let longer = vec![1.0; count + 1];
+        let error = of([&ends[0], &longer], &mut Vec::new(), &mut row_layers).unwrap_err();
+        assert_eq!(error, UnequalColumns { column: "t_max", length: count + 1, expected: count });
         let mut without_wide_vectors = Vec::new();
         decide_groups(&cases[..count], &mut without_wide_vectors, &mut Layers::default());
         assert_eq!(without_wide_vectors, single);
@@ -118,7 +132,7 @@ fn columns_of_different_lengths_are_refused_by_name() {
     let good = [three; 3];
     let batch = Batch::from_columns(good, [three, four, four], [good; 3], [three; 2]).unwrap_err();
     assert_eq!(batch, UnequalColumns { column: "d.y", length: 4, expected: 3 });
-    assert_eq!(batch.to_string(), "column d.y holds 4 numbers, column o.x 3");
+    assert_eq!(batch.to_string(), "column d.y has 4 cases, the first one 3");
     let end = Batch::from_columns(good, good, [good; 3], [three, four]).unwrap_err();
     assert_eq!(end.column, "t_max");
     let first = Batch::from_columns([four, three, three], good, [good; 3], [three; 2]).unwrap_err();
