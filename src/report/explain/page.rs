@@ -190,7 +190,9 @@ fn of_triangle(
             0.0 => "meets the boundary exactly".to_owned(),
             _ => {
                 let [edges, ulps] = [edges, ulps].map(short);
-                format!("passes {edges} of the longest edge ({ulps} ulps) from the boundary")
+                format!(
+                    "passes {edges} of the longest edge ({ulps} ulps) from the boundary, in space"
+                )
             }
         };
         terms.push(("line", passes));
