@@ -22,7 +22,7 @@ pub struct Candidate {
 
 /// The statements of `prove` about a row.
 #[derive(Clone, Copy, Default)]
-pub struct Proved {
+pub struct ProvedDepths {
     /// How far inside a false miss and outside a false hit can be, as shares of the longest edge, in the unit domain.
     pub depths: Option<[f64; 2]>,
     /// True if no ray passes between neighbours.
@@ -30,10 +30,10 @@ pub struct Proved {
 }
 
 /// The statements without a search; and the bound of the edge gate's numbers.
-pub fn proved<F: Searched + Scalar>(row: &Row) -> (Proved, Option<f64>) {
+pub fn proved<F: Searched + Scalar>(row: &Row) -> (ProvedDepths, Option<f64>) {
     let effort = Effort { evaluations: 0, seed: 1 };
     let summary = Summary::<F>::new(row.entry, Domain::UNIT, &[], &[], effort);
-    let Ok(summary) = summary else { return (Proved::default(), None) };
+    let Ok(summary) = summary else { return (ProvedDepths::default(), None) };
     let edges = summary.gates.iter().filter(|gate| gate.gate.role == Role::Edge && gate.is_margin);
     let bounds = edges.map(|gate| Some(gate.bound.as_ref().ok()?.to_f64()));
     let most = bounds.reduce(|most, bound| Some(most?.max(bound?))).flatten();
@@ -46,7 +46,7 @@ pub fn proved<F: Searched + Scalar>(row: &Row) -> (Proved, Option<f64>) {
     let is_tolerant = |(gate, e): (&Gate, F)| gate.role != Role::Edge || e <= F::zero();
     let is_tight = summary.symmetry == Symmetry::ExactSigns
         && row.entry.info.gates.iter().zip(row.epsilons::<F>()).all(is_tolerant);
-    (Proved { depths, is_tight }, most)
+    (ProvedDepths { depths, is_tight }, most)
 }
 
 fn with(row: &Row, epsilons: Vec<EpsilonText>) -> Row {

@@ -1,6 +1,6 @@
 //! Small changes to a kernel: which of them mend what is wrong with it, and what they cost.
 
-use super::candidates::{Candidate, Proved, candidates, proved};
+use super::candidates::{Candidate, ProvedDepths, candidates, proved};
 use super::patch::patch;
 use crate::audit::{
     self, Audit, CasePlace, Observer, Octave, Plan, Row, Shard, Source, SourceCell,
@@ -17,7 +17,7 @@ type Worst = (f64, Finding, usize, CasePlace);
 
 /// The counts of a row in all sources.
 #[derive(Default)]
-struct Counts {
+struct ChangeCounts {
     misses: u64,
     hits: u64,
     /// Rays at shared edges and vertices that hit nothing, of so many.
@@ -31,9 +31,9 @@ struct Counts {
     worst: Option<Worst>,
 }
 
-impl Counts {
-    fn of(audit: &Audit, row: usize) -> Counts {
-        let mut counts = Counts::default();
+impl ChangeCounts {
+    fn of(audit: &Audit, row: usize) -> ChangeCounts {
+        let mut counts = ChangeCounts::default();
         audit.cells.iter().filter(|cell| cell.row == row).for_each(|cell| counts.add(cell));
         counts
     }
@@ -66,24 +66,24 @@ impl Counts {
 }
 
 /// A kernel and its changes, counted.
-struct Tried<F> {
+struct TriedChanges<F> {
     plan: Plan,
     candidates: Vec<Candidate>,
     /// As published; a row for each candidate; as published once more, judged as a ray if some candidate is.
-    counts: Vec<Counts>,
+    counts: Vec<ChangeCounts>,
     /// The kernel's, and each candidate's.
-    proved: Vec<Proved>,
+    proved: Vec<ProvedDepths>,
     scalar: PhantomData<F>,
 }
 
-impl<F: Searched + Scalar> Tried<F> {
+impl<F: Searched + Scalar> TriedChanges<F> {
     fn new(row: &Row, sources: Vec<Source>, observer: &dyn Observer) -> Self {
         let (before, bound) = proved::<F>(row);
         let candidates = candidates::<F>(row, bound);
         let of = |it: &Candidate| match it.change {
             // Rounding knows no names of vertices, and the edges are as they were.
             Some(Change::Sorted | Change::Ahead) => before,
-            Some(Change::BySize) => Proved { depths: None, ..before },
+            Some(Change::BySize) => ProvedDepths { depths: None, ..before },
             // Every float is a double, and the domain's.
             Some(Change::Double) => proved::<f64>(row).0,
             None => proved::<F>(&it.row).0,
@@ -97,8 +97,8 @@ impl<F: Searched + Scalar> Tried<F> {
         let scalars = [F::DIGITS == 24, F::DIGITS != 24];
         let plan = Plan { rows, sources, scalars, examples: 1, attribute: 0 };
         let audit = audit::sum(&plan, Shard::WHOLE, observer);
-        let counts = (0..plan.rows.len()).map(|row| Counts::of(&audit, row)).collect();
-        Tried { plan, candidates, counts, proved, scalar: PhantomData }
+        let counts = (0..plan.rows.len()).map(|row| ChangeCounts::of(&audit, row)).collect();
+        TriedChanges { plan, candidates, counts, proved, scalar: PhantomData }
     }
 
     /// True if a row is right where another is wrong.
@@ -186,7 +186,7 @@ impl<F: Searched + Scalar> Tried<F> {
 
     /// Which change mends each kind of finding.
     fn sentences(&self) -> Vec<String> {
-        type Count = fn(&Counts) -> u64;
+        type Count = fn(&ChangeCounts) -> u64;
         let kinds: [(&str, Count); 3] = [
             ("False misses", |it| it.misses),
             ("False hits", |it| it.hits),
@@ -245,7 +245,7 @@ pub fn blocks<F: Searched + Scalar>(
     guarded: String,
     observer: &dyn Observer,
 ) -> Vec<Block> {
-    let tried = Tried::<F>::new(row, sources, observer);
+    let tried = TriedChanges::<F>::new(row, sources, observer);
     let before = &tried.counts[0];
     let mut commands = Vec::new();
     let mut next = |line: String, what: &'static str| commands.push(Command { line, what });
@@ -258,7 +258,7 @@ pub fn blocks<F: Searched + Scalar>(
             let Candidate { name, row: after, change, is_fused, .. } = &tried.candidates[i - 1];
             let what = if worst.1 == Finding::FalseMiss { "miss" } else { "hit" };
             let after_it = &tried.counts[i];
-            let from_to = |of: fn(&Counts) -> u64| {
+            let from_to = |of: fn(&ChangeCounts) -> u64| {
                 format!("{} to {}", group_digits(of(before)), group_digits(of(after_it)))
             };
             blocks.push(Block::Text(format!(

@@ -30,7 +30,7 @@ pub use objective::{Objective, Scorer, SearchTarget};
 pub use objective::{scale, verdict_and_finding};
 pub use shrink::{KEPT_SHARE, Shrunk, shrink, shrink_finding, shrink_scored, shrink_within};
 pub use signature::Signature;
-pub use simplify::{Change, SIMPLIFICATIONS, ScaleBy, Simplification, Size};
+pub use simplify::{SIMPLIFICATIONS, ScaleBy, SimplerNumber, Simplification, Size};
 pub use snippet::{c_snippet, rust_snippet};
 pub use worst::family_case;
 pub use worst::{

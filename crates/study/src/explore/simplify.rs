@@ -112,9 +112,9 @@ pub enum Simplification {
         axis: usize,
     },
     /// Every coordinate of the points that equals this one on its axis changed alike.
-    Everywhere(usize, Change),
+    Everywhere(usize, SimplerNumber),
     /// One number changed, by its place in [`Case::bits`].
-    Number(usize, Change),
+    Number(usize, SimplerNumber),
     /// Two coordinates set to small integers at once.
     Pair([usize; 2], [i8; 2]),
 }
@@ -132,7 +132,7 @@ pub enum ScaleBy {
 
 /// How one number becomes simpler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Change {
+pub enum SimplerNumber {
     /// To a small integer.
     To(i8),
     /// Its sign dropped.
@@ -183,7 +183,7 @@ impl Simplification {
         }
         all.extend([0, 1, 2].map(TurnHalf));
         let coordinates_of_points = POINTS.into_iter().flat_map(|p| [3 * p, 3 * p + 1, 3 * p + 2]);
-        let changes = Change::all();
+        let changes = SimplerNumber::all();
         for number in coordinates_of_points {
             all.extend(changes.iter().map(|change| Everywhere(number, *change)));
         }
@@ -317,24 +317,24 @@ impl ScaleBy {
     }
 }
 
-impl Change {
-    fn all() -> Vec<Change> {
-        let mut all: Vec<Change> = [0, 1, -1, 2, 3].map(Change::To).to_vec();
-        all.push(Change::Positive);
+impl SimplerNumber {
+    fn all() -> Vec<SimplerNumber> {
+        let mut all: Vec<SimplerNumber> = [0, 1, -1, 2, 3].map(SimplerNumber::To).to_vec();
+        all.push(SimplerNumber::Positive);
         for bits in [1, 2, 3, 4, 6, 9, 13, 18, 24, 36, 48] {
-            all.extend([Change::Cut(bits), Change::CutUp(bits)]);
+            all.extend([SimplerNumber::Cut(bits), SimplerNumber::CutUp(bits)]);
         }
-        all.extend([Change::Integer, Change::HalfExponent]);
-        all.extend([-1, 1, -8, 8].map(Change::Scaled));
-        all.extend([Change::LowestBitCleared, Change::LowestBitAdded]);
+        all.extend([SimplerNumber::Integer, SimplerNumber::HalfExponent]);
+        all.extend([-1, 1, -8, 8].map(SimplerNumber::Scaled));
+        all.extend([SimplerNumber::LowestBitCleared, SimplerNumber::LowestBitAdded]);
         all
     }
 
     fn apply<F: Float>(self, x: F) -> F {
         let Some((digits, exponent)) = odd_and_exponent(x) else {
             return match self {
-                Change::To(value) => F::from_f64(value.into()),
-                Change::Positive if x.is_zero() => F::zero(),
+                SimplerNumber::To(value) => F::from_f64(value.into()),
+                SimplerNumber::Positive if x.is_zero() => F::zero(),
                 _ => x,
             };
         };
@@ -347,18 +347,18 @@ impl Change {
             if low == 0 { x } else { of((digits >> low) + up, exponent + low as i32) }
         };
         match self {
-            Change::To(value) => F::from_f64(value.into()),
-            Change::Positive => x.abs(),
-            Change::Cut(bits) => cut(bits, 0),
-            Change::CutUp(bits) => cut(bits, 1),
-            Change::Integer => {
+            SimplerNumber::To(value) => F::from_f64(value.into()),
+            SimplerNumber::Positive => x.abs(),
+            SimplerNumber::Cut(bits) => cut(bits, 0),
+            SimplerNumber::CutUp(bits) => cut(bits, 1),
+            SimplerNumber::Integer => {
                 let whole = x.to_f64().round();
                 if whole == 0.0 { F::zero() } else { F::from_f64(whole) }
             }
-            Change::Scaled(power) => of(digits, exponent + i32::from(power)),
-            Change::HalfExponent => of(digits, exponent / 2),
-            Change::LowestBitCleared => of(digits - 1, exponent),
-            Change::LowestBitAdded => of(digits + 1, exponent),
+            SimplerNumber::Scaled(power) => of(digits, exponent + i32::from(power)),
+            SimplerNumber::HalfExponent => of(digits, exponent / 2),
+            SimplerNumber::LowestBitCleared => of(digits - 1, exponent),
+            SimplerNumber::LowestBitAdded => of(digits + 1, exponent),
         }
     }
 }
