@@ -44,7 +44,7 @@ pub const UNIT: f64 = 1e6;
 /// The places of a row in a scalar.
 #[derive(Debug)]
 pub struct DrawnRow {
-    /// By [`Part::ALL`]: what stands in a command before and after a ray's index.
+    /// By [`AimedPart::ALL`]: what stands in a command before and after a ray's index.
     pub commands: [[String; 2]; 2],
     /// Cracks first; otherwise in no order, so that the first are spread over the mesh.
     pub marks: Vec<MeshMark>,

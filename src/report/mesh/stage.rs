@@ -12,7 +12,7 @@ use maud::{Markup, html};
 
 /// Places of a row that stand in its table.
 const LISTED: usize = 20;
-/// The words for a fault, in the order of [`crate::audit::mesh::Wrong`].
+/// The words for a fault, in the order of [`crate::audit::mesh::PlaceFault`].
 const WRONG: [&str; 3] = ["crack", "double", "wrong at a fold"];
 
 /// The drawing and the places of a report that has a drawing.

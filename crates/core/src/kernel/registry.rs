@@ -242,12 +242,18 @@ fn variant(
     Some(variant)
 }
 
-/// A kernel's name, and how its form is made of it, if the name ends in one.
-#[allow(clippy::type_complexity)]
-fn name_and_variant(name: &str) -> Option<(&str, Result<Arithmetic, Change>)> {
+/// What a name says behind a `+`.
+enum KernelForm {
+    InArithmetic(Arithmetic),
+    With(Change),
+}
+
+/// A kernel's name, and the form of it that the name ends in, if it does.
+fn name_and_variant(name: &str) -> Option<(&str, KernelForm)> {
     let (kernel, form) = name.rsplit_once('+')?;
     let arithmetic = form.parse().ok().filter(|found| *found != Arithmetic::IEEE);
-    let form = arithmetic.map_or_else(|| Change::named(form).map(Err), |it| Some(Ok(it)))?;
+    let arithmetic = arithmetic.map(KernelForm::InArithmetic);
+    let form = arithmetic.or_else(|| Change::named(form).map(KernelForm::With))?;
     Some((kernel, form))
 }
 
@@ -278,8 +284,8 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
     }
     if let Some((kernel, form)) = name_and_variant(name) {
         let form_of = match form {
-            Ok(_) => "a kernel in another arithmetic",
-            Err(_) => "a changed kernel",
+            KernelForm::InArithmetic(_) => "a kernel in another arithmetic",
+            KernelForm::With(_) => "a changed kernel",
         };
         let form = &name[kernel.len()..];
         return Err(format!("'{name}' is no name for a kernel: {form} names {form_of}"));
@@ -300,7 +306,10 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
 pub fn find(name: &str) -> Option<&'static Entry> {
     if let Some((kernel, form)) = name_and_variant(name) {
         let kernel = find(kernel)?;
-        return form.map_or_else(|change| changed(kernel, change), |it| in_arithmetic(kernel, it));
+        return match form {
+            KernelForm::InArithmetic(arithmetic) => in_arithmetic(kernel, arithmetic),
+            KernelForm::With(change) => changed(kernel, change),
+        };
     }
     let is_named = |entry: &&'static Entry| entry.info.name == name;
     let added =

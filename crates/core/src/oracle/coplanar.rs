@@ -92,7 +92,7 @@ const MET: [MetBoundary; 27] = {
 };
 
 /// The points that the ray has in common with the triangle (0: nothing, 1: the first point met, 2: the second, 3: a
-/// segment), by the number of points and by the signs of their t as [`Met::contacts`] are.
+/// segment), by the number of points and by the signs of their t as [`MetBoundary::contacts`] are.
 const COMMON: [[usize; 9]; 3] = [
     [0; 9],
     [0, 0, 0, 1, 1, 1, 1, 1, 1],

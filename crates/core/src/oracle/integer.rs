@@ -49,7 +49,7 @@ impl ExactInteger for BigInt {
     }
 }
 
-/// A [`Number`] that computes: `i128` or `BigInt`.
+/// A [`ExactInteger`] that computes: `i128` or `BigInt`.
 pub trait Integer:
     ExactInteger
     + Clone

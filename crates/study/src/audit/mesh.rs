@@ -71,7 +71,7 @@ pub struct MeshFound {
 pub struct RowFound {
     /// The row's place in the plan.
     pub row: usize,
-    /// By [`Part::ALL`].
+    /// By [`AimedPart::ALL`].
     pub tallies: [MeshTally; 2],
     /// How many edges, and how many vertices, have a crack.
     pub cracked: [u64; 2],
@@ -92,7 +92,7 @@ pub struct MeshTally {
     pub failures: u64,
     /// The first of them, by index.
     pub first_failures: Vec<u64>,
-    /// Where it went wrong, up to [`Plan::places`].
+    /// Where it went wrong, up to [`MeshPlan::places`].
     pub places: Places,
 }
 

@@ -22,7 +22,7 @@ pub fn all() -> Vec<MadeMesh> {
     vec![icosphere(), torus(), heightfield(), needles(), far()]
 }
 
-/// An OBJ file of what a [`Shape`] cannot say: a closed house of quads and pentagons in four groups
+/// An OBJ file of what a [`MadeMesh`] cannot say: a closed house of quads and pentagons in four groups
 /// (16 triangles), with negative indices, texture and normal indices and a continued line, and an
 /// arrow head whose fan folds over (2 triangles).
 pub const POLYGONS_OBJ: &str = "\

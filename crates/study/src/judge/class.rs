@@ -54,7 +54,7 @@ impl TruthKind {
         FACINGS[self.number()]
     }
 
-    /// A number below [`Kind::COUNT`].
+    /// A number below [`TruthKind::COUNT`].
     #[inline]
     pub fn number(self) -> usize {
         usize::from(self.0)
