@@ -242,7 +242,7 @@ fn variant(
     Some(variant)
 }
 
-/// What a name says behind a `+`.
+/// The form of a kernel that stands behind a `+` in a name.
 enum KernelForm {
     InArithmetic(Arithmetic),
     With(Change),
