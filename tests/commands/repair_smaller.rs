@@ -112,6 +112,20 @@ fn again(folder: &std::path::Path, line: &str) -> (String, i32) {
 }
 
 #[test]
+fn flags_that_would_do_nothing_are_refused() {
+    let folder = scratch("repair-flags");
+    let repair = ["repair", "--kernel", "moller-trumbore"];
+    for (words, part) in [
+        (&["--emit", "c", "--epsilon", "parallel=1e-9"][..], "--epsilon is of the kernel as it is"),
+        (&["-o", "screen.txt"], "-o takes what --emit writes"),
+        (&["-o", "folder/"], "-o takes what --emit writes"),
+    ] {
+        let (_, said) = ends(&folder, &[&repair[..], words].concat(), 2);
+        assert!(said.contains(part), "{words:?}: {said}");
+    }
+}
+
+#[test]
 fn the_smallest_change_mends_the_worst_and_the_refuted_ones_do_not() {
     let folder = scratch("repair-smaller");
     let (text, _) =
@@ -126,6 +140,9 @@ fn the_smallest_change_mends_the_worst_and_the_refuted_ones_do_not() {
         let (said, _) = again(&folder, line);
         assert!(is_wrong(&said), "{line}: {said}");
     }
+    // A rounded t may refuse what is far inside, so of a gate on t nothing is proved.
+    let ahead = text.lines().find(|line| line.starts_with("+ahead ")).unwrap();
+    assert_eq!(ahead.split_whitespace().skip(5).take(3).collect::<Vec<_>>(), ["-"; 3], "{text}");
     // The same case under the change of the patch.
     let name = text.lines().find_map(|line| line.strip_prefix("+++ ")).unwrap();
     let audit = commands.iter().find(|line| line.contains("hairline audit")).unwrap();

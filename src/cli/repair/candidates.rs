@@ -23,14 +23,15 @@ pub struct Candidate {
 /// The statements of `prove` about a row.
 #[derive(Clone, Copy, Default)]
 pub struct ProvedDepths {
-    /// How far inside a false miss and outside a false hit can be, as shares of the longest edge, in the unit domain.
+    /// How far inside a false miss and outside a false hit can be by the edges' gates, as shares of the longest edge, in the
+    /// unit domain.
     pub depths: Option<[f64; 2]>,
     /// True if no ray passes between neighbours.
     pub is_tight: bool,
 }
 
-/// The statements without a search; and the bound of the edge gate's numbers.
-pub fn proved<F: Searched + Scalar>(row: &Row) -> (ProvedDepths, Option<f64>) {
+/// The statements without a search, at these epsilons; and the bound of the edge gate's numbers.
+pub fn proved<F: Searched + Scalar>(row: &Row, epsilons: &[F]) -> (ProvedDepths, Option<f64>) {
     let effort = Effort { evaluations: 0, seed: 1 };
     let summary = Summary::<F>::new(row.entry, Domain::UNIT, &[], &[], effort);
     let Ok(summary) = summary else { return (ProvedDepths::default(), None) };
@@ -38,14 +39,14 @@ pub fn proved<F: Searched + Scalar>(row: &Row) -> (ProvedDepths, Option<f64>) {
     let bounds = edges.map(|gate| Some(gate.bound.as_ref().ok()?.to_f64()));
     let most = bounds.reduce(|most, bound| Some(most?.max(bound?))).flatten();
     let effort = (&[][..], effort);
-    let judged = Judged::new(row.entry, &summary, &row.epsilons::<F>(), &[Domain::UNIT], effort);
+    let judged = Judged::new(row.entry, &summary, epsilons, &[Domain::UNIT], effort);
     let depths = judged.and_then(|judged| {
         let [misses, hits] = [judged.verdicts.misses, judged.verdicts.hits];
         Some([misses.ok()?.share, hits.ok()?.share])
     });
-    let is_tolerant = |(gate, e): (&Gate, F)| gate.role != Role::Edge || e <= F::zero();
+    let is_tolerant = |(gate, e): (&Gate, &F)| gate.role != Role::Edge || *e <= F::zero();
     let is_tight = summary.symmetry == Symmetry::ExactSigns
-        && row.entry.info.gates.iter().zip(row.epsilons::<F>()).all(is_tolerant);
+        && row.entry.info.gates.iter().zip(epsilons).all(is_tolerant);
     (ProvedDepths { depths, is_tight }, most)
 }
 

@@ -87,11 +87,19 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
         None => return Err(Failure::usage("repair is of one --kernel, or of all with -o FOLDER/")),
     };
     let is_single = entries.len() == 1 && scalars[0] != scalars[1];
-    if arguments.emit.is_none() && arguments.certificate.is_none() {
-        let [entry] = entries[..] else {
-            return Err(Failure::usage("all kernels are written with --emit c, into -o FOLDER/"));
-        };
-        return arguments.smaller(entry, scalars, sources);
+    let is_written = arguments.emit.is_some() || arguments.certificate.is_some();
+    if is_written && arguments.epsilon.is_some() {
+        let message =
+            "--epsilon is of the kernel as it is: what --emit and --certificate write has none";
+        return Err(Failure::usage(message));
+    }
+    if !is_written {
+        if arguments.output != "-" {
+            return Err(Failure::usage(
+                "-o takes what --emit writes: name a language, as --emit c",
+            ));
+        }
+        return arguments.smaller(entries[0], scalars, sources);
     }
     if !is_folder && !is_single {
         return Err(Failure::usage("two scalars are two files: name one, or -o FOLDER/"));

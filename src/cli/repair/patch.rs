@@ -1,7 +1,7 @@
 //! A small change to a kernel, as a difference between two listings of what it compares.
 
 use crate::audit::Row;
-use crate::kernel::{Change, Gate, Role};
+use crate::kernel::{Change, Gate, has_size};
 
 /// A kernel's comparisons in order, with its epsilons; and what stands around them.
 fn listing(row: &Row, change: Option<Change>, is_fused: bool) -> Vec<String> {
@@ -23,7 +23,7 @@ fn listing(row: &Row, change: Option<Change>, is_fused: bool) -> Vec<String> {
     }
     for (gate, epsilon) in row.entry.info.gates.iter().zip(&row.epsilons) {
         let mut epsilon = epsilon.to_string();
-        if change == Some(Change::BySize) && epsilon != "0" {
+        if change == Some(Change::BySize) && epsilon != "0" && has_size(gate) {
             epsilon += &size(gate);
         }
         let refuses = gate.refuses.split(" (printed").next().unwrap_or_default();
@@ -38,9 +38,7 @@ fn listing(row: &Row, change: Option<Change>, is_fused: bool) -> Vec<String> {
 
 /// `*L*L*D` for a number of length squared times the direction.
 fn size(gate: &Gate) -> String {
-    let is_sized = matches!(gate.role, Role::Parallel | Role::Edge);
-    let power =
-        |name: &str, times: i8| name.repeat(if is_sized { times.max(0) as usize } else { 0 });
+    let power = |name: &str, times: i8| name.repeat(times.max(0) as usize);
     power("*L", gate.dimension.length) + &power("*D", gate.dimension.direction)
 }
 

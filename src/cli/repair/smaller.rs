@@ -78,15 +78,20 @@ struct TriedChanges<F> {
 
 impl<F: Searched + Scalar> TriedChanges<F> {
     fn new(row: &Row, sources: Vec<Source>, observer: &dyn Observer) -> Self {
-        let (before, bound) = proved::<F>(row);
+        let (before, bound) = proved(row, &row.epsilons::<F>());
         let candidates = candidates::<F>(row, bound);
         let of = |it: &Candidate| match it.change {
-            // Rounding knows no names of vertices, and the edges are as they were.
-            Some(Change::Sorted | Change::Ahead) => before,
+            // Rounding knows no names of vertices.
+            Some(Change::Sorted) => before,
+            // A rounded t may refuse what is far inside.
+            Some(Change::Ahead) => ProvedDepths::default(),
             Some(Change::BySize) => ProvedDepths { depths: None, ..before },
-            // Every float is a double, and the domain's.
-            Some(Change::Double) => proved::<f64>(row).0,
-            None => proved::<F>(&it.row).0,
+            // Every float is a double, and the domain's; its epsilons are those floats.
+            Some(Change::Double) => {
+                let epsilons = row.epsilons::<F>().into_iter().map(F::to_f64);
+                proved::<f64>(row, &epsilons.collect::<Vec<_>>()).0
+            }
+            None => proved(&it.row, &it.row.epsilons::<F>()).0,
         };
         let proved = std::iter::once(before).chain(candidates.iter().map(of)).collect();
         let mut rows = vec![row.clone()];
@@ -136,7 +141,7 @@ impl<F: Searched + Scalar> TriedChanges<F> {
             Head::of("leaks").about("% of rays at shared edges and vertices that hit nothing; none: proved of edges"),
             Head::of("visible").about("wrong by over 2^-10 of an edge"),
             Head::of("worst").about("whether it is right where the kernel is most wrong"),
-            Head::of("proved inside").about("no false miss of the unit domain is farther inside an edge; then the same of hits outside"),
+            Head::of("proved inside").about("no false miss of the unit domain is farther inside an edge, by the edges' gates (`prove` says what others add); then the same of hits outside"),
             Head::of("outside"),
             Head::of("cost").about("time in this run as a multiple of the kernel's, with a wrapper's call for each ray: at most"),
         ];

@@ -36,7 +36,7 @@ fn largest<F: Float>(coordinates: impl IntoIterator<Item = F>) -> F {
 }
 
 /// True if [`Change::BySize`] changes the epsilon of a gate.
-pub(super) fn has_size(gate: &Gate) -> bool {
+pub fn has_size(gate: &Gate) -> bool {
     gate.dimension.has_unit() && matches!(gate.role, Role::Parallel | Role::Edge)
 }
 
@@ -102,6 +102,7 @@ impl<F: Float> Subject<F> for Changed<F> {
                     self.kernel.run(&[case], epsilons, place);
                     renamed(verdict, order);
                 }
+                // The other one is not of this type.
                 Change::Ahead | Change::Double => {
                     self.kernel.run(slice::from_ref(case), epsilons, place);
                     if verdict.t < F::zero() {

@@ -48,7 +48,7 @@ mod plucker;
 mod scalar_triple;
 mod woop_watertight;
 
-pub use changed::Change;
+pub use changed::{Change, has_size};
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, refused_by};
 pub use generic::Generic;
 pub use margins::{by_running, of_miss, open_epsilons, values_of};
