@@ -79,7 +79,7 @@ enum Chosen {
     Mesh(Box<mesh::MeshArguments>),
     /// Prove what a kernel can never do wrong, whatever the floats
     Prove(Box<prove::ProveArguments>),
-    /// Write a kernel that says hit, miss or ask, and is proved right
+    /// Mend a kernel by small changes, or write one that may ask
     Repair(Box<repair::RepairArguments>),
     /// Show one case: its exact truth, and why a kernel was wrong
     Explain(explain::ExplainArguments),

@@ -318,7 +318,7 @@ fn what_cannot_be_repaired_is_refused_with_the_reason() {
     refused(
         &["--kernel", "moller-trumbore+fma", "--emit", "c"],
         4,
-        "name the kernel without its arithmetic",
+        "name the kernel without what stands behind +",
     );
     refused(&["--emit", "c"], 2, "repair is of one --kernel");
     refused(

@@ -95,6 +95,12 @@ fn what_is_behind_is_no_hit_ahead() {
     assert!(10 < behind, "{behind}");
     // It tests t already.
     assert!(find("woop-watertight+ahead").is_none());
+    // One change at a time.
+    for name in
+        ["moller-trumbore+ahead+ahead", "moller-trumbore+by-size+double", "cramer+fma+sorted"]
+    {
+        assert!(find(name).is_none(), "{name}");
+    }
 }
 
 /// Runs a command line that the program printed.
@@ -146,9 +152,9 @@ fn the_smallest_change_mends_the_worst_and_the_refuted_ones_do_not() {
     // The same case under the change of the patch.
     let name = text.lines().find_map(|line| line.strip_prefix("+++ ")).unwrap();
     let audit = commands.iter().find(|line| line.contains("hairline audit")).unwrap();
-    assert!(audit.ends_with(name), "{audit}: {name}");
+    assert!(audit.ends_with(&format!("{name} --scalar f32")), "{audit}: {name}");
     let case = commands.iter().rfind(|line| line.starts_with("hairline explain")).unwrap();
-    let flags = audit.replacen("hairline audit ", "", 1);
+    let flags = audit.replacen("hairline audit ", "", 1).replace(" --scalar f32", "");
     let (said, _) =
         again(&folder, &format!("{} {flags}", &case[..case.find(" --kernel").unwrap()]));
     assert!(!is_wrong(&said), "{said}");

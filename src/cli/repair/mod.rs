@@ -43,7 +43,7 @@ pub struct RepairArguments {
     #[arg(long, value_name = "LANGUAGE")]
     emit: Option<Language>,
 
-    /// Epsilons of your own copy of the kernel, as parallel=1e-7, where it is not written but mended
+    /// Epsilons of your own copy of the kernel, as parallel=1e-7; what --emit writes has none
     #[arg(long, value_name = "GATE=VALUE,...", allow_hyphen_values = true)]
     epsilon: Option<String>,
 

@@ -268,16 +268,18 @@ pub fn blocks<F: Searched + Scalar>(
             };
             blocks.push(Block::Text(format!(
                 "{name} is the smallest change here that mends the worst, a false {what} {} of an edge off, halves \
-                 the visible errors ({}), and is wrong no more often: false misses go from {}, false hits from {}.",
+                 the visible errors ({}), and is wrong on no more rays in all ({}): \
+                 false misses go from {}, false hits from {}.",
                 above(worst.0),
                 from_to(|it| it.visible),
+                from_to(ChangeCounts::wrong),
                 from_to(|it| it.misses),
                 from_to(|it| it.hits),
             )));
             blocks.push(Block::Listing(patch(row, after, *change, *is_fused)));
             next(tried.command(row, worst), "the worst, as published");
             next(
-                format!("hairline audit {}", after.flags()),
+                format!("hairline audit {} --scalar {}", after.flags(), F::NAME),
                 "everything about the changed kernel",
             );
         }
@@ -295,8 +297,10 @@ pub fn blocks<F: Searched + Scalar>(
     let refuted =
         (1..=tried.candidates.len()).filter(|i| tried.is_comparable(*i) && !tried.mends(*i));
     let item = |i: usize| {
-        let text =
-            format!("{} is refuted, it does not mend the worst:", tried.candidates[i - 1].name);
+        let text = format!(
+            "{} is refuted for the worst ray, which stays wrong:",
+            tried.candidates[i - 1].name
+        );
         let lines = vec![tried.command(&tried.plan.rows[i], before.worst?)];
         Some(Item { text, lines, ..Item::default() })
     };

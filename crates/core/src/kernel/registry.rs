@@ -94,8 +94,7 @@ impl Entry {
     /// True if a program has it without adding it, in whatever arithmetic.
     pub fn is_built_in(&self) -> bool {
         let name = self.info.name;
-        let base = std::iter::successors(Some(name), |name| Some(name_and_variant(name)?.0)).last();
-        let name = base.unwrap_or(name);
+        let name = name_and_variant(name).map_or(name, |(kernel, _)| kernel);
         KERNELS.iter().any(|entry| entry.info.name == name)
     }
 
@@ -168,9 +167,6 @@ pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'
     if arithmetic == Arithmetic::IEEE {
         return Some(entry);
     }
-    if name_and_variant(entry.info.name).is_some() {
-        return None;
-    }
     let subjects = |info| {
         let f32 = entry.f32?.in_arithmetic(arithmetic, info)?;
         Some((Some(f32), Some(entry.f64?.in_arithmetic(arithmetic, info)?)))
@@ -178,7 +174,8 @@ pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'
     variant(entry, arithmetic.name(), arithmetic.describe(), entry.info.contract, subjects)
 }
 
-/// A kernel with a change around it, called `NAME+CHANGE`; none if that would change nothing.
+/// A kernel with a change around it, called `NAME+CHANGE`; none if that would change nothing, or it is in
+/// another form already.
 pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> {
     let KernelInfo { contract, gates, gives, .. } = *entry.info;
     let is_some = match change {
@@ -215,7 +212,7 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
 /// The same kernel in both scalars, in another form.
 type Subjects = (Option<&'static dyn Subject<f32>>, Option<&'static dyn Subject<f64>>);
 
-/// Another form of a kernel, made once.
+/// Another form of a kernel, made once; none of one that is in another form already.
 fn variant(
     entry: &'static Entry,
     form: &str,
@@ -224,6 +221,9 @@ fn variant(
     subjects: impl FnOnce(&'static KernelInfo) -> Option<Subjects>,
 ) -> Option<&'static Entry> {
     let base = entry.info;
+    if name_and_variant(base.name).is_some() {
+        return None;
+    }
     let name = format!("{}+{form}", base.name);
     let mut variants = VARIANTS.write().unwrap_or_else(PoisonError::into_inner);
     if let Some(variant) = variants.iter().find(|variant| variant.info.name == name) {

@@ -44,7 +44,7 @@ impl Guarded {
     /// right; an error in one sentence otherwise.
     pub fn new<F: Scalar>(entry: &Entry) -> Result<Guarded, String> {
         if entry.info.name.contains('+') {
-            return Err("the margins hold with fused products and without: name the kernel without its arithmetic".to_owned());
+            return Err("the margins take the place of epsilons, and hold with fused products and without: name the kernel without what stands behind +".to_owned());
         }
         let Contract { coplanar, degenerate, .. } = entry.info.contract;
         if [coplanar, degenerate].contains(&Demand::Hit) {
