@@ -25,8 +25,8 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
 
 fn audited(arguments: &AuditArguments, outputs: &Outputs<'_>) -> Result<Status, Failure> {
     let plan = arguments.run.plan(arguments.attribute)?;
-    let mut record = arguments.run.execute(&plan, outputs.illustrate())?;
+    let record = arguments.run.execute(&plan, outputs.illustrate())?;
     self_check(&record)?;
-    outputs.write(&mut record)?;
+    outputs.write(&record)?;
     Ok(Status::Success)
 }

@@ -170,7 +170,7 @@ fn checked(
     self_check(&record)?;
     if let Some(partial) = &record.result.partial {
         part_only(arguments, partial)?;
-        return outputs.write(&mut record).map(|()| Status::Success);
+        return outputs.write(&record).map(|()| Status::Success);
     }
     let file = &arguments.expectations;
     let is_demanded = !is_default_file && given.iter().all(|given| given.key != "expectations");
@@ -218,7 +218,7 @@ fn checked(
     drop(lock);
     conformance.demand(unproved);
     record.conformance = Some(conformance);
-    outputs.write(&mut record)?;
+    outputs.write(&record)?;
     github::announce(&record)?;
     Ok(match record.conformance.map(|conformance| conformance.verdict) {
         Some(ComparisonVerdict::Disagreements) => Status::Disagreements,

@@ -1,10 +1,14 @@
 //! `hairline diff`: two records side by side.
 
 use super::exit::{Failure, Status};
-use super::input::read_record;
+use super::input::RecordText;
 use super::output::OutputArguments;
-use crate::expect::{Trend, difference};
-use crate::report::Format;
+use super::prove::ProofResult;
+use super::spawn::SpawnResult;
+use crate::expect::{RecordComparison, difference, difference_of};
+use crate::report::epsilon::SceneResult;
+use crate::report::mesh::MeshResult;
+use crate::report::{Comparable, Format, Record, Study};
 use clap::Args;
 
 /// The arguments of `diff`: the records to compare, and how to report.
@@ -30,13 +34,58 @@ pub struct DiffArguments {
 /// Runs the command.
 pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
     let pairs = arguments.output.pairs(Format::OF_PAGE)?;
-    let (old, new) = (read_record(&arguments.old)?, read_record(&arguments.new)?);
-    let comparison = difference(&old.result, &new.result);
+    let [old, new] = [&arguments.old, &arguments.new].map(|path| RecordText::open(path));
+    let (old, new) = (old?, new?);
+    let comparison = match old.study {
+        Study::Audit => {
+            let (old, new): (Record, Record) = (old.read()?, new.read()?);
+            difference(&old.result, &new.result)
+        }
+        Study::Epsilon => of_one_study::<SceneResult>(old, new)?,
+        Study::Mesh => of_one_study::<MeshResult>(old, new)?,
+        Study::Spawn => of_one_study::<SpawnResult>(old, new)?,
+        Study::Prove => of_one_study::<ProofResult>(old, new)?,
+    };
     if comparison.common == 0 {
-        let message = "nothing to compare: the records have no kernel with its epsilons on a family in common";
+        let message = "nothing to compare: the records have no kernel with its epsilons on the same kind of rays in common";
         return Err(Failure::Message(Status::NothingSelected, message.to_owned()));
     }
     arguments.output.write(pairs, &comparison)?;
-    let is_worse = comparison.differences.iter().any(|found| found.change == Trend::Worse);
-    Ok(if arguments.exit_code && is_worse { Status::Disagreements } else { Status::Success })
+    Ok(if arguments.exit_code && comparison.is_worse() {
+        Status::Disagreements
+    } else {
+        Status::Success
+    })
+}
+
+fn of_one_study<R: Comparable>(
+    old: RecordText<'_>,
+    new: RecordText<'_>,
+) -> Result<RecordComparison, Failure> {
+    let (old, new) = (old.read::<R>()?, new.read::<R>()?);
+    Ok(difference_of(&old.result, &new.result))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::ResultPart;
+    use schemars::JsonSchema;
+
+    /// A record of any study.
+    #[derive(JsonSchema)]
+    #[serde(untagged)]
+    #[allow(dead_code)]
+    enum AnyRecord {
+        Audit(Record<ResultPart>),
+        Epsilon(Record<SceneResult>),
+        Mesh(Record<MeshResult>),
+        Spawn(Record<SpawnResult>),
+        Prove(Record<ProofResult>),
+    }
+
+    #[test]
+    fn the_committed_schema_is_that_of_the_types() {
+        crate::report::tests::schema::assert_committed::<AnyRecord>("record");
+    }
 }

@@ -171,8 +171,8 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     progress.finish();
     let context = Context { seconds: progress.seconds(), threads };
     let mut record = scene_record(&studied, &costs, max_error, seed, count, &context, parts);
-    record.left_out = arguments.sources.left_out()?;
-    arguments.output.write(outputs, &record)?;
+    record.result.left_out = arguments.sources.left_out()?;
+    arguments.output.write(outputs, &record.sealed())?;
     Ok(Status::Success)
 }
 

@@ -7,7 +7,7 @@ use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::{self, Mesh};
 use crate::descriptors;
-use crate::report::{Record, SCHEMA, number_of};
+use crate::report::{Findings, Record, SCHEMA, Study, number_of};
 use serde::Deserialize;
 use std::collections::{HashMap, HashSet};
 use std::fs::{self, File};
@@ -42,32 +42,64 @@ pub fn read_text(path: &str) -> Result<String, Failure> {
     })
 }
 
-/// Reads a record. One of another version is refused as such.
+/// The text of a record, whose study is known.
+pub struct RecordText<'a> {
+    path: &'a str,
+    text: String,
+    pub study: Study,
+}
+
+impl<'a> RecordText<'a> {
+    /// Opens a record. One of another version is refused as such.
+    pub fn open(path: &'a str) -> Result<RecordText<'a>, Failure> {
+        #[derive(Deserialize)]
+        struct Envelope {
+            schema: String,
+            study: Option<Study>,
+        }
+        let text = read_text(path)?;
+        let envelope: Envelope = serde_json::from_str(&text)
+            .map_err(|error| InputError::at(path, error.line(), error.to_string()))?;
+        match envelope {
+            Envelope { schema, study: Some(study) } if schema == SCHEMA => {
+                Ok(RecordText { path, text, study })
+            }
+            Envelope { schema, .. } => {
+                let message = format!("a record of schema '{schema}', expected '{SCHEMA}'");
+                Err(InputError::of(path, message).into())
+            }
+        }
+    }
+
+    /// Reads it, if it is of a study.
+    pub fn read<R: Findings>(self) -> Result<Record<R>, Failure> {
+        let RecordText { path, text, study } = self;
+        let wrong = |message: String| Failure::from(InputError::of(path, message));
+        if study != R::STUDY {
+            let expected = R::STUDY;
+            return Err(wrong(format!(
+                "a record of `hairline {study}`, expected one of `hairline {expected}`"
+            )));
+        }
+        let record: Record<R> = serde_json::from_str(&text)
+            .map_err(|error| InputError::at(path, error.line(), error.to_string()))?;
+        if record.checksum.as_ref().is_some_and(|written| *written != record.checksum_now()) {
+            return Err(wrong("its result is not the one that hairline wrote: the checksum differs, so numbers were changed since".to_owned()));
+        }
+        let target = &record.provenance.target;
+        let is_of_target = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+        if target.is_empty() || !target.chars().all(is_of_target) {
+            return Err(wrong(format!(
+                "provenance.target: {target:?} is none; expected one as x86_64-linux"
+            )));
+        }
+        Ok(record)
+    }
+}
+
+/// Reads the record of an audit.
 pub fn read_record(path: &str) -> Result<Record, Failure> {
-    #[derive(Deserialize)]
-    struct RecordVersion {
-        schema: String,
-    }
-    let text = read_text(path)?;
-    let bad = |error: serde_json::Error| InputError::at(path, error.line(), error.to_string());
-    let version: RecordVersion = serde_json::from_str(&text).map_err(bad)?;
-    if version.schema != SCHEMA {
-        let message = format!("a record of schema '{}', expected '{SCHEMA}'", version.schema);
-        return Err(InputError::of(path, message).into());
-    }
-    let record: Record = serde_json::from_str(&text).map_err(bad)?;
-    if record.checksum.as_ref().is_some_and(|written| *written != record.checksum_now()) {
-        let message = "its result is not the one that hairline wrote: the checksum differs, so numbers were changed since";
-        return Err(InputError::of(path, message).into());
-    }
-    let target = &record.provenance.target;
-    if target.is_empty() || !target.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
-    {
-        let message =
-            format!("provenance.target: {target:?} is none; expected one as x86_64-linux");
-        return Err(InputError::of(path, message).into());
-    }
-    Ok(record)
+    RecordText::open(path)?.read()
 }
 
 /// Reads a mesh, with a progress bar for a large one, and prints its notes.

@@ -64,11 +64,10 @@ fn joined(arguments: &MergeArguments, outputs: &Outputs<'_>) -> Result<Status, F
     let quiet = arguments.report.output.quiet;
     let progress = Progress::new(0, "indices", true);
     let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrated(plan));
-    let mut record =
-        merged(parts, illustrate, &progress, |stock, scalars| open(stock, scalars, quiet))
-            .map_err(|Unmergeable(failure)| failure)?;
+    let record = merged(parts, illustrate, &progress, |stock, scalars| open(stock, scalars, quiet))
+        .map_err(|Unmergeable(failure)| failure)?;
     self_check(&record)?;
-    outputs.write(&mut record)?;
+    outputs.write(&record)?;
     Ok(Status::Success)
 }
 

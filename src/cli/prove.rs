@@ -17,14 +17,17 @@ use super::input::read_text;
 use super::output::{OutputArguments, write_result};
 use crate::audit::{EpsilonChoice, Row, shell_word};
 use crate::case;
+use crate::engine;
 use crate::kernel::{self, Entry};
 use crate::prove::{Domain, Effort, Scene, Shape};
-use crate::report::{Format, ProofPart, write_json};
+use crate::report::{Context, Format, ProofPart, Record, provenance_of, write_json};
 use clap::Args;
 use job::{Epsilons, Job, Parts};
 use leaks::leak;
-use record::{DomainPart, GatePart, Record, Report};
+pub use record::ProofResult;
+use record::{DomainPart, GatePart, Report};
 use scenes::{degrees, mesh_scene, range, scene_text};
+use std::time::Instant;
 use witnesses::{KNOWN, merge, read_witnesses};
 
 /// The flags of `prove`: the kernels, and how to report.
@@ -183,14 +186,10 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     let epsilons = arguments.epsilons(&entries)?;
     let shared = arguments.update.is_some();
     let job = Job { scene, shapes, domain, parts, effort, epsilons, stored: &stored, shared };
+    let started = Instant::now();
     let results = job.run_all(&entries, scalars, arguments.output.quiet);
-    let mut record = Record {
-        schema: "hairline/proof-2",
-        version: env!("CARGO_PKG_VERSION"),
-        domain: DomainPart::new(&domain),
-        gates: Vec::new(),
-        kernels: Vec::new(),
-    };
+    let mut result =
+        ProofResult { domain: DomainPart::new(&domain), gates: Vec::new(), kernels: Vec::new() };
     let mut found = Vec::new();
     for part in results {
         if let Some(message) = part.contradiction {
@@ -198,14 +197,14 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         }
         let wanted =
             |part: &GatePart| arguments.gate.as_deref().is_none_or(|name| name == part.gate);
-        record.gates.extend(part.gates.into_iter().filter(wanted));
-        record.kernels.extend(part.kernel);
+        result.gates.extend(part.gates.into_iter().filter(wanted));
+        result.kernels.extend(part.kernel);
         found.extend(part.witnesses);
         if let Some(note) = part.note.filter(|_| !arguments.output.quiet) {
             eprintln!("{note}");
         }
     }
-    if record.gates.is_empty() {
+    if result.gates.is_empty() {
         let message = "no chosen kernel has a program that can be recorded".to_owned();
         return Err(Failure::Message(Status::NothingSelected, message));
     }
@@ -220,12 +219,14 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         eprintln!("{path}: {raised} of {} witnesses are new or worse", stored.len());
     }
     if let [entry] = entries[..] {
-        for kernel in record.kernels.iter_mut().filter(|kernel| kernel.may_leak) {
-            kernel.leak = in_named_scalar!(kernel.scalar, F => leak::<F>(entry));
+        for kernel in result.kernels.iter_mut().filter(|kernel| kernel.may_leak) {
+            kernel.leak = in_named_scalar!(&kernel.scalar[..], F => leak::<F>(entry));
         }
     }
+    let seconds = started.elapsed().as_secs_f64();
+    let context = Context { seconds, threads: engine::threads() };
     let report = Report {
-        record,
+        record: Record::new(result, provenance_of(&context)).sealed(),
         scene: scene.as_ref().map(scene_text),
         rays: arguments.rays(),
         is_of_one: entries.len() == 1,

@@ -81,9 +81,8 @@ impl Outputs<'_> {
         outcome
     }
 
-    /// Writes a record to each, with its checksum.
-    pub fn write(&self, record: &mut Record) -> Result<(), Failure> {
-        record.checksum = Some(record.checksum_now());
+    /// Writes a record to each.
+    pub fn write(&self, record: &Record) -> Result<(), Failure> {
         self.flags.write(self.pairs.clone(), record)
     }
 }
@@ -209,7 +208,7 @@ impl RunArguments {
             record.illustrations = Some(illustrated(plan));
             progress.finish();
         }
-        Ok(record)
+        Ok(record.sealed())
     }
 }
 

@@ -17,7 +17,7 @@ use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
 use crate::mesh::SceneMesh;
 use crate::plugin::{KernelProgram, OffsetCommand};
-use crate::report::Format;
+use crate::report::{Context, Format, Record, provenance_of};
 use crate::spawn::{
     PointKind, Scheme, SpawnPlan, SpawnSums, default_schemes, needs_t, parse, register,
 };
@@ -25,7 +25,8 @@ use crate::studied::Studied;
 use choice::{least_without_failure, made_for};
 use clap::Args;
 use clap::builder::ArgPredicate;
-use record::{DerivedPart, PointsPart, SCHEMA, SpawnRecord};
+pub use record::SpawnResult;
+use record::{DerivedPart, PointsPart};
 use std::sync::Arc;
 
 /// The flags of `spawn`: the run, and how it is reported.
@@ -116,7 +117,7 @@ const DEFAULT_KERNEL: &str = "moller-trumbore";
 /// Runs the command.
 pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let outputs = arguments.output.pairs(Format::OF_PAGE)?;
-    set_threads(arguments.threads)?;
+    let threads = set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
     let scalars = one_scalar(&rows, &arguments.scalar)?;
     refuse_wrong_values(&rows, scalars)?;
@@ -165,8 +166,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
             return Err(Failure::Message(Status::BadInput, format!("scheme '{name}': {fault}")));
         }
     }
-    let record = SpawnRecord {
-        schema: SCHEMA.to_owned(),
+    let result = SpawnResult {
         scene: scene.to_string(),
         mesh: arguments.mesh.clone(),
         unit: unit.to_owned(),
@@ -179,7 +179,8 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         planes: scenes.iter().map(|scene| scene.kind().to_string()).collect(),
         points,
     };
-    arguments.output.write(outputs, &record)?;
+    let context = Context { seconds: progress.seconds(), threads };
+    arguments.output.write(outputs, &Record::new(result, provenance_of(&context)).sealed())?;
     Ok(Status::Success)
 }
 

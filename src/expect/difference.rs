@@ -4,11 +4,14 @@ use super::changed::{CaseChange, changed_case};
 use super::compare::tail;
 use crate::report::page::{Block, Item, Page, Paged, Tone};
 use crate::report::{
-    Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, RowPart, disagreements,
-    group_digits, number_of, rate_of,
+    Chosen, Comparable, Counted, Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart,
+    RowPart, disagreements, group_digits, number_of, rate_of,
 };
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// The schema of a comparison.
+const DIFF_SCHEMA: &str = "hairline-diff/1";
 
 /// The trend of a class of disagreement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -42,12 +45,14 @@ pub struct Difference {
     pub shown: &'static str,
 }
 
-/// A kernel that the records judge by different contracts.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub struct ContractChange {
-    /// The kernel with its epsilons.
-    pub row: String,
-    /// The old record's contract, in words.
+/// A word or a number that differs: the contract of a kernel, an epsilon that was chosen, a bound.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OtherValue {
+    /// What, of which kernel.
+    pub what: String,
+    /// Better or worse, if it is a bound.
+    pub change: Option<Trend>,
+    /// The old record's.
     pub old: String,
     /// The new one's.
     pub new: String,
@@ -67,11 +72,21 @@ pub struct RecordComparison {
     /// Those that differ, the worse first.
     pub differences: Vec<Difference>,
     /// Kernels whose contracts differ, so that the rates are of other questions.
-    pub contracts: Vec<ContractChange>,
+    pub contracts: Vec<OtherValue>,
+    /// Numbers that were chosen or proved, and differ.
+    pub chosen: Vec<OtherValue>,
     /// Classes of disagreement of kernels, epsilons, scalars or families that only the old record has.
     pub only_old: usize,
     /// And only the new one.
     pub only_new: usize,
+}
+
+impl RecordComparison {
+    /// True if something is more frequent, or a bound is higher.
+    pub fn is_worse(&self) -> bool {
+        let bounds = self.chosen.iter().filter_map(|it| it.change);
+        self.differences.iter().map(|it| it.change).chain(bounds).any(|it| it == Trend::Worse)
+    }
 }
 
 /// Compares. Where both records have the same cases of a family (the same set of the same size) any change
@@ -87,30 +102,87 @@ pub fn difference(old: &ResultPart, new: &ResultPart) -> RecordComparison {
         DifferenceJudge { same_parts: old.partial == new.partial, tail: tail(common.len()) };
     let mut differences: Vec<Difference> =
         common.iter().filter_map(|key| judge.difference(key, &old, &new)).collect();
-    let size = |it: &Difference| it.old.count.abs_diff(it.new.count);
-    differences.sort_by_key(|it| (it.change as u8, std::cmp::Reverse(size(it))));
+    worst_first(&mut differences);
     RecordComparison {
-        schema: "hairline-diff/1",
+        schema: DIFF_SCHEMA,
         same_cases: common.iter().all(|key| judge.same_cases(key, &old, &new)),
         common: old.results.keys().filter(|place| new.results.contains_key(*place)).count(),
         compared: common.len(),
         differences,
         contracts,
+        chosen: Vec::new(),
         only_old: lone.iter().filter(|key| old.found.contains_key(**key)).count(),
         only_new: lone.iter().filter(|key| new.found.contains_key(**key)).count(),
     }
 }
 
+fn worst_first(differences: &mut [Difference]) {
+    let size = |it: &Difference| it.old.count.abs_diff(it.new.count);
+    differences.sort_by_key(|it| (it.change as u8, std::cmp::Reverse(size(it))));
+}
+
+/// Compares what two studies of one kind counted, chose and proved, name by name. Rates differ as those of audits do.
+pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
+    fn by_name<T>(all: Vec<T>, name: impl Fn(&T) -> String) -> BTreeMap<String, T> {
+        all.into_iter().map(|it| (name(&it), it)).collect()
+    }
+    let [counted, counted_new] = [old, new].map(|it| by_name(it.counted(), |it| it.what.clone()));
+    let [chosen, chosen_new] = [old, new].map(|it| by_name(it.chosen(), |it| it.what.clone()));
+    let same_cases = old.cases() == new.cases();
+    let common =
+        || counted.iter().filter_map(|(what, old)| Some((what, old, counted_new.get(what)?)));
+    let compared = common().count();
+    let judge = DifferenceJudge { same_parts: true, tail: tail(compared) };
+    let differs = common()
+        .filter(|(_, old, new)| (old.rate.count, old.rate.of) != (new.rate.count, new.rate.of));
+    let difference = |(what, old, new): (&String, &Counted, &Counted)| Difference {
+        what: what.clone(),
+        change: judge.change(same_cases, &old.rate, &new.rate),
+        old: old.rate.clone(),
+        new: new.rate.clone(),
+        command: new.command.clone().or(old.command.clone()),
+        shown: "",
+    };
+    let mut differences: Vec<Difference> = differs.map(difference).collect();
+    worst_first(&mut differences);
+    let other = |(what, old): (&String, &Chosen)| {
+        let new = chosen_new.get(what).filter(|new| new.value != old.value)?;
+        let [before, now] = [old, new].map(|it| it.value.parse::<f64>().ok());
+        let trend = if before < now { Trend::Worse } else { Trend::Better };
+        Some(OtherValue {
+            what: what.clone(),
+            change: new.is_bound.then_some(trend),
+            old: old.value.clone(),
+            new: new.value.clone(),
+        })
+    };
+    let lone = |of: &BTreeMap<String, Counted>, other: &BTreeMap<String, Counted>| {
+        of.keys().filter(|what| !other.contains_key(*what)).count()
+    };
+    RecordComparison {
+        schema: DIFF_SCHEMA,
+        same_cases,
+        common: compared + chosen.keys().filter(|what| chosen_new.contains_key(*what)).count(),
+        compared,
+        differences,
+        contracts: Vec::new(),
+        chosen: chosen.iter().filter_map(other).collect(),
+        only_old: lone(&counted, &counted_new),
+        only_new: lone(&counted_new, &counted),
+    }
+}
+
 /// The rows that both plans have, by contracts that are not the same.
-fn contract_changes(old: &ResultPart, new: &ResultPart) -> Vec<ContractChange> {
+fn contract_changes(old: &ResultPart, new: &ResultPart) -> Vec<OtherValue> {
     let pairs = old.plan.rows.iter().flat_map(|before| {
         let same = |after: &&RowPart| (&after.kernel, &after.set) == (&before.kernel, &before.set);
         new.plan.rows.iter().find(same).map(|after| (before, after))
     });
     let changed = pairs.filter(|(before, after)| before.contract != after.contract);
     changed
-        .map(|(before, after)| ContractChange {
-            row: format!("{} ({})", before.kernel, before.set),
+        .map(|(before, after)| OtherValue {
+            what: format!("{} ({})", before.kernel, before.set),
+            change: None,
             old: before.contract.clone(),
             new: after.contract.clone(),
         })
@@ -237,24 +309,28 @@ impl Paged for RecordComparison {
         let count = |change| self.differences.iter().filter(|d| d.change == change).count() as u64;
         let [worse, better, other, same] =
             [Trend::Worse, Trend::Better, Trend::Other, Trend::Insignificant].map(count);
-        let tone = match (worse, better) {
-            (0, 0) => Tone::Plain,
-            (0, _) => Tone::Good,
-            _ => Tone::Bad,
+        let tone = match (self.is_worse(), better) {
+            (true, _) => Tone::Bad,
+            (false, 0) => Tone::Plain,
+            (false, _) => Tone::Good,
         };
-        let [shown_worse, shown_better, other, same] =
-            [worse, better, other, same].map(group_digits);
-        let contracts = match self.contracts.len() as u64 {
-            0 => String::new(),
-            rows => {
-                let rows = number_of(rows, "row is", "rows are");
-                format!("; {rows} judged by another contract")
-            }
-        };
-        let answer = format!(
-            "{shown_worse} worse, {shown_better} better, {other} as often but on other cases, {same} too little to tell\
-             {contracts}"
-        );
+        let [worse, better, other, same] = [worse, better, other, same].map(group_digits);
+        let mut answers = Vec::new();
+        if 0 < self.compared || self.chosen.is_empty() {
+            answers.push(format!(
+                "{worse} worse, {better} better, {other} as often but on other cases, {same} too little to tell"
+            ));
+        }
+        if !self.chosen.is_empty() {
+            let differ = number_of(self.chosen.len() as u64, "number differs", "numbers differ");
+            let worse = self.chosen.iter().filter(|it| it.change == Some(Trend::Worse)).count();
+            let worse = if 0 < worse { format!(", {worse} of them worse") } else { String::new() };
+            answers.push(differ + &worse);
+        }
+        if !self.contracts.is_empty() {
+            let rows = number_of(self.contracts.len() as u64, "row is", "rows are");
+            answers.push(format!("{rows} judged by another contract"));
+        }
         let how = match self.same_cases {
             true => "the same cases: every difference counts",
             false => {
@@ -263,15 +339,18 @@ impl Paged for RecordComparison {
             }
         };
         let compared = group_digits(self.compared as u64);
-        let mut blocks =
-            vec![Block::Text(format!("{compared} classes of disagreement compared, on {how}"))];
-        let contract = |ContractChange { row, old, new }: &ContractChange| Item {
-            text: row.clone(),
-            notes: vec![format!("before: {old}"), format!("now: {new}")],
-            ..Item::default()
-        };
+        let mut blocks = Vec::new();
+        if 0 < self.compared {
+            blocks.push(Block::Text(format!(
+                "{compared} classes of disagreement compared, on {how}"
+            )));
+        }
         let title = "Judged by another contract, so that the rates answer another question";
-        blocks.extend(Block::items(title, 1, self.contracts.iter().map(contract).collect()));
+        blocks.extend(Block::items(
+            title,
+            1,
+            self.contracts.iter().map(OtherValue::item).collect(),
+        ));
         for (count, whose) in [(self.only_old, "old"), (self.only_new, "new")] {
             if 0 < count {
                 blocks.push(Block::Text(format!(
@@ -288,7 +367,28 @@ impl Paged for RecordComparison {
             let of_change = self.differences.iter().filter(|d| d.change == change);
             blocks.extend(Block::items(title, MOST, of_change.map(Difference::item).collect()));
         }
-        Page { command: "diff", title: answer, tone, blocks }
+        let title = "Numbers that were chosen or proved";
+        blocks.extend(Block::items(
+            title,
+            MOST,
+            self.chosen.iter().map(OtherValue::item).collect(),
+        ));
+        Page { command: "diff", title: answers.join("; "), tone, blocks }
+    }
+}
+
+impl OtherValue {
+    fn item(&self) -> Item {
+        let trend = match self.change {
+            Some(Trend::Worse) => " (worse)",
+            Some(_) => " (better)",
+            None => "",
+        };
+        Item {
+            text: format!("{}{trend}", self.what),
+            notes: vec![format!("before: {}", self.old), format!("now: {}", self.new)],
+            ..Item::default()
+        }
     }
 }
 

@@ -23,7 +23,7 @@ mod scene;
 
 pub use bless::{Blessed, Unblessable, bless};
 pub use compare::compare;
-pub use difference::{Difference, RecordComparison, Trend, difference};
+pub use difference::{Difference, RecordComparison, Trend, difference, difference_of};
 pub use file::read;
 pub use files::{BlessError, Written, blessed, lock_of, open};
 pub use lock::{Lock, LockedCases, LockedTarget, RowSettings};

@@ -3,7 +3,7 @@
 use super::build::{Context, across_part, counts, finding_part, provenance_of, severity_part};
 use super::{
     AcrossPart, Example, KernelResult, PlanPart, PlannedSource, Promised, Rate, Record, ResultPart,
-    RowPart, RowTotal, SCHEMA, SourcePart, distribution,
+    RowPart, RowTotal, SourcePart, distribution,
 };
 use crate::arith::Float;
 use crate::audit::{CasePlace, Digest, JudgedGroup, Severities, Tally, exact_severity};
@@ -78,23 +78,14 @@ pub fn answered(product: &Product, tests: &[AnsweredTest]) -> Record {
     let mut provenance = provenance_of(&Context { seconds: 0.0, threads: 1 });
     let notes = product.note.clone().map(|note| (product.name.to_owned(), vec![note]));
     provenance.kernel_notes = notes.into_iter().collect();
-    let mut record = Record {
-        schema: SCHEMA.to_owned(),
-        result: ResultPart {
-            plan: product.plan(&sets),
-            partial: None,
-            sources: sets.iter().map(Set::source).collect(),
-            results: sets.iter().map(|set| set.result(product)).collect(),
-            totals: product.totals(&sets),
-        },
-        checksum: None,
-        shard: None,
-        conformance: None,
-        illustrations: None,
-        provenance,
+    let result = ResultPart {
+        plan: product.plan(&sets),
+        partial: None,
+        sources: sets.iter().map(Set::source).collect(),
+        results: sets.iter().map(|set| set.result(product)).collect(),
+        totals: product.totals(&sets),
     };
-    record.checksum = Some(record.checksum_now());
-    record
+    Record::new(result, provenance).sealed()
 }
 
 impl Product<'_> {

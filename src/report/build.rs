@@ -32,21 +32,14 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
         &audit.cells,
         |cell| in_named_scalar!(cell.scalar, F => kernel_result::<F>(plan, cell)),
     );
-    Record {
-        schema: SCHEMA.to_owned(),
-        result: ResultPart {
-            plan: plan_part(plan),
-            partial: None,
-            sources: audit.sources.iter().map(|summary| source_part(plan, summary)).collect(),
-            results,
-            totals: distribution::totals(plan, audit),
-        },
-        checksum: None,
-        shard: None,
-        conformance: None,
-        illustrations: None,
-        provenance: provenance(plan, audit, context),
-    }
+    let result = ResultPart {
+        plan: plan_part(plan),
+        partial: None,
+        sources: audit.sources.iter().map(|summary| source_part(plan, summary)).collect(),
+        results,
+        totals: distribution::totals(plan, audit),
+    };
+    Record::new(result, provenance(plan, audit, context))
 }
 
 /// A row as a plan names it.
@@ -337,7 +330,7 @@ fn polygon_part<F: Scalar>(source: &Source, polygons: &PolygonCount) -> PolygonP
 }
 
 /// Where a record was made, and how long it took.
-pub(super) fn provenance_of(context: &Context) -> Provenance {
+pub fn provenance_of(context: &Context) -> Provenance {
     Provenance {
         tool: format!("hairline {}", env!("CARGO_PKG_VERSION")),
         target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),

@@ -12,13 +12,3 @@ pub fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()>
     serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::report::Record;
-
-    #[test]
-    fn the_committed_schema_is_that_of_the_types() {
-        crate::report::tests::schema::assert_committed::<Record>("record");
-    }
-}

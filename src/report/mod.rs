@@ -32,7 +32,7 @@ mod shard;
 
 #[cfg(feature = "studies")]
 pub use answered::{AnsweredTest, Asked, Product, answered};
-pub use build::{Context, build};
+pub use build::{Context, build, provenance_of};
 pub use conformance::*;
 pub(crate) use disagreement::counts_alone;
 pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};

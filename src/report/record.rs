@@ -1,12 +1,13 @@
 //! The versioned record from which every format is made.
 //!
-//! `result` holds integers, and floats recomputed from integers: it is the same bytes whatever the
-//! number of threads. `provenance` says where and how it was made and is never compared.
+//! `result` is what a study found: the same bytes whatever the number of threads. `provenance` says where and how it was
+//! made and is never compared.
 
 mod finding;
 mod kind;
 mod part;
 mod plan;
+mod study;
 
 use super::conformance::Conformance;
 use super::illustration::Illustrations;
@@ -20,41 +21,65 @@ pub use part::*;
 pub use plan::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+pub use study::*;
 
 /// The schema's name and version.
-pub const SCHEMA: &str = "hairline-record/1";
+pub const SCHEMA: &str = "hairline-record/2";
 
-/// Everything that a run found.
+/// Everything that one command found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "RecordOf{R}"))]
 #[serde(deny_unknown_fields)]
-pub struct Record {
+pub struct Record<R = ResultPart> {
     /// [`SCHEMA`].
     pub schema: String,
+    /// The study: `audit`, `epsilon`, `mesh`, `spawn` or `prove`.
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub study: Study,
     /// The findings.
-    pub result: ResultPart,
+    pub result: R,
     /// SHA-256 of `result` as JSON without spaces, hexadecimal; a record that was changed since is refused.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checksum: Option<String>,
-    /// The data that `merge` needs; only in a part of a run.
+    /// The data that `merge` needs; only in a part of an audit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<ShardPart>,
     /// How that compares with what was expected; only of `check`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conformance: Option<Conformance>,
-    /// The data for pictures; only where they were asked for.
+    /// The data for pictures; only where an audit was asked for them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub illustrations: Option<Illustrations>,
     /// Where and how it was made.
     pub provenance: Provenance,
 }
 
-#[cfg(feature = "studies")]
-impl Record {
+impl<R: Findings> Record<R> {
+    /// Without a checksum yet.
+    pub fn new(result: R, provenance: Provenance) -> Record<R> {
+        Record {
+            schema: SCHEMA.to_owned(),
+            study: R::STUDY,
+            result,
+            checksum: None,
+            shard: None,
+            conformance: None,
+            illustrations: None,
+            provenance,
+        }
+    }
+
     /// The checksum of its findings as they are now.
+    #[cfg(feature = "studies")]
     pub fn checksum_now(&self) -> String {
         let text = serde_json::to_string(&self.result).unwrap_or_default();
         hex(&Hash::hash(text.as_bytes()))
+    }
+
+    /// The same with its checksum.
+    #[cfg(feature = "studies")]
+    pub fn sealed(self) -> Record<R> {
+        Record { checksum: Some(self.checksum_now()), ..self }
     }
 }
 

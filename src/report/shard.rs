@@ -160,5 +160,5 @@ pub fn merged<E: From<String>>(
             .extend(notes.iter().filter(|note| !known.contains(note)).cloned().collect::<Vec<_>>());
     }
     record.provenance.parts = parts.provenance;
-    Ok(record)
+    Ok(record.sealed())
 }

@@ -140,3 +140,68 @@ fn triangles_of_one_ray_that_are_wrong_together_are_no_difference() {
     assert_eq!(rays, &products);
     assert_eq!(result["across"]["cracks"].get("rays"), None);
 }
+
+#[test]
+fn records_of_every_study_are_compared_and_those_of_two_are_not() {
+    let folder = scratch("diff-studies");
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/meshes/torus.obj");
+    let kernel = ["-k", "moller-trumbore", "--scalar", "f32", "-q", "--format", "json"];
+    let write = |file: &str, study: &[&str]| {
+        ends(&folder, &[study, &kernel, &["-o", file]].concat(), 0);
+    };
+    let studies = [
+        ("epsilon", vec!["epsilon", "--scene", "room", "-n", "500"], vec!["--seed", "2"]),
+        ("mesh", vec!["mesh", mesh, "--directions", "2"], vec!["--seed", "2"]),
+        ("spawn", vec!["spawn", "--scene", "room", "-n", "2000"], vec!["--instance", FAR]),
+        ("prove", vec!["prove"], vec!["--scene", "room", "-n", "0"]),
+    ];
+    let mut compared = Vec::new();
+    for (name, study, other) in &studies {
+        let [one, two] = [1, 2].map(|number| format!("{name}-{number}.json"));
+        write(&one, study);
+        write(&two, &[&study[..], other].concat());
+        let (same, _) = ends(&folder, &["diff", "--exit-code", &one, &one], 0);
+        assert!(same.starts_with("0 worse, 0 better"), "{name}: {same}");
+        let (json, _) = ends(&folder, &["diff", &one, &two, "--format", "json"], 0);
+        compared.push(serde_json::from_str::<serde_json::Value>(&json).unwrap());
+    }
+    let [epsilon, mesh, spawn, prove] = &compared[..] else { panic!("four") };
+    // Other rays of the same scene, with epsilons of its own.
+    assert_eq!(epsilon["same_cases"], false);
+    assert!(epsilon["chosen"].as_array().unwrap().iter().all(|it| it["change"].is_null()));
+    assert!(10 < epsilon["compared"].as_u64().unwrap(), "{epsilon}");
+    assert_eq!(mesh["compared"], 6, "{mesh}");
+    assert!(!mesh["differences"].as_array().unwrap().is_empty(), "{mesh}");
+    // Far from 0 hit points are off by more.
+    let differences = spawn["differences"].as_array().unwrap();
+    let trend = |what: &str| {
+        let it =
+            differences.iter().find(|it| it["what"] == what).unwrap_or_else(|| panic!("{what}"));
+        it["change"].as_str().unwrap().to_owned()
+    };
+    let of = "moller-trumbore (source) f32 uv: pbrt-v3";
+    assert_eq!(trend(&format!("{of}: past a wall")), "worse");
+    assert_eq!(trend(&format!("{of}: wrong sides on axis-0")), "better");
+    // Every bound of a larger domain is higher.
+    let bounds = prove["chosen"].as_array().unwrap();
+    assert!(!bounds.is_empty() && bounds.iter().any(|it| it["change"] == "worse"), "{prove}");
+    let (told, _) = ends(&folder, &["diff", "--exit-code", "prove-1.json", "prove-2.json"], 1);
+    assert!(told.starts_with("4 numbers differ, 4 of them worse\n"), "{told}");
+    ends(&folder, &["diff", "--exit-code", "prove-2.json", "prove-1.json"], 0);
+
+    let (_, error) = ends(&folder, &["diff", "spawn-1.json", "mesh-1.json"], 65);
+    let expected = "mesh-1.json: a record of `hairline mesh`, expected one of `hairline spawn`";
+    assert!(error.contains(expected), "{error}");
+    let (_, error) = ends(&folder, &["check", "--record", "spawn-1.json"], 65);
+    assert!(error.contains("spawn-1.json: a record of `hairline spawn`"), "{error}");
+    let text = fs::read_to_string(folder.join("spawn-1.json")).unwrap();
+    fs::write(folder.join("old.json"), text.replacen("record/2", "record/1", 1)).unwrap();
+    let (_, error) = ends(&folder, &["diff", "old.json", "old.json"], 65);
+    assert!(error.contains("schema 'hairline-record/1', expected 'hairline-record/2'"), "{error}");
+    fs::write(folder.join("changed.json"), text.replacen("\"hits\": ", "\"hits\": 1", 1)).unwrap();
+    let (_, error) = ends(&folder, &["diff", "changed.json", "spawn-1.json"], 65);
+    assert!(error.contains("changed.json: its result is not the one"), "{error}");
+}
+
+/// 1e5 away from 0.
+const FAR: &str = "1 0 0 1e5, 0 1 0 1e5, 0 0 1 1e5";

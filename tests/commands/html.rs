@@ -1,6 +1,7 @@
 //! `--format html` as a user meets it: what is in the file, whatever the threads and the shards, and what
 //! happens where it cannot be written. tests/browser looks at it in a browser.
 
+use crate::json_schema;
 use crate::program;
 
 use program::{ends, scratch, without_checksum};
@@ -114,7 +115,7 @@ fn the_page_holds_the_numbers_and_the_commands_of_the_record() {
     let mut bounds = 0;
     for kernel in ["moller-trumbore", "havel-herout"] {
         let (proofs, _) = ends(&folder, &["prove", "--format", "json", "--kernel", kernel], 0);
-        let proofs: Value = serde_json::from_str(&proofs).unwrap();
+        let proofs: Value = json_schema::result(&proofs);
         let section = page.split_once(&format!("<h2>{kernel} ")).unwrap().1;
         let mut cells: BTreeMap<&str, String> = BTreeMap::new();
         for gate in proofs["gates"].as_array().unwrap() {

@@ -1,7 +1,16 @@
 //! Whether a document is what a JSON Schema says, for the keywords that the schemas in use have. An
 //! unknown keyword, or a pattern that would have to be checked, stops the test.
 
+use serde::de::DeserializeOwned;
 use serde_json::Value;
+
+/// The findings in a record's text, which is what the published schema says.
+pub fn result<T: DeserializeOwned>(record: &str) -> T {
+    let schema = serde_json::from_str(include_str!("../../docs/schema/record.json")).unwrap();
+    let mut record: Value = serde_json::from_str(record).unwrap();
+    assert_eq!(errors(&schema, &record), [""; 0]);
+    serde_json::from_value(record["result"].take()).unwrap()
+}
 
 /// Everything in a document that its schema does not allow.
 pub fn errors(schema: &Value, document: &Value) -> Vec<String> {

@@ -1,5 +1,6 @@
 //! `hairline mesh` as a user runs it: output, files for viewers, exit codes, bad input.
 
+use crate::json_schema;
 use crate::program;
 
 use program::{ends, flat, hairline, result_bytes, scratch};
@@ -95,11 +96,10 @@ fn the_record_does_not_depend_on_threads_and_holds_every_crack_that_is_wanted() 
     let json = run("1");
     assert_eq!(result_bytes(&json), result_bytes(&run("3")));
 
-    let record: Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
-    assert_eq!(record["schema"], "hairline-mesh/1");
+    let result: Value = json_schema::result(&fs::read_to_string(&json).unwrap());
     for (name, ends, least) in [("edges", 2, 100), ("vertices", 1, 10)] {
         let mut cracked = 0;
-        for scalar in record["result"]["scalars"].as_array().unwrap() {
+        for scalar in result["scalars"].as_array().unwrap() {
             let part = &scalar["results"][0][name];
             let classes = part["classes"].as_object().unwrap().values();
             let cracks: Vec<&Value> =

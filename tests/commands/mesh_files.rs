@@ -235,7 +235,7 @@ fn every_command_that_takes_a_mesh_takes_every_format() {
     let counts = |command: &[&str], file: &str| {
         let out = ends(&folder, &[command, &["--mesh", file, "--quiet"]].concat(), 0).0;
         let record = serde_json::from_str(&out).unwrap_or(Value::Null);
-        let counts = match [&record["result"]["results"], &record["kernels"]] {
+        let counts = match [&record["result"]["results"], &record["result"]["kernels"]] {
             [Value::Null, Value::Null] => out,
             [results, Value::Null] => results.to_string(),
             [_, kernels] => kernels.to_string(),

@@ -564,7 +564,7 @@ fn the_epsilons_of_a_library_are_those_of_the_same_kernel_with_gates() {
         let record: Value = serde_json::from_str(&plain).unwrap();
         // What is proved, and exact errors, need the formula.
         let part = |list: &str, fields: &[&str]| -> Value {
-            let list = record["kernels"][0][list].as_array().unwrap().iter();
+            let list = record["result"]["kernels"][0][list].as_array().unwrap().iter();
             let of = |item: &Value| fields.iter().map(|field| item[field].clone()).collect();
             list.map(of).collect::<Vec<Value>>().into()
         };

@@ -1,5 +1,6 @@
 //! `hairline prove` at the command line.
 
+use crate::json_schema;
 use crate::program::{self, scratch};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -13,6 +14,11 @@ fn hairline(arguments: &[&str]) -> Output {
 
 fn json(output: &Output) -> serde_json::Value {
     serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// The findings of a record.
+fn result(output: &Output) -> serde_json::Value {
+    json_schema::result(std::str::from_utf8(&output.stdout).unwrap())
 }
 
 /// Everything that is said.
@@ -89,8 +95,15 @@ fn the_readme_says_what_is_proved_and_known() {
     let sentence =
         format!("never wrong by more than {}, and {} is known", number(bound), number(known));
     assert!(readme.contains(&sentence), "{sentence}");
-    let record =
-        json(&hairline(&["prove", "-k", "moller-trumbore", "--scalar", "f32", "--format", "json"]));
+    let record = result(&hairline(&[
+        "prove",
+        "-k",
+        "moller-trumbore",
+        "--scalar",
+        "f32",
+        "--format",
+        "json",
+    ]));
     let number = |side: &str, known: bool| {
         let part = &record["kernels"][0]["verdicts"][side];
         let number = if known { &part["known"]["share"] } else { &part["share"] };
@@ -121,7 +134,7 @@ fn the_readme_says_what_is_proved_and_known() {
 fn watertight_is_proved_of_woop_and_not_when_its_products_are_fused() {
     let kernel = |name: &str| {
         let out = hairline(&["prove", "--kernel", name, "--scalar", "f32", "--format", "json"]);
-        let record = json(&out);
+        let record = result(&out);
         record["kernels"][0]["watertight"].as_bool().unwrap()
     };
     assert!(kernel("woop-watertight"));
@@ -170,7 +183,7 @@ fn beside_a_kernel_that_leaks_stands_a_ray_that_does() {
         [("moller-trumbore", "f32"), ("moller-trumbore", "f64"), ("woop-watertight+fma", "f32")]
     {
         let prove = ["prove", "-k", kernel, "--scalar", scalar];
-        let record = json(&hairline(&[&prove[..], &["--format", "json"]].concat()));
+        let record = result(&hairline(&[&prove[..], &["--format", "json"]].concat()));
         let [case, command] =
             ["case", "command"].map(|key| record["kernels"][0]["leak"][key].as_str().unwrap());
         let out = text(&prove);
@@ -191,7 +204,7 @@ fn beside_a_kernel_that_leaks_stands_a_ray_that_does() {
     }
     // Where a kernel is watertight, or its values are opposite, there is nothing to show.
     for kernel in ["woop-watertight", "plucker"] {
-        let record = json(&hairline(&["prove", "-k", kernel, "--format", "json"]));
+        let record = result(&hairline(&["prove", "-k", kernel, "--format", "json"]));
         let mut kernels = record["kernels"].as_array().unwrap().iter();
         assert!(kernels.all(|kernel| kernel.get("leak").is_none()));
     }
@@ -236,7 +249,7 @@ fn depth(case: &serde_json::Value) -> f64 {
 /// wrong.
 #[test]
 fn known_verdicts_are_as_wrong_as_is_said_and_no_worse_than_proved() {
-    let record = json(&hairline(&["prove", "--format", "json", "--quiet"]));
+    let record = result(&hairline(&["prove", "--format", "json", "--quiet"]));
     let (mut near, mut explained) = (0, 0);
     for kernel in record["kernels"].as_array().unwrap() {
         for (name, finding, side) in [("misses", "false-miss", 1.0), ("hits", "false-hit", -1.0)] {
@@ -274,7 +287,7 @@ fn known_verdicts_are_as_wrong_as_is_said_and_no_worse_than_proved() {
 
 #[test]
 fn every_witness_is_below_its_bound_and_near_it() {
-    let record = json(&hairline(&["prove", "--format", "json", "--quiet"]));
+    let record = result(&hairline(&["prove", "--format", "json", "--quiet"]));
     let gates = record["gates"].as_array().unwrap();
     assert!(gates.len() > 70, "{}", gates.len());
     for gate in gates {
@@ -520,8 +533,9 @@ fn a_certificate_of_a_scene_has_its_limits_of_divisors_and_quotients() {
     assert_eq!(out.matches("; programs of other sizes are missing here\n").count(), 1, "{out}");
     assert!(out.ends_with("missing here\n"), "{out}");
     // The same limits are in the record, of the size whose bound is largest.
-    let record =
-        json(&hairline(&[&["prove", "-n", "0", "--format", "json"], &kernel[..], &scene].concat()));
+    let record = result(&hairline(
+        &[&["prove", "-n", "0", "--format", "json"], &kernel[..], &scene].concat(),
+    ));
     let gates = record["gates"].as_array().unwrap();
     let limits = |gate: &str| {
         let gate = gates.iter().find(|part| part["gate"] == gate).unwrap();
@@ -755,7 +769,7 @@ fn hundredths(x: f64, up: bool) -> String {
 
 #[test]
 fn the_guides_table_is_what_is_proved_and_known() {
-    let record = json(&hairline(&["prove", "--format", "json"]));
+    let record = result(&hairline(&["prove", "--format", "json"]));
     let gates = record["gates"].as_array().unwrap();
     let cells = |gate: &serde_json::Value| match gate["bound_units"].as_f64() {
         None => "none | | |".to_owned(),
@@ -815,7 +829,7 @@ fn the_guides_table_is_what_is_proved_and_known() {
 #[test]
 fn the_worst_known_in_a_scene_is_as_bad_as_a_sample_finds() {
     let flags = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "--format", "json"];
-    let record = json(&hairline(&[&flags[..], &["--scene", "room"]].concat()));
+    let record = result(&hairline(&[&flags[..], &["--scene", "room"]].concat()));
     let gates = record["gates"].as_array().unwrap();
     let edge = gates.iter().find(|gate| gate["gate"] == "edge").unwrap();
     // Three seconds of drawing plain rays in such a room found a v that is wrong by 0.424.

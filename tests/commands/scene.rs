@@ -2,7 +2,7 @@
 
 use crate::json_schema;
 use crate::program::{ends, flat, scratch};
-use hairline::internals::report::epsilon::SceneRecord;
+use hairline::internals::report::epsilon::SceneResult;
 
 #[test]
 fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
@@ -53,13 +53,13 @@ fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
 #[test]
 fn a_study_is_the_same_on_any_number_of_threads_and_for_each_scalar_alone() {
     let folder = scratch("scene-threads");
-    let run = |more: &[&str]| -> SceneRecord {
+    let run = |more: &[&str]| -> SceneResult {
         let mut all = vec!["epsilon", "--kernel", "woop-watertight", "--format", "json"];
         all.extend(["--scene", "extent=10, edge=0.1..1, distance=0..5", "-n", "3000", "-q"]);
         all.extend(more);
-        serde_json::from_str(&ends(&folder, &all, 0).0).unwrap()
+        json_schema::result(&ends(&folder, &all, 0).0)
     };
-    let text = |record: &SceneRecord| serde_json::to_string(&record.kernels).unwrap();
+    let text = |record: &SceneResult| serde_json::to_string(&record.kernels).unwrap();
     let both = run(&["--threads", "1"]);
     assert_eq!(text(&both), text(&run(&["--threads", "3"])));
     let alone = run(&["--scalar", "f64"]);
@@ -80,7 +80,7 @@ fn costs_decide_what_is_recommended() {
     let edge = |costs: &str| -> f64 {
         let mut all = vec!["epsilon", "--kernel", "moller-trumbore", "--format", "json", "-q"];
         all.extend(["--scene", "room", "-n", "4000", "--scalar", "f32", "--cost", costs]);
-        let record: SceneRecord = serde_json::from_str(&ends(&folder, &all, 0).0).unwrap();
+        let record: SceneResult = json_schema::result(&ends(&folder, &all, 0).0);
         record.kernels[0].tried[0].epsilons[1].parse().unwrap()
     };
     assert!(edge("crack=1000") < edge("crack=0.001,hit=1000"));
@@ -197,11 +197,11 @@ fn published_sets_and_values_of_one_gate_are_columns_of_one_study() {
 #[test]
 fn the_recommended_line_with_its_least_t_can_be_pasted_and_tried() {
     let folder = scratch("scene-paste");
-    let run = |epsilon: &[&str]| -> SceneRecord {
+    let run = |epsilon: &[&str]| -> SceneResult {
         let mut all = vec!["epsilon", "--kernel", "moller-trumbore", "--format", "json", "-q"];
         all.extend(["--scalar", "f32", "-n", "2000"]);
         all.extend(epsilon);
-        serde_json::from_str(&ends(&folder, &all, 0).0).unwrap()
+        json_schema::result(&ends(&folder, &all, 0).0)
     };
     // Without a scene it is the preset `unit`.
     let found = run(&[]);
@@ -239,13 +239,13 @@ fn a_form_without_a_unit_is_the_answer_where_fixed_numbers_cost_twice_as_much() 
 #[test]
 fn errors_of_the_hits_that_remain_are_shown_and_limited() {
     let folder = scratch("scene-errors");
-    let run = |more: &[&str]| -> SceneRecord {
+    let run = |more: &[&str]| -> SceneResult {
         let mut all = vec!["epsilon", "--kernel", "moller-trumbore", "--format", "json", "-q"];
         all.extend(["--scene", "room", "-n", "6000", "--scalar", "f32", "--gate", "parallel"]);
         all.extend(more);
-        serde_json::from_str(&ends(&folder, &all, 0).0).unwrap()
+        json_schema::result(&ends(&folder, &all, 0).0)
     };
-    let error = |record: &SceneRecord, value: &str| {
+    let error = |record: &SceneResult, value: &str| {
         let part = &record.kernels[0];
         let is_grazing = |count: usize| part.counts[count].rays.name() == "scene-grazing";
         let errors = part.tried[0].errors.iter().find(|e| is_grazing(e.count) && e.value == value);
@@ -263,7 +263,7 @@ fn errors_of_the_hits_that_remain_are_shown_and_limited() {
     // On fresh rays, and rounded up by an eighth.
     assert!(error(&limited, "t").most.unwrap() < 1.3e-3, "{:?}", error(&limited, "t"));
     let epsilon =
-        |record: &SceneRecord| -> f64 { record.kernels[0].tried[0].epsilons[0].parse().unwrap() };
+        |record: &SceneResult| -> f64 { record.kernels[0].tried[0].epsilons[0].parse().unwrap() };
     assert!(epsilon(&free) < epsilon(&limited));
     let of_point = run(&["--max-error", "point=0.02"]);
     assert!(error(&of_point, "point").most.unwrap() < 0.026, "{:?}", error(&of_point, "point"));
@@ -328,14 +328,14 @@ fn every_format_holds_the_same_answer() {
     let [text, json, svg, html] =
         files.map(|file| std::fs::read_to_string(folder.join(file)).unwrap());
     // The published schema, and a record that breaks it.
-    let schema = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/schema/scene.json");
+    let schema = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/schema/record.json");
     let schema = serde_json::from_str(&std::fs::read_to_string(schema).unwrap()).unwrap();
     let mut document: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json_schema::errors(&schema, &document), [""; 0]);
-    document["kernels"][0]["limits"][0]["one_in"] = "many".into();
+    document["result"]["kernels"][0]["limits"][0]["one_in"] = "many".into();
     assert_ne!(json_schema::errors(&schema, &document), [""; 0]);
     // Every curve holds what was tried.
-    let record: SceneRecord = serde_json::from_str(&json).unwrap();
+    let record: SceneResult = json_schema::result(&json);
     let part = &record.kernels[0];
     for (knob, curve) in part.curves.iter().enumerate() {
         for tried in part.tried.iter().take(if part.knobs.len() == 1 { 9 } else { 1 }) {

@@ -3,7 +3,7 @@
 
 use crate::json_schema;
 use crate::program::{ends, flat, scratch};
-use hairline::internals::report::epsilon::{CurvePart, SceneRecord};
+use hairline::internals::report::epsilon::{CurvePart, SceneResult};
 use std::fs;
 use std::path::Path;
 
@@ -26,12 +26,9 @@ fn next(screen: &str, command: &str) -> String {
     format!("{command} {}", line.split("  # ").next().unwrap())
 }
 
-fn record(folder: &Path, kernel: &str, scene: &str, more: &[&str]) -> SceneRecord {
+fn record(folder: &Path, kernel: &str, scene: &str, more: &[&str]) -> SceneResult {
     let text = output(folder, kernel, scene, &[&["--format", "json"], more].concat());
-    let schema = serde_json::from_str(include_str!("../../docs/schema/scene.json")).unwrap();
-    let document = serde_json::from_str(&text).unwrap();
-    assert_eq!(json_schema::errors(&schema, &document), [""; 0]);
-    serde_json::from_str(&text).unwrap()
+    json_schema::result(&text)
 }
 
 #[test]
@@ -216,7 +213,7 @@ fn a_mesh_is_audited_as_it_was_studied_and_its_edges_are_well_within_their_limit
     for seed in ["1", "2"] {
         let rest = ["--scalar", "f64", "-n", "10000", "--seed", seed, "--format", "json"];
         let (json, _) = ends(&folder, &[&words[..], &rest[..]].concat(), 0);
-        let record: SceneRecord = serde_json::from_str(&json).unwrap();
+        let record: SceneResult = json_schema::result(&json);
         let part = &record.kernels[0];
         let edge = part.knobs.iter().position(|knob| knob.name == "edge").unwrap();
         let chosen: f64 = part.tried[0].epsilons[edge].parse().unwrap();
@@ -320,7 +317,7 @@ fn where_its_limits_meet_a_number_is_well_inside_them_under_every_seed() {
             let more = ["--scalar", "f64", "-n", "10000", "--seed", seed, "--format", "json", "-q"];
             let study = ["epsilon", "--kernel", kernel, "--scene", scene];
             let (out, _) = ends(&folder, &[&study[..], &more[..]].concat(), 0);
-            let record: SceneRecord = serde_json::from_str(&out).unwrap();
+            let record: SceneResult = json_schema::result(&out);
             let part = &record.kernels[0];
             let t = part.knobs.iter().position(|knob| knob.name == "t_min").unwrap();
             let number = |text: &String| text.parse::<f64>().unwrap();
@@ -387,7 +384,7 @@ fn where_the_range_of_a_number_is_wide_the_recommended_one_is_as_cheap_as_a_give
         let words = ["epsilon", "--kernel", kernel, "--scene", scene, "--epsilon", given];
         let rest = ["--scalar", "f64", "-n", "4000", "-q", "--format", "json"];
         let (json, _) = ends(&folder, &[&words[..], &rest[..]].concat(), 0);
-        let record: SceneRecord = serde_json::from_str(&json).unwrap();
+        let record: SceneResult = json_schema::result(&json);
         let tried = &record.kernels[0].tried;
         let told = format!("{kernel} {:?} {}", tried[0].epsilons, tried[0].cost);
         assert!(tried[0].cost <= 1.05 * tried[1].cost, "{told}, given {}", tried[1].cost);
@@ -398,9 +395,9 @@ fn where_the_range_of_a_number_is_wide_the_recommended_one_is_as_cheap_as_a_give
 fn what_is_recommended_is_tried_on_every_kind_of_plane() {
     let folder = scratch("scene-planes");
     let study = ["epsilon", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "3000", "-q"];
-    let record = |scene: &str| -> SceneRecord {
+    let record = |scene: &str| -> SceneResult {
         let all = [&study[..], &["--scene", scene, "--format", "json"]].concat();
-        serde_json::from_str(&ends(&folder, &all, 0).0).unwrap()
+        json_schema::result(&ends(&folder, &all, 0).0)
     };
     let part = record("room").kernels.remove(0);
     let planes: Vec<&str> = part.elsewhere.iter().map(|plane| plane.plane.as_str()).collect();
@@ -435,7 +432,7 @@ fn without_a_kernel_all_stand_in_one_table_the_cheapest_first() {
     ends(&folder, &[&all[..], &files].concat(), 0);
     let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
     let text = read("a.txt");
-    let record: SceneRecord = serde_json::from_str(&read("a.json")).unwrap();
+    let record: SceneResult = json_schema::result(&read("a.json"));
     assert!(text.lines().count() <= 30, "{text}");
     let rows: Vec<Vec<&str>> = text
         .lines()

@@ -1,5 +1,6 @@
 //! Stored rays that start on their triangle, such as shadow rays: judged as the family `secondary-ray` is.
 
+use crate::json_schema;
 use crate::program::{ends, scratch};
 use serde_json::Value;
 use std::fs;
@@ -9,8 +10,7 @@ fn gate(folder: &std::path::Path, cases: &[&str]) -> Value {
     let study = ["epsilon", "--kernel", "plane-unit-normal", "--gate", "t", "--scalar", "f32"];
     let rest = ["--contract", "no-self-hit", "--format", "json", "-q"];
     let (out, _) = ends(folder, &[&study[..], cases, &rest[..]].concat(), 0);
-    let record: Value = serde_json::from_str(&out).unwrap();
-    record["kernels"][0].clone()
+    json_schema::result::<Value>(&out)["kernels"][0].clone()
 }
 
 fn generate(folder: &std::path::Path, count: &str) {

@@ -55,7 +55,7 @@ pub fn audit(py: Python<'_>, answers: Py<PyAny>, asked: Asked) -> PyResult<Audit
     if !flags.kernels.is_empty() {
         outcome.record.provenance.plan_flags = Some(flags);
     }
-    outcome.record.checksum = Some(outcome.record.checksum_now());
+    outcome.record = outcome.record.sealed();
     Ok(Audited { request, function, answers, outcome })
 }
 

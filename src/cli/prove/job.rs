@@ -81,14 +81,9 @@ impl Parts {
         let KernelPart { kernel, scalar, edges, .. } = self.kernel?;
         let gates = self.gates.into_iter().map(|gate| {
             let known = gate.witness.map(|witness| witness.units);
-            (gate.gate.to_owned(), ProvedGate { bound: gate.bound_units, known })
+            (gate.gate, ProvedGate { bound: gate.bound_units, known })
         });
-        Some(ProofPart {
-            kernel,
-            scalar: scalar.to_owned(),
-            edges: edges.to_owned(),
-            gates: gates.collect(),
-        })
+        Some(ProofPart { kernel, scalar, edges, gates: gates.collect() })
     }
 }
 
@@ -167,9 +162,9 @@ impl Job<'_> {
             let published = self.epsilons.of::<F>(entry, gate);
             GatePart {
                 kernel: name.to_owned(),
-                scalar: F::NAME,
-                gate: gate.gate.name,
-                compares: gate.gate.refuses,
+                scalar: F::NAME.to_owned(),
+                gate: gate.gate.name.to_owned(),
+                compares: gate.gate.refuses.to_owned(),
                 bound: gate.bound.as_ref().ok().map(|bound| bound.to_f64()),
                 bound_units: gate.bound.as_ref().ok().map(|bound| bound.to_f64() / unit),
                 why: gate.bound.as_ref().err().cloned(),
@@ -203,9 +198,9 @@ impl Job<'_> {
             kernel: Some(KernelPart {
                 verdicts,
                 kernel: name.to_owned(),
-                scalar: F::NAME,
+                scalar: F::NAME.to_owned(),
                 paths: summary.proof.paths.len(),
-                edges: about_edges(summary.symmetry),
+                edges: about_edges(summary.symmetry).to_owned(),
                 watertight: summary.symmetry == Symmetry::ExactSigns,
                 leak: None,
                 may_leak: summary.symmetry == Symmetry::None,
@@ -216,7 +211,7 @@ impl Job<'_> {
     }
 }
 
-fn supposes<F>(gate: &GateSummary<F>) -> Vec<&'static str> {
+fn supposes<F>(gate: &GateSummary<F>) -> Vec<String> {
     let uses = gate.uses;
     let all = [
         (uses.edge, "edges"),
@@ -225,7 +220,7 @@ fn supposes<F>(gate: &GateSummary<F>) -> Vec<&'static str> {
         (uses.extent, "t_min and t_max"),
         (uses.floor, "divisors"),
     ];
-    all.into_iter().filter(|(is_used, _)| *is_used).map(|(_, name)| name).collect()
+    all.into_iter().filter(|(is_used, _)| *is_used).map(|(_, name)| name.to_owned()).collect()
 }
 
 /// The epsilons of the kernel's own sets and of the presets that fit a gate.

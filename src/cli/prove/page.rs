@@ -1,6 +1,6 @@
 //! Proofs as a page: of one kernel the sentences that people ask for first, then its gates; of several a table.
 
-use super::record::{GatePart, KernelPart, Record, Report};
+use super::record::{GatePart, KernelPart, ProofResult, Report};
 use crate::prove::{USELESS, above, units};
 use crate::report::page::{Block, Command, Head, Item, Items, Page, Paged, Row, Table, Tone};
 
@@ -12,7 +12,7 @@ impl Paged for Report {
 
 /// All kernels: a row a gate.
 fn of_all(report: &Report) -> Page {
-    let record = &report.record;
+    let record = &report.record.result;
     let mut blocks = vec![Block::Text(domain(report))];
     let mut details = Vec::new();
     for scalar in ["f32", "f64"] {
@@ -36,7 +36,7 @@ fn of_all(report: &Report) -> Page {
         heads.push(Head::text("supposes a bound of").optional());
         let row = |gate: &&GatePart| {
             let [bound, known, factor] = cells(gate);
-            let cells = [gate.gate.to_owned(), bound, known, factor, gate.supposes.join(", ")];
+            let cells = [gate.gate.clone(), bound, known, factor, gate.supposes.join(", ")];
             let why = gate.why.as_ref().map(|why| format!("no bound: {why}"));
             Row { below: why.into_iter().collect(), ..Row::new(&gate.kernel, cells) }
         };
@@ -63,7 +63,7 @@ fn of_all(report: &Report) -> Page {
 
 /// One kernel: its sentences.
 fn of_one(report: &Report) -> Page {
-    let record = &report.record;
+    let record = &report.record.result;
     let name = record.kernels.first().map_or("K", |kernel| &kernel.kernel);
     let mut blocks: Vec<Block> =
         record.kernels.iter().filter_map(conclusion).map(Block::Text).collect();
@@ -155,13 +155,13 @@ fn conclusion(kernel: &KernelPart) -> Option<String> {
 
 /// The gates of a kernel: how wrong what each compares can be.
 fn table(kernel: &KernelPart, gates: &[&GatePart]) -> Table {
-    let mut heads = vec![Head::of(format!("u = {}", unit(kernel.scalar)))];
+    let mut heads = vec![Head::of(format!("u = {}", unit(&kernel.scalar)))];
     heads.extend(numbers());
     heads.push(Head::text("refuses where").optional());
     let row = |gate: &&GatePart| {
         let [bound, known, factor] = cells(gate);
         let compares = gate.compares.split(" (printed").next().unwrap_or_default();
-        Row::new(gate.gate, [bound, known, factor, compares.to_owned()])
+        Row::new(&gate.gate, [bound, known, factor, compares.to_owned()])
     };
     Table::new(heads, gates.iter().map(row).collect())
 }
@@ -187,7 +187,8 @@ fn unit(scalar: &str) -> &'static str {
 const SUPPOSED: &str = "A bound supposes, and its witness keeps, only what the gate's numbers use. Powers of two scale \
                         it: lengths by s scale det by s^2.";
 
-fn domain(Report { record: Record { domain, .. }, scene, .. }: &Report) -> String {
+fn domain(Report { record, scene, .. }: &Report) -> String {
+    let ProofResult { domain, .. } = &record.result;
     match scene {
         Some(scene) => format!("Scene: {scene}"),
         None => format!(

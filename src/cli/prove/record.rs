@@ -3,11 +3,12 @@
 use super::leaks::Leak;
 use super::verdicts::VerdictPart;
 use crate::prove::{Domain, Supposed};
-use serde::Serialize;
+use crate::report::{Chosen, Comparable, Counted, Findings, Record, Study};
+use serde::{Deserialize, Serialize};
 
 /// The record of a run, with what a page says beside it.
 pub struct Report {
-    pub record: Record,
+    pub record: Record<ProofResult>,
     /// The scene's words, if it has some.
     pub scene: Option<String>,
     /// The flags of `epsilon` that choose rays in such a scene.
@@ -16,17 +17,19 @@ pub struct Report {
     pub is_of_one: bool,
 }
 
-/// The record of a run.
-#[derive(Serialize)]
-pub struct Record {
-    pub schema: &'static str,
-    pub version: &'static str,
+/// The proofs of some kernels.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ProofResult {
     pub domain: DomainPart,
     pub gates: Vec<GatePart>,
     pub kernels: Vec<KernelPart>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct DomainPart {
     pub edge: f64,
     pub reach: f64,
@@ -39,12 +42,14 @@ pub struct DomainPart {
 }
 
 /// One gate of one kernel in one scalar.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct GatePart {
     pub kernel: String,
-    pub scalar: &'static str,
-    pub gate: &'static str,
-    pub compares: &'static str,
+    pub scalar: String,
+    pub gate: String,
+    pub compares: String,
     /// No computed number is farther from the exact one.
     pub bound: Option<f64>,
     /// The same in units of 2^-p.
@@ -55,7 +60,7 @@ pub struct GatePart {
     /// bound / witness
     pub factor: Option<f64>,
     /// The assumptions of the bound besides |d| <= 1.
-    pub supposes: Vec<&'static str>,
+    pub supposes: Vec<String>,
     /// The limits of exact divisors and quotients that it supposes.
     pub limits: Vec<LimitPart>,
     /// The largest computed number of a ray that is exactly parallel, of those known.
@@ -64,16 +69,20 @@ pub struct GatePart {
 }
 
 /// At least or at most so large is a number that a kernel divides by, or gets by dividing.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct LimitPart {
-    pub number: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    pub number: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_least: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_most: Option<f64>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct WitnessPart {
     pub value: f64,
     pub units: f64,
@@ -81,21 +90,66 @@ pub struct WitnessPart {
 }
 
 /// The statements about a kernel as a whole.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct KernelPart {
     pub kernel: String,
-    pub scalar: &'static str,
+    pub scalar: String,
     pub paths: usize,
     /// None of a kernel without epsilons.
     pub verdicts: Option<VerdictPart>,
-    pub edges: &'static str,
+    pub edges: String,
     pub watertight: bool,
     /// A ray that both triangles of an edge refuse, if one was found; looked for where one kernel is chosen.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub leak: Option<Leak>,
     /// True if nothing is proved of its edges.
     #[serde(skip)]
     pub may_leak: bool,
+}
+
+impl Findings for ProofResult {
+    const STUDY: Study = Study::Prove;
+}
+
+impl Comparable for ProofResult {
+    fn cases(&self) -> String {
+        String::new()
+    }
+
+    fn counted(&self) -> Vec<Counted> {
+        Vec::new()
+    }
+
+    /// Every bound; what there is no bound of is infinite.
+    fn chosen(&self) -> Vec<Chosen> {
+        let bound = |what: String, value: Option<f64>| Chosen {
+            what,
+            value: format!("{:e}", value.unwrap_or(f64::INFINITY)),
+            is_bound: true,
+        };
+        let gates =
+            self.gates.iter().map(|GatePart { kernel, scalar, gate, bound: of, .. }| {
+                bound(format!("{kernel} {scalar}: bound of gate {gate}"), *of)
+            });
+        let kernels = self.kernels.iter().flat_map(
+            |KernelPart { kernel, scalar, verdicts, watertight, .. }| {
+                let depths = verdicts
+                    .iter()
+                    .flat_map(|it| [("misses inside", &it.misses), ("hits outside", &it.hits)]);
+                let depths = depths.map(move |(what, depth)| {
+                    bound(format!("{kernel} {scalar}: false {what}, in longest edges"), depth.share)
+                });
+                let leaks = bound(
+                    format!("{kernel} {scalar}: leaks at edges (0: none, proved)"),
+                    watertight.then_some(0.0),
+                );
+                depths.chain([leaks])
+            },
+        );
+        gates.chain(kernels).collect()
+    }
 }
 
 impl LimitPart {
@@ -103,7 +157,7 @@ impl LimitPart {
     pub fn new(&Supposed { is_most, name, limit }: &Supposed) -> LimitPart {
         let limit = Some(limit.to_f64());
         let (at_least, at_most) = if is_most { (None, limit) } else { (limit, None) };
-        LimitPart { number: name, at_least, at_most }
+        LimitPart { number: name.to_owned(), at_least, at_most }
     }
 }
 

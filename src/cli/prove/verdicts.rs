@@ -8,10 +8,12 @@ use crate::prove::{
 };
 
 use crate::report::page::Row;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The verdicts at some epsilons.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct VerdictPart {
     /// As `--epsilon` takes them; none if no gate takes one.
     pub epsilons: Option<String>,
@@ -26,7 +28,9 @@ pub struct VerdictPart {
 }
 
 /// How far from the boundary of its triangle a wrong verdict can be, in the triangle's plane.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct DepthPart {
     /// At most, as a share of the triangle's longest edge: inside or outside the line of some edge.
     pub share: Option<f64>,
@@ -45,22 +49,28 @@ pub struct DepthPart {
     pub useful: String,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct KnownPart {
     pub share: f64,
     /// The command that shows it.
     pub command: String,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct ScalePart {
-    pub number: &'static str,
+    pub number: String,
     pub at_least: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct OtherPart {
-    pub gate: &'static str,
+    pub gate: String,
     pub may: String,
     /// True if it never refuses a hit.
     #[serde(skip)]
@@ -87,10 +97,12 @@ impl VerdictPart {
                 .map(|(it, known)| it.share / known.score),
             useful: useful.clone(),
         };
-        let scale =
-            |(scale, least): &(Scale, f64)| ScalePart { number: scale.name(), at_least: *least };
+        let scale = |(scale, least): &(Scale, f64)| ScalePart {
+            number: scale.name().to_owned(),
+            at_least: *least,
+        };
         let other = |it: &crate::prove::Other| OtherPart {
-            gate: row.entry.info.gates[it.gate].name,
+            gate: row.entry.info.gates[it.gate].name.to_owned(),
             may: may(&it.may),
             is_never: it.may == May::Never,
         };

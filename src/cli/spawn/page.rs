@@ -2,7 +2,7 @@
 //! everything else folded.
 
 use super::choice::derived_name;
-use super::record::{BestPart, DerivedPart, PointsPart, SchemePart, SpawnRecord};
+use super::record::{BestPart, DerivedPart, PointsPart, SchemePart, SpawnResult};
 use crate::case::{SceneKind, ShortNumber};
 use crate::kernel::{self, Role};
 use crate::report::elsewhere::{self, ComparedRates};
@@ -10,7 +10,7 @@ use crate::report::page::{Block, Command, Head, Page, Paged, Row, Table, Use};
 use crate::report::{Rate, group_digits, interval_of, percent};
 use crate::spawn::describe;
 
-impl Paged for SpawnRecord {
+impl Paged for SpawnResult {
     fn page(&self) -> Page {
         let mut blocks = Vec::new();
         let mut points: Vec<&str> = self.points.iter().map(|part| part.point.as_str()).collect();
@@ -53,7 +53,7 @@ fn expression(point: &str) -> &'static str {
 }
 
 /// One kind of hit point of one kernel in one scalar.
-fn of_points(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
+fn of_points(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
     let set = if part.set == "source" { String::new() } else { format!(" ({})", part.set) };
     let heading = format!("{}{set} {}, {}", part.kernel, part.scalar, expression(&part.point));
     let mut blocks = vec![Block::Heading(heading)];
@@ -70,7 +70,7 @@ fn of_points(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
 }
 
 /// The offset to use, or a sentence that nothing here is good.
-fn answer(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
+fn answer(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
     let hits = group_digits(part.hits);
     let Some(best) = &part.best else {
         return vec![Block::text(match part.hits {
@@ -181,7 +181,7 @@ fn height(height: Option<f64>) -> String {
 }
 
 /// Some offsets; with everything that is counted, or in short.
-fn table(record: &SpawnRecord, schemes: Vec<&SchemePart>, is_whole: bool) -> Table {
+fn table(record: &SpawnResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Table {
     type Shown = Box<dyn Fn(&SchemePart) -> String>;
     let mut columns: Vec<(Head, Shown)> = vec![
         (Head::of("wrong side"), Box::new(|scheme| share(&scheme.wrong))),
@@ -216,7 +216,7 @@ fn table(record: &SpawnRecord, schemes: Vec<&SchemePart>, is_whole: bool) -> Tab
 }
 
 /// The shares of wrong sides on other kinds of planes, of the schemes that are worse there.
-fn of_elsewhere(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
+fn of_elsewhere(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
     let rows = part.schemes.iter().map(|scheme| ComparedRates {
         label: scheme.name.clone(),
         rates: [&scheme.wrong]
@@ -229,7 +229,7 @@ fn of_elsewhere(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
 }
 
 /// How far off the hit points themselves are, the derived bound, and what is left out.
-fn least(record: &SpawnRecord, part: &PointsPart) -> Vec<String> {
+fn least(record: &SpawnResult, part: &PointsPart) -> Vec<String> {
     let least = &part.least;
     let unit = if record.unit.is_empty() { String::new() } else { format!(" {}", record.unit) };
     let mut notes = Vec::new();
@@ -275,7 +275,7 @@ fn least(record: &SpawnRecord, part: &PointsPart) -> Vec<String> {
 }
 
 /// The words of the first screen.
-fn words(record: &SpawnRecord) -> Vec<(String, String)> {
+fn words(record: &SpawnResult) -> Vec<(String, String)> {
     let terms = [
         ("n", "the unit normal on the side that the first ray came from; u: half an ulp of 1".to_owned()),
         (
@@ -296,7 +296,7 @@ fn words(record: &SpawnRecord) -> Vec<(String, String)> {
 }
 
 /// The rest.
-fn how_to_read(record: &SpawnRecord) -> Vec<Block> {
+fn how_to_read(record: &SpawnResult) -> Vec<Block> {
     let fold = record.fold;
     let terms = [
         ("behind", "half of the starts (or 99 %) are not above the plane".to_owned()),
@@ -324,7 +324,7 @@ fn how_to_read(record: &SpawnRecord) -> Vec<Block> {
 }
 
 /// The kinds of planes and rays in words, where there are several.
-fn kinds(record: &SpawnRecord) -> Option<(String, String)> {
+fn kinds(record: &SpawnResult) -> Option<(String, String)> {
     let kinds = record.planes.iter().filter_map(|name| SceneKind::named(name));
     let words: Vec<_> = kinds.map(|kind| format!("{kind}: {}", kind.in_words())).collect();
     (1 < words.len()).then(|| ("kinds".to_owned(), words.join("; ")))

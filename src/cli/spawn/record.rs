@@ -1,4 +1,4 @@
-//! The versioned record of `spawn`; the same bytes whatever the number of threads.
+//! The findings of `spawn`, as its record holds them.
 
 use super::choice::{best, derived_name, is_too_high};
 use crate::arith::three_digits;
@@ -6,23 +6,18 @@ use crate::audit::{Trials, quoted, words};
 use crate::case::{Case, Matrix};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
-use crate::report::Rate;
+use crate::report::{Chosen, Comparable, Counted, Findings, Rate, Study, or_infinite};
 use crate::spawn::{
     Heights, Lengths, OfScheme, PointKind, ROOM, Scheme, SpawnPlan, SpawnSums, derived_normal,
     least_weight, new_ray,
 };
-use serde::Serialize;
-
-/// The schema's name and version.
-pub const SCHEMA: &str = "hairline-spawn/1";
+use serde::{Deserialize, Serialize};
 
 /// Everything that was found.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, serde(deny_unknown_fields))]
-pub struct SpawnRecord {
-    /// [`SCHEMA`].
-    pub schema: String,
+#[serde(deny_unknown_fields)]
+pub struct SpawnResult {
     /// The scene's words.
     pub scene: String,
     /// The path of the mesh that it is, if it is one.
@@ -40,7 +35,7 @@ pub struct SpawnRecord {
     /// The angle in degrees at which a neighbour is folded up at the edge nearest to the hit point.
     pub fold: f64,
     /// Where the triangles are put, if not where they are: row by row, the last column the translation.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub instance: Option<Matrix<f64>>,
     /// The kinds of planes on which each scheme was tried. All numbers are about the first, but those of `elsewhere`.
     pub planes: Vec<String>,
@@ -48,10 +43,42 @@ pub struct SpawnRecord {
     pub points: Vec<PointsPart>,
 }
 
+impl Findings for SpawnResult {
+    const STUDY: Study = Study::Spawn;
+}
+
+impl Comparable for SpawnResult {
+    fn cases(&self) -> String {
+        let SpawnResult { scene, mesh, seed, pilot_seed, count, wall, fold, instance, .. } = self;
+        format!("{scene} {mesh:?} {seed} {pilot_seed} {count} {wall} {fold} {instance:?}")
+    }
+
+    fn counted(&self) -> Vec<Counted> {
+        let schemes = self
+            .points
+            .iter()
+            .flat_map(|part| part.schemes.iter().map(move |scheme| (part.name(), scheme)));
+        schemes.flat_map(|(of, scheme)| scheme.counted(&of)).collect()
+    }
+
+    fn chosen(&self) -> Vec<Chosen> {
+        let derived = self.points.iter().filter_map(|part| {
+            let value = part.derived.as_ref()?.normal.to_string();
+            let what = format!("{}: derived bound of the distance along the normal", part.name());
+            Some(Chosen { what, value, is_bound: true })
+        });
+        let best = self.points.iter().filter_map(|part| {
+            let value = part.best.as_ref()?.scheme.clone();
+            Some(Chosen { what: format!("{}: offset to use", part.name()), value, is_bound: false })
+        });
+        derived.chain(best).collect()
+    }
+}
+
 /// The hit points of one kind, of a kernel in a scalar.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, serde(deny_unknown_fields))]
+#[serde(deny_unknown_fields)]
 pub struct PointsPart {
     /// The kernel's name.
     pub kernel: String,
@@ -82,9 +109,9 @@ pub struct PointsPart {
 }
 
 /// A distance along the normal from a derivation by hand (docs/guide/spawn.md), which no certificate stands for.
-#[derive(Clone, Serialize)]
+#[derive(Clone, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, serde(deny_unknown_fields))]
+#[serde(deny_unknown_fields)]
 pub struct DerivedPart {
     /// This distance and every larger one have no wrong start, on any ray of the scene.
     pub normal: f64,
@@ -95,9 +122,9 @@ pub struct DerivedPart {
 }
 
 /// The smallest safe offsets along the normal, of the hit points that need one.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, serde(deny_unknown_fields))]
+#[serde(deny_unknown_fields)]
 pub struct LeastPart {
     /// Hit points that need an offset.
     pub needed: Rate,
@@ -110,22 +137,28 @@ pub struct LeastPart {
 }
 
 /// Quantiles, rounded up by at most one part in 256; the largest seen as it was.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, serde(deny_unknown_fields))]
+#[serde(deny_unknown_fields)]
 pub struct LengthsPart {
     /// Half are at most this.
+    #[serde(deserialize_with = "or_infinite")]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub median: f64,
     /// 99 % are at most this.
+    #[serde(deserialize_with = "or_infinite")]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub p99: f64,
     /// The largest seen on this seed: a larger one may come with more rays.
+    #[serde(deserialize_with = "or_infinite")]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub largest: f64,
 }
 
 /// The scheme to use.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, serde(deny_unknown_fields))]
+#[serde(deny_unknown_fields)]
 pub struct BestPart {
     /// The scheme's name.
     pub scheme: String,
@@ -141,9 +174,9 @@ pub struct BestPart {
 }
 
 /// The results of a scheme.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, serde(deny_unknown_fields))]
+#[serde(deny_unknown_fields)]
 pub struct SchemePart {
     /// As `--scheme` takes it.
     pub name: String,
@@ -172,9 +205,9 @@ pub struct SchemePart {
 }
 
 /// The results of a scheme on planes of one kind.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, serde(deny_unknown_fields))]
+#[serde(deny_unknown_fields)]
 pub struct SchemePlanePart {
     /// The name of the kind of planes and rays.
     pub plane: String,
@@ -187,24 +220,28 @@ pub struct SchemePlanePart {
 }
 
 /// Quantiles of heights over the plane; none on the plane or behind it.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, serde(deny_unknown_fields))]
+#[serde(deny_unknown_fields)]
 pub struct HeightsPart {
     /// Half are at most this.
     pub median: Option<f64>,
     /// 99 % are at most this.
     pub p99: Option<f64>,
     /// The highest seen.
+    #[serde(deserialize_with = "or_infinite")]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub highest: f64,
     /// How deep the deepest wrong start that was seen lies.
+    #[serde(deserialize_with = "or_infinite")]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub deepest: f64,
 }
 
 /// A wrong start.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, serde(deny_unknown_fields))]
+#[serde(deny_unknown_fields)]
 pub struct WrongPart {
     /// The id of the first ray, which `hairline explain` takes.
     pub first_ray: String,
@@ -213,6 +250,11 @@ pub struct WrongPart {
 }
 
 impl PointsPart {
+    /// The kernel, the scalar and the kind of hit point in words.
+    fn name(&self) -> String {
+        format!("{} ({}) {} {}", self.kernel, self.set, self.scalar, self.point)
+    }
+
     /// Plans and sums by kind of plane. `preferred` are places of schemes that come first where they are about as low
     /// as any; `place` are the flags that name the scene or the mesh.
     pub fn new<F: Scalar>(
@@ -328,6 +370,30 @@ impl HeightsPart {
 }
 
 impl SchemePart {
+    /// How often what went wrong, of a kind of hit point.
+    fn counted(&self, of: &str) -> Vec<Counted> {
+        let counted = |what: String, rate: &Rate, first: Option<&WrongPart>| Counted {
+            what: format!("{of}: {}: {what}", self.name),
+            rate: rate.clone(),
+            command: first.map(|first| first.explain.clone()),
+        };
+        let here = [
+            ("wrong sides", &self.wrong, self.first_wrong.as_ref()),
+            ("self-hits", &self.self_hits, None),
+            ("past a wall", &self.beyond_wall, None),
+            ("past a fold", &self.past_neighbour, None),
+        ];
+        let here = here.map(|(what, rate, first)| counted(what.to_owned(), rate, first));
+        let elsewhere = self.elsewhere.iter().flat_map(|on| {
+            let kinds = [
+                ("wrong sides", &on.wrong, on.first_wrong.as_ref()),
+                ("self-hits", &on.self_hits, None),
+            ];
+            kinds.map(|(what, rate, first)| counted(format!("{what} on {}", on.plane), rate, first))
+        });
+        here.into_iter().chain(elsewhere).collect()
+    }
+
     /// The results of the scheme at a place.
     fn new<F: Scalar>(plans: &[SpawnPlan<'_>], runs: &[SpawnSums], place: usize) -> SchemePart
     where
@@ -389,15 +455,5 @@ impl WrongPart {
                 plan.row.explain_command(&(quoted(&line) + &words.unwrap_or_default()))
             },
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_committed_schema_is_that_of_the_types() {
-        crate::report::tests::schema::assert_committed::<SpawnRecord>("spawn");
     }
 }

@@ -50,7 +50,7 @@ pub(super) struct LimitRow {
 }
 
 /// The answer for a part of a record.
-pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> KernelAnswer {
+pub(super) fn answer(record: &SceneResult, part: &SceneKernelPart) -> KernelAnswer {
     let kernel = format!("{} {}", part.kernel, part.scalar);
     let title = match &record.mesh {
         Some(MeshScenePart { path, triangles, .. }) => {
@@ -93,7 +93,7 @@ fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
     first.iter().chain(&part.relative).chain(others)
 }
 
-fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
+fn used(record: &SceneResult, part: &SceneKernelPart) -> Vec<Use> {
     let fixed = Use {
         lead: lead(record, part, &part.tried[0]).to_owned(),
         text: fixed(record, part),
@@ -117,12 +117,12 @@ pub(super) const USE: &str = "use";
 const LEAST_BAD: &str = "least bad:";
 
 /// The words before epsilons: that they are to be used, unless the notes say that no numbers are good.
-fn lead(record: &SceneRecord, part: &SceneKernelPart, tried: &TriedPart) -> &'static str {
+fn lead(record: &SceneResult, part: &SceneKernelPart, tried: &TriedPart) -> &'static str {
     if is_no_good(record, part, tried) { LEAST_BAD } else { USE }
 }
 
 /// True if epsilons that follow each triangle's size come first.
-pub(super) fn is_scale_free_better(record: &SceneRecord, part: &SceneKernelPart) -> bool {
+pub(super) fn is_scale_free_better(record: &SceneResult, part: &SceneKernelPart) -> bool {
     let best = &part.tried[0];
     let is_good = |tried| no_good(record, part, tried).is_empty();
     part.relative.as_ref().is_some_and(|relative| {
@@ -133,7 +133,7 @@ pub(super) fn is_scale_free_better(record: &SceneRecord, part: &SceneKernelPart)
 }
 
 /// Numbers to paste.
-fn fixed(record: &SceneRecord, part: &SceneKernelPart) -> String {
+fn fixed(record: &SceneResult, part: &SceneKernelPart) -> String {
     let epsilons = &part.tried[0].epsilons;
     let t = least_t(part, epsilons).map(|e| match part.takes_interval {
         _ if e.parse() == Ok(0.0) => "no least t: t_min = 0 costs least".to_owned(),
@@ -207,7 +207,7 @@ fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
     rows
 }
 
-fn error_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
+fn error_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     for value in ["t", "point"] {
         let unit = if value == "t" { String::new() } else { of_unit(&record.unit) };
@@ -237,7 +237,7 @@ fn is_least(value: &str, scalar: &str) -> bool {
 }
 
 /// Comparisons that follow each triangle's size.
-fn scale_free(record: &SceneRecord, part: &SceneKernelPart, relative: &TriedPart) -> Use {
+fn scale_free(record: &SceneResult, part: &SceneKernelPart, relative: &TriedPart) -> Use {
     let forms = part.knobs.iter().zip(&relative.epsilons).map(|(knob, e)| match &knob.form {
         Some(form) if e.parse() != Ok(0.0) => {
             format!("{} = {}", knob.name, form.replacen('e', e, 1))
@@ -258,7 +258,7 @@ fn scale_free(record: &SceneRecord, part: &SceneKernelPart, relative: &TriedPart
     }
 }
 
-fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
+fn limit_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<LimitRow> {
     let what = |count: usize| {
         let count = &part.counts[count];
         label(count)
@@ -301,7 +301,7 @@ fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
 }
 
 /// Limits of a knob that do not meet, and what helps.
-fn conflict(record: &SceneRecord, part: &SceneKernelPart, conflict: &ConflictPart) -> String {
+fn conflict(record: &SceneResult, part: &SceneKernelPart, conflict: &ConflictPart) -> String {
     let knob = &part.knobs[part.limits[conflict.lower].knob];
     let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {
         // With directions of unit length a share of |d| is the number itself.

@@ -12,9 +12,9 @@ use crate::epsilon::{
     ProvedValue, SceneStudy, Setting, StudiedRays, Tried, Value, WrongKind, fresh_seed,
 };
 use crate::kernel::{Role, Scalar, Tunable};
-use crate::report::Context;
 use crate::report::build::provenance_of;
 use crate::report::record::Rate;
+use crate::report::{Context, Record};
 
 /// The record of some studies of one scene, each with the kernel's nanoseconds a ray.
 pub fn scene_record(
@@ -33,8 +33,7 @@ pub fn scene_record(
     }
     let StudiedRays { scene: of_scene, sources, flags, unit, mesh, .. } = studied;
     let scene = of_scene.clone().unwrap_or_default();
-    SceneRecord {
-        schema: SCENE_SCHEMA.to_owned(),
+    let result = SceneResult {
         scene: of_scene.as_ref().map_or(String::new(), Scene::to_string),
         sources: sources.iter().map(Source::name).collect(),
         flags: flags.clone(),
@@ -59,8 +58,8 @@ pub fn scene_record(
             .filter_map(|value| Some(named(value.name(), max_error?.of(value)?)))
             .collect(),
         kernels: kernels.into_iter().map(|(part, _)| part).collect(),
-        provenance,
-    }
+    };
+    Record::new(result, provenance)
 }
 
 /// The largest coordinate of a ray's start.

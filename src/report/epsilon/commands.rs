@@ -1,13 +1,13 @@
 //! The commands that show more of what is recommended for a scene.
 
 use super::notes::{has_default_costs, is_coarse};
-use super::record::{NamedNumber, SceneKernelPart, SceneRecord};
+use super::record::{NamedNumber, SceneKernelPart, SceneResult};
 use crate::audit::shell_word;
 use crate::case::{SCENES, ShortNumber};
 use crate::epsilon::COUNT;
 
 /// Commands that show more of what is recommended.
-pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<String> {
     let best = &part.tried[0].epsilons;
     let of_audit = of_scene(record);
     let chosen = part.knobs.iter().zip(best).filter(|(knob, _)| knob.is_gate);
@@ -38,13 +38,13 @@ pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Stri
 }
 
 /// The scene as `--scene` takes it.
-pub(super) fn scene_words(record: &SceneRecord) -> String {
+pub(super) fn scene_words(record: &SceneResult) -> String {
     let preset = SCENES.iter().find(|preset| preset.scene.to_string() == record.scene);
     preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned())
 }
 
 /// The flags that name the scene of a study, or its mesh and how rays meet it.
-fn of_scene(record: &SceneRecord) -> String {
+fn of_scene(record: &SceneResult) -> String {
     if !record.has_scene() {
         return record.flags.clone();
     }
@@ -60,7 +60,7 @@ fn of_scene(record: &SceneRecord) -> String {
 }
 
 /// The command that studies one kernel as this record does.
-pub(super) fn of_kernel(record: &SceneRecord, part: &SceneKernelPart) -> String {
+pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> String {
     let numbers = |flag: &str, numbers: &[NamedNumber]| {
         let words: Vec<String> =
             numbers.iter().map(|it| format!("{}={}", it.name, ShortNumber(it.number))).collect();

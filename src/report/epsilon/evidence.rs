@@ -3,7 +3,7 @@
 use super::answer::{KernelAnswer, LimitRow, PICTURE};
 use super::legend::legend;
 use super::plot::{footer, panels};
-use super::record::{SceneKernelPart, SceneRecord};
+use super::record::{SceneKernelPart, SceneResult};
 use super::standing::{coarse, of_given, standing, telling};
 use super::words::{label, share};
 use crate::case::{Scene, SceneKind};
@@ -16,13 +16,13 @@ use crate::report::page::{Block, Command, Head, Row, Table};
 const MOST_ROWS: usize = 3;
 
 /// The meaning of the words in the tables.
-pub(super) fn how_to_read(record: &SceneRecord) -> Vec<Block> {
+pub(super) fn how_to_read(record: &SceneResult) -> Vec<Block> {
     vec![Block::Notes(legend(record))]
 }
 
 /// One kernel in one scalar: the answer, what argues for it, and everything else folded.
 pub(super) fn of_kernel(
-    record: &SceneRecord,
+    record: &SceneResult,
     part: &SceneKernelPart,
     answer: &KernelAnswer,
 ) -> Vec<Block> {
@@ -73,7 +73,7 @@ pub(super) fn of_kernel(
 }
 
 /// Where the recommended epsilons are more often wrong on planes, or with rays, of other kinds.
-fn of_elsewhere(record: &SceneRecord, name: &str, part: &SceneKernelPart) -> Vec<Block> {
+fn of_elsewhere(record: &SceneResult, name: &str, part: &SceneKernelPart) -> Vec<Block> {
     let own = Scene::parse(&record.scene).map_or(SceneKind::ALL[0], |(scene, _)| scene.kind());
     let planes = part.elsewhere.iter().map(|other| other.plane.clone());
     let kinds: Vec<String> = [own.to_string()].into_iter().chain(planes).collect();

@@ -1,6 +1,6 @@
 //! If a scalar's numbers are fine enough for a scene.
 
-use super::record::{SceneKernelPart, SceneRecord};
+use super::record::{SceneKernelPart, SceneResult};
 use super::words::{human, spaced};
 
 /// The smallest triangle is so many of a scalar's steps long, or longer, where its numbers are fine enough: then
@@ -43,17 +43,17 @@ impl Grain<'_> {
     }
 }
 
-fn grain<'a>(record: &'a SceneRecord, part: &'a SceneKernelPart) -> Grain<'a> {
+fn grain<'a>(record: &'a SceneResult, part: &'a SceneKernelPart) -> Grain<'a> {
     let SceneKernelPart { scalar, spacing, .. } = part;
     Grain { scalar, spacing: *spacing, smallest: record.edge[0], unit: &record.unit }
 }
 
 /// True if the scalar's numbers are fine enough for the scene's smallest triangles.
-pub(super) fn is_fine(record: &SceneRecord, part: &SceneKernelPart) -> bool {
+pub(super) fn is_fine(record: &SceneResult, part: &SceneKernelPart) -> bool {
     !record.has_scene() || grain(record, part).is_fine()
 }
 
 /// A sentence that says so, or that they are not.
-pub(super) fn fitness(record: &SceneRecord, part: &SceneKernelPart) -> String {
+pub(super) fn fitness(record: &SceneResult, part: &SceneKernelPart) -> String {
     grain(record, part).sentence("scene")
 }

@@ -1,10 +1,10 @@
 //! The lines below a study of a scene: what the words of its tables mean.
 
-use super::record::SceneRecord;
+use super::record::SceneResult;
 use super::words::{RAYS, flatness, is_subnormal};
 
 /// The meaning of the words in the tables, a line each.
-pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
+pub(super) fn legend(record: &SceneResult) -> Vec<String> {
     let costs = record.costs.iter().map(|cost| format!("{} {}", cost.name, cost.number));
     let costs = costs.collect::<Vec<_>>().join(", ");
     let aim = if record.aims_inside { "; all aimed inside" } else { "" };

@@ -27,26 +27,19 @@ pub const SCENE_FORMATS: &[Format<SceneRecord>] = &[
     Format::TEXT,
     Format::JSON,
     Format::MARKDOWN,
-    Format { name: "svg", write: plot::write },
-    Format { name: "c", write: |record, _, out| snippet::write(record, SnippetLanguage::C, out) },
+    Format { name: "svg", write: |record, _, out| plot::write(&record.result, out) },
+    Format {
+        name: "c",
+        write: |record, _, out| snippet::write(&record.result, SnippetLanguage::C, out),
+    },
     Format {
         name: "rust",
-        write: |record, _, out| snippet::write(record, SnippetLanguage::Rust, out),
+        write: |record, _, out| snippet::write(&record.result, SnippetLanguage::Rust, out),
     },
     Format {
         name: "glsl",
-        write: |record, _, out| snippet::write(record, SnippetLanguage::Glsl, out),
+        write: |record, _, out| snippet::write(&record.result, SnippetLanguage::Glsl, out),
     },
     #[cfg(feature = "pages")]
     Format::HTML,
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_committed_schema_is_that_of_the_types() {
-        crate::report::tests::schema::assert_committed::<SceneRecord>("scene");
-    }
-}

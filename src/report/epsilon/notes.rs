@@ -15,7 +15,7 @@ const FEW: u64 = 10_000;
 const TOO_FEW: u64 = 1_000;
 
 /// The notes on the best fixed numbers, a sentence each.
-pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+pub(super) fn notes(record: &SceneResult, part: &SceneKernelPart) -> Vec<String> {
     let pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
     let meanings = pairs.filter_map(|(knob, epsilon)| meaning(record, part, knob, epsilon));
     let mut notes: Vec<String> = meanings.collect();
@@ -75,7 +75,7 @@ fn proofs(part: &SceneKernelPart) -> impl Iterator<Item = String> {
 }
 
 /// A note if there were too few rays to choose epsilons by.
-pub(super) fn few_rays(record: &SceneRecord) -> Option<String> {
+pub(super) fn few_rays(record: &SceneResult) -> Option<String> {
     if !record.has_scene() {
         return None;
     }
@@ -104,7 +104,7 @@ fn too_many(part: &SceneKernelPart, count: &RayCount) -> Option<f64> {
 
 /// Where even the best epsilons are no good: that they are not, why, and what helps.
 pub(super) fn no_good(
-    record: &SceneRecord,
+    record: &SceneResult,
     part: &SceneKernelPart,
     tried: &TriedPart,
 ) -> Vec<String> {
@@ -156,7 +156,7 @@ pub(super) fn no_good(
     vec![format!("no numbers are good here: even these {what}"), instead(record, part, count.kind)]
 }
 
-pub(super) fn has_default_costs(record: &SceneRecord) -> bool {
+pub(super) fn has_default_costs(record: &SceneResult) -> bool {
     let default = Costs::default();
     record.costs.iter().all(|cost| {
         let mut kinds = WrongKind::ALL.into_iter();
@@ -166,7 +166,7 @@ pub(super) fn has_default_costs(record: &SceneRecord) -> bool {
 
 /// True if nobody should use these epsilons. With other weights, or a limit of errors, the user may have asked for what
 /// they do.
-pub(super) fn is_no_good(record: &SceneRecord, part: &SceneKernelPart, tried: &TriedPart) -> bool {
+pub(super) fn is_no_good(record: &SceneResult, part: &SceneKernelPart, tried: &TriedPart) -> bool {
     let is_asked_for = !record.max_error.is_empty() || !has_default_costs(record);
     !is_asked_for && !no_good(record, part, tried).is_empty()
 }
@@ -175,7 +175,7 @@ pub(super) fn is_no_good(record: &SceneRecord, part: &SceneKernelPart, tried: &T
 const HEAVY: f64 = 0.01;
 
 /// A note if one wrong answer among so many rays decides under the given weights: they need more rays.
-fn overweighed(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
+fn overweighed(record: &SceneResult, part: &SceneKernelPart) -> Option<String> {
     let of_count = |(count, rate): (&RayCount, &Rate)| {
         let cost = record.costs.iter().find(|cost| cost.name == count.kind.name())?;
         (0 < rate.of).then(|| (cost.number / rate.of as f64, &cost.name))
@@ -191,18 +191,18 @@ fn overweighed(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
 }
 
 /// True if the scalar's numbers are too far apart for the smallest triangles.
-pub(super) fn is_coarse(record: &SceneRecord, part: &SceneKernelPart) -> bool {
+pub(super) fn is_coarse(record: &SceneResult, part: &SceneKernelPart) -> bool {
     record.has_scene() && record.edge[0] < 32.0 * part.spacing
 }
 
 /// True if products of three of the smallest triangle's lengths lose digits, because the scalar has none so small.
-fn is_tiny(record: &SceneRecord, part: &SceneKernelPart) -> bool {
+fn is_tiny(record: &SceneResult, part: &SceneKernelPart) -> bool {
     let epsilon = if part.scalar == f32::NAME { f32::EPSILON.into() } else { f64::EPSILON };
     record.edge[0].powi(3) * epsilon < least_normal(&part.scalar)
 }
 
 /// The advice where no numbers are good.
-fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: WrongKind) -> String {
+fn instead(record: &SceneResult, part: &SceneKernelPart, kind: WrongKind) -> String {
     let unit = spaced(&record.unit);
     let is_narrow = part.scalar == "f32";
     if is_coarse(record, part) {
@@ -229,7 +229,7 @@ fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: WrongKind) -> Str
 }
 
 /// A note if cracks that no number closes are most of a kernel's cost, with advice.
-fn cracks_of_its_own(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
+fn cracks_of_its_own(record: &SceneResult, part: &SceneKernelPart) -> Option<String> {
     let best = &part.tried[0];
     let cracks =
         part.counts.iter().zip(&best.wrong).filter(|(count, _)| count.kind == WrongKind::Crack);
@@ -249,7 +249,7 @@ fn cracks_of_its_own(record: &SceneRecord, part: &SceneKernelPart) -> Option<Str
 }
 
 /// The limit of errors for which the epsilons were chosen, in words; none if there is none.
-pub(super) fn accuracy(record: &SceneRecord) -> Option<String> {
+pub(super) fn accuracy(record: &SceneResult) -> Option<String> {
     let wanted = || {
         let most = most_errors(record);
         format!("chosen so that 99 % of the hits that remain are off by at most {most}")
@@ -258,7 +258,7 @@ pub(super) fn accuracy(record: &SceneRecord) -> Option<String> {
 }
 
 /// The largest errors that were wanted, in words.
-fn most_errors(record: &SceneRecord) -> String {
+fn most_errors(record: &SceneResult) -> String {
     let words = record.max_error.iter().map(|NamedNumber { name, number }| {
         let most = human(&format!("{number:e}"));
         match name.as_str() {

@@ -3,21 +3,22 @@
 use super::answer::{KernelAnswer, answer};
 use super::evidence::{how_to_read, of_kernel};
 use super::ranking;
-use super::record::SceneRecord;
+use super::record::{SceneRecord, SceneResult};
 use super::standing::standing;
 use crate::report::page::{Block, Page, Paged, Tone};
 
 impl Paged for SceneRecord {
     fn page(&self) -> Page {
-        let mut page =
-            if ranking::is_needed(self) { ranking::page(self) } else { self.of_kernels() };
-        let left_out = self.left_out.iter().map(|why| Block::Text(format!("Left out: {why}.")));
+        let result = &self.result;
+        let is_ranked = ranking::is_needed(result);
+        let mut page = if is_ranked { ranking::page(self) } else { result.of_kernels() };
+        let left_out = result.left_out.iter().map(|why| Block::Text(format!("Left out: {why}.")));
         page.blocks.splice(0..0, left_out);
         page
     }
 }
 
-impl SceneRecord {
+impl SceneResult {
     /// Each kernel in each scalar by itself.
     fn of_kernels(&self) -> Page {
         let answers: Vec<KernelAnswer> =

@@ -6,7 +6,6 @@ use super::record::*;
 use super::words::{human, label, unit_of};
 use crate::audit::Trials;
 use crate::plot::{Decades, decades_around, group_digits};
-use crate::report::Style;
 use crate::report::chart::{Chart, ChartFrame, ChartMark, LINE, file, text_at, wrapped};
 use crate::report::page::{Drawing, Picture};
 use crate::report::rate::percent;
@@ -24,7 +23,7 @@ const FRAME: ChartFrame =
     ChartFrame { width: WIDTH, left: 62.0, right: 14.0, above: 56.0, plot: 210.0, zero: 24.0 };
 
 /// Writes the recommendation and the panels of each kernel, one below the other.
-pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
+pub fn write(record: &SceneResult, out: &mut dyn Write) -> io::Result<()> {
     let (mut drawing, mut y) = (String::new(), 0.0);
     for part in &record.kernels {
         let answer = answer(record, part);
@@ -54,7 +53,7 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
 }
 
 /// The footer: the rays and the contract behind the shares.
-pub(super) fn footer(record: &SceneRecord, part: &SceneKernelPart) -> [String; 2] {
+pub(super) fn footer(record: &SceneResult, part: &SceneKernelPart) -> [String; 2] {
     [
         format!(
             "{} indices of each kind of ray, seed {}",
@@ -67,7 +66,7 @@ pub(super) fn footer(record: &SceneRecord, part: &SceneKernelPart) -> [String; 2
 
 /// One panel a number.
 pub(super) fn panels(
-    record: &SceneRecord,
+    record: &SceneResult,
     part: &SceneKernelPart,
     answer: &KernelAnswer,
 ) -> Vec<Picture> {
@@ -107,7 +106,7 @@ fn color_of(count: &RayCount) -> &'static str {
 
 /// The data of a panel.
 struct Draft<'a> {
-    record: &'a SceneRecord,
+    record: &'a SceneResult,
     part: &'a SceneKernelPart,
     answer: &'a KernelAnswer,
     place: usize,
@@ -124,7 +123,7 @@ fn number(text: &str) -> f64 {
 
 impl<'a> Draft<'a> {
     fn new(
-        record: &'a SceneRecord,
+        record: &'a SceneResult,
         part: &'a SceneKernelPart,
         answer: &'a KernelAnswer,
         place: usize,

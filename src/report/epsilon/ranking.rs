@@ -5,7 +5,9 @@ use super::commands::{of_kernel, scene_words};
 use super::evidence;
 use super::fitness::{fitness, is_fine};
 use super::notes::few_rays;
-use super::record::{RayCount, Rays, SceneKernelPart, SceneRecord, Stratum, TriedPart, WrongKind};
+use super::record::{
+    RayCount, Rays, SceneKernelPart, SceneRecord, SceneResult, Stratum, TriedPart, WrongKind,
+};
 use super::words::{of_unit, share};
 use crate::report::alike;
 use crate::report::page::{Block, Command, Head, Page, Row, Table};
@@ -15,14 +17,15 @@ use crate::report::record::Rate;
 type Best<'a> = (&'a SceneKernelPart, &'a TriedPart);
 
 /// True if a record has too many kernels for a screen of each.
-pub(super) fn is_needed(record: &SceneRecord) -> bool {
+pub(super) fn is_needed(record: &SceneResult) -> bool {
     let mut names: Vec<&str> = record.kernels.iter().map(|part| part.kernel.as_str()).collect();
     names.dedup();
     2 < names.len()
 }
 
 /// A table for each scalar, and what to run next.
-pub(super) fn page(record: &SceneRecord) -> Page {
+pub(super) fn page(whole: &SceneRecord) -> Page {
+    let record = &whole.result;
     let scene = match &record.mesh {
         Some(mesh) => mesh.path.clone(),
         None if record.has_scene() => scene_words(record),
@@ -38,7 +41,7 @@ pub(super) fn page(record: &SceneRecord) -> Page {
         blocks.extend(record.has_scene().then(|| Block::text(fitness(record, best.0.0))));
         let heads = [*scalar, "cost", "leaks", "lost inside", "self-hits", "ns a ray"];
         let heads = heads.map(Head::of).into();
-        let all = rows.iter().map(|one| row(record, one)).collect();
+        let all = rows.iter().map(|one| row(whole, one)).collect();
         blocks.push(Block::Table(Table::new(heads, all).at_most(most)));
     }
     let shown =
@@ -74,7 +77,7 @@ pub(super) fn page(record: &SceneRecord) -> Page {
 }
 
 /// The kernels of a scalar, the cheapest first, each with those that were wrong as often with the same numbers.
-fn ranked<'a>(record: &'a SceneRecord, scalar: &str) -> Vec<(Best<'a>, Vec<Best<'a>>)> {
+fn ranked<'a>(record: &'a SceneResult, scalar: &str) -> Vec<(Best<'a>, Vec<Best<'a>>)> {
     let best = |part: &'a SceneKernelPart| match &part.relative {
         Some(relative) if is_scale_free_better(record, part) => relative,
         _ => &part.tried[0],
@@ -91,7 +94,7 @@ fn ranked<'a>(record: &'a SceneRecord, scalar: &str) -> Vec<(Best<'a>, Vec<Best<
     })
 }
 
-fn row(record: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
+fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
     let cell = |is_of: fn(&RayCount) -> bool| {
         let counts = part.counts.iter().zip(&best.wrong);
         let rates = counts.filter(|(count, _)| is_of(count));
@@ -103,9 +106,9 @@ fn row(record: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
         cell(|count| count.kind == WrongKind::Crack),
         cell(is_lost),
         cell(|count| count.kind == WrongKind::SelfHit),
-        record.nanoseconds(part).map_or("-".to_owned(), |time| format!("{time:.0}")),
+        whole.nanoseconds(part).map_or("-".to_owned(), |time| format!("{time:.0}")),
     ];
-    let used = answer(record, part).used.into_iter().next();
+    let used = answer(&whole.result, part).used.into_iter().next();
     let used = used.map(|used| {
         let lead = if used.lead == USE { "use" } else { "no numbers are good; least bad:" };
         format!("{lead} {}", used.text)

@@ -1,21 +1,21 @@
-//! The versioned record of a study of a scene.
+//! The findings of a study of epsilons, as its record holds them.
 
+use super::commands::of_kernel;
+use super::words::label;
 pub(super) use crate::epsilon::{RayCount, Rays, WrongKind};
 pub(super) use crate::family::Stratum;
-use crate::report::record::{Provenance, Rate};
+use crate::report::record::{Chosen, Comparable, Counted, Findings, Rate, Record, Study};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The schema's name and version.
-pub const SCENE_SCHEMA: &str = "hairline-scene/1";
+/// The record of a study of epsilons.
+pub type SceneRecord = Record<SceneResult>;
 
-/// Everything that a study found; but for `provenance` the same bytes whatever the number of threads.
+/// Everything that a study of epsilons found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct SceneRecord {
-    /// [`SCENE_SCHEMA`].
-    pub schema: String,
+pub struct SceneResult {
     /// The scene's words; empty on other sources.
     pub scene: String,
     /// The names of the families and corpora that were studied instead of a scene. What is said below of a scene's sizes
@@ -54,16 +54,59 @@ pub struct SceneRecord {
     pub max_error: Vec<NamedNumber>,
     /// One entry for each kernel and scalar.
     pub kernels: Vec<SceneKernelPart>,
-    /// Where and how it was made.
-    pub provenance: Provenance,
 }
 
-impl SceneRecord {
+impl SceneResult {
     /// True if it is about a scene, and not about families or stored cases.
     pub fn has_scene(&self) -> bool {
         !self.scene.is_empty()
     }
+}
 
+impl Findings for SceneResult {
+    const STUDY: Study = Study::Epsilon;
+}
+
+impl Comparable for SceneResult {
+    fn cases(&self) -> String {
+        let SceneResult { scene, flags, mesh, seed, fresh_seed, count, .. } = self;
+        let digest = mesh.as_ref().map(|mesh| &mesh.digest);
+        format!("{scene} {flags} {digest:?} {seed} {fresh_seed} {count}")
+    }
+
+    fn counted(&self) -> Vec<Counted> {
+        let tried =
+            self.kernels.iter().flat_map(|part| part.tried.iter().map(move |it| (part, it)));
+        let counted = tried.flat_map(|(part, tried)| {
+            part.counts.iter().zip(&tried.wrong).map(|(count, rate)| Counted {
+                what: format!(
+                    "{} {} with {} epsilons, {}",
+                    part.kernel,
+                    part.scalar,
+                    tried.name,
+                    label(count)
+                ),
+                rate: rate.clone(),
+                command: Some(of_kernel(self, part)),
+            })
+        });
+        counted.collect()
+    }
+
+    fn chosen(&self) -> Vec<Chosen> {
+        let knobs = self.kernels.iter().flat_map(|part| {
+            part.knobs.iter().zip(&part.tried[0].epsilons).map(move |it| (part, it))
+        });
+        let chosen = |(part, (knob, value)): (&SceneKernelPart, (&KnobPart, &String))| Chosen {
+            what: format!("{} {}: {}", part.kernel, part.scalar, knob.name),
+            value: value.clone(),
+            is_bound: false,
+        };
+        knobs.map(chosen).collect()
+    }
+}
+
+impl SceneRecord {
     /// The nanoseconds that a ray took in a kernel.
     pub fn nanoseconds(&self, part: &SceneKernelPart) -> Option<f64> {
         self.provenance.kernel_nanoseconds.get(&part.scalar)?.get(&part.kernel).copied()

@@ -16,7 +16,7 @@ pub(super) enum SnippetLanguage {
 
 /// Writes the numbers of each kernel as constants, each with the comparison that takes it.
 pub(super) fn write(
-    record: &SceneRecord,
+    record: &SceneResult,
     language: SnippetLanguage,
     out: &mut dyn Write,
 ) -> io::Result<()> {

@@ -12,7 +12,7 @@ use crate::report::record::Rate;
 const TELLING: f64 = 0.005;
 
 /// How good the best fixed numbers are, in a sentence or two.
-pub(super) fn standing(record: &SceneRecord, part: &SceneKernelPart) -> (Tone, String) {
+pub(super) fn standing(record: &SceneResult, part: &SceneKernelPart) -> (Tone, String) {
     let flaws = no_good(record, part, &part.tried[0]);
     if !flaws.is_empty() {
         return (Tone::Bad, sentences(&flaws));
@@ -41,13 +41,13 @@ const AS_GOOD: f64 = 0.1;
 const MOST_GIVEN: usize = 3;
 
 /// How good the numbers are that the kernel came with, or the user gave, a sentence each.
-pub(super) fn of_given(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
+pub(super) fn of_given(record: &SceneResult, part: &SceneKernelPart) -> Option<String> {
     let best = &part.tried[0];
     let sentence = |tried: &TriedPart| {
         let numbers = part.knobs.iter().zip(&tried.epsilons);
         let numbers = numbers.map(|(knob, e)| format!("{}={}", knob.name, human(e)));
         let numbers = numbers.collect::<Vec<_>>().join(",");
-        let is_as_good = |cost: fn(&SceneRecord, &SceneKernelPart, &TriedPart) -> f64| {
+        let is_as_good = |cost: fn(&SceneResult, &SceneKernelPart, &TriedPart) -> f64| {
             let [own, best] = [tried, best].map(|tried| cost(record, part, tried));
             own - best <= (AS_GOOD * best).clamp(TELLING, 10.0 * TELLING)
         };
@@ -79,7 +79,7 @@ pub(super) fn of_given(record: &SceneRecord, part: &SceneKernelPart) -> Option<S
 }
 
 /// The cost of all wrong answers but self-hits, which starts off the surface end too.
-fn cost_without_self_hits(record: &SceneRecord, part: &SceneKernelPart, tried: &TriedPart) -> f64 {
+fn cost_without_self_hits(record: &SceneResult, part: &SceneKernelPart, tried: &TriedPart) -> f64 {
     let counts = part.counts.iter().zip(&tried.wrong);
     let others = counts.filter(|(count, _)| count.kind != WrongKind::SelfHit);
     others.map(|(count, rate)| cost_of(record, count) * rate.rate.unwrap_or(0.0)).sum()
@@ -143,7 +143,7 @@ fn beyond_limits(part: &SceneKernelPart, knob: usize) -> Option<&str> {
 /// The wrong answers that make most of the cost, or of what it is above the cost of others, so many of them, in words, if that
 /// is worth a word.
 fn remains(
-    record: &SceneRecord,
+    record: &SceneResult,
     part: &SceneKernelPart,
     tried: &TriedPart,
     beside: Option<&TriedPart>,
@@ -164,13 +164,13 @@ fn remains(
     (!words.is_empty()).then(|| words.join(", "))
 }
 
-fn cost_of(record: &SceneRecord, count: &RayCount) -> f64 {
+fn cost_of(record: &SceneResult, count: &RayCount) -> f64 {
     record.costs.iter().find(|cost| cost.name == count.kind.name()).map_or(0.0, |cost| cost.number)
 }
 
 /// The counts that argue for the recommended numbers: those whose cost differs most among what was tried; what is the
 /// same with all of them comes last.
-pub(super) fn telling(record: &SceneRecord, part: &SceneKernelPart, most: usize) -> Vec<usize> {
+pub(super) fn telling(record: &SceneResult, part: &SceneKernelPart, most: usize) -> Vec<usize> {
     let extremes = |place: &usize| {
         let tried = part.tried.iter().chain(&part.relative);
         let shares = tried.map(|tried| tried.wrong[*place].rate.unwrap_or(0.0));
@@ -237,6 +237,6 @@ fn phrase(count: &RayCount, share: &str) -> String {
 }
 
 /// A word on the scalar, if its numbers are too far apart for the scene.
-pub(super) fn coarse(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
+pub(super) fn coarse(record: &SceneResult, part: &SceneKernelPart) -> Option<String> {
     (!is_fine(record, part)).then(|| fitness(record, part))
 }

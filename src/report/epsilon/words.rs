@@ -60,7 +60,7 @@ pub(super) fn spaced(unit: &str) -> String {
 }
 
 /// The unit of t.
-pub(super) fn unit_of_t(record: &SceneRecord) -> String {
+pub(super) fn unit_of_t(record: &SceneResult) -> String {
     match record.unit_directions {
         true => spaced(&record.unit),
         false => " of the way to the target".to_owned(),
@@ -87,7 +87,7 @@ pub(super) fn of_unit(unit: &str) -> String {
 
 /// The meaning of an epsilon for the scene's triangles.
 pub(super) fn meaning(
-    record: &SceneRecord,
+    record: &SceneResult,
     part: &SceneKernelPart,
     knob: &KnobPart,
     epsilon: &str,
@@ -240,7 +240,7 @@ pub(super) fn number(text: Option<&String>) -> Option<f64> {
 }
 
 /// The unit of a knob.
-pub(super) fn unit_of(record: &SceneRecord, knob: &KnobPart) -> String {
+pub(super) fn unit_of(record: &SceneResult, knob: &KnobPart) -> String {
     match (knob.role.as_str(), record.unit_directions) {
         ("t", true) => spaced(&record.unit),
         _ => String::new(),
@@ -248,7 +248,7 @@ pub(super) fn unit_of(record: &SceneRecord, knob: &KnobPart) -> String {
 }
 
 /// Which angles almost parallel rays have.
-pub(super) fn flatness(record: &SceneRecord) -> String {
+pub(super) fn flatness(record: &SceneResult) -> String {
     match record.sine {
         None => "from 7 degrees down to below rounding".to_owned(),
         Some([low, high]) => {

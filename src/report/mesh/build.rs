@@ -8,7 +8,7 @@ use crate::audit::{GroupCount, Row, Trials, quoted};
 use crate::corpus::mesh::Mesh;
 use crate::mesh::{AimedPart, Noted, Surface, Targets, Topology};
 use crate::report::build::{kernel_notes, provenance_of, row_part};
-use crate::report::{Context, Rate};
+use crate::report::{Context, Rate, Record};
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
@@ -54,7 +54,7 @@ pub fn build(
         scalars: parts.scalars,
     };
     MeshReport {
-        record: MeshRecord { schema: MESH_SCHEMA, result, provenance },
+        record: Record::new(result, provenance).sealed(),
         drawing: (0 < plan.places).then(|| MeshDrawing::new(mesh, parts.rows)),
     }
 }
@@ -82,7 +82,7 @@ fn add_scalar<F: Float>(
     let draw = |row| drawing::row::<F>(surface, &targets, topology, plan, row);
     parts.rows.extend(found.rows.iter().map(draw));
     parts.scalars.push(ScalarPart {
-        scalar: F::NAME,
+        scalar: F::NAME.to_owned(),
         topology: builder.topology(topology),
         spacing: F::from_f64(reach(surface.mesh())).ulp().to_f64(),
         smallest: smallest(surface.mesh()),
@@ -122,6 +122,11 @@ impl<F: Float> ReportBuilder<'_, F> {
         points.iter().map(|point| self.targets.position::<F>(*point)).collect()
     }
 
+    fn finite(&self, points: &[u32]) -> Vec<[Option<f64>; 3]> {
+        let finite = |point: [f64; 3]| point.map(|x| Some(x).filter(|x| x.is_finite()));
+        self.points(points).into_iter().map(finite).collect()
+    }
+
     fn topology(&self, topology: &Topology) -> TopologyPart {
         let mesh = self.surface.mesh();
         let noted = |noted: &Noted| {
@@ -133,11 +138,13 @@ impl<F: Float> ReportBuilder<'_, F> {
                 first_points: noted
                     .first
                     .as_ref()
-                    .map_or_else(Vec::new, |(_, points)| self.points(points)),
+                    .map_or_else(Vec::new, |(_, points)| self.finite(points)),
             }
         };
-        let mut faces: BTreeMap<_, _> =
-            FACES.into_iter().zip(topology.faces.iter().map(noted)).collect();
+        let named = |names: &[&str], of: &[Noted]| -> BTreeMap<String, NotedPart> {
+            names.iter().map(|name| (*name).to_owned()).zip(of.iter().map(noted)).collect()
+        };
+        let mut faces = named(&FACES, &topology.faces);
         if let Some(note) = mesh.left_out() {
             let place = note.first.map(|place| place.number() as u32);
             let left_out = NotedPart {
@@ -146,15 +153,15 @@ impl<F: Float> ReportBuilder<'_, F> {
                 first_face: place.filter(|_| !mesh.has_lines),
                 first_points: Vec::new(),
             };
-            faces.insert("left_out", left_out);
+            faces.insert("left_out".to_owned(), left_out);
         }
         TopologyPart {
             closed_manifold: topology.is_closed_manifold(),
             points: topology.used_points,
             duplicated_places: topology.duplicated_places,
             faces,
-            edges: EDGES.into_iter().zip(topology.edges.iter().map(noted)).collect(),
-            vertices: VERTICES.into_iter().zip(topology.vertices.iter().map(noted)).collect(),
+            edges: named(&EDGES, &topology.edges),
+            vertices: named(&VERTICES, &topology.vertices),
         }
     }
 
@@ -186,7 +193,11 @@ impl<F: Float> ReportBuilder<'_, F> {
             cracked,
             of: self.targets.count(part),
             total: rates(&tally.classes),
-            classes: CLASSES.into_iter().zip(tally.classes.iter().map(class)).collect(),
+            classes: CLASSES
+                .map(str::to_owned)
+                .into_iter()
+                .zip(tally.classes.iter().map(class))
+                .collect(),
             failures: tally.failures,
             first_failures: self.examples(row, part, &tally.first_failures),
         }

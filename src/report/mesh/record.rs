@@ -1,13 +1,12 @@
-//! The record of a mesh audit, versioned: `result` is the same bytes whatever the number of threads.
+//! The findings of a mesh audit, as its record holds them.
 
 use super::drawing::MeshDrawing;
 use crate::case::Matrix;
-use crate::report::{Promised, Provenance, Rate, RowPart};
-use serde::Serialize;
+use crate::report::{
+    Chosen, Comparable, Counted, Findings, Promised, Rate, Record, RowPart, Study, or_infinite,
+};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
-/// The schema's name and version.
-pub const MESH_SCHEMA: &str = "hairline-mesh/1";
 
 /// Everything that is written of a mesh audit.
 pub struct MeshReport {
@@ -17,19 +16,13 @@ pub struct MeshReport {
     pub drawing: Option<MeshDrawing>,
 }
 
-/// Everything that a mesh audit found.
-#[derive(Clone, Debug, Serialize)]
-pub struct MeshRecord {
-    /// [`MESH_SCHEMA`].
-    pub schema: &'static str,
-    /// The findings.
-    pub result: MeshResult,
-    /// Where and how it was made; never compared.
-    pub provenance: Provenance,
-}
+/// The record of a mesh audit.
+pub type MeshRecord = Record<MeshResult>;
 
 /// The findings on a mesh.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct MeshResult {
     /// The mesh.
     pub mesh: MeshPart,
@@ -42,14 +35,51 @@ pub struct MeshResult {
     /// True if directions are rounded unit vectors.
     pub unit_directions: bool,
     /// Where the mesh is put, if not where it is.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub instance: Option<Matrix<f64>>,
     /// The findings in each scalar.
     pub scalars: Vec<ScalarPart>,
 }
 
+impl Findings for MeshResult {
+    const STUDY: Study = Study::Mesh;
+}
+
+impl Comparable for MeshResult {
+    fn cases(&self) -> String {
+        let MeshResult { mesh, directions, seed, unit_directions, instance, .. } = self;
+        format!("{} {directions} {seed} {unit_directions} {instance:?}", mesh.digest)
+    }
+
+    fn counted(&self) -> Vec<Counted> {
+        let rows =
+            self.scalars.iter().flat_map(|part| part.results.iter().map(move |row| (part, row)));
+        rows.flat_map(|(part, row)| {
+            let parts = [("edges", &row.edges), ("vertices", &row.vertices)];
+            parts.map(|(at, found)| {
+                let AcrossRates { cracks, doubles, odd_folds, .. } = &found.total;
+                let kinds =
+                    [("cracks", cracks), ("doubles", doubles), ("wrong at folds", odd_folds)];
+                kinds.map(|(kind, rate)| Counted {
+                    what: format!("{} {} at {at}: {kind}", row.label(), part.scalar),
+                    rate: rate.clone(),
+                    command: found.first(kind),
+                })
+            })
+        })
+        .flatten()
+        .collect()
+    }
+
+    fn chosen(&self) -> Vec<Chosen> {
+        Vec::new()
+    }
+}
+
 /// The mesh as it was read.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct MeshPart {
     /// The file as the user named it.
     pub file: String,
@@ -64,15 +94,19 @@ pub struct MeshPart {
 }
 
 /// A mesh audit in one scalar.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct ScalarPart {
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    pub scalar: String,
     /// The topology of the mesh in this scalar.
     pub topology: TopologyPart,
     /// The distance of two neighbouring numbers of the scalar at the largest coordinate.
     pub spacing: f64,
     /// The longest edge of the smallest triangle with an area.
+    #[serde(deserialize_with = "or_infinite")]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub smallest: f64,
     /// Rays at edges and at vertices: how many of each are tested, times the directions.
     pub rays: [u64; 2],
@@ -83,7 +117,9 @@ pub struct ScalarPart {
 }
 
 /// The exact topology of a mesh. Vertices with equal coordinates are one point.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct TopologyPart {
     /// True if all faces are sound, all edges shared and all vertices inside one closed fan.
     pub closed_manifold: bool,
@@ -93,35 +129,40 @@ pub struct TopologyPart {
     pub duplicated_places: u64,
     /// `sound`, `collapsed`, `without_area`, `duplicated`, `out_of_range`; and `left_out`, polygons of the file that are not
     /// in the mesh, if there are any.
-    pub faces: BTreeMap<&'static str, NotedPart>,
+    pub faces: BTreeMap<String, NotedPart>,
     /// `shared`, `open`, `inconsistent`, `non_manifold`, `unsound`.
-    pub edges: BTreeMap<&'static str, NotedPart>,
+    pub edges: BTreeMap<String, NotedPart>,
     /// `closed_fan`, `open_fan`, `several_fans`, `irregular`.
-    pub vertices: BTreeMap<&'static str, NotedPart>,
+    pub vertices: BTreeMap<String, NotedPart>,
 }
 
 /// How many there are of a kind.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct NotedPart {
     /// How many.
     pub count: u64,
     /// The line of a face of the first; none if the file has no lines.
     pub first_line: Option<u32>,
     /// The number of the face, counted from 1, if the file has no lines.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_face: Option<u32>,
     /// The first's points; infinities as null, because JSON has none.
-    pub first_points: Vec<[f64; 3]>,
+    pub first_points: Vec<[Option<f64>; 3]>,
 }
 
 /// The results of a row in one scalar.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct MeshRowResult {
     /// The kernel's name.
     pub kernel: String,
     /// The name of its epsilons.
     pub set: String,
     /// The contract's promise: `nothing`, `at-least-one`, `exactly-one`.
+    #[cfg_attr(test, schemars(with = "String"))]
     pub promised: Promised,
     /// At edges of two triangles.
     pub edges: MeshPartResult,
@@ -155,7 +196,9 @@ impl MeshRowResult {
 }
 
 /// The results of a row at the edges, or at the vertices.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct MeshPartResult {
     /// How many of them some ray found a crack at.
     pub cracked: u64,
@@ -164,15 +207,32 @@ pub struct MeshPartResult {
     /// All classes together.
     pub total: AcrossRates,
     /// By class: `exact`, `exact-grazing`, `near`, `near-grazing`.
-    pub classes: BTreeMap<&'static str, MeshClassResult>,
+    pub classes: BTreeMap<String, MeshClassResult>,
     /// Rays on which the kernel panicked, crashed or gave no answer: not judged.
     pub failures: u64,
     /// The first of them.
     pub first_failures: Vec<MeshExample>,
 }
 
+impl MeshPartResult {
+    /// The command that shows the first ray with a fault, by its name in tables.
+    fn first(&self, fault: &str) -> Option<String> {
+        let of_class = |class: &MeshClassResult| {
+            let examples = match fault {
+                "cracks" => &class.first_cracks,
+                "doubles" => &class.first_doubles,
+                _ => &class.first_odd_folds,
+            };
+            examples.first().map(|example| example.command.clone())
+        };
+        self.classes.values().find_map(of_class)
+    }
+}
+
 /// Rates across triangles.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct AcrossRates {
     /// Crossings without a hit, neither around the edge or vertex nor, perhaps, among the neighbours.
     pub cracks: Rate,
@@ -189,7 +249,8 @@ pub struct AcrossRates {
 }
 
 /// One class of rays.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct MeshClassResult {
     /// How often what was found.
     #[serde(flatten)]
@@ -209,7 +270,9 @@ pub struct MeshClassResult {
 }
 
 /// A ray at the mesh that shows something.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct MeshExample {
     /// The case's id.
     pub id: String,
@@ -218,7 +281,7 @@ pub struct MeshExample {
     /// The lines of the faces around it; none if the file has no lines.
     pub lines: Vec<u32>,
     /// The numbers of the faces, counted from 1, if the file has no lines.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub faces: Vec<u32>,
     /// The command that shows it again.
     pub command: String,

@@ -55,8 +55,8 @@ impl Paged for MeshReport {
 
 impl ScalarPart {
     fn grain(&self) -> Grain<'_> {
-        let ScalarPart { scalar, spacing, smallest, .. } = *self;
-        Grain { scalar, spacing, smallest, unit: "" }
+        let ScalarPart { scalar, spacing, smallest, .. } = self;
+        Grain { scalar, spacing: *spacing, smallest: *smallest, unit: "" }
     }
 }
 
@@ -110,7 +110,7 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
         Head::of("vertices leak"),
         Head::of("ns a ray").optional(),
     ];
-    let times = record.provenance.kernel_nanoseconds.get(part.scalar);
+    let times = record.provenance.kernel_nanoseconds.get(&part.scalar);
     let row = |(row, alike): &(&MeshRowResult, Vec<&MeshRowResult>)| {
         let time = times.and_then(|times| times.get(&row.label()));
         let promised = row.promised != Promised::Nothing;
@@ -227,7 +227,7 @@ pub(super) fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, Stri
         let count = |key: &&(&str, &str)| kinds.get(key.0).is_some_and(|noted| noted.count > 0);
         let mut parts: Vec<String> = Vec::new();
         for (i, (key, word)) in words.iter().filter(count).enumerate() {
-            let noted = &kinds[key];
+            let noted = &kinds[*key];
             let first = match (noted.first_line, noted.first_face) {
                 // The first of the regular ones tells nothing.
                 _ if i == 0 && *key == words[0].0 => String::new(),

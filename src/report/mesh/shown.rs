@@ -8,7 +8,7 @@ const MARKS: usize = 3_500_000;
 
 /// A row in a scalar.
 pub(super) struct ShownRow<'a> {
-    pub scalar: &'static str,
+    pub scalar: &'a str,
     pub result: &'a MeshRowResult,
     pub drawn: &'a DrawnRow,
     /// Its marks as the script reads them, and how many there are.
@@ -33,7 +33,7 @@ pub(super) fn shown<'a>(record: &'a MeshRecord, drawing: &'a MeshDrawing) -> Vec
             marked += 1;
         }
         left -= marks.len();
-        rows.push(ShownRow { scalar: part.scalar, result, drawn, marks, marked });
+        rows.push(ShownRow { scalar: &part.scalar, result, drawn, marks, marked });
     }
     rows
 }

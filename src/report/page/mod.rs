@@ -13,7 +13,7 @@ pub use html::elements;
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub use table::{Cell, Head, Row, Table};
 
-use super::Format;
+use super::{Format, Record};
 #[cfg(feature = "pages")]
 use serde::Serialize;
 
@@ -157,6 +157,13 @@ pub trait Paged {
 impl Paged for Page {
     fn page(&self) -> Page {
         self.clone()
+    }
+}
+
+/// Where and how it was made is no part of the page.
+impl<R: Paged> Paged for Record<R> {
+    fn page(&self) -> Page {
+        self.result.page()
     }
 }
 

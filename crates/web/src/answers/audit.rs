@@ -42,7 +42,7 @@ pub fn audit(asked: &Audit) -> Result<AuditAnswer, String> {
     let flags = PlanFlags { kernels: row.flags(), sources: asked.cases.flags() };
     let mut record = record(vec![row], &asked.cases, 3, 100)?;
     record.provenance.plan_flags = Some(flags).filter(|_| is_known);
-    record.checksum = Some(record.checksum_now());
+    let record = record.sealed();
     let title = record.page().title;
     Ok(AuditAnswer { title, html: elements(&record), record })
 }

@@ -5,7 +5,7 @@ use super::*;
 use crate::report::{
     ComparisonVerdict, Conformance, Counts, Deviation, Example, FindingKind, FindingPart,
     Illustrations, KernelResult, Method, NetChange, PlanPart, PlannedSource, ProofPart, ProvedGate,
-    Provenance, Rate, Record, ResultPart, RowChange, RowPart, SCHEMA, SourcePart, Unproved,
+    Provenance, Rate, Record, ResultPart, RowChange, RowPart, SourcePart, Unproved,
 };
 use std::collections::BTreeMap;
 
@@ -92,26 +92,19 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
         left_out: None,
     };
     let results = kernels.iter().flat_map(|k| families.iter().map(move |f| result(k, f)));
-    Record {
-        schema: SCHEMA.to_owned(),
-        result: ResultPart {
-            plan: PlanPart {
-                hash: "0123".to_owned(),
-                rows: kernels.iter().map(row).collect(),
-                sources: families.iter().map(source).collect(),
-                scalars: vec!["f32".to_owned()],
-            },
-            partial: None,
-            sources: families.iter().take(1).map(summary).collect(),
-            results: results.collect(),
-            totals: Vec::new(),
+    let result = ResultPart {
+        plan: PlanPart {
+            hash: "0123".to_owned(),
+            rows: kernels.iter().map(row).collect(),
+            sources: families.iter().map(source).collect(),
+            scalars: vec!["f32".to_owned()],
         },
-        checksum: None,
-        shard: None,
-        conformance: None,
-        illustrations: None,
-        provenance: Provenance { tool: "hairline".to_owned(), ..Provenance::default() },
-    }
+        partial: None,
+        sources: families.iter().take(1).map(summary).collect(),
+        results: results.collect(),
+        totals: Vec::new(),
+    };
+    Record::new(result, Provenance { tool: "hairline".to_owned(), ..Provenance::default() })
 }
 
 pub fn deviation(text: &str, url: &str) -> Deviation {

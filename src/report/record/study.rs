@@ -1,0 +1,70 @@
+//! The study that a record is of, and the part of it that can be compared with another's.
+
+use super::{Rate, ResultPart};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer, Serialize};
+
+named! {
+    pub names
+    /// The study that a record is of, by its command.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Study {
+        /// Kernels on cases.
+        Audit = "audit",
+        /// Epsilons on the rays of a scene, or on other cases.
+        Epsilon = "epsilon",
+        /// Rays at the edges and vertices of a mesh.
+        Mesh = "mesh",
+        /// Starts of new rays.
+        Spawn = "spawn",
+        /// Bounds that hold for every float of a domain.
+        Prove = "prove",
+    }
+}
+
+/// The findings of a study, as its record holds them.
+pub trait Findings: Serialize + DeserializeOwned {
+    /// The study.
+    const STUDY: Study;
+}
+
+impl Findings for ResultPart {
+    const STUDY: Study = Study::Audit;
+}
+
+/// Findings that are compared count by count, by name.
+pub trait Comparable: Findings {
+    /// The choice of the cases in words: where these are the same, so are the cases.
+    fn cases(&self) -> String;
+
+    /// How often what went wrong.
+    fn counted(&self) -> Vec<Counted>;
+
+    /// The numbers that were chosen or proved.
+    fn chosen(&self) -> Vec<Chosen>;
+}
+
+/// How often something went wrong.
+pub struct Counted {
+    /// What, of which kernel, in one line.
+    pub what: String,
+    /// How often.
+    pub rate: Rate,
+    /// Shows a case of it, or what the count is of.
+    pub command: Option<String>,
+}
+
+/// A number that was chosen or proved, or a word.
+pub struct Chosen {
+    /// Its name, with that of the kernel, in one line.
+    pub what: String,
+    /// The number as text.
+    pub value: String,
+    /// True if it bounds an error, so that more is worse.
+    pub is_bound: bool,
+}
+
+/// Reads a number that is written as null where it is infinite, as JSON has no word for that.
+pub fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
+}
