@@ -5,6 +5,7 @@ use super::input::RecordText;
 use super::output::OutputArguments;
 use super::prove::ProofResult;
 use super::spawn::SpawnResult;
+use super::verify::VerifyResult;
 use crate::expect::{RecordComparison, difference, difference_of};
 use crate::report::epsilon::SceneResult;
 use crate::report::mesh::MeshResult;
@@ -45,6 +46,7 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
         Study::Mesh => of_one_study::<MeshResult>(old, new)?,
         Study::Spawn => of_one_study::<SpawnResult>(old, new)?,
         Study::Prove => of_one_study::<ProofResult>(old, new)?,
+        Study::Verify => of_one_study::<VerifyResult>(old, new)?,
     };
     if comparison.common == 0 {
         let message = "nothing to compare: the records have no kernel with its epsilons on the same kind of rays in common";
@@ -82,6 +84,7 @@ mod tests {
         Mesh(Record<MeshResult>),
         Spawn(Record<SpawnResult>),
         Prove(Record<ProofResult>),
+        Verify(Record<VerifyResult>),
     }
 
     #[test]

@@ -8,10 +8,12 @@ use super::flags::unknown;
 use super::input::read_text;
 use super::output::OutputArguments;
 use crate::corpus::{InputError, json};
+use crate::report::{Context, Record, provenance_of};
 use crate::vectors::profile::{Answered, Profile, is_right};
 use crate::vectors::{VectorTest, core, digest, json::topic_file};
 use clap::Args;
-use report::{FORMATS, JudgedAnswer, Judgement, Sheet};
+pub use report::VerifyResult;
+use report::{FORMATS, JudgedAnswer, Sheet};
 use serde::de::IgnoredAny;
 use std::collections::HashMap;
 use values::GivenAnswer;
@@ -20,8 +22,8 @@ use values::GivenAnswer;
 #[derive(Args)]
 #[command(mut_arg("format", |format| {
     format.help(
-        "text; json: every wrong answer and every missing id; record: what `hairline diff` compares; or junit, sarif, \
-         markdown or html; or several separated by commas",
+        "text; json: every wrong answer and every missing id, which `hairline diff` compares; or junit, markdown or html; or \
+         several separated by commas",
     )
 }))]
 pub struct VerifyArguments {
@@ -104,8 +106,8 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
         let message = format!("{}: no results in it", arguments.file);
         return Err(Failure::Message(Status::NothingSelected, message));
     }
-    let judgement = Judgement { report: sheet.report(), record: sheet.record() };
-    arguments.output.write(outputs, &judgement)?;
+    let provenance = provenance_of(&Context { seconds: 0.0, threads: 1 });
+    arguments.output.write(outputs, &Record::new(sheet.result(), provenance).sealed())?;
     Ok(if sheet.has_wrong() { Status::Disagreements } else { Status::Success })
 }
 

@@ -2,8 +2,6 @@
 
 #![forbid(unsafe_code)]
 
-#[cfg(feature = "studies")]
-mod answered;
 mod build;
 #[cfg(feature = "studies")]
 mod chart;
@@ -30,14 +28,12 @@ mod record;
 #[cfg(feature = "studies")]
 mod shard;
 
-#[cfg(feature = "studies")]
-pub use answered::{AnsweredTest, Asked, Product, answered};
 pub use build::{Context, build, provenance_of};
 pub use conformance::*;
 pub(crate) use disagreement::counts_alone;
 pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
 #[cfg(feature = "studies")]
-pub use formats::{FORMATS, Format, HTML, ON_FAILURE, Style, severity};
+pub use formats::{FORMATS, Format, HTML, JunitCase, ON_FAILURE, Style, severity, write_junit};
 pub use illustration::{Illustrations, ProofPart, ProvedGate};
 #[cfg(feature = "cli")]
 pub use json::JSON_SCHEMA;

@@ -33,7 +33,7 @@ pub const SCHEMA: &str = "hairline-record/2";
 pub struct Record<R = ResultPart> {
     /// [`SCHEMA`].
     pub schema: String,
-    /// The study: `audit`, `epsilon`, `mesh`, `spawn` or `prove`.
+    /// The study: `audit`, `epsilon`, `mesh`, `spawn`, `prove` or `verify`.
     #[cfg_attr(test, schemars(with = "String"))]
     pub study: Study,
     /// The findings.

@@ -10,7 +10,7 @@ mod number;
 pub mod profile;
 mod source;
 
-pub use source::{PREFIX, VectorTopic, core, numbered, question_of};
+pub use source::{VectorTopic, core, numbered};
 
 use crate::arith::Float;
 use crate::case::Case;
@@ -30,7 +30,7 @@ use number::EitherFloat;
 
 /// Every point of the closed triangle is a hit at every t of the closed interval, a coplanar triangle and
 /// one without area included. Invalid input is free.
-pub const CLOSED: Contract = Contract {
+const CLOSED: Contract = Contract {
     extent: Extent::Interval,
     coplanar: Demand::Hit,
     degenerate: Demand::Hit,

@@ -62,8 +62,12 @@ fn none<T>() -> Option<T> {
 }
 
 impl<T> ProfileAnswer<T> {
-    fn saying(&self, word: &'static str) -> Saying {
-        Saying { word, section: self.section.clone(), sentence: self.sentence.clone() }
+    fn saying(&self, word: &str) -> Saying {
+        Saying {
+            word: word.to_owned(),
+            section: self.section.clone(),
+            sentence: self.sentence.clone(),
+        }
     }
 }
 
@@ -144,10 +148,12 @@ impl Profile {
 }
 
 /// Where a profile says what is demanded of tests.
-#[derive(Clone, PartialEq, Serialize)]
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Saying {
     /// A word of `free_because`, or `groups`.
-    pub word: &'static str,
+    pub word: String,
     /// The section of the specification, where it says something.
     pub section: Option<String>,
     /// Its words, or why the answer is what it is.

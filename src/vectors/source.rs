@@ -3,7 +3,7 @@
 use super::{Label, TestGroup, VectorTest, flags, place, result, word};
 use crate::case::{Case, Parameters};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
-use crate::family::{FAMILIES, Family, Grouping, Question, find};
+use crate::family::{FAMILIES, Family, Grouping, find};
 use crate::judge::Obligation;
 use crate::kernel::Scalar;
 use crate::oracle::truth;
@@ -97,16 +97,6 @@ const TOPICS: &[VectorTopic] = &[
         families: &[("vertex-exact", 10), ("vertex-near", 24)],
     },
 ];
-
-/// The prefix of the name of a source whose cases are a topic's.
-pub const PREFIX: &str = "vectors:";
-
-/// The question of a topic by the name of such a source: that of its first family.
-pub fn question_of(source: &str) -> Option<Question> {
-    let name = source.strip_prefix(PREFIX)?;
-    let topic = TOPICS.iter().find(|topic| topic.name == name)?;
-    topic.families.first().and_then(|(family, _)| find(family)).map(|family| family.question)
-}
 
 const CURATED: &str = include_str!("../../corpora/curated.jsonl");
 const PUBLISHED: &str = include_str!("../../corpora/published.jsonl");

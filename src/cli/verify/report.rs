@@ -1,44 +1,27 @@
-//! The answers of a product, judged: as counts and a list, and as the record that every other format is made
-//! from.
+//! The answers of a product, judged: counts by topic, and a list of what is wrong.
 
-use super::values::WrongHit as WrongValues;
-use crate::judge::{GroupTruth, Obligation};
+use crate::audit::Trials;
 use crate::report::page::{Block, Head, Item, Page, Paged, Row, Table, Tone};
 use crate::report::{
-    AnsweredTest, Asked, FORMATS as OF_RECORD, Format, Product, Promised, Record, Style, answered,
-    number_of, write_json,
+    Chosen, Comparable, Counted, Findings, Format, JunitCase, Rate, Record, Study, number_of,
+    write_junit,
 };
 use crate::vectors::VectorTest;
-use crate::vectors::profile::{Answered, Groups, Profile, Saying, demanded, is_right};
-use serde::Serialize;
-use std::io::{self, Write};
+use crate::vectors::profile::{Answered, Profile, Saying, demanded, is_right};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// How many wrong answers the text shows.
 const SHOWN: usize = 5;
 
-/// One row per format: what people read and `json` are of the answers, the others of their record.
-pub const FORMATS: &[Format<Judgement>] = &[
+/// One row per format.
+pub const FORMATS: &[Format<Record<VerifyResult>>] = &[
     Format::TEXT,
-    Format { name: "json", write: |judgement, _, out| write_json(&judgement.report, out) },
-    Format { name: "record", write: |judgement, _, out| write_json(&judgement.record, out) },
-    Format { name: "junit", write: |judgement, style, out| judgement.write("junit", style, out) },
-    Format { name: "sarif", write: |judgement, style, out| judgement.write("sarif", style, out) },
+    Format::JSON,
+    Format { name: "junit", write: |record, _, out| write_junit(&record.result.suites(), out) },
     Format::MARKDOWN,
     Format::HTML,
 ];
-
-/// All answers of a product, judged: for people and as a record.
-pub struct Judgement {
-    pub report: VerifyReport,
-    pub record: Record,
-}
-
-impl Judgement {
-    fn write(&self, name: &str, style: Style, out: &mut dyn Write) -> io::Result<()> {
-        let format = OF_RECORD.iter().find(|format| format.name == name);
-        (format.expect("an audit's format").write)(&self.record, style, out)
-    }
-}
 
 /// An answer that was judged.
 pub struct JudgedAnswer<'a> {
@@ -46,8 +29,8 @@ pub struct JudgedAnswer<'a> {
     pub demanded: &'static str,
     pub answer: Answered,
     pub right: bool,
-    /// The wrong values of an answer that is otherwise right.
-    pub wrong_values: Option<WrongValues>,
+    /// The fault in the values of an answer that is otherwise right, and the exact values.
+    pub wrong_values: Option<String>,
 }
 
 /// All answers of a product, by topic.
@@ -65,42 +48,93 @@ struct TopicAnswers<'a> {
     missing: Vec<&'a str>,
 }
 
-/// The report that `--format json` writes.
-#[derive(Serialize)]
-pub struct VerifyReport {
+/// The findings about a product.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct VerifyResult {
+    /// The product's name.
     product: String,
+    /// SHA-256 of the vectors.
     vectors: String,
+    /// The specification by whose answers it is judged; none if only what every reading demands counts.
     profile: Option<String>,
+    /// All topics together.
     total: VerifyCounts,
-    topics: Vec<(&'static str, VerifyCounts)>,
+    /// By topic, in the order of the vectors.
+    topics: Vec<(String, VerifyCounts)>,
+    /// The wrong answers.
     wrong: Vec<WrongTest>,
+    /// The ids of tests without an answer.
     missing: Vec<String>,
     /// The ids of answers against what the profile's specification only advises: they are not wrong.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     unadvised: Vec<String>,
     /// The sentences of the profile's specification that make an answer wrong.
     sayings: Vec<Saying>,
 }
 
-#[derive(Clone, Copy, Default, Serialize)]
+/// How many tests.
+#[derive(Clone, Copy, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 struct VerifyCounts {
-    tests: usize,
-    right: usize,
-    wrong: usize,
+    /// In all.
+    tests: u64,
+    /// Answered as demanded.
+    right: u64,
+    /// Answered otherwise.
+    wrong: u64,
     /// Answered, and free to be either.
-    free: usize,
-    missing: usize,
+    free: u64,
+    /// Without an answer.
+    missing: u64,
 }
 
-#[derive(Serialize)]
+/// A wrong answer.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 struct WrongTest {
+    /// The test's id.
     id: String,
-    demanded: &'static str,
+    /// Its topic.
+    topic: String,
+    /// The demand.
+    demanded: String,
+    /// The answer.
     answered: String,
+    /// The test in words.
     comment: String,
     /// The words of the profile that demand it; none if every reading does.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    demanded_by: Vec<&'static str>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    demanded_by: Vec<String>,
+}
+
+impl Findings for VerifyResult {
+    const STUDY: Study = Study::Verify;
+}
+
+impl Comparable for VerifyResult {
+    fn cases(&self) -> String {
+        format!("{} {:?} {:?}", self.vectors, self.profile, self.missing)
+    }
+
+    fn counted(&self) -> Vec<Counted> {
+        let counted = |(topic, counts): &(String, VerifyCounts)| Counted {
+            what: format!("{topic}: wrong answers"),
+            rate: Rate::new(
+                Trials::independent(counts.wrong, counts.tests - counts.missing),
+                false,
+            ),
+            command: self.wrong.iter().find(|wrong| wrong.topic == *topic).map(WrongTest::command),
+        };
+        self.topics.iter().map(counted).collect()
+    }
+
+    fn chosen(&self) -> Vec<Chosen> {
+        Vec::new()
+    }
 }
 
 impl<'a> Sheet<'a> {
@@ -150,13 +184,17 @@ impl<'a> Sheet<'a> {
     }
 
     /// Counts, wrong answers and missing ids.
-    pub fn report(&self) -> VerifyReport {
-        let mut report = VerifyReport {
+    pub fn result(&self) -> VerifyResult {
+        let mut report = VerifyResult {
             product: self.product.to_owned(),
             vectors: self.vectors.to_owned(),
             profile: self.profile.map(|profile| profile.name.clone()),
             total: VerifyCounts::default(),
-            topics: self.topics.iter().map(|topic| (topic.name, topic.counts())).collect(),
+            topics: self
+                .topics
+                .iter()
+                .map(|topic| (topic.name.to_owned(), topic.counts()))
+                .collect(),
             wrong: Vec::new(),
             missing: self
                 .topics
@@ -177,84 +215,40 @@ impl<'a> Sheet<'a> {
         }
         report.topics.iter().for_each(|(_, counts)| report.total.add(counts));
         // What only the profile demands comes first.
-        let by_profile =
-            |judged: &&JudgedAnswer| self.sayings_of(judged.test, judged.answer).is_empty();
-        let mut wrong: Vec<&JudgedAnswer> = self.judged().filter(|judged| !judged.right).collect();
-        wrong.sort_by_key(by_profile);
-        for JudgedAnswer { test, demanded, answer, wrong_values, .. } in wrong {
+        let judged = self
+            .topics
+            .iter()
+            .flat_map(|topic| topic.judged.iter().map(move |judged| (topic.name, judged)));
+        let mut wrong: Vec<_> = judged.filter(|(_, judged)| !judged.right).collect();
+        wrong.sort_by_key(|(_, judged)| self.sayings_of(judged.test, judged.answer).is_empty());
+        for (topic, JudgedAnswer { test, demanded, answer, wrong_values, .. }) in wrong {
             let sayings = match wrong_values {
                 None => self.sayings_of(test, *answer),
                 Some(_) => Vec::new(),
             };
             report.wrong.push(WrongTest {
                 id: test.id.clone(),
-                demanded,
+                topic: topic.to_owned(),
+                demanded: (*demanded).to_owned(),
                 answered: match wrong_values {
                     None => answer.to_string(),
-                    Some(wrong) => format!("{answer} with {}", wrong.text),
+                    Some(wrong) => format!("{answer} with {wrong}"),
                 },
                 comment: test.comment.clone(),
-                demanded_by: sayings.iter().map(|saying| saying.word).collect(),
+                demanded_by: sayings.iter().map(|saying| saying.word.clone()).collect(),
             });
             let new = sayings.into_iter().filter(|saying| !report.sayings.contains(saying));
             report.sayings.extend(new.collect::<Vec<_>>());
         }
         report
     }
-
-    /// The record, from which every other format is made.
-    pub fn record(&self) -> Record {
-        let tests: Vec<AnsweredTest> = self
-            .topics
-            .iter()
-            .flat_map(|topic| topic.judged.iter().map(|judged| judged.answered(topic.name)))
-            .collect();
-        let count = self.topics.iter().map(|topic| topic.missing.len()).sum::<usize>() as u64;
-        let missing = number_of(count, "test has", "tests have");
-        let product = Product {
-            name: self.product,
-            judged_by: self.profile.map_or("vectors", |profile| &profile.name),
-            contract: match self.profile {
-                None => "the test vectors: hit or miss where every reading agrees".to_owned(),
-                Some(profile) => format!("the test vectors by {}", profile.specification),
-            },
-            promised: match self.profile.map(Profile::of_groups) {
-                Some(Groups::ExactlyOne) => Promised::ExactlyOne,
-                Some(Groups::Parity) => Promised::Parity,
-                None | Some(Groups::AtLeastOne | Groups::Free) => Promised::AtLeastOne,
-            },
-            note: (0 < count).then(|| format!("{missing} no result")),
-        };
-        answered(&product, &tests)
-    }
-}
-
-impl JudgedAnswer<'_> {
-    fn answered<'a>(&'a self, topic: &'a str) -> AnsweredTest<'a> {
-        let asked = match (&self.test.group, self.demanded) {
-            (None, "hit") => Asked::Single(Obligation::MustHit),
-            (None, "miss") => Asked::Single(Obligation::MustMiss),
-            (None, _) => Asked::Single(Obligation::Free),
-            (Some(_), "exactly-one" | "at-least-one") => Asked::Group(GroupTruth::Crossing),
-            (Some(_), word @ ("odd" | "even")) => {
-                Asked::Group(GroupTruth::Fold { odd: word == "odd" })
-            }
-            (Some(_), _) => Asked::Group(GroupTruth::Free),
-        };
-        let hits = match self.answer {
-            Answered::Single(hit) => usize::from(hit),
-            Answered::Hits(hits) => hits as usize,
-        };
-        let values = self.wrong_values.as_ref().map(|wrong| (wrong.finding, wrong.edges));
-        AnsweredTest { topic, test: self.test, asked, hits, values }
-    }
 }
 
 impl TopicAnswers<'_> {
     fn counts(&self) -> VerifyCounts {
-        let missing = self.missing.len();
-        let mut counts =
-            VerifyCounts { tests: self.judged.len() + missing, missing, ..VerifyCounts::default() };
+        let missing = self.missing.len() as u64;
+        let tests = self.judged.len() as u64 + missing;
+        let mut counts = VerifyCounts { tests, missing, ..VerifyCounts::default() };
         for judged in &self.judged {
             match judged.right {
                 false => counts.wrong += 1,
@@ -276,21 +270,33 @@ impl VerifyCounts {
     }
 }
 
-impl Paged for Judgement {
+impl VerifyResult {
+    /// A test a topic.
+    fn suites(&self) -> BTreeMap<String, BTreeMap<(String, String), JunitCase>> {
+        let case = |(topic, _): &(String, VerifyCounts)| {
+            let wrong = self.wrong.iter().filter(|wrong| wrong.topic == *topic);
+            let failures = wrong.map(|wrong| (wrong.text(), wrong.command())).collect();
+            let name = (topic.clone(), "wrong-answer".to_owned());
+            (name, JunitCase { failures, notes: Vec::new() })
+        };
+        [(self.product.clone(), self.topics.iter().map(case).collect())].into()
+    }
+}
+
+impl Paged for VerifyResult {
     fn page(&self) -> Page {
-        let VerifyReport { product, profile, total, topics, wrong, unadvised, sayings, .. } =
-            &self.report;
+        let VerifyResult { product, profile, total, topics, wrong, unadvised, sayings, .. } = self;
         let VerifyCounts { tests, right, wrong: count, free, missing } = total;
-        let answers = number_of(*count as u64, "wrong answer", "wrong answers");
+        let answers = number_of(*count, "wrong answer", "wrong answers");
         let by = profile.as_ref().map_or(String::new(), |name| format!(" by profile {name}"));
         let title = format!(
             "{}: {answers}, {right} right{by}; {free} free to be either, {missing} of {tests} tests without a result",
             product.escape_debug()
         );
-        let row = |(name, counts): &(&'static str, VerifyCounts)| {
+        let row = |(name, counts): &(String, VerifyCounts)| {
             let VerifyCounts { tests, right, wrong, free, missing } = *counts;
             let mut row =
-                Row::new(*name, [tests, wrong, right, free, missing].map(|n| n.to_string()));
+                Row::new(name, [tests, wrong, right, free, missing].map(|n| n.to_string()));
             row.cells[1].is_broken = 0 < wrong;
             row
         };
@@ -329,16 +335,20 @@ impl Paged for Judgement {
 }
 
 impl WrongTest {
-    fn item(&self) -> Item {
-        let WrongTest { id, demanded, answered, comment, demanded_by } = self;
+    fn text(&self) -> String {
+        let WrongTest { id, demanded, answered, comment, demanded_by, .. } = self;
         let by = match demanded_by.is_empty() {
             true => String::new(),
             false => format!(" by '{}'", demanded_by.join("' and '")),
         };
-        Item {
-            text: format!("{id}: {answered}, expected {demanded}{by} ({comment})"),
-            lines: vec![format!("hairline explain {id}")],
-            ..Item::default()
-        }
+        format!("{id}: {answered}, expected {demanded}{by} ({comment})")
+    }
+
+    fn command(&self) -> String {
+        format!("hairline explain {}", self.id)
+    }
+
+    fn item(&self) -> Item {
+        Item { text: self.text(), lines: vec![self.command()], ..Item::default() }
     }
 }

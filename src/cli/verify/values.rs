@@ -17,16 +17,6 @@ pub struct GivenAnswer<'a> {
     values: [Option<&'a str>; 3],
 }
 
-/// A hit whose values are wrong.
-pub struct WrongHit {
-    /// `bad-value` or `wrong-value`.
-    pub finding: Finding,
-    /// How far the point is off in longest edges.
-    pub edges: f64,
-    /// The fault, and the exact values.
-    pub text: String,
-}
-
 impl<'a> GivenAnswer<'a> {
     /// Reads `"hit"`, `"miss"`, a number of hits, or `{"hit": true, "t": 1.5, "u": 0.25, "v": 0.5}`.
     pub fn parse(text: &'a str) -> Result<GivenAnswer<'a>, String> {
@@ -69,16 +59,12 @@ impl<'a> GivenAnswer<'a> {
         }
     }
 
-    /// The fault in the values, whether the hit is demanded or free.
-    pub fn wrong_values(&self, test: &VectorTest) -> Result<Option<WrongHit>, String> {
+    /// The fault in the values, and the exact ones, whether the hit is demanded or free.
+    pub fn wrong_values(&self, test: &VectorTest) -> Result<Option<String>, String> {
         either_scalar!(&test.cases[0], case => self.wrong(test, case))
     }
 
-    fn wrong<F: Float>(
-        &self,
-        test: &VectorTest,
-        case: &Case<F>,
-    ) -> Result<Option<WrongHit>, String> {
+    fn wrong<F: Float>(&self, test: &VectorTest, case: &Case<F>) -> Result<Option<String>, String> {
         let nan = F::from_f64(f64::NAN);
         let read = |i: usize| match self.values[i] {
             None => Ok(nan),
@@ -99,15 +85,13 @@ impl<'a> GivenAnswer<'a> {
             return Ok(None);
         };
         if finding != Finding::WrongValue {
-            let text = "a value that is not finite".to_owned();
-            return Ok(Some(WrongHit { finding, edges: 0.0, text }));
+            return Ok(Some("a value that is not finite".to_owned()));
         }
         let errors = ValueErrors::of(case, truth, gives, &verdict);
         let parts = (0..3).filter(|&i| errors.is_wrong(i, 0.0)).map(|i| {
             let (name, exact) = (["t", "u", "v"][i], errors.exact[i]);
             format!("{name} = {}, exactly {exact:.9e}", self.values[i].unwrap_or_default())
         });
-        let text = parts.collect::<Vec<_>>().join("; ");
-        Ok(Some(WrongHit { finding, edges: errors.edges, text }))
+        Ok(Some(parts.collect::<Vec<_>>().join("; ")))
     }
 }

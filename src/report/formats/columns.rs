@@ -6,7 +6,6 @@ use super::row_view::RowView;
 use crate::audit::{Octave, Trials, is_of_mesh, kind_of};
 use crate::case::SceneKind;
 use crate::family::Question;
-use crate::vectors;
 
 /// The sources of one question, all of them samples or all of them complete sets; of a scene's kinds of planes and rays
 /// one.
@@ -29,7 +28,7 @@ impl Column {
     /// The column of a source by its name.
     fn of(family: &str, complete: bool) -> Column {
         let question = family_of(family).map(|family| family.question);
-        let topic = match question.or_else(|| vectors::question_of(family)) {
+        let topic = match question {
             Some(question) => ColumnTopic::Families(question),
             None if is_of_mesh(family) => ColumnTopic::Mesh,
             None => ColumnTopic::Stored,

@@ -10,19 +10,23 @@ use std::io::{self, Write};
 
 /// One test.
 #[derive(Default)]
-struct JunitCase {
+pub struct JunitCase {
     /// Heading and text of what failed.
-    failures: Vec<(String, String)>,
+    pub failures: Vec<(String, String)>,
     /// The faults that are known.
-    notes: Vec<String>,
+    pub notes: Vec<String>,
 }
 
-/// Tests by scalar with family, and kind of finding.
+/// Tests by place (scalar with family), and kind of finding.
 type Suite = BTreeMap<(String, String), JunitCase>;
 
 /// Writes the record.
 pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Result<()> {
-    let suites = suites(record);
+    write_junit(&suites(record), out)
+}
+
+/// Writes tests by the names of their suites.
+pub fn write_junit(suites: &BTreeMap<String, Suite>, out: &mut dyn Write) -> io::Result<()> {
     let all = || suites.values().flat_map(|suite| suite.values());
     writeln!(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>")?;
     writeln!(
@@ -31,7 +35,7 @@ pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Resul
         all().count(),
         failures(all())
     )?;
-    for (name, suite) in &suites {
+    for (name, suite) in suites {
         writeln!(
             out,
             "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\">",

@@ -23,6 +23,7 @@ mod verdict;
 mod why;
 mod worst;
 
+pub use junit::{JunitCase, write_junit};
 pub use worst::severity;
 
 use super::disagreement::kinds_of;

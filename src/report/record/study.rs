@@ -19,6 +19,8 @@ named! {
         Spawn = "spawn",
         /// Bounds that hold for every float of a domain.
         Prove = "prove",
+        /// A product's answers to the test vectors.
+        Verify = "verify",
     }
 }
 
