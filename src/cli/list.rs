@@ -1,17 +1,16 @@
 //! `hairline list`: the tables that the other commands take names from.
 
 use super::exit::{Failure, Status};
-use super::output::{write_page, write_result};
+use super::output::write_page;
 use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
 use crate::audit::{ASPECTS, Aspect, EpsilonText, coverage};
 use crate::contract::NAMED;
 use crate::family::{FAMILIES, Family, STRATA};
 use crate::kernel::{self, KernelInfo, PRESETS, Preset, PresetValue, Tunable};
-use crate::report::page::{Block, Item, Items, Page};
+use crate::report::page::{Block, Head, Item, Items, Page, Row, Table};
 use crate::spawn::{PUBLISHED, PublishedScheme, describe};
 use clap::{Args, ValueEnum};
-use std::io::{self, Write};
 
 /// The arguments of `list`.
 #[derive(Args)]
@@ -47,16 +46,11 @@ enum Listed {
 /// Runs the command.
 pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
     arguments.plugins.entries()?;
-    if arguments.coverage {
-        return match arguments.what {
-            Listed::Families => {
-                write_result("-", write_coverage)?;
-                Ok(Status::Success)
-            }
-            _ => Err(Failure::usage("--coverage: only families have it")),
-        };
-    }
     let blocks = match arguments.what {
+        Listed::Families if arguments.coverage => of_coverage(),
+        _ if arguments.coverage => {
+            return Err(Failure::usage("--coverage: only families have it"));
+        }
         Listed::Kernels => all(kernel::all().iter().map(|entry| of_kernel(entry.info))),
         Listed::Families => {
             let term = |family: &Family| (family.name.to_owned(), family.promise.to_owned());
@@ -88,51 +82,23 @@ fn contracts() -> Vec<Block> {
     vec![Block::Terms([own].into_iter().chain(named).collect())]
 }
 
-/// Writes the kinds of cases in each family, in tables that fit 100 columns.
-fn write_coverage(out: &mut dyn Write) -> io::Result<()> {
+/// The cases of each family: a table a kind of aspect.
+fn of_coverage() -> Vec<Block> {
     const INDICES: u64 = 500;
-    const WIDTH: usize = 100;
     let of_family = |family: &'static Family| (family.name, coverage(family, INDICES));
     let rows: Vec<(&str, Vec<f64>)> = FAMILIES.iter().chain(STRATA).map(of_family).collect();
-    let kinds: Vec<&[Aspect]> = ASPECTS.chunk_by(|a, b| a.kind == b.kind).collect();
     let mut first = 0;
-    while first < kinds.len() {
-        let width = |kind: &&[Aspect]| {
-            kind.iter().map(|cell| cell.name.len().max(4) + 2).sum::<usize>() + 1
+    let table = |aspects: &[Aspect]| {
+        let places = first..first + aspects.len();
+        first = places.end;
+        let names = aspects.iter().map(|aspect| Head::of(aspect.name));
+        let heads = [Head::of(aspects[0].kind)].into_iter().chain(names).collect();
+        let row = |(name, shares): &(&str, Vec<f64>)| {
+            Row::new(*name, shares[places.clone()].iter().map(|share| percent_in_three(*share)))
         };
-        let mut taken = 1;
-        while first + taken < kinds.len()
-            && 18 + kinds[first..=first + taken].iter().map(width).sum::<usize>() <= WIDTH
-        {
-            taken += 1;
-        }
-        let block = &kinds[first..first + taken];
-        let start: usize = kinds[..first].iter().map(|kind| kind.len()).sum();
-        write!(out, "{:<18}", "")?;
-        for kind in block {
-            write!(out, "   {:<1$}", kind[0].kind, width(kind) - 3)?;
-        }
-        write!(out, "\n{:<18}", "family")?;
-        for cells in block {
-            write!(out, " ")?;
-            cells.iter().try_for_each(|cell| write!(out, "  {:>4}", cell.name))?;
-        }
-        writeln!(out)?;
-        for (name, shares) in &rows {
-            write!(out, "{name:<18}")?;
-            let mut shares = shares[start..].iter();
-            for cells in block {
-                write!(out, " ")?;
-                for (cell, share) in cells.iter().zip(&mut shares) {
-                    write!(out, "  {:>1$}", percent_in_three(*share), cell.name.len().max(4))?;
-                }
-            }
-            writeln!(out)?;
-        }
-        writeln!(out)?;
-        first += taken;
-    }
-    Ok(())
+        Block::Table(Table::new(heads, rows.iter().map(row).collect()))
+    };
+    ASPECTS.chunk_by(|a, b| a.kind == b.kind).map(table).collect()
 }
 
 /// `.`, `<1`, `37`, `100`.

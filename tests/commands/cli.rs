@@ -59,7 +59,7 @@ fn json(output: &Output) -> serde_json::Value {
 #[test]
 fn the_audit_lists_every_kernel_scalar_and_family() {
     let record = json(&hairline(&["audit", "--count", "50", "--format", "json", "--quiet"]));
-    assert_eq!(record["schema"], "hairline-record/1");
+    assert_eq!(record["schema"], "hairline-record/2");
     let results = record["result"]["results"].as_array().unwrap();
     let distinct = |key: &str| {
         results

@@ -1,5 +1,6 @@
 //! Runs on instances: what the rounded inverse of a matrix costs, and that every printed command shows it again.
 
+use crate::json_schema;
 use crate::program;
 
 use program::{ends, flat, result_bytes, scratch, without_checksum};
@@ -267,7 +268,7 @@ fn new_rays_leave_the_exact_plane_of_an_instance() {
     let schemes = ["--scene", "unit,plane=generic", "--scheme", "normal=1e-6,normal=1e-4,pbrt-v4"];
     let spawned = |more: &[&str]| -> Value {
         let flags = ["spawn", "-q", "-n", "5000", "--format", "json"];
-        serde_json::from_str(&ends(&folder, &[&flags[..], &schemes, more].concat(), 0).0).unwrap()
+        json_schema::result(&ends(&folder, &[&flags[..], &schemes, more].concat(), 0).0)
     };
     let plain = spawned(&[]);
     let counts = |record: &Value| {

@@ -10,7 +10,7 @@ const CRATES: [&str; 5] =
     ["crates/core/src", "crates/prove/src", "crates/study/src", "crates/plugin/src", "src"];
 
 fn source(of_crate: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(of_crate)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(of_crate)
 }
 
 /// Every Rust file of a crate, and its place in it.

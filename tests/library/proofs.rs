@@ -417,7 +417,8 @@ fn hostile_text_is_refused_at_once() {
 
 #[test]
 fn the_stored_certificates_in_f32_are_accepted() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("corpora/proofs");
+    let folder =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join("corpora/proofs");
     let (mut accepted, mut numbers) = (0, 0);
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -559,7 +560,7 @@ fn an_error_whose_effect_is_no_share_of_the_divisor_is_refused() {
 
 /// The stored certificate of a kernel in f32.
 fn stored(kernel: &str) -> String {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/proofs");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../corpora/proofs");
     std::fs::read_to_string(format!("{folder}/{kernel}-f32.proof")).unwrap()
 }
 

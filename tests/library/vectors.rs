@@ -91,7 +91,7 @@ fn hit(n: &[f64], mistake: Mistake) -> Option<[f64; 3]> {
 /// The ids of the tests that a function fails: the answer, by the closed reading if it is free, or t, u or v by
 /// more than a thousandth.
 fn failed(mistake: Mistake) -> Vec<String> {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/vectors/core.csv");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../vectors/core.csv");
     let text = fs::read_to_string(file).unwrap();
     let is_wrong = |row: &[&str]| {
         let bits = row[18..].iter().map(|word| u64::from_str_radix(word, 16).unwrap());
@@ -147,8 +147,9 @@ fn the_guide_has_the_number_of_tests_that_a_plain_test_in_floats_fails() {
         let margin = row[16].parse().unwrap_or(1f64);
         row[4].is_empty() && row[6] != "free" && 1e-6 <= margin.abs()
     }
-    let read =
-        |file: &str| fs::read_to_string(format!("{}/{file}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let read = |file: &str| {
+        fs::read_to_string(format!("{}/../../{file}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+    };
     let (csv, guide) = (read("vectors/core.csv"), read("docs/guide/vectors.md"));
     let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     let of_test = rows.chunk_by(|one, other| one[0] == other[0]);

@@ -3,6 +3,7 @@
 mod answer;
 mod build;
 mod commands;
+mod compared;
 mod evidence;
 pub(super) mod fitness;
 mod legend;

@@ -1,10 +1,8 @@
 //! The findings of a study of epsilons, as its record holds them.
 
-use super::commands::of_kernel;
-use super::words::label;
 pub(super) use crate::epsilon::{RayCount, Rays, WrongKind};
 pub(super) use crate::family::Stratum;
-use crate::report::record::{Chosen, Comparable, Counted, Findings, Rate, Record, Study};
+use crate::report::record::{Rate, Record};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -60,49 +58,6 @@ impl SceneResult {
     /// True if it is about a scene, and not about families or stored cases.
     pub fn has_scene(&self) -> bool {
         !self.scene.is_empty()
-    }
-}
-
-impl Findings for SceneResult {
-    const STUDY: Study = Study::Epsilon;
-}
-
-impl Comparable for SceneResult {
-    fn cases(&self) -> String {
-        let SceneResult { scene, flags, mesh, seed, fresh_seed, count, .. } = self;
-        let digest = mesh.as_ref().map(|mesh| &mesh.digest);
-        format!("{scene} {flags} {digest:?} {seed} {fresh_seed} {count}")
-    }
-
-    fn counted(&self) -> Vec<Counted> {
-        let tried =
-            self.kernels.iter().flat_map(|part| part.tried.iter().map(move |it| (part, it)));
-        let counted = tried.flat_map(|(part, tried)| {
-            part.counts.iter().zip(&tried.wrong).map(|(count, rate)| Counted {
-                what: format!(
-                    "{} {} with {} epsilons, {}",
-                    part.kernel,
-                    part.scalar,
-                    tried.name,
-                    label(count)
-                ),
-                rate: rate.clone(),
-                command: Some(of_kernel(self, part)),
-            })
-        });
-        counted.collect()
-    }
-
-    fn chosen(&self) -> Vec<Chosen> {
-        let knobs = self.kernels.iter().flat_map(|part| {
-            part.knobs.iter().zip(&part.tried[0].epsilons).map(move |it| (part, it))
-        });
-        let chosen = |(part, (knob, value)): (&SceneKernelPart, (&KnobPart, &String))| Chosen {
-            what: format!("{} {}: {}", part.kernel, part.scalar, knob.name),
-            value: value.clone(),
-            is_bound: false,
-        };
-        knobs.map(chosen).collect()
     }
 }
 

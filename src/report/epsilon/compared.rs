@@ -1,0 +1,49 @@
+//! The part of a study of epsilons that is compared with another: how often each kind of ray was wrong, and which epsilons were chosen.
+
+use super::commands::of_kernel;
+use super::record::{KnobPart, SceneKernelPart, SceneResult};
+use super::words::label;
+use crate::report::record::{Chosen, Comparable, Counted, Findings, Study};
+
+impl Findings for SceneResult {
+    const STUDY: Study = Study::Epsilon;
+}
+
+impl Comparable for SceneResult {
+    fn cases(&self) -> String {
+        let SceneResult { scene, flags, mesh, seed, fresh_seed, count, .. } = self;
+        let digest = mesh.as_ref().map(|mesh| &mesh.digest);
+        format!("{scene} {flags} {digest:?} {seed} {fresh_seed} {count}")
+    }
+
+    fn counted(&self) -> Vec<Counted> {
+        let tried =
+            self.kernels.iter().flat_map(|part| part.tried.iter().map(move |it| (part, it)));
+        let counted = tried.flat_map(|(part, tried)| {
+            part.counts.iter().zip(&tried.wrong).map(|(count, rate)| Counted {
+                what: format!(
+                    "{} {} with {} epsilons, {}",
+                    part.kernel,
+                    part.scalar,
+                    tried.name,
+                    label(count)
+                ),
+                rate: rate.clone(),
+                command: Some(of_kernel(self, part)),
+            })
+        });
+        counted.collect()
+    }
+
+    fn chosen(&self) -> Vec<Chosen> {
+        let knobs = self.kernels.iter().flat_map(|part| {
+            part.knobs.iter().zip(&part.tried[0].epsilons).map(move |it| (part, it))
+        });
+        let chosen = |(part, (knob, value)): (&SceneKernelPart, (&KnobPart, &String))| Chosen {
+            what: format!("{} {}: {}", part.kernel, part.scalar, knob.name),
+            value: value.clone(),
+            is_bound: false,
+        };
+        knobs.map(chosen).collect()
+    }
+}
