@@ -15,7 +15,6 @@ pub struct Conformance {
     /// How counts were compared.
     pub method: Method,
     /// True if the lock file says nothing of this run, so that families are compared and not classes.
-    #[serde(default)]
     pub is_by_family: bool,
     /// The file of expectations; none if there is none, and nothing is expected.
     pub expectations: Option<String>,
@@ -23,7 +22,6 @@ pub struct Conformance {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
     /// The changes, added up.
-    #[serde(default)]
     pub change: NetChange,
     /// Kernel rows that are set to something else than what the expectations are of.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -75,7 +73,6 @@ pub struct NetChange {
     /// As many cases as expected, but not the same ones.
     pub other_cases: u64,
     /// Those of the worse and the new that have cases on which the kernel failed before, so that they were not judged.
-    #[serde(default)]
     pub newly_judged: u64,
     /// As expected.
     pub unchanged: u64,

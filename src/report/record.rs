@@ -213,7 +213,6 @@ pub struct Counts {
     pub bad_values: Rate,
     /// Among the hits that are not false, the share with t, u or v farther from its exact value than rounding could
     /// carry it.
-    #[serde(default)]
     pub wrong_values: Rate,
     /// Cases at which the kernel panicked.
     pub panics: u64,

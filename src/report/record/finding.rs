@@ -150,7 +150,6 @@ pub struct AcrossPart {
     /// The digest of all doubles.
     pub double_digest: String,
     /// The digest of all folds of wrong parity.
-    #[serde(default)]
     pub odd_fold_digest: String,
     /// Crossings on a mesh without a hit, which a neighbour may have: no cracks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
