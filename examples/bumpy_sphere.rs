@@ -7,8 +7,6 @@
 //! ```
 
 use hairline::internals::case::Draw;
-use hairline::internals::corpus::mesh::write_obj;
-use hairline::internals::corpus::shapes::MadeMesh;
 use std::collections::HashMap;
 use std::io::{self, BufWriter, Write};
 
@@ -18,12 +16,14 @@ fn main() -> io::Result<()> {
         return Err(io::Error::other("the argument is no number from 1 to 2048"));
     };
     let mut out = BufWriter::new(io::stdout().lock());
-    write_obj(&bumpy_sphere(n), &mut out)?;
+    let (vertices, faces) = bumpy_sphere(n);
+    vertices.iter().try_for_each(|[x, y, z]| writeln!(out, "v {x} {y} {z}"))?;
+    faces.iter().try_for_each(|[a, b, c]| writeln!(out, "f {} {} {}", a + 1, b + 1, c + 1))?;
     out.flush()
 }
 
 /// A cube of n × n squares a side, brought to a sphere with bumps.
-fn bumpy_sphere(n: i32) -> MadeMesh {
+fn bumpy_sphere(n: i32) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let mut numbers: HashMap<[i32; 3], u32> = HashMap::new();
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     for side in 0..6 {
@@ -45,14 +45,14 @@ fn bumpy_sphere(n: i32) -> MadeMesh {
                 let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
                 // Seen from outside counter-clockwise: the opposite side mirrors.
                 faces.extend(if side < 3 {
-                    [vec![a, b, c], vec![a, c, d]]
+                    [[a, b, c], [a, c, d]]
                 } else {
-                    [vec![a, c, b], vec![a, d, c]]
+                    [[a, c, b], [a, d, c]]
                 });
             }
         }
     }
-    MadeMesh { name: "sphere", about: "a bumpy sphere", vertices, faces }
+    (vertices, faces)
 }
 
 fn bumpy(point: [i32; 3], number: u64) -> [f64; 3] {

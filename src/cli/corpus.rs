@@ -35,9 +35,9 @@ enum CorpusCommand {
         #[arg(default_value = "corpora", value_name = "FILE|DIR")]
         path: String,
     },
-    /// Write the project's meshes and the manifest; or, with --family, that family's cases
+    /// Write the digests of all generated sets into the manifest; or, with --family, that family's cases
     Generate {
-        /// The folder to write to
+        /// The folder of the manifest; what it says of meshes stays
         #[arg(default_value = "corpora", value_name = "DIR")]
         path: String,
 
@@ -138,7 +138,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
     let manifest_path = Path::new(path).join(MANIFEST);
     if manifest_path.exists() {
         let name = manifest_path.display().to_string();
-        let lines = manifest::read(BufReader::new(open(&name)?), &name)?;
+        let lines = manifest_lines(&name)?;
         nothing &= lines.is_empty();
         let folder = manifest_path.parent().unwrap_or(Path::new("."));
         for (number, line) in &lines {
@@ -184,20 +184,25 @@ fn agree(file: &str, stored: &StoredCase) -> Result<(), Failure> {
     Err(Failure::Message(Status::SelfCheck, message))
 }
 
+fn manifest_lines(name: &str) -> Result<Vec<(usize, ManifestLine)>, Failure> {
+    Ok(manifest::read(BufReader::new(open(name)?), name)?)
+}
+
 fn generate(folder: &Path) -> Result<Status, Failure> {
-    let meshes = folder.join("meshes");
-    fs::create_dir_all(&meshes).map_err(|error| Failure::of_path(&meshes, &error))?;
-    for (name, _, text) in manifest::meshes() {
-        write_result(meshes.join(name), |out| out.write_all(text.as_bytes()))?;
-    }
     let path = folder.join(MANIFEST);
-    let lines = manifest::current();
+    let old = match path.exists() {
+        true => manifest_lines(&path.display().to_string())?,
+        false => Vec::new(),
+    };
+    let meshes = old.into_iter().map(|(_, line)| line);
+    let meshes = meshes.filter(|line| matches!(line, ManifestLine::Mesh(_)));
+    let lines: Vec<ManifestLine> = manifest::sets().chain(meshes).collect();
     write_result(&path, |out| {
         lines.iter().try_for_each(|line| {
             serde_json::to_writer(&mut *out, line)?;
             writeln!(out)
         })
     })?;
-    eprintln!("{}: {} lines; meshes in {}", path.display(), lines.len(), meshes.display());
+    eprintln!("{}: {} lines", path.display(), lines.len());
     Ok(Status::Success)
 }

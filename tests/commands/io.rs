@@ -233,8 +233,9 @@ fn what_cannot_be_read_ends_with_74_and_what_is_wrong_with_65() {
         assert!(error.contains("hairline: -") && error.contains("directory"), "{error}");
     }
     // A mesh that the manifest names and that is not there.
-    ends(&folder, &["corpus", "generate", "made"], 0);
-    fs::remove_file(folder.join("made/meshes/torus.obj")).unwrap();
+    fs::create_dir(folder.join("made")).unwrap();
+    let mesh = r#"{"mesh":"torus.obj","about":"a torus","digest":"5c"}"#;
+    fs::write(folder.join("made/manifest.jsonl"), mesh).unwrap();
     fs::write(folder.join("made/a.jsonl"), case("x", "f32")).unwrap();
     let (_, error) = ends(&folder, &["corpus", "verify", "made"], 74);
     assert!(error.contains("made/meshes/torus.obj: "), "{error}");

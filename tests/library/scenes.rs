@@ -4,7 +4,7 @@ use hairline::Truth;
 use hairline::internals::arith::Float;
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Parameters, SCENES, Scene};
-use hairline::internals::corpus::mesh::read_obj;
+use hairline::internals::corpus::mesh;
 use hairline::internals::epsilon::{
     Attempt, Costs, Knob, KnobLimit, MaxError, ProvedValue, RayCount, Rays, Setting, WrongKind,
     cheapest, contract_with, count_at, counts, limits, proved,
@@ -447,7 +447,8 @@ fn bits<F: Float>(corners: [[F; 3]; 3]) -> [[u64; 3]; 3] {
 }
 
 fn check_mesh<F: Scalar>(direction: &str) {
-    let mesh = read_obj(MESH.as_bytes(), "box.obj", &mut |_| {}).unwrap();
+    let mut beside = |_: &str, _| Err(std::io::ErrorKind::NotFound.into());
+    let mesh = mesh::read(MESH.as_bytes(), "box.obj", &mut beside, &mut |_| {}).unwrap();
     let faces: BTreeSet<_> =
         (0..mesh.triangles.len()).map(|face| bits(mesh.vertices::<F>(face))).collect();
     let surface = Surface::new(Arc::new(MeshFamily::new(mesh, "box.obj")), [true, true]);

@@ -6,8 +6,7 @@ use hairline::internals::audit::mesh::{CLASSES, MeshFound, MeshPlan, run};
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved, exact_severity};
 use hairline::internals::case::{Case, Draw, Parameters};
 use hairline::internals::contract::{Extent, NAMED};
-use hairline::internals::corpus::mesh::{Mesh, read_obj, write_obj};
-use hairline::internals::corpus::shapes;
+use hairline::internals::corpus::mesh::{Mesh, read as read_mesh};
 use hairline::internals::family::MeshFamily;
 use hairline::internals::judge::may_be_elsewhere;
 use hairline::internals::kernel::{Entry, Failure, Scalar, Verdict, find};
@@ -20,9 +19,11 @@ use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+use std::{fs, io};
 
 fn read(text: &str) -> Mesh {
-    read_obj(text.as_bytes(), "test.obj", &mut |_| {}).unwrap()
+    let mut beside = |_: &str, _| Err(io::ErrorKind::NotFound.into());
+    read_mesh(text.as_bytes(), "test.obj", &mut beside, &mut |_| {}).unwrap()
 }
 
 /// A mesh from points and faces counted from 0.
@@ -38,10 +39,8 @@ fn mesh(points: &[[f64; 3]], faces: &[[usize; 3]]) -> Mesh {
 }
 
 fn shape(name: &str) -> Mesh {
-    let shape = shapes::all().into_iter().find(|shape| shape.name == name).unwrap();
-    let mut text = Vec::new();
-    write_obj(&shape, &mut text).unwrap();
-    read_obj(text.as_slice(), name, &mut |_| {}).unwrap()
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/meshes");
+    read(&fs::read_to_string(format!("{folder}/{name}.obj")).unwrap())
 }
 
 /// The unit cube's corners by the bits of their number, and its faces, outwards.

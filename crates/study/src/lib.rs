@@ -4,7 +4,7 @@
 //!
 //! It is the library behind the program `hairline`, whose interface is stable; this one changes with it.
 
-#![cfg_attr(not(feature = "studies"), allow(dead_code, unused_imports))]
+#![cfg_attr(not(feature = "files"), allow(dead_code, unused_imports))]
 
 #[macro_use(either_scalar, in_named_scalar, named)]
 extern crate hairline_core;

@@ -5,7 +5,7 @@ use super::meshes::Mesh;
 use super::rays::{Aim, Shot, plane_of, shots, words, words_of_rays};
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Scene};
-use hairline::internals::corpus::mesh::read_obj;
+use hairline::internals::corpus::mesh;
 use hairline::internals::epsilon::{
     Attempt, Knob, RayCount, Setting, WrongKind, contract_with, count_at, counts, own_epsilons,
 };
@@ -188,7 +188,8 @@ pub fn read(mesh: &Mesh, shots: &[Shot]) -> (Arc<SceneMesh>, Scene) {
         face.iter().for_each(|[x, y, z]| text += &format!("v {x} {y} {z}\n"));
         text += &format!("f {} {} {}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
     }
-    let read = read_obj(text.as_bytes(), "world.obj", &mut |_| {}).unwrap();
+    let mut beside = |_: &str, _| Err(std::io::ErrorKind::NotFound.into());
+    let read = mesh::read(text.as_bytes(), "world.obj", &mut beside, &mut |_| {}).unwrap();
     let family = Arc::new(MeshFamily::new(read, "world.obj"));
     let read = Arc::new(SceneMesh::new(Surface::new(family, [true, true])));
     let all: Vec<&Shot> = shots.iter().collect();

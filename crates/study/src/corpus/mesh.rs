@@ -1,31 +1,24 @@
 //! Meshes from OBJ, PLY, STL and glTF files: triangles of `f32` and of `f64` positions.
 
 mod builder;
-#[cfg(feature = "studies")]
+#[cfg(feature = "files")]
 mod counted;
-#[cfg(feature = "studies")]
-mod files;
-#[cfg(feature = "studies")]
-mod obj;
-#[cfg(feature = "studies")]
-mod text;
-
 #[cfg(feature = "files")]
 mod formats;
 #[cfg(feature = "files")]
 mod gltf;
 #[cfg(feature = "files")]
+mod obj;
+#[cfg(feature = "files")]
 mod ply;
 #[cfg(feature = "files")]
 mod stl;
+#[cfg(feature = "files")]
+mod text;
 
 use super::InputError;
 use crate::arith::Float;
 pub use builder::{FilePlace, Note};
-#[cfg(feature = "studies")]
-pub use files::number_text;
-#[cfg(feature = "studies")]
-pub use files::{read_obj, write_obj};
 #[cfg(feature = "files")]
 pub use formats::{ReadBeside, read};
 

@@ -20,8 +20,6 @@ pub mod number;
 mod plain_json;
 mod polygon;
 #[cfg(feature = "studies")]
-pub mod shapes;
-#[cfg(feature = "studies")]
 mod stored_case;
 #[cfg(feature = "studies")]
 mod stored_truth;

@@ -1,11 +1,9 @@
-//! The manifest: generated sets and meshes, each by what makes it again and a digest that proves it
-//! is the same.
+//! The manifest: generated sets, each by what makes it again and a digest that proves it is the same, and digests of the
+//! meshes beside it.
 
 use super::{FAMILIES, Family};
 use crate::case::Parameters;
 use crate::corpus::lines::LONGEST_LINE;
-use crate::corpus::mesh::write_obj;
-use crate::corpus::shapes::{self, POLYGONS_OBJ};
 use crate::corpus::text_lines::TextLines;
 use crate::corpus::{InputError, hex};
 use crate::kernel::Scalar;
@@ -43,7 +41,7 @@ pub struct SetLine {
     pub digest: String,
 }
 
-/// A mesh that the project makes itself.
+/// A mesh beside the manifest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeshLine {
@@ -58,30 +56,11 @@ pub struct MeshLine {
 /// How many cases of each family a manifest covers.
 const SET_SIZE: u64 = 10_000;
 
-/// The manifest of this version of the program.
-pub fn current() -> Vec<ManifestLine> {
+/// The generated sets of this version of the program.
+pub fn sets() -> impl Iterator<Item = ManifestLine> {
     let sets =
         FAMILIES.iter().flat_map(|family| [set_line::<f32>(family), set_line::<f64>(family)]);
-    let meshes = meshes().into_iter().map(|(name, about, text)| {
-        ManifestLine::Mesh(MeshLine { mesh: name, about, digest: digest_of(text.as_bytes()) })
-    });
-    sets.map(ManifestLine::Set).chain(meshes).collect()
-}
-
-/// The project's own meshes: file name, what is hard about it, OBJ text.
-pub fn meshes() -> Vec<(String, String, String)> {
-    let mut meshes: Vec<(String, String, String)> = shapes::all()
-        .iter()
-        .map(|shape| {
-            let mut text = Vec::new();
-            write_obj(shape, &mut text).expect("writing to memory");
-            let text = String::from_utf8(text).expect("OBJ text");
-            (format!("{}.obj", shape.name), shape.about.to_owned(), text)
-        })
-        .collect();
-    let about = "quads, pentagons, a concave polygon, groups and negative indices".to_owned();
-    meshes.push(("polygons.obj".to_owned(), about, POLYGONS_OBJ.to_owned()));
-    meshes
+    sets.map(ManifestLine::Set)
 }
 
 fn set_line<F: Scalar>(family: &Family) -> SetLine {

@@ -12,8 +12,14 @@ pub type ReadBeside<'a> = dyn FnMut(&str, u64) -> io::Result<Vec<u8>> + 'a;
 /// has in files of their own. `name` is for messages and for [`Mesh::name`]; `progress` is called about every MiB
 /// with the number of bytes read so far, and once at the end.
 ///
-/// The rules of [`read_obj`](super::read_obj) for polygons, areas, numbers and limits hold for all formats. It is
-/// also an error if a file ends early, if it names a file outside its folder or on the network, and if it
+/// Materials, normals and textures are ignored; anything else that is not read gets a note. Polygons are cut into the fan
+/// from their first vertex. Where that fan folds over itself or is bent by a right angle or more, as those of many concave
+/// ones do, one ear after the other is cut off. Those for which this does not do either, because they cross themselves, are
+/// left out with a note. Triangles without area are kept with a note.
+///
+/// It is an error if the file cannot be read, ends early or has a line above 1 MiB; if a number is malformed or not finite
+/// in `f64`; if a face has fewer than three vertices, or one that the file does not have; if there are no vertices or no
+/// triangles, or more than 100 million of either; if it names a file outside its folder or on the network; and if it
 /// needs a glTF extension that changes geometry (compressed or quantised meshes, instances).
 pub fn read<R: BufRead>(
     reader: R,
