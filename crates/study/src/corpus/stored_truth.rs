@@ -1,13 +1,12 @@
 //! A truth stored beside a case, and its comparison with the true one.
 
 use super::json::{self, Object};
-use super::truth_json::{ContactLine, TruthLine, fraction_text};
+use super::truth_json::{TruthLine, fraction_text};
 use crate::truth::{Facing, Feature, Place};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
-use serde_json::json;
-use std::fmt;
+use serde_json::Value;
 
 /// The most characters of a fraction. On the whole range of `f64` t has fewer than 4,000.
 const LONGEST_FRACTION: usize = 10_000;
@@ -29,181 +28,147 @@ const FIELDS: [&str; 10] = [
 ];
 const CONTACT_FIELDS: [&str; 3] = ["kind", "feature", "t"];
 
-/// The truth beside a case in a corpus file: the fields of [`TruthLine`] (or of its contact), any of them,
-/// in their order. Fractions are kept as [`TruthLine`] writes them.
+/// A truth as a file has it: the fields that are there, in the order of [`TruthLine`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct StoredTruth(Vec<(&'static str, StoredValue)>);
-
-/// The value of a field.
-#[derive(Clone, Debug, PartialEq, Eq)]
-enum StoredValue {
-    Null,
-    Text(String),
-    Flag(bool),
-    Ends([String; 2]),
-    Contact(StoredTruth),
-}
+pub struct StoredTruth(Vec<(&'static str, Value)>);
 
 impl StoredTruth {
-    /// From its JSON. Unknown and duplicate fields, words that no truth has and what is no fraction
-    /// are errors, which name the field.
+    /// From the JSON of a truth, with any of its fields.
     pub fn parse(text: &str) -> Result<StoredTruth, String> {
-        StoredTruth::read(text, &FIELDS, |field, value| match field {
-            "name" => json::string(value).map(StoredValue::Text),
+        let fields = read(text, &FIELDS, |field, value| match field {
+            "name" => json::string(value).map(Value::from),
             "class" => word(value, &CLASSES),
             "facing" => word(value, &[Facing::Front, Facing::Back].map(Facing::name)),
             "t" => word(value, &Place::ALL.map(Place::name)),
             "feature" => word(value, &Feature::ALL.map(Feature::name)),
-            "contact" => StoredTruth::parse_contact(value).map(StoredValue::Contact),
-            "hits_closed" => boolean(value).map(StoredValue::Flag),
-            _ => fraction(value).map(StoredValue::Text),
-        })
-    }
-
-    fn parse_contact(text: &str) -> Result<StoredTruth, String> {
-        StoredTruth::read(text, &CONTACT_FIELDS, |field, value| match field {
-            "kind" => word(value, &CONTACT_KINDS),
-            "feature" => word(value, &Feature::ALL.map(Feature::name)),
-            _ => {
-                let [first, last] = json::array(value, "fractions")?;
-                Ok(StoredValue::Ends([fraction(first)?, fraction(last)?]))
-            }
-        })
-    }
-
-    fn read(
-        text: &str,
-        known: &[&'static str],
-        read: impl Fn(&str, &str) -> Result<StoredValue, String>,
-    ) -> Result<StoredTruth, String> {
-        let object = Object::parse(text, known)?;
-        let stored = known.iter().filter_map(|&field| {
-            let value = object.read(field, |value| match (value, field) {
-                ("null", "class" | "kind") => Err("cannot be null".to_owned()),
-                ("null", _) => Ok(StoredValue::Null),
-                _ => read(field, value),
-            });
-            Some(value.transpose()?.map(|value| (field, value)))
+            "contact" => contact(value),
+            "hits_closed" => boolean(value),
+            _ => fraction(value),
         });
-        stored.collect::<Result<_, _>>().map(StoredTruth)
+        fields.map(StoredTruth)
     }
 
-    fn of_contact(contact: &ContactLine) -> StoredTruth {
-        let mut fields = vec![
-            ("kind", StoredValue::Text(contact.kind.to_owned())),
-            ("feature", StoredValue::word(contact.feature)),
-        ];
-        let ends = |t: &Option<_>| t.clone().map_or(StoredValue::Null, StoredValue::Ends);
-        fields.extend(contact.t.as_ref().map(|t| ("t", ends(t))));
-        StoredTruth(fields)
-    }
-
-    fn get(&self, field: &str) -> Option<&StoredValue> {
-        self.0.iter().find(|(name, _)| *name == field).map(|(_, stored)| stored)
-    }
-
-    /// The stored fields, on one line.
+    /// As a JSON object.
     pub fn to_json(&self) -> String {
-        let value = |stored: &StoredValue| match stored {
-            StoredValue::Null => "null".to_owned(),
-            StoredValue::Text(text) => json!(text).to_string(),
-            StoredValue::Flag(flag) => flag.to_string(),
-            StoredValue::Ends(ends) => json!(ends).to_string(),
-            StoredValue::Contact(contact) => contact.to_json(),
+        let json = |value: &Value| match value {
+            Value::Object(contact) => {
+                let fields = CONTACT_FIELDS.into_iter();
+                json::object(fields.filter_map(|it| Some((it, contact.get(it)?.to_string()))))
+            }
+            value => value.to_string(),
         };
-        json::object(self.0.iter().map(|(field, stored)| (*field, value(stored))))
+        json::object(self.0.iter().map(|(field, value)| (*field, json(value))))
     }
 
-    /// Compares each stored field but the name with what the oracle says.
+    /// Compares all that is stored, but for the name, with what is true.
     pub fn check(&self, line: &TruthLine) -> Result<(), String> {
-        self.compare("", &StoredTruth::from(line))
-    }
-
-    fn compare(&self, path: &str, found: &StoredTruth) -> Result<(), String> {
+        let found = StoredTruth::from(line);
         for (field, stored) in self.0.iter().filter(|(field, _)| *field != "name") {
-            match (stored, found.get(field).unwrap_or(&StoredValue::Null)) {
-                (StoredValue::Contact(stored), StoredValue::Contact(found)) => {
-                    stored.compare("contact.", found)?;
+            let found = found.0.iter().find(|(other, _)| other == field).map(|(_, value)| value);
+            match (stored, found) {
+                (Value::Object(stored), Some(Value::Object(found))) => {
+                    for field in CONTACT_FIELDS {
+                        let path = format!("contact.{field}");
+                        stored.get(field).map_or(Ok(()), |it| same(&path, it, found.get(field)))?;
+                    }
                 }
-                (stored, found) if stored != found => {
-                    return Err(format!(
-                        "stored truth is wrong: {path}{field} is {stored}, the oracle says {found}"
-                    ));
-                }
-                _ => {}
+                _ => same(field, stored, found)?,
             }
         }
         Ok(())
     }
 
-    /// True if a fraction is stored, or null for one.
+    /// True if a fraction is stored, so that those of the truth are needed to check it.
     pub fn has_fractions(&self) -> bool {
-        let has_t = |stored: &StoredValue| matches!(stored, StoredValue::Contact(c) if c.get("t").is_some());
-        self.0.iter().any(|(field, stored)| field.ends_with("_exact") || has_t(stored))
+        self.0.iter().any(|(field, value)| field.ends_with("_exact") || value.get("t").is_some())
     }
 }
 
 impl From<&TruthLine> for StoredTruth {
-    /// All fields but the name.
     fn from(line: &TruthLine) -> StoredTruth {
-        let contact = line.contact.as_ref().map(StoredTruth::of_contact);
-        let mut fields = vec![
-            ("class", StoredValue::word(Some(line.class))),
-            ("facing", StoredValue::word(line.facing)),
-            ("t", StoredValue::word(line.t)),
-            ("feature", StoredValue::word(line.feature)),
-            ("contact", contact.map_or(StoredValue::Null, StoredValue::Contact)),
-            ("hits_closed", line.hits_closed.map_or(StoredValue::Null, StoredValue::Flag)),
-        ];
-        let fractions =
-            [("t_exact", &line.t_exact), ("u_exact", &line.u_exact), ("v_exact", &line.v_exact)];
-        for (field, fraction) in fractions {
-            let fraction = fraction.as_ref().map(|fraction| StoredValue::word(fraction.as_deref()));
-            fields.extend(fraction.map(|fraction| (field, fraction)));
+        // Strings under names that are strings: nothing that could fail.
+        let mut all = serde_json::to_value(line).unwrap_or_default();
+        let fields = FIELDS[1..].iter();
+        let taken = fields.filter_map(|field| Some((*field, all.get_mut(*field)?.take())));
+        StoredTruth(taken.collect())
+    }
+}
+
+/// The known fields of an object, in their order.
+fn read(
+    text: &str,
+    known: &[&'static str],
+    read: impl Fn(&str, &str) -> Result<Value, String>,
+) -> Result<Vec<(&'static str, Value)>, String> {
+    let object = Object::parse(text, known)?;
+    let stored = known.iter().filter_map(|&field| {
+        let value = object.read(field, |value| match (value, field) {
+            ("null", "class" | "kind") => Err("cannot be null".to_owned()),
+            ("null", _) => Ok(Value::Null),
+            _ => read(field, value),
+        });
+        Some(value.transpose()?.map(|value| (field, value)))
+    });
+    stored.collect()
+}
+
+fn contact(text: &str) -> Result<Value, String> {
+    let fields = read(text, &CONTACT_FIELDS, |field, value| match field {
+        "kind" => word(value, &CONTACT_KINDS),
+        "feature" => word(value, &Feature::ALL.map(Feature::name)),
+        _ => {
+            let [first, last] = json::array(value, "fractions")?;
+            Ok(Value::from(vec![fraction(first)?, fraction(last)?]))
         }
-        StoredTruth(fields)
+    })?;
+    Ok(fields.into_iter().map(|(field, value)| (field.to_owned(), value)).collect())
+}
+
+/// An error if a stored value is not the one that was found; a missing one is null.
+fn same(path: &str, stored: &Value, found: Option<&Value>) -> Result<(), String> {
+    let found = found.unwrap_or(&Value::Null);
+    match stored == found {
+        true => Ok(()),
+        false => Err(format!(
+            "stored truth is wrong: {path} is {}, the oracle says {}",
+            shown(stored),
+            shown(found)
+        )),
     }
 }
 
-impl StoredValue {
-    fn word(word: Option<&str>) -> StoredValue {
-        word.map_or(StoredValue::Null, |word| StoredValue::Text(word.to_owned()))
-    }
-}
-
-impl fmt::Display for StoredValue {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            StoredValue::Null => f.write_str("null"),
-            StoredValue::Text(text) => write!(f, "'{text}'"),
-            StoredValue::Flag(flag) => write!(f, "'{flag}'"),
-            StoredValue::Ends([first, last]) => write!(f, "'[{first}, {last}]'"),
-            StoredValue::Contact(contact) => match contact.get("kind") {
-                Some(kind) => write!(f, "{kind}"),
-                None => f.write_str("'some'"),
-            },
+/// As a message has it: a contact by its kind.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Null => "null".to_owned(),
+        Value::String(text) => format!("'{text}'"),
+        Value::Array(ends) => {
+            let ends: Vec<&str> = ends.iter().filter_map(Value::as_str).collect();
+            format!("'[{}]'", ends.join(", "))
         }
+        Value::Object(contact) => contact.get("kind").map_or("'some'".to_owned(), shown),
+        other => format!("'{other}'"),
     }
 }
 
-fn word(value: &str, known: &[&str]) -> Result<StoredValue, String> {
+fn word(value: &str, known: &[&str]) -> Result<Value, String> {
     let text = json::string(value)?;
     if known.contains(&text.as_str()) {
-        return Ok(StoredValue::Text(text));
+        return Ok(Value::from(text));
     }
     Err(format!("{} is none of {}", json::quoted(&text), known.join(", ")))
 }
 
-fn boolean(value: &str) -> Result<bool, String> {
-    let parsed = value.parse();
+fn boolean(value: &str) -> Result<Value, String> {
+    let parsed = value.parse().map(Value::Bool);
     parsed.map_err(|_| format!("expected true, false or null, found {}", json::excerpt(value)))
 }
 
 /// `p/q` or an integer, in a string; reduced.
-fn fraction(value: &str) -> Result<String, String> {
+fn fraction(value: &str) -> Result<Value, String> {
     let text = json::string(value)?;
     match parse_fraction(&text) {
-        Some(fraction) => Ok(fraction_text(&fraction)),
+        Some(fraction) => Ok(Value::from(fraction_text(&fraction))),
         None => Err(format!("{} is not a fraction p/q with q > 0", json::quoted(&text))),
     }
 }
