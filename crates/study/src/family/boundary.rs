@@ -8,7 +8,7 @@ use super::{Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
-use crate::truth::{Place, Truth};
+use crate::truth::{Crossing, Place};
 
 pub(super) struct EdgeExact;
 pub(super) struct EdgeNear;
@@ -29,15 +29,6 @@ fn through(draw: &mut Draw, triangle: [[i64; 3]; 3], target: [i64; 3], reach: i6
     IntegerCase { origin, direction, triangle }
 }
 
-fn all_within(truths: &[Truth], wanted: impl Fn(crate::truth::Feature) -> bool) -> bool {
-    truths
-        .iter()
-        .filter_map(Truth::crossing)
-        .filter(|crossing| crossing.place == Place::Within && wanted(crossing.feature))
-        .count()
-        == truths.len()
-}
-
 impl Recipe for EdgeExact {
     const NAME: &'static str = "edge-exact";
     const PROMISE: &'static str = "transversal, within, exactly on an open edge";
@@ -48,8 +39,8 @@ impl Recipe for EdgeExact {
         through(draw, triangle, point, reach).made()
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        all_within(truths, |feature| feature.is_edge())
+    fn crosses(crossing: &Crossing) -> bool {
+        crossing.place == Place::Within && crossing.feature.is_edge()
     }
 }
 
@@ -64,8 +55,8 @@ impl Recipe for VertexExact {
         through(draw, triangle, vertex, reach).made()
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        all_within(truths, |feature| feature.is_vertex())
+    fn crosses(crossing: &Crossing) -> bool {
+        crossing.place == Place::Within && crossing.feature.is_vertex()
     }
 }
 
@@ -80,8 +71,8 @@ impl Recipe for EdgeNear {
         }))
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        all_within(truths, |_| true)
+    fn crosses(crossing: &Crossing) -> bool {
+        crossing.place == Place::Within
     }
 }
 
@@ -96,8 +87,8 @@ impl Recipe for VertexNear {
         }))
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        all_within(truths, |_| true)
+    fn crosses(crossing: &Crossing) -> bool {
+        crossing.place == Place::Within
     }
 }
 

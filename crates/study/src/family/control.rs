@@ -6,7 +6,7 @@ use super::{Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
-use crate::truth::{Feature, Place, Truth};
+use crate::truth::{Crossing, Feature, Place};
 
 pub(super) struct Interior;
 pub(super) struct Outside;
@@ -19,12 +19,8 @@ impl Recipe for Interior {
         Made::One(aimed(draw, &mut interior_weights))
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| {
-            truth.crossing().is_some_and(|crossing| {
-                crossing.feature == Feature::Interior && crossing.place == Place::Within
-            })
-        })
+    fn crosses(crossing: &Crossing) -> bool {
+        crossing.feature == Feature::Interior && crossing.place == Place::Within
     }
 }
 
@@ -47,12 +43,8 @@ impl Recipe for Outside {
         }))
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| {
-            truth.crossing().is_some_and(|crossing| {
-                crossing.feature == Feature::Outside && crossing.place == Place::Within
-            })
-        })
+    fn crosses(crossing: &Crossing) -> bool {
+        crossing.feature == Feature::Outside && crossing.place == Place::Within
     }
 }
 

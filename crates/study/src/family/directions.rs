@@ -7,7 +7,6 @@ use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
-use crate::truth::Truth;
 
 pub(super) struct DirectionLengthFamily;
 pub(super) struct AxisAligned;
@@ -26,10 +25,6 @@ impl Recipe for DirectionLengthFamily {
         let [origin, direction, a, b, c] = case.vectors();
         let scale = |x: F| F::from_f64(scale_by_power_of_two(x.to_f64(), exponent));
         Made::One(Case::new(origin, direction.map(scale), [a, b, c]))
-    }
-
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| truth.crossing().is_some())
     }
 }
 
@@ -65,10 +60,6 @@ impl Recipe for AxisAligned {
             triangle: triangle.map(|p| minus(p, base)),
         };
         Made::One(with_signed_zeros(draw, case.case()))
-    }
-
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| truth.crossing().is_some())
     }
 }
 

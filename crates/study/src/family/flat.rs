@@ -75,8 +75,8 @@ impl Recipe for ParallelOff {
         IntegerCase { origin: plus(minus(point, direction), off), direction, triangle }.made()
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| *truth == Truth::Parallel)
+    fn holds(truth: &Truth) -> bool {
+        *truth == Truth::Parallel
     }
 }
 
@@ -97,8 +97,8 @@ impl Recipe for Coplanar {
         IntegerCase { origin, direction, triangle }.made()
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| matches!(truth, Truth::Coplanar(_)))
+    fn holds(truth: &Truth) -> bool {
+        matches!(truth, Truth::Coplanar(_))
     }
 }
 
@@ -133,9 +133,5 @@ impl Recipe for Grazing {
         let direction = plus(times(flat, 1 << steepness), off);
         debug_assert_ne!(dot(direction, normal(triangle)), 0);
         IntegerCase { origin: minus(point, direction), direction, triangle }.made()
-    }
-
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| truth.crossing().is_some())
     }
 }

@@ -6,7 +6,7 @@ use super::integer::{
 use super::{Made, Recipe};
 use crate::case::Draw;
 use crate::kernel::Scalar;
-use crate::truth::{Feature, Place, Truth};
+use crate::truth::{Crossing, Feature, Place};
 use std::cmp::Ordering;
 
 pub(super) struct Behind;
@@ -33,12 +33,8 @@ impl Recipe for Behind {
         at(draw, t).made()
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| {
-            truth.crossing().is_some_and(|crossing| {
-                crossing.t_sign == Ordering::Less && crossing.feature != Feature::Outside
-            })
-        })
+    fn crosses(crossing: &Crossing) -> bool {
+        crossing.t_sign == Ordering::Less && crossing.feature != Feature::Outside
     }
 }
 
@@ -61,12 +57,8 @@ impl Recipe for IntervalEnds {
         })
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| {
-            truth.crossing().is_some_and(|crossing| {
-                matches!(crossing.place, Place::AtMin | Place::AtMax | Place::Beyond)
-                    && crossing.feature != Feature::Outside
-            })
-        })
+    fn crosses(crossing: &Crossing) -> bool {
+        matches!(crossing.place, Place::AtMin | Place::AtMax | Place::Beyond)
+            && crossing.feature != Feature::Outside
     }
 }

@@ -28,7 +28,7 @@ impl Recipe for Lattice {
         IntegerCase { origin, direction, triangle: [a, b, c] }.made()
     }
 
-    fn keeps(_: &[Truth]) -> bool {
+    fn holds(_: &Truth) -> bool {
         true
     }
 }

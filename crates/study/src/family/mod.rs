@@ -38,7 +38,7 @@ use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;
 use crate::case::{Case, CaseId, Draw, Parameters};
 use crate::kernel::{self, Scalar};
-use crate::truth::Truth;
+use crate::truth::{Crossing, Truth};
 use std::any::Any;
 
 /// The triangles that one index of a family makes: one, or a group that shares a ray.
@@ -102,7 +102,19 @@ trait Recipe {
     /// Finishes a case after the parameters are applied.
     fn finish<F: Scalar>(_draw: &mut Draw, _parameters: &Parameters, _made: &mut Made<F>) {}
     /// True if the truths of one index keep the promise.
-    fn keeps(truths: &[Truth]) -> bool;
+    fn keeps(truths: &[Truth]) -> bool {
+        truths.iter().all(Self::holds)
+    }
+
+    /// The promise about the truth of each triangle: a crossing, unless a family says otherwise.
+    fn holds(truth: &Truth) -> bool {
+        truth.crossing().is_some_and(Self::crosses)
+    }
+
+    /// The promise about each crossing.
+    fn crosses(_crossing: &Crossing) -> bool {
+        true
+    }
 }
 
 /// A row of the table of families.

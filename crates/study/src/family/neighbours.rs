@@ -2,7 +2,7 @@
 
 use super::control::{combination, is_steep, well_shaped};
 use super::integer::{
-    LatticePoint, dot, minus, normal, plus, times, triangle_with_edge_point, turned,
+    IntegerCase, LatticePoint, dot, minus, normal, plus, times, triangle_with_edge_point, turned,
 };
 use super::{Grouping, Made, Recipe};
 use crate::arith::Float;
@@ -42,11 +42,10 @@ fn exact_pair<F: Float>(draw: &mut Draw) -> Vec<Case<F>> {
             continue;
         }
         let origin = minus(target, times(direction, draw.integer(1, 4)));
-        let float = |p: LatticePoint| p.map(|x| F::from_f64(x as f64));
-        let case = |triangle: [LatticePoint; 3]| {
-            Case::new(float(origin), float(direction), triangle.map(float))
+        let mut case = |triangle: [LatticePoint; 3]| {
+            IntegerCase { origin, direction, triangle: turned(draw, triangle) }.case()
         };
-        return [first, second].map(|triangle| case(turned(draw, triangle))).into();
+        return [first, second].map(&mut case).into();
     }
 }
 

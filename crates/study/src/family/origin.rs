@@ -7,7 +7,7 @@ use super::scene::{any_direction, hit_point, rounded};
 use super::{Grouping, Made, Recipe, apply_to_direction};
 use crate::case::{Case, Draw, Parameters};
 use crate::kernel::{Scalar, find};
-use crate::truth::{Feature, Truth};
+use crate::truth::{Crossing, Feature};
 use std::cmp::Ordering;
 
 pub(super) struct OriginOn;
@@ -33,12 +33,8 @@ impl Recipe for OriginOn {
         IntegerCase { origin, direction, triangle }.made()
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| {
-            truth.crossing().is_some_and(|crossing| {
-                crossing.t_sign == Ordering::Equal && crossing.feature != Feature::Outside
-            })
-        })
+    fn crosses(crossing: &Crossing) -> bool {
+        crossing.t_sign == Ordering::Equal && crossing.feature != Feature::Outside
     }
 }
 
@@ -64,10 +60,6 @@ impl Recipe for OriginNear {
             }
         }
     }
-
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| truth.crossing().is_some())
-    }
 }
 
 impl Recipe for SecondaryRay {
@@ -92,9 +84,5 @@ impl Recipe for SecondaryRay {
         let middle = || combination(triangle, [F::from_f64(1.0 / 3.0); 3]);
         let direction = apply_to_direction(parameters, rounded(any_direction(draw)));
         *case = Case::new(point.unwrap_or_else(middle), direction, triangle);
-    }
-
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| truth.crossing().is_some())
     }
 }

@@ -1,9 +1,11 @@
 //! `polygon`: exactly planar convex lattice polygons, as the fan of their first vertex. The truth is
 //! that of the union of the fan's triangles; `convex-polygon` tests the polygon as a whole.
 
-use super::integer::{LatticePoint, cross, dot, independent, minus, plus, times, transversal};
+use super::integer::{
+    IntegerCase, LatticePoint, cross, dot, independent, minus, plus, times, transversal,
+};
 use super::{Grouping, Made, Recipe};
-use crate::case::{Case, Draw};
+use crate::case::Draw;
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 
@@ -40,10 +42,10 @@ impl Recipe for Polygon {
         let direction = transversal(draw, n, 4);
         debug_assert_ne!(dot(direction, n), 0);
         let origin = minus(target, times(direction, draw.integer(1, 4)));
-        let float = |p: LatticePoint| p.map(|x| F::from_f64(x as f64));
-        let corner = |i: usize| float(times(vertices[i], 2));
+        let corner = |i: usize| times(vertices[i], 2);
         let case = |i: usize| {
-            Case::new(float(origin), float(direction), [corner(0), corner(i), corner(i + 1)])
+            let triangle = [corner(0), corner(i), corner(i + 1)];
+            IntegerCase { origin, direction, triangle }.case()
         };
         Made::Group((1..corners - 1).map(case).collect())
     }

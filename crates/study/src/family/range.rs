@@ -30,10 +30,6 @@ fn drawn<F: Float>(draw: &mut Draw, mut coordinate: impl FnMut(&mut Draw) -> F) 
     Made::One(Case::new(origin, direction, [a, b, c]))
 }
 
-fn all_finite(truths: &[Truth]) -> bool {
-    truths.iter().all(|truth| *truth != Truth::Invalid)
-}
-
 impl Recipe for MixedScale {
     const NAME: &'static str = "mixed-scale";
     const VERSION: u32 = 2;
@@ -46,8 +42,8 @@ impl Recipe for MixedScale {
         })
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        all_finite(truths)
+    fn holds(truth: &Truth) -> bool {
+        *truth != Truth::Invalid
     }
 }
 
@@ -76,8 +72,8 @@ impl Recipe for RangeEnds {
         })
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        all_finite(truths)
+    fn holds(truth: &Truth) -> bool {
+        *truth != Truth::Invalid
     }
 }
 
@@ -107,7 +103,7 @@ impl Recipe for Invalid {
         Made::One(Case::new(origin, direction, [a, b, c]))
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| *truth == Truth::Invalid)
+    fn holds(truth: &Truth) -> bool {
+        *truth == Truth::Invalid
     }
 }

@@ -31,10 +31,6 @@ impl Recipe for Sliver {
             _ => Made::One(generic(draw)),
         }
     }
-
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| truth.crossing().is_some())
-    }
 }
 
 /// A sliver in the coordinates of its plane, and a point to aim at.
@@ -132,7 +128,7 @@ impl Recipe for Degenerate {
         .made()
     }
 
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(|truth| matches!(truth, Truth::Degenerate(_)))
+    fn holds(truth: &Truth) -> bool {
+        matches!(truth, Truth::Degenerate(_))
     }
 }

@@ -6,7 +6,6 @@ use super::{Made, Recipe, apply};
 use crate::arith::Float;
 use crate::case::{Case, Draw, Parameters};
 use crate::kernel::Scalar;
-use crate::truth::Truth;
 
 pub(super) struct Tiny;
 pub(super) struct Huge;
@@ -28,10 +27,6 @@ fn scaled<F: Float>(draw: &mut Draw, scale: i32) -> Made<F> {
     Made::One(case)
 }
 
-fn all_transversal(truths: &[Truth]) -> bool {
-    truths.iter().all(|truth| truth.crossing().is_some())
-}
-
 impl Recipe for Tiny {
     const NAME: &'static str = "tiny";
     const VERSION: u32 = 2;
@@ -39,10 +34,6 @@ impl Recipe for Tiny {
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         scaled(draw, -40)
-    }
-
-    fn keeps(truths: &[Truth]) -> bool {
-        all_transversal(truths)
     }
 }
 
@@ -53,10 +44,6 @@ impl Recipe for Huge {
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         scaled(draw, 40)
-    }
-
-    fn keeps(truths: &[Truth]) -> bool {
-        all_transversal(truths)
     }
 }
 
@@ -90,9 +77,5 @@ impl Recipe for Far {
         }
         let direction = direction.map(|x| F::from_f64(x as f64));
         Made::One(Case::new(float(origin), direction, [a, b, c].map(float)))
-    }
-
-    fn keeps(truths: &[Truth]) -> bool {
-        all_transversal(truths)
     }
 }
