@@ -9,6 +9,7 @@ use super::builder::{FilePlace, MeshBuilder};
 use super::counted::ReadLimits;
 use super::{InputError, Mesh};
 use buffers::Buffers;
+use glam::DAffine3;
 use gltf::json;
 use gltf::json::validation::Checked;
 use gltf::mesh::{Mode, Semantic};
@@ -17,7 +18,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::Read;
 use std::mem;
-use transform::Transform;
+use transform::{mirrors, place, transform_of};
 
 /// The first bytes of a GLB file.
 pub(super) const MAGIC: &[u8] = b"glTF";
@@ -167,8 +168,8 @@ impl GltfReader<'_> {
     /// Adds the meshes of the default scene, or of the first one, or of all nodes if there is no scene.
     fn walk(&mut self, document: &Document) -> Result<(), InputError> {
         let scene = document.default_scene().or_else(|| document.scenes().next());
-        let mut waiting: Vec<(Node, Transform)> = match scene {
-            Some(scene) => scene.nodes().map(|node| (node, Transform::IDENTITY)).collect(),
+        let mut waiting: Vec<(Node, DAffine3)> = match scene {
+            Some(scene) => scene.nodes().map(|node| (node, DAffine3::IDENTITY)).collect(),
             None => {
                 let children: Vec<usize> = document
                     .nodes()
@@ -177,7 +178,7 @@ impl GltfReader<'_> {
                 let mut is_root = vec![true; document.nodes().len()];
                 children.into_iter().for_each(|child| is_root[child] = false);
                 let roots = document.nodes().filter(|node| is_root[node.index()]);
-                roots.map(|node| (node, Transform::IDENTITY)).collect()
+                roots.map(|node| (node, DAffine3::IDENTITY)).collect()
             }
         };
         waiting.reverse();
@@ -186,8 +187,8 @@ impl GltfReader<'_> {
             if mem::replace(&mut seen[node.index()], true) {
                 return self.error(format!("nodes[{}] has two parents", node.index()));
             }
-            let local = Transform::of(&node.transform());
-            let Some(transform) = local.map(|local| above.after(&local)) else {
+            let local = transform_of(&node.transform());
+            let Some(transform) = local.map(|local| above * local) else {
                 let expected = "expected a matrix whose last row is 0 0 0 1";
                 return self.error(format!("nodes[{}].matrix: {expected}", node.index()));
             };
@@ -203,7 +204,7 @@ impl GltfReader<'_> {
         Ok(())
     }
 
-    fn add_mesh(&mut self, mesh: &gltf::Mesh, transform: &Transform) -> Result<(), InputError> {
+    fn add_mesh(&mut self, mesh: &gltf::Mesh, transform: &DAffine3) -> Result<(), InputError> {
         // Where the vertices of each accessor begin: primitives may share them.
         let mut starts = HashMap::new();
         for primitive in mesh.primitives() {
@@ -233,7 +234,7 @@ impl GltfReader<'_> {
     fn add_vertices(
         &mut self,
         accessor: &Accessor,
-        transform: &Transform,
+        transform: &DAffine3,
         place: &str,
     ) -> Result<(), InputError> {
         use gltf::accessor::{DataType, Dimensions};
@@ -249,7 +250,7 @@ impl GltfReader<'_> {
         for (index, position) in bytes.as_chunks::<12>().0.iter().enumerate() {
             let coordinates = position.as_chunks::<4>().0;
             let local = [0, 1, 2].map(|axis| f32::from_le_bytes(coordinates[axis]));
-            let wide = transform.apply(local);
+            let wide = place(transform, local);
             if let Some(number) = wide.iter().find(|number| !number.is_finite()) {
                 return self
                     .error(format!("{place}: vertex {index} has {number}, which is not finite"));
@@ -265,7 +266,7 @@ impl GltfReader<'_> {
         primitive: &Primitive,
         start: u32,
         vertices: usize,
-        transform: &Transform,
+        transform: &DAffine3,
         place: &str,
     ) -> Result<(), InputError> {
         let count = primitive.indices().map_or(vertices, |indices| indices.count());
@@ -290,7 +291,7 @@ impl GltfReader<'_> {
                 Mode::TriangleFan => [0, i + 1, i + 2],
                 _ => [3 * i, 3 * i + 1, 3 * i + 2],
             };
-            if transform.mirrors() {
+            if mirrors(transform) {
                 mem::swap(&mut b, &mut c);
             }
             let number = self.mesh.triangles() as u32 + 1;
