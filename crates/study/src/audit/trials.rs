@@ -58,13 +58,6 @@ impl Trials {
         Trials { count, of, products: RayProducts::of_single(count, of) }
     }
 
-    /// Trials of which only the sum of n² over the rays is known: all trials of a ray count as ending
-    /// alike, which makes the widest interval.
-    pub fn alike_on_each_ray(count: u64, of: u64, of_squared: u64) -> Trials {
-        let none = RayProducts { of_squared, ..RayProducts::default() };
-        Trials { count: 0, of, products: none }.scaled(count, of)
-    }
-
     /// Adds a ray with so many findings among so many trials.
     pub fn add_ray(&mut self, count: u64, of: u64) {
         self.count += count;
@@ -236,7 +229,6 @@ mod tests {
         // All that is known without a finding: rays of 6, as if each were one trial.
         let none = trials((0..300).map(|_| (0, 6)));
         assert_same(none.scaled(60, 1800).interval(), Trials::independent(10, 300).interval());
-        assert_eq!(Trials::alike_on_each_ray(60, 1800, 10_800), none.scaled(60, 1800));
         // Rays with one trial stay so, and nothing is known of nothing.
         assert_eq!(Trials::independent(0, 90).scaled(5, 70), Trials::independent(5, 70));
         assert_eq!(Trials::default().scaled(5, 70), Trials::independent(5, 70));

@@ -8,6 +8,7 @@ use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters, Ray, Triangle};
 use crate::corpus::mesh::Mesh;
 use crate::family::{self, Grouping};
+use glam::DVec3;
 
 const VERSION: u32 = 1;
 
@@ -184,17 +185,15 @@ impl<'m> Targets<'m> {
         ends: [[F; 3]; 2],
         triangle: [[F; 3]; 3],
     ) -> ([F; 3], [F; 3]) {
-        let wide = triangle.map(|corner| corner.map(F::to_f64));
-        let size = (0..3).fold(0.0, |m: f64, i| {
-            m.max((wide[1][i] - wide[0][i]).abs()).max((wide[2][i] - wide[0][i]).abs())
-        });
+        let wide = triangle.map(|corner| DVec3::from(corner.map(F::to_f64)));
+        let size = (wide[1] - wide[0]).abs().max((wide[2] - wide[0]).abs()).max_element();
         let toward = if aim.grazing { grazing_direction(draw, wide) } else { any_direction(draw) };
         let distance = if draw.coin() {
             self.topology.extent * (0.5 + 1.5 * draw.unit())
         } else {
             size * (1.0 + 7.0 * draw.unit())
         };
-        let away = toward.map(|x| x * distance);
+        let away = (toward * distance).to_array();
         if aim.exact {
             return exact_ray(ends, away);
         }
@@ -210,44 +209,30 @@ impl<'m> Targets<'m> {
 }
 
 /// A unit vector, rounded; every direction is as likely.
-fn any_direction(draw: &mut Draw) -> [f64; 3] {
+fn any_direction(draw: &mut Draw) -> DVec3 {
     loop {
-        let v: [f64; 3] = std::array::from_fn(|_| 2.0 * draw.unit() - 1.0);
-        let square = dot(v, v);
+        let v = DVec3::from_array(std::array::from_fn(|_| 2.0 * draw.unit() - 1.0));
+        let square = v.length_squared();
         if (0.01..=1.0).contains(&square) {
-            let length = square.sqrt();
-            return v.map(|x| x / length);
+            return v / square.sqrt();
         }
     }
 }
 
 /// A vector of about unit length, 2^-1 to 2^-12 off the plane of a triangle.
-fn grazing_direction(draw: &mut Draw, [a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+fn grazing_direction(draw: &mut Draw, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let any = any_direction(draw);
     let tilt = 1.0 / (1u64 << draw.integer(1, 12)) as f64;
     let tilt = if draw.coin() { tilt } else { -tilt };
     // Edges of length about one, so that products neither overflow nor underflow.
-    let edge = |to: [f64; 3]| {
-        let edge: [f64; 3] = std::array::from_fn(|i| to[i] - a[i]);
-        let largest = edge.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-        edge.map(|x| x / largest)
-    };
-    let (u, v) = (edge(b), edge(c));
-    let normal: [f64; 3] = std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        u[j] * v[k] - u[k] * v[j]
-    });
-    let length = dot(normal, normal).sqrt();
+    let edge = |to: DVec3| (to - a) / (to - a).abs().max_element();
+    let normal = edge(b).cross(edge(c));
+    let length = normal.length();
     if !(length > 0.0 && length.is_finite()) {
         return any;
     }
-    let normal = normal.map(|x| x / length);
-    let along = dot(any, normal);
-    std::array::from_fn(|i| any[i] - along * normal[i] + tilt * normal[i])
-}
-
-fn dot(u: [f64; 3], v: [f64; 3]) -> f64 {
-    u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+    let normal = normal / length;
+    any - any.dot(normal) * normal + tilt * normal
 }
 
 /// A ray through the middle of a segment (or through a point given twice), from about as far away as
