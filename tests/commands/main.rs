@@ -44,4 +44,3 @@ mod spawn;
 mod terminal;
 mod variants;
 mod vectors;
-mod worst;
