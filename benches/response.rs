@@ -6,7 +6,7 @@
 
 use hairline::internals::audit::{EpsilonChoice, Observer, Source};
 use hairline::internals::case::{Case, Parameters};
-use hairline::internals::epsilon::{Attempt, Knob, Setting, count_at, counts_of};
+use hairline::internals::epsilon::{Attempt, Knob, Pass, Setting, count_at, counts_of};
 use hairline::internals::family::FAMILIES;
 use hairline::internals::kernel::{KERNELS, Scalar, Verdict};
 use hairline::internals::oracle::{Layers, truths};
@@ -94,7 +94,8 @@ fn lines<F: Scalar>() {
             store: None,
         };
         let attempt = [Attempt::new(vec![F::zero(); knobs.len()])];
-        let response = median(|| drop(black_box(count_at(&setting, &attempt, 1, COUNT, &Silent))));
+        let response =
+            median(|| drop(black_box(count_at(&setting, &attempt, Pass::new(1, COUNT, &Silent)))));
         println!(
             "{:<28}{}{:>8.0}{:>8.0}{:>8.0}{:>10.0}{:>8.2}{:>8.2}",
             row.entry.info.name,

@@ -5,7 +5,9 @@ use hairline::internals::arith::Float;
 use hairline::internals::audit::{CorpusSet, Source, Unobserved};
 use hairline::internals::case::{Case, Draw};
 use hairline::internals::corpus::lines::AnyCase;
-use hairline::internals::epsilon::{Attempt, Knob, RayCount, Rays, Setting, WrongKind, count_at};
+use hairline::internals::epsilon::{
+    Attempt, Knob, Pass, RayCount, Rays, Setting, WrongKind, count_at,
+};
 use hairline::internals::explore::inputs::{Input, of_kernel};
 use hairline::internals::explore::{Signature, mutate};
 use hairline::internals::judge::{self, Obligation};
@@ -150,7 +152,7 @@ where
         let about = about.chain([epsilons[gate]]).filter(|e| is_taken(e) && e.is_finite());
         let about: Vec<F> = about.collect();
         let attempts: Vec<_> = about.iter().map(|e| Attempt::new(vec![*e])).collect();
-        let told = count_at(&setting, &attempts, 1, 1, &Unobserved);
+        let told = count_at(&setting, &attempts, Pass::new(1, 1, &Unobserved));
         for (epsilon, told) in about.iter().zip(told) {
             let mut at = epsilons.clone();
             at[gate] = *epsilon;

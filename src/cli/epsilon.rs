@@ -14,7 +14,7 @@ use crate::arith::Float;
 use crate::arith::smallest_normal;
 use crate::audit::Row;
 use crate::epsilon::{
-    COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, RayCount, Setting, StudiedRays,
+    COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Pass, RayCount, Setting, StudiedRays,
     contract_with, counts, counts_of, own_epsilons,
 };
 use crate::family::STRATA;
@@ -154,9 +154,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         least_t: least_t.as_deref(),
         at: &arguments.at,
         fine_curves: arguments.curves,
-        seed,
-        count,
-        progress: &progress,
+        pass: Pass::new(seed, count, &progress),
     };
     let mut parts = Vec::new();
     for tuned in &tuned {
@@ -191,9 +189,7 @@ struct EpsilonRun<'a> {
     least_t: Option<&'a str>,
     at: &'a [String],
     fine_curves: bool,
-    seed: u64,
-    count: u64,
-    progress: &'a Progress,
+    pass: Pass<'a>,
 }
 
 impl EpsilonRun<'_> {
@@ -261,11 +257,11 @@ impl EpsilonRun<'_> {
             }
             named.push((text.clone(), vec![value]));
         }
-        let EpsilonRun { costs, max_error, seed, count, progress, .. } = *self;
-        let study = F::study_scene(&setting, costs, max_error, &named, seed, count, progress);
+        let EpsilonRun { costs, max_error, pass, .. } = *self;
+        let study = F::study_scene(&setting, costs, max_error, &named, pass);
         found_margins(name, setting.subject)?;
         let mut study = study.map_err(|error| fault(row.entry, error))?;
-        F::try_elsewhere(&setting, &mut study, &self.studied.others, seed, count, progress);
+        F::try_elsewhere(&setting, &mut study, &self.studied.others, pass);
         Ok((kernel_part(&setting, &tuned.row.contract, &study, max_error), study.nanoseconds))
     }
 }

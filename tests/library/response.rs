@@ -5,7 +5,7 @@ use hairline::internals::audit::{
 };
 use hairline::internals::case::{Draw, Parameters};
 use hairline::internals::epsilon::{
-    Attempt, Knob, RayCount, Setting, WrongKind, count_at, counts_of,
+    Attempt, Knob, Pass, RayCount, Setting, WrongKind, count_at, counts_of,
 };
 use hairline::internals::family::find;
 use hairline::internals::judge::Finding;
@@ -99,7 +99,7 @@ fn counts_agree_with_running<F: Scalar>() {
                 };
                 let epsilons: Vec<F> = knobs.iter().map(epsilon).collect();
                 let attempt = [Attempt::new(epsilons.clone())];
-                let found = count_at(&setting, &attempt, 1, 60, &Silent).remove(0);
+                let found = count_at(&setting, &attempt, Pass::new(1, 60, &Silent)).remove(0);
                 let tally = audited(&row, &sources[0], &knobs, &epsilons);
                 let total = tally.total();
                 for (count, found) in counts.iter().zip(found) {
@@ -140,7 +140,7 @@ fn counts_do_not_depend_on_the_number_of_threads() {
     let attempt = [Attempt::new(vec![1e-6; knobs.len()])];
     let with = |threads: usize| {
         let stock = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        stock.install(|| count_at(&setting, &attempt, 1, 5000, &Silent))
+        stock.install(|| count_at(&setting, &attempt, Pass::new(1, 5000, &Silent)))
     };
     let one = with(1);
     assert_eq!(one, with(2));

@@ -6,8 +6,8 @@ use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Parameters, SCENES, Scene};
 use hairline::internals::corpus::mesh;
 use hairline::internals::epsilon::{
-    Attempt, Costs, Knob, KnobLimit, MaxError, ProvedValue, RayCount, Rays, Setting, WrongKind,
-    cheapest, contract_with, count_at, counts, limits, proved,
+    Attempt, Costs, Knob, KnobLimit, MaxError, Pass, ProvedValue, RayCount, Rays, Setting,
+    WrongKind, cheapest, contract_with, count_at, counts, limits, proved,
 };
 use hairline::internals::family::{MeshFamily, Stratum};
 use hairline::internals::judge::{GroupTruth, Obligation, asked, group_obligation};
@@ -236,7 +236,8 @@ fn no_point_of_a_small_grid_is_cheaper_than_the_recommended_one() {
         let all = all_counted(&setting, seed, number);
         for costs in ["crack=10", "crack=1,self-hit=30", "miss=0.01,hit=5"] {
             let costs = Costs::parse(costs).unwrap();
-            let best = cheapest(&setting, &costs, None, seed, number, &Unobserved).unwrap();
+            let best =
+                cheapest(&setting, &costs, None, Pass::new(seed, number, &Unobserved)).unwrap();
             let cost = |epsilons: &[f32]| costs.total(&counts, shares(&setting, &all, epsilons));
             let least = cost(&best);
             let gates = row.entry.info.gates;
@@ -264,9 +265,12 @@ fn no_point_of_a_small_grid_is_cheaper_than_the_recommended_one() {
                 );
             }
             // And the counts by margins are those of the run.
-            let wrong =
-                count_at(&setting, &[Attempt::new(best.clone())], seed, number, &Unobserved)
-                    .remove(0);
+            let wrong = count_at(
+                &setting,
+                &[Attempt::new(best.clone())],
+                Pass::new(seed, number, &Unobserved),
+            )
+            .remove(0);
             let counted: Vec<f64> = wrong.iter().map(|w| w.share().unwrap_or(0.0)).collect();
             assert_eq!(counted, shares(&setting, &all, &best), "{kernel} {best:?}");
         }
@@ -289,11 +293,13 @@ fn check_limits(kernel: &str, scene: &str, epsilons: &[f32; 3], many: u64) {
     let (row, knobs, counts) = tuned(kernel);
     let setting = setting(&row, &knobs, &counts, &scene);
     let (number, runs) = (400, 100);
-    let found: Vec<_> =
-        (1..=runs).map(|seed| limits(&setting, epsilons, seed, number, &Unobserved)).collect();
+    let found: Vec<_> = (1..=runs)
+        .map(|seed| limits(&setting, epsilons, Pass::new(seed, number, &Unobserved)))
+        .collect();
     let attempts: Vec<Attempt<f32>> =
         found.iter().flatten().filter_map(|l| Attempt::at_limit(l, epsilons)).collect();
-    let mut wrong = count_at(&setting, &attempts, 1 << 40, many, &Unobserved).into_iter();
+    let mut wrong =
+        count_at(&setting, &attempts, Pass::new(1 << 40, many, &Unobserved)).into_iter();
     let mut violated = std::collections::BTreeMap::<(usize, usize), u32>::new();
     for limit in found.iter().flatten().filter(|limit| limit.value.is_some()) {
         let share = wrong.next().unwrap()[limit.count].share().unwrap();
@@ -347,7 +353,8 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
     let costs = Costs::default();
     let (mut violated, mut claims) = (0, 0);
     for seed in 1..=runs {
-        let best = cheapest(&setting, &costs, Some(&max_error), seed, number, &Unobserved);
+        let best =
+            cheapest(&setting, &costs, Some(&max_error), Pass::new(seed, number, &Unobserved));
         // A sample may be too small to show it anywhere; then nothing is claimed.
         let Some(epsilon) = best.map(|best| best[0]) else { continue };
         claims += 1;
@@ -363,14 +370,14 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
         violated += u32::from(0.01 < share);
     }
     // The cheapest epsilon without a limit is another one, with larger errors.
-    gates[0] = cheapest(&setting, &costs, None, 1, number, &Unobserved).unwrap()[0];
+    gates[0] = cheapest(&setting, &costs, None, Pass::new(1, number, &Unobserved)).unwrap()[0];
     let free: Vec<f64> = cases.iter().filter_map(|case| error_of_t(kernel, &gates, case)).collect();
     let larger = free.iter().filter(|error| most < **error).count();
     assert!(free.len() < 50 * larger, "{larger} of {}", free.len());
     // Of 100 seeds, 5 are expected at most; 12 or more happen once in 250 times then.
     assert!(violated < 12 && 95 < claims, "{violated} of {claims}: {known:?}");
     let none = MaxError::parse("t=1e-12").unwrap();
-    assert_eq!(cheapest(&setting, &costs, Some(&none), 1, number, &Unobserved), None);
+    assert_eq!(cheapest(&setting, &costs, Some(&none), Pass::new(1, number, &Unobserved)), None);
 }
 
 #[test]
@@ -385,7 +392,7 @@ fn proved_values_are_beyond_the_limits_that_rays_show_and_no_ray_contradicts_the
             let seen = if proved.is_empty() {
                 vec![]
             } else {
-                limits(&setting, &zero, 7, 2000, &Unobserved)
+                limits(&setting, &zero, Pass::new(7, 2000, &Unobserved))
             };
             for ProvedValue { knob, count, is_lower, value } in proved {
                 let name =
@@ -393,7 +400,8 @@ fn proved_values_are_beyond_the_limits_that_rays_show_and_no_ray_contradicts_the
                 let at = Some(value);
                 let limit = KnobLimit { knob, count, is_lower, value: at, far: None, one_in: 1 };
                 let attempt = [Attempt::at_limit(&limit, &zero).unwrap()];
-                let wrong = count_at(&setting, &attempt, 11, 4000, &Unobserved).remove(0)[count];
+                let wrong =
+                    count_at(&setting, &attempt, Pass::new(11, 4000, &Unobserved)).remove(0)[count];
                 assert_eq!(wrong.count, 0, "{name}");
                 assert!(0 < wrong.of, "{name}");
                 let same = |other: &&KnobLimit<f32>| other.knob == knob && other.count == count;

@@ -2,7 +2,7 @@
 //! them once more, with its own optimisation.
 
 use crate::audit::mesh;
-use crate::epsilon::{self, Costs, MaxError, SceneStudy, Setting};
+use crate::epsilon::{self, Costs, MaxError, Pass, SceneStudy, Setting};
 use crate::family::Family;
 use crate::mesh::Surface;
 use crate::selfcheck::{self, Check, Reference};
@@ -34,17 +34,13 @@ studied! {
         costs: &Costs,
         max_error: Option<&MaxError>,
         named: &[(String, Vec<Self>)],
-        seed: u64,
-        count: u64,
-        observer: &dyn Observer,
+        pass: Pass<'_>,
     ) -> Result<SceneStudy<Self>, String>;
     epsilon::try_elsewhere: fn try_elsewhere(
         setting: &Setting<'_, Self>,
         study: &mut SceneStudy<Self>,
         scenes: &[Scene],
-        seed: u64,
-        count: u64,
-        observer: &dyn Observer,
+        pass: Pass<'_>,
     ) -> ();
     mesh::run::<Self>: fn mesh(
         surface: &Arc<Surface>,

@@ -5,7 +5,7 @@ use super::meshes::Mesh;
 use super::rays::{Aim, Shot};
 use hairline::internals::audit::Unobserved;
 use hairline::internals::case::Case;
-use hairline::internals::epsilon::{Costs, WrongKind, study_scene};
+use hairline::internals::epsilon::{Costs, Pass, WrongKind, study_scene};
 use hairline::internals::family::Stratum;
 use hairline::internals::kernel::Scalar;
 
@@ -94,7 +94,9 @@ pub fn recommended<F: Scalar>(mesh: &Mesh, plane: &str, kernel: &str, count: u64
         (rays::<F>(mesh, plane, &tuned, 21, drawn), rays::<F>(mesh, plane, &tuned, 22, drawn));
     let scene = scene_of(mesh, &known[0].all, plane);
     let setting = tuned.setting::<F>(&scene, &tuned.counts);
-    let study = study_scene(&setting, &Costs::default(), None, &[], 1, count, &Unobserved).unwrap();
+    let study =
+        study_scene(&setting, &Costs::default(), None, &[], Pass::new(1, count, &Unobserved))
+            .unwrap();
     let aims: Vec<_> = Aim::ALL.map(count_of).into();
     let said = tuned.counts.iter().zip(&study.tried[0].wrong).map(|(count, wrong)| {
         assert!(

@@ -7,7 +7,8 @@ use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Scene};
 use hairline::internals::corpus::mesh;
 use hairline::internals::epsilon::{
-    Attempt, Knob, RayCount, Setting, WrongKind, contract_with, count_at, counts, own_epsilons,
+    Attempt, Knob, Pass, RayCount, Setting, WrongKind, contract_with, count_at, counts,
+    own_epsilons,
 };
 use hairline::internals::family::{MeshFamily, Stratum};
 use hairline::internals::kernel::{Scalar, Verdict, find};
@@ -177,7 +178,7 @@ pub fn theirs<F: Scalar>(
     let counts = [count_of(aim)];
     let attempts = [Attempt::new(epsilons.to_vec())];
     let setting = tuned.setting::<F>(scene, &counts);
-    let trials = count_at(&setting, &attempts, 1, count, &Unobserved)[0][0];
+    let trials = count_at(&setting, &attempts, Pass::new(1, count, &Unobserved))[0][0];
     Rate { count: trials.count, of: trials.of }
 }
 
@@ -209,6 +210,6 @@ pub fn theirs_at<F: Scalar>(
     let counts = [count_of(aim)];
     let attempts = [Attempt::new(epsilons.to_vec())];
     let setting = Setting { mesh: Some(mesh), ..tuned.setting::<F>(scene, &counts) };
-    let trials = count_at(&setting, &attempts, 1, count, &Unobserved)[0][0];
+    let trials = count_at(&setting, &attempts, Pass::new(1, count, &Unobserved))[0][0];
     Rate { count: trials.count, of: trials.of }
 }

@@ -4,10 +4,10 @@ use super::errors::{MaxError, errors_of};
 use super::joint::KnobGrid;
 use super::knob::{Knob, MOST_KNOBS};
 use super::rays::{Rays, WrongKind};
-use super::trials::{Setting, Trial};
+use super::trials::{Pass, Setting, Trial};
 use crate::arith::{Float, smallest_normal};
 use crate::case::{DirectionLength, Scene};
-use crate::engine::{Merge, Observer};
+use crate::engine::Merge;
 use crate::kernel::{Dimension, Gate, Role, Scalar};
 use std::ops::RangeInclusive;
 
@@ -73,9 +73,7 @@ pub fn grid<F: Scalar>(
     setting: &Setting<'_, F>,
     most_points: usize,
     max_error: Option<&MaxError>,
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
 ) -> (KnobGrid<F>, usize) {
     let gates = setting.row.entry.info.gates;
     let empty = || Ranges { above: [None; MOST_KNOBS], below: [None; MOST_KNOBS] };
@@ -122,8 +120,8 @@ pub fn grid<F: Scalar>(
             }
         }
     };
-    let pilot = count.min(PILOT);
-    let ranges = setting.sum(seed, pilot, observer, empty, add);
+    let pilot = Pass { count: pass.count.min(PILOT), ..pass };
+    let ranges = setting.sum(pilot, empty, add);
     let mut step = 0;
     loop {
         let of_knob = |(k, knob): (usize, &Knob)| {

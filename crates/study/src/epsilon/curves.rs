@@ -3,9 +3,9 @@
 use super::candidates::round_values;
 use super::limits::{KnobLimit, alone};
 use super::proved::ProvedValue;
-use super::trials::{Setting, Trial};
+use super::trials::{Pass, Setting, Trial};
 use crate::arith::Float;
-use crate::engine::{Merge, Observer};
+use crate::engine::Merge;
 use crate::kernel::Scalar;
 
 /// The wrong answers at some values of a knob.
@@ -35,9 +35,7 @@ pub fn curves<F: Scalar>(
     setting: &Setting<'_, F>,
     epsilons: &[F],
     axes: &[Vec<F>],
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
 ) -> Vec<Curve<F>> {
     // Beside those that are hits at some values: one more cell for those that no value accepts, and the last
     // for those that the other knobs refuse.
@@ -55,7 +53,7 @@ pub fn curves<F: Scalar>(
             sums.0[k][trial.count][accepted] += 1;
         }
     };
-    let Accepted(cells) = setting.sum(seed, count, observer, empty, add);
+    let Accepted(cells) = setting.sum(pass, empty, add);
     let curve = |(values, cells): (&Vec<F>, Vec<Vec<u64>>)| {
         let at = |cells: &Vec<u64>| {
             (0..values.len()).map(|i| cells[i + 1..=values.len()].iter().sum()).collect()

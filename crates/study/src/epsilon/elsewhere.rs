@@ -1,10 +1,9 @@
 //! Tries a study's recommendation in the same scene on planes and with rays of other kinds.
 
 use super::measure::{Attempt, count_at};
-use super::study::{Elsewhere, SceneStudy, fresh_seed};
-use super::trials::Setting;
+use super::study::{Elsewhere, SceneStudy};
+use super::trials::{Pass, Setting};
 use crate::case::Scene;
-use crate::engine::Observer;
 use crate::kernel::Scalar;
 
 /// Tries the recommended epsilons and the proved values in other scenes. A value that is wrong there is taken out of what
@@ -13,9 +12,7 @@ pub fn try_elsewhere<F: Scalar>(
     setting: &Setting<'_, F>,
     study: &mut SceneStudy<F>,
     scenes: &[Scene],
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
 ) {
     for scene in scenes {
         let mut attempts = vec![Attempt::new(study.best.clone())];
@@ -24,8 +21,7 @@ pub fn try_elsewhere<F: Scalar>(
             Attempt::alone(bound.knob, bound.value, bound.is_lower, &study.best)
         }));
         let setting = Setting { scene: Some(scene), store: None, ..*setting };
-        let mut wrong =
-            count_at(&setting, &attempts, fresh_seed(seed), count, observer).into_iter();
+        let mut wrong = count_at(&setting, &attempts, pass.fresh()).into_iter();
         let of_best = wrong.next().expect("one attempt at least");
         study.elsewhere.push(Elsewhere { kind: scene.kind(), wrong: of_best });
         study.proved.retain(|found| {

@@ -3,10 +3,10 @@
 use super::errors::{MaxError, errors_of};
 use super::knob::KnobMargins;
 use super::rays::{RayCount, WrongKind};
-use super::trials::{Setting, Trial};
+use super::trials::{Pass, Setting, Trial};
 use crate::arith::Float;
 use crate::audit::Trials;
-use crate::engine::{Merge, Observer};
+use crate::engine::Merge;
 use crate::kernel::Scalar;
 use crate::suggest::nearest_name;
 
@@ -149,9 +149,7 @@ impl<F: Scalar> Joint<F> {
         setting: &Setting<'_, F>,
         grid: KnobGrid<F>,
         max_error: Option<&MaxError>,
-        seed: u64,
-        count: u64,
-        observer: &dyn Observer,
+        pass: Pass<'_>,
     ) -> Joint<F> {
         let number = setting.counts.len();
         let none = vec![Vec::new(); number];
@@ -171,7 +169,7 @@ impl<F: Scalar> Joint<F> {
                 add_to(&mut sums.exceeded[trial.count]);
             }
         };
-        let JointSums { of, cells, exceeded } = setting.sum(seed, count, observer, empty, add);
+        let JointSums { of, cells, exceeded } = setting.sum(pass, empty, add);
         let all = |cells: Vec<Vec<i64>>| {
             cells.into_iter().map(|cells| accumulated(&grid, cells)).collect()
         };

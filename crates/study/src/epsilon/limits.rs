@@ -9,9 +9,9 @@
 use super::candidates::middle;
 use super::confidence::{Ranks, kept, ranks};
 use super::rays::{RayCount, Rays, WrongKind};
-use super::trials::{Setting, Trial, accepts};
+use super::trials::{Pass, Setting, Trial, accepts};
 use crate::arith::{Float, smallest_normal, two_digits};
-use crate::engine::{Merge, Observer};
+use crate::engine::Merge;
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
 
@@ -112,11 +112,9 @@ fn side(role: Role, count: RayCount) -> Option<bool> {
 pub fn limits<F: Scalar>(
     setting: &Setting<'_, F>,
     epsilons: &[F],
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
 ) -> Vec<KnobLimit<F>> {
-    printed(setting, all_limits(setting, epsilons, seed, count, observer))
+    printed(setting, all_limits(setting, epsilons, pass))
 }
 
 /// The limits that say something of the kernel, which are printed.
@@ -132,9 +130,7 @@ pub fn printed<F: Scalar>(
 pub fn all_limits<F: Scalar>(
     setting: &Setting<'_, F>,
     epsilons: &[F],
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
 ) -> Vec<KnobLimit<F>> {
     let gates = setting.row.entry.info.gates;
     let mut pairs = Vec::new();
@@ -143,7 +139,7 @@ pub fn all_limits<F: Scalar>(
             pairs.extend(side(knob.role(gates), *counted).map(|is_lower| (k, c, is_lower)));
         }
     }
-    let kept = kept(count);
+    let kept = kept(pass.count);
     let empty = || {
         let tail = |(k, c, lower): &(usize, usize, bool)| {
             (*k, *c, *lower, Tail { of: 0, kept, margins: Vec::new() })
@@ -162,7 +158,7 @@ pub fn all_limits<F: Scalar>(
             }
         }
     };
-    let Tails(tails) = setting.sum(seed, count, observer, empty, add);
+    let Tails(tails) = setting.sum(pass, empty, add);
     let limit = |(knob, count, is_lower, tail): (usize, usize, bool, Tail<F>)| {
         let Ranks { one_in, safe, far } = ranks(tail.of)?;
         let margin = |rank: u64| tail.margins.get(rank as usize - 1).copied();

@@ -5,7 +5,7 @@ use super::errors::{ErrorSums, MaxError, errors_of};
 use super::knob::{Knob, KnobMargins};
 use super::limits::{KnobLimit, alone, is_own};
 use super::rays::{RayCount, WrongKind};
-use super::trials::{Setting, Trial, accepts, is_unknown};
+use super::trials::{Pass, Setting, Trial, accepts, is_unknown};
 use crate::arith::Float;
 use crate::audit::Trials;
 use crate::case::Case;
@@ -157,23 +157,18 @@ impl WrongAnswers {
 pub fn count_at<F: Scalar>(
     setting: &Setting<'_, F>,
     attempts: &[Attempt<F>],
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
 ) -> Vec<Vec<Trials>> {
-    measure(setting, attempts, 0, None, seed, count, observer, |_, _| Ran::default()).trials
+    measure(setting, attempts, 0, None, pass, |_, _| Ran::default()).trials
 }
 
 /// The same, and the errors of the hits of the first attempts; a check may find a fault in a chunk.
-#[expect(clippy::too_many_arguments)]
 pub(super) fn measure<F: Scalar>(
     setting: &Setting<'_, F>,
     attempts: &[Attempt<F>],
     with_errors: usize,
     max_error: Option<&MaxError>,
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
     check: impl Fn(&[Case<F>], &[KnobMargins<F>]) -> Ran + Sync,
 ) -> WrongAnswers {
     let empty = || WrongAnswers::new(attempts.len(), with_errors, setting.counts);
@@ -186,7 +181,7 @@ pub(super) fn measure<F: Scalar>(
     let look = |sums: &mut WrongAnswers, cases: &[Case<F>], margins: &[KnobMargins<F>]| {
         sums.ran.merge(check(cases, margins));
     };
-    setting.sum_with(seed, count, observer, empty, add, look)
+    setting.sum_with(pass, empty, add, look)
 }
 
 /// Runs the kernel at some epsilons on a chunk's cases; a fault if it does not do as their margins say.

@@ -44,7 +44,6 @@ pub use proved::{ProvedValue, proved};
 pub use rays::{RayCount, Rays, WrongKind, counts, counts_of};
 pub use relative::scale_free_form;
 pub use study::{
-    Elsewhere, OnFresh, SCALE_FREE, SceneStudy, Tried, cheapest, fresh_seed, own_epsilons,
-    study_scene,
+    Elsewhere, OnFresh, SCALE_FREE, SceneStudy, Tried, cheapest, own_epsilons, study_scene,
 };
-pub use trials::{Setting, StudiedRays, Trial};
+pub use trials::{Pass, Setting, StudiedRays, Trial, fresh_seed};

@@ -4,8 +4,8 @@
 //! picture that these triangles cover once, side by side. No numbers of the kernel are asked, only its answers, so
 //! epsilons may be as wide as they like.
 
-use super::trials::{Setting, accepts, is_unknown};
-use crate::engine::{self, Observer};
+use super::trials::{Pass, Setting, accepts, is_unknown};
+use crate::engine;
 use crate::family::{Pixel, Stratum};
 use crate::judge::{Obligation, obligation};
 use crate::kernel::Scalar;
@@ -27,20 +27,19 @@ struct RaySums {
 pub fn holes<F: Scalar>(
     setting: &Setting<'_, F>,
     epsilons: &[Vec<F>],
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
 ) -> Vec<Option<f64>> {
     // Families are no scene, whose triangles could cover a picture.
     let Some(scene) = setting.scene else { return vec![None; epsilons.len()] };
     let empty = RaySums { leaks: vec![0.0; epsilons.len()], triangles: 0.0 };
-    let count = setting.source(Stratum::Edges, seed, count).count::<F>();
+    let count = setting.source(Stratum::Edges, pass.seed, pass.count).count::<F>();
     let starts: Vec<u64> = (0..count).step_by(CHUNK as usize).collect();
     let of_chunk = |start: &u64| {
         let mut sums = empty.clone();
         let indices = *start..count.min(start + CHUNK);
-        observer.advance(indices.end - indices.start);
-        indices.for_each(|index| sums.add(setting, epsilons, &setting.pixel(scene, seed, index)));
+        pass.observer.advance(indices.end - indices.start);
+        indices
+            .for_each(|index| sums.add(setting, epsilons, &setting.pixel(scene, pass.seed, index)));
         sums
     };
     // In their order: sums of floats depend on it.
@@ -149,7 +148,11 @@ mod tests {
                 _ => 0.0,
             };
             let epsilons: Vec<f32> = tuned.knobs.iter().map(of_knob).collect();
-            let found = holes(&tuned.setting(), slice::from_ref(&epsilons), 7, 60_000, &Unobserved);
+            let found = holes(
+                &tuned.setting(),
+                slice::from_ref(&epsilons),
+                Pass::new(7, 60_000, &Unobserved),
+            );
             let found = found[0].unwrap();
             let (share, pixels) = by_pixels(&tuned, &epsilons, 600_000);
             assert!(fewest <= pixels, "{kernel} {at}: {pixels} pixels");

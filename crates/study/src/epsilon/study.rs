@@ -12,11 +12,10 @@ use super::picture::holes;
 use super::prepared::Store;
 use super::proved::{ProvedValue, proved};
 use super::rays::{RayCount, Rays, WrongKind};
-use super::trials::Setting;
+use super::trials::{Pass, Setting};
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
 use crate::case::{Case, SceneKind};
-use crate::engine::Observer;
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
 use std::slice;
@@ -85,11 +84,6 @@ pub struct Tried<F> {
     pub holes: Option<f64>,
 }
 
-/// The seed of the fresh rays: the next one.
-pub fn fresh_seed(seed: u64) -> u64 {
-    seed.wrapping_add(1)
-}
-
 /// The name of epsilons that follow each case's size.
 pub const SCALE_FREE: &str = "scale-free";
 
@@ -103,23 +97,20 @@ pub fn study_scene<F: Scalar>(
     costs: &Costs,
     max_error: Option<&MaxError>,
     named: &[(String, Vec<F>)],
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
 ) -> Result<SceneStudy<F>, String> {
     let store = Store::default();
     let setting = &Setting { store: Some(&store), ..*setting };
-    let (counts, fresh) = (setting.counts, fresh_seed(seed));
-    let accurate = cheapest(setting, costs, max_error, seed, count, observer);
+    let (counts, fresh) = (setting.counts, pass.fresh());
+    let accurate = cheapest(setting, costs, max_error, pass);
     let is_accurate = accurate.is_some();
-    let best = accurate.or_else(|| cheapest(setting, costs, None, seed, count, observer));
+    let best = accurate.or_else(|| cheapest(setting, costs, None, pass));
     let best = best.expect("without a limit of errors some point is the cheapest");
-    let (best, found) = within_limits(setting, best, costs, max_error, seed, count, observer);
+    let (best, found) = within_limits(setting, best, costs, max_error, pass);
     let following = Setting { relative: true, ..*setting };
-    let followed = cheapest(&following, costs, max_error, seed, count, observer);
-    let followed = followed.map(|followed| {
-        within_limits(&following, followed, costs, max_error, seed, count, observer)
-    });
+    let followed = cheapest(&following, costs, max_error, pass);
+    let followed =
+        followed.map(|followed| within_limits(&following, followed, costs, max_error, pass));
     // The rays of this seed were passed over for the last time.
     let mut vectors = vec![("recommended".to_owned(), best.clone())];
     for (name, epsilons) in named {
@@ -137,8 +128,8 @@ pub fn study_scene<F: Scalar>(
     attempts.extend(proofs.iter().map(at_proved));
     let plain_ones: Vec<Vec<F>> =
         attempts[..plain].iter().map(|attempt| attempt.epsilons.clone()).collect();
-    let differs = differs(setting, &plain_ones, observer);
-    let run = measure(setting, &attempts, plain, max_error, fresh, count, observer, differs);
+    let differs = differs(setting, &plain_ones, pass.observer);
+    let run = measure(setting, &attempts, plain, max_error, fresh, differs);
     let WrongAnswers { trials: mut wrong, of_hits, ran } = run;
     ran.fault.map_or(Ok(()), Err)?;
     let of_proofs = wrong.split_off(attempts.len() - proofs.len());
@@ -165,11 +156,11 @@ pub fn study_scene<F: Scalar>(
         },
         None => OnFresh { bound, wrong: Trials::default(), price: None },
     };
-    let curves = curves(setting, &best, &axes, fresh, count, observer);
+    let curves = curves(setting, &best, &axes, fresh);
     let found = found.into_iter().map(of_limit).collect();
     let has_edges = counts.iter().any(|count| count.rays == Rays::Stratum(Stratum::Edges));
     let pictures = |setting: &Setting<'_, F>, all: &[Vec<F>]| match has_edges {
-        true => holes(setting, all, fresh, count, observer),
+        true => holes(setting, all, fresh),
         false => vec![None; all.len()],
     };
     let tried = |(name, epsilons): (String, Vec<F>), wrong: Vec<Trials>, of_hits: OfHits, holes| {
@@ -185,8 +176,7 @@ pub fn study_scene<F: Scalar>(
         Some((followed, found)) => {
             let attempt = [Attempt::new(followed.clone())];
             let no_run = |_: &[Case<F>], _: &[KnobMargins<F>]| Ran::default();
-            let mut sums =
-                measure(&following, &attempt, 1, max_error, fresh, count, observer, no_run);
+            let mut sums = measure(&following, &attempt, 1, max_error, fresh, no_run);
             let holes = pictures(&following, slice::from_ref(&followed)).remove(0);
             let vector = (SCALE_FREE.to_owned(), followed);
             let relative = tried(vector, sums.trials.remove(0), sums.of_hits.remove(0), holes);
@@ -218,11 +208,9 @@ pub fn within_limits<F: Scalar>(
     best: Vec<F>,
     costs: &Costs,
     max_error: Option<&MaxError>,
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
 ) -> (Vec<F>, Vec<KnobLimit<F>>) {
-    let all = all_limits(setting, &best, seed, count, observer);
+    let all = all_limits(setting, &best, pass);
     let pairs = between(&all, best.len()).into_iter().zip(&best);
     let found = printed(setting, all);
     let middles: Vec<Option<F>> = pairs
@@ -237,10 +225,10 @@ pub fn within_limits<F: Scalar>(
     }
     let both = best.iter().zip(&middles);
     let both = both.map(|(own, middle)| [Some(*own), *middle].into_iter().flatten().collect());
-    let joint = Joint::count(setting, of_values(both), max_error, seed, count, observer);
+    let joint = Joint::count(setting, of_values(both), max_error, pass);
     match joint.moved(setting.counts, costs, &best, &middles).filter(|moved| *moved != best) {
         Some(moved) => {
-            let found = limits(setting, &moved, seed, count, observer);
+            let found = limits(setting, &moved, pass);
             (moved, found)
         }
         None => (best, found),
@@ -305,15 +293,13 @@ pub fn cheapest<F: Scalar>(
     setting: &Setting<'_, F>,
     costs: &Costs,
     max_error: Option<&MaxError>,
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
+    pass: Pass<'_>,
 ) -> Option<Vec<F>> {
     let best = |grid: KnobGrid<F>| {
-        let joint = Joint::count(setting, grid, max_error, seed, count, observer);
+        let joint = Joint::count(setting, grid, max_error, pass);
         joint.best(setting.counts, costs)
     };
-    let (grid, step) = grid(setting, MOST_POINTS, max_error, seed, count, observer);
+    let (grid, step) = grid(setting, MOST_POINTS, max_error, pass);
     // What a coarse grid leaves out may be cheaper.
     (0..step).rev().try_fold(best(grid)?, |found, step| best(around(&found, step)))
 }

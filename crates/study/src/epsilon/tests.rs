@@ -73,7 +73,7 @@ impl Tuned {
             let margins = trial.margins.to_vec();
             all.0.push(Kept { count: trial.count, margins, errors: errors_of(&trial) });
         };
-        self.setting().sum(seed, number, &Unobserved, || All(Vec::new()), keep).0
+        self.setting().sum(Pass::new(seed, number, &Unobserved), || All(Vec::new()), keep).0
     }
 
     fn is_miss(&self, count: usize) -> bool {
@@ -154,7 +154,7 @@ fn curves_count_the_hits_at_each_value_while_the_others_stay() {
         let all = tuned.all(3, 300);
         let axis = vec![f32::MIN, -1e-3, -1e-6, 0.0, 1e-9, 1e-7, 1e-5, 1e-3, 0.1, 10.0];
         let axes = vec![axis.clone(); tuned.knobs.len()];
-        let found = curves(&tuned.setting(), epsilons, &axes, 3, 300, &Unobserved);
+        let found = curves(&tuned.setting(), epsilons, &axes, Pass::new(3, 300, &Unobserved));
         assert_eq!(found.len(), tuned.knobs.len());
         for (k, curve) in found.iter().enumerate() {
             assert_eq!(curve.values, axis);
@@ -177,11 +177,11 @@ fn limits_are_margins_of_their_rank() {
         let tuned = Tuned::new(kernel, "room");
         let epsilons = &epsilons[..tuned.knobs.len()];
         let all = tuned.all(4, 400);
-        let found = all_limits(&tuned.setting(), epsilons, 4, 400, &Unobserved);
+        let found = all_limits(&tuned.setting(), epsilons, Pass::new(4, 400, &Unobserved));
         // How near rays pass beside a triangle is not printed.
         let mut told = found.clone();
         told.retain(|limit| tuned.counts[limit.count].rays.name() != "scene-outside");
-        assert_eq!(limits(&tuned.setting(), epsilons, 4, 400, &Unobserved), told);
+        assert_eq!(limits(&tuned.setting(), epsilons, Pass::new(4, 400, &Unobserved)), told);
         let mut found = found.into_iter();
         let gates = tuned.row.entry.info.gates;
         for (k, knob) in tuned.knobs.iter().enumerate() {
@@ -258,7 +258,7 @@ fn a_grid_holds_round_numbers_over_the_margins_that_matter() {
         {
             let all = tuned.all(5, 200);
             let (found, step): (KnobGrid<f32>, usize) =
-                grid(&tuned.setting(), most_points, max_error, 5, 200, &Unobserved);
+                grid(&tuned.setting(), most_points, max_error, Pass::new(5, 200, &Unobserved));
             let is_thin = 0 < step;
             assert!(!is_thin || most_points == 1000, "{kernel}");
             thin += u32::from(is_thin);
@@ -337,7 +337,8 @@ fn a_grid_is_as_fine_as_its_points_allow() {
     for (kernel, _) in KERNELS {
         let tuned = Tuned::new(kernel, "room");
         let within = |most_points: usize| {
-            let (found, step) = grid(&tuned.setting(), most_points, None, 5, 200, &Unobserved);
+            let (found, step) =
+                grid(&tuned.setting(), most_points, None, Pass::new(5, 200, &Unobserved));
             let points: usize = found.values().iter().map(|values| values.len() + 1).product();
             (points, step)
         };

@@ -36,6 +36,34 @@ pub struct StudiedRays {
     pub others: Vec<Scene>,
 }
 
+/// The rays of a pass: the first of each kind of a seed.
+#[derive(Clone, Copy)]
+pub struct Pass<'a> {
+    /// The seed.
+    pub seed: u64,
+    /// So many of each kind; of stored cases all.
+    pub count: u64,
+    /// Hears of each ray.
+    pub observer: &'a dyn Observer,
+}
+
+impl Pass<'_> {
+    /// So many rays of a seed.
+    pub fn new(seed: u64, count: u64, observer: &dyn Observer) -> Pass<'_> {
+        Pass { seed, count, observer }
+    }
+
+    /// As many fresh rays.
+    pub fn fresh(self) -> Self {
+        Pass { seed: fresh_seed(self.seed), ..self }
+    }
+}
+
+/// The seed of the fresh rays: the next one.
+pub fn fresh_seed(seed: u64) -> u64 {
+    seed.wrapping_add(1)
+}
+
 /// The setting of a pass: a kernel, its knobs and a scene.
 pub struct Setting<'a, F: Float> {
     /// The kernel, its contract, and the epsilons of the gates that are no knobs.
@@ -104,21 +132,17 @@ impl<F: Scalar> Setting<'_, F> {
     /// Runs all trials of a seed's first indices of every stratum, and sums what `add` makes of them.
     pub fn sum<S: Merge>(
         &self,
-        seed: u64,
-        count: u64,
-        observer: &dyn Observer,
+        pass: Pass<'_>,
         empty: impl Fn() -> S + Sync,
         add: impl Fn(&mut S, Trial<'_, F>) + Sync,
     ) -> S {
-        self.sum_with(seed, count, observer, empty, add, |_, _, _| {})
+        self.sum_with(pass, empty, add, |_, _, _| {})
     }
 
     /// The same; `look` also sees each chunk's cases with their margins, those that are no trials included.
     pub fn sum_with<S: Merge>(
         &self,
-        seed: u64,
-        count: u64,
-        observer: &dyn Observer,
+        pass: Pass<'_>,
         empty: impl Fn() -> S + Sync,
         add: impl Fn(&mut S, Trial<'_, F>) + Sync,
         look: impl Fn(&mut S, &[Case<F>], &[KnobMargins<F>]) + Sync,
@@ -127,7 +151,7 @@ impl<F: Scalar> Setting<'_, F> {
         let mut all: Vec<Rays> = self.counts.iter().map(|count| count.rays).collect();
         all.dedup_by(|a, b| a == b);
         for (group, rays) in all.into_iter().enumerate() {
-            for (place, source) in self.sources_of(rays, seed, count).into_iter().enumerate() {
+            for (place, source) in self.sources_of(rays, pass).into_iter().enumerate() {
                 let add = |sums: &mut S, indices: Range<u64>| {
                     let place = PreparedPart {
                         group,
@@ -137,7 +161,7 @@ impl<F: Scalar> Setting<'_, F> {
                     };
                     let make = || self.prepare(&source, rays, indices);
                     let part = match self.store {
-                        Some(store) => store.part(seed, place, make),
+                        Some(store) => store.part(pass.seed, place, make),
                         None => Arc::new(make()),
                     };
                     let Prepared { cases, margins, relative, values, trials } = &*part;
@@ -153,14 +177,15 @@ impl<F: Scalar> Setting<'_, F> {
                     }
                 };
                 let indices = 0..source.count::<F>();
-                total.merge(engine::sum(indices, source.chunk(), observer, &empty, add));
+                total.merge(engine::sum(indices, source.chunk(), pass.observer, &empty, add));
             }
         }
         total
     }
 
     /// The first indices of the rays of one kind; of stored cases all.
-    fn sources_of(&self, rays: Rays, seed: u64, count: u64) -> Vec<Source> {
+    fn sources_of(&self, rays: Rays, pass: Pass<'_>) -> Vec<Source> {
+        let Pass { seed, count, .. } = pass;
         let reseeded = |source: &Source| match source.stock {
             Stock::Family(_) => Source { seed, count, ..source.clone() },
             _ => source.clone(),

@@ -33,7 +33,7 @@ fn the_counts_of_a_pass_are_those_of_its_trials_one_by_one() {
             epsilons[..tuned.knobs.len()].iter().map(|e| of_knob(e.abs().max(1e-6))).collect();
         let count = |max_error: Option<&MaxError>| {
             let grid = KnobGrid::new(values.clone());
-            Joint::count(&tuned.setting(), grid, max_error, 6, 200, &Unobserved)
+            Joint::count(&tuned.setting(), grid, max_error, Pass::new(6, 200, &Unobserved))
         };
         let joint = count(Some(&max_error));
         assert!(count(None).exceeded.is_none());

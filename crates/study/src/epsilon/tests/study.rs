@@ -23,19 +23,18 @@ fn a_study_tries_everything_on_fresh_rays() {
         let costs = Costs::parse("crack=3,miss=2,hit=0.5").unwrap();
         let max_error = MaxError::parse("t=0.05,point=0.1").unwrap();
         let (seed, number) = (6, 300);
+        let pass = Pass::new(seed, number, &Unobserved);
         let setting = tuned.setting();
-        let study =
-            study_scene(&setting, &costs, Some(&max_error), &named, seed, number, &Unobserved)
-                .unwrap();
+        let study = study_scene(&setting, &costs, Some(&max_error), &named, pass).unwrap();
         let names: Vec<&str> = study.tried.iter().map(|tried| tried.name.as_str()).collect();
         assert_eq!(names, ["recommended", "one", "zero"], "{kernel}");
         assert_eq!(study.tried[0].epsilons, study.best);
-        let cheapest = |max| cheapest(&setting, &costs, max, seed, number, &Unobserved);
+        let cheapest = |max| cheapest(&setting, &costs, max, pass);
         let accurate = cheapest(Some(&max_error));
         assert_eq!(study.is_accurate, accurate.is_some());
         let best = accurate.or_else(|| cheapest(None)).unwrap();
         let max = study.is_accurate.then_some(&max_error);
-        let (best, _) = within_limits(&setting, best, &costs, max, seed, number, &Unobserved);
+        let (best, _) = within_limits(&setting, best, &costs, max, pass);
         assert_eq!(study.best, best);
         let fresh = tuned.all(seed + 1, number);
         let of = |c: usize| fresh.iter().filter(move |kept| kept.count == c);
@@ -77,7 +76,7 @@ fn a_study_tries_everything_on_fresh_rays() {
             }
             assert!((tried.cost - cost).abs() <= 1e-9, "{kernel} {} {cost}", tried.cost);
         }
-        let expected = limits(&setting, &study.best, seed, number, &Unobserved);
+        let expected = limits(&setting, &study.best, pass);
         let found: Vec<_> = study.limits.iter().map(|found| found.bound.clone()).collect();
         assert_eq!(found, expected, "{kernel}");
         let moved = study.limits.iter().filter_map(|OnFresh { bound, wrong, price }| {
@@ -123,6 +122,7 @@ fn a_study_tries_everything_on_fresh_rays() {
 #[test]
 fn a_knob_moves_to_the_middle_of_its_limits_where_that_costs_no_more_than_chance_explains() {
     let (costs, seed, number) = (Costs::default(), 8, 300);
+    let pass = Pass::new(seed, number, &Unobserved);
     let (mut moved, mut dearer) = (0, 0);
     for (kernel, epsilons) in KERNELS {
         let tuned = Tuned::new(kernel, "room");
@@ -145,8 +145,7 @@ fn a_knob_moves_to_the_middle_of_its_limits_where_that_costs_no_more_than_chance
         };
         for factor in [0.0, 1e-4, 1.0, 1e3] {
             let from: Vec<f32> = epsilons[..tuned.knobs.len()].iter().map(|x| x * factor).collect();
-            let middles =
-                between(&all_limits(&setting, &from, seed, number, &Unobserved), from.len());
+            let middles = between(&all_limits(&setting, &from, pass), from.len());
             let mut expected = from.clone();
             for (k, middle) in middles.into_iter().enumerate() {
                 let is_moved = |middle: &f32| from[k] != 0.0 && (*middle < 0.0) == (from[k] < 0.0);
@@ -158,10 +157,9 @@ fn a_knob_moves_to_the_middle_of_its_limits_where_that_costs_no_more_than_chance
                     false => dearer += 1,
                 }
             }
-            let (found, of_found) =
-                within_limits(&setting, from.clone(), &costs, None, seed, number, &Unobserved);
+            let (found, of_found) = within_limits(&setting, from.clone(), &costs, None, pass);
             assert_eq!(found, expected, "{kernel} {from:?}");
-            assert_eq!(of_found, limits(&setting, &found, seed, number, &Unobserved));
+            assert_eq!(of_found, limits(&setting, &found, pass));
             moved += u32::from(found != from);
         }
     }
@@ -180,13 +178,15 @@ fn a_form_that_follows_the_size_is_named_if_it_is_a_fifth_cheaper() {
         let tuned = Tuned::new(kernel, scene);
         let setting = tuned.setting();
         let costs = Costs::default();
-        let study = study_scene(&setting, &costs, None, &[], 1, 300, &Unobserved).unwrap();
+        let study =
+            study_scene(&setting, &costs, None, &[], Pass::new(1, 300, &Unobserved)).unwrap();
         let relative = Setting { relative: true, ..setting };
-        let followed = cheapest(&relative, &costs, None, 1, 300, &Unobserved).unwrap();
+        let followed = cheapest(&relative, &costs, None, Pass::new(1, 300, &Unobserved)).unwrap();
         let (followed, found) =
-            within_limits(&relative, followed, &costs, None, 1, 300, &Unobserved);
+            within_limits(&relative, followed, &costs, None, Pass::new(1, 300, &Unobserved));
         let wrong =
-            count_at(&relative, &[Attempt::new(followed.clone())], 2, 300, &Unobserved).remove(0);
+            count_at(&relative, &[Attempt::new(followed.clone())], Pass::new(2, 300, &Unobserved))
+                .remove(0);
         let cost = costs.total(&tuned.counts, wrong.iter().map(|w| w.share().unwrap_or(0.0)));
         let is_named = cost < 0.8 * study.tried[0].cost;
         let told = format!("{kernel} {cost} {}", study.tried[0].cost);
@@ -219,7 +219,8 @@ fn a_pass_tells_a_fault_of_any_chunk_and_the_errors_of_one_attempt() {
             let fault = (looked.fetch_add(1, Relaxed) == wanted).then(|| "off".to_owned());
             Ran { fault, ..Ran::default() }
         };
-        let found = measure(&tuned.setting(), &attempts, 1, None, 6, 300, &Unobserved, check);
+        let found =
+            measure(&tuned.setting(), &attempts, 1, None, Pass::new(6, 300, &Unobserved), check);
         (found, looked.into_inner())
     };
     let (sound, chunks) = with_fault_at(usize::MAX);
@@ -246,7 +247,7 @@ fn a_run_that_is_not_what_its_margins_say_is_told() {
             let check = |cases: &[Case<f32>], margins: &[KnobMargins<f32>]| {
                 differs(cases, &margins.iter().map(|margins| change(*margins)).collect::<Vec<_>>())
             };
-            measure(&setting, &[], 0, None, 6, 300, &Unobserved, check).ran.fault
+            measure(&setting, &[], 0, None, Pass::new(6, 300, &Unobserved), check).ran.fault
         };
         assert_eq!(told(&|margins| margins), None, "{kernel}");
         let [hit, miss] = [f32::MAX, f32::MIN].map(|all| told(&move |_| [all; 3]).unwrap());
