@@ -9,6 +9,7 @@ use crate::case::Parameters;
 use crate::corpus::InputError;
 use crate::corpus::lines::{StoredCase, write_case};
 use crate::corpus::truth_json::TruthLine;
+use crate::explore;
 use crate::explore::campaign::Find;
 use crate::family::manifest::{self, ManifestLine};
 use crate::family::{Family, Grouping};
@@ -113,9 +114,12 @@ fn verify(path: &str) -> Result<Status, Failure> {
         let stored = read_corpus(&file)?;
         let with_truth = stored.iter().filter(|stored| stored.truth.is_some()).count();
         // read_corpus holds the stored truths to the fast oracle, which must agree with the definition.
-        let mut finds = 0;
+        let (mut scores, mut finds) = (0, 0);
         for case in &stored {
             agree(&file, case)?;
+            let replayed = explore::replay(case);
+            scores +=
+                u64::from(replayed.map_err(|message| InputError::at(&file, case.line, message))?);
             if case.found.is_some() {
                 let shown = Find::of_stored(case);
                 shown.map_err(|error| InputError::at(&file, case.line, error.to_string()))?;
@@ -123,9 +127,13 @@ fn verify(path: &str) -> Result<Status, Failure> {
             }
         }
         let finds = if finds > 0 { format!(", {finds} finds shown again") } else { String::new() };
+        let scores =
+            if scores > 0 { format!(", {scores} stored scores right") } else { String::new() };
         let cases = stored.len();
         nothing &= cases == 0;
-        report.push(format!("{file}: {cases} cases, {with_truth} stored truths right{finds}"));
+        report.push(format!(
+            "{file}: {cases} cases, {with_truth} stored truths right{scores}{finds}"
+        ));
     }
     let manifest_path = Path::new(path).join(MANIFEST);
     if manifest_path.exists() {

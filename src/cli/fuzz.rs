@@ -5,6 +5,7 @@ mod lock;
 mod shrink;
 mod summary;
 mod triage;
+mod worst;
 
 use super::before::{scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
@@ -29,6 +30,8 @@ pub enum FuzzCommand {
     Triage(triage::TriageArguments),
     /// Make a case with a finding as simple as possible, as JSON, Rust and C to paste into a test
     Shrink(shrink::ShrinkArguments),
+    /// Search for the worst case of each kernel and gate, and keep the worst known
+    Worst(Box<worst::WorstArguments>),
 }
 
 impl FuzzCommand {
@@ -37,6 +40,7 @@ impl FuzzCommand {
         match self {
             FuzzCommand::Triage(arguments) => triage::run(arguments),
             FuzzCommand::Shrink(arguments) => shrink::run(arguments),
+            FuzzCommand::Worst(arguments) => worst::run(arguments),
         }
     }
 }

@@ -414,6 +414,7 @@ fn wrong_names_suggest_the_nearest_and_wrong_numbers_say_the_range() {
         (&["mesh"], false),
         (&["fuzz"], false),
         (&["fuzz", "triage"], false),
+        (&["fuzz", "worst"], false),
     ] {
         let help = help(words);
         assert!(help.contains("Usage: hairline"), "{help}");

@@ -223,6 +223,7 @@ fn what_cannot_be_read_ends_with_74_and_what_is_wrong_with_65() {
         &["audit", "--mesh", "-"],
         &["explain", "x", "--corpus", "-"],
         &["corpus", "verify", "-"],
+        &["fuzz", "worst", "--list", "--table", "-"],
         &["diff", "-", "-"],
         &["check", "--record", "-"],
     ] {
@@ -300,6 +301,7 @@ fn no_failure_touches_an_output() {
             ],
             74,
         ),
+        (&["fuzz", "worst", "--update", "finds.jsonl", "--kernel", "cramer", "-n", "9"], 65),
         (&["fuzz", "triage", "half.jsonl", "-o", "."], 65),
         (&[&quick[..], &["-o", "."]].concat(), 74),
         // What cannot be written is refused before a kernel starts.

@@ -44,3 +44,4 @@ mod spawn;
 mod terminal;
 mod variants;
 mod vectors;
+mod worst;

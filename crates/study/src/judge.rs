@@ -12,6 +12,7 @@ mod group;
 mod tests;
 mod values;
 
+pub use change::exact_to_change;
 pub use class::Class;
 pub use class::TruthKind;
 pub use distance::{Distances, Squares, nearest_on_segment, square, ulp_of_points};
@@ -20,7 +21,7 @@ pub use expected::{Demands, Kinds, ask_all, suspects};
 pub use group::owes_groups_alike;
 pub use group::{GroupTruth, group_obligation, group_truth, polygon_obligation, polygon_truth};
 pub use values::{ALLOWANCE, ValueErrors};
-pub use values::{ValueLimits, exact_values_are_near};
+pub use values::{ValueLimits, exact_times, exact_values_are_near};
 
 use crate::arith::Float;
 use crate::case::Case;

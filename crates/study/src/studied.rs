@@ -3,6 +3,7 @@
 
 use crate::audit::mesh;
 use crate::epsilon::{self, Costs, MaxError, Pass, SceneStudy, Setting};
+use crate::explore::worst::{self, WorstEntry, WorstGoal};
 use crate::family::Family;
 use crate::mesh::Surface;
 use crate::selfcheck::{self, Check, Reference};
@@ -51,6 +52,11 @@ studied! {
         plan: &spawn::SpawnPlan<'_>,
         observer: &dyn Observer,
     ) -> spawn::SpawnSums;
+    worst::find_worst::<Self>: fn find_worst(
+        goals: &[WorstGoal],
+        evaluations: u64,
+        seed: u64,
+    ) -> Vec<Option<WorstEntry>>;
     selfcheck::family::<Self>: fn check_family(
         family: &Family,
         reference: Reference,

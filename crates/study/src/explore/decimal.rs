@@ -94,6 +94,11 @@ impl Decimal {
     pub fn brief(self) -> String {
         self.with_digits(4)
     }
+
+    /// The nearest `f64`; infinite beyond its range.
+    pub fn to_f64(self) -> f64 {
+        self.to_string().parse().unwrap_or(f64::NAN)
+    }
 }
 
 /// `value * 10^power`, rounded to an integer, ties to even.
@@ -155,7 +160,7 @@ impl FromStr for Decimal {
         };
         parsed()
             .filter(|decimal| decimal.to_string() == text)
-            .ok_or_else(|| format!("'{text}' is not a decimal: expected digits as 1.25e-3"))
+            .ok_or_else(|| format!("'{text}' is not a score: expected digits as 1.25e-3"))
     }
 }
 
@@ -218,8 +223,9 @@ mod tests {
         let decimals: Vec<Decimal> =
             values.iter().map(|x| Decimal::of(&Exact::from_f64(*x)).unwrap()).collect();
         assert!(decimals.is_sorted_by(|a, b| a < b));
-        for decimal in &decimals {
+        for (decimal, value) in decimals.iter().zip(values) {
             assert_eq!(decimal.to_string().parse(), Ok(*decimal));
+            assert_eq!(decimal.to_f64(), value);
         }
         for bad in
             ["", "1", "1.50e3", "-1e0", "12e0", "1.25", "0e0", "1e0x", "1.12345678901234567e0"]

@@ -1,11 +1,16 @@
 //! The simplest case that still shows something: greedy descent to a local minimum.
 
+use super::decimal::Decimal;
+use super::objective::Scorer;
 use super::signature::Signature;
 use super::simplify::{Simplification, Size};
-use crate::arith::Float;
+use crate::arith::{Exact, Float};
 use crate::audit::Row;
 use crate::case::Case;
 use crate::kernel::Scalar;
+
+/// The share of its score that a simpler witness of a search keeps.
+pub const KEPT_SHARE: f64 = 0.9;
 
 /// The result of a descent.
 #[derive(Clone, Copy, Debug)]
@@ -68,4 +73,22 @@ pub fn shrink_finding<F: Scalar>(row: &Row, case: &Case<F>) -> Option<(Signature
     let signature = Signature::of(row, case)?;
     let shrunk = shrink(case, |case| signature.is_shown(row, case));
     Some((signature, shrunk))
+}
+
+/// A simpler case whose score is at least [`KEPT_SHARE`] of this one's; none if nothing simpler is.
+///
+/// The descent scores as the search does, in `f64` for `f32`; what it finds is confirmed exactly.
+pub fn shrink_scored<F: Scalar>(scorer: &Scorer<'_, F>, case: &Case<F>) -> Option<Shrunk<F>> {
+    let score = scorer.quick(case);
+    let least_exact = scorer.exact(case)? * Exact::from_f64(KEPT_SHARE);
+    let least = Decimal::of(&least_exact)?;
+    let keeps_exactly = |case: &Case<F>| {
+        scorer.exact(case).is_some_and(|score| Decimal::of(&score).is_some_and(|s| least <= s))
+    };
+    let shrunk = if score < f64::MAX {
+        shrink(case, |case| KEPT_SHARE * score <= scorer.quick(case))
+    } else {
+        shrink(case, keeps_exactly)
+    };
+    Some(shrunk).filter(|shrunk| keeps_exactly(&shrunk.case))
 }

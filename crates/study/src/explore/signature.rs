@@ -1,6 +1,6 @@
 //! The signature of a finding: two findings with the same signature are of the same kind.
 
-use super::verdict::verdict_and_finding;
+use super::objective::verdict_and_finding;
 use crate::audit::{Attribution, Row, attribute_with};
 use crate::case::Case;
 use crate::judge::{Class, Finding, asked};

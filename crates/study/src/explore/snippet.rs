@@ -1,8 +1,8 @@
 //! A finding as source code to paste into a test.
 
+use super::objective::verdict_and_finding;
 use super::signature::Signature;
 use super::simplify::odd_and_exponent;
-use super::verdict::verdict_and_finding;
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::{Case, rust_case, rust_list};

@@ -42,6 +42,23 @@ fn to_change<R: Real>(truth: &Truth, contract: &Contract, in_space: R, along: [R
     }
 }
 
+/// [`Distances::nearest_change`] exactly; none for invalid input.
+pub fn exact_to_change<F: Float>(
+    case: &Case<F>,
+    truth: &Truth,
+    contract: &Contract,
+) -> Option<Exact> {
+    if *truth == Truth::Invalid {
+        return None;
+    }
+    let (ray, triangle) = case.exact();
+    let crosses = truth.crossing().is_some();
+    let Squares { longest, in_space, along } = Squares::<Exact>::of(&ray, &triangle, crosses);
+    let unit = if longest.is_zero() { Exact::one() } else { longest };
+    let along = along.map(|square| square.unwrap_or_else(Exact::infinity));
+    Some((to_change(truth, contract, in_space, along) / unit).sqrt())
+}
+
 /// True if a valid case is nearer than a band to where its obligation would change; decided exactly.
 pub fn is_within<F: Float>(band: Band, case: &Case<F>, truth: &Truth, contract: &Contract) -> bool {
     let distances = Distances::of(case, truth);

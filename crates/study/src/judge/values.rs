@@ -151,6 +151,19 @@ pub fn exact_values_are_near<F: Float>(
     values.into_iter().all(|(which, (value, given))| !given || near(value, which))
 }
 
+/// The error of the worst value of a hit, in multiples of u·κ; infinite if a value has no unit. The hit has finite values,
+/// and its line crosses the plane.
+pub fn exact_times<F: Float>(case: &Case<F>, gives: Gives, verdict: &Verdict<F>) -> Exact {
+    let allowed = Allowed::of(case, Exact::from_f64);
+    let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
+    let given = (0..3).filter(|which| given(gives)[*which]);
+    let times = given.map(|which| {
+        let off = (Exact::from_f64(values[which]) - &allowed.exact[which]).abs();
+        if off.is_zero() { off } else { off / &allowed.unit[which] }
+    });
+    times.fold(Exact::from_f64(0.0), Exact::larger)
+}
+
 /// How far the values of a hit are off, on a line that crosses the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueErrors {

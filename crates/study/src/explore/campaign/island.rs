@@ -8,8 +8,7 @@ use crate::arith::Float;
 use crate::audit::{Row, RowSpec};
 use crate::case::{Case, Draw, Parameters};
 use crate::corpus::lines::AnyCase;
-use crate::explore::{Signature, mutate, shrink_within};
-use crate::family::FAMILIES;
+use crate::explore::{Signature, family_case, mutate, shrink_within};
 use crate::kernel::Scalar;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -172,14 +171,6 @@ impl<F: Scalar> Newcomer<F> {
             from: None,
         }
     }
-}
-
-/// Any case of any family, put through the parameters.
-fn family_case<F: Scalar>(parameters: &Parameters, draw: &mut Draw) -> Case<F> {
-    let family = &FAMILIES[draw.below(FAMILIES.len())];
-    let made = family.make::<F>(parameters, draw.bits(), draw.bits() >> 1);
-    let cases = made.cases();
-    cases[draw.below(cases.len())]
 }
 
 /// A scale, half of the time none, and now and then an offset or a unit direction.

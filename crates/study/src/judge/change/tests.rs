@@ -51,12 +51,8 @@ fn a_band_is_compared_exactly_where_distances_are_least_certain() {
         let d = [0, 1, 2].map(|i| 0.5 * a[i] + 0.5 * b[i] + 2f64.powi(-35) * beside[i] - o[i]);
         let case = Case::<f64>::new(o, d, [a, b, c]);
         let found = truth(&case);
-        let (ray, triangle) = case.exact();
-        let Squares { longest, in_space, along } =
-            Squares::<Exact>::of(&ray, &triangle, found.crossing().is_some());
-        let along = along.map(|square| square.unwrap_or_else(Exact::infinity));
-        let square = to_change(&found, &Contract::CLOSED_RAY, in_space, along) / longest;
-        let exact = square.approximate_root();
+        let exact = exact_to_change(&case, &found, &Contract::CLOSED_RAY).unwrap();
+        let exact = (exact.clone() * exact).approximate_root();
         for (factor, owed) in [(1.0 + 1e-6, true), (1.0 - 1e-6, false)] {
             let band = format!("{:e}", exact * factor).parse().ok();
             let contract = Contract { band, ..Contract::CLOSED_RAY };
@@ -98,4 +94,28 @@ fn the_distance_to_change_is_that_which_counts() {
             }
         }
     }
+}
+
+#[test]
+fn the_exact_distance_to_change_is_a_share_of_the_longest_edge() {
+    let corners = [[0.0; 3], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+    let ask = |y: f64, triangle: [[f64; 3]; 3]| {
+        let case = Case::<f64>::new([1.0, y, 8.0], [0.0, 0.0, -1.0], triangle);
+        exact_to_change(&case, &truth(&case), &Contract::CLOSED_RAY)
+    };
+    let is = |found: Option<Exact>, square: [f64; 2]| {
+        let found = found.unwrap();
+        let [above, below] = square.map(Exact::from_f64);
+        let (found, expected) = (found.clone() * found, above / below);
+        found.is_at_most(&expected) && expected.is_at_most(&found)
+    };
+    // 0.5 from an edge, the longest is 5; of a point, a length.
+    assert!(is(ask(0.5, corners), [0.25, 25.0]) && is(ask(-2.0, corners), [4.0, 25.0]));
+    assert!(is(ask(0.5, [[1.0, 0.0, 0.0]; 3]), [0.25, 1.0]));
+    // An infinite end is never near.
+    let interval = Contract { extent: Extent::Interval, ..Contract::CLOSED_RAY };
+    let case = Case::<f64>::new([1.0, 0.5, 0.25], [0.0, 0.0, -1.0], corners);
+    let case = case.on(-f64::INFINITY, f64::INFINITY);
+    assert!(is(exact_to_change(&case, &truth(&case), &interval), [0.25, 25.0]));
+    assert!(exact_to_change(&case, &Truth::Invalid, &interval).is_none());
 }

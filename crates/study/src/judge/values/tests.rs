@@ -214,3 +214,19 @@ fn values_within_the_tolerance_of_a_contract_are_near() {
     tolerances_are_judged_as_defined::<f32>();
     tolerances_are_judged_as_defined::<f64>();
 }
+
+#[test]
+fn the_worst_value_is_counted_in_units_of_rounding() {
+    for (case, truth) in cases_with_values::<f64>(2) {
+        let (exact, _) = defined(&case);
+        let float = |x: &BigRational| Exact::from_rational(x).approximate();
+        let values = exact.each_ref().map(|x| float(x) * 1.25 + 0.5);
+        let times = ValueErrors::of(&case, &truth, ALL, &hit(values)).times.map(Option::unwrap);
+        let worst = times.into_iter().fold(0.0, f64::max);
+        let found = exact_times(&case, ALL, &hit(values));
+        if worst.is_finite() && found.is_finite() {
+            let found = found.approximate();
+            assert!((found - worst).abs() <= 1e-5 * worst, "{} {found} {worst}", case.hex());
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! The worst case of each kernel and gate, found by climbing, and the table of the worst known.
+
+mod climb;
+mod table;
+
+pub use climb::family_case;
+pub use climb::{FoundWorst, LANES, WorstGoal, exact_score, search};
+pub use table::{Update, WorstEntry, WorstTable, find_worst, replay};
