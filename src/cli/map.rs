@@ -12,7 +12,7 @@ use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::kernel::Scalar;
-use crate::map::{self, CaseVector, Grid, MapError, PixelStep};
+use crate::map::{self, CaseVector, Grid, Map, MapError, PixelStep};
 use clap::Args;
 use std::io::{self, Write};
 use std::path::Path;
@@ -61,12 +61,16 @@ pub struct MapArguments {
     #[arg(long, value_name = "W[xH]", default_value = "128", allow_hyphen_values = true)]
     size: String,
 
+    /// The side of a pixel in a PNG, in dots [default: the picture becomes about 1000 dots wide]
+    #[arg(long, value_name = "N")]
+    dots: Option<usize>,
+
     /// Draw the case instead: the triangle, the ray, where they meet, and where the kernel reports a hit
     /// (SVG)
-    #[arg(long, conflicts_with_all = ["vary", "axes", "step", "size"])]
+    #[arg(long, conflicts_with_all = ["vary", "axes", "step", "size", "dots"])]
     drawing: bool,
 
-    /// text or svg, or both separated by a comma [default: by the ending of each output's name;
+    /// text, svg or png, or several separated by commas [default: by the ending of each output's name;
     /// text without outputs]
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
     format: Vec<String>,
@@ -85,7 +89,7 @@ pub struct MapArguments {
 }
 
 /// The formats, by name.
-const FORMATS: &[&str] = &["text", "svg"];
+const FORMATS: &[&str] = &["text", "svg", "png"];
 
 /// The most pixels of an SVG, which has a shape for each run of them.
 const MOST_SVG_PIXELS: usize = 1 << 18;
@@ -94,6 +98,7 @@ const MOST_SVG_PIXELS: usize = 1 << 18;
 struct MapPicture {
     summary: String,
     svg: String,
+    map: Option<Map>,
 }
 
 /// Runs the command.
@@ -101,19 +106,26 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     let formats = arguments.formats()?;
     let outputs = paired_outputs(FORMATS, &formats, &arguments.output)?;
     let wants = |name: &str| outputs.iter().any(|(format, _)| **format == name);
+    if arguments.drawing && wants("png") {
+        return Err(Failure::usage("a drawing is written as svg or text, not as png"));
+    }
     set_threads(arguments.threads)?;
     let [width, height] = arguments.size()?;
     if !arguments.drawing && wants("svg") && width * height > MOST_SVG_PIXELS {
         return Err(Failure::usage(format!(
-            "--size: {width}x{height} pixels are too many for an SVG, which takes {MOST_SVG_PIXELS} (512x512)"
+            "--size: {width}x{height} pixels are too many for an SVG, which takes {MOST_SVG_PIXELS} (512x512); write a PNG"
         )));
     }
     let picture = either_scalar!(&arguments.input()?, case => arguments.of_case(case))?;
     let quiet = arguments.quiet || wants("text");
     let mut pictures = Vec::new();
     for (format, path) in outputs {
-        let text = if *format == "svg" { &picture.svg } else { &picture.summary };
-        pictures.push((text.clone().into_bytes(), path));
+        let bytes = match (*format, &picture.map) {
+            ("png", Some(map)) => map::png(map, arguments.dots(map))?,
+            ("svg", _) => picture.svg.clone().into_bytes(),
+            _ => picture.summary.clone().into_bytes(),
+        };
+        pictures.push((bytes, path));
     }
     write_results(pictures, |bytes, _, out| out.write_all(&bytes))?;
     if !quiet {
@@ -141,10 +153,10 @@ impl MapArguments {
         let of = |output: &String| {
             let end = Path::new(output).extension().and_then(|end| end.to_str());
             match end {
-                Some("svg") => Ok("svg".to_owned()),
+                Some("svg" | "png") => Ok(end.unwrap_or_default().to_owned()),
                 Some("txt") => Ok("text".to_owned()),
                 _ => Err(Failure::usage(format!(
-                    "-o {output}: its name does not end in .svg or .txt; say --format"
+                    "-o {output}: its name does not end in .svg, .png or .txt; say --format"
                 ))),
             }
         };
@@ -156,7 +168,7 @@ impl MapArguments {
         row.check::<F>()?;
         if self.drawing {
             let svg = map::drawing_document(case, &row)?;
-            return Ok(MapPicture { summary: summary::of_drawing(case, &row), svg });
+            return Ok(MapPicture { summary: summary::of_drawing(case, &row), svg, map: None });
         }
         let part = self.varied()?;
         let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
@@ -169,7 +181,7 @@ impl MapArguments {
         } else {
             map::svg_document(&map)
         };
-        Ok(MapPicture { summary, svg })
+        Ok(MapPicture { summary, svg, map: Some(map) })
     }
 
     fn progress<F: Float>(&self, grid: &Grid<F>) -> Progress {
@@ -244,5 +256,11 @@ impl MapArguments {
                 map::MOST_PIXELS
             ))
         })
+    }
+
+    /// The side of a pixel in a PNG.
+    fn dots(&self, map: &Map) -> usize {
+        let [width, height] = map.size();
+        self.dots.unwrap_or((512 / width.max(height)).max(1))
     }
 }

@@ -10,17 +10,16 @@ const CASE: &str = r#"{"scalar":"f32","origin":[0.625,0.75,0.875],"direction":[-
 #[test]
 fn the_picture_goes_where_it_is_sent_and_the_counts_beside_it() {
     let folder = scratch("map-outputs");
-    let (out, error) = ends(&folder, &["map", "--kernel", "cramer", "-o", "a.svg"], 0);
+    let (out, error) =
+        ends(&folder, &["map", "--kernel", "cramer", "-o", "a.svg", "-o", "a.png"], 0);
     assert_eq!(out, "");
-    let both = ["map", "--kernel", "cramer", "-o", "b.svg", "-o", "b.txt"];
-    assert_eq!(ends(&folder, &both, 0), (String::new(), String::new()));
-    assert_eq!(fs::read_to_string(folder.join("b.txt")).unwrap(), error);
     assert!(error.contains("cramer (source) in f32: 128 x 128 pixels, 848 wrong\n"), "{error}");
     assert!(error.contains("     499  false hit\n") && error.contains("     349  false miss\n"));
     let svg = fs::read_to_string(folder.join("a.svg")).unwrap();
     assert!(
         svg.starts_with("<svg ") && svg.ends_with("</svg>\n") && svg.contains("false hit: 499")
     );
+    assert!(fs::read(folder.join("a.png")).unwrap().starts_with(b"\x89PNG\r\n"));
     // Text alone is the result.
     let (out, error) = ends(&folder, &["map", "--kernel", "cramer"], 0);
     assert!(out.contains("848 wrong") && error.is_empty(), "{out}{error}");
@@ -115,9 +114,11 @@ fn wrong_usage_and_bad_input_end_with_their_codes() {
         (&["--axes", "x"], 2, "are not two of x, y, z"),
         (&["--axes", "x,x"], 2, "two different"),
         (&["--vary", "d"], 2, "unknown point 'd': there are origin, direction, a, b, c"),
+        (&["--dots", "0", "-o", "a.png"], 2, "2^26"),
         (&["--format", "gif"], 2, "unknown format 'gif'"),
-        (&["-o", "map.gif"], 2, "does not end in .svg or .txt"),
-        (&["--format", "svg,text", "-o", "one.svg"], 2, "2 formats but 1 output"),
+        (&["-o", "map.gif"], 2, "does not end in .svg, .png or .txt"),
+        (&["--format", "svg,png", "-o", "one.svg"], 2, "2 formats but 1 output"),
+        (&["--drawing", "--format", "png"], 2, "not as png"),
         (&["-o", "taken.svg"], 74, "taken.svg: is a directory"),
         (&["-o", "no/such/map.svg"], 74, "no/such/map.svg"),
     ];

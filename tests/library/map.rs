@@ -206,6 +206,38 @@ fn vertex_map() -> Map {
     map::standard::<f32>(&row("moller-trumbore", None, "own"), Spot::Vertex, [48, 32]).unwrap()
 }
 
+#[test]
+fn a_png_has_the_colours_of_both_panels() {
+    let map = vertex_map();
+    for scale in [1, 3] {
+        let bytes = map::png(&map, scale).unwrap();
+        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let mut reader = decoder.read_info().unwrap();
+        let mut dots = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut dots).unwrap();
+        let (wide, high) = (2 * 48 * scale + 8, 32 * scale);
+        assert_eq!((info.width as usize, info.height as usize), (wide, high));
+        assert_eq!(info.color_type, png::ColorType::Rgba);
+        for (index, dot) in dots.chunks_exact(4).enumerate() {
+            let (x, y) = (index % wide, index / wide);
+            let pixel = |x: usize| y / scale * 48 + x / scale;
+            let expected = if x < 48 * scale {
+                Some(map.computed(pixel(x)))
+            } else {
+                x.checked_sub(48 * scale + 8).map(|x| map.exact(pixel(x)))
+            };
+            match expected {
+                Some(ink) => assert_eq!(dot, [&ink.rgb()[..], &[255]].concat(), "{x},{y}"),
+                None => assert_eq!(dot[3], 0, "{x},{y}"),
+            }
+        }
+    }
+    for scale in [0, 1 << 13, usize::MAX] {
+        assert!(map::png(&map, scale).unwrap_err().0.contains("2^26"), "{scale}");
+    }
+}
+
 /// The cells of a panel, read back from its paths of runs.
 fn painted(panel: &str, [width, height]: [usize; 2]) -> Vec<String> {
     let mut cells = vec![String::new(); width * height];

@@ -3,7 +3,7 @@
 //! problems in geometric computations", figure 2.
 //!
 //! ```text
-//! Case, Row, Grid ──► of_kernel ──► Map ──► svg, counts
+//! Case, Row, Grid ──► of_kernel ──► Map ──► svg, png, counts
 //! Case, Row ──► drawing: the triangle, the ray, where they meet and where the kernel says so
 //! ```
 //!
@@ -27,6 +27,8 @@ mod frame;
 mod grid;
 mod kernel;
 mod panel;
+#[cfg(feature = "files")]
+mod png;
 mod scene;
 mod spot;
 mod svg;
@@ -34,6 +36,8 @@ mod svg;
 pub use self::drawing::{drawing, drawing_document};
 pub use self::grid::{Axis, Grid, MOST_PIXELS, PixelStep};
 pub use self::kernel::{CaseVector, case_at, grid_of_case, of_kernel};
+#[cfg(feature = "files")]
+pub use self::png::png;
 pub use self::spot::{Spot, standard};
 pub use self::svg::{svg, svg_document};
 

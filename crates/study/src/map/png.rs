@@ -1,0 +1,55 @@
+//! A map as PNG: the computed panel, a gap, the exact panel, each pixel a square.
+
+use super::{Ink, Map, MapError};
+use png::{BitDepth, ColorType, Encoder};
+
+/// The most dots of a picture.
+const MOST_DOTS: usize = 1 << 26;
+
+/// The place of the gap's transparent colour, after the inks.
+const CLEAR: u8 = Ink::ALL.len() as u8;
+
+/// The picture, `scale` dots to a pixel's side. The gap between the panels is transparent and eight dots
+/// wide. An error if the picture would have more than 2^26 dots.
+pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, MapError> {
+    let [width, height] = map.size();
+    let fits = |dots: usize| dots <= MOST_DOTS;
+    let wide = width.checked_mul(2).and_then(|w| w.checked_mul(scale)).map(|w| w + GAP);
+    let high = height.checked_mul(scale);
+    let dots = wide.zip(high).and_then(|(w, h)| w.checked_mul(h)).filter(|dots| fits(*dots));
+    let (Some(wide), Some(high), Some(_), 1..) = (wide, high, dots, scale) else {
+        return Err(MapError(format!(
+            "{width}x{height} pixels of {scale}x{scale} dots are no picture of 1 to 2^26 dots"
+        )));
+    };
+    let mut dots = Vec::with_capacity(wide * high);
+    for y in 0..height {
+        let side = |ink: &dyn Fn(usize) -> Ink| -> Vec<u8> {
+            (0..width).flat_map(|x| std::iter::repeat_n(ink(y * width + x) as u8, scale)).collect()
+        };
+        let mut line = side(&|pixel| map.computed(pixel));
+        line.extend([CLEAR; GAP]);
+        line.extend(side(&|pixel| map.exact(pixel)));
+        for _ in 0..scale {
+            dots.extend_from_slice(&line);
+        }
+    }
+    let mut palette: Vec<u8> = Ink::ALL.iter().flat_map(|ink| ink.rgb()).collect();
+    palette.extend([0; 3]);
+    let mut opacity = vec![255; Ink::ALL.len()];
+    opacity.push(0);
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, wide as u32, high as u32);
+    encoder.set_color(ColorType::Indexed);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_palette(palette);
+    encoder.set_trns(opacity);
+    let written = encoder
+        .write_header()
+        .and_then(|mut writer| writer.write_image_data(&dots).and_then(|()| writer.finish()));
+    written.map_err(|error| MapError(format!("the picture cannot be encoded: {error}")))?;
+    Ok(bytes)
+}
+
+/// Dots between the panels.
+const GAP: usize = 8;
