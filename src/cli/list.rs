@@ -4,11 +4,11 @@ use super::exit::{Failure, Status};
 use super::output::write_page;
 use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
-use crate::audit::EpsilonText;
+use crate::audit::{ASPECTS, Aspect, EpsilonText, coverage};
 use crate::contract::NAMED;
 use crate::family::{FAMILIES, Family, STRATA};
 use crate::kernel::{self, KernelInfo, PRESETS, Preset, PresetValue, Tunable};
-use crate::report::page::{Block, Item, Items, Page};
+use crate::report::page::{Block, Head, Item, Items, Page, Row, Table};
 use crate::spawn::{PUBLISHED, PublishedScheme, describe};
 use clap::{Args, ValueEnum};
 
@@ -17,6 +17,11 @@ use clap::{Args, ValueEnum};
 pub struct ListArguments {
     #[arg(value_enum)]
     what: Listed,
+
+    /// For families: the share of the cases, in percent, that meet each corner, edge and side, each orientation of
+    /// plane and ray, each size, distance and place of t; of the strata in the scene room. '.' is none
+    #[arg(long)]
+    coverage: bool,
 
     #[command(flatten)]
     plugins: PluginArguments,
@@ -42,6 +47,10 @@ enum Listed {
 pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
     arguments.plugins.entries()?;
     let blocks = match arguments.what {
+        Listed::Families if arguments.coverage => of_coverage(),
+        _ if arguments.coverage => {
+            return Err(Failure::usage("--coverage: only families have it"));
+        }
         Listed::Kernels => all(kernel::all().iter().map(|entry| of_kernel(entry.info))),
         Listed::Families => {
             let term = |family: &Family| (family.name.to_owned(), family.promise.to_owned());
@@ -71,6 +80,34 @@ fn contracts() -> Vec<Block> {
         (named.name.to_owned(), format!("{}: {}", named.about, named.contract.describe()))
     });
     vec![Block::Terms([own].into_iter().chain(named).collect())]
+}
+
+/// The cases of each family: a table a kind of aspect.
+fn of_coverage() -> Vec<Block> {
+    const INDICES: u64 = 500;
+    let of_family = |family: &'static Family| (family.name, coverage(family, INDICES));
+    let rows: Vec<(&str, Vec<f64>)> = FAMILIES.iter().chain(STRATA).map(of_family).collect();
+    let mut first = 0;
+    let table = |aspects: &[Aspect]| {
+        let places = first..first + aspects.len();
+        first = places.end;
+        let names = aspects.iter().map(|aspect| Head::of(aspect.name));
+        let heads = [Head::of(aspects[0].kind)].into_iter().chain(names).collect();
+        let row = |(name, shares): &(&str, Vec<f64>)| {
+            Row::new(*name, shares[places.clone()].iter().map(|share| percent_in_three(*share)))
+        };
+        Block::Table(Table::new(heads, rows.iter().map(row).collect()))
+    };
+    ASPECTS.chunk_by(|a, b| a.kind == b.kind).map(table).collect()
+}
+
+/// `.`, `<1`, `37`, `100`.
+fn percent_in_three(share: f64) -> String {
+    match share * 100.0 {
+        0.0 => ".".to_owned(),
+        percent if percent < 1.0 => "<1".to_owned(),
+        percent => format!("{percent:.0}"),
+    }
 }
 
 fn of_kernel(info: &KernelInfo) -> Item {

@@ -13,6 +13,8 @@ mod causes;
 mod choice;
 mod chunk;
 mod corpus_set;
+#[cfg(feature = "studies")]
+mod coverage;
 mod digest;
 mod epsilon_text;
 mod forms;
@@ -46,6 +48,8 @@ pub use choice::EpsilonChoice;
 pub use chunk::Chunk;
 pub use chunk::SourceSummary;
 pub use corpus_set::CorpusSet;
+#[cfg(feature = "studies")]
+pub use coverage::{ASPECTS, Aspect, coverage};
 pub use digest::{CasePlace, Digest};
 pub use epsilon_text::EpsilonText;
 pub use group_count::GroupCount;
