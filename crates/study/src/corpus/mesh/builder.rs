@@ -52,51 +52,6 @@ impl fmt::Display for Note {
     }
 }
 
-/// Faces before all vertices of their file are known.
-#[derive(Default)]
-pub(super) struct Faces {
-    corners: Vec<u32>,
-    /// For each face its corners and its line or number.
-    sizes: Vec<(u32, u32)>,
-    /// Triangles that they make, if none is left out.
-    triangles: usize,
-    /// The largest vertex, counted from 0, and the line or number of the first face that names it.
-    largest: (u32, usize),
-}
-
-impl Faces {
-    /// Adds a face of at least three corners; an error if that makes more triangles than a limit.
-    pub fn add(&mut self, corners: &[u32], at: usize, limit: usize) -> Result<(), String> {
-        self.triangles += corners.len() - 2;
-        if self.triangles > limit {
-            return Err(format!("more than {limit} triangles"));
-        }
-        for vertex in corners {
-            if *vertex > self.largest.0 {
-                self.largest = (*vertex, at);
-            }
-        }
-        self.corners.extend_from_slice(corners);
-        self.sizes.push((corners.len() as u32, at as u32));
-        Ok(())
-    }
-
-    /// The largest vertex and the first face that names it, if there are not so many vertices.
-    pub fn beyond(&self, vertices: usize) -> Option<(u32, usize)> {
-        Some(self.largest).filter(|(largest, _)| *largest as usize >= vertices)
-    }
-
-    /// The corners of each face, and its line or number.
-    pub fn each(&self) -> impl Iterator<Item = (&[u32], u32)> {
-        let mut rest = self.corners.as_slice();
-        self.sizes.iter().map(move |(size, at)| {
-            let (corners, after) = rest.split_at(*size as usize);
-            rest = after;
-            (corners, *at)
-        })
-    }
-}
-
 /// A mesh that is being read.
 #[derive(Default)]
 pub(super) struct MeshBuilder {
@@ -116,6 +71,7 @@ const NO_AREA: &str = "triangles without area, kept";
 
 impl MeshBuilder {
     /// For a file without lines.
+    #[cfg(feature = "files")]
     pub fn without_lines() -> MeshBuilder {
         MeshBuilder { without_lines: true, ..MeshBuilder::default() }
     }

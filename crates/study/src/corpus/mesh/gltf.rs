@@ -18,7 +18,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::Read;
 use std::mem;
-use transform::{mirrors, place, transform_of};
+use transform::{mirrors, placed, transform_of};
 
 /// The first bytes of a GLB file.
 pub(super) const MAGIC: &[u8] = b"glTF";
@@ -250,7 +250,7 @@ impl GltfReader<'_> {
         for (index, position) in bytes.as_chunks::<12>().0.iter().enumerate() {
             let coordinates = position.as_chunks::<4>().0;
             let local = [0, 1, 2].map(|axis| f32::from_le_bytes(coordinates[axis]));
-            let wide = place(transform, local);
+            let wide = placed(transform, local);
             if let Some(number) = wide.iter().find(|number| !number.is_finite()) {
                 return self
                     .error(format!("{place}: vertex {index} has {number}, which is not finite"));

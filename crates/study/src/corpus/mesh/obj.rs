@@ -1,12 +1,15 @@
 //! OBJ files: numbers from their text, indices checked, everything with its line.
+//!
+//! The file's text is read here, so that errors carry their line and numbers keep their digits; tobj then
+//! sorts faces into groups and polygons, on vertices that are placeholders for their index.
 
-use super::builder::{Faces, FilePlace, MeshBuilder, vertices_text};
+use super::builder::{FilePlace, MeshBuilder, vertices_text};
 use super::counted::ReadLimits;
 use super::text::{Statements, coordinate};
 use super::{InputError, Mesh};
 use crate::corpus::json::{excerpt, quoted};
 use std::collections::BTreeSet;
-use std::io::BufRead;
+use std::io::{BufRead, Read, Write};
 use std::num::IntErrorKind;
 
 /// Reads a whole file. Errors carry the line.
@@ -15,33 +18,59 @@ pub(super) fn read(
     name: &str,
     limits: ReadLimits,
 ) -> Result<Mesh, InputError> {
-    let ObjSource { mut mesh, faces, groups, group_of_face } = ObjSource::of(reader, name, limits)?;
-    let mut filled = BTreeSet::new();
-    for ((corners, line), group) in faces.each().zip(group_of_face) {
+    let mut source = ObjSource::of(reader, name, limits)?;
+    let models = source.models_by_tobj(name)?;
+    source.text = Vec::new();
+    let mut mesh = source.mesh;
+    let mut groups = BTreeSet::new();
+    let mut face_lines = source.face_lines.into_iter();
+    for model in models {
         let before = mesh.triangles();
-        mesh.face(corners, line);
-        if mesh.triangles() > before {
-            filled.insert(&groups[group]);
+        for (face, line) in faces(&model.mesh).zip(face_lines.by_ref()) {
+            mesh.face(&face, line);
+        }
+        if mesh.triangles() > before && model.name != UNNAMED {
+            groups.insert(model.name);
         }
     }
-    mesh.finish(name, filled.iter().filter(|group| !group.is_empty()).count())
+    debug_assert_eq!(face_lines.len(), 0, "tobj gives back every face");
+    mesh.finish(name, groups.len())
+}
+
+/// The name that tobj gives to faces that no `o` or `g` line names.
+const UNNAMED: &str = "unnamed_object";
+
+/// The vertices of each face, as indices into the file's vertices.
+fn faces(mesh: &tobj::Mesh) -> impl Iterator<Item = Vec<u32>> {
+    let mut rest = mesh.indices.as_slice();
+    let mut arities = mesh.face_arities.iter();
+    std::iter::from_fn(move || {
+        // A mesh of triangles only has no arities.
+        let arity = arities.next().map_or(3, |arity| *arity as usize);
+        let (face, after) = rest.split_at_checked(arity)?;
+        rest = after;
+        Some(face.iter().map(|vertex| mesh.positions[*vertex as usize * 3] as u32).collect())
+    })
 }
 
 /// The contents of a file's lines.
 #[derive(Default)]
-struct ObjSource {
+pub(super) struct ObjSource {
     /// The vertices.
-    mesh: MeshBuilder,
-    faces: Faces,
-    /// An empty name, and those in the `o` and `g` lines.
-    groups: Vec<String>,
-    /// For each face the place of its group among the names.
-    group_of_face: Vec<usize>,
+    pub mesh: MeshBuilder,
+    /// The `f` lines with absolute vertex indices alone, and the `o` and `g` lines as `g` lines.
+    pub text: Vec<u8>,
+    /// For each `f` line its line number in the file.
+    pub face_lines: Vec<u32>,
+    /// Triangles that the faces make, if none is left out.
+    triangles: usize,
+    /// The largest index of a face, counted from 1, and the first line that names it.
+    largest: (i64, usize),
 }
 
 impl ObjSource {
     fn of(reader: impl BufRead, name: &str, limits: ReadLimits) -> Result<ObjSource, InputError> {
-        let mut source = ObjSource { groups: vec![String::new()], ..ObjSource::default() };
+        let mut source = ObjSource::default();
         let mut lines = Statements::new(reader, name, limits.line);
         while let Some(line) = lines.next_statement()? {
             source
@@ -52,16 +81,38 @@ impl ObjSource {
         if vertices == 0 {
             return Err(InputError::of(name, "the file has no vertices"));
         }
-        if source.group_of_face.is_empty() {
+        if source.face_lines.is_empty() {
             return Err(InputError::of(name, "the file has no faces"));
         }
-        if let Some((largest, line)) = source.faces.beyond(vertices) {
+        let (largest, line) = source.largest;
+        if largest > vertices as i64 {
             let count = vertices_text(vertices);
-            let largest = u64::from(largest) + 1;
             let message = format!("face names vertex {largest} but the file has only {count}");
             return Err(InputError::at(name, line, message));
         }
         Ok(source)
+    }
+
+    /// Has tobj read the faces and groups, with vertices whose first coordinate is their index.
+    pub(super) fn models_by_tobj(&self, name: &str) -> Result<Vec<tobj::Model>, InputError> {
+        let mut vertices = Vec::new();
+        for index in 0..self.mesh.vertices() {
+            writeln!(vertices, "v {index} 0 0").map_err(|e| InputError::of(name, e.to_string()))?;
+        }
+        let mut unread = self.text.as_slice();
+        let mut reader = vertices.as_slice().chain(&mut unread);
+        let no_materials = |_: &std::path::Path| Ok(Default::default());
+        // Neither triangulate nor single_index: polygons stay whole, vertices are what they were.
+        match tobj::load_obj_buf(&mut reader, &tobj::LoadOptions::default(), no_materials) {
+            Ok((models, _)) => Ok(models),
+            Err(error) => {
+                let read = &self.text[..self.text.len() - unread.len()];
+                let faces =
+                    read.split(|byte| *byte == b'\n').filter(|l| l.starts_with(b"f")).count();
+                let line = self.face_lines.get(faces.saturating_sub(1)).map(|line| *line as usize);
+                Err(InputError { line, ..InputError::of(name, format!("tobj: {error}")) })
+            }
+        }
     }
 
     fn note(&mut self, message: &str, line: usize) {
@@ -73,7 +124,14 @@ impl ObjSource {
         match words.next() {
             Some("v") => return self.vertex(words, line, limit),
             Some("f") => return self.face(words, line, limit),
-            Some("o" | "g") => self.groups.push(words.collect::<Vec<_>>().join(" ")),
+            Some("o" | "g") => {
+                self.text.push(b'g');
+                for word in words {
+                    self.text.push(b' ');
+                    self.text.extend_from_slice(word.as_bytes());
+                }
+                self.text.push(b'\n');
+            }
             Some("l" | "p") => self.note("lines and points (l, p) skipped", line),
             None | Some("vt" | "vn" | "vp" | "s" | "usemtl" | "mtllib") => {}
             Some(_) => self.note("unknown statements skipped", line),
@@ -120,7 +178,8 @@ impl ObjSource {
         limit: usize,
     ) -> Result<(), String> {
         let vertices = self.mesh.vertices();
-        let mut corners = Vec::with_capacity(4);
+        let mut corners = 0;
+        self.text.push(b'f');
         for word in words {
             let mut index = face_vertex(word)?;
             if index == 0 {
@@ -135,16 +194,22 @@ impl ObjSource {
                     return Err(format!("face names vertex {given} but only {count} {verb} it"));
                 }
             }
-            let corner = u32::try_from(index - 1);
-            corners
-                .push(corner.map_err(|_| format!("face names vertex {index}, which no file has"))?);
+            if index > self.largest.0 {
+                self.largest = (index, line);
+            }
+            write!(self.text, " {index}").map_err(|error| error.to_string())?;
+            corners += 1;
         }
-        if corners.len() < 3 {
-            return Err(format!("face has {} of at least 3 vertices", corners.len()));
+        self.text.push(b'\n');
+        if corners < 3 {
+            return Err(format!("face has {corners} of at least 3 vertices"));
         }
-        // `Statements` stops before a line number leaves 32 bits.
-        self.faces.add(&corners, line, limit)?;
-        self.group_of_face.push(self.groups.len() - 1);
+        self.triangles += corners - 2;
+        if self.triangles > limit {
+            return Err(format!("more than {limit} triangles"));
+        }
+        // `Lines` stops before a line number leaves 32 bits.
+        self.face_lines.push(line as u32);
         Ok(())
     }
 }

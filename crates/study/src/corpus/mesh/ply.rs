@@ -3,7 +3,7 @@
 //! The crate ply-rs-bw reads the header and single elements. Which elements are read, lines and limits are
 //! decided here.
 
-use super::builder::{Faces, FilePlace, MeshBuilder, vertices_text};
+use super::builder::{FilePlace, MeshBuilder, vertices_text};
 use super::counted::ReadLimits;
 use super::{InputError, Mesh};
 use crate::corpus::json::{self, quoted};
@@ -152,6 +152,17 @@ struct File<'a, R> {
     faces: Faces,
 }
 
+/// The faces of a file: they may stand before the vertices.
+#[derive(Default)]
+struct Faces {
+    corners: Vec<u32>,
+    /// How many corners a face has, and its line or number.
+    sizes: Vec<(u32, u32)>,
+    triangles: usize,
+    /// The largest vertex, and the first face that names it.
+    largest: (u32, usize),
+}
+
 impl<R: BufRead> File<'_, R> {
     /// Reads all elements of a kind.
     fn read(&mut self, kind: &ElementDef) -> Result<(), InputError> {
@@ -239,23 +250,36 @@ impl<R: BufRead> File<'_, R> {
         if corners.len() < 3 {
             return Err(format!("{} of at least 3 vertices", corners.len()));
         }
-        let vertex = |corner: &i64| {
-            u32::try_from(*corner).map_err(|_| format!("names vertex {corner}, which no file has"))
-        };
-        let corners: Vec<u32> = corners.iter().map(vertex).collect::<Result<_, _>>()?;
-        self.faces.add(&corners, at, self.limits.elements)
+        self.faces.triangles += corners.len() - 2;
+        if self.faces.triangles > self.limits.elements {
+            return Err(format!("more than {} triangles", self.limits.elements));
+        }
+        for corner in corners {
+            let vertex = u32::try_from(*corner);
+            let vertex = vertex.map_err(|_| format!("names vertex {corner}, which no file has"))?;
+            if vertex >= self.faces.largest.0 {
+                self.faces.largest = (vertex, at);
+            }
+            self.faces.corners.push(vertex);
+        }
+        self.faces.sizes.push((corners.len() as u32, at as u32));
+        Ok(())
     }
 
     fn finish(mut self) -> Result<Mesh, InputError> {
-        if let Some((largest, at)) = self.faces.beyond(self.mesh.vertices()) {
+        let (largest, at) = self.faces.largest;
+        if largest as usize >= self.mesh.vertices() {
             let count = vertices_text(self.mesh.vertices());
             let has_lines = self.encoding == Encoding::Ascii;
             let face = if has_lines { "face".to_owned() } else { format!("face {at}") };
             let message = format!("{face} names vertex {largest}, counted from 0, of {count}");
             return Err(InputError { line: has_lines.then_some(at), ..self.bad(&message) });
         }
-        for (corners, number) in self.faces.each() {
-            self.mesh.face(corners, number);
+        let mut rest = self.faces.corners.as_slice();
+        for (size, number) in &self.faces.sizes {
+            let (corners, after) = rest.split_at(*size as usize);
+            self.mesh.face(corners, *number);
+            rest = after;
         }
         self.mesh.finish(self.name, 0)
     }

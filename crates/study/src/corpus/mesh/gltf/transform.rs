@@ -24,7 +24,7 @@ pub(super) fn transform_of(node: &Transform) -> Option<DAffine3> {
 }
 
 /// A point's place. The identity leaves every bit.
-pub(super) fn place(transform: &DAffine3, point: [f32; 3]) -> [f64; 3] {
+pub(super) fn placed(transform: &DAffine3, point: [f32; 3]) -> [f64; 3] {
     let point = point.map(f64::from);
     if *transform == DAffine3::IDENTITY {
         return point;
