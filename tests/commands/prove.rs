@@ -7,6 +7,7 @@ use num_traits::ToPrimitive;
 use std::fs;
 use std::path::Path;
 use std::process::Output;
+use std::sync::OnceLock;
 
 fn hairline(arguments: &[&str]) -> Output {
     program::hairline(Path::new(env!("CARGO_MANIFEST_DIR")), arguments)
@@ -19,6 +20,12 @@ fn json(output: &Output) -> serde_json::Value {
 /// The findings of a record.
 fn result(output: &Output) -> serde_json::Value {
     json_schema::result(std::str::from_utf8(&output.stdout).unwrap())
+}
+
+/// The findings about all kernels, which several tests look at.
+fn everything() -> &'static serde_json::Value {
+    static RECORD: OnceLock<serde_json::Value> = OnceLock::new();
+    RECORD.get_or_init(|| result(&hairline(&["prove", "--format", "json", "--quiet"])))
 }
 
 /// Everything that is said.
@@ -249,7 +256,7 @@ fn depth(case: &serde_json::Value) -> f64 {
 /// wrong.
 #[test]
 fn known_verdicts_are_as_wrong_as_is_said_and_no_worse_than_proved() {
-    let record = result(&hairline(&["prove", "--format", "json", "--quiet"]));
+    let record = everything();
     let (mut near, mut explained) = (0, 0);
     for kernel in record["kernels"].as_array().unwrap() {
         for (name, finding, side) in [("misses", "false-miss", 1.0), ("hits", "false-hit", -1.0)] {
@@ -287,7 +294,7 @@ fn known_verdicts_are_as_wrong_as_is_said_and_no_worse_than_proved() {
 
 #[test]
 fn every_witness_is_below_its_bound_and_near_it() {
-    let record = result(&hairline(&["prove", "--format", "json", "--quiet"]));
+    let record = everything();
     let gates = record["gates"].as_array().unwrap();
     assert!(gates.len() > 70, "{}", gates.len());
     for gate in gates {
@@ -769,7 +776,7 @@ fn hundredths(x: f64, up: bool) -> String {
 
 #[test]
 fn the_guides_table_is_what_is_proved_and_known() {
-    let record = result(&hairline(&["prove", "--format", "json"]));
+    let record = everything();
     let gates = record["gates"].as_array().unwrap();
     let cells = |gate: &serde_json::Value| match gate["bound_units"].as_f64() {
         None => "none | | |".to_owned(),
