@@ -134,7 +134,7 @@ pub fn proofs(rows: &[Row], scalars: [bool; 2]) -> Vec<ProofPart> {
         shapes: Vec::new(),
         domain: Domain::UNIT,
         parts: Vec::new(),
-        effort: Effort { evaluations: 0, seed: 1 },
+        effort: Effort::NONE,
         epsilons: Epsilons::None,
         stored: &stored,
         shared: false,

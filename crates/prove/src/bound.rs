@@ -5,10 +5,11 @@ use super::dyadic::round_up;
 use super::formula::{DIGITS, Formula, Maximum, Source};
 use super::measures::{Limit, Samples};
 use super::order::{is_at_most, unsigned};
-use super::run::cone;
-use super::{Domain, Dyadic, Format, Measures};
+use super::run::{cone, parts};
+use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;
+use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap};
 
 /// Binary digits that the size of a lemma's number keeps: products of sizes stay short.
@@ -104,8 +105,8 @@ pub struct Prover<'a> {
     pub(super) domain: Domain,
     pub(super) format: Format,
     bounds: HashMap<Place, Result<Bound, String>>,
-    /// In a scene, what says which numbers it knows.
-    pub(super) samples: Option<(Samples<'a>, Measures)>,
+    /// What says which numbers it knows, once that is asked.
+    samples: OnceCell<Samples<'a>>,
     /// For each number, true if its conditions count; none if all do.
     counts: Option<Vec<bool>>,
     /// The lemmas so far, each after those that it uses.
@@ -115,9 +116,12 @@ pub struct Prover<'a> {
 impl<'a> Prover<'a> {
     /// Nothing is proved yet.
     pub fn new(path: &'a Path, domain: Domain, format: Format) -> Prover<'a> {
-        let samples = domain.measures.map(|measures| (Samples::new(path), measures));
-        let bounds = HashMap::new();
+        let (bounds, samples) = (HashMap::new(), OnceCell::new());
         Prover { path, domain, format, bounds, samples, counts: None, lemmas: Vec::new() }
+    }
+
+    pub(super) fn samples(&self) -> &Samples<'a> {
+        self.samples.get_or_init(|| Samples::new(self.path))
     }
 
     /// From here on proofs are of this number and what it is made from: they suppose nothing of other quotients of
@@ -164,7 +168,7 @@ impl<'a> Prover<'a> {
         } else if let Some((numerator, divisor, twice)) = self.quotient(place) {
             let floor = self.floor(divisor);
             // A reciprocal is known by its divisor.
-            let is_known = numerator.is_some() || self.samples.is_none();
+            let is_known = numerator.is_some() || self.domain.measures.is_none();
             let most = if is_known { self.most(place) } else { None };
             (formula, maximum, bound) = self.divide(numerator, divisor, twice, (floor, most))?;
             let most = most.unwrap_or(Limit::Own(bound.size));
@@ -245,8 +249,7 @@ impl<'a> Prover<'a> {
     /// coordinate: by the decisions of the path the first is at most as large as the second. A proof of the number
     /// supposes these and no other decisions.
     pub fn orders(&self, place: Place) -> BTreeSet<(u8, u8)> {
-        let (_, needed) = cone(&self.path.operations, place);
-        let places = (0..).zip(needed).filter_map(|(place, needed)| needed.map(|_| place));
+        let places = parts(&self.path.operations, place);
         let mut orders = BTreeSet::new();
         for (numerator, divisor, _) in places.filter_map(|place| self.quotient(place)) {
             let Operation::Input(d) = self.operation(divisor) else { continue };

@@ -8,7 +8,7 @@
 
 use super::bound::SIZE_DIGITS;
 use super::dyadic::{Big, root_up};
-use super::formula::{DIGITS, Formula, Maximum, Step};
+use super::formula::{DIGITS, Formula, Maximum, Step, Term};
 use super::{Dyadic, Format};
 use num_traits::Zero;
 
@@ -140,38 +140,19 @@ impl Formula {
         let mut degrees: Vec<usize> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
             let of = |i: usize| degrees[i];
-            degrees.push(match *step {
-                Step::Variables(ref sum) => {
-                    sum.iter().map(|(v, _)| is_narrow(*v)).max().unwrap_or(0)
-                }
-                Step::Number(_) => 0,
-                Step::Neg(a) => of(a),
-                Step::Add(a, b) | Step::Sub(a, b) => of(a).max(of(b)),
-                Step::Mul(a, b) => of(a) + of(b),
-                Step::Fma(a, b, c) => (of(a) + of(b)).max(of(c)),
-                Step::Minor(a, b, c, d) => (of(a) + of(b)).max(of(c) + of(d)),
+            let of_terms = step.terms().map(|(_, a, b)| of(a) + b.map_or(0, of));
+            degrees.push(match step {
+                Step::Variables(sum) => sum.iter().map(|(v, _)| is_narrow(*v)).max().unwrap_or(0),
+                _ => of_terms.max().unwrap_or(0),
             });
         }
         let mut slopes = vec![0; self.steps.len()];
         for (i, step) in self.steps.iter().enumerate().rev() {
             let own = slopes[i];
             let mut raise = |to: usize, by: usize| slopes[to] = slopes[to].max(own + by);
-            match *step {
-                Step::Variables(_) | Step::Number(_) => {}
-                Step::Neg(a) => raise(a, 0),
-                Step::Add(a, b) | Step::Sub(a, b) => [a, b].into_iter().for_each(|to| raise(to, 0)),
-                Step::Mul(a, b) => {
-                    [(a, b), (b, a)].into_iter().for_each(|(to, by)| raise(to, degrees[by]))
-                }
-                Step::Fma(a, b, c) => {
-                    [(a, degrees[b]), (b, degrees[a]), (c, 0)]
-                        .into_iter()
-                        .for_each(|(to, by)| raise(to, by));
-                }
-                Step::Minor(a, b, c, d) => {
-                    let pairs = [(a, b), (b, a), (c, d), (d, c)];
-                    pairs.into_iter().for_each(|(to, by)| raise(to, degrees[by]));
-                }
+            for (_, a, b) in step.terms() {
+                raise(a, b.map_or(0, |b| degrees[b]));
+                b.into_iter().for_each(|b| raise(b, degrees[a]));
             }
         }
         (0..slopes.len()).all(|i| slopes[i] < 2 || self.bounds[i].error.is_zero())
@@ -272,17 +253,12 @@ impl Formula {
         let mut linear: Vec<bool> = Vec::with_capacity(self.steps.len());
         for (i, step) in self.steps.iter().enumerate() {
             let of = |i: usize| linear[i];
-            let product = |a: usize, b: usize| (!of(a) || !of(b)).then_some(of(a) || of(b));
-            let both = |a: bool, b: bool| (a == b).then_some(a);
-            linear.push(match *step {
-                Step::Variables(_) => self.is_part(i),
-                Step::Number(_) => false,
-                Step::Neg(a) => of(a),
-                Step::Add(a, b) | Step::Sub(a, b) => both(of(a), of(b))?,
-                Step::Mul(a, b) => product(a, b)?,
-                Step::Fma(a, b, c) => both(product(a, b)?, of(c))?,
-                Step::Minor(a, b, c, d) => both(product(a, b)?, product(c, d)?)?,
-            });
+            if step.terms().any(|(_, a, b)| of(a) && b.is_some_and(of)) {
+                return None;
+            }
+            let mut terms = step.terms().map(|(_, a, b)| of(a) || b.is_some_and(of));
+            let first = terms.next().unwrap_or_else(|| self.is_part(i));
+            linear.push(terms.all(|term| term == first).then_some(first)?);
         }
         linear.last().is_some_and(|last| *last).then_some(linear)
     }
@@ -296,17 +272,15 @@ impl Formula {
             negative_if(corner >> v & 1 == 1, self.variables[v])
         };
         for i in 0..self.steps.len() {
+            let term = |(is_minus, a, b): Term| {
+                negative_if(is_minus, b.map_or(values[a], |b| values[a] * values[b]))
+            };
             values[i] = match self.steps[i] {
                 Step::Variables(ref sum) => sum.iter().fold(Dyadic::ZERO, |total, (v, sign)| {
                     total + negative_if(*sign < 0, variable(*v))
                 }),
                 Step::Number(value) => Dyadic::new(value.into(), 0),
-                Step::Add(a, b) => values[a] + values[b],
-                Step::Sub(a, b) => values[a] - values[b],
-                Step::Mul(a, b) => values[a] * values[b],
-                Step::Neg(a) => -values[a],
-                Step::Fma(a, b, c) => values[a] * values[b] + values[c],
-                Step::Minor(a, b, c, d) => values[a] * values[b] - values[c] * values[d],
+                ref step => step.terms().map(term).reduce(|a, b| a + b).expect("a term"),
             };
         }
     }
@@ -322,32 +296,10 @@ impl Formula {
                 continue;
             }
             let mut add = |to: usize, amount: Dyadic| slopes[to] = slopes[to] + amount;
-            match self.steps[i] {
-                Step::Variables(_) | Step::Number(_) => {}
-                Step::Add(a, b) => {
-                    add(a, slope);
-                    add(b, slope);
-                }
-                Step::Sub(a, b) => {
-                    add(a, slope);
-                    add(b, -slope);
-                }
-                Step::Mul(a, b) => {
-                    add(a, slope * values[b]);
-                    add(b, slope * values[a]);
-                }
-                Step::Neg(a) => add(a, -slope),
-                Step::Fma(a, b, c) => {
-                    add(a, slope * values[b]);
-                    add(b, slope * values[a]);
-                    add(c, slope);
-                }
-                Step::Minor(a, b, c, d) => {
-                    add(a, slope * values[b]);
-                    add(b, slope * values[a]);
-                    add(c, -(slope * values[d]));
-                    add(d, -(slope * values[c]));
-                }
+            for (is_minus, a, b) in self.steps[i].terms() {
+                let slope = negative_if(is_minus, slope);
+                add(a, b.map_or(slope, |b| slope * values[b]));
+                b.into_iter().for_each(|b| add(b, slope * values[a]));
             }
         }
     }

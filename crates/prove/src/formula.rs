@@ -100,16 +100,28 @@ impl Maximum {
     }
 }
 
+/// An earlier step or a product of two, which a step adds up; true if it subtracts it.
+pub type Term = (bool, usize, Option<usize>);
+
 impl Step {
+    /// The terms that it adds up; none of a sum of variables and of a number.
+    pub fn terms(&self) -> impl Iterator<Item = Term> + use<> {
+        let product = |is_minus, a, b| Some((is_minus, a, Some(b)));
+        let terms = match *self {
+            Step::Variables(_) | Step::Number(_) => [None, None],
+            Step::Neg(a) => [Some((true, a, None)), None],
+            Step::Add(a, b) => [a, b].map(|a| Some((false, a, None))),
+            Step::Sub(a, b) => [Some((false, a, None)), Some((true, b, None))],
+            Step::Mul(a, b) => [product(false, a, b), None],
+            Step::Fma(a, b, c) => [product(false, a, b), Some((false, c, None))],
+            Step::Minor(a, b, c, d) => [product(false, a, b), product(true, c, d)],
+        };
+        terms.into_iter().flatten()
+    }
+
     /// The earlier steps in it.
-    pub fn operands(&self) -> Vec<usize> {
-        match *self {
-            Step::Variables(_) | Step::Number(_) => vec![],
-            Step::Neg(a) => vec![a],
-            Step::Add(a, b) | Step::Sub(a, b) | Step::Mul(a, b) => vec![a, b],
-            Step::Fma(a, b, c) => vec![a, b, c],
-            Step::Minor(a, b, c, d) => vec![a, b, c, d],
-        }
+    pub fn operands(&self) -> impl Iterator<Item = usize> + use<> {
+        self.terms().flat_map(|(_, a, b)| [Some(a), b]).flatten()
     }
 
     /// The variables in it as bits, from those in earlier steps. Beyond 64 variables, which are too many, two may
@@ -117,7 +129,7 @@ impl Step {
     pub fn support(&self, earlier: &[u64]) -> u64 {
         match self {
             Step::Variables(sum) => sum.iter().fold(0, |bits, (v, _)| bits | 1 << (v % 64)),
-            _ => self.operands().iter().fold(0, |bits, i| bits | earlier[*i]),
+            _ => self.operands().fold(0, |bits, i| bits | earlier[i]),
         }
     }
 }
@@ -130,13 +142,8 @@ impl Formula {
     pub(super) fn is_multi_affine(&self) -> bool {
         let mut supports: Vec<u64> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
-            let apart = |a: usize, b: usize| supports[a] & supports[b] == 0;
-            let is_fit = match *step {
-                Step::Mul(a, b) | Step::Fma(a, b, _) => apart(a, b),
-                Step::Minor(a, b, c, d) => apart(a, b) && apart(c, d),
-                _ => true,
-            };
-            if !is_fit {
+            let is_apart = |(_, a, b): Term| b.is_none_or(|b| supports[a] & supports[b] == 0);
+            if !step.terms().all(is_apart) {
                 return false;
             }
             supports.push(step.support(&supports));
@@ -158,22 +165,17 @@ impl Formula {
         let mut bounds: Vec<Bound> = Vec::with_capacity(self.steps.len());
         let (unit, tiny) = (Big::from(format.unit()), Big::from(format.tiny()));
         for (i, step) in self.steps.iter().enumerate() {
-            let product = |a: usize, b: usize| {
-                let ([a0, a1, a2], [b0, b1, b2]) = (&terms[a], &terms[b]);
-                let first = a0 * b1 + a1 * b0;
-                let rest = a1 * b1 + a2 * &(b0 + b1 + b2) + (a0 + a1) * b2;
-                [first, rest]
-            };
-            let own = |a: usize| [terms[a][1].clone(), terms[a][2].clone()];
-            let sum = |[a, b]: [Big; 2], [c, d]: [Big; 2]| [a + c, b + d];
-            let [mut first, mut rest] = match *step {
-                Step::Variables(_) | Step::Number(_) => [Big::zero(), Big::zero()],
-                Step::Add(a, b) | Step::Sub(a, b) => sum(own(a), own(b)),
-                Step::Mul(a, b) => product(a, b),
-                Step::Neg(a) => own(a),
-                Step::Fma(a, b, c) => sum(product(a, b), own(c)),
-                Step::Minor(a, b, c, d) => sum(product(a, b), product(c, d)),
-            };
+            let [mut first, mut rest] = [Big::zero(), Big::zero()];
+            for (_, a, b) in step.terms() {
+                let [a0, a1, a2] = &terms[a];
+                if let Some([b0, b1, b2]) = b.map(|b| &terms[b]) {
+                    first += a0 * b1 + a1 * b0;
+                    rest += a1 * b1 + a2 * &(b0 + b1 + b2) + (a0 + a1) * b2;
+                } else {
+                    first += a1;
+                    rest += a2;
+                }
+            }
             let bound = match (&self.given[i], corners) {
                 (Some(given), _) => given.clone(),
                 (None, None) => self.bounds[i].clone(),
@@ -206,33 +208,22 @@ impl Formula {
         before: Big,
         format: Format,
     ) -> Bound {
-        let size = |a: usize| bounds[a].size;
-        let computed = |a: usize| Big::from(bounds[a].computed);
-        let product = |a: usize, b: usize| (size(a) * size(b), computed(a) * computed(b));
-        let (size, computed) = match self.steps[i] {
-            Step::Variables(_) | Step::Number(_) => unreachable!("what is given"),
-            Step::Neg(a) => (size(a), computed(a)),
-            Step::Add(a, b) | Step::Sub(a, b) => (size(a) + size(b), computed(a) + computed(b)),
-            Step::Mul(a, b) => product(a, b),
-            Step::Fma(a, b, c) => {
-                let (p, q) = product(a, b);
-                (p + size(c), q + computed(c))
-            }
-            Step::Minor(a, b, c, d) => {
-                let ((p, q), (r, s)) = (product(a, b), product(c, d));
-                if format == Format::F64 {
-                    return minor_in_f64((p + r).min(corner), [q, s]);
-                }
-                (p + r, q + s)
-            }
+        let term = |(_, a, b): Term| match (&bounds[a], b.map(|b| &bounds[b])) {
+            (a, Some(b)) => (a.size * b.size, Big::from(a.computed) * Big::from(b.computed)),
+            (a, None) => (a.size, Big::from(a.computed)),
         };
+        let (sizes, all): (Vec<Dyadic>, Vec<Big>) = self.steps[i].terms().map(term).unzip();
         // A number of the corners, even where the products and sums need more digits than there are.
-        let size = size.min(corner);
-        let computed = computed.min(Big::from(size) + before);
+        let size = sizes.into_iter().reduce(|a, b| a + b).expect("what is given").min(corner);
+        let is_minor = matches!(self.steps[i], Step::Minor(..));
+        if is_minor && format == Format::F64 {
+            return minor_in_f64(size, &all);
+        }
+        let computed = all.into_iter().sum::<Big>().min(Big::from(size) + before);
         let mut error = Dyadic::ZERO;
         if self.rounds[i] {
             error = format.half_ulp_of(&computed);
-            if matches!(self.steps[i], Step::Minor(..)) && format == Format::F32 {
+            if is_minor {
                 // The difference is rounded twice, first to f64.
                 error = error.plus_up(Format::F64.half_ulp_of(&computed));
             }
@@ -243,13 +234,13 @@ impl Formula {
 
 /// The bound of a difference of two products of these sizes in f64. Both are rounded, and so are their
 /// difference, that of their remainders, and the sum of both.
-fn minor_in_f64(size: Dyadic, [p, q]: [Big; 2]) -> Bound {
+fn minor_in_f64(size: Dyadic, products: &[Big]) -> Bound {
     let format = Format::F64;
     let up = |x: &Big| Big::from(round_up(x, format.digits));
     let half_ulp = |x: &Big| Big::from(format.half_ulp_of(x));
     let twice_tiny = Big::from(format.tiny()) + Big::from(format.tiny());
-    let rounded = up(&p) + up(&q);
-    let remainders = half_ulp(&p) + half_ulp(&q) + &twice_tiny;
+    let rounded: Big = products.iter().map(up).sum();
+    let remainders = products.iter().map(half_ulp).sum::<Big>() + &twice_tiny;
     let error = half_ulp(&rounded) + up(&remainders) + half_ulp(&remainders) + twice_tiny;
     let computed = up(&rounded) + up(&remainders);
     Bound { size, computed: round_up(&computed, format.digits), error: round_up(&error, DIGITS) }

@@ -51,7 +51,7 @@ pub use formula::{Formula, Maximum, Source, Step};
 pub use gates::{Proof, Quantity, Supposed, Uses, compared};
 pub use judged::{Judged, VERDICTS};
 pub use meaning::Scale;
-pub use measures::{Limit, Measures};
+pub use measures::{Limit, Measures, Sample};
 pub use names::Names;
 pub use order::{is_at_most, is_impossible};
 pub use permanent::{Relative, Roundings, relative};

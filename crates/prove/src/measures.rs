@@ -106,13 +106,15 @@ impl<'a> Samples<'a> {
         };
         let values = (0..SAMPLES).map(sample).collect();
         let mut samples = Samples { path, values, exact: OnceCell::new(), axes: vec![] };
-        samples.axes = largest_axes(path, |place| {
-            (0..3).find(|axis| {
-                samples.may_be(place, |i| samples.values[i].1.normal.at(*axis))
-                    && samples.is_exactly(place, |sample| sample.normal.at(*axis))
-            })
-        });
+        samples.axes =
+            largest_axes(path, |place| (0..3).find(|axis| samples.is_of_normal(place, *axis)));
         samples
+    }
+
+    /// True if a number is a coordinate of N, up to its sign.
+    pub fn is_of_normal(&self, place: Place, axis: usize) -> bool {
+        self.may_be(place, |i| self.values[i].1.normal.at(axis))
+            && self.is_exactly(place, |sample| sample.normal.at(axis))
     }
 
     /// True if a number may be another one up to its sign, given that one's values.
@@ -155,17 +157,19 @@ impl<'a> Samples<'a> {
 
 /// A triangle and a ray.
 #[derive(Debug)]
-pub(super) struct Sample<R> {
-    pub origin: Triple<R>,
-    pub direction: Triple<R>,
-    pub vertices: [Triple<R>; 3],
+pub struct Sample<R> {
+    pub(super) origin: Triple<R>,
+    pub(super) direction: Triple<R>,
+    pub(super) vertices: [Triple<R>; 3],
     /// From a to b, from a to c, from b to c.
-    pub edges: [Triple<R>; 3],
+    pub(super) edges: [Triple<R>; 3],
+    /// N = (b-a)×(c-a).
     pub normal: Triple<R>,
-    pub ends: [R; 2],
+    pub(super) ends: [R; 2],
 }
 
 impl<R: Real> Sample<R> {
+    /// Of the seventeen numbers of a case.
     pub fn of(inputs: &[R; 17]) -> Sample<R> {
         let at = |i: usize| Triple::from([0, 1, 2].map(|axis| inputs[i + axis].clone()));
         let [origin, direction, a, b, c] = [0, 3, 6, 9, 12].map(at);
@@ -227,7 +231,7 @@ impl Measures {
         let Measures { area, sine, .. } = *self;
         let normal = &sample.normal;
         let square = normal.dot(normal);
-        let (volume, length) = (normal.dot(&sample.direction), square.sqrt());
+        let (volume, length) = (sample.volume(), square.sqrt());
         let known =
             |name, limit: Dyadic, value| Known { name, limit: limit.round_down(DIGITS), value };
         let largest = area * below(0.573);
@@ -246,18 +250,14 @@ impl Measures {
 
     fn quotients<R: Real>(&self, sample: &Sample<R>, axes: &[usize]) -> Vec<Known<R>> {
         let Measures { slope, world, distance, .. } = *self;
-        let Sample { origin, direction, vertices, edges, normal, .. } = sample;
+        let Sample { vertices, edges, normal, .. } = sample;
         let [a, b, c] = vertices;
         let known =
             |name, limit: Dyadic, value| Known { name, limit: limit.round_up(DIGITS), value };
         let square = normal.dot(normal);
-        let t = normal.dot(&a.minus(origin)) / normal.dot(direction);
-        let p = origin.plus(&direction.times(&t)).minus(a);
-        let [v, u] = [edges[0].cross(&p), p.cross(&edges[1])].map(|x| normal.dot(&x) / &square);
-        let w = R::one() - &u - &v;
-        let mut all = vec![known("|t|", distance, t)];
+        let mut all = vec![known("|t|", distance, sample.time())];
         // Slightly more, for the points next to a vertex.
-        all.extend([u, v, w].map(|w| known("|u|", Dyadic::ABOVE_ONE, w)));
+        all.extend([0, 1, 2].map(|i| known("|u|", Dyadic::ABOVE_ONE, sample.weight(i))));
         for k in axes.iter().copied() {
             let over = |name, limit, value: R| known(name, limit, value / normal.at(k));
             for i in (0..3).filter(|i| *i != k) {

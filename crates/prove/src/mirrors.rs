@@ -8,7 +8,7 @@
 //! difference of its factors' sets. Terms that are added up must have one set: for mirrors, the difference of two of them
 //! is an equation modulo 2. A zero has no sign, is computed as 0 and demands nothing.
 
-use super::formula::{Formula, Step};
+use super::formula::{Formula, Step, Term};
 
 impl Formula {
     /// The variables whose signs have to be tried, as bits: the lowest one of each independent equation. Every corner
@@ -20,15 +20,11 @@ impl Formula {
         let mut equations = Equations { unit, by_lowest: [0; 64] };
         for step in &self.steps {
             let of = |i: usize| signs[i];
-            let product = |a: usize, b: usize| Some(of(a)? ^ of(b)?);
+            let term = |(_, a, b): Term| Some(of(a)? ^ b.map_or(Some(0), of)?);
             signs.push(match *step {
                 Step::Variables(ref sum) => equations.alike(sum.iter().map(|(v, _)| Some(1 << v))),
                 Step::Number(value) => (value != 0).then_some(0),
-                Step::Neg(a) => of(a),
-                Step::Add(a, b) | Step::Sub(a, b) => equations.alike([of(a), of(b)]),
-                Step::Mul(a, b) => product(a, b),
-                Step::Fma(a, b, c) => equations.alike([product(a, b), of(c)]),
-                Step::Minor(a, b, c, d) => equations.alike([product(a, b), product(c, d)]),
+                _ => equations.alike(step.terms().map(term)),
             });
         }
         let lowest = (0..64).filter(|v| equations.by_lowest[*v] != 0);

@@ -19,16 +19,14 @@ enum Shape {
     Number(i32),
     /// Without its sign.
     Size(Form),
-    /// Two terms; whether the second has the other sign than the first.
-    Sum(Form, Form, bool),
-    Product(Form, Form),
     Quotient(Form, Form),
     Root(Form),
-    /// A product rounded with a term; whether they differ in sign.
-    Fused(Form, Form, Form, bool),
-    /// Two products, and whether they differ in sign.
-    Minor([Form; 2], [Form; 2], bool),
+    /// What is rounded once: products and single numbers, and true of each that has the other sign than the first.
+    Terms(Vec<Term>),
 }
+
+/// A term of a sum: its sign, and its one or two factors in order.
+type Term = (bool, Form, Option<Form>);
 
 /// The formulas seen so far.
 #[derive(Default)]
@@ -42,7 +40,11 @@ impl Forms {
         let mut values: Vec<(bool, Form)> = Vec::new();
         for operation in &path.operations[..=place as usize] {
             let of = |place: Place| values[place as usize];
-            let ordered = |a: Form, b: Form| [a.min(b), a.max(b)];
+            let one = |is_minus: bool, a: Place| (is_minus ^ of(a).0, of(a).1, None);
+            let product = |is_minus: bool, a: Place, b: Place| {
+                let ((s, a), (t, b)) = (of(a), of(b));
+                (is_minus ^ s ^ t, a.min(b), Some(a.max(b)))
+            };
             let value = match *operation {
                 Operation::Input(i) => (false, self.number(Shape::Input(rename(i)))),
                 Operation::Number(value) => (value < 0, self.number(Shape::Number(value.abs()))),
@@ -52,32 +54,16 @@ impl Forms {
                     let (sign, a) = of(a);
                     (false, self.number(Shape::Root(2 * a + usize::from(sign))))
                 }
-                Operation::Add(a, b) => self.sum(of(a), of(b)),
-                Operation::Sub(a, b) => self.sum(of(a), (!of(b).0, of(b).1)),
-                Operation::Mul(a, b) => {
-                    let ((s, a), (t, b)) = (of(a), of(b));
-                    let [a, b] = ordered(a, b);
-                    (s ^ t, self.number(Shape::Product(a, b)))
-                }
                 Operation::Div(a, b) => {
                     let ((s, a), (t, b)) = (of(a), of(b));
                     (s ^ t, self.number(Shape::Quotient(a, b)))
                 }
-                Operation::Fma(a, b, c) => {
-                    let ((s, a), (t, b), (r, c)) = (of(a), of(b), of(c));
-                    let [a, b] = ordered(a, b);
-                    (r, self.number(Shape::Fused(a, b, c, s ^ t ^ r)))
-                }
+                Operation::Add(a, b) => self.sum(vec![one(false, a), one(false, b)]),
+                Operation::Sub(a, b) => self.sum(vec![one(false, a), one(true, b)]),
+                Operation::Mul(a, b) => self.sum(vec![product(false, a, b)]),
+                Operation::Fma(a, b, c) => self.sum(vec![product(false, a, b), one(false, c)]),
                 Operation::Minor(a, b, c, d) => {
-                    let ((s, a), (t, b)) = (of(a), of(b));
-                    let ((q, c), (r, d)) = (of(c), of(d));
-                    let (first, second) = (ordered(a, b), ordered(c, d));
-                    let (sign, other) = (s ^ t, !(q ^ r));
-                    if first <= second {
-                        (sign, self.number(Shape::Minor(first, second, sign ^ other)))
-                    } else {
-                        (other, self.number(Shape::Minor(second, first, sign ^ other)))
-                    }
+                    self.sum(vec![product(false, a, b), product(true, c, d)])
                 }
             };
             values.push(value);
@@ -85,12 +71,11 @@ impl Forms {
         values[place as usize]
     }
 
-    fn sum(&mut self, (s, a): (bool, Form), (t, b): (bool, Form)) -> (bool, Form) {
-        if a <= b {
-            (s, self.number(Shape::Sum(a, b, s ^ t)))
-        } else {
-            (t, self.number(Shape::Sum(b, a, s ^ t)))
-        }
+    fn sum(&mut self, mut terms: Vec<Term>) -> Signed {
+        terms.sort_by_key(|(_, a, b)| (*a, *b));
+        let sign = terms[0].0;
+        terms.iter_mut().for_each(|term| term.0 ^= sign);
+        (sign, self.number(Shape::Terms(terms)))
     }
 
     fn number(&mut self, shape: Shape) -> Form {

@@ -10,26 +10,23 @@ use crate::arith::recorded::{Operation, Place};
 impl Prover<'_> {
     /// The least size of a divisor.
     pub(super) fn floor(&self, divisor: Place) -> Limit {
-        let Domain { direction_floor, floor, .. } = self.domain;
+        let Domain { direction_floor, floor, measures, .. } = self.domain;
         if self.is_largest_of_direction(divisor) {
-            return match self.samples {
+            return match measures {
                 None => Limit::Domain(direction_floor),
                 Some(_) => Limit::Scene("|d_k|", direction_floor),
             };
         }
-        let found = self
-            .samples
-            .as_ref()
-            .and_then(|(samples, measures)| samples.find(divisor, measures, Kind::Divisor));
+        let found = measures.and_then(|it| self.samples().find(divisor, &it, Kind::Divisor));
         found.unwrap_or(Limit::Domain(floor))
     }
 
     /// The largest size of a quotient; none if a scene knows nothing of it.
     pub(super) fn most(&self, quotient: Place) -> Option<Limit> {
-        let Some((samples, measures)) = &self.samples else {
-            return Some(Limit::Domain(self.domain.quotient));
-        };
-        samples.find(quotient, measures, Kind::Quotient)
+        match &self.domain.measures {
+            None => Some(Limit::Domain(self.domain.quotient)),
+            Some(measures) => self.samples().find(quotient, measures, Kind::Quotient),
+        }
     }
 
     /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.

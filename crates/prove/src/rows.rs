@@ -68,8 +68,11 @@ impl Prover<'_> {
         let is_edge = |edge: Edge| edge.map(i8::abs).iter().sum::<i8>() == 2;
         let sign = [1, -1].into_iter().find(|sign| is_edge(third(*sign)))?;
         let corner = third(sign).iter().position(|x| *x == 0)?;
-        let other =
-            (0..3).find(|other| *other != axis && self.is_area(divisor, [u, v], [axis, *other]))?;
+        // Twice the triangle's area in a plane is the coordinate of N along the third axis.
+        let is_other = |other: &usize| {
+            *other != axis && self.samples().is_of_normal(divisor, 3 - axis - other)
+        };
+        let other = (0..3).find(is_other)?;
         Some((SameSign { divisor, corner, axis, other }, sign))
     }
 
@@ -84,47 +87,6 @@ impl Prover<'_> {
                 let of = |i: usize| i8::from(i + 1 == p) - i8::from(i + 1 == q);
                 Some(([0, 1, 2].map(of), axis))
             }
-            _ => None,
-        }
-    }
-
-    /// True if a number is u_i v_j - u_j v_i, or the negative.
-    fn is_area(&self, place: Place, [u, v]: [Edge; 2], axes: [usize; 2]) -> bool {
-        // Of u_i v_j and of u_j v_i: how often a product is that.
-        let count = |[a, b]: [Place; 2]| {
-            let (a, b) = (self.edge(a)?, self.edge(b)?);
-            let of = |[i, j]: [usize; 2]| {
-                let is = |(x, along): (Edge, usize), edge: Edge, axis: usize| match along == axis {
-                    true if x == edge => 1,
-                    true if x == edge.map(|x| -x) => -1,
-                    _ => 0,
-                };
-                is(a, u, i) * is(b, v, j) + is(b, u, i) * is(a, v, j)
-            };
-            let [i, j] = axes;
-            Some([of([i, j]), of([j, i])])
-        };
-        let difference = |[first, second]: [[Place; 2]; 2]| {
-            let ([a, b], [c, d]) = (count(first)?, count(second)?);
-            Some([a - c, b - d])
-        };
-        let found = self.products(place).and_then(difference);
-        found.is_some_and(|found| [[1, -1], [-1, 1]].contains(&found))
-    }
-
-    /// The factors of both products, if a number is a difference of two.
-    fn products(&self, place: Place) -> Option<[[Place; 2]; 2]> {
-        let factors = |place: Place| match self.operation(place) {
-            Operation::Mul(a, b) => Some([a, b]),
-            _ => None,
-        };
-        match self.operation(place) {
-            Operation::Sub(a, b) => Some([factors(a)?, factors(b)?]),
-            Operation::Minor(a, b, c, d) => Some([[a, b], [c, d]]),
-            Operation::Fma(a, b, c) => match self.operation(c) {
-                Operation::Neg(c) => Some([[a, b], factors(c)?]),
-                _ => None,
-            },
             _ => None,
         }
     }

@@ -100,6 +100,9 @@ pub struct Effort {
 }
 
 impl Effort {
+    /// No search.
+    pub const NONE: Effort = Effort { evaluations: 0, seed: 1 };
+
     /// The parts of a domain share the evaluations: most of them where most may be wrong.
     pub(super) fn shared(self, proof: &Proof, quantity: &Quantity) -> Effort {
         let parts = proof.quantities.iter().filter(|it| it.program == quantity.program);

@@ -140,24 +140,15 @@ pub fn verdicts(
 fn is_linear(lemma: &Lemma) -> bool {
     let mut depends: Vec<bool> = Vec::new();
     for step in &lemma.formula.steps {
-        let of = |step: &usize| depends[*step];
-        let is_product = |a: &usize, b: &usize| of(a) && of(b);
+        let of = |step: usize| depends[step];
         let is_cut = |(v, _): &(usize, i8)| !matches!(lemma.formula.sources[*v], Source::Leaf(_));
-        let (depends_too, is_square) = match step {
-            Step::Variables(sum) => (sum.iter().any(is_cut), false),
-            Step::Number(_) => (false, false),
-            Step::Neg(a) => (of(a), false),
-            Step::Add(a, b) | Step::Sub(a, b) => (of(a) || of(b), false),
-            Step::Mul(a, b) => (of(a) || of(b), is_product(a, b)),
-            Step::Fma(a, b, c) => (of(a) || of(b) || of(c), is_product(a, b)),
-            Step::Minor(a, b, c, d) => {
-                ([a, b, c, d].into_iter().any(of), is_product(a, b) || is_product(c, d))
-            }
-        };
-        if is_square {
+        if step.terms().any(|(_, a, b)| of(a) && b.is_some_and(of)) {
             return false;
         }
-        depends.push(depends_too);
+        depends.push(match step {
+            Step::Variables(sum) => sum.iter().any(is_cut),
+            _ => step.operands().any(of),
+        });
     }
     true
 }

@@ -5,6 +5,7 @@
 //! two values are exact negatives, or both 0.
 
 use super::normal::{Forms, Signed};
+use super::run::parts;
 use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
 use crate::kernel::{Acceptance, Compared, Path, Refuse};
 use std::collections::HashMap;
@@ -103,7 +104,7 @@ fn is_sound(path: &Path, place: Place) -> bool {
         Operation::Div(_, part) | Operation::Sqrt(part) => depends(part, VERTICES),
         _ => false,
     };
-    !depends(place, ENDS) && !parts(path, place).into_iter().any(is_critical)
+    !depends(place, ENDS) && !parts(&path.operations, place).any(is_critical)
 }
 
 /// True if some gates accept surely, at an epsilon of 0, if the three edges' values are 0 or have the sign of `side`.
@@ -256,21 +257,7 @@ fn inputs(path: &Path, place: Place) -> Vec<u8> {
         Operation::Input(i) => Some(i),
         _ => None,
     };
-    parts(path, place).into_iter().filter_map(of_part).collect()
-}
-
-/// The numbers that a number is made of, and itself.
-fn parts(path: &Path, place: Place) -> Vec<Place> {
-    let mut seen = vec![false; path.operations.len()];
-    let mut open = vec![place];
-    let mut found = Vec::new();
-    while let Some(place) = open.pop() {
-        if !std::mem::replace(&mut seen[place as usize], true) {
-            found.push(place);
-            open.extend(path.operations[place as usize].operands());
-        }
-    }
-    found
+    parts(&path.operations, place).filter_map(of_part).collect()
 }
 
 /// The comparison of a path, and its answer.

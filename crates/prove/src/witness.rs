@@ -130,15 +130,7 @@ impl<'a, F: Searched> Search<'a, F> {
         let decisions = path.decisions[..quantity.decisions].iter();
         let decisions = decisions.filter(|(comparison, _)| known(&comparison.places()));
         let rename = |place: Place| renamed[place as usize].expect("known");
-        let decisions = decisions.map(|(comparison, answer)| {
-            let comparison = match *comparison {
-                Comparison::Less(a, b) => Comparison::Less(rename(a), rename(b)),
-                Comparison::AtMost(a, b) => Comparison::AtMost(rename(a), rename(b)),
-                Comparison::Zero(a) => Comparison::Zero(rename(a)),
-                Comparison::Negative(a) => Comparison::Negative(rename(a)),
-            };
-            (comparison, *answer)
-        });
+        let decisions = decisions.map(|(comparison, answer)| (comparison.with(rename), *answer));
         Search {
             decisions: decisions.collect(),
             place: renamed[quantity.place as usize].expect("in its own cone"),
@@ -186,16 +178,8 @@ impl<'a, F: Searched> Search<'a, F> {
             return None;
         }
         run(&self.operations, self.place, &inputs.map(F::near), near);
-        for condition in &self.conditions {
-            let size = |place: Place| F::approximate(&near[place as usize]).map(f64::abs);
-            let holds = match *condition {
-                Condition::AtMost(place, bound) => size(place)? <= bound,
-                Condition::AtLeast(place, bound) => size(place)? >= bound,
-            };
-            if !holds {
-                return None;
-            }
-        }
+        let size = |place: Place| F::approximate(&near[place as usize]).map(f64::abs);
+        self.holds(|place, bound| size(place)?.partial_cmp(&bound))?;
         if matches!(goal, Goal::Missed | Goal::Hit) {
             let sample = Sample::of(&inputs.map(F::near));
             let (judge, is_hit) = (self.judge?, goal == Goal::Hit);
@@ -241,6 +225,15 @@ impl<'a, F: Searched> Search<'a, F> {
         self.measure(inputs, goal, computed, Exact::from_f64, compare, |x| Some(x.approximate()))
     }
 
+    /// None outside the domain, or where that is not known, given how the size of a number compares with a bound.
+    fn holds(&self, compare: impl Fn(Place, f64) -> Option<Ordering>) -> Option<()> {
+        let holds = |condition: &Condition| match *condition {
+            Condition::AtMost(place, bound) => Some(compare(place, bound)? != Ordering::Greater),
+            Condition::AtLeast(place, bound) => Some(compare(place, bound)? != Ordering::Less),
+        };
+        self.conditions.iter().all(|it| holds(it).unwrap_or(false)).then_some(())
+    }
+
     fn measure<R: Number>(
         &self,
         inputs: &Inputs<F>,
@@ -252,16 +245,7 @@ impl<'a, F: Searched> Search<'a, F> {
     ) -> Option<f64> {
         let mut values = Vec::new();
         run(&self.operations, self.place, &inputs.map(|x| number(x.to_f64())), &mut values);
-        for condition in &self.conditions {
-            let (Condition::AtMost(place, bound) | Condition::AtLeast(place, bound)) = *condition;
-            let refused = match condition {
-                Condition::AtMost(..) => Ordering::Greater,
-                Condition::AtLeast(..) => Ordering::Less,
-            };
-            if compare(&values[place as usize].abs(), &number(bound))? == refused {
-                return None;
-            }
-        }
+        self.holds(|place, bound| compare(&values[place as usize].abs(), &number(bound)))?;
         let exact = &values[self.place as usize];
         let zero = number(0.0);
         match goal {

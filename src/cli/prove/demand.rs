@@ -88,8 +88,7 @@ impl Demand<'_> {
 
     /// Why a demand is not met, if it is not.
     fn why_not<F: Searched + Scalar>(&self) -> Result<Option<String>, Failure> {
-        let effort = Effort { evaluations: 0, seed: 1 };
-        let summary = match Summary::<F>::new(self.entry, Domain::UNIT, &[], &[], effort) {
+        let summary = match Summary::<F>::new(self.entry, Domain::UNIT, &[], &[], Effort::NONE) {
             Ok(summary) => summary,
             Err(why) => return Ok(Some(format!("no proof: {why}"))),
         };

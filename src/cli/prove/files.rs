@@ -41,8 +41,7 @@ fn certificate_of<F: Searched + Scalar>(
     entry: &Entry,
     (domain, parts): (Domain, &[Domain]),
 ) -> Result<String, String> {
-    let effort = Effort { evaluations: 0, seed: 1 };
-    let summary = Summary::<F>::new(entry, domain, parts, &[], effort)?;
+    let summary = Summary::<F>::new(entry, domain, parts, &[], Effort::NONE)?;
     let head = Heading { kernel: entry.info.name, scalar: F::NAME, format: summary.format };
     let mut text = heading(&head);
     let mut stated = None;

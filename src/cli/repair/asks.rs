@@ -4,6 +4,7 @@ use crate::audit::Source;
 use crate::engine::{Merge, Unobserved, sum};
 use crate::family::Family;
 use crate::kernel::Scalar;
+use crate::prove::Searched;
 use crate::prove::repair::{Answer, Guarded};
 use crate::report::page::{Block, Head, Row, Table};
 
@@ -25,7 +26,10 @@ pub struct Asks {
 
 impl Asks {
     /// Counts the answers to the rays of some sources.
-    pub fn count<F: Scalar>(guarded: &Guarded, sources: &[(&'static Family, Source)]) -> Asks {
+    pub fn count<F: Scalar + Searched>(
+        guarded: &Guarded,
+        sources: &[(&'static Family, Source)],
+    ) -> Asks {
         let count = |(family, source): &(&'static Family, Source)| {
             let answers =
                 sum(0..source.count::<F>(), 1024, &Unobserved, Answers::default, |sum, indices| {

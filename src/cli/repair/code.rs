@@ -19,11 +19,12 @@ pub struct Code<'a> {
 impl<'a> Code<'a> {
     /// The lines of a guarded kernel's body.
     pub fn body(guarded: &'a Guarded, language: Language) -> Vec<String> {
-        let mut roots = Vec::new();
-        roots_of(&guarded.steps, guarded, &mut roots);
+        let steps = guarded.steps.all();
+        let roots = steps.iter().flat_map(|step| roots_of(step, guarded)).collect();
         let nodes = Nodes::new(guarded, language, roots);
         let mut code = Code { nodes, guarded, language, lines: Vec::new(), depth: 1 };
-        if has_gate(&guarded.steps) {
+        // Some gate may stay open.
+        if steps.iter().any(|step| matches!(step, Step::Gate(..))) {
             code.line(language.open());
         }
         code.step(&guarded.steps, Scope::default());
@@ -216,43 +217,15 @@ impl<'a> Code<'a> {
     }
 }
 
-/// True if some gate may stay open.
-fn has_gate(step: &Step) -> bool {
-    match step {
-        Step::Choice(_, yes, no) | Step::Sign(_, yes, no) => has_gate(yes) || has_gate(no),
-        Step::Axes(_, next) => has_gate(next),
-        Step::Gate(..) => true,
-        Step::Hit(_) | Step::Ask => false,
-    }
-}
-
-/// The nodes that steps name.
-fn roots_of(step: &Step, guarded: &Guarded, roots: &mut Vec<Node>) {
-    let of_literal = |literal: &Literal, roots: &mut Vec<Node>| {
-        for place in literal.places() {
-            roots.push(Node::Value(place));
-            if !guarded.margins[&place].factor.is_zero() {
-                roots.push(Node::Size(place, false));
-            }
-        }
+/// The nodes that a step names.
+fn roots_of(step: &Step, guarded: &Guarded) -> Vec<Node> {
+    let signs: Vec<Place> = step.literals().into_iter().flat_map(Literal::places).collect();
+    let has_size = |place: &&Place| !guarded.margins[*place].factor.is_zero();
+    let sizes = signs.iter().filter(has_size).map(|place| Node::Size(*place, false));
+    let values = match step {
+        Step::Choice(comparison, ..) => comparison.places(),
+        Step::Hit(values) => values.iter().flatten().copied().collect(),
+        _ => vec![],
     };
-    match step {
-        Step::Choice(comparison, yes, no) => {
-            roots.extend(comparison.places().into_iter().map(Node::Value));
-            roots_of(yes, guarded, roots);
-            roots_of(no, guarded, roots);
-        }
-        Step::Sign(literal, yes, no) => {
-            of_literal(literal, roots);
-            roots_of(yes, guarded, roots);
-            roots_of(no, guarded, roots);
-        }
-        Step::Gate(_, patterns, next) => {
-            patterns.iter().flatten().flatten().for_each(|literal| of_literal(literal, roots));
-            roots_of(next, guarded, roots);
-        }
-        Step::Axes(_, next) => roots_of(next, guarded, roots),
-        Step::Hit(values) => roots.extend(values.iter().flatten().map(|place| Node::Value(*place))),
-        Step::Ask => {}
-    }
+    sizes.chain(signs.iter().chain(&values).copied().map(Node::Value)).collect()
 }

@@ -5,25 +5,26 @@ use super::language::Language;
 use super::names::names;
 use crate::arith::recorded::{Operation, Place};
 use crate::contract::Extent;
-use crate::prove::repair::Guarded;
+use crate::prove::repair::{Guarded, Margin, Scale};
 
 /// The source of a guarded kernel; the shares of rays on which it asks, if they were counted.
 pub fn source(guarded: &Guarded, language: Language, shares: Option<&str>) -> String {
-    let frame = Frame { guarded, language, is_f32: guarded.scalar == "f32" };
-    let mut comment = frame.comment();
-    comment.extend(shares.map(|shares| format!("\nHow often it asks: {shares}")));
-    let comment = comment.join("\n");
+    let is_f32 = guarded.scalar == "f32";
+    let number = |x: f64| language.number(x, is_f32);
+    let Scale { slack, tiny, far, .. } = guarded.scale;
+    let [slack, tiny, far] = [slack, tiny, far].map(|x| number(x.to_f64()));
+    let real = language.scalar(is_f32);
+    let name = function_name(guarded);
+    let frame = Frame { guarded, language, is_f32, name, real, slack, tiny, far };
+    let shares = shares.map(|shares| format!("\n\nHow often it asks: {shares}"));
+    let comment = frame.comment() + &shares.unwrap_or_default();
     let body = Code::body(guarded, language).join("\n");
+    let marked =
+        |mark: &str| comment.lines().map(|line| format!("{mark} {line}\n")).collect::<String>();
     let text = match language {
         Language::C => format!("/* {}\n */\n{}", comment.replace('\n', "\n * "), frame.c(&body)),
-        _ => {
-            let mark = if language == Language::Rust { "//!" } else { "//" };
-            let comment: Vec<String> =
-                comment.lines().map(|line| format!("{mark} {line}")).collect();
-            let code =
-                if language == Language::Rust { frame.rust(&body) } else { frame.shader(&body) };
-            format!("{}\n{code}", comment.join("\n"))
-        }
+        Language::Rust => marked("//!") + &frame.rust(&body),
+        _ => marked("//") + &frame.shader(&body),
     };
     text.lines().map(|line| format!("{}\n", line.trim_end())).collect()
 }
@@ -32,6 +33,12 @@ struct Frame<'a> {
     guarded: &'a Guarded,
     language: Language,
     is_f32: bool,
+    /// The function's name, the scalar's, and the constants of the margins.
+    name: String,
+    real: &'static str,
+    slack: String,
+    tiny: String,
+    far: String,
 }
 
 /// `moller_trumbore_f32`.
@@ -41,7 +48,7 @@ pub fn function_name(guarded: &Guarded) -> String {
 }
 
 impl Frame<'_> {
-    fn comment(&self) -> Vec<String> {
+    fn comment(&self) -> String {
         let Guarded { info, scalar, scale, .. } = self.guarded;
         let (extent, is_front) = self.guarded.promise();
         let language = format!("{:?}", self.language).to_lowercase();
@@ -53,47 +60,44 @@ impl Frame<'_> {
         };
         let sides = if is_front { "front" } else { "both sides" };
         let digits = scale.format.digits;
-        let mut lines = vec![
-            format!("{} in {scalar} with three answers: hit, miss, ask. Made by", info.name),
-            format!("    {command} --emit {language}"),
-            format!("from: {}", info.source),
-            String::new(),
-            format!("promise: {}, {sides}", extent.name()),
-            "A hit is right: the ray passes through the inside of the triangle. A miss is right: it does not meet".to_owned(),
-            format!("the triangle, its edges included, {between}. Where rounding may decide, and on an edge: ask."),
-            "This holds for all finite inputs at every scale. The kernel's epsilons are gone. t, u and v are those that".to_owned(),
-            "the kernel computes; nothing is claimed of them.".to_owned(),
-            String::new(),
-            "Why: a sum of products, each of which passes at most K roundings before the last sum, is off by at most".to_owned(),
-            format!("((1+u)^K - 1) times the sum of their sizes, u = 2^-{digits}. Its sign is right beyond factor * sizes; the factor"),
-            "covers the rounding of the sizes too. It supposes rounding to nearest, and differences of points that are computed".to_owned(),
-            "as they stand here. K is that of the worst order of a sum, so sums of products may be fused and reordered;".to_owned(),
-            "SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. What".to_owned(),
-            "overflows is no finite number, and asks.".to_owned(),
-        ];
-        if self.language.is_of_shaders() {
-            lines.pop();
-            lines.push(format!("overflows does not occur where coordinates are below {}: others ask. It supposes finite inputs.", self.largest()));
-            lines.push("The language does not promise rounding to nearest; graphics devices that are known do so.".to_owned());
-        }
+        let range = match self.language.is_of_shaders() {
+            false => "overflows is no finite number, and asks.".to_owned(),
+            true => format!(
+                "overflows does not occur where coordinates are below {}: others ask. It supposes finite inputs.
+The language does not promise rounding to nearest; graphics devices that are known do so.",
+                self.largest()
+            ),
+        };
         let names = names(self.guarded);
-        for (place, margin) in &self.guarded.margins {
-            let name = match self.guarded.operations[*place as usize] {
-                Operation::Input(_) => continue,
-                _ => &names[*place as usize],
-            };
-            lines.push(format!(
-                "    {name}: K = {}, factor {:.3e}",
-                margin.roundings,
-                margin.factor.to_f64()
-            ));
-        }
-        lines.push(format!("Proof: {command} --certificate FILE; hairline prove --check FILE"));
-        lines
-    }
+        let margin = |(place, margin): (&Place, &Margin)| {
+            let is_input = matches!(self.guarded.operations[*place as usize], Operation::Input(_));
+            let (name, factor) = (&names[*place as usize], margin.factor.to_f64());
+            let line = format!("    {name}: K = {}, factor {factor:.3e}\n", margin.roundings);
+            (!is_input).then_some(line)
+        };
+        let margins: String = self.guarded.margins.iter().filter_map(margin).collect();
+        format!(
+            "{} in {scalar} with three answers: hit, miss, ask. Made by
+    {command} --emit {language}
+from: {}
 
-    fn number(&self, x: f64) -> String {
-        self.language.number(x, self.is_f32)
+promise: {}, {sides}
+A hit is right: the ray passes through the inside of the triangle. A miss is right: it does not meet
+the triangle, its edges included, {between}. Where rounding may decide, and on an edge: ask.
+This holds for all finite inputs at every scale. The kernel's epsilons are gone. t, u and v are those that
+the kernel computes; nothing is claimed of them.
+
+Why: a sum of products, each of which passes at most K roundings before the last sum, is off by at most
+((1+u)^K - 1) times the sum of their sizes, u = 2^-{digits}. Its sign is right beyond factor * sizes; the factor
+covers the rounding of the sizes too. It supposes rounding to nearest, and differences of points that are computed
+as they stand here. K is that of the worst order of a sum, so sums of products may be fused and reordered;
+SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. What
+{range}
+{margins}Proof: {command} --certificate FILE; hairline prove --check FILE",
+            info.name,
+            info.source,
+            extent.name()
+        )
     }
 
     /// The largest coordinate for which nothing overflows.
@@ -105,7 +109,7 @@ impl Frame<'_> {
                 .all(|place| self.magnitude(place as Place, size) < most)
         };
         let exponent = (0..self.guarded.scale.far.ceil_log2()).rev().find(holds).unwrap_or(0);
-        self.number(2f64.powi(exponent))
+        self.language.number(2f64.powi(exponent), self.is_f32)
     }
 
     /// The logarithm of a bound of a number's size, for inputs of a size.
@@ -124,50 +128,59 @@ impl Frame<'_> {
         }
     }
 
-    fn ends(&self) -> Option<[String; 3]> {
-        let far = self.number(self.guarded.scale.far.to_f64());
-        (self.guarded.promise().0 == Extent::Interval).then(|| {
-            let is_bad = format!("!(t_min <= t_max && t_min <= {far} && t_max >= -{far})");
-            [is_bad, format!("t_min < -{far}"), format!("t_max > {far}")]
-        })
+    /// The first lines of a kernel that promises an interval: its ends within the largest size, or it asks.
+    fn head(&self) -> Option<String> {
+        let far = &self.far;
+        let either = |condition: String, far: String, end: &str| match self.language {
+            Language::C => format!("{condition} ? {far} : {end}"),
+            Language::Rust => format!("if {condition} {{ {far} }} else {{ {end} }}"),
+            _ => format!("{}({end}, {far})", if end == "t_min" { "max" } else { "min" }),
+        };
+        let ends = [
+            ("t_from", either(format!("t_min < -{far}"), format!("-{far}"), "t_min")),
+            ("t_to", either(format!("t_max > {far}"), far.clone(), "t_max")),
+        ];
+        let is_bad = format!("!(t_min <= t_max && t_min <= {far} && t_max >= -{far})");
+        let ask = match self.language {
+            Language::C => format!("if ({is_bad}) return HAIRLINE_ASK;"),
+            Language::Rust => format!("if {is_bad} {{ return Answer::Ask; }}"),
+            _ => format!("if ({is_bad}) {{ return HAIRLINE_ASK; }}"),
+        };
+        let define = |(name, value): (&str, String)| match self.language {
+            Language::C => format!("    const {} {name} = {value};\n", self.real),
+            Language::Rust | Language::Wgsl => format!("    let {name} = {value};\n"),
+            _ => format!("    {} {name} = {value};\n", self.real),
+        };
+        let head = format!("{}    {ask}\n", ends.map(define).concat());
+        (self.guarded.promise().0 == Extent::Interval).then_some(head)
+    }
+
+    /// The values that the kernel gives of a hit.
+    fn given(&self) -> Vec<&'static str> {
+        let gives = self.guarded.info.gives;
+        let all = [("t", gives.t), ("u", gives.uv), ("v", gives.uv)].into_iter();
+        all.filter_map(|(name, is_given)| is_given.then_some(name)).collect()
     }
 
     fn c(&self, body: &str) -> String {
-        let Guarded { scale, scalar, info, .. } = self.guarded;
-        let (name, real) = (function_name(self.guarded), self.language.scalar(self.is_f32));
+        let Frame { name, real, slack, tiny, .. } = self;
+        let scalar = self.guarded.scalar;
         let upper = scalar.to_uppercase();
         let guard = format!("HAIRLINE_{}_H", name.to_uppercase());
-        let [slack, tiny, far] =
-            [scale.slack, scale.tiny, scale.far].map(|x| self.number(x.to_f64()));
-        let most = if self.is_f32 { "FLT_MAX" } else { "DBL_MAX" };
+        let (most, infinity) =
+            if self.is_f32 { ("FLT_MAX", "HUGE_VALF") } else { ("DBL_MAX", "HUGE_VAL") };
         let (extent, is_front) = self.guarded.promise();
-        let given: Vec<&str> = [("t", info.gives.t), ("u", info.gives.uv), ("v", info.gives.uv)]
-            .into_iter()
-            .filter_map(|(name, is_given)| is_given.then_some(name))
-            .collect();
-        let mut head = String::new();
-        match self.ends() {
-            Some([is_bad, below, above]) => {
-                head.push_str(&format!("    const {real} t_from = {below} ? -{far} : t_min;\n"));
-                head.push_str(&format!("    const {real} t_to = {above} ? {far} : t_max;\n"));
-                head.push_str(&format!("    if ({is_bad}) return HAIRLINE_ASK;\n"));
-            }
-            None => head.push_str("    (void)t_min, (void)t_max;\n"),
-        }
+        let given = self.given();
+        let unused = "    (void)t_min, (void)t_max;\n";
+        let head = self.head().unwrap_or(unused.to_owned());
         let body = body.replacen("    int open = 0;\n", &format!("    int open = 0;\n{head}"), 1);
-        let copied: String = given
-            .iter()
-            .map(|name| format!("    answer->{name} = ({real})exact.{name};\n"))
-            .collect();
-        let ends = match extent {
-            Extent::Line => "-HUGE_VAL, HUGE_VAL",
-            Extent::Ray => "0, HUGE_VAL",
-            Extent::Interval => "t_min, t_max",
+        let copied = given.iter().map(|it| format!("    answer->{it} = ({real})exact.{it};\n"));
+        let copied: String = copied.collect();
+        let (ends, unused) = match extent {
+            Extent::Line => (format!("-{infinity}, {infinity}"), unused),
+            Extent::Ray => (format!("0, {infinity}"), unused),
+            Extent::Interval => ("t_min, t_max".to_owned(), ""),
         };
-        let ends =
-            if self.is_f32 { ends.replace("HUGE_VAL", "HUGE_VALF") } else { ends.to_owned() };
-        let unused =
-            if extent == Extent::Interval { "" } else { "    (void)t_min, (void)t_max;\n" };
         let of_front = if is_front { " || !exact.front" } else { "" };
         let inputs = format!(
             "const {real} o[3], const {real} d[3], const {real} a[3], const {real} b[3], const {real} c[3],\n    \
@@ -237,30 +250,13 @@ static inline int {name}_exact({inputs}) {{
     }
 
     fn rust(&self, body: &str) -> String {
-        let Guarded { scale, info, .. } = self.guarded;
-        let (name, real) = (function_name(self.guarded), self.language.scalar(self.is_f32));
-        let [slack, tiny, far] =
-            [scale.slack, scale.tiny, scale.far].map(|x| self.number(x.to_f64()));
-        let mut head = String::new();
-        let ends = match self.ends() {
-            Some([is_bad, below, above]) => {
-                head.push_str(&format!(
-                    "    let t_from = if {below} {{ -{far} }} else {{ t_min }};\n"
-                ));
-                head.push_str(&format!(
-                    "    let t_to = if {above} {{ {far} }} else {{ t_max }};\n"
-                ));
-                head.push_str(&format!("    if {is_bad} {{ return Answer::Ask; }}\n"));
-                format!(", t_min: {real}, t_max: {real}")
-            }
-            None => String::new(),
-        };
-        let given = [("t", info.gives.t), ("u", info.gives.uv), ("v", info.gives.uv)];
-        let fields: Vec<String> = given
-            .iter()
-            .filter(|(_, is_given)| *is_given)
-            .map(|(name, _)| format!("{name}: {real}"))
-            .collect();
+        let Frame { name, real, slack, tiny, .. } = self;
+        let head = self.head();
+        let ends =
+            head.as_ref().map_or(String::new(), |_| format!(", t_min: {real}, t_max: {real}"));
+        let head = head.unwrap_or_default();
+        let fields: Vec<String> =
+            self.given().iter().map(|name| format!("{name}: {real}")).collect();
         format!(
             "//! Where it asks, `hairline_core::truth` has the exact answer.
 
@@ -301,104 +297,87 @@ pub fn {name}(o: [{real}; 3], d: [{real}; 3], a: [{real}; 3], b: [{real}; 3], c:
     }
 
     fn shader(&self, body: &str) -> String {
-        let Guarded { scale, scalar, .. } = self.guarded;
-        let (name, real) = (function_name(self.guarded), self.language.scalar(self.is_f32));
-        let [slack, tiny, far] =
-            [scale.slack, scale.tiny, scale.far].map(|x| self.number(x.to_f64()));
-        let (most, zero) = (self.largest(), self.number(0.0));
+        let Frame { name, real, slack, tiny, .. } = self;
+        let scalar = self.guarded.scalar;
+        let (most, zero) = (self.largest(), self.language.number(0.0, self.is_f32));
         let is_wgsl = self.language == Language::Wgsl;
-        let vector = match self.language {
-            Language::Wgsl => "vec3f",
-            Language::Hlsl => "float3",
-            _ if self.is_f32 => "vec3",
-            _ => "dvec3",
+        let (vector, constant) = match self.language {
+            Language::Wgsl => ("vec3f", "const HAIRLINE_$: i32"),
+            Language::Hlsl => ("float3", "static const int HAIRLINE_$"),
+            _ => (if self.is_f32 { "vec3" } else { "dvec3" }, "const int HAIRLINE_$"),
         };
+        let constants = [("MISS", 0), ("HIT", 1), ("ASK", 2)]
+            .map(|(name, value)| format!("{} = {value};\n", constant.replace('$', name)));
+        let constants = constants.concat();
+        let typed = |kind: &str, names: &[&str]| -> Vec<String> {
+            let one = |name: &&str| match is_wgsl {
+                true => format!("{name}: {kind}"),
+                false => format!("{kind} {name}"),
+            };
+            names.iter().map(one).collect()
+        };
+        let function = |name: &str, inputs: Vec<String>| match is_wgsl {
+            true => format!("fn {name}({}) -> i32", inputs.join(", ")),
+            false => format!("int {name}({})", inputs.join(", ")),
+        };
+        let sign = |above: &str, below: &str| match is_wgsl {
+            true => format!("select(0, 1, x > {above}) - select(0, 1, x < {below})"),
+            false => format!("x > {above} ? 1 : x < {below} ? -1 : 0"),
+        };
+        let margin = [("margin".to_owned(), format!("factor * size + {tiny}"))];
+        let margin = self.language.definitions(&margin, self.is_f32);
+        let sure = function(
+            &format!("hairline_sure_sign_{scalar}"),
+            typed(real, &["x", "size", "factor"]),
+        );
+        let exact = function(&format!("hairline_exact_sign_{scalar}"), typed(real, &["x"]));
+        let (of_margin, of_zero) = (sign("margin", "-margin"), sign(&zero, &zero));
         let vectors = ["o", "d", "a", "b", "c"];
-        let beyond = |v: &str| match self.language {
+        let mut inputs = typed(vector, &vectors);
+        let head = self.head();
+        if head.is_some() {
+            inputs.extend(typed(real, &["t_min", "t_max"]));
+        }
+        inputs.push(match is_wgsl {
+            true => "answer: ptr<function, vec3f>".to_owned(),
+            false => format!("out {vector} answer"),
+        });
+        let signature = function(name, inputs);
+        let beyond = vectors.map(|v| match self.language {
             Language::Glsl => format!("any(greaterThan(abs({v}), {vector}({most})))"),
             Language::Wgsl => format!("any(abs({v}) > vec3f({most}))"),
             _ => format!("any(abs({v}) > {most})"),
-        };
-        let beyond = vectors.map(beyond).join(" ||\n        ");
-        let mut head = format!("    if ({beyond}) {{ return HAIRLINE_ASK; }}\n");
-        let declare = |name: &str, value: &str| match self.language {
-            Language::Wgsl => format!("    let {name} = {value};\n"),
-            _ => format!("    {real} {name} = {value};\n"),
-        };
-        let parameter = |name: &str, kind: &str| {
-            if is_wgsl { format!("{name}: {kind}") } else { format!("{kind} {name}") }
-        };
-        let mut inputs: Vec<String> = vectors.iter().map(|v| parameter(v, vector)).collect();
-        if let Some([is_bad, ..]) = self.ends() {
-            head.push_str(&declare("t_from", &format!("max(t_min, -{far})")));
-            head.push_str(&declare("t_to", &format!("min(t_max, {far})")));
-            head.push_str(&format!("    if ({is_bad}) {{ return HAIRLINE_ASK; }}\n"));
-            inputs.extend(["t_min", "t_max"].map(|end| parameter(end, real)));
-        }
-        inputs.push(if is_wgsl {
-            "answer: ptr<function, vec3f>".to_owned()
-        } else {
-            format!("out {vector} answer")
         });
-        if !is_wgsl {
-            head = format!(
-                "    answer = {};\n{head}",
-                if self.language == Language::Hlsl {
-                    "float3(0, 0, 0)".to_owned()
-                } else {
-                    format!("{vector}({zero})")
-                }
-            );
-        }
-        let inputs = inputs.join(", ");
-        let names = [("MISS", 0), ("HIT", 1), ("ASK", 2)];
-        let constants = names.map(|(name, value)| match self.language {
-            Language::Wgsl => format!("const HAIRLINE_{name}: i32 = {value};"),
-            Language::Hlsl => format!("static const int HAIRLINE_{name} = {value};"),
-            _ => format!("const int HAIRLINE_{name} = {value};"),
-        });
-        let constants = constants.join("\n");
-        let slack = if is_wgsl {
-            format!("let SLACK = {slack};")
-        } else {
-            format!("const {real} SLACK = {slack};")
-        };
-        let (sure, exact) = if is_wgsl {
-            (
-                format!(
-                    "fn hairline_sure_sign_{scalar}(x: {real}, size: {real}, factor: {real}) -> i32 {{\n    let margin = factor * size + {tiny};\n    return select(0, 1, x > margin) - select(0, 1, x < -margin);\n}}"
-                ),
-                format!(
-                    "fn hairline_exact_sign_{scalar}(x: {real}) -> i32 {{\n    return select(0, 1, x > {zero}) - select(0, 1, x < {zero});\n}}"
-                ),
-            )
-        } else {
-            (
-                format!(
-                    "int hairline_sure_sign_{scalar}({real} x, {real} size, {real} factor) {{\n    precise {real} margin = factor * size + {tiny};\n    return x > margin ? 1 : x < -margin ? -1 : 0;\n}}"
-                ),
-                format!(
-                    "int hairline_exact_sign_{scalar}({real} x) {{\n    return x > {zero} ? 1 : x < {zero} ? -1 : 0;\n}}"
-                ),
-            )
-        };
-        let signature = if is_wgsl {
-            format!("fn {name}({inputs}) -> i32")
-        } else {
-            format!("int {name}({inputs})")
+        let beyond = beyond.join(" ||\n        ");
+        let head = head.unwrap_or_default();
+        let (slack, start) = match self.language {
+            Language::Wgsl => (format!("let SLACK = {slack};"), String::new()),
+            Language::Hlsl => (
+                format!("const {real} SLACK = {slack};"),
+                "    answer = float3(0, 0, 0);\n".to_owned(),
+            ),
+            _ => (
+                format!("const {real} SLACK = {slack};"),
+                format!("    answer = {vector}({zero});\n"),
+            ),
         };
         format!(
             "{constants}
-
 // The sign of x, -1 or 1, if rounding cannot have changed it; otherwise 0.
-{sure}
+{sure} {{
+    {margin}
+    return {of_margin};
+}}
 
 // The sign of an input, or of a difference of two.
-{exact}
+{exact} {{
+    return {of_zero};
+}}
 
 // The ray o + t * d and the triangle abc. A hit's t, u and v are those of *answer* where the kernel has them.
 {signature} {{
     {slack}
+{start}    if ({beyond}) {{ return HAIRLINE_ASK; }}
 {head}{body}
 }}
 "

@@ -1,8 +1,9 @@
 //! Names for the numbers of a guarded kernel, from what they are.
 
+use crate::arith::Vector;
 use crate::arith::recorded::{Operation, Place};
 use crate::prove::repair::Guarded;
-use crate::prove::{Leaf, run};
+use crate::prove::{Leaf, Sample, run};
 use std::collections::HashSet;
 
 /// Inputs at which numbers show what they are.
@@ -72,28 +73,21 @@ fn vector(operations: &[Operation], place: Place, names: &[String]) -> Option<(S
 
 /// The numbers that have names: weights of the vertices, the determinant, and t times it.
 fn known() -> Vec<(&'static str, f64)> {
-    let at = |i: usize| [SAMPLE[i], SAMPLE[i + 1], SAMPLE[i + 2]];
-    let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-    let cross = |p: [f64; 3], q: [f64; 3]| {
-        [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-    };
-    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    let [o, d, a, b, c] = [0, 3, 6, 9, 12].map(at);
-    let [pa, pb, pc] = [a, b, c].map(|p| minus(p, o));
-    let normal = cross(minus(b, a), minus(c, a));
-    let (det, t) = (dot(d, normal), dot(normal, pa));
+    let sample = Sample::of(&SAMPLE);
+    let (det, t) = (sample.volume(), sample.time());
+    let [u, v] = [1, 2].map(|vertex| sample.weight(vertex));
     vec![
         ("det", det),
-        ("weight_of_a", dot(d, cross(pc, pb))),
-        ("weight_of_b", dot(d, cross(pa, pc))),
-        ("weight_of_c", dot(d, cross(pb, pa))),
-        ("t_det", t),
-        ("after_t_min", t - SAMPLE[15] * det),
-        ("before_t_max", SAMPLE[16] * det - t),
-        ("normal_square", dot(normal, normal)),
+        ("weight_of_a", sample.weight(0) * det),
+        ("weight_of_b", u * det),
+        ("weight_of_c", v * det),
+        ("t_det", t * det),
+        ("after_t_min", (t - SAMPLE[15]) * det),
+        ("before_t_max", (SAMPLE[16] - t) * det),
+        ("normal_square", sample.normal.dot(&sample.normal)),
         ("inv_det", 1.0 / det),
-        ("t", t / det),
-        ("u", dot(d, cross(pa, pc)) / det),
-        ("v", dot(d, cross(pb, pa)) / det),
+        ("t", t),
+        ("u", u),
+        ("v", v),
     ]
 }

@@ -62,22 +62,24 @@ impl<'a> Nodes<'a> {
     }
 
     fn operands(&self, node: Node) -> Vec<Node> {
+        let (Node::Value(place) | Node::Size(place, _)) = node;
         match node {
-            Node::Value(place) => self.guarded.operations[place as usize]
-                .operands()
-                .into_iter()
-                .map(Node::Value)
-                .collect(),
-            Node::Size(place, true) if !self.guarded.is_leaf(place) => {
-                vec![Node::Size(place, false)]
+            Node::Size(..) if self.guarded.is_leaf(place) => vec![Node::Value(place)],
+            Node::Size(_, true) => vec![Node::Size(place, false)],
+            _ => {
+                let operation = self.guarded.operations[place as usize];
+                let part = |part| self.part(node, operation, part);
+                operation.operands().into_iter().map(part).collect()
             }
-            Node::Size(place, _) if self.guarded.is_leaf(place) => vec![Node::Value(place)],
-            Node::Size(place, _) => match self.guarded.operations[place as usize] {
-                Operation::Mul(a, b) => vec![self.factor(a), self.factor(b)],
-                operation => {
-                    operation.operands().into_iter().map(|a| Node::Size(a, false)).collect()
-                }
-            },
+        }
+    }
+
+    /// A part of a value is a value; of a size it is a size.
+    fn part(&self, whole: Node, operation: Operation, place: Place) -> Node {
+        match (whole, operation) {
+            (Node::Value(_), _) => Node::Value(place),
+            (_, Operation::Mul(..)) => self.factor(place),
+            _ => Node::Size(place, false),
         }
     }
 
@@ -116,51 +118,38 @@ impl<'a> Nodes<'a> {
             if binds < least { format!("({text})") } else { text }
         };
         let sum = |a, sign: &str, b| (format!("{} {sign} {}", of(a, 0), of(b, 1)), 0);
-        match node {
-            Node::Value(place) => {
-                let value = Node::Value;
-                match self.guarded.operations[place as usize] {
-                    Operation::Input(i) => (self.input(i), 2),
-                    Operation::Number(x) => (self.language.number(x.into(), self.is_f32()), 2),
-                    Operation::Add(a, b) => sum(value(a), "+", value(b)),
-                    Operation::Sub(a, b) => sum(value(a), "-", value(b)),
-                    Operation::Mul(a, b) => {
-                        (format!("{} * {}", of(value(a), 1), of(value(b), 2)), 1)
-                    }
-                    Operation::Div(a, b) => {
-                        (format!("{} / {}", of(value(a), 1), of(value(b), 2)), 1)
-                    }
-                    Operation::Neg(a) => (format!("-{}", of(value(a), 2)), 1),
-                    Operation::Abs(a) => (self.language.abs(&of(value(a), 0), self.is_f32()), 2),
-                    Operation::Sqrt(a) => (self.language.sqrt(&of(value(a), 0), self.is_f32()), 2),
-                    Operation::Fma(..) | Operation::Minor(..) => {
-                        unreachable!("kernels that fuse are refused")
-                    }
-                }
-            }
-            Node::Size(place, true) if !self.guarded.is_leaf(place) => {
-                (format!("{} + SLACK", of(Node::Size(place, false), 0)), 0)
-            }
-            Node::Size(place, slack) if self.guarded.is_leaf(place) => {
-                let size = match self.guarded.operations[place as usize] {
-                    Operation::Number(x) => self.language.number(f64::from(x).abs(), self.is_f32()),
-                    _ => self.language.abs(&of(Node::Value(place), 0), self.is_f32()),
-                };
-                if slack { (format!("{size} + SLACK"), 0) } else { (size, 2) }
-            }
-            Node::Size(place, _) => {
-                let size = |place| Node::Size(place, false);
-                match self.guarded.operations[place as usize] {
-                    Operation::Mul(a, b) => {
-                        (format!("{} * {}", of(self.factor(a), 1), of(self.factor(b), 2)), 1)
-                    }
-                    Operation::Add(a, b) | Operation::Sub(a, b) => sum(size(a), "+", size(b)),
-                    Operation::Neg(a) | Operation::Abs(a) if self.is_inline(size(a)) => {
-                        self.expression(size(a))
-                    }
-                    Operation::Neg(a) | Operation::Abs(a) => (self.name(size(a)), 2),
-                    _ => unreachable!("it has a margin"),
-                }
+        let product = |a, sign: &str, b| (format!("{} {sign} {}", of(a, 1), of(b, 2)), 1);
+        let (Node::Value(place) | Node::Size(place, _)) = node;
+        let operation = self.guarded.operations[place as usize];
+        let is_leaf = self.guarded.is_leaf(place);
+        if let Node::Size(_, slack) = node
+            && (slack || is_leaf)
+        {
+            let size = match operation {
+                _ if !is_leaf => of(Node::Size(place, false), 0),
+                Operation::Number(x) => self.language.number(f64::from(x).abs(), self.is_f32()),
+                _ => self.language.abs(&of(Node::Value(place), 0), self.is_f32()),
+            };
+            return if slack { (format!("{size} + SLACK"), 0) } else { (size, 2) };
+        }
+        let is_size = matches!(node, Node::Size(..));
+        let part = |place: Place| self.part(node, operation, place);
+        match operation {
+            Operation::Input(i) => (self.input(i), 2),
+            Operation::Number(x) => (self.language.number(x.into(), self.is_f32()), 2),
+            Operation::Add(a, b) => sum(part(a), "+", part(b)),
+            Operation::Sub(a, b) => sum(part(a), if is_size { "+" } else { "-" }, part(b)),
+            Operation::Mul(a, b) => product(part(a), "*", part(b)),
+            Operation::Div(a, b) => product(part(a), "/", part(b)),
+            Operation::Neg(a) | Operation::Abs(a) if is_size => match self.is_inline(part(a)) {
+                true => self.expression(part(a)),
+                false => (self.name(part(a)), 2),
+            },
+            Operation::Neg(a) => (format!("-{}", of(part(a), 2)), 1),
+            Operation::Abs(a) => (self.language.abs(&of(part(a), 0), self.is_f32()), 2),
+            Operation::Sqrt(a) => (self.language.sqrt(&of(part(a), 0), self.is_f32()), 2),
+            Operation::Fma(..) | Operation::Minor(..) => {
+                unreachable!("kernels that fuse are refused")
             }
         }
     }

@@ -47,14 +47,12 @@ impl Operation {
 
     /// Its operands.
     pub fn operands(&self) -> Vec<Place> {
-        use Operation::*;
-        match *self {
-            Input(_) | Number(_) => vec![],
-            Neg(a) | Abs(a) | Sqrt(a) => vec![a],
-            Add(a, b) | Sub(a, b) | Mul(a, b) | Div(a, b) => vec![a, b],
-            Fma(a, b, c) => vec![a, b, c],
-            Minor(a, b, c, d) => vec![a, b, c, d],
-        }
+        let mut operands = Vec::new();
+        self.with(|place| {
+            operands.push(place);
+            place
+        });
+        operands
     }
 
     /// The same with other operands.
@@ -91,9 +89,21 @@ pub enum Comparison {
 impl Comparison {
     /// The compared numbers.
     pub fn places(&self) -> Vec<Place> {
+        let mut places = Vec::new();
+        self.with(|place| {
+            places.push(place);
+            place
+        });
+        places
+    }
+
+    /// The same of other numbers.
+    pub fn with(&self, mut of: impl FnMut(Place) -> Place) -> Comparison {
         match *self {
-            Comparison::Less(a, b) | Comparison::AtMost(a, b) => vec![a, b],
-            Comparison::Zero(a) | Comparison::Negative(a) => vec![a],
+            Comparison::Less(a, b) => Comparison::Less(of(a), of(b)),
+            Comparison::AtMost(a, b) => Comparison::AtMost(of(a), of(b)),
+            Comparison::Zero(a) => Comparison::Zero(of(a)),
+            Comparison::Negative(a) => Comparison::Negative(of(a)),
         }
     }
 }

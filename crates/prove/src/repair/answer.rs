@@ -1,6 +1,7 @@
 //! The answers of a guarded kernel: its program run on floats.
 
-use super::super::Dyadic;
+use super::super::run::{Number, result};
+use super::super::{Dyadic, Searched};
 use super::{Axes, Guarded, Literal, Pattern, Step};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Float, Real};
@@ -34,7 +35,7 @@ fn float<F: Float>(x: Dyadic) -> F {
 
 impl Guarded {
     /// The answer to a case in its scalar.
-    pub fn answer<F: Float>(&self, case: &Case<F>) -> Answer<F> {
+    pub fn answer<F: Searched>(&self, case: &Case<F>) -> Answer<F> {
         let far = float::<F>(self.scale.far);
         let (near, end) = (case.ray.t_min, case.ray.t_max);
         let is_interval = self.info.contract.extent == Extent::Interval;
@@ -69,7 +70,7 @@ impl Guarded {
     }
 }
 
-impl<F: Float> Run<'_, F> {
+impl<F: Float + Number> Run<'_, F> {
     fn answer(mut self, steps: &Step) -> Answer<F> {
         let (mut step, mut is_open) = (steps, false);
         loop {
@@ -165,22 +166,8 @@ impl<F: Float> Run<'_, F> {
         if let Some(known) = self.values[place as usize] {
             return known;
         }
-        let found = match self.guarded.operations[place as usize] {
-            Operation::Input(i) => self.inputs[usize::from(i)],
-            Operation::Number(value) => F::from_f64(value.into()),
-            Operation::Add(a, b) => self.value(a) + self.value(b),
-            Operation::Sub(a, b) => self.value(a) - self.value(b),
-            Operation::Mul(a, b) => self.value(a) * self.value(b),
-            Operation::Div(a, b) => self.value(a) / self.value(b),
-            Operation::Neg(a) => -self.value(a),
-            Operation::Abs(a) => Real::abs(&self.value(a)),
-            Operation::Sqrt(a) => Real::sqrt(&self.value(a)),
-            Operation::Fma(a, b, c) => Float::mul_add(self.value(a), self.value(b), self.value(c)),
-            Operation::Minor(a, b, c, d) => {
-                let [a, b, c, d] = [a, b, c, d].map(|place| self.value(place));
-                F::difference_of_products(&a, &b, &c, &d)
-            }
-        };
+        let (operation, inputs) = (self.guarded.operations[place as usize], self.inputs);
+        let found = result(operation, &inputs, |place| self.value(place));
         self.values[place as usize] = Some(found);
         found
     }

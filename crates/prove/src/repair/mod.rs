@@ -91,38 +91,18 @@ impl Guarded {
 
     /// The numbers whose signs decide.
     fn signs(&self) -> Vec<Place> {
-        fn of(step: &Step, found: &mut Vec<Place>) {
-            match step {
-                Step::Choice(_, yes, no) => {
-                    of(yes, found);
-                    of(no, found);
-                }
-                Step::Sign(literal, yes, no) => {
-                    found.extend(literal.places());
-                    of(yes, found);
-                    of(no, found);
-                }
-                Step::Gate(_, patterns, next) => {
-                    found.extend(patterns.iter().flatten().flatten().flat_map(Literal::places));
-                    of(next, found);
-                }
-                Step::Axes(_, next) => of(next, found),
-                Step::Hit(_) | Step::Ask => {}
-            }
-        }
-        let mut found = Vec::new();
-        of(&self.steps, &mut found);
-        found
+        self.steps.all().into_iter().flat_map(Step::literals).flat_map(Literal::places).collect()
     }
 
     /// Drops the operations that nothing needs.
     fn keep_used(&mut self) {
         let mut is_used = vec![false; self.operations.len()];
         self.steps.each(&mut |place| is_used[*place as usize] = true);
-        for place in
-            (0..self.operations.len()).rev().filter(|place| is_used[*place]).collect::<Vec<_>>()
-        {
-            mark(&self.operations, place, &mut is_used);
+        for place in (0..self.operations.len()).rev() {
+            if is_used[place] {
+                let operands = self.operations[place].operands();
+                operands.into_iter().for_each(|operand| is_used[operand as usize] = true);
+            }
         }
         let mut moved = Vec::with_capacity(is_used.len());
         let mut kept: Vec<Operation> = Vec::new();
@@ -139,13 +119,5 @@ impl Guarded {
     /// Its extent, and true if it hits the front only.
     pub fn promise(&self) -> (Extent, bool) {
         (self.info.contract.extent, self.info.contract.sides == Sides::Front)
-    }
-}
-
-fn mark(operations: &[Operation], place: usize, is_used: &mut [bool]) {
-    for operand in operations[place].operands() {
-        if !std::mem::replace(&mut is_used[operand as usize], true) {
-            mark(operations, operand as usize, is_used);
-        }
     }
 }

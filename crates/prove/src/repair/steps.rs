@@ -61,6 +61,28 @@ impl Step {
         }
     }
 
+    /// The step and all that may follow, each before what follows it.
+    pub fn all(&self) -> Vec<&Step> {
+        let mut all = vec![self];
+        match self {
+            Step::Choice(_, yes, no) | Step::Sign(_, yes, no) => {
+                all.extend([yes, no].into_iter().flat_map(|step| step.all()));
+            }
+            Step::Gate(.., next) | Step::Axes(_, next) => all.extend(next.all()),
+            Step::Hit(_) | Step::Ask => {}
+        }
+        all
+    }
+
+    /// The conditions on signs that it looks at.
+    pub fn literals(&self) -> Vec<&Literal> {
+        match self {
+            Step::Sign(literal, ..) => vec![literal],
+            Step::Gate(_, patterns, _) => patterns.iter().flatten().flatten().collect(),
+            _ => vec![],
+        }
+    }
+
     /// The step under other names of the axes.
     fn renamed(&self, axes: [u8; 3], arena: &mut Arena) -> Step {
         let (mut step, mut known) = (self.clone(), HashMap::new());
@@ -110,13 +132,10 @@ fn each_literal(literal: &mut Literal, visit: &mut impl FnMut(&mut Place)) {
 }
 
 fn each_of(comparison: &mut Comparison, visit: &mut impl FnMut(&mut Place)) {
-    match comparison {
-        Comparison::Less(a, b) | Comparison::AtMost(a, b) => {
-            visit(a);
-            visit(b);
-        }
-        Comparison::Zero(a) | Comparison::Negative(a) => visit(a),
-    }
+    *comparison = comparison.with(|mut place| {
+        visit(&mut place);
+        place
+    });
 }
 
 /// A number under other names of the axes.
@@ -208,9 +227,7 @@ impl Builder<'_> {
             return Ok(literal.map_or(Step::Ask, |literal| Step::Sign(literal, yes, no)));
         }
         let mut numbers = Numbers::new(&mut self.arena, path);
-        let mut comparison = comparison;
-        each_of(&mut comparison, &mut |place| *place = numbers.plain(*place));
-        Ok(Step::Choice(comparison, yes, no))
+        Ok(Step::Choice(comparison.with(|place| numbers.plain(place)), yes, no))
     }
 
     /// The end of a path on which every gate accepts.
