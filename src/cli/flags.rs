@@ -36,7 +36,19 @@ pub fn find_family(name: &str) -> Result<&'static Family, Failure> {
 /// The kernel of a name.
 pub fn find_kernel(name: &str) -> Result<&'static Entry, Failure> {
     let names = || kernel::all().into_iter().map(|entry| entry.info.name);
-    kernel::find(name).ok_or_else(|| unknown("kernel", name, names(), "hairline list kernels"))
+    let wrong = || {
+        let Some(base) = name.rsplit_once('+').and_then(|(base, _)| kernel::find(base)) else {
+            return unknown("kernel", name, names(), "hairline list kernels");
+        };
+        let forms: String = kernel::forms(base)
+            .iter()
+            .map(|(name, about)| format!("\n  +{name}: {about}"))
+            .collect();
+        let base = base.info.name;
+        let forms = if forms.is_empty() { " nothing" } else { &forms };
+        Failure::usage(format!("unknown kernel '{name}': behind '{base}' can stand{forms}"))
+    };
+    kernel::find(name).ok_or_else(wrong)
 }
 
 /// True if a name is that of `f32`, false if that of `f64`; `place` says where it stands.

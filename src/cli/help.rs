@@ -4,7 +4,7 @@ use super::exit::{Failure, Status};
 use super::output::{write_page, write_result};
 use crate::contract::NAMED;
 use crate::family;
-use crate::kernel;
+use crate::kernel::{self, Change};
 use crate::report::page::{Block, Page};
 use crate::spawn::PUBLISHED;
 use crate::suggest::did_you_mean;
@@ -144,7 +144,7 @@ fn meaning(word: &str) -> Result<String, Failure> {
     named(word).ok_or_else(unknown)
 }
 
-/// A kernel, a family, a contract or a scheme of this name.
+/// A kernel, a family, a contract, a scheme or a change of this name.
 fn named(name: &str) -> Option<String> {
     let kernel = kernel::find(name).map(|entry| {
         format!("a kernel: {}; its contract: {}", entry.info.source, entry.info.contract.describe())
@@ -159,7 +159,11 @@ fn named(name: &str) -> Option<String> {
         let found = PUBLISHED.iter().find(|published| published.name == name)?;
         Some(format!("an offset of new rays: {}", found.source))
     };
-    let about = kernel.or_else(family).or_else(contract).or_else(scheme)?;
+    let change = || {
+        let change = Change::named(name.trim_start_matches('+'))?;
+        Some(format!("a change of a kernel (KERNEL+{}): {}", change.name(), change.about()))
+    };
+    let about = kernel.or_else(family).or_else(contract).or_else(scheme).or_else(change)?;
     Some(format!("{name}: {about}"))
 }
 

@@ -7,7 +7,7 @@ use crate::arith::Arithmetic;
 use crate::audit::{ASPECTS, Aspect, EpsilonText, coverage};
 use crate::contract::NAMED;
 use crate::family::{FAMILIES, Family, STRATA};
-use crate::kernel::{self, KernelInfo, PRESETS, Preset, PresetValue, Tunable};
+use crate::kernel::{self, Change, KernelInfo, PRESETS, Preset, PresetValue, Tunable};
 use crate::report::page::{Block, Head, Item, Items, Page, Row, Table};
 use crate::spawn::{PUBLISHED, PublishedScheme, describe};
 use clap::{Args, ValueEnum};
@@ -51,7 +51,7 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
         _ if arguments.coverage => {
             return Err(Failure::usage("--coverage: only families have it"));
         }
-        Listed::Kernels => all(kernel::all().iter().map(|entry| of_kernel(entry.info))),
+        Listed::Kernels => kernels(),
         Listed::Families => {
             let term = |family: &Family| (family.name.to_owned(), family.promise.to_owned());
             vec![Block::Terms(FAMILIES.iter().chain(STRATA).map(term).collect())]
@@ -66,6 +66,18 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
     };
     write_page(Page { blocks, ..Page::default() })?;
     Ok(Status::Success)
+}
+
+/// The kernels, and what may stand behind their names.
+fn kernels() -> Vec<Block> {
+    let mut blocks = all(kernel::all().iter().map(|entry| of_kernel(entry.info)));
+    let arithmetics = Arithmetic::ALL.iter().skip(1).map(|it| (it.name(), it.describe()));
+    let changes = Change::ALL.iter().map(|it| (it.name(), it.about()));
+    let forms = arithmetics.chain(changes);
+    let forms = forms.map(|(name, about)| (format!("+{name}"), about.to_owned())).collect();
+    let text = "A kernel in another form is NAME+FORM, as moller-trumbore+fma. One form at a time, where it would change something:";
+    blocks.extend([Block::Text(text.to_owned()), Block::Terms(forms)]);
+    blocks
 }
 
 /// All of some items.

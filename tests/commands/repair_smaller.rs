@@ -3,7 +3,7 @@
 use crate::program::{ends, hairline, scratch};
 use hairline::internals::case::{Case, Parameters, Triangle};
 use hairline::internals::family::FAMILIES;
-use hairline::internals::kernel::{Scalar, Verdict, find};
+use hairline::internals::kernel::{Change, Scalar, Verdict, find};
 
 const PUBLISHED: [f32; 2] = [1e-6, 0.0];
 
@@ -50,6 +50,43 @@ fn a_kernel_in_double_answers_for_floats_as_it_does_for_doubles() {
         others += usize::from(verdict("cramer", &case, &[0.0; 3]).hit != found.hit);
     }
     assert!(20 < others, "{others}");
+}
+
+/// Möller and Trumbore's test by hand at [`PUBLISHED`]: true if it hits, and the least of its edge numbers.
+fn by_hand<F: Scalar>(case: &Case<F>) -> (bool, F) {
+    let minus = |p: [F; 3], q: [F; 3]| [0, 1, 2].map(|i| p[i] - q[i]);
+    let dot = |p: [F; 3], q: [F; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    let cross = |p: [F; 3], q: [F; 3]| {
+        [p[1] * q[2] - q[1] * p[2], p[2] * q[0] - q[2] * p[0], p[0] * q[1] - q[0] * p[1]]
+    };
+    let [o, d, a, b, c] = case.vectors();
+    let (ab, ac, ao) = (minus(b, a), minus(c, a), minus(o, a));
+    let p = cross(d, ac);
+    let det = dot(ab, p);
+    let q = cross(ao, ab);
+    let [u, v] = [dot(ao, p), dot(d, q)].map(|x| x * (F::one() / det));
+    let edges = [u, F::one() - u, v, F::one() - (u + v)];
+    let least = edges.into_iter().reduce(|x, y| if y < x { y } else { x }).unwrap();
+    let epsilon = F::from_f64(f64::from(PUBLISHED[0]));
+    let is_parallel = det < epsilon && -epsilon < det;
+    (!is_parallel && edges.iter().all(|x| !(*x < F::zero())), least)
+}
+
+#[test]
+fn a_fallback_answers_in_double_where_an_edge_number_is_zero() {
+    let (mut zeros, mut others) = (0, 0);
+    for case in cases(&Parameters::default()) {
+        let ((plain, least), (wide, _)) = (by_hand(&case), by_hand(&case.widen()));
+        if least.is_nan() {
+            continue;
+        }
+        let found = verdict("moller-trumbore+fallback", &case, &PUBLISHED);
+        assert_eq!(found.hit, if least == 0.0 { wide } else { plain }, "{}", case.hex());
+        zeros += usize::from(least == 0.0);
+        others += usize::from(least == 0.0 && wide != plain);
+    }
+    assert!(50 < zeros && 5 < others, "{zeros} {others}");
+    assert!(f64::subject(find("moller-trumbore+fallback").unwrap()).is_none());
 }
 
 #[test]
@@ -115,6 +152,49 @@ fn again(folder: &std::path::Path, line: &str) -> (String, i32) {
     let words: Vec<&str> = words[1..].iter().map(String::as_str).collect();
     let output = hairline(folder, &words);
     (String::from_utf8(output.stdout).unwrap(), output.status.code().unwrap())
+}
+
+#[test]
+fn a_form_that_is_not_there_is_answered_with_those_that_are() {
+    let folder = scratch("repair-forms");
+    let (_, said) = ends(&folder, &["repair", "--kernel", "moller-trumbore+nonsense"], 2);
+    let (listed, _) = ends(&folder, &["list", "kernels"], 0);
+    for change in Change::ALL {
+        let (name, about) = (change.name(), change.about());
+        assert!(said.contains(&format!("\n  +{name}: {about}\n")), "{said}");
+        assert!(listed.contains(&format!("+{name}  ")), "{listed}");
+        let (meaning, _) = ends(&folder, &["help", name], 0);
+        assert!(meaning.contains(&format!("+{name}")), "{meaning}");
+    }
+    // It tests t already, and so do its forms.
+    let (_, said) = ends(&folder, &["audit", "--kernel", "woop-watertight+ahead"], 2);
+    assert!(said.contains("+sorted: ") && !said.contains("  +ahead"), "{said}");
+}
+
+#[test]
+fn a_gate_of_an_epsilon_by_size_says_so() {
+    let folder = scratch("repair-by-size");
+    let explain = ["explain", "tiny@2/f32/-/1/15467", "--kernel", "moller-trumbore+by-size"];
+    let (said, _) = ends(&folder, &explain, 0);
+    assert!(said.contains("abs(det) < e*L*L*D"), "{said}");
+}
+
+#[test]
+fn where_nothing_mends_the_worst_the_sums_come_first() {
+    let folder = scratch("repair-room");
+    let room = ["repair", "--kernel", "moller-trumbore", "--scene", "room", "-n", "2000", "-q"];
+    let (text, _) = ends(&folder, &room, 0);
+    // The first two numbers of a row of the table.
+    let wrong = |name: &str| -> u64 {
+        let rows = text.lines().filter_map(|line| line.strip_prefix(name));
+        let numbers = rows.map(|row| row.split_whitespace().map(|it| it.replace(',', "").parse()));
+        let mut sums = numbers.filter_map(|it| it.take(2).sum::<Result<u64, _>>().ok());
+        sums.find(|sum| 0 < *sum).unwrap()
+    };
+    let from_to = format!("({} to {})", wrong("as published "), wrong("+double "));
+    let joined = text.replace('\n', " ").replace(',', "");
+    let words = format!("+double takes away the most wrong answers {from_to}");
+    assert!(joined.contains(&words), "{words}: {text}");
 }
 
 #[test]

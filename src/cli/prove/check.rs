@@ -108,7 +108,9 @@ fn guarded(file: &str, text: &str) -> Result<String, Failure> {
     let entry = kernel::find(name).filter(|_| scalar != "float");
     let made = entry.map(|entry| in_named_scalar!(scalar, F => Guarded::new::<F>(entry)));
     let whose = match made {
-        Some(Ok(made)) if made.certificate() == text => "that `hairline repair` writes here",
+        Some(Ok(made)) if made.certificate() == text => {
+            "`hairline repair` writes the same proof here"
+        }
         Some(_) => {
             let message = format!(
                 "{file}: the proof is right, but {name} is repaired in another way here: write its certificate again"
@@ -117,9 +119,10 @@ fn guarded(file: &str, text: &str) -> Result<String, Failure> {
         }
         None => "no kernel of that name is here to compare",
     };
-    let margins = number_of(margins as u64, "margin", "margins");
+    let margins = number_of(margins as u64, "margin was", "margins were");
     Ok(format!(
-        "{file}: every hit and every miss of the guarded {kernel} is right, by {margins} ({whose})"
+        "{file}: every hit and every miss of the guarded {kernel} is right: {margins} computed again, and its decisions tried with all \
+         signs that can occur ({whose})"
     ))
 }
 

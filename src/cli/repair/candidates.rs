@@ -14,10 +14,18 @@ pub struct Candidate {
     pub name: String,
     /// Its meaning.
     pub what: String,
-    /// The wrapper; none of other epsilons or other arithmetic.
-    pub change: Option<Change>,
+}
+
+impl Candidate {
+    /// The change around the kernel; none of other epsilons or other arithmetic.
+    pub fn change(&self) -> Option<Change> {
+        Change::named(self.name.strip_prefix('+')?)
+    }
+
     /// True if products are fused.
-    pub is_fused: bool,
+    pub fn is_fused(&self) -> bool {
+        self.name == "+fma"
+    }
 }
 
 /// The statements of `prove` about a row.
@@ -32,13 +40,12 @@ pub struct ProvedDepths {
 
 /// The statements without a search, at these epsilons; and the bound of the edge gate's numbers.
 pub fn proved<F: Searched + Scalar>(row: &Row, epsilons: &[F]) -> (ProvedDepths, Option<f64>) {
-    let effort = Effort { evaluations: 0, seed: 1 };
-    let summary = Summary::<F>::new(row.entry, Domain::UNIT, &[], &[], effort);
+    let summary = Summary::<F>::new(row.entry, Domain::UNIT, &[], &[], Effort::NONE);
     let Ok(summary) = summary else { return (ProvedDepths::default(), None) };
     let edges = summary.gates.iter().filter(|gate| gate.gate.role == Role::Edge && gate.is_margin);
     let bounds = edges.map(|gate| Some(gate.bound.as_ref().ok()?.to_f64()));
     let most = bounds.reduce(|most, bound| Some(most?.max(bound?))).flatten();
-    let effort = (&[][..], effort);
+    let effort = (&[][..], Effort::NONE);
     let judged = Judged::new(row.entry, &summary, epsilons, &[Domain::UNIT], effort);
     let depths = judged.and_then(|judged| {
         let [misses, hits] = [judged.verdicts.misses, judged.verdicts.hits];
@@ -48,10 +55,6 @@ pub fn proved<F: Searched + Scalar>(row: &Row, epsilons: &[F]) -> (ProvedDepths,
     let is_tight = summary.symmetry == Symmetry::ExactSigns
         && row.entry.info.gates.iter().zip(epsilons).all(is_tolerant);
     (ProvedDepths { depths, is_tight }, most)
-}
-
-fn with(row: &Row, epsilons: Vec<EpsilonText>) -> Row {
-    Row { epsilons, ..row.clone() }
 }
 
 /// The changes to try of a kernel, the smallest first.
@@ -68,14 +71,8 @@ pub fn candidates<F: Scalar>(row: &Row, bound: Option<f64>) -> Vec<Candidate> {
             }
         }
         if !words.is_empty() {
-            let row = with(row, epsilons);
-            all.push(Candidate {
-                row,
-                name: words.join(","),
-                what: what.to_owned(),
-                change: None,
-                is_fused: false,
-            });
+            let row = Row { epsilons, ..row.clone() };
+            all.push(Candidate { row, name: words.join(","), what: what.to_owned() });
         }
     };
     let value = |i: usize| row.epsilons[i].value::<F>().map_or(0.0, F::to_f64);
@@ -91,23 +88,20 @@ pub fn candidates<F: Scalar>(row: &Row, bound: Option<f64>) -> Vec<Candidate> {
         let what = "A tolerance at edges, as large as the rounding errors there can be";
         of_epsilons(&|i| is_plain(i).then(|| format!("-{}", above(bound))), what);
     }
-    let fused = in_arithmetic(row.entry, Arithmetic::FMA).map(|entry| (entry, None));
+    let what = "Products are fused into sums, by the compiler or by hand";
+    let fused = in_arithmetic(row.entry, Arithmetic::FMA).map(|entry| (entry, what));
     let changes = Change::ALL.into_iter().filter_map(|change| {
         let sizes = change != Change::BySize || row.epsilons.iter().any(|it| it.to_string() != "0");
         let entry = changed(row.entry, change).filter(|_| sizes)?;
-        (F::subject(entry).is_some()).then_some((entry, Some(change)))
+        F::subject(entry).map(|_| (entry, change.about()))
     });
-    for (entry, change) in fused.into_iter().chain(changes) {
-        let about = change
-            .map_or("Products are fused into sums, by the compiler or by hand", Change::about);
+    for (entry, what) in fused.into_iter().chain(changes) {
         let contract = entry.info.contract;
         let contract = if contract == row.entry.info.contract { row.contract } else { contract };
         all.push(Candidate {
             row: Row { entry, contract, ..row.clone() },
             name: entry.info.name.replacen(row.entry.info.name, "", 1),
-            what: about.to_owned(),
-            change,
-            is_fused: change.is_none(),
+            what: what.to_owned(),
         });
     }
     all

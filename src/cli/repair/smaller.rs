@@ -65,6 +65,9 @@ impl ChangeCounts {
     }
 }
 
+/// One of the counts.
+type Count = fn(&ChangeCounts) -> u64;
+
 /// A kernel and its changes, counted.
 struct TriedChanges<F> {
     plan: Plan,
@@ -80,17 +83,26 @@ impl<F: Searched + Scalar> TriedChanges<F> {
     fn new(row: &Row, sources: Vec<Source>, observer: &dyn Observer) -> Self {
         let (before, bound) = proved(row, &row.epsilons::<F>());
         let candidates = candidates::<F>(row, bound);
-        let of = |it: &Candidate| match it.change {
+        let in_double = || {
+            let epsilons = row.epsilons::<F>().into_iter().map(F::to_f64);
+            proved::<f64>(row, &epsilons.collect::<Vec<_>>()).0
+        };
+        let of = |it: &Candidate| match it.change() {
             // Rounding knows no names of vertices.
             Some(Change::Sorted) => before,
             // A rounded t may refuse what is far inside.
             Some(Change::Ahead) => ProvedDepths::default(),
             Some(Change::BySize) => ProvedDepths { depths: None, ..before },
             // Every float is a double, and the domain's; its epsilons are those floats.
-            Some(Change::Double) => {
-                let epsilons = row.epsilons::<F>().into_iter().map(F::to_f64);
-                proved::<f64>(row, &epsilons.collect::<Vec<_>>()).0
-            }
+            Some(Change::Double) => in_double(),
+            // Either the kernel's answer, or that in double.
+            Some(Change::Fallback) => ProvedDepths {
+                depths: before
+                    .depths
+                    .zip(in_double().depths)
+                    .map(|([a, b], [c, d])| [a.max(c), b.max(d)]),
+                is_tight: false,
+            },
             None => proved(&it.row, &it.row.epsilons::<F>()).0,
         };
         let proved = std::iter::once(before).chain(candidates.iter().map(of)).collect();
@@ -159,7 +171,7 @@ impl<F: Searched + Scalar> TriedChanges<F> {
             let candidate = i.checked_sub(1).and_then(|i| self.candidates.get(i));
             let cost = match candidate {
                 // In software here.
-                Some(it) if it.is_fused => "-".to_owned(),
+                Some(it) if it.is_fused() => "-".to_owned(),
                 None => "1".to_owned(),
                 _ => format!("{:.1}", costs[costs.len() / 2]),
             };
@@ -191,7 +203,6 @@ impl<F: Searched + Scalar> TriedChanges<F> {
 
     /// Which change mends each kind of finding.
     fn sentences(&self) -> Vec<String> {
-        type Count = fn(&ChangeCounts) -> u64;
         let kinds: [(&str, Count); 3] = [
             ("False misses", |it| it.misses),
             ("False hits", |it| it.hits),
@@ -241,6 +252,14 @@ impl<F: Searched + Scalar> TriedChanges<F> {
         };
         (1..=self.candidates.len()).find(is_better)
     }
+
+    /// The change that takes away the most wrong answers, if one takes away some.
+    fn most(&self) -> Option<usize> {
+        let wrong = |i: &usize| self.counts[*i].wrong();
+        let least =
+            (1..=self.candidates.len()).filter(|i| self.is_comparable(*i)).min_by_key(wrong);
+        least.filter(|i| wrong(i) < wrong(&0))
+    }
 }
 
 /// Small changes to a row's kernel, and the smallest that mends the worst.
@@ -255,40 +274,43 @@ pub fn blocks<F: Searched + Scalar>(
     let mut commands = Vec::new();
     let mut next = |line: String, what: &'static str| commands.push(Command { line, what });
     let mut blocks = Vec::new();
-    match (before.worst, tried.smallest()) {
-        (None, _) => blocks.push(Block::Text(
-            "No false miss and no false hit here: nothing is to be mended.".to_owned(),
-        )),
-        (Some(worst), Some(i)) => {
-            let Candidate { name, row: after, change, is_fused, .. } = &tried.candidates[i - 1];
-            let what = if worst.1 == Finding::FalseMiss { "miss" } else { "hit" };
-            let after_it = &tried.counts[i];
-            let from_to = |of: fn(&ChangeCounts) -> u64| {
-                format!("{} to {}", group_digits(of(before)), group_digits(of(after_it)))
-            };
-            blocks.push(Block::Text(format!(
-                "{name} is the smallest change here that mends the worst, a false {what} {} of an edge off, halves \
-                 the visible errors ({}), and is wrong on no more rays in all ({}): \
-                 false misses go from {}, false hits from {}.",
-                above(worst.0),
-                from_to(|it| it.visible),
-                from_to(ChangeCounts::wrong),
-                from_to(|it| it.misses),
-                from_to(|it| it.hits),
-            )));
-            blocks.push(Block::Listing(patch(row, after, *change, *is_fused)));
-            next(tried.command(row, worst), "the worst, as published");
-            next(
-                format!("hairline audit {} --scalar {}", after.flags(), F::NAME),
-                "everything about the changed kernel",
-            );
-        }
-        (Some(worst), None) => {
-            blocks.push(Block::Text(
-                "No change here mends the worst, halves the visible errors, and is wrong no more often with no more leaks.".to_owned(),
-            ));
-            next(tried.command(row, worst), "the worst");
-        }
+    let smallest = tried.smallest();
+    let chosen = smallest.or_else(|| tried.most());
+    if before.worst.is_none() {
+        let text = "No false miss and no false hit here: nothing is to be mended.";
+        blocks.push(Block::Text(text.to_owned()));
+    }
+    if let (Some(worst), None) = (before.worst, chosen) {
+        blocks.push(Block::Text("No change here takes away wrong answers.".to_owned()));
+        next(tried.command(row, worst), "the worst");
+    }
+    if let (Some(worst), Some(i)) = (before.worst, chosen) {
+        let candidate = &tried.candidates[i - 1];
+        let name = &candidate.name;
+        let what = if worst.1 == Finding::FalseMiss { "miss" } else { "hit" };
+        let worst_ray = format!("a false {what} {} of an edge off", above(worst.0));
+        let counts: [Count; 5] =
+            [|it| it.visible, ChangeCounts::wrong, |it| it.misses, |it| it.hits, |it| it.cracks];
+        let [visible, wrong, misses, hits, leaks] = counts.map(|of| {
+            format!("{} to {}", group_digits(of(before)), group_digits(of(&tried.counts[i])))
+        });
+        let sums = format!("false misses go from {misses}, false hits from {hits}");
+        let fate = if tried.mends(i) { "becomes right" } else { "stays wrong" };
+        blocks.push(Block::Text(match smallest {
+            Some(_) => format!(
+                "{name} is the smallest change here that mends the worst, {worst_ray}, halves the visible errors \
+                 ({visible}), and is wrong on no more rays in all ({wrong}): {sums}."
+            ),
+            None => format!(
+                "{name} takes away the most wrong answers ({wrong}): {sums}, leaks from {leaks}, visible errors from {visible}. The worst \
+                 ray, {worst_ray}, {fate}. No change here mends that ray, halves the visible errors, and is wrong no \
+                 more often with no more leaks."
+            ),
+        }));
+        blocks.push(Block::Listing(patch(row, candidate)));
+        next(tried.command(row, worst), "the worst, as published");
+        let audit = format!("hairline audit {} --scalar {}", candidate.row.flags(), F::NAME);
+        next(audit, "everything about the changed kernel");
     }
     blocks.push(Block::Table(tried.table()));
     blocks.push(Block::Notes(tried.sentences().into_iter().chain([guarded]).collect()));

@@ -1,7 +1,7 @@
 //! A kernel with a small change around it, under a name such as `moller-trumbore+sorted`: what a program can mend without
 //! writing its kernel anew.
 
-use super::{Gate, Role, Subject, Verdict};
+use super::{Gate, Gated, Role, Subject, Verdict};
 use crate::arith::Float;
 use crate::case::{Case, Triangle};
 use crate::truth::Facing;
@@ -20,10 +20,12 @@ named! {
         Ahead = "ahead",
         /// Floats are computed by the kernel in double; t, u and v are rounded at the end.
         Double = "double",
+        /// Where the number that decides at an edge is exactly 0, the kernel's answer in double counts, as in Woop's fallback.
+        Fallback = "fallback",
     }
 }
 
-/// A kernel in some scalar with a change that stays in it: any but [`Change::Double`].
+/// A kernel in some scalar with a change that stays in it: not [`Change::Double`], nor [`Change::Fallback`].
 pub(super) struct Changed<F: Float> {
     pub change: Change,
     pub gates: &'static [Gate],
@@ -38,6 +40,43 @@ fn largest<F: Float>(coordinates: impl IntoIterator<Item = F>) -> F {
 /// True if [`Change::BySize`] changes the epsilon of a gate.
 pub fn has_size(gate: &Gate) -> bool {
     gate.dimension.has_unit() && matches!(gate.role, Role::Parallel | Role::Edge)
+}
+
+/// What a gate refuses, with an epsilon for its `e`.
+pub fn refuses_at(refuses: &str, epsilon: &str) -> String {
+    let mut text = String::new();
+    let mut before = ' ';
+    let mut rest = refuses.chars().peekable();
+    while let Some(c) = rest.next() {
+        let is_word = |c: &char| c.is_alphanumeric() || *c == '_';
+        match c == 'e' && !is_word(&before) && !rest.peek().is_some_and(is_word) {
+            // -(-1e-6), -0
+            true if before == '-' && (epsilon.starts_with('-') || epsilon == "0") => {
+                text.pop();
+                text += epsilon.trim_start_matches('-');
+            }
+            true => text += epsilon,
+            false => text.push(c),
+        }
+        before = c;
+    }
+    text
+}
+
+/// The gates of [`Change::BySize`], whose texts have the sizes: `e*L*L*D`.
+pub(super) fn sized(gates: &[Gate]) -> &'static [Gate] {
+    let power = |name: &str, times: i8| name.repeat(times.max(0) as usize);
+    let sized = |gate: &Gate| {
+        let Gate { refuses, dimension, .. } = *gate;
+        let sizes = power("*L", dimension.length) + &power("*D", dimension.direction);
+        let refuses = if has_size(gate) {
+            String::leak(refuses_at(refuses, &format!("e{sizes}")))
+        } else {
+            refuses
+        };
+        Gate { refuses, ..*gate }
+    };
+    Vec::leak(gates.iter().map(sized).collect())
 }
 
 impl<F: Float> Changed<F> {
@@ -102,8 +141,8 @@ impl<F: Float> Subject<F> for Changed<F> {
                     self.kernel.run(&[case], epsilons, place);
                     renamed(verdict, order);
                 }
-                // The other one is not of this type.
-                Change::Ahead | Change::Double => {
+                // The others are not of this type.
+                Change::Ahead | Change::Double | Change::Fallback => {
                     self.kernel.run(slice::from_ref(case), epsilons, place);
                     if verdict.t < F::zero() {
                         *verdict = Verdict::miss(None);
@@ -126,6 +165,27 @@ impl Subject<f32> for InDouble {
             let [Verdict { hit, refused_by, facing, t, u, v, failure }] = found;
             let [t, u, v] = [t, u, v].map(|x| x as f32);
             *verdict = Verdict { hit, refused_by, facing, t, u, v, failure };
+        }
+    }
+}
+
+/// A kernel for floats that answers in double where the number that decides at an edge is exactly 0.
+pub(super) struct WithFallback {
+    pub kernel: &'static dyn Subject<f32>,
+    pub gated: &'static dyn Gated<f32>,
+    pub in_double: InDouble,
+}
+
+impl Subject<f32> for WithFallback {
+    fn run(&self, cases: &[Case<f32>], epsilons: &[f32], verdicts: &mut [Verdict<f32>]) {
+        self.kernel.run(cases, epsilons, verdicts);
+        let gates = self.gated.info().gates;
+        for (case, verdict) in cases.iter().zip(verdicts) {
+            let margins = self.gated.thresholds(case);
+            let mut edges = gates.iter().zip(margins).filter(|(gate, _)| gate.role == Role::Edge);
+            if edges.any(|(_, margin)| margin == 0.0) {
+                self.in_double.run(slice::from_ref(case), epsilons, slice::from_mut(verdict));
+            }
         }
     }
 }

@@ -48,7 +48,7 @@ mod plucker;
 mod scalar_triple;
 mod woop_watertight;
 
-pub use changed::{Change, has_size};
+pub use changed::{Change, has_size, refuses_at};
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, refused_by};
 pub use generic::Generic;
 pub use margins::{by_running, of_miss, open_epsilons, values_of};
@@ -56,7 +56,9 @@ pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
 pub use recording::{Acceptance, Compared, Path};
 pub use registry::kept;
-pub use registry::{Entry, KERNELS, Scalar, all, changed, find, in_arithmetic, register, unnamed};
+pub use registry::{
+    Entry, KERNELS, Scalar, all, changed, find, forms, in_arithmetic, register, unnamed,
+};
 pub use runs::{ExactRun, Measured, TrackedRun};
 pub use subject::verdicts_of;
 pub use subject::{Gated, Subject};

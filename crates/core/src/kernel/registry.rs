@@ -1,8 +1,8 @@
 //! The table of kernels: the built-in ones, and those that a program adds.
 
-use super::changed::{Change, Changed, InDouble, has_size};
+use super::changed::{Change, Changed, InDouble, WithFallback, has_size, sized};
 use super::own::{Own, Test};
-use super::{Gate, Generic, Kernel, KernelInfo, Subject};
+use super::{Gate, Generic, Kernel, KernelInfo, Role, Subject};
 use crate::arith::{Arithmetic, Float};
 use crate::contract::{Contract, Extent, Sides};
 use std::ptr;
@@ -171,7 +171,17 @@ pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'
         let f32 = entry.f32?.in_arithmetic(arithmetic, info)?;
         Some((Some(f32), Some(entry.f64?.in_arithmetic(arithmetic, info)?)))
     };
-    variant(entry, arithmetic.name(), arithmetic.describe(), entry.info.contract, subjects)
+    let told = |info: &KernelInfo| (info.contract, info.gates);
+    variant(entry, (arithmetic.name(), arithmetic.describe()), told, subjects)
+}
+
+/// The forms that a kernel has, as its name takes them after a `+`, each with its meaning.
+pub fn forms(entry: &'static Entry) -> Vec<(&'static str, &'static str)> {
+    let arithmetics = Arithmetic::ALL.into_iter().skip(1);
+    let arithmetics = arithmetics.filter(|it| in_arithmetic(entry, *it).is_some());
+    let changes = Change::ALL.into_iter().filter(|it| changed(entry, *it).is_some());
+    let changes = changes.map(|it| (it.name(), it.about()));
+    arithmetics.map(|it| (it.name(), it.describe())).chain(changes).collect()
 }
 
 /// A kernel with a change around it, called `NAME+CHANGE`; none if that would change nothing, or it is in
@@ -184,10 +194,12 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
         Change::Sorted => contract.sides == Sides::Both,
         Change::Ahead => contract.extent == Extent::Line && gives.t,
         Change::Double => entry.f32.is_some(),
+        Change::Fallback => gates.iter().any(|gate| gate.role == Role::Edge),
     };
-    let contract = match change {
-        Change::Ahead => Contract { extent: Extent::Ray, ..contract },
-        _ => contract,
+    let told = |_: &KernelInfo| match change {
+        Change::Ahead => (Contract { extent: Extent::Ray, ..contract }, gates),
+        Change::BySize => (contract, sized(gates)),
+        _ => (contract, gates),
     };
     fn leaked<F: Float>(
         change: Change,
@@ -201,12 +213,18 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
             let in_double: &'static dyn Subject<f32> = Box::leak(Box::new(InDouble(entry.f64?)));
             Some((Some(in_double), None))
         }
+        Change::Fallback => {
+            let (kernel, in_double) = (entry.f32?, InDouble(entry.f64?));
+            let fallback = WithFallback { kernel, gated: kernel.gated()?, in_double };
+            let fallback: &'static dyn Subject<f32> = Box::leak(Box::new(fallback));
+            Some((Some(fallback), None))
+        }
         _ => Some((
             entry.f32.map(|kernel| leaked(change, gates, kernel)),
             entry.f64.map(|kernel| leaked(change, gates, kernel)),
         )),
     };
-    is_some.then(|| variant(entry, change.name(), change.about(), contract, subjects))?
+    is_some.then(|| variant(entry, (change.name(), change.about()), told, subjects))?
 }
 
 /// The same kernel in both scalars, in another form.
@@ -215,9 +233,8 @@ type Subjects = (Option<&'static dyn Subject<f32>>, Option<&'static dyn Subject<
 /// Another form of a kernel, made once; none of one that is in another form already.
 fn variant(
     entry: &'static Entry,
-    form: &str,
-    about: &str,
-    contract: Contract,
+    (form, about): (&str, &str),
+    told: impl FnOnce(&KernelInfo) -> (Contract, &'static [Gate]),
     subjects: impl FnOnce(&'static KernelInfo) -> Option<Subjects>,
 ) -> Option<&'static Entry> {
     let base = entry.info;
@@ -230,10 +247,12 @@ fn variant(
         return Some(*variant);
     }
     let source = format!("{}; {about}", base.source);
+    let (contract, gates) = told(base);
     let info: &'static KernelInfo = Box::leak(Box::new(KernelInfo {
         name: String::leak(name),
         source: String::leak(source),
         contract,
+        gates,
         ..*base
     }));
     let (f32, f64) = subjects(info)?;
