@@ -187,7 +187,8 @@ fn where_nothing_mends_the_worst_the_sums_come_first() {
     // The first two numbers of a row of the table.
     let wrong = |name: &str| -> u64 {
         let rows = text.lines().filter_map(|line| line.strip_prefix(name));
-        let numbers = rows.map(|row| row.split_whitespace().map(|it| it.replace(',', "").parse()));
+        let numbers =
+            rows.map(|row| row.split_whitespace().map(|it| it.replace(',', "").parse::<u64>()));
         let mut sums = numbers.filter_map(|it| it.take(2).sum::<Result<u64, _>>().ok());
         sums.find(|sum| 0 < *sum).unwrap()
     };

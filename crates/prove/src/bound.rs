@@ -105,7 +105,7 @@ pub struct Prover<'a> {
     pub(super) domain: Domain,
     pub(super) format: Format,
     bounds: HashMap<Place, Result<Bound, String>>,
-    /// What says which numbers it knows, once that is asked.
+    /// The recogniser of known numbers, once it is asked.
     samples: OnceCell<Samples<'a>>,
     /// For each number, true if its conditions count; none if all do.
     counts: Option<Vec<bool>>,

@@ -169,7 +169,7 @@ pub struct Sample<R> {
 }
 
 impl<R: Real> Sample<R> {
-    /// Of the seventeen numbers of a case.
+    /// The sample of the seventeen numbers of a case.
     pub fn of(inputs: &[R; 17]) -> Sample<R> {
         let at = |i: usize| Triple::from([0, 1, 2].map(|axis| inputs[i + axis].clone()));
         let [origin, direction, a, b, c] = [0, 3, 6, 9, 12].map(at);

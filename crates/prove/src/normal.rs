@@ -21,7 +21,7 @@ enum Shape {
     Size(Form),
     Quotient(Form, Form),
     Root(Form),
-    /// What is rounded once: products and single numbers, and true of each that has the other sign than the first.
+    /// A sum that is rounded once, of products and single numbers; true of each that has the other sign than the first.
     Terms(Vec<Term>),
 }
 

@@ -34,11 +34,7 @@ fn checked(file: &str) -> Result<String, Failure> {
         .map_err(|refusal| InputError::at(file, refusal.line, refusal.message))?;
     let bounds = number_of(proved.len() as u64, "bound", "bounds");
     let gates = largest_errors(&mut proved.iter());
-    // The checker has read this line.
-    let kernel = text.lines().nth(1).unwrap_or_default().trim_start_matches("kernel ");
-    let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
-    // Another format is no kernel's.
-    let entry = kernel::find(name).filter(|_| scalar != "float");
+    let (kernel, name, scalar, entry) = kernel_of(&text);
     let recorded = entry.map(|entry| in_named_scalar!(scalar, F => Recorded::new::<F>(entry)));
     let mut is_whole = false;
     let whose = match recorded {
@@ -99,13 +95,19 @@ fn checked(file: &str) -> Result<String, Failure> {
     Ok(said)
 }
 
+/// The kernel of a certificate that the checker has read, with its scalar: both, its name, its scalar, and itself.
+fn kernel_of(text: &str) -> (&str, &str, &str, Option<&'static Entry>) {
+    let kernel = text.lines().nth(1).unwrap_or_default().trim_start_matches("kernel ");
+    let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
+    // Another format is no kernel's.
+    (kernel, name, scalar, kernel::find(name).filter(|_| scalar != "float"))
+}
+
 /// The same of the certificate of a guarded kernel.
 fn guarded(file: &str, text: &str) -> Result<String, Failure> {
     let margins = checker::check_guarded(text)
         .map_err(|refusal| InputError::at(file, refusal.line, refusal.message))?;
-    let kernel = text.lines().nth(1).unwrap_or_default().trim_start_matches("kernel ");
-    let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
-    let entry = kernel::find(name).filter(|_| scalar != "float");
+    let (kernel, name, scalar, entry) = kernel_of(text);
     let made = entry.map(|entry| in_named_scalar!(scalar, F => Guarded::new::<F>(entry)));
     let whose = match made {
         Some(Ok(made)) if made.certificate() == text => {

@@ -110,12 +110,8 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
     }
     let mut written = 0;
     for entry in entries {
-        for (is_chosen, is_f32) in scalars.into_iter().zip([true, false]) {
-            if !is_chosen {
-                continue;
-            }
-            let made = if is_f32 { Guarded::new::<f32>(entry) } else { Guarded::new::<f64>(entry) };
-            match made {
+        for (name, _) in ["f32", "f64"].into_iter().zip(scalars).filter(|it| it.1) {
+            match in_named_scalar!(name, F => Guarded::new::<F>(entry)) {
                 Ok(guarded) => {
                     arguments.write(&guarded, &sources)?;
                     written += 1;

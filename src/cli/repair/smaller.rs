@@ -20,6 +20,8 @@ type Worst = (f64, Finding, usize, CasePlace);
 struct ChangeCounts {
     misses: u64,
     hits: u64,
+    /// Right hits with a t, u or v that is no finite number, or on the wrong side.
+    bad: u64,
     /// Rays at shared edges and vertices that hit nothing, of so many.
     cracks: u64,
     crossings: u64,
@@ -42,6 +44,7 @@ impl ChangeCounts {
         let (tally, total) = (&cell.tally, cell.tally.total());
         self.misses += total.of(Finding::FalseMiss);
         self.hits += total.of(Finding::FalseHit);
+        self.bad += total.of(Finding::BadValue);
         self.cracks += tally.groups.cracks;
         self.crossings += tally.groups.crossings;
         self.times.push(cell.nanoseconds as f64);
@@ -289,12 +292,19 @@ pub fn blocks<F: Searched + Scalar>(
         let name = &candidate.name;
         let what = if worst.1 == Finding::FalseMiss { "miss" } else { "hit" };
         let worst_ray = format!("a false {what} {} of an edge off", above(worst.0));
-        let counts: [Count; 5] =
-            [|it| it.visible, ChangeCounts::wrong, |it| it.misses, |it| it.hits, |it| it.cracks];
-        let [visible, wrong, misses, hits, leaks] = counts.map(|of| {
+        let counts: [Count; 6] = [
+            |it| it.visible,
+            ChangeCounts::wrong,
+            |it| it.misses,
+            |it| it.hits,
+            |it| it.bad,
+            |it| it.cracks,
+        ];
+        let [visible, wrong, misses, hits, bad, leaks] = counts.map(|of| {
             format!("{} to {}", group_digits(of(before)), group_digits(of(&tried.counts[i])))
         });
-        let sums = format!("false misses go from {misses}, false hits from {hits}");
+        let sums =
+            format!("false misses go from {misses}, false hits from {hits}, bad values from {bad}");
         let fate = if tried.mends(i) { "becomes right" } else { "stays wrong" };
         blocks.push(Block::Text(match smallest {
             Some(_) => format!(

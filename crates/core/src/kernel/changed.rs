@@ -42,7 +42,7 @@ pub fn has_size(gate: &Gate) -> bool {
     gate.dimension.has_unit() && matches!(gate.role, Role::Parallel | Role::Edge)
 }
 
-/// What a gate refuses, with an epsilon for its `e`.
+/// The refusal of a gate, with an epsilon for its `e`.
 pub fn refuses_at(refuses: &str, epsilon: &str) -> String {
     let mut text = String::new();
     let mut before = ' ';

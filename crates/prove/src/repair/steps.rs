@@ -38,26 +38,21 @@ impl Step {
     /// Shows every place in it.
     pub fn each(&mut self, visit: &mut impl FnMut(&mut Place)) {
         match self {
-            Step::Choice(comparison, yes, no) => {
-                each_of(comparison, visit);
-                yes.each(visit);
-                no.each(visit);
-            }
-            Step::Sign(literal, yes, no) => {
-                each_literal(literal, visit);
-                yes.each(visit);
-                no.each(visit);
-            }
-            Step::Gate(_, patterns, next) => {
+            Step::Choice(comparison, ..) => each_of(comparison, visit),
+            Step::Sign(literal, ..) => each_literal(literal, visit),
+            Step::Gate(_, patterns, _) => {
                 patterns.iter_mut().flatten().flatten().for_each(|it| each_literal(it, visit));
-                next.each(visit);
             }
-            Step::Axes(axes, next) => {
-                axes.each(visit);
-                next.each(visit);
-            }
-            Step::Hit(values) => values.iter_mut().flatten().for_each(visit),
+            Step::Axes(axes, _) => axes.each(visit),
+            Step::Hit(values) => values.iter_mut().flatten().for_each(&mut *visit),
             Step::Ask => {}
+        }
+        match self {
+            Step::Choice(_, yes, no) | Step::Sign(_, yes, no) => {
+                [yes, no].into_iter().for_each(|step| step.each(visit));
+            }
+            Step::Gate(.., next) | Step::Axes(_, next) => next.each(visit),
+            Step::Hit(_) | Step::Ask => {}
         }
     }
 
