@@ -40,8 +40,8 @@ impl Prover<'_> {
         };
         let d = builder.expand(divisor)?;
         let q = builder.variable(Source::Quotient, exactly(size));
-        let product = builder.push(Step::Mul(q, d), None);
-        builder.push(Step::Sub(n, product), None);
+        let product = builder.push(Step::Of(Operation::Mul(q, d)), None);
+        builder.push(Step::Of(Operation::Sub(n, product)), None);
         let left_out = [n, d].map(|step| builder.leave_out(step));
         builder.narrow(divisor, floor);
         builder.finish().map(|(formula, maximum)| (formula, maximum, left_out))
@@ -89,7 +89,7 @@ impl<'p, 'a> Builder<'p, 'a> {
         if steps.iter().flat_map(Step::operands).filter(|operand| *operand == step).count() != 1 {
             return false;
         }
-        if let Step::Neg(inner) = steps[step] {
+        if let Step::Of(Operation::Neg(inner)) = steps[step] {
             return self.leave_out(inner);
         }
         given[step]
@@ -154,7 +154,7 @@ impl<'p, 'a> Builder<'p, 'a> {
 
     fn number(&mut self, value: i32) -> usize {
         let size = Dyadic::new(i128::from(value).abs(), 0);
-        self.push(Step::Number(value), Some(exactly(size)))
+        self.push(Step::Of(Operation::Number(value)), Some(exactly(size)))
     }
 
     /// A new variable with an error of its own.
@@ -237,36 +237,27 @@ impl<'p, 'a> Builder<'p, 'a> {
     }
 
     fn operation(&mut self, place: Place, operation: Operation) -> Result<usize, String> {
-        let step = match operation {
+        match operation {
             Operation::Input(_) => unreachable!("inputs are leaves"),
             Operation::Number(value) => return Ok(self.number(value)),
-            Operation::Neg(a) => {
-                let a = self.expand(a)?;
-                return Ok(self.push(Step::Neg(a), None));
-            }
             Operation::Div(..) | Operation::Sqrt(_) | Operation::Abs(_) => return self.cut(place),
-            Operation::Add(a, b) => Step::Add(self.expand(a)?, self.expand(b)?),
-            Operation::Sub(a, b) => Step::Sub(self.expand(a)?, self.expand(b)?),
-            Operation::Mul(a, b) => {
-                let [a, b] = self.factors(a, b)?;
-                Step::Mul(a, b)
+            _ => {}
+        }
+        let mut operands = Vec::new();
+        for (_, a, b) in operation.terms() {
+            match b {
+                Some(b) => operands.extend(self.factors(a, b)?),
+                None => operands.push(self.expand(a)?),
             }
-            Operation::Fma(a, b, c) => {
-                let [a, b] = self.factors(a, b)?;
-                Step::Fma(a, b, self.expand(c)?)
-            }
-            Operation::Minor(a, b, c, d) => {
-                let [a, b] = self.factors(a, b)?;
-                let [c, d] = self.factors(c, d)?;
-                let step = Step::Minor(a, b, c, d);
-                if self.prover.format == Format::F64 {
-                    // It rounds more than once, so that its error is no share of its result.
-                    return Ok(self.push(step, None));
-                }
-                step
-            }
-        };
-        Ok(self.rounded(step))
+        }
+        let mut operands = operands.into_iter();
+        let step = Step::Of(operation.with(|_| operands.next().expect("one for each")));
+        Ok(match operation {
+            Operation::Neg(_) => self.push(step, None),
+            // It rounds more than once, so that its error is no share of its result.
+            Operation::Minor(..) if self.prover.format == Format::F64 => self.push(step, None),
+            _ => self.rounded(step),
+        })
     }
 
     /// Two factors without a variable in common: if there is one, the second factor becomes a variable of

@@ -101,7 +101,7 @@ pub fn program(path: &Path, lemmas: &[Lemma], claim: &Claim) -> String {
 }
 
 /// An operation in words.
-pub(super) fn operation_text(operation: &Operation) -> String {
+pub(super) fn operation_text<P: Copy + Display>(operation: &Operation<P>) -> String {
     match *operation {
         Operation::Input(i) => format!("input {i}"),
         Operation::Number(value) => format!("number {value}"),
@@ -218,13 +218,7 @@ impl Writer<'_> {
                     |(v, sign): &(usize, i8)| format!("{}{v}", if *sign < 0 { '-' } else { '+' });
                 format!("variables {}", sum.iter().map(term).collect::<Vec<_>>().join(" "))
             }
-            Step::Number(value) => format!("number {value}"),
-            Step::Add(a, b) => format!("add {a} {b}"),
-            Step::Sub(a, b) => format!("sub {a} {b}"),
-            Step::Mul(a, b) => format!("mul {a} {b}"),
-            Step::Neg(a) => format!("neg {a}"),
-            Step::Fma(a, b, c) => format!("fma {a} {b} {c}"),
-            Step::Minor(a, b, c, d) => format!("minor {a} {b} {c} {d}"),
+            Step::Of(ref operation) => operation_text(operation),
         };
         format!("{place} {operation}")
     }

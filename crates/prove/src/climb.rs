@@ -153,36 +153,18 @@ impl<F: Searched> Search<'_, F> {
             let of = |place: Place| values[place as usize];
             let mut add = |place: Place, x: f64| slopes[place as usize] += x;
             match *operation {
-                Operation::Input(_) | Operation::Number(_) => {}
-                Operation::Neg(a) => add(a, -slope),
                 Operation::Abs(a) => add(a, slope * of(a).signum()),
                 Operation::Sqrt(a) => add(a, slope / (2.0 * result)),
-                Operation::Add(a, b) => {
-                    add(a, slope);
-                    add(b, slope);
-                }
-                Operation::Sub(a, b) => {
-                    add(a, slope);
-                    add(b, -slope);
-                }
                 Operation::Div(a, b) => {
                     add(a, slope / of(b));
                     add(b, -slope * result / of(b));
                 }
-                Operation::Mul(a, b) => {
-                    add(a, slope * of(b));
-                    add(b, slope * of(a));
-                }
-                Operation::Fma(a, b, c) => {
-                    add(a, slope * of(b));
-                    add(b, slope * of(a));
-                    add(c, slope);
-                }
-                Operation::Minor(a, b, c, d) => {
-                    add(a, slope * of(b));
-                    add(b, slope * of(a));
-                    add(c, -slope * of(d));
-                    add(d, -slope * of(c));
+                _ => {
+                    for (is_minus, a, b) in operation.terms() {
+                        let slope = if is_minus { -slope } else { slope };
+                        add(a, b.map_or(slope, |b| slope * of(b)));
+                        b.into_iter().for_each(|b| add(b, slope * of(a)));
+                    }
                 }
             }
             use Operation::{Abs, Input, Neg, Number};

@@ -8,8 +8,9 @@
 
 use super::bound::SIZE_DIGITS;
 use super::dyadic::{Big, root_up};
-use super::formula::{DIGITS, Formula, Maximum, Step, Term};
+use super::formula::{DIGITS, Formula, Maximum, Step};
 use super::{Dyadic, Format};
+use crate::arith::recorded::{Operation, Term};
 use num_traits::Zero;
 
 /// A formula of more variables has no bound.
@@ -272,14 +273,14 @@ impl Formula {
             negative_if(corner >> v & 1 == 1, self.variables[v])
         };
         for i in 0..self.steps.len() {
-            let term = |(is_minus, a, b): Term| {
+            let term = |(is_minus, a, b): Term<usize>| {
                 negative_if(is_minus, b.map_or(values[a], |b| values[a] * values[b]))
             };
             values[i] = match self.steps[i] {
                 Step::Variables(ref sum) => sum.iter().fold(Dyadic::ZERO, |total, (v, sign)| {
                     total + negative_if(*sign < 0, variable(*v))
                 }),
-                Step::Number(value) => Dyadic::new(value.into(), 0),
+                Step::Of(Operation::Number(value)) => Dyadic::new(value.into(), 0),
                 ref step => step.terms().map(term).reduce(|a, b| a + b).expect("a term"),
             };
         }

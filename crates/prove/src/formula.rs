@@ -16,7 +16,7 @@
 use super::dyadic::{Big, round_up};
 use super::forms::Leaf;
 use super::{Bound, Dyadic, Format};
-use crate::arith::recorded::Place;
+use crate::arith::recorded::{Operation, Place, Term};
 use num_traits::Zero;
 
 /// One step of a formula; operands come earlier.
@@ -24,20 +24,8 @@ use num_traits::Zero;
 pub enum Step {
     /// A sum of variables, each with a sign.
     Variables(Vec<(usize, i8)>),
-    /// A small whole number.
-    Number(i32),
-    /// `a + b`.
-    Add(usize, usize),
-    /// `a - b`.
-    Sub(usize, usize),
-    /// `a * b`.
-    Mul(usize, usize),
-    /// `-a`.
-    Neg(usize),
-    /// `a*b + c`.
-    Fma(usize, usize, usize),
-    /// `a*b - c*d`.
-    Minor(usize, usize, usize, usize),
+    /// An operation on earlier steps: a small whole number, a sum, a difference, a product.
+    Of(Operation<usize>),
 }
 
 /// Steps with the bounds of their rounding errors.
@@ -100,23 +88,14 @@ impl Maximum {
     }
 }
 
-/// An earlier step or a product of two, which a step adds up; true if it subtracts it.
-pub type Term = (bool, usize, Option<usize>);
-
 impl Step {
     /// The terms that it adds up; none of a sum of variables and of a number.
-    pub fn terms(&self) -> impl Iterator<Item = Term> + use<> {
-        let product = |is_minus, a, b| Some((is_minus, a, Some(b)));
-        let terms = match *self {
-            Step::Variables(_) | Step::Number(_) => [None, None],
-            Step::Neg(a) => [Some((true, a, None)), None],
-            Step::Add(a, b) => [a, b].map(|a| Some((false, a, None))),
-            Step::Sub(a, b) => [Some((false, a, None)), Some((true, b, None))],
-            Step::Mul(a, b) => [product(false, a, b), None],
-            Step::Fma(a, b, c) => [product(false, a, b), Some((false, c, None))],
-            Step::Minor(a, b, c, d) => [product(false, a, b), product(true, c, d)],
+    pub fn terms(&self) -> impl Iterator<Item = Term<usize>> + use<> {
+        let operation = match self {
+            Step::Variables(_) => None,
+            Step::Of(operation) => Some(*operation),
         };
-        terms.into_iter().flatten()
+        operation.into_iter().flat_map(|operation| operation.terms())
     }
 
     /// The earlier steps in it.
@@ -142,7 +121,8 @@ impl Formula {
     pub(super) fn is_multi_affine(&self) -> bool {
         let mut supports: Vec<u64> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
-            let is_apart = |(_, a, b): Term| b.is_none_or(|b| supports[a] & supports[b] == 0);
+            let is_apart =
+                |(_, a, b): Term<usize>| b.is_none_or(|b| supports[a] & supports[b] == 0);
             if !step.terms().all(is_apart) {
                 return false;
             }
@@ -208,14 +188,14 @@ impl Formula {
         before: Big,
         format: Format,
     ) -> Bound {
-        let term = |(_, a, b): Term| match (&bounds[a], b.map(|b| &bounds[b])) {
+        let term = |(_, a, b): Term<usize>| match (&bounds[a], b.map(|b| &bounds[b])) {
             (a, Some(b)) => (a.size * b.size, Big::from(a.computed) * Big::from(b.computed)),
             (a, None) => (a.size, Big::from(a.computed)),
         };
         let (sizes, all): (Vec<Dyadic>, Vec<Big>) = self.steps[i].terms().map(term).unzip();
         // A number of the corners, even where the products and sums need more digits than there are.
         let size = sizes.into_iter().reduce(|a, b| a + b).expect("what is given").min(corner);
-        let is_minor = matches!(self.steps[i], Step::Minor(..));
+        let is_minor = matches!(self.steps[i], Step::Of(Operation::Minor(..)));
         if is_minor && format == Format::F64 {
             return minor_in_f64(size, &all);
         }

@@ -8,7 +8,8 @@
 //! difference of its factors' sets. Terms that are added up must have one set: for mirrors, the difference of two of them
 //! is an equation modulo 2. A zero has no sign, is computed as 0 and demands nothing.
 
-use super::formula::{Formula, Step, Term};
+use super::formula::{Formula, Step};
+use crate::arith::recorded::{Operation, Term};
 
 impl Formula {
     /// The variables whose signs have to be tried, as bits: the lowest one of each independent equation. Every corner
@@ -20,10 +21,10 @@ impl Formula {
         let mut equations = Equations { unit, by_lowest: [0; 64] };
         for step in &self.steps {
             let of = |i: usize| signs[i];
-            let term = |(_, a, b): Term| Some(of(a)? ^ b.map_or(Some(0), of)?);
+            let term = |(_, a, b): Term<usize>| Some(of(a)? ^ b.map_or(Some(0), of)?);
             signs.push(match *step {
                 Step::Variables(ref sum) => equations.alike(sum.iter().map(|(v, _)| Some(1 << v))),
-                Step::Number(value) => (value != 0).then_some(0),
+                Step::Of(Operation::Number(value)) => (value != 0).then_some(0),
                 _ => equations.alike(step.terms().map(term)),
             });
         }

@@ -4,7 +4,7 @@
 //! form: a sign, and a formula without order and without a sign. Two numbers with the same normal form are equal for
 //! all inputs, but for the signs of zeros (a - b and b - a are both +0), and so for what is divided by one.
 
-use crate::arith::recorded::{Operation, Place};
+use crate::arith::recorded::{Operation, Place, Term};
 use crate::kernel::Path;
 use std::collections::HashMap;
 
@@ -22,11 +22,8 @@ enum Shape {
     Quotient(Form, Form),
     Root(Form),
     /// A sum that is rounded once, of products and single numbers; true of each that has the other sign than the first.
-    Terms(Vec<Term>),
+    Terms(Vec<Term<Form>>),
 }
-
-/// A term of a sum: its sign, and its one or two factors in order.
-type Term = (bool, Form, Option<Form>);
 
 /// The formulas seen so far.
 #[derive(Default)]
@@ -40,10 +37,12 @@ impl Forms {
         let mut values: Vec<(bool, Form)> = Vec::new();
         for operation in &path.operations[..=place as usize] {
             let of = |place: Place| values[place as usize];
-            let one = |is_minus: bool, a: Place| (is_minus ^ of(a).0, of(a).1, None);
-            let product = |is_minus: bool, a: Place, b: Place| {
-                let ((s, a), (t, b)) = (of(a), of(b));
-                (is_minus ^ s ^ t, a.min(b), Some(a.max(b)))
+            let term = |(is_minus, a, b): Term<Place>| {
+                let (s, a) = of(a);
+                match b.map(of) {
+                    Some((t, b)) => (is_minus ^ s ^ t, a.min(b), Some(a.max(b))),
+                    None => (is_minus ^ s, a, None),
+                }
             };
             let value = match *operation {
                 Operation::Input(i) => (false, self.number(Shape::Input(rename(i)))),
@@ -58,20 +57,14 @@ impl Forms {
                     let ((s, a), (t, b)) = (of(a), of(b));
                     (s ^ t, self.number(Shape::Quotient(a, b)))
                 }
-                Operation::Add(a, b) => self.sum(vec![one(false, a), one(false, b)]),
-                Operation::Sub(a, b) => self.sum(vec![one(false, a), one(true, b)]),
-                Operation::Mul(a, b) => self.sum(vec![product(false, a, b)]),
-                Operation::Fma(a, b, c) => self.sum(vec![product(false, a, b), one(false, c)]),
-                Operation::Minor(a, b, c, d) => {
-                    self.sum(vec![product(false, a, b), product(true, c, d)])
-                }
+                _ => self.sum(operation.terms().map(term).collect()),
             };
             values.push(value);
         }
         values[place as usize]
     }
 
-    fn sum(&mut self, mut terms: Vec<Term>) -> Signed {
+    fn sum(&mut self, mut terms: Vec<Term<Form>>) -> Signed {
         terms.sort_by_key(|(_, a, b)| (*a, *b));
         let sign = terms[0].0;
         terms.iter_mut().for_each(|term| term.0 ^= sign);

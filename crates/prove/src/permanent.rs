@@ -24,7 +24,7 @@ use super::dyadic::{Big, round_up};
 use super::forms::Leaf;
 use super::formula::DIGITS;
 use super::{Domain, Dyadic, Format, Prover};
-use crate::arith::recorded::{Operation, Place};
+use crate::arith::recorded::{Operation, Place, Term};
 use crate::kernel::Path;
 use num_traits::One;
 
@@ -166,19 +166,18 @@ impl Forms<'_> {
                 underflow: Big::from(Dyadic::ZERO),
             }),
             Operation::Neg(a) | Operation::Abs(a) => self.node(a),
-            Operation::Add(a, b) | Operation::Sub(a, b) => {
-                let (a, b) = (self.node(a)?, self.node(b)?);
-                let exact = [&a, &b].iter().all(|x| x.sharp && x.roundings == Roundings::default());
-                let sum = sum(&a, &b);
-                Ok(Node { sharp: exact, ..self.rounded(sum, 0) })
-            }
-            Operation::Mul(a, b) => {
-                let product = self.product(a, b)?;
-                Ok(Node { before: None, ..self.rounded(product, 1) })
-            }
-            Operation::Fma(a, b, c) => {
-                let (product, c) = (self.product(a, b)?, self.node(c)?);
-                Ok(self.rounded(sum(&product, &c), 1))
+            Operation::Add(..) | Operation::Sub(..) | Operation::Mul(..) | Operation::Fma(..) => {
+                let term = |(_, a, b): Term<Place>| match b {
+                    Some(b) => self.product(a, b),
+                    None => self.node(a),
+                };
+                let terms = operation.terms().map(term).collect::<Result<Vec<Node>, String>>()?;
+                let sharp = terms.iter().all(|x| x.sharp && x.roundings == Roundings::default());
+                let has_product = operation.terms().any(|(_, _, b)| b.is_some());
+                let is_sum = 1 < terms.len();
+                let exact = terms.into_iter().reduce(|a, b| sum(&a, &b)).expect("a term");
+                let rounded = self.rounded(exact, i128::from(has_product));
+                Ok(Node { sharp, before: rounded.before.filter(|_| is_sum), ..rounded })
             }
             Operation::Minor(a, b, c, d) => {
                 let (p, q) = (self.product(a, b)?, self.product(c, d)?);

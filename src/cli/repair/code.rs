@@ -97,13 +97,15 @@ impl<'a> Code<'a> {
         match step {
             Step::Choice(comparison, yes, no) => {
                 let condition = self.comparison(comparison, &mut scope);
-                self.branch(&[(condition, yes), (String::new(), no)], &scope);
+                let ways = [(condition, yes), (String::new(), no)];
+                self.branch(ways, |code, step| code.step(step, scope.clone()));
             }
             Step::Sign(literal, yes, no) => {
                 self.signs(&[literal], &mut scope);
                 let [yes_if, no_if] =
                     [literal.clone(), literal.negated()].map(|it| self.literal(&it).join(" && "));
-                self.branch(&[(yes_if, yes), (no_if, no), (String::new(), &Step::Ask)], &scope);
+                let ways = [(yes_if, &**yes), (no_if, no), (String::new(), &Step::Ask)];
+                self.branch(ways, |code, step| code.step(step, scope.clone()));
             }
             Step::Gate(gate, [hits, misses], next) => {
                 let literals: Vec<&Literal> = hits.iter().chain(misses).flatten().collect();
@@ -158,8 +160,12 @@ impl<'a> Code<'a> {
         }
     }
 
-    fn branch(&mut self, ways: &[(String, &Step)], scope: &Scope) {
-        for (i, (condition, step)) in ways.iter().enumerate() {
+    fn branch<T, const N: usize>(
+        &mut self,
+        ways: [(String, T); N],
+        mut body: impl FnMut(&mut Self, T),
+    ) {
+        for (i, (condition, way)) in ways.into_iter().enumerate() {
             let head = match (i, condition.as_str()) {
                 (0, condition) => self.language.if_(condition),
                 (_, "") => "} else {".to_owned(),
@@ -167,7 +173,7 @@ impl<'a> Code<'a> {
             };
             self.line(head);
             self.depth += 1;
-            self.step(step, scope.clone());
+            body(self, way);
             self.depth -= 1;
         }
         self.line("}");
@@ -203,15 +209,8 @@ impl<'a> Code<'a> {
             }
             Axes::If(comparison, yes, no) => {
                 let condition = self.comparison(comparison, scope);
-                self.line(self.language.if_(&condition));
-                self.depth += 1;
-                self.axes_below(yes, scope);
-                self.depth -= 1;
-                self.line("} else {");
-                self.depth += 1;
-                self.axes_below(no, scope);
-                self.depth -= 1;
-                self.line("}");
+                let ways = [(condition, yes), (String::new(), no)];
+                self.branch(ways, |code, axes| code.axes_below(axes, scope));
             }
         }
     }

@@ -16,37 +16,56 @@ pub type Place = u32;
 /// One operation; the operands come earlier on the tape. All but `Input`, `Number`, `Neg` and `Abs` round
 /// once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Operation {
+pub enum Operation<P = Place> {
     /// One of the seventeen numbers of a case, in the order of `Case::hex`.
     Input(u8),
     /// A small whole number.
     Number(i32),
     /// `a + b`.
-    Add(Place, Place),
+    Add(P, P),
     /// `a - b`.
-    Sub(Place, Place),
+    Sub(P, P),
     /// `a * b`.
-    Mul(Place, Place),
+    Mul(P, P),
     /// `a / b`.
-    Div(Place, Place),
+    Div(P, P),
     /// `-a`, exact.
-    Neg(Place),
+    Neg(P),
     /// `|a|`, exact.
-    Abs(Place),
+    Abs(P),
     /// The square root.
-    Sqrt(Place),
+    Sqrt(P),
     /// `a*b + c`, rounded once.
-    Fma(Place, Place, Place),
+    Fma(P, P, P),
     /// `a*b - c*d`, in wider arithmetic, then rounded to the format.
-    Minor(Place, Place, Place, Place),
+    Minor(P, P, P, P),
 }
 
-impl Operation {
+/// An operand or a product of two, which an operation adds up; true if it subtracts it.
+pub type Term<P> = (bool, P, Option<P>);
+
+impl<P: Copy> Operation<P> {
     /// A stand-in for infinity. No program that uses it is analysed.
-    pub const INFINITY: Operation = Operation::Number(i32::MAX);
+    pub const INFINITY: Operation<P> = Operation::Number(i32::MAX);
+
+    /// The terms that it adds up; none of what is no sum, no difference and no product.
+    pub fn terms(&self) -> impl Iterator<Item = Term<P>> + use<P> {
+        use Operation::*;
+        let product = |is_minus, a, b| Some((is_minus, a, Some(b)));
+        let terms = match *self {
+            Neg(a) => [Some((true, a, None)), None],
+            Add(a, b) => [a, b].map(|a| Some((false, a, None))),
+            Sub(a, b) => [Some((false, a, None)), Some((true, b, None))],
+            Mul(a, b) => [product(false, a, b), None],
+            Fma(a, b, c) => [product(false, a, b), Some((false, c, None))],
+            Minor(a, b, c, d) => [product(false, a, b), product(true, c, d)],
+            Input(_) | Number(_) | Div(..) | Abs(_) | Sqrt(_) => [None, None],
+        };
+        terms.into_iter().flatten()
+    }
 
     /// Its operands.
-    pub fn operands(&self) -> Vec<Place> {
+    pub fn operands(&self) -> Vec<P> {
         let mut operands = Vec::new();
         self.with(|place| {
             operands.push(place);
@@ -56,10 +75,11 @@ impl Operation {
     }
 
     /// The same with other operands.
-    pub fn with(&self, mut of: impl FnMut(Place) -> Place) -> Operation {
+    pub fn with<Q>(&self, mut of: impl FnMut(P) -> Q) -> Operation<Q> {
         use Operation::*;
         match *self {
-            Input(_) | Number(_) => *self,
+            Input(i) => Input(i),
+            Number(value) => Number(value),
             Add(a, b) => Add(of(a), of(b)),
             Sub(a, b) => Sub(of(a), of(b)),
             Mul(a, b) => Mul(of(a), of(b)),

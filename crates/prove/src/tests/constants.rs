@@ -3,7 +3,7 @@
 use super::super::dyadic::{Big, round_up};
 use super::super::{Bound, Domain, Dyadic, Format, Formula, Prover, Source, Step, relative};
 use super::{difference, orient2d, orient3d, recorded};
-use crate::arith::recorded::Recorded;
+use crate::arith::recorded::{Operation, Recorded};
 use num_traits::{One, ToPrimitive};
 
 /// Bounds of the value and of the sign in units of u, where no difference is larger than the size.
@@ -119,11 +119,11 @@ impl Steps {
         self.push(Step::Variables(variable), Some(given))
     }
     fn times(&mut self, a: usize, b: usize) -> usize {
-        self.push(Step::Mul(a, b), None)
+        self.push(Step::Of(Operation::Mul(a, b)), None)
     }
     fn minor(&mut self, a: usize, b: usize, c: usize, d: usize) -> usize {
         let (p, q) = (self.times(a, b), self.times(c, d));
-        self.push(Step::Sub(p, q), None)
+        self.push(Step::Of(Operation::Sub(p, q)), None)
     }
 }
 
@@ -139,8 +139,8 @@ fn the_determinant_of_three_normals_has_less_than_784_units() {
     let [x, y, z] = [(wy, uz, wz, uy), (wx, uz, wz, ux), (wx, uy, wy, ux)]
         .map(|(a, b, c, d)| steps.minor(a, b, c, d));
     let [da, db, dc] = [(vx, x), (vz, z), (vy, y)].map(|(a, b)| steps.times(a, b));
-    let sum = steps.push(Step::Add(da, db), None);
-    steps.push(Step::Sub(sum, dc), None);
+    let sum = steps.push(Step::Of(Operation::Add(da, db)), None);
+    steps.push(Step::Of(Operation::Sub(sum, dc)), None);
     let mut formula = steps.0;
     let mut units = |last: bool| {
         *formula.rounds.last_mut().expect("a step") = last;

@@ -1,6 +1,6 @@
 //! The corners that are enough, against all of them.
 
-use crate::arith::recorded::Recorded;
+use crate::arith::recorded::{Operation, Recorded};
 use crate::case::Draw;
 use crate::formula::{Formula, Maximum, Source, Step};
 use crate::{Bound, Domain, Dyadic, Format, Prover};
@@ -26,7 +26,7 @@ fn random(draw: &mut Draw, variables: usize) -> Formula {
         push(&mut formula, Step::Variables(vec![(v, 1)]), Some(size));
     }
     let value = draw.below(3) as i32;
-    push(&mut formula, Step::Number(value), Some(Dyadic::new(value.into(), 0)));
+    push(&mut formula, Step::Of(Operation::Number(value)), Some(Dyadic::new(value.into(), 0)));
     // The steps that no other one uses yet.
     let mut open: Vec<usize> = (0..formula.steps.len()).collect();
     while open.len() > 1 {
@@ -34,15 +34,15 @@ fn random(draw: &mut Draw, variables: usize) -> Formula {
         // Steps may be used more than once.
         let all = formula.steps.len();
         let b = if draw.below(4) == 0 { draw.below(all) } else { open[draw.below(open.len())] };
-        let supports = push(&mut formula, Step::Neg(a), None);
+        let supports = push(&mut formula, Step::Of(Operation::Neg(a)), None);
         *formula.rounds.last_mut().unwrap() = false;
         let a = formula.steps.len() - 1;
         let step = match draw.below(4) {
-            0 => Step::Add(a, b),
-            1 => Step::Sub(a, b),
-            _ if supports[a] & supports[b] != 0 => Step::Sub(a, b),
-            2 => Step::Mul(a, b),
-            _ => Step::Fma(a, b, draw.below(all)),
+            0 => Step::Of(Operation::Add(a, b)),
+            1 => Step::Of(Operation::Sub(a, b)),
+            _ if supports[a] & supports[b] != 0 => Step::Of(Operation::Sub(a, b)),
+            2 => Step::Of(Operation::Mul(a, b)),
+            _ => Step::Of(Operation::Fma(a, b, draw.below(all))),
         };
         push(&mut formula, step, None);
         open.retain(|step| *step != b);
@@ -71,13 +71,13 @@ fn effects(formula: &Formula, corner: u64, format: Format) -> Dyadic {
                 let size = formula.variables[v];
                 (if corner >> v & 1 == 1 { -size } else { size }, none())
             }
-            Step::Number(value) => (Dyadic::new(value.into(), 0), none()),
-            Step::Neg(a) => minus(of(a)),
-            Step::Add(a, b) => plus(of(a), of(b)),
-            Step::Sub(a, b) => plus(of(a), minus(of(b))),
-            Step::Mul(a, b) => times(of(a), of(b)),
-            Step::Fma(a, b, c) => plus(times(of(a), of(b)), of(c)),
-            Step::Minor(..) => unreachable!("none is made"),
+            Step::Of(Operation::Number(value)) => (Dyadic::new(value.into(), 0), none()),
+            Step::Of(Operation::Neg(a)) => minus(of(a)),
+            Step::Of(Operation::Add(a, b)) => plus(of(a), of(b)),
+            Step::Of(Operation::Sub(a, b)) => plus(of(a), minus(of(b))),
+            Step::Of(Operation::Mul(a, b)) => times(of(a), of(b)),
+            Step::Of(Operation::Fma(a, b, c)) => plus(times(of(a), of(b)), of(c)),
+            Step::Of(_) => unreachable!("none is made"),
         };
         slopes[k] = Dyadic::ONE;
         all.push((value, slopes));

@@ -5,7 +5,7 @@ use super::super::{Domain, Dyadic, Format, Formula, Leaf, Prover, Source, Step};
 use super::tiny::round;
 use super::unit::largest_share;
 use super::{difference, recorded};
-use crate::arith::recorded::Recorded;
+use crate::arith::recorded::{Operation, Recorded};
 use crate::case::Draw;
 
 /// The edges from the vertex a to b and c, in the plane of x and y.
@@ -88,13 +88,14 @@ fn effects(formula: &Formula, variables: &[f64], values: &mut Vec<f64>) -> f64 {
         };
         values.push(match *step {
             Step::Variables(ref all) => sum(all),
-            Step::Number(value) => value.into(),
-            Step::Neg(a) => -of(a),
-            Step::Add(a, b) => of(a) + of(b),
-            Step::Sub(a, b) => of(a) - of(b),
-            Step::Mul(a, b) => of(a) * of(b),
-            Step::Fma(a, b, c) => of(a) * of(b) + of(c),
-            Step::Minor(a, b, c, d) => of(a) * of(b) - of(c) * of(d),
+            Step::Of(Operation::Number(value)) => value.into(),
+            Step::Of(Operation::Neg(a)) => -of(a),
+            Step::Of(Operation::Add(a, b)) => of(a) + of(b),
+            Step::Of(Operation::Sub(a, b)) => of(a) - of(b),
+            Step::Of(Operation::Mul(a, b)) => of(a) * of(b),
+            Step::Of(Operation::Fma(a, b, c)) => of(a) * of(b) + of(c),
+            Step::Of(Operation::Minor(a, b, c, d)) => of(a) * of(b) - of(c) * of(d),
+            Step::Of(_) => unreachable!("no such step"),
         });
     }
     let mut slopes = vec![0.0; values.len()];
@@ -102,13 +103,16 @@ fn effects(formula: &Formula, variables: &[f64], values: &mut Vec<f64>) -> f64 {
     for (i, step) in formula.steps.iter().enumerate().rev() {
         let (own, of) = (slopes[i], |i: usize| values[i]);
         let parts: &[(usize, f64)] = match *step {
-            Step::Variables(_) | Step::Number(_) => &[],
-            Step::Neg(a) => &[(a, -1.0)],
-            Step::Add(a, b) => &[(a, 1.0), (b, 1.0)],
-            Step::Sub(a, b) => &[(a, 1.0), (b, -1.0)],
-            Step::Mul(a, b) => &[(a, of(b)), (b, of(a))],
-            Step::Fma(a, b, c) => &[(a, of(b)), (b, of(a)), (c, 1.0)],
-            Step::Minor(a, b, c, d) => &[(a, of(b)), (b, of(a)), (c, -of(d)), (d, -of(c))],
+            Step::Variables(_) | Step::Of(Operation::Number(_)) => &[],
+            Step::Of(Operation::Neg(a)) => &[(a, -1.0)],
+            Step::Of(Operation::Add(a, b)) => &[(a, 1.0), (b, 1.0)],
+            Step::Of(Operation::Sub(a, b)) => &[(a, 1.0), (b, -1.0)],
+            Step::Of(Operation::Mul(a, b)) => &[(a, of(b)), (b, of(a))],
+            Step::Of(Operation::Fma(a, b, c)) => &[(a, of(b)), (b, of(a)), (c, 1.0)],
+            Step::Of(Operation::Minor(a, b, c, d)) => {
+                &[(a, of(b)), (b, of(a)), (c, -of(d)), (d, -of(c))]
+            }
+            Step::Of(_) => unreachable!("no such step"),
         };
         parts.iter().for_each(|(to, by)| slopes[*to] += own * by);
     }
@@ -134,7 +138,9 @@ fn effects_as_a_share_of_the_divisor_are_largest_in_the_narrow_box() {
     let lemma = prover.lemmas.iter().find(|lemma| !lemma.formula.narrow.is_empty()).expect("one");
     let (formula, floor) = (&lemma.formula, DOMAIN.floor.to_f64());
     assert!(formula.narrow.len() == 4 && formula.relative.iter().all(|yes| !yes));
-    let Some(Step::Mul(_, divisor)) = formula.steps.iter().nth_back(1) else { panic!("q * d") };
+    let Some(Step::Of(Operation::Mul(_, divisor))) = formula.steps.iter().nth_back(1) else {
+        panic!("q * d")
+    };
     let most = lemma.maximum.first.to_f64() / floor;
     let mut draw = Draw::new("effects", 1, 1);
     let (mut best, mut values) = (0.0f64, Vec::new());
