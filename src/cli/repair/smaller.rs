@@ -303,8 +303,11 @@ pub fn blocks<F: Searched + Scalar>(
         let [visible, wrong, misses, hits, bad, leaks] = counts.map(|of| {
             format!("{} to {}", group_digits(of(before)), group_digits(of(&tried.counts[i])))
         });
-        let sums =
-            format!("false misses go from {misses}, false hits from {hits}, bad values from {bad}");
+        let bad = match before.bad + tried.counts[i].bad {
+            0 => String::new(),
+            _ => format!(", bad values from {bad}"),
+        };
+        let sums = format!("false misses go from {misses}, false hits from {hits}{bad}");
         let fate = if tried.mends(i) { "becomes right" } else { "stays wrong" };
         blocks.push(Block::Text(match smallest {
             Some(_) => format!(
@@ -313,8 +316,8 @@ pub fn blocks<F: Searched + Scalar>(
             ),
             None => format!(
                 "{name} takes away the most wrong answers ({wrong}): {sums}, leaks from {leaks}, visible errors from {visible}. The worst \
-                 ray, {worst_ray}, {fate}. No change here mends that ray, halves the visible errors, and is wrong no \
-                 more often with no more leaks."
+                 ray, {worst_ray}, {fate}. No change here does all of this: mends that ray, halves the visible errors, \
+                 and is wrong no more often with no more leaks."
             ),
         }));
         blocks.push(Block::Listing(patch(row, candidate)));
