@@ -44,23 +44,20 @@ pub fn has_size(gate: &Gate) -> bool {
 
 /// The refusal of a gate, with an epsilon for its `e`.
 pub fn refuses_at(refuses: &str, epsilon: &str) -> String {
-    let mut text = String::new();
-    let mut before = ' ';
-    let mut rest = refuses.chars().peekable();
-    while let Some(c) = rest.next() {
-        let is_word = |c: &char| c.is_alphanumeric() || *c == '_';
-        match c == 'e' && !is_word(&before) && !rest.peek().is_some_and(is_word) {
+    let ends_word = |c: char| !c.is_alphanumeric() && c != '_';
+    refuses.split_inclusive(ends_word).fold(String::new(), |text, word| {
+        match (
+            word.strip_prefix('e').filter(|end| end.chars().all(ends_word)),
+            text.strip_suffix('-'),
+        ) {
             // -(-1e-6), -0
-            true if before == '-' && (epsilon.starts_with('-') || epsilon == "0") => {
-                text.pop();
-                text += epsilon.trim_start_matches('-');
+            (Some(end), Some(text)) if epsilon.starts_with('-') || epsilon == "0" => {
+                [text, epsilon.trim_start_matches('-'), end].concat()
             }
-            true => text += epsilon,
-            false => text.push(c),
+            (Some(end), _) => [&text, epsilon, end].concat(),
+            (None, _) => [&text, word].concat(),
         }
-        before = c;
-    }
-    text
+    })
 }
 
 /// The gates of [`Change::BySize`], whose texts have the sizes: `e*L*L*D`.
