@@ -69,7 +69,7 @@ fn by_hand<F: Scalar>(case: &Case<F>) -> (bool, F) {
     let least = edges.into_iter().reduce(|x, y| if y < x { y } else { x }).unwrap();
     let epsilon = F::from_f64(f64::from(PUBLISHED[0]));
     let is_parallel = det < epsilon && -epsilon < det;
-    (!is_parallel && edges.iter().all(|x| !(*x < F::zero())), least)
+    (!is_parallel && !edges.iter().any(|x| *x < F::zero()), least)
 }
 
 #[test]
