@@ -69,12 +69,11 @@ impl Formula {
     fn first_in_box(&mut self, format: Format, may_choose: bool) -> (Dyadic, u64) {
         let mut values = vec![Dyadic::ZERO; self.steps.len()];
         let mut slopes = values.clone();
-        let choices: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
-        let choosing = may_choose && choices.len() > 1;
+        let rounds: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
+        let choices = if may_choose && 1 < rounds.len() { rounds } else { vec![] };
         // By corner, what the steps that round contribute either way; and what the others contribute.
         let mut effects: Vec<Vec<[Dyadic; 2]>> = Vec::new();
         let mut others = Vec::new();
-        let (mut first, mut at) = (Dyadic::ZERO, 0);
         let corners: Vec<u64> = self.corners().collect();
         for corner in corners.iter().copied() {
             self.evaluate(corner, 0, &mut values);
@@ -83,39 +82,30 @@ impl Formula {
                 let slope = slopes[i].abs();
                 [slope * self.bounds[i].error, slope * values[i].abs() * format.unit()]
             };
-            if choosing {
-                effects.push(choices.iter().map(|i| effect(*i)).collect());
-                let rest = (0..self.steps.len()).filter(|i| !self.rounds[*i]).map(|i| effect(i)[0]);
-                others.push(rest.fold(Dyadic::ZERO, Dyadic::plus_up));
-            } else {
-                let all = (0..self.steps.len()).map(|i| effect(i)[0]);
-                let sum = all.fold(Dyadic::ZERO, Dyadic::plus_up);
-                if first < sum {
-                    (first, at) = (sum, corner);
-                }
-            }
+            effects.push(choices.iter().map(|i| effect(*i)).collect());
+            let is_other = |i: &usize| choices.is_empty() || !self.rounds[*i];
+            let rest = (0..self.steps.len()).filter(is_other).map(|i| effect(i)[0]);
+            others.push(rest.fold(Dyadic::ZERO, Dyadic::plus_up));
         }
-        if choosing {
-            let mut chosen = vec![0; choices.len()];
-            let largest = |chosen: &[usize]| {
-                let sum = |at: usize| {
-                    let parts = effects[at].iter().zip(chosen).map(|(both, i)| both[*i]);
-                    parts.fold(others[at], Dyadic::plus_up)
-                };
-                let sums = corners.iter().enumerate().map(|(at, corner)| (sum(at), *corner));
-                // The first corner of the largest sum.
-                sums.reduce(|a, b| if a.0 < b.0 { b } else { a }).expect("one corner")
+        let mut chosen = vec![0; choices.len()];
+        let largest = |chosen: &[usize]| {
+            let sum = |at: usize| {
+                let parts = effects[at].iter().zip(chosen).map(|(both, i)| both[*i]);
+                parts.fold(others[at], Dyadic::plus_up)
             };
-            (first, at) = largest(&chosen);
-            for k in (0..choices.len()).rev() {
-                chosen[k] = 1;
-                let tried = largest(&chosen);
-                if tried.0 < first {
-                    (first, at) = tried;
-                    self.relative[choices[k]] = true;
-                } else {
-                    chosen[k] = 0;
-                }
+            let sums = corners.iter().enumerate().map(|(at, corner)| (sum(at), *corner));
+            // The first corner of the largest sum.
+            sums.reduce(|a, b| if a.0 < b.0 { b } else { a }).expect("one corner")
+        };
+        let (mut first, mut at) = largest(&chosen);
+        for k in (0..choices.len()).rev() {
+            chosen[k] = 1;
+            let tried = largest(&chosen);
+            if tried.0 < first {
+                (first, at) = tried;
+                self.relative[choices[k]] = true;
+            } else {
+                chosen[k] = 0;
             }
         }
         (first, at)
