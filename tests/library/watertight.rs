@@ -39,7 +39,7 @@ fn mesh(points: &[[f64; 3]], faces: &[[usize; 3]]) -> Mesh {
 }
 
 fn shape(name: &str) -> Mesh {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/meshes");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../corpora/meshes");
     read(&fs::read_to_string(format!("{folder}/{name}.obj")).unwrap())
 }
 
