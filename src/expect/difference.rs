@@ -322,7 +322,7 @@ impl Paged for RecordComparison {
             ));
         }
         if !self.chosen.is_empty() {
-            let differ = number_of(self.chosen.len() as u64, "number differs", "numbers differ");
+            let differ = number_of(self.chosen.len() as u64, "value differs", "values differ");
             let worse = self.chosen.iter().filter(|it| it.change == Some(Trend::Worse)).count();
             let worse = if 0 < worse { format!(", {worse} of them worse") } else { String::new() };
             answers.push(differ + &worse);
@@ -367,7 +367,7 @@ impl Paged for RecordComparison {
             let of_change = self.differences.iter().filter(|d| d.change == change);
             blocks.extend(Block::items(title, MOST, of_change.map(Difference::item).collect()));
         }
-        let title = "Numbers that were chosen or proved";
+        let title = "Values that were chosen or proved";
         blocks.extend(Block::items(
             title,
             MOST,

@@ -186,8 +186,13 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
     let bounds = prove["chosen"].as_array().unwrap();
     assert!(!bounds.is_empty() && bounds.iter().any(|it| it["change"] == "worse"), "{prove}");
     let (told, _) = ends(&folder, &["diff", "--exit-code", "prove-1.json", "prove-2.json"], 1);
-    assert!(told.starts_with("4 numbers differ, 4 of them worse\n"), "{told}");
+    assert!(told.starts_with("4 values differ, 4 of them worse\n"), "{told}");
     ends(&folder, &["diff", "--exit-code", "prove-2.json", "prove-1.json"], 0);
+    // The same rays, asked by another contract.
+    write("open.json", &[&studies[1].1[..], &["--contract", "open-ray"]].concat());
+    let (told, _) = ends(&folder, &["diff", "mesh-1.json", "open.json"], 0);
+    let contract = "moller-trumbore (source): contract\n    before: ";
+    assert!(flat(&told).contains("; 1 value differs ") && told.contains(contract), "{told}");
 
     let (_, error) = ends(&folder, &["diff", "spawn-1.json", "mesh-1.json"], 65);
     let expected = "mesh-1.json: a record of `hairline mesh`, expected one of `hairline spawn`";

@@ -44,6 +44,11 @@ impl Comparable for SceneResult {
             value: value.clone(),
             is_bound: false,
         };
-        knobs.map(chosen).collect()
+        let contract = |part: &SceneKernelPart| Chosen {
+            what: format!("{} {}: contract", part.kernel, part.scalar),
+            value: part.contract.clone(),
+            is_bound: false,
+        };
+        knobs.map(chosen).chain(self.kernels.iter().map(contract)).collect()
     }
 }

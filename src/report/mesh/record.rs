@@ -72,7 +72,12 @@ impl Comparable for MeshResult {
     }
 
     fn chosen(&self) -> Vec<Chosen> {
-        Vec::new()
+        let contract = |row: &RowPart| Chosen {
+            what: format!("{} ({}): contract", row.kernel, row.set),
+            value: row.contract.clone(),
+            is_bound: false,
+        };
+        self.rows.iter().map(contract).collect()
     }
 }
 
