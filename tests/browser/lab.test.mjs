@@ -147,7 +147,7 @@ test("a built-in kernel in a scene, its epsilons and the contract are chosen, an
   assert.match(said, /parallel=3e-6/);
   const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#record").click()]);
   const record = JSON.parse(await readFile(await download.path(), "utf8"));
-  assert.equal(record.schema, "hairline-record/1");
+  assert.equal(record.schema, "hairline-record/2");
   assert.equal(record.result.plan.rows[0].epsilons.parallel, "3e-6");
   assert.ok(await page.locator("#editor").isHidden());
   const other = await lab(t, new URL(page.url()).hash);
