@@ -175,7 +175,7 @@ def assert_conforms(kernel: Callable[..., Any], **options: Any) -> None:
 def advise(
     scene: str = "room", kernel: str = "moller-trumbore", *, scalar: str = "f32", count: "int | None" = None
 ) -> "dict[str, Any]":
-    """Which epsilons a built-in kernel needs in a scene: the record of `hairline epsilon --format json`.
+    """Which epsilons a built-in kernel needs in a scene: the part `result` of `hairline epsilon --format json`.
 
     A function in Python has no epsilons that could be varied from outside: audit it once for each value. `count` is the
     number of rays of each kind.
@@ -185,7 +185,7 @@ def advise(
     done = subprocess.run([sys.executable, "-m", "hairline", *words], capture_output=True, text=True, encoding="utf-8")
     if done.returncode != 0:
         raise ValueError(done.stderr.strip())
-    return json.loads(done.stdout)
+    return json.loads(done.stdout)["result"]
 
 
 def _selector(kernel: Any, contract: str, vectorized: bool) -> str:
