@@ -40,7 +40,7 @@ const OF_CONTRACT: &str = "of --contract a scene uses only the sides and where r
 /// Which kernel, gate and cases, and how to report.
 #[derive(Args)]
 #[command(mut_arg("format", |format| {
-    format.help("text, json, csv, svg, markdown or html, or several separated by commas; c, rust or glsl as --snippet")
+    format.help("text, json, svg, markdown or html, or several separated by commas; c, rust or glsl as --snippet")
 }))]
 pub struct EpsilonArguments {
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! Studies of epsilons as pages, JSON, CSV and SVG.
+//! Studies of epsilons as pages, JSON, SVG and code to paste.
 
 mod answer;
 mod build;
