@@ -135,7 +135,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     };
     let commands = arguments.commands()?;
     let schemes = arguments.schemes()?;
-    let mut studies: Vec<Study<'_>> = Vec::new();
+    let mut studies: Vec<PendingStudy<'_>> = Vec::new();
     for row in &rows {
         for &kind in kinds.iter().filter(|kind| kind.is_given_by(row.entry)) {
             let in_scalar = row.entry.scalars();
@@ -194,7 +194,7 @@ struct FirstRays {
 }
 
 /// A study that is still to be run.
-type Study<'a> = Box<dyn Fn(&Progress) -> PointsPart + 'a>;
+type PendingStudy<'a> = Box<dyn Fn(&Progress) -> PointsPart + 'a>;
 
 /// True if any scheme runs in a scalar.
 fn has<F: Scalar>(schemes: &[Scheme]) -> bool {

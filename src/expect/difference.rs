@@ -4,8 +4,8 @@ use super::changed::{CaseChange, changed_case};
 use super::compare::tail;
 use crate::report::page::{Block, Item, Page, Paged, Tone};
 use crate::report::{
-    Chosen, Comparable, Counted, Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart,
-    RowPart, disagreements, group_digits, number_of, rate_of,
+    Comparable, Disagreement, KernelResult, Key, NamedRate, NamedValue, PartialPart, Rate,
+    ResultPart, RowPart, disagreements, group_digits, number_of, rate_of,
 };
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -135,7 +135,7 @@ pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
     let judge = DifferenceJudge { same_parts: true, tail: tail(compared) };
     let differs = common()
         .filter(|(_, old, new)| (old.rate.count, old.rate.of) != (new.rate.count, new.rate.of));
-    let difference = |(what, old, new): (&String, &Counted, &Counted)| Difference {
+    let difference = |(what, old, new): (&String, &NamedRate, &NamedRate)| Difference {
         what: what.clone(),
         change: judge.change(same_cases, &old.rate, &new.rate),
         old: old.rate.clone(),
@@ -145,7 +145,7 @@ pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
     };
     let mut differences: Vec<Difference> = differs.map(difference).collect();
     worst_first(&mut differences);
-    let other = |(what, old): (&String, &Chosen)| {
+    let other = |(what, old): (&String, &NamedValue)| {
         let new = chosen_new.get(what).filter(|new| new.value != old.value)?;
         let [before, now] = [old, new].map(|it| it.value.parse::<f64>().ok());
         let trend = if before < now { Trend::Worse } else { Trend::Better };
@@ -156,7 +156,7 @@ pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
             new: new.value.clone(),
         })
     };
-    let lone = |of: &BTreeMap<String, Counted>, other: &BTreeMap<String, Counted>| {
+    let lone = |of: &BTreeMap<String, NamedRate>, other: &BTreeMap<String, NamedRate>| {
         of.keys().filter(|what| !other.contains_key(*what)).count()
     };
     RecordComparison {

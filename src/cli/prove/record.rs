@@ -3,7 +3,7 @@
 use super::leaks::Leak;
 use super::verdicts::VerdictPart;
 use crate::prove::{Domain, Supposed};
-use crate::report::{Chosen, Comparable, Counted, Findings, Record, Study};
+use crate::report::{Comparable, Findings, NamedRate, NamedValue, Record, Study};
 use serde::{Deserialize, Serialize};
 
 /// The record of a run, with what a page says beside it.
@@ -118,13 +118,13 @@ impl Comparable for ProofResult {
         String::new()
     }
 
-    fn counted(&self) -> Vec<Counted> {
+    fn counted(&self) -> Vec<NamedRate> {
         Vec::new()
     }
 
     /// Every bound; what there is no bound of is infinite.
-    fn chosen(&self) -> Vec<Chosen> {
-        let bound = |what: String, value: Option<f64>| Chosen {
+    fn chosen(&self) -> Vec<NamedValue> {
+        let bound = |what: String, value: Option<f64>| NamedValue {
             what,
             value: format!("{:e}", value.unwrap_or(f64::INFINITY)),
             is_bound: true,

@@ -6,7 +6,7 @@ use crate::audit::{Trials, quoted, words};
 use crate::case::{Case, Matrix};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
-use crate::report::{Chosen, Comparable, Counted, Findings, Rate, Study, or_infinite};
+use crate::report::{Comparable, Findings, NamedRate, NamedValue, Rate, Study, or_infinite};
 use crate::spawn::{
     Heights, Lengths, OfScheme, PointKind, ROOM, Scheme, SpawnPlan, SpawnSums, derived_normal,
     least_weight, new_ray,
@@ -53,7 +53,7 @@ impl Comparable for SpawnResult {
         format!("{scene} {mesh:?} {seed} {pilot_seed} {count} {wall} {fold} {instance:?}")
     }
 
-    fn counted(&self) -> Vec<Counted> {
+    fn counted(&self) -> Vec<NamedRate> {
         let schemes = self
             .points
             .iter()
@@ -61,15 +61,19 @@ impl Comparable for SpawnResult {
         schemes.flat_map(|(of, scheme)| scheme.counted(&of)).collect()
     }
 
-    fn chosen(&self) -> Vec<Chosen> {
+    fn chosen(&self) -> Vec<NamedValue> {
         let derived = self.points.iter().filter_map(|part| {
             let value = part.derived.as_ref()?.normal.to_string();
             let what = format!("{}: derived bound of the distance along the normal", part.name());
-            Some(Chosen { what, value, is_bound: true })
+            Some(NamedValue { what, value, is_bound: true })
         });
         let best = self.points.iter().filter_map(|part| {
             let value = part.best.as_ref()?.scheme.clone();
-            Some(Chosen { what: format!("{}: offset to use", part.name()), value, is_bound: false })
+            Some(NamedValue {
+                what: format!("{}: offset to use", part.name()),
+                value,
+                is_bound: false,
+            })
         });
         derived.chain(best).collect()
     }
@@ -371,8 +375,8 @@ impl HeightsPart {
 
 impl SchemePart {
     /// How often what went wrong, of a kind of hit point.
-    fn counted(&self, of: &str) -> Vec<Counted> {
-        let counted = |what: String, rate: &Rate, first: Option<&WrongPart>| Counted {
+    fn counted(&self, of: &str) -> Vec<NamedRate> {
+        let counted = |what: String, rate: &Rate, first: Option<&WrongPart>| NamedRate {
             what: format!("{of}: {}: {what}", self.name),
             rate: rate.clone(),
             command: first.map(|first| first.explain.clone()),

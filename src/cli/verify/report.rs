@@ -3,7 +3,7 @@
 use crate::audit::Trials;
 use crate::report::page::{Block, Head, Item, Page, Paged, Row, Table, Tone};
 use crate::report::{
-    Chosen, Comparable, Counted, Findings, Format, JunitCase, Rate, Record, Study, number_of,
+    Comparable, Findings, Format, JunitCase, NamedRate, NamedValue, Rate, Record, Study, number_of,
     write_junit,
 };
 use crate::vectors::VectorTest;
@@ -120,8 +120,8 @@ impl Comparable for VerifyResult {
         format!("{} {:?} {:?}", self.vectors, self.profile, self.missing)
     }
 
-    fn counted(&self) -> Vec<Counted> {
-        let counted = |(topic, counts): &(String, VerifyCounts)| Counted {
+    fn counted(&self) -> Vec<NamedRate> {
+        let counted = |(topic, counts): &(String, VerifyCounts)| NamedRate {
             what: format!("{topic}: wrong answers"),
             rate: Rate::new(
                 Trials::independent(counts.wrong, counts.tests - counts.missing),
@@ -132,7 +132,7 @@ impl Comparable for VerifyResult {
         self.topics.iter().map(counted).collect()
     }
 
-    fn chosen(&self) -> Vec<Chosen> {
+    fn chosen(&self) -> Vec<NamedValue> {
         Vec::new()
     }
 }

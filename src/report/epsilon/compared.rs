@@ -3,7 +3,7 @@
 use super::commands::of_kernel;
 use super::record::{KnobPart, SceneKernelPart, SceneResult};
 use super::words::label;
-use crate::report::record::{Chosen, Comparable, Counted, Findings, Study};
+use crate::report::record::{Comparable, Findings, NamedRate, NamedValue, Study};
 
 impl Findings for SceneResult {
     const STUDY: Study = Study::Epsilon;
@@ -16,11 +16,11 @@ impl Comparable for SceneResult {
         format!("{scene} {flags} {digest:?} {seed} {fresh_seed} {count}")
     }
 
-    fn counted(&self) -> Vec<Counted> {
+    fn counted(&self) -> Vec<NamedRate> {
         let tried =
             self.kernels.iter().flat_map(|part| part.tried.iter().map(move |it| (part, it)));
         let counted = tried.flat_map(|(part, tried)| {
-            part.counts.iter().zip(&tried.wrong).map(|(count, rate)| Counted {
+            part.counts.iter().zip(&tried.wrong).map(|(count, rate)| NamedRate {
                 what: format!(
                     "{} {} with {} epsilons, {}",
                     part.kernel,
@@ -35,16 +35,16 @@ impl Comparable for SceneResult {
         counted.collect()
     }
 
-    fn chosen(&self) -> Vec<Chosen> {
+    fn chosen(&self) -> Vec<NamedValue> {
         let knobs = self.kernels.iter().flat_map(|part| {
             part.knobs.iter().zip(&part.tried[0].epsilons).map(move |it| (part, it))
         });
-        let chosen = |(part, (knob, value)): (&SceneKernelPart, (&KnobPart, &String))| Chosen {
+        let chosen = |(part, (knob, value)): (&SceneKernelPart, (&KnobPart, &String))| NamedValue {
             what: format!("{} {}: {}", part.kernel, part.scalar, knob.name),
             value: value.clone(),
             is_bound: false,
         };
-        let contract = |part: &SceneKernelPart| Chosen {
+        let contract = |part: &SceneKernelPart| NamedValue {
             what: format!("{} {}: contract", part.kernel, part.scalar),
             value: part.contract.clone(),
             is_bound: false,

@@ -3,7 +3,8 @@
 use super::drawing::MeshDrawing;
 use crate::case::Matrix;
 use crate::report::{
-    Chosen, Comparable, Counted, Findings, Promised, Rate, Record, RowPart, Study, or_infinite,
+    Comparable, Findings, NamedRate, NamedValue, Promised, Rate, Record, RowPart, Study,
+    or_infinite,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -51,7 +52,7 @@ impl Comparable for MeshResult {
         format!("{} {directions} {seed} {unit_directions} {instance:?}", mesh.digest)
     }
 
-    fn counted(&self) -> Vec<Counted> {
+    fn counted(&self) -> Vec<NamedRate> {
         let rows =
             self.scalars.iter().flat_map(|part| part.results.iter().map(move |row| (part, row)));
         rows.flat_map(|(part, row)| {
@@ -60,7 +61,7 @@ impl Comparable for MeshResult {
                 let AcrossRates { cracks, doubles, odd_folds, .. } = &found.total;
                 let kinds =
                     [("cracks", cracks), ("doubles", doubles), ("wrong at folds", odd_folds)];
-                kinds.map(|(kind, rate)| Counted {
+                kinds.map(|(kind, rate)| NamedRate {
                     what: format!("{} {} at {at}: {kind}", row.label(), part.scalar),
                     rate: rate.clone(),
                     command: found.first(kind),
@@ -71,8 +72,8 @@ impl Comparable for MeshResult {
         .collect()
     }
 
-    fn chosen(&self) -> Vec<Chosen> {
-        let contract = |row: &RowPart| Chosen {
+    fn chosen(&self) -> Vec<NamedValue> {
+        let contract = |row: &RowPart| NamedValue {
             what: format!("{} ({}): contract", row.kernel, row.set),
             value: row.contract.clone(),
             is_bound: false,

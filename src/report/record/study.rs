@@ -40,14 +40,14 @@ pub trait Comparable: Findings {
     fn cases(&self) -> String;
 
     /// How often what went wrong.
-    fn counted(&self) -> Vec<Counted>;
+    fn counted(&self) -> Vec<NamedRate>;
 
     /// The numbers that were chosen or proved.
-    fn chosen(&self) -> Vec<Chosen>;
+    fn chosen(&self) -> Vec<NamedValue>;
 }
 
 /// How often something went wrong.
-pub struct Counted {
+pub struct NamedRate {
     /// What, of which kernel, in one line.
     pub what: String,
     /// How often.
@@ -57,7 +57,7 @@ pub struct Counted {
 }
 
 /// A number that was chosen or proved, or a word.
-pub struct Chosen {
+pub struct NamedValue {
     /// Its name, with that of the kernel, in one line.
     pub what: String,
     /// The number as text.
