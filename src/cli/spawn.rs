@@ -1,6 +1,7 @@
 //! `hairline spawn`: how new rays must start so that they do not hit the surface that they leave.
 
 mod choice;
+mod compared;
 mod page;
 mod record;
 

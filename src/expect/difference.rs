@@ -4,14 +4,14 @@ use super::changed::{CaseChange, changed_case};
 use super::compare::tail;
 use crate::report::page::{Block, Item, Page, Paged, Tone};
 use crate::report::{
-    Comparable, Disagreement, KernelResult, Key, NamedRate, NamedValue, PartialPart, Rate,
-    ResultPart, RowPart, disagreements, group_digits, number_of, rate_of,
+    Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, RowPart, disagreements,
+    group_digits, number_of, rate_of,
 };
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The schema of a comparison.
-const DIFF_SCHEMA: &str = "hairline-diff/1";
+pub(super) const DIFF_SCHEMA: &str = "hairline-diff/1";
 
 /// The trend of a class of disagreement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -116,60 +116,10 @@ pub fn difference(old: &ResultPart, new: &ResultPart) -> RecordComparison {
     }
 }
 
-fn worst_first(differences: &mut [Difference]) {
+/// Puts the worse first, and of each trend the largest change.
+pub(super) fn worst_first(differences: &mut [Difference]) {
     let size = |it: &Difference| it.old.count.abs_diff(it.new.count);
     differences.sort_by_key(|it| (it.change as u8, std::cmp::Reverse(size(it))));
-}
-
-/// Compares what two studies of one kind counted, chose and proved, name by name. Rates differ as those of audits do.
-pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
-    fn by_name<T>(all: Vec<T>, name: impl Fn(&T) -> String) -> BTreeMap<String, T> {
-        all.into_iter().map(|it| (name(&it), it)).collect()
-    }
-    let [counted, counted_new] = [old, new].map(|it| by_name(it.counted(), |it| it.what.clone()));
-    let [chosen, chosen_new] = [old, new].map(|it| by_name(it.chosen(), |it| it.what.clone()));
-    let same_cases = old.cases() == new.cases();
-    let common =
-        || counted.iter().filter_map(|(what, old)| Some((what, old, counted_new.get(what)?)));
-    let compared = common().count();
-    let judge = DifferenceJudge { same_parts: true, tail: tail(compared) };
-    let differs = common()
-        .filter(|(_, old, new)| (old.rate.count, old.rate.of) != (new.rate.count, new.rate.of));
-    let difference = |(what, old, new): (&String, &NamedRate, &NamedRate)| Difference {
-        what: what.clone(),
-        change: judge.change(same_cases, &old.rate, &new.rate),
-        old: old.rate.clone(),
-        new: new.rate.clone(),
-        command: new.command.clone().or(old.command.clone()),
-        shown: "",
-    };
-    let mut differences: Vec<Difference> = differs.map(difference).collect();
-    worst_first(&mut differences);
-    let other = |(what, old): (&String, &NamedValue)| {
-        let new = chosen_new.get(what).filter(|new| new.value != old.value)?;
-        let [before, now] = [old, new].map(|it| it.value.parse::<f64>().ok());
-        let trend = if before < now { Trend::Worse } else { Trend::Better };
-        Some(OtherValue {
-            what: what.clone(),
-            change: new.is_bound.then_some(trend),
-            old: old.value.clone(),
-            new: new.value.clone(),
-        })
-    };
-    let lone = |of: &BTreeMap<String, NamedRate>, other: &BTreeMap<String, NamedRate>| {
-        of.keys().filter(|what| !other.contains_key(*what)).count()
-    };
-    RecordComparison {
-        schema: DIFF_SCHEMA,
-        same_cases,
-        common: compared + chosen.keys().filter(|what| chosen_new.contains_key(*what)).count(),
-        compared,
-        differences,
-        contracts: Vec::new(),
-        chosen: chosen.iter().filter_map(other).collect(),
-        only_old: lone(&counted, &counted_new),
-        only_new: lone(&counted_new, &counted),
-    }
 }
 
 /// The rows that both plans have, by contracts that are not the same.
@@ -228,9 +178,12 @@ impl<'a> Side<'a> {
     }
 }
 
-struct DifferenceJudge {
-    same_parts: bool,
-    tail: f64,
+/// How rates are compared.
+pub(super) struct DifferenceJudge {
+    /// True if both records are of the same parts of a run.
+    pub same_parts: bool,
+    /// The error of each interval.
+    pub tail: f64,
 }
 
 impl DifferenceJudge {
@@ -281,7 +234,8 @@ impl DifferenceJudge {
         self.same_parts && old.sources.get(family) == new.sources.get(family)
     }
 
-    fn change(&self, same_cases: bool, old: &Rate, new: &Rate) -> Trend {
+    /// The trend of a rate.
+    pub fn change(&self, same_cases: bool, old: &Rate, new: &Rate) -> Trend {
         let whole_sets = old.interval.is_none() && new.interval.is_none() && old.of == new.of;
         if same_cases || whole_sets {
             return match new.count.cmp(&old.count) {

@@ -16,6 +16,7 @@ mod file;
 mod files;
 mod known;
 mod lock;
+mod named;
 mod planned;
 mod repaired;
 mod rows;
@@ -23,10 +24,11 @@ mod scene;
 
 pub use bless::{Blessed, Unblessable, bless};
 pub use compare::compare;
-pub use difference::{Difference, RecordComparison, Trend, difference, difference_of};
+pub use difference::{Difference, RecordComparison, Trend, difference};
 pub use file::read;
 pub use files::{BlessError, Written, blessed, lock_of, open};
 pub use lock::{Lock, LockedCases, LockedTarget, RowSettings};
+pub use named::difference_of;
 
 use crate::report::Key;
 use std::collections::BTreeMap;

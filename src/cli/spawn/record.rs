@@ -6,7 +6,7 @@ use crate::audit::{Trials, quoted, words};
 use crate::case::{Case, Matrix};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
-use crate::report::{Comparable, Findings, NamedRate, NamedValue, Rate, Study, or_infinite};
+use crate::report::{Rate, or_infinite};
 use crate::spawn::{
     Heights, Lengths, OfScheme, PointKind, ROOM, Scheme, SpawnPlan, SpawnSums, derived_normal,
     least_weight, new_ray,
@@ -41,42 +41,6 @@ pub struct SpawnResult {
     pub planes: Vec<String>,
     /// By kernel, kind of hit point and scalar.
     pub points: Vec<PointsPart>,
-}
-
-impl Findings for SpawnResult {
-    const STUDY: Study = Study::Spawn;
-}
-
-impl Comparable for SpawnResult {
-    fn cases(&self) -> String {
-        let SpawnResult { scene, mesh, seed, pilot_seed, count, wall, fold, instance, .. } = self;
-        format!("{scene} {mesh:?} {seed} {pilot_seed} {count} {wall} {fold} {instance:?}")
-    }
-
-    fn counted(&self) -> Vec<NamedRate> {
-        let schemes = self
-            .points
-            .iter()
-            .flat_map(|part| part.schemes.iter().map(move |scheme| (part.name(), scheme)));
-        schemes.flat_map(|(of, scheme)| scheme.counted(&of)).collect()
-    }
-
-    fn chosen(&self) -> Vec<NamedValue> {
-        let derived = self.points.iter().filter_map(|part| {
-            let value = part.derived.as_ref()?.normal.to_string();
-            let what = format!("{}: derived bound of the distance along the normal", part.name());
-            Some(NamedValue { what, value, is_bound: true })
-        });
-        let best = self.points.iter().filter_map(|part| {
-            let value = part.best.as_ref()?.scheme.clone();
-            Some(NamedValue {
-                what: format!("{}: offset to use", part.name()),
-                value,
-                is_bound: false,
-            })
-        });
-        derived.chain(best).collect()
-    }
 }
 
 /// The hit points of one kind, of a kernel in a scalar.
@@ -254,11 +218,6 @@ pub struct WrongPart {
 }
 
 impl PointsPart {
-    /// The kernel, the scalar and the kind of hit point in words.
-    fn name(&self) -> String {
-        format!("{} ({}) {} {}", self.kernel, self.set, self.scalar, self.point)
-    }
-
     /// Plans and sums by kind of plane. `preferred` are places of schemes that come first where they are about as low
     /// as any; `place` are the flags that name the scene or the mesh.
     pub fn new<F: Scalar>(
@@ -374,30 +333,6 @@ impl HeightsPart {
 }
 
 impl SchemePart {
-    /// How often what went wrong, of a kind of hit point.
-    fn counted(&self, of: &str) -> Vec<NamedRate> {
-        let counted = |what: String, rate: &Rate, first: Option<&WrongPart>| NamedRate {
-            what: format!("{of}: {}: {what}", self.name),
-            rate: rate.clone(),
-            command: first.map(|first| first.explain.clone()),
-        };
-        let here = [
-            ("wrong sides", &self.wrong, self.first_wrong.as_ref()),
-            ("self-hits", &self.self_hits, None),
-            ("past a wall", &self.beyond_wall, None),
-            ("past a fold", &self.past_neighbour, None),
-        ];
-        let here = here.map(|(what, rate, first)| counted(what.to_owned(), rate, first));
-        let elsewhere = self.elsewhere.iter().flat_map(|on| {
-            let kinds = [
-                ("wrong sides", &on.wrong, on.first_wrong.as_ref()),
-                ("self-hits", &on.self_hits, None),
-            ];
-            kinds.map(|(what, rate, first)| counted(format!("{what} on {}", on.plane), rate, first))
-        });
-        here.into_iter().chain(elsewhere).collect()
-    }
-
     /// The results of the scheme at a place.
     fn new<F: Scalar>(plans: &[SpawnPlan<'_>], runs: &[SpawnSums], place: usize) -> SchemePart
     where
