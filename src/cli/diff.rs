@@ -65,6 +65,13 @@ fn of_one_study<R: Comparable>(
     new: RecordText<'_>,
 ) -> Result<RecordComparison, Failure> {
     let (old, new) = (old.read::<R>()?, new.read::<R>()?);
+    let [before, now] = [&old, &new].map(|record| record.result.question());
+    if before != now {
+        let message = format!(
+            "nothing to compare: the records answer different questions: before {before}; now {now}"
+        );
+        return Err(Failure::Message(Status::NothingSelected, message));
+    }
     Ok(difference_of(&old.result, &new.result))
 }
 

@@ -152,8 +152,8 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
     let studies = [
         ("epsilon", vec!["epsilon", "--scene", "room", "-n", "500"], vec!["--seed", "2"]),
         ("mesh", vec!["mesh", mesh, "--directions", "2"], vec!["--seed", "2"]),
-        ("spawn", vec!["spawn", "--scene", "room", "-n", "2000"], vec!["--instance", FAR]),
-        ("prove", vec!["prove"], vec!["--scene", "room", "-n", "0"]),
+        ("spawn", vec!["spawn", "--scene", "room", "-n", "2000"], vec!["--seed", "2"]),
+        ("prove", vec!["prove"], vec!["--seed", "2"]),
     ];
     let mut compared = Vec::new();
     for (name, study, other) in &studies {
@@ -172,22 +172,35 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
     assert!(10 < epsilon["compared"].as_u64().unwrap(), "{epsilon}");
     assert_eq!(mesh["compared"], 6, "{mesh}");
     assert!(!mesh["differences"].as_array().unwrap().is_empty(), "{mesh}");
-    // Far from 0 hit points are off by more.
-    let differences = spawn["differences"].as_array().unwrap();
-    let trend = |what: &str| {
-        let it =
-            differences.iter().find(|it| it["what"] == what).unwrap_or_else(|| panic!("{what}"));
-        it["change"].as_str().unwrap().to_owned()
+    assert!(0 < spawn["compared"].as_u64().unwrap(), "{spawn}");
+    assert_eq!(prove["chosen"].as_array().unwrap().len(), 0);
+    // A bound and a rate that are higher.
+    let edited = |file: &str, to: &str, edit: &dyn Fn(&mut serde_json::Value)| {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        let mut record: serde_json::Value = serde_json::from_str(&text).unwrap();
+        record.as_object_mut().unwrap().remove("checksum").unwrap();
+        edit(&mut record["result"]);
+        fs::write(folder.join(to), record.to_string()).unwrap();
     };
-    let of = "moller-trumbore (source) f32 uv: pbrt-v3";
-    assert_eq!(trend(&format!("{of}: past a wall")), "worse");
-    assert_eq!(trend(&format!("{of}: wrong sides on axis-0")), "better");
-    // Every bound of a larger domain is higher.
-    let bounds = prove["chosen"].as_array().unwrap();
-    assert!(!bounds.is_empty() && bounds.iter().any(|it| it["change"] == "worse"), "{prove}");
-    let (told, _) = ends(&folder, &["diff", "--exit-code", "prove-1.json", "prove-2.json"], 1);
-    assert!(told.starts_with("4 values differ, 4 of them worse\n"), "{told}");
-    ends(&folder, &["diff", "--exit-code", "prove-2.json", "prove-1.json"], 0);
+    edited("prove-1.json", "prove-3.json", &|result| result["gates"][0]["bound"] = 0.5.into());
+    let (told, _) = ends(&folder, &["diff", "--exit-code", "prove-1.json", "prove-3.json"], 1);
+    assert!(told.starts_with("1 value differs, 1 of them worse\n"), "{told}");
+    ends(&folder, &["diff", "--exit-code", "prove-3.json", "prove-1.json"], 0);
+    edited("spawn-1.json", "spawn-3.json", &|result| {
+        let rate = &mut result["points"][0]["schemes"][0]["wrong"];
+        let more = rate["of"].as_u64().unwrap();
+        assert_ne!(rate["count"], more);
+        (rate["count"], rate["rate"]) = (more.into(), 1.0.into());
+    });
+    let (told, _) = ends(&folder, &["diff", "--exit-code", "spawn-1.json", "spawn-3.json"], 1);
+    assert!(told.starts_with("1 worse, 0 better") && told.contains("wrong sides"), "{told}");
+    // Another scene or domain is another question.
+    write("city.json", &["spawn", "--scene", "city", "-n", "100"]);
+    write("domain.json", &["prove", "--scene", "room", "-n", "0"]);
+    for (old, new) in [("spawn-1.json", "city.json"), ("prove-1.json", "domain.json")] {
+        let (_, error) = ends(&folder, &["diff", old, new], 4);
+        assert!(error.contains("the records answer different questions: before "), "{error}");
+    }
     // The same rays, asked by another contract.
     write("open.json", &[&studies[1].1[..], &["--contract", "open-ray"]].concat());
     let (told, _) = ends(&folder, &["diff", "mesh-1.json", "open.json"], 0);
@@ -207,6 +220,3 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
     let (_, error) = ends(&folder, &["diff", "changed.json", "spawn-1.json"], 65);
     assert!(error.contains("changed.json: its result is not the one"), "{error}");
 }
-
-/// 1e5 away from 0.
-const FAR: &str = "1 0 0 1e5, 0 1 0 1e5, 0 0 1 1e5";

@@ -114,6 +114,10 @@ impl Findings for ProofResult {
 }
 
 impl Comparable for ProofResult {
+    fn question(&self) -> String {
+        format!("domain {}", serde_json::to_string(&self.domain).unwrap_or_default())
+    }
+
     fn cases(&self) -> String {
         String::new()
     }

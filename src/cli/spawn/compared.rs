@@ -8,9 +8,16 @@ impl Findings for SpawnResult {
 }
 
 impl Comparable for SpawnResult {
+    fn question(&self) -> String {
+        let SpawnResult { scene, mesh, wall, fold, instance, .. } = self;
+        let mesh = mesh.as_ref().map_or(String::new(), |path| format!("mesh {path} "));
+        let place = instance.map_or(String::new(), |matrix| format!(" at {matrix:?}"));
+        format!("{mesh}{scene}{place}, wall {wall}, fold {fold}")
+    }
+
     fn cases(&self) -> String {
-        let SpawnResult { scene, mesh, seed, pilot_seed, count, wall, fold, instance, .. } = self;
-        format!("{scene} {mesh:?} {seed} {pilot_seed} {count} {wall} {fold} {instance:?}")
+        let SpawnResult { seed, pilot_seed, count, .. } = self;
+        format!("{seed} {pilot_seed} {count}")
     }
 
     fn counted(&self) -> Vec<NamedRate> {

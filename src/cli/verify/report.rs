@@ -116,8 +116,13 @@ impl Findings for VerifyResult {
 }
 
 impl Comparable for VerifyResult {
+    fn question(&self) -> String {
+        let profile = self.profile.as_ref().map_or(String::new(), |name| format!(" by {name}"));
+        format!("vectors {}{profile}", self.vectors)
+    }
+
     fn cases(&self) -> String {
-        format!("{} {:?} {:?}", self.vectors, self.profile, self.missing)
+        self.missing.join(" ")
     }
 
     fn counted(&self) -> Vec<NamedRate> {

@@ -10,10 +10,15 @@ impl Findings for SceneResult {
 }
 
 impl Comparable for SceneResult {
+    fn question(&self) -> String {
+        let SceneResult { scene, flags, mesh, .. } = self;
+        let mesh = mesh.as_ref().map_or(String::new(), |mesh| format!("mesh {} ", mesh.digest));
+        format!("{mesh}{scene}{flags}")
+    }
+
     fn cases(&self) -> String {
-        let SceneResult { scene, flags, mesh, seed, fresh_seed, count, .. } = self;
-        let digest = mesh.as_ref().map(|mesh| &mesh.digest);
-        format!("{scene} {flags} {digest:?} {seed} {fresh_seed} {count}")
+        let SceneResult { seed, fresh_seed, count, .. } = self;
+        format!("{seed} {fresh_seed} {count}")
     }
 
     fn counted(&self) -> Vec<NamedRate> {

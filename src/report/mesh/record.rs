@@ -47,9 +47,14 @@ impl Findings for MeshResult {
 }
 
 impl Comparable for MeshResult {
+    fn question(&self) -> String {
+        let place = self.instance.map_or(String::new(), |matrix| format!(" at {matrix:?}"));
+        let unit = if self.unit_directions { " with unit directions" } else { "" };
+        format!("mesh {}{place}{unit}", self.mesh.digest)
+    }
+
     fn cases(&self) -> String {
-        let MeshResult { mesh, directions, seed, unit_directions, instance, .. } = self;
-        format!("{} {directions} {seed} {unit_directions} {instance:?}", mesh.digest)
+        format!("{} {}", self.directions, self.seed)
     }
 
     fn counted(&self) -> Vec<NamedRate> {

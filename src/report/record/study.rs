@@ -36,6 +36,9 @@ impl Findings for ResultPart {
 
 /// Findings that are compared count by count, by name.
 pub trait Comparable: Findings {
+    /// The question in words, of a scene, a mesh or a domain: answers to two of them are not compared.
+    fn question(&self) -> String;
+
     /// The choice of the cases in words: where these are the same, so are the cases.
     fn cases(&self) -> String;
 
