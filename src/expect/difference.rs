@@ -299,12 +299,11 @@ impl Paged for RecordComparison {
                 "{compared} classes of disagreement compared, on {how}"
             )));
         }
+        let values = |title: &str, most: usize, all: &[OtherValue]| {
+            Block::items(title, most, all.iter().map(OtherValue::item).collect())
+        };
         let title = "Judged by another contract, so that the rates answer another question";
-        blocks.extend(Block::items(
-            title,
-            1,
-            self.contracts.iter().map(OtherValue::item).collect(),
-        ));
+        blocks.extend(values(title, 1, &self.contracts));
         for (count, whose) in [(self.only_old, "old"), (self.only_new, "new")] {
             if 0 < count {
                 blocks.push(Block::Text(format!(
@@ -321,12 +320,7 @@ impl Paged for RecordComparison {
             let of_change = self.differences.iter().filter(|d| d.change == change);
             blocks.extend(Block::items(title, MOST, of_change.map(Difference::item).collect()));
         }
-        let title = "Values that were chosen or proved";
-        blocks.extend(Block::items(
-            title,
-            MOST,
-            self.chosen.iter().map(OtherValue::item).collect(),
-        ));
+        blocks.extend(values("Values that were chosen or proved", MOST, &self.chosen));
         Page { command: "diff", title: answers.join("; "), tone, blocks }
     }
 }

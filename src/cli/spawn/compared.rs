@@ -35,12 +35,8 @@ impl Comparable for SpawnResult {
             Some(NamedValue { what, value, is_bound: true })
         });
         let best = self.points.iter().filter_map(|part| {
-            let value = part.best.as_ref()?.scheme.clone();
-            Some(NamedValue {
-                what: format!("{}: offset to use", part.name()),
-                value,
-                is_bound: false,
-            })
+            let what = format!("{}: offset to use", part.name());
+            Some(NamedValue::chosen(what, &part.best.as_ref()?.scheme))
         });
         derived.chain(best).collect()
     }

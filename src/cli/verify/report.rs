@@ -3,8 +3,7 @@
 use crate::audit::Trials;
 use crate::report::page::{Block, Head, Item, Page, Paged, Row, Table, Tone};
 use crate::report::{
-    Comparable, Findings, Format, JunitCase, NamedRate, NamedValue, Rate, Record, Study, number_of,
-    write_junit,
+    Comparable, Findings, Format, JunitCase, NamedRate, Rate, Record, Study, number_of, write_junit,
 };
 use crate::vectors::VectorTest;
 use crate::vectors::profile::{Answered, Profile, Saying, demanded, is_right};
@@ -135,10 +134,6 @@ impl Comparable for VerifyResult {
             command: self.wrong.iter().find(|wrong| wrong.topic == *topic).map(WrongTest::command),
         };
         self.topics.iter().map(counted).collect()
-    }
-
-    fn chosen(&self) -> Vec<NamedValue> {
-        Vec::new()
     }
 }
 

@@ -44,15 +44,12 @@ impl Comparable for SceneResult {
         let knobs = self.kernels.iter().flat_map(|part| {
             part.knobs.iter().zip(&part.tried[0].epsilons).map(move |it| (part, it))
         });
-        let chosen = |(part, (knob, value)): (&SceneKernelPart, (&KnobPart, &String))| NamedValue {
-            what: format!("{} {}: {}", part.kernel, part.scalar, knob.name),
-            value: value.clone(),
-            is_bound: false,
+        let chosen = |(part, (knob, value)): (&SceneKernelPart, (&KnobPart, &String))| {
+            NamedValue::chosen(format!("{} {}: {}", part.kernel, part.scalar, knob.name), value)
         };
-        let contract = |part: &SceneKernelPart| NamedValue {
-            what: format!("{} {}: contract", part.kernel, part.scalar),
-            value: part.contract.clone(),
-            is_bound: false,
+        let contract = |part: &SceneKernelPart| {
+            let what = format!("{} {}: contract", part.kernel, part.scalar);
+            NamedValue::chosen(what, &part.contract)
         };
         knobs.map(chosen).chain(self.kernels.iter().map(contract)).collect()
     }

@@ -78,10 +78,9 @@ impl Comparable for MeshResult {
     }
 
     fn chosen(&self) -> Vec<NamedValue> {
-        let contract = |row: &RowPart| NamedValue {
-            what: format!("{} ({}): contract", row.kernel, row.set),
-            value: row.contract.clone(),
-            is_bound: false,
+        let contract = |row: &RowPart| {
+            let what = format!("{} ({}): contract", row.kernel, row.set);
+            NamedValue::chosen(what, &row.contract)
         };
         self.rows.iter().map(contract).collect()
     }

@@ -46,7 +46,9 @@ pub trait Comparable: Findings {
     fn counted(&self) -> Vec<NamedRate>;
 
     /// The numbers that were chosen or proved.
-    fn chosen(&self) -> Vec<NamedValue>;
+    fn chosen(&self) -> Vec<NamedValue> {
+        Vec::new()
+    }
 }
 
 /// How often something went wrong.
@@ -67,6 +69,13 @@ pub struct NamedValue {
     pub value: String,
     /// True if it bounds an error, so that more is worse.
     pub is_bound: bool,
+}
+
+impl NamedValue {
+    /// One that is no bound.
+    pub fn chosen(what: String, value: &str) -> NamedValue {
+        NamedValue { what, value: value.to_owned(), is_bound: false }
+    }
 }
 
 /// Reads a number that is written as null where it is infinite, as JSON has no word for that.
