@@ -67,8 +67,7 @@ impl Formula {
 
     /// The largest first order, and the first corner that has it.
     fn first_in_box(&mut self, format: Format, may_choose: bool) -> (Dyadic, u64) {
-        let mut values = vec![Dyadic::ZERO; self.steps.len()];
-        let mut slopes = values.clone();
+        let mut walk = Walk::new(self);
         let rounds: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
         let choices = if may_choose && 1 < rounds.len() { rounds } else { vec![] };
         // By corner, what the steps that round contribute either way; and what the others contribute.
@@ -76,11 +75,11 @@ impl Formula {
         let mut others = Vec::new();
         let corners: Vec<u64> = self.corners().collect();
         for corner in corners.iter().copied() {
-            self.evaluate(corner, 0, &mut values);
-            self.slopes(&values, &mut slopes);
+            walk.evaluate(corner, 0);
+            walk.differentiate();
             let effect = |i: usize| {
-                let slope = slopes[i].abs();
-                [slope * self.bounds[i].error, slope * values[i].abs() * format.unit()]
+                let slope = walk.slopes[i].abs();
+                [slope * self.bounds[i].error, slope * walk.values[i].abs() * format.unit()]
             };
             effects.push(choices.iter().map(|i| effect(*i)).collect());
             let is_other = |i: &usize| choices.is_empty() || !self.rounds[*i];
@@ -88,27 +87,29 @@ impl Formula {
             others.push(rest.fold(Dyadic::ZERO, Dyadic::plus_up));
         }
         let mut chosen = vec![0; choices.len()];
+        let sum = |at: usize, chosen: &[usize]| {
+            let parts = effects[at].iter().zip(chosen).map(|(both, i)| both[*i]);
+            parts.fold(others[at], Dyadic::plus_up)
+        };
         let largest = |chosen: &[usize]| {
-            let sum = |at: usize| {
-                let parts = effects[at].iter().zip(chosen).map(|(both, i)| both[*i]);
-                parts.fold(others[at], Dyadic::plus_up)
-            };
-            let sums = corners.iter().enumerate().map(|(at, corner)| (sum(at), *corner));
+            let sums = (0..corners.len()).map(|at| (sum(at, chosen), at));
             // The first corner of the largest sum.
             sums.reduce(|a, b| if a.0 < b.0 { b } else { a }).expect("one corner")
         };
         let (mut first, mut at) = largest(&chosen);
         for k in (0..choices.len()).rev() {
             chosen[k] = 1;
-            let tried = largest(&chosen);
-            if tried.0 < first {
-                (first, at) = tried;
-                self.relative[choices[k]] = true;
-            } else {
-                chosen[k] = 0;
+            // Where that is no less at the corner that counts, it is no less.
+            let tried = Some(&chosen).filter(|chosen| sum(at, chosen) < first);
+            match tried.map(|chosen| largest(chosen)).filter(|tried| tried.0 < first) {
+                Some(less) => {
+                    (first, at) = less;
+                    self.relative[choices[k]] = true;
+                }
+                None => chosen[k] = 0,
             }
         }
-        (first, at)
+        (first, corners[at])
     }
 
     /// The same where the effects of errors are shares of a divisor; none if they cannot be.
@@ -211,15 +212,14 @@ impl Formula {
     /// Visits the corners, with value and slope of each step, or each triple of them where the unit vector
     /// is an axis.
     fn each_corner(&self, mut visit: impl FnMut(u64, &[Vec<(Dyadic, Dyadic)>])) {
-        let mut values = vec![Dyadic::ZERO; self.steps.len()];
-        let mut slopes = values.clone();
+        let mut walk = Walk::new(self);
         let mut at_axes = vec![Vec::new(); self.unit.len().max(1)];
         for corner in self.corners() {
             for (axis, pairs) in at_axes.iter_mut().enumerate() {
-                self.evaluate(corner, axis, &mut values);
-                self.slopes(&values, &mut slopes);
+                walk.evaluate(corner, axis);
+                walk.differentiate();
                 pairs.clear();
-                pairs.extend(values.iter().copied().zip(slopes.iter().copied()));
+                pairs.extend(walk.values.iter().copied().zip(walk.slopes.iter().copied()));
             }
             visit(corner, &at_axes);
         }
@@ -254,69 +254,88 @@ impl Formula {
         linear.last().is_some_and(|last| *last).then_some(linear)
     }
 
-    /// The exact value of each step at a corner, the unit vector being an axis.
-    fn evaluate(&self, corner: u64, axis: usize, values: &mut [Dyadic]) {
-        let variable = |v: usize| {
-            if self.unit.contains(&v) && self.unit[axis] != v {
-                return Dyadic::ZERO;
-            }
-            negative_if(corner >> v & 1 == 1, self.variables[v])
-        };
-        for i in 0..self.steps.len() {
-            let term = |(is_minus, a, b): Term<usize>| {
-                negative_if(is_minus, b.map_or(values[a], |b| values[a] * values[b]))
-            };
-            values[i] = match self.steps[i] {
-                Step::Variables(ref sum) => sum.iter().fold(Dyadic::ZERO, |total, (v, sign)| {
-                    total + negative_if(*sign < 0, variable(*v))
-                }),
-                Step::Of(Operation::Number(value)) => Dyadic::new(value.into(), 0),
-                ref step => step.terms().map(term).reduce(|a, b| a + b).expect("a term"),
-            };
-        }
-    }
-
-    /// The derivative of the result by each step.
-    fn slopes(&self, values: &[Dyadic], slopes: &mut [Dyadic]) {
-        slopes.fill(Dyadic::ZERO);
-        let last = slopes.len() - 1;
-        slopes[last] = Dyadic::ONE;
-        for i in (0..=last).rev() {
-            let slope = slopes[i];
-            if slope.is_zero() {
-                continue;
-            }
-            let mut add = |to: usize, amount: Dyadic| slopes[to] = slopes[to] + amount;
-            for (is_minus, a, b) in self.steps[i].terms() {
-                let slope = negative_if(is_minus, slope);
-                add(a, b.map_or(slope, |b| slope * values[b]));
-                b.into_iter().for_each(|b| add(b, slope * values[a]));
-            }
-        }
-    }
-
     /// The largest size of each step at the corners, which is its largest size in the box.
     fn corner_sizes(&self) -> Vec<Dyadic> {
         let linear = self.linear_steps().filter(|_| !self.unit.is_empty());
         let linear = linear.unwrap_or(vec![false; self.steps.len()]);
         let mut sizes = vec![Dyadic::ZERO; self.steps.len()];
-        let mut values = sizes.clone();
+        let mut walk = Walk::new(self);
         for corner in self.corners() {
             let mut squares = vec![Dyadic::ZERO; self.unit.len().min(1) * sizes.len()];
             for axis in 0..self.unit.len().max(1) {
-                self.evaluate(corner, axis, &mut values);
-                for (square, value) in squares.iter_mut().zip(&values) {
+                walk.evaluate(corner, axis);
+                for (square, value) in squares.iter_mut().zip(&walk.values) {
                     *square = *square + *value * *value;
                 }
             }
             for (i, size) in sizes.iter_mut().enumerate() {
-                *size = (*size).max(if linear[i] { squares[i] } else { values[i].abs() });
+                *size = (*size).max(if linear[i] { squares[i] } else { walk.values[i].abs() });
             }
         }
         let root = |(size, linear): (Dyadic, bool)| {
             if linear && size.is_number() { root_up(&Big::from(size), SIZE_DIGITS) } else { size }
         };
         sizes.into_iter().zip(linear).map(root).collect()
+    }
+}
+
+/// From corner to corner: the exact value of each step there, and the derivative of the result by each.
+struct Walk<'a> {
+    formula: &'a Formula,
+    /// The terms of each step.
+    terms: Vec<Vec<Term<usize>>>,
+    values: Vec<Dyadic>,
+    slopes: Vec<Dyadic>,
+}
+
+impl Walk<'_> {
+    fn new(formula: &Formula) -> Walk<'_> {
+        let terms = formula.steps.iter().map(|step| step.terms().collect()).collect();
+        let zeros = vec![Dyadic::ZERO; formula.steps.len()];
+        Walk { formula, terms, values: zeros.clone(), slopes: zeros }
+    }
+
+    /// The values at a corner, the unit vector being an axis.
+    fn evaluate(&mut self, corner: u64, axis: usize) {
+        let Formula { steps, unit, variables, .. } = self.formula;
+        let variable = |v: usize| {
+            if unit.contains(&v) && unit[axis] != v {
+                return Dyadic::ZERO;
+            }
+            negative_if(corner >> v & 1 == 1, variables[v])
+        };
+        for (i, step) in steps.iter().enumerate() {
+            let values = &self.values;
+            let term = |&(is_minus, a, b): &Term<usize>| {
+                negative_if(is_minus, b.map_or(values[a], |b| values[a] * values[b]))
+            };
+            self.values[i] = match step {
+                Step::Variables(sum) => sum.iter().fold(Dyadic::ZERO, |total, (v, sign)| {
+                    total + negative_if(*sign < 0, variable(*v))
+                }),
+                Step::Of(Operation::Number(value)) => Dyadic::new((*value).into(), 0),
+                _ => self.terms[i].iter().map(term).reduce(|a, b| a + b).expect("a term"),
+            };
+        }
+    }
+
+    /// The derivatives at the corner of the values.
+    fn differentiate(&mut self) {
+        let Walk { terms, values, slopes, .. } = self;
+        slopes.fill(Dyadic::ZERO);
+        *slopes.last_mut().expect("a step") = Dyadic::ONE;
+        for (i, terms) in terms.iter().enumerate().rev() {
+            let slope = slopes[i];
+            if slope.is_zero() {
+                continue;
+            }
+            let mut add = |to: usize, amount: Dyadic| slopes[to] = slopes[to] + amount;
+            for &(is_minus, a, b) in terms {
+                let slope = negative_if(is_minus, slope);
+                add(a, b.map_or(slope, |b| slope * values[b]));
+                b.into_iter().for_each(|b| add(b, slope * values[a]));
+            }
+        }
     }
 }
 

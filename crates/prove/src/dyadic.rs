@@ -135,6 +135,11 @@ impl Dyadic {
         large + Dyadic::power(exponent + bits - 60)
     }
 
+    /// A mantissa of 64 bits: sums and products of such need no test of their size.
+    fn short(self) -> Option<i64> {
+        i64::try_from(self.mantissa).ok()
+    }
+
     fn aligned(self, exponent: i32) -> Option<i128> {
         let shift = (self.exponent - exponent) as u32;
         let free = self.mantissa.unsigned_abs().leading_zeros();
@@ -161,6 +166,15 @@ impl Add for Dyadic {
             return Dyadic::OVERFLOW;
         }
         let exponent = self.exponent.min(other.exponent);
+        let shifts = [self.exponent - exponent, other.exponent - exponent];
+        if let (Some(a), Some(b), true) =
+            (self.short(), other.short(), shifts[0].max(shifts[1]) < 62)
+        {
+            return Dyadic::new(
+                (i128::from(a) << shifts[0]) + (i128::from(b) << shifts[1]),
+                exponent,
+            );
+        }
         match (self.aligned(exponent), other.aligned(exponent)) {
             (Some(a), Some(b)) => Dyadic::new(a + b, exponent),
             _ => Dyadic::OVERFLOW,
@@ -191,7 +205,11 @@ impl Mul for Dyadic {
         if !self.is_number() || !other.is_number() {
             return Dyadic::OVERFLOW;
         }
-        match self.mantissa.checked_mul(other.mantissa) {
+        let product = match (self.short(), other.short()) {
+            (Some(a), Some(b)) => Some(i128::from(a) * i128::from(b)),
+            _ => self.mantissa.checked_mul(other.mantissa),
+        };
+        match product {
             // The product of odd numbers is odd.
             Some(mantissa) => Dyadic { mantissa, exponent: self.exponent + other.exponent },
             None => Dyadic::OVERFLOW,
