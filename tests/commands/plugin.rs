@@ -709,7 +709,7 @@ fn a_campaign_on_a_command_goes_on_and_its_finds_are_told_again() {
 fn a_campaign_goes_on_however_often_a_kernel_crashes() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("campaign-of-crashes");
     let _ = fs::remove_dir_all(&folder);
-    let flags = ["fuzz", folder.to_str().unwrap(), "-n", "1500", "-q", "--kernel-cmd"];
+    let flags = ["fuzz", folder.to_str().unwrap(), "-n", "600", "-q", "--kernel-cmd"];
     let output = hairline(&[&flags[..], &[&shell("read line; exit 3")]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let finds = fs::read_to_string(folder.join("finds.jsonl")).unwrap();

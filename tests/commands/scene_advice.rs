@@ -211,7 +211,7 @@ fn a_mesh_is_audited_as_it_was_studied_and_its_edges_are_well_within_their_limit
     fs::write(folder.join("far away.obj"), text).unwrap();
     let words = ["epsilon", "--kernel", "moller-trumbore", "--mesh", "far away.obj", "-q"];
     for seed in ["1", "2"] {
-        let rest = ["--scalar", "f64", "-n", "10000", "--seed", seed, "--format", "json"];
+        let rest = ["--scalar", "f64", "-n", "4000", "--seed", seed, "--format", "json"];
         let (json, _) = ends(&folder, &[&words[..], &rest[..]].concat(), 0);
         let record: SceneResult = json_schema::result(&json);
         let part = &record.kernels[0];

@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod arithmetic;
+mod attribution;
 mod contradictions;
 mod derived;
 mod drawing;
@@ -20,6 +21,7 @@ mod prove;
 mod response;
 mod scenes;
 mod severity;
+mod shrink;
 mod spawn;
 mod strategy;
 mod trials;

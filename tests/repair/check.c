@@ -252,43 +252,60 @@ static int truth(const ray *r) {
     return inside && before > 0 && after < 0 ? 2 : 1;
 }
 
-/* The truth by long double, where rounding cannot have changed it; -1 elsewhere. Its exponents hold every product here, and a
- * weight passes at most ten roundings, so it is off by less than 2^-60 of the sum of its terms' sizes. */
-static int quick(const ray *r) {
-#if LDBL_MANT_DIG < 64
-    (void)r;
-    return -1;
-#else
-    const long double margin = 1 / 288230376151711744.0L; /* 2^-58 */
-    long double p[3][3], w[3], size[3], n = 0, det, size_n = 0, size_det;
-    int i, k, end, s[3], before = 1, after = -1;
+/* What decides a ray, in long double, with the sum of its terms' sizes: the weights of the vertices, and the distances from the
+ * plane to the ends, with the sign of the sum of the weights. */
+typedef struct {
+    long double value[5], size[5];
+} measures;
+
+static measures measured(const ray *r) {
+    long double p[3][3], n = 0, det = 0, size_n = 0, size_det = 0;
+    measures m;
+    int i, k;
     for (k = 0; k < 3; k++)
         for (i = 0; i < 3; i++) p[k][i] = (long double)r->x[6 + 3 * k + i] - r->x[i];
     for (k = 0; k < 3; k++) {
         const long double *q = p[(k + 2) % 3], *z = p[(k + 1) % 3];
-        w[k] = size[k] = 0;
+        m.value[k] = m.size[k] = 0;
         for (i = 0; i < 3; i++) {
             long double one = q[(i + 1) % 3] * z[(i + 2) % 3], other = q[(i + 2) % 3] * z[(i + 1) % 3], d = r->x[3 + i];
-            w[k] += d * (one - other), size[k] += fabsl(d) * (fabsl(one) + fabsl(other));
+            m.value[k] += d * (one - other), m.size[k] += fabsl(d) * (fabsl(one) + fabsl(other));
         }
-        s[k] = w[k] > margin * size[k] ? 1 : w[k] < -margin * size[k] ? -1 : 0;
+        det -= m.value[k], size_det += m.size[k];
+    }
+    for (i = 0; EXTENT && i < 3; i++) {
+        long double one = p[1][(i + 1) % 3] * p[2][(i + 2) % 3], other = p[1][(i + 2) % 3] * p[2][(i + 1) % 3];
+        n += p[0][i] * (one - other), size_n += fabsl(p[0][i]) * (fabsl(one) + fabsl(other));
+    }
+    for (i = 0; i < EXTENT; i++) {
+        real at = EXTENT == 1 ? 0 : r->end[i];
+        m.value[3 + i] = is_finite(at) ? n - at * det : at > 0 ? -det : det;
+        m.size[3 + i] = is_finite(at) ? size_n + fabsl(at) * size_det : size_det;
+    }
+    return m;
+}
+
+/* The truth by long double, where rounding cannot have changed it; -1 elsewhere. Its exponents hold every product here, and a
+ * weight passes at most ten roundings, so it is off by less than 2^-60 of the sum of its terms' sizes. */
+static int quick(const measures *m) {
+#if LDBL_MANT_DIG < 64
+    (void)m;
+    return -1;
+#else
+    const long double margin = 1 / 288230376151711744.0L; /* 2^-58 */
+    int i, s[5];
+    for (i = 0; i < 3 + EXTENT; i++) {
+        long double value = m->value[i], most = margin * m->size[i];
+        s[i] = value > most ? 1 : value < -most ? -1 : 0;
     }
     if (s[0] * s[1] < 0 || s[1] * s[2] < 0 || s[2] * s[0] < 0) return 0;
     if (!s[0] || !s[1] || !s[2]) return -1;
     if (FRONT && s[0] < 0) return 0;
-    for (i = 0; i < 3; i++) {
-        long double one = p[1][(i + 1) % 3] * p[2][(i + 2) % 3], other = p[1][(i + 2) % 3] * p[2][(i + 1) % 3];
-        n += p[0][i] * (one - other), size_n += fabsl(p[0][i]) * (fabsl(one) + fabsl(other));
-    }
-    det = -(w[0] + w[1] + w[2]), size_det = size[0] + size[1] + size[2];
-    for (end = 0; end < EXTENT; end++) {
-        real at = EXTENT == 1 ? 0 : r->end[end];
-        long double x = n - at * det, size_x = margin * (size_n + fabsl(at) * size_det);
-        int sign = !is_finite(at) ? (at > 0 ? -1 : 1) : x > size_x ? -s[0] : x < -size_x ? s[0] : 0;
-        if (sign == 0) return -1;
-        *(end ? &after : &before) = sign;
-    }
-    return before < 0 || after > 0 ? 0 : 2;
+    for (i = 0; i < EXTENT; i++)
+        if (!s[3 + i]) return -1;
+    for (i = 0; i < EXTENT; i++)
+        if (s[3 + i] * s[0] != (i == 0 ? -1 : 1)) return 0;
+    return 2;
 #endif
 }
 
@@ -327,9 +344,9 @@ static real nudged(uint64_t *state, real x) {
     return is_finite(y) ? y : x;
 }
 
-enum { PLAIN, EDGE, VERTEX, GRAZING, EXPONENTS, LATTICE, ENDS, SCALES, THIN, SPARSE, KINDS };
+enum { PLAIN, EDGE, VERTEX, GRAZING, EXPONENTS, LATTICE, ENDS, SCALES, THIN, SPARSE, DRAWN, SEARCH = DRAWN, KINDS };
 static const char *const NAMES[KINDS] = {"plain", "near edges", "near vertices", "grazing", "any exponents",
-                                         "lattice", "near ends", "scales", "thin", "sparse"};
+                                         "lattice", "near ends", "scales", "thin", "sparse", "search"};
 
 static ray draw(int kind, uint64_t *state) {
     double x[15], u, v, w, t = 0.5 + below(state, 1000) / 100.0, size = power((int)below(state, 9) - 4);
@@ -415,6 +432,36 @@ typedef struct {
     uint64_t seed, count, kinds[KINDS][4];
 } work;
 
+/* A search for a ray that the kernel still decides, as near as can be to where it must not: the one number that decides, as a
+ * share of its terms' sizes, only falls. */
+typedef struct {
+    ray at;
+    int left, goal;
+    long double share;
+} search;
+
+static ray moved(search *s, uint64_t *state) {
+    ray r = s->at;
+    int i, count = 1 + (int)below(state, 3);
+    if (s->left == 0) {
+        s->left = 1000 << below(state, 5), s->goal = (int)below(state, 3 + EXTENT), s->share = 2;
+        return s->at = draw((int)below(state, DRAWN), state);
+    }
+    s->left--;
+    for (i = 0; i < count; i++) {
+        real *x = &r.x[below(state, 15)];
+        *x = below(state, 3) ? nudged(state, *x) : (real)(*x * (1 + uniform(state) * power(-(int)below(state, MANTISSA))));
+    }
+    return r;
+}
+
+static void keep(search *s, const ray *r, const measures *m) {
+    const long double *w = m->value;
+    int i = s->goal % 3, others = w[(i + 1) % 3] * w[(i + 2) % 3] > 0 && (s->goal < 3 || w[0] * w[1] > 0);
+    long double share = others ? fabsl(w[s->goal]) / m->size[s->goal] : 1;
+    if (share <= s->share) s->at = *r, s->share = share;
+}
+
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static int shown = 0;
 
@@ -432,14 +479,17 @@ static void show(const ray *r, int answer, int right) {
 static void *run(void *given) {
     work *w = given;
     uint64_t i, state = w->seed;
+    search found = {.left = 0};
     PASTE(KERNEL, _hit) hit;
     for (i = 0; i < w->count; i++) {
         int kind = (int)(i % KINDS), answer;
-        ray r = draw(kind, &state);
+        ray r = kind == SEARCH ? moved(&found, &state) : draw(kind, &state);
         answer = KERNEL(r.x, r.x + 3, r.x + 6, r.x + 9, r.x + 12, r.end[0], r.end[1], &hit);
         w->kinds[kind][answer]++;
         if (answer != HAIRLINE_ASK) {
-            int right = quick(&r);
+            const measures m = measured(&r);
+            int right = quick(&m);
+            if (kind == SEARCH) keep(&found, &r, &m);
             if (right < 0 || i % 997 == 0) {
                 int exact = truth(&r);
                 if (right >= 0 && right != exact) {

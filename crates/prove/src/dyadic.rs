@@ -257,7 +257,8 @@ impl From<Dyadic> for Big {
         assert!(x.is_number(), "a number that needed more digits");
         let power = BigInt::one() << x.exponent.unsigned_abs();
         let mantissa = BigInt::from(x.mantissa);
-        if x.exponent < 0 { Big::new(mantissa, power) } else { Big::from(mantissa * power) }
+        // An odd number over a power of two has no common factor.
+        if x.exponent < 0 { Big::new_raw(mantissa, power) } else { Big::from(mantissa * power) }
     }
 }
 
