@@ -265,11 +265,18 @@ impl From<Dyadic> for Big {
 /// The smallest e with x <= 2^e, for a positive x.
 pub fn ceil_log2(x: &Big) -> i32 {
     let bits = |n: &BigInt| n.bits() as i32;
-    let mut exponent = bits(x.numer()) - bits(x.denom()) - 1;
-    while Big::from(Dyadic::power(exponent)) < *x {
-        exponent += 1;
-    }
-    exponent
+    let exponent = bits(x.numer()) - bits(x.denom());
+    // One less or one more than the difference of the lengths.
+    (exponent - 1..exponent + 1).find(|e| above(x, *e).is_one()).unwrap_or(exponent + 1)
+}
+
+/// The smallest whole number that is at least x / 2^exponent, for a positive x. It is no fraction on the way, so that no
+/// common factors are sought.
+fn above(x: &Big, exponent: i32) -> BigInt {
+    let by = exponent.unsigned_abs();
+    let (down, up) = if exponent < 0 { (0, by) } else { (by, 0) };
+    let (numerator, divisor) = (x.numer() << up, x.denom() << down);
+    (numerator + &divisor - BigInt::one()) / divisor
 }
 
 /// The smallest number of so many binary digits that is at least x, which is not negative.
@@ -278,8 +285,7 @@ pub fn round_up(x: &Big, digits: u32) -> Dyadic {
         return Dyadic::ZERO;
     }
     let last = ceil_log2(x) - digits as i32;
-    let mantissa = (x / Big::from(Dyadic::power(last))).ceil();
-    Dyadic::new(mantissa.to_integer().to_i128().expect("few digits"), last)
+    Dyadic::new(above(x, last).to_i128().expect("few digits"), last)
 }
 
 /// The smallest number of so many binary digits whose square is at least x, which is not negative.
@@ -288,7 +294,7 @@ pub fn root_up(x: &Big, digits: u32) -> Dyadic {
         return Dyadic::ZERO;
     }
     let last = (ceil_log2(x) + 1).div_euclid(2) - digits as i32;
-    let scaled = (x / Big::from(Dyadic::power(2 * last))).ceil().to_integer();
+    let scaled = above(x, 2 * last);
     let root = scaled.sqrt();
     let is_exact = &root * &root == scaled;
     let root = root.to_i128().expect("few digits") + i128::from(!is_exact);
