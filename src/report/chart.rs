@@ -14,30 +14,7 @@ const CHARACTER: f64 = 6.4;
 const LABEL: f64 = 46.0;
 
 /// Colours by kind of ray, dashes by kind of error; light and dark.
-pub(super) const STYLE: &str = "
-.chart { font: 12px system-ui, -apple-system, sans-serif; fill: #1d2125; color: #1d2125; }
-.chart .paper { fill: #fff; } .chart .soft { fill: #575e66; }
-.chart .grid { stroke: #dcdfe3; fill: none; } .chart .axis { stroke: #575e66; fill: none; }
-.chart .tried { stroke: #575e66; stroke-dasharray: 1 3; fill: none; }
-.chart .this { stroke: #1d2125; stroke-dasharray: none; } .chart text.this { stroke: none; font-weight: 700; }
-.chart .within { fill: #1a6b3a; fill-opacity: .14; } .chart .open { fill-opacity: .06; }
-.chart .line { stroke: currentColor; fill: none; stroke-width: 2; stroke-linejoin: round; }
-.chart .band { fill: currentColor; fill-opacity: .07; }
-.chart .limit { fill: currentColor; stroke: currentColor; } .chart .proved { fill: none; stroke-width: 1.5; }
-.chart .hit, .chart .self-hit { stroke-dasharray: 7 3; } .chart .crack { stroke-dasharray: 2 3; }
-.chart .interior { color: #b34700; } .chart .edges { color: #5f6670; }
-.chart .vertices { color: #7b3fa0; } .chart .grazing { color: #1d5fae; }
-.chart .parallel { color: #00707a; } .chart .shadow { color: #1a6b3a; } .chart .outside { color: #8a6d00; }
-@media (prefers-color-scheme: dark) {
-.chart { fill: #e6e8ea; color: #e6e8ea; }
-.chart .paper { fill: #14171a; } .chart .soft { fill: #a3abb3; }
-.chart .grid { stroke: #343a41; } .chart .axis, .chart .tried { stroke: #a3abb3; }
-.chart .this { stroke: #e6e8ea; } .chart text.this { stroke: none; } .chart .within { fill: #7ed09a; }
-.chart .interior { color: #f5a45d; } .chart .edges { color: #a3abb3; }
-.chart .vertices { color: #c79be6; } .chart .grazing { color: #86b9f7; }
-.chart .parallel { color: #5fc7d1; } .chart .shadow { color: #7ed09a; } .chart .outside { color: #e0c04f; }
-}
-";
+pub(super) const STYLE: &str = include_str!("chart.css");
 
 /// A file of drawings, one below the other.
 pub(super) fn file(title: &str, width: f64, height: f64, drawing: &str) -> String {

@@ -8,96 +8,23 @@ use crate::judge::Obligation;
 use crate::kernel::Scalar;
 use crate::oracle::truth;
 use crate::truth::{Place, Truth};
+use serde::Deserialize;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 
 /// A file of the core set.
+#[derive(Deserialize)]
 pub struct VectorTopic {
     /// The file's name, and the first word of its ids.
     pub name: &'static str,
     /// The subject of its tests.
     pub about: &'static str,
     /// Families, and how many of their indices in f32.
-    families: &'static [(&'static str, usize)],
+    families: Vec<(&'static str, usize)>,
 }
 
 /// The files of the core set, in the order of their names.
-const TOPICS: &[VectorTopic] = &[
-    VectorTopic {
-        name: "basics",
-        about: "ordinary hits and misses, and rays and triangles along the axes",
-        families: &[("interior", 14), ("outside", 10), ("axis-aligned", 10), ("lattice", 10)],
-    },
-    VectorTopic {
-        name: "coplanar",
-        about: "rays in the plane of the triangle",
-        families: &[("coplanar", 12)],
-    },
-    VectorTopic {
-        name: "degenerate",
-        about: "triangles without area: segments and points",
-        families: &[("degenerate", 10)],
-    },
-    VectorTopic {
-        name: "edges",
-        about: "lines exactly through an edge, and a few ulps beside one",
-        families: &[("edge-exact", 10), ("edge-near", 36)],
-    },
-    VectorTopic {
-        name: "fans",
-        about: "closed fans of triangles around a vertex, the ray at the vertex or at a spoke",
-        families: &[("fan", 16)],
-    },
-    VectorTopic {
-        name: "far",
-        about: "small triangles far from the origin of the coordinates",
-        families: &[("far", 24)],
-    },
-    VectorTopic {
-        name: "grazing",
-        about: "rays that are nearly parallel to the plane",
-        families: &[("grazing", 30)],
-    },
-    VectorTopic {
-        name: "invalid",
-        about: "NaN, infinities, directions of zeros, empty intervals",
-        families: &[("invalid", 10)],
-    },
-    VectorTopic {
-        name: "parallel",
-        about: "rays that are exactly parallel to the plane, beside it",
-        families: &[("parallel-off", 24)],
-    },
-    VectorTopic { name: "published", about: "failing inputs that people reported", families: &[] },
-    VectorTopic {
-        name: "shared-edges",
-        about: "two triangles that share an edge, the ray at the edge",
-        families: &[("shared-edge", 32)],
-    },
-    VectorTopic {
-        name: "sizes",
-        about: "tiny, huge and thin triangles, short and long directions, the ends of the exponents",
-        families: &[
-            ("sliver", 12),
-            ("tiny", 10),
-            ("huge", 10),
-            ("direction-length", 12),
-            ("mixed-scale", 8),
-            ("range-ends", 10),
-        ],
-    },
-    VectorTopic {
-        name: "starts",
-        about: "rays that start on the triangle or beside it, hits behind the start and at the ends of the interval",
-        families: &[("origin-on", 8), ("origin-near", 20), ("behind", 8), ("interval-ends", 8)],
-    },
-    VectorTopic {
-        name: "vertices",
-        about: "lines exactly through a vertex, and a few ulps beside one",
-        families: &[("vertex-exact", 10), ("vertex-near", 24)],
-    },
-];
-
+const TOPICS: &str = include_str!("topics.json");
 const CURATED: &str = include_str!("../../corpora/curated.jsonl");
 const PUBLISHED: &str = include_str!("../../corpora/published.jsonl");
 
@@ -107,10 +34,11 @@ const SEED: u64 = 1;
 const PICKED_FROM: u64 = 200;
 
 /// The core set: the files, each with its tests. No test stands twice in it.
-pub fn core() -> Vec<(&'static VectorTopic, Vec<VectorTest>)> {
+pub fn core() -> Vec<(VectorTopic, Vec<VectorTest>)> {
+    let topics: Vec<VectorTopic> = serde_json::from_str(TOPICS).expect("tests read it");
     let [curated, published] = [CURATED, PUBLISHED].map(stored);
     let mut seen = HashSet::new();
-    let mut tests_of = |topic: &'static VectorTopic| {
+    let tests_of = |topic: VectorTopic| {
         let mut tests: Vec<VectorTest> = Vec::new();
         if topic.name == "published" {
             let groups = published.chunk_by(|one, other| group_name(one) == group_name(other));
@@ -118,16 +46,16 @@ pub fn core() -> Vec<(&'static VectorTopic, Vec<VectorTest>)> {
         }
         let curated = curated.iter().filter_map(|case| named(std::slice::from_ref(case), None));
         tests.extend(curated.filter(|test| topic_of(&test.triangles[0].truth) == topic.name));
-        for &(family, count) in topic.families {
+        for &(family, count) in &topic.families {
             let family = find(family).expect("a family of the table");
-            tests.extend(picked::<f32>(topic, family, count));
+            tests.extend(picked::<f32>(topic.name, family, count));
             // Doubles are twice as long, and fewer programs use them.
-            tests.extend(picked::<f64>(topic, family, count * 3 / 4));
+            tests.extend(picked::<f64>(topic.name, family, count * 3 / 4));
         }
         tests.retain(|test| seen.insert(test.digest()));
         (topic, tests)
     };
-    TOPICS.iter().map(&mut tests_of).collect()
+    topics.into_iter().map(tests_of).collect()
 }
 
 /// The cases of a corpus file of this repository.
@@ -175,11 +103,7 @@ fn topic_of(truth: &Truth) -> &'static str {
 }
 
 /// Tests of a family's first indices, each kind in turn, so that the rare ones are there.
-fn picked<F: Scalar>(
-    topic: &VectorTopic,
-    family: &'static Family,
-    count: usize,
-) -> Vec<VectorTest> {
+fn picked<F: Scalar>(topic: &str, family: &'static Family, count: usize) -> Vec<VectorTest> {
     let mut of_kind: HashMap<String, usize> = HashMap::new();
     let mut ranked: Vec<(usize, u64)> = (0..PICKED_FROM)
         .map(|index| {
@@ -190,7 +114,7 @@ fn picked<F: Scalar>(
         })
         .collect();
     ranked.sort();
-    let tests = ranked.iter().filter_map(|(_, index)| generated::<F>(topic.name, family, *index));
+    let tests = ranked.iter().filter_map(|(_, index)| generated::<F>(topic, family, *index));
     tests.take(count).collect()
 }
 
