@@ -2,7 +2,7 @@
 //! stored rays.
 
 use super::exit::{Failure, Status};
-use super::flags::chosen_scalars;
+use super::flags::{chosen_scalars, scalar_names};
 use crate::arith::Float;
 use crate::audit::{self, CorpusSet, Plan, Row, Source, Stock};
 use crate::case::{Parameters, Scene};
@@ -18,8 +18,8 @@ use crate::report::number_of;
 pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Failure> {
     let used = [0, 1].map(|i| chosen[i] && rows.iter().any(|row| row.entry.scalars()[i]));
     if used == [false; 2] {
-        let message = "no selected kernel runs in the chosen scalars (see --scalar)".to_owned();
-        return Err(Failure::Message(Status::NothingSelected, message));
+        let message = "no selected kernel runs in the chosen scalars (see --scalar)";
+        return Err(Failure::nothing(message));
     }
     rows.iter().try_for_each(|row| row.check_in(chosen))?;
     Ok(used)
@@ -121,11 +121,8 @@ pub fn note_missed_angles(scene: &Scene, mesh: Option<&SceneMesh>, scalars: [boo
             );
         }
     }
-    if scalars[0] {
-        note::<f32>(scene, mesh, seed);
-    }
-    if scalars[1] {
-        note::<f64>(scene, mesh, seed);
+    for name in scalar_names(scalars) {
+        in_named_scalar!(name, F => note::<F>(scene, mesh, seed));
     }
 }
 
@@ -137,8 +134,7 @@ pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Fail
     };
     match sources.iter().map(count).sum() {
         0 => {
-            let message = "nothing to run: the sources have no case in the chosen scalars";
-            Err(Failure::Message(Status::NothingSelected, message.to_owned()))
+            Err(Failure::nothing("nothing to run: the sources have no case in the chosen scalars"))
         }
         total => Ok(total),
     }

@@ -1,6 +1,6 @@
 //! The case that a command line names: an id, the name of a stored case, or JSON.
 
-use super::exit::{Failure, Status};
+use super::exit::Failure;
 use super::flags::{find_family, find_kernel, is_f32, placed, unknown};
 use super::input::{corpus_files, name_of, read_corpus, read_mesh};
 use crate::arith::Float;
@@ -174,7 +174,7 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
         if mesh.digest != *digest {
             let message =
                 format!("{path}: its digest is {}, the case's mesh has {digest}", mesh.digest);
-            return Err(Failure::Message(Status::BadInput, message));
+            return Err(Failure::bad_input(message));
         }
         if let Some(part) = AimedPart::named(&id.family) {
             return around_target(id, &mesh, part);
@@ -205,13 +205,13 @@ fn around_target<F: Scalar>(
 ) -> Result<Group<F>, Failure> {
     if !Targets::makes(id) {
         let message = format!("'{id}': this program makes another version of its family");
-        return Err(Failure::Message(Status::BadInput, message));
+        return Err(Failure::bad_input(message));
     }
     let topology = Topology::of::<F>(mesh);
     let targets = Targets::new(mesh, &topology, &id.parameters, id.seed);
     if targets.count(part) == 0 {
         let message = format!("'{id}': the mesh has no edge or vertex that is asked about");
-        return Err(Failure::Message(Status::BadInput, message));
+        return Err(Failure::bad_input(message));
     }
     let mut cases = Vec::new();
     targets.make(part, id.index, &mut cases);
@@ -232,7 +232,7 @@ fn of_scene_mesh<F: Scalar>(
     let mesh = SceneMesh::new(Surface::new(Arc::new(family), scalars));
     if mesh.count::<F>(stratum, 1) == 0 {
         let message = format!("'{id}': the mesh has nothing that such rays are aimed at");
-        return Err(Failure::Message(Status::BadInput, message));
+        return Err(Failure::bad_input(message));
     }
     let made = mesh.make::<F>(stratum, &id.parameters, id.seed, id.index);
     Ok(Group::alone(chosen_triangle(id, made.cases().to_vec())?, grouping))
@@ -246,7 +246,7 @@ pub(super) fn family_of(id: &CaseId, name: &str) -> Result<&'static Family, Fail
             "'{id}' is of version {} of family '{name}', this program makes version {}",
             id.version, family.version
         );
-        return Err(Failure::Message(Status::BadInput, message));
+        return Err(Failure::bad_input(message));
     }
     Ok(family)
 }

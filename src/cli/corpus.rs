@@ -158,10 +158,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
             .push(format!("{name}: {sets} generated sets and {meshes} meshes are the same again"));
     }
     if nothing {
-        return Err(Failure::Message(
-            Status::NothingSelected,
-            format!("{path}: no case to verify"),
-        ));
+        return Err(Failure::nothing(format!("{path}: no case to verify")));
     }
     write_result("-", |out| report.iter().try_for_each(|line| writeln!(out, "{line}")))?;
     Ok(Status::Success)
@@ -181,7 +178,7 @@ fn agree(file: &str, stored: &StoredCase) -> Result<(), Failure> {
         text(&fast),
         text(&slow)
     );
-    Err(Failure::Message(Status::SelfCheck, message))
+    Err(Failure::self_check(message))
 }
 
 fn manifest_lines(name: &str) -> Result<Vec<(usize, ManifestLine)>, Failure> {

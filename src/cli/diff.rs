@@ -14,9 +14,6 @@ use clap::Args;
 
 /// The arguments of `diff`: the records to compare, and how to report.
 #[derive(Args)]
-#[command(mut_arg("format", |format| {
-    format.help("text, json, markdown or html, or several separated by commas")
-}))]
 pub struct DiffArguments {
     /// The earlier record, as `--format json` wrote it
     old: String,
@@ -50,7 +47,7 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
     };
     if comparison.common == 0 {
         let message = "nothing to compare: the records have no kernel with its epsilons on the same kind of rays in common";
-        return Err(Failure::Message(Status::NothingSelected, message.to_owned()));
+        return Err(Failure::nothing(message));
     }
     arguments.output.write(pairs, &comparison)?;
     Ok(if arguments.exit_code && comparison.is_worse() {
@@ -70,7 +67,7 @@ fn of_one_study<R: Comparable>(
         let message = format!(
             "nothing to compare: the records answer different questions: before {before}; now {now}"
         );
-        return Err(Failure::Message(Status::NothingSelected, message));
+        return Err(Failure::nothing(message));
     }
     Ok(difference_of(&old.result, &new.result))
 }

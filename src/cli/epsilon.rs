@@ -4,13 +4,12 @@ use super::before::{
     note_secondary_rays, refuse_wrong_values, scalars_in_use, scalars_with_cases, set_threads,
 };
 use super::exit::{Failure, Status};
-use super::flags::refuse_twice;
+use super::flags::{refuse_twice, scalar_names, scalars_of};
 use super::output::{OutputArguments, paired_outputs};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::SourceArguments;
-use crate::arith::Float;
 use crate::arith::smallest_normal;
 use crate::audit::Row;
 use crate::epsilon::{
@@ -158,12 +157,8 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     };
     let mut parts = Vec::new();
     for tuned in &tuned {
-        let in_scalar = tuned.row.entry.scalars();
-        if scalars[0] && in_scalar[0] {
-            parts.push(run.study::<f32>(tuned)?);
-        }
-        if scalars[1] && in_scalar[1] {
-            parts.push(run.study::<f64>(tuned)?);
+        for name in scalars_of(tuned.row.entry, scalars) {
+            parts.push(in_named_scalar!(name, F => run.study::<F>(tuned))?);
         }
     }
     progress.finish();
@@ -214,8 +209,7 @@ impl EpsilonRun<'_> {
         let row = Row { contract: contract_with(knobs, &row.contract), ..(*row).clone() };
         let counts = self.counts(knobs, &row);
         if counts.is_empty() {
-            let message = format!("{name}: nothing to count on such rays");
-            return Err(Failure::Message(Status::NothingSelected, message));
+            return Err(Failure::nothing(format!("{name}: nothing to count on such rays")));
         }
         let setting = Setting {
             row: &row,
@@ -315,9 +309,8 @@ impl EpsilonArguments {
             found.dedup();
             found
         }
-        let in_f32 = if scalars[0] { subnormal::<f32>(rows, &self.at) } else { Vec::new() };
-        let in_f64 = if scalars[1] { subnormal::<f64>(rows, &self.at) } else { Vec::new() };
-        for (found, name) in [(in_f32, f32::NAME), (in_f64, f64::NAME)] {
+        for name in scalar_names(scalars) {
+            let found = in_named_scalar!(name, F => subnormal::<F>(rows, &self.at));
             if !found.is_empty() && !self.output.quiet {
                 eprintln!(
                     "warning: {} is subnormal in {name}: machines that flush to zero take it for 0",
@@ -345,23 +338,18 @@ fn found_margins<F: Scalar>(name: &str, subject: &dyn Subject<F>) -> Result<(), 
     plugins::check()?;
     match subject.margins_gave_up() {
         None => Ok(()),
-        Some(message) => {
-            Err(Failure::Message(Status::BadInput, format!("kernel '{name}': {message}")))
-        }
+        Some(message) => Err(Failure::bad_input(format!("kernel '{name}': {message}"))),
     }
 }
 
 /// A disagreement between margins and runs: a fault of this tool, or of a kernel whose gates nobody sees.
 fn fault(entry: &Entry, error: String) -> Failure {
     if entry.shows_gates() {
-        return Failure::Message(Status::SelfCheck, format!("self-check: {error}"));
+        return Failure::self_check(format!("self-check: {error}"));
     }
     let name = entry.info.name;
-    Failure::Message(
-        Status::BadInput,
-        format!(
-            "kernel '{name}': its epsilons do not each act alone, or its answers are not a function of the case and \
+    Failure::bad_input(format!(
+        "kernel '{name}': its epsilons do not each act alone, or its answers are not a function of the case and \
              the epsilons: {error}. Raising an epsilon must only refuse more, whatever the others are"
-        ),
-    )
+    ))
 }

@@ -36,8 +36,24 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// Wrong usage or configuration.
     pub(super) fn usage(message: impl Into<String>) -> Failure {
         Failure::Message(Status::Usage, message.into())
+    }
+
+    /// Nothing was selected.
+    pub(super) fn nothing(message: impl Into<String>) -> Failure {
+        Failure::Message(Status::NothingSelected, message.into())
+    }
+
+    /// Bad input data.
+    pub(super) fn bad_input(message: impl Into<String>) -> Failure {
+        Failure::Message(Status::BadInput, message.into())
+    }
+
+    /// A fault of this program.
+    pub(super) fn self_check(message: impl Into<String>) -> Failure {
+        Failure::Message(Status::SelfCheck, message.into())
     }
 
     /// The message for the user.

@@ -12,9 +12,6 @@ use clap::Args;
 
 /// Which case, and which kernels.
 #[derive(Args)]
-#[command(mut_arg("format", |format| {
-    format.help("text, json, markdown or html, or several separated by commas")
-}))]
 pub struct ExplainArguments {
     #[command(flatten)]
     case: CaseArguments,

@@ -87,6 +87,16 @@ pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
     Ok(scalars)
 }
 
+/// The names of the chosen scalars.
+pub fn scalar_names(chosen: [bool; 2]) -> impl Iterator<Item = &'static str> {
+    [f32::NAME, f64::NAME].into_iter().zip(chosen).filter(|(_, is)| *is).map(|(name, _)| name)
+}
+
+/// The names of the chosen scalars in which a kernel runs.
+pub fn scalars_of(entry: &Entry, chosen: [bool; 2]) -> impl Iterator<Item = &'static str> {
+    scalar_names(chosen).filter(|name| entry.scalars()[usize::from(*name == f64::NAME)])
+}
+
 /// Reads the matrix of `--instance`: twelve numbers, row by row.
 pub fn matrix(text: &str) -> Result<Matrix<f64>, Failure> {
     let wrong = |message: String| Failure::usage(format!("--instance: {message}"));
@@ -106,11 +116,8 @@ pub fn placed<F: Float>(matrix: Matrix<F>) -> Result<Instance<F>, Failure> {
 pub fn matrix_in(text: Option<&str>, scalars: [bool; 2]) -> Result<Option<Matrix<f64>>, Failure> {
     let Some(text) = text else { return Ok(None) };
     let wide = matrix(text)?;
-    if scalars[0] {
-        placed(wide.map(|row| row.map(f32::from_f64)))?;
-    }
-    if scalars[1] {
-        placed(wide)?;
+    for name in scalar_names(scalars) {
+        in_named_scalar!(name, F => placed(wide.map(|row| row.map(F::from_f64))).map(drop)?);
     }
     Ok(Some(wide))
 }

@@ -2,6 +2,7 @@
 
 use super::before::total_indices;
 use super::exit::{Failure, Status};
+use super::flags::scalar_names;
 use super::output::write_result;
 use super::sources::SourceArguments;
 use crate::audit::Source;
@@ -29,11 +30,8 @@ pub fn run(arguments: &GenerateArguments) -> Result<Status, Failure> {
     write_result(&arguments.output, |out| {
         let mut cases = 0;
         for source in &sources {
-            if scalars[0] {
-                cases += write_cases::<f32>(out, source)?;
-            }
-            if scalars[1] {
-                cases += write_cases::<f64>(out, source)?;
+            for name in scalar_names(scalars) {
+                cases += in_named_scalar!(name, F => write_cases::<F>(out, source))?;
             }
         }
         out.write_all(text::end_line(cases).as_bytes())

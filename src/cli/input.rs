@@ -1,6 +1,6 @@
 //! Opening what the user names: meshes, corpus files and folders, standard input.
 
-use super::exit::{Failure, Status};
+use super::exit::Failure;
 use super::progress::Progress;
 use crate::audit::CorpusSet;
 use crate::corpus::InputError;
@@ -148,10 +148,7 @@ pub fn corpus_files(path: &str) -> Result<Vec<String>, Failure> {
             && file.file_name().is_some_and(|name| name != MANIFEST)
     });
     if files.is_empty() {
-        return Err(Failure::Message(
-            Status::NothingSelected,
-            format!("{path}: no .jsonl files in it"),
-        ));
+        return Err(Failure::nothing(format!("{path}: no .jsonl files in it")));
     }
     let name = |file: PathBuf| match file.to_str() {
         Some(name) => Ok(name.to_owned()),

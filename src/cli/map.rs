@@ -13,6 +13,7 @@ use crate::audit::Row;
 use crate::case::Case;
 use crate::kernel::Scalar;
 use crate::map::{self, CaseVector, Grid, Map, MapError, PixelStep};
+use crate::report::{Format, Style};
 use clap::Args;
 use std::io::{self, Write};
 use std::path::Path;
@@ -88,16 +89,22 @@ pub struct MapArguments {
     quiet: bool,
 }
 
-/// The formats, by name.
-const FORMATS: &[&str] = &["text", "svg", "png"];
+/// One row per format.
+const FORMATS: &[Format<MapPicture>] = &[
+    Format { name: "text", write: |picture, _, out| out.write_all(picture.summary.as_bytes()) },
+    Format { name: "svg", write: |picture, _, out| out.write_all(picture.svg.as_bytes()) },
+    Format { name: "png", write: |picture, _, out| out.write_all(&picture.png) },
+];
 
 /// The most pixels of an SVG, which has a shape for each run of them.
 const MOST_SVG_PIXELS: usize = 1 << 18;
 
 /// A picture and what is said about it.
+#[derive(Default)]
 struct MapPicture {
     summary: String,
     svg: String,
+    png: Vec<u8>,
     map: Option<Map>,
 }
 
@@ -105,7 +112,7 @@ struct MapPicture {
 pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     let formats = arguments.formats()?;
     let outputs = paired_outputs(FORMATS, &formats, &arguments.output)?;
-    let wants = |name: &str| outputs.iter().any(|(format, _)| **format == name);
+    let wants = |name: &str| outputs.iter().any(|(format, _)| format.name == name);
     if arguments.drawing && wants("png") {
         return Err(Failure::usage("a drawing is written as svg or text, not as png"));
     }
@@ -116,18 +123,12 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
             "--size: {width}x{height} pixels are too many for an SVG, which takes {MOST_SVG_PIXELS} (512x512); write a PNG"
         )));
     }
-    let picture = either_scalar!(&arguments.input()?, case => arguments.of_case(case))?;
-    let quiet = arguments.quiet || wants("text");
-    let mut pictures = Vec::new();
-    for (format, path) in outputs {
-        let bytes = match (*format, &picture.map) {
-            ("png", Some(map)) => map::png(map, arguments.dots(map))?,
-            ("svg", _) => picture.svg.clone().into_bytes(),
-            _ => picture.summary.clone().into_bytes(),
-        };
-        pictures.push((bytes, path));
+    let mut picture = either_scalar!(&arguments.input()?, case => arguments.of_case(case))?;
+    if let Some(map) = picture.map.as_ref().filter(|_| wants("png")) {
+        picture.png = map::png(map, arguments.dots(map))?;
     }
-    write_results(pictures, |bytes, _, out| out.write_all(&bytes))?;
+    let quiet = arguments.quiet || wants("text");
+    write_results(outputs, |format, _, out| (format.write)(&picture, Style::default(), out))?;
     if !quiet {
         // A summary that nobody reads is no error.
         let _ = io::stderr().write_all(picture.summary.as_bytes());
@@ -168,7 +169,8 @@ impl MapArguments {
         row.check::<F>()?;
         if self.drawing {
             let svg = map::drawing_document(case, &row)?;
-            return Ok(MapPicture { summary: summary::of_drawing(case, &row), svg, map: None });
+            let summary = summary::of_drawing(case, &row);
+            return Ok(MapPicture { summary, svg, ..MapPicture::default() });
         }
         let part = self.varied()?;
         let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
@@ -181,7 +183,7 @@ impl MapArguments {
         } else {
             map::svg_document(&map)
         };
-        Ok(MapPicture { summary, svg, map: Some(map) })
+        Ok(MapPicture { summary, svg, map: Some(map), ..MapPicture::default() })
     }
 
     fn progress<F: Float>(&self, grid: &Grid<F>) -> Progress {

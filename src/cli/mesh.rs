@@ -2,7 +2,7 @@
 
 use super::before::{one_scalar, set_threads};
 use super::exit::{Failure, Status};
-use super::flags::matrix_in;
+use super::flags::{matrix_in, scalar_names};
 use super::input::read_mesh;
 use super::output::OutputArguments;
 use super::plugins;
@@ -79,13 +79,9 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
     }
     let surface = Arc::new(Surface::new(Arc::new(family), scalars));
     let progress = Progress::new(0, "rays", arguments.output.quiet);
-    let mut found = Vec::new();
-    if scalars[0] {
-        found.push(arguments.run_scalar::<f32>(&surface, &plan, &progress));
-    }
-    if scalars[1] {
-        found.push(arguments.run_scalar::<f64>(&surface, &plan, &progress));
-    }
+    let run =
+        |name| in_named_scalar!(name, F => arguments.run_scalar::<F>(&surface, &plan, &progress));
+    let found: Vec<MeshFound> = scalar_names(scalars).map(run).collect();
     progress.finish();
     plugins::check()?;
     let context = Context { seconds: progress.seconds(), threads };
@@ -101,7 +97,7 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
             "{}: nothing to ask: no edge lies between two sound faces that are wound consistently",
             arguments.file
         );
-        return Err(Failure::Message(Status::NothingSelected, message));
+        return Err(Failure::nothing(message));
     }
     Ok(Status::Success)
 }

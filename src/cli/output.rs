@@ -41,7 +41,7 @@ impl ColorChoice {
 /// The flags that say how to report, and where.
 #[derive(Args)]
 pub struct OutputArguments {
-    /// A format, or several separated by commas
+    /// text, json, markdown or html, or several separated by commas
     #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text", help_heading = OUTPUT)]
     pub format: Vec<String>,
 
@@ -110,34 +110,16 @@ fn width(path: &str, details: bool) -> usize {
     terminal.map_or(otherwise, |(width, _)| usize::from(width.0).clamp(60, Style::WIDEST))
 }
 
-/// A format, which has a name on the command line.
-pub trait Named {
-    /// The name.
-    fn name(&self) -> &'static str;
-}
-
-impl Named for &'static str {
-    fn name(&self) -> &'static str {
-        self
-    }
-}
-
-impl<R> Named for Format<R> {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-}
-
 /// Formats with where they go: each named format to its output, one alone to standard output.
-pub fn paired_outputs<'a, T: Named>(
-    table: &'static [T],
+pub fn paired_outputs<'a, R>(
+    table: &'static [Format<R>],
     formats: &[String],
     outputs: &'a [String],
-) -> Result<Vec<(&'static T, &'a str)>, Failure> {
+) -> Result<Vec<(&'static Format<R>, &'a str)>, Failure> {
     let find = |name: &String| {
-        let found = table.iter().find(|format| format.name() == name);
+        let found = table.iter().find(|format| format.name == name);
         found.ok_or_else(|| {
-            let names: Vec<&str> = table.iter().map(T::name).collect();
+            let names: Vec<&str> = table.iter().map(|format| format.name).collect();
             let advice = match nearest_name(name, names.iter().copied()) {
                 Some(near) => format!("; did you mean '{near}'?"),
                 None => format!(": there are {}", names.join(", ")),

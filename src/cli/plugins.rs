@@ -191,7 +191,7 @@ pub fn started_by(words: Vec<String>) {
 /// This program again, as the process that loads a library.
 fn host_of(path: &str) -> Result<KernelProgram, Failure> {
     if !cfg!(unix) {
-        let message = "--kernel-lib needs a Unix system; --kernel-cmd works everywhere".to_owned();
+        let message = "--kernel-lib needs a Unix system; --kernel-cmd works everywhere";
         return Err(Failure::usage(message));
     }
     let whole = Path::new(path).canonicalize().map_err(|error| Failure::of_file(path, &error))?;
@@ -212,12 +212,9 @@ fn register(what: &str, loaded: Result<Entry, LoadError>) -> Result<&'static Ent
         LoadError::Start(error) => {
             Failure::Message(Status::InputOutput, format!("{what}: it cannot be started: {error}"))
         }
-        LoadError::Hello(message) => {
-            Failure::Message(Status::BadInput, format!("{what}: {message}"))
-        }
+        LoadError::Hello(message) => Failure::bad_input(format!("{what}: {message}")),
     })?;
-    kernel::register(entry)
-        .map_err(|message| Failure::Message(Status::BadInput, format!("{what}: {message}")))
+    kernel::register(entry).map_err(|message| Failure::bad_input(format!("{what}: {message}")))
 }
 
 /// An error if the verdicts of a kernel are worth nothing.
@@ -226,8 +223,7 @@ pub fn check() -> Result<(), Failure> {
         let f32 = f32::subject(entry).and_then(|subject| subject.gave_up());
         let f64 = || f64::subject(entry).and_then(|subject| subject.gave_up());
         if let Some(message) = f32.or_else(f64) {
-            let message = format!("kernel '{}': {message}", entry.info.name);
-            return Err(Failure::Message(Status::BadInput, message));
+            return Err(Failure::bad_input(format!("kernel '{}': {message}", entry.info.name)));
         }
     }
     Ok(())

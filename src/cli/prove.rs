@@ -32,9 +32,6 @@ use witnesses::{KNOWN, merge, read_witnesses};
 
 /// The flags of `prove`: the kernels, and how to report.
 #[derive(Args)]
-#[command(mut_arg("format", |format| {
-    format.help("text, json, markdown or html, or several separated by commas")
-}))]
 pub struct ProveArguments {
     /// A kernel, or several separated by commas; NAME+fma is NAME with fused products [default: all]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
@@ -193,7 +190,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     let mut found = Vec::new();
     for part in results {
         if let Some(message) = part.contradiction {
-            return Err(Failure::Message(Status::SelfCheck, message));
+            return Err(Failure::self_check(message));
         }
         let wanted =
             |part: &GatePart| arguments.gate.as_deref().is_none_or(|name| name == part.gate);
@@ -205,8 +202,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         }
     }
     if result.gates.is_empty() {
-        let message = "no chosen kernel has a program that can be recorded".to_owned();
-        return Err(Failure::Message(Status::NothingSelected, message));
+        return Err(Failure::nothing("no chosen kernel has a program that can be recorded"));
     }
     if let Some(path) = &arguments.update {
         let raised = merge(&mut stored, found);

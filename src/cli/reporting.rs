@@ -2,7 +2,7 @@
 
 use super::before::{note_secondary_rays, scalars_in_use, set_threads, total_indices};
 use super::exit::{Failure, Status};
-use super::flags::{OUTPUT, RUNNING, matrix_in};
+use super::flags::{OUTPUT, RUNNING, matrix_in, scalar_names};
 use super::output::{OutputArguments, write_failure};
 use super::plugins;
 use super::progress::Progress;
@@ -174,13 +174,7 @@ impl RunArguments {
             let sources =
                 number_of(plan.sources.len() as u64, "source of cases", "sources of cases");
             let threads = number_of(threads as u64, "thread", "threads");
-            let names = ["f32", "f64"];
-            let scalars: Vec<&str> = names
-                .into_iter()
-                .zip(plan.scalars)
-                .filter(|pair| pair.1)
-                .map(|pair| pair.0)
-                .collect();
+            let scalars: Vec<&str> = scalar_names(plan.scalars).collect();
             eprintln!(
                 "{rows} on {sources} in {}: {} rays{}, {threads}",
                 scalars.join(" and "),
@@ -228,7 +222,7 @@ pub fn self_check(record: &Record) -> Result<(), Failure> {
                 "self-check: family '{}' breaks its promise, first at {first}",
                 source.family
             );
-            Err(Failure::Message(Status::SelfCheck, message))
+            Err(Failure::self_check(message))
         }
     }
 }

@@ -84,7 +84,7 @@ pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
     write_result("-", |out| write(out, &results, seconds))?;
     if wrong > 0 {
         let message = format!("self-check: the oracle is wrong on {wrong} cases");
-        return Err(Failure::Message(Status::SelfCheck, message));
+        return Err(Failure::self_check(message));
     }
     Ok(Status::Success)
 }

@@ -1,6 +1,6 @@
 //! `hairline.toml`: the settings of `check`, under the environment and the command line.
 
-use super::exit::{Failure, Status};
+use super::exit::Failure;
 use crate::suggest::nearest_name;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
@@ -174,7 +174,7 @@ pub fn from_file(text: &str, file: &str) -> Result<Vec<Given>, Failure> {
     let line = |at: usize| text.as_bytes()[..at].iter().filter(|b| **b == b'\n').count() + 1;
     let error = |at: usize, message: String| {
         let message = message.replace('\n', "; ");
-        Failure::Message(Status::Usage, format!("{file}:{}: {message}", line(at)))
+        Failure::usage(format!("{file}:{}: {message}", line(at)))
     };
     let table = DeTable::parse(text)
         .map_err(|e| error(e.span().map_or(0, |span| span.start), e.message().to_owned()))?;

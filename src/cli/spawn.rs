@@ -7,14 +7,13 @@ mod record;
 
 use super::before::{one_scalar, refuse_wrong_values, set_threads};
 use super::exit::{Failure, Status};
-use super::flags::{RUNNING, case_count, matrix_in, refuse_twice};
+use super::flags::{RUNNING, case_count, matrix_in, refuse_twice, scalars_of};
 use super::output::OutputArguments;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{mesh_scene, note_left_out};
 use crate::audit::{Row, shell_word};
-use crate::case::{Case, Matrix, Scene};
-use crate::corpus::lines::AnyCase;
+use crate::case::Scene;
 use crate::kernel::Scalar;
 use crate::mesh::SceneMesh;
 use crate::plugin::{KernelProgram, OffsetCommand};
@@ -35,7 +34,6 @@ use std::sync::Arc;
 #[command(mut_arg("kernel", |kernel| {
     kernel.help("A kernel, or several separated by commas [default: moller-trumbore, or only your own if there are some]")
 }))]
-#[command(mut_arg("format", |format| format.help("text, json, markdown or html, or several separated by commas")))]
 pub struct SpawnArguments {
     #[command(flatten)]
     kernels: KernelArguments,
@@ -136,35 +134,39 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     };
     let commands = arguments.commands()?;
     let schemes = arguments.schemes()?;
-    let mut studies: Vec<PendingStudy<'_>> = Vec::new();
+    let mut studies: Vec<(SpawnPlan<'_>, &str)> = Vec::new();
     for row in &rows {
         for &kind in kinds.iter().filter(|kind| kind.is_given_by(row.entry)) {
-            let in_scalar = row.entry.scalars();
-            let mesh = mesh.as_ref();
-            let settings =
-                Settings { arguments, row, scenes: &scenes, mesh, kind, wall, fold, instance };
-            if scalars[0] && in_scalar[0] && has::<f32>(&schemes) {
-                let schemes = &schemes;
-                studies.push(Box::new(move |progress| settings.study::<f32>(schemes, progress)));
-            }
-            if scalars[1] && in_scalar[1] && has::<f64>(&schemes) {
-                let schemes = &schemes;
-                studies.push(Box::new(move |progress| settings.study::<f64>(schemes, progress)));
-            }
+            let plan = SpawnPlan {
+                row,
+                scene: &scenes[0],
+                mesh: mesh.as_ref(),
+                kind,
+                schemes: &schemes,
+                wall,
+                fold,
+                instance,
+                with_least: true,
+                seed: pilot_seed(arguments.seed),
+                count: arguments.count,
+            };
+            let runs = |name: &&str| in_named_scalar!(*name, F => has::<F>(&schemes));
+            studies.extend(scalars_of(row.entry, scalars).filter(runs).map(|name| (plan, name)));
         }
     }
     if studies.is_empty() {
         let message = "nothing to run: no kernel gives such hit points, or no scheme runs in the chosen scalars";
-        return Err(Failure::Message(Status::NothingSelected, message.to_owned()));
+        return Err(Failure::nothing(message));
     }
     let passes = if arguments.makes_schemes() { 3 } else { 2 };
     let total = (studies.len() * scenes.len()) as u64 * passes * arguments.count;
     let progress = Progress::new(total, "first rays", arguments.output.quiet);
-    let points = studies.iter().map(|study| study(&progress)).collect();
+    let study = |(plan, name): &(SpawnPlan<'_>, &str)| in_named_scalar!(*name, F => arguments.study::<F>(plan, &scenes, &progress));
+    let points = studies.iter().map(study).collect();
     progress.finish();
     for (name, command) in commands {
         if let Some(fault) = command.fault() {
-            return Err(Failure::Message(Status::BadInput, format!("scheme '{name}': {fault}")));
+            return Err(Failure::bad_input(format!("scheme '{name}': {fault}")));
         }
     }
     let result = SpawnResult {
@@ -194,9 +196,6 @@ struct FirstRays {
     mesh: Option<Arc<SceneMesh>>,
 }
 
-/// A study that is still to be run.
-type PendingStudy<'a> = Box<dyn Fn(&Progress) -> PointsPart + 'a>;
-
 /// True if any scheme runs in a scalar.
 fn has<F: Scalar>(schemes: &[Scheme]) -> bool {
     schemes.iter().any(|scheme| scheme.offset::<F>().is_some())
@@ -213,74 +212,43 @@ fn pilot_seed(seed: u64) -> u64 {
     seed.wrapping_add(1)
 }
 
-#[derive(Clone, Copy)]
-struct Settings<'a> {
-    arguments: &'a SpawnArguments,
-    row: &'a Row,
-    /// The scene with each kind of plane; the table is about the first.
-    scenes: &'a [Scene],
-    mesh: Option<&'a Arc<SceneMesh>>,
-    kind: PointKind,
-    wall: f64,
-    fold: f64,
-    instance: Option<Matrix<f64>>,
-}
-
-impl Settings<'_> {
-    /// Runs the schemes on the rays of the next seed, makes others for what is seen there, and runs all on
-    /// the rays that are reported.
-    fn study<F: Studied>(&self, schemes: &[Scheme], progress: &Progress) -> PointsPart
-    where
-        AnyCase: From<Case<F>>,
-    {
-        let Settings { arguments, row, scenes, mesh, kind, wall, fold, instance } = *self;
-        let gives_t = row.entry.info.gives.t;
-        let is_for = |s: &&Scheme| s.offset::<F>().is_some() && (gives_t || !needs_t(&s.name));
-        let mut schemes: Vec<Scheme> = schemes.iter().filter(is_for).cloned().collect();
-        let count = arguments.count;
-        let [tried_on, counted_on] = [pilot_seed(arguments.seed), arguments.seed];
-        let (with_least, scene, no_schemes) = (true, &scenes[0], &[]);
-        let seed = tried_on;
-        let plan = SpawnPlan {
-            row,
-            scene,
-            mesh,
-            kind,
-            schemes: no_schemes,
-            wall,
-            fold,
-            instance,
-            with_least,
-            seed,
-            count,
-        };
-        let run = |plans: &[SpawnPlan<'_>]| -> Vec<SpawnSums> {
-            plans.iter().map(|plan| F::spawn(plan, progress)).collect()
-        };
-        let pilots = run(&on_each(scenes, &SpawnPlan { schemes: &schemes, ..plan }));
-        let (given, derived) = (schemes.len(), DerivedPart::of::<F>(&plan, &pilots));
-        if arguments.makes_schemes() {
-            let made = made_for(&pilots, derived.as_ref().map(|derived| derived.normal));
-            let all = made.concat();
-            let tried = SpawnPlan { schemes: &all, with_least: false, ..plan };
-            let tried = run(&on_each(scenes, &tried));
-            schemes.extend(least_without_failure(made, &tried));
-        }
-        let made: Vec<usize> = (given..schemes.len()).collect();
-        let mut plans = on_each(scenes, &SpawnPlan { schemes: &schemes, seed: counted_on, ..plan });
-        // How much a hit point needs is reported of the first kind of plane.
-        plans[1..].iter_mut().for_each(|plan| plan.with_least = false);
-        let sums = run(&plans);
-        PointsPart::new::<F>(&plans, [&pilots, &sums], &made, derived, &arguments.place())
-    }
-}
-
 /// A plan in each of some scenes.
 fn on_each<'a>(scenes: &'a [Scene], plan: &SpawnPlan<'a>) -> Vec<SpawnPlan<'a>> {
     scenes.iter().map(|scene| SpawnPlan { scene, ..*plan }).collect()
 }
 
 impl SpawnArguments {
+    /// Runs the schemes of a plan on its rays in each scene, the first of which the table is about, makes others for what is
+    /// seen there, and runs all on the rays that are reported.
+    fn study<F: Studied>(
+        &self,
+        plan: &SpawnPlan<'_>,
+        scenes: &[Scene],
+        progress: &Progress,
+    ) -> PointsPart {
+        let gives_t = plan.row.entry.info.gives.t;
+        let is_for = |s: &&Scheme| s.offset::<F>().is_some() && (gives_t || !needs_t(&s.name));
+        let mut schemes: Vec<Scheme> = plan.schemes.iter().filter(is_for).cloned().collect();
+        let run = |plans: &[SpawnPlan<'_>]| -> Vec<SpawnSums> {
+            plans.iter().map(|plan| F::spawn(plan, progress)).collect()
+        };
+        let pilots = run(&on_each(scenes, &SpawnPlan { schemes: &schemes, ..*plan }));
+        let (given, derived) = (schemes.len(), DerivedPart::of::<F>(plan, &pilots));
+        if self.makes_schemes() {
+            let made = made_for(&pilots, derived.as_ref().map(|derived| derived.normal));
+            let all = made.concat();
+            let tried = SpawnPlan { schemes: &all, with_least: false, ..*plan };
+            let tried = run(&on_each(scenes, &tried));
+            schemes.extend(least_without_failure(made, &tried));
+        }
+        let made: Vec<usize> = (given..schemes.len()).collect();
+        let mut plans = on_each(scenes, &SpawnPlan { schemes: &schemes, seed: self.seed, ..*plan });
+        // How much a hit point needs is reported of the first kind of plane.
+        plans[1..].iter_mut().for_each(|plan| plan.with_least = false);
+        let sums = run(&plans);
+        PointsPart::new::<F>(&plans, [&pilots, &sums], &made, derived, &self.place())
+    }
+
     /// True if offsets are made for the scene besides the published ones.
     fn makes_schemes(&self) -> bool {
         self.scheme.is_empty()

@@ -68,7 +68,7 @@ pub fn run(arguments: &TruthArguments) -> Result<Status, Failure> {
             before = decided;
         }
         let message = format!("{file}: no cases in it");
-        let failure = Failure::Message(Status::NothingSelected, message);
+        let failure = Failure::nothing(message);
         if cases > 0 { Ok(()) } else { Err(stop(failure)) }
     });
     match bad_input {

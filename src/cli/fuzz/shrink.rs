@@ -70,7 +70,7 @@ fn no_finding(rows: &[Row]) -> Failure {
         "nothing to shrink: on this case {} does as its contract asks",
         if let [row] = &rows[..] { row } else { "every chosen kernel" }
     );
-    Failure::Message(Status::NothingSelected, message)
+    Failure::nothing(message)
 }
 
 fn write<F: Scalar>(

@@ -90,7 +90,7 @@ pub fn run(arguments: &TriageArguments) -> Result<Status, Failure> {
     if read.is_empty() {
         let paths = arguments.paths.join(", ");
         let message = format!("{paths}: nothing in it on which a chosen kernel is wrong");
-        return Err(Failure::Message(Status::NothingSelected, message));
+        return Err(Failure::nothing(message));
     }
     let (count, one_each) = (read.len(), arguments.one_each);
     let known = read_known(&arguments.output)?;
@@ -141,10 +141,7 @@ fn replay(find: &Find) -> Result<(), Failure> {
     let again = stored.and_then(Result::ok).map(|stored| Find::of_stored(&stored));
     match again {
         Some(Ok(again)) if again.signature == find.signature => Ok(()),
-        _ => {
-            let message = format!("this find does not replay: {line}");
-            Err(Failure::Message(Status::SelfCheck, message))
-        }
+        _ => Err(Failure::self_check(format!("this find does not replay: {line}"))),
     }
 }
 

@@ -84,8 +84,7 @@ const KNOWN: &[u8] = include_bytes!("../../../corpora/worst.jsonl");
 pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
     let goals = arguments.goals()?;
     if goals.iter().all(Vec::is_empty) {
-        let message = "no chosen kernel has such an objective at such a gate".to_owned();
-        return Err(Failure::Message(Status::NothingSelected, message));
+        return Err(Failure::nothing("no chosen kernel has such an objective at such a gate"));
     }
     if arguments.list {
         return list(arguments, &goals);
@@ -211,9 +210,8 @@ fn list(arguments: &WorstArguments, goals: &[Vec<WorstGoal>; 2]) -> Result<Statu
     let entries: Vec<&WorstEntry> = table.entries().filter(wanted).collect();
     if entries.is_empty() {
         let message = "the table has no entry for these flags (the program's own is of built-in kernels; without --list \
-                       this command searches, which takes minutes)"
-            .to_owned();
-        return Err(Failure::Message(Status::NothingSelected, message));
+                       this command searches, which takes minutes)";
+        return Err(Failure::nothing(message));
     }
     write_result("-", |out| write_entries(out, entries.into_iter(), arguments.table.as_deref()))?;
     Ok(Status::Success)

@@ -18,14 +18,13 @@ pub fn certify(
     let ([entry], [true, false] | [false, true]) = (entries, scalars) else {
         return Err(Failure::usage("--certificate is of one --kernel in one --scalar"));
     };
-    let text = if scalars[0] {
-        certificate_of::<f32>(entry, domains)
-    } else {
-        certificate_of::<f64>(entry, domains)
+    let text = match scalars[0] {
+        true => certificate_of::<f32>(entry, domains),
+        false => certificate_of::<f64>(entry, domains),
     };
     let text = text.map_err(|why| {
         let message = format!("{}: no certificate: {why}", entry.info.name);
-        Failure::Message(Status::NothingSelected, message)
+        Failure::nothing(message)
     })?;
     write_result(path, |out| out.write_all(text.as_bytes()))?;
     if !quiet {

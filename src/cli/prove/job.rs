@@ -5,6 +5,7 @@ use super::verdicts::{VerdictPart, is_useful};
 use super::witnesses::StoredWitness;
 use crate::arith::Float;
 use crate::audit::{EpsilonChoice, EpsilonText, Observer, Row};
+use crate::cli::flags::scalar_names;
 use crate::cli::progress::Progress;
 use crate::kernel::{Entry, PRESETS, Scalar};
 use crate::prove::{
@@ -95,17 +96,14 @@ impl Job<'_> {
         scalars: [bool; 2],
         quiet: bool,
     ) -> Vec<Parts> {
-        let tasks: Vec<(&'static Entry, bool)> = entries
-            .iter()
-            .flat_map(|entry| [(*entry, false), (*entry, true)])
-            .filter(|(_, is_f64)| scalars[usize::from(*is_f64)])
-            .collect();
+        let of = |entry: &&'static Entry| {
+            let entry = *entry;
+            scalar_names(scalars).map(move |name| (entry, name))
+        };
+        let tasks: Vec<(&'static Entry, &str)> = entries.iter().flat_map(of).collect();
         let progress = Progress::new(tasks.len() as u64, "proofs", quiet);
-        let run = |(entry, is_f64): &(&'static Entry, bool)| {
-            let parts = match is_f64 {
-                false => self.run::<f32>(entry),
-                true => self.run::<f64>(entry),
-            };
+        let run = |(entry, name): &(&'static Entry, &str)| {
+            let parts = in_named_scalar!(*name, F => self.run::<F>(entry));
             progress.advance(1);
             parts
         };

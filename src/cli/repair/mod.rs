@@ -13,7 +13,7 @@ mod smaller;
 
 use super::before::{scalars_in_use, total_indices};
 use super::exit::{Failure, Status};
-use super::flags::{case_count, chosen_scalars, find_kernel};
+use super::flags::{case_count, chosen_scalars, find_kernel, scalar_names};
 use super::output::{write_page, write_result};
 use super::progress::Progress;
 use super::sources::mesh_scene;
@@ -110,7 +110,7 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
     }
     let mut written = 0;
     for entry in entries {
-        for (name, _) in ["f32", "f64"].into_iter().zip(scalars).filter(|it| it.1) {
+        for name in scalar_names(scalars) {
             match in_named_scalar!(name, F => Guarded::new::<F>(entry)) {
                 Ok(guarded) => {
                     arguments.write(&guarded, &sources)?;
@@ -119,7 +119,7 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
                 Err(why) => {
                     let message = format!("{} is not repaired: {why}", entry.info.name);
                     if arguments.kernel.is_some() {
-                        return Err(Failure::Message(Status::NothingSelected, message));
+                        return Err(Failure::nothing(message));
                     }
                     if !arguments.quiet {
                         eprintln!("{message}");
@@ -129,8 +129,7 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
         }
     }
     if written == 0 {
-        let message = "no kernel here can be repaired".to_owned();
-        return Err(Failure::Message(Status::NothingSelected, message));
+        return Err(Failure::nothing("no kernel here can be repaired"));
     }
     Ok(Status::Success)
 }
@@ -189,7 +188,7 @@ impl RepairArguments {
             ", which are aimed at hard places (--scene room: at plain ones too)"
         };
         let mut blocks = Vec::new();
-        for (name, _) in ["f32", "f64"].into_iter().zip(scalars).filter(|it| it.1) {
+        for name in scalar_names(scalars) {
             let (asks, guarded) = in_named_scalar!(name, F => match Guarded::new::<F>(entry) {
                 Ok(guarded) => {
                     let asks = Asks::count::<F>(&guarded, &sources);

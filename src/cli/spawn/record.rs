@@ -3,8 +3,8 @@
 use super::choice::{best, derived_name, is_too_high};
 use crate::arith::three_digits;
 use crate::audit::{Trials, quoted, words};
-use crate::case::{Case, Matrix};
-use crate::corpus::lines::{AnyCase, StoredCase, write_case};
+use crate::case::Matrix;
+use crate::corpus::lines::{StoredCase, write_case};
 use crate::kernel::Scalar;
 use crate::report::{Rate, or_infinite};
 use crate::spawn::{
@@ -226,10 +226,7 @@ impl PointsPart {
         preferred: &[usize],
         derived: Option<DerivedPart>,
         place: &str,
-    ) -> PointsPart
-    where
-        AnyCase: From<Case<F>>,
-    {
+    ) -> PointsPart {
         let (plan, sums) = (&plans[0], &runs[0]);
         let needed = sums.least.count() + sums.without_least;
         let derived = derived.filter(|derived| derived.covers(runs));
@@ -334,10 +331,7 @@ impl HeightsPart {
 
 impl SchemePart {
     /// The results of the scheme at a place.
-    fn new<F: Scalar>(plans: &[SpawnPlan<'_>], runs: &[SpawnSums], place: usize) -> SchemePart
-    where
-        AnyCase: From<Case<F>>,
-    {
+    fn new<F: Scalar>(plans: &[SpawnPlan<'_>], runs: &[SpawnSums], place: usize) -> SchemePart {
         let (scheme, sums) = (&plans[0].schemes[place], &runs[0].schemes[place]);
         let over_least = &sums.over_least;
         let rate = |count| Rate::new(sums.trials(count), true);
@@ -364,10 +358,7 @@ impl SchemePart {
 }
 
 impl SchemePlanePart {
-    fn new<F: Scalar>(plan: &SpawnPlan<'_>, sums: &OfScheme, place: usize) -> SchemePlanePart
-    where
-        AnyCase: From<Case<F>>,
-    {
+    fn new<F: Scalar>(plan: &SpawnPlan<'_>, sums: &OfScheme, place: usize) -> SchemePlanePart {
         let rate = |count| Rate::new(sums.trials(count), true);
         let wrong_at = |index| WrongPart::new::<F>(plan, &plan.schemes[place], index);
         SchemePlanePart {
@@ -380,10 +371,7 @@ impl SchemePlanePart {
 }
 
 impl WrongPart {
-    fn new<F: Scalar>(plan: &SpawnPlan<'_>, scheme: &Scheme, index: u64) -> Option<WrongPart>
-    where
-        AnyCase: From<Case<F>>,
-    {
+    fn new<F: Scalar>(plan: &SpawnPlan<'_>, scheme: &Scheme, index: u64) -> Option<WrongPart> {
         let case = new_ray::<F>(plan, scheme, index)?;
         let line = write_case(&StoredCase { is_secondary: true, ..StoredCase::of(case) });
         Some(WrongPart {

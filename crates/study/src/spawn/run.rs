@@ -22,6 +22,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// The plan of a run.
+#[derive(Clone, Copy)]
 pub struct SpawnPlan<'a> {
     /// The kernel and its epsilons.
     pub row: &'a Row,

@@ -1,7 +1,7 @@
 //! The inputs of triage: campaign directories, corpora, cargo-fuzz artifacts.
 
 use crate::audit::Row;
-use crate::cli::exit::{Failure, Status};
+use crate::cli::exit::Failure;
 use crate::cli::fuzz::directory::{CAMPAIGN, FINDS, read_begun, read_finds};
 use crate::cli::input::files_under;
 use crate::corpus::InputError;
@@ -71,7 +71,7 @@ fn read_file(path: &Path, rows: &[Row], finds: &mut Vec<Find>) -> Result<(), Fai
             "is neither a corpus (JSON lines), nor a campaign's directory, nor in a folder called as a fuzz target: {}",
             WITH_INPUTS.join(", ")
         );
-        return Err(Failure::Message(Status::BadInput, format!("{name}: {message}")));
+        return Err(Failure::bad_input(format!("{name}: {message}")));
     }
     for stored in lines::read(&bytes[..], &name) {
         match stored {
