@@ -9,11 +9,11 @@ use super::input::read_text;
 use super::output::OutputArguments;
 use crate::corpus::{InputError, json};
 use crate::report::{Context, Record, provenance_of};
-use crate::vectors::profile::{Answered, Profile, is_right};
+use crate::vectors::profile::{Answered, Profile, demanded, is_right};
 use crate::vectors::{VectorTest, core, digest, json::topic_file};
 use clap::Args;
 pub use report::VerifyResult;
-use report::{FORMATS, JudgedAnswer, Sheet};
+use report::{FORMATS, JudgedAnswer, JudgedTest, VerifyCounts};
 use serde::de::IgnoredAny;
 use std::collections::HashMap;
 use values::GivenAnswer;
@@ -45,13 +45,11 @@ pub struct VerifyArguments {
 /// Runs the command.
 pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     let outputs = arguments.output.pairs(FORMATS)?;
-    let profile =
-        match arguments.profile.as_deref() {
-            None => None,
-            Some(name) => Some(Profile::find(name).ok_or_else(|| {
-                unknown("profile", name, Profile::names(), "hairline verify --help")
-            })?),
-        };
+    let found = |name: &String| {
+        let wrong = || unknown("profile", name, Profile::names(), "hairline verify --help");
+        Profile::find(name).ok_or_else(wrong)
+    };
+    let profile = arguments.profile.as_ref().map(found).transpose()?;
     let text = read_text(&arguments.file)?;
     let topics = core();
     let files: Vec<_> = topics.iter().map(|(topic, tests)| topic_file(topic, tests)).collect();
@@ -60,55 +58,53 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
         line,
         ..InputError::of(&arguments.file, message)
     })?;
+    let error = |value: &str, message: String| {
+        InputError::at(&arguments.file, line_of(&text, value), message)
+    };
     let mut answers: HashMap<&str, (GivenAnswer, &str)> = HashMap::new();
     for (id, value) in &results.answers {
-        let error = |message| InputError::at(&arguments.file, line_of(&text, value), message);
-        let answer =
-            GivenAnswer::parse(value).map_err(|message| error(format!("{id}: {message}")))?;
+        let answer = GivenAnswer::parse(value)
+            .map_err(|message| error(value, format!("{id}: {message}")))?;
         if answers.insert(id, (answer, value)).is_some() {
-            return Err(error(format!("a second result of '{id}'")).into());
+            return Err(error(value, format!("a second result of '{id}'")).into());
         }
     }
-    let mut sheet = Sheet::new(&results.product, &results.vectors, profile.as_ref());
-    for (topic, tests) in &topics {
-        sheet.begin(topic.name);
-        for test in tests {
-            let Some((answer, value)) = answers.remove(test.id.as_str()) else {
-                sheet.missing(test);
-                continue;
-            };
-            let demanded = sheet.demanded(test);
-            let fits = match answer.answered {
-                Answered::Single(_) => test.group.is_none(),
-                Answered::Hits(hits) => {
-                    test.group.is_some() && hits as usize <= test.triangles.len()
-                }
-            };
-            let Some(right) = is_right(demanded, answer.answered).filter(|_| fits) else {
-                let line = line_of(&text, value);
-                let message = format!("{}: {}", test.id, expected(test));
-                return Err(InputError::at(&arguments.file, line, message).into());
-            };
-            let wrong_values = answer.wrong_values(test).map_err(|message| {
-                let message = format!("{}: {message}", test.id);
-                InputError::at(&arguments.file, line_of(&text, value), message)
-            })?;
-            let wrong_values = wrong_values.filter(|_| right);
-            let (answer, right) = (answer.answered, right && wrong_values.is_none());
-            sheet.add(JudgedAnswer { test, demanded, answer, right, wrong_values });
-        }
+    let judge = |test: &VectorTest, demanded, (answer, value): (GivenAnswer, &str)| {
+        let wrong = |message: &str| error(value, format!("{}: {message}", test.id));
+        let answered = answer.answered;
+        let fits = match answered {
+            Answered::Single(_) => test.group.is_none(),
+            Answered::Hits(hits) => test.group.is_some() && hits as usize <= test.triangles.len(),
+        };
+        let right = is_right(demanded, answered).filter(|_| fits);
+        let right = right.ok_or_else(|| wrong(expected(test)))?;
+        let wrong_values = answer.wrong_values(test).map_err(|message| wrong(&message))?;
+        let wrong_values = wrong_values.filter(|_| right);
+        let right = right && wrong_values.is_none();
+        Ok::<_, InputError>(JudgedAnswer { answered, right, wrong_values })
+    };
+    let mut judged = Vec::new();
+    for (topic, test) in
+        topics.iter().flat_map(|(topic, tests)| tests.iter().map(|it| (topic.name, it)))
+    {
+        let demanded = demanded(test, profile.as_ref());
+        let answer = answers.remove(test.id.as_str());
+        let answer = answer.map(|answer| judge(test, demanded, answer)).transpose()?;
+        judged.push(JudgedTest { topic, test, demanded, answer });
     }
     if let Some((id, (_, value))) = answers.iter().min_by_key(|(_, (_, value))| value.as_ptr()) {
         let message = format!("no test of these vectors has the id {}", json::quoted(id));
-        return Err(InputError::at(&arguments.file, line_of(&text, value), message).into());
+        return Err(error(value, message).into());
     }
-    if sheet.is_empty() {
-        let message = format!("{}: no results in it", arguments.file);
-        return Err(Failure::Message(Status::NothingSelected, message));
+    let Results { product, vectors, .. } = &results;
+    let result = VerifyResult::new([product, vectors], profile.as_ref(), &judged);
+    let VerifyCounts { tests, wrong, missing, .. } = result.total;
+    if tests == missing {
+        return Err(Failure::nothing(format!("{}: no results in it", arguments.file)));
     }
     let provenance = provenance_of(&Context { seconds: 0.0, threads: 1 });
-    arguments.output.write(outputs, &Record::new(sheet.result(), provenance).sealed())?;
-    Ok(if sheet.has_wrong() { Status::Disagreements } else { Status::Success })
+    arguments.output.write(outputs, &Record::new(result, provenance).sealed())?;
+    Ok(if 0 < wrong { Status::Disagreements } else { Status::Success })
 }
 
 /// The expected form of the answer to a test.

@@ -104,7 +104,7 @@ fn of_one(report: &Report) -> Page {
     let mut items = Vec::new();
     let mut shown = |kernel: &KernelPart, what: &str, command: &str| {
         let text = format!("The ray of {what} in {}:", kernel.scalar);
-        items.push(Item { text, lines: vec![command.to_owned()], ..Item::default() });
+        items.push(Item::shown_by(text, command.to_owned()));
     };
     for kernel in &record.kernels {
         if let Some(verdicts) = &kernel.verdicts {

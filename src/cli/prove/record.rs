@@ -3,7 +3,7 @@
 use super::leaks::Leak;
 use super::verdicts::VerdictPart;
 use crate::prove::{Domain, Supposed};
-use crate::report::{Comparable, Findings, NamedRate, NamedValue, Record, Study};
+use crate::report::{Comparable, NamedRate, NamedValue, Record, Study};
 use serde::{Deserialize, Serialize};
 
 /// The record of a run, with what a page says beside it.
@@ -109,11 +109,9 @@ pub struct KernelPart {
     pub may_leak: bool,
 }
 
-impl Findings for ProofResult {
-    const STUDY: Study = Study::Prove;
-}
-
 impl Comparable for ProofResult {
+    const STUDY: Study = Study::Prove;
+
     fn question(&self) -> String {
         format!("domain {}", serde_json::to_string(&self.domain).unwrap_or_default())
     }

@@ -336,8 +336,7 @@ pub fn blocks<F: Searched + Scalar>(
             "{} is refuted for the worst ray, which stays wrong:",
             tried.candidates[i - 1].name
         );
-        let lines = vec![tried.command(&tried.plan.rows[i], before.worst?)];
-        Some(Item { text, lines, ..Item::default() })
+        Some(Item::shown_by(text, tried.command(&tried.plan.rows[i], before.worst?)))
     };
     let items: Vec<Item> = refuted.filter_map(item).collect();
     blocks.push(Block::Items(Items { most: items.len(), items }));

@@ -1,13 +1,11 @@
 //! The part of what `spawn` found that is compared with another run: how often each offset went wrong, and which is to be used.
 
 use super::record::{PointsPart, SchemePart, SpawnResult, WrongPart};
-use crate::report::{Comparable, Findings, NamedRate, NamedValue, Rate, Study};
-
-impl Findings for SpawnResult {
-    const STUDY: Study = Study::Spawn;
-}
+use crate::report::{Comparable, NamedRate, NamedValue, Rate, Study};
 
 impl Comparable for SpawnResult {
+    const STUDY: Study = Study::Spawn;
+
     fn question(&self) -> String {
         let SpawnResult { scene, mesh, wall, fold, instance, .. } = self;
         let mesh = mesh.as_ref().map_or(String::new(), |path| format!("mesh {path} "));

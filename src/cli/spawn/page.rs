@@ -23,7 +23,7 @@ impl Paged for SpawnResult {
             )));
         }
         self.points.iter().for_each(|part| blocks.extend(of_points(self, part)));
-        blocks.push(Block::Terms(words(self)));
+        blocks.push(Block::terms(words(self)));
         blocks.push(Block::Details("How to read".to_owned(), how_to_read(self)));
         let several = self.points.iter().filter(|part| 1 < part.schemes.len());
         let commands = several.filter_map(|part| part.best.as_ref()).take(1);
@@ -275,8 +275,8 @@ fn least(record: &SpawnResult, part: &PointsPart) -> Vec<String> {
 }
 
 /// The words of the first screen.
-fn words(record: &SpawnResult) -> Vec<(String, String)> {
-    let terms = [
+fn words(record: &SpawnResult) -> [(&'static str, String); 3] {
+    [
         ("n", "the unit normal on the side that the first ray came from; u: half an ulp of 1".to_owned()),
         (
             "wrong side",
@@ -291,8 +291,7 @@ fn words(record: &SpawnResult) -> Vec<(String, String)> {
                 record.wall
             ),
         ),
-    ];
-    terms.into_iter().map(|(term, meaning)| (term.to_owned(), meaning)).collect()
+    ]
 }
 
 /// The rest.
@@ -319,13 +318,12 @@ fn how_to_read(record: &SpawnResult) -> Vec<Block> {
             ),
         ),
     ];
-    let terms = terms.into_iter().map(|(term, meaning)| (term.to_owned(), meaning));
-    vec![Block::Terms(terms.chain(kinds(record)).collect())]
+    vec![Block::terms(terms.into_iter().chain(kinds(record)))]
 }
 
 /// The kinds of planes and rays in words, where there are several.
-fn kinds(record: &SpawnResult) -> Option<(String, String)> {
+fn kinds(record: &SpawnResult) -> Option<(&'static str, String)> {
     let kinds = record.planes.iter().filter_map(|name| SceneKind::named(name));
     let words: Vec<_> = kinds.map(|kind| format!("{kind}: {}", kind.in_words())).collect();
-    (1 < words.len()).then(|| ("kinds".to_owned(), words.join("; ")))
+    (1 < words.len()).then(|| ("kinds", words.join("; ")))
 }

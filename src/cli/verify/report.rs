@@ -3,7 +3,7 @@
 use crate::audit::Trials;
 use crate::report::page::{Block, Head, Item, Page, Paged, Row, Table, Tone};
 use crate::report::{
-    Comparable, Findings, Format, JunitCase, NamedRate, Rate, Record, Study, number_of, write_junit,
+    Comparable, Format, JunitCase, NamedRate, Rate, Record, Study, number_of, write_junit,
 };
 use crate::vectors::VectorTest;
 use crate::vectors::profile::{Answered, Profile, Saying, demanded, is_right};
@@ -22,33 +22,26 @@ pub const FORMATS: &[Format<Record<VerifyResult>>] = &[
     Format::HTML,
 ];
 
-/// An answer that was judged.
-pub struct JudgedAnswer<'a> {
+/// A test of the vectors, and the product's answer to it.
+pub struct JudgedTest<'a> {
+    /// The name of the test's topic.
+    pub topic: &'static str,
     pub test: &'a VectorTest,
     pub demanded: &'static str,
-    pub answer: Answered,
+    /// None if the product has no answer.
+    pub answer: Option<JudgedAnswer>,
+}
+
+/// An answer that was judged.
+pub struct JudgedAnswer {
+    pub answered: Answered,
     pub right: bool,
     /// The fault in the values of an answer that is otherwise right, and the exact values.
     pub wrong_values: Option<String>,
 }
 
-/// All answers of a product, by topic.
-pub struct Sheet<'a> {
-    product: &'a str,
-    vectors: &'a str,
-    profile: Option<&'a Profile>,
-    topics: Vec<TopicAnswers<'a>>,
-}
-
-/// The answers to a file of the vectors.
-struct TopicAnswers<'a> {
-    name: &'static str,
-    judged: Vec<JudgedAnswer<'a>>,
-    missing: Vec<&'a str>,
-}
-
 /// The findings about a product.
-#[derive(Serialize, Deserialize)]
+#[derive(Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct VerifyResult {
@@ -59,7 +52,7 @@ pub struct VerifyResult {
     /// The specification by whose answers it is judged; none if only what every reading demands counts.
     profile: Option<String>,
     /// All topics together.
-    total: VerifyCounts,
+    pub total: VerifyCounts,
     /// By topic, in the order of the vectors.
     topics: Vec<(String, VerifyCounts)>,
     /// The wrong answers.
@@ -77,17 +70,17 @@ pub struct VerifyResult {
 #[derive(Clone, Copy, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-struct VerifyCounts {
+pub struct VerifyCounts {
     /// In all.
-    tests: u64,
+    pub tests: u64,
     /// Answered as demanded.
     right: u64,
     /// Answered otherwise.
-    wrong: u64,
+    pub wrong: u64,
     /// Answered, and free to be either.
     free: u64,
     /// Without an answer.
-    missing: u64,
+    pub missing: u64,
 }
 
 /// A wrong answer.
@@ -110,11 +103,9 @@ struct WrongTest {
     demanded_by: Vec<String>,
 }
 
-impl Findings for VerifyResult {
-    const STUDY: Study = Study::Verify;
-}
-
 impl Comparable for VerifyResult {
+    const STUDY: Study = Study::Verify;
+
     fn question(&self) -> String {
         let profile = self.profile.as_ref().map_or(String::new(), |name| format!(" by {name}"));
         format!("vectors {}{profile}", self.vectors)
@@ -131,151 +122,101 @@ impl Comparable for VerifyResult {
                 Trials::independent(counts.wrong, counts.tests - counts.missing),
                 false,
             ),
-            command: self.wrong.iter().find(|wrong| wrong.topic == *topic).map(WrongTest::command),
+            command: self.wrong.iter().find(|it| it.topic == *topic).map(|it| explain(&it.id)),
         };
         self.topics.iter().map(counted).collect()
     }
 }
 
-impl<'a> Sheet<'a> {
-    /// Without answers yet.
-    pub fn new(product: &'a str, vectors: &'a str, profile: Option<&'a Profile>) -> Sheet<'a> {
-        Sheet { product, vectors, profile, topics: Vec::new() }
-    }
-
-    /// Begins a topic.
-    pub fn begin(&mut self, name: &'static str) {
-        self.topics.push(TopicAnswers { name, judged: Vec::new(), missing: Vec::new() });
-    }
-
-    /// The demand of a test.
-    pub fn demanded(&self, test: &VectorTest) -> &'static str {
-        demanded(test, self.profile)
-    }
-
-    /// Adds an answer to the topic.
-    pub fn add(&mut self, judged: JudgedAnswer<'a>) {
-        self.topics.last_mut().expect("a topic was begun").judged.push(judged);
-    }
-
-    /// Adds a test without an answer to the topic.
-    pub fn missing(&mut self, test: &'a VectorTest) {
-        self.topics.last_mut().expect("a topic was begun").missing.push(&test.id);
-    }
-
-    /// True if there are no answers.
-    pub fn is_empty(&self) -> bool {
-        self.judged().next().is_none()
-    }
-
-    /// True if an answer is wrong.
-    pub fn has_wrong(&self) -> bool {
-        self.judged().any(|judged| !judged.right)
-    }
-
-    fn judged(&self) -> impl Iterator<Item = &JudgedAnswer<'a>> {
-        self.topics.iter().flat_map(|topic| &topic.judged)
-    }
-
-    /// The sentences that make an answer wrong that is not wrong by every reading.
-    fn sayings_of(&self, test: &VectorTest, answer: Answered) -> Vec<Saying> {
-        let profile = self.profile.filter(|_| is_right(demanded(test, None), answer) == Some(true));
-        profile.map_or(Vec::new(), |profile| profile.sayings(test))
-    }
-
-    /// Counts, wrong answers and missing ids.
-    pub fn result(&self) -> VerifyResult {
-        let mut report = VerifyResult {
-            product: self.product.to_owned(),
-            vectors: self.vectors.to_owned(),
-            profile: self.profile.map(|profile| profile.name.clone()),
-            total: VerifyCounts::default(),
-            topics: self
-                .topics
-                .iter()
-                .map(|topic| (topic.name.to_owned(), topic.counts()))
-                .collect(),
-            wrong: Vec::new(),
-            missing: self
-                .topics
-                .iter()
-                .flat_map(|topic| &topic.missing)
-                .map(|id| id.to_string())
-                .collect(),
-            unadvised: Vec::new(),
-            sayings: Vec::new(),
-        };
-        for JudgedAnswer { test, answer, .. } in self.judged() {
-            let Some(profile) = self.profile else { break };
-            let Some(saying) = profile.advice_against(test, *answer) else { continue };
-            report.unadvised.push(test.id.clone());
-            if !report.sayings.contains(&saying) {
-                report.sayings.push(saying);
-            }
-        }
-        report.topics.iter().for_each(|(_, counts)| report.total.add(counts));
-        // What only the profile demands comes first.
-        let judged = self
-            .topics
-            .iter()
-            .flat_map(|topic| topic.judged.iter().map(move |judged| (topic.name, judged)));
-        let mut wrong: Vec<_> = judged.filter(|(_, judged)| !judged.right).collect();
-        wrong.sort_by_key(|(_, judged)| self.sayings_of(judged.test, judged.answer).is_empty());
-        for (topic, JudgedAnswer { test, demanded, answer, wrong_values, .. }) in wrong {
-            let sayings = match wrong_values {
-                None => self.sayings_of(test, *answer),
-                Some(_) => Vec::new(),
-            };
-            report.wrong.push(WrongTest {
-                id: test.id.clone(),
-                topic: topic.to_owned(),
-                demanded: (*demanded).to_owned(),
-                answered: match wrong_values {
-                    None => answer.to_string(),
-                    Some(wrong) => format!("{answer} with {wrong}"),
-                },
-                comment: test.comment.clone(),
-                demanded_by: sayings.iter().map(|saying| saying.word.clone()).collect(),
-            });
-            let new = sayings.into_iter().filter(|saying| !report.sayings.contains(saying));
-            report.sayings.extend(new.collect::<Vec<_>>());
-        }
-        report
-    }
-}
-
-impl TopicAnswers<'_> {
-    fn counts(&self) -> VerifyCounts {
-        let missing = self.missing.len() as u64;
-        let tests = self.judged.len() as u64 + missing;
-        let mut counts = VerifyCounts { tests, missing, ..VerifyCounts::default() };
-        for judged in &self.judged {
-            match judged.right {
-                false => counts.wrong += 1,
-                true if judged.demanded == "free" => counts.free += 1,
-                true => counts.right += 1,
-            }
-        }
-        counts
-    }
-}
-
-impl VerifyCounts {
-    fn add(&mut self, other: &VerifyCounts) {
-        self.tests += other.tests;
-        self.right += other.right;
-        self.wrong += other.wrong;
-        self.free += other.free;
-        self.missing += other.missing;
-    }
+/// The sentences that make an answer wrong that is not wrong by every reading.
+fn sayings_of(profile: Option<&Profile>, test: &VectorTest, answered: Answered) -> Vec<Saying> {
+    let profile = profile.filter(|_| is_right(demanded(test, None), answered) == Some(true));
+    profile.map_or(Vec::new(), |profile| profile.sayings(test))
 }
 
 impl VerifyResult {
+    /// Counts, wrong answers and missing ids of tests that lie by topic.
+    pub fn new(
+        [product, vectors]: [&str; 2],
+        profile: Option<&Profile>,
+        tests: &[JudgedTest],
+    ) -> VerifyResult {
+        let mut report = VerifyResult {
+            product: product.to_owned(),
+            vectors: vectors.to_owned(),
+            profile: profile.map(|profile| profile.name.clone()),
+            ..VerifyResult::default()
+        };
+        let mut wrong = Vec::new();
+        for JudgedTest { topic, test, demanded, answer } in tests {
+            report.count(topic, |counts| match answer {
+                None => &mut counts.missing,
+                Some(JudgedAnswer { right: false, .. }) => &mut counts.wrong,
+                Some(_) if *demanded == "free" => &mut counts.free,
+                Some(_) => &mut counts.right,
+            });
+            let Some(JudgedAnswer { answered, right, wrong_values }) = answer else {
+                report.missing.push(test.id.clone());
+                continue;
+            };
+            if let Some(saying) = profile.and_then(|it| it.advice_against(test, *answered)) {
+                report.unadvised.push(test.id.clone());
+                report.say(vec![saying]);
+            }
+            if *right {
+                continue;
+            }
+            let sayings = sayings_of(profile, test, *answered);
+            let is_by_every_reading = sayings.is_empty();
+            let (sayings, answered) = match wrong_values {
+                None => (sayings, answered.to_string()),
+                Some(wrong) => (Vec::new(), format!("{answered} with {wrong}")),
+            };
+            let test = WrongTest {
+                id: test.id.clone(),
+                topic: (*topic).to_owned(),
+                demanded: (*demanded).to_owned(),
+                answered,
+                comment: test.comment.clone(),
+                demanded_by: sayings.iter().map(|saying| saying.word.clone()).collect(),
+            };
+            wrong.push((is_by_every_reading, test, sayings));
+        }
+        // What only the profile demands comes first.
+        wrong.sort_by_key(|(is_by_every_reading, ..)| *is_by_every_reading);
+        for (_, test, sayings) in wrong {
+            report.wrong.push(test);
+            report.say(sayings);
+        }
+        report
+    }
+
+    /// Counts a test of a topic, and of all.
+    fn count(&mut self, topic: &str, of: impl Fn(&mut VerifyCounts) -> &mut u64) {
+        if self.topics.last().is_none_or(|(name, _)| name != topic) {
+            self.topics.push((topic.to_owned(), VerifyCounts::default()));
+        }
+        let topic = self.topics.last_mut().map(|(_, counts)| counts);
+        for counts in [&mut self.total].into_iter().chain(topic) {
+            counts.tests += 1;
+            *of(counts) += 1;
+        }
+    }
+
+    /// Adds sentences, each once.
+    fn say(&mut self, sayings: Vec<Saying>) {
+        for saying in sayings {
+            if !self.sayings.contains(&saying) {
+                self.sayings.push(saying);
+            }
+        }
+    }
+
     /// A test a topic.
     fn suites(&self) -> BTreeMap<String, BTreeMap<(String, String), JunitCase>> {
         let case = |(topic, _): &(String, VerifyCounts)| {
             let wrong = self.wrong.iter().filter(|wrong| wrong.topic == *topic);
-            let failures = wrong.map(|wrong| (wrong.text(), wrong.command())).collect();
+            let failures = wrong.map(|wrong| (wrong.text(), explain(&wrong.id))).collect();
             let name = (topic.clone(), "wrong-answer".to_owned());
             (name, JunitCase { failures, notes: Vec::new() })
         };
@@ -303,16 +244,10 @@ impl Paged for VerifyResult {
         let heads = ["topic", "tests", "wrong", "right", "free", "missing"].map(Head::of);
         let mut blocks =
             vec![Block::Table(Table::new(heads.into(), topics.iter().map(row).collect()))];
-        blocks.extend(Block::items(
-            "Wrong answers",
-            SHOWN,
-            wrong.iter().map(WrongTest::item).collect(),
-        ));
-        let advised = unadvised.iter().map(|id| Item {
-            text: id.clone(),
-            lines: vec![format!("hairline explain {id}")],
-            ..Item::default()
-        });
+        let wrong = wrong.iter().map(|it| Item::shown_by(it.text(), explain(&it.id)));
+        blocks.extend(Block::items("Wrong answers", SHOWN, wrong.collect()));
+        let advised = unadvised.iter();
+        let advised = advised.map(|id| Item::shown_by(id.clone(), explain(id)));
         blocks.extend(Block::items(
             "Against what the specification advises (a \"should\"), and so not wrong",
             SHOWN,
@@ -343,12 +278,9 @@ impl WrongTest {
         };
         format!("{id}: {answered}, expected {demanded}{by} ({comment})")
     }
+}
 
-    fn command(&self) -> String {
-        format!("hairline explain {}", self.id)
-    }
-
-    fn item(&self) -> Item {
-        Item { text: self.text(), lines: vec![self.command()], ..Item::default() }
-    }
+/// The command that explains a test.
+fn explain(id: &str) -> String {
+    format!("hairline explain {id}")
 }

@@ -3,13 +3,11 @@
 use super::commands::of_kernel;
 use super::record::{KnobPart, SceneKernelPart, SceneResult};
 use super::words::label;
-use crate::report::record::{Comparable, Findings, NamedRate, NamedValue, Study};
-
-impl Findings for SceneResult {
-    const STUDY: Study = Study::Epsilon;
-}
+use crate::report::record::{Comparable, NamedRate, NamedValue, Study};
 
 impl Comparable for SceneResult {
+    const STUDY: Study = Study::Epsilon;
+
     fn question(&self) -> String {
         let SceneResult { scene, flags, mesh, .. } = self;
         let mesh = mesh.as_ref().map_or(String::new(), |mesh| format!("mesh {} ", mesh.digest));

@@ -203,8 +203,7 @@ fn of_triangle(
     if is_first {
         terms.push(("t", format!("in [{t_min}, {t_max}] ({low} {high})")));
     }
-    let terms = terms.into_iter().map(|(term, meaning)| (term.to_owned(), meaning)).collect();
-    blocks.push(Block::Terms(terms));
+    blocks.push(Block::terms(terms));
     blocks.push(Block::Table(inputs(triangle, is_first)));
     blocks
 }

@@ -32,10 +32,8 @@ pub(super) fn blocks(columns: &[Column], lines: &[RowLine], most: usize) -> Vec<
         let text = format!("{}, {}: {}", line.label(), line.row.scalar, describe(part));
         (text, part.worst.command.clone())
     });
-    let item = |(number, (text, command)): (usize, (String, String))| Item {
-        text: format!("{}. {text}", number + 1),
-        lines: vec![command],
-        ..Item::default()
+    let item = |(number, (text, command)): (usize, (String, String))| {
+        Item::shown_by(format!("{}. {text}", number + 1), command)
     };
     Block::items(&head, most, commands.chain(worst).enumerate().map(item).collect())
 }

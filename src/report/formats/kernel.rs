@@ -15,7 +15,7 @@ use std::collections::HashMap;
 
 /// A row with its views in each scalar.
 pub(super) fn blocks(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<Block> {
-    let mut blocks = vec![Block::Terms(facts(record, part, views))];
+    let mut blocks = vec![Block::terms(facts(record, part, views))];
     blocks.extend(gates(record, part));
     blocks.push(Block::Table(rates(record, part, views)));
     blocks.extend(quantiles_of(views));
@@ -31,7 +31,7 @@ pub(super) fn blocks(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec
 }
 
 /// The promise, where it comes from, what is proved of its edges, and how it runs again.
-fn facts(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<(String, String)> {
+fn facts(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<(&'static str, String)> {
     let plan_flags = record.provenance.plan_flags.clone().unwrap_or_default();
     let mut facts = vec![("contract", part.contract.clone())];
     facts.extend(info(part).map(|info| ("source", info.source.to_owned())));
@@ -63,7 +63,7 @@ fn facts(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<(String, St
             facts.push(("every epsilon", command));
         }
     }
-    facts.into_iter().map(|(term, meaning)| (term.to_owned(), meaning)).collect()
+    facts
 }
 
 /// The kernel, if it runs here: answers from elsewhere have no selector, whatever their product is called.

@@ -73,8 +73,7 @@ fn about(record: &Record) -> Vec<Block> {
         let words: Vec<&str> = words.into_iter().filter(|words| !words.is_empty()).collect();
         ("again", format!("hairline audit {}", words.join(" ")))
     }));
-    let terms = terms.into_iter().map(|(term, meaning)| (term.to_owned(), meaning));
-    vec![Block::Terms(terms.collect())]
+    vec![Block::terms(terms)]
 }
 
 /// The sources that are not what their family promises.

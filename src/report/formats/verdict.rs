@@ -46,11 +46,8 @@ pub(super) fn blocks(record: &Record, conformance: &Conformance) -> Vec<Block> {
         ));
     }
     let mut blocks: Vec<Block> = texts.into_iter().map(Block::Text).collect();
-    let unproved = conformance.unproved.iter().map(|unproved| Item {
-        text: unproved.to_string(),
-        lines: vec![unproved.command.clone()],
-        ..Item::default()
-    });
+    let unproved = conformance.unproved.iter();
+    let unproved = unproved.map(|it| Item::shown_by(it.to_string(), it.command.clone()));
     let title = "Proofs that [proved] demands and that are missing";
     blocks.extend(Block::items(title, MOST_LISTED, unproved.collect()));
     let net = net_lines(conformance);

@@ -14,11 +14,7 @@ pub(super) fn findings(row: &RowView) -> Vec<Item> {
     for finding in row.results.iter().flat_map(|result| &result.findings) {
         parts.entry((finding.finding, &finding.class)).or_default().push(finding);
     }
-    let item = |text: String, command: String| Item {
-        text: format!("{} {text}", row.scalar),
-        lines: vec![command],
-        ..Item::default()
-    };
+    let item = |text, command| Item::shown_by(format!("{} {text}", row.scalar), command);
     let of_class = |((kind, class), parts): (&(FindingKind, &str), &Vec<&FindingPart>)| {
         let worse = |worst, part| if severity(worst) < severity(part) { part } else { worst };
         let worst: &FindingPart = parts.iter().copied().reduce(worse)?;

@@ -3,8 +3,7 @@
 use super::drawing::MeshDrawing;
 use crate::case::Matrix;
 use crate::report::{
-    Comparable, Findings, NamedRate, NamedValue, Promised, Rate, Record, RowPart, Study,
-    or_infinite,
+    Comparable, NamedRate, NamedValue, Promised, Rate, Record, RowPart, Study, or_infinite,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -42,11 +41,9 @@ pub struct MeshResult {
     pub scalars: Vec<ScalarPart>,
 }
 
-impl Findings for MeshResult {
-    const STUDY: Study = Study::Mesh;
-}
-
 impl Comparable for MeshResult {
+    const STUDY: Study = Study::Mesh;
+
     fn question(&self) -> String {
         let place = self.instance.map_or(String::new(), |matrix| format!(" at {matrix:?}"));
         let unit = if self.unit_directions { " with unit directions" } else { "" };

@@ -88,7 +88,7 @@ pub(super) fn verdict(result: &MeshResult) -> (Tone, String) {
 
 /// The mesh in one scalar, and the rows, those that leak least first; rows that answer alike stand together.
 fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
-    let mut blocks = vec![Block::Terms(topology_terms(part))];
+    let mut blocks = vec![Block::terms(topology_terms(part))];
     if part.rays == [0, 0] {
         return blocks;
     }
@@ -146,13 +146,11 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
 }
 
 /// The topology, and how many rays were aimed.
-fn topology_terms(part: &ScalarPart) -> Vec<(String, String)> {
-    let lines = topology_lines(&part.topology).into_iter();
-    let mut terms: Vec<(String, String)> =
-        lines.map(|(name, line)| (name.to_owned(), line)).collect();
+fn topology_terms(part: &ScalarPart) -> Vec<(&'static str, String)> {
+    let mut terms = topology_lines(&part.topology);
     let [edges, vertices] = part.rays.map(group_digits);
     terms.push((
-        "aimed".to_owned(),
+        "aimed",
         format!(
             "{edges} rays at edges, {vertices} at vertices, in {} ({})",
             part.scalar,

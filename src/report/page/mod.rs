@@ -191,10 +191,22 @@ impl<R: Paged + Serialize> Format<R> {
         &[Format::TEXT, Format::JSON, Format::MARKDOWN, Format::HTML];
 }
 
+impl Item {
+    /// A finding, and the command that shows it.
+    pub fn shown_by(text: String, command: String) -> Item {
+        Item { text, lines: vec![command], ..Item::default() }
+    }
+}
+
 impl Block {
     /// A sentence.
     pub fn text(text: impl Into<String>) -> Block {
         Block::Text(text.into())
+    }
+
+    /// Terms with their meanings.
+    pub fn terms<'a>(terms: impl IntoIterator<Item = (&'a str, String)>) -> Block {
+        Block::Terms(terms.into_iter().map(|(term, meaning)| (term.to_owned(), meaning)).collect())
     }
 
     /// A title, and things below it; nothing if there are none.

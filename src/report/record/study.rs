@@ -34,8 +34,15 @@ impl Findings for ResultPart {
     const STUDY: Study = Study::Audit;
 }
 
+impl<R: Comparable> Findings for R {
+    const STUDY: Study = R::STUDY;
+}
+
 /// Findings that are compared count by count, by name.
-pub trait Comparable: Findings {
+pub trait Comparable: Serialize + DeserializeOwned {
+    /// The study.
+    const STUDY: Study;
+
     /// The question in words, of a scene, a mesh or a domain: answers to two of them are not compared.
     fn question(&self) -> String;
 
