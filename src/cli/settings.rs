@@ -373,7 +373,7 @@ mod tests {
             let failure = from_file(text, "h.toml").unwrap_err();
             let message = failure.message().unwrap();
             assert!(message.starts_with(expected), "{message}");
-            assert_eq!(failure.status(), Status::Usage);
+            assert_eq!(failure.status(), crate::cli::exit::Status::Usage);
         }
     }
 }
