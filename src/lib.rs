@@ -38,6 +38,18 @@ use hairline_study::{audit, corpus, family, judge, mesh, plot};
 #[cfg(feature = "studies")]
 use hairline_study::{epsilon, explore, map, selfcheck, spawn, studied};
 
+#[macro_use]
+extern crate macro_rules_attribute;
+
+attribute_alias! {
+    // A part of a record: it is written and read, a field that it does not know is an error, and tests know its schema.
+    #[apply(part!)] =
+        #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
+        #[cfg_attr(test, derive(schemars::JsonSchema))]
+        #[serde(deny_unknown_fields)]
+    ;
+}
+
 // The floors, from the ground up: each module uses only those above it in this list.
 #[cfg(feature = "studies")]
 mod vectors;

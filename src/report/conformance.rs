@@ -6,9 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// How a run compares with its expectations.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct Conformance {
     /// The verdict of the comparison.
     pub verdict: ComparisonVerdict,
@@ -60,9 +58,8 @@ pub enum ComparisonVerdict {
 }
 
 /// How many classes of disagreement changed from what is expected to what a run found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
+#[derive(Copy, Default, PartialEq, Eq)]
 pub struct NetChange {
     /// Fewer cases than expected, or none.
     pub better: u64,
@@ -100,9 +97,8 @@ impl fmt::Display for NetChange {
 }
 
 /// A setting of a kernel row that is not what the expectations are of.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
+#[derive(PartialEq, Eq)]
 pub struct RowChange {
     /// `kernel (epsilons)`.
     pub row: String,
@@ -146,9 +142,7 @@ pub enum Method {
 }
 
 /// A demand on a proof that is not met.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct Unproved {
     /// The kernel's name.
     pub kernel: String,
@@ -194,9 +188,7 @@ impl fmt::Display for Unproved {
 pub const WATERTIGHT: &str = "watertight";
 
 /// A class of disagreement beside what was expected of it.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct Deviation {
     /// The kernel's name.
     pub kernel: String,

@@ -1,12 +1,9 @@
 //! Proofs that a page shows beside a run: no part of its result.
 
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The proofs about the kernels; only where they were asked for.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct Illustrations {
     /// For each kernel and scalar whose formula can be recorded: what holds for every float.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -14,9 +11,7 @@ pub struct Illustrations {
 }
 
 /// The proof about a kernel, for every float of the unit domain.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct ProofPart {
     /// The kernel's name.
     pub kernel: String,
@@ -29,9 +24,7 @@ pub struct ProofPart {
 }
 
 /// How wrong what a gate compares can be, in units of 2^-24 in f32 and 2^-53 in f64.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct ProvedGate {
     /// It is never wrong by more; none where none is proved.
     pub bound: Option<f64>,

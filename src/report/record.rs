@@ -84,9 +84,7 @@ impl<R: Findings> Record<R> {
 }
 
 /// The findings of a run.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct ResultPart {
     /// The plan of the run.
     pub plan: PlanPart,
@@ -117,9 +115,7 @@ impl ResultPart {
 }
 
 /// Distributions of one kernel row in one scalar, over all sources.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct RowTotal {
     /// `f32` or `f64`.
     pub scalar: String,
@@ -136,9 +132,7 @@ pub struct RowTotal {
 }
 
 /// The summary of a source in one scalar.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct SourcePart {
     /// `f32` or `f64`.
     pub scalar: String,
@@ -162,9 +156,7 @@ pub struct SourcePart {
 }
 
 /// One kernel row on one source in one scalar.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct KernelResult {
     /// `f32` or `f64`.
     pub scalar: String,
@@ -195,9 +187,7 @@ pub struct KernelResult {
 }
 
 /// Counts and rates of findings.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct Counts {
     /// Cases.
     pub cases: u64,

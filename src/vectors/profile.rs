@@ -4,7 +4,7 @@
 use super::{TestTriangle, VectorTest, word};
 use crate::contract::{Boundary, Contract, Demand};
 use crate::judge::{Obligation, obligation};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -148,9 +148,8 @@ impl Profile {
 }
 
 /// Where a profile says what is demanded of tests.
-#[derive(Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
+#[derive(PartialEq)]
 pub struct Saying {
     /// A word of `free_because`, or `groups`.
     pub word: String,

@@ -5,15 +5,12 @@ use crate::case::Parameters;
 use crate::contract::Direction;
 use crate::family;
 use crate::kernel::{Entry, Role, Scalar, Tunable};
-use serde::{Deserialize, Serialize};
 
 /// How many rays are tried, most of them within a few ulps of the edge.
 const TRIES: u64 = 20_000;
 
 /// A ray that crosses a surface of two triangles and hits neither.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct Leak {
     /// The case's name.
     pub case: String,

@@ -4,7 +4,6 @@ use super::leaks::Leak;
 use super::verdicts::VerdictPart;
 use crate::prove::{Domain, Supposed};
 use crate::report::{Comparable, NamedRate, NamedValue, Record, Study};
-use serde::{Deserialize, Serialize};
 
 /// The record of a run, with what a page says beside it.
 pub struct Report {
@@ -18,18 +17,14 @@ pub struct Report {
 }
 
 /// The proofs of some kernels.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct ProofResult {
     pub domain: DomainPart,
     pub gates: Vec<GatePart>,
     pub kernels: Vec<KernelPart>,
 }
 
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct DomainPart {
     pub edge: f64,
     pub reach: f64,
@@ -42,9 +37,7 @@ pub struct DomainPart {
 }
 
 /// One gate of one kernel in one scalar.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct GatePart {
     pub kernel: String,
     pub scalar: String,
@@ -69,9 +62,7 @@ pub struct GatePart {
 }
 
 /// At least or at most so large is a number that a kernel divides by, or gets by dividing.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct LimitPart {
     pub number: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -80,9 +71,7 @@ pub struct LimitPart {
     pub at_most: Option<f64>,
 }
 
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct WitnessPart {
     pub value: f64,
     pub units: f64,
@@ -90,9 +79,7 @@ pub struct WitnessPart {
 }
 
 /// The statements about a kernel as a whole.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct KernelPart {
     pub kernel: String,
     pub scalar: String,

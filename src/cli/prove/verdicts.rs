@@ -8,12 +8,9 @@ use crate::prove::{
 };
 
 use crate::report::page::Row;
-use serde::{Deserialize, Serialize};
 
 /// The verdicts at some epsilons.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct VerdictPart {
     /// As `--epsilon` takes them; none if no gate takes one.
     pub epsilons: Option<String>,
@@ -28,9 +25,7 @@ pub struct VerdictPart {
 }
 
 /// How far from the boundary of its triangle a wrong verdict can be, in the triangle's plane.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct DepthPart {
     /// At most, as a share of the triangle's longest edge: inside or outside the line of some edge.
     pub share: Option<f64>,
@@ -49,26 +44,20 @@ pub struct DepthPart {
     pub useful: String,
 }
 
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct KnownPart {
     pub share: f64,
     /// The command that shows it.
     pub command: String,
 }
 
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct ScalePart {
     pub number: String,
     pub at_least: f64,
 }
 
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct OtherPart {
     pub gate: String,
     pub may: String,

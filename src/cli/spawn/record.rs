@@ -11,12 +11,9 @@ use crate::spawn::{
     Heights, Lengths, OfScheme, PointKind, ROOM, Scheme, SpawnPlan, SpawnSums, derived_normal,
     least_weight, new_ray,
 };
-use serde::{Deserialize, Serialize};
 
 /// Everything that was found.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct SpawnResult {
     /// The scene's words.
     pub scene: String,
@@ -44,9 +41,7 @@ pub struct SpawnResult {
 }
 
 /// The hit points of one kind, of a kernel in a scalar.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct PointsPart {
     /// The kernel's name.
     pub kernel: String,
@@ -77,9 +72,7 @@ pub struct PointsPart {
 }
 
 /// A distance along the normal from a derivation by hand (docs/guide/spawn.md), which no certificate stands for.
-#[derive(Clone, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct DerivedPart {
     /// This distance and every larger one have no wrong start, on any ray of the scene.
     pub normal: f64,
@@ -90,9 +83,7 @@ pub struct DerivedPart {
 }
 
 /// The smallest safe offsets along the normal, of the hit points that need one.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct LeastPart {
     /// Hit points that need an offset.
     pub needed: Rate,
@@ -105,9 +96,7 @@ pub struct LeastPart {
 }
 
 /// Quantiles, rounded up by at most one part in 256; the largest seen as it was.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct LengthsPart {
     /// Half are at most this.
     #[serde(deserialize_with = "or_infinite")]
@@ -124,9 +113,7 @@ pub struct LengthsPart {
 }
 
 /// The scheme to use.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct BestPart {
     /// The scheme's name.
     pub scheme: String,
@@ -142,9 +129,7 @@ pub struct BestPart {
 }
 
 /// The results of a scheme.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct SchemePart {
     /// As `--scheme` takes it.
     pub name: String,
@@ -173,9 +158,7 @@ pub struct SchemePart {
 }
 
 /// The results of a scheme on planes of one kind.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct SchemePlanePart {
     /// The name of the kind of planes and rays.
     pub plane: String,
@@ -188,9 +171,7 @@ pub struct SchemePlanePart {
 }
 
 /// Quantiles of heights over the plane; none on the plane or behind it.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct HeightsPart {
     /// Half are at most this.
     pub median: Option<f64>,
@@ -207,9 +188,7 @@ pub struct HeightsPart {
 }
 
 /// A wrong start.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct WrongPart {
     /// The id of the first ray, which `hairline explain` takes.
     pub first_ray: String,

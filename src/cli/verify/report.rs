@@ -7,7 +7,6 @@ use crate::report::{
 };
 use crate::vectors::VectorTest;
 use crate::vectors::profile::{Answered, Profile, Saying, demanded, is_right};
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// How many wrong answers the text shows.
@@ -41,9 +40,8 @@ pub struct JudgedAnswer {
 }
 
 /// The findings about a product.
-#[derive(Default, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
+#[derive(Default)]
 pub struct VerifyResult {
     /// The product's name.
     product: String,
@@ -67,9 +65,8 @@ pub struct VerifyResult {
 }
 
 /// How many tests.
-#[derive(Clone, Copy, Default, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
+#[derive(Copy, Default)]
 pub struct VerifyCounts {
     /// In all.
     pub tests: u64,
@@ -84,9 +81,7 @@ pub struct VerifyCounts {
 }
 
 /// A wrong answer.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 struct WrongTest {
     /// The test's id.
     id: String,

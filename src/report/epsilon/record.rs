@@ -3,16 +3,13 @@
 pub(super) use crate::epsilon::{RayCount, Rays, WrongKind};
 pub(super) use crate::family::Stratum;
 use crate::report::record::{Rate, Record};
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The record of a study of epsilons.
 pub type SceneRecord = Record<SceneResult>;
 
 /// Everything that a study of epsilons found.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct SceneResult {
     /// The scene's words; empty on other sources.
     pub scene: String,
@@ -69,9 +66,7 @@ impl SceneRecord {
 }
 
 /// A number with a name.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct NamedNumber {
     /// The name of the number.
     pub name: String,
@@ -80,9 +75,7 @@ pub struct NamedNumber {
 }
 
 /// A mesh that is a scene.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct MeshScenePart {
     /// The file, as it was named.
     pub path: String,
@@ -93,9 +86,7 @@ pub struct MeshScenePart {
 }
 
 /// One kernel in one scalar. Epsilons are shortest decimals of the scalar.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct SceneKernelPart {
     /// The kernel's name.
     pub kernel: String,
@@ -144,9 +135,7 @@ pub struct SceneKernelPart {
 }
 
 /// The results of epsilons on planes of one kind, on fresh rays.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct PlanePart {
     /// The name of the kind of planes and rays.
     pub plane: String,
@@ -155,9 +144,7 @@ pub struct PlanePart {
 }
 
 /// A number that can be chosen.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct KnobPart {
     /// The gate's name, or `t_min`.
     pub name: String,
@@ -174,9 +161,7 @@ pub struct KnobPart {
 }
 
 /// The results of epsilons on fresh rays.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct TriedPart {
     /// `recommended`, the name of one of the kernel's sets, `zero`, a value of `--at`, or `scale-free`.
     pub name: String,
@@ -201,9 +186,7 @@ pub struct TriedPart {
 }
 
 /// The errors of some hits.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct ErrorPart {
     /// The place of the count whose hits they are.
     pub count: usize,
@@ -220,9 +203,7 @@ pub struct ErrorPart {
 }
 
 /// How far a knob may move while the others stay.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct KnobLimitPart {
     /// The knob's place.
     pub knob: usize,
@@ -248,9 +229,7 @@ pub struct KnobLimitPart {
 }
 
 /// The price of a value on fresh rays, while the other numbers stay.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct PricePart {
     /// The count's place: hits lost at a triangle, or false hits beside one.
     pub count: usize,
@@ -259,9 +238,7 @@ pub struct PricePart {
 }
 
 /// A value that is proved for every ray of the scene.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct ProvedPart {
     /// The knob's place.
     pub knob: usize,
@@ -278,9 +255,7 @@ pub struct ProvedPart {
 }
 
 /// The results of the values of one knob on fresh rays while the others stay.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct CurvePart {
     /// The values, in order.
     pub values: Vec<String>,
@@ -289,9 +264,7 @@ pub struct CurvePart {
 }
 
 /// One count of a curve.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct CurveCount {
     /// How many rays.
     pub of: u64,
@@ -302,9 +275,7 @@ pub struct CurveCount {
 }
 
 /// Two limits of one knob that do not meet.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct ConflictPart {
     /// The place of the limit from below in the list of limits.
     pub lower: usize,

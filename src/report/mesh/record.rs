@@ -20,9 +20,7 @@ pub struct MeshReport {
 pub type MeshRecord = Record<MeshResult>;
 
 /// The findings on a mesh.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct MeshResult {
     /// The mesh.
     pub mesh: MeshPart,
@@ -84,9 +82,7 @@ impl Comparable for MeshResult {
 }
 
 /// The mesh as it was read.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct MeshPart {
     /// The file as the user named it.
     pub file: String,
@@ -101,9 +97,7 @@ pub struct MeshPart {
 }
 
 /// A mesh audit in one scalar.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct ScalarPart {
     /// `f32` or `f64`.
     pub scalar: String,
@@ -124,9 +118,7 @@ pub struct ScalarPart {
 }
 
 /// The exact topology of a mesh. Vertices with equal coordinates are one point.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct TopologyPart {
     /// True if all faces are sound, all edges shared and all vertices inside one closed fan.
     pub closed_manifold: bool,
@@ -144,9 +136,7 @@ pub struct TopologyPart {
 }
 
 /// How many there are of a kind.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct NotedPart {
     /// How many.
     pub count: u64,
@@ -160,9 +150,7 @@ pub struct NotedPart {
 }
 
 /// The results of a row in one scalar.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct MeshRowResult {
     /// The kernel's name.
     pub kernel: String,
@@ -203,9 +191,7 @@ impl MeshRowResult {
 }
 
 /// The results of a row at the edges, or at the vertices.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct MeshPartResult {
     /// How many of them some ray found a crack at.
     pub cracked: u64,
@@ -237,9 +223,7 @@ impl MeshPartResult {
 }
 
 /// Rates across triangles.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct AcrossRates {
     /// Crossings without a hit, neither around the edge or vertex nor, perhaps, among the neighbours.
     pub cracks: Rate,
@@ -277,9 +261,7 @@ pub struct MeshClassResult {
 }
 
 /// A ray at the mesh that shows something.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct MeshExample {
     /// The case's id.
     pub id: String,

@@ -1,14 +1,11 @@
 //! Findings: how often, why, how bad, and cases that show them.
 
-use super::{FindingKind, Promised, Rate};
+use super::{FindingKind, Promised, Rate, or_infinite};
 use crate::audit::{Attribution, Octave};
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// One finding in one class.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct FindingPart {
     /// `false-miss`, `false-hit`, `bad-value`, `wrong-value`, `panic`, `crash`, `timeout`.
     #[cfg_attr(test, schemars(with = "String"))]
@@ -29,9 +26,7 @@ pub struct FindingPart {
 }
 
 /// Why findings happened, of the first by index.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct CausesPart {
     /// By `convention`, `epsilon`, `rounding`, `range`, `transform` in instances, and `not-epsilon` of kernels that do
     /// not show their formula; with an interval if not all findings were examined.
@@ -46,9 +41,7 @@ pub struct CausesPart {
 }
 
 /// How far cases with a finding are from where the verdict would be right.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct SeverityDistribution {
     /// In longest edges of the triangle.
     pub edges: Distribution,
@@ -57,9 +50,7 @@ pub struct SeverityDistribution {
 }
 
 /// Counted numbers. Quantiles are rounded up by at most an eighth; an infinite one is left out.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct Distribution {
     /// How many.
     pub count: u64,
@@ -78,9 +69,7 @@ pub struct Distribution {
 }
 
 /// A case that shows a finding.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct Example {
     /// The id or the name.
     pub case: String,
@@ -93,9 +82,7 @@ pub struct Example {
 }
 
 /// How badly the verdict was wrong. Lengths are in units of the triangle's longest edge.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct SeverityPart {
     /// In the plane, from where the line meets it to the triangle's boundary.
     pub in_plane: Option<f64>,
@@ -117,15 +104,8 @@ pub struct SeverityPart {
     pub off_end: Option<String>,
 }
 
-/// A number beyond the range of an f64 is written as null, since JSON has no infinity.
-fn or_infinite<'de, D: serde::Deserializer<'de>>(number: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(number)?.unwrap_or(f64::INFINITY))
-}
-
 /// The outcomes of groups of triangles.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct AcrossPart {
     /// The contract's promise: `nothing`, `at-least-one`, `exactly-one`.
     #[cfg_attr(test, schemars(with = "String"))]
@@ -160,9 +140,7 @@ pub struct AcrossPart {
 }
 
 /// The results on whole polygons of a kernel that takes them.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct PolygonPart {
     /// Among the polygons that must be hit and have a verdict, the share that is missed.
     pub false_misses: Rate,
@@ -184,9 +162,7 @@ pub struct PolygonPart {
 }
 
 /// A finding on whole polygons.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct PolygonFinding {
     /// `bad-value`, `wrong-value`, `panic`, `crash`, `timeout`.
     #[cfg_attr(test, schemars(with = "String"))]

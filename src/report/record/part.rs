@@ -1,12 +1,10 @@
 //! Runs in parts: which parts a record is of, and what merging needs besides its result.
 
 use crate::audit::Shard;
-use serde::{Deserialize, Serialize};
 
 /// Which parts of a plan a result is of.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
+#[derive(PartialEq)]
 pub struct PartialPart {
     /// How many parts there are.
     pub of: u64,
@@ -15,9 +13,7 @@ pub struct PartialPart {
 }
 
 /// The data in the record of a part besides its result, for `merge` of the same version alone.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct ShardPart {
     /// The plan and the sums, as JSON of no stable form.
     pub sums: String,

@@ -3,13 +3,10 @@
 use super::KernelResult;
 use crate::audit::{RowSpec, flags};
 use crate::case::{CaseId, Parameters};
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The plan of a run.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct PlanPart {
     /// SHA-256 of the other fields' JSON, the first 16 hexadecimal digits.
     pub hash: String,
@@ -33,9 +30,7 @@ impl PlanPart {
 }
 
 /// A kernel with its epsilons.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct RowPart {
     /// The kernel's name.
     pub kernel: String,
@@ -95,9 +90,7 @@ fn is_own(words: &String) -> bool {
 }
 
 /// A source of cases as planned.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
 pub struct PlannedSource {
     /// The name in tables.
     pub family: String,
@@ -108,9 +101,8 @@ pub struct PlannedSource {
 }
 
 /// Where and how a record was made.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
+#[derive(Default)]
 pub struct Provenance {
     /// `hairline 0.1.0`.
     pub tool: String,
@@ -142,9 +134,8 @@ pub struct Provenance {
 }
 
 /// The flags that make a plan again, as a shell takes them.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[apply(part!)]
+#[derive(Default, PartialEq)]
 pub struct PlanFlags {
     /// Those that choose kernels, epsilons and the contract.
     pub kernels: String,
