@@ -306,10 +306,9 @@ fn blessed(
     let written =
         expect::blessed(record, old, conformance, file).map_err(|error| match error {
             BlessError::Unread(error) => error.into(),
-            BlessError::Outside(error) => Failure::usage(format!(
-                "--bless: {file} has {} expectations of kernels, scalars or families outside this plan, \
-                 which would be lost: run the whole plan, or remove them first",
-                error.outside_the_plan
+            BlessError::Outside(count) => Failure::usage(format!(
+                "--bless: {file} has {count} expectations of kernels, scalars or families outside this plan, \
+                 which would be lost: run the whole plan, or remove them first"
             )),
         })?;
     let texts = written.texts.iter().map(|(name, text)| (text, name.as_str())).collect();

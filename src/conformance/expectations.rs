@@ -44,10 +44,9 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), PlanError> {
     if blesses && may_be_written {
         let written = expect::blessed(record, &old, &compared, file).map_err(|error| {
             PlanError(match error {
-                BlessError::Outside(error) => format!(
-                    "{file}: {} expectations of kernels, scalars or families that this test does not \
-                     run would be lost: give each test a file of its own",
-                    error.outside_the_plan
+                BlessError::Outside(count) => format!(
+                    "{file}: {count} expectations of kernels, scalars or families that this test does not \
+                     run would be lost: give each test a file of its own"
                 ),
                 BlessError::Unread(error) => error.to_string(),
             })

@@ -5,8 +5,8 @@ use crate::case::{AnyScalar, Case, rust_case};
 use crate::corpus::lines::bare_case;
 use crate::kernel::KERNELS;
 use crate::report::{
-    ALL_CLASSES, ComparisonVerdict, Conformance, Example, FindingKind, FindingPart, KernelResult,
-    Key, Promised, Rate, Record, counts_alone, disagreements, interval_of, percent, rate_of,
+    ALL_CLASSES, ComparisonVerdict, Conformance, Example, FindingKind, FindingPart, Key, Promised,
+    Rate, Record, counts_alone, disagreements, interval_of, percent, rate_of,
 };
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -41,11 +41,7 @@ impl Outcome {
 
     /// True if a kind of finding is rare enough in its family and scalar.
     fn is_allowed(&self, key: &Key) -> bool {
-        let is_of = |part: &&KernelResult| {
-            (&part.kernel, &part.set, &part.scalar, &part.family)
-                == (&key.kernel, &key.set, &key.scalar, &key.family)
-        };
-        let part = self.record.result.results.iter().find(is_of);
+        let part = self.record.result.results.iter().find(|part| part.place() == key.place());
         // A kernel that promises nothing across triangles breaks no promise; expectations count its cracks.
         let promised = part.and_then(|part| part.across.as_ref()).map(|across| across.promised);
         if key.finding == FindingKind::Crack && promised == Some(Promised::Nothing) {

@@ -2,39 +2,35 @@
 
 use super::scene::scene_of;
 use super::{Amount, Expectations, Lock, LockedTarget, SCHEMA};
+use crate::corpus::InputError;
 use crate::report::{Conformance, Key, Record};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// Why expectations cannot be written: the file also has entries for kernels, scalars or families that
-/// the plan leaves out, and these would be lost.
+/// Why a record is not blessed.
 #[derive(Debug)]
-pub struct Unblessable {
-    /// How many.
-    pub outside_the_plan: u64,
+pub enum BlessError {
+    /// The file also has so many entries for kernels, scalars or families that the plan leaves out, and they would be lost.
+    Outside(u64),
+    /// The written files cannot be read.
+    Unread(InputError),
 }
 
-/// Expectations, written out.
-pub struct Blessed {
-    /// The file for people.
-    pub file: String,
-    /// The file of the cases beside it.
-    pub lock: String,
-    /// The targets whose counts are of other cases, and are left out.
-    pub dropped: Vec<String>,
-}
+/// The file for people, and that of the cases beside it.
+pub type Texts = [String; 2];
 
 /// The expectations that a run on a target meets. Reasons and links of the old ones are kept, and so are bounds
-/// by rate that hold, and the cases of other targets; nothing that the plan leaves out is dropped silently.
+/// by rate that hold, and the cases of other targets; nothing that the plan leaves out is dropped silently. The
+/// targets whose counts are of other cases are left out, and named.
 pub fn bless(
     record: &Record,
     old: &Expectations,
     compared: &Conformance,
-) -> Result<Blessed, Unblessable> {
+) -> Result<(Texts, Vec<String>), BlessError> {
     let (result, target) = (&record.result, &record.provenance.target);
     if compared.outside_the_plan > 0 {
-        return Err(Unblessable { outside_the_plan: compared.outside_the_plan });
+        return Err(BlessError::Outside(compared.outside_the_plan));
     }
     let cases_of_plan = result.plan.hash_of_cases();
     let (mut kept, dropped) = match old.lock.clone() {
@@ -53,7 +49,7 @@ pub fn bless(
     let mut lock = Lock { cases: cases_of_plan, targets: kept };
     lock.targets.insert(target.clone(), now);
     let dropped = dropped.into_keys().filter(|name| name != target).collect();
-    Ok(Blessed { file: reviewed(&lock, record, old, compared), lock: lock.to_string(), dropped })
+    Ok(([reviewed(&lock, record, old, compared), lock.to_string()], dropped))
 }
 
 /// Families, each with its amount, the larger count first.

@@ -164,12 +164,10 @@ impl ClassJudge {
         entries: &BTreeMap<Key, ExpectedEntry>,
     ) -> bool {
         let trials = found.rate.trials();
-        let row = |key: &Key| (key.kernel.clone(), key.set.clone(), key.scalar.clone());
-        let row_of_found = row(&found.key);
         self.method == Method::CaseByCase
             || found.rate.interval.is_none()
             || found.key.finding == FindingKind::Panic
-            || !entries.keys().any(|key| row(key) == row_of_found)
+            || !entries.keys().any(|key| key.is_of_row(&found.key))
             || trials.interval_of_others(0, trials.of, self.tail).high
                 < trials.interval_at(self.tail).low
     }

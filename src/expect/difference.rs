@@ -165,7 +165,7 @@ impl<'a> Side<'a> {
     }
 
     fn result(&self, key: &Key) -> Option<&'a KernelResult> {
-        self.results.get(&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]).copied()
+        self.results.get(&key.place()).copied()
     }
 
     fn row(&self, key: &Key) -> Option<&'a RowPart> {

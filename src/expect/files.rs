@@ -1,6 +1,6 @@
 //! The two files of expectations together: read, and written after a run. Who calls opens and writes them.
 
-use super::{Expectations, Lock, Unblessable, bless, read};
+use super::{BlessError, Expectations, Lock, bless, read};
 use crate::corpus::InputError;
 use crate::family::{FAMILIES, Stratum};
 use crate::report::{Conformance, Record, disagreements};
@@ -112,26 +112,17 @@ pub fn blessed(
     compared: &Conformance,
     file: &str,
 ) -> Result<Written, BlessError> {
-    let blessed = bless(record, old, compared).map_err(BlessError::Outside)?;
+    let ([text, text_of_lock], dropped) = bless(record, old, compared)?;
     let lock = lock_of(file);
     let read_again = || {
-        let mut expectations = read(&blessed.file, file, &kernels_of(record))?;
-        expectations.lock = Some(Lock::read(&blessed.lock, &lock)?);
+        let mut expectations = read(&text, file, &kernels_of(record))?;
+        expectations.lock = Some(Lock::read(&text_of_lock, &lock)?);
         expectations.agree(file)?;
         Ok(expectations)
     };
     let expectations = read_again().map_err(BlessError::Unread)?;
-    let texts = [(file.to_owned(), blessed.file), (lock, blessed.lock)];
-    Ok(Written { expectations, texts, dropped: blessed.dropped })
-}
-
-/// Why a record is not blessed.
-#[derive(Debug)]
-pub enum BlessError {
-    /// Entries would be lost.
-    Outside(Unblessable),
-    /// The written files cannot be read.
-    Unread(InputError),
+    let texts = [(file.to_owned(), text), (lock, text_of_lock)];
+    Ok(Written { expectations, texts, dropped })
 }
 
 /// The kernels of a record: those of one's own need not be here.

@@ -89,7 +89,7 @@ impl KnownDisagreements<'_> {
                     example,
                 });
             } else if together.insert(whole.clone()) {
-                let part = results[&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]];
+                let part = results[&key.place()];
                 let rate = rate_of(part, &whole.class, whole.finding);
                 all.push(FoundDisagreement { key: whole, rate, digest: None, example });
             }

@@ -67,6 +67,40 @@ impl LockedTarget {
             cases: cases.collect(),
         }
     }
+
+    /// Takes a line; whether there was one of the same. An error says what was expected.
+    fn take(&mut self, line: &str) -> Result<bool, String> {
+        let words: Vec<String> = line.split('\t').map(str::to_owned).collect();
+        let number =
+            |text: &str| text.parse::<u64>().map_err(|_| format!("a number, not '{text}'"));
+        let words = match <[String; 4]>::try_from(words) {
+            Ok([kernel, set, epsilons, contract]) => {
+                let settings = RowSettings { epsilons, contract };
+                return Ok(self.rows.insert([kernel, set], settings).is_some());
+            }
+            Err(words) => words,
+        };
+        // Until 0.1.0 a line of six words had how many groups were judged.
+        if words.len() == 6 {
+            return Ok(false);
+        }
+        let Ok([kernel, set, scalar, family, class, finding, count, of, digest]) =
+            <[String; 9]>::try_from(words)
+        else {
+            let shape = "9 words between tabs: kernel, epsilons, scalar, family, class, finding, count, of, digest; or 4 \
+                         of a row: kernel, name, epsilons, contract";
+            return Err(shape.to_owned());
+        };
+        let (count, of) = (number(&count)?, number(&of)?);
+        if count == 0 || of < count {
+            return Err(format!("a count from 1 to {of}, not {count}"));
+        }
+        Digest::try_from(digest.clone()).map_err(|_| "the digest of a set of cases".to_owned())?;
+        let finding = FindingKind::named(&finding)
+            .ok_or_else(|| format!("a kind of finding, not '{finding}'"))?;
+        let key = Key { kernel, set, scalar, family, class, finding };
+        Ok(self.cases.insert(key, LockedCases { count, of, digest }).is_some())
+    }
 }
 
 /// The cases of one class that show a finding.
@@ -132,42 +166,6 @@ impl Lock {
             }
         }
         most
-    }
-}
-
-impl LockedTarget {
-    /// Takes a line; whether there was one of the same. An error says what was expected.
-    fn take(&mut self, line: &str) -> Result<bool, String> {
-        let words: Vec<String> = line.split('\t').map(str::to_owned).collect();
-        let number =
-            |text: &str| text.parse::<u64>().map_err(|_| format!("a number, not '{text}'"));
-        let words = match <[String; 4]>::try_from(words) {
-            Ok([kernel, set, epsilons, contract]) => {
-                let settings = RowSettings { epsilons, contract };
-                return Ok(self.rows.insert([kernel, set], settings).is_some());
-            }
-            Err(words) => words,
-        };
-        // Until 0.1.0 a line of six words had how many groups were judged.
-        if words.len() == 6 {
-            return Ok(false);
-        }
-        let Ok([kernel, set, scalar, family, class, finding, count, of, digest]) =
-            <[String; 9]>::try_from(words)
-        else {
-            let shape = "9 words between tabs: kernel, epsilons, scalar, family, class, finding, count, of, digest; or 4 \
-                         of a row: kernel, name, epsilons, contract";
-            return Err(shape.to_owned());
-        };
-        let (count, of) = (number(&count)?, number(&of)?);
-        if count == 0 || of < count {
-            return Err(format!("a count from 1 to {of}, not {count}"));
-        }
-        Digest::try_from(digest.clone()).map_err(|_| "the digest of a set of cases".to_owned())?;
-        let finding = FindingKind::named(&finding)
-            .ok_or_else(|| format!("a kind of finding, not '{finding}'"))?;
-        let key = Key { kernel, set, scalar, family, class, finding };
-        Ok(self.cases.insert(key, LockedCases { count, of, digest }).is_some())
     }
 }
 

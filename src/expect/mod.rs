@@ -22,11 +22,11 @@ mod repaired;
 mod rows;
 mod scene;
 
-pub use bless::{Blessed, Unblessable, bless};
+pub use bless::{BlessError, bless};
 pub use compare::compare;
 pub use difference::{Difference, RecordComparison, Trend, difference};
 pub use file::read;
-pub use files::{BlessError, Written, blessed, lock_of, open};
+pub use files::{Written, blessed, lock_of, open};
 pub use lock::{Lock, LockedCases, LockedTarget, RowSettings};
 pub use named::difference_of;
 

@@ -22,7 +22,7 @@ impl<'a> Planned<'a> {
     }
 
     pub fn result(&self, key: &Key) -> Option<&'a KernelResult> {
-        self.results.get(&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]).copied()
+        self.results.get(&key.place()).copied()
     }
 
     /// True if the plan leaves out the kernel, the scalar or the family: then the expectation is about

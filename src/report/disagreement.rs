@@ -45,8 +45,12 @@ impl Key {
 
     /// True if it is of the same kernel row in the same scalar.
     pub fn is_of_row(&self, other: &Key) -> bool {
-        let row = |key: &Key| [&key.kernel, &key.set, &key.scalar].map(Clone::clone);
-        row(self) == row(other)
+        self.place()[..3] == other.place()[..3]
+    }
+
+    /// The kernel, its epsilons, the scalar and the family.
+    pub fn place(&self) -> [&str; 4] {
+        [&self.kernel, &self.set, &self.scalar, &self.family]
     }
 
     /// `kernel (set)`.

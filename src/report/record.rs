@@ -107,10 +107,7 @@ impl ResultPart {
 
     /// The results by kernel, epsilon set, scalar and family.
     pub(crate) fn by_place(&self) -> BTreeMap<[&str; 4], &KernelResult> {
-        let results = self.results.iter();
-        results
-            .map(|part| ([part.kernel.as_str(), &part.set, &part.scalar, &part.family], part))
-            .collect()
+        self.results.iter().map(|part| (part.place(), part)).collect()
     }
 }
 
@@ -184,6 +181,13 @@ pub struct KernelResult {
     pub polygons: Option<PolygonPart>,
     /// Second hits on the triangle that a ray starts on.
     pub self_hits: Option<Rate>,
+}
+
+impl KernelResult {
+    /// The kernel, its epsilons, the scalar and the family.
+    pub(crate) fn place(&self) -> [&str; 4] {
+        [&self.kernel, &self.set, &self.scalar, &self.family]
+    }
 }
 
 /// Counts and rates of findings.
