@@ -3,7 +3,7 @@
 use super::exit::{Failure, Status};
 use super::flags::{find_family, is_f32};
 use super::input::{MANIFEST, corpus_files, open, read_corpus};
-use super::output::write_result;
+use super::output::{write_json_lines, write_result};
 use super::progress::Progress;
 use crate::case::Parameters;
 use crate::corpus::InputError;
@@ -194,12 +194,7 @@ fn generate(folder: &Path) -> Result<Status, Failure> {
     let meshes = old.into_iter().map(|(_, line)| line);
     let meshes = meshes.filter(|line| matches!(line, ManifestLine::Mesh(_)));
     let lines: Vec<ManifestLine> = manifest::sets().chain(meshes).collect();
-    write_result(&path, |out| {
-        lines.iter().try_for_each(|line| {
-            serde_json::to_writer(&mut *out, line)?;
-            writeln!(out)
-        })
-    })?;
+    write_json_lines(&path, &lines)?;
     eprintln!("{}: {} lines", path.display(), lines.len());
     Ok(Status::Success)
 }

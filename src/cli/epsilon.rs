@@ -151,8 +151,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         costs: &costs,
         max_error,
         least_t: least_t.as_deref(),
-        at: &arguments.at,
-        fine_curves: arguments.curves,
+        arguments,
         pass: Pass::new(seed, count, &progress),
     };
     let mut parts = Vec::new();
@@ -182,8 +181,7 @@ struct EpsilonRun<'a> {
     max_error: Option<&'a MaxError>,
     /// The least t that `--epsilon` names.
     least_t: Option<&'a str>,
-    at: &'a [String],
-    fine_curves: bool,
+    arguments: &'a EpsilonArguments,
     pass: Pass<'a>,
 }
 
@@ -220,7 +218,7 @@ impl EpsilonRun<'_> {
             sources: &self.studied.sources,
             mesh: self.studied.mesh.as_ref(),
             relative: false,
-            fine_curves: self.fine_curves,
+            fine_curves: self.arguments.curves,
             store: None,
         };
         let number = |flag: &str, text: &str| {
@@ -239,7 +237,7 @@ impl EpsilonRun<'_> {
         };
         let mut named: Vec<(String, Vec<F>)> = sets.iter().map(own).collect();
         named.push(("zero".to_owned(), vec![F::zero(); knobs.len()]));
-        for text in self.at {
+        for text in &self.arguments.at {
             let value = number("--at", text)?;
             let gates = row.entry.info.gates;
             if value < F::zero() && !knobs[0].takes_negative(gates) {

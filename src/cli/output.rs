@@ -8,6 +8,7 @@ use crate::report::page::Page;
 use crate::report::{Format, Style, number_of};
 use crate::suggest::nearest_name;
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
 use std::path::{Path, PathBuf};
@@ -159,6 +160,16 @@ pub fn write_result(
     // What a kernel wrote that is given up is no result.
     plugins::check()?;
     file.map_or(Ok(()), FileBeside::put_in_place)
+}
+
+/// Writes values as JSON, a line each.
+pub fn write_json_lines(path: impl AsRef<Path>, all: &[impl Serialize]) -> Result<(), Failure> {
+    write_result(path, |out| {
+        all.iter().try_for_each(|one| {
+            serde_json::to_writer(&mut *out, one)?;
+            writeln!(out)
+        })
+    })
 }
 
 /// Writes several results. Files take their places after all are written, so a full disk changes none of them.

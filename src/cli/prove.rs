@@ -14,7 +14,8 @@ mod witnesses;
 use super::exit::{Failure, Status};
 use super::flags::{chosen_scalars, find_kernel, unknown};
 use super::input::read_text;
-use super::output::{OutputArguments, write_result};
+use super::output::{OutputArguments, write_json_lines};
+use super::sources::about_scene;
 use crate::audit::{EpsilonChoice, Row, shell_word};
 use crate::case;
 use crate::engine;
@@ -206,12 +207,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     }
     if let Some(path) = &arguments.update {
         let raised = merge(&mut stored, found);
-        write_result(path, |out| {
-            stored.iter().try_for_each(|witness| {
-                serde_json::to_writer(&mut *out, witness)?;
-                writeln!(out)
-            })
-        })?;
+        write_json_lines(path, &stored)?;
         eprintln!("{path}: {raised} of {} witnesses are new or worse", stored.len());
     }
     if let [entry] = entries[..] {
@@ -290,9 +286,8 @@ impl ProveArguments {
             return Ok((Some(scene), shapes));
         }
         if let Some(text) = &self.scene {
-            let wrong = |message: String| Failure::usage(format!("--scene: {message}"));
-            let (scene, _) = case::Scene::parse(text).map_err(wrong)?;
-            let scene = Scene::of(&scene).map_err(wrong)?;
+            let (scene, _) = case::Scene::parse(text).map_err(about_scene)?;
+            let scene = Scene::of(&scene).map_err(about_scene)?;
             let scene = Scene { min_angle: self.min_angle, grazing: self.grazing, ..scene };
             return Ok((Some(scene), scene.domain().map_or(Vec::new(), |_| scene.shapes())));
         }

@@ -380,7 +380,8 @@ pub(super) fn note_left_out(scene: &Scene, text: &str) {
     }
 }
 
-fn about_scene(message: String) -> Failure {
+/// An error about `--scene`.
+pub(super) fn about_scene(message: String) -> Failure {
     Failure::usage(format!("--scene: {message}"))
 }
 

@@ -11,7 +11,7 @@ use super::flags::{RUNNING, case_count, matrix_in, refuse_twice, scalars_of};
 use super::output::OutputArguments;
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::{mesh_scene, note_left_out};
+use super::sources::{about_scene, mesh_scene, note_left_out};
 use crate::audit::{Row, shell_word};
 use crate::case::Scene;
 use crate::kernel::Scalar;
@@ -277,9 +277,8 @@ impl SpawnArguments {
             let (scene, mesh) = mesh_scene(path, Some(&self.scene), scalars, self.output.quiet)?;
             return Ok(FirstRays { scene, scalars, unit: "", mesh: Some(mesh) });
         }
-        let wrong = |message: String| Failure::usage(format!("--scene: {message}"));
-        let (scene, unit) = Scene::parse(&self.scene).map_err(wrong)?;
-        let (scalars, left_out) = scene.held_in(scalars).map_err(wrong)?;
+        let (scene, unit) = Scene::parse(&self.scene).map_err(about_scene)?;
+        let (scalars, left_out) = scene.held_in(scalars).map_err(about_scene)?;
         if !self.output.quiet {
             left_out.iter().for_each(|why| eprintln!("left out: {why}"));
             note_left_out(&scene, &self.scene);
@@ -289,10 +288,8 @@ impl SpawnArguments {
 
     fn kinds(&self) -> Result<Vec<PointKind>, Failure> {
         let chosen = |name: &String| {
-            let found = PointKind::named(name);
-            found.ok_or_else(|| {
-                Failure::usage(format!("--point: unknown point '{name}': there are uv and ray"))
-            })
+            let message = || format!("--point: unknown point '{name}': there are uv and ray");
+            PointKind::named(name).ok_or_else(|| Failure::usage(message()))
         };
         refuse_twice("--point", &self.point)?;
         self.point.iter().map(chosen).collect()

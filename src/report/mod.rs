@@ -18,8 +18,6 @@ pub mod explain;
 pub mod formats;
 mod illustration;
 #[cfg(feature = "studies")]
-mod json;
-#[cfg(feature = "studies")]
 pub mod mesh;
 #[cfg(feature = "studies")]
 pub mod page;
@@ -32,13 +30,13 @@ pub use build::{Context, build, provenance_of};
 pub use conformance::*;
 pub(crate) use disagreement::counts_alone;
 pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
-#[cfg(feature = "studies")]
-pub use formats::{FORMATS, Format, HTML, JunitCase, ON_FAILURE, Style, severity, write_junit};
-pub use illustration::{Illustrations, ProofPart, ProvedGate};
 #[cfg(feature = "cli")]
-pub use json::JSON_SCHEMA;
+pub use formats::JSON_SCHEMA;
 #[cfg(feature = "studies")]
-pub use json::write_json;
+pub use formats::{
+    FORMATS, Format, HTML, JunitCase, ON_FAILURE, Style, severity, write_json, write_junit,
+};
+pub use illustration::{Illustrations, ProofPart, ProvedGate};
 pub(crate) use rate::{interval_of, percent};
 pub use record::*;
 #[cfg(feature = "studies")]

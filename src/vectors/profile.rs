@@ -145,34 +145,7 @@ impl Profile {
             ..super::CLOSED
         }
     }
-}
 
-/// Where a profile says what is demanded of tests.
-#[apply(part!)]
-#[derive(PartialEq)]
-pub struct Saying {
-    /// A word of `free_because`, or `groups`.
-    pub word: String,
-    /// The section of the specification, where it says something.
-    pub section: Option<String>,
-    /// Its words, or why the answer is what it is.
-    pub sentence: String,
-}
-
-impl FreeAnswers {
-    /// By the words of `free_because`.
-    fn of_single(&self) -> [(&'static str, &ProfileAnswer<Single>); 5] {
-        [
-            ("boundary", &self.boundary),
-            ("ends", &self.ends),
-            ("coplanar", &self.coplanar),
-            ("degenerate", &self.degenerate),
-            ("invalid", &self.invalid),
-        ]
-    }
-}
-
-impl Profile {
     /// The demand on groups on which readings differ.
     pub fn of_groups(&self) -> Groups {
         self.answers.groups.result
@@ -210,6 +183,31 @@ impl Profile {
         let deciding =
             of_single.filter(|(word, answer)| reasons.contains(word) && decides(answer.result));
         deciding.map(|(word, answer)| answer.saying(word)).collect()
+    }
+}
+
+/// Where a profile says what is demanded of tests.
+#[apply(part!)]
+#[derive(PartialEq)]
+pub struct Saying {
+    /// A word of `free_because`, or `groups`.
+    pub word: String,
+    /// The section of the specification, where it says something.
+    pub section: Option<String>,
+    /// Its words, or why the answer is what it is.
+    pub sentence: String,
+}
+
+impl FreeAnswers {
+    /// By the words of `free_because`.
+    fn of_single(&self) -> [(&'static str, &ProfileAnswer<Single>); 5] {
+        [
+            ("boundary", &self.boundary),
+            ("ends", &self.ends),
+            ("coplanar", &self.coplanar),
+            ("degenerate", &self.degenerate),
+            ("invalid", &self.invalid),
+        ]
     }
 }
 

@@ -7,9 +7,9 @@
 //!   than the finds;
 //! - `lock`: one process at a time.
 
-use super::lock::{FolderLock, LockError};
+use super::lock::FolderLock;
 use crate::cli::exit::{Failure, Status};
-use crate::cli::output::write_result;
+use crate::cli::output::write_json_lines;
 use crate::cli::select::KernelArguments;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, write_case};
@@ -77,17 +77,7 @@ impl Directory {
     pub fn open(path: &str) -> Result<Directory, Failure> {
         let path = PathBuf::from(path);
         fs::create_dir_all(&path).map_err(|error| Failure::of_path(&path, &error))?;
-        let lock_path = path.join("lock");
-        let (lock, taken_over) = FolderLock::take(&lock_path).map_err(|error| match error {
-            LockError::Held(message) => {
-                let message = format!("{}: {message}", path.display());
-                Failure::Message(Status::InputOutput, message)
-            }
-            LockError::Io(error) => Failure::of_path(&lock_path, &error),
-        })?;
-        if taken_over {
-            eprintln!("{}: its process is gone; the campaign goes on here", lock_path.display());
-        }
+        let lock = FolderLock::take(&path)?;
         let finds_path = path.join(FINDS);
         let finds = File::options().create(true).append(true).open(&finds_path);
         let finds = finds.map_err(|error| Failure::of_path(&finds_path, &error))?;
@@ -174,10 +164,7 @@ impl Directory {
     }
 
     fn write(&self, name: &str, value: &impl Serialize) -> Result<(), Failure> {
-        write_result(self.path.join(name), |out| {
-            serde_json::to_writer(&mut *out, value).map_err(io::Error::from)?;
-            writeln!(out)
-        })
+        write_json_lines(self.path.join(name), std::slice::from_ref(value))
     }
 }
 

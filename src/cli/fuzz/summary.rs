@@ -1,5 +1,6 @@
 //! The report of a campaign when it stops.
 
+use super::directory::FINDS;
 use crate::audit::quoted;
 use crate::explore::campaign::Find;
 use crate::judge::Finding;
@@ -40,13 +41,8 @@ pub fn write_summary(
     write_growth(out, finds, *seconds)?;
     write_kernels(out, finds)?;
     if let Some(find) = finds.last() {
-        writeln!(out, "The last one")?;
-        writeln!(out, "    {}", find.signature)?;
-        writeln!(
-            out,
-            "    {}",
-            explain_command(find, &format!("{path}/{}", super::directory::FINDS))
-        )?;
+        let command = explain_command(find, &format!("{path}/{FINDS}"));
+        writeln!(out, "The last one\n    {}\n    {command}", find.signature)?;
     }
     Ok(())
 }

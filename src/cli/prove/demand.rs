@@ -1,7 +1,7 @@
 //! The demands of `check` for proofs: `[proved]` in hairline.toml.
 
 use super::super::exit::Failure;
-use super::super::flags::{find_kernel, unknown};
+use super::super::flags::{find_kernel, is_f32, unknown};
 use crate::audit::Row;
 use crate::kernel::{Entry, Role, Scalar};
 use crate::prove::{Domain, Effort, Searched, Summary, Symmetry};
@@ -12,7 +12,7 @@ use crate::report::{Unproved, WATERTIGHT};
 struct Demand<'a> {
     text: &'a str,
     entry: &'static Entry,
-    is_f64: bool,
+    scalar: &'a str,
     gate: &'a str,
     value: &'a str,
     most: f64,
@@ -24,12 +24,12 @@ pub fn unproved(demands: &[String], rows: &[Row]) -> Result<Vec<Unproved>, Failu
     let mut unproved = Vec::new();
     for text in demands {
         let demand = Demand::read(text)?;
-        let why = if demand.is_f64 { demand.why_not::<f64>() } else { demand.why_not::<f32>() };
+        let why = in_named_scalar!(demand.scalar, F => demand.why_not::<F>());
         let why = why?.or_else(|| demand.run_otherwise(rows));
         let kernel = demand.entry.info.name;
         unproved.extend(why.map(|why| Unproved {
             kernel: kernel.to_owned(),
-            scalar: if demand.is_f64 { "f64" } else { "f32" }.to_owned(),
+            scalar: demand.scalar.to_owned(),
             gate: demand.gate.to_owned(),
             demanded: demand.value.to_owned(),
             why,
@@ -50,11 +50,7 @@ impl Demand<'_> {
         let [name, scalar, gate] =
             what.split('/').collect::<Vec<_>>().try_into().map_err(|_| wrong())?;
         let entry = find_kernel(name)?;
-        let is_f64 = match scalar {
-            "f32" => false,
-            "f64" => true,
-            _ => return Err(wrong()),
-        };
+        is_f32(scalar, "").map_err(|_| wrong())?;
         let most = match (gate, value) {
             (WATERTIGHT, "true") => 0.0,
             (WATERTIGHT, _) => return Err(wrong()),
@@ -64,7 +60,7 @@ impl Demand<'_> {
         if gate != WATERTIGHT && !gates().any(|name| name == gate) {
             return Err(unknown("gate", gate, gates(), &format!("hairline prove --kernel {name}")));
         }
-        Ok(Demand { text, entry, is_f64, gate, value, most })
+        Ok(Demand { text, entry, scalar, gate, value, most })
     }
 
     /// Why the proof says nothing about a plan that runs the kernel, if it does not.

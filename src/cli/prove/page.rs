@@ -42,9 +42,7 @@ fn of_all(report: &Report) -> Page {
         };
         details.push(Block::Table(Table::new(heads, gates.iter().map(row).collect())));
     }
-    blocks.push(Block::Text(
-        "In longest edges of the triangle; e as the sources have it.".to_owned(),
-    ));
+    blocks.push(Block::text("In longest edges of the triangle; e as the sources have it."));
     blocks.push(Block::Details("How wrong each gate's numbers can be".to_owned(), details));
     let watertight = record.kernels.iter().filter(|kernel| kernel.watertight);
     let watertight: Vec<String> =

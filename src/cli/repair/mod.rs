@@ -16,7 +16,7 @@ use super::exit::{Failure, Status};
 use super::flags::{case_count, chosen_scalars, find_kernel, scalar_names};
 use super::output::{write_page, write_result};
 use super::progress::Progress;
-use super::sources::mesh_scene;
+use super::sources::{about_scene, mesh_scene};
 use crate::audit::{EpsilonChoice, PlanError, Source};
 use crate::case::{Parameters, Scene};
 use crate::family::{FAMILIES, Family, Stratum};
@@ -144,9 +144,8 @@ impl RepairArguments {
                 (scene, Some(mesh))
             }
             (Some(words), None) => {
-                let wrong = |message: String| Failure::usage(format!("--scene: {message}"));
-                let (scene, _) = Scene::parse(words).map_err(wrong)?;
-                scene.held_in(scalars).map_err(wrong)?;
+                let (scene, _) = Scene::parse(words).map_err(about_scene)?;
+                scene.held_in(scalars).map_err(about_scene)?;
                 (scene, None)
             }
         };

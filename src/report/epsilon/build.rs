@@ -144,9 +144,12 @@ pub fn kernel_part<F: Scalar>(
     }
 }
 
+fn rates(trials: &[Trials]) -> Vec<Rate> {
+    trials.iter().map(|trials| Rate::new(*trials, true)).collect()
+}
+
 fn plane_part(found: &Elsewhere) -> PlanePart {
-    let wrong = found.wrong.iter().map(|trials| Rate::new(*trials, true)).collect();
-    PlanePart { plane: found.kind.to_string(), wrong }
+    PlanePart { plane: found.kind.to_string(), wrong: rates(&found.wrong) }
 }
 
 /// For each knob the highest limit from below and the lowest from above, where they do not meet.
@@ -234,14 +237,11 @@ fn tried_part<F: Float>(tried: &Tried<F>, is_limited: bool) -> TriedPart {
     TriedPart {
         name: tried.name.clone(),
         epsilons: tried.epsilons.iter().map(|epsilon| shortest(*epsilon)).collect(),
-        wrong: tried.wrong.iter().map(|trials| Rate::new(*trials, true)).collect(),
+        wrong: rates(&tried.wrong),
         cost: tried.cost,
         holes_per_million: tried.holes.map(|share| 1e6 * share),
-        doubles: tried.doubles.iter().map(|trials| Rate::new(*trials, true)).collect(),
+        doubles: rates(&tried.doubles),
         errors: error_parts(&tried.errors),
-        exceeded: match is_limited {
-            true => tried.exceeded.iter().map(|trials| Rate::new(*trials, true)).collect(),
-            false => Vec::new(),
-        },
+        exceeded: if is_limited { rates(&tried.exceeded) } else { Vec::new() },
     }
 }

@@ -1,7 +1,6 @@
 //! One kernel in one scalar: what to use, what argues for it, and everything else folded.
 
 use super::answer::{KernelAnswer, LimitRow, PICTURE};
-use super::legend::legend;
 use super::plot::{footer, panels};
 use super::record::{SceneKernelPart, SceneResult};
 use super::standing::{coarse, of_given, standing, telling};
@@ -14,11 +13,6 @@ use crate::report::page::{Block, Command, Head, Row, Table};
 
 /// So many rows argue for what to use.
 const MOST_ROWS: usize = 3;
-
-/// The meaning of the words in the tables.
-pub(super) fn how_to_read(record: &SceneResult) -> Vec<Block> {
-    vec![Block::Notes(legend(record))]
-}
 
 /// One kernel in one scalar: the answer, what argues for it, and everything else folded.
 pub(super) fn of_kernel(

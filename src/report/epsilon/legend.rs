@@ -2,9 +2,10 @@
 
 use super::record::SceneResult;
 use super::words::{RAYS, flatness, is_subnormal};
+use crate::report::page::Block;
 
 /// The meaning of the words in the tables, a line each.
-pub(super) fn legend(record: &SceneResult) -> Vec<String> {
+pub(super) fn how_to_read(record: &SceneResult) -> Vec<Block> {
     let costs = record.costs.iter().map(|cost| format!("{} {}", cost.name, cost.number));
     let costs = costs.collect::<Vec<_>>().join(", ");
     let aim = if record.aims_inside { "; all aimed inside" } else { "" };
@@ -43,5 +44,5 @@ pub(super) fn legend(record: &SceneResult) -> Vec<String> {
         });
         lines.extend(subnormal);
     }
-    lines
+    vec![Block::Notes(lines)]
 }

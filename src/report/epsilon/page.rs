@@ -1,7 +1,8 @@
 //! A study of epsilons as a page: of one kernel or two what to use, and why; of more a table.
 
 use super::answer::{KernelAnswer, answer};
-use super::evidence::{how_to_read, of_kernel};
+use super::evidence::of_kernel;
+use super::legend::how_to_read;
 use super::ranking;
 use super::record::{SceneRecord, SceneResult};
 use super::standing::standing;

@@ -4,6 +4,7 @@ use super::answer::{KernelAnswer, USE, answer, is_scale_free_better};
 use super::commands::{of_kernel, scene_words};
 use super::evidence;
 use super::fitness::{fitness, is_fine};
+use super::legend::how_to_read;
 use super::notes::few_rays;
 use super::record::{
     RayCount, Rays, SceneKernelPart, SceneRecord, SceneResult, Stratum, TriedPart, WrongKind,
@@ -63,7 +64,7 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
         blocks
             .push(Block::Details(answer.title.clone(), evidence::of_kernel(record, part, answer)));
     }
-    blocks.push(Block::Details("How to read".to_owned(), evidence::how_to_read(record)));
+    blocks.push(Block::Details("How to read".to_owned(), how_to_read(record)));
     let best = shown().find(|part| is_fine(record, part)).or(shown().next());
     let next = best
         .map(|best| Command { line: of_kernel(record, best), what: "may I use these numbers?" });

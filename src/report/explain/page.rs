@@ -63,10 +63,7 @@ impl Explanation {
         let rows: Vec<&ExplainedRow> =
             self.triangles.iter().flat_map(|triangle| &triangle.rows).collect();
         if let [row] = rows[..] {
-            let text = match row.said.starts_with("does not run") {
-                true => format!("{}: {}", row.label(), row.said),
-                false => format!("{}: {}", row.label(), row.judged()),
-            };
+            let text = sentence(row);
             let Some(instance) = self.triangles.first().and_then(|it| it.instance.as_ref()) else {
                 return (text, row.finding.is_some());
             };
@@ -112,9 +109,7 @@ impl Explanation {
             }
         }
     }
-}
 
-impl Explanation {
     /// The rows on all triangles together, the wrong ones first; one alone stands in the title.
     fn all_together(&self) -> Vec<Block> {
         let mut parts: Vec<&TogetherPart> = self.together.iter().collect();

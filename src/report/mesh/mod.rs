@@ -5,8 +5,6 @@ mod drawing;
 mod record;
 mod screen;
 #[cfg(feature = "pages")]
-mod shown;
-#[cfg(feature = "pages")]
 mod stage;
 
 pub use build::build;

@@ -1,9 +1,8 @@
 //! The part of a page that shows where: the drawing with its controls, and the first places of each row. A script turns the
 //! mesh; without it the tables of places are what there is.
 
-use super::drawing::{AROUND, MeshDrawing, MeshMark, PLACES};
+use super::drawing::{AROUND, DrawnRow, MeshDrawing, MeshMark, PLACES};
 use super::record::*;
-use super::shown::{ShownRow, lines, shown};
 use crate::mesh::AimedPart;
 use crate::report::page::html::words::{code, shortened};
 use crate::report::page::{Block, Stage};
@@ -145,4 +144,52 @@ fn places(i: usize, drawing: &MeshDrawing, row: &ShownRow) -> Markup {
             }
         }
     }
+}
+
+/// Bytes for all marks. A row that leaves some of its share leaves them to the next.
+const MARKS: usize = 3_500_000;
+
+/// A row in a scalar.
+struct ShownRow<'a> {
+    scalar: &'a str,
+    result: &'a MeshRowResult,
+    drawn: &'a DrawnRow,
+    /// Its marks as the script reads them, and how many there are.
+    marks: String,
+    marked: usize,
+}
+
+/// The rows with as many marks as fit.
+fn shown<'a>(record: &'a MeshRecord, drawing: &'a MeshDrawing) -> Vec<ShownRow<'a>> {
+    let parts = &record.result.scalars;
+    let results = parts.iter().flat_map(|part| part.results.iter().map(move |row| (part, row)));
+    let mut left = MARKS;
+    let mut rows = Vec::new();
+    for (i, ((part, result), drawn)) in results.zip(&drawing.rows).enumerate() {
+        let share = left / (drawing.rows.len() - i);
+        let (mut marks, mut marked) = (String::new(), 0);
+        for text in drawn.marks.iter().map(mark_text) {
+            if share < marks.len() + text.len() {
+                break;
+            }
+            marks += &text;
+            marked += 1;
+        }
+        left -= marks.len();
+        rows.push(ShownRow { scalar: &part.scalar, result, drawn, marks, marked });
+    }
+    rows
+}
+
+/// `what a b rays index line,line;`
+fn mark_text(mark: &MeshMark) -> String {
+    let MeshMark { wrong, ends: [a, b], rays, index, .. } = mark;
+    format!("{} {a} {b} {rays} {index} {};", *wrong as usize, lines(mark, ","))
+}
+
+/// The lines of the faces around, the first eight.
+fn lines(mark: &MeshMark, comma: &str) -> String {
+    let more = if mark.lines.len() > 8 { &["…".to_owned()][..] } else { &[] };
+    let first = mark.lines.iter().take(8).map(u32::to_string);
+    first.chain(more.iter().cloned()).collect::<Vec<_>>().join(comma)
 }
