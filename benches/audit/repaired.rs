@@ -6,14 +6,14 @@
 //! A hit is right: the ray passes through the inside of the triangle. A miss is right: it does not meet
 //! the triangle, its edges included, at any t (t_min and t_max are not looked at). Where rounding may decide, and on an edge: ask.
 //! This holds for all finite inputs at every scale. The kernel's epsilons are gone. t, u and v are those that
-//! the kernel computes; nothing is claimed of them.
+//! the kernel computes; nothing is claimed of them, and near the ends of the range they may be infinite or NaN.
 //!
 //! Why: a sum of products, each of which passes at most K roundings before the last sum, is off by at most
 //! ((1+u)^K - 1) times the sum of their sizes, u = 2^-24. Its sign is right beyond factor * sizes; the factor
 //! covers the rounding of the sizes too. It supposes rounding to nearest, and differences of points that are computed
 //! as they stand here. K is that of the worst order of a sum, so sums of products may be fused and reordered;
 //! SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. What
-//! overflows is no finite number, and asks.
+//! overflows on the way to a decision is no finite number, and asks.
 //!     det: K = 6, factor 3.632e-7
 //!     weight_of_b: K = 6, factor 3.632e-7
 //!     n16: K = 9, factor 5.420e-7

@@ -40,6 +40,18 @@ fn an_epsilon_by_size_decides_alike_at_every_scale() {
     assert!(changed == 0 && 100 < published, "{changed} {published}");
 }
 
+/// What the epsilon is multiplied by is 0, and so is the determinant: nothing is divided by it.
+#[test]
+fn a_triangle_that_is_a_point_or_too_small_for_its_size_is_missed() {
+    for size in [0.0_f32, 1e-30, 1e-45] {
+        let triangle = [[0.0; 3], [size, 0.0, 0.0], [size, 0.0, 0.0]];
+        let case = Case::new([0.1, 0.2, 1.0], [0.0, 0.0, -1.0], triangle);
+        let all = [PUBLISHED, [1e-6, -1e-3]]
+            .map(|epsilons| verdict("moller-trumbore+by-size", &case, &epsilons).hit);
+        assert_eq!(all, [false; 2], "{size}");
+    }
+}
+
 #[test]
 fn a_kernel_in_double_answers_for_floats_as_it_does_for_doubles() {
     let mut others = 0;
@@ -176,7 +188,7 @@ fn a_gate_of_an_epsilon_by_size_says_so() {
     let folder = scratch("repair-by-size");
     let explain = ["explain", "tiny@2/f32/-/1/15467", "--kernel", "moller-trumbore+by-size"];
     let (said, _) = ends(&folder, &explain, 0);
-    assert!(said.contains("abs(det) < e*L*L*D"), "{said}");
+    assert!(said.contains("abs(det) < max(e*L*L*D, TINY)"), "{said}");
 }
 
 #[test]
@@ -196,6 +208,18 @@ fn where_nothing_mends_the_worst_the_sums_come_first() {
     let joined = text.replace('\n', " ").replace(',', "");
     let words = format!("+double takes away the most wrong answers {from_to}");
     assert!(joined.contains(&words), "{words}: {text}");
+    // The next commands are about these rays, and what is proved of other sizes is not said.
+    let rays = "--scalar f32 --scene room -n 2000";
+    for command in [
+        format!(
+            "hairline audit --kernel moller-trumbore+double --epsilon 'parallel=1e-6,edge=0' {rays}"
+        ),
+        format!("hairline epsilon --kernel moller-trumbore {rays}"),
+    ] {
+        assert!(text.contains(&command), "{command}: {text}");
+    }
+    let row = text.lines().find(|line| line.starts_with("as published ")).unwrap();
+    assert!(row.ends_with("wrong       -        -     1"), "{row}");
 }
 
 #[test]
@@ -233,9 +257,9 @@ fn the_smallest_change_mends_the_worst_and_the_refuted_ones_do_not() {
     // The same case under the change of the patch.
     let name = text.lines().find_map(|line| line.strip_prefix("+++ ")).unwrap();
     let audit = commands.iter().find(|line| line.contains("hairline audit")).unwrap();
-    assert!(audit.ends_with(&format!("{name} --scalar f32")), "{audit}: {name}");
+    assert!(audit.ends_with(&format!("{name} --scalar f32 -n 4000")), "{audit}: {name}");
     let case = commands.iter().rfind(|line| line.starts_with("hairline explain")).unwrap();
-    let flags = audit.replacen("hairline audit ", "", 1).replace(" --scalar f32", "");
+    let flags = audit.replacen("hairline audit ", "", 1).replace(" --scalar f32 -n 4000", "");
     let (said, _) =
         again(&folder, &format!("{} {flags}", &case[..case.find(" --kernel").unwrap()]));
     assert!(!is_wrong(&said), "{said}");

@@ -85,7 +85,7 @@ pub fn candidates<F: Scalar>(row: &Row, bound: Option<f64>) -> Vec<Candidate> {
     }
     if let Some(bound) = bound {
         let is_plain = |i: usize| is_edge(i) && !gates[i].dimension.has_unit();
-        let what = "A tolerance at edges, as large as the rounding errors there can be";
+        let what = "A tolerance at edges, as large as the rounding errors there can be in the unit domain (a scene may have larger ones)";
         of_epsilons(&|i| is_plain(i).then(|| format!("-{}", above(bound))), what);
     }
     let what = "Products are fused into sums, by the compiler or by hand";

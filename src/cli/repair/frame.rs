@@ -61,9 +61,9 @@ impl Frame<'_> {
         let sides = if is_front { "front" } else { "both sides" };
         let digits = scale.format.digits;
         let range = match self.language.is_of_shaders() {
-            false => "overflows is no finite number, and asks.".to_owned(),
+            false => "overflows on the way to a decision is no finite number, and asks.".to_owned(),
             true => format!(
-                "overflows does not occur where coordinates are below {}: others ask. It supposes finite inputs.
+                "overflows does not occur where coordinates are at most {}: others ask. It supposes finite inputs.
 The language does not promise rounding to nearest; graphics devices that are known do so.",
                 self.largest()
             ),
@@ -85,7 +85,7 @@ promise: {}, {sides}
 A hit is right: the ray passes through the inside of the triangle. A miss is right: it does not meet
 the triangle, its edges included, {between}. Where rounding may decide, and on an edge: ask.
 This holds for all finite inputs at every scale. The kernel's epsilons are gone. t, u and v are those that
-the kernel computes; nothing is claimed of them.
+the kernel computes; nothing is claimed of them, and near the ends of the range they may be infinite or NaN.
 
 Why: a sum of products, each of which passes at most K roundings before the last sum, is off by at most
 ((1+u)^K - 1) times the sum of their sizes, u = 2^-{digits}. Its sign is right beyond factor * sizes; the factor

@@ -17,7 +17,7 @@ use super::flags::{case_count, chosen_scalars, find_kernel, scalar_names};
 use super::output::{write_page, write_result};
 use super::progress::Progress;
 use super::sources::{about_scene, mesh_scene};
-use crate::audit::{EpsilonChoice, PlanError, Source};
+use crate::audit::{EpsilonChoice, PlanError, Source, shell_word};
 use crate::case::{Parameters, Scene};
 use crate::family::{FAMILIES, Family, Stratum};
 use crate::kernel::{self, Entry};
@@ -27,6 +27,7 @@ use asks::Asks;
 use clap::Args;
 use frame::{function_name, source};
 use language::Language;
+use smaller::RepairRays;
 
 /// The kernel, and what to write.
 #[derive(Args)]
@@ -159,6 +160,17 @@ impl RepairArguments {
         Ok(Stratum::ALL.into_iter().map(of).collect())
     }
 
+    /// The flags of `audit` for the same rays.
+    fn flags_of_rays(&self) -> String {
+        let given = [
+            self.mesh.as_ref().map(|mesh| format!(" --mesh {}", shell_word(mesh))),
+            self.scene.as_ref().map(|scene| format!(" --scene {}", shell_word(scene))),
+            (self.seed != 1).then(|| format!(" --seed {}", self.seed)),
+            (self.count != 20_000).then(|| format!(" -n {}", self.count)),
+        ];
+        given.into_iter().flatten().collect()
+    }
+
     /// The screen of small changes.
     fn smaller(
         &self,
@@ -186,6 +198,11 @@ impl RepairArguments {
         } else {
             ", which are aimed at hard places (--scene room: at plain ones too)"
         };
+        let rays = RepairRays {
+            sources: sources.iter().map(|(_, source)| source.clone()).collect(),
+            is_scene,
+            flags: self.flags_of_rays(),
+        };
         let mut blocks = Vec::new();
         for name in scalar_names(scalars) {
             let (asks, guarded) = in_named_scalar!(name, F => match Guarded::new::<F>(entry) {
@@ -199,16 +216,15 @@ impl RepairArguments {
                 Err(why) => (None, format!("It cannot be guarded: {why}.")),
             });
             blocks.push(Block::Heading(format!("{} in {name}", row.label())));
-            let only: Vec<Source> = sources.iter().map(|(_, source)| source.clone()).collect();
-            let total = total_indices(&only, [name == "f32", name == "f64"])?;
+            let total = total_indices(&rays.sources, [name == "f32", name == "f64"])?;
             let progress = Progress::new(total, "rays", self.quiet);
             blocks.extend(
-                in_named_scalar!(name, F => smaller::blocks::<F>(&row, only, guarded, &progress)),
+                in_named_scalar!(name, F => smaller::blocks::<F>(&row, &rays, guarded, &progress)),
             );
             progress.finish();
             blocks.extend(asks.filter(|_| is_scene).iter().flat_map(Asks::blocks));
         }
-        let title = format!("{}: the smallest change that mends it", entry.info.name);
+        let title = format!("{}: small changes, and what they mend", entry.info.name);
         write_page(Page { command: "repair", title, blocks, ..Page::default() })?;
         Ok(Status::Success)
     }

@@ -19,6 +19,9 @@ fn listing(row: &Row, plain: &[Gate], change: Option<Change>, is_fused: bool) ->
         _ => &[],
     };
     let mut lines: Vec<String> = head.iter().map(|line| (*line).to_owned()).collect();
+    if row.entry.info.gates.iter().any(|gate| gate.refuses.contains("TINY")) {
+        lines.push("TINY = the least positive float;".to_owned());
+    }
     for ((gate, plain), epsilon) in row.entry.info.gates.iter().zip(plain).zip(&row.epsilons) {
         let epsilon = epsilon.to_string();
         // Nothing times a size is nothing.

@@ -77,13 +77,13 @@ struct TriedChanges<F> {
     candidates: Vec<Candidate>,
     /// As published; a row for each candidate; as published once more, judged as a ray if some candidate is.
     counts: Vec<ChangeCounts>,
-    /// The kernel's, and each candidate's.
+    /// The kernel's, and each candidate's; none in a scene, where other numbers would hold.
     proved: Vec<ProvedDepths>,
     scalar: PhantomData<F>,
 }
 
 impl<F: Searched + Scalar> TriedChanges<F> {
-    fn new(row: &Row, sources: Vec<Source>, observer: &dyn Observer) -> Self {
+    fn new(row: &Row, rays: &RepairRays, observer: &dyn Observer) -> Self {
         let (before, bound) = proved(row, &row.epsilons::<F>());
         let candidates = candidates::<F>(row, bound);
         let in_double = || {
@@ -108,14 +108,18 @@ impl<F: Searched + Scalar> TriedChanges<F> {
             },
             None => proved(&it.row, &it.row.epsilons::<F>()).0,
         };
-        let proved = std::iter::once(before).chain(candidates.iter().map(of)).collect();
+        let mut proved: Vec<ProvedDepths> =
+            std::iter::once(before).chain(candidates.iter().map(of)).collect();
+        if rays.is_scene {
+            proved.iter_mut().for_each(|it| it.depths = None);
+        }
         let mut rows = vec![row.clone()];
         rows.extend(candidates.iter().map(|candidate| candidate.row.clone()));
         // The first row waits for the cases, so the kernel is timed as the last.
         let as_ray = rows.iter().find(|it| it.contract.extent != row.contract.extent);
         rows.push(Row { contract: as_ray.unwrap_or(row).contract, ..row.clone() });
         let scalars = [F::DIGITS == 24, F::DIGITS != 24];
-        let plan = Plan { rows, sources, scalars, examples: 1, attribute: 0 };
+        let plan = Plan { rows, sources: rays.sources.clone(), scalars, examples: 1, attribute: 0 };
         let audit = audit::sum(&plan, Shard::WHOLE, observer);
         let counts = (0..plan.rows.len()).map(|row| ChangeCounts::of(&audit, row)).collect();
         TriedChanges { plan, candidates, counts, proved, scalar: PhantomData }
@@ -156,7 +160,7 @@ impl<F: Searched + Scalar> TriedChanges<F> {
             Head::of("leaks").about("% of rays at shared edges and vertices that hit nothing; none: proved of edges"),
             Head::of("visible").about("wrong by over 2^-10 of an edge"),
             Head::of("worst").about("whether it is right where the kernel is most wrong"),
-            Head::of("proved inside").about("no false miss of the unit domain is farther inside an edge, by the edges' gates (`prove` says what others add); then the same of hits outside"),
+            Head::of("proved inside").about("no false miss of the unit domain is farther inside an edge, by the edges' gates (`prove` says what others add); then the same of hits outside; `prove --scene` has those of a scene"),
             Head::of("outside"),
             Head::of("cost").about("time in this run as a multiple of the kernel's, with a wrapper's call for each ray: at most"),
         ];
@@ -241,8 +245,8 @@ impl<F: Searched + Scalar> TriedChanges<F> {
         kinds.into_iter().filter_map(sentence).collect()
     }
 
-    /// The smallest change that mends the worst, halves what is visible, and is wrong no more often with no more leaks: to
-    /// be right on one ray may be chance.
+    /// The smallest change that mends the worst, halves what is visible, and is wrong no more often with no more leaks and
+    /// bad values: to be right on one ray may be chance.
     fn smallest(&self) -> Option<usize> {
         let before = &self.counts[0];
         let is_better = |i: &usize| {
@@ -251,6 +255,7 @@ impl<F: Searched + Scalar> TriedChanges<F> {
                 && self.mends(*i)
                 && after.visible * 2 <= before.visible
                 && after.wrong() <= before.wrong()
+                && after.bad <= before.bad
                 && after.cracks <= before.cracks
         };
         (1..=self.candidates.len()).find(is_better)
@@ -265,14 +270,22 @@ impl<F: Searched + Scalar> TriedChanges<F> {
     }
 }
 
+/// The rays on which changes are tried.
+pub struct RepairRays {
+    pub sources: Vec<Source>,
+    pub is_scene: bool,
+    /// The flags of `audit` that run the same, each after a space.
+    pub flags: String,
+}
+
 /// Small changes to a row's kernel, and the smallest that mends the worst.
 pub fn blocks<F: Searched + Scalar>(
     row: &Row,
-    sources: Vec<Source>,
+    rays: &RepairRays,
     guarded: String,
     observer: &dyn Observer,
 ) -> Vec<Block> {
-    let tried = TriedChanges::<F>::new(row, sources, observer);
+    let tried = TriedChanges::<F>::new(row, rays, observer);
     let before = &tried.counts[0];
     let mut commands = Vec::new();
     let mut next = |line: String, what: &'static str| commands.push(Command { line, what });
@@ -307,7 +320,9 @@ pub fn blocks<F: Searched + Scalar>(
             0 => String::new(),
             _ => format!(", bad values from {bad}"),
         };
-        let sums = format!("false misses go from {misses}, false hits from {hits}{bad}");
+        let sums = format!(
+            "false misses go from {misses}, false hits from {hits}{bad}, leaks from {leaks}"
+        );
         let fate = if tried.mends(i) { "becomes right" } else { "stays wrong" };
         blocks.push(Block::Text(match smallest {
             Some(_) => format!(
@@ -315,15 +330,21 @@ pub fn blocks<F: Searched + Scalar>(
                  ({visible}), and is wrong on no more rays in all ({wrong}): {sums}."
             ),
             None => format!(
-                "{name} takes away the most wrong answers ({wrong}): {sums}, leaks from {leaks}, visible errors from {visible}. The worst \
+                "{name} takes away the most wrong answers ({wrong}): {sums}, visible errors from {visible}. The worst \
                  ray, {worst_ray}, {fate}. No change here does all of this: mends that ray, halves the visible errors, \
                  and is wrong no more often with no more leaks."
             ),
         }));
         blocks.push(Block::Listing(patch(row, candidate)));
         next(tried.command(row, worst), "the worst, as published");
-        let audit = format!("hairline audit {} --scalar {}", candidate.row.flags(), F::NAME);
+        let audit =
+            format!("hairline audit {} --scalar {}{}", candidate.row.flags(), F::NAME, rays.flags);
         next(audit, "everything about the changed kernel");
+    }
+    if rays.is_scene {
+        let line =
+            format!("hairline epsilon {} --scalar {}{}", row.entry.selector(), F::NAME, rays.flags);
+        next(line, "which epsilons cost least here");
     }
     blocks.push(Block::Table(tried.table()));
     blocks.push(Block::Notes(tried.sentences().into_iter().chain([guarded]).collect()));

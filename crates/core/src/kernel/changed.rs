@@ -66,10 +66,12 @@ pub(super) fn sized(gates: &[Gate]) -> &'static [Gate] {
     let sized = |gate: &Gate| {
         let Gate { refuses, dimension, .. } = *gate;
         let sizes = power("*L", dimension.length) + &power("*D", dimension.direction);
-        let refuses = if has_size(gate) {
-            String::leak(refuses_at(refuses, &format!("e{sizes}")))
-        } else {
-            refuses
+        let refuses = match (has_size(gate), gate.role) {
+            (false, _) => refuses,
+            (true, Role::Parallel) => {
+                String::leak(refuses_at(refuses, &format!("max(e{sizes}, TINY)")))
+            }
+            (true, _) => String::leak(refuses_at(refuses, &format!("e{sizes}"))),
         };
         Gate { refuses, ..*gate }
     };
@@ -78,14 +80,19 @@ pub(super) fn sized(gates: &[Gate]) -> &'static [Gate] {
 
 impl<F: Float> Changed<F> {
     /// Epsilons times L, the largest coordinate of b-a and c-a, and D, that of the direction, as often as the gate's
-    /// dimension says.
+    /// dimension says. Where that is 0, an epsilon for parallel rays is TINY, the least positive float: else it would let a
+    /// determinant of 0 through, and what is divided by it.
     fn by_size(&self, case: &Case<F>, epsilons: &mut [F]) {
         let [_, direction, a, b, c] = case.vectors();
         let length = largest((0..3).flat_map(|i| [b[i] - a[i], c[i] - a[i]]));
         let direction = largest(direction);
         for (gate, epsilon) in self.gates.iter().zip(epsilons).filter(|(gate, _)| has_size(gate)) {
+            let refuses_zero = gate.role == Role::Parallel && F::zero() < *epsilon;
             (0..gate.dimension.length).for_each(|_| *epsilon = *epsilon * length);
             (0..gate.dimension.direction).for_each(|_| *epsilon = *epsilon * direction);
+            if refuses_zero && *epsilon == F::zero() {
+                *epsilon = F::zero().offset_ulps(1);
+            }
         }
     }
 }
