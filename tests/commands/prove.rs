@@ -349,6 +349,8 @@ fn a_scene_has_the_words_that_it_has_for_samples() {
         let (_, number) = text.split_once("|N·d| at least ").unwrap();
         number.split(',').next().unwrap().parse::<f64>().unwrap()
     };
+    let mends = "hairline repair --kernel moller-trumbore --scene room --scalar f32";
+    assert!(words(&with(&["--scene", "room"])).contains(mends));
     let [longest, all] = [divisor(&["--scene", "room"]), divisor(&numbers)];
     assert!((3.9..4.1).contains(&(all / longest)), "{longest} {all}");
     let far = with(&["--scene", "extent=5,center=-1e3,edge=0.01..3,distance=0..10"]);

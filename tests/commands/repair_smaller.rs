@@ -228,6 +228,7 @@ fn flags_that_would_do_nothing_are_refused() {
     let repair = ["repair", "--kernel", "moller-trumbore"];
     for (words, part) in [
         (&["--emit", "c", "--epsilon", "parallel=1e-9"][..], "--epsilon is of the kernel as it is"),
+        (&["--emit", "c", "--certificate", "-"], "cannot both go to standard output"),
         (&["-o", "screen.txt"], "-o takes what --emit writes"),
         (&["-o", "folder/"], "-o takes what --emit writes"),
     ] {

@@ -122,7 +122,9 @@ fn of_one(report: &Report) -> Page {
         blocks.push(Block::Text(String::new()));
         blocks.push(Block::Items(Items { most: items.len(), items }));
     }
-    let repair = format!("hairline repair --kernel {name}{scalar}");
+    // Without a scene `repair` takes the families.
+    let rays = report.scene.as_ref().map_or(String::new(), |_| format!(" {}", report.rays));
+    let repair = format!("hairline repair --kernel {name}{rays}{scalar}");
     let commands = vec![
         Command { line, what: "which epsilons cost least" },
         Command { line: repair, what: "what mends it" },

@@ -94,6 +94,11 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
             "--epsilon is of the kernel as it is: what --emit and --certificate write has none";
         return Err(Failure::usage(message));
     }
+    let is_stdout = arguments.output == "-" && arguments.emit.is_some();
+    if is_stdout && arguments.certificate.as_deref() == Some("-") {
+        let message = "the kernel and its proof cannot both go to standard output: -o FILE";
+        return Err(Failure::usage(message));
+    }
     if !is_written {
         if arguments.output != "-" {
             return Err(Failure::usage(
