@@ -76,8 +76,10 @@ pub enum Rule {
     /// The formula is the number.
     Sum,
     /// The formula is numerator - quotient * divisor, and one division follows; or a reciprocal and a
-    /// product, if `twice`.
+    /// product, if `twice`. Of two quotients by one divisor that are added up, it is numerator + numerator - sum * divisor.
     Quotient {
+        /// Two quotients that are added up.
+        is_sum: bool,
         /// By a reciprocal and a product.
         twice: bool,
         /// The number that it is divided by.
@@ -86,6 +88,8 @@ pub enum Rule {
         floor: Limit,
         /// The largest size of the exact quotient.
         most: Limit,
+        /// Minus its least value, if that is supposed: see [`Domain::below`].
+        below: Option<Dyadic>,
     },
     /// The number is a coordinate of a vector divided by its length. There is no formula.
     Unit {
@@ -170,9 +174,17 @@ impl<'a> Prover<'a> {
             // A reciprocal is known by its divisor.
             let is_known = numerator.is_some() || self.domain.measures.is_none();
             let most = if is_known { self.most(place) } else { None };
-            (formula, maximum, bound) = self.divide(numerator, divisor, twice, (floor, most))?;
+            let below = self.below(place);
+            let limits = (floor, most, below);
+            (formula, maximum, bound) = self.divide(numerator, divisor, twice, limits)?;
             let most = most.unwrap_or(Limit::Own(bound.size));
-            rule = Rule::Quotient { twice, divisor, floor, most };
+            rule = Rule::Quotient { is_sum: false, twice, divisor, floor, most, below };
+        } else if let Some((parts, divisor, twice)) = self.quotients(place) {
+            let (floor, most, below) =
+                (self.floor(divisor), self.most(place), self.below(place));
+            (formula, maximum, bound) = self.divide_both(parts, (floor, most, below))?;
+            let most = most.unwrap_or(Limit::Own(bound.size));
+            rule = Rule::Quotient { is_sum: true, twice, divisor, floor, most, below };
         } else if let Operation::Sqrt(_) = self.operation(place) {
             return Err("its root is used otherwise than to divide a vector by its length".into());
         } else {
@@ -236,9 +248,10 @@ impl<'a> Prover<'a> {
         match lemma.rule {
             Rule::Sum => {}
             Rule::Unit { vector, .. } => needs.extend(vector),
-            Rule::Quotient { .. } => {
-                let (numerator, divisor, _) = self.quotient(lemma.place).expect("a quotient");
-                needs.extend(numerator);
+            Rule::Quotient { divisor, .. } => {
+                let numerator = self.quotient(lemma.place).and_then(|(numerator, ..)| numerator);
+                let parts = self.quotients(lemma.place).map(|(parts, ..)| parts);
+                needs.extend(numerator.into_iter().chain(parts.into_iter().flatten()));
                 needs.push(divisor);
             }
         }

@@ -4,7 +4,7 @@ use super::bound::{Bound, Prover};
 use super::forms::{Forms, Leaf};
 use super::formula::{Formula, Maximum, Source, Step};
 use super::rows::SameSign;
-use super::{Dyadic, Format};
+use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
 use std::collections::{HashMap, HashSet};
 
@@ -24,25 +24,55 @@ impl Prover<'_> {
         builder.finish().map(|(formula, maximum)| (formula, maximum, same_sign))
     }
 
-    /// numerator - quotient * divisor, the quotient of this size; no numerator is one. And of which of both the
-    /// last rounding is left out.
+    /// numerator - quotient * divisor, the quotient of this size, and down to minus the other one if it is given. No
+    /// numerator is one; two are added up. And of which of all, the divisor last, the last rounding is left out.
     pub(super) fn formula_of_quotient(
         &mut self,
-        numerator: Option<Place>,
+        numerators: &[Place],
         divisor: Place,
-        size: Dyadic,
+        size: (Dyadic, Option<Dyadic>),
         floor: Dyadic,
-    ) -> Result<(Formula, Maximum, [bool; 2]), String> {
+    ) -> Result<(Formula, Maximum, Vec<bool>), String> {
+        let found = self.formula_of_fraction(false, numerators, divisor, size, floor);
+        // Where quotients have a sign, points in one box say more than their differences alone.
+        let Domain { edge, reach, .. } = self.domain;
+        let boxed = size.1.filter(|_| edge == reach).and_then(|_| {
+            self.formula_of_fraction(true, numerators, divisor, size, floor).ok()
+        });
+        let error = |(_, maximum, _): &(Formula, Maximum, Vec<bool>)| maximum.error();
+        match (found, boxed) {
+            (Ok(found), Some(boxed)) if error(&boxed) < error(&found) => Ok(boxed),
+            (found, _) => found,
+        }
+    }
+
+    fn formula_of_fraction(
+        &mut self,
+        is_boxed: bool,
+        numerators: &[Place],
+        divisor: Place,
+        (size, below): (Dyadic, Option<Dyadic>),
+        floor: Dyadic,
+    ) -> Result<(Formula, Maximum, Vec<bool>), String> {
         let mut builder = Builder::new(self);
-        let n = match numerator {
-            Some(numerator) => builder.expand(numerator)?,
-            None => builder.number(1),
-        };
+        builder.is_boxed = is_boxed;
+        let mut all = Vec::new();
+        for numerator in numerators {
+            all.push(builder.expand(*numerator)?);
+        }
         let d = builder.expand(divisor)?;
+        let n = match all[..] {
+            [] => builder.number(1),
+            [n] => n,
+            _ => builder.push(Step::Of(Operation::Add(all[0], all[1])), None),
+        };
         let q = builder.variable(Source::Quotient, exactly(size));
+        let v = builder.formula.variables.len() - 1;
+        builder.formula.below = below.map(|below| (v, below));
         let product = builder.push(Step::Of(Operation::Mul(q, d)), None);
         builder.push(Step::Of(Operation::Sub(n, product)), None);
-        let left_out = [n, d].map(|step| builder.leave_out(step));
+        let of = if all.is_empty() { vec![n, d] } else { all.into_iter().chain([d]).collect() };
+        let left_out = of.into_iter().map(|step| builder.leave_out(step)).collect();
         builder.narrow(divisor, floor);
         builder.finish().map(|(formula, maximum)| (formula, maximum, left_out))
     }
@@ -58,6 +88,8 @@ struct Builder<'p, 'a> {
     /// The supposition about two edges, if there is one, and true if it may be made.
     same_sign: Option<SameSign>,
     may_suppose: bool,
+    /// True if points are variables, in one box, in place of their differences.
+    is_boxed: bool,
 }
 
 impl<'p, 'a> Builder<'p, 'a> {
@@ -70,6 +102,7 @@ impl<'p, 'a> Builder<'p, 'a> {
             forms: Forms::default(),
             same_sign: None,
             may_suppose: false,
+            is_boxed: false,
         }
     }
 
@@ -200,13 +233,35 @@ impl<'p, 'a> Builder<'p, 'a> {
         Some(step)
     }
 
-    fn leaf(&mut self, leaf: Leaf) -> usize {
-        let size = leaf.bound(&self.prover.domain);
+    /// The sum of variables that a leaf is.
+    fn sum(&mut self, leaf: Leaf) -> Vec<(usize, i8)> {
         let (sum, is_new) = self.forms.sum(leaf, self.formula.variables.len());
         if is_new {
+            let (source, size) = match leaf {
+                Leaf::Point(point, axis) if self.is_boxed => {
+                    (Source::Boxed(point, axis), self.prover.domain.half_box())
+                }
+                _ => (Source::Leaf(leaf), leaf.bound(&self.prover.domain)),
+            };
             self.formula.variables.push(size);
-            self.formula.sources.push(Source::Leaf(leaf));
+            self.formula.sources.push(source);
         }
+        sum
+    }
+
+    fn leaf(&mut self, leaf: Leaf) -> Result<usize, String> {
+        let size = leaf.bound(&self.prover.domain);
+        let sum = match leaf {
+            Leaf::Difference(p, q, axis) if self.is_boxed => {
+                let [mut p, q] = [p, q].map(|point| self.sum(Leaf::Point(point, axis)));
+                p.extend(q.into_iter().map(|(v, sign)| (v, -sign)));
+                p
+            }
+            Leaf::Point(..) if self.is_boxed => {
+                return Err("a coordinate is used as it is, not in differences alone".to_owned());
+            }
+            _ => self.sum(leaf),
+        };
         let format = self.prover.format;
         let given = if leaf.is_difference() {
             let computed = size.round_up(format.digits);
@@ -216,7 +271,7 @@ impl<'p, 'a> Builder<'p, 'a> {
         };
         let step = self.push(Step::Variables(sum), Some(given));
         self.formula.rounds[step] = leaf.is_difference();
-        step
+        Ok(step)
     }
 
     fn expand(&mut self, place: Place) -> Result<usize, String> {
@@ -224,10 +279,12 @@ impl<'p, 'a> Builder<'p, 'a> {
             return Ok(*step);
         }
         let operation = self.prover.operation(place);
-        let step = if self.prover.quotient(place).is_some() {
+        let is_quotient =
+            self.prover.quotient(place).is_some() || self.prover.quotients(place).is_some();
+        let step = if is_quotient {
             self.cut(place)?
         } else if let Some(leaf) = Leaf::of(operation, &self.prover.path.operations) {
-            self.leaf(leaf)
+            self.leaf(leaf)?
         } else {
             self.operation(place, operation)?
         };

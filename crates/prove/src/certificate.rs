@@ -146,12 +146,15 @@ impl Writer<'_> {
                 Some(format!("{word} {} {size}", self.at(place)))
             }
         };
+        let down_to = |place: Place, x: Dyadic| format!("down-to {} {x}", self.at(place));
         let of_lemma = |lemma: &Lemma| match lemma.rule {
-            Rule::Sum => [None, None],
-            Rule::Unit { length, floor, .. } => [line("at-least", length, floor), None],
-            Rule::Quotient { divisor, floor, most, .. } => {
-                [line("at-least", divisor, floor), line("at-most", lemma.place, most)]
-            }
+            Rule::Sum => [None, None, None],
+            Rule::Unit { length, floor, .. } => [line("at-least", length, floor), None, None],
+            Rule::Quotient { divisor, floor, most, below, .. } => [
+                line("at-least", divisor, floor),
+                line("at-most", lemma.place, most),
+                below.map(|x| down_to(lemma.place, x)),
+            ],
         };
         lemmas.iter().flat_map(of_lemma).flatten().collect()
     }
@@ -159,8 +162,10 @@ impl Writer<'_> {
     fn lemma(&self, lemma: &Lemma) -> String {
         let rule = match lemma.rule {
             Rule::Sum => "sum".to_owned(),
-            Rule::Quotient { twice: false, .. } => "quotient".to_owned(),
-            Rule::Quotient { twice: true, .. } => "quotient-by-reciprocal".to_owned(),
+            Rule::Quotient { twice, is_sum, .. } => {
+                let what = if is_sum { "sum-of-quotients" } else { "quotient" };
+                format!("{what}{}", if twice { "-by-reciprocal" } else { "" })
+            }
             Rule::Unit { .. } => "unit".to_owned(),
         };
         let mut text = format!("lemma {} {rule}\n", self.at(lemma.place));
@@ -183,6 +188,7 @@ impl Writer<'_> {
                 Source::Leaf(Leaf::Difference(p, q, axis)) => format!("difference {p} {q} {axis}"),
                 Source::Leaf(Leaf::Direction(axis)) => format!("direction {axis}"),
                 Source::Leaf(Leaf::End(end)) => format!("end {end}"),
+                Source::Boxed(p, axis) => format!("boxed {p} {axis}"),
                 Source::Cut(place) => format!("cut {}", self.at(place)),
                 Source::Part(place) => format!("part {}", self.at(place)),
                 Source::Third(p, q) => format!("third {} {}", self.at(p), self.at(q)),

@@ -297,12 +297,15 @@ impl Walk<'_> {
 
     /// The values at a corner, the unit vector being an axis.
     fn evaluate(&mut self, corner: u64, axis: usize) {
-        let Formula { steps, unit, variables, .. } = self.formula;
+        let Formula { steps, unit, variables, below, .. } = self.formula;
         let variable = |v: usize| {
             if unit.contains(&v) && unit[axis] != v {
                 return Dyadic::ZERO;
             }
-            negative_if(corner >> v & 1 == 1, variables[v])
+            match (corner >> v & 1 == 1, *below) {
+                (true, Some((of, below))) if of == v => -below,
+                (is_minus, _) => negative_if(is_minus, variables[v]),
+            }
         };
         for (i, step) in steps.iter().enumerate() {
             let values = &self.values;

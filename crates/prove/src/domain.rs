@@ -73,6 +73,9 @@ pub struct Domain {
     pub floor: Dyadic,
     /// Every quotient is at most this, but those of one and a divisor.
     pub quotient: Dyadic,
+    /// A quotient that is a barycentric coordinate, or 1 less one, is at least minus this. Where it is not below
+    /// `quotient`, that says nothing.
+    pub below: Dyadic,
     /// The limits that a scene knows of divisors and quotients, instead of `floor` and `quotient`.
     pub measures: Option<Measures>,
 }
@@ -89,8 +92,14 @@ impl Domain {
         direction_floor: Dyadic::HALF,
         floor: Dyadic::FLOOR,
         quotient: Dyadic::ONE,
+        below: Dyadic::ZERO,
         measures: None,
     };
+    /// Half of a box that holds all points, along each axis: only their differences count.
+    pub(super) fn half_box(&self) -> Dyadic {
+        self.edge.max(self.reach) * Dyadic::HALF
+    }
+
     /// All inputs with the extents of a case: its largest coordinate, its largest difference of coordinates, its largest
     /// coordinate of the direction. Nothing is known of divisors but that last one.
     pub fn of_sizes<F: Float>(case: &Case<F>) -> Option<Domain> {
@@ -117,6 +126,7 @@ impl Domain {
             floor: Dyadic::ZERO,
             // Larger than any: what limits a quotient is its numerator.
             quotient: Dyadic::power(1 << 12),
+            below: Dyadic::power(1 << 12),
             measures: None,
         })
     }

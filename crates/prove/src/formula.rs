@@ -50,6 +50,8 @@ pub struct Formula {
     /// In the lemma of a quotient, the variables that the path divides by its divisor too: where, and the box that
     /// is enough for the effects of errors.
     pub narrow: Vec<(usize, Place, Dyadic)>,
+    /// The variable that is no quotient of either sign: it is at least minus this.
+    pub below: Option<(usize, Dyadic)>,
     /// The bounds of each step: its exact size, its computed size, and h, its largest error of its own.
     pub bounds: Vec<Bound>,
 }
@@ -59,6 +61,8 @@ pub struct Formula {
 pub enum Source {
     /// An input, or a difference of inputs.
     Leaf(Leaf),
+    /// A coordinate of a point in a box that holds all points. Only differences are computed from it, so it may be moved.
+    Boxed(usize, usize),
     /// A number of the program that has a lemma of its own.
     Cut(Place),
     /// The same of a coordinate of a unit vector in which the formula is linear.

@@ -119,6 +119,7 @@ impl Quantity {
                         uses.reach = true;
                     }
                     Source::Leaf(Leaf::Difference(..)) | Source::Third(..) => uses.edge = true,
+                    Source::Boxed(..) => (uses.edge, uses.reach) = (true, true),
                     Source::Leaf(Leaf::End(_)) => uses.extent = true,
                     _ => {}
                 }

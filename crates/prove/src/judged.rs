@@ -8,6 +8,8 @@ use super::witness::{Goal, Inputs, Searched};
 use super::{Domain, Dyadic};
 use crate::kernel::{Entry, Role, Scalar};
 
+const ABOVE_ONE: Dyadic = Dyadic::ABOVE_ONE;
+
 /// The verdicts of a kernel.
 #[derive(Clone, Debug)]
 pub struct Judged<F> {
@@ -34,13 +36,17 @@ impl<F: Searched + Scalar> Judged<F> {
         let proof = &summary.proof;
         let Summary { domain, format, .. } = *summary;
         let is_wide = domain.measures.is_none() && supposes_weights(entry, proof);
+        // Near the triangle, and anywhere.
         let wide = is_wide.then(|| {
-            let domain = Domain { quotient: Dyadic::ABOVE_ONE, ..domain };
-            paths_of::<F>(entry).map(|paths| Proof::new(paths, None, domain, format)).ok()
+            [ABOVE_ONE - Dyadic::ONE, ABOVE_ONE].map(|below| {
+                let domain = Domain { quotient: ABOVE_ONE, below, ..domain };
+                paths_of::<F>(entry).map(|paths| Proof::new(paths, None, domain, format)).ok()
+            })
         });
-        let wide = wide.flatten();
+        let [near, far] = wide.unwrap_or_default();
+        let proofs = [proof, near.as_ref().unwrap_or(proof), far.as_ref().unwrap_or(proof)];
         let floats: Vec<f64> = epsilons.iter().map(|x| x.to_f64()).collect();
-        let verdicts = verdicts(entry, (proof, wide.as_ref().unwrap_or(proof)), &floats, parts);
+        let verdicts = verdicts(entry, proofs, &floats, parts);
         let is_edge = |quantity: &&Quantity| entry.info.gates[quantity.gate].role == Role::Edge;
         let of_edges = || proof.quantities.iter().filter(is_edge);
         let judge = Judge {

@@ -139,6 +139,19 @@ impl<'a> Samples<'a> {
         (value.abs() - other(sample).abs()).is_zero()
     }
 
+    /// True if a number is a barycentric coordinate, or 1 less one.
+    pub fn is_share(&self, place: Place) -> bool {
+        let is_positive = |(values, sample): &(Vec<f64>, Sample<f64>), vertex: usize, is_rest| {
+            0.0 < values[place as usize] * sample.share(vertex, is_rest)
+        };
+        let is = |vertex: usize, is_rest: bool| {
+            self.may_be(place, |i| self.values[i].1.share(vertex, is_rest))
+                && is_positive(&self.values[0], vertex, is_rest)
+                && self.is_exactly(place, |sample| sample.share(vertex, is_rest))
+        };
+        (0..3).any(|vertex| is(vertex, false) || is(vertex, true))
+    }
+
     /// The limit of the first of the known numbers that a number is, up to its sign.
     pub fn find(&self, place: Place, measures: &Measures, kind: Kind) -> Option<Limit> {
         let of = |(_, sample): &(Vec<f64>, Sample<f64>)| measures.known(kind, sample, &self.axes);
@@ -188,6 +201,12 @@ impl<R: Real> Sample<R> {
     pub fn weight(&self, vertex: usize) -> R {
         let [p, q] = [1, 2].map(|i| self.vertices[(vertex + i) % 3].minus(&self.origin));
         p.cross(&q).dot(&self.direction) / self.volume()
+    }
+
+    /// That, or 1 less that.
+    pub fn share(&self, vertex: usize, is_rest: bool) -> R {
+        let weight = self.weight(vertex);
+        if is_rest { R::one() - weight } else { weight }
     }
 
     /// The ray's t there.
@@ -257,7 +276,10 @@ impl Measures {
         let square = normal.dot(normal);
         let mut all = vec![known("|t|", distance, sample.time())];
         // Slightly more, for the points next to a vertex.
-        all.extend([0, 1, 2].map(|i| known("|u|", Dyadic::ABOVE_ONE, sample.weight(i))));
+        for is_rest in [false, true] {
+            let share = |i| known("|u|", Dyadic::ABOVE_ONE, sample.share(i, is_rest));
+            all.extend([0, 1, 2].map(share));
+        }
         for k in axes.iter().copied() {
             let over = |name, limit, value: R| known(name, limit, value / normal.at(k));
             for i in (0..3).filter(|i| *i != k) {

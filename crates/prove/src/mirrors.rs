@@ -19,17 +19,21 @@ impl Formula {
         let unit = self.unit.iter().fold(0u64, |bits, v| bits | 1 << v);
         let mut signs: Vec<Option<u64>> = Vec::with_capacity(self.steps.len());
         let mut equations = Equations { unit, by_lowest: [0; 64] };
+        // Its two ends are no mirror images.
+        let fixed = self.below.map_or(0, |(v, _)| 1 << v);
         for step in &self.steps {
             let of = |i: usize| signs[i];
             let term = |(_, a, b): Term<usize>| Some(of(a)? ^ b.map_or(Some(0), of)?);
             signs.push(match *step {
-                Step::Variables(ref sum) => equations.alike(sum.iter().map(|(v, _)| Some(1 << v))),
+                Step::Variables(ref sum) => {
+                    equations.alike(sum.iter().map(|(v, _)| Some(1 << v & !fixed)))
+                }
                 Step::Of(Operation::Number(value)) => (value != 0).then_some(0),
                 _ => equations.alike(step.terms().map(term)),
             });
         }
         let lowest = (0..64).filter(|v| equations.by_lowest[*v] != 0);
-        lowest.fold(0, |bits, v| bits | 1 << v) & !unit
+        lowest.fold(fixed, |bits, v| bits | 1 << v) & !unit
     }
 }
 

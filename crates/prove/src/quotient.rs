@@ -49,30 +49,95 @@ impl Prover<'_> {
         }
     }
 
-    /// The bound of a quotient, and the formula that it follows from. Given the least size of the divisor, and the
-    /// largest of the quotient if it is known.
-    pub(super) fn divide(
-        &mut self,
-        numerator: Option<Place>,
-        divisor: Place,
-        twice: bool,
-        (floor, most): (Limit, Option<Limit>),
-    ) -> Result<(Formula, Maximum, Bound), String> {
-        let below = self.bound(divisor)?;
+    /// Two quotients that are added up, their divisor, and whether they are products by its reciprocal.
+    pub(super) fn quotients(&self, place: Place) -> Option<([Place; 2], Place, bool)> {
+        let Operation::Add(a, b) = self.operation(place) else { return None };
+        let [first, second] = [self.quotient(a)?, self.quotient(b)?];
+        let is_one = first.0.is_some() && second.0.is_some() && first.1 == second.1;
+        (is_one && first.2 == second.2 && a != b).then_some(([a, b], first.1, first.2))
+    }
+
+    /// How far below zero a quotient may be, if that is supposed and less than its size.
+    pub(super) fn below(&self, quotient: Place) -> Option<Dyadic> {
+        let Domain { below, quotient: most, .. } = self.domain;
+        (below < most && self.samples().is_share(quotient)).then_some(below)
+    }
+
+    /// The least size of a computed divisor.
+    fn least(&mut self, divisor: Place, floor: Limit) -> Result<Big, String> {
+        let error = self.bound(divisor)?.error;
         // Else another coordinate may be larger by more than 1 %: 2E is that share of the floor.
-        let least = below.error * Dyadic::new(200, 0);
+        let least = error * Dyadic::new(200, 0);
         if matches!(floor, Limit::Scene(LARGEST, size) if size < least) {
             return Err(
                 "rounding may hide which coordinate of (b-a)×(c-a) is the largest".to_owned()
             );
         }
-        let floor = floor.size();
-        let least = Big::from(floor) - Big::from(below.error);
+        let least = Big::from(floor.size()) - Big::from(error);
         if least <= Big::from(self.format.tiny() * Dyadic::new(2, 0)) {
             return Err(
                 "divisors may be so small in this domain that rounding makes one zero".to_owned()
             );
         }
+        Ok(least)
+    }
+
+    /// The bound of the sum of two quotients by one divisor, whose error is one for both.
+    pub(super) fn divide_both(
+        &mut self,
+        parts: [Place; 2],
+        (floor, most, below): (Limit, Option<Limit>, Option<Dyadic>),
+    ) -> Result<(Formula, Maximum, Bound), String> {
+        let [(numerator, divisor, twice), (other, ..)] =
+            parts.map(|part| self.quotient(part).expect("a quotient"));
+        let numerators: Vec<Place> = numerator.into_iter().chain(other).collect();
+        let least = self.least(divisor, floor)?;
+        let floor = floor.size();
+        let bounds = [self.bound(parts[0])?, self.bound(parts[1])?];
+        let largest = Big::from(bounds[0].size) + Big::from(bounds[1].size);
+        let size = most.map_or(largest.clone(), |most| largest.min(Big::from(most.size())));
+        let size = round_up(&size, SIZE_DIGITS);
+        let (formula, maximum, left_out) =
+            self.formula_of_quotient(&numerators, divisor, (size, below), floor)?;
+        let tiny = Big::from(self.format.tiny());
+        let one = Big::from(self.format.unit()) + &tiny / &least;
+        let share = &one / (Big::from(Dyadic::ONE) - &one);
+        let mut error = maximum.error();
+        if left_out[2] {
+            error = error / (Big::from(floor) - self.error_before_rounding(divisor)?);
+            error = &error + &share * (Big::from(size) + &error) + &tiny / &least;
+        } else {
+            error = error / &least;
+        }
+        for (i, bound) in bounds.iter().enumerate() {
+            // Of the quotient of the numbers before they are rounded, or after.
+            let mut largest = Big::from(bound.size) + Big::from(bound.error);
+            if left_out[i] {
+                error += &share * &largest + &tiny / &least;
+            }
+            if twice {
+                let above = Big::from(self.bound(numerators[i])?.computed);
+                let reciprocal = Big::from(self.format.unit()) * &largest + &tiny * above;
+                error += &reciprocal;
+                largest += reciprocal;
+            }
+            error += Big::from(self.format.half_ulp_of(&largest));
+        }
+        let rounded = Big::from(size) + &error;
+        self.bound_of_rounded(size, error, &rounded).map(|bound| (formula, maximum, bound))
+    }
+
+    /// The bound of a quotient, and the formula that it follows from. Given the least size of the divisor, the
+    /// largest of the quotient if it is known, and how far it may be below zero.
+    pub(super) fn divide(
+        &mut self,
+        numerator: Option<Place>,
+        divisor: Place,
+        twice: bool,
+        (floor, most, down_to): (Limit, Option<Limit>, Option<Dyadic>),
+    ) -> Result<(Formula, Maximum, Bound), String> {
+        let least = self.least(divisor, floor)?;
+        let (below, floor) = (self.bound(divisor)?, floor.size());
         let above = match numerator {
             Some(numerator) => self.bound(numerator)?,
             None => Bound { size: Dyadic::ONE, computed: Dyadic::ONE, error: Dyadic::ZERO },
@@ -89,11 +154,10 @@ impl Prover<'_> {
         };
         let size = round_up(&size, SIZE_DIGITS);
         let (formula, maximum, left_out) =
-            self.formula_of_quotient(numerator, divisor, size, floor)?;
+            self.formula_of_quotient(numerator.as_slice(), divisor, (size, down_to), floor)?;
         // The quotient of the numbers before their last roundings against the exact one, then these roundings,
         // then those of the division.
-        let [_, of_divisor] = left_out;
-        let closest = match of_divisor {
+        let closest = match left_out[left_out.len() - 1] {
             true => Big::from(floor) - self.error_before_rounding(divisor)?,
             false => least.clone(),
         };

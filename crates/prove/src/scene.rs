@@ -126,6 +126,7 @@ impl Scene {
             direction_floor: Dyadic::HALF,
             floor: down(floor),
             quotient: up(distance.max(1.0)),
+            below: up(distance.max(1.0)),
             measures: Some(measures),
         }
     }

@@ -117,7 +117,7 @@ fn supposed(limits: &[Supposed]) -> String {
         ("d_k", "d_k the largest coordinate of d"),
         ("e_i", "e an edge"),
         ("p×q", "p and q vertices"),
-        ("|u|", "u any barycentric coordinate"),
+        ("|u|", "u any barycentric coordinate, or 1 less it"),
     ];
     let letters: Vec<&str> =
         letters.into_iter().filter(|(letter, _)| has(letter)).map(|(_, text)| text).collect();

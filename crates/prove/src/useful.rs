@@ -13,7 +13,7 @@ fn is_useful<F: Searched + Scalar>(entry: &Entry, scene: &Scene, epsilons: &[f64
         let edge = entry.info.gates.iter().position(|gate| gate.role == Role::Edge)?;
         let proof = Proof::new(paths_of::<F>(entry).ok()?, Some(edge), domain, format);
         let proof = proof.split(&parts, format);
-        verdicts(entry, (&proof, &proof), epsilons, &parts).misses.ok()
+        verdicts(entry, [&proof; 3], epsilons, &parts).misses.ok()
     };
     share().is_some_and(|it| it.share < USELESS)
 }

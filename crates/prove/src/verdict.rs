@@ -68,10 +68,10 @@ pub enum May {
 type Forms = (Vec<Form>, bool);
 
 /// The verdicts of a kernel at these epsilons, from the bounds of a domain or of its parts. For hits the exact weights may be
-/// slightly above 1: `wide` has the bounds where they are.
+/// slightly below 0 and above 1, or be anything of about this size: `near` and `far` have the bounds where they are.
 pub fn verdicts(
     entry: &Entry,
-    (proof, wide): (&Proof, &Proof),
+    [proof, near, far]: [&Proof; 3],
     epsilons: &[f64],
     parts: &[Domain],
 ) -> Verdicts {
@@ -109,19 +109,19 @@ pub fn verdicts(
     };
     let sides = entry.info.contract.sides;
     let misses = farthest(&|domain| {
-        let bounds = Bounds { proof, domain, epsilons, is_wide: false };
+        let bounds = Bounds { proof, far: None, domain, epsilons };
         let mut shares = forms.iter().map(|forms| bounds.inside(forms, sides));
         shares.try_fold([0.0; 2], |most, share| Ok(larger(most, [share?; 2])))
     });
     let is_wide = supposes_weights(entry, proof);
     let is_edge = |quantity: &&Quantity| entry.info.gates[quantity.gate].role == Role::Edge;
-    let mut lemmas = wide.quantities.iter().filter(is_edge).flat_map(|it| &it.lemmas);
+    let mut lemmas = far.quantities.iter().filter(is_edge).flat_map(|it| &it.lemmas);
     let is_linear = !is_wide || lemmas.all(is_linear);
     let hits = farthest(&|domain| {
         if !is_linear {
             return Err("barycentric coordinates are multiplied with each other".to_owned());
         }
-        let bounds = Bounds { proof: wide, domain, epsilons, is_wide };
+        let bounds = Bounds { proof: near, far: is_wide.then_some(far), domain, epsilons };
         let mut shares = forms.iter().map(|forms| bounds.outside(&forms.0));
         shares.try_fold([0.0; 2], |most, share| Ok(larger(most, share?)))
     });
@@ -174,10 +174,10 @@ pub fn supposes_weights(entry: &Entry, proof: &Proof) -> bool {
 /// The bounds of numbers in one domain, and the epsilons.
 struct Bounds<'a> {
     proof: &'a Proof,
+    /// The bounds farther away, if the proof supposes that no weight is above [`WIDE`].
+    far: Option<&'a Proof>,
     domain: &'a Domain,
     epsilons: &'a [f64],
-    /// True if the proof supposes that no weight is above [`WIDE`].
-    is_wide: bool,
 }
 
 /// Exact weights up to this are proved, in the wide domain; beyond they are done in steps of two.
@@ -186,7 +186,11 @@ const WIDE: f64 = 1.0 + 1.0 / 512.0;
 impl Bounds<'_> {
     /// The error of a number over the least size of its scale.
     fn share(&self, fact: &Fact) -> Result<f64, String> {
-        let error = error(self.proof, fact.program, self.domain)?;
+        self.share_in(self.proof, fact)
+    }
+
+    fn share_in(&self, proof: &Proof, fact: &Fact) -> Result<f64, String> {
+        let error = error(proof, fact.program, self.domain)?;
         Ok(error / fact.scale.least(self.domain))
     }
 
@@ -257,11 +261,12 @@ impl Bounds<'_> {
             return Ok([0.0; 2]);
         }
         // Of each weight the least that is known, and its error: on this side, or on the other one.
-        let known = |is_side: bool| -> Result<Option<[(f64, f64); 3]>, String> {
+        let known = |proof: &Proof, is_side: bool| -> Result<Option<[(f64, f64); 3]>, String> {
             let mut all = [None; 3];
             for (gate, fact) in way.iter().filter(|(_, fact)| fact.is_side(side) == is_side) {
                 if let What::Weight(vertex) = fact.what {
-                    all[vertex] = Some((self.epsilon(*gate, fact), self.share(fact)?));
+                    let error = self.share_in(proof, fact)?;
+                    all[vertex] = Some((self.epsilon(*gate, fact), error));
                 }
             }
             let [Some(a), Some(b), Some(c)] = all else { return Ok(None) };
@@ -270,9 +275,9 @@ impl Bounds<'_> {
         let at = |weights: &[(f64, f64); 3], times: f64| {
             weights.map(|(epsilon, error)| (times * error - epsilon).max(0.0))
         };
-        let Some(weights) = known(true)? else {
+        let Some(weights) = known(self.proof, true)? else {
             // All weights are small, and their sum is 1.
-            let is_none = known(false)?.is_some_and(|it| at(&it, 1.0).iter().sum::<f64>() < 1.0);
+            let is_none = known(self.proof, false)?.is_some_and(|it| at(&it, 1.0).iter().sum::<f64>() < 1.0);
             return if is_none {
                 Ok([0.0; 2])
             } else {
@@ -281,7 +286,7 @@ impl Bounds<'_> {
         };
         // Where a weight is above 1 by something, another one is below 0 by half of that.
         let mut most = [0.0; 2];
-        let (mut times, mut least) = (1.0, 0.0);
+        let (mut weights, mut times, mut least) = (weights, 1.0, 0.0);
         loop {
             let outside = at(&weights, times);
             let largest = outside.into_iter().fold(0.0, f64::max);
@@ -291,9 +296,7 @@ impl Bounds<'_> {
             // Near a vertex two weights may be below 0.
             let smallest = outside.into_iter().fold(f64::INFINITY, f64::min);
             most = larger(most, [largest, outside.iter().sum::<f64>() - smallest]);
-            if !self.is_wide {
-                return Ok(most);
-            }
+            let Some(far) = self.far else { return Ok(most) };
             if 0.5 < largest {
                 return Err("the bound of its errors outside reaches half of the longest edge, so from no distance on are all \
                             rays surely refused"
@@ -301,6 +304,7 @@ impl Bounds<'_> {
             }
             least = (times * WIDE - 1.0) / 2.0;
             times *= 2.0;
+            weights = known(far, true)?.unwrap_or(weights);
         }
     }
 }

@@ -4,7 +4,7 @@ use super::depth::Judge;
 use super::gates::Quantity;
 use super::measures::Sample;
 use super::run::{Number, cone, run};
-use super::{Domain, Leaf, Proof, Rule};
+use super::{Domain, Leaf, Proof, Rule, Source};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Bounded, Exact, Float};
 use std::cmp::Ordering;
@@ -75,6 +75,8 @@ enum Condition {
     AtMost(Place, f64),
     /// It is at least this.
     AtLeast(Place, f64),
+    /// The number itself, a quotient, is at least minus the first and at most the second. Verdicts are not held to it.
+    Between(Place, f64, f64),
 }
 
 /// A search for the worst inputs of one quantity.
@@ -98,7 +100,7 @@ impl<'a, F: Searched> Search<'a, F> {
     /// For a quantity of a proof in a domain.
     pub fn new(proof: &Proof, quantity: &'a Quantity, domain: Domain) -> Search<'a, F> {
         let path = &proof.paths[quantity.path];
-        let (cone, renamed) = cone(&path.operations, quantity.place);
+        let (mut cone, renamed) = cone(&path.operations, quantity.place);
         let mut conditions = Vec::new();
         for (old, new) in renamed.iter().enumerate() {
             let (Some(new), Some(leaf)) = (new, Leaf::of(path.operations[old], &path.operations))
@@ -118,13 +120,25 @@ impl<'a, F: Searched> Search<'a, F> {
                     let floor = floor.size().to_f64();
                     conditions.extend(at(length).map(|p| Condition::AtLeast(p, floor)));
                 }
-                Rule::Quotient { divisor, floor, .. } => {
+                Rule::Quotient { divisor, floor, below, .. } => {
                     let floor = floor.size().to_f64();
                     let size = lemma.bound.size.to_f64();
-                    conditions.extend(at(lemma.place).map(|p| Condition::AtMost(p, size)));
+                    let condition = |place: Place| match below {
+                        Some(below) => Condition::Between(place, below.to_f64(), size),
+                        None => Condition::AtMost(place, size),
+                    };
+                    conditions.extend(at(lemma.place).map(condition));
                     conditions.extend(at(divisor).map(|p| Condition::AtLeast(p, floor)));
                 }
             }
+        }
+        for leaf in boxed(quantity) {
+            let Leaf::Difference(p, q, axis) = leaf else { continue };
+            let inputs = [p, q].map(|point| Leaf::Point(point, axis));
+            let at = |leaf: &Leaf| cone.iter().position(|it| Leaf::of(*it, &cone) == Some(*leaf));
+            let [Some(p), Some(q)] = inputs.each_ref().map(at) else { continue };
+            conditions.push(Condition::AtMost(cone.len() as Place, leaf.bound(&domain).to_f64()));
+            cone.push(Operation::Sub(p as Place, q as Place));
         }
         let known = |places: &[Place]| places.iter().all(|p| renamed[*p as usize].is_some());
         let decisions = path.decisions[..quantity.decisions].iter();
@@ -157,7 +171,8 @@ impl<'a, F: Searched> Search<'a, F> {
         goal: Goal,
         near: &mut Vec<F::Near>,
     ) -> Option<f64> {
-        run(&self.operations, self.place, inputs, &mut self.computed);
+        let is_verdict = matches!(goal, Goal::Missed | Goal::Hit);
+        run(&self.operations, self.last(), inputs, &mut self.computed);
         let computed = &self.computed;
         let holds = |(comparison, answer): &(Comparison, bool)| {
             let of = |place: Place| &computed[place as usize];
@@ -177,10 +192,11 @@ impl<'a, F: Searched> Search<'a, F> {
         if measures.is_some_and(|of| !of.hold(&Sample::of(&inputs.map(|x| x.to_f64())))) {
             return None;
         }
-        run(&self.operations, self.place, &inputs.map(F::near), near);
-        let size = |place: Place| F::approximate(&near[place as usize]).map(f64::abs);
-        self.holds(|place, bound| size(place)?.partial_cmp(&bound))?;
-        if matches!(goal, Goal::Missed | Goal::Hit) {
+        run(&self.operations, self.last(), &inputs.map(F::near), near);
+        let value = |place: Place| F::approximate(&near[place as usize]);
+        let compare = |place, sign: f64, bound: f64| (sign * value(place)?).partial_cmp(&bound);
+        self.holds(is_verdict, compare)?;
+        if is_verdict {
             let sample = Sample::of(&inputs.map(F::near));
             let (judge, is_hit) = (self.judge?, goal == Goal::Hit);
             let found = judge.score(inputs, is_hit, &self.domain, &sample, F::approximate)?;
@@ -225,11 +241,29 @@ impl<'a, F: Searched> Search<'a, F> {
         self.measure(inputs, goal, computed, Exact::from_f64, compare, |x| Some(x.approximate()))
     }
 
-    /// None outside the domain, or where that is not known, given how the size of a number compares with a bound.
-    fn holds(&self, compare: impl Fn(Place, f64) -> Option<Ordering>) -> Option<()> {
+    /// Its last operation.
+    pub(super) fn last(&self) -> Place {
+        self.operations.len() as Place - 1
+    }
+
+    /// None outside the domain, or where that is not known, given how a number times a sign compares with a bound.
+    fn holds(
+        &self,
+        is_verdict: bool,
+        compare: impl Fn(Place, f64, f64) -> Option<Ordering>,
+    ) -> Option<()> {
+        let is_at_most = |place, sign, bound| Some(compare(place, sign, bound)? != Ordering::Greater);
+        let is_between = |place, least, most| {
+            Some(is_at_most(place, 1.0, most)? && is_at_most(place, -1.0, least)?)
+        };
         let holds = |condition: &Condition| match *condition {
-            Condition::AtMost(place, bound) => Some(compare(place, bound)? != Ordering::Greater),
-            Condition::AtLeast(place, bound) => Some(compare(place, bound)? != Ordering::Less),
+            Condition::AtMost(place, bound) => is_between(place, bound, bound),
+            Condition::AtLeast(place, bound) => {
+                let is_above = |sign| Some(compare(place, sign, bound)? != Ordering::Less);
+                Some(is_above(1.0)? || is_above(-1.0)?)
+            }
+            Condition::Between(..) if is_verdict => Some(true),
+            Condition::Between(place, least, most) => is_between(place, least, most),
         };
         self.conditions.iter().all(|it| holds(it).unwrap_or(false)).then_some(())
     }
@@ -244,8 +278,13 @@ impl<'a, F: Searched> Search<'a, F> {
         approximate: impl Fn(&R) -> Option<f64>,
     ) -> Option<f64> {
         let mut values = Vec::new();
-        run(&self.operations, self.place, &inputs.map(|x| number(x.to_f64())), &mut values);
-        self.holds(|place, bound| compare(&values[place as usize].abs(), &number(bound)))?;
+        run(&self.operations, self.last(), &inputs.map(|x| number(x.to_f64())), &mut values);
+        let is_verdict = matches!(goal, Goal::Missed | Goal::Hit);
+        let signed = |place: Place, sign: f64| {
+            let value = values[place as usize].clone();
+            if sign < 0.0 { -value } else { value }
+        };
+        self.holds(is_verdict, |place, sign, bound| compare(&signed(place, sign), &number(bound)))?;
         let exact = &values[self.place as usize];
         let zero = number(0.0);
         match goal {
@@ -261,6 +300,21 @@ impl<'a, F: Searched> Search<'a, F> {
             }
         }
     }
+}
+
+/// The differences of all points that are in one box in a quantity's proof.
+fn boxed(quantity: &Quantity) -> Vec<Leaf> {
+    let is_boxed = |point: usize, axis: usize| {
+        let mut sources = quantity.lemmas.iter().flat_map(|lemma| lemma.sources());
+        sources.any(|source| *source == Source::Boxed(point, axis))
+    };
+    let pairs = (0..4).flat_map(|p| (p + 1..4).map(move |q| (p, q)));
+    let all = pairs.flat_map(|(p, q)| (0..3).map(move |axis| Leaf::Difference(p, q, axis)));
+    all.filter(|leaf| match *leaf {
+        Leaf::Difference(p, q, axis) => is_boxed(p, axis) && is_boxed(q, axis),
+        _ => false,
+    })
+    .collect()
 }
 
 /// True if a coordinate is used otherwise than in a difference of points.
