@@ -5,6 +5,7 @@ use super::dyadic::round_up;
 use super::formula::{DIGITS, Formula, Maximum, Source};
 use super::measures::{Limit, Samples};
 use super::order::{is_at_most, unsigned};
+use super::quotient::Quotients;
 use super::run::{cone, parts};
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
@@ -70,16 +71,27 @@ fn bound_of_sum(formula: &Formula, maximum: &Maximum) -> Bound {
     Bound { size, computed: computed.min(size.plus_up(error)), error }
 }
 
+/// A number made of quotients by one divisor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ratio {
+    /// A quotient.
+    One,
+    /// The sum of two.
+    Sum,
+    /// 1 less one, less another one.
+    Rest,
+}
+
 /// How a lemma's bound follows from its formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// The formula is the number.
     Sum,
     /// The formula is numerator - quotient * divisor, and one division follows; or a reciprocal and a
-    /// product, if `twice`. Of two quotients by one divisor that are added up, it is numerator + numerator - sum * divisor.
+    /// product, if `twice`. Of two quotients by one divisor, it is numerator + numerator - sum * divisor.
     Quotient {
-        /// Two quotients that are added up.
-        is_sum: bool,
+        /// How many quotients the number is made of.
+        ratio: Ratio,
         /// By a reciprocal and a product.
         twice: bool,
         /// The number that it is divided by.
@@ -178,13 +190,12 @@ impl<'a> Prover<'a> {
             let limits = (floor, most, below);
             (formula, maximum, bound) = self.divide(numerator, divisor, twice, limits)?;
             let most = most.unwrap_or(Limit::Own(bound.size));
-            rule = Rule::Quotient { is_sum: false, twice, divisor, floor, most, below };
-        } else if let Some((parts, divisor, twice)) = self.quotients(place) {
-            let (floor, most, below) =
-                (self.floor(divisor), self.most(place), self.below(place));
-            (formula, maximum, bound) = self.divide_both(parts, (floor, most, below))?;
+            rule = Rule::Quotient { ratio: Ratio::One, twice, divisor, floor, most, below };
+        } else if let Some(Quotients { ratio, divisor, twice, .. }) = self.quotients(place) {
+            let (floor, most, below) = (self.floor(divisor), self.most(place), self.below(place));
+            (formula, maximum, bound) = self.divide_both(place, (floor, most, below))?;
             let most = most.unwrap_or(Limit::Own(bound.size));
-            rule = Rule::Quotient { is_sum: true, twice, divisor, floor, most, below };
+            rule = Rule::Quotient { ratio, twice, divisor, floor, most, below };
         } else if let Operation::Sqrt(_) = self.operation(place) {
             return Err("its root is used otherwise than to divide a vector by its length".into());
         } else {
@@ -250,8 +261,10 @@ impl<'a> Prover<'a> {
             Rule::Unit { vector, .. } => needs.extend(vector),
             Rule::Quotient { divisor, .. } => {
                 let numerator = self.quotient(lemma.place).and_then(|(numerator, ..)| numerator);
-                let parts = self.quotients(lemma.place).map(|(parts, ..)| parts);
-                needs.extend(numerator.into_iter().chain(parts.into_iter().flatten()));
+                needs.extend(numerator);
+                if let Some(Quotients { parts, rest, .. }) = self.quotients(lemma.place) {
+                    needs.extend(parts.into_iter().chain(rest));
+                }
                 needs.push(divisor);
             }
         }

@@ -36,9 +36,10 @@ impl Prover<'_> {
         let found = self.formula_of_fraction(false, numerators, divisor, size, floor);
         // Where quotients have a sign, points in one box say more than their differences alone.
         let Domain { edge, reach, .. } = self.domain;
-        let boxed = size.1.filter(|_| edge == reach).and_then(|_| {
-            self.formula_of_fraction(true, numerators, divisor, size, floor).ok()
-        });
+        let boxed = size
+            .1
+            .filter(|_| edge == reach)
+            .and_then(|_| self.formula_of_fraction(true, numerators, divisor, size, floor).ok());
         let error = |(_, maximum, _): &(Formula, Maximum, Vec<bool>)| maximum.error();
         match (found, boxed) {
             (Ok(found), Some(boxed)) if error(&boxed) < error(&found) => Ok(boxed),

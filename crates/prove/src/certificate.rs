@@ -2,6 +2,7 @@
 //!
 //! The format is described in docs/guide/proof.md.
 
+use super::bound::Ratio;
 use super::forms::Leaf;
 use super::formula::{Formula, Maximum, Source, Step};
 use super::run::cone;
@@ -162,8 +163,12 @@ impl Writer<'_> {
     fn lemma(&self, lemma: &Lemma) -> String {
         let rule = match lemma.rule {
             Rule::Sum => "sum".to_owned(),
-            Rule::Quotient { twice, is_sum, .. } => {
-                let what = if is_sum { "sum-of-quotients" } else { "quotient" };
+            Rule::Quotient { twice, ratio, .. } => {
+                let what = match ratio {
+                    Ratio::One => "quotient",
+                    Ratio::Sum => "sum-of-quotients",
+                    Ratio::Rest => "rest-of-quotients",
+                };
                 format!("{what}{}", if twice { "-by-reciprocal" } else { "" })
             }
             Rule::Unit { .. } => "unit".to_owned(),

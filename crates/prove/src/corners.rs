@@ -44,7 +44,7 @@ impl Formula {
         }
         self.bounds = self.higher_order(format, &vec![false; self.steps.len()], Some(&sizes)).1;
         let (mut first, mut at) = if self.unit.is_empty() {
-            self.first_in_box(format, tried <= MOST_TO_CHOOSE)
+            self.first_in_box(format, tried <= MOST_TO_CHOOSE && self.below.is_none())
         } else {
             self.first_of_unit(format).ok_or_else(too_long)?
         };

@@ -17,6 +17,9 @@ pub fn case_of<F: Float>(inputs: &[F; 17]) -> Case<F> {
     Case::from_bits(&inputs.map(|x| x.to_bits()))
 }
 
+/// A number below this times its scale decides at an edge.
+const NEAR: f64 = 1.0 / 1024.0;
+
 /// A kernel at some epsilons, whose verdicts are looked at in a domain.
 pub struct Judge<'a, F> {
     pub(super) gated: &'a dyn Gated<F>,
@@ -73,6 +76,19 @@ impl<F: Float> Judge<'_, F> {
         self.scales.iter().map(|scale| scale.of(sample).abs()).fold(f64::INFINITY, f64::min)
     }
 
+    /// How far from the nearest edge, as a share of the longest one, a number's error moves what it decides there; 0 if it
+    /// decides something else.
+    pub(super) fn weight(&self, value: f64, sample: &Sample<f64>) -> f64 {
+        let scale = self.scale(sample);
+        let near = (0..3).min_by(|i, j| {
+            let size = |vertex: usize| sample.weight(vertex).abs();
+            size(*i).total_cmp(&size(*j))
+        });
+        let is_near = value.abs() < NEAR * scale;
+        let heights = heights(sample, |x| Some(*x)).unwrap_or_default();
+        near.filter(|_| is_near).map_or(0.0, |vertex| heights[vertex] / scale)
+    }
+
     /// Moves a ray so that it passes near an edge, or near a vertex.
     pub(super) fn move_to_boundary(&self, inputs: &mut [F; 17], draw: &mut Draw) {
         let sample = Sample::of(&inputs.map(F::to_f64));
@@ -126,12 +142,17 @@ impl<F: Float> Judge<'_, F> {
 /// How far inside the nearest edge's line the ray's line meets the plane, over the longest edge; negative outside. None where a
 /// number is not known well enough.
 fn depth<R: Real>(sample: &Sample<R>, float: impl Fn(&R) -> Option<f64>) -> Option<f64> {
+    let heights = heights(sample, &float)?;
+    let of = |vertex: usize| Some(float(&sample.weight(vertex))? * heights[vertex]);
+    let [a, b, c] = [of(0)?, of(1)?, of(2)?];
+    Some(a.min(b).min(c))
+}
+
+/// The triangle's heights over its longest edge.
+fn heights<R: Real>(sample: &Sample<R>, float: impl Fn(&R) -> Option<f64>) -> Option<[f64; 3]> {
     let length = |v: &Triple<R>| Some(v.dot(v)).and_then(|square| float(&square)).map(f64::sqrt);
     let [ab, ac, bc] = &sample.edges;
     let (edges, normal) = ([length(bc)?, length(ac)?, length(ab)?], length(&sample.normal)?);
-    let mut least = f64::INFINITY;
-    for (vertex, edge) in edges.into_iter().enumerate() {
-        least = least.min(float(&sample.weight(vertex))? * normal / edge);
-    }
-    Some(least / edges.into_iter().fold(0.0, f64::max))
+    let longest = edges.into_iter().fold(0.0, f64::max);
+    Some(edges.map(|edge| normal / edge / longest))
 }

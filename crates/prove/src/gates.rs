@@ -63,6 +63,8 @@ pub struct Uses {
     pub extent: bool,
     /// A floor of divisors.
     pub floor: bool,
+    /// That barycentric coordinates which are quotients are not below 0.
+    pub inside: bool,
 }
 
 /// A limit that a bound supposes in a scene.
@@ -112,6 +114,7 @@ impl Quantity {
         let mut uses = Uses::default();
         for lemma in &self.lemmas {
             uses.floor |= lemma.rule != Rule::Sum;
+            uses.inside |= matches!(lemma.rule, Rule::Quotient { below: Some(_), .. });
             for source in lemma.sources() {
                 match source {
                     Source::Leaf(Leaf::Point(..)) => uses.world = true,

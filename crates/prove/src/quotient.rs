@@ -1,11 +1,23 @@
 //! Bounds of quotients.
 
-use super::bound::{Bound, Prover, SIZE_DIGITS};
+use super::bound::{Bound, Prover, Ratio, SIZE_DIGITS};
 use super::dyadic::{Big, round_up};
 use super::formula::{DIGITS, Formula, Maximum};
 use super::measures::{Kind, LARGEST, Limit};
 use super::{Domain, Dyadic};
 use crate::arith::recorded::{Operation, Place};
+
+/// Two quotients by one divisor that a number is made of.
+pub(super) struct Quotients {
+    pub ratio: Ratio,
+    pub parts: [Place; 2],
+    pub numerators: [Place; 2],
+    pub divisor: Place,
+    /// By a reciprocal and a product.
+    pub twice: bool,
+    /// 1 less the first one, if the number is that less the second one.
+    pub rest: Option<Place>,
+}
 
 impl Prover<'_> {
     /// The least size of a divisor.
@@ -49,12 +61,23 @@ impl Prover<'_> {
         }
     }
 
-    /// Two quotients that are added up, their divisor, and whether they are products by its reciprocal.
-    pub(super) fn quotients(&self, place: Place) -> Option<([Place; 2], Place, bool)> {
-        let Operation::Add(a, b) = self.operation(place) else { return None };
-        let [first, second] = [self.quotient(a)?, self.quotient(b)?];
-        let is_one = first.0.is_some() && second.0.is_some() && first.1 == second.1;
-        (is_one && first.2 == second.2 && a != b).then_some(([a, b], first.1, first.2))
+    /// The two quotients by one divisor that a number is made of, if it is.
+    pub(super) fn quotients(&self, place: Place) -> Option<Quotients> {
+        let (ratio, parts, rest) = match self.operation(place) {
+            Operation::Add(a, b) => (Ratio::Sum, [a, b], None),
+            Operation::Sub(rest, b) => match self.operation(rest) {
+                Operation::Sub(one, a) if self.operation(one) == Operation::Number(1) => {
+                    (Ratio::Rest, [a, b], Some(rest))
+                }
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let [(first, divisor, twice), (second, other, also)] =
+            [self.quotient(parts[0])?, self.quotient(parts[1])?];
+        let is_fit = (divisor, twice) == (other, also) && parts[0] != parts[1];
+        let numerators = [first?, second?];
+        is_fit.then_some(Quotients { ratio, parts, numerators, divisor, twice, rest })
     }
 
     /// How far below zero a quotient may be, if that is supposed and less than its size.
@@ -82,30 +105,41 @@ impl Prover<'_> {
         Ok(least)
     }
 
-    /// The bound of the sum of two quotients by one divisor, whose error is one for both.
+    /// The bound of a number that is made of two quotients by one divisor, whose error is one for both.
     pub(super) fn divide_both(
         &mut self,
-        parts: [Place; 2],
+        place: Place,
         (floor, most, below): (Limit, Option<Limit>, Option<Dyadic>),
     ) -> Result<(Formula, Maximum, Bound), String> {
-        let [(numerator, divisor, twice), (other, ..)] =
-            parts.map(|part| self.quotient(part).expect("a quotient"));
-        let numerators: Vec<Place> = numerator.into_iter().chain(other).collect();
+        let Quotients { parts, numerators, divisor, twice, rest, .. } =
+            self.quotients(place).expect("it is made of two");
         let least = self.least(divisor, floor)?;
         let floor = floor.size();
         let bounds = [self.bound(parts[0])?, self.bound(parts[1])?];
-        let largest = Big::from(bounds[0].size) + Big::from(bounds[1].size);
-        let size = most.map_or(largest.clone(), |most| largest.min(Big::from(most.size())));
-        let size = round_up(&size, SIZE_DIGITS);
+        let rest = rest.map(|rest| self.bound(rest)).transpose()?;
+        let both = Big::from(bounds[0].size) + Big::from(bounds[1].size);
+        let most = most.map(Limit::size);
+        let limited = |x: &Big, most: Option<Dyadic>| {
+            round_up(&most.map_or(x.clone(), |most| x.clone().min(most.into())), SIZE_DIGITS)
+        };
+        // The number's size, and that of the sum of both, which it may be 1 less.
+        let (size, sum) = if rest.is_some() {
+            let upper = most.map(|most| below.unwrap_or(most) + Dyadic::ONE);
+            let lower = most.zip(below).map(|(most, _)| most - Dyadic::ONE);
+            (limited(&(&both + Big::from(Dyadic::ONE)), most), (limited(&both, upper), lower))
+        } else {
+            let size = limited(&both, most);
+            (size, (size, below))
+        };
         let (formula, maximum, left_out) =
-            self.formula_of_quotient(&numerators, divisor, (size, below), floor)?;
+            self.formula_of_quotient(&numerators, divisor, sum, floor)?;
         let tiny = Big::from(self.format.tiny());
         let one = Big::from(self.format.unit()) + &tiny / &least;
         let share = &one / (Big::from(Dyadic::ONE) - &one);
         let mut error = maximum.error();
         if left_out[2] {
             error = error / (Big::from(floor) - self.error_before_rounding(divisor)?);
-            error = &error + &share * (Big::from(size) + &error) + &tiny / &least;
+            error = &error + &share * (Big::from(sum.0) + &error) + &tiny / &least;
         } else {
             error = error / &least;
         }
@@ -121,6 +155,10 @@ impl Prover<'_> {
                 error += &reciprocal;
                 largest += reciprocal;
             }
+            error += Big::from(self.format.half_ulp_of(&largest));
+        }
+        if let Some(rest) = rest {
+            let largest = Big::from(rest.size) + Big::from(rest.error);
             error += Big::from(self.format.half_ulp_of(&largest));
         }
         let rounded = Big::from(size) + &error;

@@ -36,8 +36,9 @@ pub fn statements<F: Searched + Scalar>(
     let in_units = |x: f64| format!("{} ({} u)", above(x), units(x / unit, true));
     let where_ = if scene.is_none() && gate.uses.floor {
         let Domain { floor, quotient, .. } = summary.domain;
+        let inside = if gate.uses.inside { ", barycentric ones at least 0" } else { "" };
         format!(
-            ", where divisors are at least {} and quotients at most {}",
+            ", where divisors are at least {} and quotients at most {}{inside}",
             below(floor.to_f64()),
             above(quotient.to_f64())
         )

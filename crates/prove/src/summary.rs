@@ -244,6 +244,7 @@ impl Uses {
             world: self.world | other.world,
             extent: self.extent | other.extent,
             floor: self.floor | other.floor,
+            inside: self.inside | other.inside,
         }
     }
 }

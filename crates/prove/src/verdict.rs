@@ -277,7 +277,8 @@ impl Bounds<'_> {
         };
         let Some(weights) = known(self.proof, true)? else {
             // All weights are small, and their sum is 1.
-            let is_none = known(self.proof, false)?.is_some_and(|it| at(&it, 1.0).iter().sum::<f64>() < 1.0);
+            let is_none =
+                known(self.proof, false)?.is_some_and(|it| at(&it, 1.0).iter().sum::<f64>() < 1.0);
             return if is_none {
                 Ok([0.0; 2])
             } else {

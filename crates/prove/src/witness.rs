@@ -252,7 +252,8 @@ impl<'a, F: Searched> Search<'a, F> {
         is_verdict: bool,
         compare: impl Fn(Place, f64, f64) -> Option<Ordering>,
     ) -> Option<()> {
-        let is_at_most = |place, sign, bound| Some(compare(place, sign, bound)? != Ordering::Greater);
+        let is_at_most =
+            |place, sign, bound| Some(compare(place, sign, bound)? != Ordering::Greater);
         let is_between = |place, least, most| {
             Some(is_at_most(place, 1.0, most)? && is_at_most(place, -1.0, least)?)
         };

@@ -144,7 +144,7 @@ fn largest_errors(proved: &mut dyn Iterator<Item = &Proved>) -> String {
 }
 
 fn has_limits(claim: &Proved) -> bool {
-    claim.limits.iter().any(|limits| !limits.is_empty())
+    claim.limits[..2].iter().any(|limits| !limits.is_empty())
 }
 
 /// The inputs that some claims of one domain are about, in words.
@@ -171,6 +171,10 @@ fn inputs(domain: &[Number; 8], claims: &[&Proved]) -> String {
         ", {other}divisors at least {floor:.3e} (the direction's largest coordinate {direction_floor}), \
          {other}quotients at most {quotient:.3e}"
     ));
+    let down_to = claims.iter().flat_map(|claim| &claim.limits[2]).map(float);
+    if let Some(down_to) = down_to.reduce(f64::min) {
+        text.push_str(&format!(", those with a line down-to at least {}", 0.0 - down_to));
+    }
     text
 }
 

@@ -193,7 +193,7 @@ fn domain(Report { record, scene, .. }: &Report) -> String {
         Some(scene) => format!("Scene: {scene}"),
         None => format!(
             "Unit domain: coordinates of points and of their differences up to {:.3}, of d up to {}. Where a kernel \
-             divides, divisors of {} and more (the largest coordinate of d too), quotients up to {}.",
+             divides, divisors of {} and more (the largest coordinate of d too), quotients up to {}, barycentric ones from 0.",
             domain.edge, domain.direction, domain.divisor_at_least, domain.quotient_at_most
         ),
     }

@@ -35,15 +35,16 @@ pub struct Found {
 /// The variables whose signs are tried, as bits. Of corners that differ by a mirror, a set of variables whose change of
 /// sign keeps each step or changes its sign, the first is enough. What a step adds up must change alike: an equation,
 /// modulo 2, of the set's bits. Each equation decides about its lowest variable, the others are free. A step that is
-/// zero is computed as 0: it has no error, whatever its weight, and demands nothing.
-pub fn signs_to_try<T: Zero>(rows: &[Row<T>], unit: &[usize]) -> usize {
+/// zero is computed as 0: it has no error, whatever its weight, and demands nothing. A fixed variable's ends are no
+/// mirror images.
+pub fn signs_to_try<T: Zero>(rows: &[Row<T>], unit: &[usize], fixed: usize) -> usize {
     let of_unit = unit.iter().fold(0, |bits, v| bits | 1 << v);
     // The variables on whose signs a step's sign depends; none of what is zero.
     let mut signs: Vec<Option<usize>> = Vec::new();
     let mut equations = [0; usize::BITS as usize];
     for row in rows {
         let constant = (!row.constant.is_zero()).then_some(0);
-        let variables = row.variables.iter().map(|(_, v)| 1 << v);
+        let variables = row.variables.iter().map(|(_, v)| 1 << v & !fixed);
         let terms = row.terms.iter().filter_map(|(_, a, b)| {
             let by = b.map_or(Some(0), |b| signs[b])?;
             Some(signs[*a]? ^ by)
@@ -64,16 +65,17 @@ pub fn signs_to_try<T: Zero>(rows: &[Row<T>], unit: &[usize]) -> usize {
         }
         signs.push(first);
     }
-    (0..equations.len()).filter(|v| equations[*v] != 0).fold(0, |bits, v| bits | 1 << v) & !of_unit
+    let lowest = (0..equations.len()).filter(|v| equations[*v] != 0);
+    lowest.fold(fixed, |bits, v| bits | 1 << v) & !of_unit
 }
 
-/// Every corner of the box that differs in the signs of the `tried` variables, and every axis of `unit`, the variables
+/// Every corner of the box, which has the `ends` of each variable, that differs in the `tried` variables, and every axis of `unit`, the variables
 /// that are coordinates of a unit vector in which the last step is linear. Without weights, only the sizes are
 /// searched for. None if numbers are too long.
 pub fn search(
     rows: &[Row<BigInt>],
     weights: &[Weight<BigInt>],
-    bounds: &[BigInt],
+    ends: &[[BigInt; 2]],
     unit: &[usize],
     tried: usize,
 ) -> Option<Found> {
@@ -89,11 +91,13 @@ pub fn search(
     let plus: Vec<_> = rows.iter().map(plus).collect();
     let weight = |k: usize| (weights.get(k).map_or(BigInt::one(), |(w, _)| not_zero(w)), true);
     let all: Vec<_> = (0..rows.len()).map(weight).collect();
-    let boxes: Vec<_> = bounds.iter().map(not_zero).collect();
+    let largest = |[a, b]: &[BigInt; 2]| [not_zero(a), not_zero(b)].into_iter().max();
+    let boxes = ends.iter().map(|ends| [(); 2].map(|()| largest(ends).expect("two")));
+    let boxes: Vec<_> = boxes.collect();
     match search_in::<BigInt>(&plus, &all, &boxes, &[], 0)?.sum.bits() {
-        0..=62 => search_in::<i64>(rows, weights, bounds, unit, tried),
-        63..=126 => search_in::<i128>(rows, weights, bounds, unit, tried),
-        127..=MOST_BITS => search_in::<BigInt>(rows, weights, bounds, unit, tried),
+        0..=62 => search_in::<i64>(rows, weights, ends, unit, tried),
+        63..=126 => search_in::<i128>(rows, weights, ends, unit, tried),
+        127..=MOST_BITS => search_in::<BigInt>(rows, weights, ends, unit, tried),
         _ => None,
     }
 }
@@ -101,7 +105,7 @@ pub fn search(
 fn search_in<T>(
     rows: &[Row<BigInt>],
     weights: &[Weight<BigInt>],
-    bounds: &[BigInt],
+    ends: &[[BigInt; 2]],
     unit: &[usize],
     tried: usize,
 ) -> Option<Found>
@@ -117,7 +121,8 @@ where
         Some(Row { constant: of(&row.constant)?, variables, terms, support: row.support })
     };
     let rows: Vec<Row<T>> = rows.iter().map(row).collect::<Option<_>>()?;
-    let bounds: Vec<T> = bounds.iter().map(of).collect::<Option<_>>()?;
+    let ends = ends.iter().map(|[upper, lower]| Some([of(upper)?, of(lower)?]));
+    let ends: Vec<[T; 2]> = ends.collect::<Option<_>>()?;
     let weights = weights.iter().map(|(weight, relative)| Some((of(weight)?, *relative)));
     let weights: Vec<Weight<T>> = weights.collect::<Option<_>>()?;
     let (mut values, mut slopes) = (vec![T::zero(); rows.len()], vec![T::zero(); rows.len()]);
@@ -139,8 +144,7 @@ where
                 let mut value = row.constant.clone();
                 for (c, v) in &row.variables {
                     if of_unit >> v & 1 == 0 || unit[axis] == *v {
-                        let x = c.clone() * bounds[*v].clone();
-                        value = if corner >> v & 1 == 1 { value - x } else { value + x };
+                        value = value + c.clone() * ends[*v][corner >> v & 1].clone();
                     }
                 }
                 for (c, a, b) in &row.terms {

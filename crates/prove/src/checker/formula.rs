@@ -99,7 +99,7 @@ impl<'a> Formula<'a> {
             .map(|place| place[0]);
         let operation = place.map(|place| &program.operations[place]);
         let is_known = operation.is_some()
-            || in_quotient && ["variables", "number", "mul", "sub"].contains(&name);
+            || in_quotient && ["variables", "number", "add", "mul", "sub"].contains(&name);
         is_known.then_some(()).ok_or("an operation of the program")?;
         let mut step = Step {
             place,
@@ -140,6 +140,11 @@ impl<'a> Formula<'a> {
             let by_third = by_third.filter(|third| Some(third.second) == place);
             let is_leaf = |leaf: &Leaf| self.is_sum(*leaf, &step.variables);
             let leaf = place.and_then(|place| program.leaf(place)).filter(is_leaf);
+            let is_boxed = |(_, v): &(bool, usize)| self.variables[*v].is_boxed;
+            let is_moved = leaf.is_some_and(|(_, other)| other.is_none());
+            (!is_moved || !step.variables.iter().any(is_boxed))
+                .then_some(())
+                .ok_or("a difference of points in a box")?;
             step.rounds = leaf.is_some_and(|(_, other)| other.is_some());
             step.given = match (single.filter(|v| v.cut == place), by_third, leaf) {
                 (Some(variable), ..) => Some(variable.bound.clone()),
@@ -198,6 +203,11 @@ impl<'a> Formula<'a> {
         let is_used_once = |step: usize| all.iter().filter(|other| **other == step).count() == 1;
         let last = self.steps.iter().rev().take(2).flat_map(|step| &step.terms);
         let last: Vec<usize> = last.flat_map(operands).collect();
+        // Two numerators are added up by a step that only the proof needs.
+        let sums = last.iter().map(|step| &self.steps[*step]);
+        let sums = sums.filter(|step| step.place.is_none() && step.name == "add");
+        let numerators = sums.flat_map(|step| &step.terms).flat_map(operands);
+        let last: Vec<usize> = numerators.chain(last.iter().copied()).collect();
         for mut step in last {
             while self.steps[step].name == "neg" && is_used_once(step) {
                 step = self.steps[step].terms[0].1;
@@ -239,8 +249,9 @@ impl<'a> Formula<'a> {
         left == [0; 17]
     }
 
-    /// True if the last step is n - quotient*d, where n may be the number 1, and no other step is without an operation.
-    pub fn is_quotient_of(&self, n: Option<usize>, d: usize) -> bool {
+    /// True if the last step is n - quotient*d, where n is a numerator, the sum of two or, of none, the number 1, and no other
+    /// step is without an operation.
+    pub fn is_quotient_of(&self, numerators: &[usize], d: usize) -> bool {
         let Some((before, [q, product, last])) = self.steps.split_last_chunk() else {
             return false;
         };
@@ -252,12 +263,18 @@ impl<'a> Formula<'a> {
         let proof_only: Vec<usize> =
             (0..self.steps.len()).filter(|i| self.steps[*i].place.is_none()).collect();
         let mut expected = vec![before.len(), before.len() + 1, before.len() + 2];
-        if n.is_none() {
+        if numerators.len() != 1 {
             expected.insert(0, above);
         }
+        let Step { name, place, terms, .. } = &self.steps[above];
+        let of = |(minus, a, b): &Term| (!minus && b.is_none()).then(|| self.steps[*a].place)?;
+        let is_numerator = match numerators {
+            [] => *name == "number",
+            [n] => *place == Some(*n),
+            _ => *name == "add" && terms.iter().map(of).eq(numerators.iter().map(|n| Some(*n))),
+        };
         proof_only == expected
-            && (n.is_some() || self.steps[above].name == "number")
-            && self.steps[above].place == n
+            && is_numerator
             && self.steps[divisor].place == Some(d)
             && (q_at, below) == (before.len(), before.len() + 1)
     }

@@ -38,8 +38,8 @@ pub struct Proved {
     pub line: usize,
     /// The bounds of its domain, in the order of their names.
     pub domain: [Number; 8],
-    /// The limits of divisors and of quotients of its own.
-    pub limits: [Vec<Number>; 2],
+    /// The limits of divisors and of quotients of its own; and how far below zero quotients may be.
+    pub limits: [Vec<Number>; 3],
     /// The gate that compares the number.
     pub gate: String,
     /// The bound of the number.
@@ -144,14 +144,18 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
     Ok(proved)
 }
 
+/// Rules of quotients; -by-reciprocal may stand after them.
+const OF_QUOTIENTS: [&str; 3] = ["quotient", "sum-of-quotients", "rest-of-quotients"];
+
 /// Reads and checks a lemma.
 fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> Outcome<()> {
-    let form = "lemma OPERATION sum, quotient, quotient-by-reciprocal or unit, \
-                for an operation without a lemma that is no neg or abs";
+    let form = "lemma OPERATION sum, unit or quotient, sum-of-quotients or rest-of-quotients, \
+                each of these perhaps with -by-reciprocal, for an operation without a lemma that is no neg or abs";
     let (place, rule) = reader.read(form, |words| {
         let &[place, rule] = words else { return None };
         let place = indices(&[place], program.operations.len())?[0];
-        let is_known = ["sum", "quotient", "quotient-by-reciprocal", "unit"].contains(&rule);
+        let of_quotients = rule.strip_suffix("-by-reciprocal").unwrap_or(rule);
+        let is_known = ["sum", "unit"].contains(&rule) || OF_QUOTIENTS.contains(&of_quotients);
         let is_fit = !["neg", "abs"].contains(&program.operations[place].name);
         let is_new = !program.lemmas.contains_key(&place);
         (is_known && is_fit && is_new).then_some((place, rule))
@@ -160,7 +164,13 @@ fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> 
         "sum" => sum(program, place, work, reader)?,
         "unit" => unit(program, place)?,
         _ => {
-            let bound = quotient(program, place, rule != "quotient", work, reader)?;
+            let by_reciprocal = rule.ends_with("-by-reciprocal");
+            let prove = match rule.split('-').next() {
+                Some("quotient") => quotient,
+                Some("sum") => sum_of_quotients,
+                _ => rest_of_quotients,
+            };
+            let bound = prove(program, place, by_reciprocal, work, reader)?;
             Lemma { before: bound.error.clone(), bound, unit: None }
         }
     };
@@ -217,6 +227,116 @@ fn rounded(format: &Format, size: Number, error: Number, before: &Number) -> Out
     Ok(Bound { error: round_up(&(error + bound.error), ERROR_DIGITS), ..bound })
 }
 
+/// The least size of a computed divisor.
+fn least(program: &Program, d: usize) -> Outcome<Number> {
+    let Format { tiny, .. } = &program.format;
+    let least = program.floor(d) - &program.bound(d)?.error;
+    let expected = "found a divisor that may be rounded to zero, expected a larger floor";
+    ensure(least > tiny + tiny, expected)?;
+    Ok(least)
+}
+
+/// The bound of u + v, two quotients by one divisor that have lemmas.
+fn sum_of_quotients(
+    program: &Program,
+    place: usize,
+    by_reciprocal: bool,
+    work: &mut u64,
+    reader: &mut Reader,
+) -> Outcome<Bound> {
+    let operands = (program.name(place) == "add").then(|| program.operands(place));
+    let &[u, v] = operands.ok_or(UNFIT)? else { return Err(UNFIT.to_owned()) };
+    let size = &program.bound(u)?.size + &program.bound(v)?.size;
+    let size = round_up(&size.min(program.most(place).clone()), SIZE_DIGITS);
+    let sum = (&size, program.down_to(place));
+    let error = error_of_both(program, [u, v], sum, by_reciprocal, work, reader)?;
+    let before = &size + &error;
+    rounded(&program.format, size, error, &before)
+}
+
+/// The bound of (1 - u) - v, of two quotients by one divisor that have lemmas, as 1 - u has.
+fn rest_of_quotients(
+    program: &Program,
+    place: usize,
+    by_reciprocal: bool,
+    work: &mut u64,
+    reader: &mut Reader,
+) -> Outcome<Bound> {
+    let operands = |place: usize| match (program.name(place), program.operands(place)) {
+        ("sub", &[a, b]) => Some((a, b)),
+        _ => None,
+    };
+    let found = operands(place).and_then(|(rest, v)| Some((rest, operands(rest)?, v)));
+    let (rest, (_, u), v) = found.filter(|(_, (one, _), _)| program.is_one(*one)).ok_or(UNFIT)?;
+    let both = &program.bound(u)?.size + &program.bound(v)?.size;
+    let (most, down_to) = (program.most(place), program.down_to(place));
+    let size = round_up(&(&both + Number::one()).min(most.clone()), SIZE_DIGITS);
+    // The sum of both is 1 less the number.
+    let upper = Number::one() + down_to.unwrap_or(most);
+    let lower = down_to.map(|_| most - Number::one());
+    let sum = (&round_up(&both.min(upper), SIZE_DIGITS), lower.as_ref());
+    let mut error = error_of_both(program, [u, v], sum, by_reciprocal, work, reader)?;
+    let Bound { size: of_rest, error: own, .. } = program.bound(rest)?;
+    error += program.format.half_ulp(&(of_rest + own));
+    let before = &size + &error;
+    rounded(&program.format, size, error, &before)
+}
+
+const UNFIT: &str = "found a rule that does not fit its operation";
+
+/// The errors of two quotients by one divisor, as one: n/d and m/d, or `by_reciprocal` n*(1/d) and m*(1/d). Given the
+/// size of their sum, and how far below zero it may be.
+fn error_of_both(
+    program: &Program,
+    parts: [usize; 2],
+    (size, down_to): (&Number, Option<&Number>),
+    by_reciprocal: bool,
+    work: &mut u64,
+    reader: &mut Reader,
+) -> Outcome<Number> {
+    let Format { unit, tiny, .. } = &program.format;
+    let part = |part: &usize| {
+        let is_fit = by_reciprocal == (program.name(*part) == "mul");
+        program.fraction(*part).filter(|_| is_fit)
+    };
+    let fractions: Option<Vec<_>> = parts.iter().map(part).collect();
+    let is_fit = |all: &Vec<(usize, usize)>| parts[0] != parts[1] && all[0].1 == all[1].1;
+    let fractions = fractions.filter(is_fit).ok_or(UNFIT)?;
+    let (d, numerators) = (fractions[0].1, [fractions[0].0, fractions[1].0]);
+    let (floor, least) = (program.floor(d), least(program, d)?);
+    let about = Quotient { size, down_to, divisor: d, floor };
+    let formula = Formula::read(program, Some(about), reader)?;
+    ensure(
+        formula.is_quotient_of(&numerators, d),
+        "found other last steps, expected numerator + numerator - quotient * divisor",
+    )?;
+    // What a rounding that is left out, of the share u or the tiny number, adds to a quotient of size 1.
+    let of_tiny = tiny / &least;
+    let share = unit + &of_tiny;
+    let share = &share / (Number::one() - &share);
+    let mut error = formula.maximum(&program.format, work, reader)?.error;
+    if formula.leaves_out(program, d) {
+        error /= floor - &program.lemma(d)?.before;
+        error = &error + &share * (size + &error) + &of_tiny;
+    } else {
+        error /= least;
+    }
+    for (part, n) in parts.into_iter().zip(numerators) {
+        let Bound { size, error: of_part, .. } = program.bound(part)?;
+        let mut largest = size + of_part;
+        if formula.leaves_out(program, n) {
+            error += &share * &largest + &of_tiny;
+        }
+        if by_reciprocal {
+            let reciprocal = unit * &largest + tiny * &program.bound(n)?.computed;
+            error += &reciprocal;
+            largest += reciprocal;
+        }
+        error += program.format.half_ulp(&largest);
+    }
+    Ok(error)
+}
+
 /// The bound of n/d, or `by_reciprocal` of n*(1/d).
 fn quotient(
     program: &Program,
@@ -228,19 +348,14 @@ fn quotient(
     let format = &program.format;
     let is_fit = by_reciprocal == (program.operations[place].name == "mul");
     let found = program.fraction(place).filter(|_| is_fit);
-    let (n, d) = found.ok_or("found a rule that does not fit its operation")?;
+    let (n, d) = found.ok_or(UNFIT)?;
     let n = (by_reciprocal || !program.is_one(n)).then_some(n);
     let one = Bound::exactly(&Number::one());
     let above = n.map_or(Ok(&one), |n| program.bound(n))?;
-    let Lemma { bound: below, before: below_before, .. } = program.lemma(d)?;
+    let below_before = &program.lemma(d)?.before;
     let (numerator, divisor) = (n.and_then(|n| program.input(n)), program.input(d));
     let is_ordered = numerator.zip(divisor).is_some_and(|order| program.orders.contains(&order));
-    let floor = program.floor(d);
-    let least = floor - &below.error;
-    ensure(
-        least > &format.tiny + &format.tiny,
-        "found a divisor that may be rounded to zero, expected a larger floor",
-    )?;
+    let (floor, least) = (program.floor(d), least(program, d)?);
     if by_reciprocal {
         format.finite(&round_up(&least.recip(), ERROR_DIGITS))?;
     }
@@ -250,10 +365,10 @@ fn quotient(
         None => floor.recip(),
     };
     let size = round_up(&size, SIZE_DIGITS);
-    let about = Quotient { size: &size, divisor: d, floor };
+    let about = Quotient { size: &size, down_to: program.down_to(place), divisor: d, floor };
     let formula = Formula::read(program, Some(about), reader)?;
     ensure(
-        formula.is_quotient_of(n, d),
+        formula.is_quotient_of(n.as_slice(), d),
         "found other last steps, expected numerator - quotient * divisor",
     )?;
     let of_divisor = formula.leaves_out(program, d);

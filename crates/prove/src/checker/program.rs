@@ -39,6 +39,11 @@ impl Domain {
         right.then_some(Domain(numbers?.try_into().ok()?))
     }
 
+    /// The largest difference of two points' coordinates.
+    pub fn largest_difference(&self) -> &Number {
+        (&self.0[EDGE]).max(&self.0[REACH])
+    }
+
     pub fn bound(&self, leaf: Leaf) -> &Number {
         &self.0[match leaf {
             (0..3, Some(_)) | (_, Some(0..3)) => REACH,
@@ -89,8 +94,9 @@ pub struct Program<'a> {
     pub operations: Vec<Operation<'a>>,
     /// Pairs of inputs: without their signs, the first is at most the second.
     pub orders: BTreeSet<(usize, usize)>,
-    /// The limits of divisors and of quotients that stand in place of the domain's.
-    pub limits: [HashMap<usize, Number>; 2],
+    /// The limits of divisors and of quotients that stand in place of the domain's; and how far below zero quotients may be,
+    /// where that is supposed.
+    pub limits: [HashMap<usize, Number>; 3],
     /// Other names of axes and vertices, under which the same is claimed.
     pub also: Vec<Names>,
     pub lemmas: HashMap<usize, Lemma>,
@@ -113,8 +119,7 @@ impl<'a> Program<'a> {
     pub fn of_operations(format: Format, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
         let operations = operations(&format, reader)?;
         let (orders, lemmas, also) = (BTreeSet::new(), HashMap::new(), Vec::new());
-        let (limits, domain) =
-            ([HashMap::new(), HashMap::new()], Domain(from_fn(|_| Number::default())));
+        let (limits, domain) = (Default::default(), Domain(from_fn(|_| Number::default())));
         Ok(Program { format, domain, operations, orders, limits, also, lemmas })
     }
 
@@ -123,7 +128,7 @@ impl<'a> Program<'a> {
         reader.read("program", |words| words.is_empty().then_some(()))?;
         let operations = operations(&format, reader)?;
         let (orders, lemmas, also) = (BTreeSet::new(), HashMap::new(), Vec::new());
-        let limits = [HashMap::new(), HashMap::new()];
+        let limits = Default::default();
         let mut program = Program { format, domain, operations, orders, limits, also, lemmas };
         while reader.is_next("order") {
             let order = reader.read("order INPUT INPUT, each pair once", |words| {
@@ -132,7 +137,7 @@ impl<'a> Program<'a> {
             })?;
             program.orders.insert(order);
         }
-        for (limits, word) in program.limits.iter_mut().zip(["at-least", "at-most"]) {
+        for (limits, word) in program.limits.iter_mut().zip(["at-least", "at-most", "down-to"]) {
             while reader.is_next(word) {
                 let count = program.operations.len();
                 let form = format!("{word} OPERATION X, once for an operation");
@@ -250,6 +255,11 @@ impl<'a> Program<'a> {
     fn is_largest(&self, d: usize) -> bool {
         let is_smaller = |axis: usize| axis == d || self.orders.contains(&(axis, d));
         (3..6).contains(&d) && (3..6).all(is_smaller)
+    }
+
+    /// How far below zero a quotient may be, if that is supposed.
+    pub fn down_to(&self, quotient: usize) -> Option<&Number> {
+        self.limits[2].get(&quotient)
     }
 
     /// The largest size of a quotient.

@@ -1,7 +1,7 @@
 //! The variables of a formula.
 
 use super::edges::{Third, third};
-use super::number::{Bound, Number};
+use super::number::{Bound, Number, shifted};
 use super::program::{Leaf, MOST_ROWS, Operation, Program, Unit, indices};
 use super::reader::{Outcome, Reader, ensure};
 
@@ -17,20 +17,26 @@ pub struct Variable {
     /// The coordinate and the length, if it is a coordinate of the unit vector in which the formula is linear.
     pub part: Option<Unit>,
     pub third: Option<Third>,
+    /// How far below zero it may be, if that is less than its size.
+    pub down_to: Option<Number>,
+    /// True if it is a coordinate of a point in a box of all points.
+    pub is_boxed: bool,
     /// The box that is enough for the effects of errors, if the program divides it by the lemma's divisor too.
     pub narrow: Option<Number>,
 }
 
-/// The quotient that a lemma is about: its size, its divisor, and the least size of that.
+/// The quotient that a lemma is about: its size, how far below zero it may be, its divisor, and the least size of that.
 #[derive(Clone, Copy)]
 pub struct Quotient<'n> {
     pub size: &'n Number,
+    pub down_to: Option<&'n Number>,
     pub divisor: usize,
     pub floor: &'n Number,
 }
 
 enum Kind {
     Leaf(Leaf, Option<usize>),
+    Boxed(usize),
     Cut(usize),
     Part(usize),
     Third(usize, usize),
@@ -52,6 +58,7 @@ fn kind(words: &[&str], in_quotient: bool) -> Option<Kind> {
         ("difference", &[p @ 0..4, q @ 0..4, axis @ 0..3]) => {
             Kind::Leaf((point(p, axis), Some(point(q, axis))), over)
         }
+        ("boxed", &[p @ 0..4, axis @ 0..3]) => Kind::Boxed(point(p, axis)),
         ("direction", &[axis @ 0..3]) => Kind::Leaf((3 + axis, None), over),
         ("end", &[end @ 0..2]) => Kind::Leaf((15 + end, None), over),
         ("cut", &[place]) => Kind::Cut(place),
@@ -73,7 +80,7 @@ pub fn read(
     // The component of each input, and of the ground under them, in the graph of the leaves.
     let mut components: [usize; 18] = std::array::from_fn(|i| i);
     while reader.is_next("variable") {
-        let form = "variable point P AXIS, difference P Q AXIS, direction AXIS, end N, cut OPERATION, \
+        let form = "variable point P AXIS, difference P Q AXIS, direction AXIS, end N, boxed P AXIS, cut OPERATION, \
                     part OPERATION, in the rule of sums third OPERATION OPERATION, or, in the rules of \
                     quotients, quotient, or one of the first four and over OPERATION";
         let kind = reader.read(form, |words| kind(words, quotient.is_some()))?;
@@ -83,16 +90,21 @@ pub fn read(
             bound: Bound::exactly(&Number::default()),
             part: None,
             third: None,
+            down_to: None,
+            is_boxed: false,
             narrow: None,
+        };
+        // What is known of the input's component, or of both.
+        let mut join = |(i, j): Leaf| {
+            let (from, to) = (components[i], components[j.unwrap_or(17)]);
+            components.iter_mut().filter(|c| **c == from).for_each(|c| *c = to);
+            let expected =
+                "found a variable that follows from those above, expected an independent one";
+            ensure(from != to, expected)
         };
         match kind {
             Kind::Leaf(leaf, over) => {
-                let (from, to) = (components[leaf.0], components[leaf.1.unwrap_or(17)]);
-                ensure(
-                    from != to,
-                    "found a variable that follows from those above, expected an independent one",
-                )?;
-                components.iter_mut().filter(|c| **c == from).for_each(|c| *c = to);
+                join(leaf)?;
                 let size = program.domain.bound(leaf);
                 variable.leaf = Some(leaf);
                 variable.bound = Bound::exactly(size);
@@ -105,6 +117,12 @@ pub fn read(
                     let narrow = quotient.floor * program.most(ratio);
                     variable.narrow = Some(narrow.min(size.clone()));
                 }
+            }
+            Kind::Boxed(input) => {
+                join((input, None))?;
+                variable.leaf = Some((input, None));
+                variable.is_boxed = true;
+                variable.bound = Bound::exactly(&shifted(program.domain.largest_difference(), -1));
             }
             Kind::Cut(place) => {
                 variable.cut = Some(place);
@@ -132,12 +150,18 @@ pub fn read(
             Kind::Quotient => {
                 let quotient = quotient.ok_or("found a quotient, expected none")?;
                 variable.bound = Bound::exactly(quotient.size);
+                variable.down_to = quotient.down_to.cloned();
             }
         }
         variables.push(variable);
         let is_fair = variables.len() <= MOST_VARIABLES;
         ensure(is_fair, format!("found more than {MOST_VARIABLES} variables"))?;
     }
+    // A point in the box is where the box was moved to, not where it is.
+    let is_point = |v: &Variable| matches!(v.leaf, Some((0..3 | 6..15, None)));
+    let is_mixed = variables.iter().any(|v| v.is_boxed)
+        && variables.iter().any(|v| is_point(v) && !v.is_boxed);
+    ensure(!is_mixed, "found points in a box and points as they are, expected one of both")?;
     Ok(variables)
 }
 

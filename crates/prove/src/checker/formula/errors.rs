@@ -29,13 +29,22 @@ impl Formula<'_> {
         const LONG: &str = "found numbers that are too long";
         // Every value is an integer times a power of two that does not depend on the corner.
         let narrow = |v: &Variable| v.narrow.clone().unwrap_or(v.bound.size.clone());
-        let exponents =
-            self.variables.iter().map(|v| split(&v.bound.size).1.min(split(&narrow(v)).1));
+        let lower = |v: &Variable, size: &Number| -v.down_to.as_ref().unwrap_or(size).clone();
+        let exponents = self.variables.iter().map(|v| {
+            let all = [v.bound.size.clone(), narrow(v), lower(v, &v.bound.size)];
+            all.iter().map(|x| split(x).1).min().expect("three")
+        });
         let exponents: Vec<i64> = exponents.collect();
-        let whole = |size: &Number, v: usize| shifted(size, -exponents[v]).to_integer();
-        let boxes = self.variables.iter().enumerate().map(|(v, x)| whole(&x.bound.size, v));
-        let narrow = self.variables.iter().enumerate().map(|(v, x)| whole(&narrow(x), v));
-        let (boxes, narrow): (Vec<BigInt>, Vec<BigInt>) = (boxes.collect(), narrow.collect());
+        let ends = |size: &dyn Fn(&Variable) -> Number| -> Vec<[BigInt; 2]> {
+            let of = |(v, x): (usize, &Variable)| {
+                let (upper, lower) = (size(x), lower(x, &size(x)));
+                [upper, lower].map(|end| shifted(&end, -exponents[v]).to_integer())
+            };
+            self.variables.iter().enumerate().map(of).collect()
+        };
+        let (boxes, narrow) = (ends(&|v| v.bound.size.clone()), ends(&narrow));
+        let fixed = self.variables.iter().enumerate().filter(|(_, v)| v.down_to.is_some());
+        let fixed = fixed.fold(0, |bits, (v, _)| bits | 1 << v);
         let mut scales: Vec<i64> = Vec::new();
         let mut rows = Vec::new();
         for step in &self.steps {
@@ -63,7 +72,7 @@ impl Formula<'_> {
             });
             scales.push(scale);
         }
-        let tried = signs_to_try(&rows, &self.unit);
+        let tried = signs_to_try(&rows, &self.unit, fixed);
         *work += (self.steps.len() as u64) << tried.count_ones();
         ensure(*work <= MOST_WORK, "found too many corners of too many steps in this file")?;
         let found = search(&rows, &[], &boxes, &self.unit, tried).ok_or(LONG)?;
