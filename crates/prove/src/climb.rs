@@ -15,8 +15,6 @@ const STALE: u64 = 20_000;
 const SHORT: u64 = 6_000;
 /// In a scene, where inputs differ by much: a climb begins at the worst of so many.
 const STARTS: u64 = 1_000;
-/// A verdict is searched where the errors could be as large as this share of the largest so far.
-const HIGH: f64 = 0.85;
 /// Steps to where the errors could be large.
 const ASCENT: u64 = 3_000;
 
@@ -37,7 +35,7 @@ impl<F: Searched> Search<'_, F> {
         let mut best: Option<(Inputs<F>, f64)> = None;
         let mut current: Option<(Inputs<F>, f64)> = None;
         let (mut stale, mut left) = (0, evaluations);
-        let (mut highest, mut largest) = (f64::INFINITY, 0.0f64);
+        let mut highest = f64::INFINITY;
         let patience = if self.judge.is_some() { SHORT } else { STALE };
         while 0 < left {
             left -= 1;
@@ -64,14 +62,8 @@ impl<F: Searched> Search<'_, F> {
                 {
                     let steps = ASCENT.min(left / 4);
                     left -= steps;
-                    let amplitude;
-                    (*inputs, amplitude) = self.ascend(*inputs, goal, steps, draw);
+                    *inputs = self.ascend(*inputs, goal, steps, draw);
                     *score = self.score(inputs, goal, &mut near).unwrap_or(*score);
-                    largest = amplitude.max(largest);
-                    if self.judge.is_some() && amplitude < HIGH * largest {
-                        current = None;
-                        continue;
-                    }
                 }
                 let started = current.filter(|_| self.judge.is_none());
                 best = best.into_iter().chain(started).max_by(|(_, a), (_, b)| a.total_cmp(b));
@@ -114,14 +106,14 @@ impl<F: Searched> Search<'_, F> {
         self.exact(&inputs, goal).map(|score| (inputs, score))
     }
 
-    /// Moves inputs inside the domain to where the roundings could add up to much; and to how much.
+    /// Moves inputs inside the domain to where the roundings could add up to much.
     fn ascend(
         &mut self,
         mut inputs: Inputs<F>,
         goal: Goal,
         steps: u64,
         draw: &mut Draw,
-    ) -> (Inputs<F>, f64) {
+    ) -> Inputs<F> {
         let mut near = Vec::new();
         let mut highest = 0.0;
         for _ in 0..steps {
@@ -148,7 +140,7 @@ impl<F: Searched> Search<'_, F> {
                 }
             }
         }
-        (inputs, highest)
+        inputs
     }
 
     /// The most that half an ulp of every rounded number of the last run could add up to, in units of its unit

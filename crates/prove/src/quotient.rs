@@ -61,7 +61,7 @@ impl Prover<'_> {
         }
     }
 
-    /// The two quotients by one divisor that a number is made of, if it is.
+    /// The two quotients by one divisor that a number is made of, if it is and something is known of its size.
     pub(super) fn quotients(&self, place: Place) -> Option<Quotients> {
         let (ratio, parts, rest) = match self.operation(place) {
             Operation::Add(a, b) => (Ratio::Sum, [a, b], None),
@@ -75,7 +75,11 @@ impl Prover<'_> {
         };
         let [(first, divisor, twice), (second, other, also)] =
             [self.quotient(parts[0])?, self.quotient(parts[1])?];
-        let is_fit = (divisor, twice) == (other, also) && parts[0] != parts[1];
+        let is_known = || match self.domain.measures {
+            None => self.samples().is_share(place),
+            Some(_) => self.most(place).is_some(),
+        };
+        let is_fit = (divisor, twice) == (other, also) && parts[0] != parts[1] && is_known();
         let numerators = [first?, second?];
         is_fit.then_some(Quotients { ratio, parts, numerators, divisor, twice, rest })
     }
@@ -145,7 +149,8 @@ impl Prover<'_> {
         }
         for (i, bound) in bounds.iter().enumerate() {
             // Of the quotient of the numbers before they are rounded, or after.
-            let mut largest = Big::from(bound.size) + Big::from(bound.error);
+            let mut largest = Big::from(bound.size) + Big::from(bound.error) + &tiny / &least;
+            largest = largest * (Big::from(Dyadic::ONE) + &share + &share);
             if left_out[i] {
                 error += &share * &largest + &tiny / &least;
             }

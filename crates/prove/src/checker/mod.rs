@@ -323,7 +323,8 @@ fn error_of_both(
     }
     for (part, n) in parts.into_iter().zip(numerators) {
         let Bound { size, error: of_part, .. } = program.bound(part)?;
-        let mut largest = size + of_part;
+        // Whatever its own lemma leaves out.
+        let mut largest = (size + of_part + &of_tiny) * (Number::one() + &share + &share);
         if formula.leaves_out(program, n) {
             error += &share * &largest + &of_tiny;
         }

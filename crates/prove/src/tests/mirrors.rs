@@ -27,6 +27,9 @@ fn random(draw: &mut Draw, variables: usize) -> Formula {
     }
     let value = draw.below(3) as i32;
     push(&mut formula, Step::Of(Operation::Number(value)), Some(Dyadic::new(value.into(), 0)));
+    // The first one's ends may be no mirror images.
+    let below = draw.coin().then(|| (0, Dyadic::new(draw.below(9) as i128, -3)));
+    formula.below = below.filter(|(_, below)| *below < formula.variables[0]);
     // The steps that no other one uses yet.
     let mut open: Vec<usize> = (0..formula.steps.len()).collect();
     while open.len() > 1 {
@@ -69,7 +72,8 @@ fn effects(formula: &Formula, corner: u64, format: Format) -> Dyadic {
             Step::Variables(ref sum) => {
                 let (v, _) = sum[0];
                 let size = formula.variables[v];
-                (if corner >> v & 1 == 1 { -size } else { size }, none())
+                let below = formula.below.filter(|(of, _)| *of == v).map_or(size, |(_, x)| x);
+                (if corner >> v & 1 == 1 { -below } else { size }, none())
             }
             Step::Of(Operation::Number(value)) => (Dyadic::new(value.into(), 0), none()),
             Step::Of(Operation::Neg(a)) => minus(of(a)),

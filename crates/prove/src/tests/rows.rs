@@ -1,12 +1,15 @@
 //! Coordinates of edges over twice an area: what is said of them in proof.md, in whole numbers and in formats of
 //! a few digits.
 
-use super::super::{Domain, Dyadic, Format, Formula, Leaf, Prover, Source, Step};
+use super::super::{
+    Domain, Dyadic, Format, Formula, Leaf, Proof, Prover, Rule, Source, Step, paths_of,
+};
 use super::tiny::round;
 use super::unit::largest_share;
 use super::{difference, recorded};
 use crate::arith::recorded::{Operation, Recorded};
 use crate::case::Draw;
+use crate::kernel;
 
 /// The edges from the vertex a to b and c, in the plane of x and y.
 fn edges() -> [[Recorded; 2]; 2] {
@@ -229,4 +232,39 @@ fn two_edges_are_of_one_sign_along_one_axis_at_least() {
         found[usize::from(same[0]) + usize::from(same[1])] += 1;
     });
     assert!(found[1] > 10, "{found:?}");
+}
+
+/// No effects on a barycentric coordinate, wherever the points of a box lie, are larger than those at the corners that
+/// are tried, and some are nearly that: of u, of v and of both, which have one error of their divisor.
+#[test]
+fn effects_on_barycentric_quotients_are_largest_at_corners_of_a_box_of_points() {
+    let paths = paths_of::<f32>(kernel::find("moller-trumbore").expect("it is there"));
+    let proof = Proof::new(paths.expect("paths"), None, Domain::UNIT, Format::F32);
+    let lemmas = proof.quantities.iter().flat_map(|quantity| &quantity.lemmas);
+    let ratios = lemmas.filter(|lemma| matches!(lemma.rule, Rule::Quotient { .. }));
+    let mut ratios: Vec<_> = ratios.map(|lemma| (lemma.place, lemma)).collect();
+    ratios.dedup_by_key(|(place, _)| *place);
+    let (mut draw, mut values) = (Draw::new("boxes", 1, 1), Vec::new());
+    let mut wholes = 0;
+    for (_, lemma) in ratios {
+        let formula = &lemma.formula;
+        let is_boxed = |source: &&Source| matches!(source, Source::Boxed(..));
+        assert_eq!(formula.sources.iter().filter(is_boxed).count(), 12);
+        let (most, mut best) = (lemma.maximum.first.to_f64(), 0.0f64);
+        for _ in 0..200_000 {
+            let point = formula.variables.iter().zip(&formula.sources).map(|(size, source)| {
+                let x: f64 = draw.symmetric();
+                let x = if draw.below(3) > 0 { x.signum() * (1.0 - x.powi(8)) } else { x };
+                // A quotient lies between 0 and 1.
+                size.to_f64() * if *source == Source::Quotient { x.abs() } else { x }
+            });
+            let found = effects(formula, &point.collect::<Vec<_>>(), &mut values);
+            assert!(found <= most, "{found} {most}");
+            best = best.max(found);
+        }
+        assert!(0.9 * most < best, "{best} of {most}");
+        wholes += usize::from(most > 27.9 * 2f64.powi(-24));
+    }
+    // u + v, whose maximum a program that shares nothing with this one found too: 27.989 u.
+    assert_eq!(wholes, 1);
 }

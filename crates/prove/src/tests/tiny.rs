@@ -15,6 +15,9 @@ fn format(digits: u32) -> Format {
 
 /// Rounded to so many digits, ties to even.
 pub fn round(x: f64, digits: u32) -> f64 {
+    if digits == 53 {
+        return x;
+    }
     let drop = 53 - digits;
     let bits = x.to_bits();
     let half = (1 << (drop - 1)) - 1 + (bits >> drop & 1);

@@ -2,7 +2,7 @@
 //! The exact numbers and distances here share nothing with the bound's.
 
 use super::super::verdict::{Verdicts, verdicts};
-use super::super::{Domain, Format, Proof};
+use super::super::{Domain, Dyadic, Format, Proof};
 use super::tiny::round;
 use crate::arith::recorded::{Comparison, Operation};
 use crate::case::Draw;
@@ -102,6 +102,8 @@ fn drawn(draw: &mut Draw, digits: u32) -> Option<([f64; 17], DVec3, [DVec3; 3])>
     for (i, v) in [origin, direction, a, b, c].into_iter().enumerate() {
         inputs[3 * i..3 * i + 3].copy_from_slice(&v.to_array());
     }
+    // No t is beyond them.
+    (inputs[15], inputs[16]) = (-2.0, 2.0);
     Some((inputs, point, [a, b, c]))
 }
 
@@ -112,14 +114,16 @@ fn no_verdict_of_a_tiny_format_is_farther_off_than_its_bound() {
         ("scalar-triple-two-sided", 9, &[0.01]),
         ("moller-trumbore", 12, &[1e-3, 0.0]),
         ("moller-trumbore", 12, &[1e-3, -0.01]),
+        ("cramer", 12, &[0.0, 0.0, 0.0]),
     ] {
         let entry = kernel::find(name).unwrap();
         let format = Format { digits, smallest: -200, largest: 200 };
         let of = |domain| Proof::new(paths_of::<f64>(entry).unwrap(), None, domain, format);
-        let wide = Domain { quotient: crate::Dyadic::ABOVE_ONE, ..Domain::UNIT };
-        let (proof, wide) = (of(Domain::UNIT), of(wide));
+        let quotient = Dyadic::ABOVE_ONE;
+        let wide = |below| of(Domain { quotient, below, ..Domain::UNIT });
+        let (proof, near, far) = (of(Domain::UNIT), wide(quotient - Dyadic::ONE), wide(quotient));
         let Verdicts { misses, hits, .. } =
-            verdicts(entry, (&proof, &wide), epsilons, &[Domain::UNIT]);
+            verdicts(entry, [&proof, &near, &far], epsilons, &[Domain::UNIT]);
         let bounds = [misses, hits].map(|bound| bound.unwrap().share);
         let (mut worst, mut draw) = ([0.0f64; 2], Draw::new("verdict", 1, 1));
         for (inputs, point, vertices) in
@@ -134,5 +138,39 @@ fn no_verdict_of_a_tiny_format_is_farther_off_than_its_bound() {
         for (worst, bound) in worst.into_iter().zip(bounds) {
             assert!(worst <= bound, "{name}: {worst} {bound}");
         }
+    }
+}
+
+#[test]
+fn in_a_tiny_format_no_barycentric_quotient_is_wrong_by_more_than_its_bound() {
+    for (name, digits) in [("moller-trumbore", 9), ("cramer", 9), ("cramer", 12)] {
+        let entry = kernel::find(name).unwrap();
+        let format = Format { digits, smallest: -200, largest: 200 };
+        let proof = Proof::new(paths_of::<f64>(entry).unwrap(), None, Domain::UNIT, format);
+        let of_weights = || proof.quantities.iter().filter(|quantity| quantity.uses().inside);
+        // u, v, 1 less each and 1 less both, on some path.
+        assert!(4 <= of_weights().count(), "{name}");
+        let mut draw = Draw::new("inside", 1, digits.into());
+        let mut shares: Vec<f64> = Vec::new();
+        for quantity in of_weights() {
+            let path = &proof.paths[quantity.path];
+            let bound = quantity.bound.as_ref().unwrap().error.to_f64();
+            let mut worst = 0.0f64;
+            for (inputs, point, vertices) in
+                (0..300_000).filter_map(|_| drawn(&mut draw, digits)).take(30_000)
+            {
+                let of = |values: Vec<f64>| values[quantity.place as usize];
+                if 0.0 <= inside(point, vertices) {
+                    // As exact as f64 is, which has forty digits more.
+                    let [computed, exact] = [digits, 53].map(|p| of(run(path, &inputs, p)));
+                    worst = worst.max((computed - exact).abs());
+                }
+            }
+            assert!(worst <= bound, "{name}: {worst} {bound}");
+            shares.push(worst / bound);
+        }
+        println!("{name} p={digits}: {shares:?}");
+        // The bounds say something.
+        assert!(shares.iter().all(|share| 0.05 < *share), "{name}: {shares:?}");
     }
 }

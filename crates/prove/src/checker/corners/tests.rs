@@ -6,13 +6,12 @@ use crate::case::Draw;
 type Rows = Vec<Row<BigInt>>;
 
 /// Each step at a corner, and its derivative by one of the steps.
-fn at_corner(rows: &Rows, bounds: &[BigInt], corner: usize, by: usize) -> Vec<[BigInt; 2]> {
+fn at_corner(rows: &Rows, ends: &[[BigInt; 2]], corner: usize, by: usize) -> Vec<[BigInt; 2]> {
     let mut all: Vec<[BigInt; 2]> = Vec::new();
     for (k, row) in rows.iter().enumerate() {
         let (mut value, mut slope) = (row.constant.clone(), BigInt::ZERO);
         for (c, v) in &row.variables {
-            let sign = if corner & (1 << v) == 0 { 1 } else { -1 };
-            value += c * &bounds[*v] * sign;
+            value += c * &ends[*v][usize::from(corner & (1 << v) != 0)];
         }
         for (c, a, b) in &row.terms {
             let [x, dx] = &all[*a];
@@ -28,21 +27,21 @@ fn at_corner(rows: &Rows, bounds: &[BigInt], corner: usize, by: usize) -> Vec<[B
 type All = (BigInt, usize, Vec<BigInt>, BigInt);
 
 /// At every corner, and at every axis there.
-fn expected(rows: &Rows, weights: &[Weight<BigInt>], bounds: &[BigInt], unit: &[usize]) -> All {
+fn expected(rows: &Rows, weights: &[Weight<BigInt>], ends: &[[BigInt; 2]], unit: &[usize]) -> All {
     let (mut sum, mut first, mut sizes) = (BigInt::ZERO, 0, vec![BigInt::ZERO; rows.len()]);
     let mut squares = BigInt::ZERO;
     let is_positive = |corner: &usize| unit.iter().all(|v| corner & (1 << v) == 0);
     let is_linear = |k: usize| unit.iter().any(|v| rows[k].support & (1 << v) != 0);
-    for corner in (0..1 << bounds.len()).filter(is_positive) {
+    for corner in (0..1 << ends.len()).filter(is_positive) {
         let mut alone = BigInt::ZERO;
         let mut effects = vec![BigInt::ZERO; unit.len().max(1)];
         let mut lengths = vec![BigInt::ZERO; rows.len()];
         for (axis, effects) in effects.iter_mut().enumerate() {
-            let mut bounds = bounds.to_vec();
-            unit.iter().filter(|v| **v != unit[axis]).for_each(|v| bounds[*v] = BigInt::ZERO);
+            let mut ends = ends.to_vec();
+            unit.iter().filter(|v| **v != unit[axis]).for_each(|v| ends[*v] = Default::default());
             alone = BigInt::ZERO;
             for k in 0..rows.len() {
-                let all = at_corner(rows, &bounds, corner, k);
+                let all = at_corner(rows, &ends, corner, k);
                 let size = all[k][0].abs();
                 lengths[k] += &size * &size;
                 if !is_linear(k) {
@@ -71,16 +70,28 @@ fn expected(rows: &Rows, weights: &[Weight<BigInt>], bounds: &[BigInt], unit: &[
 fn found(
     rows: &Rows,
     weights: &[Weight<BigInt>],
-    bounds: &[BigInt],
+    ends: &[[BigInt; 2]],
     unit: &[usize],
 ) -> Option<All> {
-    let found = search(rows, weights, bounds, unit, signs_to_try(rows, unit))?;
+    let fixed = ends.iter().enumerate().filter(|(_, [upper, lower])| -lower != *upper);
+    let fixed = fixed.fold(0, |bits, (v, _)| bits | 1 << v);
+    let found = search(rows, weights, ends, unit, signs_to_try(rows, unit, fixed))?;
     Some((found.sum, found.corner, found.sizes, found.squares))
 }
 
 /// A number of at most so many bits, which may be 0.
 fn number(draw: &mut Draw, bits: usize) -> BigInt {
     BigInt::from(draw.below(1 << 10)) << draw.below(bits) >> 10
+}
+
+/// The ends of variables; of one in four they are no mirror images.
+fn random_ends(draw: &mut Draw, variables: usize, bits: usize) -> Vec<[BigInt; 2]> {
+    let ends = |_| {
+        let upper = number(draw, bits);
+        let lower = if draw.below(4) == 0 { number(draw, bits) } else { upper.clone() };
+        [upper, -lower]
+    };
+    (0..variables).map(ends).collect()
 }
 
 fn sign(draw: &mut Draw) -> BigInt {
@@ -145,17 +156,17 @@ fn the_largest_sum_is_that_of_every_corner_by_itself_in_integers_of_any_width() 
     for _ in 0..3000 {
         let (variables, bits) = (1 + draw.below(4), 1 + draw.below(60));
         let rows = random_rows(&mut draw, variables, bits);
-        let bounds: Vec<BigInt> = (0..variables).map(|_| number(&mut draw, bits)).collect();
+        let ends = random_ends(&mut draw, variables, bits);
         let weights = random_weights(&mut draw, &rows, bits);
-        let sum = expected(&rows, &weights, &bounds, &[]);
+        let sum = expected(&rows, &weights, &ends, &[]);
         widths[match sum.0.bits() {
             0..=62 => 0,
             63..=126 => 1,
             _ => 2,
         }] += 1;
-        assert_eq!(found(&rows, &weights, &bounds, &[]), Some(sum));
+        assert_eq!(found(&rows, &weights, &ends, &[]), Some(sum));
         // Without weights only sizes are wanted.
-        assert_eq!(found(&rows, &[], &bounds, &[]), Some(expected(&rows, &[], &bounds, &[])));
+        assert_eq!(found(&rows, &[], &ends, &[]), Some(expected(&rows, &[], &ends, &[])));
     }
     assert!(widths.into_iter().all(|n| 20 < n), "{widths:?}");
 }
@@ -192,19 +203,20 @@ fn a_unit_vector_is_every_axis_in_turn_in_integers_of_any_width() {
     for _ in 0..1000 {
         let (variables, bits) = (1 + draw.below(3), 1 + draw.below(60));
         let rows = linear_rows(&mut draw, variables, bits);
-        let mut bounds: Vec<BigInt> = (0..variables).map(|_| number(&mut draw, bits)).collect();
-        bounds.extend([(); 3].map(|()| BigInt::from(1 + draw.below(2))));
+        let mut ends = random_ends(&mut draw, variables, bits);
+        let of_unit = [(); 3].map(|()| BigInt::from(1 + draw.below(2)));
+        ends.extend(of_unit.map(|size| [size.clone(), -size]));
         let weights = random_weights(&mut draw, &rows, bits);
         let unit = [variables, variables + 1, variables + 2];
-        let all = expected(&rows, &weights, &bounds, &unit);
+        let all = expected(&rows, &weights, &ends, &unit);
         widths[match all.3.bits() {
             0..=124 => 0,
             125..=252 => 1,
             _ => 2,
         }] += 1;
-        assert_eq!(found(&rows, &weights, &bounds, &unit), Some(all));
-        let sizes = expected(&rows, &[], &bounds, &unit);
-        assert_eq!(found(&rows, &[], &bounds, &unit), Some(sizes));
+        assert_eq!(found(&rows, &weights, &ends, &unit), Some(all));
+        let sizes = expected(&rows, &[], &ends, &unit);
+        assert_eq!(found(&rows, &[], &ends, &unit), Some(sizes));
     }
     assert!(widths.into_iter().all(|n| 20 < n), "{widths:?}");
 }
@@ -219,7 +231,7 @@ fn numbers_that_are_too_long_are_refused() {
     }];
     let weights = [(BigInt::one(), true)];
     let longest: BigInt = (BigInt::one() << MOST_BITS) - 1;
-    let all = |bound: &BigInt| found(&rows, &weights, std::slice::from_ref(bound), &[]);
+    let all = |bound: &BigInt| found(&rows, &weights, &[[bound.clone(), -bound.clone()]], &[]);
     assert_eq!(all(&longest), Some((longest.clone(), 0, vec![longest.clone()], BigInt::ZERO)));
     assert_eq!(all(&(longest + 1)), None);
 }
