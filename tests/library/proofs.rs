@@ -320,7 +320,7 @@ fn a_unit_vector_whose_way_overflows_is_refused() {
 fn what_is_wrong_is_named_with_its_line() {
     let text = sample("triple");
     let line = |word: &str| 1 + text.lines().position(|line| line.starts_with(word)).unwrap();
-    assert_eq!(refusal(""), "line 1: found the end of the file, expected `hairline proof 2`");
+    assert_eq!(refusal(""), "line 1: found the end of the file, expected `hairline proof 3`");
     let domain = line("domain");
     let cyclic = text.replacen(
         "\nvariable ",
@@ -340,7 +340,7 @@ fn what_is_wrong_is_named_with_its_line() {
     let claimed = format!("{}{}", &text[..program], &text[claim..]);
     assert!(refusal(&claimed).contains("expected one with a lemma above"));
     // A product of a number with itself is not affine in it.
-    let square = "hairline proof 2\nkernel k f32\nformat 24 -149 127\ndomain edge 1 reach 1 world 1 \
+    let square = "hairline proof 3\nkernel k f32\nformat 24 -149 127\ndomain edge 1 reach 1 world 1 \
         direction 1 extent 1 direction-floor 1 floor 1 quotient 1\nprogram\nop 0 input 3\nop 1 mul 0 0\n\
         lemma 1 sum\nvariable direction 0\nstep 0 variables +0\nstep 1 mul 0 0\n";
     assert_eq!(
@@ -366,7 +366,7 @@ fn a_number_that_may_overflow_is_refused() {
 
 #[test]
 fn a_direction_is_no_point() {
-    let text = "hairline proof 2\nkernel k f32\nformat 24 -149 127\ndomain edge 1 reach 1 world 1 direction 1 \
+    let text = "hairline proof 3\nkernel k f32\nformat 24 -149 127\ndomain edge 1 reach 1 world 1 direction 1 \
         extent 1 direction-floor 1 floor 1 quotient 1\nprogram\nop 0 input 3\nop 1 input 0\nop 2 sub 0 1\n\
         lemma 2 sum\nvariable direction 0\nvariable point 0 0\nstep 2 variables +0 -1\n";
     let message = refusal(text);
@@ -613,7 +613,7 @@ fn difference(is_size: bool, word: &str) -> String {
     };
     let [first, product, other, last] = if is_size { [3, 4, 5, 6] } else { [0, 3, 4, 5] };
     format!(
-        "hairline proof 2\nkernel mine f32\nformat 24 -149 127\ndomain edge 1 reach 1 world 1 direction 1 extent 1 \
+        "hairline proof 3\nkernel mine f32\nformat 24 -149 127\ndomain edge 1 reach 1 world 1 direction 1 extent 1 \
          direction-floor 1*2^-1 floor 1*2^-1 quotient 1\nprogram\nop 0 input 6\nop 1 input 9\nop 2 input 3\n\
          {operations}\
          lemma 0 sum\nvariable point 1 0\nstep 0 variables +0\ncorner +\nfirst 0\nrest 0\nsize 1\ncomputed 1\nerror 0\n\

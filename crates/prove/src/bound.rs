@@ -6,7 +6,7 @@ use super::formula::{DIGITS, Formula, Maximum, Source};
 use super::measures::{Limit, Samples};
 use super::order::{is_at_most, unsigned};
 use super::quotient::Quotients;
-use super::run::{cone, parts};
+use super::run::parts;
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;
@@ -38,29 +38,8 @@ pub struct Lemma {
     pub formula: Formula,
     /// The maximum over its corners.
     pub maximum: Maximum,
-    /// Another formula, where the first one supposes one of two things of which one is true.
-    pub or: Option<(Formula, Maximum)>,
     /// The bound of the number that follows.
     pub bound: Bound,
-}
-
-impl Bound {
-    /// Where one of both holds.
-    fn or(self, other: Bound) -> Bound {
-        Bound {
-            size: self.size.max(other.size),
-            computed: self.computed.max(other.computed),
-            error: self.error.max(other.error),
-        }
-    }
-}
-
-impl Lemma {
-    /// The variables of its formulas.
-    pub fn sources(&self) -> impl Iterator<Item = &Source> {
-        let or = self.or.iter().flat_map(|(formula, _)| &formula.sources);
-        self.formula.sources.iter().chain(or)
-    }
 }
 
 /// The bound of the last step of a formula.
@@ -123,8 +102,6 @@ pub struct Prover<'a> {
     bounds: HashMap<Place, Result<Bound, String>>,
     /// The recogniser of known numbers, once it is asked.
     samples: OnceCell<Samples<'a>>,
-    /// For each number, true if its conditions count; none if all do.
-    counts: Option<Vec<bool>>,
     /// The lemmas so far, each after those that it uses.
     pub lemmas: Vec<Lemma>,
 }
@@ -133,27 +110,11 @@ impl<'a> Prover<'a> {
     /// Nothing is proved yet.
     pub fn new(path: &'a Path, domain: Domain, format: Format) -> Prover<'a> {
         let (bounds, samples) = (HashMap::new(), OnceCell::new());
-        Prover { path, domain, format, bounds, samples, counts: None, lemmas: Vec::new() }
+        Prover { path, domain, format, bounds, samples, lemmas: Vec::new() }
     }
 
     pub(super) fn samples(&self) -> &Samples<'a> {
         self.samples.get_or_init(|| Samples::new(self.path))
-    }
-
-    /// From here on proofs are of this number and what it is made from: they suppose nothing of other quotients of
-    /// the path.
-    pub fn limit_to(&mut self, place: Place) {
-        let (_, needed) = cone(&self.path.operations, place);
-        self.counts = Some(needed.iter().map(Option::is_some).collect());
-        if self.has_ratios() {
-            self.bounds.clear();
-            self.lemmas.clear();
-        }
-    }
-
-    /// True if proofs may suppose something of a number.
-    pub(super) fn counts(&self, place: usize) -> bool {
-        self.counts.as_ref().is_none_or(|counts| counts[place])
     }
 
     pub(super) fn operation(&self, place: Place) -> Operation {
@@ -175,7 +136,6 @@ impl<'a> Prover<'a> {
 
     fn prove(&mut self, place: Place) -> Result<Bound, String> {
         let (rule, formula, maximum, bound);
-        let mut or = None;
         if let Some((vector, length)) = self.unit(place) {
             let floor = self.floor(length);
             rule = Rule::Unit { vector, length, floor };
@@ -200,23 +160,13 @@ impl<'a> Prover<'a> {
             return Err("its root is used otherwise than to divide a vector by its length".into());
         } else {
             rule = Rule::Sum;
-            let same_sign;
-            (formula, maximum, same_sign) = self.formula(place, None)?;
-            let first = bound_of_sum(&formula, &maximum);
-            bound = match same_sign {
-                None => first,
-                Some(same_sign) => {
-                    let (formula, maximum, _) = self.formula(place, Some(same_sign.or()))?;
-                    let second = bound_of_sum(&formula, &maximum);
-                    or = Some((formula, maximum));
-                    first.or(second)
-                }
-            };
+            (formula, maximum) = self.formula(place)?;
+            bound = bound_of_sum(&formula, &maximum);
         }
         if [bound.error, bound.size, bound.computed].iter().any(|x| !x.is_number()) {
             return Err("its bound needs more digits than there are".to_owned());
         }
-        self.lemmas.push(Lemma { place, rule, formula, maximum, or, bound: bound.clone() });
+        self.lemmas.push(Lemma { place, rule, formula, maximum, bound: bound.clone() });
         Ok(bound)
     }
 
@@ -252,10 +202,10 @@ impl<'a> Prover<'a> {
     /// The numbers whose lemmas a lemma uses.
     fn needs(&self, lemma: &Lemma) -> Vec<Place> {
         let cut = |source: &Source| match source {
-            Source::Cut(place) | Source::Part(place) | Source::Third(_, place) => Some(*place),
+            Source::Cut(place) | Source::Part(place) => Some(*place),
             _ => None,
         };
-        let mut needs: Vec<Place> = lemma.sources().filter_map(cut).collect();
+        let mut needs: Vec<Place> = lemma.formula.sources.iter().filter_map(cut).collect();
         match lemma.rule {
             Rule::Sum => {}
             Rule::Unit { vector, .. } => needs.extend(vector),

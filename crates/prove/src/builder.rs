@@ -3,25 +3,16 @@
 use super::bound::{Bound, Prover};
 use super::forms::{Forms, Leaf};
 use super::formula::{Formula, Maximum, Source, Step};
-use super::rows::SameSign;
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
 use std::collections::{HashMap, HashSet};
 
 impl Prover<'_> {
-    /// The formula of a number, and what its corners say. It may suppose that two edges are of the same sign along
-    /// an axis: as given, or as found.
-    pub(super) fn formula(
-        &mut self,
-        place: Place,
-        given: Option<SameSign>,
-    ) -> Result<(Formula, Maximum, Option<SameSign>), String> {
+    /// The formula of a number, and what its corners say.
+    pub(super) fn formula(&mut self, place: Place) -> Result<(Formula, Maximum), String> {
         let mut builder = Builder::new(self);
-        builder.same_sign = given;
-        builder.may_suppose = true;
         builder.expand(place)?;
-        let same_sign = builder.same_sign;
-        builder.finish().map(|(formula, maximum)| (formula, maximum, same_sign))
+        builder.finish()
     }
 
     /// numerator - quotient * divisor, the quotient of this size, and down to minus the other one if it is given. No
@@ -31,15 +22,14 @@ impl Prover<'_> {
         numerators: &[Place],
         divisor: Place,
         size: (Dyadic, Option<Dyadic>),
-        floor: Dyadic,
     ) -> Result<(Formula, Maximum, Vec<bool>), String> {
-        let found = self.formula_of_fraction(false, numerators, divisor, size, floor);
+        let found = self.formula_of_fraction(false, numerators, divisor, size);
         // Where quotients have a sign, points in one box say more than their differences alone.
         let Domain { edge, reach, .. } = self.domain;
         let boxed = size
             .1
             .filter(|_| edge == reach)
-            .and_then(|_| self.formula_of_fraction(true, numerators, divisor, size, floor).ok());
+            .and_then(|_| self.formula_of_fraction(true, numerators, divisor, size).ok());
         let error = |(_, maximum, _): &(Formula, Maximum, Vec<bool>)| maximum.error();
         match (found, boxed) {
             (Ok(found), Some(boxed)) if error(&boxed) < error(&found) => Ok(boxed),
@@ -53,7 +43,6 @@ impl Prover<'_> {
         numerators: &[Place],
         divisor: Place,
         (size, below): (Dyadic, Option<Dyadic>),
-        floor: Dyadic,
     ) -> Result<(Formula, Maximum, Vec<bool>), String> {
         let mut builder = Builder::new(self);
         builder.is_boxed = is_boxed;
@@ -74,7 +63,6 @@ impl Prover<'_> {
         builder.push(Step::Of(Operation::Sub(n, product)), None);
         let of = if all.is_empty() { vec![n, d] } else { all.into_iter().chain([d]).collect() };
         let left_out = of.into_iter().map(|step| builder.leave_out(step)).collect();
-        builder.narrow(divisor, floor);
         builder.finish().map(|(formula, maximum)| (formula, maximum, left_out))
     }
 }
@@ -86,9 +74,6 @@ struct Builder<'p, 'a> {
     supports: Vec<u64>,
     steps: HashMap<Place, usize>,
     forms: Forms,
-    /// The supposition about two edges, if there is one, and true if it may be made.
-    same_sign: Option<SameSign>,
-    may_suppose: bool,
     /// True if points are variables, in one box, in place of their differences.
     is_boxed: bool,
 }
@@ -101,8 +86,6 @@ impl<'p, 'a> Builder<'p, 'a> {
             supports: Vec::new(),
             steps: HashMap::new(),
             forms: Forms::default(),
-            same_sign: None,
-            may_suppose: false,
             is_boxed: false,
         }
     }
@@ -131,18 +114,6 @@ impl<'p, 'a> Builder<'p, 'a> {
             .filter(|_| rounds[step])
             .for_each(|bound| bound.error = Dyadic::ZERO);
         std::mem::replace(&mut rounds[step], false)
-    }
-
-    /// Notes which variables the path divides by the divisor too.
-    fn narrow(&mut self, divisor: Place, floor: Dyadic) {
-        let Formula { sources, variables, narrow, .. } = &mut self.formula;
-        for (v, source) in sources.iter().enumerate() {
-            let Source::Leaf(leaf) = *source else { continue };
-            let found = self.prover.ratio(leaf, divisor);
-            let most = |ratio: Place| self.prover.most(ratio).map(|most| (ratio, most.size()));
-            let found = found.and_then(most);
-            narrow.extend(found.map(|(ratio, most)| (v, ratio, variables[v].min(floor * most))));
-        }
     }
 
     /// Coordinates of a unit vector are variables like others, unless the formula is linear in one such vector.
@@ -202,36 +173,11 @@ impl<'p, 'a> Builder<'p, 'a> {
     /// A number that is a variable here; its lemma says the rest.
     fn cut(&mut self, place: Place) -> Result<usize, String> {
         let bound = self.prover.bound(place)?;
-        if let Some(step) = self.cut_by_third(place, &bound) {
-            return Ok(step);
-        }
         let is_part = self.prover.unit(place).is_some();
         let source = if is_part { Source::Part(place) } else { Source::Cut(place) };
         let step = self.variable(source, bound);
         self.formula.places[step] = Some(place);
         Ok(step)
-    }
-
-    /// A quotient as the sum of another one that is a variable here already, or its negative, and one of the third
-    /// edge, if the edges are of the same sign.
-    fn cut_by_third(&mut self, place: Place, bound: &Bound) -> Option<usize> {
-        let sources = &self.formula.sources;
-        let mut found = (0..sources.len()).filter(|_| self.may_suppose).filter_map(|v| {
-            let Source::Cut(known) = sources[v] else { return None };
-            let (same_sign, sign) = self.prover.third(known, place)?;
-            Some((v, known, same_sign, sign))
-        });
-        let (v, known, same_sign, sign) = found.next()?;
-        if *self.same_sign.get_or_insert(same_sign) != same_sign {
-            return None;
-        }
-        let size = self.formula.variables[v].max(bound.size);
-        self.formula.variables.push(size);
-        self.formula.sources.push(Source::Third(known, place));
-        let sum = vec![(self.formula.variables.len() - 1, 1), (v, sign)];
-        let step = self.push(Step::Variables(sum), Some(bound.clone()));
-        self.formula.places[step] = Some(place);
-        Some(step)
     }
 
     /// The sum of variables that a leaf is.

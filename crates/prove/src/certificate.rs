@@ -56,7 +56,7 @@ pub fn symmetry_at(gate: &Gate, path: &Path, place: Place) -> Symmetry {
 pub fn heading(h: &Heading) -> String {
     let Format { digits, smallest, largest } = h.format;
     format!(
-        "hairline proof 2\nkernel {} {}\nformat {digits} {smallest} {largest}\n",
+        "hairline proof 3\nkernel {} {}\nformat {digits} {smallest} {largest}\n",
         h.kernel, h.scalar
     )
 }
@@ -175,10 +175,6 @@ impl Writer<'_> {
         };
         let mut text = format!("lemma {} {rule}\n", self.at(lemma.place));
         text.push_str(&self.formula(&lemma.formula, &lemma.maximum));
-        if let Some((formula, maximum)) = &lemma.or {
-            text.push_str("or\n");
-            text.push_str(&self.formula(formula, maximum));
-        }
         let bound = &lemma.bound;
         writeln!(text, "size {}\ncomputed {}\nerror {}", bound.size, bound.computed, bound.error)
             .expect("a string");
@@ -187,7 +183,7 @@ impl Writer<'_> {
 
     fn formula(&self, formula: &Formula, maximum: &Maximum) -> String {
         let mut text = String::new();
-        for (v, source) in formula.sources.iter().enumerate() {
+        for source in &formula.sources {
             let source = match *source {
                 Source::Leaf(Leaf::Point(p, axis)) => format!("point {p} {axis}"),
                 Source::Leaf(Leaf::Difference(p, q, axis)) => format!("difference {p} {q} {axis}"),
@@ -196,13 +192,9 @@ impl Writer<'_> {
                 Source::Boxed(p, axis) => format!("boxed {p} {axis}"),
                 Source::Cut(place) => format!("cut {}", self.at(place)),
                 Source::Part(place) => format!("part {}", self.at(place)),
-                Source::Third(p, q) => format!("third {} {}", self.at(p), self.at(q)),
                 Source::Quotient => "quotient".to_owned(),
             };
-            let narrow = formula.narrow.iter().find(|(narrow, ..)| *narrow == v);
-            let over =
-                narrow.map_or(String::new(), |(_, ratio, _)| format!(" over {}", self.at(*ratio)));
-            writeln!(text, "variable {source}{over}").expect("a string");
+            writeln!(text, "variable {source}").expect("a string");
         }
         for (i, step) in formula.steps.iter().enumerate() {
             writeln!(text, "step {}", self.step(formula, i, step)).expect("a string");

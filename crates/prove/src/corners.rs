@@ -43,19 +43,11 @@ impl Formula {
             return Err(too_long());
         }
         self.bounds = self.higher_order(format, &vec![false; self.steps.len()], Some(&sizes)).1;
-        let (mut first, mut at) = if self.unit.is_empty() {
+        let (first, at) = if self.unit.is_empty() {
             self.first_in_box(format, tried <= MOST_TO_CHOOSE && self.below.is_none())
         } else {
             self.first_of_unit(format).ok_or_else(too_long)?
         };
-        let in_narrow_box = self.first_in_narrow_box(format);
-        match in_narrow_box.filter(|(smaller, _)| *smaller < first) {
-            Some(found) => {
-                (first, at) = found;
-                self.relative.fill(false);
-            }
-            None => self.narrow.clear(),
-        }
         let corner = (0..count).map(|v| at >> v & 1 == 1).collect();
         let rest = self.higher_order(format, &self.relative, None).0;
         if first.is_number() && rest.is_number() {
@@ -110,44 +102,6 @@ impl Formula {
             }
         }
         (first, corners[at])
-    }
-
-    /// The same where the effects of errors are shares of a divisor; none if they cannot be.
-    fn first_in_narrow_box(&mut self, format: Format) -> Option<(Dyadic, u64)> {
-        if self.narrow.is_empty() || !self.unit.is_empty() || !self.is_fit_to_narrow() {
-            return None;
-        }
-        let variables = self.variables.clone();
-        for (v, _, size) in &self.narrow {
-            self.variables[*v] = *size;
-        }
-        let found = self.first_in_box(format, false);
-        self.variables = variables;
-        Some(found)
-    }
-
-    /// True if every slope of a step with an error is of at most first degree in the narrow variables together.
-    fn is_fit_to_narrow(&self) -> bool {
-        let is_narrow = |v: usize| usize::from(self.narrow.iter().any(|(other, ..)| *other == v));
-        let mut degrees: Vec<usize> = Vec::with_capacity(self.steps.len());
-        for step in &self.steps {
-            let of = |i: usize| degrees[i];
-            let of_terms = step.terms().map(|(_, a, b)| of(a) + b.map_or(0, of));
-            degrees.push(match step {
-                Step::Variables(sum) => sum.iter().map(|(v, _)| is_narrow(*v)).max().unwrap_or(0),
-                _ => of_terms.max().unwrap_or(0),
-            });
-        }
-        let mut slopes = vec![0; self.steps.len()];
-        for (i, step) in self.steps.iter().enumerate().rev() {
-            let own = slopes[i];
-            let mut raise = |to: usize, by: usize| slopes[to] = slopes[to].max(own + by);
-            for (_, a, b) in step.terms() {
-                raise(a, b.map_or(0, |b| degrees[b]));
-                b.into_iter().for_each(|b| raise(b, degrees[a]));
-            }
-        }
-        (0..slopes.len()).all(|i| slopes[i] < 2 || self.bounds[i].error.is_zero())
     }
 
     /// The same of a formula that is linear in a unit vector; none if a number is too long.

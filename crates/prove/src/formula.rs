@@ -47,9 +47,6 @@ pub struct Formula {
     pub sources: Vec<Source>,
     /// The variables that are coordinates of one unit vector in which the formula is linear, if it has one.
     pub unit: Vec<usize>,
-    /// In the lemma of a quotient, the variables that the path divides by its divisor too: where, and the box that
-    /// is enough for the effects of errors.
-    pub narrow: Vec<(usize, Place, Dyadic)>,
     /// The variable that is no quotient of either sign: it is at least minus this.
     pub below: Option<(usize, Dyadic)>,
     /// The bounds of each step: its exact size, its computed size, and h, its largest error of its own.
@@ -67,9 +64,6 @@ pub enum Source {
     Cut(Place),
     /// The same of a coordinate of a unit vector in which the formula is linear.
     Part(Place),
-    /// The term that is added to the first quotient, or its negative, to make the second one: a quotient of the third
-    /// edge.
-    Third(Place, Place),
     /// The quotient that a lemma is about.
     Quotient,
 }

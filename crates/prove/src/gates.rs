@@ -115,13 +115,13 @@ impl Quantity {
         for lemma in &self.lemmas {
             uses.floor |= lemma.rule != Rule::Sum;
             uses.inside |= matches!(lemma.rule, Rule::Quotient { below: Some(_), .. });
-            for source in lemma.sources() {
+            for source in &lemma.formula.sources {
                 match source {
                     Source::Leaf(Leaf::Point(..)) => uses.world = true,
                     Source::Leaf(Leaf::Difference(0, ..) | Leaf::Difference(_, 0, _)) => {
                         uses.reach = true;
                     }
-                    Source::Leaf(Leaf::Difference(..)) | Source::Third(..) => uses.edge = true,
+                    Source::Leaf(Leaf::Difference(..)) => uses.edge = true,
                     Source::Boxed(..) => (uses.edge, uses.reach) = (true, true),
                     Source::Leaf(Leaf::End(_)) => uses.extent = true,
                     _ => {}
@@ -156,7 +156,6 @@ impl Proof {
                     continue;
                 }
                 known.insert(key, (quantities.len(), names));
-                prover.limit_to(place);
                 quantities.push(Quantity {
                     program,
                     gate: compared.gate,
@@ -185,7 +184,6 @@ impl Proof {
             let path = &paths[quantity.path];
             let tries = domains.iter().filter(|_| divides(quantity)).map(|domain| {
                 let mut prover = Prover::new(path, *domain, format);
-                prover.limit_to(quantity.place);
                 let bound = prover.bound(quantity.place);
                 let lemmas = prover.lemmas_of(quantity.place);
                 Quantity { domain: *domain, bound, lemmas, ..quantity.clone() }

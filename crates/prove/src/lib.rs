@@ -28,7 +28,6 @@ mod order;
 mod permanent;
 mod quotient;
 pub mod repair;
-mod rows;
 mod run;
 mod scene;
 mod sizes;

@@ -135,8 +135,7 @@ impl Prover<'_> {
             let size = limited(&both, most);
             (size, (size, below))
         };
-        let (formula, maximum, left_out) =
-            self.formula_of_quotient(&numerators, divisor, sum, floor)?;
+        let (formula, maximum, left_out) = self.formula_of_quotient(&numerators, divisor, sum)?;
         let tiny = Big::from(self.format.tiny());
         let one = Big::from(self.format.unit()) + &tiny / &least;
         let share = &one / (Big::from(Dyadic::ONE) - &one);
@@ -197,7 +196,7 @@ impl Prover<'_> {
         };
         let size = round_up(&size, SIZE_DIGITS);
         let (formula, maximum, left_out) =
-            self.formula_of_quotient(numerator.as_slice(), divisor, (size, down_to), floor)?;
+            self.formula_of_quotient(numerator.as_slice(), divisor, (size, down_to))?;
         // The quotient of the numbers before their last roundings against the exact one, then these roundings,
         // then those of the division.
         let closest = match left_out[left_out.len() - 1] {

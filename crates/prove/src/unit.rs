@@ -68,7 +68,7 @@ impl Prover<'_> {
         let lemma = self.lemmas.iter().find(|lemma| lemma.place == place).expect("it has a bound");
         let formula = &lemma.formula;
         let last = match lemma.rule {
-            Rule::Sum if lemma.or.is_none() => formula.steps.len() - 1,
+            Rule::Sum => formula.steps.len() - 1,
             _ => return Ok(error),
         };
         if !formula.rounds[last] || formula.relative[last] {

@@ -306,7 +306,7 @@ impl<'a, F: Searched> Search<'a, F> {
 /// The differences of all points that are in one box in a quantity's proof.
 fn boxed(quantity: &Quantity) -> Vec<Leaf> {
     let is_boxed = |point: usize, axis: usize| {
-        let mut sources = quantity.lemmas.iter().flat_map(|lemma| lemma.sources());
+        let mut sources = quantity.lemmas.iter().flat_map(|lemma| &lemma.formula.sources);
         sources.any(|source| *source == Source::Boxed(point, axis))
     };
     let pairs = (0..4).flat_map(|p| (p + 1..4).map(move |q| (p, q)));

@@ -2,7 +2,6 @@
 
 mod errors;
 
-use super::edges::SameSign;
 use super::number::{Bound, F32, F64, Number, whole};
 use super::program::{Leaf, MOST_ROWS, Program, Term, indices, terms};
 use super::reader::{Outcome, Reader, ensure};
@@ -36,8 +35,6 @@ pub struct Formula<'a> {
     /// The variables that are coordinates of one unit vector in which the last step is linear.
     unit: Vec<usize>,
     pub steps: Vec<Step<'a>>,
-    /// The supposition of its variables of third edges.
-    pub same_sign: Option<SameSign>,
 }
 
 impl<'a> Formula<'a> {
@@ -49,11 +46,7 @@ impl<'a> Formula<'a> {
     ) -> Outcome<Self> {
         let variables = variables::read(program, quotient, reader)?;
         let unit = (0..variables.len()).filter(|v| variables[*v].part.is_some()).collect();
-        let mut thirds = variables.iter().filter_map(|v| Some(v.third.as_ref()?.same_sign));
-        let same_sign = thirds.next();
-        let is_one = thirds.all(|other| Some(other) == same_sign);
-        ensure(is_one, "found third edges of two kinds, expected one axis and one pair of edges")?;
-        let mut formula = Formula { variables, unit, steps: vec![], same_sign };
+        let mut formula = Formula { variables, unit, steps: vec![] };
         while reader.is_next("step") {
             let words =
                 reader.read("step OPERATION KIND OPERANDS", |words| Some(words.to_vec()))?;
@@ -129,15 +122,6 @@ impl<'a> Formula<'a> {
                 [(false, v)] if self.variables[v].leaf.is_none() => Some(&self.variables[v]),
                 _ => None,
             };
-            let by_third = match step.variables[..] {
-                [(false, v), (minus, p)] => {
-                    let third = self.variables[v].third.as_ref().filter(|t| t.minus == minus);
-                    let is_plain = self.variables[p].part.is_none();
-                    third.filter(|t| is_plain && self.variables[p].cut == Some(t.first))
-                }
-                _ => None,
-            };
-            let by_third = by_third.filter(|third| Some(third.second) == place);
             let is_leaf = |leaf: &Leaf| self.is_sum(*leaf, &step.variables);
             let leaf = place.and_then(|place| program.leaf(place)).filter(is_leaf);
             let is_boxed = |(_, v): &(bool, usize)| self.variables[*v].is_boxed;
@@ -146,10 +130,9 @@ impl<'a> Formula<'a> {
                 .then_some(())
                 .ok_or("a difference of points in a box")?;
             step.rounds = leaf.is_some_and(|(_, other)| other.is_some());
-            step.given = match (single.filter(|v| v.cut == place), by_third, leaf) {
-                (Some(variable), ..) => Some(variable.bound.clone()),
-                (_, Some(third), _) => Some(third.bound.clone()),
-                (.., Some(leaf)) => {
+            step.given = match (single.filter(|v| v.cut == place), leaf) {
+                (Some(variable), _) => Some(variable.bound.clone()),
+                (_, Some(leaf)) => {
                     let size = program.domain.bound(leaf);
                     Some(if step.rounds {
                         program.format.rounded(size.clone(), size)

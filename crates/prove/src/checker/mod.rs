@@ -4,7 +4,6 @@
 //! number that a rule determines must be exactly that number: one unit more or less is refused.
 
 mod corners;
-mod edges;
 mod formula;
 mod guarded;
 mod names;
@@ -19,7 +18,6 @@ mod variables;
 pub use number::{Bound, Number};
 pub use program::Variant;
 
-use edges::SameSign;
 use formula::Formula;
 use num_traits::{One, Signed, Zero};
 use number::{ERROR_DIGITS, F32, F64, Format, SIZE_DIGITS, root_up, round_up, shifted, whole};
@@ -88,7 +86,7 @@ fn checked<'a, T>(
 
 /// The first lines.
 fn heading(reader: &mut Reader) -> Outcome<Format> {
-    reader.read("hairline proof 2", |words| (words == ["proof", "2"]).then_some(()))?;
+    reader.read("hairline proof 3", |words| (words == ["proof", "3"]).then_some(()))?;
     let scalar = reader.read("kernel NAME SCALAR", |words| (words.len() == 2).then(|| words[1]))?;
     reader.read("format DIGITS SMALLEST LARGEST, as of the scalar", |words| {
         let format: Option<Vec<i64>> = words.iter().map(|word| whole(word)).collect();
@@ -181,35 +179,13 @@ fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> 
     Ok(())
 }
 
-/// A sum of products; or the larger bound of two, where each supposes one of two things of which one is true.
+/// A sum of products.
 fn sum<'a>(
     program: &Program,
     place: usize,
     work: &mut u64,
     reader: &mut Reader<'a>,
 ) -> Outcome<Lemma> {
-    let (lemma, supposed) = formula(program, place, work, reader)?;
-    let Some(supposed) = supposed else { return Ok(lemma) };
-    reader.read("or", |words| words.is_empty().then_some(()))?;
-    let (other, also) = formula(program, place, work, reader)?;
-    let is_fit = also.is_none_or(|also| also == supposed.or());
-    ensure(is_fit, "found the third edge along an axis, expected it along the other one")?;
-    let (one, other) = (lemma.bound, other.bound);
-    let bound = Bound {
-        size: one.size.max(other.size),
-        computed: one.computed.max(other.computed),
-        error: one.error.max(other.error),
-    };
-    Ok(Lemma { before: bound.error.clone(), bound, unit: None })
-}
-
-/// The lemma that a formula of a number shows, and its supposition.
-fn formula<'a>(
-    program: &Program,
-    place: usize,
-    work: &mut u64,
-    reader: &mut Reader<'a>,
-) -> Outcome<(Lemma, Option<SameSign>)> {
     let formula = Formula::read(program, None, reader)?;
     let last = formula.steps[formula.steps.len() - 1].place;
     ensure(last == Some(place), format!("found another last step, expected operation {place}"))?;
@@ -217,7 +193,7 @@ fn formula<'a>(
     let size = round_up(&shown.size, SIZE_DIGITS);
     let error = round_up(&shown.error, ERROR_DIGITS);
     let bound = Bound { computed: shown.computed.min(&size + &error), size, error };
-    Ok((Lemma { bound, before: shown.before, unit: None }, formula.same_sign))
+    Ok(Lemma { bound, before: shown.before, unit: None })
 }
 
 /// The bound of a number that is rounded once more: its exact size, and its error and size before that.
@@ -304,7 +280,7 @@ fn error_of_both(
     let fractions = fractions.filter(is_fit).ok_or(UNFIT)?;
     let (d, numerators) = (fractions[0].1, [fractions[0].0, fractions[1].0]);
     let (floor, least) = (program.floor(d), least(program, d)?);
-    let about = Quotient { size, down_to, divisor: d, floor };
+    let about = Quotient { size, down_to };
     let formula = Formula::read(program, Some(about), reader)?;
     ensure(
         formula.is_quotient_of(&numerators, d),
@@ -366,7 +342,7 @@ fn quotient(
         None => floor.recip(),
     };
     let size = round_up(&size, SIZE_DIGITS);
-    let about = Quotient { size: &size, down_to: program.down_to(place), divisor: d, floor };
+    let about = Quotient { size: &size, down_to: program.down_to(place) };
     let formula = Formula::read(program, Some(about), reader)?;
     ensure(
         formula.is_quotient_of(n.as_slice(), d),

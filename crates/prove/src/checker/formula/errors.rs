@@ -28,21 +28,16 @@ impl Formula<'_> {
     pub fn maximum(&self, format: &Format, work: &mut u64, reader: &mut Reader) -> Outcome<Shown> {
         const LONG: &str = "found numbers that are too long";
         // Every value is an integer times a power of two that does not depend on the corner.
-        let narrow = |v: &Variable| v.narrow.clone().unwrap_or(v.bound.size.clone());
-        let lower = |v: &Variable, size: &Number| -v.down_to.as_ref().unwrap_or(size).clone();
-        let exponents = self.variables.iter().map(|v| {
-            let all = [v.bound.size.clone(), narrow(v), lower(v, &v.bound.size)];
-            all.iter().map(|x| split(x).1).min().expect("three")
-        });
-        let exponents: Vec<i64> = exponents.collect();
-        let ends = |size: &dyn Fn(&Variable) -> Number| -> Vec<[BigInt; 2]> {
-            let of = |(v, x): (usize, &Variable)| {
-                let (upper, lower) = (size(x), lower(x, &size(x)));
-                [upper, lower].map(|end| shifted(&end, -exponents[v]).to_integer())
-            };
-            self.variables.iter().enumerate().map(of).collect()
+        let ends = |v: &Variable| {
+            let size = &v.bound.size;
+            [size.clone(), -v.down_to.as_ref().unwrap_or(size).clone()]
         };
-        let (boxes, narrow) = (ends(&|v| v.bound.size.clone()), ends(&narrow));
+        let exponent = |v: &Variable| ends(v).iter().map(|end| split(end).1).min().expect("two");
+        let exponents: Vec<i64> = self.variables.iter().map(exponent).collect();
+        let whole = |(v, exponent): (&Variable, &i64)| {
+            ends(v).map(|end| shifted(&end, -exponent).to_integer())
+        };
+        let boxes: Vec<_> = self.variables.iter().zip(&exponents).map(whole).collect();
         let fixed = self.variables.iter().enumerate().filter(|(_, v)| v.down_to.is_some());
         let fixed = fixed.fold(0, |bits, (v, _)| bits | 1 << v);
         let mut scales: Vec<i64> = Vec::new();
@@ -102,8 +97,7 @@ impl Formula<'_> {
         let finest = weights.iter().filter(|w| !w.is_zero()).map(|w| split(w).1).min().unwrap_or(0);
         let whole = |(w, step): (&Number, &Step)| (shifted(w, -finest).to_integer(), step.relative);
         let weights: Vec<_> = weights.iter().zip(&self.steps).map(whole).collect();
-        self.ensure_narrow(&weights)?;
-        let found = search(&rows, &weights, &narrow, &self.unit, tried).ok_or(LONG)?;
+        let found = search(&rows, &weights, &boxes, &self.unit, tried).ok_or(LONG)?;
         let (last, scale) = (bounds.len() - 1, scales[scales.len() - 1] + finest);
         let mut first = shifted(&Number::from(found.sum), scale);
         if let Some(v) = self.unit.first() {
@@ -126,38 +120,6 @@ impl Formula<'_> {
         let is_known = self.steps[last].rounds && !self.steps[last].relative;
         let before = if is_known { &error - own } else { error.clone() };
         Ok(Shown { size, computed, error, before })
-    }
-
-    /// An error if some variables are narrow, and the effect of an error is no share of the divisor: of more than
-    /// first degree in these variables.
-    fn ensure_narrow(&self, weights: &[(BigInt, bool)]) -> Outcome<()> {
-        let is_narrow = |v: usize| usize::from(self.variables[v].narrow.is_some());
-        if (0..self.variables.len()).all(|v| is_narrow(v) == 0) {
-            return Ok(());
-        }
-        let is_absolute = self.steps.iter().all(|step| !step.relative) && self.unit.is_empty();
-        ensure(is_absolute, "found relative steps or parts beside `over`, expected none")?;
-        let mut degrees: Vec<usize> = Vec::new();
-        for step in &self.steps {
-            let of_variables = step.variables.iter().map(|(_, v)| is_narrow(*v));
-            let of_terms =
-                step.terms.iter().map(|(_, a, b)| degrees[*a] + b.map_or(0, |b| degrees[b]));
-            degrees.push(of_variables.chain(of_terms).max().unwrap_or(0));
-        }
-        let mut slopes = vec![0; self.steps.len()];
-        for (k, step) in self.steps.iter().enumerate().rev() {
-            for (_, a, b) in &step.terms {
-                let of_other = b.map_or(0, |b| degrees[b]);
-                slopes[*a] = slopes[*a].max(slopes[k] + of_other);
-                b.iter().for_each(|b| slopes[*b] = slopes[*b].max(slopes[k] + degrees[*a]));
-            }
-        }
-        let mut effects = slopes.iter().zip(weights);
-        let is_share = effects.all(|(degree, (weight, _))| *degree < 2 || weight.is_zero());
-        ensure(
-            is_share,
-            "found an error whose effect is no share of the divisor, expected no `over`",
-        )
     }
 
     /// The bounds of the steps where they are not known, and the terms of second and higher order of the

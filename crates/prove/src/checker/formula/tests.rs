@@ -159,7 +159,7 @@ fn bounds_and_higher_orders_are_what_the_guide_says() {
         // Some products are subnormal numbers or less, or all numbers are.
         let scale = draw.pick(&[0, 0, smallest / 2 + 5, smallest + 4]);
         let steps = random_steps(&mut draw, format, scale);
-        let formula = Formula { variables: vec![], unit: vec![], steps, same_sign: None };
+        let formula = Formula { variables: vec![], unit: vec![], steps };
         let corners: Vec<Number> = formula.steps.iter().map(|_| near(&mut draw, scale)).collect();
 
         let expected = stated(format, &formula.steps, &corners, None);
