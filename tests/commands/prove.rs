@@ -81,8 +81,8 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
         "an answer can be wrong only where the ray passes within 1.17e-5 of the triangle's longest edge of its boundary",
         "The ray of the deepest known false miss in f32: hairline explain '{scalar:f32",
         "hairline repair --kernel moller-trumbore --scalar f32",
-        "No false miss is farther inside an edge than 7.87e-6 of the triangle's longest edge",
-        "No false hit is farther outside an edge than 7.88e-6 of the triangle's longest edge",
+        "No false miss is farther inside an edge than 3.94e-6 of the triangle's longest edge",
+        "No false hit is farther outside an edge than 3.94e-6 of the triangle's longest edge",
         "Not watertight: at",
     ] {
         assert!(first.contains(part), "{part}: {first}");
@@ -369,20 +369,20 @@ fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
         let out = text(&[&kernel[..], &["--epsilon", epsilon]].concat());
         out.split_whitespace().collect::<Vec<_>>().join(" ")
     };
-    // The bounds are 1.014e-6 of the determinant and 7.87e-6 of u and v.
+    // The bounds are 1.014e-6 of the determinant and 3.94e-6 of u and v.
     let out = words("parallel=1e-7,edge=-1e-5");
     assert!(
         out.contains("e = 1e-7 is proved to refuse every parallel ray where coordinates of edges")
     );
     assert!(!out.contains("(jolt)"), "{out}");
-    let all = "No false miss at an edge. No false hit is farther outside an edge than 1.79e-5 of the triangle";
+    let all = "No false miss at an edge. No false hit is farther outside an edge than 1.40e-5 of the triangle";
     assert!(out.contains(all), "{out}");
     let out = words("edge=1e-5");
     let none =
-        "No false miss is farther inside an edge than 1.79e-5 of the triangle's longest edge";
+        "No false miss is farther inside an edge than 1.40e-5 of the triangle's longest edge";
     assert!(out.contains(none) && out.contains("No false hit at an edge."), "{out}");
     let out = words("edge=2e-6");
-    let both = ["inside an edge than 9.87e-6 of", "outside an edge than 5.88e-6 of"];
+    let both = ["inside an edge than 5.94e-6 of", "outside an edge than 1.94e-6 of"];
     assert!(both.iter().all(|part| out.contains(part)), "{out}");
     let wrong = |epsilon: &str, message: &str| {
         refused(&[&kernel[..], &["--epsilon", epsilon]].concat(), 2, message);

@@ -20,7 +20,6 @@ fn certificate_of(path: &Path, scalar: &str, domain: Domain, places: &[u32]) -> 
     let format = if scalar == "f32" { Format::F32 } else { Format::F64 };
     let program = |place: &u32| {
         let mut prover = Prover::new(path, domain, format);
-        prover.limit_to(*place);
         prover.bound(*place).unwrap();
         let (symmetry, orders) = (Symmetry::None, prover.orders(*place));
         let claim = Claim { gate: "gate", place: *place, symmetry, orders: &orders, also: &[] };
@@ -51,13 +50,6 @@ fn quantities<F: Scalar>(kernel: &str, scalar: &str) -> String {
     certificate_of(&path, scalar, Domain::UNIT, &places)
 }
 
-/// The quotients of the edges ab and ac by one area, two along one axis and two along another.
-fn rows_of(path: &Path) -> [u32; 4] {
-    // Each row is divided one coefficient after the other, and the last ones are no edges.
-    let quotients = first(path, 5, is_quotient);
-    [0, 3, 1, 4].map(|i| quotients[i])
-}
-
 /// Short certificates with every rule in them, and the domain's names that do not matter to each.
 fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
     // A determinant by differences, in f64.
@@ -77,16 +69,11 @@ fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
     // Quotients of differences that are sums of variables.
     let baldwin = path::<f32>("baldwin-weber");
     let baldwin_places = first(&baldwin, 6, is_quotient);
-    // Two of them along one axis, whose sum is a quotient of the third edge; beside that, the other axis.
-    let mut rows = baldwin.clone();
-    let [p, q, r, s] = rows_of(&baldwin);
-    let last = rows.operations.len() as u32;
-    rows.operations.extend([
-        Operation::Add(p, q),
-        Operation::Add(r, s),
-        Operation::Add(last, last + 1),
-    ]);
-    let rows_places = [last + 2];
+    // Two barycentric coordinates, and their sum.
+    let weights = path::<f32>("moller-trumbore");
+    let is_sum = |place: &u32| weights.operations[*place as usize];
+    let last = *weights.compared.last().unwrap().quantities.last().unwrap();
+    let Operation::Sub(_, both) = is_sum(&last) else { panic!("1 - (u + v)") };
     // So low that the order of the direction's coordinates is needed.
     let low = Domain { floor: Dyadic::power(-8), quotient: Dyadic::power(2), ..Domain::UNIT };
     vec![
@@ -111,9 +98,9 @@ fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
             &["reach", "direction", "extent", "direction-floor"],
         ),
         (
-            "rows",
-            certificate_of(&rows, "f32", Domain::UNIT, &rows_places),
-            &["reach", "world", "direction", "extent", "direction-floor"],
+            "weights",
+            certificate_of(&weights, "f32", Domain::UNIT, &[both]),
+            &["world", "extent", "direction-floor"],
         ),
     ]
 }
@@ -192,8 +179,14 @@ fn a_difference_of_products_is_rounded_twice_in_f64() {
 fn a_number_that_is_off_by_one_is_refused() {
     for (name, text, free) in samples() {
         let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(' ').collect()).collect();
-        let mutants = mutants(&text);
+        let mut mutants = mutants(&text);
         assert!(400 < mutants.len());
+        if name == "weights" {
+            // What stands before is of rules that the others have.
+            let own = lines.iter().position(|line| line.last() == Some(&OF_BOTH)).unwrap();
+            mutants.retain(|(line, ..)| own <= *line || lines[*line][0] == "down-to");
+            assert!(200 < mutants.len());
+        }
         for (line, column, mutant) in mutants.iter().filter(|(_, _, mutant)| check(mutant).is_ok())
         {
             let words = &lines[*line];
@@ -497,65 +490,38 @@ fn parts_are_coordinates_of_one_unit_vector_in_which_the_formula_is_linear() {
     refused(&[("claim ", &format!("{without}claim "))], "found a last step without a part");
 }
 
-#[test]
-fn a_third_edge_needs_both_alternatives_and_an_area() {
-    let text = sample("rows");
-    check(&text).unwrap();
-    let (start, rest) = text.rsplit_once("\nlemma ").unwrap();
-    let (first, second) = rest.split_once("or\n").unwrap();
-    let (_, first_formula) = first.split_once('\n').unwrap();
-    let tail = &second[second.find("size ").unwrap()..];
-    // The same alternative twice.
-    let twice = format!("{start}\nlemma {first}or\n{first_formula}{tail}");
-    assert!(refusal(&twice).contains("expected it along the other one"), "{}", refusal(&twice));
-    let alone = format!("{start}\nlemma {first}{tail}");
-    assert!(refusal(&alone).contains("expected `or`"), "{}", refusal(&alone));
-    // An area of other edges, or none: a sum of two products.
-    let area = text.lines().find(|line| line.starts_with("op 12 sub ")).unwrap();
-    let sum = text.replacen(area, &area.replacen("sub", "add", 1), 1);
-    assert!(check(&sum).is_err());
-    // Edges and quotients whose product is not below 1.
-    let wide = text.replacen("domain edge 1023*2^-10", "domain edge 1", 1);
-    assert!(check(&wide).is_err());
-}
+/// The rule of u + v.
+const OF_BOTH: &str = "sum-of-quotients-by-reciprocal";
 
-/// (b-a)·(b-a)'·(b-a)'' over a coordinate of the direction, along three axes, and each of them over it.
 #[test]
-fn an_error_whose_effect_is_no_share_of_the_divisor_is_refused() {
-    use Operation::{Add, Div, Input, Mul, Sub};
-    let mut operations: Vec<Operation> = [3, 6, 7, 8, 9, 10, 11].map(Input).to_vec();
-    operations.extend([Sub(4, 1), Sub(5, 2), Sub(6, 3), Mul(7, 8), Mul(10, 9), Div(11, 0)]);
-    operations.extend([Div(7, 0), Div(8, 0), Div(9, 0), Add(12, 13), Add(14, 15), Add(16, 17)]);
-    let path =
-        Path { operations, decisions: vec![], compared: vec![], hits: true, values: [None; 3] };
-    let text = certificate_of(&path, "f32", Domain::UNIT, &[18]);
-    check(&text).unwrap();
-    assert!(!text.contains(" over "), "{text}");
-    // The second product's first factor is linear in two of them.
-    let (start, end) = text.rsplit_once("\nlemma 12 ").unwrap();
-    let narrow = |axes: &[usize]| {
-        let mut end = end.to_owned();
-        for axis in axes {
-            let line = format!("variable difference 2 1 {axis}");
-            assert!(end.contains(&line), "{text}");
-            end = end.replacen(&line, &format!("{line} over {}", [13, 15, 16][*axis]), 1);
-        }
-        let lines = end.lines().filter(|line| !line.starts_with("relative"));
-        refusal(&format!("{start}\nlemma 12 {}", lines.collect::<Vec<_>>().join("\n")))
+fn the_rules_of_two_quotients_and_of_points_in_a_box_keep_their_conditions() {
+    let text = sample("weights");
+    let refused = |from: &str, to: &str, expected: &str| {
+        assert!(text.contains(from), "{from}");
+        let message = refusal(&text.replacen(from, to, 1));
+        assert!(message.contains(expected), "{message}");
     };
-    assert!(narrow(&[0, 1, 2]).contains("no share of the divisor"), "{}", narrow(&[0, 1, 2]));
-    let one = narrow(&[0]);
-    assert!(!one.contains("share"), "{one}");
-    // Another number over the divisor.
-    let wrong = format!(
-        "{start}\nlemma 12 {}",
-        end.replacen("variable difference 2 1 0", "variable difference 2 1 0 over 15", 1)
-    );
-    assert!(
-        refusal(&wrong).contains("expected the variable over the divisor"),
-        "{}",
-        refusal(&wrong)
-    );
+    // A point where it is, beside points that were moved; and a step that is one of these.
+    let mixed = "found points in a box and points as they are";
+    refused("variable boxed 0 0\n", "variable point 0 0\n", mixed);
+    let of_point = text.lines().find(|line| line.starts_with("op 0 input ")).unwrap();
+    assert_eq!(of_point, "op 0 input 0");
+    let moved = "lemma 0 sum\nvariable boxed 0 0\nstep 0 variables +0\n";
+    refused("lemma ", &format!("{moved}lemma "), "expected a difference of points in a box");
+    refused("variable boxed 1 0\n", "variable boxed 1 0\nvariable boxed 1 0\n", "independent");
+    // Another rule, other divisors, one quotient twice.
+    let unfit = "found a rule that does not fit its operation";
+    refused(OF_BOTH, "rest-of-quotients-by-reciprocal", unfit);
+    refused(OF_BOTH, "sum-of-quotients", unfit);
+    refused(OF_BOTH, "quotient-by-reciprocal", unfit);
+    let last = text.lines().rfind(|line| line.starts_with("op ")).unwrap();
+    let [.., u, v] = last.split(' ').collect::<Vec<_>>()[..] else { panic!("{last}") };
+    refused(last, &last.replacen(&format!(" {v}"), &format!(" {u}"), 1), unfit);
+    // Nothing but a size is supposed of one of them.
+    for down_to in text.lines().filter(|line| line.starts_with("down-to ")) {
+        let message = refusal(&text.replacen(&format!("{down_to}\n"), "", 1));
+        assert!(message.contains("found `corner") || message.contains("found `first"), "{message}");
+    }
 }
 
 /// The stored certificate of a kernel in f32.
