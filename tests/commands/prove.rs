@@ -78,7 +78,7 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
     let shown = String::from_utf8(first.stdout).unwrap();
     let first = words(&shown);
     for part in [
-        "an answer can be wrong only where the ray passes within 1.17e-5 of the triangle's longest edge of its boundary",
+        "an answer can be wrong only where the ray passes within 7.04e-6 of the triangle's longest edge of its boundary",
         "The ray of the deepest known false miss in f32: hairline explain '{scalar:f32",
         "hairline repair --kernel moller-trumbore --scalar f32",
         "No false miss is farther inside an edge than 3.94e-6 of the triangle's longest edge",

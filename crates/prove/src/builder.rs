@@ -23,18 +23,12 @@ impl Prover<'_> {
         divisor: Place,
         size: (Dyadic, Option<Dyadic>),
     ) -> Result<(Formula, Maximum, Vec<bool>), String> {
-        let found = self.formula_of_fraction(false, numerators, divisor, size);
-        // Where quotients have a sign, points in one box say more than their differences alone.
+        // Where quotients have a sign, the corners of a box of points are some of those of a box of differences.
         let Domain { edge, reach, .. } = self.domain;
-        let boxed = size
-            .1
-            .filter(|_| edge == reach)
-            .and_then(|_| self.formula_of_fraction(true, numerators, divisor, size).ok());
-        let error = |(_, maximum, _): &(Formula, Maximum, Vec<bool>)| maximum.error();
-        match (found, boxed) {
-            (Ok(found), Some(boxed)) if error(&boxed) < error(&found) => Ok(boxed),
-            (found, _) => found,
-        }
+        let is_boxed = size.1.is_some() && edge == reach;
+        let boxed = is_boxed.then(|| self.formula_of_fraction(true, numerators, divisor, size));
+        let boxed = boxed.and_then(Result::ok);
+        boxed.map_or_else(|| self.formula_of_fraction(false, numerators, divisor, size), Ok)
     }
 
     fn formula_of_fraction(

@@ -238,20 +238,29 @@ struct Walk<'a> {
     formula: &'a Formula,
     /// The terms of each step.
     terms: Vec<Vec<Term<usize>>>,
+    /// The variables in each step, as bits.
+    supports: Vec<u64>,
     values: Vec<Dyadic>,
     slopes: Vec<Dyadic>,
+    /// The corner of the values, if there is one.
+    at: Option<u64>,
 }
 
 impl Walk<'_> {
     fn new(formula: &Formula) -> Walk<'_> {
         let terms = formula.steps.iter().map(|step| step.terms().collect()).collect();
         let zeros = vec![Dyadic::ZERO; formula.steps.len()];
-        Walk { formula, terms, values: zeros.clone(), slopes: zeros }
+        let mut supports = Vec::with_capacity(zeros.len());
+        for step in &formula.steps {
+            supports.push(step.support(&supports));
+        }
+        Walk { formula, terms, supports, values: zeros.clone(), slopes: zeros, at: None }
     }
 
     /// The values at a corner, the unit vector being an axis.
     fn evaluate(&mut self, corner: u64, axis: usize) {
-        let Formula { steps, unit, variables, below, .. } = self.formula;
+        let Walk { formula, terms, supports, values, at, .. } = self;
+        let Formula { steps, unit, variables, below, .. } = formula;
         let variable = |v: usize| {
             if unit.contains(&v) && unit[axis] != v {
                 return Dyadic::ZERO;
@@ -261,17 +270,22 @@ impl Walk<'_> {
                 (is_minus, _) => negative_if(is_minus, variables[v]),
             }
         };
+        // A step without a changed variable stays as it was.
+        let changed = at.map(|at| at ^ corner);
+        *at = Some(corner).filter(|_| unit.is_empty());
         for (i, step) in steps.iter().enumerate() {
-            let values = &self.values;
+            if changed.is_some_and(|changed| supports[i] & changed == 0) {
+                continue;
+            }
             let term = |&(is_minus, a, b): &Term<usize>| {
                 negative_if(is_minus, b.map_or(values[a], |b| values[a] * values[b]))
             };
-            self.values[i] = match step {
+            values[i] = match step {
                 Step::Variables(sum) => sum.iter().fold(Dyadic::ZERO, |total, (v, sign)| {
                     total + negative_if(*sign < 0, variable(*v))
                 }),
                 Step::Of(Operation::Number(value)) => Dyadic::new((*value).into(), 0),
-                _ => self.terms[i].iter().map(term).reduce(|a, b| a + b).expect("a term"),
+                _ => terms[i].iter().map(term).reduce(|a, b| a + b).expect("a term"),
             };
         }
     }

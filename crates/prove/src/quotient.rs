@@ -141,15 +141,15 @@ impl Prover<'_> {
         let share = &one / (Big::from(Dyadic::ONE) - &one);
         let mut error = maximum.error();
         if left_out[2] {
-            error = error / (Big::from(floor) - self.error_before_rounding(divisor)?);
+            error /= Big::from(floor) - self.error_before_rounding(divisor)?;
             error = &error + &share * (Big::from(sum.0) + &error) + &tiny / &least;
         } else {
-            error = error / &least;
+            error /= &least;
         }
         for (i, bound) in bounds.iter().enumerate() {
             // Of the quotient of the numbers before they are rounded, or after.
             let mut largest = Big::from(bound.size) + Big::from(bound.error) + &tiny / &least;
-            largest = largest * (Big::from(Dyadic::ONE) + &share + &share);
+            largest *= Big::from(Dyadic::ONE) + &share + &share;
             if left_out[i] {
                 error += &share * &largest + &tiny / &least;
             }
