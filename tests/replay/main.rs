@@ -1,0 +1,48 @@
+//! Each fuzz target over its stored seeds and, where it reads files of the project, over these.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Replays files and folders of the project. A target that finds something panics.
+fn replay(program: &str, files: &[&str]) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut command = Command::new(program);
+    command.args(files).current_dir(root).env("HAIRLINE_KERNEL", "woop-watertight");
+    let output = command.output().expect("it runs");
+    let [out, error] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+    assert!(output.status.success(), "{program} {files:?}: {out}{error}");
+    // As many inputs as it says, and not none.
+    println!("{program}: {}", out.trim());
+    assert!(out.split_whitespace().any(|word| word.parse().is_ok_and(|n: u64| 0 < n)), "{out}");
+}
+
+macro_rules! targets {
+    ($($name:ident: $($files:literal)+;)+) => {
+        $(#[test]
+        fn $name() {
+            replay(env!(concat!("CARGO_BIN_EXE_", stringify!($name))), &[$($files),+]);
+        })+
+
+        const TARGETS: &[&str] = &[$(stringify!($name)),+];
+    };
+}
+
+targets! {
+    case_lines: "fuzz/seeds/case_lines" "corpora/curated.jsonl";
+    kernels: "fuzz/seeds/cases";
+    mesh: "fuzz/seeds/mesh" "corpora/meshes";
+    oracle: "fuzz/seeds/cases";
+    pinned: "fuzz/seeds/cases";
+    response: "fuzz/seeds/cases";
+    settings: "fuzz/seeds/settings" "hairline.toml" "tests/expectations.toml" "tests/expectations.toml.lock";
+}
+
+#[test]
+fn cargo_fuzz_knows_the_same_targets() {
+    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fuzz/Cargo.toml");
+    let text = std::fs::read_to_string(manifest).unwrap();
+    let paths = text.lines().filter_map(|line| line.strip_prefix("path = \"fuzz_targets/"));
+    let mut known: Vec<&str> = paths.filter_map(|path| path.strip_suffix(".rs\"")).collect();
+    known.sort_unstable();
+    assert_eq!(known, TARGETS);
+}
