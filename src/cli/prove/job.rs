@@ -217,7 +217,7 @@ fn supposes<F>(gate: &GateSummary<F>) -> Vec<String> {
         (uses.world, "coordinates"),
         (uses.extent, "t_min and t_max"),
         (uses.floor, "divisors"),
-        (uses.inside, "inside"),
+        (uses.inside, "u and v"),
     ];
     all.into_iter().filter(|(is_used, _)| *is_used).map(|(_, name)| name.to_owned()).collect()
 }
