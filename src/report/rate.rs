@@ -42,7 +42,10 @@ impl TryFrom<Read> for Rate {
         let Read { count, of, rate, interval, rays } = read;
         let trials = Trials::independent(count, of);
         if of < count || rate != trials.share() {
-            return Err(format!("{count} of {of} is no rate of {rate:?}"));
+            let found = rate.map_or_else(|| "null".to_owned(), |rate| rate.to_string());
+            return Err(format!(
+                "found a rate of {found} for {count} of {of}, expected their quotient, at most 1"
+            ));
         }
         Ok(Rate { count, of, rate, interval, rays })
     }

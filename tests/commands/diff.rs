@@ -80,7 +80,16 @@ fn one_case_more_on_the_same_cases_is_worse() {
     let wrong = changed.replacen(&format!("\"count\":{count},"), "\"count\":987654321,", 1);
     std::fs::write(folder.join("wrong.json"), wrong).unwrap();
     let (_, error) = ends(&folder, &["diff", "one.json", "wrong.json"], 65);
-    assert!(error.contains("wrong.json:1: 987654321 of "), "{error}");
+    assert!(error.contains("wrong.json:1: found a rate of "), "{error}");
+    let rate = format!("\"count\":{},", count - 1);
+    let wrong = changed.replacen(&format!("\"count\":{count},"), &rate, 1);
+    std::fs::write(folder.join("wrong.json"), wrong).unwrap();
+    let (_, error) = ends(&folder, &["diff", "one.json", "wrong.json"], 65);
+    assert!(
+        error.contains("wrong.json:1: found a rate of 0.")
+            && error.contains(&format!(" for {} of ", count - 1)),
+        "{error}"
+    );
     let counted = |old: &str, new: &str| {
         let (json, _) = ends(&folder, &["diff", old, new, "--format", "json"], 0);
         let comparison: serde_json::Value = serde_json::from_str(&json).unwrap();

@@ -280,3 +280,17 @@ fn the_smallest_change_mends_the_worst_and_the_refuted_ones_do_not() {
         assert_eq!(number(row, column), sum.sum::<u64>(), "{finding}");
     }
 }
+
+#[test]
+fn a_kernel_with_epsilons_of_its_own_is_not_called_published() {
+    let folder = scratch("repair-given");
+    let kernel = ["repair", "--kernel", "moller-trumbore", "-n", "200", "-q"];
+    let given = ["--epsilon", "parallel=1e-9"];
+    for (flags, name, other) in
+        [(&[][..], "as published", "as given"), (&given, "as given", "as published")]
+    {
+        let (text, _) = ends(&folder, &[&kernel[..], flags].concat(), 0);
+        let is_row = |name: &str| text.lines().any(|line| line.starts_with(name));
+        assert!(is_row(name) && !text.contains(other), "{text}");
+    }
+}

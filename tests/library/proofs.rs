@@ -144,6 +144,13 @@ fn what_the_prover_writes_is_accepted() {
     for (name, text, _) in samples() {
         check(&text).unwrap_or_else(|refusal| panic!("{name}: {refusal}"));
     }
+    // A rest may be large, and its sum far below 0.
+    let cramer = path::<f32>("cramer");
+    let rest = *cramer.compared.last().unwrap().quantities.last().unwrap();
+    let domain = Domain { quotient: Dyadic::power(3), ..Domain::UNIT };
+    let text = certificate_of(&cramer, "f32", domain, &[rest]);
+    assert!(text.contains("rest-of-quotients") && text.contains("\ndown-to "), "{text}");
+    check(&text).unwrap();
 }
 
 /// The bounds of the first operation of a kernel that multiplies twice and subtracts in wider arithmetic.

@@ -5,7 +5,6 @@ use super::dyadic::round_up;
 use super::formula::{DIGITS, Formula, Maximum, Source};
 use super::measures::{Limit, Samples};
 use super::order::{is_at_most, unsigned};
-use super::quotient::Quotients;
 use super::run::parts;
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
@@ -151,7 +150,8 @@ impl<'a> Prover<'a> {
             (formula, maximum, bound) = self.divide(numerator, divisor, twice, limits)?;
             let most = most.unwrap_or(Limit::Own(bound.size));
             rule = Rule::Quotient { ratio: Ratio::One, twice, divisor, floor, most, below };
-        } else if let Some(Quotients { ratio, divisor, twice, .. }) = self.quotients(place) {
+        } else if let Some(both) = self.quotients(place) {
+            let (ratio, divisor, twice) = (both.ratio, both.divisor, both.twice);
             let (floor, most, below) = (self.floor(divisor), self.most(place), self.below(place));
             (formula, maximum, bound) = self.divide_both(place, (floor, most, below))?;
             let most = most.unwrap_or(Limit::Own(bound.size));
@@ -212,8 +212,8 @@ impl<'a> Prover<'a> {
             Rule::Quotient { divisor, .. } => {
                 let numerator = self.quotient(lemma.place).and_then(|(numerator, ..)| numerator);
                 needs.extend(numerator);
-                if let Some(Quotients { parts, rest, .. }) = self.quotients(lemma.place) {
-                    needs.extend(parts.into_iter().chain(rest));
+                if let Some(both) = self.quotients(lemma.place) {
+                    needs.extend(both.parts.into_iter().chain(both.rest));
                 }
                 needs.push(divisor);
             }

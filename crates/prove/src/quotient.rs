@@ -128,8 +128,9 @@ impl Prover<'_> {
         };
         // The number's size, and that of the sum of both, which it may be 1 less.
         let (size, sum) = if rest.is_some() {
-            let upper = most.map(|most| below.unwrap_or(most) + Dyadic::ONE);
             let lower = most.zip(below).map(|(most, _)| most - Dyadic::ONE);
+            let upper = most.map(|most| below.unwrap_or(most) + Dyadic::ONE);
+            let upper = upper.map(|upper| lower.map_or(upper, |lower| upper.max(lower)));
             (limited(&(&both + Big::from(Dyadic::ONE)), most), (limited(&both, upper), lower))
         } else {
             let size = limited(&both, most);

@@ -137,7 +137,11 @@ pub fn verdicts(
 }
 
 /// True if no step of a lemma multiplies two numbers that depend on quotients: then its error grows no faster than they do.
+/// That of a vector divided by its length may.
 fn is_linear(lemma: &Lemma) -> bool {
+    if matches!(lemma.rule, Rule::Unit { .. }) {
+        return false;
+    }
     let mut depends: Vec<bool> = Vec::new();
     for step in &lemma.formula.steps {
         let of = |step: usize| depends[step];
@@ -273,7 +277,8 @@ impl Bounds<'_> {
             Ok(Some([a, b, c]))
         };
         let at = |weights: &[(f64, f64); 3], times: f64| {
-            weights.map(|(epsilon, error)| (times * error - epsilon).max(0.0))
+            // Of a larger epsilon than a half no more is said.
+            weights.map(|(epsilon, error)| (times * error - epsilon.min(0.5)).max(0.0))
         };
         let Some(weights) = known(self.proof, true)? else {
             // All weights are small, and their sum is 1.

@@ -147,6 +147,11 @@ impl<F: Searched + Scalar> TriedChanges<F> {
         self.counts[0].worst.is_some_and(is_right)
     }
 
+    /// The kernel as it is, in a row of the table.
+    fn unchanged(&self) -> &'static str {
+        if self.plan.rows[0].set.contains('=') { "as given" } else { "as published" }
+    }
+
     /// True if a candidate is judged as the kernel was.
     fn is_comparable(&self, i: usize) -> bool {
         self.plan.rows[i].contract.extent == self.plan.rows[0].contract.extent
@@ -198,7 +203,7 @@ impl<F: Searched + Scalar> TriedChanges<F> {
             let cells = [misses, hits, leaks, visible, worst.to_owned(), inside, outside, cost];
             TableRow::new(name, cells)
         };
-        let mut rows = vec![row(0, "as published")];
+        let mut rows = vec![row(0, self.unchanged())];
         for (i, candidate) in self.candidates.iter().enumerate() {
             if !self.is_comparable(i + 1) {
                 rows.push(row(self.counts.len() - 1, "judged as a ray"));
@@ -336,7 +341,7 @@ pub fn blocks<F: Searched + Scalar>(
             ),
         }));
         blocks.push(Block::Listing(patch(row, candidate)));
-        next(tried.command(row, worst), "the worst, as published");
+        next(tried.command(row, worst), "the worst of the kernel as it is");
         let audit =
             format!("hairline audit {} --scalar {}{}", candidate.row.flags(), F::NAME, rays.flags);
         next(audit, "everything about the changed kernel");

@@ -248,8 +248,9 @@ fn rest_of_quotients(
     let (most, down_to) = (program.most(place), program.down_to(place));
     let size = round_up(&(&both + Number::one()).min(most.clone()), SIZE_DIGITS);
     // The sum of both is 1 less the number.
-    let upper = Number::one() + down_to.unwrap_or(most);
     let lower = down_to.map(|_| most - Number::one());
+    let upper = Number::one() + down_to.unwrap_or(most);
+    let upper = lower.clone().map_or(upper.clone(), |lower| upper.max(lower));
     let sum = (&round_up(&both.min(upper), SIZE_DIGITS), lower.as_ref());
     let mut error = error_of_both(program, [u, v], sum, by_reciprocal, work, reader)?;
     let Bound { size: of_rest, error: own, .. } = program.bound(rest)?;

@@ -1,6 +1,7 @@
 //! Two quotients by one divisor, and points in a box.
 
-use super::super::{Domain, Format, Formula, Proof, Rule, Source, Step, paths_of};
+use super::super::bound::Ratio;
+use super::super::{Domain, Dyadic, Format, Formula, Proof, Rule, Source, Step, paths_of};
 use crate::arith::recorded::Operation;
 use crate::case::Draw;
 use crate::kernel;
@@ -83,4 +84,20 @@ fn effects_on_barycentric_quotients_are_largest_at_corners_of_a_box_of_points() 
     }
     // u + v, whose maximum a program that shares nothing with this one found too: 27.989 u.
     assert_eq!(wholes, 1);
+}
+
+/// Where 1 - u - v is at most 8 and at least 0, u + v is between -7 and 1.
+#[test]
+fn a_sum_is_as_large_as_its_rest_lets_it_be() {
+    let domain = Domain { quotient: Dyadic::power(3), ..Domain::UNIT };
+    let paths = paths_of::<f32>(kernel::find("cramer").expect("it is there")).expect("paths");
+    let proof = Proof::new(paths, None, domain, Format::F32);
+    let is_rest =
+        |rule: &Rule| matches!(rule, Rule::Quotient { ratio: Ratio::Rest, below: Some(_), .. });
+    let lemmas = proof.quantities.iter().flat_map(|quantity| &quantity.lemmas);
+    let rest = lemmas.into_iter().find(|lemma| is_rest(&lemma.rule)).expect("(1-gamma)-beta");
+    let formula = &rest.formula;
+    let (v, lower) = formula.below.expect("it has ends");
+    assert_eq!(formula.sources[v], Source::Quotient);
+    assert_eq!([formula.variables[v], lower], [Dyadic::new(7, 0); 2]);
 }
