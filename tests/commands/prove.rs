@@ -407,8 +407,8 @@ fn certificates_are_checked_and_a_changed_number_is_refused() {
     let kernel = ["--kernel", "moller-trumbore-culling", "--scalar", "f32"];
     text(&[&["prove"], &kernel[..], &["--certificate", file]].concat());
     let proved = format!(
-        "{file}: 5 bounds proved of moller-trumbore-culling f32: what it compares is wrong by at most edge 3.634e-6, \
-         parallel 1.013e-6 (all that the kernel compares, on 3 paths recorded again: 5 programs)\n  \
+        "{file}: 5 bounds proved of moller-trumbore-culling f32: what it compares is wrong by at most edge 3.64e-6, \
+         parallel 1.02e-6 (all that the kernel compares, on 3 paths recorded again: 5 programs)\n  \
          for every float with coordinates of edges up to 9.990e-1, of vertices from the origin of the ray up to \
          9.990e-1, of points up to 9.990e-1, of directions up to 1, t_min and t_max up to 1.000e0, divisors at least \
          5.000e-1 (the direction's largest coordinate 0.5), quotients at most 1.000e0\n"

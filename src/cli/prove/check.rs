@@ -9,7 +9,7 @@ use crate::kernel::{self, Entry, Path, Role, Scalar};
 use crate::prove::certificate::operations;
 use crate::prove::checker::{self, Number, Proved};
 use crate::prove::repair::Guarded;
-use crate::prove::{compared, is_at_most, is_impossible, paths_of};
+use crate::prove::{above, compared, is_at_most, is_impossible, paths_of};
 use crate::report::number_of;
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
@@ -139,7 +139,7 @@ fn largest_errors(proved: &mut dyn Iterator<Item = &Proved>) -> String {
         let most = gates.entry(&claim.gate).or_default();
         *most = most.max(float(&claim.bound.error));
     }
-    let gates = gates.iter().map(|(gate, x)| format!("{gate} {x:.3e}"));
+    let gates = gates.iter().map(|(gate, x)| format!("{gate} {}", above(*x)));
     gates.collect::<Vec<_>>().join(", ")
 }
 
@@ -173,7 +173,7 @@ fn inputs(domain: &[Number; 8], claims: &[&Proved]) -> String {
     ));
     let down_to = claims.iter().flat_map(|claim| &claim.limits[2]).map(float);
     if let Some(down_to) = down_to.reduce(f64::min) {
-        text.push_str(&format!(", those with a line down-to at least {}", 0.0 - down_to));
+        text.push_str(&format!(" (at least {} where a line down-to says so)", 0.0 - down_to));
     }
     text
 }
