@@ -69,9 +69,9 @@ pub fn signs_to_try<T: Zero>(rows: &[Row<T>], unit: &[usize], fixed: usize) -> u
     lowest.fold(fixed, |bits, v| bits | 1 << v) & !of_unit
 }
 
-/// Every corner of the box, which has the `ends` of each variable, that differs in the `tried` variables, and every axis of `unit`, the variables
-/// that are coordinates of a unit vector in which the last step is linear. Without weights, only the sizes are
-/// searched for. None if numbers are too long.
+/// Every corner of the box, which has the `ends` of each variable, that differs in the `tried` variables, and every axis
+/// of `unit`, the variables that are coordinates of a unit vector in which the last step is linear. Without weights, only
+/// the sizes are searched for. None if numbers are too long.
 pub fn search(
     rows: &[Row<BigInt>],
     weights: &[Weight<BigInt>],
