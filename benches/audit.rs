@@ -45,13 +45,7 @@ fn plan(families: &[&'static Family], count: u64, scalars: [bool; 2]) -> Plan {
     let entries: Vec<_> = KERNELS.iter().collect();
     let source = |family: &&'static Family| Source::of(family, Parameters::default(), 1, count);
     let rows = EpsilonChoice::Source.rows(&entries, None).expect("the default plan");
-    Plan {
-        rows,
-        sources: families.iter().map(source).collect(),
-        scalars,
-        examples: 3,
-        attribute: 0,
-    }
+    Plan::new(rows, families.iter().map(source).collect(), scalars, 3)
 }
 
 fn line<F: Scalar>(name: &str, families: &[&'static Family], count: u64) {

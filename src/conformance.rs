@@ -242,13 +242,8 @@ impl Request {
             let others: Vec<Source> = sources.iter().flat_map(Source::in_other_kinds).collect();
             sources.extend(others);
         }
-        let plan = Plan {
-            rows,
-            sources,
-            scalars: self.entry.scalars(),
-            examples: 3,
-            attribute: self.attribute,
-        };
+        let plan =
+            Plan { attribute: self.attribute, ..Plan::new(rows, sources, self.entry.scalars(), 3) };
         let sums = audit::run(&plan, &Unobserved);
         let context = Context { seconds: 0.0, threads: engine::threads() };
         #[allow(unused_mut)]

@@ -101,7 +101,7 @@ fn part(plan: &Plan, found: &Deviation) -> Option<(Plan, u64, u64)> {
     });
     let scalars = [found.scalar == "f32", found.scalar == "f64"];
     let (rows, sources) = (vec![row.clone()], vec![source.clone()]);
-    Some((Plan { rows, sources, scalars, examples: 1, attribute: 0 }, index, count))
+    Some((Plan::new(rows, sources, scalars, 1), index, count))
 }
 
 /// The findings of a part of a plan.

@@ -39,8 +39,7 @@ pub fn refuse_wrong_values(rows: &[Row], scalars: [bool; 2]) -> Result<(), Failu
     let parameters = Parameters { unit_direction, ..Parameters::default() };
     let family = family::find("interior").expect("the control family");
     let source = Source::of(family, parameters, 1, 1024);
-    let plan =
-        Plan { rows: rows.to_vec(), sources: vec![source], scalars, examples: 1, attribute: 0 };
+    let plan = Plan::new(rows.to_vec(), vec![source], scalars, 1);
     for cell in audit::run(&plan, &Unobserved).cells {
         let total = cell.tally.total();
         let of = total.trials(Finding::WrongValue);
@@ -128,16 +127,21 @@ pub fn note_missed_angles(scene: &Scene, mesh: Option<&SceneMesh>, scalars: [boo
 
 /// The indices of a run; an error if there are none.
 pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Failure> {
-    let count = |source: &Source| {
-        let [f32, f64] = [source.count::<f32>(), source.count::<f64>()];
-        u64::from(scalars[0]) * f32 + u64::from(scalars[1]) * f64
-    };
-    match sources.iter().map(count).sum() {
+    match count_indices(sources, scalars) {
         0 => {
             Err(Failure::nothing("nothing to run: the sources have no case in the chosen scalars"))
         }
         total => Ok(total),
     }
+}
+
+/// How many indices the sources have in some scalars.
+pub fn count_indices(sources: &[Source], scalars: [bool; 2]) -> u64 {
+    let count = |source: &Source| {
+        let [f32, f64] = [source.count::<f32>(), source.count::<f64>()];
+        u64::from(scalars[0]) * f32 + u64::from(scalars[1]) * f64
+    };
+    sources.iter().map(count).sum()
 }
 
 /// The scalars in which the sources have a case.

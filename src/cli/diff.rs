@@ -8,7 +8,6 @@ use super::spawn::SpawnResult;
 use super::verify::VerifyResult;
 use crate::expect::{RecordComparison, difference, difference_of};
 use crate::report::epsilon::SceneResult;
-use crate::report::mesh::MeshResult;
 use crate::report::{Comparable, Format, Record, Study};
 use clap::Args;
 
@@ -40,7 +39,6 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
             difference(&old.result, &new.result)
         }
         Study::Epsilon => of_one_study::<SceneResult>(old, new)?,
-        Study::Mesh => of_one_study::<MeshResult>(old, new)?,
         Study::Spawn => of_one_study::<SpawnResult>(old, new)?,
         Study::Prove => of_one_study::<ProofResult>(old, new)?,
         Study::Verify => of_one_study::<VerifyResult>(old, new)?,
@@ -85,7 +83,6 @@ mod tests {
     enum AnyRecord {
         Audit(Record<ResultPart>),
         Epsilon(Record<SceneResult>),
-        Mesh(Record<MeshResult>),
         Spawn(Record<SpawnResult>),
         Prove(Record<ProofResult>),
         Verify(Record<VerifyResult>),

@@ -4,13 +4,13 @@ use super::exit::{Failure, Status};
 use super::input::{corpus_sets, read_mesh, read_record};
 use super::plugins::PluginArguments;
 use super::progress::Progress;
-use super::reporting::{Outputs, ReportArguments, illustrated, self_check};
-use crate::audit::{Plan, Stock, StoredStock};
+use super::reporting::{Outputs, ReportArguments, illustrate, self_check};
+use crate::audit::{Audit, Plan, Stock, StoredStock};
 use crate::corpus::InputError;
 use crate::family::{MeshFamily, Stratum};
 use crate::kernel;
 use crate::mesh::{AimedPart, SceneMesh, Surface};
-use crate::report::{mergeable, merged};
+use crate::report::{Record, mergeable, merged};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -63,7 +63,11 @@ fn joined(arguments: &MergeArguments, outputs: &Outputs<'_>) -> Result<Status, F
     })?;
     let quiet = arguments.report.output.quiet;
     let progress = Progress::new(0, "indices", true);
-    let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrated(plan));
+    let illustrate = |plan: &Plan, sums: &Audit, record: &mut Record| {
+        if outputs.illustrate() {
+            illustrate(plan, sums, record);
+        }
+    };
     let record = merged(parts, illustrate, &progress, |stock, scalars| open(stock, scalars, quiet))
         .map_err(|Unmergeable(failure)| failure)?;
     self_check(&record)?;

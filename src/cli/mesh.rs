@@ -2,27 +2,25 @@
 
 use super::before::{one_scalar, set_threads};
 use super::exit::{Failure, Status};
-use super::flags::{matrix_in, scalar_names};
+use super::flags::{RUNNING, matrix_in};
 use super::input::read_mesh;
-use super::output::OutputArguments;
-use super::plugins;
-use super::progress::Progress;
+use super::reporting::{Execution, Outputs, ReportArguments};
 use super::select::KernelArguments;
 use super::sources::rays_at_each;
-use crate::audit::mesh::{MeshFound, MeshPlan};
+use crate::audit::{Plan, Source};
+use crate::case::Parameters;
 use crate::family::MeshFamily;
-use crate::mesh::{AimedPart, Surface};
-use crate::report::mesh::{MESH_FORMATS, build, places};
-use crate::report::{Context, HTML, number_of};
-use crate::studied::Studied;
+use crate::mesh::Surface;
+use crate::report::places;
 use clap::Args;
 use std::sync::Arc;
 
 /// Which mesh and kernels, and how to report it.
 #[derive(Args)]
 #[command(mut_arg("band", |band| band.hide(true)))]
+#[command(mut_arg("illustrate", |illustrate| illustrate.hide(true)))]
 #[command(mut_arg("format", |format| {
-    format.help("text, json, markdown or html, or several separated by commas; html draws the mesh with the edges and vertices where rays slip through")
+    format.help("text, json, junit, sarif, markdown or html, or several separated by commas; html draws the mesh with the edges and vertices where rays slip through")
 }))]
 pub struct MeshArguments {
     /// An OBJ, PLY, STL or glTF file (.gltf or .glb); - is standard input
@@ -57,75 +55,62 @@ pub struct MeshArguments {
     #[arg(long, default_value_t = 3, value_name = "N")]
     examples: usize,
 
+    /// Run only part K of N, counted from 0; `hairline merge` makes one record of all parts
+    #[arg(long, value_name = "K/N", help_heading = RUNNING)]
+    shard: Option<String>,
+
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
     #[command(flatten)]
-    output: OutputArguments,
+    report: ReportArguments,
 }
 
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
-    let mut outputs = arguments.output.pairs(MESH_FORMATS)?;
-    let mut plan = arguments.plan()?;
-    let scalars = one_scalar(&plan.rows, &arguments.scalar)?;
-    plan.instance = matrix_in(arguments.instance.as_deref(), scalars)?;
-    let threads = set_threads(arguments.threads)?;
-    let family =
-        MeshFamily::new(read_mesh(&arguments.file, arguments.output.quiet)?, &arguments.file);
-    if outputs.iter().any(|(format, _)| format.name == HTML) {
-        plan.places = places(family.mesh());
+    let outputs = arguments.report.outputs()?;
+    outputs.told(audited(arguments, &outputs))
+}
+
+fn audited(arguments: &MeshArguments, outputs: &Outputs<'_>) -> Result<Status, Failure> {
+    let run = Execution {
+        plan: &arguments.plan(outputs.illustrate())?,
+        kernels: &arguments.kernels,
+        shard: arguments.shard.as_deref(),
+        quiet: arguments.report.output.quiet,
+        illustrate: outputs.illustrate(),
+    };
+    let record = run.record()?;
+    if record.result.sources.iter().any(|source| 0 < source.cases) {
+        outputs.write(&record)?;
+        return Ok(Status::Success);
     }
-    let surface = Arc::new(Surface::new(Arc::new(family), scalars));
-    let progress = Progress::new(0, "rays", arguments.output.quiet);
-    let run =
-        |name| in_named_scalar!(name, F => arguments.run_scalar::<F>(&surface, &plan, &progress));
-    let found: Vec<MeshFound> = scalar_names(scalars).map(run).collect();
-    progress.finish();
-    plugins::check()?;
-    let context = Context { seconds: progress.seconds(), threads };
-    let report = build(&surface, &plan, &found, &context);
-    let nothing = found.iter().all(|found| found.cases == 0);
-    if nothing {
-        // It is printed why, but no file becomes a report of nothing.
-        outputs.retain(|(_, path)| *path == "-");
-    }
-    arguments.output.write(outputs, &report)?;
-    if nothing {
-        let message = format!(
-            "{}: nothing to ask: no edge lies between two sound faces that are wound consistently",
-            arguments.file
-        );
-        return Err(Failure::nothing(message));
-    }
-    Ok(Status::Success)
+    // It is printed why, but no file becomes a report of nothing.
+    outputs.on_screen().write(&record)?;
+    let message = format!(
+        "{}: nothing to ask: no edge lies between two sound faces that are wound consistently",
+        arguments.file
+    );
+    Err(Failure::nothing(message))
 }
 
 impl MeshArguments {
-    fn plan(&self) -> Result<MeshPlan, Failure> {
-        let unit_direction = self.direction.is_some();
-        let MeshArguments { directions, seed, examples, .. } = *self;
+    fn plan(&self, illustrate: bool) -> Result<Plan, Failure> {
         let rows = self.kernels.rows_without_band("every ray goes to an edge or a vertex")?;
-        Ok(MeshPlan { rows, directions, seed, unit_direction, instance: None, examples, places: 0 })
-    }
-
-    fn run_scalar<F: Studied>(
-        &self,
-        surface: &Arc<Surface>,
-        plan: &MeshPlan,
-        progress: &Progress,
-    ) -> MeshFound {
-        let parameters = plan.parameters();
-        let targets = surface.targets::<F>(&parameters, plan.seed);
-        let count = |part| targets.as_ref().map_or(0, |targets| targets.count(part));
-        let rays: u64 = AimedPart::ALL.map(|part| count(part) * plan.directions).iter().sum();
-        progress.add_total(rays);
-        if !self.output.quiet {
-            let rows = plan.rows.iter().filter(|row| F::subject(row.entry).is_some()).count();
-            let rows = number_of(rows as u64, "kernel row", "kernel rows");
-            eprintln!("{rows} on {rays} rays in {}", F::NAME);
-        }
-        F::mesh(surface, plan, progress)
+        let scalars = one_scalar(&rows, &self.scalar)?;
+        let parameters = Parameters {
+            unit_direction: self.direction.is_some(),
+            instance: matrix_in(self.instance.as_deref(), scalars)?,
+            ..Parameters::default()
+        };
+        set_threads(self.threads)?;
+        let family = MeshFamily::new(read_mesh(&self.file, self.report.output.quiet)?, &self.file);
+        // A part of a run may be merged into a page.
+        let is_drawn = illustrate || self.shard.is_some();
+        let places = if is_drawn { places(family.mesh()) } else { 0 };
+        let surface = Arc::new(Surface::new(Arc::new(family), scalars));
+        let sources = Source::parts_of(&surface, &parameters, self.seed, self.directions).into();
+        Ok(Plan { places, ..Plan::new(rows, sources, scalars, self.examples) })
     }
 }

@@ -59,11 +59,6 @@ impl Progress {
         self.bar.set_position(position);
     }
 
-    /// Adds to the total.
-    pub fn add_total(&self, more: u64) {
-        self.bar.inc_length(more);
-    }
-
     /// Says after the first second how long a long run takes.
     fn estimate(&self) {
         let (elapsed, done) = (self.start.elapsed(), self.bar.position());

@@ -1,6 +1,8 @@
 //! The parts that `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
-use super::before::{note_secondary_rays, scalars_in_use, set_threads, total_indices};
+use super::before::{
+    count_indices, note_secondary_rays, scalars_in_use, set_threads, total_indices,
+};
 use super::exit::{Failure, Status};
 use super::flags::{OUTPUT, RUNNING, matrix_in, scalar_names};
 use super::output::{OutputArguments, write_failure};
@@ -9,10 +11,10 @@ use super::progress::Progress;
 use super::prove;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, rays_at_each};
-use crate::audit::{self, Plan, Shard, Source, shell_word};
+use crate::audit::{self, Audit, Plan, Shard, Source, shell_word};
 use crate::report::{
     Context, FORMATS, Format, HTML, Illustrations, ON_FAILURE, PartialPart, PlanFlags, Record,
-    build, group_digits, number_of, shard_part,
+    build, drawing, group_digits, number_of, shard_part,
 };
 use clap::{Args, ValueEnum};
 
@@ -81,6 +83,12 @@ impl Outputs<'_> {
         outcome
     }
 
+    /// The same without files.
+    pub fn on_screen(&self) -> Self {
+        let to_screen = self.pairs.iter().filter(|(_, path)| *path == "-");
+        Outputs { pairs: to_screen.copied().collect(), ..*self }
+    }
+
     /// Writes a record to each.
     pub fn write(&self, record: &Record) -> Result<(), Failure> {
         self.flags.write(self.pairs.clone(), record)
@@ -143,7 +151,7 @@ impl RunArguments {
             Some(matrix) => sources.map(|source| source.placed(matrix)).collect(),
             None => sources.collect(),
         };
-        Ok(Plan { rows, sources, scalars, examples: self.examples, attribute })
+        Ok(Plan { attribute, ..Plan::new(rows, sources, scalars, self.examples) })
     }
 
     /// The flags that choose the cases again.
@@ -158,17 +166,46 @@ impl RunArguments {
         flags.trim_start().to_owned()
     }
 
-    /// Runs a plan, or the part of it that `--shard` names, and makes its record, illustrated if asked.
+    /// Runs a plan and makes its record, illustrated if asked.
     pub fn execute(&self, plan: &Plan, illustrate: bool) -> Result<Record, Failure> {
+        total_indices(&plan.sources, plan.scalars)?;
+        let flags = PlanFlags { kernels: self.kernels.flags(), sources: self.source_flags() };
+        let run = Execution {
+            plan,
+            kernels: &self.kernels,
+            shard: self.shard.as_deref(),
+            quiet: self.report.output.quiet,
+            illustrate,
+        };
+        let mut record = run.record()?;
+        record.provenance.plan_flags = Some(flags);
+        Ok(record)
+    }
+}
+
+/// A plan to run, or a part of it.
+pub struct Execution<'a> {
+    pub plan: &'a Plan,
+    pub kernels: &'a KernelArguments,
+    /// The part, as `--shard` names it.
+    pub shard: Option<&'a str>,
+    pub quiet: bool,
+    /// True if the record is to hold the data for pictures.
+    pub illustrate: bool,
+}
+
+impl Execution<'_> {
+    /// Runs it and makes its record.
+    pub fn record(&self) -> Result<Record, Failure> {
+        let Execution { plan, kernels, quiet, .. } = *self;
         let shard: Option<Shard> = self
             .shard
-            .as_deref()
             .map(str::parse)
             .transpose()
             .map_err(|error| Failure::usage(format!("--shard: {error}")))?;
         let threads = rayon::current_num_threads();
-        let total = total_indices(&plan.sources, plan.scalars)?;
-        if !self.report.output.quiet {
+        let total = count_indices(&plan.sources, plan.scalars);
+        if !quiet {
             note_secondary_rays(&plan.rows, &plan.sources);
             let rows = number_of(plan.rows.len() as u64, "kernel row", "kernel rows");
             let sources =
@@ -182,33 +219,34 @@ impl RunArguments {
                 shard.map_or(String::new(), |shard| format!(", of them shard {shard}"))
             );
         }
-        let progress = Progress::new(total, "rays", self.report.output.quiet);
+        let progress = Progress::new(total, "rays", quiet);
         let mut sums = audit::sum(plan, shard.unwrap_or(Shard::WHOLE), &progress);
         let part = shard.map(|_| shard_part(plan, &sums));
         audit::finish(plan, &progress, &mut sums);
-        // Of the whole plan: a part of a run leaves it to `merge`.
-        let illustrate = illustrate && shard.is_none();
         progress.finish();
         plugins::check()?;
         let seconds = progress.seconds();
         let mut record = build(plan, &sums, &Context { seconds, threads });
         (record.result.partial, record.shard) = (shard.map(PartialPart::from), part);
-        record.provenance.kernel_files = self.kernels.files();
-        record.provenance.plan_flags =
-            Some(PlanFlags { kernels: self.kernels.flags(), sources: self.source_flags() });
-        if illustrate {
-            let progress = Progress::without_end(self.report.output.quiet);
+        record.provenance.kernel_files = kernels.files();
+        // Of the whole plan: a part of a run leaves it to `merge`.
+        if self.illustrate && shard.is_none() {
+            let progress = Progress::without_end(quiet);
             progress.tell("what is proved of the kernels".to_owned());
-            record.illustrations = Some(illustrated(plan));
+            illustrate(plan, &sums, &mut record);
             progress.finish();
         }
         Ok(record.sealed())
     }
 }
 
-/// The proofs about the kernels of a plan.
-pub fn illustrated(plan: &Plan) -> Illustrations {
-    Illustrations { proofs: prove::proofs(&plan.rows, plan.scalars) }
+/// Adds the data for pictures: of a plan for a mesh its drawing, otherwise the proofs about the kernels.
+pub fn illustrate(plan: &Plan, sums: &Audit, record: &mut Record) {
+    record.drawing = drawing(plan, sums);
+    if record.drawing.is_none() {
+        let proofs = prove::proofs(&plan.rows, plan.scalars);
+        record.illustrations = Some(Illustrations { proofs });
+    }
 }
 
 /// A family that breaks its own promise is a fault of this tool.

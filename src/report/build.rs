@@ -2,10 +2,12 @@
 
 use super::distribution;
 use super::record::*;
+#[cfg(feature = "studies")]
+use super::surface;
 use crate::arith::Float;
 use crate::audit::{
-    Audit, CasePlace, CorpusSet, EpsilonText, Examples, GroupCount, Plan, PolygonCount, Row,
-    Severity, Source, SourceCell, SourceSummary, Stock, Tally, Trials, exact_severity,
+    Audit, CLASSES, CasePlace, CorpusSet, EpsilonText, Examples, GroupCount, Plan, PolygonCount,
+    Row, Severity, Source, SourceCell, SourceSummary, Stock, Tally, Trials, exact_severity,
     severity_of_instance, words,
 };
 use crate::case::{Case, Matrix};
@@ -35,6 +37,10 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
     let result = ResultPart {
         plan: plan_part(plan),
         partial: None,
+        #[cfg(feature = "studies")]
+        mesh: surface::mesh_part(plan, audit),
+        #[cfg(not(feature = "studies"))]
+        mesh: None,
         sources: audit.sources.iter().map(|summary| source_part(plan, summary)).collect(),
         results,
         totals: distribution::totals(plan, audit),
@@ -199,7 +205,7 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &SourceCell) -> KernelResult {
         findings: findings.collect(),
         severity: distribution::severities(&tally.severities),
         accuracy: distribution::accuracy(&tally.accuracy),
-        across: grouping.shares_a_ray().then(|| across_in_source::<F>(source, row, &tally.groups)),
+        across: grouping.shares_a_ray().then(|| across_in_source::<F>(source, row, tally)),
         polygons: (grouping == Grouping::Polygon && row.entry.info.polygons)
             .then(|| polygon_part::<F>(source, &tally.polygons)),
         self_hits: (grouping == Grouping::SecondaryRay)
@@ -287,18 +293,29 @@ pub(super) fn across_part(
         odd_fold_digest: groups.odd_fold_digest.to_string(),
         file: None,
         elsewhere: None,
+        first_elsewhere: ids(&groups.first_elsewhere),
+        leaking: None,
+        classes: BTreeMap::new(),
     }
 }
 
-fn across_in_source<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> AcrossPart {
+fn across_in_source<F: Scalar>(source: &Source, row: &Row, tally: &Tally) -> AcrossPart {
     let sample = source.is_sample();
-    AcrossPart {
-        file: source.file_flag(),
+    let part = |groups: &GroupCount| AcrossPart {
         elsewhere: source
             .has_neighbours()
             .then(|| rate(groups.elsewhere, groups.crossings, sample)),
         ..across_part(row.contract.across.into(), groups, sample, |i| source.id::<F>(i, None))
+    };
+    let mut across = part(&tally.groups);
+    across.file = source.file_flag();
+    if let (Stock::MeshPart(_, aimed), Some(targets)) = (&source.stock, source.targets::<F>()) {
+        let (count, of) = (tally.aimed.leaking(), targets.count(*aimed));
+        across.leaking = Some(LeakingPart { count, of });
+        let classes = CLASSES.map(str::to_owned).into_iter();
+        across.classes = classes.zip(tally.aimed.classes.iter().map(part)).collect();
     }
+    across
 }
 
 fn polygon_part<F: Scalar>(source: &Source, polygons: &PolygonCount) -> PolygonPart {

@@ -9,6 +9,8 @@ mod conformance;
 mod disagreement;
 mod distribution;
 #[cfg(feature = "studies")]
+mod drawing;
+#[cfg(feature = "studies")]
 pub(crate) mod elsewhere;
 #[cfg(feature = "studies")]
 pub mod epsilon;
@@ -25,11 +27,15 @@ mod rate;
 mod record;
 #[cfg(feature = "studies")]
 mod shard;
+#[cfg(feature = "studies")]
+mod surface;
 
 pub use build::{Context, build, provenance_of};
 pub use conformance::*;
 pub(crate) use disagreement::counts_alone;
 pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
+#[cfg(feature = "studies")]
+pub use drawing::{MeshDrawing, drawing, places};
 #[cfg(feature = "cli")]
 pub use formats::JSON_SCHEMA;
 #[cfg(feature = "studies")]

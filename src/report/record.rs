@@ -5,11 +5,14 @@
 
 mod finding;
 mod kind;
+mod mesh;
 mod part;
 mod plan;
 mod study;
 
 use super::conformance::Conformance;
+#[cfg(feature = "studies")]
+use super::drawing::MeshDrawing;
 use super::illustration::Illustrations;
 pub use super::rate::Rate;
 use crate::audit::Trials;
@@ -17,6 +20,7 @@ use crate::corpus::hex;
 pub use finding::*;
 use hmac_sha256::Hash;
 pub use kind::{FindingKind, Promised};
+pub use mesh::*;
 pub use part::*;
 pub use plan::*;
 use serde::{Deserialize, Serialize};
@@ -33,7 +37,7 @@ pub const SCHEMA: &str = "hairline-record/2";
 pub struct Record<R = ResultPart> {
     /// [`SCHEMA`].
     pub schema: String,
-    /// The study: `audit`, `epsilon`, `mesh`, `spawn`, `prove` or `verify`.
+    /// The study: `audit`, `epsilon`, `spawn`, `prove` or `verify`.
     #[cfg_attr(test, schemars(with = "String"))]
     pub study: Study,
     /// The findings.
@@ -50,6 +54,10 @@ pub struct Record<R = ResultPart> {
     /// The data for pictures; only where an audit was asked for them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub illustrations: Option<Illustrations>,
+    /// The drawing of a mesh, for pages alone.
+    #[cfg(feature = "studies")]
+    #[serde(skip)]
+    pub drawing: Option<MeshDrawing>,
     /// Where and how it was made.
     pub provenance: Provenance,
 }
@@ -65,6 +73,8 @@ impl<R: Findings> Record<R> {
             shard: None,
             conformance: None,
             illustrations: None,
+            #[cfg(feature = "studies")]
+            drawing: None,
             provenance,
         }
     }
@@ -93,6 +103,9 @@ pub struct ResultPart {
     pub partial: Option<PartialPart>,
     /// The sources of cases, by scalar.
     pub sources: Vec<SourcePart>,
+    /// The mesh, if all cases are at its edges and vertices.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshPart>,
     /// One entry for each scalar, source and kernel row.
     pub results: Vec<KernelResult>,
     /// One entry for each scalar and kernel row: distributions over all sources.
@@ -102,7 +115,9 @@ pub struct ResultPart {
 impl ResultPart {
     /// True if triangles are put into the world by a matrix.
     pub(crate) fn is_placed(&self) -> bool {
-        self.plan.sources.iter().any(|source| source.set.contains("/instance="))
+        let mut sources = self.plan.sources.iter();
+        let is_place = |word: &str| word.starts_with("instance=");
+        sources.any(|source| source.set.split(['/', ',']).any(is_place))
     }
 
     /// The results by kernel, epsilon set, scalar and family.

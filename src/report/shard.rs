@@ -1,7 +1,7 @@
 //! How the records of a run's parts become the record of the whole.
 
 use super::build::plan_part;
-use super::{Context, Illustrations, PartialPart, Provenance, Record, ShardPart, build};
+use super::{Context, PartialPart, Provenance, Record, ShardPart, build};
 use crate::audit::{self, Audit, MOST_SHARDS, Observer, Plan, Stock, StoredPlan, StoredStock};
 use crate::corpus::hex;
 use hmac_sha256::Hash;
@@ -122,7 +122,7 @@ impl Mergeable {
 /// are drawn from. The result of all parts is, byte for byte, that of a run without parts.
 pub fn merged<E: From<String>>(
     parts: Mergeable,
-    illustrate: impl FnOnce(&Plan) -> Option<Illustrations>,
+    illustrate: impl FnOnce(&Plan, &Audit, &mut Record),
     observer: &dyn Observer,
     open: impl FnMut(&StoredStock, [bool; 2]) -> Result<Stock, E>,
 ) -> Result<Record, E> {
@@ -148,7 +148,7 @@ pub fn merged<E: From<String>>(
     let mut record = build(&plan, &audit, &Context { seconds, threads });
     record.result.partial = (!complete).then_some(parts.partial);
     record.shard = shard;
-    record.illustrations = illustrate(&plan);
+    illustrate(&plan, &audit, &mut record);
     if let Some(first) = parts.provenance.first() {
         record.provenance.plan_flags.clone_from(&first.plan_flags);
         record.provenance.target.clone_from(&first.target);

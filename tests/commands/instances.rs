@@ -217,10 +217,10 @@ fn a_mesh_leaks_far_off_and_says_that_it_is_an_instance() {
         let flags = ["mesh", &file, "-q", "-k", "woop-watertight", "--format", "json"];
         let out = ends(&folder, &[&flags[..], more].concat(), 0).0;
         let record: Value = serde_json::from_str(&out).unwrap();
-        record["result"]["instance"][0].clone()
+        record["result"]["plan"]["sources"][0]["set"].to_string()
     };
-    assert_eq!(matrix(&[]), Value::Null);
-    assert_eq!(matrix(&["--instance", IDENTITY]), serde_json::json!([1.0, 0.0, 0.0, 0.0]));
+    assert!(!matrix(&[]).contains("instance"));
+    assert!(matrix(&["--instance", IDENTITY]).contains(",instance=1e0:0e0:0e0:0e0:"));
     let screen = |matrix| {
         let flags = ["mesh", &file, "-q", "-k", "woop-watertight", "--instance", matrix];
         flat(&ends(&folder, &flags, 0).0)

@@ -3,7 +3,7 @@
 use crate::json_schema;
 use crate::program;
 
-use program::{ends, flat, hairline, result_bytes, scratch};
+use program::{at_mesh, ends, flat, hairline, result_bytes, scratch};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -46,13 +46,13 @@ fn the_table_says_what_the_mesh_is_and_where_rays_slip_through() {
     assert!(out.lines().count() <= 40, "{out}");
     let (all, _) = ends(&folder, &[&arguments[..], &["--details"]].concat(), 0);
     assert!(all.contains("\nwoop-watertight (source): nowhere\n"), "{all}");
-    assert!(error.contains("2 kernel rows on 36864 rays in f32"), "{error}");
+    assert!(error.contains("2 kernel rows on 2 sources of cases in f32: 36,864 rays"), "{error}");
     // The first crack is shown again by its command.
     let command = out.lines().find_map(|line| line.strip_prefix("shown by: hairline "));
     let words: Vec<&str> = command.unwrap().split_whitespace().collect();
     let words: Vec<&str> = words.iter().map(|word| word.trim_matches('\'')).collect();
     let shown = ends(&folder, &words, 0).0;
-    let first = "moller-trumbore (parallel=1e-6,edge=0) f32, all triangles together: 0 of 2 triangles hit; one hit is right: \
+    let first = "moller-trumbore (edge=0,parallel=1e-6) f32, all triangles together: 0 of 2 triangles hit; one hit is right: \
                  CRACK; right here: ";
     assert!(flat(&shown).starts_with(first), "{shown}");
 }
@@ -73,9 +73,11 @@ fn a_hit_that_a_neighbour_reports_is_shown_apart() {
                  and rounding may";
     assert!(flat(&shown).starts_with(first), "{shown}");
     let record = record(&folder, &[&file, "--kernel", "woop-watertight"]);
-    let row = &record["result"]["scalars"][0]["results"][0];
     let sum = |what: &str| -> u64 {
-        let count = |part: &str| row[part]["total"][what]["count"].as_u64().unwrap();
+        let count = |part: &str| {
+            let across = at_mesh(&record, "f32", "woop-watertight", part);
+            across[what]["count"].as_u64().unwrap()
+        };
         count("edges") + count("vertices")
     };
     assert_eq!([sum("cracks"), sum("elsewhere")], [0, 2]);
@@ -96,20 +98,24 @@ fn the_record_does_not_depend_on_threads_and_holds_every_crack_that_is_wanted() 
     let json = run("1");
     assert_eq!(result_bytes(&json), result_bytes(&run("3")));
 
-    let result: Value = json_schema::result(&fs::read_to_string(&json).unwrap());
+    let text = fs::read_to_string(&json).unwrap();
+    let result: Value = json_schema::result(&text);
+    let record: Value = serde_json::from_str(&text).unwrap();
+    let places = &result["mesh"]["places"];
     for (name, ends, least) in [("edges", 2, 100), ("vertices", 1, 10)] {
         let mut cracked = 0;
-        for scalar in result["scalars"].as_array().unwrap() {
-            let part = &scalar["results"][0][name];
+        for scalar in ["f32", "f64"] {
+            let part = at_mesh(&record, scalar, "moller-trumbore", name);
             let classes = part["classes"].as_object().unwrap().values();
             let cracks: Vec<&Value> =
                 classes.flat_map(|class| class["first_cracks"].as_array().unwrap()).collect();
-            assert_eq!(part["total"]["cracks"]["count"], cracks.len());
-            let places: BTreeSet<String> =
-                cracks.iter().map(|crack| crack["points"].to_string()).collect();
-            assert_eq!(part["cracked"], places.len());
-            assert!(cracks.iter().all(|crack| crack["points"].as_array().unwrap().len() == ends));
-            cracked += places.len();
+            assert_eq!(part["cracks"]["count"], cracks.len());
+            let points = |crack: &&Value| &places[crack.as_str().unwrap()]["points"];
+            assert!(cracks.iter().all(|crack| points(crack).as_array().unwrap().len() == ends));
+            let cracked_places: BTreeSet<String> =
+                cracks.iter().map(|crack| points(crack).to_string()).collect();
+            assert_eq!(part["leaking"]["count"], cracked_places.len());
+            cracked += cracked_places.len();
         }
         assert!(cracked > least, "{cracked} {name}");
     }
@@ -193,9 +199,9 @@ fn huge_and_tiny_meshes_are_asked_without_a_panic() {
         let output = hairline(&folder, &arguments);
         assert_eq!(output.status.code(), Some(0), "{name}");
         let record: Value = serde_json::from_slice(&output.stdout).unwrap();
-        let part = &record["result"]["scalars"][0];
-        assert_eq!(part["topology"]["closed_manifold"], true);
-        assert!(part["results"][0]["edges"]["total"]["cracks"]["of"].as_u64().unwrap() > 0);
+        assert_eq!(record["result"]["mesh"]["scalars"][0]["topology"]["closed_manifold"], true);
+        let across = at_mesh(&record, scalar, "moller-trumbore", "edges");
+        assert!(across["cracks"]["of"].as_u64().unwrap() > 0);
     }
 }
 
@@ -206,7 +212,7 @@ fn contracts_epsilons_and_directions_reach_the_run() {
     let crossings = |more: &[&str]| {
         let mut arguments = vec![file.as_str(), "--kernel", "moller-trumbore"];
         arguments.extend(more);
-        record(&folder, &arguments)["result"]["scalars"][0]["results"][0]["edges"]["total"].clone()
+        at_mesh(&record(&folder, &arguments), "f32", "moller-trumbore", "edges").clone()
     };
     let of = |rates: &Value| rates["cracks"]["of"].as_u64().unwrap();
     let cracks = |rates: &Value| rates["cracks"]["count"].as_u64().unwrap();
@@ -241,42 +247,69 @@ fn ids_of_other_meshes_versions_and_triangles_are_refused() {
     assert!(explain(&id("7").replace(digest, "0123456789abcdef"), 65).1.contains("digest"));
 }
 
-/// The parts of a record about one source, by kernel.
-fn across(record: &Value, family: &str) -> Vec<(String, Value)> {
-    let results = record["result"]["results"].as_array().unwrap();
-    let of_family = results.iter().filter(|part| part["family"] == family);
-    of_family.map(|part| (part["kernel"].to_string(), part["across"].clone())).collect()
-}
-
 #[test]
 fn an_audit_with_a_mesh_counts_what_the_mesh_audit_counts() {
     let folder = scratch("mesh-audit");
+    let kernels = ["moller-trumbore", "woop-watertight", "plucker"];
     for name in ["torus", "icosphere", "far", "heightfield", "needles", "polygons"] {
         let file = model(name);
-        let flags = ["--kernel", "moller-trumbore,woop-watertight,plucker", "--directions", "4"];
-        let flags = [&flags[..], &["--scalar", "f32"]].concat();
+        let chosen = kernels.join(",");
+        let flags = ["--kernel", &chosen, "--directions", "4", "--scalar", "f32"];
         let of_mesh = record(&folder, &[&[file.as_str()], &flags[..]].concat());
         let run = ["audit", "--quiet", "-n", "10", "--format", "json", "--mesh", &file];
         let (out, _) = ends(&folder, &[&run[..], &flags[..]].concat(), 0);
         let of_audit: Value = serde_json::from_str(&out).unwrap();
+        assert!(of_audit["result"]["mesh"].is_null(), "it asks about more than edges and vertices");
         for part in ["edges", "vertices"] {
-            let counted = across(&of_audit, &format!("mesh-{part}:{name}.obj"));
-            let rows = of_mesh["result"]["scalars"][0]["results"].as_array().unwrap();
-            assert_eq!(counted.len(), rows.len());
-            for (row, (kernel, counted)) in rows.iter().zip(&counted) {
-                assert_eq!(row["kernel"].to_string(), *kernel);
-                for kind in ["cracks", "doubles", "odd_folds", "missed_folds", "elsewhere"] {
-                    let (expected, found) = (&row[part]["total"][kind], &counted[kind]);
-                    assert!(expected["count"].is_u64());
-                    assert_eq!(expected, found, "{name} {part} {kernel} {kind}");
-                }
+            let mut cracks = 0;
+            for kernel in kernels {
+                let [one, other] =
+                    [&of_mesh, &of_audit].map(|record| at_mesh(record, "f32", kernel, part));
+                assert_eq!(one, other, "{name} {part} {kernel}");
+                cracks += one["cracks"]["count"].as_u64().unwrap();
             }
-            let total = |kind: &str| -> u64 {
-                counted.iter().map(|(_, counted)| counted[kind]["count"].as_u64().unwrap()).sum()
-            };
             let is_smooth = ["torus", "icosphere", "heightfield"].contains(&name);
-            assert!(!is_smooth || 0 < total("cracks"), "{name} {part}");
+            assert!(!is_smooth || 0 < cracks, "{name} {part}");
         }
+    }
+}
+
+#[test]
+fn parts_of_a_mesh_merge_to_the_record_and_the_page_of_the_whole() {
+    let folder = scratch("mesh-parts");
+    let run = |more: &[&str]| {
+        let mesh = model("icosphere");
+        let run = ["mesh", &mesh, "-q", "--directions", "3", "-k", "moller-trumbore,plucker"];
+        ends(&folder, &[&run[..], more].concat(), 0);
+    };
+    let both = ["--format", "json,html", "-o", "whole.json", "-o", "whole.html"];
+    run(&both);
+    for shard in ["0/3", "1/3", "2/3"] {
+        let file = format!("{}.json", &shard[..1]);
+        run(&["--shard", shard, "--format", "json", "-o", &file]);
+    }
+    let merge = ["merge", "-q", "0.json", "2.json", "1.json", "--format", "json,html"];
+    ends(&folder, &[&merge[..], &["-o", "merged.json", "-o", "merged.html"]].concat(), 0);
+    let result = |file: &str| result_bytes(&folder.join(file));
+    assert_eq!(result("merged.json"), result("whole.json"));
+    let marks = |file: &str| {
+        let page = fs::read_to_string(folder.join(file)).unwrap();
+        let marks: Vec<String> = page.split("data-marks=").skip(1).map(str::to_owned).collect();
+        marks.iter().map(|text| text[..text.find("><").unwrap()].to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(marks("merged.html"), marks("whole.html"));
+    assert!(100 < marks("whole.html")[0].len());
+}
+
+#[test]
+fn a_ci_reads_the_cracks_of_a_mesh_as_failures() {
+    let folder = scratch("mesh-junit");
+    let formats = ["--format", "junit,sarif", "-o", "m.xml", "-o", "m.sarif"];
+    let run = ["mesh", &model("icosphere"), "-q", "-k", "plucker,woop-watertight"];
+    ends(&folder, &[&run[..], &formats].concat(), 0);
+    for file in ["m.xml", "m.sarif"] {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        assert!(text.contains("crack") && text.contains("mesh-vertices:icosphere.obj"), "{text}");
     }
 }
 

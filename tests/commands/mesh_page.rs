@@ -6,7 +6,7 @@ use crate::program;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use hmac_sha256::Hash;
-use program::{ends, flat, scratch};
+use program::{at_mesh, ends, flat, scratch};
 use serde_json::Value;
 use std::fmt::Write;
 use std::fs;
@@ -105,15 +105,15 @@ fn a_small_mesh_is_drawn_whole_and_its_marks_are_the_records_counts() {
     let (page, record) = run(&folder, &file, &["--kernel", kernels, "--scalar", "f32,f64"]);
     let numbers = |name: &str| between(&page, &format!("data-{name}=\""), "\"").split(' ').count();
     assert_eq!([numbers("points"), numbers("vertices"), numbers("triangles")], [1926, 642, 3840]);
-    let scalars = record["result"]["scalars"].as_array().unwrap();
-    let results: Vec<&Value> =
-        scalars.iter().flat_map(|scalar| scalar["results"].as_array().unwrap()).collect();
+    let of_row = ["f32", "f64"]
+        .into_iter()
+        .flat_map(|scalar| kernels.split(',').map(move |kernel| (scalar, kernel)));
     let rows = Row::all(&page);
-    assert_eq!((results.len(), rows.len()), (6, 6));
-    for (result, row) in results.iter().zip(&rows) {
+    assert_eq!(rows.len(), 6);
+    for ((scalar, kernel), row) in of_row.zip(&rows) {
         let counts = ["edges", "vertices"].map(|part| {
-            let part = &result[part];
-            [&part["cracked"], &part["total"]["cracks"]["count"]].map(|n| n.as_u64().unwrap())
+            let part = at_mesh(&record, scalar, kernel, part);
+            [&part["leaking"]["count"], &part["cracks"]["count"]].map(|n| n.as_u64().unwrap())
         });
         assert_eq!(row.sums(0), counts);
         assert_eq!([row.sums(1), row.sums(2)], [[[0; 2]; 2]; 2], "nobody promised one hit");
@@ -135,10 +135,10 @@ fn each_mark_leads_to_its_faces_and_to_a_command_that_shows_it() {
     let flags = ["--kernel", "moller-trumbore", "--contract", "closed-ray,across=exactly-one"];
     let (page, record) = run(&folder, &file, &flags);
     let row = &Row::all(&page)[0];
-    let result = &record["result"]["scalars"][0]["results"][0];
     for (wrong, kind) in ["cracks", "doubles", "odd_folds"].iter().enumerate() {
         for (i, part) in ["edges", "vertices"].iter().enumerate() {
-            let count = result[*part]["total"][*kind]["count"].as_u64().unwrap();
+            let across = at_mesh(&record, "f32", "moller-trumbore", part);
+            let count = across[*kind]["count"].as_u64().unwrap();
             assert_eq!(row.sums(wrong as u8)[i][1], count, "{kind} at {part}");
         }
     }
@@ -198,10 +198,10 @@ fn of_a_large_mesh_the_page_holds_the_places_and_says_so() {
     let triangles: Vec<usize> =
         between(&page, "data-triangles=\"", "\"").split(' ').map(|n| n.parse().unwrap()).collect();
     assert!(triangles.len() < 3 * 6272);
-    for (i, row) in Row::all(&page).iter().enumerate() {
+    for (kernel, row) in ["moller-trumbore", "cramer"].into_iter().zip(&Row::all(&page)) {
         assert_eq!(row.marks.len(), 300);
-        let result = &record["result"]["scalars"][0]["results"][i]["edges"];
-        assert!(300 < result["cracked"].as_u64().unwrap());
+        let across = at_mesh(&record, "f32", kernel, "edges");
+        assert!(300 < across["leaking"]["count"].as_u64().unwrap());
         // Each place stands in triangles that are drawn.
         for mark in &row.marks {
             let around =

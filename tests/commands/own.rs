@@ -116,18 +116,17 @@ fn rows_of_different_scalars_keep_their_places() {
         leak(Entry::new(&NEVER).f32(|_: &Case<f32>, _: &[f32]| None)),
         leak(Entry::new(&ALWAYS).f32(always::<f32>)),
     ];
-    let plan = audit::Plan {
-        rows: EpsilonChoice::Source.rows(&entries, None).unwrap(),
-        sources: vec![audit::Source::of(
+    let plan = audit::Plan::new(
+        EpsilonChoice::Source.rows(&entries, None).unwrap(),
+        vec![audit::Source::of(
             hairline::internals::family::find("interior").unwrap(),
             Parameters::default(),
             1,
             10,
         )],
-        scalars: [true, true],
-        examples: 1,
-        attribute: 0,
-    };
+        [true, true],
+        1,
+    );
     let cells = audit::run(&plan, &Silent).cells;
     let hits: Vec<_> =
         cells.iter().map(|cell| (cell.row, cell.scalar, cell.tally.total().hits)).collect();

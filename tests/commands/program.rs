@@ -1,5 +1,6 @@
 //! The program run as a user runs it, for the tests of several commands.
 
+use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -97,4 +98,16 @@ pub fn result_bytes(file: &Path) -> String {
     }
     let parts: Parts = serde_json::from_slice(&fs::read(file).unwrap()).unwrap();
     parts.result.get().to_owned()
+}
+
+/// The outcomes of a kernel at the `edges` or at the `vertices` of a mesh, from the record of `mesh` or of `audit --mesh`.
+pub fn at_mesh<'a>(record: &'a Value, scalar: &str, kernel: &str, part: &str) -> &'a Value {
+    let is_part = |result: &&Value| {
+        let family = result["family"].as_str().unwrap();
+        result["scalar"] == scalar
+            && result["kernel"] == kernel
+            && family.starts_with(&format!("mesh-{part}:"))
+    };
+    let results = record["result"]["results"].as_array().unwrap();
+    &results.iter().find(is_part).unwrap_or_else(|| panic!("{kernel} at {part}"))["across"]
 }

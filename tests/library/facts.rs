@@ -31,8 +31,7 @@ fn audit(kernels: &[&str], name: &str, count: u64) -> (Plan, Audit) {
 }
 
 fn audit_of(rows: Vec<Row>, source: Source) -> (Plan, Audit) {
-    let plan =
-        Plan { rows, sources: vec![source], scalars: [true, true], examples: 1, attribute: 0 };
+    let plan = Plan::new(rows, vec![source], [true, true], 1);
     let audit = run(&plan, &Quiet);
     (plan, audit)
 }

@@ -74,8 +74,7 @@ fn audited<F: Scalar>(row: &Row, source: &Source, knobs: &[Knob], epsilons: &[F]
         assert!(row.epsilons::<F>()[gate] == *epsilon, "the text is the number");
     }
     let scalars = [F::NAME == "f32", F::NAME == "f64"];
-    let plan =
-        Plan { rows: vec![row], sources: vec![source.clone()], scalars, examples: 0, attribute: 0 };
+    let plan = Plan::new(vec![row], vec![source.clone()], scalars, 0);
     audit::run(&plan, &Silent).cells.remove(0).tally
 }
 

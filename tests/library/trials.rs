@@ -14,13 +14,12 @@ fn samples(kernel: &str, epsilons: &[(&str, &str)], family: &str) -> [Vec<Trials
     let owned = |(gate, value): &(&str, &str)| ((*gate).to_owned(), (*value).to_owned());
     let choice = EpsilonChoice::Given(epsilons.iter().map(owned).collect());
     let source = |seed| Source::of(family::find(family).unwrap(), Parameters::default(), seed, 400);
-    let plan = Plan {
-        rows: choice.rows(&[entry], None).unwrap(),
-        sources: (1..=SEEDS).map(source).collect(),
-        scalars: [true, false],
-        examples: 0,
-        attribute: 0,
-    };
+    let plan = Plan::new(
+        choice.rows(&[entry], None).unwrap(),
+        (1..=SEEDS).map(source).collect(),
+        [true, false],
+        0,
+    );
     let audit = run(&plan, &Unobserved);
     [Finding::FalseMiss, Finding::FalseHit]
         .map(|finding| audit.cells.iter().map(|cell| cell.tally.trials(None, finding)).collect())

@@ -2,8 +2,9 @@
 //! the definition in rationals; known facts; threads.
 
 use hairline::internals::arith::Float;
-use hairline::internals::audit::mesh::{CLASSES, MeshFound, MeshPlan, run};
-use hairline::internals::audit::{EpsilonChoice, Row, Unobserved, exact_severity};
+use hairline::internals::audit::{
+    Aimed, CLASSES, EpsilonChoice, Plan, Row, Source, SourceCell, Unobserved, exact_severity, run,
+};
 use hairline::internals::case::{Case, Draw, Parameters};
 use hairline::internals::contract::{Extent, NAMED};
 use hairline::internals::corpus::mesh::{Mesh, read as read_mesh};
@@ -314,30 +315,27 @@ fn row(kernel: &str) -> Vec<Row> {
     EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap()
 }
 
-fn plan(rows: Vec<Row>, directions: u64) -> MeshPlan {
-    MeshPlan {
-        rows,
-        directions,
-        seed: 1,
-        unit_direction: false,
-        instance: None,
-        examples: 5,
-        places: 0,
-    }
-}
-
 fn surface(mesh: &Mesh) -> Arc<Surface> {
     let family = MeshFamily::new(mesh.clone(), "test.obj");
     Arc::new(Surface::new(Arc::new(family), [true, true]))
 }
 
-fn found<F: Scalar>(mesh: &Mesh, plan: &MeshPlan) -> MeshFound {
-    run::<F>(&surface(mesh), plan, &Unobserved)
+/// By row, what was found at the edges and at the vertices of a mesh.
+fn found<F: Scalar>(mesh: &Mesh, rows: &[Row], directions: u64) -> Vec<[Aimed; 2]> {
+    let sources = Source::parts_of(&surface(mesh), &Parameters::default(), 1, directions).into();
+    let scalars = [f32::NAME, f64::NAME].map(|name| name == F::NAME);
+    let plan = Plan { places: 9, ..Plan::new(rows.to_vec(), sources, scalars, 5) };
+    let cells = run(&plan, &Unobserved).cells;
+    let at = |row, part: AimedPart| {
+        let is_at = |cell: &&SourceCell| (cell.row, cell.source) == (row, part as usize);
+        cells.iter().find(is_at).unwrap().tally.aimed.clone()
+    };
+    (0..rows.len()).map(|row| AimedPart::ALL.map(|part| at(row, part))).collect()
 }
 
 /// Cracks and doubles of crossings, wrong folds, in all classes: of one part.
-fn sums(found: &MeshFound, row: usize, part: AimedPart) -> [u64; 5] {
-    let classes = &found.rows[row].tallies[part as usize].classes;
+fn sums(found: &[[Aimed; 2]], row: usize, part: AimedPart) -> [u64; 5] {
+    let classes = &found[row][part as usize].classes;
     let mut sums = [0; 5];
     for class in classes {
         let groups = class;
@@ -355,14 +353,14 @@ fn woop_leaves_no_crack_and_others_do() {
         let mesh = shape(name);
         let mut rows = row("woop-watertight");
         rows.extend(row("moller-trumbore"));
-        let found = found::<f32>(&mesh, &plan(rows, 8));
+        let found = found::<f32>(&mesh, &rows, 8);
         for part in AimedPart::ALL {
             let [crossings, cracks, ..] = sums(&found, 0, part);
             assert!(crossings > 0 && cracks == 0, "{name}: {cracks} of {crossings}");
         }
-        assert_eq!(found.rows[0].cracked, [0, 0]);
+        assert_eq!(found[0].each_ref().map(Aimed::leaking), [0, 0]);
         assert!(sums(&found, 1, AimedPart::Edges)[1] > 0, "{name}");
-        let first = &found.rows[1].tallies[0].classes[0].first_cracks;
+        let first = &found[1][0].classes[0].first_cracks;
         assert!(first.windows(2).all(|pair| pair[0] < pair[1]));
     }
 }
@@ -370,12 +368,12 @@ fn woop_leaves_no_crack_and_others_do() {
 #[test]
 fn a_hit_that_a_neighbour_reports_leaves_no_crack() {
     let mesh = shape("heightfield");
-    let found = found::<f32>(&mesh, &plan(row("woop-watertight"), 8));
+    let found = found::<f32>(&mesh, &row("woop-watertight"), 8);
     let (topology, parameters) = (Topology::of::<f32>(&mesh), Parameters::default());
     let targets = Targets::new(&mesh, &topology, &parameters, 1);
     let mut elsewhere = 0;
     for part in AimedPart::ALL {
-        for class in &found.rows[0].tallies[part as usize].classes {
+        for class in &found[0][part as usize].classes {
             assert_eq!(class.cracks, 0);
             elsewhere += class.elsewhere;
             for index in &class.first_elsewhere {
@@ -404,7 +402,7 @@ fn a_hit_that_a_neighbour_reports_leaves_no_crack() {
         }
     }
     assert_eq!(elsewhere, 2);
-    assert!(found.rows.iter().all(|row| row.cracked == [0, 0]));
+    assert!(found.iter().flatten().all(|part| part.leaking() == 0));
 }
 
 #[test]
@@ -422,9 +420,9 @@ fn nobody_is_accused_where_the_neighbours_are_too_many_to_ask() {
             .rows(&[find("moller-trumbore").unwrap()], None)
             .unwrap()
             .remove(0);
-        let found = found::<f64>(&mesh(&points, &faces), &plan(rows, 1));
+        let found = found::<f64>(&mesh(&points, &faces), &rows, 1);
         let [crossings, cracks, ..] = sums(&found, 0, AimedPart::Edges);
-        let classes = &found.rows[0].tallies[AimedPart::Edges as usize].classes;
+        let classes = &found[0][AimedPart::Edges as usize].classes;
         (crossings, cracks, classes.iter().map(|class| class.elsewhere).sum::<u64>())
     };
     let (crossings, cracks, elsewhere) = cone(MOST_AROUND / 2);
@@ -436,7 +434,7 @@ fn nobody_is_accused_where_the_neighbours_are_too_many_to_ask() {
 #[test]
 fn pluecker_coordinates_leave_no_crack_at_edges_but_at_vertices() {
     // Each edge has one sign for both its triangles, but around a vertex all signs may turn one way.
-    let found = found::<f32>(&shape("icosphere"), &plan(row("plucker"), 16));
+    let found = found::<f32>(&shape("icosphere"), &row("plucker"), 16);
     let [crossings, cracks, ..] = sums(&found, 0, AimedPart::Edges);
     assert!(crossings > 10_000);
     assert_eq!(cracks, 0);
@@ -446,8 +444,8 @@ fn pluecker_coordinates_leave_no_crack_at_edges_but_at_vertices() {
 #[test]
 fn nearly_all_rays_that_should_be_exact_are_so() {
     let mesh = shape("torus");
-    let found = found::<f32>(&mesh, &plan(row("woop-watertight"), 4));
-    for (part, tally) in AimedPart::ALL.into_iter().zip(&found.rows[0].tallies) {
+    let found = found::<f32>(&mesh, &row("woop-watertight"), 4);
+    for (part, tally) in AimedPart::ALL.into_iter().zip(&found[0]) {
         let of = |class: &str| {
             let class = &tally.classes[CLASSES.iter().position(|name| *name == class).unwrap()];
             class.crossings + class.folds
@@ -574,8 +572,7 @@ fn counts_are_those_of_the_definition<F: Scalar>(name: &str, kernels: &[&str], d
     for kernel in kernels {
         let entry = find(kernel).unwrap();
         let rows = EpsilonChoice::Source.rows(&[entry], Some("closed-ray")).unwrap()[..1].to_vec();
-        let plan = plan(rows, directions);
-        let found = found::<F>(&mesh, &plan);
+        let found = found::<F>(&mesh, &rows, directions);
         let topology = Topology::of::<F>(&mesh);
         let parameters = Parameters::default();
         let targets = Targets::new(&mesh, &topology, &parameters, 1);
@@ -587,14 +584,14 @@ fn counts_are_those_of_the_definition<F: Scalar>(name: &str, kernels: &[&str], d
                 targets.make::<F>(part, index, &mut cases);
                 let Some((crossing, odd)) = asked(&cases, part) else { continue };
                 let mut verdicts = vec![Verdict::miss(None); cases.len()];
-                let epsilons = plan.rows[0].epsilons::<F>();
+                let epsilons = rows[0].epsilons::<F>();
                 F::subject(entry).unwrap().run(&cases, &epsilons, &mut verdicts);
                 let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
                 if crossing {
                     expected[0] += 1;
                     let group = targets.faces(part, targets.place(part, index).0);
-                    let crack = hits == 0
-                        && nothing_was_moved(&mesh, group, &cases[0], entry, &plan.rows[0]);
+                    let crack =
+                        hits == 0 && nothing_was_moved(&mesh, group, &cases[0], entry, &rows[0]);
                     expected[1] += u64::from(crack);
                     expected[2] += u64::from(hits > 1);
                     if crack {
@@ -606,7 +603,7 @@ fn counts_are_those_of_the_definition<F: Scalar>(name: &str, kernels: &[&str], d
                 }
             }
             assert_eq!(sums(&found, 0, part), expected, "{name} {kernel} {part:?}");
-            assert_eq!(found.rows[0].cracked[part as usize], cracked.len() as u64);
+            assert_eq!(found[0][part as usize].leaking(), cracked.len() as u64);
         }
     }
 }
@@ -618,22 +615,14 @@ fn counts_are_those_of_a_direct_evaluation_in_rationals() {
     counts_are_those_of_the_definition::<f32>("icosphere", &["baldwin-weber"], 1);
 }
 
-/// Everything of a run that is not a time.
-fn essence(found: &MeshFound) -> impl PartialEq + std::fmt::Debug + use<> {
-    let rows: Vec<_> =
-        found.rows.iter().map(|row| (row.row, row.tallies.clone(), row.cracked)).collect();
-    (rows, found.cases)
-}
-
 #[test]
 fn threads_do_not_change_anything() {
     let mesh = shape("torus");
     let mut rows = row("moller-trumbore");
     rows.extend(row("plucker"));
-    let plan = plan(rows, 5);
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| essence(&found::<f32>(&mesh, &plan)))
+        pool.install(|| found::<f32>(&mesh, &rows, 5))
     };
     let one = with(1);
     assert!(one == with(3) && one == with(7));
@@ -643,8 +632,8 @@ fn threads_do_not_change_anything() {
 fn rays_of_fewer_directions_are_the_first_of_more() {
     let mesh = shape("far");
     let first = |directions| {
-        let found = found::<f32>(&mesh, &plan(row("moller-trumbore"), directions));
-        found.rows[0].tallies[0].classes[0].first_cracks.clone()
+        let found = found::<f32>(&mesh, &row("moller-trumbore"), directions);
+        found[0][0].classes[0].first_cracks.clone()
     };
     assert_eq!(first(4), first(8));
     let aims: BTreeMap<(bool, bool), u64> =
@@ -670,9 +659,9 @@ fn fan_around(times: usize) -> Mesh {
 fn nothing_is_asked_at_the_centre_of_a_fan_that_goes_around_twice() {
     let at_centre = |times| {
         let mesh = fan_around(times);
-        let found = found::<f32>(&mesh, &plan(row("woop-watertight"), 400));
+        let found = found::<f32>(&mesh, &row("woop-watertight"), 400);
         assert_eq!(Topology::of::<f32>(&mesh).vertices_of(VertexKind::Closed), 1);
-        let tally = &found.rows[0].tallies[AimedPart::Vertices as usize];
+        let tally = &found[0][AimedPart::Vertices as usize];
         tally.classes[0].crossings
     };
     assert!(at_centre(1) > 50);

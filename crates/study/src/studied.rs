@@ -1,15 +1,12 @@
 //! The longest runs, compiled in this crate for both scalars. A crate that called them by a type parameter would compile
 //! them once more, with its own optimisation.
 
-use crate::audit::mesh;
 use crate::epsilon::{self, Costs, MaxError, Pass, SceneStudy, Setting};
 use crate::explore::worst::{self, WorstEntry, WorstGoal};
 use crate::family::Family;
-use crate::mesh::Surface;
 use crate::selfcheck::{self, Check, Reference};
 use crate::spawn;
 use crate::{case::Scene, engine::Observer, kernel::Scalar};
-use std::sync::Arc;
 
 macro_rules! studied {
     ($($run:path: fn $name:ident($($argument:ident: $type:ty),* $(,)?) -> $result:ty;)*) => {
@@ -43,11 +40,6 @@ studied! {
         scenes: &[Scene],
         pass: Pass<'_>,
     ) -> ();
-    mesh::run::<Self>: fn mesh(
-        surface: &Arc<Surface>,
-        plan: &mesh::MeshPlan,
-        observer: &dyn Observer,
-    ) -> mesh::MeshFound;
     spawn::run::<Self>: fn spawn(
         plan: &spawn::SpawnPlan<'_>,
         observer: &dyn Observer,

@@ -37,7 +37,7 @@ pub fn leak<F: Scalar>(entry: &'static Entry) -> Option<Leak> {
     let source = Source::of(family, parameters.clone(), seed, TRIES);
     let scalars = [F::NAME == "f32", F::NAME == "f64"];
     let (rows, sources) = (vec![row.clone()], vec![source]);
-    let plan = Plan { rows, sources, scalars, examples: 64, attribute: 0 };
+    let plan = Plan::new(rows, sources, scalars, 64);
     let cells = audit::run(&plan, &Unobserved).cells;
     let kernel = F::subject(entry)?.gated()?;
     let is_of_edges = |index: &&u64| {

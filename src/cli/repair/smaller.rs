@@ -119,7 +119,7 @@ impl<F: Searched + Scalar> TriedChanges<F> {
         let as_ray = rows.iter().find(|it| it.contract.extent != row.contract.extent);
         rows.push(Row { contract: as_ray.unwrap_or(row).contract, ..row.clone() });
         let scalars = [F::DIGITS == 24, F::DIGITS != 24];
-        let plan = Plan { rows, sources: rays.sources.clone(), scalars, examples: 1, attribute: 0 };
+        let plan = Plan::new(rows, rays.sources.clone(), scalars, 1);
         let audit = audit::sum(&plan, Shard::WHOLE, observer);
         let counts = (0..plan.rows.len()).map(|row| ChangeCounts::of(&audit, row)).collect();
         TriedChanges { plan, candidates, counts, proved, scalar: PhantomData }

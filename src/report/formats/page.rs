@@ -3,6 +3,7 @@
 use super::columns::Column;
 use super::kernel;
 use super::lines::lines;
+use super::mesh;
 use super::record::*;
 use super::row_view::RowView;
 use super::{ComparisonVerdict, Record, group_digits, number_of, ranking, screen, verdict};
@@ -11,6 +12,9 @@ use std::collections::BTreeSet;
 
 impl Paged for Record {
     fn page(&self) -> Page {
+        if let (Some(mesh), None) = (&self.result.mesh, &self.conformance) {
+            return mesh::page(self, mesh);
+        }
         let columns = Column::all(self);
         let lines = lines(self, &columns);
         let (title, on_screen) = screen::blocks(self, &columns, &lines);

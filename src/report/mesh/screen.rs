@@ -1,9 +1,10 @@
 //! The record of a mesh audit as a page of text: a sentence, a table a scalar, the first places; everything else folded.
 
-use super::record::*;
+use super::rows::{AtPart, MeshRow, rows};
 use crate::report::epsilon::fitness::Grain;
-use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Tone};
-use crate::report::{Promised, Rate, alike, group_digits, interval_of, number_of, percent};
+use crate::report::page::{Block, Cell, Command, Head, Page, Row, Table, Tone};
+use crate::report::record::*;
+use crate::report::{Rate, Record, alike, group_digits, interval_of, number_of, percent};
 
 /// So many rows stand on the screen.
 const MOST_ROWS: usize = 8;
@@ -11,73 +12,77 @@ const MOST_ROWS: usize = 8;
 /// So many places stand there with a command.
 const MOST_PLACES: usize = 3;
 
-impl Paged for MeshReport {
-    fn page(&self) -> Page {
-        let record = &self.record;
-        let result = &record.result;
-        let (tone, title) = verdict(result);
-        let mesh = &result.mesh;
-        let mut blocks = vec![Block::text(format!(
-            "{}, {}, {}{}{}, seed {}, {:.1} s",
-            number_of(mesh.triangles, "triangle", "triangles"),
-            number_of(mesh.vertices, "vertex", "vertices"),
-            number_of(result.directions, "ray", "rays"),
-            match result.unit_directions {
-                true => " with unit directions at each edge and vertex",
-                false => " at each edge and vertex",
-            },
-            if result.instance.is_some() { " of an instance" } else { "" },
-            result.seed,
-            record.provenance.seconds
-        ))];
-        for part in &result.scalars {
-            let grain = part.grain();
-            blocks.extend((!grain.is_fine()).then(|| Block::Text(grain.sentence("mesh"))));
-            blocks.extend(of_scalar(record, part));
-        }
-        #[cfg(feature = "pages")]
-        blocks.extend(super::stage::block(self));
-        let places = first_places(result);
-        if !places.is_empty() {
-            blocks.push(Block::Commands("shown by", places));
-        }
-        let asked = result.scalars.iter().any(|part| part.rays != [0, 0]);
-        if asked {
-            blocks.push(Block::text(SHARES));
-        }
-        for part in &result.scalars {
-            let title = format!("Everything in {}", part.scalar);
-            blocks.push(Block::Details(title, everything(record, part)));
-        }
-        Page { command: "mesh", title, tone, blocks }
+/// The page of a record of an audit of a mesh.
+pub fn page(record: &Record, mesh: &MeshPart) -> Page {
+    let result = &record.result;
+    let rows = rows(result);
+    let (tone, title) = verdict(result, mesh, &rows);
+    let unit = result.plan.parameters().any(|parameters| parameters.unit_direction);
+    let mut blocks = vec![Block::text(format!(
+        "{}, {}, {}{}{}, seed {}, {:.1} s",
+        number_of(mesh.triangles, "triangle", "triangles"),
+        number_of(mesh.vertices, "vertex", "vertices"),
+        number_of(mesh.directions, "ray", "rays"),
+        match unit {
+            true => " with unit directions at each edge and vertex",
+            false => " at each edge and vertex",
+        },
+        if result.is_placed() { " of an instance" } else { "" },
+        mesh.seed,
+        record.provenance.seconds
+    ))];
+    let of_scalar = |part: &MeshScalar| -> Vec<&MeshRow<'_>> {
+        rows.iter().filter(|row| row.scalar == part.scalar).collect()
+    };
+    for part in &mesh.scalars {
+        let grain = part.grain();
+        blocks.extend((!grain.is_fine()).then(|| Block::Text(grain.sentence("mesh"))));
+        blocks.extend(blocks_of(record, part, of_scalar(part)));
     }
+    #[cfg(feature = "pages")]
+    blocks.extend(super::stage::block(record, mesh, &rows));
+    let places = first_places(&rows);
+    if !places.is_empty() {
+        blocks.push(Block::Commands("shown by", places));
+    }
+    if 0 < all_rays(result) {
+        blocks.push(Block::text(SHARES));
+    }
+    for part in &mesh.scalars {
+        let title = format!("Everything in {}", part.scalar);
+        blocks.push(Block::Details(title, everything(record, mesh, &of_scalar(part))));
+    }
+    Page { command: "mesh", title, tone, blocks }
 }
 
-impl ScalarPart {
+impl MeshScalar {
     fn grain(&self) -> Grain<'_> {
-        let ScalarPart { scalar, spacing, smallest, .. } = self;
+        let MeshScalar { scalar, spacing, smallest, .. } = self;
         Grain { scalar, spacing: *spacing, smallest: *smallest, unit: "" }
     }
 }
 
+/// How many rays were aimed.
+fn all_rays(result: &ResultPart) -> u64 {
+    result.sources.iter().map(|source| source.indices).sum()
+}
+
 /// How it went, in one line.
-pub(super) fn verdict(result: &MeshResult) -> (Tone, String) {
-    let rows: Vec<&MeshRowResult> = result.scalars.iter().flat_map(|part| &part.results).collect();
-    let name = result.mesh.file.rsplit(['/', '\\']).next().unwrap_or(&result.mesh.file);
+fn verdict(result: &ResultPart, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> (Tone, String) {
+    let name = mesh.file.rsplit(['/', '\\']).next().unwrap_or(&mesh.file);
     let file: String = name.chars().take(120).collect();
     let leaking = rows.iter().filter(|row| 0 < row.leaks()).count();
     let is_broken = rows.iter().any(|row| row.promise().is_some_and(|(_, kept)| !kept));
-    let failed = rows.iter().any(|row| 0 < row.edges.failures + row.vertices.failures);
-    let is_asked = result.scalars.iter().any(|part| part.rays != [0, 0]);
+    let failed = rows.iter().any(|row| 0 < row.failures());
+    let rays = all_rays(result);
     let tone = match (is_broken, leaking) {
         (true, _) => Tone::Bad,
-        (false, 0) if !failed && is_asked => Tone::Good,
+        (false, 0) if !failed && 0 < rays => Tone::Good,
         _ => Tone::Plain,
     };
-    let rays: u64 = result.scalars.iter().flat_map(|part| part.rays).sum();
     let of = format!("of {} aimed at its edges and vertices", group_digits(rays));
     let title = match (leaking, rows.len()) {
-        _ if !is_asked => format!("Nothing to ask of {file}"),
+        _ if rays == 0 => format!("Nothing to ask of {file}"),
         (0, 1) => format!("No ray slips through {file}, {of}"),
         (0, n) => format!("No ray slips through {file} with {n} kernel rows, {of}"),
         (1, 1) => format!("Rays slip through {file}"),
@@ -87,17 +92,18 @@ pub(super) fn verdict(result: &MeshResult) -> (Tone, String) {
 }
 
 /// The mesh in one scalar, and the rows, those that leak least first; rows that answer alike stand together.
-fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
-    let mut blocks = vec![Block::terms(topology_terms(part))];
-    if part.rays == [0, 0] {
+fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) -> Vec<Block> {
+    let of_scalar = record.result.sources.iter().filter(|source| source.scalar == part.scalar);
+    let rays: Vec<u64> = of_scalar.map(|source| source.indices).collect();
+    let mut blocks = vec![Block::terms(topology_terms(part, &rays))];
+    if rays.iter().all(|rays| *rays == 0) {
         return blocks;
     }
-    let mut rows: Vec<&MeshRowResult> = part.results.iter().collect();
-    rows.sort_by_key(|row| (row.leaks(), row.both(|rates| &rates.doubles).count));
-    let counts = |row: &MeshRowResult| {
-        let rates: [fn(&AcrossRates) -> &Rate; 3] =
-            [|rates| &rates.cracks, |rates| &rates.doubles, |rates| &rates.odd_folds];
-        (row.edges.cracked, row.vertices.cracked, rates.map(|rate| row.both(rate).count))
+    rows.sort_by_key(|row| (row.leaks(), row.both(|across| &across.doubles).count));
+    let counts = |row: &MeshRow<'_>| {
+        let rates: [fn(&AcrossPart) -> &Rate; 3] =
+            [|across| &across.cracks, |across| &across.doubles, |across| &across.odd_folds];
+        (row.at.map(|at| at.leaking), rates.map(|rate| row.both(rate).count))
     };
     let shown = alike(rows, |one, other| counts(one) == counts(other));
     let heads = vec![
@@ -111,34 +117,35 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
         Head::of("ns a ray").optional(),
     ];
     let times = record.provenance.kernel_nanoseconds.get(&part.scalar);
-    let row = |(row, alike): &(&MeshRowResult, Vec<&MeshRowResult>)| {
+    let row = |(row, alike): &(&MeshRow<'_>, Vec<&MeshRow<'_>>)| {
         let time = times.and_then(|times| times.get(&row.label()));
-        let promised = row.promised != Promised::Nothing;
-        let exactly = row.promised == Promised::ExactlyOne;
+        let promised = row.promised() != Promised::Nothing;
+        let exactly = row.promised() == Promised::ExactlyOne;
         let share = |rate: &Rate, is_promised: bool| Cell {
             text: rate.rate.map_or("-".to_owned(), percent),
             is_broken: is_promised && 0 < rate.count,
             share: rate.rate,
         };
+        let [edges, vertices] = row.at;
         let cells = [
-            share(&row.edges.total.cracks, promised),
-            share(&row.vertices.total.cracks, promised),
-            share(&row.both(|rates| &rates.doubles), exactly),
-            share(&row.both(|rates| &rates.odd_folds), exactly),
-            group_digits(row.edges.cracked).into(),
-            group_digits(row.vertices.cracked).into(),
+            share(&edges.across.cracks, promised),
+            share(&vertices.across.cracks, promised),
+            share(&row.both(|across| &across.doubles), exactly),
+            share(&row.both(|across| &across.odd_folds), exactly),
+            group_digits(edges.leaking).into(),
+            group_digits(vertices.leaking).into(),
             time.map_or("-".to_owned(), |time| format!("{time:.1}")).into(),
         ];
         let mut below = Vec::new();
         if !alike.is_empty() {
-            let alike: Vec<String> = alike.iter().map(|other| short_label(other)).collect();
+            let alike: Vec<String> = alike.iter().map(|other| other.short_label()).collect();
             below.push(format!("same counts: {}", alike.join(", ")));
         }
         if let Some((hits, is_kept)) = row.promise() {
             let kept = if is_kept { "kept" } else { "BROKEN" };
             below.push(format!("promises hits {hits} where a ray crosses: {kept}"));
         }
-        Row { below, ..Row::new(short_label(row), cells) }
+        Row { below, ..Row::new(row.short_label(), cells) }
     };
     let rows = shown.iter().map(row).collect();
     blocks.push(Block::Table(Table::new(heads, rows).at_most(MOST_ROWS)));
@@ -146,13 +153,15 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
 }
 
 /// The topology, and how many rays were aimed.
-fn topology_terms(part: &ScalarPart) -> Vec<(&'static str, String)> {
+fn topology_terms(part: &MeshScalar, rays: &[u64]) -> Vec<(&'static str, String)> {
     let mut terms = topology_lines(&part.topology);
-    let [edges, vertices] = part.rays.map(group_digits);
+    let rays = |i: usize| group_digits(rays.get(i).copied().unwrap_or(0));
     terms.push((
         "aimed",
         format!(
-            "{edges} rays at edges, {vertices} at vertices, in {} ({})",
+            "{} rays at edges, {} at vertices, in {} ({})",
+            rays(0),
+            rays(1),
             part.scalar,
             number_of(part.topology.points, "point", "points")
         ),
@@ -161,52 +170,48 @@ fn topology_terms(part: &ScalarPart) -> Vec<(&'static str, String)> {
 }
 
 /// The commands that show the first places: of rows that break a promise, then of those that leak least.
-fn first_places(result: &MeshResult) -> Vec<Command> {
-    let mut rows: Vec<&MeshRowResult> =
-        result.scalars.iter().flat_map(|part| &part.results).collect();
+fn first_places(rows: &[MeshRow<'_>]) -> Vec<Command> {
+    let mut rows: Vec<&MeshRow<'_>> = rows.iter().collect();
     rows.sort_by_key(|row| (row.promise().is_none_or(|(_, kept)| kept), row.leaks()));
-    let examples = rows.iter().flat_map(|row| examples(row, 1, false).into_iter().take(1));
-    let command =
-        |(_, example): (String, &MeshExample)| Command { line: example.command.clone(), what: "" };
-    examples.map(command).take(MOST_PLACES).collect()
+    let first = |row: &&MeshRow<'_>| {
+        let first = examples(row, 1, false).into_iter().next()?;
+        Some(Command { line: first.command, what: "" })
+    };
+    rows.iter().filter_map(first).take(MOST_PLACES).collect()
 }
 
 /// Each row with its intervals, and the places that were kept.
-fn everything(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
+fn everything(record: &Record, mesh: &MeshPart, rows: &[&MeshRow<'_>]) -> Vec<Block> {
     let heads = ["kernel (epsilons)", "edges [95 %]", "vertices [95 %]", "elsewhere"];
     let rate = |rate: &Rate| interval_of(rate).trim_matches([' ', '(', ')']).to_owned();
-    let row = |row: &MeshRowResult| {
-        let elsewhere = row.edges.total.elsewhere.count + row.vertices.total.elsewhere.count;
-        let cells = [
-            rate(&row.edges.total.cracks),
-            rate(&row.vertices.total.cracks),
-            group_digits(elsewhere),
-        ];
-        Row::new(row.label(), cells)
+    let row = |row: &&MeshRow<'_>| {
+        let elsewhere = row.at.iter().filter_map(|at| at.across.elsewhere.as_ref());
+        let elsewhere = elsewhere.map(|rate| rate.count).sum();
+        let [edges, vertices] = row.at.map(|at| rate(&at.across.cracks));
+        Row::new(row.label(), [edges, vertices, group_digits(elsewhere)])
     };
-    let rows = part.results.iter().map(row).collect();
-    let mut blocks = vec![Block::Table(Table::new(heads.map(Head::of).into(), rows))];
-    blocks.push(Block::text(format!(
-        "{}, digest {}",
-        record.provenance.tool, record.result.mesh.digest
-    )));
-    for row in &part.results {
-        let count = row.edges.failures + row.vertices.failures;
+    let table = Table::new(heads.map(Head::of).into(), rows.iter().map(row).collect());
+    let mut blocks = vec![Block::Table(table)];
+    blocks.push(Block::text(format!("{}, digest {}", record.provenance.tool, mesh.digest)));
+    for row in rows {
+        let count = row.failures();
         if 0 < count {
-            let count = group_digits(count);
-            let text = format!("{}: no verdict on some triangle of {count} rays", row.label());
-            blocks.push(Block::Text(text));
+            let count = number_of(count, "case", "cases");
+            blocks.push(Block::Text(format!("{}: no verdict on {count}", row.label())));
         }
-        let first = row.edges.first_failures.iter().chain(&row.vertices.first_failures).next();
-        blocks.extend(first.map(|first| Block::Listing(format!("    {}", first.command))));
+        let mut findings = row.at.iter().flat_map(|at| &at.result.findings);
+        let failure = findings.find(|part| part.finding.is_failure());
+        let failure = failure.map(|part| Block::Listing(format!("    {}", part.worst.command)));
+        blocks.extend(failure);
         let examples = examples(row, usize::MAX, true);
         if examples.is_empty() {
             blocks.push(Block::Text(format!("{}: nowhere", row.label())));
             continue;
         }
         blocks.push(Block::Text(row.label()));
-        let line = |(what, example): (String, &MeshExample)| {
-            format!("    {what}: {}\n        {}", place(example), example.command)
+        let line = |MeshExample { what, id, command }: MeshExample<'_>| {
+            let place = mesh.places.get(id).map(place).unwrap_or_default();
+            format!("    {what}: {place}\n        {command}")
         };
         blocks.push(Block::Listing(examples.into_iter().map(line).collect::<Vec<_>>().join("\n")));
     }
@@ -214,7 +219,7 @@ fn everything(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
 }
 
 /// The topology of the mesh, and where it first is not what rays can be asked about: lines with their heads.
-pub(super) fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, String)> {
+fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, String)> {
     let kinds = [
         ("faces", &topology.faces, FACE_WORDS),
         ("edges", &topology.edges, EDGE_WORDS),
@@ -274,19 +279,21 @@ const VERTEX_WORDS: &[(&str, &str)] = &[
     ("irregular", "at edges or faces not asked about"),
 ];
 
-/// The label without the set of published epsilons.
-fn short_label(row: &MeshRowResult) -> String {
-    if row.set == "source" { row.kernel.clone() } else { row.label() }
+/// A group that shows something.
+struct MeshExample<'a> {
+    what: String,
+    id: &'a str,
+    command: String,
 }
 
 /// So many findings of each kind and class: cracks, and what else the row's contract speaks of; what
 /// may be elsewhere, which is no finding, on demand.
-fn examples(row: &MeshRowResult, limit: usize, elsewhere: bool) -> Vec<(String, &MeshExample)> {
+fn examples<'a>(row: &MeshRow<'a>, limit: usize, elsewhere: bool) -> Vec<MeshExample<'a>> {
     let mut all = Vec::new();
-    for (name, result) in [("edge", &row.edges), ("vertex", &row.vertices)] {
-        for (class, found) in &result.classes {
+    for (name, AtPart { result, across, .. }) in ["edge", "vertex"].into_iter().zip(row.at) {
+        for (class, found) in &across.classes {
             let mut lists = vec![("crack", &found.first_cracks)];
-            if row.promised == Promised::ExactlyOne {
+            if row.promised() == Promised::ExactlyOne {
                 lists.push(("double", &found.first_doubles));
                 lists.push(("wrong at a fold", &found.first_odd_folds));
             }
@@ -294,8 +301,11 @@ fn examples(row: &MeshRowResult, limit: usize, elsewhere: bool) -> Vec<(String, 
                 lists.push(("elsewhere", &found.first_elsewhere));
             }
             for (what, list) in lists {
-                let named = |example| (format!("{what}, {name}, {class}"), example);
-                all.extend(list.iter().take(limit).map(named));
+                all.extend(list.iter().take(limit).map(|id| MeshExample {
+                    what: format!("{what}, {name}, {class}"),
+                    id,
+                    command: row.part.explain_group(result, id),
+                }));
             }
         }
     }
@@ -303,7 +313,7 @@ fn examples(row: &MeshRowResult, limit: usize, elsewhere: bool) -> Vec<(String, 
 }
 
 /// The points, and the lines of the faces, or their numbers.
-fn place(example: &MeshExample) -> String {
+fn place(example: &PlacePart) -> String {
     let points: Vec<String> =
         example.points.iter().map(|[x, y, z]| format!("({x}, {y}, {z})")).collect();
     let (at, places) = match example.lines.as_slice() {

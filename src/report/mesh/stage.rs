@@ -1,25 +1,26 @@
 //! The part of a page that shows where: the drawing with its controls, and the first places of each row. A script turns the
 //! mesh; without it the tables of places are what there is.
 
-use super::drawing::{AROUND, DrawnRow, MeshDrawing, MeshMark, PLACES};
-use super::record::*;
+use super::rows::MeshRow;
 use crate::mesh::AimedPart;
+use crate::report::drawing::{AROUND, DrawnRow, MeshDrawing, MeshMark, PLACES};
 use crate::report::page::html::words::{code, shortened};
 use crate::report::page::{Block, Stage};
-use crate::report::{group_digits, number_of};
+use crate::report::record::*;
+use crate::report::{Record, group_digits, number_of};
 use maud::{Markup, html};
 
 /// Places of a row that stand in its table.
 const LISTED: usize = 20;
-/// The words for a fault, in the order of [`crate::audit::mesh::PlaceFault`].
+/// The words for a fault, in the order of [`crate::audit::PlaceFault`].
 const WRONG: [&str; 3] = ["crack", "double", "wrong at a fold"];
 
 /// The drawing and the places of a report that has a drawing.
-pub(super) fn block(report: &MeshReport) -> Option<Block> {
-    let drawing = report.drawing.as_ref()?;
-    let rows = shown(&report.record, drawing);
+pub(super) fn block(record: &Record, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> Option<Block> {
+    let drawing = record.drawing.as_ref()?;
+    let rows = shown(rows, drawing);
     let markup = html! {
-        (self::drawing(&report.record.result, drawing, &rows))
+        (self::drawing(mesh, drawing, &rows))
         h2 { "Row by row" }
         p {
             "The first places of each row, with the first ray that shows each. Vertices have their numbers in the "
@@ -33,7 +34,7 @@ pub(super) fn block(report: &MeshReport) -> Option<Block> {
 }
 
 /// The drawing: a canvas for the script.
-fn drawing(result: &MeshResult, drawing: &MeshDrawing, rows: &[ShownRow]) -> Markup {
+fn drawing(mesh: &MeshPart, drawing: &MeshDrawing, rows: &[ShownRow]) -> Markup {
     let numbers = |values: &mut dyn Iterator<Item = i64>| {
         values.map(|value| value.to_string()).collect::<Vec<_>>().join(" ")
     };
@@ -42,8 +43,7 @@ fn drawing(result: &MeshResult, drawing: &MeshDrawing, rows: &[ShownRow]) -> Mar
     let triangles = numbers(&mut drawing.triangles.iter().flat_map(|face| face.map(i64::from)));
     let kinds: Vec<usize> = (0..WRONG.len()).filter(|kind| has_kind(rows, *kind)).collect();
     // Drawn first: what breaks its promise, otherwise what leaks most.
-    let badness =
-        |row: &ShownRow| (row.result.promise().is_some_and(|(_, kept)| !kept), row.marked);
+    let badness = |row: &ShownRow| (row.row.promise().is_some_and(|(_, kept)| !kept), row.marked);
     let worst = (0..rows.len()).rev().max_by_key(|i| badness(&rows[*i])).unwrap_or(0);
     html! {
         h2 { "Where" }
@@ -53,7 +53,7 @@ fn drawing(result: &MeshResult, drawing: &MeshDrawing, rows: &[ShownRow]) -> Mar
             } @else {
                 p {
                     @if drawing.whole { "The whole mesh" } @else {
-                        "Of " (number_of(result.mesh.triangles, "triangle", "triangles")) " only those around marked places, "
+                        "Of " (number_of(mesh.triangles, "triangle", "triangles")) " only those around marked places, "
                         (group_digits(drawing.triangles.len() as u64)) " in all: at most " (AROUND) " around each of at most "
                         (PLACES) " places of a row, which are spread over the mesh"
                     }
@@ -63,7 +63,7 @@ fn drawing(result: &MeshResult, drawing: &MeshDrawing, rows: &[ShownRow]) -> Mar
                     label { "Kernel row "
                         select #row autocomplete="off" {
                             @for (i, row) in rows.iter().enumerate() {
-                                option value=(i) selected[i == worst] { (shortened(&row.result.label(), 80)) " " (row.scalar) }
+                                option value=(i) selected[i == worst] { (shortened(&row.row.label(), 80)) " " (row.row.scalar) }
                             }
                         }
                     }
@@ -84,7 +84,7 @@ fn drawing(result: &MeshResult, drawing: &MeshDrawing, rows: &[ShownRow]) -> Mar
                     canvas #view tabindex="0" role="application" aria-describedby="keys"
                         aria-label="The mesh, with the places where the chosen kernel row goes wrong"
                         data-points=(points) data-vertices=(vertices) data-triangles=(triangles)
-                        data-whole[drawing.whole] data-directions=(result.directions) data-faces=(drawing.faces()) data-file=(shortened(&result.mesh.file, 120)) {}
+                        data-whole[drawing.whole] data-directions=(mesh.directions) data-faces=(drawing.faces()) data-file=(shortened(&mesh.file, 120)) {}
                 }
                 div #place hidden {
                     div aria-live="polite" { p #what {} p { code #command {} } }
@@ -107,22 +107,22 @@ fn has_kind(rows: &[ShownRow], kind: usize) -> bool {
 /// A row's first places, with its marks for the script.
 fn places(i: usize, drawing: &MeshDrawing, row: &ShownRow) -> Markup {
     let [edges, vertices] = &row.drawn.commands;
-    let MeshRowResult { edges: at_edges, vertices: at_vertices, .. } = row.result;
+    let leaking = row.row.at.map(|at| at.leaking);
     let number = |mark: &MeshMark, end: usize| drawing.points[mark.ends[end] as usize].0;
     let index = |part: AimedPart| &row.drawn.commands[part as usize];
     html! {
         details.row id={ "r" (i) } data-marks=(row.marks) data-edges=(edges[0]) data-vertices=(vertices[0]) data-after=(edges[1]) {
             summary {
-                b { (row.result.label()) " " (row.scalar) } ": "
+                b { (row.row.label()) " " (row.row.scalar) } ": "
                 span.sum {
-                    (number_of(at_edges.cracked, "edge leaks", "edges leak")) ", "
-                    (number_of(at_vertices.cracked, "vertex leaks", "vertices leak")) "; "
+                    (number_of(leaking[0], "edge leaks", "edges leak")) ", "
+                    (number_of(leaking[1], "vertex leaks", "vertices leak")) "; "
                     @if row.marked < row.drawn.marks.len() { (group_digits(row.marked as u64)) " of " (group_digits(row.drawn.marks.len() as u64)) " places are marked" }
                     @else { (number_of(row.marked as u64, "place is marked", "places are marked")) }
                 }
             }
             @if 0 < row.marked {
-                div.scroll role="group" aria-label={ "Places of " (row.result.label()) } tabindex="0" {
+                div.scroll role="group" aria-label={ "Places of " (row.row.label()) } tabindex="0" {
                     table {
                         thead { tr { th scope="col" { "place" } th.text scope="col" { "what" } th scope="col" { "rays" } th.text scope="col" { (drawing.faces()) } th.text scope="col" { "the first ray again" } } }
                         tbody {
@@ -149,10 +149,9 @@ fn places(i: usize, drawing: &MeshDrawing, row: &ShownRow) -> Markup {
 /// Bytes for all marks. A row that leaves some of its share leaves them to the next.
 const MARKS: usize = 3_500_000;
 
-/// A row in a scalar.
+/// A row with its marks.
 struct ShownRow<'a> {
-    scalar: &'a str,
-    result: &'a MeshRowResult,
+    row: &'a MeshRow<'a>,
     drawn: &'a DrawnRow,
     /// Its marks as the script reads them, and how many there are.
     marks: String,
@@ -160,12 +159,10 @@ struct ShownRow<'a> {
 }
 
 /// The rows with as many marks as fit.
-fn shown<'a>(record: &'a MeshRecord, drawing: &'a MeshDrawing) -> Vec<ShownRow<'a>> {
-    let parts = &record.result.scalars;
-    let results = parts.iter().flat_map(|part| part.results.iter().map(move |row| (part, row)));
+fn shown<'a>(all: &'a [MeshRow<'a>], drawing: &'a MeshDrawing) -> Vec<ShownRow<'a>> {
     let mut left = MARKS;
     let mut rows = Vec::new();
-    for (i, ((part, result), drawn)) in results.zip(&drawing.rows).enumerate() {
+    for (i, (row, drawn)) in all.iter().zip(&drawing.rows).enumerate() {
         let share = left / (drawing.rows.len() - i);
         let (mut marks, mut marked) = (String::new(), 0);
         for text in drawn.marks.iter().map(mark_text) {
@@ -176,7 +173,7 @@ fn shown<'a>(record: &'a MeshRecord, drawing: &'a MeshDrawing) -> Vec<ShownRow<'
             marked += 1;
         }
         left -= marks.len();
-        rows.push(ShownRow { scalar: &part.scalar, result, drawn, marks, marked });
+        rows.push(ShownRow { row, drawn, marks, marked });
     }
     rows
 }

@@ -134,9 +134,27 @@ pub struct AcrossPart {
     /// Crossings on a mesh without a hit, which a neighbour may have: no cracks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elsewhere: Option<Rate>,
+    /// Ids of the first of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub first_elsewhere: Vec<String>,
+    /// How many edges, or vertices, of a mesh leak.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub leaking: Option<LeakingPart>,
+    /// At a mesh, by class of ray: `exact`, `exact-grazing`, `near`, `near-grazing`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub classes: BTreeMap<String, AcrossPart>,
     /// The flag that names the file from which an id makes its group, as `--mesh 'model.obj'`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+}
+
+/// How many edges, or vertices, of a mesh some ray found a crack at.
+#[apply(part!)]
+pub struct LeakingPart {
+    /// Those with a crack.
+    pub count: u64,
+    /// All that rays were aimed at.
+    pub of: u64,
 }
 
 /// The results on whole polygons of a kernel that takes them.

@@ -13,8 +13,6 @@ named! {
         Audit = "audit",
         /// Epsilons on the rays of a scene, or on other cases.
         Epsilon = "epsilon",
-        /// Rays at the edges and vertices of a mesh.
-        Mesh = "mesh",
         /// Starts of new rays.
         Spawn = "spawn",
         /// Bounds that hold for every float of a domain.

@@ -1,5 +1,6 @@
 //! Some indices of a source together: their cases, truths and groups.
 
+use super::aimed::AimedRay;
 use super::digest::CasePlace;
 use super::forms::ScalarName;
 use super::source::Source;
@@ -79,6 +80,8 @@ pub struct Chunk<F: Scalar> {
     /// Where each index's cases start, and the end.
     starts: Vec<usize>,
     first_index: u64,
+    /// One an index of a mesh's part; none of other sources.
+    aimed: Vec<AimedRay>,
 }
 
 impl<F: Scalar> Chunk<F> {
@@ -110,9 +113,18 @@ impl<F: Scalar> Chunk<F> {
         let world = source.instance().map(|instance| (instance, cases.clone()));
         source.ask(&mut cases, &mut truths, &mut summary.layers);
         summary.oracle_nanoseconds += observer.now() - start;
-        let kinds = Kinds::new(&truths);
-        let grouping = source.grouping();
-        let chunk = Chunk { grouping, cases, places, truths, kinds, world, starts, first_index };
+        let mut chunk = Chunk {
+            grouping: source.grouping(),
+            kinds: Kinds::new(&truths),
+            cases,
+            places,
+            truths,
+            world,
+            starts,
+            first_index,
+            aimed: Vec::new(),
+        };
+        chunk.aimed = source.aimed::<F>(&chunk);
         summary.indices += chunk.starts.len() as u64 - 1;
         summary.cases += chunk.cases.len() as u64;
         for (index, range) in chunk.groups() {
@@ -128,6 +140,11 @@ impl<F: Scalar> Chunk<F> {
     pub fn groups(&self) -> impl Iterator<Item = (u64, Range<usize>)> {
         let first = self.first_index;
         self.starts.windows(2).zip(first..).map(|(ends, index)| (index, ends[0]..ends[1]))
+    }
+
+    /// The target and the class of the ray of an index; none of sources that are no part of a mesh.
+    pub(super) fn aimed(&self, index: u64) -> Option<AimedRay> {
+        self.aimed.get((index - self.first_index) as usize).copied()
     }
 
     /// The contract's demands on each case.

@@ -31,8 +31,6 @@ pub struct GroupCount {
     pub odd_folds: u64,
     /// Folds without a hit where the exact line has two.
     pub missed_folds: u64,
-    /// Crossings with an even number of hits: there the parity is wrong.
-    pub even: u64,
     /// Crossings on a mesh without a hit, which a neighbour may have: no cracks.
     pub elsewhere: u64,
     /// The first cracks, by index.
@@ -85,11 +83,7 @@ impl GroupCount {
         let outcome = GroupOutcome::of(group);
         match truth {
             GroupTruth::Free => {}
-            GroupTruth::Crossing => {
-                self.crossings += 1;
-                let is_even = hits.is_multiple_of(2) && outcome != GroupOutcome::Elsewhere;
-                self.even += u64::from(is_even);
-            }
+            GroupTruth::Crossing => self.crossings += 1,
             GroupTruth::Fold { odd } => {
                 self.folds += 1;
                 self.missed_folds += u64::from(hits == 0 && !odd);
@@ -127,7 +121,6 @@ impl GroupCount {
         self.folds += other.folds;
         self.odd_folds += other.odd_folds;
         self.missed_folds += other.missed_folds;
-        self.even += other.even;
         self.elsewhere += other.elsewhere;
         self.crack_digest.merge(&other.crack_digest);
         self.double_digest.merge(&other.double_digest);

@@ -96,7 +96,9 @@ impl<F: Scalar> RowIn<F> {
             tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
         }
         let groups = (contract, &asked.groups[..]);
-        self.judge_groups(source, chunk, groups, verdicts).flatten().for_each(|g| tally.group(&g));
+        for group in self.judge_groups(source, chunk, groups, verdicts).flatten() {
+            tally.group(&group, chunk.aimed(group.index), contract.across);
+        }
     }
 
     /// Measures the values of right hits on a sample.

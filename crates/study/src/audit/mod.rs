@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 mod accuracy;
+mod aimed;
 mod attribution;
 mod by_finding;
 mod causes;
@@ -23,7 +24,6 @@ mod groups;
 mod histogram;
 mod interval;
 mod judging;
-pub mod mesh;
 mod places;
 mod plan;
 mod row;
@@ -40,6 +40,7 @@ mod trials;
 pub use crate::engine::{Observer, Unobserved};
 pub use accuracy::values;
 pub use accuracy::{Accuracy, Errors};
+pub use aimed::{Aimed, CLASSES};
 pub use attribution::attribute_with;
 pub use attribution::{Attribution, attribute, attribute_by_running};
 pub use by_finding::ByFinding;
@@ -57,6 +58,7 @@ pub use group_count::JudgedGroup;
 pub use histogram::{Histogram, Octave};
 pub use interval::Interval;
 pub use judging::polygon_verdict;
+pub use places::{PlaceFault, Seen};
 pub use plan::Plan;
 pub use row::flags;
 pub use row::{PlanError, Row, RowSpec, quoted, shell_word};

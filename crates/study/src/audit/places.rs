@@ -1,10 +1,11 @@
 //! Where a row went wrong on a mesh, up to a limit: cracks first, and otherwise spread over the mesh.
 
 use crate::case::mix;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A fault at a place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum PlaceFault {
     /// A crossing without a hit.
     Crack,
@@ -15,7 +16,7 @@ pub enum PlaceFault {
 }
 
 /// How often something is wrong at a place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Seen {
     /// How many rays show it.
     pub rays: u32,
@@ -28,8 +29,8 @@ type PlaceKey = (PlaceFault, u64, u32);
 
 /// The first places in the order of their keys. What is kept does not depend on the order in which rays are
 /// added: a place that is dropped has a limit's worth of places before it, and so it has in every sum.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Places(BTreeMap<PlaceKey, Seen>);
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Places(#[serde(with = "super::forms::pairs")] BTreeMap<PlaceKey, Seen>);
 
 impl Places {
     /// Adds a ray.

@@ -16,4 +16,18 @@ pub struct Plan {
     /// How many findings of each class, the first by index, to attribute to a cause; and on how many
     /// indices of each source, evenly spread, to measure the values of right hits.
     pub attribute: usize,
+    /// How many places of a mesh to keep for a drawing, of each row, part and scalar.
+    pub places: usize,
+}
+
+impl Plan {
+    /// A plan that counts and keeps so many examples, without causes, accuracy and places.
+    pub fn new(rows: Vec<Row>, sources: Vec<Source>, scalars: [bool; 2], examples: usize) -> Plan {
+        Plan { rows, sources, scalars, examples, attribute: 0, places: 0 }
+    }
+
+    /// How many examples, findings to attribute and places a tally keeps.
+    pub(super) fn limits(&self) -> [usize; 3] {
+        [self.examples, self.attribute, self.places]
+    }
 }

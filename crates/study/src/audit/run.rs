@@ -4,7 +4,6 @@ use super::causes::{self, Causes};
 use super::chunk::{Chunk, SourceSummary};
 use super::forms::ScalarName;
 use super::plan::Plan;
-use super::row::Row;
 use super::rows::Rows;
 use super::shard::Shard;
 use super::source::Source;
@@ -91,9 +90,9 @@ pub fn run_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut A
 }
 
 fn sum_scalar<F: Scalar>(plan: &Plan, shard: Shard, observer: &dyn Observer, audit: &mut Audit) {
-    let runner = Runner::<F>::new(&plan.rows, plan.attribute, observer);
+    let runner = Runner::<F>::new(plan, observer);
     for (number, source) in plan.sources.iter().enumerate() {
-        let empty = || runner.no_sums(plan.examples, number);
+        let empty = || runner.no_sums(number);
         let add = |sums: &mut SourceSums, indices| runner.add_chunk(source, indices, sums);
         let indices = shard.range(source.count::<F>());
         runner.add_to(engine::sum(indices, source.chunk(), observer, empty, add), audit);
@@ -101,7 +100,7 @@ fn sum_scalar<F: Scalar>(plan: &Plan, shard: Shard, observer: &dyn Observer, aud
 }
 
 fn finish_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut Audit) {
-    let runner = Runner::<F>::new(&plan.rows, plan.attribute, observer);
+    let runner = Runner::<F>::new(plan, observer);
     let cells: Vec<&mut SourceCell> =
         audit.cells.iter_mut().filter(|cell| cell.scalar == F::NAME).collect();
     let causes = engine::map(&cells, |cell| runner.causes(&plan.sources[cell.source], cell));
@@ -130,7 +129,7 @@ impl Audit {
             let rows = plan.rows.iter().enumerate();
             let running = rows.filter(|(_, row)| F::subject(row.entry).is_some());
             self.cells.extend(running.map(|(row, _)| {
-                SourceCell::new(row, source, F::NAME, Tally::new(plan.examples, plan.attribute), 0)
+                SourceCell::new(row, source, F::NAME, Tally::new(plan.limits()), 0)
             }));
         }
     }
@@ -155,9 +154,7 @@ impl Merge for SourceSums {
 /// A plan in one scalar, its kernels and epsilons resolved.
 struct Runner<'a, F: Scalar> {
     rows: Rows<F>,
-    /// How many findings of a class are attributed, and on how many indices of each source the values
-    /// of hits are measured.
-    attribute: usize,
+    plan: &'a Plan,
     observer: &'a dyn Observer,
 }
 
@@ -170,12 +167,12 @@ pub(super) struct ChunkDemands {
 }
 
 impl<'a, F: Scalar> Runner<'a, F> {
-    fn new(rows: &[Row], attribute: usize, observer: &'a dyn Observer) -> Self {
-        Runner { rows: Rows::new(rows), attribute, observer }
+    fn new(plan: &'a Plan, observer: &'a dyn Observer) -> Self {
+        Runner { rows: Rows::new(&plan.rows), plan, observer }
     }
 
-    fn no_sums(&self, examples: usize, source: usize) -> SourceSums {
-        let tally = || Tally::new(examples, self.attribute);
+    fn no_sums(&self, source: usize) -> SourceSums {
+        let tally = || Tally::new(self.plan.limits());
         SourceSums {
             summary: SourceSummary::new(source, F::NAME),
             rows: self.rows.each.iter().map(|_| (tally(), 0)).collect(),
@@ -196,7 +193,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
         let row = self.rows.each.iter().find(|row| row.number == cell.row);
         row.map_or_else(BTreeMap::new, |row| {
             let contract = &self.rows.contracts[row.contract];
-            causes::causes(source, row, contract, &cell.tally, self.attribute)
+            causes::causes(source, row, contract, &cell.tally, self.plan.attribute)
         })
     }
 
@@ -216,10 +213,10 @@ impl<'a, F: Scalar> Runner<'a, F> {
 
     /// The cases of a chunk on which the values of hits are measured.
     fn sample(&self, source: &Source, chunk: &Chunk<F>) -> Vec<usize> {
-        if self.attribute == 0 {
+        if self.plan.attribute == 0 {
             return Vec::new();
         }
-        let every = source.count::<F>().div_ceil(self.attribute as u64).max(1);
+        let every = source.count::<F>().div_ceil(self.plan.attribute as u64).max(1);
         let sampled = chunk.groups().filter(|(index, _)| index.is_multiple_of(every));
         sampled.flat_map(|(_, cases)| cases).collect()
     }

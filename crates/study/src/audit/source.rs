@@ -1,14 +1,17 @@
 //! Where a plan's cases come from, by index.
 
+use super::aimed::{AimedRay, is_on_target};
+use super::chunk::Chunk;
 use super::corpus_set::CorpusSet;
 use super::row::quoted;
 use crate::arith::Float;
 use crate::case::{Case, Instance, Matrix, Parameters, Ray, SceneKind, Toward};
 use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum};
 use crate::kernel::Scalar;
-use crate::mesh::{AimedPart, SceneMesh, Surface, Targets};
+use crate::mesh::{Aim, AimedPart, SceneMesh, Surface, Targets};
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Indices that go through a run together.
@@ -206,18 +209,43 @@ impl Source {
     pub fn mesh_parts(&self, directions: u64, scalars: [bool; 2]) -> Vec<Source> {
         let Stock::Mesh(family) = &self.stock else { return Vec::new() };
         let surface = Arc::new(Surface::new(family.clone(), scalars));
-        let of = |part| Source {
+        let parameters = &self.parameters;
+        Source::parts_of(&surface, parameters, self.seed, directions).into()
+    }
+
+    /// The groups at the edges and at the vertices of a surface: so many rays at each.
+    pub fn parts_of(
+        surface: &Arc<Surface>,
+        parameters: &Parameters,
+        seed: u64,
+        directions: u64,
+    ) -> [Source; 2] {
+        AimedPart::ALL.map(|part| Source {
             stock: Stock::MeshPart(surface.clone(), part),
+            parameters: parameters.clone(),
+            seed,
             count: directions,
-            ..self.clone()
-        };
-        AimedPart::ALL.map(of).into()
+        })
     }
 
     /// The edges and vertices of a mesh; none of other sources, or in another scalar.
-    fn targets<F: Float>(&self) -> Option<Targets<'_>> {
+    pub fn targets<F: Float>(&self) -> Option<Targets<'_>> {
         let Stock::MeshPart(surface, _) = &self.stock else { return None };
         surface.targets::<F>(&self.parameters, self.seed)
+    }
+
+    /// The targets and classes of the rays of a chunk; none of sources that are no part of a mesh.
+    pub(super) fn aimed<F: Scalar>(&self, chunk: &Chunk<F>) -> Vec<AimedRay> {
+        let (Stock::MeshPart(_, part), Some(targets)) = (&self.stock, self.targets::<F>()) else {
+            return Vec::new();
+        };
+        let aimed = |(index, cases): (u64, Range<usize>)| {
+            let (target, number) = targets.place(*part, index);
+            let is_near = !is_on_target(*part, &chunk.truths[cases]);
+            let class = 2 * usize::from(is_near) + usize::from(Aim::of(number).grazing);
+            AimedRay { target: target as u32, class }
+        };
+        chunk.groups().map(aimed).collect()
     }
 
     /// How many polygons of its mesh's file are not in the mesh.

@@ -17,6 +17,7 @@ pub struct StoredPlan {
     scalars: [bool; 2],
     examples: usize,
     attribute: usize,
+    places: usize,
 }
 
 /// A source that can be opened again.
@@ -60,6 +61,7 @@ impl StoredPlan {
             scalars: plan.scalars,
             examples: plan.examples,
             attribute: plan.attribute,
+            places: plan.places,
         }
     }
 
@@ -76,6 +78,7 @@ impl StoredPlan {
             scalars: self.scalars,
             examples: self.examples,
             attribute: self.attribute,
+            places: self.places,
         })
     }
 }

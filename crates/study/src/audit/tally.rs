@@ -1,11 +1,13 @@
 //! Sums of findings: a commutative monoid, so that any split of a run adds up to the same.
 
 use super::accuracy::Accuracy;
+use super::aimed::{Aimed, AimedRay};
 use super::by_finding::ByFinding;
 use super::digest::{CasePlace, Digest};
 use super::group_count::{GroupCount, JudgedGroup};
 use super::histogram::Histogram;
 use super::trials::{RayProducts, Trials};
+use crate::contract::Across;
 use crate::judge::{Class, Finding, Obligation};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
@@ -212,6 +214,8 @@ pub struct Tally {
     pub accuracy: Accuracy,
     /// The outcomes of groups.
     pub groups: GroupCount,
+    /// The same at the edges, or at the vertices, of a mesh.
+    pub aimed: Aimed,
     /// Whole polygons.
     pub polygons: PolygonCount,
     /// Second hits on the triangle that a ray starts on.
@@ -219,12 +223,13 @@ pub struct Tally {
     /// How many places of each class and finding, and of groups.
     limit: usize,
     group_limit: usize,
+    place_limit: usize,
 }
 
 impl Tally {
     /// Empty; keeps this many examples by index of each class and finding, and as many places as are
-    /// to be attributed if that is more.
-    pub fn new(examples: usize, attributed: usize) -> Tally {
+    /// to be attributed if that is more; and so many places of a mesh.
+    pub fn new([examples, attributed, places]: [usize; 3]) -> Tally {
         Tally {
             classes: vec![ClassCount::default(); Class::COUNT],
             products: BTreeMap::new(),
@@ -232,10 +237,12 @@ impl Tally {
             severities: BTreeMap::new(),
             accuracy: Accuracy::default(),
             groups: GroupCount::default(),
+            aimed: Aimed::default(),
             polygons: PolygonCount::default(),
             self_hits: SelfHits::default(),
             limit: examples.max(attributed),
             group_limit: examples,
+            place_limit: places,
         }
     }
 
@@ -285,9 +292,12 @@ impl Tally {
         }
     }
 
-    /// Counts a group.
-    pub fn group(&mut self, group: &JudgedGroup) {
+    /// Counts a group; of a mesh with its ray's target, and what a contract promises there.
+    pub fn group(&mut self, group: &JudgedGroup, aimed: Option<AimedRay>, across: Across) {
         self.groups.add(group, self.group_limit);
+        if let Some(ray) = aimed {
+            self.aimed.add((ray, group), across, [self.group_limit, self.place_limit]);
+        }
     }
 
     /// Counts a whole polygon: what the contract asks of it, whether it was hit, and what that shows.
@@ -310,6 +320,7 @@ impl Tally {
         }
         self.accuracy.merge(&other.accuracy);
         self.groups.merge(other.groups, self.group_limit);
+        self.aimed.merge(other.aimed, [self.group_limit, self.place_limit]);
         self.polygons.merge(other.polygons, self.group_limit);
         self.self_hits.rays += other.self_hits.rays;
         self.self_hits.hits += other.self_hits.hits;
@@ -352,12 +363,15 @@ mod tests {
             let products = tally.products.entry((Some(class), Finding::FalseMiss)).or_default();
             products.add_ray(index % 4, 4);
             let (truth, hits) = (GroupTruth::Crossing, (index % 4) as usize);
-            tally.group(&JudgedGroup { index, truth, hits, elsewhere: index % 8 == 4 });
+            let group = JudgedGroup { index, truth, hits, elsewhere: index % 8 == 4 };
+            let target = (index * 37 % 1000) as u32;
+            let aimed = AimedRay { target, class: (index % 3) as usize };
+            tally.group(&group, Some(aimed), Across::ExactlyOne);
         };
-        let mut whole = Tally::new(5, 0);
+        let mut whole = Tally::new([5, 0, 7]);
         (0..100).for_each(|index| event(&mut whole, index));
         for cut in [0, 1, 17, 50, 99] {
-            let (mut left, mut right) = (Tally::new(5, 0), Tally::new(5, 0));
+            let (mut left, mut right) = (Tally::new([5, 0, 7]), Tally::new([5, 0, 7]));
             (0..cut).for_each(|index| event(&mut left, index));
             (cut..100).for_each(|index| event(&mut right, index));
             let mut swapped = right.clone();

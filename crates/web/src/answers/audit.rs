@@ -83,7 +83,7 @@ fn record(
         return Err(format!("the kernel does not run in {}", cases.scalar));
     }
     let sources = sources(cases, scalars)?;
-    let plan = Plan { rows, sources, scalars, examples, attribute };
+    let plan = Plan { attribute, ..Plan::new(rows, sources, scalars, examples) };
     let sums = audit::run(&plan, &Unobserved);
     Ok(build(&plan, &sums, &Context { seconds: 0.0, threads: 1 }))
 }

@@ -2,14 +2,13 @@
 
 use super::scalars_of;
 use crate::request::Mesh;
-use hairline::internals::audit::Unobserved;
-use hairline::internals::audit::mesh::{MeshPlan, run};
+use hairline::internals::audit::{Plan, Source, Unobserved, run};
+use hairline::internals::case::Parameters;
 use hairline::internals::corpus::mesh::read;
 use hairline::internals::family::MeshFamily;
 use hairline::internals::mesh::Surface;
-use hairline::internals::report::Context;
-use hairline::internals::report::mesh::{MeshRecord, build, places};
 use hairline::internals::report::page::{Paged, elements};
+use hairline::internals::report::{Context, Record, build, drawing, places};
 use serde::Serialize;
 use std::io;
 use std::sync::Arc;
@@ -21,7 +20,7 @@ const MOST: usize = 500_000;
 pub struct MeshAnswer {
     title: String,
     /// As `hairline mesh --format json` writes it.
-    record: MeshRecord,
+    record: Record,
     html: String,
 }
 
@@ -42,26 +41,18 @@ pub fn mesh(asked: &Mesh, file: &[u8]) -> Result<MeshAnswer, String> {
         return Err(format!("{count} triangles are more than {MOST}: use `hairline mesh`"));
     }
     let family = MeshFamily::new(mesh, &asked.file);
-    let plan = MeshPlan {
-        rows: vec![row],
-        directions: asked.directions,
-        seed: 1,
-        unit_direction: false,
-        instance: None,
-        examples: 3,
-        places: places(family.mesh()),
-    };
+    let places = places(family.mesh());
     let surface = Arc::new(Surface::new(Arc::new(family), scalars));
-    let found = match scalars {
-        [true, _] => run::<f32>(&surface, &plan, &Unobserved),
-        _ => run::<f64>(&surface, &plan, &Unobserved),
-    };
-    if found.cases == 0 {
+    let sources = Source::parts_of(&surface, &Parameters::default(), 1, asked.directions).into();
+    let plan = Plan { places, ..Plan::new(vec![row], sources, scalars, 3) };
+    let sums = run(&plan, &Unobserved);
+    if sums.sources.iter().all(|source| source.cases == 0) {
         let nothing =
             "nothing to ask: no edge lies between two sound faces that are wound consistently";
         return Err(format!("{}: {nothing}", asked.file));
     }
-    let report = build(&surface, &plan, &[found], &Context { seconds: 0.0, threads: 1 });
-    let title = report.page().title;
-    Ok(MeshAnswer { title, html: elements(&report), record: report.record })
+    let mut record = build(&plan, &sums, &Context { seconds: 0.0, threads: 1 });
+    record.drawing = drawing(&plan, &sums);
+    let (title, html) = (record.page().title, elements(&record));
+    Ok(MeshAnswer { title, html, record: record.sealed() })
 }

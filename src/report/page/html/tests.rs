@@ -93,6 +93,7 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
     };
     let results = kernels.iter().flat_map(|k| families.iter().map(move |f| result(k, f)));
     let result = ResultPart {
+        mesh: None,
         plan: PlanPart {
             hash: "0123".to_owned(),
             rows: kernels.iter().map(row).collect(),

@@ -1,19 +1,19 @@
 //! The drawing in a page: a small mesh whole, of a large one the triangles around the places where rows go wrong;
 //! and those places, each with the ray that shows it.
 
-use crate::arith::Float;
-use crate::audit::mesh::{MeshPlan, PlaceFault, RowFound};
-use crate::audit::quoted;
+use super::surface;
+use crate::audit::{Audit, PlaceFault, Plan, SourceCell};
 use crate::corpus::mesh::Mesh;
-use crate::mesh::{AimedPart, Surface, Targets, Topology};
+use crate::kernel::Scalar;
+use crate::mesh::{AimedPart, Surface};
 use std::collections::{BTreeSet, HashMap};
 
 /// A mesh of at most so many triangles is drawn whole, with every place.
 const WHOLE: usize = 5_000;
 /// Places of one row in one scalar, of a larger mesh.
-pub(super) const PLACES: usize = 300;
+pub const PLACES: usize = 300;
 /// Triangles around one place.
-pub(super) const AROUND: usize = 64;
+pub const AROUND: usize = 64;
 /// All triangles around places.
 const TRIANGLES: usize = 20_000;
 
@@ -23,7 +23,7 @@ pub fn places(mesh: &Mesh) -> usize {
 }
 
 /// The drawing of a mesh.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct MeshDrawing {
     /// True if it is the whole mesh.
     pub whole: bool,
@@ -42,7 +42,7 @@ pub struct MeshDrawing {
 pub const UNIT: f64 = 1e6;
 
 /// The places of a row in a scalar.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct DrawnRow {
     /// By [`AimedPart::ALL`]: what stands in a command before and after a ray's index.
     pub commands: [[String; 2]; 2],
@@ -51,7 +51,7 @@ pub struct DrawnRow {
 }
 
 /// A place where a row goes wrong.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct MeshMark {
     /// The fault.
     pub wrong: PlaceFault,
@@ -69,18 +69,23 @@ pub struct MeshMark {
     around: Vec<u32>,
 }
 
+/// The drawing of the mesh whose edges and vertices a plan asks about.
+pub fn drawing(plan: &Plan, audit: &Audit) -> Option<MeshDrawing> {
+    let surface = surface::of_plan(plan)?;
+    let [edges, vertices] = AimedPart::ALL
+        .map(|part| audit.cells.iter().filter(move |cell| cell.source == part as usize));
+    let row = |cells: [&SourceCell; 2]| in_named_scalar!(cells[0].scalar, F => row::<F>(surface, plan, cells));
+    let rows = edges.zip(vertices).filter_map(|(edges, vertices)| row([edges, vertices]));
+    Some(MeshDrawing::new(surface.mesh(), rows.collect()))
+}
+
 /// The places of a row, of both parts.
-pub(super) fn row<F: Float>(
-    surface: &Surface,
-    targets: &Targets,
-    topology: &Topology,
-    plan: &MeshPlan,
-    found: &RowFound,
-) -> DrawnRow {
-    let mesh = surface.mesh();
+fn row<F: Scalar>(surface: &Surface, plan: &Plan, cells: [&SourceCell; 2]) -> Option<DrawnRow> {
+    let (mesh, topology) = (surface.mesh(), surface.topology::<F>()?);
     let mut marks = Vec::new();
-    for part in AimedPart::ALL {
-        for (order, target, seen) in found.tallies[part as usize].places.iter() {
+    for (part, cell) in AimedPart::ALL.into_iter().zip(cells) {
+        let targets = plan.sources[cell.source].targets::<F>()?;
+        for (order, target, seen) in cell.tally.aimed.places.iter() {
             let (faces, points) =
                 (targets.faces(part, target as usize), targets.points(part, target as usize));
             let mut lines: Vec<u32> =
@@ -98,18 +103,18 @@ pub(super) fn row<F: Float>(
     }
     marks.sort_by_key(|(order, _)| *order);
     marks.truncate(plan.places);
-    let command = |part: AimedPart| {
-        let id = surface.id::<F>(part, &plan.parameters(), plan.seed, 0).to_string();
-        let arguments = format!("{} --mesh {}", quoted(&id), quoted(surface.family().path()));
-        let command = plan.rows[found.row].explain_command(&arguments);
+    let command = |cell: &SourceCell| {
+        let source = &plan.sources[cell.source];
+        let id = source.id::<F>(0, None);
+        let command = plan.rows[cell.row].explain_command(&source.explain_arguments::<F>(0, None));
         // The id ends with the index, 0.
         let (before, after) = command.split_once(&id).expect("the command holds the id");
         [format!("{before}{}", &id[..id.len() - 1]), after.to_owned()]
     };
-    DrawnRow {
-        commands: AimedPart::ALL.map(command),
+    Some(DrawnRow {
+        commands: cells.map(command),
         marks: marks.into_iter().map(|(_, mark)| mark).collect(),
-    }
+    })
 }
 
 impl MeshDrawing {
