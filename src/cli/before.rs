@@ -128,11 +128,9 @@ pub fn note_missed_angles(scene: &Scene, mesh: Option<&SceneMesh>, scalars: [boo
 
 /// The indices of a run; an error if there are none.
 pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Failure> {
-    let count = |source: &Source| {
-        let [f32, f64] = [source.count::<f32>(), source.count::<f64>()];
-        u64::from(scalars[0]) * f32 + u64::from(scalars[1]) * f64
-    };
-    match sources.iter().map(count).sum() {
+    let count =
+        |name| -> u64 { in_named_scalar!(name, F => sources.iter().map(Source::count::<F>).sum()) };
+    match scalar_names(scalars).map(count).sum() {
         0 => {
             Err(Failure::nothing("nothing to run: the sources have no case in the chosen scalars"))
         }
