@@ -137,11 +137,9 @@ pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Fail
 
 /// How many indices the sources have in some scalars.
 pub fn count_indices(sources: &[Source], scalars: [bool; 2]) -> u64 {
-    let count = |source: &Source| {
-        let [f32, f64] = [source.count::<f32>(), source.count::<f64>()];
-        u64::from(scalars[0]) * f32 + u64::from(scalars[1]) * f64
-    };
-    sources.iter().map(count).sum()
+    let count =
+        |name| -> u64 { in_named_scalar!(name, F => sources.iter().map(Source::count::<F>).sum()) };
+    scalar_names(scalars).map(count).sum()
 }
 
 /// The scalars in which the sources have a case.

@@ -10,7 +10,7 @@ use crate::corpus::mesh::Mesh;
 use crate::family::{self, Family, Grouping, MeshFamily, Stratum};
 use crate::kernel::Scalar;
 use crate::mesh::{AimedPart, SceneMesh, Surface, Targets, Topology};
-use crate::vectors::{self, DIGITS, VectorTest};
+use crate::vectors::{self, DIGITS, VectorTest, in_scalar};
 use clap::Args;
 use std::sync::Arc;
 
@@ -104,10 +104,7 @@ impl CaseArguments {
             let message = format!("no test of the core set of vectors has the id '{}'", self.case);
             return Some(Err(Failure::usage(message)));
         };
-        Some(Ok(match &cases[0] {
-            AnyCase::F32(_) => Cases::F32(Group::alone(in_scalar(&cases), grouping)),
-            AnyCase::F64(_) => Cases::F64(Group::alone(in_scalar(&cases), grouping)),
-        }))
+        Some(Ok(alone(&cases, grouping)))
     }
 
     fn stored(&self, path: &str) -> Result<Cases, Failure> {
@@ -137,17 +134,17 @@ impl CaseArguments {
     }
 }
 
-/// Cases that are stored in a scalar.
-fn in_scalar<F: Float>(cases: &[AnyCase]) -> Vec<Case<F>> {
-    cases.iter().map(|case| Case::from_bits(&either_scalar!(case, case => case.bits()))).collect()
+/// Cases without a mesh around them, which are all in one scalar.
+fn alone(cases: &[AnyCase], grouping: Grouping) -> Cases {
+    match cases[0] {
+        AnyCase::F32(_) => Cases::F32(Group::alone(in_scalar(cases), grouping)),
+        AnyCase::F64(_) => Cases::F64(Group::alone(in_scalar(cases), grouping)),
+    }
 }
 
 fn stored_cases(stored: &StoredCase) -> Cases {
     let grouping = if stored.is_secondary { Grouping::SecondaryRay } else { Grouping::Single };
-    match stored.case {
-        AnyCase::F32(case) => Cases::F32(Group::alone(vec![case], grouping)),
-        AnyCase::F64(case) => Cases::F64(Group::alone(vec![case], grouping)),
-    }
+    alone(&[stored.case], grouping)
 }
 
 /// The cases of an id, whose rays are brought to the world if it has an instance.
@@ -239,7 +236,7 @@ fn of_scene_mesh<F: Scalar>(
 }
 
 /// The family of an id, which must be of the version that this program makes.
-pub(super) fn family_of(id: &CaseId, name: &str) -> Result<&'static Family, Failure> {
+fn family_of(id: &CaseId, name: &str) -> Result<&'static Family, Failure> {
     let family = find_family(name)?;
     if family.version != id.version {
         let message = format!(

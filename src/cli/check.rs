@@ -10,7 +10,6 @@ use super::plugins;
 use super::prove::demand;
 use super::reporting::{Outputs, RunArguments, self_check};
 use super::settings::{self, Given};
-use crate::audit::Plan;
 use crate::conformance::locked;
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError, Expectations};
@@ -80,18 +79,6 @@ pub enum CheckCommand {
     Schema,
 }
 
-impl CheckCommand {
-    /// Runs `check config` or `check schema`.
-    pub fn run(&self) -> Result<Status, Failure> {
-        let text = match self {
-            CheckCommand::Config => settings::default_file(&words_command()),
-            CheckCommand::Schema => JSON_SCHEMA.to_owned(),
-        };
-        write_result("-", |out| out.write_all(text.as_bytes()))?;
-        Ok(Status::Success)
-    }
-}
-
 /// The flags of `check` on their own, to read settings as words.
 fn words_command() -> clap::Command {
     CheckFlags::augment_args_for_update(clap::Command::new("check").no_binary_name(true))
@@ -132,7 +119,12 @@ pub fn read_settings(text: &str, file: &str) -> Result<Vec<String>, String> {
 pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<Status, Failure> {
     let CheckArguments { command, flags: mut arguments } = arguments;
     if let Some(command) = command {
-        return command.run();
+        let text = match command {
+            CheckCommand::Config => settings::default_file(&words_command()),
+            CheckCommand::Schema => JSON_SCHEMA.to_owned(),
+        };
+        write_result("-", |out| out.write_all(text.as_bytes()))?;
+        return Ok(Status::Success);
     }
     let given = arguments.settings(matches)?;
     for given in &given {
@@ -158,7 +150,9 @@ fn checked(
 ) -> Result<Status, Failure> {
     let plan = match arguments.record {
         Some(_) => None,
-        None => Some(arguments.plan().map_err(|failure| blame(failure, given))?),
+        None => {
+            Some(arguments.run.plan(arguments.attribute).map_err(|failure| blame(failure, given))?)
+        }
     };
     let rows = plan.as_ref().map_or(&[][..], |plan| &plan.rows);
     let unproved = demand::unproved(&arguments.proved, rows)?;
@@ -279,7 +273,8 @@ fn blame(failure: Failure, given: &[Given]) -> Failure {
         let all = context.into_iter().chain([setting]);
         let Ok(mut alone) = defaults() else { break };
         let same = |failure: Failure| failure.message() == Some(message);
-        if all.into_iter().all(|given| alone.set(given).is_ok()) && alone.plan().is_err_and(same) {
+        let is_set = all.into_iter().all(|given| alone.set(given).is_ok());
+        if is_set && alone.run.plan(alone.attribute).is_err_and(same) {
             return Failure::Message(*status, format!("{}: {message}", setting.place));
         }
     }
@@ -324,10 +319,6 @@ fn blessed(
 }
 
 impl CheckFlags {
-    fn plan(&self) -> Result<Plan, Failure> {
-        self.run.plan(self.attribute)
-    }
-
     /// The settings in the environment and hairline.toml for the flags that the command line leaves out.
     fn settings(&self, matches: Option<&ArgMatches>) -> Result<Vec<Given>, Failure> {
         let default = || Path::new(settings::FILE).exists().then_some(settings::FILE);

@@ -2,12 +2,14 @@
 
 use super::exit::Failure;
 use crate::arith::Float;
+use crate::audit::shell_word;
 use crate::case::{Instance, Matrix};
 use crate::corpus::number;
 use crate::family::{self, FAMILIES, Family};
 use crate::kernel::{self, Entry};
 use crate::suggest::did_you_mean;
 use std::fmt::Display;
+use std::str::FromStr;
 
 /// Headings of the help: which cases and rows a run has, how they are judged, and what is written. The
 /// flags that matter most stand under none, and so come first.
@@ -58,6 +60,20 @@ pub fn is_f32(name: &str, place: &str) -> Result<bool, Failure> {
         "f64" => Ok(false),
         _ => Err(Failure::usage(format!("unknown scalar '{name}'{place}: there are f32 and f64"))),
     }
+}
+
+/// The value of a flag, if it is given.
+pub fn parsed<T: FromStr<Err: Display>>(
+    flag: &str,
+    text: Option<&str>,
+) -> Result<Option<T>, Failure> {
+    let wrong = |error| Failure::usage(format!("{flag}: {error}"));
+    text.map(str::parse).transpose().map_err(wrong)
+}
+
+/// A flag with each of its values, as a shell takes them.
+pub fn again<'a>(flag: &str, values: impl IntoIterator<Item = &'a String>) -> Vec<String> {
+    values.into_iter().map(|value| format!("{flag} {}", shell_word(value))).collect()
 }
 
 /// The most cases of one family: beyond it a run would take years.

@@ -25,7 +25,7 @@ pub struct GenerateArguments {
 /// Runs the command.
 pub fn run(arguments: &GenerateArguments) -> Result<Status, Failure> {
     let scalars = arguments.sources.scalars()?;
-    let sources = arguments.sources.sources(true, |_| true)?;
+    let sources = arguments.sources.sources(true)?;
     total_indices(&sources, scalars)?;
     write_result(&arguments.output, |out| {
         let mut cases = 0;

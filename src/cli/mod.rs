@@ -229,11 +229,10 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     if let Err(failure) = check_outputs(&self::command(), &matches) {
         return ended(failure);
     }
+    let own = matches.subcommand().map(|(_, own)| own);
     let outcome = match command {
         Chosen::Audit(arguments) => audit::run(&arguments),
-        Chosen::Epsilon(arguments) => {
-            epsilon::run(&arguments, matches.subcommand_matches("epsilon"))
-        }
+        Chosen::Epsilon(arguments) => epsilon::run(&arguments, own),
         Chosen::Spawn(arguments) => spawn::run(&arguments),
         Chosen::Mesh(arguments) => mesh::run(&arguments),
         Chosen::Prove(arguments) => prove::run(&arguments),
@@ -242,7 +241,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Chosen::Map(arguments) => map::run(&arguments),
         Chosen::List(arguments) => list::run(&arguments),
         Chosen::Fuzz(arguments) => fuzz::run(&arguments),
-        Chosen::Check(arguments) => check::run(*arguments, matches.subcommand_matches("check")),
+        Chosen::Check(arguments) => check::run(*arguments, own),
         Chosen::Merge(arguments) => merge::run(&arguments),
         Chosen::Diff(arguments) => diff::run(&arguments),
         Chosen::Generate(arguments) => generate::run(&arguments),

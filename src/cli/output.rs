@@ -74,16 +74,7 @@ impl OutputArguments {
 
     /// Writes a record in each format.
     pub fn write<R>(&self, pairs: Vec<(&Format<R>, &str)>, record: &R) -> Result<(), Failure> {
-        self.write_all(pairs, record, self.details)
-    }
-
-    pub fn write_all<R>(
-        &self,
-        pairs: Vec<(&Format<R>, &str)>,
-        record: &R,
-        details: bool,
-    ) -> Result<(), Failure> {
-        let OutputArguments { color, .. } = *self;
+        let OutputArguments { color, details, .. } = *self;
         write_results(pairs, |format, path, out| {
             let style =
                 Style { color: color.enabled(path == "-"), details, width: width(path, details) };

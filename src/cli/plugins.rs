@@ -1,8 +1,8 @@
 //! Kernels of the user's own: libraries and commands that flags name.
 
 use super::exit::{Failure, Status};
-use super::flags::refuse_twice;
-use crate::audit::{quoted, shell_word};
+use super::flags::{again, refuse_twice};
+use crate::audit::quoted;
 use crate::corpus::hex;
 use crate::kernel::{self, Entry, Scalar};
 use crate::plugin::{HOST_COMMAND, KernelProgram, LoadError, ProcessLimits, load};
@@ -95,11 +95,7 @@ impl PluginArguments {
 
     /// The flags that bring the kernels along, as a shell takes them.
     pub fn flags(&self) -> Vec<String> {
-        let libraries =
-            self.kernel_lib.iter().map(|path| format!("--kernel-lib {}", shell_word(path)));
-        let commands =
-            self.kernel_cmd.iter().map(|line| format!("--kernel-cmd {}", shell_word(line)));
-        libraries.chain(commands).collect()
+        [again("--kernel-lib", &self.kernel_lib), again("--kernel-cmd", &self.kernel_cmd)].concat()
     }
 
     /// The names of the libraries, and of the files that commands name, with the digests of their contents.
@@ -125,26 +121,31 @@ impl PluginArguments {
         &self,
         known: &BTreeMap<String, String>,
     ) -> Result<Vec<&'static Entry>, Failure> {
-        let register = |what: &str, loaded: Result<Entry, LoadError>| {
-            let known_as = |entry: Entry| match known.get(entry.info.name) {
+        let limits = self.limits()?;
+        refuse_twice("--kernel-lib", &self.kernel_lib)?;
+        refuse_twice("--kernel-cmd", &self.kernel_cmd)?;
+        let started = |flag: &str, what: &String, program: fn(&str) -> _| {
+            let selector = format!("{flag} {}", quoted(what));
+            // It is started once for the whole run.
+            if let Some(entry) = kernel::all().into_iter().find(|it| it.selector() == selector) {
+                return Ok(entry);
+            }
+            let entry = load(program(what)?, limits, selector).map_err(|error| match error {
+                LoadError::Start(error) => {
+                    let message = format!("{what}: it cannot be started: {error}");
+                    Failure::Message(Status::InputOutput, message)
+                }
+                LoadError::Hello(message) => Failure::bad_input(format!("{what}: {message}")),
+            })?;
+            let entry = match known.get(entry.info.name) {
                 Some(flag) => entry.chosen_by(flag.clone().leak()),
                 None => entry,
             };
-            register(what, loaded.map(known_as))
+            let taken = |message| Failure::bad_input(format!("{what}: {message}"));
+            kernel::register(entry).map_err(taken)
         };
-        let limits = self.limits()?;
-        let libraries = self.kernel_lib.iter().map(|path| {
-            let flag = format!("--kernel-lib {}", quoted(path));
-            started(flag, |flag| register(path, load(host_of(path)?, limits, flag)))
-        });
-        let commands = self.kernel_cmd.iter().map(|line| {
-            let program = KernelProgram::parse(line)
-                .map_err(|error| Failure::usage(format!("--kernel-cmd '{line}': {error}")))?;
-            let flag = format!("--kernel-cmd {}", quoted(line));
-            started(flag, |flag| register(line, load(program, limits, flag)))
-        });
-        refuse_twice("--kernel-lib", &self.kernel_lib)?;
-        refuse_twice("--kernel-cmd", &self.kernel_cmd)?;
+        let libraries = self.kernel_lib.iter().map(|path| started("--kernel-lib", path, host_of));
+        let commands = self.kernel_cmd.iter().map(|line| started("--kernel-cmd", line, parsed));
         libraries.chain(commands).collect()
     }
 
@@ -169,15 +170,6 @@ impl PluginArguments {
         let require_ieee = self.require_ieee;
         Ok(ProcessLimits { silence, failures, first_failures, timeouts, tell, require_ieee })
     }
-}
-
-/// The kernel that a flag names; it is started once for the whole run.
-fn started(
-    flag: String,
-    start: impl FnOnce(String) -> Result<&'static Entry, Failure>,
-) -> Result<&'static Entry, Failure> {
-    let known = kernel::all().into_iter().find(|entry| entry.selector() == flag);
-    known.map_or_else(|| start(flag), Ok)
 }
 
 /// The words that start this program again, where that is not the process's own file.
@@ -207,14 +199,10 @@ fn host_of(path: &str) -> Result<KernelProgram, Failure> {
         .ok_or_else(|| Failure::usage(format!("--kernel-lib {path}: a path that is not UTF-8")))
 }
 
-fn register(what: &str, loaded: Result<Entry, LoadError>) -> Result<&'static Entry, Failure> {
-    let entry = loaded.map_err(|error| match error {
-        LoadError::Start(error) => {
-            Failure::Message(Status::InputOutput, format!("{what}: it cannot be started: {error}"))
-        }
-        LoadError::Hello(message) => Failure::bad_input(format!("{what}: {message}")),
-    })?;
-    kernel::register(entry).map_err(|message| Failure::bad_input(format!("{what}: {message}")))
+/// The program of a command line.
+fn parsed(line: &str) -> Result<KernelProgram, Failure> {
+    let wrong = |error| Failure::usage(format!("--kernel-cmd '{line}': {error}"));
+    KernelProgram::parse(line).map_err(wrong)
 }
 
 /// An error if the verdicts of a kernel are worth nothing.

@@ -4,14 +4,14 @@ use super::before::{
     count_indices, note_secondary_rays, scalars_in_use, set_threads, total_indices,
 };
 use super::exit::{Failure, Status};
-use super::flags::{OUTPUT, RUNNING, matrix_in, scalar_names};
+use super::flags::{OUTPUT, RUNNING, again, matrix_in, parsed, scalar_names};
 use super::output::{OutputArguments, write_failure};
 use super::plugins;
 use super::progress::Progress;
 use super::prove;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, rays_at_each};
-use crate::audit::{self, Audit, Plan, Shard, Source, shell_word};
+use crate::audit::{self, Audit, Plan, Shard, Source};
 use crate::report::{
     Context, FORMATS, Format, HTML, Illustrations, ON_FAILURE, PartialPart, PlanFlags, Record,
     build, drawing, group_digits, number_of, shard_part,
@@ -137,7 +137,7 @@ impl RunArguments {
         set_threads(self.threads)?;
         let rows = self.kernels.rows()?;
         let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
-        let sources = self.sources.sources(self.report.output.quiet, |_| true)?;
+        let sources = self.sources.sources(self.report.output.quiet)?;
         let others = match self.sources.names_kind() {
             true => Vec::new(),
             false => sources.iter().flat_map(Source::in_other_kinds).collect(),
@@ -156,14 +156,9 @@ impl RunArguments {
 
     /// The flags that choose the cases again.
     fn source_flags(&self) -> String {
-        let mut flags = self.sources.flags();
-        if self.directions != 8 {
-            flags += &format!(" --directions {}", self.directions);
-        }
-        if let Some(matrix) = &self.instance {
-            flags += &format!(" --instance {}", shell_word(matrix));
-        }
-        flags.trim_start().to_owned()
+        let directions = (self.directions != 8).then(|| self.directions.to_string());
+        let others = [again("--directions", &directions), again("--instance", &self.instance)];
+        [self.sources.flags(), others.concat()].concat().join(" ")
     }
 
     /// Runs a plan and makes its record, illustrated if asked.
@@ -198,11 +193,7 @@ impl Execution<'_> {
     /// Runs it and makes its record.
     pub fn record(&self) -> Result<Record, Failure> {
         let Execution { plan, kernels, quiet, .. } = *self;
-        let shard: Option<Shard> = self
-            .shard
-            .map(str::parse)
-            .transpose()
-            .map_err(|error| Failure::usage(format!("--shard: {error}")))?;
+        let shard: Option<Shard> = parsed("--shard", self.shard)?;
         let threads = rayon::current_num_threads();
         let total = count_indices(&plan.sources, plan.scalars);
         if !quiet {
@@ -228,7 +219,7 @@ impl Execution<'_> {
         let seconds = progress.seconds();
         let mut record = build(plan, &sums, &Context { seconds, threads });
         (record.result.partial, record.shard) = (shard.map(PartialPart::from), part);
-        record.provenance.kernel_files = kernels.files();
+        record.provenance.kernel_files = kernels.plugins.files();
         // Of the whole plan: a part of a run leaves it to `merge`.
         if self.illustrate && shard.is_none() {
             let progress = Progress::without_end(quiet);

@@ -1,16 +1,15 @@
 //! Which kernels, contracts and epsilons a command line names.
 
 use super::exit::Failure;
-use super::flags::{JUDGING, RUNNING, find_kernel, refuse_twice};
+use super::flags::{JUDGING, RUNNING, again, find_kernel, parsed, refuse_twice};
 use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
-use crate::audit::{EpsilonChoice, Row, shell_word};
+use crate::audit::{EpsilonChoice, Row};
 use crate::contract::Band;
 use crate::epsilon::LEAST_T;
 use crate::kernel::{self, Entry};
 use clap::Args;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// The flags that choose kernels, their epsilons and the contract.
 #[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,7 +52,7 @@ pub struct KernelArguments {
     band: Option<String>,
 
     #[command(flatten)]
-    plugins: PluginArguments,
+    pub(super) plugins: PluginArguments,
 }
 
 /// Why a scene takes no band.
@@ -69,12 +68,7 @@ impl KernelArguments {
 
     /// The rows that the flags choose.
     pub fn rows(&self) -> Result<Vec<Row>, Failure> {
-        let band: Option<Band> = self
-            .band
-            .as_deref()
-            .map(str::parse)
-            .transpose()
-            .map_err(|error| Failure::usage(format!("--band: {error}")))?;
+        let band: Option<Band> = parsed("--band", self.band.as_deref())?;
         let entries = self.in_arithmetics(self.entries()?)?;
         let (choice, contract) = (self.choice()?, self.contract.as_deref());
         if self.epsilon_preset.is_some() && self.names_kernels() {
@@ -121,25 +115,19 @@ impl KernelArguments {
         }
     }
 
-    /// The files of kernels of one's own, with the digests of their contents.
-    pub fn files(&self) -> BTreeMap<String, String> {
-        self.plugins.files()
-    }
-
     /// The flags again, as a shell takes them.
     pub fn flags(&self) -> String {
-        let mut flags = self.plugins.flags();
-        let mut add = |name: &str, value: Option<String>| {
-            flags.extend(value.map(|value| format!("--{name} {}", shell_word(&value))));
-        };
-        let list = |values: &[String]| Some(values.join(",")).filter(|list| !list.is_empty());
-        add("kernel", list(&self.kernel));
-        add("arithmetic", list(&self.arithmetic));
-        add("epsilon", self.epsilon.clone());
-        add("epsilon-preset", self.epsilon_preset.clone());
-        add("contract", self.contract.clone());
-        add("band", self.band.clone());
-        flags.join(" ")
+        let list = |values: &[String]| (!values.is_empty()).then(|| values.join(","));
+        let flags = [
+            self.plugins.flags(),
+            again("--kernel", &list(&self.kernel)),
+            again("--arithmetic", &list(&self.arithmetic)),
+            again("--epsilon", &self.epsilon),
+            again("--epsilon-preset", &self.epsilon_preset),
+            again("--contract", &self.contract),
+            again("--band", &self.band),
+        ];
+        flags.concat().join(" ")
     }
 
     /// True if any kernel is named.
@@ -172,10 +160,9 @@ impl KernelArguments {
         if self.arithmetic.is_empty() {
             return Ok(entries);
         }
-        let parse = |text: &String| {
-            text.parse().map_err(|error| Failure::usage(format!("--arithmetic: {error}")))
-        };
-        let arithmetics = self.arithmetic.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
+        let names = self.arithmetic.iter();
+        let arithmetics = names.filter_map(|name| parsed("--arithmetic", Some(name)).transpose());
+        let arithmetics = arithmetics.collect::<Result<Vec<_>, _>>()?;
         refuse_twice("--arithmetic", &arithmetics)?;
         let is_other = |arithmetic: &Arithmetic| *arithmetic != Arithmetic::IEEE;
         let has_others =

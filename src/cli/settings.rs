@@ -27,6 +27,13 @@ enum ValueKind {
     Demands,
 }
 
+impl ValueKind {
+    /// True if several may be given.
+    fn is_list(self) -> bool {
+        !matches!(self, ValueKind::File | ValueKind::Text | ValueKind::Flag)
+    }
+}
+
 /// A setting: a flag of `check` that may also stand in the file or the environment.
 struct FlagSetting {
     key: &'static str,
@@ -88,7 +95,7 @@ pub fn default_file(check: &clap::Command) -> String {
         };
         let quoted = |text: &str| format!("\"{text}\"");
         let value = match kind {
-            ValueKind::Names | ValueKind::Files | ValueKind::Commands | ValueKind::Demands => {
+            _ if kind.is_list() => {
                 format!("[{}]", value.split(',').map(quoted).collect::<Vec<_>>().join(", "))
             }
             ValueKind::Flag => value.to_owned(),
@@ -213,10 +220,7 @@ fn words(setting: &FlagSetting, value: &DeValue, folder: &Path) -> Result<Vec<St
     if let (ValueKind::Demands, DeValue::Table(kernels)) = (setting.kind, value) {
         return demands(kernels).map(|all| vec![format!("--{key}={}", all.join(","))]);
     }
-    let is_list = matches!(
-        setting.kind,
-        ValueKind::Names | ValueKind::Files | ValueKind::Commands | ValueKind::Demands
-    );
+    let is_list = setting.kind.is_list();
     let texts = match value {
         DeValue::Array(items) if is_list => {
             items.iter().map(|item| scalar_text(item.get_ref())).collect::<Option<Vec<_>>>()
@@ -233,8 +237,7 @@ fn words(setting: &FlagSetting, value: &DeValue, folder: &Path) -> Result<Vec<St
         ValueKind::Files | ValueKind::File => {
             texts.iter().map(|text| format!("--{key}={}", folder.join(text).display())).collect()
         }
-        ValueKind::Commands => texts.iter().map(|text| format!("--{key}={text}")).collect(),
-        _ => vec![format!("--{key}={}", texts[0])],
+        _ => texts.iter().map(|text| format!("--{key}={text}")).collect(),
     })
 }
 

@@ -2,10 +2,11 @@
 
 use super::before::note_missed_angles;
 use super::exit::Failure;
-use super::flags::{RUNNING, case_count, chosen_scalars, find_family, refuse_twice};
+use super::flags::{
+    RUNNING, again, case_count, chosen_scalars, find_family, refuse_twice, scalar_names,
+};
 use super::input::{corpus_files, corpus_sets, read_mesh};
-use crate::arith::Float;
-use crate::audit::{CorpusSet, Source, Stock, shell_word};
+use crate::audit::{CorpusSet, Source, Stock};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
 use crate::corpus::InputError;
 use crate::epsilon::StudiedRays;
@@ -89,52 +90,31 @@ pub struct SourceArguments {
 
 impl SourceArguments {
     /// The flags again, as a shell takes them.
-    pub fn flags(&self) -> String {
-        let mut flags = Vec::new();
-        let mut add = |name: &str, value: &str| flags.push(format!("{name} {value}"));
-        if self.scalar != ["f32", "f64"] {
-            add("--scalar", &self.scalar.join(","));
-        }
-        if self.count != COUNT {
-            add("-n", &self.count.to_string());
-        }
-        if self.seed != SEED {
-            add("--seed", &self.seed.to_string());
-        }
-        flags.insert(usize::from(self.scalar != ["f32", "f64"]), self.case_flags());
-        flags.retain(|flag| !flag.is_empty());
-        flags.join(" ")
+    pub fn flags(&self) -> Vec<String> {
+        let scalar = (self.scalar != ["f32", "f64"]).then(|| self.scalar.join(","));
+        let count = (self.count != COUNT).then(|| self.count.to_string());
+        let seed = (self.seed != SEED).then(|| self.seed.to_string());
+        let [scalar, count, seed] = [("--scalar", scalar), ("-n", count), ("--seed", seed)]
+            .map(|(flag, it)| again(flag, &it));
+        [scalar, self.case_flags(), count, seed].concat()
     }
 
     /// Those of them that say which cases, but for how many of them, of which seed and scalar.
-    fn case_flags(&self) -> String {
-        let mut flags = Vec::new();
-        let mut add = |name: &str, value: &str| {
-            flags.push(format!("{name} {}", shell_word(value)));
-        };
-        if !self.family.is_empty() {
-            add("--family", &self.family.join(","));
-        }
-        self.scene.iter().for_each(|scene| add("--scene", scene));
-        self.mesh.iter().for_each(|path| add("--mesh", path));
-        self.corpus.iter().for_each(|path| add("--corpus", path));
-        if self.scale != "1" {
-            add("--scale", &self.scale);
-        }
-        if let Some(offset) = &self.offset {
-            add("--offset", offset);
-        }
-        if let Some(direction) = &self.direction {
-            add("--direction", direction);
-        }
-        for (name, given) in
-            [("exhaustive", self.exhaustive), ("scale-direction", self.scale_direction)]
-        {
-            if given {
-                flags.push(format!("--{name}"));
-            }
-        }
-        flags.join(" ")
+    fn case_flags(&self) -> Vec<String> {
+        let switch = |flag: &str, is_given: bool| Vec::from_iter(is_given.then(|| flag.to_owned()));
+        let family = (!self.family.is_empty()).then(|| self.family.join(","));
+        let flags = [
+            again("--family", &family),
+            again("--scene", &self.scene),
+            again("--mesh", &self.mesh),
+            again("--corpus", &self.corpus),
+            again("--scale", (self.scale != "1").then_some(&self.scale)),
+            again("--offset", &self.offset),
+            again("--direction", &self.direction),
+            switch("--exhaustive", self.exhaustive),
+            switch("--scale-direction", self.scale_direction),
+        ];
+        flags.concat()
     }
 
     /// The rays to study: those of a scene, which both scalars of the run can hold, or of the scene that a mesh is; or
@@ -143,9 +123,9 @@ impl SourceArguments {
         let is_stratum = |name: &String| Stratum::named(name).is_some();
         let strata: Vec<String> =
             self.family.iter().filter(|name| is_stratum(name)).cloned().collect();
-        let mut studied = StudiedRays { strata, ..StudiedRays::default() };
+        let studied = StudiedRays { strata, ..StudiedRays::default() };
         let other = studied.strata.len() < self.family.len() || !self.corpus.is_empty();
-        if other || self.names_changes() {
+        if other || self.exhaustive || self.changes_cases() {
             for (flag, is_given) in
                 [("--scene", self.scene.is_some()), ("--mesh", !self.mesh.is_empty())]
             {
@@ -157,8 +137,8 @@ impl SourceArguments {
                     return Err(Failure::usage(message));
                 }
             }
-            (studied.sources, studied.flags) = (self.sources(quiet, |_| true)?, self.case_flags());
-            return Ok(studied);
+            let flags = self.case_flags().join(" ");
+            return Ok(StudiedRays { sources: self.sources(quiet)?, flags, ..studied });
         }
         if !self.mesh.is_empty() {
             let (scene, mesh) = self.mesh_scene(quiet)?;
@@ -175,9 +155,9 @@ impl SourceArguments {
     }
 
     /// True if cases are changed.
-    fn names_changes(&self) -> bool {
+    fn changes_cases(&self) -> bool {
         let sized = self.scale != "1" || self.scale_direction || self.offset.is_some();
-        sized || self.exhaustive || self.direction.is_some()
+        sized || self.direction.is_some()
     }
 
     /// True if a scene or a mesh is named.
@@ -222,12 +202,7 @@ impl SourceArguments {
     }
 
     /// The sources, meshes and corpora read.
-    /// `usual` picks the families that run if the flags name none.
-    pub fn sources(
-        &self,
-        quiet: bool,
-        usual: impl Fn(&Family) -> bool,
-    ) -> Result<Vec<Source>, Failure> {
+    pub fn sources(&self, quiet: bool) -> Result<Vec<Source>, Failure> {
         let (seed, count) = self.seed_and_count();
         if self.scene.is_some() && !self.mesh.is_empty() {
             return self.strata_of_mesh(quiet);
@@ -241,7 +216,7 @@ impl SourceArguments {
             self.note_what_is_missed(scene, None, quiet)?;
         }
         let mut sources = Vec::new();
-        let families = self.families(usual)?;
+        let families = self.families()?;
         if self.exhaustive && families.iter().all(|family| family.size.is_none()) {
             return Err(Failure::usage("--exhaustive: only the family 'lattice' is finite"));
         }
@@ -292,11 +267,15 @@ impl SourceArguments {
         if let Some(why) = self.left_out()?.filter(|_| !quiet) {
             eprintln!("left out: {why}");
         }
-        let name = Stratum::Grazing.family().name;
-        if !quiet && (self.family.is_empty() || self.family.iter().any(|family| family == name)) {
+        if !quiet && self.runs(Stratum::Grazing) {
             note_missed_angles(scene, mesh, self.scalars()?, self.seed_and_count().0);
         }
         Ok(())
+    }
+
+    /// True if no family is named, or a stratum's.
+    fn runs(&self, stratum: Stratum) -> bool {
+        self.family.is_empty() || self.family.iter().any(|name| name == stratum.family().name)
     }
 
     /// The strata of the scene that the mesh is.
@@ -305,23 +284,20 @@ impl SourceArguments {
         let (scene, mesh) = self.mesh_scene(quiet)?;
         self.note_what_is_missed(&scene, Some(&mesh), quiet)?;
         let parameters = Parameters { scene: Some(scene), ..Parameters::default() };
-        let strata = Stratum::ALL.into_iter().filter(|stratum| {
-            let name = stratum.family().name;
-            self.family.is_empty() || self.family.iter().any(|family| family == name)
-        });
+        let strata = Stratum::ALL.into_iter().filter(|stratum| self.runs(*stratum));
         let (seed, count) = self.seed_and_count();
         let source =
             |stratum| Source::of_stratum(stratum, Some(&mesh), parameters.clone(), seed, count);
         Ok(strata.map(source).collect())
     }
 
-    fn families(&self, usual: impl Fn(&Family) -> bool) -> Result<Vec<&'static Family>, Failure> {
+    fn families(&self) -> Result<Vec<&'static Family>, Failure> {
         if self.family.is_empty() {
             let others = !self.mesh.is_empty() || !self.corpus.is_empty();
             return Ok(match (others, &self.scene) {
                 (true, _) => Vec::new(),
                 (false, Some(_)) => STRATA.iter().collect(),
-                (false, None) => FAMILIES.iter().filter(|family| usual(family)).collect(),
+                (false, None) => FAMILIES.iter().collect(),
             });
         }
         refuse_twice("--family", &self.family)?;
@@ -357,8 +333,7 @@ impl SourceArguments {
         if !self.corpus.is_empty() {
             return Err(about_scene("leave out --corpus".to_owned()));
         }
-        let sized = self.scale != "1" || self.scale_direction || self.offset.is_some();
-        if sized || self.direction.is_some() {
+        if self.changes_cases() {
             let sizes = "a scene has sizes of its own: leave out --scale, --offset and --direction";
             return Err(about_scene(sizes.to_owned()));
         }
@@ -405,18 +380,15 @@ pub fn mesh_scene(
     Scene::default().of_mesh(words).map_err(about_scene)?;
     let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
     let mesh = SceneMesh::new(Surface::new(family, scalars));
-    for (chosen, faces, name) in [
-        (scalars[0], mesh.face_count::<f32>(), f32::NAME),
-        (scalars[1], mesh.face_count::<f64>(), f64::NAME),
-    ] {
-        if chosen && faces == 0 {
+    for name in scalar_names(scalars) {
+        if in_named_scalar!(name, F => mesh.face_count::<F>()) == 0 {
             let message = format!("no triangle has an area in {name}");
             return Err(InputError::of(path, message).into());
         }
     }
     let scene = mesh.scene().of_mesh(words).map_err(about_scene)?;
-    let held = [scene.check_range_in::<f32>(), scene.check_range_in::<f64>()];
-    for (held, _) in held.into_iter().zip(scalars).filter(|(_, chosen)| *chosen) {
+    for name in scalar_names(scalars) {
+        let held = in_named_scalar!(name, F => scene.check_range_in::<F>());
         held.map_err(|error| InputError::of(path, error))?;
     }
     Ok((scene, Arc::new(mesh)))

@@ -45,12 +45,20 @@ const CHUNK: u64 = 1 << 13;
 pub fn run(arguments: &VectorsArguments) -> Result<Status, Failure> {
     match arguments.format {
         None => write_core(Path::new(&arguments.path))?,
-        Some(format) => write_result(&arguments.output, |out| match arguments.count {
-            None => write_tests(out, format),
-            Some(count) => {
-                let progress = Progress::of_output(count, "tests", &arguments.output);
-                write_numbered(out, format, count, &progress)
+        Some(format) => write_result(&arguments.output, |out| {
+            if let VectorFormat::Csv = format {
+                writeln!(out, "{}", csv::HEADER)?;
             }
+            let Some(count) = arguments.count else {
+                let mut tests = core().into_iter().flat_map(|(_, tests)| tests);
+                return tests.try_for_each(|test| out.write_all(written(format, &test).as_bytes()));
+            };
+            write_numbered(
+                out,
+                format,
+                count,
+                &Progress::of_output(count, "tests", &arguments.output),
+            )
         })?,
     }
     Ok(Status::Success)
@@ -74,20 +82,12 @@ fn write_core(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-fn write_tests(out: &mut dyn Write, format: VectorFormat) -> io::Result<()> {
-    out.write_all(head(format).as_bytes())?;
-    let topics = core();
-    let mut tests = topics.iter().flat_map(|(_, tests)| tests);
-    tests.try_for_each(|test| out.write_all(written(format, test).as_bytes()))
-}
-
 fn write_numbered(
     out: &mut dyn Write,
     format: VectorFormat,
     count: u64,
     progress: &Progress,
 ) -> io::Result<()> {
-    out.write_all(head(format).as_bytes())?;
     for start in (0..count).step_by(CHUNK as usize) {
         let numbers: Vec<u64> = (start..count.min(start + CHUNK)).collect();
         let parts = engine::map(&numbers, |n| numbered(*n).map(|test| written(format, &test)));
@@ -95,14 +95,6 @@ fn write_numbered(
         progress.set(start);
     }
     Ok(())
-}
-
-/// The text before the tests.
-fn head(format: VectorFormat) -> String {
-    match format {
-        VectorFormat::Json => String::new(),
-        VectorFormat::Csv => format!("{}\n", csv::HEADER),
-    }
 }
 
 fn written(format: VectorFormat, test: &VectorTest) -> String {

@@ -84,13 +84,13 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
         Ok::<_, InputError>(JudgedAnswer { answered, right, wrong_values })
     };
     let mut judged = Vec::new();
-    for (topic, test) in
-        topics.iter().flat_map(|(topic, tests)| tests.iter().map(|it| (topic.name, it)))
-    {
-        let demanded = demanded(test, profile.as_ref());
-        let answer = answers.remove(test.id.as_str());
-        let answer = answer.map(|answer| judge(test, demanded, answer)).transpose()?;
-        judged.push(JudgedTest { topic, test, demanded, answer });
+    for (topic, tests) in &topics {
+        for test in tests {
+            let demanded = demanded(test, profile.as_ref());
+            let answer = answers.remove(test.id.as_str());
+            let answer = answer.map(|answer| judge(test, demanded, answer)).transpose()?;
+            judged.push(JudgedTest { topic: topic.name, test, demanded, answer });
+        }
     }
     if let Some((id, (_, value))) = answers.iter().min_by_key(|(_, (_, value))| value.as_ptr()) {
         let message = format!("no test of these vectors has the id {}", json::quoted(id));

@@ -140,26 +140,22 @@ fn beside_expectations(conformance: &Conformance, f: &mut fmt::Formatter<'_>) ->
             writeln!(f, "    {why}")?;
         }
         if let (Some(case), Some(command)) = (found.case.clone(), found.command.clone()) {
-            let mut text = String::new();
             let bits = found.bits.clone().unwrap_or_default();
-            write_case(&found.kernel, &Example { case, bits, severity: None, command }, &mut text)?;
-            f.write_str(&text)?;
+            write_case(&found.kernel, &Example { case, bits, severity: None, command }, f)?;
         }
     }
-    match (conformance.unexpected.len() + conformance.stale.len()).saturating_sub(SHOWN) {
-        0 => {}
-        more => writeln!(f, "and {more} more")?,
+    let more = (conformance.unexpected.len() + conformance.stale.len()).saturating_sub(SHOWN);
+    if 0 < more {
+        writeln!(f, "and {more} more")?;
     }
-    match conformance.verdict {
-        ComparisonVerdict::Stale => {
-            writeln!(f, "HAIRLINE_BLESS=1 cargo test writes what was found")
-        }
-        _ => Ok(()),
+    if conformance.verdict == ComparisonVerdict::Stale {
+        writeln!(f, "HAIRLINE_BLESS=1 cargo test writes what was found")?;
     }
+    Ok(())
 }
 
 /// A case: the command that shows it; for a kernel in another language the case as JSON, otherwise in Rust, with its bits.
-fn write_case(kernel: &str, example: &Example, text: &mut String) -> fmt::Result {
+fn write_case(kernel: &str, example: &Example, text: &mut impl Write) -> fmt::Result {
     writeln!(text, "    {}", shown_by(kernel, example))?;
     let bits = example.bits.as_str();
     let is_elsewhere = runs_elsewhere(kernel, example);

@@ -1,6 +1,5 @@
 //! The flags of tests: what may go wrong on them, once a file in words.
 
-use super::number::EitherFloat;
 use crate::truth::{Crossing, Facing, Feature, Place, Truth};
 use std::sync::LazyLock;
 
@@ -22,13 +21,6 @@ pub(super) fn of_truth(truth: &Truth) -> Vec<&'static str> {
         ("out-of-interval", met && matches!(place, Place::Before | Place::Beyond)),
     ];
     flags.into_iter().filter(|(_, holds)| *holds).map(|(name, _)| name).collect()
-}
-
-/// The flag that follows from the numbers.
-pub(super) fn of_numbers<'a>(
-    mut numbers: impl Iterator<Item = &'a EitherFloat>,
-) -> Option<&'static str> {
-    numbers.any(|number| number.is_extreme).then_some("range-ends")
 }
 
 /// The flag of a family's cases.

@@ -2,7 +2,7 @@
 
 use super::flags::FLAGS;
 use super::number::{EitherFloat, nearest};
-use super::{TestGroup, TestTriangle, VectorTest, VectorTopic, word};
+use super::{TestGroup, TestTriangle, VectorTest, VectorTopic, place, result, word};
 use crate::corpus::json::object;
 use crate::corpus::number;
 use crate::corpus::truth_json::fraction_text;
@@ -68,14 +68,14 @@ impl Fields {
     }
 
     fn triangle(&mut self, triangle: &TestTriangle) {
-        self.add("result", json!(word(triangle.result())));
+        self.add("result", json!(word(result(&triangle.truth))));
         self.add("closed", json!(word(triangle.closed())));
         self.add("open", json!(word(triangle.open())));
         let reasons = triangle.free_because();
         if !reasons.is_empty() {
             self.add("free_because", json!(reasons));
         }
-        self.add("where", json!(triangle.place()));
+        self.add("where", json!(place(&triangle.truth)));
         let (Some(crossing), Some(values)) = (triangle.truth.crossing(), &triangle.values) else {
             return;
         };
@@ -120,15 +120,13 @@ impl Fields {
         self.add("closed", json!(group.counts[0]));
         self.add("open", json!(group.counts[1]));
         self.add("parity", json!(group.parity()));
-        self.add(
-            "where",
-            json!(test.triangles.iter().map(TestTriangle::place).collect::<Vec<_>>()),
-        );
+        let places: Vec<&str> = test.triangles.iter().map(|it| place(&it.truth)).collect();
+        self.add("where", json!(places));
     }
 }
 
-fn patterns(vertex: &[EitherFloat]) -> Vec<u64> {
-    vertex.iter().map(|number| number.pattern).collect()
+fn patterns(vertex: &[EitherFloat]) -> Vec<&str> {
+    vertex.iter().map(|number| &*number.bits).collect()
 }
 
 /// The nearest double; null beyond the largest.

@@ -19,13 +19,11 @@ use crate::corpus::hex;
 use crate::corpus::lines::AnyCase;
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, Obligation, group_obligation, obligation};
-use crate::oracle::integer::{align, cross, dot, minus};
-use crate::oracle::truth;
+use crate::oracle::{exact_values, truth};
 use crate::truth::{Crossing, Place, Truth};
 use hmac_sha256::Hash;
-use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::Signed;
+use num_traits::One;
 use number::EitherFloat;
 
 /// Every point of the closed triangle is a hit at every t of the closed interval, a coplanar triangle and
@@ -117,23 +115,21 @@ impl VectorTest {
         let ray = [ox, oy, oz, dx, dy, dz, t_min, t_max].map(EitherFloat::of);
         let Label { name, comment, source, flag } = label;
         let mut flags: Vec<&str> = flag.into_iter().collect();
-        let numbers = ray.iter().chain(triangles.iter().flat_map(|triangle| &triangle.numbers));
-        let of_numbers = flags::of_numbers(numbers);
+        let mut numbers = ray.iter().chain(triangles.iter().flat_map(|triangle| &triangle.numbers));
+        let of_numbers = numbers.any(|number| number.is_extreme).then_some("range-ends");
         truths.iter().flat_map(flags::of_truth).chain(of_numbers).for_each(|flag| {
             if !flags.contains(&flag) {
                 flags.push(flag)
             }
         });
-        let (id, scalar) = (name, F::NAME);
-        let cases = cases.iter().map(|case| (*case).into()).collect();
         let mut test = VectorTest {
-            id,
+            id: name,
             comment,
             source,
             flags,
-            scalar,
+            scalar: F::NAME,
             ray,
-            cases,
+            cases: cases.iter().map(|case| (*case).into()).collect(),
             triangles,
             grouping,
             group,
@@ -145,7 +141,7 @@ impl VectorTest {
     /// The bit patterns of the ray and then of each triangle, in hexadecimal between spaces.
     fn bits(&self) -> String {
         let triangles = self.triangles.iter().flat_map(|triangle| &triangle.numbers);
-        let words: Vec<String> = self.ray.iter().chain(triangles).map(EitherFloat::bits).collect();
+        let words: Vec<&str> = self.ray.iter().chain(triangles).map(|it| &*it.bits).collect();
         words.join(" ")
     }
 
@@ -160,7 +156,7 @@ impl TestTriangle {
         let vertices = case.vectors();
         let numbers = std::array::from_fn(|i| EitherFloat::of(vertices[2 + i / 3][i % 3]));
         let truth = truth(case);
-        TestTriangle { numbers, truth, values: truth.crossing().map(|_| values(&case.widen())) }
+        TestTriangle { numbers, truth, values: values(case, &truth) }
     }
 
     /// Hit, miss, or free for invalid input, if edges, vertices, ends and every contact are hits.
@@ -171,11 +167,6 @@ impl TestTriangle {
     /// The same if none of them is.
     pub fn open(&self) -> Obligation {
         obligation(&self.truth, &OPEN, false)
-    }
-
-    /// The demand of both readings; free if they differ.
-    pub fn result(&self) -> Obligation {
-        result(&self.truth)
     }
 
     /// Why the test is free, in the words of a profile.
@@ -189,34 +180,24 @@ impl TestTriangle {
             ("degenerate", is_class("degenerate")),
             ("invalid", is_class("invalid")),
         ];
-        let free = self.result() == Obligation::Free;
+        let free = result(&self.truth) == Obligation::Free;
         reasons.into_iter().filter(|(_, holds)| free && *holds).map(|(name, _)| name).collect()
-    }
-
-    /// Where the line meets the plane, or the class of a line that does not cross it.
-    fn place(&self) -> &'static str {
-        place(&self.truth)
     }
 }
 
-/// t, u, v and the smallest weight of a line that crosses the plane. With the weights U, V and W of a, b
-/// and c, D = -(U + V + W), and t = T/D.
-fn values(case: &Case<f64>) -> [BigRational; 4] {
-    let [o, d, a, b, c] = case.vectors();
-    let ([o, a, b, c], positions) = align([o, a, b, c]);
-    let ([d], direction) = align([d]);
-    let weight = |x, y| dot(&d, &cross(&minus(x, &o), &minus(y, &o)));
-    let weights = [weight(&c, &b), weight(&a, &c), weight(&b, &a)];
-    let sum: BigInt = weights.iter().sum();
-    let mut t = [dot(&cross(&minus(&b, &a), &minus(&c, &a)), &minus(&a, &o)), -&sum];
-    let exponent = positions - direction;
-    t[usize::from(exponent < 0)] <<= exponent.unsigned_abs();
-    let [numerator, denominator] = t;
-    let least = if sum.is_negative() { weights.iter().max() } else { weights.iter().min() };
-    let least = least.cloned().unwrap_or_default();
-    let [_, u, v] = weights;
-    let of_sum = |weight: BigInt| BigRational::new(weight, sum.clone());
-    [BigRational::new(numerator, denominator), of_sum(u), of_sum(v), of_sum(least)]
+/// Cases that are all in one scalar.
+pub fn in_scalar<'a, F: Float>(cases: impl IntoIterator<Item = &'a AnyCase>) -> Vec<Case<F>> {
+    let read = |case: &AnyCase| Case::from_bits(&either_scalar!(case, case => case.bits()));
+    cases.into_iter().map(read).collect()
+}
+
+/// t, u, v and the smallest weight of a line that crosses the plane.
+fn values<F: Float>(case: &Case<F>, truth: &Truth) -> Option<[BigRational; 4]> {
+    let exact = exact_values(case, truth);
+    let [t, u, v] = [exact.t?, exact.u?, exact.v?];
+    let of_a = BigRational::one() - &u - &v;
+    let least = of_a.min(u.clone()).min(v.clone());
+    Some([t, u, v, least])
 }
 
 /// The demand of both readings; free if they differ.

@@ -1,20 +1,16 @@
 //! Numbers of the vectors as text: bit patterns, hexadecimal floats, and the doubles nearest to fractions.
 
 use crate::arith::{Float, decompose, smallest_normal};
-use crate::corpus::number::rounded;
-use num_bigint::Sign;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 /// A float of either scalar.
-#[derive(Clone, Copy)]
 pub(super) struct EitherFloat {
-    /// In the low bits.
-    pub pattern: u64,
+    /// The bit pattern in hexadecimal, all digits.
+    pub bits: String,
     /// True if its square is beyond the range of its scalar, or below the normal numbers.
     pub is_extreme: bool,
     value: f64,
-    digits: usize,
 }
 
 impl EitherFloat {
@@ -22,16 +18,10 @@ impl EitherFloat {
         let square = x * x;
         let is_normal = square.is_finite() && smallest_normal::<F>() <= square.to_f64();
         EitherFloat {
-            pattern: x.to_bits(),
+            bits: x.hex(),
             is_extreme: x.is_finite() && !x.is_zero() && !is_normal,
             value: x.to_f64(),
-            digits: x.hex().len(),
         }
-    }
-
-    /// The bit pattern, all digits.
-    pub fn bits(&self) -> String {
-        format!("{:0width$x}", self.pattern, width = self.digits)
     }
 
     /// As C, Python and Java read it: `-0x1.8p-3`, `Infinity`, `NaN`.
@@ -59,19 +49,7 @@ impl EitherFloat {
 
 /// The double nearest to a fraction, ties to even; infinite beyond the largest.
 pub(super) fn nearest(value: &BigRational) -> f64 {
-    let (numerator, denominator) = (value.numer().magnitude(), value.denom().magnitude());
-    // A quotient of 122 or 123 bits.
-    let shift = 122 + denominator.bits() as i64 - numerator.bits() as i64;
-    let [mut dividend, mut divisor] = [numerator.clone(), denominator.clone()];
-    if shift < 0 {
-        divisor <<= -shift
-    } else {
-        dividend <<= shift
-    }
-    let quotient = &dividend / &divisor;
-    let inexact = &quotient * divisor != dividend;
-    let magnitude: f64 = rounded(quotient.to_u128().unwrap_or(0), inexact, -shift);
-    if value.numer().sign() == Sign::Minus { -magnitude } else { magnitude }
+    value.to_f64().expect("a fraction is no NaN")
 }
 
 #[cfg(test)]
@@ -94,7 +72,7 @@ mod tests {
             assert_eq!(EitherFloat::of(x).text(), text);
         }
         assert_eq!(EitherFloat::of(f32::from_bits(1)).text(), "0x1p-149");
-        assert_eq!(EitherFloat::of(1f32).bits(), "3f800000");
+        assert_eq!(EitherFloat::of(1f32).bits, "3f800000");
         let mut draw = Draw::new("numbers", 1, 1);
         for _ in 0..1000 {
             let x = f64::from_bits(draw.bits());

@@ -1,7 +1,7 @@
 //! Profiles: what a specification demands of the tests that are free, with its sentences. They are files
 //! that a reader in any language applies alike.
 
-use super::{TestTriangle, VectorTest, word};
+use super::{TestGroup, TestTriangle, VectorTest, result, word};
 use crate::contract::{Boundary, Contract, Demand};
 use crate::judge::{Obligation, obligation};
 use serde::Deserialize;
@@ -36,11 +36,11 @@ pub struct Profile {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FreeAnswers {
-    boundary: ProfileAnswer<Single>,
-    ends: ProfileAnswer<Single>,
-    coplanar: ProfileAnswer<Single>,
-    degenerate: ProfileAnswer<Single>,
-    invalid: ProfileAnswer<Single>,
+    boundary: ProfileAnswer<Demand>,
+    ends: ProfileAnswer<Demand>,
+    coplanar: ProfileAnswer<Demand>,
+    degenerate: ProfileAnswer<Demand>,
+    invalid: ProfileAnswer<Demand>,
     groups: ProfileAnswer<Groups>,
 }
 
@@ -71,26 +71,20 @@ impl<T> ProfileAnswer<T> {
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Single {
-    Hit,
-    Miss,
-    Free,
-}
-
-/// A specification's demand on the hits on a group.
-#[derive(Clone, Copy, PartialEq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Groups {
-    /// One hit.
-    ExactlyOne,
-    /// One hit or more.
-    AtLeastOne,
-    /// An odd or an even number.
-    Parity,
-    /// Any number.
-    Free,
+named! {
+    names
+    /// A specification's demand on the hits on a group.
+    #[derive(Clone, Copy)]
+    enum Groups {
+        /// One hit.
+        ExactlyOne = "exactly-one",
+        /// One hit or more.
+        AtLeastOne = "at-least-one",
+        /// An odd or an even number.
+        Parity = "parity",
+        /// Any number.
+        Free = "free",
+    }
 }
 
 /// A product's answer to a test.
@@ -126,29 +120,19 @@ impl Profile {
 
     fn contract(&self) -> Contract {
         let FreeAnswers { boundary, ends, coplanar, degenerate, invalid, .. } = &self.answers;
-        let rim = |answer: &ProfileAnswer<Single>| match answer.result {
-            Single::Hit => Boundary::Closed,
-            Single::Miss => Boundary::Open,
-            Single::Free => Boundary::Free,
-        };
-        let demand = |answer: &ProfileAnswer<Single>| match answer.result {
-            Single::Hit => Demand::Hit,
-            Single::Miss => Demand::Miss,
-            Single::Free => Demand::Free,
+        let rim = |answer: &ProfileAnswer<Demand>| match answer.result {
+            Demand::Hit => Boundary::Closed,
+            Demand::Miss => Boundary::Open,
+            Demand::Free => Boundary::Free,
         };
         Contract {
             boundary: rim(boundary),
             ends: rim(ends),
-            coplanar: demand(coplanar),
-            degenerate: demand(degenerate),
-            invalid: demand(invalid),
+            coplanar: coplanar.result,
+            degenerate: degenerate.result,
+            invalid: invalid.result,
             ..super::CLOSED
         }
-    }
-
-    /// The demand on groups on which readings differ.
-    pub fn of_groups(&self) -> Groups {
-        self.answers.groups.result
     }
 
     /// The sentence that an answer is against although it is right: the specification only advises what is not so.
@@ -156,13 +140,7 @@ impl Profile {
         let groups = &self.answers.groups;
         let is_free = demanded(test, Some(self)) == "free";
         let group = test.group.as_ref().filter(|_| is_free)?;
-        let advised = match groups.advised? {
-            _ if group.result() != "at-least-one" => group.result(),
-            Groups::ExactlyOne => "exactly-one",
-            Groups::AtLeastOne => "at-least-one",
-            Groups::Parity => group.parity(),
-            Groups::Free => "free",
-        };
+        let advised = of_group(group, groups.advised?);
         (is_right(advised, answered) == Some(false)).then(|| groups.saying("groups"))
     }
 
@@ -173,16 +151,13 @@ impl Profile {
             return Vec::from_iter(decides.then(|| self.answers.groups.saying("groups")));
         }
         let asked = of_triangle(&test.triangles[0], Some(self));
-        let decides = |result| match asked {
-            Obligation::MustHit => result == Single::Hit,
-            Obligation::MustMiss => result == Single::Miss,
-            Obligation::Free => false,
+        let decides = |answer: &ProfileAnswer<Demand>| {
+            asked != Obligation::Free && answer.result.name() == word(asked)
         };
         let reasons = test.triangles[0].free_because();
-        let of_single = self.answers.of_single().into_iter();
-        let deciding =
-            of_single.filter(|(word, answer)| reasons.contains(word) && decides(answer.result));
-        deciding.map(|(word, answer)| answer.saying(word)).collect()
+        let answers = reasons.into_iter().map(|reason| (reason, self.answers.of_single(reason)));
+        let deciding = answers.filter(|(_, answer)| decides(answer));
+        deciding.map(|(reason, answer)| answer.saying(reason)).collect()
     }
 }
 
@@ -200,14 +175,14 @@ pub struct Saying {
 
 impl FreeAnswers {
     /// By the words of `free_because`.
-    fn of_single(&self) -> [(&'static str, &ProfileAnswer<Single>); 5] {
-        [
-            ("boundary", &self.boundary),
-            ("ends", &self.ends),
-            ("coplanar", &self.coplanar),
-            ("degenerate", &self.degenerate),
-            ("invalid", &self.invalid),
-        ]
+    fn of_single(&self, reason: &str) -> &ProfileAnswer<Demand> {
+        match reason {
+            "boundary" => &self.boundary,
+            "ends" => &self.ends,
+            "coplanar" => &self.coplanar,
+            "degenerate" => &self.degenerate,
+            _ => &self.invalid,
+        }
     }
 }
 
@@ -219,19 +194,25 @@ pub fn demanded(test: &VectorTest, profile: Option<&Profile>) -> &'static str {
     if profile.is_some_and(|profile| profile.preconditions.iter().any(is_rule)) && starts_early() {
         return "free";
     }
-    match (&test.group, profile.map(|profile| profile.answers.groups.result)) {
-        (None, _) => word(of_triangle(&test.triangles[0], profile)),
-        (Some(group), Some(Groups::Parity)) => group.parity(),
+    let of_groups = profile.map_or(Groups::AtLeastOne, |profile| profile.answers.groups.result);
+    match &test.group {
+        None => word(of_triangle(&test.triangles[0], profile)),
+        Some(group) => of_group(group, of_groups),
+    }
+}
+
+/// The demand on a group, with what is asked of those on which readings differ.
+fn of_group(group: &TestGroup, asked: Groups) -> &'static str {
+    match asked {
+        Groups::Parity => group.parity(),
         // Two triangles that fold have no number that is right but for parity.
-        (Some(group), _) if group.result() != "at-least-one" => group.result(),
-        (Some(_), Some(Groups::ExactlyOne)) => "exactly-one",
-        (Some(_), Some(Groups::Free)) => "free",
-        (Some(_), None | Some(Groups::AtLeastOne)) => "at-least-one",
+        _ if group.result() != "at-least-one" => group.result(),
+        asked => asked.name(),
     }
 }
 
 fn of_triangle(triangle: &TestTriangle, profile: Option<&Profile>) -> Obligation {
-    match (triangle.result(), profile) {
+    match (result(&triangle.truth), profile) {
         (Obligation::Free, Some(profile)) => {
             obligation(&triangle.truth, &profile.contract(), false)
         }

@@ -1,8 +1,8 @@
 //! Which tests there are: the core set by topic, and as many more as somebody wants, by number.
 
-use super::{Label, TestGroup, VectorTest, flags, place, result, word};
+use super::{Label, TestGroup, VectorTest, flags, in_scalar, place, result, word};
 use crate::case::{Case, Parameters};
-use crate::corpus::lines::{self, AnyCase, StoredCase};
+use crate::corpus::lines::{self, StoredCase};
 use crate::family::{FAMILIES, Family, Grouping, find};
 use crate::judge::Obligation;
 use crate::kernel::Scalar;
@@ -72,18 +72,9 @@ fn named(stored: &[StoredCase], flag: Option<&'static str>) -> Option<VectorTest
         source: stored[0].url.clone(),
         flag,
     };
-    let (mut cases_f32, mut cases_f64) = (Vec::new(), Vec::new());
-    for case in stored {
-        match &case.case {
-            AnyCase::F32(case) => cases_f32.push(*case),
-            AnyCase::F64(case) => cases_f64.push(*case),
-        }
-    }
+    let cases = stored.iter().map(|stored| &stored.case);
     let grouping = if stored.len() > 1 { Grouping::SharedEdge } else { Grouping::Single };
-    match cases_f32.is_empty() {
-        false => VectorTest::new(label, &cases_f32, grouping),
-        true => VectorTest::new(label, &cases_f64, grouping),
-    }
+    in_named_scalar!(stored[0].case.scalar(), F => VectorTest::new(label, &in_scalar::<F>(cases), grouping))
 }
 
 /// The name before `.0` or `.1`.
