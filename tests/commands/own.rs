@@ -44,14 +44,10 @@ impl Kernel for Volumes {
         let volume = |p: &V, q: &V| direction.dot(&p.cross(q));
         let (u, v, w) = (volume(&b, &c), volume(&c, &a), volume(&a, &b));
         let det = u.clone() + &v + &w;
-        if !sink.one(0, Refuse::Below, &det.abs()) {
-            return None;
-        }
+        sink.one(0, Refuse::Below, &det.abs())?;
         let sign = if det.is_sign_negative() { -V::Real::one() } else { V::Real::one() };
         for volume in [&u, &v, &w] {
-            if !sink.one(1, Refuse::Below, &(volume.clone() * &sign)) {
-                return None;
-            }
+            sink.one(1, Refuse::Below, &(volume.clone() * &sign))?;
         }
         let normal = b.minus(&a).cross(&c.minus(&a));
         let t = normal.dot(&a) / normal.dot(direction);

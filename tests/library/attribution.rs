@@ -311,8 +311,8 @@ impl Kernel for SignOfZero {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let hits = sink.fixed(0, ray.origin.at(0).is_sign_negative());
-        hits.then(|| Hit::at(V::Real::one() / &ray.direction.at(2)))
+        sink.fixed(0, ray.origin.at(0).is_sign_negative())?;
+        Some(Hit::at(V::Real::one() / &ray.direction.at(2)))
     }
 }
 

@@ -164,7 +164,7 @@ impl Gate {
     }
 }
 
-/// Receives the quantities of a kernel's gates. Each method returns whether the kernel goes on.
+/// Receives the quantities of a kernel's gates. Each method returns none where the kernel stops with a miss.
 pub trait Sink<R: Real> {
     /// A gate on several quantities under one epsilon: at least one clause must pass, and a clause
     /// passes when all its quantities do.
@@ -173,7 +173,7 @@ pub trait Sink<R: Real> {
         gate: usize,
         refuse: Refuse,
         clauses: [[&R; N]; M],
-    ) -> bool;
+    ) -> Option<()>;
 
     /// A gate whose source rounds with the epsilon in it. `accepts` is monotone in its argument;
     /// `exact` is its threshold without rounding.
@@ -182,14 +182,14 @@ pub trait Sink<R: Real> {
         gate: usize,
         accepts: impl Fn(&R) -> bool,
         exact: impl FnOnce() -> R,
-    ) -> bool;
+    ) -> Option<()>;
 
     /// A test without an epsilon.
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool;
+    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()>;
 
     /// A gate on one quantity.
     #[inline(always)]
-    fn one(&mut self, gate: usize, refuse: Refuse, x: &R) -> bool {
+    fn one(&mut self, gate: usize, refuse: Refuse, x: &R) -> Option<()> {
         self.gate(gate, refuse, [[x]])
     }
 }
@@ -217,15 +217,15 @@ impl<'a, R> Deciding<'a, R> {
     }
 
     #[inline(always)]
-    fn record(&mut self, gate: usize, accepts: bool) -> bool {
+    fn record(&mut self, gate: usize, accepts: bool) -> Option<()> {
         if let Some(passed) = self.passed.get_mut(gate) {
             *passed &= accepts;
-            return true;
+            return Some(());
         }
         if !accepts {
             self.refused_by = Some(gate);
         }
-        accepts
+        accepts.then_some(())
     }
 }
 
@@ -236,7 +236,7 @@ impl<R: Real> Sink<R> for Deciding<'_, R> {
         gate: usize,
         refuse: Refuse,
         clauses: [[&R; N]; M],
-    ) -> bool {
+    ) -> Option<()> {
         let accepts = refuse.passes_any(clauses, &self.epsilons[gate]);
         self.record(gate, accepts)
     }
@@ -247,13 +247,13 @@ impl<R: Real> Sink<R> for Deciding<'_, R> {
         gate: usize,
         accepts: impl Fn(&R) -> bool,
         _: impl FnOnce() -> R,
-    ) -> bool {
+    ) -> Option<()> {
         let accepts = accepts(&self.epsilons[gate]);
         self.record(gate, accepts)
     }
 
     #[inline(always)]
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
+    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
         self.record(gate, accepts)
     }
 }
@@ -279,11 +279,11 @@ impl<'a, R: Real> Measuring<'a, R> {
     }
 
     #[inline(always)]
-    fn record(&mut self, gate: usize, margin: R) -> bool {
+    fn record(&mut self, gate: usize, margin: R) -> Option<()> {
         if margin.is_less(&self.margins[gate]) {
             self.margins[gate] = margin;
         }
-        true
+        Some(())
     }
 }
 
@@ -299,7 +299,7 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
         gate: usize,
         refuse: Refuse,
         clauses: [[&R; N]; M],
-    ) -> bool {
+    ) -> Option<()> {
         let mut margin = -R::infinity();
         for clause in &clauses {
             let mut least = R::infinity();
@@ -322,12 +322,12 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
         gate: usize,
         accepts: impl Fn(&R) -> bool,
         exact: impl FnOnce() -> R,
-    ) -> bool {
+    ) -> Option<()> {
         self.record(gate, R::largest_accepted(accepts, exact))
     }
 
     #[inline(always)]
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
+    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
         self.record(gate, if accepts { R::infinity() } else { -R::infinity() })
     }
 }
@@ -346,7 +346,7 @@ impl<R: Real, A: Sink<R>, B: Sink<R>> Sink<R> for Either<&mut A, &mut B> {
         gate: usize,
         refuse: Refuse,
         clauses: [[&R; N]; M],
-    ) -> bool {
+    ) -> Option<()> {
         match self {
             Either::One(sink) => sink.gate(gate, refuse, clauses),
             Either::Other(sink) => sink.gate(gate, refuse, clauses),
@@ -358,14 +358,14 @@ impl<R: Real, A: Sink<R>, B: Sink<R>> Sink<R> for Either<&mut A, &mut B> {
         gate: usize,
         accepts: impl Fn(&R) -> bool,
         exact: impl FnOnce() -> R,
-    ) -> bool {
+    ) -> Option<()> {
         match self {
             Either::One(sink) => sink.rounded(gate, accepts, exact),
             Either::Other(sink) => sink.rounded(gate, accepts, exact),
         }
     }
 
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
+    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
         match self {
             Either::One(sink) => sink.fixed(gate, accepts),
             Either::Other(sink) => sink.fixed(gate, accepts),

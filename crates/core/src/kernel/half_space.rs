@@ -47,9 +47,7 @@ impl Kernel for HalfSpace {
         let x = o.clone().plus_scaled(d, &t);
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let value = to.minus(from).cross(&x.minus(from)).dot(&n);
-            if !sink.one(EDGE, Refuse::UnlessAtLeast, &value) {
-                return None;
-            }
+            sink.one(EDGE, Refuse::UnlessAtLeast, &value)?;
         }
         Some(Hit { t: Some(t), uv: None, facing: None })
     }

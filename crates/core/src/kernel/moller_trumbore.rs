@@ -49,26 +49,19 @@ fn divided<V: Vector, S: Sink<V::Real>>(
     let [edge1, edge2] = [b.minus(a), c.minus(a)];
     let pvec = direction.cross(&edge2);
     let det = edge1.dot(&pvec);
-    if !sink.one(PARALLEL, Refuse::Below, &det.abs()) {
-        return None;
-    }
+    sink.one(PARALLEL, Refuse::Below, &det.abs())?;
     let inv_det = V::Real::one() / &det;
     let tvec = origin.minus(a);
     let u = tvec.dot(&pvec) * &inv_det;
-    if !sink.one(EDGE, Refuse::Below, &u) || !sink.one(EDGE, Refuse::Below, &(V::Real::one() - &u))
-    {
-        return None;
-    }
+    sink.one(EDGE, Refuse::Below, &u)?;
+    sink.one(EDGE, Refuse::Below, &(V::Real::one() - &u))?;
     let qvec = tvec.cross(&edge1);
     let v = direction.dot(&qvec) * &inv_det;
-    if !sink.one(EDGE, Refuse::Below, &v)
-        || !sink.one(EDGE, Refuse::Below, &(V::Real::one() - (u.clone() + &v)))
-    {
-        return None;
-    }
+    sink.one(EDGE, Refuse::Below, &v)?;
+    sink.one(EDGE, Refuse::Below, &(V::Real::one() - (u.clone() + &v)))?;
     let t = edge2.dot(&qvec) * &inv_det;
-    if tests_t && !sink.one(T, Refuse::UnlessAbove, &t) {
-        return None;
+    if tests_t {
+        sink.one(T, Refuse::UnlessAbove, &t)?;
     }
     Some(Hit { t: Some(t), uv: Some((u, v)), facing: facing_of(&det) })
 }
@@ -153,22 +146,15 @@ impl Kernel for MollerTrumboreCulling {
         let [edge1, edge2] = [b.minus(a), c.minus(a)];
         let pvec = direction.cross(&edge2);
         let det = edge1.dot(&pvec);
-        if !sink.one(PARALLEL, Refuse::Below, &det) {
-            return None;
-        }
+        sink.one(PARALLEL, Refuse::Below, &det)?;
         let tvec = origin.minus(a);
         let u = tvec.dot(&pvec);
-        if !sink.one(EDGE, Refuse::Below, &u) || !sink.one(EDGE, Refuse::Below, &(det.clone() - &u))
-        {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &u)?;
+        sink.one(EDGE, Refuse::Below, &(det.clone() - &u))?;
         let qvec = tvec.cross(&edge1);
         let v = direction.dot(&qvec);
-        if !sink.one(EDGE, Refuse::Below, &v)
-            || !sink.one(EDGE, Refuse::Below, &(det.clone() - (u.clone() + &v)))
-        {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &v)?;
+        sink.one(EDGE, Refuse::Below, &(det.clone() - (u.clone() + &v)))?;
         let t = edge2.dot(&qvec);
         let inv_det = V::Real::one() / &det;
         Some(Hit {

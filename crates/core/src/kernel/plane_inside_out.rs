@@ -74,20 +74,14 @@ fn inside_out<V: Vector, S: Sink<V::Real>>(
     sink: &mut S,
 ) -> Option<Hit<V::Real>> {
     let n_dot_direction = n.dot(&ray.direction);
-    if !sink.one(PARALLEL, Refuse::Below, &n_dot_direction.abs()) {
-        return None;
-    }
+    sink.one(PARALLEL, Refuse::Below, &n_dot_direction.abs())?;
     let t = -(n.dot(&ray.origin) + d) / &n_dot_direction;
-    if !sink.one(T, Refuse::Below, &t) {
-        return None;
-    }
+    sink.one(T, Refuse::Below, &t)?;
     let p = ray.origin.clone().plus_scaled(&ray.direction, &t);
     for (i, from) in vertices.iter().enumerate() {
         let to = if i + 1 < vertices.len() { &vertices[i + 1] } else { &vertices[0] };
         let c = to.minus(from).cross(&p.minus(from));
-        if !sink.one(EDGE, Refuse::Below, &n.dot(&c)) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &n.dot(&c))?;
     }
     Some(Hit { t: Some(t), uv: None, facing: None })
 }
@@ -162,19 +156,13 @@ impl Kernel for PlaneInsideOutStrict {
     ) -> Option<Hit<V::Real>> {
         let (n, d) = plane(v0, v1, v2);
         let n_dot_direction = n.dot(&ray.direction);
-        if !sink.one(PARALLEL, Refuse::AtMost, &n_dot_direction.abs()) {
-            return None;
-        }
+        sink.one(PARALLEL, Refuse::AtMost, &n_dot_direction.abs())?;
         let t = -(n.dot(&ray.origin) + &d) / &n_dot_direction;
-        if !sink.one(T, Refuse::Below, &t) {
-            return None;
-        }
+        sink.one(T, Refuse::Below, &t)?;
         let p = ray.origin.clone().plus_scaled(&ray.direction, &t);
         for (from, to) in [(v0, v1), (v1, v2), (v2, v0)] {
             let c = to.minus(from).cross(&p.minus(from));
-            if !sink.one(EDGE, Refuse::UnlessAbove, &n.dot(&c)) {
-                return None;
-            }
+            sink.one(EDGE, Refuse::UnlessAbove, &n.dot(&c))?;
         }
         Some(Hit { t: Some(t), uv: None, facing: None })
     }

@@ -72,9 +72,7 @@ impl Kernel for Plucker {
             let bound = end_times(epsilon, &sum);
             all_at_least(&bound) || all_at_most(&-bound)
         };
-        if !sink.rounded(EDGE, accepts, || relative_margin(&[&u, &v, &w], &sum)) {
-            return None;
-        }
+        sink.rounded(EDGE, accepts, || relative_margin(&[&u, &v, &w], &sum))?;
         let normal = e1.cross(&e0);
         let twice_normal = normal.plus(&normal);
         let den = twice_normal.dot(direction);
@@ -84,14 +82,9 @@ impl Kernel for Plucker {
         // Multiplied whatever the ends are: `absDen*vfloat<M>(ray.tnear)`.
         let near = ray.t_min.clone() * &abs_den;
         let far = ray.t_max.clone() * &abs_den;
-        if !sink.one(T, Refuse::UnlessAtLeast, &gap(&signed_t, &near))
-            || !sink.one(T, Refuse::UnlessAtLeast, &gap(&far, &signed_t))
-        {
-            return None;
-        }
-        if !sink.one(PARALLEL, Refuse::AtMost, &abs_den) {
-            return None;
-        }
+        sink.one(T, Refuse::UnlessAtLeast, &gap(&signed_t, &near))?;
+        sink.one(T, Refuse::UnlessAtLeast, &gap(&far, &signed_t))?;
+        sink.one(PARALLEL, Refuse::AtMost, &abs_den)?;
         let rcp_den = V::Real::one() / &den;
         Some(Hit {
             t: Some(t * &rcp_den),

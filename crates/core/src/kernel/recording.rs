@@ -73,12 +73,12 @@ struct Recording {
 }
 
 impl Recording {
-    fn note(&mut self, gate: usize, accepts: Acceptance, mut quantities: Vec<Place>) -> bool {
+    fn note(&mut self, gate: usize, accepts: Acceptance, mut quantities: Vec<Place>) -> Option<()> {
         quantities.sort_unstable();
         quantities.dedup();
         let decisions = decisions_so_far();
         self.compared.push(Compared { gate, accepts, quantities, decisions });
-        self.refused != Some(self.compared.len() - 1)
+        (self.refused != Some(self.compared.len() - 1)).then_some(())
     }
 }
 
@@ -88,7 +88,7 @@ impl Sink<Recorded> for Recording {
         gate: usize,
         refuse: Refuse,
         clauses: [[&Recorded; N]; M],
-    ) -> bool {
+    ) -> Option<()> {
         let clauses = clauses.map(|clause| clause.map(Recorded::place).to_vec()).to_vec();
         let quantities = clauses.concat();
         self.note(gate, Acceptance::Clauses(refuse, clauses), quantities)
@@ -99,7 +99,7 @@ impl Sink<Recorded> for Recording {
         gate: usize,
         accepts: impl Fn(&Recorded) -> bool,
         _: impl FnOnce() -> Recorded,
-    ) -> bool {
+    ) -> Option<()> {
         let zero = Recorded::zero();
         let outcomes = outcomes(MOST_OUTCOMES, || accepts(&zero));
         self.is_too_wide |= outcomes.is_none();
@@ -110,7 +110,7 @@ impl Sink<Recorded> for Recording {
     }
 
     /// Notes all comparisons since the fixed test before.
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
+    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
         let compared = asked_from(self.asked);
         self.asked = asked_so_far();
         let quantities = compared.iter().flat_map(Comparison::places).collect();

@@ -74,17 +74,11 @@ impl Kernel for ScalarTriple {
     ) -> Option<Hit<V::Real>> {
         let [pa, pb, pc] = [a.minus(p), b.minus(p), c.minus(p)];
         let u = scalar_triple(d, &pc, &pb);
-        if !sink.one(EDGE, Refuse::Below, &u) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &u)?;
         let v = scalar_triple(d, &pa, &pc);
-        if !sink.one(EDGE, Refuse::Below, &v) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &v)?;
         let w = scalar_triple(d, &pb, &pa);
-        if !sink.one(EDGE, Refuse::Below, &w) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &w)?;
         weights(u, v, w)
     }
 }
@@ -104,17 +98,11 @@ impl Kernel for ScalarTripleShared {
         let [pa, pb, pc] = [a.minus(p), b.minus(p), c.minus(p)];
         let m = d.cross(&pc);
         let u = pb.dot(&m);
-        if !sink.one(EDGE, Refuse::Below, &u) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &u)?;
         let v = -pa.dot(&m);
-        if !sink.one(EDGE, Refuse::Below, &v) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &v)?;
         let w = scalar_triple(d, &pb, &pa);
-        if !sink.one(EDGE, Refuse::Below, &w) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &w)?;
         weights(u, v, w)
     }
 }
@@ -136,13 +124,9 @@ impl Kernel for ScalarTripleTwoSided {
         let u = pb.dot(&m);
         let v = -pa.dot(&m);
         let minus_u = -u.clone();
-        if !sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &v], [&minus_u, &-v.clone()]]) {
-            return None;
-        }
+        sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &v], [&minus_u, &-v.clone()]])?;
         let w = scalar_triple(d, &pb, &pa);
-        if !sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &w], [&minus_u, &-w.clone()]]) {
-            return None;
-        }
+        sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &w], [&minus_u, &-w.clone()]])?;
         weights(u, v, w)
     }
 }
