@@ -114,6 +114,11 @@ impl<R> Hit<R> {
         Hit { t: Some(t), uv: None, facing: None }
     }
 
+    /// The numbers that it reports.
+    fn numbers(&self) -> impl Iterator<Item = &R> {
+        self.t.iter().chain(self.uv.iter().flat_map(|(u, v)| [u, v]))
+    }
+
     /// The same in another arithmetic, number by number.
     pub fn map<S>(self, number: impl Fn(R) -> S) -> Hit<S> {
         let Hit { t, uv, facing } = self;

@@ -64,24 +64,28 @@ fn plane<V: Vector>(v0: &V, v1: &V, v2: &V) -> (V, V::Real) {
     (n, d)
 }
 
-/// The listing from its parallel test on, for any polygon.
+/// What the listing refuses of N·R and of an edge.
+const BELOW: [Refuse; 2] = [Refuse::Below; 2];
+
+/// The listing from its parallel test on, for any polygon, with the refusals of N·R and of an edge.
 #[inline(always)]
 fn inside_out<V: Vector, S: Sink<V::Real>>(
     vertices: &[V],
     n: &V,
     d: &V::Real,
     ray: &Ray<V>,
+    [parallel, edge]: [Refuse; 2],
     sink: &mut S,
 ) -> Option<Hit<V::Real>> {
     let n_dot_direction = n.dot(&ray.direction);
-    sink.one(PARALLEL, Refuse::Below, &n_dot_direction.abs())?;
+    sink.one(PARALLEL, parallel, &n_dot_direction.abs())?;
     let t = -(n.dot(&ray.origin) + d) / &n_dot_direction;
     sink.one(T, Refuse::Below, &t)?;
     let p = ray.origin.clone().plus_scaled(&ray.direction, &t);
     for (i, from) in vertices.iter().enumerate() {
         let to = if i + 1 < vertices.len() { &vertices[i + 1] } else { &vertices[0] };
         let c = to.minus(from).cross(&p.minus(from));
-        sink.one(EDGE, Refuse::Below, &n.dot(&c))?;
+        sink.one(EDGE, edge, &n.dot(&c))?;
     }
     Some(Hit { t: Some(t), uv: None, facing: None })
 }
@@ -98,7 +102,7 @@ impl Kernel for PlaneInsideOut {
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let (n, d) = plane(&triangle.a, &triangle.b, &triangle.c);
-        inside_out(&triangle.clone().vertices(), &n, &d, ray, sink)
+        inside_out(&triangle.clone().vertices(), &n, &d, ray, BELOW, sink)
     }
 }
 
@@ -129,7 +133,7 @@ impl Kernel for PlaneInsideOutPrecomputed {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        inside_out(vertices, n, d, ray, sink)
+        inside_out(vertices, n, d, ray, BELOW, sink)
     }
 }
 
@@ -150,21 +154,13 @@ impl Kernel for PlaneInsideOutStrict {
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
-        Triangle { a: v0, b: v1, c: v2 }: &Triangle<V>,
+        triangle: &Triangle<V>,
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let (n, d) = plane(v0, v1, v2);
-        let n_dot_direction = n.dot(&ray.direction);
-        sink.one(PARALLEL, Refuse::AtMost, &n_dot_direction.abs())?;
-        let t = -(n.dot(&ray.origin) + &d) / &n_dot_direction;
-        sink.one(T, Refuse::Below, &t)?;
-        let p = ray.origin.clone().plus_scaled(&ray.direction, &t);
-        for (from, to) in [(v0, v1), (v1, v2), (v2, v0)] {
-            let c = to.minus(from).cross(&p.minus(from));
-            sink.one(EDGE, Refuse::UnlessAbove, &n.dot(&c))?;
-        }
-        Some(Hit { t: Some(t), uv: None, facing: None })
+        let (n, d) = plane(&triangle.a, &triangle.b, &triangle.c);
+        let refuses = [Refuse::AtMost, Refuse::UnlessAbove];
+        inside_out(&triangle.clone().vertices(), &n, &d, ray, refuses, sink)
     }
 }
 
@@ -192,6 +188,6 @@ impl Kernel for ConvexPolygon {
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let (n, d) = plane(&vertices[0], &vertices[1], &vertices[2]);
-        inside_out(vertices, &n, &d, ray, sink)
+        inside_out(vertices, &n, &d, ray, BELOW, sink)
     }
 }

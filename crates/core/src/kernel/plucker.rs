@@ -99,12 +99,9 @@ fn relative_margin<R: Real>(weights: &[&R; 3], sum: &R) -> R {
     if weights.iter().any(|x| x.is_nan()) {
         return -R::infinity();
     }
-    let smallest = |values: [R; 3]| {
-        values.into_iter().reduce(|a, b| if b.is_less(&a) { b } else { a }).expect("three values")
-    };
+    let smallest = |[u, v, w]: [R; 3]| u.smaller(v).smaller(w);
     let front = smallest(weights.map(R::clone));
-    let back = smallest(weights.map(|x| -x.clone()));
-    let best = if front.is_less(&back) { back } else { front };
+    let best = front.larger(smallest(weights.map(|x| -x.clone())));
     match (sum.is_zero(), best.is_sign_negative()) {
         (false, _) => best / sum,
         (true, false) => R::infinity(),

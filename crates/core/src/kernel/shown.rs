@@ -77,14 +77,14 @@ impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
         Lifted::new(case, &[], Exact::from_f64).measure::<K>()
     }
 
-    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Option<ExactRun> {
+    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> ExactRun {
         let near = Lifted::new(case, epsilons, Bounded::new);
         let exact = || Lifted::new(case, epsilons, Exact::from_f64).run::<K>();
-        Some(bounded(|| near.run::<K>()).unwrap_or_else(exact))
+        bounded(|| near.run::<K>()).unwrap_or_else(exact)
     }
 
-    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> Option<TrackedRun<F>> {
-        Some(TrackedRun::of::<K>(case, epsilons, Arithmetic::IEEE))
+    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> TrackedRun<F> {
+        TrackedRun::of::<K>(case, epsilons, Arithmetic::IEEE)
     }
 
     fn paths(&self) -> Result<Vec<Path>, String> {

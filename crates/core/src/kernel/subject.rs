@@ -165,18 +165,12 @@ pub trait Gated<F: Float>: Sync {
     /// Every gate's margin on a case, in exact arithmetic, where it is also the threshold.
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact>;
 
-    /// The run without rounding; none if the kernel does not run in exact arithmetic.
-    fn run_exact(&self, _case: &Case<F>, _epsilons: &[F]) -> Option<ExactRun> {
-        None
-    }
+    /// The run without rounding.
+    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> ExactRun;
 
-    /// The run of [`Subject::run`] with its exceptions; none if the kernel does not run in tracked numbers.
-    fn run_tracked(&self, _case: &Case<F>, _epsilons: &[F]) -> Option<TrackedRun<F>> {
-        None
-    }
+    /// The run of [`Subject::run`] with its exceptions.
+    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> TrackedRun<F>;
 
     /// Its straight-line programs, one a path; an error in one sentence if they cannot be recorded.
-    fn paths(&self) -> Result<Vec<Path>, String> {
-        Err("it is not written for every arithmetic".to_owned())
-    }
+    fn paths(&self) -> Result<Vec<Path>, String>;
 }

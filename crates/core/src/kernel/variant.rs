@@ -24,11 +24,7 @@ impl<K: Kernel> Variant<K> {
         Variant { arithmetic, info, kernel: PhantomData }
     }
 
-    fn measure_into<F: Float>(
-        &self,
-        case: &Case<F>,
-        margins: &mut [F],
-    ) -> Option<Hit<Emulated<F>>> {
+    fn measure_into<F: Float>(&self, case: &Case<F>, margins: &mut [F]) -> Option<Hit<F>> {
         let (ray, triangle) = lift(case, self.arithmetic);
         let mut emulated = numbers(margins, self.arithmetic);
         let mut sink = Measuring::new(&mut emulated);
@@ -36,7 +32,7 @@ impl<K: Kernel> Variant<K> {
         for (margin, emulated) in margins.iter_mut().zip(&emulated) {
             *margin = self.arithmetic.largest_epsilon(emulated.value());
         }
-        values
+        values.map(|hit| hit.map(|x| x.value()))
     }
 }
 
@@ -109,9 +105,7 @@ impl<F: Float, K: Kernel> Subject<F> for Variant<K> {
         margins: &mut [F],
         values: &mut [Option<Hit<F>>],
     ) {
-        each_case(info, cases, margins, values, |case, margins| {
-            self.measure_into(case, margins).map(|hit| hit.map(|x| x.value()))
-        });
+        each_case(info, cases, margins, values, |case, margins| self.measure_into(case, margins));
     }
 }
 
@@ -123,7 +117,7 @@ impl<F: Float, K: Kernel> Gated<F> for Variant<K> {
     fn measure(&self, case: &Case<F>) -> Measured<F> {
         let mut margins = vec![F::zero(); self.info.gates.len()];
         let values = self.measure_into(case, &mut margins);
-        Measured { margins, values: values.map(|hit| hit.map(|x| x.value())) }
+        Measured { margins, values }
     }
 
     fn thresholds(&self, case: &Case<F>) -> Vec<F> {
@@ -138,12 +132,12 @@ impl<F: Float, K: Kernel> Gated<F> for Variant<K> {
         Generic::<K>::SUBJECT.measure_exact(case)
     }
 
-    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Option<ExactRun> {
+    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> ExactRun {
         Generic::<K>::SUBJECT.run_exact(case, epsilons)
     }
 
-    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> Option<TrackedRun<F>> {
-        Some(TrackedRun::of::<K>(case, epsilons, self.arithmetic))
+    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> TrackedRun<F> {
+        TrackedRun::of::<K>(case, epsilons, self.arithmetic)
     }
 
     fn paths(&self) -> Result<Vec<Path>, String> {
