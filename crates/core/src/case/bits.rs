@@ -12,17 +12,22 @@ impl<F: Float> Case<F> {
         format!("o={o} d={d} a={a} b={b} c={c} t={t_min},{t_max}")
     }
 
-    /// The bits of all seventeen numbers, in the order of [`Case::hex`]: what a digest covers.
-    pub fn bits(&self) -> [u64; 17] {
+    /// All seventeen numbers, in the order of [`Case::hex`].
+    pub fn numbers(&self) -> [F; 17] {
         let vectors = self.vectors();
         std::array::from_fn(|i| match i {
-            15 => self.ray.t_min.to_bits(),
-            16 => self.ray.t_max.to_bits(),
-            _ => vectors[i / 3][i % 3].to_bits(),
+            15 => self.ray.t_min,
+            16 => self.ray.t_max,
+            _ => vectors[i / 3][i % 3],
         })
     }
 
-    /// From all seventeen numbers, as [`Case::bits`] has them.
+    /// The bits of all numbers: what a digest covers.
+    pub fn bits(&self) -> [u64; 17] {
+        self.numbers().map(F::to_bits)
+    }
+
+    /// From the bits of all numbers.
     pub fn from_bits(bits: &[u64; 17]) -> Case<F> {
         let number = |i: usize| F::from_bits(bits[i]);
         let vector = |i: usize| [number(3 * i), number(3 * i + 1), number(3 * i + 2)];

@@ -33,8 +33,6 @@ mod runs;
 #[cfg(feature = "margins")]
 mod shown;
 mod subject;
-#[cfg(feature = "margins")]
-mod variant;
 mod verdict;
 
 mod baldwin_weber;
@@ -51,9 +49,9 @@ mod woop_watertight;
 pub use changed::{Change, has_size, refuses_at};
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, refused_by};
 pub use generic::Generic;
-pub use margins::{by_running, of_miss, open_epsilons, values_of};
+pub use margins::{by_running, open_epsilons, values_of};
 pub use own::Test;
-pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
+pub use preset::{PRESETS, Preset, PresetEntry};
 pub use recording::{Acceptance, Compared, Path};
 pub use registry::kept;
 pub use registry::{

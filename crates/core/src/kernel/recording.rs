@@ -5,8 +5,8 @@ use crate::arith::recorded::{
     Comparison, Operation, Outcome, Place, Recorded, asked_from, asked_so_far, decisions_so_far,
     next_script, outcomes, record,
 };
-use crate::arith::{Arithmetic, Real, Triple};
-use crate::case::{Ray, Triangle};
+use crate::arith::{Arithmetic, Real};
+use crate::case::lifted;
 
 /// How many paths a kernel may have. Woop's has 2,304.
 const MOST_PATHS: usize = 1 << 14;
@@ -127,7 +127,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
     let mut script = Vec::new();
     loop {
         let ((sink, hit), tape) = record(&script, arithmetic.fused, || run::<K>(None));
-        let decisions = tape.decisions;
+        let decisions = tape.decisions.made;
         if tape.operations.contains(&Operation::INFINITY) {
             return Err("it computes with infinity".to_owned());
         }
@@ -144,7 +144,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
             }
             let refused = || run::<K>(Some(number));
             let ((sink, hit), tape) = record(&script, arithmetic.fused, refused);
-            let goes_on = sink.compared.len() > number + 1 || tape.decisions.len() > *before;
+            let goes_on = sink.compared.len() > number + 1 || tape.decisions.made.len() > *before;
             if hit.is_some() || goes_on {
                 let name = K::INFO.gates[*gate].name;
                 return Err(format!("it goes on after gate '{name}' has refused"));
@@ -170,10 +170,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
 
 /// Records a run: the gates' comparisons, of which one may refuse, and t, u and v if the run is a hit.
 fn run<K: Kernel>(refused: Option<usize>) -> (Recording, Option<[Option<Place>; 3]>) {
-    let number = |i: u8| Recorded::input(i);
-    let triple = |i: u8| Triple::from([number(i), number(i + 1), number(i + 2)]);
-    let ray = Ray { origin: triple(0), direction: triple(3), t_min: number(15), t_max: number(16) };
-    let triangle = Triangle { a: triple(6), b: triple(9), c: triple(12) };
+    let (ray, triangle) = lifted(|i| Recorded::input(i as u8));
     let mut sink = Recording { refused, ..Recording::default() };
     let prepared = K::prepare(&triangle);
     sink.asked = asked_so_far();

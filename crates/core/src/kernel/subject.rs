@@ -1,6 +1,6 @@
 //! Kernels behind one object-safe interface: what the audit and users' own kernels go through.
 
-use super::margins::{by_running, each_case, of_miss, open_epsilons, values_of};
+use super::margins::{by_running, each_case, open_epsilons, values_of};
 use super::recording::Path;
 use super::runs::{ExactRun, Measured, TrackedRun};
 use super::{Failure, Hit, KernelInfo, Verdict};
@@ -114,10 +114,7 @@ pub(super) fn margins_by_running<F: Float, S: Subject<F> + ?Sized>(
         let is_hit = |epsilons: &[F]| verdict(epsilons).hit;
         let measured = catch_unwind(AssertUnwindSafe(|| {
             let values = values_of(info, &verdict(&open));
-            match values {
-                Some(_) => by_running(&open, is_hit, margins),
-                None => of_miss(&open, is_hit, margins),
-            }
+            by_running(&open, values.is_some(), is_hit, margins);
             values
         }));
         measured.unwrap_or_else(|_| {

@@ -1,7 +1,5 @@
 //! The five determinants whose signs decide a truth.
 
-use crate::case::Case;
-
 /// The determinants that decide a truth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Determinant {
@@ -16,18 +14,15 @@ pub(super) enum Determinant {
 pub(super) type FloatPoint = [f64; 3];
 
 /// The rows of a determinant first·(second × third): d or a point, and points from which a base is
-/// subtracted. D and the weights have d first.
-pub(super) fn rows(
-    determinant: Determinant,
-    case: &Case<f64>,
-) -> (FloatPoint, FloatPoint, FloatPoint, FloatPoint) {
-    let [o, d, a, b, c] = case.vectors();
+/// subtracted. D and the weights have d first; from the a of T the base is subtracted too.
+#[inline]
+pub(super) fn rows<V>(determinant: Determinant, [o, d, a, b, c]: [V; 5]) -> [V; 4] {
     match determinant {
-        Determinant::Weight(0) => (d, c, b, o),
-        Determinant::Weight(1) => (d, a, c, o),
-        Determinant::Weight(_) => (d, b, a, o),
-        Determinant::D => (d, b, c, a),
-        Determinant::T => (a, b, c, o),
+        Determinant::Weight(0) => [d, c, b, o],
+        Determinant::Weight(1) => [d, a, c, o],
+        Determinant::Weight(_) => [d, b, a, o],
+        Determinant::D => [d, b, c, a],
+        Determinant::T => [a, b, c, o],
     }
 }
 

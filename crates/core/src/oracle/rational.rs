@@ -20,7 +20,7 @@ pub struct Definition {
 }
 
 /// An end of an interval: a number or an infinity.
-#[derive(Clone, Debug, PartialEq, PartialOrd)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum RationalEnd {
     MinusInfinity,
     At(Rational),
@@ -94,6 +94,7 @@ fn define_with<F: Float>(
     }
 
     let t = capital_t / &capital_d;
+    let at = RationalEnd::At(t.clone());
     // U, V, W: d with (c-o, b-o), (a-o, c-o), (b-o, a-o). Their sum is -D.
     let [ra, rb, rc] = [&a, &b, &c].map(|p| minus(p, &o));
     let triple = |p: &RationalPoint, q: &RationalPoint| dot(&d, &cross(p, q));
@@ -101,7 +102,7 @@ fn define_with<F: Float>(
         [triple(&rc, &rb), triple(&ra, &rc), triple(&rb, &ra)].map(|weight| -weight / &capital_d);
     let truth = Truth::Transversal(Crossing {
         facing: if capital_d.is_negative() { Facing::Front } else { Facing::Back },
-        place: place(compare(&t, &t_min), compare(&t, &t_max)),
+        place: place(at.cmp(&t_min), at.cmp(&t_max)),
         t_sign: t.cmp(&Rational::zero()),
         feature: Feature::from_weight_signs([&u, &v, &w].map(|x| x.cmp(&Rational::zero()))),
     });
@@ -190,9 +191,7 @@ fn line_and_segment(
 
     let cut = |low: &RationalEnd, high: &RationalEnd| {
         let [s, t] = whole.clone()?;
-        let s = if RationalEnd::At(s.clone()) < *low { low.clone() } else { RationalEnd::At(s) };
-        let t = if *high < RationalEnd::At(t.clone()) { high.clone() } else { RationalEnd::At(t) };
-        match (s, t) {
+        match (RationalEnd::At(s).max(low.clone()), RationalEnd::At(t).min(high.clone())) {
             (RationalEnd::At(s), RationalEnd::At(t)) if s <= t => Some([s, t]),
             _ => None,
         }
@@ -233,14 +232,6 @@ fn contact(
         Some(_) => ContactKind::Segment,
     };
     (Contact { kind, meets_ray, meets_line }, range)
-}
-
-fn compare(t: &Rational, end: &RationalEnd) -> Ordering {
-    match end {
-        RationalEnd::MinusInfinity => Ordering::Greater,
-        RationalEnd::At(end) => t.cmp(end),
-        RationalEnd::PlusInfinity => Ordering::Less,
-    }
 }
 
 fn minus(a: &RationalPoint, b: &RationalPoint) -> RationalPoint {

@@ -1,12 +1,10 @@
 //! Integers of 192 bits: what determinants of coordinates of 61 bits need, and no more than that.
 
-use super::integer::ExactInteger;
 use num_bigint::BigInt;
-use std::cmp::Ordering;
 use std::ops::{Add, Sub};
 
 /// `high * 2^64 + low`. Ordered by value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct I192 {
     high: i128,
     low: u64,
@@ -40,13 +38,9 @@ impl Sub for I192 {
     }
 }
 
-impl ExactInteger for I192 {
-    fn big(&self) -> BigInt {
-        (BigInt::from(self.high) << 64) + self.low
-    }
-    #[inline(always)]
-    fn sign(&self) -> Ordering {
-        self.cmp(&I192 { high: 0, low: 0 })
+impl From<I192> for BigInt {
+    fn from(I192 { high, low }: I192) -> BigInt {
+        (BigInt::from(high) << 64) + low
     }
 }
 
@@ -54,6 +48,7 @@ impl ExactInteger for I192 {
 mod tests {
     use super::*;
     use crate::case::Draw;
+    use crate::oracle::integer::ExactInteger;
 
     /// Numbers near the ends of their bits, near zero, and between.
     fn number(draw: &mut Draw, bits: u32) -> i128 {

@@ -3,10 +3,8 @@
 //! With n bits a coordinate is below 2^n, a difference below 2^(n+1), a minor of differences and the normal
 //! below 2^(2n+3), and a determinant of differences below 2^(3n+6).
 
-use super::contact;
-use super::integer::{ExactInteger, RayInterval};
+use super::integer::{ExactInteger, Integer};
 use super::wide::I192;
-use crate::truth::Contact;
 use num_bigint::BigInt;
 use std::ops::{Add, Sub};
 
@@ -23,6 +21,8 @@ pub(super) trait Width {
         + Copy
         + Add<Output = Self::Determinant>
         + Sub<Output = Self::Determinant>;
+    /// Holds what contacts are made of.
+    type Contact: Integer + From<i64> + From<Self::Minor>;
 
     /// A float below 2^[`Width::BITS`] as an integer, and that again as a float: the same if it was one.
     fn rounded(x: f64) -> (i64, f64);
@@ -30,13 +30,6 @@ pub(super) trait Width {
     fn product(a: i64, b: i64) -> Self::Minor;
     /// The product of a difference and a minor.
     fn wide_product(a: i64, b: Self::Minor) -> Self::Determinant;
-    /// The contact of a line that holds part of the triangle, in whatever integers.
-    fn contact(
-        interval: &RayInterval,
-        d: [i64; 3],
-        vertices: [[i64; 3]; 3],
-        n: [Self::Minor; 3],
-    ) -> Contact;
 }
 
 /// 30 bits: minors in 64, determinants in 128. What n bits are said to need above is a little more than they do:
@@ -50,6 +43,7 @@ impl Width for Narrow {
     const AT_ONCE: usize = 12;
     type Minor = i64;
     type Determinant = i128;
+    type Contact = i128;
 
     #[inline(always)]
     fn rounded(x: f64) -> (i64, f64) {
@@ -67,16 +61,6 @@ impl Width for Narrow {
     fn wide_product(a: i64, b: i64) -> i128 {
         i128::from(a) * i128::from(b)
     }
-    fn contact(
-        interval: &RayInterval,
-        d: [i64; 3],
-        vertices: [[i64; 3]; 3],
-        n: [i64; 3],
-    ) -> Contact {
-        let wide = |v: [i64; 3]| v.map(i128::from);
-        let [a, b, c] = vertices.map(wide);
-        contact::decide(interval, &wide(d), [&a, &b, &c], &wide(n))
-    }
 }
 
 /// 61 bits: minors in 128, determinants in 192.
@@ -88,6 +72,7 @@ impl Width for Wide {
     const AT_ONCE: usize = 3;
     type Minor = i128;
     type Determinant = I192;
+    type Contact = BigInt;
 
     #[inline(always)]
     fn rounded(x: f64) -> (i64, f64) {
@@ -101,14 +86,5 @@ impl Width for Wide {
     #[inline(always)]
     fn wide_product(a: i64, b: i128) -> I192 {
         I192::product(a, b)
-    }
-    fn contact(
-        interval: &RayInterval,
-        d: [i64; 3],
-        vertices: [[i64; 3]; 3],
-        n: [i128; 3],
-    ) -> Contact {
-        let [a, b, c] = vertices.map(|v| v.map(BigInt::from));
-        contact::decide(interval, &d.map(BigInt::from), [&a, &b, &c], &n.map(BigInt::from))
     }
 }
