@@ -21,7 +21,6 @@ impl Kernel for Volumes {
         ],
         epsilon_sets: &[EpsilonSet { name: "own", values: &["1e-3", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },
-        hits_nan: true,
         ..KernelInfo::own(
             "volumes",
             Contract::of_kernel(Extent::Line, Sides::Both, Boundary::Closed)

@@ -37,21 +37,15 @@ impl<F: Float> Case<F> {
 
     /// From what [`Case::hex`] writes; none of anything else, nor of the other scalar's.
     pub fn from_hex(text: &str) -> Option<Case<F>> {
-        let mut words = text.split(' ');
-        let mut numbers = |name: &str| -> Option<Vec<F>> {
-            let list = words.next()?.strip_prefix(name)?.strip_prefix('=')?;
-            let number = |text: &str| {
-                let bits = u64::from_str_radix(text, 16).ok()?;
-                let number = F::from_bits(bits);
-                (number.hex() == text).then_some(number)
-            };
-            list.split(',').map(number).collect()
-        };
-        let mut vector = |name: &str| <[F; 3]>::try_from(numbers(name)?).ok();
-        let (origin, direction) = (vector("o")?, vector("d")?);
-        let triangle = [vector("a")?, vector("b")?, vector("c")?];
-        let [t_min, t_max] = <[F; 2]>::try_from(numbers("t")?).ok()?;
-        Some(Case::new(origin, direction, triangle).on(t_min, t_max))
+        let words: Vec<&str> = text.split(' ').take(6).collect();
+        let lists = words.iter().filter_map(|word| Some(word.split_once('=')?.1));
+        let bits: Vec<u64> = lists
+            .flat_map(|list| list.split(','))
+            .map(|number| u64::from_str_radix(number, 16))
+            .collect::<Result<_, _>>()
+            .ok()?;
+        let case = Case::from_bits(bits.as_slice().try_into().ok()?);
+        (case.hex() == words.join(" ")).then_some(case)
     }
 }
 

@@ -41,7 +41,6 @@ impl Kernel for BaldwinWeber {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },
         polygons: false,
-        hits_nan: false,
     };
 
     type Prepared<V: Vector> = Transformation<V::Real>;

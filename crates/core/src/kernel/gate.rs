@@ -266,16 +266,11 @@ pub struct Measuring<'a, R> {
 }
 
 impl<'a, R: Real> Measuring<'a, R> {
-    /// With one place a gate; it stays +inf where the kernel never compares.
-    pub fn new(margins: &'a mut [R]) -> Self {
+    /// With one place a gate; it stays +inf where the kernel never compares. A gate `x <= e` has the margin next
+    /// below x and the threshold x, so that only its threshold compares with an exact number.
+    pub fn new(margins: &'a mut [R], thresholds: bool) -> Self {
         margins.fill(R::infinity());
-        Measuring { margins, thresholds: false }
-    }
-
-    /// The same for thresholds. A gate `x <= e` has the margin next below x and the threshold x, so that
-    /// only its threshold compares with an exact number.
-    pub fn thresholds(thresholds: &'a mut [R]) -> Self {
-        Measuring { thresholds: true, ..Measuring::new(thresholds) }
+        Measuring { margins, thresholds }
     }
 
     #[inline(always)]

@@ -63,7 +63,9 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
         margins: &mut [F],
         values: &mut [Option<Hit<F>>],
     ) {
-        each_case(info, cases, margins, values, |case, margins| self.measure_into(case, margins));
+        each_case(info, cases, margins, values, |case, margins| {
+            self.measure_into(case, margins, false)
+        });
     }
 
     #[cfg(feature = "margins")]

@@ -31,7 +31,6 @@ impl Kernel for HalfSpace {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0"] }],
         gives: Gives { t: true, uv: false, facing: false },
         polygons: false,
-        hits_nan: false,
     };
 
     stores_triangle!();

@@ -43,7 +43,6 @@ impl Kernel for HavelHerout {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: true },
         polygons: false,
-        hits_nan: true,
     };
 
     type Prepared<V: Vector> = Planes<V>;

@@ -141,8 +141,6 @@ pub struct KernelInfo {
     pub gives: Gives,
     /// True if it takes planar convex polygons too.
     pub polygons: bool,
-    /// True if it hits when every coordinate is NaN, as its comparisons are written.
-    pub hits_nan: bool,
 }
 
 impl KernelInfo {
@@ -157,7 +155,6 @@ impl KernelInfo {
             epsilon_sets: &[EpsilonSet { name: "own", values: &[] }],
             gives: Gives { t: true, uv: false, facing: false },
             polygons: false,
-            hits_nan: false,
         }
     }
 }

@@ -15,17 +15,6 @@ pub(super) struct MollerTrumbore;
 pub(super) struct MollerTrumboreT;
 pub(super) struct MollerTrumboreCulling;
 
-/// The source, and which branch of its listing.
-macro_rules! moller_trumbore {
-    ($branch:literal) => {
-        concat!(
-            "T. Möller and B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997, appendix, ",
-            $branch,
-            ", doi:10.1080/10867651.1997.10487468"
-        )
-    };
-}
-
 const PARALLEL: usize = 0;
 const EDGE: usize = 1;
 const T: usize = 2;
@@ -69,13 +58,13 @@ fn divided<V: Vector, S: Sink<V::Real>>(
 impl Kernel for MollerTrumbore {
     const INFO: KernelInfo = KernelInfo {
         name: "moller-trumbore",
-        source: moller_trumbore!("without culling"),
+        source: "T. Möller and B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997, appendix, \
+                 without culling, doi:10.1080/10867651.1997.10487468",
         contract: Contract::of_kernel(Extent::Line, Sides::Both, Boundary::Closed),
         gates: &DIVIDED,
         epsilon_sets: SETS,
         gives: GIVES,
         polygons: false,
-        hits_nan: true,
     };
 
     stores_triangle!();
@@ -105,7 +94,6 @@ impl Kernel for MollerTrumboreT {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["1e-7", "0", "1e-7"] }],
         gives: GIVES,
         polygons: false,
-        hits_nan: false,
     };
 
     stores_triangle!();
@@ -123,7 +111,8 @@ impl Kernel for MollerTrumboreT {
 impl Kernel for MollerTrumboreCulling {
     const INFO: KernelInfo = KernelInfo {
         name: "moller-trumbore-culling",
-        source: moller_trumbore!("TEST_CULL"),
+        source: "T. Möller and B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997, appendix, \
+                 TEST_CULL, doi:10.1080/10867651.1997.10487468",
         contract: Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Closed),
         gates: &[
             Gate::signed(Role::Parallel, "det < e", 2, 1),
@@ -132,7 +121,6 @@ impl Kernel for MollerTrumboreCulling {
         epsilon_sets: SETS,
         gives: GIVES,
         polygons: false,
-        hits_nan: true,
     };
 
     stores_triangle!();

@@ -52,7 +52,6 @@ const fn info(name: &'static str, source: &'static str) -> KernelInfo {
         epsilon_sets: SETS,
         gives: Gives { t: true, uv: false, facing: false },
         polygons: false,
-        hits_nan: true,
     }
 }
 
@@ -146,7 +145,6 @@ impl Kernel for PlaneInsideOutStrict {
             Gate::signed(Role::Edge, "!(N·((b-a)×(p-a)) > e), and cyclic", 4, 0),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
-        hits_nan: false,
         ..info("plane-inside-out-strict", scratchapixel!("pseudo-code with strict edges"))
     };
 

@@ -33,7 +33,6 @@ impl Kernel for PlaneUnitNormal {
         ],
         gives: Gives { t: true, uv: false, facing: false },
         polygons: false,
-        hits_nan: true,
     };
 
     stores_triangle!();

@@ -46,7 +46,6 @@ impl Kernel for Plucker {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: true },
         polygons: false,
-        hits_nan: false,
     };
 
     stores_triangle!();

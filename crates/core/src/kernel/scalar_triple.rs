@@ -44,7 +44,6 @@ const fn info(name: &'static str, source: &'static str, two_sided: bool) -> Kern
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0"] }],
         gives: Gives { t: false, uv: true, facing: false },
         polygons: false,
-        hits_nan: !two_sided,
     }
 }
 

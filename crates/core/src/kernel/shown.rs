@@ -21,12 +21,6 @@ impl<R: Real> Lifted<R> {
         Lifted { ray, triangle }
     }
 
-    fn measure<K: Kernel>(&self) -> Measured<R> {
-        let mut margins = vec![R::zero(); K::INFO.gates.len()];
-        let values = self.test::<K>(&mut Either::Other(&mut Measuring::new(&mut margins)));
-        Measured { margins, values }
-    }
-
     /// Not inlined, and one for both sinks: a kernel's code is large, and compiled for every arithmetic.
     #[inline(never)]
     fn test<K: Kernel>(
@@ -103,20 +97,24 @@ impl<K: Kernel> Generic<K> {
         verdict(hit, sink.refused_by)
     }
 
-    /// Every gate's margin into `margins`, one entry a gate.
+    /// Every gate's margin, or its threshold, into `margins`, one entry a gate.
     pub(super) fn measure_into<F: Float>(
         &self,
         case: &Case<F>,
         margins: &mut [F],
+        thresholds: bool,
     ) -> Option<Hit<F>> {
         if self.arithmetic == Arithmetic::IEEE {
-            return measure::<F, K>(case, Measuring::new(margins));
+            return measure::<F, K>(case, Measuring::new(margins, thresholds));
         }
-        let measured = self.emulated(case).measure::<K>();
-        for (place, margin) in margins.iter_mut().zip(measured.margins) {
-            *place = self.arithmetic.largest_epsilon(margin.value());
+        let mut emulated = self.numbers(margins);
+        let mut sink = Measuring::new(&mut emulated, thresholds);
+        let values = self.emulated(case).test::<K>(&mut Either::Other(&mut sink));
+        for (place, number) in margins.iter_mut().zip(&emulated) {
+            let margin = number.value();
+            *place = if thresholds { margin } else { self.arithmetic.largest_epsilon(margin) };
         }
-        measured.values.map(|hit| hit.map(|x| x.value()))
+        values.map(|hit| hit.map(|x| x.value()))
     }
 }
 
@@ -131,24 +129,22 @@ impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
 
     fn measure(&self, case: &Case<F>) -> Measured<F> {
         let mut margins = vec![F::zero(); self.info.gates.len()];
-        let values = self.measure_into(case, &mut margins);
+        let values = self.measure_into(case, &mut margins, false);
         Measured { margins, values }
     }
 
     fn thresholds(&self, case: &Case<F>) -> Vec<F> {
         let mut thresholds = vec![F::zero(); self.info.gates.len()];
-        if self.arithmetic == Arithmetic::IEEE {
-            measure::<F, K>(case, Measuring::thresholds(&mut thresholds));
-            return thresholds;
-        }
-        let mut thresholds = self.numbers(&thresholds);
-        let mut sink = Measuring::thresholds(&mut thresholds);
-        self.emulated(case).test::<K>(&mut Either::Other(&mut sink));
-        thresholds.iter().map(Emulated::value).collect()
+        self.measure_into(case, &mut thresholds, true);
+        thresholds
     }
 
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact> {
-        Lifted::new(case, |x: F| Exact::from_f64(x.to_f64())).measure::<K>()
+        let lifted = Lifted::new(case, |x: F| Exact::from_f64(x.to_f64()));
+        let mut margins = vec![Exact::zero(); self.info.gates.len()];
+        let mut sink = Measuring::new(&mut margins, false);
+        let values = lifted.test::<K>(&mut Either::Other(&mut sink));
+        Measured { margins, values }
     }
 
     fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> ExactRun {

@@ -45,7 +45,6 @@ impl Kernel for WoopWatertight {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },
         polygons: false,
-        hits_nan: true,
     };
 
     stores_triangle!();

@@ -1,7 +1,7 @@
 //! The sign of one determinant where the filter is in doubt: double-double arithmetic with a bound,
 //! then `robust`'s adaptive predicate where its conditions hold, then the determinant multiplied out.
 
-use super::determinants::{Determinant, FloatPoint, rows};
+use super::signs::{Determinant, FloatPoint, rows};
 use super::{Layer, monomials};
 use crate::case::Case;
 use robust::{Coord3D, orient3d};
@@ -166,8 +166,8 @@ mod tests {
     use super::*;
     use crate::arith::{Float, decompose, scale_by_power_of_two};
     use crate::case::Draw;
-    use crate::oracle::determinants::ALL;
     use crate::oracle::scaled::Scaled;
+    use crate::oracle::signs::ALL;
     use num_bigint::BigInt;
 
     /// Cases with exact zeros and near ones among their determinants.

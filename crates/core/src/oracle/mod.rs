@@ -16,7 +16,6 @@ mod batch;
 mod contact;
 mod coplanar;
 mod determinant;
-mod determinants;
 mod filter;
 mod grid;
 pub mod integer;
@@ -26,7 +25,6 @@ mod resolve;
 mod scaled;
 mod signs;
 mod sum;
-mod wide;
 mod width;
 
 pub use batch::{Batch, UnequalColumns};

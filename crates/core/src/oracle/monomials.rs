@@ -7,7 +7,7 @@
 //! out, o×o is gone, what is left are 18 products (24 in T) whose exponents mostly lie far apart, and
 //! the largest decides.
 
-use super::determinants::{Determinant, rows};
+use super::signs::{Determinant, rows};
 use super::sum::{ExactProduct, sign_of_sum};
 use crate::case::Case;
 use std::cmp::Ordering;
@@ -143,8 +143,8 @@ mod tests {
     use super::*;
     use crate::arith::{Float, scale_by_power_of_two};
     use crate::case::Draw;
-    use crate::oracle::determinants::ALL;
     use crate::oracle::scaled::Scaled;
+    use crate::oracle::signs::ALL;
     use num_rational::BigRational;
     use num_traits::ToPrimitive;
 

@@ -2,11 +2,10 @@
 
 use super::Layer;
 use super::determinant;
-use super::determinants::Determinant;
 use super::filter;
 use super::monomials;
 use super::scaled::Scaled;
-use super::signs::DecidingSigns;
+use super::signs::{DecidingSigns, Determinant};
 use crate::arith::scale_by_power_of_two;
 use crate::case::Case;
 use crate::truth::Truth;

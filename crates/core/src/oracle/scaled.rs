@@ -5,9 +5,8 @@
 //! 2^(2p+q), T of 2^(3p), and t = T/D carries 2^(p-q).
 
 use super::contact;
-use super::determinants::{Determinant, rows};
 use super::integer::{ExactInteger, IntegerVector, RayInterval, align, cross, dot, minus};
-use super::signs::DecidingSigns;
+use super::signs::{DecidingSigns, Determinant, rows};
 use crate::case::{Case, Matrix};
 use crate::truth::Truth;
 use num_bigint::BigInt;

@@ -3,7 +3,7 @@
 use super::*;
 use crate::arith::decompose;
 use crate::case::{Case, Draw};
-use crate::oracle::determinants::{ALL, rows};
+use crate::oracle::signs::{ALL, rows};
 use crate::oracle::{Layer, Layers, define, truth_counted};
 use num_bigint::BigInt;
 use num_traits::Signed;
