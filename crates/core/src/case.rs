@@ -2,19 +2,16 @@
 
 #![forbid(unsafe_code)]
 
-mod any;
-mod bits;
+mod forms;
 #[cfg(test)]
 mod hard;
 mod instance;
-mod literal;
 mod scene;
 
-pub use any::{AnyCase, AnyScalar};
+pub use forms::{AnyCase, AnyScalar, rust_case, rust_list};
 #[cfg(test)]
 pub use hard::hard_cases;
 pub use instance::{Instance, Matrix};
-pub use literal::{rust_case, rust_list};
 pub use scene::ShortNumber;
 pub use scene::{
     DirectionLength, PlaneKind, RayKind, SCENES, Scene, SceneKind, ScenePreset, Toward,

@@ -185,7 +185,11 @@ pub trait Sink<R: Real> {
     ) -> Option<()>;
 
     /// A test without an epsilon.
-    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()>;
+    #[inline(always)]
+    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
+        let margin = || if accepts { R::infinity() } else { -R::infinity() };
+        self.rounded(gate, |_| accepts, margin)
+    }
 
     /// A gate on one quantity.
     #[inline(always)]
@@ -251,11 +255,6 @@ impl<R: Real> Sink<R> for Deciding<'_, R> {
         let accepts = accepts(&self.epsilons[gate]);
         self.record(gate, accepts)
     }
-
-    #[inline(always)]
-    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
-        self.record(gate, accepts)
-    }
 }
 
 /// The measuring sink: takes every gate's margin, or its threshold, and never stops.
@@ -295,20 +294,11 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
         refuse: Refuse,
         clauses: [[&R; N]; M],
     ) -> Option<()> {
-        let mut margin = -R::infinity();
-        for clause in &clauses {
-            let mut least = R::infinity();
-            for x in clause {
-                let found = if self.thresholds { refuse.threshold(*x) } else { refuse.margin(*x) };
-                if found.is_less(&least) {
-                    least = found;
-                }
-            }
-            if margin.is_less(&least) {
-                margin = least;
-            }
-        }
-        self.record(gate, margin)
+        let thresholds = self.thresholds;
+        let margin = |x: &R| if thresholds { refuse.threshold(x) } else { refuse.margin(x) };
+        let least =
+            |clause: [&R; N]| clause.map(margin).into_iter().fold(R::infinity(), R::smaller);
+        self.record(gate, clauses.map(least).into_iter().fold(-R::infinity(), R::larger))
     }
 
     #[inline(always)]
@@ -319,11 +309,6 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
         exact: impl FnOnce() -> R,
     ) -> Option<()> {
         self.record(gate, R::largest_accepted(accepts, exact))
-    }
-
-    #[inline(always)]
-    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
-        self.record(gate, if accepts { R::infinity() } else { -R::infinity() })
     }
 }
 
@@ -357,13 +342,6 @@ impl<R: Real, A: Sink<R>, B: Sink<R>> Sink<R> for Either<&mut A, &mut B> {
         match self {
             Either::One(sink) => sink.rounded(gate, accepts, exact),
             Either::Other(sink) => sink.rounded(gate, accepts, exact),
-        }
-    }
-
-    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
-        match self {
-            Either::One(sink) => sink.fixed(gate, accepts),
-            Either::Other(sink) => sink.fixed(gate, accepts),
         }
     }
 }

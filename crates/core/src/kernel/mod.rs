@@ -25,7 +25,6 @@ mod changed;
 pub mod gate;
 mod generic;
 mod margins;
-mod own;
 mod preset;
 mod recording;
 mod registry;
@@ -50,7 +49,6 @@ pub use changed::{Change, has_size, refuses_at};
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, refused_by};
 pub use generic::Generic;
 pub use margins::{by_running, open_epsilons, values_of};
-pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry};
 pub use recording::{Acceptance, Compared, Path};
 pub use registry::kept;
@@ -59,7 +57,7 @@ pub use registry::{
 };
 pub use runs::{ExactRun, Measured, TrackedRun};
 pub use subject::verdicts_of;
-pub use subject::{Gated, Subject};
+pub use subject::{Gated, Subject, Test};
 pub use verdict::{Failure, Verdict};
 
 use crate::arith::{Real, Vector};

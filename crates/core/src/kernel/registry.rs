@@ -1,7 +1,7 @@
 //! The table of kernels: the built-in ones, and those that a program adds.
 
 use super::changed::{Change, Changed, InDouble, WithFallback, has_size, sized};
-use super::own::{Own, Test};
+use super::subject::{Own, Test};
 use super::{Gate, Generic, Kernel, KernelInfo, Role, Subject};
 use crate::arith::{Arithmetic, Float};
 use crate::contract::{Contract, Extent, Sides};

@@ -1,4 +1,4 @@
-//! A case as bit patterns, and back.
+//! A case in other forms: as bit patterns, and back; in one of the two scalars; and as source code in Rust.
 
 use super::Case;
 use crate::arith::Float;
@@ -46,6 +46,72 @@ impl<F: Float> Case<F> {
             .ok()?;
         let case = Case::from_bits(bits.as_slice().try_into().ok()?);
         (case.hex() == words.join(" ")).then_some(case)
+    }
+}
+
+/// Something in one of the two scalars.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyScalar<A, B> {
+    /// In `f32`.
+    F32(A),
+    /// In `f64`.
+    F64(B),
+}
+
+impl<A, B> AnyScalar<A, B> {
+    /// The scalar's name.
+    pub fn scalar(&self) -> &'static str {
+        match self {
+            AnyScalar::F32(_) => f32::NAME,
+            AnyScalar::F64(_) => f64::NAME,
+        }
+    }
+
+    /// For `f32` and for `f64`, true if it is of that scalar.
+    pub fn scalars(&self) -> [bool; 2] {
+        [f32::NAME, f64::NAME].map(|name| name == self.scalar())
+    }
+}
+
+/// A case in the scalar that it was written for.
+pub type AnyCase = AnyScalar<Case<f32>, Case<f64>>;
+
+impl<F: Float> From<Case<F>> for AnyCase {
+    fn from(case: Case<F>) -> AnyCase {
+        let bits = case.bits();
+        match F::NAME == f32::NAME {
+            true => AnyCase::F32(Case::from_bits(&bits)),
+            false => AnyCase::F64(Case::from_bits(&bits)),
+        }
+    }
+}
+
+/// A case as an expression in Rust.
+pub fn rust_case<F: Float>(case: &Case<F>) -> String {
+    let [origin, direction, a, b, c] = case.vectors().map(|v| rust_list(&v));
+    let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
+    let interval = if t_min.to_bits() == F::zero().to_bits() && t_max == F::infinity() {
+        String::new()
+    } else {
+        format!(".on({}, {})", rust_number(t_min), rust_number(t_max))
+    };
+    format!("Case::<{}>::new({origin}, {direction}, [{a}, {b}, {c}]){interval}", F::NAME)
+}
+
+/// Numbers as an array in Rust.
+pub fn rust_list<F: Float>(numbers: &[F]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(|x| rust_number(*x)).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+/// The shortest literal that is the number; a NaN by its bits.
+fn rust_number<F: Float>(x: F) -> String {
+    if x.is_nan() {
+        format!("{}::from_bits(0x{})", F::NAME, x.hex())
+    } else if x.is_finite() {
+        format!("{x:?}")
+    } else {
+        format!("{}{}::INFINITY", if x.is_sign_negative() { "-" } else { "" }, F::NAME)
     }
 }
 
