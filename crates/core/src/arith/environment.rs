@@ -35,11 +35,10 @@ impl FloatEnvironment {
             (_, true, false) => 3,
             _ => 0,
         };
-        let flushes_results = u32::from(is_zero(times(f64::MIN_POSITIVE, 0.5)));
-        let flushes_inputs = u32::from(is_zero(times(f64::from_bits(1), 1e30)));
-        FloatEnvironment(
-            flushes_results * FLUSHES_RESULTS | flushes_inputs * FLUSHES_INPUTS | rounding << 2,
-        )
+        let flag = |is_set: bool, bit: u32| if is_set { bit } else { 0 };
+        let results = flag(is_zero(times(f64::MIN_POSITIVE, 0.5)), FLUSHES_RESULTS);
+        let inputs = flag(is_zero(times(f64::from_bits(1), 1e30)), FLUSHES_INPUTS);
+        FloatEnvironment(results | inputs | rounding << 2)
     }
 
     /// True if this is the environment that IEEE 754 and every language start with.
