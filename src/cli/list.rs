@@ -4,10 +4,10 @@ use super::exit::{Failure, Status};
 use super::output::write_page;
 use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
-use crate::audit::{ASPECTS, Aspect, EpsilonText, coverage};
+use crate::audit::{ASPECTS, Aspect, coverage};
 use crate::contract::NAMED;
 use crate::family::{FAMILIES, Family, STRATA};
-use crate::kernel::{self, Change, KernelInfo, PRESETS, Preset, PresetValue, Tunable};
+use crate::kernel::{self, Change, Dimension, KernelInfo, PRESETS, Preset, Tunable};
 use crate::report::page::{Block, Head, Item, Items, Page, Row, Table};
 use crate::spawn::{PUBLISHED, PublishedScheme, describe};
 use clap::{Args, ValueEnum};
@@ -158,11 +158,7 @@ fn presets() -> Vec<Block> {
     let own = Item { text: "source".to_owned(), notes: vec![own], ..Item::default() };
     let of_preset = |preset: &Preset| {
         let entries = preset.entries.iter().map(|entry| {
-            let value = match entry.value {
-                PresetValue::Decimal(text) => text.to_owned(),
-                PresetValue::MachineEpsilon(k) => EpsilonText::MachineEpsilon(k).to_string(),
-            };
-            let (length, direction) = (entry.dimension.length, entry.dimension.direction);
+            let (value, Dimension { length, direction }) = (entry.value, entry.dimension);
             format!(
                 "gate {}={value}, dimension length^{length} direction^{direction}: {}",
                 entry.gate, entry.form

@@ -159,9 +159,7 @@ impl Kernel for Mine {
         let volume = |p: &V, q: &V| direction.dot(&p.cross(q));
         let (u, v, w) = (volume(&c, &b), volume(&a, &c), volume(&b, &a));
         for volume in [&u, &v, &w] {
-            if !sink.one(0, Refuse::Below, volume) {
-                return None;
-            }
+            sink.one(0, Refuse::Below, volume)?;
         }
         let sum = u + &v + &w;
         Some(Hit { t: None, uv: Some((v / &sum, w / &sum)), facing: None })

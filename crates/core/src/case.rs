@@ -2,19 +2,16 @@
 
 #![forbid(unsafe_code)]
 
-mod any;
-mod bits;
+mod forms;
 #[cfg(test)]
 mod hard;
 mod instance;
-mod literal;
 mod scene;
 
-pub use any::{AnyCase, AnyScalar};
+pub use forms::{AnyCase, AnyScalar, rust_case, rust_list};
 #[cfg(test)]
 pub use hard::hard_cases;
 pub use instance::{Instance, Matrix};
-pub use literal::{rust_case, rust_list};
 pub use scene::ShortNumber;
 pub use scene::{
     DirectionLength, PlaneKind, RayKind, SCENES, Scene, SceneKind, ScenePreset, Toward,
@@ -115,20 +112,21 @@ impl<F: Float> Case<F> {
 
     /// The case in another arithmetic, number by number.
     pub fn lift<R: Real>(&self, number: impl Fn(F) -> R) -> (Ray<Triple<R>>, Triangle<Triple<R>>) {
-        let vectors = self.vectors();
-        let triple = |i: usize| {
-            let [x, y, z] = vectors[i];
-            Triple::new(number(x), number(y), number(z))
-        };
-        let (t_min, t_max) = (number(self.ray.t_min), number(self.ray.t_max));
-        let ray = Ray { origin: triple(0), direction: triple(1), t_min, t_max };
-        (ray, Triangle { a: triple(2), b: triple(3), c: triple(4) })
+        let numbers = self.numbers();
+        lifted(|i| number(numbers[i]))
     }
 
     /// The case in exact numbers.
     pub fn exact(&self) -> (Ray<ExactVector>, Triangle<ExactVector>) {
         self.widen().lift(Exact::from_f64)
     }
+}
+
+/// A ray and a triangle whose numbers are made from their places among the seventeen of a case.
+pub fn lifted<R: Real>(number: impl Fn(usize) -> R) -> (Ray<Triple<R>>, Triangle<Triple<R>>) {
+    let triple = |i: usize| Triple::from([number(i), number(i + 1), number(i + 2)]);
+    let ray = Ray { origin: triple(0), direction: triple(3), t_min: number(15), t_max: number(16) };
+    (ray, Triangle { a: triple(6), b: triple(9), c: triple(12) })
 }
 
 /// How a family's cases are transformed after they are generated.
@@ -242,11 +240,14 @@ pub fn parse_power_of_two(text: &str) -> Result<i32, String> {
 
 /// Three finite numbers between colons.
 pub fn parse_offset(text: &str) -> Result<[f64; 3], String> {
-    let numbers: Option<Vec<f64>> =
-        text.split(':').map(|n| n.parse().ok().filter(|v: &f64| v.is_finite())).collect();
-    numbers
-        .and_then(|n| n.try_into().ok())
+    between_colons(text)
         .ok_or_else(|| format!("'{text}' is not an offset: write x:y:z, as 1e6:0:0"))
+}
+
+/// This many finite numbers between colons.
+fn between_colons<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let number = |n: &str| n.parse().ok().filter(|x: &f64| x.is_finite());
+    text.split(':').map(number).collect::<Option<Vec<f64>>>()?.try_into().ok()
 }
 
 /// A generated case in one string: `family@version/scalar/parameters/seed/index`, and `.k` for

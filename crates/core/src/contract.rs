@@ -203,11 +203,6 @@ impl Contract {
 
     /// The contract in one line, as reports show it.
     pub fn describe(&self) -> String {
-        let extent = match self.extent {
-            Extent::Line => "line",
-            Extent::Ray => "ray",
-            Extent::Interval => "interval",
-        };
         let sides = match self.sides {
             Sides::Both => "both sides",
             Sides::Front => "front only",
@@ -222,19 +217,12 @@ impl Contract {
             Boundary::Open => ", ends open",
             Boundary::Free => ", ends free",
         };
-        let demand = |demand| match demand {
-            Demand::Miss => "miss",
-            Demand::Hit => "hit",
-            Demand::Free => "free",
-        };
+        let Contract { extent, coplanar, degenerate, invalid, across, .. } = self;
         let mut text = format!(
-            "{extent}, {sides}, {boundary}{ends}, coplanar {}, degenerate {}, invalid {}",
-            demand(self.coplanar),
-            demand(self.degenerate),
-            demand(self.invalid)
+            "{extent}, {sides}, {boundary}{ends}, coplanar {coplanar}, degenerate {degenerate}, invalid {invalid}"
         );
-        if self.across != Across::Nothing {
-            text.push_str(&format!(", {} across triangles", self.across.name()));
+        if *across != Across::Nothing {
+            text.push_str(&format!(", {across} across triangles"));
         }
         if let Direction::Unit { ulps } = self.direction {
             text.push_str(&format!(", unit directions within {ulps} ulps"));
@@ -242,14 +230,9 @@ impl Contract {
         if self.no_self_hit {
             text.push_str(", no self-hit");
         }
-        match self.band {
-            None => {}
-            Some(band) if band.unit == BandUnit::Ulps => {
-                text.push_str(&format!(", free within {band} of the boundary"));
-            }
-            Some(band) => {
-                text.push_str(&format!(", free within {band} longest edges of the boundary"));
-            }
+        if let Some(band) = self.band {
+            let unit = if band.unit == BandUnit::Ulps { "" } else { " longest edges" };
+            text.push_str(&format!(", free within {band}{unit} of the boundary"));
         }
         if self.least_determinant > 0.0 {
             text.push_str(&format!(", no hit owed at |det| < {:e}", self.least_determinant));

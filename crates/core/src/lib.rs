@@ -58,6 +58,13 @@ macro_rules! named {
             $methods fn named(name: &str) -> Option<$type> {
                 $type::ALL.into_iter().find(|value| value.name() == name)
             }
+
+            /// The value of a name; an error says after the word in which it stands what names there are.
+            #[allow(dead_code)]
+            $methods fn chosen(word: &str, name: &str) -> Result<$type, String> {
+                let unknown = || format!("{word}: there are {}", [$($name),*].join(", "));
+                $type::named(name).ok_or_else(unknown)
+            }
         }
 
         impl std::fmt::Display for $type {

@@ -65,9 +65,7 @@ pub(super) fn write_batch<F: Float>(
     let size = size_of::<F>();
     bytes.resize(start + cases.len() * CASE_NUMBERS * size, 0);
     for (record, case) in bytes[start..].chunks_exact_mut(CASE_NUMBERS * size).zip(cases) {
-        let vectors = case.vectors();
-        let numbers = vectors.as_flattened().iter().chain([&case.ray.t_min, &case.ray.t_max]);
-        for (place, number) in record.chunks_exact_mut(size).zip(numbers) {
+        for (place, number) in record.chunks_exact_mut(size).zip(case.numbers()) {
             place.copy_from_slice(&number.to_bits().to_le_bytes()[..size]);
         }
     }

@@ -38,97 +38,99 @@ struct HelloEpsilon {
 }
 
 /// A hello line by line.
-#[derive(Default)]
 pub struct HelloLines {
-    lines: usize,
-    name: Option<String>,
-    source: Option<String>,
-    contract: Option<Contract>,
-    gives: Option<[bool; 3]>,
-    scalars: Option<[bool; 2]>,
-    binary: Option<bool>,
-    floats: Option<FloatEnvironment>,
-    margins: Option<()>,
-    epsilons: Vec<HelloEpsilon>,
+    /// The first words of the lines so far.
+    said: Vec<String>,
+    hello: Hello,
+}
+
+impl Default for HelloLines {
+    fn default() -> HelloLines {
+        let hello = Hello {
+            name: String::new(),
+            source: "not told".to_owned(),
+            contract: Contract::CLOSED_RAY,
+            gives: [false; 3],
+            epsilons: Vec::new(),
+            scalars: [false; 2],
+            binary: false,
+            floats: FloatEnvironment::default(),
+            margins: false,
+        };
+        HelloLines { said: Vec::new(), hello }
+    }
 }
 
 impl HelloLines {
     /// Takes a line; the hello, if it was the last. An error says what was expected.
     pub fn take(&mut self, line: &str) -> Result<Option<Hello>, String> {
-        self.lines += 1;
         let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
-        let rest = rest.trim();
-        if word == "error" {
-            return Err(rest.to_owned());
-        }
-        if self.lines == 1 {
-            return first_line(line, word, rest).map(|()| None);
-        }
+        let (rest, hello) = (rest.trim(), &mut self.hello);
         match word {
-            "name" => once("name", &mut self.name, rest.to_owned())?,
-            "source" => once("source", &mut self.source, rest.to_owned())?,
+            "error" => return Err(rest.to_owned()),
+            _ if self.said.is_empty() => first_line(line, word, rest)?,
+            "name" => hello.name = rest.to_owned(),
+            "source" => hello.source = rest.to_owned(),
             "contract" => {
-                let contract = rest.parse().map_err(|error| format!("contract: {error}"))?;
-                once("contract", &mut self.contract, contract)?;
+                hello.contract = rest.parse().map_err(|error| format!("contract: {error}"))?;
             }
-            "gives" => {
-                once("gives", &mut self.gives, subset(rest, "gives", ["t", "uv", "facing"])?)?
+            "gives" => hello.gives = subset(rest, "gives", ["t", "uv", "facing"])?,
+            "scalars" => hello.scalars = subset(rest, "scalars", ["f32", "f64"])?,
+            "encoding" => {
+                hello.binary = match rest {
+                    "text" => false,
+                    "binary" => true,
+                    other => return Err(format!("encoding: '{other}' is none of text, binary")),
+                }
             }
-            "scalars" => {
-                once("scalars", &mut self.scalars, subset(rest, "scalars", ["f32", "f64"])?)?;
-            }
-            "encoding" => match rest {
-                "text" => once("encoding", &mut self.binary, false)?,
-                "binary" => once("encoding", &mut self.binary, true)?,
-                other => return Err(format!("encoding: '{other}' is none of text, binary")),
-            },
             "floats" => {
                 let floats = rest.parse().ok().and_then(FloatEnvironment::from_bits);
-                let floats =
+                hello.floats =
                     floats.ok_or_else(|| format!("floats: '{}' is not 0 to 15", shown(rest)))?;
-                once("floats", &mut self.floats, floats)?;
             }
-            "margins" => once("margins", &mut self.margins, ())?,
-            "epsilon" => self.epsilons.push(epsilon(rest)?),
+            "margins" => hello.margins = true,
+            "epsilon" => hello.epsilons.push(epsilon(rest)?),
             "ready" => return self.finish().map(Some),
             _ => {
                 let known = "name, source, contract, gives, scalars, encoding, floats, margins, epsilon, ready, error";
                 return Err(format!("'{}' is none of {known}", shown(line)));
             }
         }
+        if word != "epsilon" && self.has(word) {
+            return Err(format!("'{word}' is said twice"));
+        }
+        self.said.push(word.to_owned());
         Ok(None)
     }
 
-    fn finish(&mut self) -> Result<Hello, String> {
-        let missing = |what: &str| format!("its hello has no line '{what} …' before 'ready'");
-        let scalars = self.scalars.ok_or_else(|| missing("scalars"))?;
-        if scalars == [false; 2] {
+    /// True if a line began with a word.
+    fn has(&self, word: &str) -> bool {
+        self.said.iter().any(|said| said == word)
+    }
+
+    fn finish(&self) -> Result<Hello, String> {
+        let hello = &self.hello;
+        let missing = |what: &str| Err(format!("its hello has no line '{what} …' before 'ready'"));
+        if !self.has("scalars") {
+            return missing("scalars");
+        }
+        if hello.scalars == [false; 2] {
             return Err("scalars: none is named; there are f32 and f64".to_owned());
         }
-        if self.margins.is_some() && self.binary != Some(true) {
+        if hello.margins && !hello.binary {
             return Err("margins: they are asked for in 'encoding binary' only".to_owned());
         }
-        let epsilons = std::mem::take(&mut self.epsilons);
-        if let Some(i) =
-            (1..epsilons.len()).find(|&i| epsilons[..i].iter().any(|e| e.name == epsilons[i].name))
-        {
-            return Err(format!("epsilon '{}' is announced twice", epsilons[i].name));
+        let names: Vec<&str> = hello.epsilons.iter().map(|epsilon| &*epsilon.name).collect();
+        if let Some(i) = (1..names.len()).find(|&i| names[..i].contains(&names[i])) {
+            return Err(format!("epsilon '{}' is announced twice", names[i]));
         }
-        Ok(Hello {
-            name: self
-                .name
-                .take()
-                .filter(|name| !name.is_empty())
-                .ok_or_else(|| missing("name"))?,
-            source: self.source.take().unwrap_or_else(|| "not told".to_owned()),
-            contract: self.contract.ok_or_else(|| missing("contract"))?,
-            gives: self.gives.unwrap_or_default(),
-            epsilons,
-            scalars,
-            binary: self.binary.unwrap_or(false),
-            floats: self.floats.unwrap_or_default(),
-            margins: self.margins.is_some(),
-        })
+        if hello.name.is_empty() {
+            return missing("name");
+        }
+        if !self.has("contract") {
+            return missing("contract");
+        }
+        Ok(hello.clone())
     }
 }
 
@@ -193,13 +195,6 @@ fn first_line(line: &str, word: &str, rest: &str) -> Result<(), String> {
         return Err(format!("it speaks protocol '{rest}', this program speaks {PROTOCOL}"));
     }
     Ok(())
-}
-
-fn once<T>(what: &str, place: &mut Option<T>, value: T) -> Result<(), String> {
-    match place.replace(value) {
-        None => Ok(()),
-        Some(_) => Err(format!("'{what}' is said twice")),
-    }
 }
 
 /// Which of some words a line has.

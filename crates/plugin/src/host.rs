@@ -13,7 +13,7 @@ use super::binary::{
     ANSWER, BATCH, BATCH_HEAD, Before, CASE_NUMBERS, MARGINS, float, push, verdict_bytes,
 };
 use crate::arith::{Float, FloatEnvironment};
-use crate::kernel::{Failure, by_running, of_miss};
+use crate::kernel::{Failure, by_running};
 use guard::{Buffer, watch};
 use library::{Library, TestFunction, one_line};
 use std::cell::{Cell, RefCell};
@@ -227,10 +227,7 @@ impl HostBatch {
                 hit == HIT
             };
             let mut margins = vec![-F::infinity(); open.len()];
-            match verdict[..4] == HIT {
-                true => by_running(&open, is_hit, &mut margins),
-                false => of_miss(&open, is_hit, &mut margins),
-            }
+            by_running(&open, verdict[..4] == HIT, is_hit, &mut margins);
             if is_wrong.get() {
                 verdict[..4].copy_from_slice(&WRONG);
             }

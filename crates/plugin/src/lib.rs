@@ -14,7 +14,6 @@ mod exchange;
 mod hello;
 #[cfg(unix)]
 mod host;
-mod inbox;
 mod margins;
 mod offset;
 mod process;

@@ -18,11 +18,9 @@ const SILENCE: Duration = Duration::from_secs(10);
 /// An offset scheme in processes of its own, one a thread. The first thing that goes wrong ends the run: see
 /// [`OffsetCommand::fault`].
 #[derive(Clone)]
-pub struct OffsetCommand(Arc<OffsetInner>);
-
-struct OffsetInner {
+pub struct OffsetCommand {
     program: KernelProgram,
-    state: Mutex<OffsetState>,
+    state: Arc<Mutex<OffsetState>>,
 }
 
 #[derive(Default)]
@@ -35,12 +33,12 @@ struct OffsetState {
 impl OffsetCommand {
     /// The command of a program, which is not started yet.
     pub fn new(program: KernelProgram) -> OffsetCommand {
-        OffsetCommand(Arc::new(OffsetInner { program, state: Mutex::default() }))
+        OffsetCommand { program, state: Arc::default() }
     }
 
     /// Starts one process, so that what cannot be started shows before the run.
     pub fn start(&self) -> io::Result<()> {
-        let running = self.0.program.start(SILENCE)?;
+        let running = self.running()?;
         self.state().idle.push(running);
         Ok(())
     }
@@ -51,17 +49,17 @@ impl OffsetCommand {
     }
 
     fn state(&self) -> MutexGuard<'_, OffsetState> {
-        self.0.state.lock().unwrap_or_else(PoisonError::into_inner)
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// An idle process, or a new one.
+    fn running(&self) -> io::Result<Running> {
+        let idle = self.state().idle.pop();
+        idle.map_or_else(|| self.program.start(SILENCE), Ok)
     }
 
     fn ask<F: Float>(&self, hits: &[HitPoint<F>]) -> Result<Vec<Start<F>>, String> {
-        let idle = self.state().idle.pop();
-        let mut running = match idle {
-            Some(running) => running,
-            None => {
-                self.0.program.start(SILENCE).map_err(|e| format!("it cannot be started: {e}"))?
-            }
-        };
+        let mut running = self.running().map_err(|e| format!("it cannot be started: {e}"))?;
         let mut lines: String = hits.iter().map(hit_line).collect();
         lines += &end_line(hits.len() as u64);
         running.send(lines.into_bytes());

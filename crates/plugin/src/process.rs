@@ -69,7 +69,11 @@ pub fn load(
     })?;
     let mut notes = hello.notes();
     if !hello.floats.is_default() {
-        let note = loaded_with(hello.floats);
+        let note = format!(
+            "its process computes with {} from the start (a library built with -ffast-math does that when it is \
+             loaded)",
+            hello.floats
+        );
         if limits.require_ieee {
             return Err(LoadError::Hello(format!("{note}, which --require-ieee refuses")));
         }
@@ -88,13 +92,6 @@ pub fn load(
         entry = entry.with_f64(kernel);
     }
     Ok(entry)
-}
-
-fn loaded_with(floats: FloatEnvironment) -> String {
-    format!(
-        "its process computes with {floats} from the start (a library built with -ffast-math does that when it \
-         is loaded)"
-    )
 }
 
 /// Reads a process's hello.

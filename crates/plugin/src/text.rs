@@ -18,9 +18,8 @@ pub fn number<F: Float>(value: F) -> String {
 /// `case ID SCALAR`, then origin, direction, a, b, c, t_min, t_max.
 pub fn case_line<F: Float>(id: impl Display, case: &Case<F>) -> String {
     let mut line = format!("case {id} {}", F::NAME);
-    let ends = [case.ray.t_min, case.ray.t_max];
-    for value in case.vectors().as_flattened().iter().chain(&ends) {
-        let _ = write!(line, " {}", number(*value));
+    for value in case.numbers() {
+        let _ = write!(line, " {}", number(value));
     }
     line.push('\n');
     line

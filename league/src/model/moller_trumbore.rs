@@ -80,35 +80,29 @@ impl<Y: Style> Kernel for MollerTrumbore<Y> {
         let p = direction.cross(&edge2);
         let det = edge1.dot(&p);
         let size = if Y::CULLS { det.clone() } else { det.abs() };
-        if !sink.one(PARALLEL, Refuse::Below, &size) {
-            return None;
-        }
+        sink.one(PARALLEL, Refuse::Below, &size)?;
         let inverse = one() / &det;
         let s = origin.minus(a);
         let u = s.dot(&p) * &inverse;
-        if !sink.one(EDGE, Y::U, &u) || !sink.one(EDGE, Y::U, &(one() - &u)) {
-            return None;
-        }
+        sink.one(EDGE, Y::U, &u)?;
+sink.one(EDGE, Y::U, &(one() - &u))?;
         let q = s.cross(&edge1);
         let v = direction.dot(&q) * &inverse;
-        if !sink.one(EDGE, Refuse::Below, &v)
-            || !sink.one(EDGE, Refuse::Below, &(one() - (u.clone() + &v)))
-        {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &v)?;
+sink.one(EDGE, Refuse::Below, &(one() - (u.clone() + &v)))?;
         let t = edge2.dot(&q) * &inverse;
-        let in_extent = match Y::T {
-            T::Above => sink.one(TIME, Refuse::UnlessAbove, &t),
+        match Y::T {
+            T::Above => sink.one(TIME, Refuse::UnlessAbove, &t)?,
             T::AboveAndFinite => {
-                sink.one(TIME, Refuse::UnlessAbove, &t)
-                    && sink.fixed(FINITE, t.is_finite() || t.is_nan())
+                sink.one(TIME, Refuse::UnlessAbove, &t)?;
+                sink.fixed(FINITE, t.is_finite() || t.is_nan())?;
             }
             T::InInterval => {
-                sink.one(TIME, Refuse::UnlessAtLeast, &gap(&t, t_min))
-                    && sink.one(TIME, Refuse::UnlessAtLeast, &gap(t_max, &t))
+                sink.one(TIME, Refuse::UnlessAtLeast, &gap(&t, t_min))?;
+                sink.one(TIME, Refuse::UnlessAtLeast, &gap(t_max, &t))?;
             }
-        };
-        in_extent.then(|| Hit { t: Some(t), uv: Some((u, v)), facing: None })
+        }
+        Some(Hit { t: Some(t), uv: Some((u, v)), facing: None })
     }
 }
 

@@ -225,13 +225,13 @@ fn supposes<F>(gate: &GateSummary<F>) -> Vec<String> {
 /// The epsilons of the kernel's own sets and of the presets that fit a gate.
 fn published<F: Float>(entry: &Entry, gate: &GateSummary<F>) -> Vec<Published> {
     let own = entry.info.epsilon_sets.iter().map(|set| (set.name, set.values[gate.index]));
-    let own = own.filter_map(|(name, text)| Some((name, EpsilonText::of(text)?)));
     let presets = PRESETS.iter().flat_map(|preset| {
         let fitting = preset.entries.iter().filter(|entry| entry.fits(&gate.gate));
-        fitting.map(|entry| (preset.name, EpsilonText::from(entry.value)))
+        fitting.map(|entry| (preset.name, entry.value))
     });
     let mut found: Vec<Published> = Vec::new();
     for (name, text) in own.chain(presets) {
+        let Some(text) = EpsilonText::of(text) else { continue };
         let Some(value) = text.value::<F>().map(F::to_f64) else { continue };
         match found.iter_mut().find(|(_, known)| *known == value) {
             Some((names, _)) => names.insert_str(names.len() - 1, &format!(", {name}")),

@@ -296,7 +296,7 @@ fn add_gates<F: Scalar>(
     let word = |passes: bool| if passes { "passes" } else { "refuses" };
     for (i, gate) in row.entry.info.gates.iter().enumerate() {
         let (margin, e) = (measured.margins[i], epsilons[i]);
-        let exactly = exact_run.as_ref().map(|run| word(run.passed[i]));
+        let exactly = Some(word(exact_run.passed[i]));
         let numbers = (gate.epsilon != Tunable::Fixed).then(|| {
             let computed = margin_text(&Exact::from_f64(margin.to_f64()), e, false);
             let exact = margin_text(&exact.margins[i], e, exactly == Some(word(false)));
@@ -314,7 +314,7 @@ fn add_gates<F: Scalar>(
             decides: verdict.refused_by == Some(i as u8),
         });
     }
-    part.without_rounding = exact_run.map(|run| if run.hit() { "hit" } else { "miss" });
+    part.without_rounding = Some(if exact_run.hit() { "hit" } else { "miss" });
 }
 
 /// The values that a hit reports.

@@ -34,21 +34,23 @@ impl Arithmetic {
 
     /// The name on a command line and, after a `+`, in a kernel's name.
     pub const fn name(self) -> &'static str {
-        match (self.fused, self.flushed) {
-            (false, false) => "ieee",
-            (true, false) => "fma",
-            (false, true) => "ftz",
-            (true, true) => "fma-ftz",
-        }
+        self.told().0
     }
 
     /// A description in one line.
     pub const fn describe(self) -> &'static str {
+        self.told().1
+    }
+
+    /// The name and the description.
+    const fn told(self) -> (&'static str, &'static str) {
         match (self.fused, self.flushed) {
-            (false, false) => "IEEE 754, operation by operation (the default)",
-            (true, false) => "products that go straight into a sum are fused, the left one of two",
-            (false, true) => "subnormal numbers are zero, as operands and as results",
-            (true, true) => "fused products, and subnormal numbers are zero",
+            (false, false) => ("ieee", "IEEE 754, operation by operation (the default)"),
+            (true, false) => {
+                ("fma", "products that go straight into a sum are fused, the left one of two")
+            }
+            (false, true) => ("ftz", "subnormal numbers are zero, as operands and as results"),
+            (true, true) => ("fma-ftz", "fused products, and subnormal numbers are zero"),
         }
     }
 
@@ -100,13 +102,15 @@ pub(super) fn smallest_normal<F: Float>() -> F {
 
 /// One rounded operation on floats.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum RoundedOperation<F> {
+pub enum RoundedOperation<F> {
     /// `a + b`.
     Sum(F, F),
     /// `a * b`.
     Product(F, F),
     /// `a*b + c`, rounded once.
     Fused(F, F, F),
+    /// `a*b - c*d` in wider arithmetic, then rounded to the format.
+    Minor(F, F, F, F),
     /// `a / b`.
     Quotient(F, F),
     /// The square root.
@@ -121,6 +125,7 @@ impl<F: Float> RoundedOperation<F> {
             RoundedOperation::Sum(a, b) => a + b,
             RoundedOperation::Product(a, b) => a * b,
             RoundedOperation::Fused(a, b, c) => a.mul_add(b, c),
+            RoundedOperation::Minor(a, b, c, d) => F::difference_of_products(&a, &b, &c, &d),
             RoundedOperation::Quotient(a, b) => a / b,
             RoundedOperation::Root(a) => a.sqrt(),
         })

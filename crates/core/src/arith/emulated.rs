@@ -15,34 +15,60 @@
 
 use super::arithmetic::{Arithmetic, RoundedOperation};
 use super::{Float, Real};
+use std::fmt::Debug;
 
-/// A float of another machine.
+/// A float of another machine, which notes nothing.
+pub type Emulated<F> = Rounded<F, ()>;
+
+/// A float of another machine, with notes of the operations that made it.
 #[derive(Debug)]
-pub struct Emulated<F> {
+pub struct Rounded<F, N> {
     value: F,
-    /// If this is a product that may still be fused.
-    factors: Option<[F; 2]>,
     arithmetic: Arithmetic,
+    notes: N,
+    /// If this is a product that may still be fused: its factors, and what is noted of them.
+    product: Option<([F; 2], N)>,
+}
+
+/// What a number notes of all operations that made it.
+pub trait Notes: Copy + Debug + Default + Send + Sync + 'static {
+    /// Of a given number, which may have been flushed to zero.
+    fn of_given(is_flushed: bool) -> Self;
+    /// Of an operation alone, whose result this is.
+    fn of_operation<F: Float>(operation: RoundedOperation<F>, result: F) -> Self;
+    /// These notes and others.
+    fn and(self, other: Self) -> Self;
+    /// A number with these notes is compared.
+    fn compared(self);
+}
+
+impl Notes for () {
+    fn of_given(_: bool) {}
+    fn of_operation<F: Float>(_: RoundedOperation<F>, _: F) {}
+    fn and(self, (): ()) {}
+    fn compared(self) {}
 }
 
 /// The number as a name that is used again: rounded, no longer a product.
-impl<F: Float> Clone for Emulated<F> {
+impl<F: Float, N: Notes> Clone for Rounded<F, N> {
     #[inline]
     fn clone(&self) -> Self {
-        Emulated { factors: None, ..*self }
+        Rounded { product: None, ..*self }
     }
 }
 
-impl<F: Float> Emulated<F> {
+impl<F: Float, N: Notes> Rounded<F, N> {
     /// A given number, as the arithmetic's operations see it.
     #[inline]
-    pub fn new(value: F, arithmetic: Arithmetic) -> Self {
-        Emulated { value: arithmetic.flush(value), factors: None, arithmetic }
+    pub fn new(given: F, arithmetic: Arithmetic) -> Self {
+        let value = arithmetic.flush(given);
+        let notes = N::of_given(value.is_zero() && !given.is_zero());
+        Rounded { value, arithmetic, notes, product: None }
     }
 
     /// A constant, which takes on the arithmetic of what it meets.
-    fn constant(value: F) -> Self {
-        Emulated::new(value, Arithmetic::IEEE)
+    pub(super) fn constant(value: F) -> Self {
+        Rounded::new(value, Arithmetic::IEEE)
     }
 
     /// The float.
@@ -51,39 +77,37 @@ impl<F: Float> Emulated<F> {
         self.value
     }
 
-    /// How its operations round.
-    pub fn arithmetic(&self) -> Arithmetic {
-        self.arithmetic
+    /// What is noted of the operations that made it.
+    pub fn notes(&self) -> N {
+        self.notes
     }
 
-    /// True if this is a product that may still be fused.
-    pub(super) fn is_product(&self) -> bool {
-        self.factors.is_some()
-    }
-
-    /// The operation that `self + other` is.
+    /// The result of an operation on numbers of these notes.
     #[inline]
-    pub(super) fn operation_of_sum(&self, other: &Self) -> RoundedOperation<F> {
-        match (self.factors, other.factors) {
-            (Some([a, b]), _) => RoundedOperation::Fused(a, b, other.value),
-            (None, Some([a, b])) => RoundedOperation::Fused(a, b, self.value),
-            (None, None) => RoundedOperation::Sum(self.value, other.value),
-        }
-    }
-
-    /// The result of an operation on two numbers.
-    #[inline]
-    pub(super) fn made(operation: RoundedOperation<F>, arithmetic: Arithmetic) -> Self {
-        let factors = match operation {
-            RoundedOperation::Product(a, b) if arithmetic.fused => Some([a, b]),
+    fn made(operation: RoundedOperation<F>, arithmetic: Arithmetic, before: N) -> Self {
+        let product = match operation {
+            RoundedOperation::Product(a, b) if arithmetic.fused => Some(([a, b], before)),
             _ => None,
         };
-        Emulated { value: operation.run(arithmetic), factors, arithmetic }
+        let value = operation.run(arithmetic);
+        let notes = before.and(N::of_operation(operation, value));
+        Rounded { value, arithmetic, notes, product }
     }
 
     #[inline(never)]
     fn sum(&self, other: &Self) -> Self {
-        Emulated::made(self.operation_of_sum(other), self.arithmetic.and(other.arithmetic))
+        let (operation, before) = match (self.product, other.product) {
+            (Some(([a, b], before)), _) => {
+                (RoundedOperation::Fused(a, b, other.value), before.and(other.notes))
+            }
+            (None, Some(([a, b], before))) => {
+                (RoundedOperation::Fused(a, b, self.value), self.notes.and(before))
+            }
+            (None, None) => {
+                (RoundedOperation::Sum(self.value, other.value), self.notes.and(other.notes))
+            }
+        };
+        Rounded::made(operation, self.arithmetic.and(other.arithmetic), before)
     }
 
     fn difference(&self, other: &Self) -> Self {
@@ -91,73 +115,83 @@ impl<F: Float> Emulated<F> {
     }
 
     #[inline]
-    pub(super) fn negation(&self) -> Self {
-        let factors = self.factors.map(|[a, b]| [-a, b]);
-        Emulated { value: -self.value, factors, ..*self }
+    fn negation(&self) -> Self {
+        let product = self.product.map(|([a, b], notes)| ([-a, b], notes));
+        Rounded { value: -self.value, product, ..*self }
     }
 
     #[inline(never)]
     fn product(&self, other: &Self) -> Self {
         let operation = RoundedOperation::Product(self.value, other.value);
-        Emulated::made(operation, self.arithmetic.and(other.arithmetic))
+        let arithmetic = self.arithmetic.and(other.arithmetic);
+        Rounded::made(operation, arithmetic, self.notes.and(other.notes))
     }
 
     #[inline(never)]
     fn quotient(&self, other: &Self) -> Self {
         let operation = RoundedOperation::Quotient(self.value, other.value);
-        Emulated::made(operation, self.arithmetic.and(other.arithmetic))
+        let arithmetic = self.arithmetic.and(other.arithmetic);
+        Rounded::made(operation, arithmetic, self.notes.and(other.notes))
+    }
+
+    /// The float, which decides something.
+    #[inline]
+    fn compared(&self) -> F {
+        self.notes.compared();
+        self.value
     }
 }
 
-operators!([F: Float] Emulated<F>, Clone::clone);
+operators!([F: Float, N: Notes] Rounded<F, N>, Clone::clone);
 
-impl<F: Float> Real for Emulated<F> {
+impl<F: Float, N: Notes> Real for Rounded<F, N> {
     fn zero() -> Self {
-        Emulated::constant(F::zero())
+        Rounded::constant(F::zero())
     }
     fn one() -> Self {
-        Emulated::constant(F::one())
+        Rounded::constant(F::one())
     }
     fn abs(&self) -> Self {
-        Emulated { value: self.value.abs(), ..self.clone() }
+        Rounded { value: self.value.abs(), ..self.clone() }
     }
     fn sqrt(&self) -> Self {
-        Emulated::made(RoundedOperation::Root(self.value), self.arithmetic)
+        Rounded::made(RoundedOperation::Root(self.value), self.arithmetic, self.notes)
     }
     fn is_sign_negative(&self) -> bool {
-        self.value.is_sign_negative()
+        self.compared().is_sign_negative()
     }
     fn is_less(&self, other: &Self) -> bool {
-        self.value < other.value
+        self.compared() < other.compared()
     }
     fn is_at_most(&self, other: &Self) -> bool {
-        self.value <= other.value
+        self.compared() <= other.compared()
     }
     fn is_zero(&self) -> bool {
-        self.value.is_zero()
+        self.compared().is_zero()
     }
     fn is_nan(&self) -> bool {
-        self.value.is_nan()
+        self.compared().is_nan()
     }
     fn is_finite(&self) -> bool {
-        self.value.is_finite()
+        self.compared().is_finite()
     }
     fn infinity() -> Self {
-        Emulated::constant(F::infinity())
+        Rounded::constant(F::infinity())
     }
     fn just_below(&self) -> Self {
-        Emulated { value: self.arithmetic.just_below(self.value), ..self.clone() }
+        Rounded { value: self.arithmetic.just_below(self.value), ..self.clone() }
     }
     /// Products in wider arithmetic are exact in every one of them; operands and result are flushed.
     fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
-        let all = [a, b, c, d].map(|x| x.arithmetic);
-        let arithmetic = all.into_iter().fold(Arithmetic::IEEE, Arithmetic::and);
-        let value = F::difference_of_products(&a.value, &b.value, &c.value, &d.value);
-        Emulated::new(value, arithmetic)
+        let all = [a, b, c, d];
+        let arithmetic = all.iter().fold(Arithmetic::IEEE, |both, x| both.and(x.arithmetic));
+        let before = all.iter().fold(N::default(), |both, x| both.and(x.notes));
+        let operation = RoundedOperation::Minor(a.value, b.value, c.value, d.value);
+        Rounded::made(operation, arithmetic, before)
     }
     fn largest_accepted(accepts: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self {
-        let Emulated { value, arithmetic, .. } = exact();
-        let found = F::largest_accepted(|e| accepts(&Emulated::new(*e, arithmetic)), || value);
-        Emulated::new(found, arithmetic)
+        let Rounded { value, arithmetic, .. } = exact();
+        let found = F::largest_accepted(|e| accepts(&Rounded::new(*e, arithmetic)), || value);
+        Rounded::new(found, arithmetic)
     }
 }

@@ -4,30 +4,18 @@
 use std::fmt;
 use std::hint::black_box;
 
-/// The state of a thread's floating-point unit, as far as it changes results.
+/// The state of a thread's floating-point unit, as far as it changes results: [`FLUSHES_RESULTS`], [`FLUSHES_INPUTS`],
+/// and in the two bits above them the place of its rounding direction in [`ROUNDING`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct FloatEnvironment {
-    /// Subnormal results become zero (x86: FTZ; Arm: FZ).
-    pub flushes_results: bool,
-    /// Subnormal operands count as zero (x86: DAZ; Arm: FZ).
-    pub flushes_inputs: bool,
-    /// How results are rounded.
-    pub rounding: Rounding,
-}
+pub struct FloatEnvironment(u32);
 
-/// IEEE 754's rounding directions of binary arithmetic.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Rounding {
-    /// To nearest, ties to even.
-    #[default]
-    Nearest,
-    /// Towards positive infinity.
-    Up,
-    /// Towards negative infinity.
-    Down,
-    /// Towards zero.
-    Zero,
-}
+/// Subnormal results become zero (x86: FTZ; Arm: FZ).
+const FLUSHES_RESULTS: u32 = 1;
+/// Subnormal operands count as zero (x86: DAZ; Arm: FZ).
+const FLUSHES_INPUTS: u32 = 2;
+
+/// IEEE 754's rounding directions of binary arithmetic, in words; the first, to nearest with ties to even, is the default.
+const ROUNDING: [&str; 4] = ["", "rounding up", "rounding down", "rounding toward zero"];
 
 impl FloatEnvironment {
     /// That of this thread, now.
@@ -42,16 +30,15 @@ impl FloatEnvironment {
             plus(1.0, -f64::EPSILON / 8.0) < 1.0,
             plus(-1.0, -f64::EPSILON / 4.0) < -1.0,
         ) {
-            (true, ..) => Rounding::Up,
-            (_, true, true) => Rounding::Down,
-            (_, true, false) => Rounding::Zero,
-            _ => Rounding::Nearest,
+            (true, ..) => 1,
+            (_, true, true) => 2,
+            (_, true, false) => 3,
+            _ => 0,
         };
-        FloatEnvironment {
-            flushes_results: is_zero(times(f64::MIN_POSITIVE, 0.5)),
-            flushes_inputs: is_zero(times(f64::from_bits(1), 1e30)),
-            rounding,
-        }
+        let flag = |is_set: bool, bit: u32| if is_set { bit } else { 0 };
+        let results = flag(is_zero(times(f64::MIN_POSITIVE, 0.5)), FLUSHES_RESULTS);
+        let inputs = flag(is_zero(times(f64::from_bits(1), 1e30)), FLUSHES_INPUTS);
+        FloatEnvironment(results | inputs | rounding << 2)
     }
 
     /// True if this is the environment that IEEE 754 and every language start with.
@@ -61,37 +48,24 @@ impl FloatEnvironment {
 
     /// As one number.
     pub fn bits(self) -> u32 {
-        u32::from(self.flushes_results)
-            | u32::from(self.flushes_inputs) << 1
-            | (self.rounding as u32) << 2
+        self.0
     }
 
     /// From [`Self::bits`]; none if the number is none of them.
     pub fn from_bits(bits: u32) -> Option<FloatEnvironment> {
-        let rounding = [Rounding::Nearest, Rounding::Up, Rounding::Down, Rounding::Zero];
-        Some(FloatEnvironment {
-            flushes_results: bits & 1 != 0,
-            flushes_inputs: bits & 2 != 0,
-            rounding: *rounding.get((bits >> 2) as usize)?,
-        })
+        (bits < 16).then_some(FloatEnvironment(bits))
     }
 }
 
 impl fmt::Display for FloatEnvironment {
     /// The differences from the default, in words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let rounding = match self.rounding {
-            Rounding::Nearest => None,
-            Rounding::Up => Some("rounding up"),
-            Rounding::Down => Some("rounding down"),
-            Rounding::Zero => Some("rounding toward zero"),
-        };
         let words = [
-            self.flushes_results.then_some("flush-to-zero"),
-            self.flushes_inputs.then_some("denormals-are-zero"),
-            rounding,
+            if self.0 & FLUSHES_RESULTS != 0 { "flush-to-zero" } else { "" },
+            if self.0 & FLUSHES_INPUTS != 0 { "denormals-are-zero" } else { "" },
+            ROUNDING[(self.0 >> 2) as usize],
         ];
-        let words: Vec<&str> = words.into_iter().flatten().collect();
+        let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
         f.write_str(if words.is_empty() { "the default of IEEE 754" } else { "" })?;
         f.write_str(&words.join(" and "))
     }

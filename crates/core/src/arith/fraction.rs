@@ -1,7 +1,7 @@
 //! Rationals that are never reduced, with a power of two beside them.
 
 use super::decompose;
-use num_bigint::{BigInt, Sign};
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive};
 use std::cmp::Ordering;
@@ -44,11 +44,7 @@ impl Fraction {
     }
 
     pub(super) fn sign(&self) -> Ordering {
-        match self.numerator.sign() {
-            Sign::Minus => Ordering::Less,
-            Sign::NoSign => Ordering::Equal,
-            Sign::Plus => Ordering::Greater,
-        }
+        self.numerator.cmp(&BigInt::ZERO)
     }
 
     pub(super) fn add(&self, other: &Fraction) -> Fraction {

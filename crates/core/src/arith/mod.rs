@@ -61,7 +61,7 @@ mod triple;
 pub use arithmetic::Arithmetic;
 pub use bounded::{Bounded, bounded};
 pub use digits::{three_digits, two_digits};
-pub use emulated::Emulated;
+pub use emulated::{Emulated, Notes};
 pub use environment::FloatEnvironment;
 pub use exact::Exact;
 pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two, smallest_normal};

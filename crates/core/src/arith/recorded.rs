@@ -9,6 +9,7 @@
 use super::Real;
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::mem;
 
 /// A place on the tape.
 pub type Place = u32;
@@ -133,23 +134,37 @@ impl Comparison {
 pub struct Tape {
     /// The operations in order.
     pub operations: Vec<Operation>,
-    /// The comparisons in order, and the answers that they got.
-    pub decisions: Vec<(Comparison, bool)>,
+    /// The comparisons of the path, or of a test that is tried.
+    pub decisions: Decisions,
     places: HashMap<Operation, Place>,
-    answers: HashMap<Comparison, bool>,
-    /// Every comparison, each time that it is asked.
-    asked: Vec<Comparison>,
-    script: Vec<bool>,
     fused: bool,
-    /// As long as this is some, comparisons follow its script, and are no decisions of the path.
-    tried: Option<TriedPath>,
 }
 
-/// One way through the comparisons of a test.
+/// Comparisons, and the answers that they get.
 #[derive(Clone, Debug, Default)]
-struct TriedPath {
+pub struct Decisions {
+    /// Each comparison once, in order, and its answer.
+    pub made: Vec<(Comparison, bool)>,
+    /// The answers to the first of them; later ones get no.
     script: Vec<bool>,
-    made: Vec<(Comparison, bool)>,
+    /// Every comparison, each time that it is asked.
+    asked: Vec<Comparison>,
+}
+
+impl Decisions {
+    fn following(script: Vec<bool>) -> Decisions {
+        Decisions { script, ..Decisions::default() }
+    }
+
+    fn answer(&mut self, comparison: Comparison) -> bool {
+        self.asked.push(comparison);
+        if let Some((_, answer)) = self.made.iter().find(|(known, _)| *known == comparison) {
+            return *answer;
+        }
+        let answer = self.script.get(self.made.len()).copied().unwrap_or(false);
+        self.made.push((comparison, answer));
+        answer
+    }
 }
 
 /// One way through the comparisons of a test, and its result.
@@ -172,7 +187,8 @@ fn on_tape<T>(with: impl FnOnce(&mut Tape) -> T) -> T {
 /// Runs `run` on an empty tape; the first comparisons get the answers of the script, later ones no. Returns
 /// the result and the tape.
 pub fn record<T>(script: &[bool], fused: bool, run: impl FnOnce() -> T) -> (T, Tape) {
-    TAPE.set(Tape { script: script.to_vec(), fused, ..Tape::default() });
+    let decisions = Decisions::following(script.to_vec());
+    TAPE.set(Tape { decisions, fused, ..Tape::default() });
     let result = run();
     (result, TAPE.take())
 }
@@ -191,9 +207,10 @@ pub fn outcomes(most: usize, test: impl Fn() -> bool) -> Option<Vec<Outcome>> {
     let mut outcomes = Vec::new();
     let mut script = Some(Vec::new());
     while let Some(next) = script {
-        on_tape(|tape| tape.tried = Some(TriedPath { script: next, made: Vec::new() }));
+        let tried = Decisions::following(next);
+        let path = on_tape(|tape| mem::replace(&mut tape.decisions, tried));
         let accepts = test();
-        let answers = on_tape(|tape| tape.tried.take()).unwrap_or_default().made;
+        let answers = on_tape(|tape| mem::replace(&mut tape.decisions, path)).made;
         script = next_script(&answers);
         outcomes.push(Outcome { answers, accepts });
         if outcomes.len() > most {
@@ -205,17 +222,17 @@ pub fn outcomes(most: usize, test: impl Fn() -> bool) -> Option<Vec<Outcome>> {
 
 /// How many decisions there are so far.
 pub fn decisions_so_far() -> usize {
-    on_tape(|tape| tape.decisions.len())
+    on_tape(|tape| tape.decisions.made.len())
 }
 
 /// How many comparisons were asked so far, those with a known answer included.
 pub fn asked_so_far() -> usize {
-    on_tape(|tape| tape.asked.len())
+    on_tape(|tape| tape.decisions.asked.len())
 }
 
 /// The comparisons that were asked from the given one on.
 pub fn asked_from(first: usize) -> Vec<Comparison> {
-    on_tape(|tape| tape.asked[first..].to_vec())
+    on_tape(|tape| tape.decisions.asked[first..].to_vec())
 }
 
 /// A number on the tape of this thread.
@@ -265,24 +282,7 @@ impl Recorded {
     }
 
     fn ask(comparison: Comparison) -> bool {
-        on_tape(|tape| {
-            if let Some(TriedPath { script, made }) = &mut tape.tried {
-                if let Some((_, answer)) = made.iter().find(|(known, _)| *known == comparison) {
-                    return *answer;
-                }
-                let answer = script.get(made.len()).copied().unwrap_or(false);
-                made.push((comparison, answer));
-                return answer;
-            }
-            tape.asked.push(comparison);
-            if let Some(answer) = tape.answers.get(&comparison) {
-                return *answer;
-            }
-            let answer = tape.script.get(tape.decisions.len()).copied().unwrap_or(false);
-            tape.decisions.push((comparison, answer));
-            tape.answers.insert(comparison, answer);
-            answer
-        })
+        on_tape(|tape| tape.decisions.answer(comparison))
     }
 
     fn sum(&self, other: &Recorded) -> Recorded {

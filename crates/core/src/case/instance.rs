@@ -1,6 +1,6 @@
 //! An instance: a triangle whose coordinates are those of an object, which a matrix puts into the world.
 
-use super::{Case, Ray, Triangle};
+use super::{Case, Ray, Triangle, between_colons};
 use crate::arith::{Exact, Float, Real, Triple, Vector};
 
 /// Three rows of a matrix from an object to the world; the last column is the translation.
@@ -131,11 +131,10 @@ pub(super) fn text(matrix: &Matrix<f64>) -> String {
 
 /// A matrix of a case id.
 pub(super) fn parsed(text: &str) -> Result<Matrix<f64>, String> {
-    let numbers: Option<Vec<f64>> =
-        text.split(':').map(|n| n.parse().ok().filter(|x: &f64| x.is_finite())).collect();
-    let rows = numbers.as_deref().map(|numbers| numbers.as_chunks::<4>());
-    let rows = rows.and_then(|(rows, rest)| rest.is_empty().then(|| rows.try_into().ok())?);
-    rows.ok_or_else(|| format!("'{text}' is no instance: write 12 numbers with : between them"))
+    let numbers: [f64; 12] = between_colons(text)
+        .ok_or_else(|| format!("'{text}' is no instance: write 12 numbers with : between them"))?;
+    let (rows, _) = numbers.as_chunks();
+    Ok([rows[0], rows[1], rows[2]])
 }
 
 fn cross<F: Float>([a, b, c]: [F; 3], [p, q, r]: [F; 3]) -> [F; 3] {

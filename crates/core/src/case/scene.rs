@@ -5,7 +5,7 @@ use crate::arith::{Float, smallest_normal};
 use crate::suggest::nearest_name;
 pub use kinds::{PlaneKind, RayKind, SceneKind, Toward};
 pub use text::ShortNumber;
-use text::{Range, Sizes, extent_in, number, one_of, range, sizes};
+use text::{Sizes, extent_in, number, range, sizes};
 
 /// The sizes of a scene's rays and triangles, in the scene's own unit of length.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,13 +36,16 @@ pub struct Scene {
     pub toward: Toward,
 }
 
-/// How long the directions of a scene's rays are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DirectionLength {
-    /// Rounded unit vectors: t is a length.
-    Unit,
-    /// From the origin to the target: t = 1 there.
-    Target,
+named! {
+    pub names
+    /// How long the directions of a scene's rays are.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum DirectionLength {
+        /// Rounded unit vectors: t is a length.
+        Unit = "unit",
+        /// From the origin to the target: t = 1 there.
+        Target = "target",
+    }
 }
 
 /// A scene with a name.
@@ -122,7 +125,7 @@ impl Scene {
         let lengths = [("edge", self.edge), ("distance", self.distance)];
         let left = lengths.into_iter().filter(|(key, _)| !keys.contains(key));
         let left: Vec<String> =
-            left.map(|(key, range)| format!("{key}={}", Range(range))).collect();
+            left.map(|(key, range)| format!("{key}={}", Sizes(range, None))).collect();
         (!left.is_empty()).then(|| left.join(" and "))
     }
 
@@ -199,6 +202,7 @@ impl Scene {
 
     /// Sets what a word names; false if it names nothing of a scene.
     pub(super) fn set(&mut self, key: &str, value: &str) -> Result<bool, String> {
+        let word = format!("{key}={value}");
         match key {
             "extent" => self.extent = number(key, value)?,
             "center" => self.center = number(key, value)?,
@@ -208,21 +212,16 @@ impl Scene {
                 self.aims_inside = match value {
                     "inside" => true,
                     "both" => false,
-                    _ => return Err(format!("aim={value}: write aim=inside or both")),
+                    _ => return Err(format!("{word}: write aim=inside or both")),
                 }
             }
             "sine" => self.sine = Some(range(key, value)?),
-            "ray" => self.ray = one_of(key, value, RayKind::ALL.map(|kind| (kind.name(), kind)))?,
-            "plane" => {
-                self.plane = one_of(key, value, PlaneKind::ALL.map(|kind| (kind.name(), kind)))?
-            }
-            "toward" => self.toward = one_of(key, value, Toward::ALL.map(|way| (way.name(), way)))?,
+            "ray" => self.ray = RayKind::chosen(&word, value)?,
+            "plane" => self.plane = PlaneKind::chosen(&word, value)?,
+            "toward" => self.toward = Toward::chosen(&word, value)?,
             "direction" => {
-                self.direction = match value {
-                    "unit" => DirectionLength::Unit,
-                    "target" => DirectionLength::Target,
-                    _ => return Err(format!("direction={value}: write direction=unit or target")),
-                }
+                let unknown = || format!("{word}: write direction=unit or target");
+                self.direction = DirectionLength::named(value).ok_or_else(unknown)?;
             }
             _ => return Ok(false),
         }
@@ -241,7 +240,7 @@ impl Scene {
         if nearest < 0.0 || farthest <= 0.0 {
             return Err(format!(
                 "distance={}: must be from 0 up, and not 0 alone",
-                Range(self.distance)
+                Sizes(self.distance, None)
             ));
         }
         if self.plane.is_near_zero() && self.center != 0.0 {
@@ -253,7 +252,7 @@ impl Scene {
         match self.sine {
             Some([low, high]) if low < LEAST_SINE || 1.0 < high => Err(format!(
                 "sine={}: sines of angles are from {LEAST_SINE:e} to 1",
-                Range([low, high])
+                Sizes([low, high], None)
             )),
             _ => Ok(()),
         }

@@ -97,44 +97,26 @@ impl Contract {
             f64::INFINITY => "free".to_owned(),
             edges => format!("{edges:e}"),
         };
-        words.extend(
-            (self.value_tolerance != base.value_tolerance).then(|| format!("values={values}")),
-        );
+        change(self.value_tolerance == base.value_tolerance, "values", &values);
         if self.no_self_hit && !base.no_self_hit {
             words.push("no-self-hit".to_owned());
         }
         words
     }
-}
 
-/// One `key=value` of a contract's text: the values of its key.
-fn choice<T: Copy, const N: usize>(
-    word: &str,
-    value: &str,
-    known: [T; N],
-    name: fn(T) -> &'static str,
-) -> Result<T, String> {
-    known
-        .into_iter()
-        .find(|choice| name(*choice) == value)
-        .ok_or_else(|| format!("'{word}': there are {}", known.map(name).join(", ")))
-}
-
-impl Contract {
     /// Changes what one word of a contract's text says.
     fn change(&mut self, word: &str) -> Result<(), String> {
         let (key, value) = word.split_once('=').unwrap_or((word, ""));
-        let boundary = || choice(word, value, Boundary::ALL, Boundary::name);
-        let demand = || choice(word, value, Demand::ALL, Demand::name);
+        let shown = format!("'{word}'");
         let number = value.parse().ok().filter(|number| (0.0..f64::INFINITY).contains(number));
         match key {
-            "extent" => self.extent = choice(word, value, Extent::ALL, Extent::name)?,
-            "sides" => self.sides = choice(word, value, Sides::ALL, Sides::name)?,
-            "boundary" => self.boundary = boundary()?,
-            "ends" => self.ends = boundary()?,
-            "coplanar" => self.coplanar = demand()?,
-            "degenerate" => self.degenerate = demand()?,
-            "invalid" => self.invalid = demand()?,
+            "extent" => self.extent = Extent::chosen(&shown, value)?,
+            "sides" => self.sides = Sides::chosen(&shown, value)?,
+            "boundary" => self.boundary = Boundary::chosen(&shown, value)?,
+            "ends" => self.ends = Boundary::chosen(&shown, value)?,
+            "coplanar" => self.coplanar = Demand::chosen(&shown, value)?,
+            "degenerate" => self.degenerate = Demand::chosen(&shown, value)?,
+            "invalid" => self.invalid = Demand::chosen(&shown, value)?,
             "direction" => {
                 let unit = value.strip_prefix("unit:").and_then(|ulps| ulps.parse().ok());
                 self.direction = match (value, unit) {
@@ -143,7 +125,7 @@ impl Contract {
                     _ => return Err(format!("'{word}': there are any, unit:ULPS")),
                 };
             }
-            "across" => self.across = choice(word, value, Across::ALL, Across::name)?,
+            "across" => self.across = Across::chosen(&shown, value)?,
             "band" => self.band = Some(value.parse()?),
             "determinant" => {
                 let advice = format!("'{word}': write a number from 0 up, as 1e-8");

@@ -41,7 +41,6 @@ impl Kernel for BaldwinWeber {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },
         polygons: false,
-        hits_nan: false,
     };
 
     type Prepared<V: Vector> = Transformation<V::Real>;
@@ -81,9 +80,7 @@ impl Kernel for BaldwinWeber {
         Ray { origin, direction, t_min, t_max }: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        if !sink.fixed(COLUMN, map.fixed.is_some()) {
-            return None;
-        }
+        sink.fixed(COLUMN, map.fixed.is_some())?;
         let k = map.fixed.unwrap_or(2);
         let (first, second) = match k {
             0 => (1, 2),
@@ -101,21 +98,15 @@ impl Kernel for BaldwinWeber {
             }
         };
         let t = -(z(origin) + &map.z[2]) / z(direction);
-        if !sink.one(T, Refuse::AtMost, &gap(&t, t_min))
-            || !sink.one(T, Refuse::AtMost, &gap(t_max, &t))
-        {
-            return None;
-        }
+        sink.one(T, Refuse::AtMost, &gap(&t, t_min))?;
+        sink.one(T, Refuse::AtMost, &gap(t_max, &t))?;
         let at = |axis: usize| origin.at(axis) + t.clone() * direction.at(axis);
         let (p, q) = (at(first), at(second));
         let row = |[m, n, last]: &[V::Real; 3]| m.clone() * &p + n.clone() * &q + last;
         let (x, y) = (row(&map.x), row(&map.y));
-        if !sink.one(EDGE, Refuse::UnlessAtLeast, &x)
-            || !sink.one(EDGE, Refuse::UnlessAtLeast, &y)
-            || !sink.one(EDGE, Refuse::UnlessAbove, &(V::Real::one() - (y.clone() + &x)))
-        {
-            return None;
-        }
+        sink.one(EDGE, Refuse::UnlessAtLeast, &x)?;
+        sink.one(EDGE, Refuse::UnlessAtLeast, &y)?;
+        sink.one(EDGE, Refuse::UnlessAbove, &(V::Real::one() - (y.clone() + &x)))?;
         Some(Hit { t: Some(t), uv: Some((x, y)), facing: None })
     }
 }

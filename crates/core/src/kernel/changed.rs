@@ -5,6 +5,7 @@ use super::{Gate, Gated, Role, Subject, Verdict};
 use crate::arith::Float;
 use crate::case::{Case, Triangle};
 use crate::truth::Facing;
+use std::cmp::Ordering;
 use std::slice;
 
 named! {
@@ -98,15 +99,9 @@ impl<F: Float> Changed<F> {
 }
 
 /// Which vertices stand first, second and third once they are in order.
-fn order<F: Float>([a, b, c]: [[F; 3]; 3]) -> [usize; 3] {
-    let vertices = [a, b, c];
+fn order<F: Float>(vertices: [[F; 3]; 3]) -> [usize; 3] {
     let mut order = [0, 1, 2];
-    let less = |i: usize, j: usize| vertices[i] < vertices[j];
-    for (i, j) in [(0, 1), (1, 2), (0, 1)] {
-        if less(order[j], order[i]) {
-            order.swap(i, j);
-        }
-    }
+    order.sort_by(|i, j| vertices[*i].partial_cmp(&vertices[*j]).unwrap_or(Ordering::Equal));
     order
 }
 

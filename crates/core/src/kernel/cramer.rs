@@ -30,7 +30,6 @@ impl Kernel for Cramer {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },
         polygons: false,
-        hits_nan: true,
     };
 
     stores_triangle!();
@@ -54,31 +53,20 @@ impl Kernel for Cramer {
         let (ei_hf, gf_di, dh_eg) =
             (minor(&e, &i, &h, &f), minor(&g, &f, &d, &i), minor(&d, &h, &e, &g));
         let det = a.clone() * &ei_hf + b.clone() * &gf_di + c.clone() * &dh_eg;
-        if !sink.one(PARALLEL, Refuse::AtMost, &det.abs()) {
-            return None;
-        }
+        sink.one(PARALLEL, Refuse::AtMost, &det.abs())?;
         let (ak_jb, jc_al, bl_kc) =
             (minor(&a, &k, &j, &b), minor(&j, &c, &a, &l), minor(&b, &l, &k, &c));
 
         let t = (-f * &ak_jb - e * &jc_al - d * &bl_kc) / &det;
-        if !sink.one(T, Refuse::Below, &gap(&t, &ray.t_min))
-            || !sink.one(T, Refuse::Below, &gap(&ray.t_max, &t))
-        {
-            return None;
-        }
+        sink.one(T, Refuse::Below, &gap(&t, &ray.t_min))?;
+        sink.one(T, Refuse::Below, &gap(&ray.t_max, &t))?;
         let gamma = (i * &ak_jb + h * &jc_al + g * &bl_kc) / &det;
         let one_minus_gamma = V::Real::one() - &gamma;
-        if !sink.one(EDGE, Refuse::Below, &gamma)
-            || !sink.one(EDGE, Refuse::Below, &one_minus_gamma)
-        {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &gamma)?;
+        sink.one(EDGE, Refuse::Below, &one_minus_gamma)?;
         let beta = (j * &ei_hf + k * &gf_di + l * &dh_eg) / &det;
-        if !sink.one(EDGE, Refuse::Below, &beta)
-            || !sink.one(EDGE, Refuse::Below, &(one_minus_gamma - &beta))
-        {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &beta)?;
+        sink.one(EDGE, Refuse::Below, &(one_minus_gamma - &beta))?;
         Some(Hit { t: Some(t), uv: Some((beta, gamma)), facing: None })
     }
 }

@@ -164,7 +164,7 @@ impl Gate {
     }
 }
 
-/// Receives the quantities of a kernel's gates. Each method returns whether the kernel goes on.
+/// Receives the quantities of a kernel's gates. Each method returns none where the kernel stops with a miss.
 pub trait Sink<R: Real> {
     /// A gate on several quantities under one epsilon: at least one clause must pass, and a clause
     /// passes when all its quantities do.
@@ -173,7 +173,7 @@ pub trait Sink<R: Real> {
         gate: usize,
         refuse: Refuse,
         clauses: [[&R; N]; M],
-    ) -> bool;
+    ) -> Option<()>;
 
     /// A gate whose source rounds with the epsilon in it. `accepts` is monotone in its argument;
     /// `exact` is its threshold without rounding.
@@ -182,14 +182,18 @@ pub trait Sink<R: Real> {
         gate: usize,
         accepts: impl Fn(&R) -> bool,
         exact: impl FnOnce() -> R,
-    ) -> bool;
+    ) -> Option<()>;
 
     /// A test without an epsilon.
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool;
+    #[inline(always)]
+    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
+        let margin = || if accepts { R::infinity() } else { -R::infinity() };
+        self.rounded(gate, |_| accepts, margin)
+    }
 
     /// A gate on one quantity.
     #[inline(always)]
-    fn one(&mut self, gate: usize, refuse: Refuse, x: &R) -> bool {
+    fn one(&mut self, gate: usize, refuse: Refuse, x: &R) -> Option<()> {
         self.gate(gate, refuse, [[x]])
     }
 }
@@ -217,15 +221,15 @@ impl<'a, R> Deciding<'a, R> {
     }
 
     #[inline(always)]
-    fn record(&mut self, gate: usize, accepts: bool) -> bool {
+    fn record(&mut self, gate: usize, accepts: bool) -> Option<()> {
         if let Some(passed) = self.passed.get_mut(gate) {
             *passed &= accepts;
-            return true;
+            return Some(());
         }
         if !accepts {
             self.refused_by = Some(gate);
         }
-        accepts
+        accepts.then_some(())
     }
 }
 
@@ -236,7 +240,7 @@ impl<R: Real> Sink<R> for Deciding<'_, R> {
         gate: usize,
         refuse: Refuse,
         clauses: [[&R; N]; M],
-    ) -> bool {
+    ) -> Option<()> {
         let accepts = refuse.passes_any(clauses, &self.epsilons[gate]);
         self.record(gate, accepts)
     }
@@ -247,13 +251,8 @@ impl<R: Real> Sink<R> for Deciding<'_, R> {
         gate: usize,
         accepts: impl Fn(&R) -> bool,
         _: impl FnOnce() -> R,
-    ) -> bool {
+    ) -> Option<()> {
         let accepts = accepts(&self.epsilons[gate]);
-        self.record(gate, accepts)
-    }
-
-    #[inline(always)]
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
         self.record(gate, accepts)
     }
 }
@@ -266,24 +265,19 @@ pub struct Measuring<'a, R> {
 }
 
 impl<'a, R: Real> Measuring<'a, R> {
-    /// With one place a gate; it stays +inf where the kernel never compares.
-    pub fn new(margins: &'a mut [R]) -> Self {
+    /// With one place a gate; it stays +inf where the kernel never compares. A gate `x <= e` has the margin next
+    /// below x and the threshold x, so that only its threshold compares with an exact number.
+    pub fn new(margins: &'a mut [R], thresholds: bool) -> Self {
         margins.fill(R::infinity());
-        Measuring { margins, thresholds: false }
-    }
-
-    /// The same for thresholds. A gate `x <= e` has the margin next below x and the threshold x, so that
-    /// only its threshold compares with an exact number.
-    pub fn thresholds(thresholds: &'a mut [R]) -> Self {
-        Measuring { thresholds: true, ..Measuring::new(thresholds) }
+        Measuring { margins, thresholds }
     }
 
     #[inline(always)]
-    fn record(&mut self, gate: usize, margin: R) -> bool {
+    fn record(&mut self, gate: usize, margin: R) -> Option<()> {
         if margin.is_less(&self.margins[gate]) {
             self.margins[gate] = margin;
         }
-        true
+        Some(())
     }
 }
 
@@ -299,21 +293,12 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
         gate: usize,
         refuse: Refuse,
         clauses: [[&R; N]; M],
-    ) -> bool {
-        let mut margin = -R::infinity();
-        for clause in &clauses {
-            let mut least = R::infinity();
-            for x in clause {
-                let found = if self.thresholds { refuse.threshold(*x) } else { refuse.margin(*x) };
-                if found.is_less(&least) {
-                    least = found;
-                }
-            }
-            if margin.is_less(&least) {
-                margin = least;
-            }
-        }
-        self.record(gate, margin)
+    ) -> Option<()> {
+        let thresholds = self.thresholds;
+        let margin = |x: &R| if thresholds { refuse.threshold(x) } else { refuse.margin(x) };
+        let least =
+            |clause: [&R; N]| clause.map(margin).into_iter().fold(R::infinity(), R::smaller);
+        self.record(gate, clauses.map(least).into_iter().fold(-R::infinity(), R::larger))
     }
 
     #[inline(always)]
@@ -322,13 +307,8 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
         gate: usize,
         accepts: impl Fn(&R) -> bool,
         exact: impl FnOnce() -> R,
-    ) -> bool {
+    ) -> Option<()> {
         self.record(gate, R::largest_accepted(accepts, exact))
-    }
-
-    #[inline(always)]
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
-        self.record(gate, if accepts { R::infinity() } else { -R::infinity() })
     }
 }
 
@@ -346,7 +326,7 @@ impl<R: Real, A: Sink<R>, B: Sink<R>> Sink<R> for Either<&mut A, &mut B> {
         gate: usize,
         refuse: Refuse,
         clauses: [[&R; N]; M],
-    ) -> bool {
+    ) -> Option<()> {
         match self {
             Either::One(sink) => sink.gate(gate, refuse, clauses),
             Either::Other(sink) => sink.gate(gate, refuse, clauses),
@@ -358,17 +338,10 @@ impl<R: Real, A: Sink<R>, B: Sink<R>> Sink<R> for Either<&mut A, &mut B> {
         gate: usize,
         accepts: impl Fn(&R) -> bool,
         exact: impl FnOnce() -> R,
-    ) -> bool {
+    ) -> Option<()> {
         match self {
             Either::One(sink) => sink.rounded(gate, accepts, exact),
             Either::Other(sink) => sink.rounded(gate, accepts, exact),
-        }
-    }
-
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
-        match self {
-            Either::One(sink) => sink.fixed(gate, accepts),
-            Either::Other(sink) => sink.fixed(gate, accepts),
         }
     }
 }

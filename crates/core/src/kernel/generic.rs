@@ -1,30 +1,33 @@
 //! Kernels that are written once for every arithmetic, as subjects of either scalar.
 
 use super::subject::Subject;
-use super::{Deciding, Kernel, Verdict};
-use crate::arith::Float;
+use super::{Deciding, Kernel, KernelInfo, Verdict};
+use crate::arith::{Arithmetic, Float};
 use crate::case::{Case, Ray};
 use std::marker::PhantomData;
 #[cfg(feature = "margins")]
-use {
-    super::margins::each_case,
-    super::shown::measure_into,
-    super::subject::Gated,
-    super::variant::Variant,
-    super::{Hit, KernelInfo},
-    crate::arith::Arithmetic,
-};
+use {super::Hit, super::margins::each_case, super::subject::Gated};
 
-/// A [`Kernel`], written for every arithmetic, as a [`Subject`] of either scalar.
-pub struct Generic<K>(PhantomData<fn() -> K>);
+/// A [`Kernel`], written for every arithmetic, as a [`Subject`] of either scalar, in some [`Arithmetic`]. Without
+/// rounding it is the same kernel in all of them.
+pub struct Generic<K> {
+    pub(super) arithmetic: Arithmetic,
+    pub(super) info: &'static KernelInfo,
+    kernel: PhantomData<fn() -> K>,
+}
 
-impl<K> Generic<K> {
-    /// The only value.
-    pub const SUBJECT: Generic<K> = Generic(PhantomData);
+impl<K: Kernel> Generic<K> {
+    /// In the machine's own arithmetic.
+    pub const SUBJECT: Generic<K> =
+        Generic { arithmetic: Arithmetic::IEEE, info: &const { K::INFO }, kernel: PhantomData };
 }
 
 impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+        #[cfg(feature = "margins")]
+        if self.arithmetic != Arithmetic::IEEE {
+            return self.run_emulated(cases, epsilons, verdicts);
+        }
         for (case, verdict) in cases.iter().zip(verdicts) {
             let mut sink = Deciding::new(epsilons);
             let hit = K::test(&K::prepare(&case.triangle), &case.ray, &mut sink);
@@ -38,6 +41,10 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
         ray: &Ray<F::Vector>,
         epsilons: &[F],
     ) -> Verdict<F> {
+        #[cfg(feature = "margins")]
+        if self.arithmetic != Arithmetic::IEEE {
+            return self.run_polygon_emulated(vertices, ray, epsilons);
+        }
         let mut sink = Deciding::new(epsilons);
         let hit = K::test_polygon(vertices, ray, &mut sink);
         Verdict::of(hit, sink.refused_by)
@@ -57,7 +64,7 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
         values: &mut [Option<Hit<F>>],
     ) {
         each_case(info, cases, margins, values, |case, margins| {
-            measure_into::<K, F::Vector>(&case.ray, &case.triangle, margins)
+            self.measure_into(case, margins, false)
         });
     }
 
@@ -67,6 +74,6 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
         arithmetic: Arithmetic,
         info: &'static KernelInfo,
     ) -> Option<&'static dyn Subject<F>> {
-        Some(Box::leak(Box::new(Variant::<K>::new(arithmetic, info))))
+        Some(Box::leak(Box::new(Generic::<K> { arithmetic, info, kernel: PhantomData })))
     }
 }

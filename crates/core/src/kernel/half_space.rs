@@ -31,7 +31,6 @@ impl Kernel for HalfSpace {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0"] }],
         gives: Gives { t: true, uv: false, facing: false },
         polygons: false,
-        hits_nan: false,
     };
 
     stores_triangle!();
@@ -47,9 +46,7 @@ impl Kernel for HalfSpace {
         let x = o.clone().plus_scaled(d, &t);
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let value = to.minus(from).cross(&x.minus(from)).dot(&n);
-            if !sink.one(EDGE, Refuse::UnlessAtLeast, &value) {
-                return None;
-            }
+            sink.one(EDGE, Refuse::UnlessAtLeast, &value)?;
         }
         Some(Hit { t: Some(t), uv: None, facing: None })
     }

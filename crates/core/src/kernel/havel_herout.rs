@@ -43,7 +43,6 @@ impl Kernel for HavelHerout {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: true },
         polygons: false,
-        hits_nan: true,
     };
 
     type Prepared<V: Vector> = Planes<V>;
@@ -71,19 +70,13 @@ impl Kernel for HavelHerout {
         let far = if det.is_zero() { det.clone() } else { ray.t_max.clone() * &det };
         let same_bits = |x: &V::Real, y: &V::Real| x.is_sign_negative() == y.is_sign_negative();
         let from_near = dett.clone() - end_times(&ray.t_min, &det);
-        if !sink.fixed(T, same_bits(&from_near, &(far - &dett))) {
-            return None;
-        }
+        sink.fixed(T, same_bits(&from_near, &(far - &dett)))?;
         let detp = ray.origin.times(&det).plus_scaled(&ray.direction, &dett);
         let detp_w = det.clone() + dett.clone() * &zero;
         let detu = dpps(&detp, n1, detp_w.clone() * d1);
-        if !sink.fixed(U, same_bits(&detu, &(det.clone() - &detu))) {
-            return None;
-        }
+        sink.fixed(U, same_bits(&detu, &(det.clone() - &detu)))?;
         let detv = dpps(&detp, n2, detp_w * d2);
-        if !sink.fixed(V_, same_bits(&detv, &(det.clone() - (detu.clone() + &detv)))) {
-            return None;
-        }
+        sink.fixed(V_, same_bits(&detv, &(det.clone() - (detu.clone() + &detv))))?;
         let inv_det = V::Real::one() / &det;
         Some(Hit {
             t: Some(dett * &inv_det),

@@ -16,8 +16,26 @@ pub fn open_epsilons<F: Float>(info: &KernelInfo) -> Vec<F> {
 /// epsilon at which it still hits while the other gates stay open; +inf if it hits at the largest number.
 ///
 /// So raising an epsilon must only refuse more, and gates must not look at each other's epsilons.
-pub fn by_running<F: Float>(open: &[F], is_hit: impl Fn(&[F]) -> bool, margins: &mut [F]) {
+///
+/// On a case that it misses there no epsilon is accepted, unless it hits at a larger one, which no margin can say. Then
+/// every one is, and a run at any epsilons shows the contradiction.
+pub fn by_running<F: Float>(
+    open: &[F],
+    hits_open: bool,
+    is_hit: impl Fn(&[F]) -> bool,
+    margins: &mut [F],
+) {
     let mut epsilons = open.to_vec();
+    if !hits_open {
+        let largest = F::infinity().offset_ulps(-1);
+        let is_hit_above = (0..open.len()).any(|gate| {
+            epsilons.copy_from_slice(open);
+            epsilons[gate] = largest;
+            is_hit(&epsilons)
+        });
+        margins.fill(if is_hit_above { F::infinity() } else { -F::infinity() });
+        return;
+    }
     for (gate, margin) in margins.iter_mut().enumerate() {
         let mut hits_at = |place| {
             epsilons[gate] = F::from_place(place);
@@ -35,18 +53,6 @@ pub fn by_running<F: Float>(open: &[F], is_hit: impl Fn(&[F]) -> bool, margins: 
         };
         epsilons[gate] = open[gate];
     }
-}
-
-/// The same on a case that it misses there: no epsilon is accepted, unless it hits at a larger one, which no
-/// margin can say. Then every one is, and a run at any epsilons shows the contradiction.
-pub fn of_miss<F: Float>(open: &[F], is_hit: impl Fn(&[F]) -> bool, margins: &mut [F]) {
-    let largest = F::infinity().offset_ulps(-1);
-    let is_hit_above = (0..open.len()).any(|gate| {
-        let mut epsilons = open.to_vec();
-        epsilons[gate] = largest;
-        is_hit(&epsilons)
-    });
-    margins.fill(if is_hit_above { F::infinity() } else { -F::infinity() });
 }
 
 /// Measures case by case: margins into one entry a gate for each case in turn, and what a hit would report into

@@ -25,7 +25,6 @@ mod changed;
 pub mod gate;
 mod generic;
 mod margins;
-mod own;
 mod preset;
 mod recording;
 mod registry;
@@ -33,8 +32,6 @@ mod runs;
 #[cfg(feature = "margins")]
 mod shown;
 mod subject;
-#[cfg(feature = "margins")]
-mod variant;
 mod verdict;
 
 mod baldwin_weber;
@@ -51,9 +48,8 @@ mod woop_watertight;
 pub use changed::{Change, has_size, refuses_at};
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, refused_by};
 pub use generic::Generic;
-pub use margins::{by_running, of_miss, open_epsilons, values_of};
-pub use own::Test;
-pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
+pub use margins::{by_running, open_epsilons, values_of};
+pub use preset::{PRESETS, Preset, PresetEntry};
 pub use recording::{Acceptance, Compared, Path};
 pub use registry::kept;
 pub use registry::{
@@ -61,7 +57,7 @@ pub use registry::{
 };
 pub use runs::{ExactRun, Measured, TrackedRun};
 pub use subject::verdicts_of;
-pub use subject::{Gated, Subject};
+pub use subject::{Gated, Subject, Test};
 pub use verdict::{Failure, Verdict};
 
 use crate::arith::{Real, Vector};
@@ -114,6 +110,11 @@ impl<R> Hit<R> {
         Hit { t: Some(t), uv: None, facing: None }
     }
 
+    /// The numbers that it reports.
+    fn numbers(&self) -> impl Iterator<Item = &R> {
+        self.t.iter().chain(self.uv.iter().flat_map(|(u, v)| [u, v]))
+    }
+
     /// The same in another arithmetic, number by number.
     pub fn map<S>(self, number: impl Fn(R) -> S) -> Hit<S> {
         let Hit { t, uv, facing } = self;
@@ -138,8 +139,6 @@ pub struct KernelInfo {
     pub gives: Gives,
     /// True if it takes planar convex polygons too.
     pub polygons: bool,
-    /// True if it hits when every coordinate is NaN, as its comparisons are written.
-    pub hits_nan: bool,
 }
 
 impl KernelInfo {
@@ -154,7 +153,6 @@ impl KernelInfo {
             epsilon_sets: &[EpsilonSet { name: "own", values: &[] }],
             gives: Gives { t: true, uv: false, facing: false },
             polygons: false,
-            hits_nan: false,
         }
     }
 }

@@ -15,17 +15,6 @@ pub(super) struct MollerTrumbore;
 pub(super) struct MollerTrumboreT;
 pub(super) struct MollerTrumboreCulling;
 
-/// The source, and which branch of its listing.
-macro_rules! moller_trumbore {
-    ($branch:literal) => {
-        concat!(
-            "T. Möller and B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997, appendix, ",
-            $branch,
-            ", doi:10.1080/10867651.1997.10487468"
-        )
-    };
-}
-
 const PARALLEL: usize = 0;
 const EDGE: usize = 1;
 const T: usize = 2;
@@ -49,26 +38,19 @@ fn divided<V: Vector, S: Sink<V::Real>>(
     let [edge1, edge2] = [b.minus(a), c.minus(a)];
     let pvec = direction.cross(&edge2);
     let det = edge1.dot(&pvec);
-    if !sink.one(PARALLEL, Refuse::Below, &det.abs()) {
-        return None;
-    }
+    sink.one(PARALLEL, Refuse::Below, &det.abs())?;
     let inv_det = V::Real::one() / &det;
     let tvec = origin.minus(a);
     let u = tvec.dot(&pvec) * &inv_det;
-    if !sink.one(EDGE, Refuse::Below, &u) || !sink.one(EDGE, Refuse::Below, &(V::Real::one() - &u))
-    {
-        return None;
-    }
+    sink.one(EDGE, Refuse::Below, &u)?;
+    sink.one(EDGE, Refuse::Below, &(V::Real::one() - &u))?;
     let qvec = tvec.cross(&edge1);
     let v = direction.dot(&qvec) * &inv_det;
-    if !sink.one(EDGE, Refuse::Below, &v)
-        || !sink.one(EDGE, Refuse::Below, &(V::Real::one() - (u.clone() + &v)))
-    {
-        return None;
-    }
+    sink.one(EDGE, Refuse::Below, &v)?;
+    sink.one(EDGE, Refuse::Below, &(V::Real::one() - (u.clone() + &v)))?;
     let t = edge2.dot(&qvec) * &inv_det;
-    if tests_t && !sink.one(T, Refuse::UnlessAbove, &t) {
-        return None;
+    if tests_t {
+        sink.one(T, Refuse::UnlessAbove, &t)?;
     }
     Some(Hit { t: Some(t), uv: Some((u, v)), facing: facing_of(&det) })
 }
@@ -76,13 +58,13 @@ fn divided<V: Vector, S: Sink<V::Real>>(
 impl Kernel for MollerTrumbore {
     const INFO: KernelInfo = KernelInfo {
         name: "moller-trumbore",
-        source: moller_trumbore!("without culling"),
+        source: "T. Möller and B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997, appendix, \
+                 without culling, doi:10.1080/10867651.1997.10487468",
         contract: Contract::of_kernel(Extent::Line, Sides::Both, Boundary::Closed),
         gates: &DIVIDED,
         epsilon_sets: SETS,
         gives: GIVES,
         polygons: false,
-        hits_nan: true,
     };
 
     stores_triangle!();
@@ -112,7 +94,6 @@ impl Kernel for MollerTrumboreT {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["1e-7", "0", "1e-7"] }],
         gives: GIVES,
         polygons: false,
-        hits_nan: false,
     };
 
     stores_triangle!();
@@ -130,7 +111,8 @@ impl Kernel for MollerTrumboreT {
 impl Kernel for MollerTrumboreCulling {
     const INFO: KernelInfo = KernelInfo {
         name: "moller-trumbore-culling",
-        source: moller_trumbore!("TEST_CULL"),
+        source: "T. Möller and B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997, appendix, \
+                 TEST_CULL, doi:10.1080/10867651.1997.10487468",
         contract: Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Closed),
         gates: &[
             Gate::signed(Role::Parallel, "det < e", 2, 1),
@@ -139,7 +121,6 @@ impl Kernel for MollerTrumboreCulling {
         epsilon_sets: SETS,
         gives: GIVES,
         polygons: false,
-        hits_nan: true,
     };
 
     stores_triangle!();
@@ -153,22 +134,15 @@ impl Kernel for MollerTrumboreCulling {
         let [edge1, edge2] = [b.minus(a), c.minus(a)];
         let pvec = direction.cross(&edge2);
         let det = edge1.dot(&pvec);
-        if !sink.one(PARALLEL, Refuse::Below, &det) {
-            return None;
-        }
+        sink.one(PARALLEL, Refuse::Below, &det)?;
         let tvec = origin.minus(a);
         let u = tvec.dot(&pvec);
-        if !sink.one(EDGE, Refuse::Below, &u) || !sink.one(EDGE, Refuse::Below, &(det.clone() - &u))
-        {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &u)?;
+        sink.one(EDGE, Refuse::Below, &(det.clone() - &u))?;
         let qvec = tvec.cross(&edge1);
         let v = direction.dot(&qvec);
-        if !sink.one(EDGE, Refuse::Below, &v)
-            || !sink.one(EDGE, Refuse::Below, &(det.clone() - (u.clone() + &v)))
-        {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &v)?;
+        sink.one(EDGE, Refuse::Below, &(det.clone() - (u.clone() + &v)))?;
         let t = edge2.dot(&qvec);
         let inv_det = V::Real::one() / &det;
         Some(Hit {

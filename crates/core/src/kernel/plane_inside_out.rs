@@ -52,7 +52,6 @@ const fn info(name: &'static str, source: &'static str) -> KernelInfo {
         epsilon_sets: SETS,
         gives: Gives { t: true, uv: false, facing: false },
         polygons: false,
-        hits_nan: true,
     }
 }
 
@@ -64,30 +63,28 @@ fn plane<V: Vector>(v0: &V, v1: &V, v2: &V) -> (V, V::Real) {
     (n, d)
 }
 
-/// The listing from its parallel test on, for any polygon.
+/// What the listing refuses of N·R and of an edge.
+const BELOW: [Refuse; 2] = [Refuse::Below; 2];
+
+/// The listing from its parallel test on, for any polygon, with the refusals of N·R and of an edge.
 #[inline(always)]
 fn inside_out<V: Vector, S: Sink<V::Real>>(
     vertices: &[V],
     n: &V,
     d: &V::Real,
     ray: &Ray<V>,
+    [parallel, edge]: [Refuse; 2],
     sink: &mut S,
 ) -> Option<Hit<V::Real>> {
     let n_dot_direction = n.dot(&ray.direction);
-    if !sink.one(PARALLEL, Refuse::Below, &n_dot_direction.abs()) {
-        return None;
-    }
+    sink.one(PARALLEL, parallel, &n_dot_direction.abs())?;
     let t = -(n.dot(&ray.origin) + d) / &n_dot_direction;
-    if !sink.one(T, Refuse::Below, &t) {
-        return None;
-    }
+    sink.one(T, Refuse::Below, &t)?;
     let p = ray.origin.clone().plus_scaled(&ray.direction, &t);
     for (i, from) in vertices.iter().enumerate() {
         let to = if i + 1 < vertices.len() { &vertices[i + 1] } else { &vertices[0] };
         let c = to.minus(from).cross(&p.minus(from));
-        if !sink.one(EDGE, Refuse::Below, &n.dot(&c)) {
-            return None;
-        }
+        sink.one(EDGE, edge, &n.dot(&c))?;
     }
     Some(Hit { t: Some(t), uv: None, facing: None })
 }
@@ -104,7 +101,7 @@ impl Kernel for PlaneInsideOut {
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let (n, d) = plane(&triangle.a, &triangle.b, &triangle.c);
-        inside_out(&triangle.clone().vertices(), &n, &d, ray, sink)
+        inside_out(&triangle.clone().vertices(), &n, &d, ray, BELOW, sink)
     }
 }
 
@@ -135,7 +132,7 @@ impl Kernel for PlaneInsideOutPrecomputed {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        inside_out(vertices, n, d, ray, sink)
+        inside_out(vertices, n, d, ray, BELOW, sink)
     }
 }
 
@@ -148,7 +145,6 @@ impl Kernel for PlaneInsideOutStrict {
             Gate::signed(Role::Edge, "!(N·((b-a)×(p-a)) > e), and cyclic", 4, 0),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
-        hits_nan: false,
         ..info("plane-inside-out-strict", scratchapixel!("pseudo-code with strict edges"))
     };
 
@@ -156,27 +152,13 @@ impl Kernel for PlaneInsideOutStrict {
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
-        Triangle { a: v0, b: v1, c: v2 }: &Triangle<V>,
+        triangle: &Triangle<V>,
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let (n, d) = plane(v0, v1, v2);
-        let n_dot_direction = n.dot(&ray.direction);
-        if !sink.one(PARALLEL, Refuse::AtMost, &n_dot_direction.abs()) {
-            return None;
-        }
-        let t = -(n.dot(&ray.origin) + &d) / &n_dot_direction;
-        if !sink.one(T, Refuse::Below, &t) {
-            return None;
-        }
-        let p = ray.origin.clone().plus_scaled(&ray.direction, &t);
-        for (from, to) in [(v0, v1), (v1, v2), (v2, v0)] {
-            let c = to.minus(from).cross(&p.minus(from));
-            if !sink.one(EDGE, Refuse::UnlessAbove, &n.dot(&c)) {
-                return None;
-            }
-        }
-        Some(Hit { t: Some(t), uv: None, facing: None })
+        let (n, d) = plane(&triangle.a, &triangle.b, &triangle.c);
+        let refuses = [Refuse::AtMost, Refuse::UnlessAbove];
+        inside_out(&triangle.clone().vertices(), &n, &d, ray, refuses, sink)
     }
 }
 
@@ -204,6 +186,6 @@ impl Kernel for ConvexPolygon {
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let (n, d) = plane(&vertices[0], &vertices[1], &vertices[2]);
-        inside_out(vertices, &n, &d, ray, sink)
+        inside_out(vertices, &n, &d, ray, BELOW, sink)
     }
 }

@@ -33,7 +33,6 @@ impl Kernel for PlaneUnitNormal {
         ],
         gives: Gives { t: true, uv: false, facing: false },
         polygons: false,
-        hits_nan: true,
     };
 
     stores_triangle!();
@@ -46,20 +45,14 @@ impl Kernel for PlaneUnitNormal {
     ) -> Option<Hit<V::Real>> {
         use crate::arith::Real;
         let n = b.minus(a).cross(&c.minus(a)).normalize();
-        if !sink.one(PARALLEL, Refuse::Below, &n.dot(d).abs()) {
-            return None;
-        }
+        sink.one(PARALLEL, Refuse::Below, &n.dot(d).abs())?;
         let k = n.dot(a);
         let t = (k - n.dot(p)) / n.dot(d);
-        if !sink.one(T, Refuse::Below, &t) {
-            return None;
-        }
+        sink.one(T, Refuse::Below, &t)?;
         let q = p.clone().plus_scaled(d, &t);
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let value = to.minus(from).cross(&q.minus(from)).dot(&n);
-            if !sink.one(EDGE, Refuse::Below, &value) {
-                return None;
-            }
+            sink.one(EDGE, Refuse::Below, &value)?;
         }
         Some(Hit { t: Some(t), uv: None, facing: None })
     }

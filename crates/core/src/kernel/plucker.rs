@@ -46,7 +46,6 @@ impl Kernel for Plucker {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: true },
         polygons: false,
-        hits_nan: false,
     };
 
     stores_triangle!();
@@ -72,9 +71,7 @@ impl Kernel for Plucker {
             let bound = end_times(epsilon, &sum);
             all_at_least(&bound) || all_at_most(&-bound)
         };
-        if !sink.rounded(EDGE, accepts, || relative_margin(&[&u, &v, &w], &sum)) {
-            return None;
-        }
+        sink.rounded(EDGE, accepts, || relative_margin(&[&u, &v, &w], &sum))?;
         let normal = e1.cross(&e0);
         let twice_normal = normal.plus(&normal);
         let den = twice_normal.dot(direction);
@@ -84,14 +81,9 @@ impl Kernel for Plucker {
         // Multiplied whatever the ends are: `absDen*vfloat<M>(ray.tnear)`.
         let near = ray.t_min.clone() * &abs_den;
         let far = ray.t_max.clone() * &abs_den;
-        if !sink.one(T, Refuse::UnlessAtLeast, &gap(&signed_t, &near))
-            || !sink.one(T, Refuse::UnlessAtLeast, &gap(&far, &signed_t))
-        {
-            return None;
-        }
-        if !sink.one(PARALLEL, Refuse::AtMost, &abs_den) {
-            return None;
-        }
+        sink.one(T, Refuse::UnlessAtLeast, &gap(&signed_t, &near))?;
+        sink.one(T, Refuse::UnlessAtLeast, &gap(&far, &signed_t))?;
+        sink.one(PARALLEL, Refuse::AtMost, &abs_den)?;
         let rcp_den = V::Real::one() / &den;
         Some(Hit {
             t: Some(t * &rcp_den),
@@ -106,12 +98,9 @@ fn relative_margin<R: Real>(weights: &[&R; 3], sum: &R) -> R {
     if weights.iter().any(|x| x.is_nan()) {
         return -R::infinity();
     }
-    let smallest = |values: [R; 3]| {
-        values.into_iter().reduce(|a, b| if b.is_less(&a) { b } else { a }).expect("three values")
-    };
+    let smallest = |[u, v, w]: [R; 3]| u.smaller(v).smaller(w);
     let front = smallest(weights.map(R::clone));
-    let back = smallest(weights.map(|x| -x.clone()));
-    let best = if front.is_less(&back) { back } else { front };
+    let best = front.larger(smallest(weights.map(|x| -x.clone())));
     match (sum.is_zero(), best.is_sign_negative()) {
         (false, _) => best / sum,
         (true, false) => R::infinity(),

@@ -21,17 +21,8 @@ pub struct PresetEntry {
     pub dimension: Dimension,
     /// The comparison in the library's notation.
     pub form: &'static str,
-    /// The epsilon.
-    pub value: PresetValue,
-}
-
-/// An epsilon, either a number or tied to the scalar.
-#[derive(Clone, Copy, Debug)]
-pub enum PresetValue {
-    /// Decimal text.
-    Decimal(&'static str),
-    /// This many times the scalar's distance from 1 to the next number.
-    MachineEpsilon(f64),
+    /// The epsilon, as in an [`EpsilonSet`](super::EpsilonSet).
+    pub value: &'static str,
 }
 
 impl PresetEntry {
@@ -54,18 +45,13 @@ impl Preset {
     }
 }
 
-const DETERMINANT: Dimension = Dimension::new(2, 1);
-const T: Dimension = Dimension::new(1, -1);
-
-const fn parallel(form: &'static str, value: PresetValue) -> PresetEntry {
-    PresetEntry { gate: "parallel", dimension: DETERMINANT, form, value }
+const fn parallel(form: &'static str, value: &'static str) -> PresetEntry {
+    PresetEntry { gate: "parallel", dimension: Dimension::new(2, 1), form, value }
 }
 
-const fn t(form: &'static str, value: PresetValue) -> PresetEntry {
-    PresetEntry { gate: "t", dimension: T, form, value }
+const fn t(form: &'static str, value: &'static str) -> PresetEntry {
+    PresetEntry { gate: "t", dimension: Dimension::new(1, -1), form, value }
 }
-
-use PresetValue::{Decimal, MachineEpsilon};
 
 /// One row per library.
 pub const PRESETS: &[Preset] = &[
@@ -73,25 +59,22 @@ pub const PRESETS: &[Preset] = &[
     Preset {
         name: "bvh",
         source: "Rust crate bvh 0.13.0: det < EPSILON (absolute, culls), t <= EPSILON",
-        entries: &[
-            parallel("det < EPSILON", MachineEpsilon(1.0)),
-            t("t <= EPSILON", MachineEpsilon(1.0)),
-        ],
+        entries: &[parallel("det < EPSILON", "EPSILON"), t("t <= EPSILON", "EPSILON")],
     },
     Preset {
         name: "bevy",
         source: "Bevy's mesh picking: abs(det) < f32::EPSILON",
-        entries: &[parallel("abs(det) < EPSILON", MachineEpsilon(1.0))],
+        entries: &[parallel("abs(det) < EPSILON", "EPSILON")],
     },
     Preset {
         name: "fcpw",
         source: "fcpw: abs(det) <= FLT_EPSILON",
-        entries: &[parallel("abs(det) <= EPSILON", MachineEpsilon(1.0))],
+        entries: &[parallel("abs(det) <= EPSILON", "EPSILON")],
     },
     Preset {
         name: "jolt",
         source: "Jolt Physics: abs(det) < 1e-12",
-        entries: &[parallel("abs(det) < e", Decimal("1e-12"))],
+        entries: &[parallel("abs(det) < e", "1e-12")],
     },
     Preset {
         name: "bullet",
@@ -100,37 +83,37 @@ pub const PRESETS: &[Preset] = &[
             gate: "edge-over-n2",
             dimension: Dimension::new(0, 0),
             form: "edge < -1e-4 * |n|^2",
-            value: Decimal("-1e-4"),
+            value: "-1e-4",
         }],
     },
     Preset {
         name: "godot",
         source: "Godot, Geometry3D::ray_intersects_triangle: abs(det) < 1e-5, t > 1e-5",
-        entries: &[parallel("abs(det) < e", Decimal("1e-5")), t("!(t > e)", Decimal("1e-5"))],
+        entries: &[parallel("abs(det) < e", "1e-5"), t("!(t > e)", "1e-5")],
     },
     Preset {
         name: "three-mesh-bvh",
         source: "three-mesh-bvh's GLSL: abs(det) < 1e-5",
-        entries: &[parallel("abs(det) < e", Decimal("1e-5"))],
+        entries: &[parallel("abs(det) < e", "1e-5")],
     },
     Preset {
         name: "rayx",
         source: "rayx: abs(det) < 16 * EPSILON",
-        entries: &[parallel("abs(det) < 16*EPSILON", MachineEpsilon(16.0))],
+        entries: &[parallel("abs(det) < 16*EPSILON", "16*EPSILON")],
     },
     Preset {
         name: "manifold-rust",
         source: "manifold-rust (f64): 1e-9 on det and t",
-        entries: &[parallel("abs(det) < e", Decimal("1e-9")), t("t < e", Decimal("1e-9"))],
+        entries: &[parallel("abs(det) < e", "1e-9"), t("t < e", "1e-9")],
     },
     Preset {
         name: "truck",
         source: "truck (f64): 1e-6 on det",
-        entries: &[parallel("abs(det) < e", Decimal("1e-6"))],
+        entries: &[parallel("abs(det) < e", "1e-6")],
     },
     Preset {
         name: "trimesh",
         source: "trimesh: distance > -1e-6",
-        entries: &[t("!(distance > e)", Decimal("-1e-6"))],
+        entries: &[t("!(distance > e)", "-1e-6")],
     },
 ];

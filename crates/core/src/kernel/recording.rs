@@ -5,8 +5,8 @@ use crate::arith::recorded::{
     Comparison, Operation, Outcome, Place, Recorded, asked_from, asked_so_far, decisions_so_far,
     next_script, outcomes, record,
 };
-use crate::arith::{Arithmetic, Real, Triple};
-use crate::case::{Ray, Triangle};
+use crate::arith::{Arithmetic, Real};
+use crate::case::lifted;
 
 /// How many paths a kernel may have. Woop's has 2,304.
 const MOST_PATHS: usize = 1 << 14;
@@ -73,12 +73,12 @@ struct Recording {
 }
 
 impl Recording {
-    fn note(&mut self, gate: usize, accepts: Acceptance, mut quantities: Vec<Place>) -> bool {
+    fn note(&mut self, gate: usize, accepts: Acceptance, mut quantities: Vec<Place>) -> Option<()> {
         quantities.sort_unstable();
         quantities.dedup();
         let decisions = decisions_so_far();
         self.compared.push(Compared { gate, accepts, quantities, decisions });
-        self.refused != Some(self.compared.len() - 1)
+        (self.refused != Some(self.compared.len() - 1)).then_some(())
     }
 }
 
@@ -88,7 +88,7 @@ impl Sink<Recorded> for Recording {
         gate: usize,
         refuse: Refuse,
         clauses: [[&Recorded; N]; M],
-    ) -> bool {
+    ) -> Option<()> {
         let clauses = clauses.map(|clause| clause.map(Recorded::place).to_vec()).to_vec();
         let quantities = clauses.concat();
         self.note(gate, Acceptance::Clauses(refuse, clauses), quantities)
@@ -99,7 +99,7 @@ impl Sink<Recorded> for Recording {
         gate: usize,
         accepts: impl Fn(&Recorded) -> bool,
         _: impl FnOnce() -> Recorded,
-    ) -> bool {
+    ) -> Option<()> {
         let zero = Recorded::zero();
         let outcomes = outcomes(MOST_OUTCOMES, || accepts(&zero));
         self.is_too_wide |= outcomes.is_none();
@@ -110,7 +110,7 @@ impl Sink<Recorded> for Recording {
     }
 
     /// Notes all comparisons since the fixed test before.
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
+    fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
         let compared = asked_from(self.asked);
         self.asked = asked_so_far();
         let quantities = compared.iter().flat_map(Comparison::places).collect();
@@ -127,7 +127,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
     let mut script = Vec::new();
     loop {
         let ((sink, hit), tape) = record(&script, arithmetic.fused, || run::<K>(None));
-        let decisions = tape.decisions;
+        let decisions = tape.decisions.made;
         if tape.operations.contains(&Operation::INFINITY) {
             return Err("it computes with infinity".to_owned());
         }
@@ -144,7 +144,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
             }
             let refused = || run::<K>(Some(number));
             let ((sink, hit), tape) = record(&script, arithmetic.fused, refused);
-            let goes_on = sink.compared.len() > number + 1 || tape.decisions.len() > *before;
+            let goes_on = sink.compared.len() > number + 1 || tape.decisions.made.len() > *before;
             if hit.is_some() || goes_on {
                 let name = K::INFO.gates[*gate].name;
                 return Err(format!("it goes on after gate '{name}' has refused"));
@@ -170,10 +170,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
 
 /// Records a run: the gates' comparisons, of which one may refuse, and t, u and v if the run is a hit.
 fn run<K: Kernel>(refused: Option<usize>) -> (Recording, Option<[Option<Place>; 3]>) {
-    let number = |i: u8| Recorded::input(i);
-    let triple = |i: u8| Triple::from([number(i), number(i + 1), number(i + 2)]);
-    let ray = Ray { origin: triple(0), direction: triple(3), t_min: number(15), t_max: number(16) };
-    let triangle = Triangle { a: triple(6), b: triple(9), c: triple(12) };
+    let (ray, triangle) = lifted(|i| Recorded::input(i as u8));
     let mut sink = Recording { refused, ..Recording::default() };
     let prepared = K::prepare(&triangle);
     sink.asked = asked_so_far();

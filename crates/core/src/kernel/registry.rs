@@ -1,7 +1,7 @@
 //! The table of kernels: the built-in ones, and those that a program adds.
 
 use super::changed::{Change, Changed, InDouble, WithFallback, has_size, sized};
-use super::own::{Own, Test};
+use super::subject::{Own, Test};
 use super::{Gate, Generic, Kernel, KernelInfo, Role, Subject};
 use crate::arith::{Arithmetic, Float};
 use crate::contract::{Contract, Extent, Sides};
@@ -171,7 +171,7 @@ pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'
         let f32 = entry.f32?.in_arithmetic(arithmetic, info)?;
         Some((Some(f32), Some(entry.f64?.in_arithmetic(arithmetic, info)?)))
     };
-    let told = |info: &KernelInfo| (info.contract, info.gates);
+    let told = || Some((entry.info.contract, entry.info.gates));
     variant(entry, (arithmetic.name(), arithmetic.describe()), told, subjects)
 }
 
@@ -188,18 +188,18 @@ pub fn forms(entry: &'static Entry) -> Vec<(&'static str, &'static str)> {
 /// another form already.
 pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> {
     let KernelInfo { contract, gates, gives, .. } = *entry.info;
-    let is_some = match change {
-        Change::BySize => gates.iter().any(has_size),
+    let told = || match change {
+        Change::BySize if gates.iter().any(has_size) => Some((contract, sized(gates))),
         // A front-only kernel would see some triangles from behind.
-        Change::Sorted => contract.sides == Sides::Both,
-        Change::Ahead => contract.extent == Extent::Line && gives.t,
-        Change::Double => entry.f32.is_some(),
-        Change::Fallback => gates.iter().any(|gate| gate.role == Role::Edge),
-    };
-    let told = |_: &KernelInfo| match change {
-        Change::Ahead => (Contract { extent: Extent::Ray, ..contract }, gates),
-        Change::BySize => (contract, sized(gates)),
-        _ => (contract, gates),
+        Change::Sorted if contract.sides == Sides::Both => Some((contract, gates)),
+        Change::Ahead if contract.extent == Extent::Line && gives.t => {
+            Some((Contract { extent: Extent::Ray, ..contract }, gates))
+        }
+        Change::Double if entry.f32.is_some() => Some((contract, gates)),
+        Change::Fallback if gates.iter().any(|gate| gate.role == Role::Edge) => {
+            Some((contract, gates))
+        }
+        _ => None,
     };
     fn leaked<F: Float>(
         change: Change,
@@ -224,7 +224,7 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
             entry.f64.map(|kernel| leaked(change, gates, kernel)),
         )),
     };
-    is_some.then(|| variant(entry, (change.name(), change.about()), told, subjects))?
+    variant(entry, (change.name(), change.about()), told, subjects)
 }
 
 /// The same kernel in both scalars, in another form.
@@ -234,7 +234,7 @@ type Subjects = (Option<&'static dyn Subject<f32>>, Option<&'static dyn Subject<
 fn variant(
     entry: &'static Entry,
     (form, about): (&str, &str),
-    told: impl FnOnce(&KernelInfo) -> (Contract, &'static [Gate]),
+    told: impl FnOnce() -> Option<(Contract, &'static [Gate])>,
     subjects: impl FnOnce(&'static KernelInfo) -> Option<Subjects>,
 ) -> Option<&'static Entry> {
     let base = entry.info;
@@ -247,7 +247,7 @@ fn variant(
         return Some(*variant);
     }
     let source = format!("{}; {about}", base.source);
-    let (contract, gates) = told(base);
+    let (contract, gates) = told()?;
     let info: &'static KernelInfo = Box::leak(Box::new(KernelInfo {
         name: String::leak(name),
         source: String::leak(source),

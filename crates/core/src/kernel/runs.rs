@@ -1,8 +1,8 @@
 //! The results of runs that show more than a verdict: margins, a run without rounding, a run with its exceptions.
 
 use super::{Deciding, Hit, Kernel, Verdict};
-use crate::arith::{Arithmetic, Exceptions, Float, Real, Tracked, Triple, tracked};
-use crate::case::{Case, Ray, Triangle};
+use crate::arith::{Arithmetic, Exceptions, Float, Notes, Real, Tracked, tracked};
+use crate::case::Case;
 use crate::truth::Facing;
 
 /// The margins of one case, and the values computed along the way.
@@ -37,9 +37,7 @@ impl ExactRun {
     }
 
     pub(super) fn of<R: Real>(passed: Vec<bool>, values: Option<Hit<R>>) -> ExactRun {
-        let finite = values.as_ref().is_some_and(|Hit { t, uv, .. }| {
-            t.iter().chain(uv.iter().flat_map(|(u, v)| [u, v])).all(R::is_finite)
-        });
+        let finite = values.as_ref().is_some_and(|hit| hit.numbers().all(R::is_finite));
         ExactRun { passed, finite, facing: values.and_then(|hit| hit.facing) }
     }
 }
@@ -62,30 +60,14 @@ impl<F: Float> TrackedRun<F> {
         epsilons: &[F],
         arithmetic: Arithmetic,
     ) -> TrackedRun<F> {
-        let (ray, triangle, epsilons) = TrackedRun::lift(case, epsilons, arithmetic);
-        let mut sink = Deciding::new(&epsilons);
-        let (hit, decision) = tracked(|| K::test(&K::prepare(&triangle), &ray, &mut sink));
-        TrackedRun::new(hit, decision, sink.refused_by)
-    }
-
-    fn lift(case: &Case<F>, epsilons: &[F], arithmetic: Arithmetic) -> TrackedInput<F> {
         let number = |x: F| Tracked::new(x, arithmetic);
         let (ray, triangle) = case.lift(number);
-        (ray, triangle, epsilons.iter().map(|e| number(*e)).collect())
-    }
-
-    fn new(
-        hit: Option<Hit<Tracked<F>>>,
-        decision: Exceptions,
-        refused_by: Option<usize>,
-    ) -> TrackedRun<F> {
-        let values = hit.as_ref().map_or(Exceptions::default(), |Hit { t, uv, .. }| {
-            let uv = uv.iter().flat_map(|(u, v)| [u, v]);
-            t.iter().chain(uv).fold(Exceptions::default(), |sum, x| sum | x.raised())
-        });
-        let verdict = Verdict::of(hit.map(|hit| hit.map(|x| x.value())), refused_by);
+        let epsilons: Vec<_> = epsilons.iter().map(|e| number(*e)).collect();
+        let mut sink = Deciding::new(&epsilons);
+        let (hit, decision) = tracked(|| K::test(&K::prepare(&triangle), &ray, &mut sink));
+        let numbers = hit.iter().flat_map(Hit::numbers);
+        let values = numbers.fold(Exceptions::default(), |all, x| all.and(x.notes()));
+        let verdict = Verdict::of(hit.map(|hit| hit.map(|x| x.value())), sink.refused_by);
         TrackedRun { verdict, decision, values }
     }
 }
-
-type TrackedInput<F> = (Ray<Triple<Tracked<F>>>, Triangle<Triple<Tracked<F>>>, Vec<Tracked<F>>);

@@ -44,7 +44,6 @@ const fn info(name: &'static str, source: &'static str, two_sided: bool) -> Kern
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0"] }],
         gives: Gives { t: false, uv: true, facing: false },
         polygons: false,
-        hits_nan: !two_sided,
     }
 }
 
@@ -74,17 +73,11 @@ impl Kernel for ScalarTriple {
     ) -> Option<Hit<V::Real>> {
         let [pa, pb, pc] = [a.minus(p), b.minus(p), c.minus(p)];
         let u = scalar_triple(d, &pc, &pb);
-        if !sink.one(EDGE, Refuse::Below, &u) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &u)?;
         let v = scalar_triple(d, &pa, &pc);
-        if !sink.one(EDGE, Refuse::Below, &v) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &v)?;
         let w = scalar_triple(d, &pb, &pa);
-        if !sink.one(EDGE, Refuse::Below, &w) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &w)?;
         weights(u, v, w)
     }
 }
@@ -104,17 +97,11 @@ impl Kernel for ScalarTripleShared {
         let [pa, pb, pc] = [a.minus(p), b.minus(p), c.minus(p)];
         let m = d.cross(&pc);
         let u = pb.dot(&m);
-        if !sink.one(EDGE, Refuse::Below, &u) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &u)?;
         let v = -pa.dot(&m);
-        if !sink.one(EDGE, Refuse::Below, &v) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &v)?;
         let w = scalar_triple(d, &pb, &pa);
-        if !sink.one(EDGE, Refuse::Below, &w) {
-            return None;
-        }
+        sink.one(EDGE, Refuse::Below, &w)?;
         weights(u, v, w)
     }
 }
@@ -136,13 +123,9 @@ impl Kernel for ScalarTripleTwoSided {
         let u = pb.dot(&m);
         let v = -pa.dot(&m);
         let minus_u = -u.clone();
-        if !sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &v], [&minus_u, &-v.clone()]]) {
-            return None;
-        }
+        sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &v], [&minus_u, &-v.clone()]])?;
         let w = scalar_triple(d, &pb, &pa);
-        if !sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &w], [&minus_u, &-w.clone()]]) {
-            return None;
-        }
+        sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &w], [&minus_u, &-w.clone()]])?;
         weights(u, v, w)
     }
 }

@@ -1,51 +1,27 @@
-//! The margins of kernels that are written once for every arithmetic, and their runs without rounding
-//! and with exceptions. An audit without causes does not need them.
+//! The margins of kernels that are written once for every arithmetic, and their runs without rounding, with
+//! exceptions, and as other machines compute. An audit without causes does not need them.
 
 use super::gate::Either;
 use super::recording::{Path, paths};
 use super::runs::{ExactRun, Measured, TrackedRun};
 use super::subject::Gated;
-use super::{Deciding, Generic, Hit, Kernel, KernelInfo, Measuring};
-use crate::arith::{Arithmetic, Bounded, Exact, Float, Real, Triple, Vector, bounded};
+use super::{Deciding, Generic, Hit, Kernel, KernelInfo, Measuring, Verdict};
+use crate::arith::{Arithmetic, Bounded, Emulated, Exact, Float, Real, Triple, bounded};
 use crate::case::{Case, Ray, Triangle};
 
-/// Every gate's margin into `margins`, one entry a gate. Not inlined: a kernel's code is large, and
-/// compiled for every arithmetic.
-#[inline(never)]
-pub(super) fn measure_into<K: Kernel, V: Vector>(
-    ray: &Ray<V>,
-    triangle: &Triangle<V>,
-    margins: &mut [V::Real],
-) -> Option<Hit<V::Real>> {
-    K::test(&K::prepare(triangle), ray, &mut Measuring::new(margins))
-}
-
-/// A case and epsilons in an arithmetic that does not round. Both scalars share it as `f64`, so that a
-/// kernel is compiled once for it.
+/// A case in an arithmetic that is not the machine's own.
 struct Lifted<R: Real> {
     ray: Ray<Triple<R>>,
     triangle: Triangle<Triple<R>>,
-    epsilons: Vec<R>,
 }
 
 impl<R: Real> Lifted<R> {
-    fn new<F: Float>(case: &Case<F>, epsilons: &[F], number: fn(f64) -> R) -> Lifted<R> {
-        let (ray, triangle) = case.widen().lift(number);
-        Lifted { ray, triangle, epsilons: epsilons.iter().map(|e| number(e.to_f64())).collect() }
+    fn new<F: Float>(case: &Case<F>, number: impl Fn(F) -> R) -> Lifted<R> {
+        let (ray, triangle) = case.lift(number);
+        Lifted { ray, triangle }
     }
 
-    fn run<K: Kernel>(&self) -> ExactRun {
-        let mut watching = Deciding::watching(&self.epsilons);
-        let values = self.test::<K>(&mut Either::One(&mut watching));
-        ExactRun::of(watching.passed, values)
-    }
-
-    fn measure<K: Kernel>(&self) -> Measured<R> {
-        let mut margins = vec![R::zero(); K::INFO.gates.len()];
-        let values = self.test::<K>(&mut Either::Other(&mut Measuring::new(&mut margins)));
-        Measured { margins, values }
-    }
-
+    /// Not inlined, and one for both sinks: a kernel's code is large, and compiled for every arithmetic.
     #[inline(never)]
     fn test<K: Kernel>(
         &self,
@@ -55,40 +31,133 @@ impl<R: Real> Lifted<R> {
     }
 }
 
+/// A run in an arithmetic that does not round. Both scalars share it, so that a kernel is compiled once for it.
+fn run<F: Float, K: Kernel, R: Real>(
+    case: &Case<F>,
+    epsilons: &[F],
+    number: fn(f64) -> R,
+) -> ExactRun {
+    let epsilons: Vec<R> = epsilons.iter().map(|e| number(e.to_f64())).collect();
+    let mut watching = Deciding::watching(&epsilons);
+    let lifted = Lifted::new(case, |x| number(x.to_f64()));
+    let values = lifted.test::<K>(&mut Either::One(&mut watching));
+    ExactRun::of(watching.passed, values)
+}
+
+/// A run in the machine's own arithmetic that takes margins or thresholds. Not inlined, as above.
+#[inline(never)]
+fn measure<F: Float, K: Kernel>(case: &Case<F>, mut sink: Measuring<F>) -> Option<Hit<F>> {
+    K::test(&K::prepare(&case.triangle), &case.ray, &mut sink)
+}
+
+/// As another machine computes.
+impl<K: Kernel> Generic<K> {
+    fn emulated<F: Float>(&self, case: &Case<F>) -> Lifted<Emulated<F>> {
+        Lifted::new(case, |x| Emulated::new(x, self.arithmetic))
+    }
+
+    fn numbers<F: Float>(&self, values: &[F]) -> Vec<Emulated<F>> {
+        values.iter().map(|x| Emulated::new(*x, self.arithmetic)).collect()
+    }
+
+    /// [`Subject::run`](super::Subject::run).
+    pub(super) fn run_emulated<F: Float>(
+        &self,
+        cases: &[Case<F>],
+        epsilons: &[F],
+        verdicts: &mut [Verdict<F>],
+    ) {
+        let epsilons = self.numbers(epsilons);
+        for (case, place) in cases.iter().zip(verdicts) {
+            let mut sink = Deciding::new(&epsilons);
+            let hit = self.emulated(case).test::<K>(&mut Either::One(&mut sink));
+            *place = verdict(hit, sink.refused_by);
+        }
+    }
+
+    /// [`Subject::run_polygon`](super::Subject::run_polygon).
+    pub(super) fn run_polygon_emulated<F: Float>(
+        &self,
+        vertices: &[F::Vector],
+        ray: &Ray<F::Vector>,
+        epsilons: &[F],
+    ) -> Verdict<F> {
+        // A case has room for a ray and three vertices.
+        let lifted = |vertex: &F::Vector| {
+            let triangle = Triangle::new(*vertex, *vertex, *vertex);
+            self.emulated(&Case { ray: *ray, triangle })
+        };
+        let Some(Lifted { ray, .. }) = vertices.first().map(lifted) else {
+            return Verdict::miss(None);
+        };
+        let vertices: Vec<_> = vertices.iter().map(|vertex| lifted(vertex).triangle.a).collect();
+        let epsilons = self.numbers(epsilons);
+        let mut sink = Deciding::new(&epsilons);
+        let hit = K::test_polygon(&vertices, &ray, &mut sink);
+        verdict(hit, sink.refused_by)
+    }
+
+    /// Every gate's margin, or its threshold, into `margins`, one entry a gate.
+    pub(super) fn measure_into<F: Float>(
+        &self,
+        case: &Case<F>,
+        margins: &mut [F],
+        thresholds: bool,
+    ) -> Option<Hit<F>> {
+        if self.arithmetic == Arithmetic::IEEE {
+            return measure::<F, K>(case, Measuring::new(margins, thresholds));
+        }
+        let mut emulated = self.numbers(margins);
+        let mut sink = Measuring::new(&mut emulated, thresholds);
+        let values = self.emulated(case).test::<K>(&mut Either::Other(&mut sink));
+        for (place, number) in margins.iter_mut().zip(&emulated) {
+            let margin = number.value();
+            *place = if thresholds { margin } else { self.arithmetic.largest_epsilon(margin) };
+        }
+        values.map(|hit| hit.map(|x| x.value()))
+    }
+}
+
+fn verdict<F: Float>(hit: Option<Hit<Emulated<F>>>, refused_by: Option<usize>) -> Verdict<F> {
+    Verdict::of(hit.map(|hit| hit.map(|x| x.value())), refused_by)
+}
+
 impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
     fn info(&self) -> &'static KernelInfo {
-        &const { K::INFO }
+        self.info
     }
 
     fn measure(&self, case: &Case<F>) -> Measured<F> {
-        let mut margins = vec![F::zero(); K::INFO.gates.len()];
-        let values = measure_into::<K, F::Vector>(&case.ray, &case.triangle, &mut margins);
+        let mut margins = vec![F::zero(); self.info.gates.len()];
+        let values = self.measure_into(case, &mut margins, false);
         Measured { margins, values }
     }
 
     fn thresholds(&self, case: &Case<F>) -> Vec<F> {
-        let mut thresholds = vec![F::zero(); K::INFO.gates.len()];
-        let mut sink = Measuring::thresholds(&mut thresholds);
-        K::test(&K::prepare(&case.triangle), &case.ray, &mut sink);
+        let mut thresholds = vec![F::zero(); self.info.gates.len()];
+        self.measure_into(case, &mut thresholds, true);
         thresholds
     }
 
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact> {
-        Lifted::new(case, &[], Exact::from_f64).measure::<K>()
+        let lifted = Lifted::new(case, |x: F| Exact::from_f64(x.to_f64()));
+        let mut margins = vec![Exact::zero(); self.info.gates.len()];
+        let mut sink = Measuring::new(&mut margins, false);
+        let values = lifted.test::<K>(&mut Either::Other(&mut sink));
+        Measured { margins, values }
     }
 
-    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Option<ExactRun> {
-        let near = Lifted::new(case, epsilons, Bounded::new);
-        let exact = || Lifted::new(case, epsilons, Exact::from_f64).run::<K>();
-        Some(bounded(|| near.run::<K>()).unwrap_or_else(exact))
+    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> ExactRun {
+        let near = bounded(|| run::<F, K, _>(case, epsilons, Bounded::new));
+        near.unwrap_or_else(|| run::<F, K, _>(case, epsilons, Exact::from_f64))
     }
 
-    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> Option<TrackedRun<F>> {
-        Some(TrackedRun::of::<K>(case, epsilons, Arithmetic::IEEE))
+    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> TrackedRun<F> {
+        TrackedRun::of::<K>(case, epsilons, self.arithmetic)
     }
 
     fn paths(&self) -> Result<Vec<Path>, String> {
-        paths::<K>(Arithmetic::IEEE)
+        paths::<K>(self.arithmetic)
     }
 }
 
@@ -104,9 +173,8 @@ mod tests {
         for (index, case) in hard_cases::<F>(1, 1000).iter().enumerate() {
             let epsilon = F::from_f64([0.0, 1e-6][index % 2]);
             let epsilons = vec![epsilon; K::INFO.gates.len()];
-            let exact = Lifted::new(case, &epsilons, Exact::from_f64).run::<K>();
-            let near = Lifted::new(case, &epsilons, Bounded::new);
-            let near = bounded(|| near.run::<K>());
+            let exact = run::<F, K, _>(case, &epsilons, Exact::from_f64);
+            let near = bounded(|| run::<F, K, _>(case, &epsilons, Bounded::new));
             let is_ordinary = index % 4 != 3;
             runs += usize::from(is_ordinary);
             if let Some(near) = near {

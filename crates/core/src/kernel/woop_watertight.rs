@@ -45,7 +45,6 @@ impl Kernel for WoopWatertight {
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },
         polygons: false,
-        hits_nan: true,
     };
 
     stores_triangle!();
@@ -83,13 +82,9 @@ impl Kernel for WoopWatertight {
         }
         let [minus_u, minus_v, minus_w] = [-u.clone(), -v.clone(), -w.clone()];
         let one_sign = [[&u, &v, &w], [&minus_u, &minus_v, &minus_w]];
-        if !sink.gate(EDGE, Refuse::Below, one_sign) {
-            return None;
-        }
+        sink.gate(EDGE, Refuse::Below, one_sign)?;
         let det = u.clone() + &v + &w;
-        if !sink.one(PARALLEL, Refuse::AtMost, &det.abs()) {
-            return None;
-        }
+        sink.one(PARALLEL, Refuse::AtMost, &det.abs())?;
         let t = u.clone() * (sz.clone() * a.at(kz))
             + v.clone() * (sz.clone() * b.at(kz))
             + w.clone() * (sz * c.at(kz));
@@ -101,11 +96,8 @@ impl Kernel for WoopWatertight {
         // The appendix compares with 0 where t_min stands here, and multiplies hit.t. So an end of 0 is not
         // multiplied, and the comparison stays the appendix's.
         let (near, far) = (end_times(&ray.t_min, &abs_det), ray.t_max.clone() * &abs_det);
-        if !sink.one(T, Refuse::Below, &gap(&signed_t, &near))
-            || !sink.one(T, Refuse::Below, &gap(&far, &signed_t))
-        {
-            return None;
-        }
+        sink.one(T, Refuse::Below, &gap(&signed_t, &near))?;
+        sink.one(T, Refuse::Below, &gap(&far, &signed_t))?;
         let rcp_det = V::Real::one() / &det;
         Some(Hit { t: Some(t * &rcp_det), uv: Some((v * &rcp_det, w * &rcp_det)), facing: None })
     }

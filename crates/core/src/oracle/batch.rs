@@ -53,6 +53,21 @@ pub struct UnequalColumns {
     pub expected: usize,
 }
 
+impl UnequalColumns {
+    /// An error if one of the columns has another length than the first.
+    pub(super) fn check(
+        names: &[&'static str],
+        lengths: impl Iterator<Item = usize>,
+    ) -> Result<(), UnequalColumns> {
+        let mut lengths = lengths.peekable();
+        let expected = lengths.peek().copied().unwrap_or(0);
+        match names.iter().zip(lengths).find(|(_, length)| *length != expected) {
+            Some((column, length)) => Err(UnequalColumns { column, length, expected }),
+            None => Ok(()),
+        }
+    }
+}
+
 impl fmt::Display for UnequalColumns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let UnequalColumns { column, length, expected } = self;
@@ -100,13 +115,8 @@ impl<F: Float, C: Deref<Target = [F]>> Batch<C> {
             "c.x", "c.y", "c.z", "t_min", "t_max",
         ];
         let batch = Batch { vectors: [origin, direction, a, b, c], interval };
-        let expected = batch.len();
         let columns = batch.vectors.as_flattened().iter().chain(&batch.interval);
-        for (column, values) in NAMES.into_iter().zip(columns) {
-            if values.len() != expected {
-                return Err(UnequalColumns { column, length: values.len(), expected });
-            }
-        }
+        UnequalColumns::check(&NAMES, columns.map(|column| column.len()))?;
         Ok(batch)
     }
 
@@ -147,7 +157,10 @@ pub(super) trait StoredCases<F: Float> {
     /// The layers behind the filter. They are compiled into each way of storing: a case that is handed
     /// over in memory is written in pieces that are not those in which it is read, which costs more than
     /// some of the layers.
-    fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth;
+    #[inline(never)]
+    fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth {
+        super::behind_the_filter(&self.get(index), layers)
+    }
 }
 
 /// o, d, a, b, c and the ends of the interval, in the scalar of the filter. Large arrays do not go through `map`
@@ -223,10 +236,6 @@ impl<F: Float, C: Deref<Target = [F]>> StoredCases<F> for Batch<C> {
         let vectors = |k| [at(o, k), at(d, k), at(a, k), at(b, k), at(c, k)];
         codes_of(vectors, self.interval.each_ref().map(|column| part(column, group)))
     }
-    #[inline(never)]
-    fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth {
-        super::behind_the_filter(&self.case(index), layers)
-    }
 }
 
 /// Cases as rows: the vectors o, d, a, b and c of each, and the ends of its interval.
@@ -250,10 +259,6 @@ impl<F: Float> StoredCases<F> for RowBatch<'_, F> {
         let [o, d, a, b, c] = self.vectors.each_ref().map(|rows| part(rows, group));
         let vectors = |k: usize| [o[k], d[k], a[k], b[k], c[k]];
         codes_of(vectors, self.interval.each_ref().map(|column| part(column, group)))
-    }
-    #[inline(never)]
-    fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth {
-        super::behind_the_filter(&self.get(index), layers)
     }
 }
 

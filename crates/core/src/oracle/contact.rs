@@ -49,11 +49,11 @@ pub(super) fn decide<I: Integer>(
 ) -> Contact {
     let offsets = r.map(|r| cross(d, r));
     let touches = touches(d, r, &offsets, n);
-    let Some(mut first) = touches.iter().next() else {
+    let Some(mut first) = touches.iter().flatten().next() else {
         return Contact { kind: ContactKind::None, meets_ray: false, meets_line: false };
     };
     let mut last = first;
-    for touch in touches.iter().skip(1) {
+    for touch in touches.iter().flatten().skip(1) {
         if touch.compare(first) == Ordering::Less {
             first = touch;
         }
@@ -86,27 +86,17 @@ pub(super) fn decide<I: Integer>(
 /// (vertices come before edges, in the order of their letters), else the first edge that lies on the
 /// line and whose ends are on both sides of the point, else the interior.
 fn feature_at<I>(touches: &Touches<I>, compare: impl Fn(&Touch<I>) -> Ordering) -> Feature {
-    if let Some(touch) = touches.iter().find(|touch| compare(touch) == Ordering::Equal) {
+    let mut all = touches.iter().flatten();
+    if let Some(touch) = all.find(|touch| compare(touch) == Ordering::Equal) {
         return touch.feature;
     }
-    let side = |vertex: usize| {
-        touches.iter().find(|touch| touch.feature == VERTICES[vertex]).map(&compare)
-    };
+    let side = |vertex: usize| touches[vertex].as_ref().map(&compare);
     let holds = |(_, i, j): &&(Feature, usize, usize)| matches!((side(*i), side(*j)), (Some(x), Some(y)) if x != y);
     EDGES.iter().find(holds).map_or(Feature::Interior, |(edge, ..)| *edge)
 }
 
 /// The vertices on the line, then the crossings of the line with open edges.
-struct Touches<I> {
-    vertices: [Option<Touch<I>>; 3],
-    edges: [Option<Touch<I>>; 3],
-}
-
-impl<I> Touches<I> {
-    fn iter(&self) -> impl Iterator<Item = &Touch<I>> {
-        self.vertices.iter().chain(&self.edges).flatten()
-    }
-}
+type Touches<I> = [Option<Touch<I>>; 6];
 
 fn touches<I: Integer>(
     d: &IntegerVector<I>,
@@ -145,10 +135,7 @@ fn touches<I: Integer>(
             Touch::new(numerator, (y.clone() - x) * &d[m], edge)
         })
     };
-    Touches {
-        vertices: [vertex(0), vertex(1), vertex(2)],
-        edges: [edge(EDGES[0]), edge(EDGES[1]), edge(EDGES[2])],
-    }
+    [vertex(0), vertex(1), vertex(2), edge(EDGES[0]), edge(EDGES[1]), edge(EDGES[2])]
 }
 
 #[cfg(test)]

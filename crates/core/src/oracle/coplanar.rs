@@ -56,19 +56,13 @@ const MET: [MetBoundary; 27] = {
         let (mut count, mut features) = (0, [Feature::Outside; 2]);
         let mut v = 0;
         while v < 3 {
-            // With area, no three vertices are on the line: that entry is never read.
             let (w, u) = ((v + 1) % 3, (v + 2) % 3);
+            // With area, no three vertices are on the line: that entry is never read.
             if side[v] == 1 && count < 2 {
                 met.between[count] = (v, if side[w] == 1 { u } else { w });
                 features[count] = VERTICES[v];
                 count += 1;
-            }
-            v += 1;
-        }
-        v = 0;
-        while v < 3 {
-            let w = (v + 1) % 3;
-            if side[v] != 1 && side[w] == 2 - side[v] {
+            } else if side[v] != 1 && side[w] == 2 - side[v] {
                 met.between[count] = (v, w);
                 features[count] = EDGES[v];
                 count += 1;

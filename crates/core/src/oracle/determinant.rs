@@ -1,7 +1,7 @@
 //! The sign of one determinant where the filter is in doubt: double-double arithmetic with a bound,
 //! then `robust`'s adaptive predicate where its conditions hold, then the determinant multiplied out.
 
-use super::determinants::{Determinant, FloatPoint, rows};
+use super::signs::{Determinant, FloatPoint, rows};
 use super::{Layer, monomials};
 use crate::case::Case;
 use robust::{Coord3D, orient3d};
@@ -101,11 +101,12 @@ const UNDERFLOW: f64 = f64::from_bits((1023 - 700) << 52);
 /// products 8u²P and two sums 8u²P: below 28u²P. The bound 64u²·P = 2^-100·P also covers P's own
 /// rounding.
 fn double_double(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
-    let (first, p, q, base) = rows(determinant, case);
-    let largest = [first, p, q, base].as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let rows = rows(determinant, case.vectors());
+    let largest = rows.as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     if largest > LARGEST {
         return None;
     }
+    let [first, p, q, base] = rows;
     let difference = |x: FloatPoint| [0, 1, 2].map(|i| two_sum(x[i], -base[i]));
     let (p, q) = (difference(p), difference(q));
     let first = match determinant {
@@ -142,10 +143,11 @@ fn robust_holds(points: &[FloatPoint]) -> bool {
 /// The sign by `robust::orient3d`, where it is exact. It takes points; for d·(P×Q) the differences P
 /// and Q must be exact, which their rounding errors tell.
 fn by_robust(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
-    let (first, p, q, base) = rows(determinant, case);
+    let rows = rows(determinant, case.vectors());
     let points = if determinant == Determinant::T {
-        [first, p, q, base]
+        rows
     } else {
+        let [first, p, q, base] = rows;
         let exact = |x: FloatPoint| -> Option<FloatPoint> {
             let differences = [0, 1, 2].map(|i| two_sum(x[i], -base[i]));
             differences.iter().all(|x| x.low == 0.0).then(|| differences.map(|x| x.high))
@@ -164,8 +166,8 @@ mod tests {
     use super::*;
     use crate::arith::{Float, decompose, scale_by_power_of_two};
     use crate::case::Draw;
-    use crate::oracle::determinants::ALL;
     use crate::oracle::scaled::Scaled;
+    use crate::oracle::signs::ALL;
     use num_bigint::BigInt;
 
     /// Cases with exact zeros and near ones among their determinants.

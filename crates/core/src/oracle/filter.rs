@@ -21,8 +21,7 @@
 //! Overflow, infinities and NaN need no test: they make a permanent infinite or NaN, and then nothing
 //! is certain. A zero direction makes every weight zero, which is never certain either.
 
-use super::determinants::Determinant;
-use super::signs::DecidingSigns;
+use super::signs::{DecidingSigns, Determinant};
 use crate::truth::Truth;
 use std::cmp::Ordering;
 

@@ -3,6 +3,7 @@
 //! is zero. `Narrow` is for small lattices; `Wide` holds full mantissas of `f64` whose exponents lie near each
 //! other.
 
+use super::contact;
 use super::coplanar::coplanar_contact;
 use super::integer::{ExactInteger, RayInterval};
 use super::signs::DecidingSigns;
@@ -63,7 +64,8 @@ fn flat<W: Width>(
     if !degenerate && interval.is_default() {
         return Truth::Coplanar(coplanar_contact::<W>(d, vertices, n));
     }
-    let contact = W::contact(interval, d, vertices, n);
+    let [d, a, b, c] = [d, vertices[0], vertices[1], vertices[2]].map(|v| v.map(W::Contact::from));
+    let contact = contact::decide(interval, &d, [&a, &b, &c], &n.map(W::Contact::from));
     if degenerate { Truth::Degenerate(contact) } else { Truth::Coplanar(contact) }
 }
 

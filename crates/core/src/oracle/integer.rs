@@ -20,32 +20,14 @@ pub trait ExactInteger {
     }
 }
 
-impl ExactInteger for i64 {
+/// The default of all of them is zero.
+impl<I: Clone + Default + Ord + Into<BigInt>> ExactInteger for I {
     fn big(&self) -> BigInt {
-        BigInt::from(*self)
+        self.clone().into()
     }
     #[inline(always)]
     fn sign(&self) -> Ordering {
-        self.cmp(&0)
-    }
-}
-
-impl ExactInteger for i128 {
-    fn big(&self) -> BigInt {
-        BigInt::from(*self)
-    }
-    #[inline(always)]
-    fn sign(&self) -> Ordering {
-        self.cmp(&0)
-    }
-}
-
-impl ExactInteger for BigInt {
-    fn big(&self) -> BigInt {
-        self.clone()
-    }
-    fn sign(&self) -> Ordering {
-        self.cmp(&BigInt::ZERO)
+        self.cmp(&I::default())
     }
 }
 

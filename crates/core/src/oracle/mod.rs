@@ -16,7 +16,6 @@ mod batch;
 mod contact;
 mod coplanar;
 mod determinant;
-mod determinants;
 mod filter;
 mod grid;
 pub mod integer;
@@ -26,7 +25,6 @@ mod resolve;
 mod scaled;
 mod signs;
 mod sum;
-mod wide;
 mod width;
 
 pub use batch::{Batch, UnequalColumns};
@@ -39,31 +37,34 @@ use scaled::Scaled;
 use serde::{Deserialize, Serialize};
 use width::{Narrow, Wide};
 
-/// A layer of the oracle, the fastest first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Layer {
-    /// Invalid input: NaN, infinities, a zero direction, an impossible interval.
-    Invalid,
-    /// The floating-point filter, all signs at once.
-    Filter,
-    /// Machine integers on a small grid.
-    Grid,
-    /// Wider ones on a grid of 61 bits.
-    WideGrid,
-    /// The filter again, sign by sign, after each axis was scaled where that can help.
-    ScaledFilter,
-    /// Double-doubles with a bound.
-    DoubleDouble,
-    /// `robust`'s adaptive predicate.
-    Robust,
-    /// The determinant multiplied out, in floats with exponents of any size, then exactly.
-    Monomials,
-    /// Integers of any size: where a line meets a triangle without area, or one in whose plane it lies.
-    BigInteger,
+named! {
+    pub names
+    /// A layer of the oracle, the fastest first.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Layer {
+        /// Invalid input: NaN, infinities, a zero direction, an impossible interval.
+        Invalid = "invalid",
+        /// The floating-point filter, all signs at once.
+        Filter = "filter",
+        /// Machine integers on a small grid.
+        Grid = "grid",
+        /// Wider ones on a grid of 61 bits.
+        WideGrid = "wide grid",
+        /// The filter again, sign by sign, after each axis was scaled where that can help.
+        ScaledFilter = "scaled filter",
+        /// Double-doubles with a bound.
+        DoubleDouble = "double-double",
+        /// `robust`'s adaptive predicate.
+        Robust = "robust",
+        /// The determinant multiplied out, in floats with exponents of any size, then exactly.
+        Monomials = "monomials",
+        /// Integers of any size: where a line meets a triangle without area, or one in whose plane it lies.
+        BigInteger = "big integers",
+    }
 }
 
 /// The number of layers.
-const LAYERS: usize = Layer::BigInteger as usize + 1;
+const LAYERS: usize = Layer::ALL.len();
 
 /// How often each layer decided; a case counts for the last layer that it needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -72,18 +73,7 @@ pub struct Layers([u64; LAYERS]);
 impl Layers {
     /// Name and count of each layer.
     pub fn named(&self) -> [(&'static str, u64); LAYERS] {
-        let names = [
-            "invalid",
-            "filter",
-            "grid",
-            "wide grid",
-            "scaled filter",
-            "double-double",
-            "robust",
-            "monomials",
-            "big integers",
-        ];
-        std::array::from_fn(|i| (names[i], self.0[i]))
+        Layer::ALL.map(|layer| (layer.name(), self.of(layer)))
     }
 
     /// The count of a layer.
@@ -168,13 +158,8 @@ pub fn truths_of_rows<F: Float>(
     truths: &mut Vec<Truth>,
     layers: &mut Layers,
 ) -> Result<(), UnequalColumns> {
-    let expected = vectors[0].len();
     let lengths = vectors.map(<[_]>::len).into_iter().chain(interval.map(<[_]>::len));
-    for (column, length) in ["o", "d", "a", "b", "c", "t_min", "t_max"].into_iter().zip(lengths) {
-        if length != expected {
-            return Err(UnequalColumns { column, length, expected });
-        }
-    }
+    UnequalColumns::check(&["o", "d", "a", "b", "c", "t_min", "t_max"], lengths)?;
     batch::decide_all(&batch::RowBatch { vectors, interval }, truths, layers);
     Ok(())
 }

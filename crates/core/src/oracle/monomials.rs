@@ -7,7 +7,7 @@
 //! out, o×o is gone, what is left are 18 products (24 in T) whose exponents mostly lie far apart, and
 //! the largest decides.
 
-use super::determinants::{Determinant, FloatPoint, rows};
+use super::signs::{Determinant, rows};
 use super::sum::{ExactProduct, sign_of_sum};
 use crate::case::Case;
 use std::cmp::Ordering;
@@ -52,8 +52,8 @@ fn multiplied_out<P: Copy, const N: usize>(
 ) -> ([P; N], usize) {
     let (mut products, mut count) = ([zero; N], 0);
     for (determinant, by) in sum {
-        let (first, p, q, base) = rows(*determinant, case);
-        let [first, p, q, base] = [first, p, q, base].map(|v: FloatPoint| v.map(Extended::of));
+        let rows = rows(*determinant, case.vectors());
+        let [first, p, q, base] = rows.map(|v| v.map(Extended::of));
         let [by, minus] = [*by, -by].map(Extended::of);
         // (p-base)×(q-base) = p×q + q×base + base×p. Where base is subtracted from the first vector too,
         // base·(p×q) is subtracted: the other two are orthogonal to base.
@@ -80,6 +80,11 @@ struct Extended {
 /// The exponent of zero. A product of four factors with a zero among them lies far below any without: at most at
 /// -96931, against at least -4296.
 const NO_EXPONENT: i32 = -100_000;
+
+/// The binary exponent of a number that is not zero.
+pub(super) fn exponent_of(x: f64) -> i32 {
+    Extended::of(x).exponent
+}
 
 impl Extended {
     #[inline(always)]
@@ -138,8 +143,8 @@ mod tests {
     use super::*;
     use crate::arith::{Float, scale_by_power_of_two};
     use crate::case::Draw;
-    use crate::oracle::determinants::ALL;
     use crate::oracle::scaled::Scaled;
+    use crate::oracle::signs::ALL;
     use num_rational::BigRational;
     use num_traits::ToPrimitive;
 

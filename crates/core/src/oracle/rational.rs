@@ -20,7 +20,7 @@ pub struct Definition {
 }
 
 /// An end of an interval: a number or an infinity.
-#[derive(Clone, Debug, PartialEq, PartialOrd)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum RationalEnd {
     MinusInfinity,
     At(Rational),
@@ -52,30 +52,30 @@ fn define_with<F: Float>(
     case: &Case<F>,
     seen: impl FnOnce([RationalPoint; 2]) -> Option<[RationalPoint; 2]>,
 ) -> Definition {
-    let invalid = Definition { truth: Truth::Invalid, exact: ExactValues::default() };
-    let case = case.widen();
+    define_valid(&case.widen(), seen).unwrap_or_else(|| flat(Truth::Invalid, None))
+}
+
+/// None of an invalid case.
+fn define_valid(
+    case: &Case<f64>,
+    seen: impl FnOnce([RationalPoint; 2]) -> Option<[RationalPoint; 2]>,
+) -> Option<Definition> {
     let rational = |x: f64| Rational::from_float(x);
     let point = |v: [f64; 3]| -> Option<RationalPoint> {
         let [x, y, z] = v.map(rational);
         Some([x?, y?, z?])
     };
-    let [Some(o), Some(d), Some(a), Some(b), Some(c)] = case.vectors().map(point) else {
-        return invalid;
-    };
-    let Some([o, d]) = seen([o, d]) else {
-        return invalid;
-    };
+    let [o, d, a, b, c] = case.vectors().map(point);
+    let ([o, d], a, b, c) = (seen([o?, d?])?, a?, b?, c?);
     let end = |t: f64| match rational(t) {
         Some(t) => Some(RationalEnd::At(t)),
         None if t == f64::INFINITY => Some(RationalEnd::PlusInfinity),
         None if t == f64::NEG_INFINITY => Some(RationalEnd::MinusInfinity),
         None => None,
     };
-    let (Some(t_min), Some(t_max)) = (end(case.ray.t_min), end(case.ray.t_max)) else {
-        return invalid;
-    };
+    let (t_min, t_max) = (end(case.ray.t_min)?, end(case.ray.t_max)?);
     if t_min > t_max || d.iter().all(Zero::is_zero) {
-        return invalid;
+        return None;
     }
 
     let n = cross(&minus(&b, &a), &minus(&c, &a));
@@ -83,17 +83,18 @@ fn define_with<F: Float>(
     let capital_t = dot(&n, &minus(&a, &o));
     if n.iter().all(Zero::is_zero) {
         let (contact, range) = line_and_segment(&o, &d, [&a, &b, &c], &t_min, &t_max);
-        return flat(Truth::Degenerate(contact), range);
+        return Some(flat(Truth::Degenerate(contact), range));
     }
     if capital_d.is_zero() {
         if !capital_t.is_zero() {
-            return Definition { truth: Truth::Parallel, exact: ExactValues::default() };
+            return Some(flat(Truth::Parallel, None));
         }
         let (contact, range) = line_in_plane(&o, &d, [&a, &b, &c], &n, &t_min, &t_max);
-        return flat(Truth::Coplanar(contact), range);
+        return Some(flat(Truth::Coplanar(contact), range));
     }
 
     let t = capital_t / &capital_d;
+    let at = RationalEnd::At(t.clone());
     // U, V, W: d with (c-o, b-o), (a-o, c-o), (b-o, a-o). Their sum is -D.
     let [ra, rb, rc] = [&a, &b, &c].map(|p| minus(p, &o));
     let triple = |p: &RationalPoint, q: &RationalPoint| dot(&d, &cross(p, q));
@@ -101,11 +102,12 @@ fn define_with<F: Float>(
         [triple(&rc, &rb), triple(&ra, &rc), triple(&rb, &ra)].map(|weight| -weight / &capital_d);
     let truth = Truth::Transversal(Crossing {
         facing: if capital_d.is_negative() { Facing::Front } else { Facing::Back },
-        place: place(compare(&t, &t_min), compare(&t, &t_max)),
+        place: place(at.cmp(&t_min), at.cmp(&t_max)),
         t_sign: t.cmp(&Rational::zero()),
         feature: Feature::from_weight_signs([&u, &v, &w].map(|x| x.cmp(&Rational::zero()))),
     });
-    Definition { truth, exact: ExactValues { t: Some(t), u: Some(v), v: Some(w), contact_t: None } }
+    let exact = ExactValues { t: Some(t), u: Some(v), v: Some(w), contact_t: None };
+    Some(Definition { truth, exact })
 }
 
 fn flat(truth: Truth, contact_t: Option<[Rational; 2]>) -> Definition {
@@ -190,9 +192,7 @@ fn line_and_segment(
 
     let cut = |low: &RationalEnd, high: &RationalEnd| {
         let [s, t] = whole.clone()?;
-        let s = if RationalEnd::At(s.clone()) < *low { low.clone() } else { RationalEnd::At(s) };
-        let t = if *high < RationalEnd::At(t.clone()) { high.clone() } else { RationalEnd::At(t) };
-        match (s, t) {
+        match (RationalEnd::At(s).max(low.clone()), RationalEnd::At(t).min(high.clone())) {
             (RationalEnd::At(s), RationalEnd::At(t)) if s <= t => Some([s, t]),
             _ => None,
         }
@@ -233,14 +233,6 @@ fn contact(
         Some(_) => ContactKind::Segment,
     };
     (Contact { kind, meets_ray, meets_line }, range)
-}
-
-fn compare(t: &Rational, end: &RationalEnd) -> Ordering {
-    match end {
-        RationalEnd::MinusInfinity => Ordering::Greater,
-        RationalEnd::At(end) => t.cmp(end),
-        RationalEnd::PlusInfinity => Ordering::Less,
-    }
 }
 
 fn minus(a: &RationalPoint, b: &RationalPoint) -> RationalPoint {

@@ -2,11 +2,10 @@
 
 use super::Layer;
 use super::determinant;
-use super::determinants::Determinant;
 use super::filter;
 use super::monomials;
 use super::scaled::Scaled;
-use super::signs::DecidingSigns;
+use super::signs::{DecidingSigns, Determinant};
 use crate::arith::scale_by_power_of_two;
 use crate::case::Case;
 use crate::truth::Truth;
@@ -82,19 +81,13 @@ fn is_moderate(case: &Case<f64>) -> bool {
 /// which the layers' bounds allow for; t changes, so the interval means nothing here.
 fn scaled_axes(case: &Case<f64>) -> Case<f64> {
     let [o, d, a, b, c] = case.vectors();
-    let exponent = |x: f64| if x == 0.0 { None } else { Some(exponent_of(x)) };
+    let exponent = |x: f64| (x != 0.0).then(|| monomials::exponent_of(x));
     let axis = [0, 1, 2].map(|i| [o[i], a[i], b[i], c[i]].into_iter().filter_map(exponent).max());
     let shift = axis.map(|largest| -largest.unwrap_or(0));
     let longest = (0..3).filter_map(|i| exponent(d[i]).map(|e| e + shift[i])).max().unwrap_or(0);
     let position = |p: [f64; 3]| [0, 1, 2].map(|i| scale_by_power_of_two(p[i], shift[i]));
     let direction = [0, 1, 2].map(|i| scale_by_power_of_two(d[i], shift[i] - longest));
     Case::new(position(o), direction, [position(a), position(b), position(c)])
-}
-
-/// The binary exponent of a number that is not zero.
-fn exponent_of(x: f64) -> i32 {
-    let field = (x.abs().to_bits() >> 52) as i32;
-    if field == 0 { -1011 - x.abs().to_bits().leading_zeros() as i32 } else { field - 1023 }
 }
 
 #[cfg(test)]

@@ -5,9 +5,8 @@
 //! 2^(2p+q), T of 2^(3p), and t = T/D carries 2^(p-q).
 
 use super::contact;
-use super::determinants::Determinant;
 use super::integer::{ExactInteger, IntegerVector, RayInterval, align, cross, dot, minus};
-use super::signs::DecidingSigns;
+use super::signs::{DecidingSigns, Determinant, rows};
 use crate::case::{Case, Matrix};
 use crate::truth::Truth;
 use num_bigint::BigInt;
@@ -72,7 +71,7 @@ impl Scaled {
 
     /// The truth, all of it in integers; of the case only the interval counts.
     pub fn truth(&self, case: &Case<f64>) -> Truth {
-        let (d, t) = (self.capital_d(), self.capital_t());
+        let (d, t) = (self.value(Determinant::D), self.value(Determinant::T));
         match (ExactInteger::sign(&d), ExactInteger::sign(&t)) {
             (Ordering::Equal, Ordering::Equal) => self.touching(case),
             (Ordering::Equal, _) => Truth::Parallel,
@@ -99,20 +98,18 @@ impl Scaled {
 
     fn value(&self, determinant: Determinant) -> BigInt {
         let [a, b, c] = &self.vertices;
-        let from_origin = |x, y| cross(&minus(x, &self.origin), &minus(y, &self.origin));
+        let [first, p, q, base] = rows(determinant, [&self.origin, &self.direction, a, b, c]);
+        let normal = cross(&minus(p, base), &minus(q, base));
         match determinant {
-            Determinant::Weight(0) => dot(&self.direction, &from_origin(c, b)),
-            Determinant::Weight(1) => dot(&self.direction, &from_origin(a, c)),
-            Determinant::Weight(_) => dot(&self.direction, &from_origin(b, a)),
-            Determinant::D => self.capital_d(),
-            Determinant::T => self.capital_t(),
+            Determinant::T => dot(&minus(first, base), &normal),
+            _ => dot(first, &normal),
         }
     }
 
     /// t, u and v of a crossing, where D is not zero.
     pub fn crossing(&self) -> [BigRational; 3] {
-        let d = self.capital_d();
-        let (mut t, mut over) = (self.capital_t(), d.clone());
+        let d = self.value(Determinant::D);
+        let (mut t, mut over) = (self.value(Determinant::T), d.clone());
         if self.t_exponent >= 0 {
             t <<= self.t_exponent
         } else {
@@ -122,22 +119,10 @@ impl Scaled {
         [BigRational::new(t, over), weight(1), weight(2)]
     }
 
-    fn normal(&self) -> IntegerVector<BigInt> {
-        let [a, b, c] = &self.vertices;
-        cross(&minus(b, a), &minus(c, a))
-    }
-
-    fn capital_d(&self) -> BigInt {
-        dot(&self.direction, &self.normal())
-    }
-
-    fn capital_t(&self) -> BigInt {
-        dot(&self.normal(), &minus(&self.vertices[0], &self.origin))
-    }
-
     /// The truth where D and T are zero: the triangle has no area, or the line lies in its plane.
     pub fn touching(&self, case: &Case<f64>) -> Truth {
-        let n = self.normal();
+        let [a, b, c] = &self.vertices;
+        let n = cross(&minus(b, a), &minus(c, a));
         let degenerate = n.iter().all(ExactInteger::is_zero);
         let [a, b, c] = self.vertices.each_ref().map(|v| minus(v, &self.origin));
         let interval = RayInterval::new(case, self.t_exponent);

@@ -3,10 +3,7 @@
 //! With n bits a coordinate is below 2^n, a difference below 2^(n+1), a minor of differences and the normal
 //! below 2^(2n+3), and a determinant of differences below 2^(3n+6).
 
-use super::contact;
-use super::integer::{ExactInteger, RayInterval};
-use super::wide::I192;
-use crate::truth::Contact;
+use super::integer::{ExactInteger, Integer};
 use num_bigint::BigInt;
 use std::ops::{Add, Sub};
 
@@ -23,6 +20,8 @@ pub(super) trait Width {
         + Copy
         + Add<Output = Self::Determinant>
         + Sub<Output = Self::Determinant>;
+    /// Holds what contacts are made of.
+    type Contact: Integer + From<i64> + From<Self::Minor>;
 
     /// A float below 2^[`Width::BITS`] as an integer, and that again as a float: the same if it was one.
     fn rounded(x: f64) -> (i64, f64);
@@ -30,13 +29,6 @@ pub(super) trait Width {
     fn product(a: i64, b: i64) -> Self::Minor;
     /// The product of a difference and a minor.
     fn wide_product(a: i64, b: Self::Minor) -> Self::Determinant;
-    /// The contact of a line that holds part of the triangle, in whatever integers.
-    fn contact(
-        interval: &RayInterval,
-        d: [i64; 3],
-        vertices: [[i64; 3]; 3],
-        n: [Self::Minor; 3],
-    ) -> Contact;
 }
 
 /// 30 bits: minors in 64, determinants in 128. What n bits are said to need above is a little more than they do:
@@ -50,6 +42,7 @@ impl Width for Narrow {
     const AT_ONCE: usize = 12;
     type Minor = i64;
     type Determinant = i128;
+    type Contact = i128;
 
     #[inline(always)]
     fn rounded(x: f64) -> (i64, f64) {
@@ -67,16 +60,6 @@ impl Width for Narrow {
     fn wide_product(a: i64, b: i64) -> i128 {
         i128::from(a) * i128::from(b)
     }
-    fn contact(
-        interval: &RayInterval,
-        d: [i64; 3],
-        vertices: [[i64; 3]; 3],
-        n: [i64; 3],
-    ) -> Contact {
-        let wide = |v: [i64; 3]| v.map(i128::from);
-        let [a, b, c] = vertices.map(wide);
-        contact::decide(interval, &wide(d), [&a, &b, &c], &wide(n))
-    }
 }
 
 /// 61 bits: minors in 128, determinants in 192.
@@ -88,6 +71,7 @@ impl Width for Wide {
     const AT_ONCE: usize = 3;
     type Minor = i128;
     type Determinant = I192;
+    type Contact = BigInt;
 
     #[inline(always)]
     fn rounded(x: f64) -> (i64, f64) {
@@ -102,13 +86,85 @@ impl Width for Wide {
     fn wide_product(a: i64, b: i128) -> I192 {
         I192::product(a, b)
     }
-    fn contact(
-        interval: &RayInterval,
-        d: [i64; 3],
-        vertices: [[i64; 3]; 3],
-        n: [i128; 3],
-    ) -> Contact {
-        let [a, b, c] = vertices.map(|v| v.map(BigInt::from));
-        contact::decide(interval, &d.map(BigInt::from), [&a, &b, &c], &n.map(BigInt::from))
+}
+
+/// An integer of 192 bits: what determinants of coordinates of 61 bits need, and no more than that.
+///
+/// `high * 2^64 + low`. Ordered by value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct I192 {
+    high: i128,
+    low: u64,
+}
+
+impl I192 {
+    /// The product of any `a` and of a `b` below 2^126 in absolute value.
+    #[inline(always)]
+    pub fn product(a: i64, b: i128) -> I192 {
+        let a = i128::from(a);
+        let low = a * i128::from(b as u64);
+        I192 { high: a * (b >> 64) + (low >> 64), low: low as u64 }
+    }
+}
+
+impl Add for I192 {
+    type Output = I192;
+    #[inline(always)]
+    fn add(self, other: I192) -> I192 {
+        let (low, carry) = self.low.overflowing_add(other.low);
+        I192 { high: self.high + other.high + i128::from(carry), low }
+    }
+}
+
+impl Sub for I192 {
+    type Output = I192;
+    #[inline(always)]
+    fn sub(self, other: I192) -> I192 {
+        let (low, borrow) = self.low.overflowing_sub(other.low);
+        I192 { high: self.high - other.high - i128::from(borrow), low }
+    }
+}
+
+impl From<I192> for BigInt {
+    fn from(I192 { high, low }: I192) -> BigInt {
+        (BigInt::from(high) << 64) + low
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Draw;
+
+    /// Numbers near the ends of their bits, near zero, and between.
+    fn number(draw: &mut Draw, bits: u32) -> i128 {
+        let most = (1i128 << bits) - 1;
+        let near = i128::from(draw.integer(0, 2));
+        let any = (i128::from(draw.bits()) << 64 | i128::from(draw.bits())) & most;
+        let carry = i128::from(u64::MAX) & most;
+        let x = draw.pick(&[near, most - near, any, any >> (bits / 2), (carry + near) & most]);
+        if draw.coin() { x } else { -x }
+    }
+
+    #[test]
+    fn products_sums_and_orders_are_those_of_integers_of_any_size() {
+        let mut carries = 0;
+        for index in 0..20_000 {
+            let mut draw = Draw::new("wide", 1, index);
+            let mut product = || {
+                let (a, b) = (number(&mut draw, 63) as i64, number(&mut draw, 125));
+                let product = I192::product(a, b);
+                assert_eq!(product.big(), BigInt::from(a) * BigInt::from(b), "{a} {b}");
+                product
+            };
+            let (x, y) = (product(), product());
+            let (sum, difference) = (x + y, x - y);
+            assert_eq!(sum.big(), x.big() + y.big(), "{x:?} {y:?}");
+            assert_eq!(difference.big(), x.big() - y.big(), "{x:?} {y:?}");
+            assert_eq!(difference.sign(), x.big().cmp(&y.big()), "{x:?} {y:?}");
+            assert_eq!(x.sign(), x.big().cmp(&BigInt::ZERO), "{x:?}");
+            carries += usize::from(sum.high != x.high + y.high);
+        }
+        assert!(carries > 1000, "{carries}");
     }
 }

@@ -19,7 +19,16 @@ use crate::kernel::Path;
 fn recorded(run: impl FnOnce() -> Recorded) -> (Path, Place) {
     let (place, tape) = record(&[], false, || run().place());
     let (operations, decisions) = (tape.operations, tape.decisions);
-    (Path { operations, compared: Vec::new(), decisions, hits: true, values: [None; 3] }, place)
+    (
+        Path {
+            operations,
+            compared: Vec::new(),
+            decisions: decisions.made,
+            hits: true,
+            values: [None; 3],
+        },
+        place,
+    )
 }
 
 /// A difference of two coordinates: points are numbered 0 to 3 as the origin, a, b and c.

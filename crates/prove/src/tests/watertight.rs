@@ -148,6 +148,7 @@ impl Kernel for Flat {
             }
             _ => sink.gate(EDGE, Refuse::Below, clauses),
         };
+        let passes = passes.is_some();
         let hits = match decides {
             AgainstTheGate => true,
             WithoutAGate => passes && !(u.clone() + &v + &w).is_zero(),

@@ -4,7 +4,7 @@
 //! which no operation rounded is its own exact run. This matters because floats have two zeros, and some
 //! sources decide on the sign of one; exact arithmetic has a single zero.
 
-use crate::arith::Float;
+use crate::arith::{Float, Notes};
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::judge::{Answer, Finding, Obligation, exact_values_are_near, judge, judge_answer};
@@ -69,7 +69,7 @@ pub fn attribute<F: Float>(
     truth: &Truth,
     (contract, obligation): (&Contract, Obligation),
 ) -> Option<Attribution> {
-    let exact = || subject.gated()?.run_exact(case, epsilons);
+    let exact = || Some(subject.gated()?.run_exact(case, epsilons));
     attribute_with(subject, case, epsilons, truth, (contract, obligation), exact)
 }
 
@@ -85,7 +85,7 @@ pub fn attribute_with<F: Float>(
     let subject = subject.gated()?;
     let gives = subject.info().gives;
     let right = |answer| judge_answer(obligation, truth, gives, answer).is_none();
-    let given = subject.run_tracked(case, epsilons)?;
+    let given = subject.run_tracked(case, epsilons);
     let finding = judge((contract, obligation), (case, truth), gives, &given.verdict)?;
     // Which values a formula gives does not depend on its epsilons. They are asked for where they were wrong.
     let near = finding != Finding::WrongValue || {
@@ -95,7 +95,7 @@ pub fn attribute_with<F: Float>(
     let right = |answer: Answer| right(Answer { near, ..answer });
     if right(without_rounding(contract, (case, truth, gives), &given, exact)?) {
         let raised = match finding {
-            Finding::BadValue | Finding::WrongValue => given.decision | given.values,
+            Finding::BadValue | Finding::WrongValue => given.decision.and(given.values),
             _ => given.decision,
         };
         let range = raised.overflow || raised.underflow;
@@ -105,9 +105,9 @@ pub fn attribute_with<F: Float>(
         return Some(Attribution::Convention);
     }
     let zeros = vec![F::zero(); epsilons.len()];
-    let zero = subject.run_tracked(case, &zeros)?;
+    let zero = subject.run_tracked(case, &zeros);
     let answer = without_rounding(contract, (case, truth, gives), &zero, || {
-        subject.run_exact(case, &zeros)
+        Some(subject.run_exact(case, &zeros))
     })?;
     Some(if right(answer) { Attribution::Epsilon } else { Attribution::Convention })
 }

@@ -77,7 +77,7 @@ impl EpsilonChoice {
                     let pairs = of_gates.zip(entry.info.gates).zip(&mut epsilons);
                     for ((found, gate), epsilon) in pairs {
                         if let Some(found) = found {
-                            *epsilon = found.value.into();
+                            *epsilon = EpsilonText::of(found.value).expect("a preset's epsilon");
                             taken.push(gate.name);
                         }
                     }

@@ -1,7 +1,6 @@
 //! An epsilon as people write it.
 
 use crate::arith::Float;
-use crate::kernel::PresetValue;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -62,15 +61,6 @@ impl fmt::Display for EpsilonText {
                 write!(f, "{factor}*EPSILON")
             }
             EpsilonText::MachineEpsilon(factor) => write!(f, "{factor:e}*EPSILON"),
-        }
-    }
-}
-
-impl From<PresetValue> for EpsilonText {
-    fn from(value: PresetValue) -> EpsilonText {
-        match value {
-            PresetValue::Decimal(text) => EpsilonText::Decimal(text.to_owned()),
-            PresetValue::MachineEpsilon(factor) => EpsilonText::MachineEpsilon(factor),
         }
     }
 }

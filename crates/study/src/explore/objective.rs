@@ -309,7 +309,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
 
 /// The first gate that refuses in exact arithmetic; none if the formula without rounding hits.
 fn exactly_refusing<F: Scalar>(row: &Row, epsilons: &[F], case: &Case<F>) -> Option<usize> {
-    F::subject(row.entry)?.gated()?.run_exact(case, epsilons)?.refused_by()
+    F::subject(row.entry)?.gated()?.run_exact(case, epsilons).refused_by()
 }
 
 /// The truth, the kernel's verdict, and what `judge` makes of the two. Cases are judged one by one:

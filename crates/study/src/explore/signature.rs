@@ -49,7 +49,7 @@ impl Signature {
         let name = |gate: usize| row.entry.info.gates[gate].name;
         let asked = asked(case, truth, &row.contract, false);
         let subject = F::subject(row.entry);
-        let exact = subject.and_then(|subject| subject.gated()?.run_exact(case, epsilons));
+        let exact = subject.and_then(|subject| Some(subject.gated()?.run_exact(case, epsilons)));
         Some(Signature {
             kernel: row.entry.info.name,
             scalar: F::NAME,

@@ -1,6 +1,6 @@
 //! How the numbers of a scene are read and written.
 
-use super::{DirectionLength, PlaneKind, RayKind, Scene, Toward};
+use super::{PlaneKind, RayKind, Scene, Toward};
 use std::fmt;
 
 /// The extent that words give; 1 if they give none that is a length.
@@ -49,19 +49,6 @@ pub(super) fn range(key: &str, text: &str) -> Result<[f64; 2], String> {
     Ok([low, high])
 }
 
-/// The value of a name.
-pub(super) fn one_of<T: Copy, const N: usize>(
-    key: &str,
-    value: &str,
-    all: [(&str, T); N],
-) -> Result<T, String> {
-    let found = all.iter().find(|(name, _)| *name == value).map(|(_, one)| *one);
-    found.ok_or_else(|| {
-        let names: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
-        format!("{key}={value}: there are {}", names.join(", "))
-    })
-}
-
 /// Sizes: a range, perhaps with the number in its middle that half of them are below.
 pub(super) fn sizes(key: &str, text: &str) -> Result<([f64; 2], Option<f64>), String> {
     let Some((low, rest)) = text.split_once("..") else { return Ok((range(key, text)?, None)) };
@@ -93,47 +80,34 @@ impl fmt::Display for ShortNumber {
     }
 }
 
-/// A range, or the one number that it holds.
-pub(super) struct Range(pub [f64; 2]);
-
-impl fmt::Display for Range {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            [low, high] if low == high => write!(f, "{}", ShortNumber(low)),
-            [low, high] => write!(f, "{}..{}", ShortNumber(low), ShortNumber(high)),
-        }
-    }
-}
-
-/// Sizes with the number that half of them are below.
+/// A range, or the one number that it holds; with the number that half of the sizes in it are below, if there is one.
 pub(super) struct Sizes(pub [f64; 2], pub Option<f64>);
 
 impl fmt::Display for Sizes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.0, self.1) {
-            ([low, high], Some(middle)) => {
-                write!(f, "{}..{}..{}", ShortNumber(low), ShortNumber(middle), ShortNumber(high))
-            }
-            (range, None) => Range(range).fmt(f),
+        let Sizes([low, high], middle) = *self;
+        write!(f, "{}", ShortNumber(low))?;
+        if let Some(middle) = middle {
+            write!(f, "..{}", ShortNumber(middle))?;
         }
+        if middle.is_some() || low != high {
+            write!(f, "..{}", ShortNumber(high))?;
+        }
+        Ok(())
     }
 }
 
 impl fmt::Display for Scene {
     /// The words that make it again, as they stand in case ids.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let direction = match self.direction {
-            DirectionLength::Unit => "unit",
-            DirectionLength::Target => "target",
-        };
-        let (edge, distance) = (Sizes(self.edge, self.median_edge), Range(self.distance));
-        let extent = ShortNumber(self.extent);
+        let (edge, distance) = (Sizes(self.edge, self.median_edge), Sizes(self.distance, None));
+        let (extent, direction) = (ShortNumber(self.extent), self.direction);
         write!(f, "extent={extent},")?;
         if self.center != 0.0 {
             write!(f, "center={},", ShortNumber(self.center))?;
         }
         write!(f, "edge={edge},distance={distance},direction={direction}")?;
-        self.sine.map_or(Ok(()), |sine| write!(f, ",sine={}", Range(sine)))?;
+        self.sine.map_or(Ok(()), |sine| write!(f, ",sine={}", Sizes(sine, None)))?;
         if self.aims_inside {
             f.write_str(",aim=inside")?;
         }

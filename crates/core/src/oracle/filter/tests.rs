@@ -3,7 +3,7 @@
 use super::*;
 use crate::arith::decompose;
 use crate::case::{Case, Draw};
-use crate::oracle::determinants::{ALL, rows};
+use crate::oracle::signs::{ALL, rows};
 use crate::oracle::{Layer, Layers, define, truth_counted};
 use num_bigint::BigInt;
 use num_traits::Signed;
@@ -16,7 +16,7 @@ fn whole(x: f64) -> BigInt {
 
 /// A determinant and its permanent as multiples of 2^-3222, and |first|₁ as one of 2^-1074.
 fn exact(determinant: Determinant, case: &Case<f64>) -> [BigInt; 3] {
-    let (first, p, q, base) = rows(determinant, case);
+    let [first, p, q, base] = rows(determinant, case.vectors());
     let minus_base = |v: [f64; 3]| [0, 1, 2].map(|i| whole(v[i]) - whole(base[i]));
     let (p, q) = (minus_base(p), minus_base(q));
     let first = if determinant == Determinant::T { minus_base(first) } else { first.map(whole) };

@@ -85,9 +85,7 @@ impl<F: Scalar> Input<F> {
         let kernel = KERNELS.iter().position(|entry| entry.info.name == self.entry.info.name);
         let mut bytes = vec![flags, kernel.expect("a built-in kernel") as u8];
         bytes.extend([GIVEN; MAX_GATES]);
-        let vectors = self.case.vectors();
-        let ends = [self.case.ray.t_min, self.case.ray.t_max];
-        for number in vectors.as_flattened().iter().chain(&ends).chain(&self.epsilons) {
+        for number in self.case.numbers().iter().chain(&self.epsilons) {
             push_number(&mut bytes, *number);
         }
         bytes
