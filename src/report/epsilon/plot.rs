@@ -6,7 +6,7 @@ use super::record::*;
 use super::words::{human, label, unit_of};
 use crate::audit::Trials;
 use crate::plot::{Decades, decades_around, group_digits};
-use crate::report::chart::{Chart, ChartFrame, ChartMark, LINE, file, text_at, wrapped};
+use crate::report::chart::{Chart, ChartMark, LINE, WIDTH, file, text_at, wrapped};
 use crate::report::page::{Drawing, Picture};
 use crate::report::rate::percent;
 use std::fmt::Write as _;
@@ -15,14 +15,6 @@ use std::ptr;
 
 /// Changes of a share below this are not drawn.
 const NEGLIGIBLE: f64 = 2e-4;
-/// The most decades of shares that fit.
-const MOST_DECADES: i32 = 5;
-
-/// The width of a panel, and of a file.
-const WIDTH: f64 = 460.0;
-const FRAME: ChartFrame =
-    ChartFrame { width: WIDTH, left: 62.0, right: 14.0, above: 56.0, plot: 210.0, zero: 24.0 };
-
 /// Writes the recommendation and the panels of each kernel, one below the other.
 pub fn write(record: &SceneResult, out: &mut dyn Write) -> io::Result<()> {
     let (mut drawing, mut y) = (String::new(), 0.0);
@@ -43,13 +35,13 @@ pub fn write(record: &SceneResult, out: &mut dyn Write) -> io::Result<()> {
             let _ = write!(drawing, "<g transform=\"translate(0 {y:.0})\">{panel}</g>");
             y += height;
         }
-        for text in footer(record, part).iter().flat_map(|text| wrapped(text, WIDTH)) {
+        for text in footer(record, part).iter().flat_map(|text| wrapped(text)) {
             y += LINE;
             drawing += &text_at(12.0, y, "soft", &text);
         }
         y += LINE;
     }
-    out.write_all(file("Wrong answers by epsilon in a scene", WIDTH, y, &drawing).as_bytes())
+    out.write_all(file("Wrong answers by epsilon in a scene", y, &drawing).as_bytes())
 }
 
 /// The footer: the rays and the contract behind the shares.
@@ -76,12 +68,6 @@ struct CountLine<'a> {
     /// Hits that other numbers refuse, whatever this one is.
     by_others: u64,
     wrong: Vec<u64>,
-}
-
-impl CountLine<'_> {
-    fn class(&self) -> String {
-        class_of(self.count)
-    }
 }
 
 /// `grazing hit`.
@@ -206,7 +192,7 @@ impl<'a> Draft<'a> {
         let marks: Vec<ChartMark> = self.tried.iter().map(mark).collect();
         let most = self.lines.iter().map(|line| line.of).max().unwrap_or(1);
         let decades = [self.decades(-1.0), self.decades(1.0)];
-        let mut chart = Chart::new(FRAME, decades, (most, MOST_DECADES), &marks);
+        let mut chart = Chart::new(decades, most, &marks);
         chart.drawing += &text_at(12.0, 26.0, "this", &title);
         if !others.is_empty() {
             let with = format!("with {}", others.join(", "));
@@ -221,7 +207,7 @@ impl<'a> Draft<'a> {
                 let share = *wrong as f64 / line.of as f64;
                 (*value, share, Some([interval.low, interval.high]))
             };
-            chart.line(&line.class(), self.values.iter().zip(&line.wrong).map(point));
+            chart.line(&class_of(line.count), self.values.iter().zip(&line.wrong).map(point));
         }
         for row in &self.limits {
             if let Some(value) = row.value {
@@ -244,7 +230,7 @@ impl<'a> Draft<'a> {
                 0.0 => String::new(),
                 share => format!(", {} by others", percent(share)),
             };
-            let mark = format!("<path class=\"line {}\" d=\"M0 0h30\"/>", line.class());
+            let mark = format!("<path class=\"line {}\" d=\"M0 0h30\"/>", class_of(line.count));
             (mark, format!("{what} (n = {n}{others})"))
         });
         let limits = self.limits.iter().map(|row| {
@@ -253,7 +239,8 @@ impl<'a> Draft<'a> {
         });
         let mut all: Vec<(String, String)> = lines.chain(limits).collect();
         if let Some(line) = self.lines.last() {
-            let mark = format!("<path class=\"band {}\" d=\"M0 -6h30v12h-30z\"/>", line.class());
+            let mark =
+                format!("<path class=\"band {}\" d=\"M0 -6h30v12h-30z\"/>", class_of(line.count));
             all.push((mark, "around a line: its 95 % interval (Clopper and Pearson)".to_owned()));
         }
         if let Some(ends) = self.within() {

@@ -4,12 +4,11 @@ use super::answer::{USE, is_scale_free_better, title, used};
 use super::commands::{of_kernel, scene_words};
 use super::evidence;
 use super::fitness::{fitness, is_fine};
-use super::legend::how_to_read;
 use super::notes::few_rays;
 use super::record::{
     RayCount, Rays, SceneKernelPart, SceneRecord, SceneResult, Stratum, TriedPart, WrongKind,
 };
-use super::words::{of_unit, share};
+use super::words::{how_to_read, of_unit, share};
 use crate::report::alike;
 use crate::report::page::{Block, Command, Head, Page, Row, Table};
 use crate::report::record::Rate;
