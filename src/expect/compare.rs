@@ -2,13 +2,11 @@
 
 use super::changed::{CaseChange, changed_case};
 use super::known::{FoundDisagreement, KnownDisagreements};
-use super::planned::Planned;
-use super::repaired::repaired;
 use super::rows::changed_rows;
 use super::{Amount, Expectations, ExpectedEntry};
 use crate::audit::Interval;
 use crate::report::{
-    ComparisonVerdict, Conformance, Deviation, Example, FindingKind, Key, Method, NetChange, Rate,
+    ComparisonVerdict, Conformance, Deviation, Example, FindingKind, Key, Method, PlanPart, Rate,
     ResultPart, group_digits, rate_of,
 };
 use std::cmp::Reverse;
@@ -38,29 +36,22 @@ pub fn compare(
         all.iter().map(|found| (&found.key, found)).collect();
     let keys: BTreeSet<&Key> = entries.keys().chain(found.keys().copied()).collect();
     let judge = ClassJudge { method, tail: tail(keys.len()) };
-    let planned = Planned::of(result);
+    let results = result.by_place();
     let mut conformance = Conformance {
-        verdict: ComparisonVerdict::Conforms,
         method,
         is_by_family: same_plan && known.target.is_none(),
         expectations: file.map(str::to_owned),
         note: known.note.clone(),
-        change: NetChange::default(),
         rows: known.target.map_or(Vec::new(), |target| changed_rows(&result.plan, target)),
-        unproved: Vec::new(),
-        unsteady: Vec::new(),
-        unexpected: Vec::new(),
-        stale: Vec::new(),
-        known: Vec::new(),
-        too_rare_to_tell: 0,
-        outside_the_plan: 0,
+        ..Conformance::default()
     };
     for key in keys {
-        let (entry, found, part) = (entries.get(key), found.get(key).copied(), planned.result(key));
+        let (entry, found) = (entries.get(key), found.get(key).copied());
+        let part = results.get(&key.place()).copied();
         let rate = part.map_or_else(Rate::default, |part| rate_of(part, &key.class, key.finding));
         let mut deviation = deviation(key, entry, &rate, found);
         let outcome = match (entry, part) {
-            (Some(_), None) if planned.leaves_out(key) => {
+            (Some(_), None) if is_left_out(&result.plan, key) => {
                 conformance.outside_the_plan += 1;
                 continue;
             }
@@ -120,6 +111,15 @@ pub fn compare(
         _ => ComparisonVerdict::Disagreements,
     };
     conformance
+}
+
+/// True if a plan leaves out the kernel, the scalar or the family: then the expectation is about
+/// something else. A kernel that runs with other epsilons only is another matter.
+fn is_left_out(plan: &PlanPart, key: &Key) -> bool {
+    let is_planned = plan.rows.iter().any(|row| row.kernel == key.kernel)
+        && plan.scalars.contains(&key.scalar)
+        && plan.sources.iter().any(|source| source.family == key.family);
+    !is_planned
 }
 
 /// How much harm a disagreement does: cases without a verdict are worst, then what has the most cases more than expected.
@@ -296,6 +296,46 @@ fn describe(amount: &Amount, found: &Rate, digest: Option<&str>) -> String {
             format!("{} of {}{other}", group_digits(*count), group_digits(*of))
         }
     }
+}
+
+/// The verb for the kernel's failure, if it gave no verdict.
+fn verb(finding: FindingKind) -> Option<&'static str> {
+    match finding {
+        FindingKind::Crash => Some("crashed"),
+        FindingKind::Panic => Some("panicked"),
+        FindingKind::Timeout => Some("gave no answer"),
+        _ => None,
+    }
+}
+
+/// True if a failure keeps cases of a class from being judged: one on a triangle also keeps its group.
+fn keeps(failure: &Key, key: &Key) -> bool {
+    let is_of_class = match key.class.as_str() {
+        "group" => failure.class != "polygon",
+        class => failure.class == class,
+    };
+    let is_of_place = failure.is_of_row(key) && failure.family == key.family;
+    failure.finding.is_failure() && is_of_class && is_of_place
+}
+
+/// A note on a class of which there is more than expected, if the kernel failed on more of its cases before.
+fn repaired(
+    entries: &BTreeMap<Key, ExpectedEntry>,
+    all: &[FoundDisagreement],
+    key: &Key,
+) -> Option<String> {
+    let count = |entry: &ExpectedEntry| match &entry.amount {
+        Amount::Count { count, .. } => *count,
+        Amount::Rate(_) => 0,
+    };
+    let failed: Vec<(&Key, &ExpectedEntry)> =
+        entries.iter().filter(|(other, _)| keeps(other, key)).collect();
+    let failing = all.iter().filter(|other| keeps(&other.key, key));
+    let before: u64 = failed.iter().map(|(_, entry)| count(entry)).sum();
+    let fewer = before.checked_sub(failing.map(|other| other.rate.count).sum())?;
+    let did = verb(failed.first()?.0.finding)?;
+    let is_any = 0 < fewer && !key.finding.is_failure();
+    is_any.then(|| format!("; before, the kernel {did} on {fewer} cases that it answers now"))
 }
 
 #[cfg(test)]

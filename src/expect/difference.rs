@@ -4,8 +4,8 @@ use super::changed::{CaseChange, changed_case};
 use super::compare::tail;
 use crate::report::page::{Block, Item, Page, Paged, Tone};
 use crate::report::{
-    Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, RowPart, disagreements,
-    group_digits, number_of, rate_of,
+    Disagreement, KernelResult, Key, Rate, ResultPart, RowPart, disagreements, group_digits,
+    number_of, rate_of,
 };
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -94,12 +94,12 @@ impl RecordComparison {
 /// 0.05 divided by the number of comparisons, are disjoint.
 pub fn difference(old: &ResultPart, new: &ResultPart) -> RecordComparison {
     let contracts = contract_changes(old, new);
+    let same_parts = old.partial == new.partial;
     let (old, new) = (Side::of(old), Side::of(new));
     let keys: BTreeSet<&Key> = old.found.keys().chain(new.found.keys()).collect();
     let (common, lone): (Vec<&Key>, Vec<&Key>) =
         keys.into_iter().partition(|key| old.result(key).is_some() && new.result(key).is_some());
-    let judge =
-        DifferenceJudge { same_parts: old.partial == new.partial, tail: tail(common.len()) };
+    let judge = DifferenceJudge { same_parts, tail: tail(common.len()) };
     let mut differences: Vec<Difference> =
         common.iter().filter_map(|key| judge.difference(key, &old, &new)).collect();
     worst_first(&mut differences);
@@ -131,7 +131,7 @@ fn contract_changes(old: &ResultPart, new: &ResultPart) -> Vec<OtherValue> {
     let changed = pairs.filter(|(before, after)| before.contract != after.contract);
     changed
         .map(|(before, after)| OtherValue {
-            what: format!("{} ({})", before.kernel, before.set),
+            what: before.label(),
             change: None,
             old: before.contract.clone(),
             new: after.contract.clone(),
@@ -146,7 +146,6 @@ struct Side<'a> {
     results: BTreeMap<[&'a str; 4], &'a KernelResult>,
     /// By family: the id of the set, and how many indices.
     sources: BTreeMap<&'a str, (&'a str, u64)>,
-    partial: Option<&'a PartialPart>,
 }
 
 impl<'a> Side<'a> {
@@ -160,7 +159,6 @@ impl<'a> Side<'a> {
                 .collect(),
             results: result.by_place(),
             sources: sources.map(|s| (s.family.as_str(), (s.set.as_str(), s.count))).collect(),
-            partial: result.partial.as_ref(),
         }
     }
 
@@ -342,9 +340,7 @@ impl OtherValue {
 
 impl Difference {
     fn item(&self) -> Item {
-        let share =
-            |rate: &Rate| format!("{} of {}", group_digits(rate.count), group_digits(rate.of));
-        let (old, new) = (share(&self.old), share(&self.new));
+        let (old, new) = (self.old.counts(), self.new.counts());
         let text = format!("{}: {old} before, {new} now{}", self.what, self.shown);
         Item { text, lines: self.command.iter().cloned().collect(), ..Item::default() }
     }

@@ -7,7 +7,7 @@ use crate::case::SceneKind;
 use crate::corpus::InputError;
 use crate::family::{FAMILIES, STRATA};
 use crate::kernel;
-use crate::report::{FindingKind, Key};
+use crate::report::{ALL_CLASSES, FindingKind, Key};
 use crate::suggest::nearest_name;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -185,14 +185,11 @@ impl ExpectationsReader<'_> {
                 set: row.set.clone(),
                 scalar: scalar.get_ref().clone(),
                 family,
-                class: String::new(),
+                class: ALL_CLASSES.to_owned(),
                 finding: FindingKind::named(finding.get_ref()).expect("checked above"),
             };
             let line = self.line(&spanned.span());
-            Ok((
-                key.of_all_classes(),
-                ExpectedEntry { line, amount, why: why.clone(), url: url.clone() },
-            ))
+            Ok((key, ExpectedEntry { line, amount, why: why.clone(), url: url.clone() }))
         };
         let entries: Vec<(Key, ExpectedEntry)> = amounts.map(entry).collect::<Result<_, _>>()?;
         match entries.is_empty() {

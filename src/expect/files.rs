@@ -43,22 +43,12 @@ pub fn open<E: From<InputError>>(
     Ok(Some(expectations.following(&record.result.plan)))
 }
 
-/// Where the cases of a family come from.
-#[derive(PartialEq)]
-enum Origin<'a> {
-    Families,
-    Scene,
-    /// A mesh or a file of stored cases, by its name in tables.
-    File(&'a str),
-}
-
-impl Origin<'_> {
-    fn of(family: &str) -> Origin<'_> {
-        match family {
-            _ if FAMILIES.iter().any(|known| known.name == family) => Origin::Families,
-            _ if Stratum::named(family).is_some() => Origin::Scene,
-            name => Origin::File(name),
-        }
+/// Where the cases of a family come from: families, a scene, or a mesh or a file of stored cases, which has its own name.
+fn origin(family: &str) -> &str {
+    match family {
+        _ if FAMILIES.iter().any(|known| known.name == family) => "families",
+        _ if Stratum::named(family).is_some() => "scene",
+        name => name,
     }
 }
 
@@ -68,10 +58,10 @@ impl Expectations {
     /// Errors: what the file is about, and what to run.
     fn are_about(&self, record: &Record, file: &str) -> Result<(), InputError> {
         let result = &record.result;
-        let origins: Vec<Origin> =
-            result.plan.sources.iter().map(|source| Origin::of(&source.family)).collect();
+        let origins: Vec<&str> =
+            result.plan.sources.iter().map(|source| origin(&source.family)).collect();
         let mut about: Vec<&str> = self.entries.keys().map(|key| key.family.as_str()).collect();
-        let is_about = |family: &&str| origins.contains(&Origin::of(family));
+        let is_about = |family: &&str| origins.contains(&origin(family));
         if about.is_empty() || about.iter().any(is_about) || disagreements(result).is_empty() {
             return Ok(());
         }

@@ -6,7 +6,7 @@ use crate::audit::Digest;
 use crate::corpus::InputError;
 use crate::report::{FindingKind, Key, ResultPart, RowPart, disagreements};
 use std::collections::BTreeMap;
-use std::fmt::{self, Write};
+use std::fmt;
 
 /// The first word of the file, after its comment.
 const SCHEMA: &str = "hairline-expectations-lock/1";
@@ -220,17 +220,13 @@ impl Expectations {
                 None => 0,
             };
             if count != locked {
-                let mut message = String::new();
-                let place = [&*key.scalar, &key.family, key.finding.name()].join(" ");
-                let _ = write!(
-                    message,
-                    "{} {place}: {count} here, {locked} in {file}.lock: {advice}",
+                let Key { scalar, family, finding, .. } = key;
+                let message = format!(
+                    "{} {scalar} {family} {finding}: {count} here, {locked} in {file}.lock: {advice}",
                     key.row()
                 );
-                return Err(InputError {
-                    line: entry.map(|entry| entry.line),
-                    ..InputError::of(file, message)
-                });
+                let line = entry.map(|entry| entry.line);
+                return Err(InputError { line, ..InputError::of(file, message) });
             }
         }
         Ok(())

@@ -17,8 +17,6 @@ mod files;
 mod known;
 mod lock;
 mod named;
-mod planned;
-mod repaired;
 mod rows;
 mod scene;
 

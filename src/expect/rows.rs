@@ -60,7 +60,7 @@ pub(super) fn changed_rows(plan: &PlanPart, known: &LockedTarget) -> Vec<RowChan
 fn changes(row: &RowPart, plan: &PlanPart, known: &LockedTarget) -> Vec<RowChange> {
     let now = RowSettings::of(row);
     let change = |what: &str, before: &str, now: &str| RowChange {
-        row: format!("{} ({})", row.kernel, row.set),
+        row: row.label(),
         what: what.to_owned(),
         before: before.to_owned(),
         now: now.to_owned(),
@@ -76,17 +76,13 @@ fn changes(row: &RowPart, plan: &PlanPart, known: &LockedTarget) -> Vec<RowChang
         let gone = gone.map(|(_, before)| change("epsilons", &before.epsilons, &now.epsilons));
         return gone.collect();
     };
-    let value = |settings: &RowSettings, name: &str| {
-        let mut words = settings.epsilons.split(',').filter_map(|word| word.split_once('='));
-        words.find(|(word, _)| *word == name).map_or("none", |(_, value)| value).to_owned()
-    };
-    let words = before.epsilons.split(',').chain(now.epsilons.split(','));
-    let mut names: Vec<&str> = words.filter_map(|word| Some(word.split_once('=')?.0)).collect();
-    names.sort_unstable();
-    names.dedup();
+    let [old, new] = [before, &now].map(|settings| -> BTreeMap<&str, &str> {
+        settings.epsilons.split(',').filter_map(|word| word.split_once('=')).collect()
+    });
+    let names: BTreeSet<&&str> = old.keys().chain(new.keys()).collect();
     let epsilons = names.into_iter().filter_map(|name| {
-        let [before, now] = [before, &now].map(|settings| value(settings, name));
-        (before != now).then(|| change(&format!("epsilon {name}"), &before, &now))
+        let [before, now] = [&old, &new].map(|all| all.get(name).copied().unwrap_or("none"));
+        (before != now).then(|| change(&format!("epsilon {name}"), before, now))
     });
     let contract = (before.contract != now.contract)
         .then(|| change("contract", &before.contract, &now.contract));

@@ -20,22 +20,15 @@ impl Expectations {
         if *before == now {
             return Ok(());
         }
-        let advice = match &record.provenance.plan_flags {
-            Some(_) => {
-                "give that scene, or let `hairline check --bless --accept-worse` write what is \
-                        wrong in this one"
-            }
-            None => "give that scene, or let HAIRLINE_BLESS=worse write what is wrong in this one",
+        let bless = match &record.provenance.plan_flags {
+            Some(_) => "`hairline check --bless --accept-worse`",
+            None => "HAIRLINE_BLESS=worse",
         };
-        let [before, now] = [apart(before, &now, ","), apart(&now, before, ",")].map(|numbers| {
-            match numbers.is_empty() {
-                true => "none of the other's".to_owned(),
-                false => numbers,
-            }
-        });
+        let none = "none of the other's";
+        let [before, now] = [apart(before, &now, ",", none), apart(&now, before, ",", none)];
         let message = format!(
             "its cases are of a scene with {before}, and this run's scene has {now}: how many are wrong in one \
-             says nothing about the other; {advice}"
+             says nothing about the other; give that scene, or let {bless} write what is wrong in this one"
         );
         Err(InputError::of(file, message))
     }

@@ -13,13 +13,28 @@ const CHARACTER: f64 = 6.4;
 /// The width of a label on an axis.
 const LABEL: f64 = 46.0;
 
+/// The width of a plot with its labels, and where it begins and ends.
+pub(super) const WIDTH: f64 = 460.0;
+const LEFT: f64 = 62.0;
+const RIGHT: f64 = WIDTH - 14.0;
+
+/// The width of the stretch around zero.
+const ZERO: f64 = 24.0;
+
+/// The height of titles above the names, and of the plot itself.
+const ABOVE: f64 = 56.0;
+const PLOT: f64 = 210.0;
+
+/// The most decades of shares that fit.
+const MOST_DECADES: i32 = 5;
+
 /// Colours by kind of ray, dashes by kind of error; light and dark.
 pub(super) const STYLE: &str = include_str!("chart.css");
 
 /// A file of drawings, one below the other.
-pub(super) fn file(title: &str, width: f64, height: f64, drawing: &str) -> String {
+pub(super) fn file(title: &str, height: f64, drawing: &str) -> String {
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\">\n<title>{title}</title>\n<style>{STYLE}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{drawing}\n</svg>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" role=\"img\">\n<title>{title}</title>\n<style>{STYLE}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{drawing}\n</svg>\n"
     )
 }
 
@@ -28,9 +43,9 @@ pub(super) fn text_at(x: f64, y: f64, class: &str, text: &str) -> String {
     format!("<text x=\"{x:.1}\" y=\"{y:.1}\" class=\"{class}\">{}</text>\n", escaped(text))
 }
 
-/// A text in lines that fit into a width.
-pub(super) fn wrapped(text: &str, width: f64) -> Vec<String> {
-    let most = ((width - 24.0) / CHARACTER) as usize;
+/// A text in lines that fit into a plot's width.
+pub(super) fn wrapped(text: &str) -> Vec<String> {
+    let most = ((WIDTH - 24.0) / CHARACTER) as usize;
     let mut lines = vec![String::new()];
     for word in text.split(' ') {
         let line = lines.last_mut().expect("there is one");
@@ -42,23 +57,6 @@ pub(super) fn wrapped(text: &str, width: f64) -> Vec<String> {
         }
     }
     lines
-}
-
-/// Where things stand.
-#[derive(Clone, Copy)]
-pub(super) struct ChartFrame {
-    /// The whole width.
-    pub width: f64,
-    /// The space to the left of the plot, for the labels of shares.
-    pub left: f64,
-    /// The space to the right of it.
-    pub right: f64,
-    /// The height of titles above the names.
-    pub above: f64,
-    /// The height of the plot itself.
-    pub plot: f64,
-    /// The width of the stretch around zero.
-    pub zero: f64,
 }
 
 /// A value that is marked by a line with its name above the plot.
@@ -73,7 +71,6 @@ pub(super) struct ChartMark {
 
 /// A plot while it is drawn.
 pub(super) struct Chart {
-    frame: ChartFrame,
     across: EpsilonAxis,
     down: ShareAxis,
     top: f64,
@@ -84,24 +81,18 @@ pub(super) struct Chart {
 }
 
 impl Chart {
-    /// The axes and the marks. Shares are of so many, or take at most so many decades.
-    pub fn new(
-        frame: ChartFrame,
-        decades: [Option<Decades>; 2],
-        (of, most_decades): (u64, i32),
-        marks: &[ChartMark],
-    ) -> Chart {
-        let across = EpsilonAxis::new(frame.left, frame.width - frame.right, frame.zero, decades);
-        let (placed, rows) = in_rows(frame, &across, marks);
-        let top = frame.above + LINE * rows as f64;
-        let bottom = top + frame.plot;
-        let down = ShareAxis::new(top, bottom, of, most_decades);
-        let mut chart = Chart { frame, across, down, top, drawing: String::new(), height: 0.0 };
-        chart.height = bottom + 24.0;
+    /// The axes and the marks. Shares are of so many.
+    pub fn new(decades: [Option<Decades>; 2], of: u64, marks: &[ChartMark]) -> Chart {
+        let across = EpsilonAxis::new(LEFT, RIGHT, ZERO, decades);
+        let (placed, rows) = in_rows(&across, marks);
+        let top = ABOVE + LINE * rows as f64;
+        let bottom = top + PLOT;
+        let down = ShareAxis::new(top, bottom, of, MOST_DECADES);
+        let mut chart = Chart { across, down, top, drawing: String::new(), height: bottom + 24.0 };
         chart.axes();
         for (mark, middle, row) in placed {
             // The first row is the lowest, next to the plot.
-            let y = frame.above - 10.0 + LINE * (rows - row) as f64;
+            let y = ABOVE - 10.0 + LINE * (rows - row) as f64;
             let class = if mark.is_this { "this" } else { "" };
             let _ = writeln!(
                 chart.drawing,
@@ -116,20 +107,20 @@ impl Chart {
 
     /// The place of a value on the axis, and the axis itself.
     pub fn on_axis(&self, value: f64) -> [f64; 2] {
-        [self.across.x(value), self.top + self.frame.plot]
+        [self.across.x(value), self.top + PLOT]
     }
 
     /// Shades the values between two; an infinite one stands for the end of the axis.
     pub fn shade(&mut self, class: &str, ends: [f64; 2]) {
         let [from, to] = ends.map(|value| match value.is_finite() {
             true => self.across.x(value),
-            false if value < 0.0 => self.frame.left,
-            false => self.frame.width - self.frame.right,
+            false if value < 0.0 => LEFT,
+            false => RIGHT,
         });
-        let (top, width, height) = (self.top, (to - from).max(2.0), self.frame.plot);
+        let (top, width) = (self.top, (to - from).max(2.0));
         let _ = writeln!(
             self.drawing,
-            "<rect class=\"{class}\" x=\"{from:.1}\" y=\"{top}\" width=\"{width:.1}\" height=\"{height}\"/>"
+            "<rect class=\"{class}\" x=\"{from:.1}\" y=\"{top}\" width=\"{width:.1}\" height=\"{PLOT}\"/>"
         );
     }
 
@@ -140,21 +131,20 @@ impl Chart {
         class: &str,
         points: impl Iterator<Item = (f64, f64, Option<[f64; 2]>)>,
     ) {
-        let (left, right) = (self.frame.left, self.frame.width - self.frame.right);
         let mut shown: Vec<(f64, f64, Option<[f64; 2]>)> = Vec::new();
         for (value, share, interval) in points {
             let x = self.across.x(value);
             match shown.last_mut() {
                 // What falls on one spot of the drawing is drawn once.
                 Some(last) if x - last.0 < 1.0 => *last = (last.0, share, interval),
-                None if left < x => shown.push((left, share, interval)),
+                None if LEFT < x => shown.push((LEFT, share, interval)),
                 _ => shown.push((x, share, interval)),
             }
         }
         if shown.is_empty() {
             return;
         }
-        let (path, band) = self.down.steps(shown.into_iter(), right);
+        let (path, band) = self.down.steps(shown.into_iter(), RIGHT);
         if !band.is_empty() {
             let _ = writeln!(self.drawing, "<path class=\"band {class}\" d=\"{band}\"/>");
         }
@@ -175,20 +165,18 @@ impl Chart {
     }
 
     fn axes(&mut self) {
-        let ChartFrame { width, left, right, .. } = self.frame;
-        let (right, bottom) = (width - right, self.top + self.frame.plot);
+        let (top, bottom) = (self.top, self.top + PLOT);
         for (y, label) in self.down.ticks().into_iter().chain([(bottom, "none".to_owned())]) {
             let _ = writeln!(
                 self.drawing,
-                "<path class=\"grid\" d=\"M{left} {y:.1}H{right}\"/><text class=\"soft\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>",
-                left - 6.0,
+                "<path class=\"grid\" d=\"M{LEFT} {y:.1}H{RIGHT}\"/><text class=\"soft\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>",
+                LEFT - 6.0,
                 y + 4.0
             );
         }
-        let top = self.top;
         let _ =
-            writeln!(self.drawing, "<path class=\"axis\" d=\"M{left} {top}V{bottom}H{right}\"/>");
-        for (x, label) in self.across.ticks(LABEL, width) {
+            writeln!(self.drawing, "<path class=\"axis\" d=\"M{LEFT} {top}V{bottom}H{RIGHT}\"/>");
+        for (x, label) in self.across.ticks(LABEL, WIDTH) {
             let _ = writeln!(
                 self.drawing,
                 "<path class=\"axis\" d=\"M{x:.1} {bottom}v5\"/><text class=\"soft\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{label}</text>",
@@ -201,7 +189,6 @@ impl Chart {
 /// The marks in rows, so that no name lies on another: each with the middle of its name and its row. Also how many rows
 /// there are.
 fn in_rows<'a>(
-    frame: ChartFrame,
     across: &EpsilonAxis,
     marks: &'a [ChartMark],
 ) -> (Vec<(&'a ChartMark, f64, usize)>, usize) {
@@ -210,8 +197,8 @@ fn in_rows<'a>(
     for mark in marks {
         let half = CHARACTER * mark.text.chars().count() as f64 / 2.0;
         // The name stays in the panel.
-        let most = (frame.width - 4.0 - half).max(frame.width / 2.0);
-        let middle = across.x(mark.value).clamp((4.0 + half).min(frame.width / 2.0), most);
+        let most = (WIDTH - 4.0 - half).max(WIDTH / 2.0);
+        let middle = across.x(mark.value).clamp((4.0 + half).min(WIDTH / 2.0), most);
         let row = ends.iter().position(|end| *end + 6.0 <= middle - half).unwrap_or(ends.len());
         if row == ends.len() {
             ends.push(0.0);

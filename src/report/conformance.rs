@@ -7,6 +7,7 @@ use std::fmt;
 
 /// How a run compares with its expectations.
 #[apply(part!)]
+#[derive(Default)]
 pub struct Conformance {
     /// The verdict of the comparison.
     pub verdict: ComparisonVerdict,
@@ -43,11 +44,12 @@ pub struct Conformance {
 }
 
 /// The verdict of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum ComparisonVerdict {
     /// All is as expected.
+    #[default]
     Conforms,
     /// There are unexpected disagreements, or proofs missing.
     Disagreements,
@@ -114,28 +116,27 @@ impl fmt::Display for RowChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let RowChange { row, what, before, now } = self;
         let is = if what == "epsilons" { "are" } else { "is" };
-        let apart = [apart(now, before, ", "), apart(before, now, ", ")];
-        let [now, before] = apart.map(|words| match words {
-            words if words.is_empty() => "nothing of it".to_owned(),
-            words => words,
-        });
+        let none = "nothing of it";
+        let [now, before] = [apart(now, before, ", ", none), apart(before, now, ", ", none)];
         write!(f, "{row}: its {what} {is} now {now}; blessed with {before}")
     }
 }
 
-/// The parts of a list that another list does not have.
-pub(crate) fn apart(list: &str, other: &str, between: &str) -> String {
+/// The parts of a list that another list does not have; other words if there is none.
+pub(crate) fn apart(list: &str, other: &str, between: &str, none: &str) -> String {
     let others: Vec<&str> = other.split(between).collect();
-    let parts = list.split(between).filter(|part| !others.contains(part));
-    parts.collect::<Vec<_>>().join(between)
+    let parts: Vec<&str> = list.split(between).filter(|part| !others.contains(part)).collect();
+    let parts = parts.join(between);
+    if parts.is_empty() { none.to_owned() } else { parts }
 }
 
 /// How counts are compared with expectations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// The cases of the plan are those of the expectations: the same must fail, by count and digest.
+    #[default]
     CaseByCase,
     /// They are others: rates of samples are compared by their intervals.
     Intervals,
@@ -239,8 +240,7 @@ impl Deviation {
 
     /// `key: 3 of 1,000, expected none`.
     pub fn describe(&self) -> String {
-        let (count, of) = (group_digits(self.found.count), group_digits(self.found.of));
-        format!("{}: {count} of {of}, expected {}", self.key(), self.expected)
+        format!("{}: {}, expected {}", self.key(), self.found.counts(), self.expected)
     }
 }
 

@@ -100,9 +100,7 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
             example: Some(finding.worst.clone()),
         }));
         let row = rows.get(&(part.kernel.as_str(), part.set.as_str()));
-        let groups = across(part).into_iter().map(|found| ("group", found));
-        let polygons = polygons(part).into_iter().map(|found| ("polygon", found));
-        for (class, (finding, rate, digest, first)) in groups.chain(polygons) {
+        for (class, (finding, rate, digest, first)) in together(part) {
             let example = row.zip(first.first()).map(|(row, id)| group_example(row, part, id));
             let key = Key::of(part, class, finding);
             all.push(Disagreement { key, rate, digest, example });
@@ -119,6 +117,12 @@ pub(super) type GroupFinding<'a> = (FindingKind, &'a Rate, &'a str, &'a [String]
 /// may take the ray: there only a ray that none of them takes is wrong.
 pub(crate) fn counts_alone(part: &KernelResult, kind: FindingKind) -> bool {
     !(is_shared_in_scene(&part.family) && kind.is_wrong_verdict())
+}
+
+/// The findings on groups and on whole polygons, each with its class.
+fn together(part: &KernelResult) -> impl Iterator<Item = (&'static str, GroupFinding<'_>)> {
+    let groups = across(part).into_iter().map(|found| ("group", found));
+    groups.chain(polygons(part).into_iter().map(|found| ("polygon", found)))
 }
 
 /// The counts of all that the contract rules out across triangles. In a scene cracks count even where nothing is promised.
@@ -170,32 +174,32 @@ pub(super) fn polygons(part: &KernelResult) -> Vec<GroupFinding<'_>> {
 
 /// How often a finding of a class occurred in a result, or could have: nought if it did not.
 pub fn rate_of(part: &KernelResult, class: &str, finding: FindingKind) -> Rate {
-    if class == ALL_CLASSES {
-        let together = across(part).into_iter().chain(polygons(part));
-        let together =
-            together.filter(|(kind, ..)| *kind == finding).map(|(_, rate, ..)| rate.clone());
-        let alone = part.total.rate(finding).filter(|_| counts_alone(part, finding));
-        return Rate::sum(&together.chain(alone).collect::<Vec<_>>());
+    let of_all = class == ALL_CLASSES;
+    let together = together(part)
+        .filter(|(of, (kind, ..))| (of_all || *of == class) && *kind == finding)
+        .map(|(_, (_, rate, ..))| rate.clone());
+    let counts = if of_all { Some(&part.total) } else { part.classes.get(class) };
+    let alone = counts.filter(|_| counts_alone(part, finding)).and_then(|it| it.rate(finding));
+    let mut rates = together.chain(alone);
+    match of_all {
+        true => Rate::sum(&rates.collect::<Vec<_>>()),
+        false => rates.next().unwrap_or_default(),
     }
-    let together = match class {
-        "group" => across(part),
-        "polygon" => polygons(part),
-        _ => Vec::new(),
-    };
-    if let Some((_, rate, ..)) = together.into_iter().find(|(kind, ..)| *kind == finding) {
-        return rate.clone();
-    }
-    let alone = part.classes.get(class).filter(|_| counts_alone(part, finding));
-    alone.and_then(|counts| counts.rate(finding)).unwrap_or_default()
 }
 
 /// The kinds of finding that a result could show.
 pub(super) fn kinds_of(part: &KernelResult) -> Vec<FindingKind> {
     let kinds = Finding::ALL.into_iter().map(FindingKind::from);
     let mut kinds: Vec<FindingKind> = kinds.filter(|kind| counts_alone(part, *kind)).collect();
-    kinds.extend(across(part).into_iter().map(|(kind, ..)| kind));
-    kinds.extend(polygons(part).into_iter().map(|(kind, ..)| kind));
+    kinds.extend(together(part).map(|(_, (kind, ..))| kind));
     kinds
+}
+
+impl RowPart {
+    /// `kernel (set)`.
+    pub(crate) fn label(&self) -> String {
+        format!("{} ({})", self.kernel, self.set)
+    }
 }
 
 /// A group by its id: its bits are those of several triangles, and are left to the command.

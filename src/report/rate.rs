@@ -1,6 +1,7 @@
 //! How often something was found, with its interval, and how people read it.
 
 use crate::audit::{RayProducts, Trials};
+use crate::plot::group_digits;
 use serde::{Deserialize, Serialize};
 
 /// A count of a number of trials, with its 95 % interval if the trials are a random sample.
@@ -73,6 +74,11 @@ impl Rate {
             sample &= rate.interval.is_some() || rate.of == 0;
         }
         Rate::new(sum, sample)
+    }
+
+    /// `3 of 57`.
+    pub(crate) fn counts(&self) -> String {
+        format!("{} of {}", group_digits(self.count), group_digits(self.of))
     }
 
     /// The trials, of which an interval of any width can be had.

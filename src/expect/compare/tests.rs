@@ -149,3 +149,50 @@ fn a_case_is_shown_that_is_new_or_right_now_and_none_that_may_still_be_wrong() {
     assert_eq!(shown(None, CaseChange::New, None), told("", [""; 3]));
     assert_eq!(shown(old(), CaseChange::Right, None), told("", [""; 3]));
 }
+
+fn key_of_class(class: &str, finding: FindingKind) -> Key {
+    let [kernel, set, scalar, family] = ["k", "source", "f32", "edges"].map(str::to_owned);
+    Key { kernel, set, scalar, family, class: class.to_owned(), finding }
+}
+
+/// The note on a finding, by the failures before and now: class, finding, cases.
+fn note(
+    before: &[(&str, FindingKind, u64)],
+    now: &[(&str, FindingKind, u64)],
+    of: (&str, FindingKind),
+) -> Option<String> {
+    let entry = |count| ExpectedEntry {
+        line: 1,
+        amount: Amount::Count { count, cases: None },
+        why: None,
+        url: None,
+    };
+    let entries =
+        before.iter().map(|(class, finding, n)| (key_of_class(class, *finding), entry(*n)));
+    let found = |(class, finding, count): &(&str, FindingKind, u64)| FoundDisagreement {
+        key: key_of_class(class, *finding),
+        rate: Rate { count: *count, of: 100, ..Rate::default() },
+        digest: None,
+        example: None,
+    };
+    let all: Vec<FoundDisagreement> = now.iter().map(found).collect();
+    repaired(&entries.collect(), &all, &key_of_class(of.0, of.1))
+}
+
+#[test]
+fn what_was_repaired_is_said_of_the_class_and_of_its_groups() {
+    use FindingKind::{Crack, Crash, FalseMiss, Panic, PolygonFalseMiss, Timeout};
+    let crashed = ("edge", Crash, 4);
+    let said = "; before, the kernel crashed on 4 cases that it answers now";
+    assert_eq!(note(&[crashed], &[], ("edge", FalseMiss)).as_deref(), Some(said));
+    assert_eq!(note(&[crashed], &[], ("group", Crack)).as_deref(), Some(said));
+    let late = note(&[("edge", Timeout, 3)], &[("edge", Timeout, 1)], ("edge", FalseMiss));
+    let said = "; before, the kernel gave no answer on 2 cases that it answers now";
+    assert_eq!(late.as_deref(), Some(said));
+    // Another class, a failure of another kind, and as many as before.
+    for other in [("vertex", FalseMiss), ("polygon", PolygonFalseMiss), ("edge", Panic)] {
+        assert_eq!(note(&[crashed], &[], other), None, "{other:?}");
+    }
+    assert_eq!(note(&[crashed], &[("edge", Panic, 4)], ("edge", FalseMiss)), None);
+    assert_eq!(note(&[], &[], ("edge", FalseMiss)), None);
+}

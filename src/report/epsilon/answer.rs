@@ -1,6 +1,5 @@
 //! The answer of one kernel in words: the same on the screen and in a page.
 
-use super::commands::commands;
 use super::notes::{accuracy, is_coarse, is_no_good, no_good, notes, price};
 use super::record::*;
 use super::words::{
@@ -8,39 +7,21 @@ use super::words::{
     unit_of, unit_of_t, where_of,
 };
 use crate::arith::two_digits;
-use crate::report::page::Use;
+use crate::report::page::{Row, Use};
 use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
 
-/// Everything that is said of one kernel in one scalar.
-pub(super) struct KernelAnswer {
-    /// The kernel, the scalar, and in short the scene.
-    pub title: String,
-    /// The scene's words.
-    pub scene: String,
-    /// The name of the numbers that cost least.
-    pub name: &'static str,
-    /// The epsilons to use; the best first.
-    pub used: Vec<Use>,
-    /// The names of what was tried.
-    pub columns: Vec<String>,
-    /// The results of what was tried: a label, and a cell for each column.
-    pub rows: Vec<(String, Vec<String>)>,
-    /// The errors of the hits that remain, in the same way.
-    pub errors: Vec<(String, Vec<String>)>,
-    /// How far each number may move.
-    pub limits: Vec<LimitRow>,
-    /// Limits that do not meet, and what helps, a sentence each.
-    pub conflicts: Vec<String>,
-    /// The subject of the commands, and the commands that show more of it.
-    pub next: Vec<String>,
-}
-
-/// A limit of a number.
-pub(super) struct LimitRow {
-    pub knob: String,
+/// A limit of a number: of these rays, or a proved one.
+pub(super) struct LimitRow<'a> {
+    pub knob: &'a KnobPart,
+    /// The limit; none if no value keeps it.
+    pub value: Option<&'a String>,
+    /// True if values must be at or above it.
+    pub is_lower: bool,
+    pub count: &'a RayCount,
+    pub is_proved: bool,
+    /// The limit in words.
     pub bound: String,
-    pub what: String,
     pub most: String,
     pub fresh: String,
     /// True if the scene's sizes set it as much as rounding does.
@@ -49,39 +30,32 @@ pub(super) struct LimitRow {
     pub price: Option<String>,
 }
 
-/// The answer for a part of a record.
-pub(super) fn answer(record: &SceneResult, part: &SceneKernelPart) -> KernelAnswer {
+/// The kernel, the scalar, and in short the scene.
+pub(super) fn title(record: &SceneResult, part: &SceneKernelPart) -> String {
     let kernel = format!("{} {}", part.kernel, part.scalar);
-    let title = match &record.mesh {
-        Some(MeshScenePart { path, triangles, .. }) => {
-            let file = path.rsplit('/').next().unwrap_or(path);
-            format!("{kernel} in {file} ({})", number_of(*triangles, "triangle", "triangles"))
-        }
-        None => kernel,
-    };
-    let name = if lead(record, part, &part.tried[0]) == USE { RECOMMENDED } else { "least bad" };
-    KernelAnswer {
-        title,
-        name,
-        scene: match record.has_scene() {
-            true => format!("{}{}", record.scene, of_unit(&record.unit)),
-            false => record.sources.join(", "),
-        },
-        used: used(record, part),
-        columns: columns(part)
-            .map(|tried| column(part, &tried.name))
-            .map(|column| if column == RECOMMENDED { name.to_owned() } else { column })
-            .collect(),
-        rows: rows(part),
-        errors: error_rows(record, part),
-        limits: limit_rows(record, part),
-        conflicts: part.conflicts.iter().map(|it| conflict(record, part, it)).collect(),
-        // No command runs a form that is no number.
-        next: match is_scale_free_better(record, part) {
-            true => Vec::new(),
-            false => commands(record, part),
-        },
+    let Some(MeshScenePart { path, triangles, .. }) = &record.mesh else { return kernel };
+    let file = path.rsplit('/').next().unwrap_or(path);
+    format!("{kernel} in {file} ({})", number_of(*triangles, "triangle", "triangles"))
+}
+
+/// The scene's words.
+pub(super) fn scene(record: &SceneResult) -> String {
+    match record.has_scene() {
+        true => format!("{}{}", record.scene, of_unit(&record.unit)),
+        false => record.sources.join(", "),
     }
+}
+
+/// The name of the numbers that cost least.
+pub(super) fn name(record: &SceneResult, part: &SceneKernelPart) -> &'static str {
+    if lead(record, part, &part.tried[0]) == USE { RECOMMENDED } else { "least bad" }
+}
+
+/// The names of what was tried.
+pub(super) fn column_names(record: &SceneResult, part: &SceneKernelPart) -> Vec<String> {
+    let names = columns(part).map(|tried| column(part, &tried.name));
+    let own = |column| if column == RECOMMENDED { name(record, part).to_owned() } else { column };
+    names.map(own).collect()
 }
 
 /// A form without a unit is the answer if it leaves less than this share of the cost.
@@ -93,7 +67,8 @@ fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
     first.iter().chain(&part.relative).chain(others)
 }
 
-fn used(record: &SceneResult, part: &SceneKernelPart) -> Vec<Use> {
+/// The epsilons to use; the best first.
+pub(super) fn used(record: &SceneResult, part: &SceneKernelPart) -> Vec<Use> {
     let fixed = Use {
         lead: lead(record, part, &part.tried[0]).to_owned(),
         text: fixed(record, part),
@@ -171,19 +146,19 @@ pub(super) fn holes_text(holes: f64) -> String {
     }
 }
 
-fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
-    let mut rows: Vec<(String, Vec<String>)> = Vec::new();
+/// The results of what was tried.
+pub(super) fn rows(part: &SceneKernelPart) -> Vec<Row> {
+    let mut rows = Vec::new();
     for (i, count) in part.counts.iter().enumerate() {
         // A family may have nothing of a kind.
         if !matches!(count.rays, Rays::Stratum(_)) && part.tried[0].wrong[i].of == 0 {
             continue;
         }
-        let cells = columns(part).map(|tried| share(&tried.wrong[i])).collect();
-        rows.push((label(count), cells));
+        rows.push(Row::new(label(count), columns(part).map(|tried| share(&tried.wrong[i]))));
         if count.rays == Rays::Stratum(Stratum::Edges) {
             let holes: Option<Vec<String>> =
                 columns(part).map(|tried| tried.holes_per_million.map(holes_text)).collect();
-            rows.extend(holes.map(|holes| (PICTURE.to_owned(), holes)));
+            rows.extend(holes.map(|holes| Row::new(PICTURE, holes)));
         }
         let several = match (count.rays, count.kind) {
             (Rays::Stratum(Stratum::Edges), _) => "at a shared edge: both hit".to_owned(),
@@ -191,24 +166,24 @@ fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
             (rays, WrongKind::Crack) => format!("{}: several hit", rays.name()),
             _ => continue,
         };
-        let cells = columns(part).map(|tried| share(&tried.doubles[i])).collect();
-        rows.push((several, cells));
+        rows.push(Row::new(several, columns(part).map(|tried| share(&tried.doubles[i]))));
     }
     for (i, count) in part.counts.iter().enumerate() {
         let found: Vec<Option<&Rate>> =
             columns(part).map(|tried| tried.exceeded.get(i).filter(|rate| 0 < rate.of)).collect();
         if found.iter().any(Option::is_some) {
             let cells = found.into_iter().map(|rate| rate.map_or("-".to_owned(), share));
-            rows.push((format!("too far off, {}", where_of(count.rays)), cells.collect()));
+            rows.push(Row::new(format!("too far off, {}", where_of(count.rays)), cells));
         }
     }
     let costs = columns(part).map(|tried| format!("{:.3}", tried.cost));
-    rows.push(("cost".to_owned(), costs.collect()));
+    rows.push(Row::new("cost", costs));
     rows
 }
 
-fn error_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
-    let mut rows: Vec<(String, Vec<String>)> = Vec::new();
+/// The errors of the hits that remain.
+pub(super) fn error_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<Row> {
+    let mut rows = Vec::new();
     for value in ["t", "point"] {
         let unit = if value == "t" { String::new() } else { of_unit(&record.unit) };
         for (place, count) in part.counts.iter().enumerate() {
@@ -217,8 +192,7 @@ fn error_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<(String, Vec<
             let found: Vec<Option<String>> = columns(part).map(of).collect();
             if found.iter().any(Option::is_some) {
                 let cells = found.into_iter().map(|cell| cell.unwrap_or("-".to_owned()));
-                let name = format!("of {value}{unit}, {}", where_of(count.rays));
-                rows.push((name, cells.collect()));
+                rows.push(Row::new(format!("of {value}{unit}, {}", where_of(count.rays)), cells));
             }
         }
     }
@@ -258,26 +232,28 @@ fn scale_free(record: &SceneResult, part: &SceneKernelPart, relative: &TriedPart
     }
 }
 
-fn limit_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<LimitRow> {
-    let what = |count: usize| {
-        let count = &part.counts[count];
-        label(count)
-    };
+/// How far each number may move; what is proved comes last.
+pub(super) fn limit_rows<'a>(
+    record: &SceneResult,
+    part: &'a SceneKernelPart,
+) -> impl Iterator<Item = LimitRow<'a>> {
     let limits = part.limits.iter().map(|limit| {
-        let knob = &part.knobs[limit.knob];
-        let fresh = limit.fresh.as_ref().map_or("-".to_owned(), |fresh| match fresh.count {
-            0 => "0".to_owned(),
-            _ => share(fresh),
-        });
+        let (knob, value) = (&part.knobs[limit.knob], limit.value.as_ref());
         LimitRow {
-            knob: knob.name.clone(),
-            bound: match &limit.value {
+            knob,
+            value,
+            is_lower: limit.is_lower,
+            count: &part.counts[limit.count],
+            is_proved: false,
+            bound: match value {
                 Some(value) if limit.is_lower && is_least(value, &part.scalar) => "> 0".to_owned(),
                 _ => interval(limit, &unit_of(record, knob)),
             },
-            what: what(limit.count),
             most: format!("1 in {}", group_digits(limit.one_in)),
-            fresh,
+            fresh: limit.fresh.as_ref().map_or("-".to_owned(), |fresh| match fresh.count {
+                0 => "0".to_owned(),
+                _ => share(fresh),
+            }),
             is_of_scene: limit.set_by.is_some(),
             price: dear(part, limit.price.as_ref().filter(|_| !limit.is_unsure)),
         }
@@ -285,9 +261,12 @@ fn limit_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<LimitRow> {
     let proved = part.proved.iter().map(|proved| {
         let knob = &part.knobs[proved.knob];
         LimitRow {
-            knob: knob.name.clone(),
+            knob,
+            value: Some(&proved.value),
+            is_lower: proved.is_lower,
+            count: &part.counts[proved.count],
+            is_proved: true,
             bound: bound(Some(&proved.value), proved.is_lower, &unit_of(record, knob)),
-            what: what(proved.count),
             most: "0: proved".to_owned(),
             fresh: match proved.fresh.of {
                 0 => "-".to_owned(),
@@ -297,11 +276,15 @@ fn limit_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<LimitRow> {
             price: dear(part, proved.price.as_ref()),
         }
     });
-    limits.chain(proved).collect()
+    limits.chain(proved)
 }
 
 /// Limits of a knob that do not meet, and what helps.
-fn conflict(record: &SceneResult, part: &SceneKernelPart, conflict: &ConflictPart) -> String {
+pub(super) fn conflict(
+    record: &SceneResult,
+    part: &SceneKernelPart,
+    conflict: &ConflictPart,
+) -> String {
     let knob = &part.knobs[part.limits[conflict.lower].knob];
     let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {
         // With directions of unit length a share of |d| is the number itself.

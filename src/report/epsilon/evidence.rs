@@ -1,6 +1,10 @@
 //! One kernel in one scalar: what to use, what argues for it, and everything else folded.
 
-use super::answer::{KernelAnswer, LimitRow, PICTURE};
+use super::answer::{
+    LimitRow, PICTURE, column_names, conflict, error_rows, is_scale_free_better, limit_rows, name,
+    rows, used,
+};
+use super::commands::commands;
 use super::plot::{footer, panels};
 use super::record::{SceneKernelPart, SceneResult};
 use super::standing::{coarse, of_given, standing, telling};
@@ -15,26 +19,19 @@ use crate::report::page::{Block, Command, Head, Row, Table};
 const MOST_ROWS: usize = 3;
 
 /// One kernel in one scalar: the answer, what argues for it, and everything else folded.
-pub(super) fn of_kernel(
-    record: &SceneResult,
-    part: &SceneKernelPart,
-    answer: &KernelAnswer,
-) -> Vec<Block> {
+pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> Vec<Block> {
     let mut blocks = vec![Block::text(standing(record, part).1)];
     blocks.extend(coarse(record, part).map(Block::Text));
-    blocks.extend(answer.used.iter().cloned().map(Block::Use));
+    blocks.extend(used(record, part).into_iter().map(Block::Use));
     blocks.extend(of_given(record, part).map(Block::Text));
     let title = match record.has_scene() {
         true => format!("wrong on fresh rays (seed {})", record.fresh_seed),
         false => format!("wrong (seed {})", record.fresh_seed),
     };
-    let heads = |title: &str| -> Vec<Head> {
-        [title].into_iter().chain(answer.columns.iter().map(String::as_str)).map(Head::of).collect()
-    };
-    let table = |title: &str, rows: &[(String, Vec<String>)]| {
-        let rows =
-            rows.iter().map(|(label, cells)| Row::new(label, cells.iter().cloned())).collect();
-        Block::Table(Table::new(heads(title), rows))
+    let columns = column_names(record, part);
+    let table = |title: &str, rows: Vec<Row>| {
+        let heads = [title].into_iter().chain(columns.iter().map(String::as_str));
+        Block::Table(Table::new(heads.map(Head::of).collect(), rows))
     };
     let is_edges = |place: &usize| part.counts[*place].rays == Rays::Stratum(Stratum::Edges);
     let mut places = telling(record, part, MOST_ROWS);
@@ -43,31 +40,35 @@ pub(super) fn of_kernel(
     }
     let mut told: Vec<String> = places.iter().map(|place| label(&part.counts[*place])).collect();
     told.extend(places.iter().any(is_edges).then(|| PICTURE.to_owned()));
-    let is_telling = |row: &&(String, Vec<String>)| told.contains(&row.0);
-    let rows: Vec<_> = answer.rows.iter().filter(is_telling).cloned().collect();
-    blocks.push(table(&title, &rows));
-    blocks.extend(panels(record, part, answer).into_iter().map(Block::Picture));
-    let mut all = vec![table(&title, &answer.rows)];
-    if !answer.errors.is_empty() {
-        all.push(table("errors: half below, 99 % below, worst", &answer.errors));
+    let all_rows = rows(part);
+    let telling = all_rows.iter().filter(|row| told.contains(&row.label)).cloned();
+    blocks.push(table(&title, telling.collect()));
+    blocks.extend(panels(record, part).into_iter().map(Block::Picture));
+    let mut all = vec![table(&title, all_rows)];
+    let errors = error_rows(record, part);
+    if !errors.is_empty() {
+        all.push(table("errors: half below, 99 % below, worst", errors));
     }
-    all.extend(of_elsewhere(record, answer.name, part));
-    all.extend(limits(answer));
-    blocks.push(Block::Details(format!("Everything about {} {}", part.kernel, part.scalar), {
-        all.push(Block::Notes(footer(record, part).into()));
-        all
-    }));
-    let command = |line: &String| {
+    all.extend(of_elsewhere(record, part));
+    all.extend(limits(record, part));
+    all.push(Block::Notes(footer(record, part).into()));
+    blocks.push(Block::Details(format!("Everything about {} {}", part.kernel, part.scalar), all));
+    // No command runs a form that is no number.
+    let next = match is_scale_free_better(record, part) {
+        true => Vec::new(),
+        false => commands(record, part),
+    };
+    let command = |line: String| {
         let is_spawn = line.starts_with("hairline spawn");
         let what = if is_spawn { "an offset in place of t_min" } else { "" };
-        Command { line: line.clone(), what }
+        Command { line, what }
     };
-    blocks.push(Block::Commands("next", answer.next.iter().map(command).collect()));
+    blocks.push(Block::Commands("next", next.into_iter().map(command).collect()));
     blocks
 }
 
 /// Where the recommended epsilons are more often wrong on planes, or with rays, of other kinds.
-fn of_elsewhere(record: &SceneResult, name: &str, part: &SceneKernelPart) -> Vec<Block> {
+fn of_elsewhere(record: &SceneResult, part: &SceneKernelPart) -> Vec<Block> {
     let own = Scene::parse(&record.scene).map_or(SceneKind::ALL[0], |(scene, _)| scene.kind());
     let planes = part.elsewhere.iter().map(|other| other.plane.clone());
     let kinds: Vec<String> = [own.to_string()].into_iter().chain(planes).collect();
@@ -78,11 +79,17 @@ fn of_elsewhere(record: &SceneResult, name: &str, part: &SceneKernelPart) -> Vec
             rates: [own].into_iter().chain(others(place)).cloned().collect(),
         })
         .collect();
-    elsewhere::blocks(&format!("{name}: more often wrong"), &kinds, &rows, share)
+    elsewhere::blocks(&format!("{}: more often wrong", name(record, part)), &kinds, &rows, share)
 }
 
-fn limits(answer: &KernelAnswer) -> Vec<Block> {
-    if answer.limits.is_empty() {
+fn limits(record: &SceneResult, part: &SceneKernelPart) -> Vec<Block> {
+    let row = |row: LimitRow| {
+        let star = if row.is_of_scene { " *" } else { "" };
+        let cells = [row.bound, format!("{}{star}", label(row.count)), row.most, row.fresh];
+        Row { below: row.price.into_iter().collect(), ..Row::new(&row.knob.name, cells) }
+    };
+    let rows: Vec<Row> = limit_rows(record, part).map(row).collect();
+    if rows.is_empty() {
         return Vec::new();
     }
     let heads = vec![
@@ -92,13 +99,6 @@ fn limits(answer: &KernelAnswer) -> Vec<Block> {
         Head::of("at most"),
         Head::of("fresh rays").optional(),
     ];
-    let row = |row: &LimitRow| {
-        let star = if row.is_of_scene { " *" } else { "" };
-        let what = format!("{}{star}", row.what);
-        let cells = [row.bound.clone(), what, row.most.clone(), row.fresh.clone()];
-        Row { below: row.price.iter().cloned().collect(), ..Row::new(&row.knob, cells) }
-    };
-    let mut blocks = vec![Block::Table(Table::new(heads, answer.limits.iter().map(row).collect()))];
-    blocks.extend(answer.conflicts.iter().cloned().map(Block::Text));
-    blocks
+    let conflicts = part.conflicts.iter().map(|it| Block::Text(conflict(record, part, it)));
+    [Block::Table(Table::new(heads, rows))].into_iter().chain(conflicts).collect()
 }

@@ -6,7 +6,6 @@ mod commands;
 mod compared;
 mod evidence;
 pub(super) mod fitness;
-mod legend;
 mod notes;
 mod page;
 mod plot;

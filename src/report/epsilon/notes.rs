@@ -158,10 +158,7 @@ pub(super) fn no_good(
 
 pub(super) fn has_default_costs(record: &SceneResult) -> bool {
     let default = Costs::default();
-    record.costs.iter().all(|cost| {
-        let mut kinds = WrongKind::ALL.into_iter();
-        kinds.any(|kind| kind.name() == cost.name && default.of(kind) == cost.number)
-    })
+    WrongKind::ALL.into_iter().all(|kind| default.of(kind) == record.cost(kind))
 }
 
 /// True if nobody should use these epsilons. With other weights, or a limit of errors, the user may have asked for what
@@ -177,8 +174,7 @@ const HEAVY: f64 = 0.01;
 /// A note if one wrong answer among so many rays decides under the given weights: they need more rays.
 fn overweighed(record: &SceneResult, part: &SceneKernelPart) -> Option<String> {
     let of_count = |(count, rate): (&RayCount, &Rate)| {
-        let cost = record.costs.iter().find(|cost| cost.name == count.kind.name())?;
-        (0 < rate.of).then(|| (cost.number / rate.of as f64, &cost.name))
+        (0 < rate.of).then(|| (record.cost(count.kind) / rate.of as f64, count.kind))
     };
     let all = part.counts.iter().zip(&part.tried[0].wrong).filter_map(of_count);
     let (cost, kind) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -233,11 +229,7 @@ fn cracks_of_its_own(record: &SceneResult, part: &SceneKernelPart) -> Option<Str
     let best = &part.tried[0];
     let cracks =
         part.counts.iter().zip(&best.wrong).filter(|(count, _)| count.kind == WrongKind::Crack);
-    let weight = record
-        .costs
-        .iter()
-        .find(|cost| cost.name == WrongKind::Crack.name())
-        .map_or(0.0, |c| c.number);
+    let weight = record.cost(WrongKind::Crack);
     let cost: f64 = cracks.map(|(_, rate)| weight * rate.rate.unwrap_or(0.0)).sum();
     (!part.has_edge_epsilon && 0.5 * best.cost < cost).then(|| {
         format!(

@@ -1,11 +1,11 @@
 //! A study of epsilons as a page: of one kernel or two what to use, and why; of more a table.
 
-use super::answer::{KernelAnswer, answer};
+use super::answer::{scene, title};
 use super::evidence::of_kernel;
-use super::legend::how_to_read;
 use super::ranking;
 use super::record::{SceneRecord, SceneResult};
 use super::standing::standing;
+use super::words::how_to_read;
 use crate::report::page::{Block, Page, Paged, Tone};
 
 impl Paged for SceneRecord {
@@ -22,17 +22,15 @@ impl Paged for SceneRecord {
 impl SceneResult {
     /// Each kernel in each scalar by itself.
     fn of_kernels(&self) -> Page {
-        let answers: Vec<KernelAnswer> =
-            self.kernels.iter().map(|part| answer(self, part)).collect();
         let mut page = Page { command: "epsilon", ..Page::default() };
-        for (i, (part, answer)) in self.kernels.iter().zip(&answers).enumerate() {
+        for (i, part) in self.kernels.iter().enumerate() {
             let on = if self.has_scene() { "in" } else { "on" };
-            let title = format!("{} {on} {}", answer.title, answer.scene);
+            let title = format!("{} {on} {}", title(self, part), scene(self));
             match i {
                 0 => page.title = title,
                 _ => page.blocks.push(Block::Heading(title)),
             }
-            page.blocks.extend(of_kernel(self, part, answer));
+            page.blocks.extend(of_kernel(self, part));
         }
         page.blocks.push(Block::Details("How to read".to_owned(), how_to_read(self)));
         let tones = self.kernels.iter().map(|part| standing(self, part).0);

@@ -1,34 +1,26 @@
 //! Plots of each value of a number while the others stay: wrong answers over the value, what was tried as
 //! lines with names above, limits on the axis. One panel a number, the same in a file and in a page.
 
-use super::answer::{KernelAnswer, LimitRow, RECOMMENDED, answer, column};
+use super::answer::{LimitRow, RECOMMENDED, column, limit_rows, scene, title, used};
 use super::record::*;
 use super::words::{human, label, unit_of};
 use crate::audit::Trials;
 use crate::plot::{Decades, decades_around, group_digits};
-use crate::report::chart::{Chart, ChartFrame, ChartMark, LINE, file, text_at, wrapped};
+use crate::report::chart::{Chart, ChartMark, LINE, WIDTH, file, text_at, wrapped};
 use crate::report::page::{Drawing, Picture};
 use crate::report::rate::percent;
 use std::fmt::Write as _;
 use std::io::{self, Write};
+use std::ptr;
 
 /// Changes of a share below this are not drawn.
 const NEGLIGIBLE: f64 = 2e-4;
-/// The most decades of shares that fit.
-const MOST_DECADES: i32 = 5;
-
-/// The width of a panel, and of a file.
-const WIDTH: f64 = 460.0;
-const FRAME: ChartFrame =
-    ChartFrame { width: WIDTH, left: 62.0, right: 14.0, above: 56.0, plot: 210.0, zero: 24.0 };
-
 /// Writes the recommendation and the panels of each kernel, one below the other.
 pub fn write(record: &SceneResult, out: &mut dyn Write) -> io::Result<()> {
     let (mut drawing, mut y) = (String::new(), 0.0);
     for part in &record.kernels {
-        let answer = answer(record, part);
-        let mut heading = vec![(answer.title.clone(), "this"), (answer.scene.clone(), "soft")];
-        for used in &answer.used {
+        let mut heading = vec![(title(record, part), "this"), (scene(record), "soft")];
+        for used in used(record, part) {
             let parts = used.text.split("  and  ").enumerate();
             let words = [used.lead.as_str(), "and"];
             heading.extend(parts.map(|(k, part)| (format!("{} {part}", words[k.min(1)]), "")));
@@ -38,18 +30,18 @@ pub fn write(record: &SceneResult, out: &mut dyn Write) -> io::Result<()> {
             y += LINE;
             drawing += &text_at(12.0, y, class, &text);
         }
-        for panel in panels(record, part, &answer) {
+        for panel in panels(record, part) {
             let Drawing::Chart(panel, [_, height]) = panel.drawing else { continue };
             let _ = write!(drawing, "<g transform=\"translate(0 {y:.0})\">{panel}</g>");
             y += height;
         }
-        for text in footer(record, part).iter().flat_map(|text| wrapped(text, WIDTH)) {
+        for text in footer(record, part).iter().flat_map(|text| wrapped(text)) {
             y += LINE;
             drawing += &text_at(12.0, y, "soft", &text);
         }
         y += LINE;
     }
-    out.write_all(file("Wrong answers by epsilon in a scene", WIDTH, y, &drawing).as_bytes())
+    out.write_all(file("Wrong answers by epsilon in a scene", y, &drawing).as_bytes())
 }
 
 /// The footer: the rays and the contract behind the shares.
@@ -65,12 +57,8 @@ pub(super) fn footer(record: &SceneResult, part: &SceneKernelPart) -> [String; 2
 }
 
 /// One panel a number.
-pub(super) fn panels(
-    record: &SceneResult,
-    part: &SceneKernelPart,
-    answer: &KernelAnswer,
-) -> Vec<Picture> {
-    (0..part.curves.len()).map(|knob| Draft::new(record, part, answer, knob).panel()).collect()
+pub(super) fn panels(record: &SceneResult, part: &SceneKernelPart) -> Vec<Picture> {
+    (0..part.curves.len()).map(|knob| Draft::new(record, part, knob).panel()).collect()
 }
 
 /// A count as a line: the wrong answers at each value that this number is to blame for.
@@ -80,12 +68,6 @@ struct CountLine<'a> {
     /// Hits that other numbers refuse, whatever this one is.
     by_others: u64,
     wrong: Vec<u64>,
-}
-
-impl CountLine<'_> {
-    fn class(&self) -> String {
-        class_of(self.count)
-    }
 }
 
 /// `grazing hit`.
@@ -108,13 +90,14 @@ fn color_of(count: &RayCount) -> &'static str {
 struct Draft<'a> {
     record: &'a SceneResult,
     part: &'a SceneKernelPart,
-    answer: &'a KernelAnswer,
     place: usize,
     knob: &'a KnobPart,
     values: Vec<f64>,
     lines: Vec<CountLine<'a>>,
     /// The values that were tried, with their names, in order.
     tried: Vec<(f64, String)>,
+    /// Its limits; the proved ones come last.
+    limits: Vec<LimitRow<'a>>,
 }
 
 fn number(text: &str) -> f64 {
@@ -122,13 +105,8 @@ fn number(text: &str) -> f64 {
 }
 
 impl<'a> Draft<'a> {
-    fn new(
-        record: &'a SceneResult,
-        part: &'a SceneKernelPart,
-        answer: &'a KernelAnswer,
-        place: usize,
-    ) -> Draft<'a> {
-        let curve = &part.curves[place];
+    fn new(record: &'a SceneResult, part: &'a SceneKernelPart, place: usize) -> Draft<'a> {
+        let (curve, knob) = (&part.curves[place], &part.knobs[place]);
         let lines = part.counts.iter().zip(&curve.counts).map(|(count, points)| {
             let is_lost = matches!(count.kind, WrongKind::Crack | WrongKind::Miss);
             let left = points.of - points.refused_by_others;
@@ -155,34 +133,13 @@ impl<'a> Draft<'a> {
         Draft {
             record,
             part,
-            answer,
             place,
-            knob: &part.knobs[place],
+            knob,
             values: curve.values.iter().map(|value| number(value)).collect(),
             lines: lines.filter(moves).collect(),
             tried,
+            limits: limit_rows(record, part).filter(|row| ptr::eq(row.knob, knob)).collect(),
         }
-    }
-
-    /// The limits of this number with their rows; the proved ones come last.
-    fn limits(
-        &self,
-    ) -> impl Iterator<Item = (&'a LimitRow, Option<f64>, bool, &'a RayCount, bool)> {
-        let part = self.part;
-        let place = self.place;
-        let seen = part
-            .limits
-            .iter()
-            .map(|limit| (limit.knob, limit.value.as_deref(), limit.is_lower, limit.count, false));
-        let proved = part.proved.iter().map(|proved| {
-            (proved.knob, Some(proved.value.as_str()), proved.is_lower, proved.count, true)
-        });
-        let all = seen.chain(proved).zip(&self.answer.limits);
-        all.filter(move |((knob, ..), _)| *knob == place).map(
-            move |((_, value, is_lower, count, is_proved), row)| {
-                (row, value.map(number), is_lower, &part.counts[count], is_proved)
-            },
-        )
     }
 
     /// The decades of one sign: of what was tried, of the limits, and where lines move.
@@ -195,7 +152,7 @@ impl<'a> Draft<'a> {
             (pair[0] * sign > 0.0 && self.lines.iter().any(moves)).then_some(pair[0])
         };
         let moving = self.values.windows(2).enumerate().filter_map(|(i, pair)| moved(pair, i));
-        let limits = self.limits().filter_map(|(_, value, ..)| value);
+        let limits = self.limits.iter().filter_map(|row| Some(number(row.value?)));
         let special = self.tried.iter().map(|(value, _)| *value).chain(limits);
         // What is next to zero needs no decades of its own.
         let least = if self.part.scalar == "f32" { 1e-30 } else { 1e-200 };
@@ -209,12 +166,12 @@ impl<'a> Draft<'a> {
     /// From where to where every limit is kept; none where they do not meet.
     fn within(&self) -> Option<[f64; 2]> {
         let (mut low, mut high, mut any) = (f64::NEG_INFINITY, f64::INFINITY, false);
-        for (_, value, is_lower, _, is_proved) in self.limits() {
-            match (is_proved, value) {
-                (true, _) => {}
-                (false, None) => return None,
-                (false, Some(value)) if is_lower => (low, any) = (low.max(value), true),
-                (false, Some(value)) => (high, any) = (high.min(value), true),
+        for row in self.limits.iter().filter(|row| !row.is_proved) {
+            let value = number(row.value?);
+            any = true;
+            match row.is_lower {
+                true => low = low.max(value),
+                false => high = high.min(value),
             }
         }
         (any && low <= high).then_some([low, high])
@@ -235,7 +192,7 @@ impl<'a> Draft<'a> {
         let marks: Vec<ChartMark> = self.tried.iter().map(mark).collect();
         let most = self.lines.iter().map(|line| line.of).max().unwrap_or(1);
         let decades = [self.decades(-1.0), self.decades(1.0)];
-        let mut chart = Chart::new(FRAME, decades, (most, MOST_DECADES), &marks);
+        let mut chart = Chart::new(decades, most, &marks);
         chart.drawing += &text_at(12.0, 26.0, "this", &title);
         if !others.is_empty() {
             let with = format!("with {}", others.join(", "));
@@ -250,12 +207,11 @@ impl<'a> Draft<'a> {
                 let share = *wrong as f64 / line.of as f64;
                 (*value, share, Some([interval.low, interval.high]))
             };
-            chart.line(&line.class(), self.values.iter().zip(&line.wrong).map(point));
+            chart.line(&class_of(line.count), self.values.iter().zip(&line.wrong).map(point));
         }
-        for (_, value, is_lower, count, is_proved) in self.limits() {
-            if let Some(value) = value {
-                let at = chart.on_axis(value);
-                chart.drawing += &marker(at, is_lower, count, is_proved);
+        for row in &self.limits {
+            if let Some(value) = row.value {
+                chart.drawing += &marker(chart.on_axis(number(value)), row);
             }
         }
         let legend = self.legend();
@@ -274,17 +230,17 @@ impl<'a> Draft<'a> {
                 0.0 => String::new(),
                 share => format!(", {} by others", percent(share)),
             };
-            let mark = format!("<path class=\"line {}\" d=\"M0 0h30\"/>", line.class());
+            let mark = format!("<path class=\"line {}\" d=\"M0 0h30\"/>", class_of(line.count));
             (mark, format!("{what} (n = {n}{others})"))
         });
-        let limits = self.limits().map(|(row, _, is_lower, count, is_proved)| {
-            let mark = marker([15.0, 0.0], is_lower, count, is_proved);
-            let most = if is_proved { "proved".to_owned() } else { row.most.clone() };
-            (mark, format!("{} {}: {most}", row.bound, row.what))
+        let limits = self.limits.iter().map(|row| {
+            let most = if row.is_proved { "proved" } else { &row.most };
+            (marker([15.0, 0.0], row), format!("{} {}: {most}", row.bound, label(row.count)))
         });
         let mut all: Vec<(String, String)> = lines.chain(limits).collect();
         if let Some(line) = self.lines.last() {
-            let mark = format!("<path class=\"band {}\" d=\"M0 -6h30v12h-30z\"/>", line.class());
+            let mark =
+                format!("<path class=\"band {}\" d=\"M0 -6h30v12h-30z\"/>", class_of(line.count));
             all.push((mark, "around a line: its 95 % interval (Clopper and Pearson)".to_owned()));
         }
         if let Some(ends) = self.within() {
@@ -299,7 +255,7 @@ impl<'a> Draft<'a> {
             };
             let mark = format!("<rect class=\"{class}\" y=\"-6\" width=\"30\" height=\"12\"/>");
             all.push((mark, text.to_owned()));
-        } else if self.limits().any(|(.., is_proved)| !is_proved) {
+        } else if self.limits.iter().any(|row| !row.is_proved) {
             all.push((String::new(), "no value is within every limit".to_owned()));
         }
         all
@@ -319,10 +275,10 @@ fn is_open(ends: [f64; 2]) -> bool {
 }
 
 /// A triangle on the axis that points to the side that a limit allows.
-fn marker([x, y]: [f64; 2], is_lower: bool, count: &RayCount, is_proved: bool) -> String {
-    let ahead = if is_lower { 9.0 } else { -9.0 };
-    let class = if is_proved { "limit proved" } else { "limit" };
-    let stratum = color_of(count);
+fn marker([x, y]: [f64; 2], row: &LimitRow) -> String {
+    let ahead = if row.is_lower { 9.0 } else { -9.0 };
+    let class = if row.is_proved { "limit proved" } else { "limit" };
+    let stratum = color_of(row.count);
     format!(
         "<path class=\"{class} {stratum}\" d=\"M{x:.1} {:.1}l{ahead} 5l{} 5z\"/>\n",
         y - 5.0,

@@ -1,15 +1,14 @@
 //! Which kernel for a scene: all kernels in one table, the one that costs least first.
 
-use super::answer::{KernelAnswer, USE, answer, is_scale_free_better};
+use super::answer::{USE, is_scale_free_better, title, used};
 use super::commands::{of_kernel, scene_words};
 use super::evidence;
 use super::fitness::{fitness, is_fine};
-use super::legend::how_to_read;
 use super::notes::few_rays;
 use super::record::{
     RayCount, Rays, SceneKernelPart, SceneRecord, SceneResult, Stratum, TriedPart, WrongKind,
 };
-use super::words::{of_unit, share};
+use super::words::{how_to_read, of_unit, share};
 use crate::report::alike;
 use crate::report::page::{Block, Command, Head, Page, Row, Table};
 use crate::report::record::Rate;
@@ -58,12 +57,8 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
         "leaks: at shared edges or vertices; self-hits: of shadow rays{no_t}. Shares are of rays aimed there, not of your \
          pixels. cost: each share times its weight, false hits and almost parallel rays too.{forms}"
     )));
-    let answers: Vec<KernelAnswer> =
-        record.kernels.iter().map(|part| answer(record, part)).collect();
-    for (part, answer) in record.kernels.iter().zip(&answers) {
-        blocks
-            .push(Block::Details(answer.title.clone(), evidence::of_kernel(record, part, answer)));
-    }
+    let details = |part| Block::Details(title(record, part), evidence::of_kernel(record, part));
+    blocks.extend(record.kernels.iter().map(details));
     blocks.push(Block::Details("How to read".to_owned(), how_to_read(record)));
     let best = shown().find(|part| is_fine(record, part)).or(shown().next());
     let next = best
@@ -109,7 +104,7 @@ fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
         cell(|count| count.kind == WrongKind::SelfHit),
         whole.nanoseconds(part).map_or("-".to_owned(), |time| format!("{time:.0}")),
     ];
-    let used = answer(&whole.result, part).used.into_iter().next();
+    let used = used(&whole.result, part).into_iter().next();
     let used = used.map(|used| {
         let lead = if used.lead == USE { "use" } else { "no numbers are good; least bad:" };
         format!("{lead} {}", used.text)

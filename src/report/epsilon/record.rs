@@ -56,6 +56,11 @@ impl SceneResult {
     pub fn has_scene(&self) -> bool {
         !self.scene.is_empty()
     }
+
+    /// The cost of a wrong answer of a kind.
+    pub(super) fn cost(&self, kind: WrongKind) -> f64 {
+        self.costs.iter().find(|cost| cost.name == kind.name()).map_or(0.0, |cost| cost.number)
+    }
 }
 
 impl SceneRecord {

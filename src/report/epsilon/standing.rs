@@ -4,7 +4,7 @@ use super::answer::holes_text;
 use super::fitness::{fitness, is_fine};
 use super::notes::{is_no_good, no_good};
 use super::record::*;
-use super::words::{human, share};
+use super::words::{human, of_kind, of_stratum, share};
 use crate::report::page::Tone;
 use crate::report::record::Rate;
 
@@ -82,7 +82,7 @@ pub(super) fn of_given(record: &SceneResult, part: &SceneKernelPart) -> Option<S
 fn cost_without_self_hits(record: &SceneResult, part: &SceneKernelPart, tried: &TriedPart) -> f64 {
     let counts = part.counts.iter().zip(&tried.wrong);
     let others = counts.filter(|(count, _)| count.kind != WrongKind::SelfHit);
-    others.map(|(count, rate)| cost_of(record, count) * rate.rate.unwrap_or(0.0)).sum()
+    others.map(|(count, rate)| record.cost(count.kind) * rate.rate.unwrap_or(0.0)).sum()
 }
 
 /// The knobs that some rays limit on one side and no rays on the other.
@@ -153,7 +153,7 @@ fn remains(
         let share_of = |rate: &Rate| rate.rate.filter(|_| 0 < rate.count);
         let more =
             share_of(rate)? - beside.and_then(|it| share_of(&it.wrong[place])).unwrap_or(0.0);
-        Some((cost_of(record, count) * more, phrase(count, &share(rate))))
+        Some((record.cost(count.kind) * more, phrase(count, &share(rate))))
     };
     let counts = part.counts.iter().zip(&tried.wrong).enumerate();
     let mut all: Vec<(f64, String)> = counts.filter_map(of_count).collect();
@@ -162,10 +162,6 @@ fn remains(
     all.truncate(most);
     let words: Vec<String> = all.into_iter().map(|(_, words)| words).collect();
     (!words.is_empty()).then(|| words.join(", "))
-}
-
-fn cost_of(record: &SceneResult, count: &RayCount) -> f64 {
-    record.costs.iter().find(|cost| cost.name == count.kind.name()).map_or(0.0, |cost| cost.number)
 }
 
 /// The counts that argue for the recommended numbers: those whose cost differs most among what was tried; what is the
@@ -178,7 +174,7 @@ pub(super) fn telling(record: &SceneResult, part: &SceneKernelPart, most: usize)
     };
     let told = |place: &usize| {
         let [low, high] = extremes(place);
-        let cost = cost_of(record, &part.counts[*place]);
+        let cost = record.cost(part.counts[*place].kind);
         // Less than a tenth of the share is the same.
         if high < 1.1 * low { 1e-6 * cost * high } else { cost * (high - low) }
     };
@@ -191,49 +187,23 @@ pub(super) fn telling(record: &SceneResult, part: &SceneKernelPart, most: usize)
 
 /// `lost hits inside triangles`.
 fn noun(count: &RayCount) -> String {
-    let what = match count.kind {
-        WrongKind::Crack => "leaks",
-        WrongKind::Miss => "lost hits",
-        WrongKind::Hit => "false hits",
-        WrongKind::SelfHit => "self-hits",
-    };
-    let place = match count.rays {
-        Rays::Stratum(Stratum::Edges) => "at shared edges",
-        Rays::Stratum(Stratum::Vertices) => "at shared vertices",
-        Rays::Stratum(Stratum::Grazing) => "of almost parallel rays",
-        Rays::Stratum(Stratum::Parallel) => "of parallel rays",
-        Rays::Stratum(Stratum::Shadow) => "of shadow rays",
-        Rays::Stratum(Stratum::Outside) => "beside triangles",
-        Rays::Stratum(Stratum::Interior) if count.kind == WrongKind::Miss => "inside triangles",
-        Rays::Stratum(Stratum::Interior) => "at the back",
-        rays => return format!("{what} of {}", rays.name()),
-    };
-    format!("{what} {place}")
+    let what = of_kind(count.kind)[1];
+    match count.rays {
+        Rays::Stratum(stratum) => format!("{what} {}", of_stratum(stratum, count.kind)[1]),
+        rays => format!("{what} of {}", rays.name()),
+    }
 }
 
 /// `2.9% of the shadow rays hit their own start`.
 fn phrase(count: &RayCount, share: &str) -> String {
-    let Rays::Stratum(stratum) = count.rays else {
-        let [of, does] = match count.kind {
-            WrongKind::Miss => ["hits", "are lost"],
-            WrongKind::Hit => ["misses", "are false hits"],
-            WrongKind::Crack => ["crossings", "leak"],
-            WrongKind::SelfHit => ["rays", "hit their own start"],
-        };
-        return format!("{share} of the {of} of {} {does}", count.rays.name());
+    let [_, _, of, does] = match count.rays {
+        Rays::Stratum(stratum) => of_stratum(stratum, count.kind),
+        _ => of_kind(count.kind),
     };
-    let [of, does] = match (stratum, count.kind) {
-        (Stratum::Edges, _) => ["rays at a shared edge", "leak"],
-        (Stratum::Vertices, _) => ["rays at a shared vertex", "leak"],
-        (Stratum::Grazing, WrongKind::Miss) => ["almost parallel hits", "are lost"],
-        (Stratum::Grazing, _) => ["almost parallel rays", "hit falsely"],
-        (Stratum::Parallel, _) => ["parallel rays", "hit falsely"],
-        (Stratum::Shadow, _) => ["shadow rays", "hit their own start"],
-        (Stratum::Outside, _) => ["rays beside a triangle", "hit it"],
-        (Stratum::Interior, WrongKind::Miss) => ["hits inside a triangle", "are lost"],
-        (Stratum::Interior, _) => ["rays at its back", "hit"],
-    };
-    format!("{share} of the {of} {does}")
+    match count.rays {
+        Rays::Stratum(_) => format!("{share} of the {of} {does}"),
+        rays => format!("{share} of the {of} of {} {does}", rays.name()),
+    }
 }
 
 /// A word on the scalar, if its numbers are too far apart for the scene.

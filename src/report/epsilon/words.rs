@@ -1,35 +1,61 @@
-//! The names that people use for the strata and kinds of a scene, its numbers and its units.
+//! The names that people use for the strata and kinds of a scene, its numbers and its units; and what they mean.
 
 use super::record::*;
 use crate::arith::{Float, smallest_normal};
 use crate::case::ShortNumber;
 use crate::kernel::Role;
 use crate::report::group_digits;
+use crate::report::page::Block;
 use crate::report::record::Rate;
 
-/// From where rays are aimed.
-pub(super) const RAYS: &str = "rays: aimed from their rounded origin; ray=generated in --scene aims them before it is rounded";
+/// The words for a kind of wrong answers: in a table, in a sentence, of what they are a share, and what these do.
+pub(super) fn of_kind(kind: WrongKind) -> [&'static str; 4] {
+    match kind {
+        WrongKind::Miss => ["hits lost", "lost hits", "hits", "are lost"],
+        WrongKind::Hit => ["false hits", "false hits", "misses", "are false hits"],
+        WrongKind::Crack => ["cracks", "leaks", "crossings", "leak"],
+        WrongKind::SelfHit => ["self-hits", "self-hits", "rays", "hit their own start"],
+    }
+}
+
+/// The words for a count of a stratum: its place in a table and in a sentence, of what it is a share, and what these do.
+pub(super) fn of_stratum(stratum: Stratum, kind: WrongKind) -> [&'static str; 4] {
+    match (stratum, kind) {
+        (Stratum::Interior, WrongKind::Miss) => {
+            ["at a triangle", "inside triangles", "hits inside a triangle", "are lost"]
+        }
+        (Stratum::Interior, _) => ["at its back", "at the back", "rays at its back", "hit"],
+        (Stratum::Edges, _) => {
+            ["at a shared edge", "at shared edges", "rays at a shared edge", "leak"]
+        }
+        (Stratum::Vertices, _) => {
+            ["at a shared vertex", "at shared vertices", "rays at a shared vertex", "leak"]
+        }
+        (Stratum::Grazing, WrongKind::Miss) => {
+            ["almost parallel", "of almost parallel rays", "almost parallel hits", "are lost"]
+        }
+        (Stratum::Grazing, _) => {
+            ["almost parallel", "of almost parallel rays", "almost parallel rays", "hit falsely"]
+        }
+        (Stratum::Parallel, _) => {
+            ["exactly parallel", "of parallel rays", "parallel rays", "hit falsely"]
+        }
+        (Stratum::Shadow, _) => {
+            ["shadow rays", "of shadow rays", "shadow rays", "hit their own start"]
+        }
+        (Stratum::Outside, _) => {
+            ["beside a triangle", "beside triangles", "rays beside a triangle", "hit it"]
+        }
+    }
+}
 
 /// The name of a count.
 pub(super) fn label(count: &RayCount) -> String {
-    let what = match count.kind {
-        WrongKind::Miss => "hits lost",
-        WrongKind::Hit => "false hits",
-        WrongKind::Crack => "cracks",
-        WrongKind::SelfHit => "self-hits",
+    let place = match count.rays {
+        Rays::Stratum(stratum) => of_stratum(stratum, count.kind)[0],
+        rays => rays.name(),
     };
-    let place = match (count.rays, count.kind) {
-        (Rays::Stratum(Stratum::Interior), WrongKind::Miss) => "at a triangle",
-        (Rays::Stratum(Stratum::Interior), _) => "at its back",
-        (Rays::Stratum(Stratum::Edges), _) => "at a shared edge",
-        (Rays::Stratum(Stratum::Vertices), _) => "at a shared vertex",
-        (Rays::Stratum(Stratum::Grazing), _) => "almost parallel",
-        (Rays::Stratum(Stratum::Parallel), _) => "exactly parallel",
-        (Rays::Stratum(Stratum::Shadow), _) => "shadow rays",
-        (Rays::Stratum(Stratum::Outside), _) => "beside a triangle",
-        (rays, _) => rays.name(),
-    };
-    format!("{place}: {what}")
+    format!("{place}: {}", of_kind(count.kind)[0])
 }
 
 /// Where rays go of which hits can be lost.
@@ -248,7 +274,7 @@ pub(super) fn unit_of(record: &SceneResult, knob: &KnobPart) -> String {
 }
 
 /// Which angles almost parallel rays have.
-pub(super) fn flatness(record: &SceneResult) -> String {
+fn flatness(record: &SceneResult) -> String {
     match record.sine {
         None => "from 7 degrees down to below rounding".to_owned(),
         Some([low, high]) => {
@@ -263,11 +289,57 @@ pub(crate) fn shortest<F: Float>(epsilon: F) -> String {
 }
 
 /// True if an epsilon is below the normal numbers of its scalar.
-pub(super) fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
+fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
     epsilon.parse().is_ok_and(|e: f64| e != 0.0 && e.abs() < least_normal(scalar))
 }
 
 /// The smallest normal number of the scalar of a name.
 pub(super) fn least_normal(scalar: &str) -> f64 {
     if scalar == f32::NAME { smallest_normal::<f32>() } else { smallest_normal::<f64>() }
+}
+
+/// From where rays are aimed.
+const RAYS: &str = "rays: aimed from their rounded origin; ray=generated in --scene aims them before it is rounded";
+
+/// The meaning of the words in the tables, a line each.
+pub(super) fn how_to_read(record: &SceneResult) -> Vec<Block> {
+    let costs = record.costs.iter().map(|cost| format!("{} {}", cost.name, cost.number));
+    let costs = costs.collect::<Vec<_>>().join(", ");
+    let aim = if record.aims_inside { "; all aimed inside" } else { "" };
+    let mut lines = vec![
+        RAYS.to_owned(),
+        format!("cost: each share, of its own row, times its weight ({costs})"),
+        format!("almost parallel: angles {}, each halving equally often{aim}", flatness(record)),
+    ];
+    let always = [
+        "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen",
+        "another seed may name other numbers at nearly the same cost",
+        "limits: at the first number at most that share is wrong, past the one in brackets more; unsure: these rays do not show the \
+         limit within a factor of 30, more of them (-n) do; * set by the scene's own sizes, distances and angles as much as by \
+         rounding",
+        "at most: what this number alone makes wrong; what is recommended may be beyond it if cheaper",
+        "exactly parallel: unit vectors that are so lie along axes or in level planes; other rays may be parallel to any plane, \
+         and pass an epsilon below a proved one (`hairline prove`)",
+        "scale-free: L is the triangle's longest edge, M the largest coordinate; counted by the kernel's own values before the \
+         comparison, not run",
+        "holes: at shared edges, where the scene's triangles cover a picture once, side by side",
+        "both or several hit: costs nothing, the nearest hit is the same; wrong for counting crossings",
+        "beside: within about one triangle's size; a more negative edge hits more of them",
+    ];
+    lines.extend(always.map(str::to_owned));
+    for part in &record.kernels {
+        for knob in &part.knobs {
+            let line =
+                |refuses| format!("{} of {} refuses where {refuses}", knob.name, part.kernel);
+            // The same in both scalars.
+            let line = knob.refuses.as_ref().map(line).filter(|line| !lines.contains(line));
+            lines.extend(line);
+        }
+        let values = part.limits.iter().filter_map(|limit| limit.value.as_ref());
+        let subnormal = values.filter(|value| is_subnormal(&part.scalar, value)).map(|value| {
+            format!("{value} is a subnormal number, which machines that flush to zero take for 0")
+        });
+        lines.extend(subnormal);
+    }
+    vec![Block::Notes(lines)]
 }

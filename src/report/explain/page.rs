@@ -19,8 +19,7 @@ impl Paged for Explanation {
     fn page(&self) -> Page {
         let (title, is_wrong) = self.answer();
         let tone = if is_wrong { Tone::Bad } else { Tone::Plain };
-        let mut blocks = Vec::new();
-        blocks.extend(self.all_together());
+        let mut blocks = self.all_together();
         let several = 1 < self.triangles.len();
         for (i, triangle) in self.triangles.iter().enumerate() {
             if several {
@@ -29,10 +28,8 @@ impl Paged for Explanation {
             let is_in_title = !several && triangle.rows.len() == 1;
             blocks.extend(of_triangle(triangle, [i == 0, !several], is_in_title));
         }
-        let inputs = self
-            .triangles
-            .iter()
-            .flat_map(|triangle| [Block::Listing(format!("{}\n", triangle.case.get()))]);
+        let input = |triangle: &TrianglePart| Block::Listing(format!("{}\n", triangle.case.get()));
+        let inputs = self.triangles.iter().map(input);
         blocks.push(Block::Details("The case as JSON".to_owned(), inputs.collect()));
         Page { command: "explain", title, tone, blocks }
     }

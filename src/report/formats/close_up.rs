@@ -8,7 +8,7 @@ use super::lines::{RowLine, column_legend};
 use super::pool::Pool;
 use super::rate::percent;
 use super::record::*;
-use super::row_view::COUNTED;
+use super::row_view::{COUNTED, WRONG};
 use super::why::{cause_shares, of_kind};
 use crate::audit::Attribution;
 use crate::kernel::{self, Role};
@@ -34,9 +34,8 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[RowLine]) -> 
         "On cases chosen to be hard, % of those that must be hit, and missed{intervals}."
     )));
     let has_other_causes = |line: &RowLine| {
-        let mut shares = [FindingKind::FalseMiss, FindingKind::FalseHit]
-            .into_iter()
-            .filter_map(|kind| cause_shares(of_kind(&line.row.results, kind)));
+        let mut shares =
+            WRONG.iter().filter_map(|(kind, _)| cause_shares(of_kind(&line.row.results, *kind)));
         shares.any(|shares| shares.iter().any(|(cause, ..)| *cause == Attribution::NotEpsilon))
     };
     if lines.iter().any(has_other_causes) {
@@ -110,10 +109,7 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
         row.cells.resize_with(2 * lines.len() + 3, Cell::default);
         return Some(row);
     }
-    for (kind, rate) in [
-        (FindingKind::FalseMiss, (|total| &total.false_misses) as fn(&Counts) -> &Rate),
-        (FindingKind::FalseHit, |total| &total.false_hits),
-    ] {
+    for (kind, rate) in WRONG {
         let pools = results
             .iter()
             .map(|results| Pool::of(results.iter().map(|result| rate(&result.total))));
@@ -123,11 +119,8 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
         }));
         row.cells.push(cause(&results.concat(), kind).into());
     }
-    let far: u64 = results
-        .iter()
-        .flatten()
-        .map(|r| far(r, FindingKind::FalseMiss) + far(r, FindingKind::FalseHit))
-        .sum();
+    let all = results.iter().flatten();
+    let far = all.flat_map(|result| WRONG.map(|(kind, _)| far(result, kind))).sum();
     let of = cells.iter().map(|cell| cell.wrong.of).sum();
     row.cells.push(short_percent([far, of]).into());
     Some(row)

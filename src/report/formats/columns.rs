@@ -2,7 +2,7 @@
 
 use super::disagreement::{family_of, is_shared_in_scene};
 use super::record::*;
-use super::row_view::RowView;
+use super::row_view::{RowView, WRONG};
 use crate::audit::{Octave, Trials, is_of_mesh, kind_of};
 use crate::case::SceneKind;
 use crate::family::Question;
@@ -147,12 +147,8 @@ impl ColumnCell {
                 cell.wrong.merge(&across.cracks.trials());
                 continue;
             }
-            let total = &result.total;
-            for (kind, rate) in [
-                (FindingKind::FalseMiss, &total.false_misses),
-                (FindingKind::FalseHit, &total.false_hits),
-            ] {
-                cell.wrong.merge(&rate.trials());
+            for (kind, rate) in WRONG {
+                cell.wrong.merge(&rate(&result.total).trials());
                 cell.far += far(result, kind);
             }
         }

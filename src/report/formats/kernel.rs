@@ -1,17 +1,20 @@
-//! One row of a record, folded: what it promises, its gates and what is proved of them, its rates, why it is wrong, and
-//! every class of its findings.
+//! One row of a record, folded: what it promises, its gates and what is proved of them, its rates, why it is wrong, drawings of
+//! the worst, and every class of its findings.
 
-use super::pictures;
 use super::pool::{Pool, counted};
 use super::record::*;
-use super::row_view::{COUNTED, RowView};
+use super::row_view::{COUNTED, RowView, WRONG};
 use super::why::{causes_text, of_kind, short};
-use super::worst::findings;
+use super::worst::{findings, severity};
 use super::{ProofPart, ProvedGate, group_digits};
-use crate::kernel::{self, Gate, Tunable};
+use crate::audit;
+use crate::case::Case;
+use crate::kernel::{self, Gate, Scalar, Tunable};
+use crate::map;
 use crate::prove::units;
-use crate::report::page::{Block, Cell, Head, Row, Table};
+use crate::report::page::{Block, Cell, Drawing, Head, Picture, Row, Table};
 use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// A row with its views in each scalar.
 pub(super) fn blocks(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<Block> {
@@ -19,7 +22,7 @@ pub(super) fn blocks(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec
     blocks.extend(gates(record, part));
     blocks.push(Block::Table(rates(record, part, views)));
     blocks.extend(quantiles_of(views));
-    blocks.extend(pictures::blocks(record, part, views));
+    blocks.extend(pictures(record, part, views));
     let families = Block::Table(by_family(record, views));
     blocks.push(Block::Details("Family by family".to_owned(), vec![families]));
     let items: Vec<_> = views.iter().flat_map(|view| findings(view)).collect();
@@ -56,8 +59,7 @@ fn facts(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<(&'static s
     }
     if !part.selector.is_empty() {
         facts.push(("run again", plan_flags.command(&part.flags())));
-        let tells_margins = kernel::find(&part.kernel).is_some_and(|entry| entry.tells_margins());
-        if !part.epsilons.is_empty() && tells_margins {
+        if part.is_tunable() {
             let command =
                 format!("hairline epsilon {} --format html -o epsilon.html", part.selector);
             facts.push(("every epsilon", command));
@@ -150,7 +152,7 @@ fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
         let hits = views.iter().map(|view| group_digits(view.hits_on_invalid()));
         rows.push(Row::new("hits on NaN, infinities, …", hits));
     }
-    let label = format!("{} ({})", part.kernel, part.set);
+    let label = part.label();
     let time = |view: &RowView| {
         let times = record.provenance.kernel_nanoseconds.get(view.scalar)?;
         times.get(&label).map(|time| format!("{time:.1}"))
@@ -210,17 +212,72 @@ fn by_family(record: &Record, views: &[&RowView]) -> Table {
     let row = |source: &PlannedSource| {
         let cells = results.iter().flat_map(|results| {
             let result = results.get(&*source.family);
-            [|total: &Counts| total.false_misses.clone(), |total: &Counts| total.false_hits.clone()]
-                .map(|rate| {
-                    let rate = result.map(|result| rate(&result.total)).filter(|rate| 0 < rate.of);
-                    Cell {
-                        text: rate.as_ref().map_or("-".to_owned(), counted),
-                        share: rate.and_then(|rate| rate.rate),
-                        ..Default::default()
-                    }
-                })
+            WRONG.map(|(_, rate)| {
+                let rate = result.map(|result| rate(&result.total)).filter(|rate| 0 < rate.of);
+                Cell {
+                    text: rate.map_or("-".to_owned(), counted),
+                    share: rate.and_then(|rate| rate.rate),
+                    ..Default::default()
+                }
+            })
         });
         Row::new(&source.family, cells.collect::<Vec<_>>())
     };
     Table::new(heads, record.result.plan.sources.iter().map(row).collect())
+}
+
+/// Families whose sizes span the scalar's range.
+const SPANNING: [&str; 6] =
+    ["tiny", "huge", "direction-length", "mixed-scale", "range-ends", "invalid"];
+
+/// Where pictures were asked for: in each scalar the worst false miss and false hit that can be drawn, if the kernel is
+/// known here.
+fn pictures(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<Block> {
+    if record.illustrations.is_none() {
+        return Vec::new();
+    }
+    let Ok(run) = part.spec().row() else { return Vec::new() };
+    let mut all = Vec::new();
+    for view in views {
+        for (kind, _) in WRONG {
+            let Some((family, part)) = worst(view, kind) else { continue };
+            // A drawing does not know that its ray starts at the kernel's own hit.
+            let is_secondary = family == "secondary-ray" || family.starts_with("corpus-secondary:");
+            if run.contract.no_self_hit && is_secondary {
+                continue;
+            }
+            let svg = in_named_scalar!(view.scalar, F => drawn::<F>(&run, &part.worst.bits));
+            all.extend(svg.map(|svg| {
+                Block::Picture(Picture {
+                    about: format!("Drawing of the worst {}", part.finding),
+                    caption: format!(
+                        "{} {} of {} in {family}: {}",
+                        view.scalar, part.finding, part.class, part.worst.command
+                    ),
+                    drawing: Drawing::Svg(svg),
+                })
+            }));
+        }
+    }
+    all
+}
+
+/// The worst finding of a kind that has a place to show: of a ray that crosses the plane, in a family of
+/// moderate sizes if there is one.
+fn worst<'a>(scalar: &RowView<'a>, kind: FindingKind) -> Option<(&'a str, &'a FindingPart)> {
+    let crossing = |class: &str| class.contains('/');
+    let all = scalar
+        .results
+        .iter()
+        .flat_map(|result| result.findings.iter().map(move |part| (result.family.as_str(), part)));
+    let all = all.filter(|(_, part)| part.finding == kind && crossing(&part.class));
+    let moderate = |family: &str| !SPANNING.contains(&family);
+    all.filter(|(_, part)| severity(part).is_finite()).max_by(|(f, a), (g, b)| {
+        moderate(f).cmp(&moderate(g)).then(severity(a).total_cmp(&severity(b)))
+    })
+}
+
+fn drawn<F: Scalar>(row: &audit::Row, bits: &str) -> Option<String> {
+    let case = Case::<F>::from_hex(bits)?;
+    catch_unwind(AssertUnwindSafe(|| map::drawing(&case, row).ok())).ok().flatten()
 }

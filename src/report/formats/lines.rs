@@ -19,7 +19,7 @@ pub(super) struct RowLine<'a> {
 impl RowLine<'_> {
     /// `kernel (epsilons)`.
     pub(super) fn label(&self) -> String {
-        format!("{} ({})", self.row.part.kernel, self.row.part.set)
+        self.row.part.label()
     }
 }
 
@@ -60,26 +60,30 @@ pub(super) fn notes(record: &Record) -> Vec<Block> {
     if record.result.is_placed() {
         all.push(OF_INSTANCE.to_owned());
     }
+    let values: [(fn(&Counts) -> &Rate, &str); 2] = [
+        (
+            |total| &total.bad_values,
+            "a t, u or v that is not finite, or with the wrong side (bad-value). Does it write all that it says that it \
+             gives?",
+        ),
+        (
+            |total| &total.wrong_values,
+            "a t, u or v that is not the exact one, by more than rounding explains (wrong-value). t is in units of the \
+             direction as given, u is the weight of b, v that of c.",
+        ),
+    ];
     let scalars = record.result.plan.scalars.iter();
     for row in scalars.flat_map(|scalar| RowView::all(record, scalar)) {
-        let label = format!("{} ({}), {}", row.part.kernel, row.part.set, row.scalar);
-        let [bad, of] = row.total(|result| Some(&result.total.bad_values)).counts();
-        // Of more than half of them something is wrong with the adapter, not with the arithmetic.
-        if of < bad.saturating_mul(2) {
-            let [bad, of] = [bad, of].map(group_digits);
-            all.push(format!(
-                "{label}: of {of} hits that are not false {bad} come with a t, u or v that is not finite, or with the \
-                 wrong side (bad-value). Does it write all that it says that it gives?"
-            ));
-        }
-        let [wrong, of] = row.total(|result| Some(&result.total.wrong_values)).counts();
-        if of < wrong.saturating_mul(2) {
-            let [wrong, of] = [wrong, of].map(group_digits);
-            all.push(format!(
-                "{label}: of {of} hits that are not false {wrong} come with a t, u or v that is not the exact one, by more \
-                 than rounding explains (wrong-value). t is in units of the direction as given, u is the weight of b, v \
-                 that of c."
-            ));
+        let label = format!("{}, {}", row.part.label(), row.scalar);
+        for (rate, with) in values {
+            let [count, of] = row.total(|result| Some(rate(&result.total))).counts();
+            // Of more than half of them something is wrong with the adapter, not with the arithmetic.
+            if of < count.saturating_mul(2) {
+                let [count, of] = [count, of].map(group_digits);
+                all.push(format!(
+                    "{label}: of {of} hits that are not false {count} come with {with}"
+                ));
+            }
         }
     }
     all.into_iter().map(Block::Text).collect()

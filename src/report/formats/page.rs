@@ -48,8 +48,7 @@ impl Paged for Record {
             let of_row = lines.iter().filter(|line| std::ptr::eq(line.row.part, row));
             let views: Vec<&RowView> = of_row.map(|line| &line.row).collect();
             if !views.is_empty() {
-                let title = format!("{} ({})", row.kernel, row.set);
-                page.blocks.push(Block::Details(title, kernel::blocks(self, row, &views)));
+                page.blocks.push(Block::Details(row.label(), kernel::blocks(self, row, &views)));
             }
         }
         page.blocks.push(Block::Details("About this run".to_owned(), about(self)));

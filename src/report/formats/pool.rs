@@ -1,7 +1,6 @@
 //! Sums over sources. A random sample has an interval; stored cases, and all cases of a finite family,
 //! are the whole of what they are: they have counts, and are never added to a sample.
 
-use super::group_digits;
 use super::rate::interval_of;
 use super::record::Rate;
 use std::fmt;
@@ -44,7 +43,7 @@ impl fmt::Display for Pool {
 
 /// A count of a number, with its interval if it has one.
 pub(super) fn counted(rate: &Rate) -> String {
-    format!("{} of {}{}", group_digits(rate.count), group_digits(rate.of), interval_of(rate))
+    format!("{}{}", rate.counts(), interval_of(rate))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::columns::{Column, short_percent};
 use super::lines::RowLine;
 use super::record::*;
-use super::standing::{Standing, standings};
+use super::standing::{Standing, share, standings};
 use super::{alike, group_digits, listed};
 use crate::report::page::{Block, Cell, Head, Row, Table};
 use std::collections::BTreeSet;
@@ -33,14 +33,12 @@ fn label(part: &RowPart) -> String {
 /// answers.
 fn ranked<'a>(standings: &'a [Standing<'a>]) -> Vec<(&'a Standing<'a>, Vec<&'a Standing<'a>>)> {
     let mut sorted: Vec<&Standing> = standings.iter().collect();
-    let leaks = |standing: &Standing| {
-        standing.leaks().map_or(0.0, |[count, of]| count as f64 / of.max(1) as f64)
-    };
-    let share = |standing: &Standing| standing.share.unwrap_or(0.0);
+    let leaks = |standing: &Standing| standing.leaks().map_or(0.0, share);
+    let mean = |standing: &Standing| standing.share.unwrap_or(0.0);
     sorted.sort_by(|a, b| {
         let by_leak = (0.0 < leaks(a)).cmp(&(0.0 < leaks(b)));
         let by_far = by_leak.then(a.all_far().cmp(&b.all_far()));
-        by_far.then(leaks(a).total_cmp(&leaks(b))).then(share(a).total_cmp(&share(b)))
+        by_far.then(leaks(a).total_cmp(&leaks(b))).then(mean(a).total_cmp(&mean(b)))
     });
     alike(sorted, |one, other| one.is_like(other))
 }
@@ -162,7 +160,7 @@ fn table(
             let text = standing.leaks().map_or("-".to_owned(), short_percent);
             let is_broken = standing.breaks_promise();
             let mark = if is_broken { "!" } else { "" };
-            let share = standing.leaks().map(|[count, of]| count as f64 / of.max(1) as f64);
+            let share = standing.leaks().map(share);
             cells.push(Cell { text: format!("{text}{mark}"), is_broken, share });
         }
         cells.push(group_digits(standing.all_far()).into());
@@ -182,8 +180,7 @@ fn table(
         }
         for scalar in scalars {
             let times = record.provenance.kernel_nanoseconds.get(*scalar);
-            let name = format!("{} ({})", standing.part.kernel, standing.part.set);
-            let time = times.and_then(|times| times.get(&name));
+            let time = times.and_then(|times| times.get(&standing.part.label()));
             cells.push(time.map_or("-".to_owned(), |time| format!("{time:.0}")).into());
         }
         let alike: Vec<String> = alike.iter().map(|other| label(other.part)).collect();
@@ -192,7 +189,7 @@ fn table(
             label: label(standing.part),
             cells,
             below: alike.into_iter().collect(),
-            about: Some(format!("{} ({})", standing.part.kernel, standing.part.set)),
+            about: Some(standing.part.label()),
         });
     }
     table

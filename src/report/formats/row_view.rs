@@ -3,6 +3,7 @@
 use super::group_digits;
 use super::pool::Pool;
 use super::record::*;
+use crate::kernel;
 use std::collections::HashMap;
 
 /// A rate of a result, if it has it.
@@ -21,6 +22,12 @@ pub(super) const COUNTED: [(&str, Get); 11] = [
     ("polygon false misses", |r| Some(&r.polygons.as_ref()?.false_misses)),
     ("polygon false hits", |r| Some(&r.polygons.as_ref()?.false_hits)),
     ("self-hits", |r| r.self_hits.as_ref()),
+];
+
+/// The wrong verdicts on single triangles.
+pub(super) const WRONG: [(FindingKind, fn(&Counts) -> &Rate); 2] = [
+    (FindingKind::FalseMiss, |total| &total.false_misses),
+    (FindingKind::FalseHit, |total| &total.false_hits),
 ];
 
 /// All families of one kernel row in one scalar.
@@ -63,6 +70,14 @@ impl<'a> RowView<'a> {
     }
 }
 
+impl RowPart {
+    /// True if the kernel is here, has epsilons, and tells at which it would answer otherwise.
+    pub(super) fn is_tunable(&self) -> bool {
+        let entry = kernel::find(&self.kernel);
+        !self.epsilons.is_empty() && entry.is_some_and(|entry| entry.tells_margins())
+    }
+}
+
 /// The remark on a scalar without a valid case.
 pub(super) const ALL_INVALID: &str =
     "All are invalid: a number is infinite or NaN, or the direction is zero.";
@@ -90,9 +105,8 @@ pub(super) fn failures(rows: &[&RowView]) -> Vec<String> {
         let words: Vec<String> =
             words.map(|(what, count)| format!("{} {what}", group_digits(*count))).collect();
         let cases = group_digits(sum(|counts| counts.cases));
-        let (kernel, set) = (&row.part.kernel, &row.part.set);
         (!words.is_empty())
-            .then(|| format!("{kernel} ({set}): {} in {cases} cases", words.join(", ")))
+            .then(|| format!("{}: {} in {cases} cases", row.part.label(), words.join(", ")))
     };
     rows.iter().filter_map(failures).collect()
 }

@@ -7,10 +7,11 @@ use super::lines::{RowLine, notes};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid};
 use super::standing::{Standing, standings};
-use super::{close_up, extremes, next, number_of, ranking};
+use super::{close_up, extremes, number_of, ranking};
 use crate::case::SceneKind;
+use crate::kernel;
 use crate::report::elsewhere::{self, ComparedRates};
-use crate::report::page::Block;
+use crate::report::page::{Block, Command};
 use crate::report::percent;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -44,9 +45,9 @@ pub(super) fn blocks(
     blocks.extend(failures(&rows).into_iter().map(Block::Text));
     let worst = if is_close_up(record) { 2 } else { 1 };
     blocks.extend(extremes::blocks(columns, lines, worst));
-    let next = next::commands(record, ranking::best(&standings), lines);
-    if !next.is_empty() {
-        blocks.push(Block::Commands("next", next));
+    let commands = next(record, ranking::best(&standings), lines);
+    if !commands.is_empty() {
+        blocks.push(Block::Commands("next", commands));
     }
     (title, blocks)
 }
@@ -113,7 +114,6 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
     let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
     let mean = if 1 < meant { ", the mean of the rows" } else { "" };
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
-    let label = |standing: &Standing| format!("{} ({})", standing.part.kernel, standing.part.set);
     let text = match standings {
         _ if columns.is_empty() => {
             "No case has both a verdict and a contract that demands one.".to_owned()
@@ -122,14 +122,14 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
             "No case is of ordinary size.".to_owned()
         }
         [only] if only.wrong == 0 && only.others.is_empty() => {
-            format!("{}: every verdict is right{place}.", label(only))
+            format!("{}: every verdict is right{place}.", only.part.label())
         }
         [only] if only.wrong == 0 => {
-            format!("{}: no false miss and no false hit{place}.", label(only))
+            format!("{}: no false miss and no false hit{place}.", only.part.label())
         }
         [only] => format!(
             "{} is wrong on {} % of the cases{place}{mean}, {} by over 1/1000 of an edge.",
-            label(only),
+            only.part.label(),
             percent(only.share.unwrap_or_default()),
             number_of(only.far, "time", "times"),
         ),
@@ -192,4 +192,51 @@ fn of_elsewhere(record: &Record, columns: &[Column], lines: &[RowLine]) -> Vec<B
         blocks.push(Block::Text(format!("{}. {of}", words.collect::<Vec<_>>().join("; "))));
     }
     blocks
+}
+
+/// The commands that lead on.
+fn next(record: &Record, best: Option<&RowPart>, lines: &[RowLine]) -> Vec<Command> {
+    // The product of `verify` cannot be chosen by a flag.
+    let all = best.into_iter().chain(lines.iter().map(|line| line.row.part));
+    let mut rows: Vec<&RowPart> = all.filter(|row| !row.selector.is_empty()).collect();
+    // Those of one's own among others first.
+    rows.sort_by_key(|row| kernel::find(&row.kernel).is_some_and(|entry| entry.is_built_in()));
+    let Some(first) = rows.first() else {
+        return Vec::new();
+    };
+    let tuned = rows.iter().find(|row| row.is_tunable());
+    let spaced = |words: &str| if words.is_empty() { String::new() } else { format!(" {words}") };
+    let flags = record.provenance.plan_flags.clone().unwrap_or_default();
+    let [kernels, all_sources] = [&flags.kernels, &flags.sources].map(|words| spaced(words));
+    let is_alone = rows.iter().all(|row| row.selector == first.selector);
+    let mut commands: Vec<Command> = Vec::new();
+    if !is_alone {
+        let is_own = kernel::find(&first.kernel).is_some_and(|entry| !entry.is_built_in());
+        let one = if is_own { first } else { tuned.unwrap_or(first) };
+        let line = format!("hairline audit {}{all_sources}", one.selector);
+        commands.push(Command { line, what: "one kernel" });
+    }
+    // No epsilon is chosen in instances.
+    if let Some(tuned) = tuned.filter(|_| !all_sources.contains(" --instance ")) {
+        // `epsilon` knows no rays at a mesh's edges, and takes a scene whole.
+        let sources = all_sources.split(" --directions").next().unwrap_or_default();
+        let sources = if sources.contains(" --scene ") {
+            without_families(sources)
+        } else {
+            sources.to_owned()
+        };
+        let line = format!("hairline epsilon {}{sources}", tuned.selector);
+        commands.push(Command { line, what: "choose an epsilon" });
+    }
+    let line = format!("hairline check{kernels}{all_sources} --bless");
+    commands.push(Command { line, what: "gate a CI; writes files" });
+    commands
+}
+
+/// Flags without the families among them.
+fn without_families(flags: &str) -> String {
+    let words: Vec<&str> = flags.split(' ').collect();
+    let is_of_family = |i: &usize| words[*i] == "--family" || 0 < *i && words[i - 1] == "--family";
+    let kept = (0..words.len()).filter(|i| !is_of_family(i)).map(|i| words[i]);
+    kept.collect::<Vec<_>>().join(" ")
 }

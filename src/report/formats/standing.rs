@@ -64,7 +64,8 @@ impl Standing<'_> {
     }
 }
 
-fn share([count, of]: [u64; 2]) -> f64 {
+/// A share of a number; nought of none.
+pub(super) fn share([count, of]: [u64; 2]) -> f64 {
     count as f64 / of.max(1) as f64
 }
 
