@@ -45,7 +45,7 @@ impl<F: Scalar> Island<F> {
         Island {
             name: format!("fuzz:{}/{}", rows[0].entry.info.name, F::NAME),
             epsilons: CampaignRows::new(rows, varies),
-            population: Population::new(),
+            population: Population { niches: BTreeMap::new() },
             known: BTreeSet::new(),
         }
     }
@@ -160,16 +160,9 @@ impl<F: Scalar> Newcomer<F> {
         let Newcomer { individual: Individual { case, row }, kind } = self;
         let signature = Signature { epsilons: row.epsilon_argument(), ..kind.clone() };
         let case = shrink_within(case, EFFORT, |case| signature.is_shown(row, case)).case;
-        Find {
-            case: AnyCase::from(case),
-            row: Row::clone(row),
-            signature,
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            seed: Some(seed),
-            evaluations: Some(evaluations),
-            seconds: None,
-            from: None,
-        }
+        let mut find = Find::new(AnyCase::from(case), row, signature);
+        (find.found.seed, find.found.evaluations) = (Some(seed), Some(evaluations));
+        find
     }
 }
 

@@ -17,6 +17,6 @@ mod population;
 mod run;
 mod state;
 
-pub use find::{Find, FindError};
+pub use find::Find;
 pub use run::{Campaign, CampaignPlan};
 pub use state::{CampaignState, SavedIndividual};
