@@ -4,57 +4,38 @@ use crate::contract::{Contract, Extent, Sides};
 use crate::judge::Class;
 use crate::kernel::{Gate, Role, Tunable};
 
-/// Which cases that must be missed a gate is there to refuse.
+/// True if a gate of a role, among a kernel's gates, is there to refuse the cases of a class that must be missed under a
+/// contract.
 ///
 /// By its [`Role`]: a gate on t guards the ends of the extent; a gate on the determinant or on n·d guards
 /// rays parallel to the plane and triangles without area, and with a sign the side as well; the others
 /// guard everything else, and whatever has no gate of its own.
-#[derive(Clone, Debug)]
-pub struct Duty {
-    /// By [`Class::number`].
-    classes: [bool; Class::COUNT],
-    guards_start: bool,
+pub fn guards(gates: &[Gate], role: Role, contract: &Contract, class: Class) -> bool {
+    let has = |role: Role| gates.iter().any(|gate| gate.role == role);
+    let is_culling = |gate: &Gate| gate.role == Role::Parallel && gate.epsilon == Tunable::Signed;
+    let culls = gates.iter().any(is_culling);
+    let off_the_ends = class.is_off_the_interval() && contract.extent != Extent::Line;
+    let from_behind = class.is_back() && contract.sides == Sides::Front;
+    let within = !class.is_flat() && !off_the_ends && !from_behind;
+    // Inside the triangle nothing must be missed but what lies on an open end.
+    let at_an_end = within && class.part() == "interior" && contract.extent != Extent::Line;
+    let outside = within && class.part() != "interior" || class.part() == "outside";
+    match role {
+        Role::Parallel => class.is_flat() || from_behind && culls,
+        Role::T => off_the_ends || at_an_end,
+        Role::Edge | Role::Other => {
+            outside
+                || class.is_flat() && !has(Role::Parallel)
+                || (off_the_ends || at_an_end) && !has(Role::T)
+                || from_behind && !culls
+        }
+    }
 }
 
-impl Duty {
-    /// The task of a gate of a role among a kernel's gates, under a contract.
-    pub fn of(gates: &[Gate], role: Role, contract: &Contract) -> Duty {
-        let has = |role: Role| gates.iter().any(|gate| gate.role == role);
-        let is_culling =
-            |gate: &Gate| gate.role == Role::Parallel && gate.epsilon == Tunable::Signed;
-        let culls = gates.iter().any(is_culling);
-        let mut classes = [false; Class::COUNT];
-        for class in Class::all() {
-            let off_the_ends = class.is_off_the_interval() && contract.extent != Extent::Line;
-            let from_behind = class.is_back() && contract.sides == Sides::Front;
-            let within = !class.is_flat() && !off_the_ends && !from_behind;
-            // Inside the triangle nothing must be missed but what lies on an open end.
-            let at_an_end = within && class.part() == "interior" && contract.extent != Extent::Line;
-            let outside = within && class.part() != "interior" || class.part() == "outside";
-            classes[class.number()] = match role {
-                Role::Parallel => class.is_flat() || from_behind && culls,
-                Role::T => off_the_ends || at_an_end,
-                Role::Edge | Role::Other => {
-                    outside
-                        || class.is_flat() && !has(Role::Parallel)
-                        || (off_the_ends || at_an_end) && !has(Role::T)
-                        || from_behind && !culls
-                }
-            };
-        }
-        // The epsilon of a gate on t keeps a ray from hitting the triangle that it starts on.
-        Duty { classes, guards_start: role == Role::T && contract.extent != Extent::Line }
-    }
-
-    /// True if the gate guards a class.
-    pub fn guards(&self, class: Class) -> bool {
-        self.classes[class.number()]
-    }
-
-    /// True if the gate is there to keep a ray from hitting the triangle that it starts on.
-    pub fn guards_start(&self) -> bool {
-        self.guards_start
-    }
+/// True if a gate of a role is there to keep a ray from hitting the triangle that it starts on: the epsilon of a gate on
+/// t is.
+pub fn guards_start(role: Role, contract: &Contract) -> bool {
+    role == Role::T && contract.extent != Extent::Line
 }
 
 #[cfg(test)]
@@ -65,8 +46,9 @@ mod tests {
     fn guarded(kernel: &str, gate: &str) -> Vec<String> {
         let info = find(kernel).unwrap().info;
         let gate = info.gates.iter().position(|known| known.name == gate).unwrap();
-        let duty = Duty::of(info.gates, info.gates[gate].role, &info.contract);
-        Class::all().filter(|class| duty.guards(*class)).map(Class::name).collect()
+        let role = info.gates[gate].role;
+        let is_guarded = |class: &Class| guards(info.gates, role, &info.contract, *class);
+        Class::all().filter(is_guarded).map(Class::name).collect()
     }
 
     /// True if a class fits one of some patterns, which have `*` for any word.
@@ -82,15 +64,14 @@ mod tests {
     #[test]
     fn what_has_no_gate_of_its_own_is_guarded_by_the_others() {
         use Role::{Edge, Other, Parallel, T};
-        let duties = |roles: &[Role], culls: bool, extent, sides, role: Role| {
+        let of = |roles: &[Role], culls: bool, extent, sides| {
             let gate = |role: &Role| {
                 let epsilon = if culls { Tunable::Signed } else { Tunable::NonNegative };
                 let dimension = crate::kernel::Dimension::new(0, 0);
                 Gate { name: role.name(), role: *role, refuses: "", dimension, epsilon }
             };
             let gates: Vec<Gate> = roles.iter().map(gate).collect();
-            let contract = Contract { extent, sides, ..Contract::CLOSED_RAY };
-            Duty::of(&gates, role, &contract)
+            (gates, Contract { extent, sides, ..Contract::CLOSED_RAY })
         };
         let flat = ["parallel", "coplanar", "degenerate"];
         let off = ["*/*/before", "*/*/beyond"];
@@ -151,13 +132,18 @@ mod tests {
             }),
         ];
         for (roles, culls, extent, sides, role, patterns) in rows {
-            let duty = duties(roles, culls, extent, sides, role);
+            let (gates, contract) = of(roles, culls, extent, sides);
             for class in Class::all() {
                 let expected = fits(&patterns, &class.name());
                 let told = format!("{roles:?} {culls} {extent:?} {sides:?} {role:?}");
-                assert_eq!(duty.guards(class), expected, "{told}: {}", class.name());
+                assert_eq!(
+                    guards(&gates, role, &contract, class),
+                    expected,
+                    "{told}: {}",
+                    class.name()
+                );
             }
-            assert_eq!(duty.guards_start(), role == T && extent != line);
+            assert_eq!(guards_start(role, &contract), role == T && extent != line);
         }
     }
 

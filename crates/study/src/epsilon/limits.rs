@@ -163,7 +163,7 @@ pub fn all_limits<F: Scalar>(
         let Ranks { one_in, safe, far } = ranks(tail.of)?;
         let margin = |rank: u64| tail.margins.get(rank as usize - 1).copied();
         let value = value(margin(safe)?, is_lower)?;
-        let far = margin(far).and_then(|margin| beyond(margin, is_lower));
+        let far = margin(far).and_then(|margin| bound(margin, is_lower, !is_lower));
         Some(KnobLimit { knob, count, is_lower, value, far, one_in })
     };
     tails.into_iter().filter_map(limit).collect()
@@ -175,14 +175,13 @@ fn value<F: Float>(margin: F, is_lower: bool) -> Option<Option<F>> {
     if is_lower && margin == F::infinity() {
         return Some(None);
     }
-    let bound = if is_lower { above(margin) } else { margin };
-    margin.is_finite().then(|| Some(two_digits(bound, is_lower)))
+    bound(margin, is_lower, is_lower).map(Some)
 }
 
-/// The value beyond which a margin says that more is wrong, in two digits; none if no number is.
-fn beyond<F: Float>(margin: F, is_lower: bool) -> Option<F> {
+/// The value at which a margin decides, in two digits, rounded up or down; none if no number is.
+fn bound<F: Float>(margin: F, is_lower: bool, is_up: bool) -> Option<F> {
     let bound = if is_lower { above(margin) } else { margin };
-    margin.is_finite().then(|| two_digits(bound, !is_lower))
+    margin.is_finite().then(|| two_digits(bound, is_up))
 }
 
 /// By knob: a round number in the middle between its limits, if they meet on one side of zero.

@@ -1,6 +1,6 @@
 //! The counts: rays that belong together, and the ways in which answers on them are wrong.
 
-use super::duty::Duty;
+use super::duty::guards_start;
 use super::knob::Knob;
 use crate::audit::{Row, Source, Stock};
 use crate::contract::{Contract, Extent, Sides};
@@ -136,14 +136,12 @@ pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<RayCount> {
 /// triangle self-hits are counted, if a knob can prevent them, and nothing else.
 pub fn counts_of(sources: &[Source], knobs: &[Knob], row: &Row) -> Vec<RayCount> {
     let of_scene = counts(knobs, &row.contract);
-    let guards_start = knobs.iter().any(|knob| {
-        let role = knob.role(row.entry.info.gates);
-        Duty::of(row.entry.info.gates, role, &row.contract).guards_start()
-    });
+    let gates = row.entry.info.gates;
+    let has_start = knobs.iter().any(|knob| guards_start(knob.role(gates), &row.contract));
     let mut counts: Vec<RayCount> = Vec::new();
     for source in sources {
         let (rays, grouping) = (Rays::of(source), source.grouping());
-        let starts = guards_start && grouping == Grouping::SecondaryRay;
+        let starts = has_start && grouping == Grouping::SecondaryRay;
         let of_rays = |kind: WrongKind| match rays {
             Rays::Stratum(_) => of_scene.contains(&RayCount { rays, kind }),
             _ => match kind {
