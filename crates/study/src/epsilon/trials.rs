@@ -1,9 +1,8 @@
 //! The trials of a kernel in a scene, or on other sources, and one pass over them.
 
-use super::duty::{guards, guards_start};
 use super::knob::{Guards, Knob, KnobMargins, MOST_KNOBS};
-use super::prepared::{Prepared, PreparedPart, Store};
-use super::rays::{RayCount, Rays, WrongKind};
+use super::prepared::{Prepared, Store};
+use super::rays::{RayCount, Rays, WrongKind, guards, guards_start};
 use super::relative::{relative, scale};
 use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, SourceSummary, Stock};
@@ -153,12 +152,7 @@ impl<F: Scalar> Setting<'_, F> {
         for (group, rays) in all.into_iter().enumerate() {
             for (place, source) in self.sources_of(rays, pass).into_iter().enumerate() {
                 let add = |sums: &mut S, indices: Range<u64>| {
-                    let place = PreparedPart {
-                        group,
-                        source: place,
-                        start: indices.start,
-                        end: indices.end,
-                    };
+                    let place = (group, place, indices.start, indices.end);
                     let make = || self.prepare(&source, rays, indices);
                     let part = match self.store {
                         Some(store) => store.part(pass.seed, place, make),
@@ -242,7 +236,7 @@ impl<F: Scalar> Setting<'_, F> {
         };
         let is_start = stratum.is_some() || chunk.grouping == Grouping::SecondaryRay;
         let starts = self_hits.filter(|_| is_start);
-        let roles = || self.knobs.iter().map(|knob| knob.role(gates));
+        let roles = || self.knobs.iter().map(|knob| knob.gate(gates).role);
         // By knob, by the number of the class.
         let by_class = |role| Class::all().map(move |class| guards(gates, role, contract, class));
         let guarded: Vec<Vec<bool>> = roles().map(|role| by_class(role).collect()).collect();
@@ -313,7 +307,7 @@ impl<F: Scalar> Setting<'_, F> {
     ) -> Vec<KnobMargins<F>> {
         let mut all = margins.to_vec();
         for (k, knob) in self.knobs.iter().enumerate() {
-            let dimension = knob.dimension(self.row.entry.info.gates);
+            let dimension = knob.gate(self.row.entry.info.gates).dimension;
             if dimension.has_unit() {
                 for (margins, case) in all.iter_mut().zip(cases) {
                     margins[k] = relative(margins[k], scale(case, dimension));
