@@ -14,7 +14,7 @@ use super::progress::Progress;
 use super::select::KernelArguments;
 use crate::explore::campaign::{Campaign, CampaignPlan, CampaignState, Find};
 use clap::{Args, Subcommand};
-use directory::{Begun, CAMPAIGN, Directory, NO_BAND};
+use directory::{Begun, CAMPAIGN, Directory, FORMAT, NO_BAND};
 use std::io::Write;
 use summary::write_summary;
 
@@ -135,7 +135,8 @@ impl FuzzArguments {
         let scalar = if self.scalar.is_empty() { both() } else { self.scalar.clone() };
         // A campaign is for keeping on, and to a kernel that crashes a crash is no news.
         let kernels = self.kernels.clone().go_on_after_failures();
-        Begun::new(kernels, scalar, self.seed.unwrap_or(1))
+        let version = env!("CARGO_PKG_VERSION").to_owned();
+        Begun { format: FORMAT, version, kernels, scalar, seed: self.seed.unwrap_or(1) }
     }
 
     /// The plan that the campaign was begun with; a new one is begun. Flags that are given must agree.

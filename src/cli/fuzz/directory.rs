@@ -20,7 +20,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The version of the directory's files.
-const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 1;
 
 /// The file that says what a campaign was begun with.
 pub const CAMPAIGN: &str = "campaign.json";
@@ -47,19 +47,6 @@ pub struct Begun {
     pub scalar: Vec<String>,
     /// Which random cases.
     pub seed: u64,
-}
-
-impl Begun {
-    /// With this program.
-    pub fn new(kernels: KernelArguments, scalar: Vec<String>, seed: u64) -> Begun {
-        Begun {
-            format: FORMAT,
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            kernels,
-            scalar,
-            seed,
-        }
-    }
 }
 
 /// An open campaign directory.

@@ -10,7 +10,6 @@
 //! Architecture invariant: what is found depends on the rows, the seed and the number of evaluations,
 //! never on a clock or the number of threads.
 
-mod epsilons;
 mod find;
 mod island;
 mod population;
