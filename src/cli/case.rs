@@ -63,6 +63,18 @@ impl CaseArguments {
         Ok(cases)
     }
 
+    /// The one triangle among the cases.
+    pub(super) fn one<'a, F: Scalar>(&self, group: &'a Group<F>) -> Result<&'a Case<F>, Failure> {
+        let [case] = &group.cases[..] else {
+            let (name, count) = (&self.case, group.cases.len());
+            return Err(Failure::usage(format!(
+                "'{name}' has {count} triangles: say which, as {name}.0 to {name}.{}",
+                count - 1
+            )));
+        };
+        Ok(case)
+    }
+
     /// The cases, whose rays are of the world if there is an instance, or why there are none.
     pub fn cases_and_instances(&self) -> Result<Cases, Failure> {
         if let Some(path) = &self.corpus {

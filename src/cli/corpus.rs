@@ -122,7 +122,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
                 u64::from(replayed.map_err(|message| InputError::at(&file, case.line, message))?);
             if case.found.is_some() {
                 let shown = Find::of_stored(case);
-                shown.map_err(|error| InputError::at(&file, case.line, error.to_string()))?;
+                shown.map_err(|message| InputError::at(&file, case.line, message))?;
                 finds += 1;
             }
         }

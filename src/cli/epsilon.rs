@@ -241,7 +241,7 @@ impl EpsilonRun<'_> {
             let value = number("--at", text)?;
             let gates = row.entry.info.gates;
             if value < F::zero() && !knobs[0].takes_negative(gates) {
-                let knob = knobs[0].name(gates);
+                let knob = knobs[0].gate(gates).name;
                 let message = format!(
                     "--at: below 0 {knob} refuses what it does at 0, so {text} means nothing"
                 );
@@ -276,7 +276,7 @@ impl EpsilonArguments {
         let name = info.name;
         tells_margins(row.entry)?;
         let all = Knob::all(row);
-        let names: Vec<&str> = all.iter().map(|knob| knob.name(info.gates)).collect();
+        let names: Vec<&str> = all.iter().map(|knob| knob.gate(info.gates).name).collect();
         if let Some(unknown) = self.gate.iter().find(|gate| !names.contains(&gate.as_str())) {
             let near = nearest_name(unknown, names.iter().copied());
             let near = near.map_or(String::new(), |near| format!(", did you mean '{near}'?"));
@@ -284,7 +284,7 @@ impl EpsilonArguments {
             return Err(format!("{name} has no '{unknown}' to choose{near}: there are {names}"));
         }
         let is_chosen = |knob: &Knob| {
-            self.gate.is_empty() || self.gate.iter().any(|gate| gate == knob.name(info.gates))
+            self.gate.is_empty() || self.gate.iter().any(|gate| gate == knob.gate(info.gates).name)
         };
         let chosen: Vec<Knob> = all.into_iter().filter(is_chosen).collect();
         match chosen.len() {

@@ -1,7 +1,6 @@
 //! `hairline fuzz`: a campaign that goes on past the first finding.
 
 mod directory;
-mod lock;
 mod shrink;
 mod summary;
 mod triage;
@@ -15,9 +14,9 @@ use super::progress::Progress;
 use super::select::KernelArguments;
 use crate::explore::campaign::{Campaign, CampaignPlan, CampaignState, Find};
 use clap::{Args, Subcommand};
-use directory::{Begun, CAMPAIGN, Directory, NO_BAND};
+use directory::{Begun, CAMPAIGN, Directory, FORMAT, NO_BAND};
 use std::io::Write;
-use summary::{Counters, write_summary};
+use summary::write_summary;
 
 /// The seconds between two savings of counters and population, at least and at most: a session that
 /// is killed early should not have been for nothing.
@@ -32,17 +31,6 @@ pub enum FuzzCommand {
     Shrink(shrink::ShrinkArguments),
     /// Search for the worst case of each kernel and gate, and keep the worst known
     Worst(Box<worst::WorstArguments>),
-}
-
-impl FuzzCommand {
-    /// Runs the command.
-    pub fn run(&self) -> Result<Status, Failure> {
-        match self {
-            FuzzCommand::Triage(arguments) => triage::run(arguments),
-            FuzzCommand::Shrink(arguments) => shrink::run(arguments),
-            FuzzCommand::Worst(arguments) => worst::run(arguments),
-        }
-    }
 }
 
 /// Where the campaign is kept, what it searches, and how long it runs.
@@ -98,9 +86,16 @@ pub struct FuzzArguments {
 
 /// Runs the command.
 pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
-    if let Some(command) = &arguments.command {
-        return command.run();
+    match &arguments.command {
+        Some(FuzzCommand::Triage(arguments)) => triage::run(arguments),
+        Some(FuzzCommand::Shrink(arguments)) => shrink::run(arguments),
+        Some(FuzzCommand::Worst(arguments)) => worst::run(arguments),
+        None => campaign(arguments),
     }
+}
+
+/// Begins a campaign or goes on with it.
+fn campaign(arguments: &FuzzArguments) -> Result<Status, Failure> {
     let path = arguments.directory.as_ref().or(arguments.output.as_ref());
     let path = path.ok_or_else(|| Failure::usage("say where the campaign is kept: DIR"))?;
     if let Some(seconds) = arguments.time.filter(|seconds| seconds.is_nan() || *seconds < 0.0) {
@@ -120,7 +115,8 @@ pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
     let outcome = session.go_on(arguments);
     session.progress.finish();
     // A full disk does not keep the summary from being printed.
-    write_result("-", |out| write_summary(out, path, &session.finds, &session.counters()))?;
+    let (finds, new, state) = (&session.finds, session.new_finds(), session.state());
+    write_result("-", |out| write_summary(out, path, finds, new, &state))?;
     outcome.map(|()| Status::Success)
 }
 
@@ -139,7 +135,8 @@ impl FuzzArguments {
         let scalar = if self.scalar.is_empty() { both() } else { self.scalar.clone() };
         // A campaign is for keeping on, and to a kernel that crashes a crash is no news.
         let kernels = self.kernels.clone().go_on_after_failures();
-        Begun::new(kernels, scalar, self.seed.unwrap_or(1))
+        let version = env!("CARGO_PKG_VERSION").to_owned();
+        Begun { format: FORMAT, version, kernels, scalar, seed: self.seed.unwrap_or(1) }
     }
 
     /// The plan that the campaign was begun with; a new one is begun. Flags that are given must agree.
@@ -188,7 +185,7 @@ impl Session {
         state: &CampaignState,
     ) -> Session {
         // Finds may be younger than the state.
-        let last = finds.iter().filter_map(|find| find.seconds).fold(0.0, f64::max);
+        let last = finds.iter().filter_map(|find| find.found.seconds).fold(0.0, f64::max);
         Session {
             progress: Progress::without_end(arguments.quiet),
             sessions: state.sessions + 1,
@@ -228,7 +225,7 @@ impl Session {
             return Ok(());
         }
         let seconds = (self.seconds() * 10.0).round() / 10.0;
-        finds.iter_mut().for_each(|find| find.seconds = Some(seconds));
+        finds.iter_mut().for_each(|find| find.found.seconds = Some(seconds));
         self.directory.append(&finds)?;
         if print {
             let mut out = standard_output()?;
@@ -240,7 +237,15 @@ impl Session {
     }
 
     fn save(&self) -> Result<(), Failure> {
-        self.directory.save(&self.campaign.state(self.seconds(), self.sessions))
+        self.directory.save(&self.state())
+    }
+
+    fn state(&self) -> CampaignState {
+        self.campaign.state(self.seconds(), self.sessions)
+    }
+
+    fn new_finds(&self) -> usize {
+        self.finds.len() - self.finds_before
     }
 
     fn seconds(&self) -> f64 {
@@ -257,16 +262,7 @@ impl Session {
             self.campaign.evaluations,
             here as f64 / self.progress.seconds(),
             self.finds.len(),
-            self.finds.len() - self.finds_before,
+            self.new_finds(),
         )
-    }
-
-    fn counters(&self) -> Counters {
-        Counters {
-            seconds: self.seconds(),
-            evaluations: self.campaign.evaluations,
-            sessions: self.sessions,
-            new: self.finds.len() - self.finds_before,
-        }
     }
 }

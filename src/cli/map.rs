@@ -1,18 +1,19 @@
 //! `hairline map`: where a kernel is wrong, one pixel one input; and a case drawn.
 
-mod input;
 mod summary;
 
 use super::before::set_threads;
+use super::case::CaseArguments;
 use super::exit::{Failure, Status};
+use super::flags::{is_f32, unknown};
 use super::output::{paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
-use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
+use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
-use crate::map::{self, CaseVector, Grid, Map, MapError, PixelStep};
+use crate::map::{self, CaseVector, Map, MapError, PixelStep, Spot};
 use crate::report::{Format, Style};
 use clap::Args;
 use std::io::{self, Write};
@@ -143,6 +144,26 @@ impl From<MapError> for Failure {
 }
 
 impl MapArguments {
+    /// The case.
+    fn input(&self) -> Result<AnyCase, Failure> {
+        let Some(case) = self.case.clone() else { return self.standard() };
+        let (mesh, corpus) = (self.mesh.clone(), self.corpus.clone());
+        let named = CaseArguments { case, mesh, corpus };
+        either_scalar!(&named.cases()?, group => Ok((*named.one(group)?).into()))
+    }
+
+    /// The case of `--at`.
+    fn standard(&self) -> Result<AnyCase, Failure> {
+        let name = self.at.as_deref().unwrap_or(Spot::Edge.name());
+        let names = Spot::ALL.map(Spot::name);
+        let spot =
+            Spot::named(name).ok_or_else(|| unknown("spot", name, names, "hairline map --help"))?;
+        Ok(match is_f32(self.scalar.as_deref().unwrap_or("f32"), "")? {
+            true => AnyCase::F32(spot.case()),
+            false => AnyCase::F64(spot.case()),
+        })
+    }
+
     /// The formats that are named, or that the outputs' names end in.
     fn formats(&self) -> Result<Vec<String>, Failure> {
         if !self.format.is_empty() {
@@ -175,20 +196,14 @@ impl MapArguments {
         let part = self.varied()?;
         let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
         let grid = map::grid_of_case(case, part, axes, step, size)?;
-        let map = map::of_kernel(case, &row, &grid, &self.progress(&grid))?;
+        let pixels = size[0] * size[1];
+        let progress = Progress::new(pixels as u64, "pixels", self.quiet);
+        let map = map::of_kernel(case, &row, &grid, &progress)?;
         let again = |pixel| summary::explain(&map::case_at(case, &grid, pixel), &row);
         let summary = summary::of_map(&map, &grid, &again);
-        let svg = if size[0] * size[1] > MOST_SVG_PIXELS {
-            String::new()
-        } else {
-            map::svg_document(&map)
-        };
+        let is_small = pixels <= MOST_SVG_PIXELS;
+        let svg = if is_small { map::svg_document(&map) } else { String::new() };
         Ok(MapPicture { summary, svg, map: Some(map), ..MapPicture::default() })
-    }
-
-    fn progress<F: Float>(&self, grid: &Grid<F>) -> Progress {
-        let [width, height] = grid.size();
-        Progress::new((width * height) as u64, "pixels", self.quiet)
     }
 
     /// The one kernel with its epsilons.

@@ -14,6 +14,7 @@ use super::select::KernelArguments;
 use super::sources::{about_scene, mesh_scene, note_left_out};
 use crate::audit::{Row, shell_word};
 use crate::case::Scene;
+use crate::epsilon::fresh_seed;
 use crate::kernel::Scalar;
 use crate::mesh::SceneMesh;
 use crate::plugin::{KernelProgram, OffsetCommand};
@@ -120,7 +121,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let rows = arguments.rows()?;
     let scalars = one_scalar(&rows, &arguments.scalar)?;
     refuse_wrong_values(&rows, scalars)?;
-    let FirstRays { scene, scalars, unit, mesh } = arguments.first_rays(scalars)?;
+    let (scene, scalars, unit, mesh) = arguments.first_rays(scalars)?;
     let instance = matrix_in(arguments.instance.as_deref(), scalars)?;
     let kinds = arguments.kinds()?;
     let distance = "a distance above 0 in longest edges, such as 0.01";
@@ -134,6 +135,8 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     };
     let commands = arguments.commands()?;
     let schemes = arguments.schemes()?;
+    // Schemes are chosen and made on other rays than those that are reported.
+    let pilot_seed = fresh_seed(arguments.seed);
     let mut studies: Vec<(SpawnPlan<'_>, &str)> = Vec::new();
     for row in &rows {
         for &kind in kinds.iter().filter(|kind| kind.is_given_by(row.entry)) {
@@ -147,7 +150,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
                 fold,
                 instance,
                 with_least: true,
-                seed: pilot_seed(arguments.seed),
+                seed: pilot_seed,
                 count: arguments.count,
             };
             let runs = |name: &&str| in_named_scalar!(*name, F => has::<F>(&schemes));
@@ -174,7 +177,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         mesh: arguments.mesh.clone(),
         unit: unit.to_owned(),
         seed: arguments.seed,
-        pilot_seed: pilot_seed(arguments.seed),
+        pilot_seed,
         count: arguments.count,
         wall,
         fold,
@@ -187,14 +190,9 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     Ok(Status::Success)
 }
 
-/// Where first rays come from: a scene, with its unit of length, and the mesh that it is, if it is one.
-struct FirstRays {
-    scene: Scene,
-    /// Those of the run that can hold it.
-    scalars: [bool; 2],
-    unit: &'static str,
-    mesh: Option<Arc<SceneMesh>>,
-}
+/// Where first rays come from: a scene, the scalars of the run that can hold it, its unit of length, and the mesh that it
+/// is, if it is one.
+type FirstRays = (Scene, [bool; 2], &'static str, Option<Arc<SceneMesh>>);
 
 /// True if any scheme runs in a scalar.
 fn has<F: Scalar>(schemes: &[Scheme]) -> bool {
@@ -205,11 +203,6 @@ fn has<F: Scalar>(schemes: &[Scheme]) -> bool {
 fn number_below(flag: &str, text: &str, limit: f64, expected: &str) -> Result<f64, Failure> {
     let number = text.trim().parse().ok().filter(|number| 0.0 < *number && *number < limit);
     number.ok_or_else(|| Failure::usage(format!("{flag}: '{text}' is not {expected}")))
-}
-
-/// The seed of the rays on which schemes are chosen and made: the next one.
-fn pilot_seed(seed: u64) -> u64 {
-    seed.wrapping_add(1)
 }
 
 /// A plan in each of some scenes.
@@ -271,11 +264,10 @@ impl SpawnArguments {
         format!("{mesh}--scene {}{instance}", shell_word(&self.scene))
     }
 
-    /// The scene, which the scalars of the run can hold, its unit of length, and the mesh that it is.
     fn first_rays(&self, scalars: [bool; 2]) -> Result<FirstRays, Failure> {
         if let Some(path) = &self.mesh {
             let (scene, mesh) = mesh_scene(path, Some(&self.scene), scalars, self.output.quiet)?;
-            return Ok(FirstRays { scene, scalars, unit: "", mesh: Some(mesh) });
+            return Ok((scene, scalars, "", Some(mesh)));
         }
         let (scene, unit) = Scene::parse(&self.scene).map_err(about_scene)?;
         let (scalars, left_out) = scene.held_in(scalars).map_err(about_scene)?;
@@ -283,7 +275,7 @@ impl SpawnArguments {
             left_out.iter().for_each(|why| eprintln!("left out: {why}"));
             note_left_out(&scene, &self.scene);
         }
-        Ok(FirstRays { scene, scalars, unit, mesh: None })
+        Ok((scene, scalars, unit, None))
     }
 
     fn kinds(&self) -> Result<Vec<PointKind>, Failure> {

@@ -45,8 +45,13 @@ fn a_derived_bound_follows_the_weights_that_an_edge_gate_lets_through() {
         let least = least_weight(&row).unwrap();
         assert_eq!(least, edge.min(1.0 + 2.0 * edge));
         let rays: Vec<_> = (0..20_000).map(|i| (i, far_beside(i, -edge))).collect();
-        let trials =
-            SpawnTrials::of(row.entry, &row.epsilons::<f32>(), PointKind::Weights, 1, &rays);
+        let trials = SpawnTrials::of(
+            (row.entry, &row.epsilons::<f32>()),
+            PointKind::Weights,
+            1,
+            &rays,
+            None,
+        );
         assert!(1000 < trials.trials.len(), "{}", trials.trials.len());
         let [inside, all] = [0.0, least]
             .map(|least| three_digits(derived_normal::<f32>(&unit, least).unwrap(), true));

@@ -227,7 +227,7 @@ fn waechter_binder_fails_at_points_o_plus_t_d_on_a_floor_at_height_0() {
     let row =
         EpsilonChoice::Source.rows(&[find("moller-trumbore").unwrap()], None).unwrap().remove(0);
     let (kind, epsilons) = (PointKind::Ray, row.epsilons::<f32>());
-    let of = SpawnTrials::of(row.entry, &epsilons, kind, 1, &[(0, first)]);
+    let of = SpawnTrials::of((row.entry, &epsilons), kind, 1, &[(0, first)], None);
     let [trial] = of.trials.as_slice() else { panic!("{of:?}") };
     let start = parse("waechter-binder").unwrap().offset::<f32>().unwrap().start(&trial.hit);
     // The ray came from above, and the start is below.

@@ -241,7 +241,7 @@ fn no_point_of_a_small_grid_is_cheaper_than_the_recommended_one() {
             let cost = |epsilons: &[f32]| costs.total(&counts, shares(&setting, &all, epsilons));
             let least = cost(&best);
             let gates = row.entry.info.gates;
-            let of = |knob: &Knob| match knob.role(gates).name() {
+            let of = |knob: &Knob| match knob.gate(gates).role.name() {
                 "parallel" => values[0],
                 "t" => values[2],
                 _ => values[1],

@@ -330,7 +330,7 @@ fn triangles_of_any_size_and_none_do_no_harm() {
         [(0, Case::new([0.25, 0.25, 1.0], direction, vertices))]
     };
     let of = |vertices, direction| {
-        SpawnTrials::of(&entry, &[], PointKind::Weights, 1, &rays(vertices, direction))
+        SpawnTrials::of((&entry, &[]), PointKind::Weights, 1, &rays(vertices, direction), None)
     };
     let counts = |of: &SpawnTrials<f32>| [of.trials.len() as u64, of.without_side, of.not_finite];
     let down = [0.0, 0.0, -1.0];

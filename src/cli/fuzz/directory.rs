@@ -7,7 +7,6 @@
 //!   than the finds;
 //! - `lock`: one process at a time.
 
-use super::lock::FolderLock;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::write_json_lines;
 use crate::cli::select::KernelArguments;
@@ -16,12 +15,12 @@ use crate::corpus::lines::{self, write_case};
 use crate::explore::campaign::{CampaignState, Find};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The version of the directory's files.
-const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 1;
 
 /// The file that says what a campaign was begun with.
 pub const CAMPAIGN: &str = "campaign.json";
@@ -48,19 +47,6 @@ pub struct Begun {
     pub scalar: Vec<String>,
     /// Which random cases.
     pub seed: u64,
-}
-
-impl Begun {
-    /// With this program.
-    pub fn new(kernels: KernelArguments, scalar: Vec<String>, seed: u64) -> Begun {
-        Begun {
-            format: FORMAT,
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            kernels,
-            scalar,
-            seed,
-        }
-    }
 }
 
 /// An open campaign directory.
@@ -185,8 +171,7 @@ pub fn read_begun(directory: &Path) -> Result<Option<Begun>, Failure> {
 pub fn read_finds(text: &[u8], name: &str) -> Result<Vec<Find>, Failure> {
     let finds = lines::read(text, name).map(|stored| {
         let stored = stored?;
-        let at_line = |message: String| InputError::at(name, stored.line, message);
-        Find::of_stored(&stored).map_err(|error| at_line(error.to_string()))
+        Find::of_stored(&stored).map_err(|message| InputError::at(name, stored.line, message))
     });
     Ok(finds.collect::<Result<_, InputError>>()?)
 }
@@ -201,4 +186,53 @@ fn read_json<T: DeserializeOwned>(path: &Path, advice: &str) -> Result<Option<T>
         InputError::at(&path.display().to_string(), error.line(), format!("{error}{advice}"))
     };
     Ok(Some(read.map_err(damaged)?))
+}
+
+/// The lock of a folder, held until it is dropped.
+///
+/// The system holds it, on an open file, and releases it when the process ends in whatever way.
+/// The file names the process for others to read; it is empty when nobody holds the lock.
+struct FolderLock {
+    file: File,
+}
+
+impl FolderLock {
+    /// Takes the lock of a folder, and tells if the last process to hold it was killed.
+    fn take(folder: &Path) -> Result<FolderLock, Failure> {
+        let path = folder.join("lock");
+        let failed = |error: io::Error| Failure::of_path(&path, &error);
+        let file = File::options().create(true).truncate(false).write(true).open(&path);
+        let mut file = file.map_err(failed)?;
+        let holder = || fs::read_to_string(&path).unwrap_or_default();
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::Error(error)) => return Err(failed(error)),
+            Err(TryLockError::WouldBlock) => {
+                let (folder, holder) = (folder.display(), holder());
+                let message =
+                    format!("{folder}: another campaign writes here: {}", holder.trim_end());
+                return Err(Failure::Message(Status::InputOutput, message));
+            }
+        }
+        if !holder().is_empty() {
+            eprintln!("{}: its process is gone; the campaign goes on here", path.display());
+        }
+        let owner = format!("process {} on {}\n", std::process::id(), host());
+        let written = file.set_len(0).and_then(|()| file.write_all(owner.as_bytes()));
+        written.map_err(failed)?;
+        Ok(FolderLock { file })
+    }
+}
+
+impl Drop for FolderLock {
+    fn drop(&mut self) {
+        let _ = self.file.set_len(0);
+    }
+}
+
+/// The machine's name, where the system tells it in a file.
+fn host() -> String {
+    let name = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+    let name = name.trim();
+    if name.is_empty() { "this machine".to_owned() } else { name.to_owned() }
 }

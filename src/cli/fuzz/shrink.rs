@@ -30,17 +30,10 @@ pub fn run(arguments: &ShrinkArguments) -> Result<Status, Failure> {
     let rows = arguments.kernels.rows()?;
     let cases = arguments.case.cases()?;
     rows.iter().try_for_each(|row| row.check_in(cases.scalars()))?;
-    either_scalar!(cases, group => shrink(&rows, &arguments.case.case, &group.cases))
+    either_scalar!(&cases, group => shrink(&rows, arguments.case.one(group)?))
 }
 
-fn shrink<F: Scalar>(rows: &[Row], name: &str, cases: &[Case<F>]) -> Result<Status, Failure> {
-    let [case] = cases else {
-        let last = cases.len() - 1;
-        return Err(Failure::usage(format!(
-            "'{name}' has {} triangles: say which, as {name}.0 to {name}.{last}",
-            cases.len()
-        )));
-    };
+fn shrink<F: Scalar>(rows: &[Row], case: &Case<F>) -> Result<Status, Failure> {
     let row = row_with_finding(rows, case)?;
     let (signature, shrunk) = shrink_finding(row, case).ok_or_else(|| no_finding(rows))?;
     write_result("-", |out| write(out, row, case, &signature, &shrunk))?;
@@ -102,15 +95,12 @@ fn write<F: Scalar>(
         out,
         "minimum  local: no single simplification keeps the finding, of {SIMPLIFICATIONS}"
     )?;
-    writeln!(out, "\nJSON, a line of a corpus file\n\n{}", corpus_line(&shrunk.case, signature))?;
+    let stored = StoredCase { why: Some(signature.to_string()), ..StoredCase::of(shrunk.case) };
+    let line = write_case(&stored.with_truth());
+    writeln!(out, "\nJSON, a line of a corpus file\n\n{line}")?;
     // The snippet finds its kernel in the library, where only built-in ones are.
     if row.entry.is_built_in() {
         write!(out, "\nRust\n\n{}", rust_snippet(row, &shrunk.case, signature))?;
     }
     write!(out, "\nC\n\n{}", c_snippet(row, &shrunk.case, signature))
-}
-
-fn corpus_line<F: Scalar>(case: &Case<F>, signature: &Signature) -> String {
-    let stored = StoredCase { why: Some(signature.to_string()), ..StoredCase::of(*case) };
-    write_case(&stored.with_truth())
 }

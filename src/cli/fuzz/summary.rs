@@ -2,35 +2,24 @@
 
 use super::directory::FINDS;
 use crate::audit::quoted;
-use crate::explore::campaign::Find;
+use crate::explore::campaign::{CampaignState, Find};
 use crate::judge::Finding;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-
-/// The counters of a campaign.
-pub struct Counters {
-    /// Seconds until now, of all sessions.
-    pub seconds: f64,
-    /// Evaluations until now, of all sessions.
-    pub evaluations: u64,
-    /// How often it was begun or resumed.
-    pub sessions: u64,
-    /// Signatures that this session added.
-    pub new: usize,
-}
 
 /// The moments of the table, in seconds.
 const MOMENTS: [f64; 14] =
     [1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 60.0, 120.0, 180.0, 300.0, 600.0, 1800.0, 3600.0, 36000.0];
 
-/// Writes the summary.
+/// Writes the summary of a campaign, to which this session added so many finds.
 pub fn write_summary(
     out: &mut dyn Write,
     path: &str,
     finds: &[Find],
-    counters: &Counters,
+    new: usize,
+    state: &CampaignState,
 ) -> io::Result<()> {
-    let Counters { seconds, evaluations, sessions, new } = counters;
+    let CampaignState { seconds, evaluations, sessions, .. } = state;
     let rate = *evaluations as f64 / seconds.max(1e-9);
     writeln!(
         out,
@@ -56,7 +45,7 @@ pub fn explain_command(find: &Find, file: &str) -> String {
 fn write_growth(out: &mut dyn Write, finds: &[Find], seconds: f64) -> io::Result<()> {
     let moments = MOMENTS.into_iter().filter(|moment| *moment < seconds).chain([seconds]);
     let known = |moment: f64| {
-        let before = |find: &&Find| find.seconds.is_some_and(|seconds| seconds <= moment);
+        let before = |find: &&Find| find.found.seconds.is_some_and(|seconds| seconds <= moment);
         finds.iter().filter(before).count()
     };
     writeln!(out, "Signatures known after so many seconds")?;

@@ -1,5 +1,6 @@
 //! Which scheme to use: a simple one that never fails and is about as low as any.
 
+use crate::arith::two_digits;
 use crate::case::ShortNumber;
 use crate::spawn::{Lengths, OfScheme, Scheme, SpawnSums, parse};
 
@@ -46,13 +47,7 @@ pub fn least_without_failure(made: [Vec<Scheme>; 2], tried: &[SpawnSums]) -> Vec
 
 /// Two digits at or above a positive number.
 fn rounded_up(x: f64) -> String {
-    let text = format!("{x:.1e}");
-    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let digits = (digits.parse::<f64>().unwrap_or(0.0) * 10.0).round() as i64;
-    let exponent = exponent.parse().unwrap_or(0) - 1;
-    let tries = [digits, digits + 1].map(|digits| format!("{digits}e{exponent}"));
-    let all: Vec<f64> = tries.iter().filter_map(|text| text.parse().ok()).collect();
-    ShortNumber(all.into_iter().find(|y| x <= *y).unwrap_or(x)).to_string()
+    ShortNumber(two_digits(x, true)).to_string()
 }
 
 /// An offset at most this many times as high as the lowest is as good: another seed may turn them round.

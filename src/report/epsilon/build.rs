@@ -80,11 +80,11 @@ pub fn kernel_part<F: Scalar>(
 ) -> SceneKernelPart {
     let info = setting.row.entry.info;
     let knob_part = |knob: &Knob| {
-        let dimension = knob.dimension(info.gates);
+        let dimension = knob.gate(info.gates).dimension;
         KnobPart {
-            name: knob.name(info.gates).to_owned(),
+            name: knob.gate(info.gates).name.to_owned(),
             is_gate: matches!(knob, Knob::Gate(_)),
-            role: knob.role(info.gates).name().to_owned(),
+            role: knob.gate(info.gates).role.name().to_owned(),
             refuses: match knob {
                 Knob::Gate(gate) => Some(info.gates[*gate].refuses.to_owned()),
                 Knob::LeastT => None,
@@ -106,7 +106,8 @@ pub fn kernel_part<F: Scalar>(
             is_unsure: limit.is_unsure(),
             one_in: limit.one_in,
             fresh: limit.value.map(|_| Rate::new(*wrong, true)),
-            set_by: set_by(knob.role(info.gates), setting.counts[limit.count]).map(str::to_owned),
+            set_by: set_by(knob.gate(info.gates).role, setting.counts[limit.count])
+                .map(str::to_owned),
             price: price_part(*price),
         }
     });
@@ -128,7 +129,7 @@ pub fn kernel_part<F: Scalar>(
             .row
             .tuned()
             .filter(|(gate, _)| {
-                !setting.knobs.iter().any(|knob| knob.name(info.gates) == gate.name)
+                !setting.knobs.iter().any(|knob| knob.gate(info.gates).name == gate.name)
             })
             .map(|(gate, text)| (gate.name.to_owned(), text.to_string()))
             .collect(),

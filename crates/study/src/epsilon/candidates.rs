@@ -36,9 +36,9 @@ pub const MOST_POINTS: usize = 300_000;
 /// longest way; without a scene any number.
 fn cap(knob: Knob, gates: &[Gate], scene: Option<&Scene>) -> f64 {
     let Some(scene) = scene else { return f64::MAX };
-    let Dimension { length, direction } = knob.dimension(gates);
+    let Dimension { length, direction } = knob.gate(gates).dimension;
     let farthest = scene.distance[1].max(scene.edge[1]);
-    let size = if knob.role(gates) == Role::T { farthest } else { scene.edge[1] };
+    let size = if knob.gate(gates).role == Role::T { farthest } else { scene.edge[1] };
     let [shortest, longest] = match scene.direction {
         DirectionLength::Unit => [1.0, 1.0],
         DirectionLength::Target => [scene.edge[0], farthest],
@@ -107,7 +107,7 @@ pub fn grid<F: Scalar>(
             }
             // No ray of a scene hits nearer than its least distance, so every other false hit nearer than that
             // would speak for a least t as large: for a property of these rays, and not of the kernel.
-            let is_of_t = knob.role(gates) == Role::T;
+            let is_of_t = knob.gate(gates).role == Role::T;
             let is_in_reach = match is_of_scene {
                 true => !is_of_t || is_self_hit || kind == WrongKind::Miss,
                 false => trial.guards[k] || kind == WrongKind::Miss,

@@ -47,38 +47,24 @@ impl Knob {
         knobs
     }
 
-    /// The name on the command line.
-    pub fn name(self, gates: &[Gate]) -> &'static str {
+    /// The gate; a least t is like one on t.
+    pub fn gate(self, gates: &[Gate]) -> Gate {
         match self {
-            Knob::Gate(gate) => gates[gate].name,
-            Knob::LeastT => LEAST_T,
-        }
-    }
-
-    /// The role of the gate; a least t has that of a gate on t.
-    pub fn role(self, gates: &[Gate]) -> Role {
-        match self {
-            Knob::Gate(gate) => gates[gate].role,
-            Knob::LeastT => Role::T,
-        }
-    }
-
-    /// The dimension of what is compared with it.
-    pub fn dimension(self, gates: &[Gate]) -> Dimension {
-        match self {
-            Knob::Gate(gate) => gates[gate].dimension,
-            Knob::LeastT => Dimension::new(1, -1),
+            Knob::Gate(gate) => gates[gate],
+            Knob::LeastT => Gate {
+                name: LEAST_T,
+                role: Role::T,
+                refuses: "t < e",
+                dimension: Dimension::new(1, -1),
+                epsilon: Tunable::NonNegative,
+            },
         }
     }
 
     /// True if values below zero mean anything. A negative least t only adds hits behind the origin.
     pub fn takes_negative(self, gates: &[Gate]) -> bool {
-        match self {
-            Knob::Gate(gate) => {
-                gates[gate].epsilon == Tunable::Signed && gates[gate].role != Role::T
-            }
-            Knob::LeastT => false,
-        }
+        let gate = self.gate(gates);
+        gate.epsilon == Tunable::Signed && gate.role != Role::T
     }
 }
 
@@ -101,7 +87,7 @@ mod tests {
             let entry = crate::kernel::find(kernel).unwrap();
             let row = &EpsilonChoice::Source.rows(&[entry], None).unwrap()[0];
             let gates = entry.info.gates;
-            Knob::all(row).into_iter().map(|knob| knob.name(gates)).collect::<Vec<_>>()
+            Knob::all(row).into_iter().map(|knob| knob.gate(gates).name).collect::<Vec<_>>()
         };
         assert_eq!(of("moller-trumbore"), ["parallel", "edge", "t_min"]);
         assert_eq!(of("plane-unit-normal"), ["parallel", "t", "edge"]);
@@ -128,9 +114,15 @@ mod tests {
         let knobs = [Knob::Gate(0), Knob::Gate(1), Knob::Gate(2), Knob::LeastT];
         let negative = knobs.map(|knob| knob.takes_negative(&gates));
         assert_eq!(negative, [true, false, false, false]);
-        assert_eq!(knobs.map(|knob| knob.role(&gates)), [Role::Edge, Role::Edge, Role::T, Role::T]);
-        assert_eq!(Knob::LeastT.dimension(&gates), Dimension::new(1, -1));
-        assert_eq!([Knob::Gate(0), Knob::LeastT].map(|knob| knob.name(&gates)), ["gate", "t_min"]);
+        assert_eq!(
+            knobs.map(|knob| knob.gate(&gates).role),
+            [Role::Edge, Role::Edge, Role::T, Role::T]
+        );
+        assert_eq!(Knob::LeastT.gate(&gates).dimension, Dimension::new(1, -1));
+        assert_eq!(
+            [Knob::Gate(0), Knob::LeastT].map(|knob| knob.gate(&gates).name),
+            ["gate", "t_min"]
+        );
     }
 
     #[test]

@@ -48,7 +48,11 @@ impl<F: Float> KnobLimit<F> {
 }
 
 /// The trials of one knob and count: how many there are, and the margins at the end that decides.
+#[derive(Clone)]
 struct Tail<F> {
+    knob: usize,
+    count: usize,
+    is_lower: bool,
     of: u64,
     /// How many margins may decide.
     kept: usize,
@@ -57,8 +61,9 @@ struct Tail<F> {
 }
 
 impl<F: Float> Tail<F> {
-    fn add(&mut self, margin: F, lowest_first: bool) {
-        let before = |a: &F, b: &F| if lowest_first { a < b } else { b < a };
+    fn add(&mut self, margin: F) {
+        let is_lower = self.is_lower;
+        let before = |a: &F, b: &F| if is_lower { b < a } else { a < b };
         if self.margins.len() == self.kept && !before(&margin, &self.margins[self.kept - 1]) {
             return;
         }
@@ -68,13 +73,13 @@ impl<F: Float> Tail<F> {
     }
 }
 
-struct Tails<F>(Vec<(usize, usize, bool, Tail<F>)>);
+struct Tails<F>(Vec<Tail<F>>);
 
 impl<F: Float> Merge for Tails<F> {
     fn merge(&mut self, other: Tails<F>) {
-        for ((.., is_lower, tail), (.., more)) in self.0.iter_mut().zip(other.0) {
+        for (tail, more) in self.0.iter_mut().zip(other.0) {
             tail.of += more.of;
-            more.margins.into_iter().for_each(|margin| tail.add(margin, !*is_lower));
+            more.margins.into_iter().for_each(|margin| tail.add(margin));
         }
     }
 }
@@ -133,37 +138,33 @@ pub fn all_limits<F: Scalar>(
     pass: Pass<'_>,
 ) -> Vec<KnobLimit<F>> {
     let gates = setting.row.entry.info.gates;
-    let mut pairs = Vec::new();
-    for (k, knob) in setting.knobs.iter().enumerate() {
-        for (c, counted) in setting.counts.iter().enumerate() {
-            pairs.extend(side(knob.role(gates), *counted).map(|is_lower| (k, c, is_lower)));
+    let kept = kept(pass.count);
+    let mut none = Vec::new();
+    for (knob, role) in setting.knobs.iter().map(|knob| knob.gate(gates).role).enumerate() {
+        for (count, counted) in setting.counts.iter().enumerate() {
+            let tail = |is_lower| Tail { knob, count, is_lower, of: 0, kept, margins: Vec::new() };
+            none.extend(side(role, *counted).map(tail));
         }
     }
-    let kept = kept(pass.count);
-    let empty = || {
-        let tail = |(k, c, lower): &(usize, usize, bool)| {
-            (*k, *c, *lower, Tail { of: 0, kept, margins: Vec::new() })
-        };
-        Tails(pairs.iter().map(tail).collect())
-    };
     let add = |tails: &mut Tails<F>, trial: Trial<'_, F>| {
-        for (k, c, is_lower, tail) in &mut tails.0 {
-            if *c == trial.count {
-                let margin = alone(&trial, *k, epsilons);
-                let counts = if *is_lower { trial.guards[*k] } else { is_own(&trial, *k, margin) };
-                if counts {
-                    tail.of += 1;
-                    tail.add(margin, !*is_lower);
-                }
+        for tail in tails.0.iter_mut().filter(|tail| tail.count == trial.count) {
+            let margin = alone(&trial, tail.knob, epsilons);
+            let counts = match tail.is_lower {
+                true => trial.guards[tail.knob],
+                false => is_own(&trial, tail.knob, margin),
+            };
+            if counts {
+                tail.of += 1;
+                tail.add(margin);
             }
         }
     };
-    let Tails(tails) = setting.sum(pass, empty, add);
-    let limit = |(knob, count, is_lower, tail): (usize, usize, bool, Tail<F>)| {
-        let Ranks { one_in, safe, far } = ranks(tail.of)?;
-        let margin = |rank: u64| tail.margins.get(rank as usize - 1).copied();
+    let Tails(tails) = setting.sum(pass, || Tails(none.clone()), add);
+    let limit = |Tail { knob, count, is_lower, of, margins, .. }: Tail<F>| {
+        let Ranks { one_in, safe, far } = ranks(of)?;
+        let margin = |rank: u64| margins.get(rank as usize - 1).copied();
         let value = value(margin(safe)?, is_lower)?;
-        let far = margin(far).and_then(|margin| beyond(margin, is_lower));
+        let far = margin(far).and_then(|margin| bound(margin, is_lower, !is_lower));
         Some(KnobLimit { knob, count, is_lower, value, far, one_in })
     };
     tails.into_iter().filter_map(limit).collect()
@@ -175,14 +176,13 @@ fn value<F: Float>(margin: F, is_lower: bool) -> Option<Option<F>> {
     if is_lower && margin == F::infinity() {
         return Some(None);
     }
-    let bound = if is_lower { above(margin) } else { margin };
-    margin.is_finite().then(|| Some(two_digits(bound, is_lower)))
+    bound(margin, is_lower, is_lower).map(Some)
 }
 
-/// The value beyond which a margin says that more is wrong, in two digits; none if no number is.
-fn beyond<F: Float>(margin: F, is_lower: bool) -> Option<F> {
+/// The value at which a margin decides, in two digits, rounded up or down; none if no number is.
+fn bound<F: Float>(margin: F, is_lower: bool, is_up: bool) -> Option<F> {
     let bound = if is_lower { above(margin) } else { margin };
-    margin.is_finite().then(|| two_digits(bound, !is_lower))
+    margin.is_finite().then(|| two_digits(bound, is_up))
 }
 
 /// By knob: a round number in the middle between its limits, if they meet on one side of zero.
@@ -239,26 +239,29 @@ mod tests {
     use super::*;
     use crate::case::Draw;
 
+    fn empty_tail<F>(is_lower: bool, of: u64, kept: usize) -> Tail<F> {
+        Tail { knob: 1, count: 2, is_lower, of, kept, margins: Vec::new() }
+    }
+
     #[test]
     fn a_tail_keeps_the_most_decisive_margins_in_order() {
         let mut draw = Draw::new("tail", 1, 0);
         for lowest_first in [true, false] {
             let margins: Vec<f32> = (0..300).map(|_| draw.below(90) as f32 - 40.0).collect();
             let tail = |margins: &[f32]| {
-                let mut tail = Tail { of: margins.len() as u64, kept: 64, margins: Vec::new() };
-                margins.iter().for_each(|margin| tail.add(*margin, lowest_first));
+                let mut tail = empty_tail(!lowest_first, margins.len() as u64, 64);
+                margins.iter().for_each(|margin| tail.add(*margin));
                 tail
             };
             let (one, other) = margins.split_at(100);
-            let is_lower = !lowest_first;
-            let mut sum = Tails(vec![(1, 2, is_lower, tail(one))]);
-            sum.merge(Tails(vec![(1, 2, is_lower, tail(other))]));
+            let mut sum = Tails(vec![tail(one)]);
+            sum.merge(Tails(vec![tail(other)]));
             let mut sorted = margins.clone();
             sorted.sort_by(f32::total_cmp);
             if !lowest_first {
                 sorted.reverse();
             }
-            for (.., found) in [sum.0.remove(0), (1, 2, is_lower, tail(&margins))] {
+            for found in [sum.0.remove(0), tail(&margins)] {
                 assert_eq!((found.of, &found.margins[..]), (300, &sorted[..64]));
             }
         }
@@ -365,8 +368,8 @@ mod tests {
         let mut beyond = [0u32; 2];
         for run in 0..runs {
             let mut draw = Draw::new("limits", 1, run);
-            let mut tail = Tail { of: n, kept: kept(n), margins: Vec::new() };
-            (0..n).for_each(|_| tail.add(draw.unit(), true));
+            let mut tail = empty_tail(false, n, kept(n));
+            (0..n).for_each(|_| tail.add(draw.unit()));
             // The share below a number is that number.
             let share = 1.0 / (one_in as f64);
             beyond[0] += u32::from(share < tail.margins[safe as usize - 1]);

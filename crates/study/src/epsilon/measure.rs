@@ -221,7 +221,7 @@ pub(super) fn differs<F: Scalar>(
             let ((case, _), verdict) = faults.next()?;
             let gates = setting.row.entry.info.gates;
             let at = setting.knobs.iter().zip(at);
-            let at = at.map(|(knob, value)| format!("{}={value:e}", knob.name(gates)));
+            let at = at.map(|(knob, value)| format!("{}={value:e}", knob.gate(gates).name));
             let (together, alone) =
                 if is_hit(verdict) { ("hits", "misses") } else { ("misses", "hits") };
             Some(format!(

@@ -11,8 +11,6 @@
 mod candidates;
 mod confidence;
 mod curves;
-mod duty;
-mod elsewhere;
 mod errors;
 mod joint;
 mod knob;
@@ -33,7 +31,6 @@ pub const COUNT: u64 = 40_000;
 
 pub use confidence::{CONFIDENCE, ranks};
 pub use curves::Curve;
-pub use elsewhere::try_elsewhere;
 pub use errors::{ERRORS_ONE_IN, ErrorSums, HitErrors, MaxError, Value, hit_errors};
 pub use joint::Costs;
 pub use knob::{Knob, LEAST_T, MOST_KNOBS, contract_with};
@@ -45,5 +42,6 @@ pub use rays::{RayCount, Rays, WrongKind, counts, counts_of};
 pub use relative::scale_free_form;
 pub use study::{
     Elsewhere, OnFresh, SCALE_FREE, SceneStudy, Tried, cheapest, own_epsilons, study_scene,
+    try_elsewhere,
 };
 pub use trials::{Pass, Setting, StudiedRays, Trial, fresh_seed};

@@ -143,7 +143,7 @@ mod tests {
         ] {
             let tuned = Tuned::new(kernel, numbers);
             let gates = tuned.setting().row.entry.info.gates;
-            let of_knob = |knob: &Knob| match knob.role(gates) {
+            let of_knob = |knob: &Knob| match knob.gate(gates).role {
                 Role::Edge => at,
                 _ => 0.0,
             };

@@ -25,14 +25,8 @@ pub(super) struct Prepared<F: Float> {
     pub trials: Vec<(usize, Guards, Range<usize>)>,
 }
 
-/// Some indices of a source of the rays of one kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct PreparedPart {
-    pub group: usize,
-    pub source: usize,
-    pub start: u64,
-    pub end: u64,
-}
+/// Some indices: the kind of their rays, the place of their source among those of the kind, and where they start and end.
+pub(super) type PreparedPart = (usize, usize, u64, u64);
 
 /// The rays of one seed that were prepared first.
 pub struct Store<F: Float>(Mutex<Kept<F>>);
@@ -81,11 +75,7 @@ impl<F: Float> Store<F> {
 mod tests {
     use super::*;
 
-    const PLACES: [PreparedPart; 3] = [
-        PreparedPart { group: 1, source: 0, start: 0, end: 1 },
-        PreparedPart { group: 1, source: 0, start: 1, end: 2 },
-        PreparedPart { group: 0, source: 0, start: 0, end: 1 },
-    ];
+    const PLACES: [PreparedPart; 3] = [(1, 0, 0, 1), (1, 0, 1, 2), (0, 0, 0, 1)];
 
     /// So many cases; nothing else of a part matters to what keeps it.
     fn of_cases(count: usize) -> Prepared<f32> {

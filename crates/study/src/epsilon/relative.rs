@@ -4,30 +4,19 @@ use crate::arith::Float;
 use crate::case::Case;
 use crate::kernel::Dimension;
 
-/// The unit of a gate's margin on each case: L^p·|d|^q for a dimension (p, q). L is the triangle's
+/// The largest e for which `e * unit <= margin`, in the scalar's arithmetic.
+pub(super) fn relative<F: Float>(margin: F, unit: F) -> F {
+    if !margin.is_finite() {
+        return margin;
+    }
+    F::largest_accepted(|e| *e * unit <= margin, || margin / unit)
+}
+
+/// The unit of a gate's margin on a case: L^p·|d|^q for a dimension (p, q). L is the triangle's
 /// longest edge; for t, whose error follows the distance from zero, it is the largest coordinate.
 ///
 /// Computed in `f64` and rounded to the scalar; 1 where that is zero or infinite.
-pub(super) struct Scales<F> {
-    by_case: Vec<F>,
-}
-
-impl<F: Float> Scales<F> {
-    pub fn new(cases: &[Case<F>], dimension: Dimension) -> Scales<F> {
-        Scales { by_case: cases.iter().map(|case| scale(case, dimension)).collect() }
-    }
-
-    /// The largest e for which `e * unit <= margin`, in the scalar's arithmetic.
-    pub fn relative(&self, case: usize, margin: F) -> F {
-        let unit = self.by_case[case];
-        if !margin.is_finite() {
-            return margin;
-        }
-        F::largest_accepted(|e| *e * unit <= margin, || margin / unit)
-    }
-}
-
-fn scale<F: Float>(case: &Case<F>, dimension: Dimension) -> F {
+pub(super) fn scale<F: Float>(case: &Case<F>, dimension: Dimension) -> F {
     let [o, d, a, b, c] = case.vectors().map(|v| glam::DVec3::from(v.map(F::to_f64)));
     let length = if dimension == Dimension::new(1, -1) {
         [o, a, b, c].iter().fold(0.0f64, |most, v| most.max(v.abs().max_element()))
@@ -121,14 +110,14 @@ mod tests {
             let unit = |length, direction| scale(&case, Dimension::new(length, direction));
             assert_eq!([unit(0, 0), unit(1, 0), unit(3, 1), unit(0, 2)], [1.0, 5.0, 875.0, 49.0]);
             assert_eq!(unit(1, -1), 17.0 / 7.0);
-            let scales = Scales::new(&[at(0.0, 0.0, 2.0), case], Dimension::new(2, 0));
-            assert_eq!(scales.by_case, [100.0, 25.0]);
+            let scales = [at(0.0, 0.0, 2.0), case].map(|case| scale(&case, Dimension::new(2, 0)));
+            assert_eq!(scales, [100.0, 25.0]);
             // e·100 <= 6.5 and e·25 <= 6.25, in floats.
-            let [one, other] = [scales.relative(0, 6.5), scales.relative(1, 6.25)];
+            let [one, other] = [relative(6.5, scales[0]), relative(6.25, scales[1])];
             assert!((one - 0.065).abs() < 1e-8, "{one}");
             assert!((0.25..0.25 + 1e-7).contains(&other), "{other}");
-            assert_eq!(scales.relative(1, f32::INFINITY), f32::INFINITY);
-            assert_eq!(scales.relative(1, -f32::INFINITY), -f32::INFINITY);
+            assert_eq!(relative(f32::INFINITY, scales[1]), f32::INFINITY);
+            assert_eq!(relative(-f32::INFINITY, scales[1]), -f32::INFINITY);
             let small = at(origin, x, 1.0 / 1024.0);
             let unit = |length, direction| scale(&small, Dimension::new(length, direction));
             assert_eq!([unit(1, 0), unit(1, -1)], [5.0 / 1024.0, 17.0 / 7.0]);
@@ -171,9 +160,8 @@ mod tests {
             let unit: f32 =
                 draw.symmetric::<f32>().abs() * 2f32.powi(draw.integer(-100, 100) as i32);
             let margin: f32 = draw.symmetric::<f32>() * 2f32.powi(draw.integer(-120, 100) as i32);
-            let scales = Scales { by_case: vec![if unit > 0.0 { unit } else { 1.0 }] };
-            let unit = scales.by_case[0];
-            let e = scales.relative(0, margin);
+            let unit = if unit > 0.0 { unit } else { 1.0 };
+            let e = relative(margin, unit);
             if e.is_finite() {
                 assert!(e * unit <= margin, "{e:e} {unit:e} {margin:e}");
                 assert!(e.next_up() * unit > margin, "{e:e} {unit:e} {margin:e}");

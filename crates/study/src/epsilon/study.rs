@@ -1,5 +1,5 @@
 //! A study of a scene: the cheapest epsilons together, how far each may move, and what both do on fresh
-//! rays.
+//! rays, and in the same scene on planes and with rays of other kinds.
 
 use super::candidates::{MOST_POINTS, around, grid, of_values};
 use super::curves::{Curve, axes, curves};
@@ -7,7 +7,7 @@ use super::errors::{ErrorSums, MaxError};
 use super::joint::{Costs, Joint, KnobGrid};
 use super::knob::{Knob, KnobMargins};
 use super::limits::{KnobLimit, all_limits, between, limits, printed};
-use super::measure::{Attempt, OfHits, Ran, WrongAnswers, differs, measure};
+use super::measure::{Attempt, OfHits, Ran, WrongAnswers, count_at, differs, measure};
 use super::picture::holes;
 use super::prepared::Store;
 use super::proved::{ProvedValue, proved};
@@ -15,7 +15,7 @@ use super::rays::{RayCount, Rays, WrongKind};
 use super::trials::{Pass, Setting};
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
-use crate::case::{Case, SceneKind};
+use crate::case::{Case, Scene, SceneKind};
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
 use std::slice;
@@ -267,7 +267,7 @@ fn is_beyond_chance<F>(counts: &[RayCount], costs: &Costs, tried: [&Tried<F>; 2]
 /// The count that shows what a bound of a knob costs: hits lost where it must be large, hits beside triangles
 /// where an edge's must be negative.
 fn price<F: Scalar>(setting: &Setting<'_, F>, knob: usize, is_lower: bool) -> Option<usize> {
-    let role = setting.knobs[knob].role(setting.row.entry.info.gates);
+    let role = setting.knobs[knob].gate(setting.row.entry.info.gates).role;
     let wanted = match (role, is_lower) {
         (Role::Parallel | Role::T, true) => (Stratum::Interior, WrongKind::Miss),
         (Role::Edge | Role::Other, false) => (Stratum::Outside, WrongKind::Hit),
@@ -302,6 +302,31 @@ pub fn cheapest<F: Scalar>(
     let (grid, step) = grid(setting, MOST_POINTS, max_error, pass);
     // What a coarse grid leaves out may be cheaper.
     (0..step).rev().try_fold(best(grid)?, |found, step| best(around(&found, step)))
+}
+
+/// Tries the recommended epsilons and the proved values in other scenes. A value that is wrong there is taken out of what
+/// is proved: its proof is about the scene's own kind of plane.
+pub fn try_elsewhere<F: Scalar>(
+    setting: &Setting<'_, F>,
+    study: &mut SceneStudy<F>,
+    scenes: &[Scene],
+    pass: Pass<'_>,
+) {
+    for scene in scenes {
+        let mut attempts = vec![Attempt::new(study.best.clone())];
+        attempts.extend(study.proved.iter().map(|found| {
+            let bound = &found.bound;
+            Attempt::alone(bound.knob, bound.value, bound.is_lower, &study.best)
+        }));
+        let setting = Setting { scene: Some(scene), store: None, ..*setting };
+        let mut wrong = count_at(&setting, &attempts, pass.fresh()).into_iter();
+        let of_best = wrong.next().expect("one attempt at least");
+        study.elsewhere.push(Elsewhere { kind: scene.kind(), wrong: of_best });
+        study.proved.retain(|found| {
+            let wrong = wrong.next().expect("an attempt for each proof");
+            wrong[found.bound.count].count == 0
+        });
+    }
 }
 
 #[cfg(test)]

@@ -186,7 +186,7 @@ fn limits_are_margins_of_their_rank() {
         let gates = tuned.row.entry.info.gates;
         for (k, knob) in tuned.knobs.iter().enumerate() {
             for (c, count) in tuned.counts.iter().enumerate() {
-                let role = knob.role(gates);
+                let role = knob.gate(gates).role;
                 let is_lower = match (role.name(), count.rays.name(), count.kind.name()) {
                     ("parallel", "scene-grazing" | "scene-parallel", "hit") => true,
                     ("t", "scene-shadow", "self-hit") => true,
@@ -244,8 +244,8 @@ fn limits_are_margins_of_their_rank() {
 fn largest(tuned: &Tuned, knob: Knob) -> f64 {
     let gates = tuned.row.entry.info.gates;
     let [edge, way] = [tuned.scene.edge[1], tuned.scene.distance[1]];
-    let length = if knob.role(gates) == Role::T { way } else { edge };
-    length.powi(knob.dimension(gates).length.into())
+    let length = if knob.gate(gates).role == Role::T { way } else { edge };
+    length.powi(knob.gate(gates).dimension.length.into())
 }
 
 #[test]
@@ -277,7 +277,7 @@ fn a_grid_holds_round_numbers_over_the_margins_that_matter() {
                     }
                     let (kind, is_miss) =
                         (tuned.counts[kept.count].kind, tuned.is_miss(kept.count));
-                    let is_of_t = knob.role(tuned.row.entry.info.gates) == Role::T;
+                    let is_of_t = knob.gate(tuned.row.entry.info.gates).role == Role::T;
                     // False hits that start elsewhere say nothing of a least t.
                     let is_in_reach = !is_of_t || is_miss || kind == WrongKind::SelfHit;
                     let is_refused = !tuned.is_lost(kept.count) || is_miss && is_off;

@@ -1,17 +1,16 @@
 //! The trials of a kernel in a scene, or on other sources, and one pass over them.
 
-use super::duty::Duty;
 use super::knob::{Guards, Knob, KnobMargins, MOST_KNOBS};
-use super::prepared::{Prepared, PreparedPart, Store};
-use super::rays::{RayCount, Rays, WrongKind};
-use super::relative::Scales;
+use super::prepared::{Prepared, Store};
+use super::rays::{RayCount, Rays, WrongKind, guards, guards_start};
+use super::relative::{relative, scale};
 use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, SourceSummary, Stock};
 use crate::case::{Case, Parameters, Scene};
 use crate::contract::Contract;
 use crate::engine::{self, Merge, Observer, Unobserved};
 use crate::family::{Grouping, Pixel, Stratum, pixel};
-use crate::judge::{GroupTruth, Obligation};
+use crate::judge::{Class, GroupTruth, Obligation};
 use crate::kernel::{Hit, Scalar, Subject};
 use crate::mesh::SceneMesh;
 use std::ops::Range;
@@ -153,12 +152,7 @@ impl<F: Scalar> Setting<'_, F> {
         for (group, rays) in all.into_iter().enumerate() {
             for (place, source) in self.sources_of(rays, pass).into_iter().enumerate() {
                 let add = |sums: &mut S, indices: Range<u64>| {
-                    let place = PreparedPart {
-                        group,
-                        source: place,
-                        start: indices.start,
-                        end: indices.end,
-                    };
+                    let place = (group, place, indices.start, indices.end);
                     let make = || self.prepare(&source, rays, indices);
                     let part = match self.store {
                         Some(store) => store.part(pass.seed, place, make),
@@ -222,10 +216,7 @@ impl<F: Scalar> Setting<'_, F> {
         let mut summary = SourceSummary::new(0, F::NAME);
         let chunk = Chunk::<F>::make(source, indices, &Unobserved, &mut summary);
         let (margins, values) = self.margins(&chunk.cases);
-        let mut trials = match rays {
-            Rays::Stratum(stratum) => self.trials(&chunk, stratum),
-            _ => self.trials_of(&chunk, rays),
-        };
+        let mut trials = self.trials(&chunk, rays);
         trials.retain(|(.., range)| !margins[range.clone()].iter().any(is_unknown));
         Prepared { cases: chunk.cases, margins, relative: OnceLock::new(), values, trials }
     }
@@ -235,52 +226,34 @@ impl<F: Scalar> Setting<'_, F> {
         self.counts.iter().position(|count| *count == RayCount { rays, kind })
     }
 
-    /// Which cases of a stratum are a trial together, and of which count.
-    fn trials(&self, chunk: &Chunk<F>, stratum: Stratum) -> Vec<(usize, Guards, Range<usize>)> {
-        let contract = &self.row.contract;
-        let of = |kind: WrongKind| self.place(Rays::Stratum(stratum), kind);
-        // A stratum is what a knob is there for, or is not.
-        let all = [true; MOST_KNOBS];
-        if let Some(count) = of(WrongKind::SelfHit) {
-            return (0..chunk.cases.len()).map(|i| (count, all, i..i + 1)).collect();
-        }
-        if let Some(count) = of(WrongKind::Crack) {
-            return crossings(chunk, contract).map(|range| (count, all, range)).collect();
-        }
-        let [misses, hits] = [of(WrongKind::Miss), of(WrongKind::Hit)];
-        let family = stratum.family();
-        let obligations = chunk.obligations(contract).into_iter().enumerate();
-        let counted = obligations.filter_map(|(i, obligation)| {
-            let count = match obligation {
-                // At a mesh not every parallel ray can be made exactly so.
-                _ if !family.keeps(&chunk.truths[i..=i]) => None,
-                Obligation::MustHit => misses,
-                Obligation::MustMiss => hits,
-                Obligation::Free => None,
-            };
-            Some((count?, all, i..i + 1))
-        });
-        counted.collect()
-    }
-
-    /// The same of other rays, each of which may count for several things.
-    fn trials_of(&self, chunk: &Chunk<F>, rays: Rays) -> Vec<(usize, Guards, Range<usize>)> {
+    /// Which cases are a trial together, and of which count; other rays than those of a stratum may count for several things.
+    fn trials(&self, chunk: &Chunk<F>, rays: Rays) -> Vec<(usize, Guards, Range<usize>)> {
         let (contract, gates) = (&self.row.contract, self.row.entry.info.gates);
         let [cracks, misses, hits, self_hits] = WrongKind::ALL.map(|kind| self.place(rays, kind));
-        let duties: Vec<Duty> =
-            self.knobs.iter().map(|knob| Duty::of(gates, knob.role(gates), contract)).collect();
-        let starts = self_hits.filter(|_| chunk.grouping == Grouping::SecondaryRay);
+        let stratum = match rays {
+            Rays::Stratum(stratum) => Some(stratum.family()),
+            _ => None,
+        };
+        let is_start = stratum.is_some() || chunk.grouping == Grouping::SecondaryRay;
+        let starts = self_hits.filter(|_| is_start);
+        let roles = || self.knobs.iter().map(|knob| knob.gate(gates).role);
+        // By knob, by the number of the class.
+        let by_class = |role| Class::all().map(move |class| guards(gates, role, contract, class));
+        let guarded: Vec<Vec<bool>> = roles().map(|role| by_class(role).collect()).collect();
         let mut trials = Vec::new();
         for (i, obligation) in chunk.obligations(contract).into_iter().enumerate() {
-            let mut guards = [false; MOST_KNOBS];
-            for (guards, duty) in guards.iter_mut().zip(&duties) {
-                *guards = match starts {
-                    Some(_) => duty.guards_start(),
-                    None => duty.guards(chunk.class(i)),
+            // A stratum is what a knob is there for, or is not.
+            let mut guards = [stratum.is_some(); MOST_KNOBS];
+            for (guards, (role, of_classes)) in guards.iter_mut().zip(roles().zip(&guarded)) {
+                *guards |= match starts {
+                    Some(_) => guards_start(role, contract),
+                    None => of_classes[chunk.class(i).number()],
                 };
             }
             let count = match obligation {
                 _ if starts.is_some() => starts,
+                // At a mesh not every parallel ray can be made exactly so.
+                _ if stratum.is_some_and(|family| !family.keeps(&chunk.truths[i..=i])) => None,
                 Obligation::MustHit => misses,
                 Obligation::MustMiss => hits,
                 Obligation::Free => None,
@@ -288,7 +261,8 @@ impl<F: Scalar> Setting<'_, F> {
             trials.extend(count.map(|count| (count, guards, i..i + 1)));
         }
         let crossings = cracks.map(|count| {
-            crossings(chunk, contract).map(move |range| (count, [false; MOST_KNOBS], range))
+            let guards = [stratum.is_some(); MOST_KNOBS];
+            crossings(chunk, contract).map(move |range| (count, guards, range))
         });
         trials.extend(crossings.into_iter().flatten());
         trials
@@ -331,16 +305,16 @@ impl<F: Scalar> Setting<'_, F> {
         cases: &[Case<F>],
         margins: &[KnobMargins<F>],
     ) -> Vec<KnobMargins<F>> {
-        let mut relative = margins.to_vec();
+        let mut all = margins.to_vec();
         for (k, knob) in self.knobs.iter().enumerate() {
-            let dimension = knob.dimension(self.row.entry.info.gates);
+            let dimension = knob.gate(self.row.entry.info.gates).dimension;
             if dimension.has_unit() {
-                let scales = Scales::new(cases, dimension);
-                let all = relative.iter_mut().enumerate();
-                all.for_each(|(i, margins)| margins[k] = scales.relative(i, margins[k]));
+                for (margins, case) in all.iter_mut().zip(cases) {
+                    margins[k] = relative(margins[k], scale(case, dimension));
+                }
             }
         }
-        relative
+        all
     }
 }
 

@@ -84,10 +84,7 @@ impl Decimal {
         if all == 0 {
             return "0".to_owned();
         }
-        let text = (all / 10u64.pow(DIGITS - digits)).to_string();
-        let (first, rest) = text.split_at(1);
-        let point = if rest.is_empty() { "" } else { "." };
-        format!("{first}{point}{rest}e{exponent}")
+        scientific(&(all / 10u64.pow(DIGITS - digits)).to_string(), exponent)
     }
 
     /// Rounded to four digits, for people.
@@ -99,6 +96,13 @@ impl Decimal {
     pub fn to_f64(self) -> f64 {
         self.to_string().parse().unwrap_or(f64::NAN)
     }
+}
+
+/// `1.25e-3`: a point after the first digit.
+fn scientific(digits: &str, exponent: i64) -> String {
+    let (first, rest) = digits.split_at(1);
+    let point = if rest.is_empty() { "" } else { "." };
+    format!("{first}{point}{rest}e{exponent}")
 }
 
 /// `value * 10^power`, rounded to an integer, ties to even.
@@ -136,10 +140,7 @@ impl fmt::Display for Decimal {
             return f.write_str("0");
         }
         let digits = self.digits.to_string();
-        let (first, rest) = digits.split_at(1);
-        let rest = rest.trim_end_matches('0');
-        let point = if rest.is_empty() { "" } else { "." };
-        write!(f, "{first}{point}{rest}e{}", self.exponent)
+        f.write_str(&scientific(digits.trim_end_matches('0'), self.exponent))
     }
 }
 

@@ -26,14 +26,12 @@ pub mod worst;
 pub use decimal::Decimal;
 pub use domain::SearchDomain;
 pub use moves::mutate;
-pub use objective::{Objective, Scorer, SearchTarget};
-pub use objective::{scale, verdict_and_finding};
+pub use objective::{Objective, Scorer, SearchTarget, scale, verdict_and_finding};
 pub use shrink::{KEPT_SHARE, Shrunk, shrink, shrink_finding, shrink_scored, shrink_within};
 pub use signature::Signature;
 pub use simplify::{SIMPLIFICATIONS, ScaleBy, SimplerNumber, Simplification, Size};
 pub use snippet::{c_snippet, rust_snippet};
-pub use worst::family_case;
 pub use worst::{
-    FoundWorst, LANES, Update, WorstEntry, WorstGoal, WorstTable, exact_score, find_worst, replay,
-    search,
+    FoundWorst, LANES, Update, WorstEntry, WorstGoal, WorstTable, exact_score, family_case,
+    find_worst, replay, search,
 };

@@ -35,8 +35,8 @@ pub fn mutate<F: Float>(case: &Case<F>, draw: &mut Draw) -> Case<F> {
         slide_origin,
         aim,
         put_origin_on_the_triangle,
-        scale_points,
-        scale_direction,
+        |parts, draw| scale(parts, draw, &POINTS),
+        |parts, draw| scale(parts, draw, &[DIRECTION]),
         shift_points,
         swap_vertices,
         flatten,
@@ -162,18 +162,13 @@ fn put_origin_on_the_triangle<F: Float>(parts: &mut CaseParts<F>, draw: &mut Dra
     parts.vectors[ORIGIN] = parts.point_of_triangle(draw).into();
 }
 
-fn scale_points<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
+/// Some vectors by one power of two.
+fn scale<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw, vectors: &[usize]) {
     let most = draw.pick(&[1, 4, 30]);
     let factor = power::<F>(draw.integer(-most, most));
-    for i in POINTS {
-        parts.vectors[i] = parts.vectors[i].map(|x| x * factor);
+    for i in vectors {
+        parts.vectors[*i] = parts.vectors[*i].map(|x| x * factor);
     }
-}
-
-fn scale_direction<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let most = draw.pick(&[1, 4, 30]);
-    let factor = power::<F>(draw.integer(-most, most));
-    parts.vectors[DIRECTION] = parts.vectors[DIRECTION].map(|x| x * factor);
 }
 
 /// All points by one offset, which is a coordinate of one of them or any number of their size.

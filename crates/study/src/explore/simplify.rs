@@ -229,12 +229,10 @@ impl Simplification {
                 }
             }
             Simplification::Scale { vectors: which, by } => {
-                let chosen = |i: &usize| which >> usize::from(*i == 1) & 1 == 1;
-                let numbers = || (0..5).filter(chosen).flat_map(|i| vectors[i]);
-                let power = by.power(numbers());
+                let chosen = || (0..5).filter(|i| which >> usize::from(*i == 1) & 1 == 1);
+                let power = by.power(chosen().flat_map(|i| vectors[i]));
                 let scaled = |x: F| F::from_f64(scale_by_power_of_two(x.to_f64(), power));
-                let indices: Vec<usize> = (0..5).filter(chosen).collect();
-                indices.into_iter().for_each(|i| vectors[i] = vectors[i].map(scaled));
+                chosen().for_each(|i| vectors[i] = vectors[i].map(scaled));
             }
             Simplification::TurnHalf(axis) => {
                 for vector in &mut vectors {

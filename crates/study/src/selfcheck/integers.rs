@@ -14,25 +14,17 @@ use std::cmp::Ordering;
 
 type IntegerPoint<I> = [I; 3];
 
-/// A fraction with a positive denominator.
+/// A fraction with a positive denominator; 1/0 and -1/0 are the infinite ends of an interval.
 #[derive(Clone)]
 struct IntegerFraction<I>(I, I);
-
-/// An end of an interval.
-#[derive(Clone)]
-enum End<I> {
-    MinusInfinity,
-    At(IntegerFraction<I>),
-    PlusInfinity,
-}
 
 /// A case in integers.
 pub(super) struct Integers<I> {
     o: IntegerPoint<I>,
     d: IntegerPoint<I>,
     vertices: [IntegerPoint<I>; 3],
-    t_min: End<I>,
-    t_max: End<I>,
+    t_min: IntegerFraction<I>,
+    t_max: IntegerFraction<I>,
 }
 
 /// Bits of coordinates, and of interval ends before and behind the point: determinants of degree 3 stay
@@ -98,12 +90,10 @@ where
         let end = |t: f64| {
             let (odd, exponent) = digits(t);
             match t {
-                f64::NEG_INFINITY => End::MinusInfinity,
-                f64::INFINITY => End::PlusInfinity,
-                _ if exponent < 0 => {
-                    End::At(IntegerFraction(integer(odd, 0), integer(1, -exponent)))
-                }
-                _ => End::At(IntegerFraction(integer(odd, exponent), I::one())),
+                f64::NEG_INFINITY => IntegerFraction(-I::one(), I::zero()),
+                f64::INFINITY => IntegerFraction(I::one(), I::zero()),
+                _ if exponent < 0 => IntegerFraction(integer(odd, 0), integer(1, -exponent)),
+                _ => IntegerFraction(integer(odd, exponent), I::one()),
             }
         };
         let [t_min, t_max] = ends.map(end);
@@ -114,8 +104,8 @@ where
 
     /// A case on the lattice, on [0, inf).
     pub fn of_lattice([o, d, vertices @ ..]: [IntegerPoint<I>; 5]) -> Self {
-        let t_min = End::At(IntegerFraction(I::zero(), I::one()));
-        Integers { o, d, vertices, t_min, t_max: End::PlusInfinity }
+        let t_min = IntegerFraction(I::zero(), I::one());
+        Integers { o, d, vertices, t_min, t_max: IntegerFraction(I::one(), I::zero()) }
     }
 
     pub fn truth(&self) -> (Truth, Option<f64>) {
@@ -152,7 +142,7 @@ where
             _ => Feature::VertexC,
         };
         let t = IntegerFraction(t, whole);
-        let place = match (self.t_min.compare(&t), self.t_max.compare(&t)) {
+        let place = match (t.compare(&self.t_min), t.compare(&self.t_max)) {
             (Ordering::Less, _) => Place::Before,
             (Ordering::Equal, _) => Place::AtMin,
             (_, Ordering::Greater) => Place::Beyond,
@@ -177,8 +167,8 @@ where
             return (Truth::Parallel, None);
         }
         let edges = self.edges(axis, n[axis].is_negative());
-        let range = range_inside(&edges);
-        let contact = self.cut(&range, |t| feature_in_plane(&edges, t));
+        let range = Self::range_inside(&edges);
+        let contact = self.cut(&range, |t| Self::feature_in_plane(&edges, t));
         (Truth::Coplanar(contact), range.and_then(|range| range[1].near()))
     }
 
@@ -245,67 +235,56 @@ where
         let Some([low, high]) = range else {
             return Contact { kind: ContactKind::None, meets_ray: false, meets_line: false };
         };
-        let low = if self.t_min.compare(low).is_lt() { self.t_min.at() } else { Some(low) };
-        let last = if self.t_max.compare(high).is_gt() { self.t_max.at() } else { Some(high) };
-        let kind = match (low, last) {
-            (Some(low), Some(last)) => match low.compare(last) {
-                Ordering::Less => ContactKind::Segment,
-                Ordering::Equal => ContactKind::Point(feature(low)),
-                Ordering::Greater => ContactKind::None,
-            },
-            _ => ContactKind::None,
+        let first = if low.compare(&self.t_min).is_lt() { &self.t_min } else { low };
+        let last = if high.compare(&self.t_max).is_gt() { &self.t_max } else { high };
+        let kind = match first.compare(last) {
+            Ordering::Less => ContactKind::Segment,
+            Ordering::Equal => ContactKind::Point(feature(first)),
+            Ordering::Greater => ContactKind::None,
         };
         Contact { kind, meets_ray: !high.0.is_negative(), meets_line: true }
     }
-}
 
-/// The t at which three functions, linear in t, are all at least zero.
-fn range_inside<I: Signed + Ord + Clone + ToPrimitive>(
-    edges: &[(I, I); 3],
-) -> Option<[IntegerFraction<I>; 2]>
-where
-    for<'a> &'a I: RefNum<I>,
-{
-    let (mut low, mut high): (Option<IntegerFraction<I>>, Option<IntegerFraction<I>>) =
-        (None, None);
-    for (constant, slope) in edges {
-        if slope.is_zero() {
-            if constant.is_negative() {
-                return None;
+    /// The t at which three functions, linear in t, are all at least zero.
+    fn range_inside(edges: &[(I, I); 3]) -> Option<[IntegerFraction<I>; 2]> {
+        let (mut low, mut high): (Option<IntegerFraction<I>>, Option<IntegerFraction<I>>) =
+            (None, None);
+        for (constant, slope) in edges {
+            if slope.is_zero() {
+                if constant.is_negative() {
+                    return None;
+                }
+                continue;
             }
-            continue;
+            let bound = IntegerFraction::new(-constant.clone(), slope.clone());
+            let (end, tighter) = if slope.is_positive() {
+                (&mut low, Ordering::Less)
+            } else {
+                (&mut high, Ordering::Greater)
+            };
+            if end.as_ref().is_none_or(|end| end.compare(&bound) == tighter) {
+                *end = Some(bound);
+            }
         }
-        let bound = IntegerFraction::new(-constant.clone(), slope.clone());
-        let (end, tighter) = if slope.is_positive() {
-            (&mut low, Ordering::Less)
-        } else {
-            (&mut high, Ordering::Greater)
-        };
-        if end.as_ref().is_none_or(|end| end.compare(&bound) == tighter) {
-            *end = Some(bound);
-        }
+        let (low, high) = (low?, high?);
+        low.compare(&high).is_le().then_some([low, high])
     }
-    let (low, high) = (low?, high?);
-    low.compare(&high).is_le().then_some([low, high])
-}
 
-/// The feature at a point of the line in the closed triangle.
-fn feature_in_plane<I: Signed + Ord + Clone>(
-    edges: &[(I, I); 3],
-    IntegerFraction(t, whole): &IntegerFraction<I>,
-) -> Feature
-where
-    for<'a> &'a I: RefNum<I>,
-{
-    let on = edges.each_ref().map(|(constant, slope)| (constant * whole + slope * t).is_zero());
-    match on {
-        [true, _, true] => Feature::VertexA,
-        [true, true, _] => Feature::VertexB,
-        [_, true, true] => Feature::VertexC,
-        [true, ..] => Feature::EdgeAb,
-        [_, true, _] => Feature::EdgeBc,
-        [.., true] => Feature::EdgeCa,
-        _ => Feature::Interior,
+    /// The feature at a point of the line in the closed triangle.
+    fn feature_in_plane(
+        edges: &[(I, I); 3],
+        IntegerFraction(t, whole): &IntegerFraction<I>,
+    ) -> Feature {
+        let on = edges.each_ref().map(|(constant, slope)| (constant * whole + slope * t).is_zero());
+        match on {
+            [true, _, true] => Feature::VertexA,
+            [true, true, _] => Feature::VertexB,
+            [_, true, true] => Feature::VertexC,
+            [true, ..] => Feature::EdgeAb,
+            [_, true, _] => Feature::EdgeBc,
+            [.., true] => Feature::EdgeCa,
+            _ => Feature::Interior,
+        }
     }
 }
 
@@ -334,27 +313,6 @@ where
     fn near(&self) -> Option<f64> {
         let t = self.0.to_f64()? / self.1.to_f64()?;
         t.is_finite().then_some(t)
-    }
-}
-
-impl<I: Signed + Ord + Clone + ToPrimitive> End<I>
-where
-    for<'a> &'a I: RefNum<I>,
-{
-    /// The order of t and this end: less where t comes before it.
-    fn compare(&self, t: &IntegerFraction<I>) -> Ordering {
-        match self {
-            End::MinusInfinity => Ordering::Greater,
-            End::At(end) => t.compare(end),
-            End::PlusInfinity => Ordering::Less,
-        }
-    }
-
-    fn at(&self) -> Option<&IntegerFraction<I>> {
-        match self {
-            End::At(end) => Some(end),
-            _ => None,
-        }
     }
 }
 

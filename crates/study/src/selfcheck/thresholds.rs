@@ -202,7 +202,7 @@ fn last_bits(draw: &mut Draw) -> Case<f64> {
     }
     let off = draw.below(30);
     let mut at = 0;
-    let float = |v: [i64; 3], exponent: i64| {
+    let mut float = |v: [i64; 3], exponent: i64| {
         v.map(|x| {
             at += 1;
             let x = if at == off { x as f64 + 0.5 } else { x as f64 };
@@ -210,9 +210,6 @@ fn last_bits(draw: &mut Draw) -> Case<f64> {
         })
     };
     let exponents = [position, direction, position, position, position];
-    let [o, d, a, b, c] = {
-        let mut float = float;
-        std::array::from_fn(|i| float(vectors[i], exponents[i]))
-    };
+    let [o, d, a, b, c] = std::array::from_fn(|i| float(vectors[i], exponents[i]));
     Case::new(o, d, [a, b, c])
 }

@@ -48,18 +48,9 @@ impl<R: Real> PlaneMeasures<R> {
     }
 
     /// The dot product of the normal with a vector, or with the way from the plane to a point.
-    fn product(&self, what: PlaneVector, vector: Triple<R>) -> R {
-        match what {
-            PlaneVector::Point => self.normal.dot(&vector.minus(&self.corner)),
-            PlaneVector::Vector => self.normal.dot(&vector),
-        }
+    fn product(&self, is_point: bool, vector: Triple<R>) -> R {
+        self.normal.dot(&if is_point { vector.minus(&self.corner) } else { vector })
     }
-}
-
-#[derive(Clone, Copy)]
-enum PlaneVector {
-    Point,
-    Vector,
 }
 
 impl Plane {
@@ -74,23 +65,23 @@ impl Plane {
     /// itself. Above is where (b - a) × (c - a) points. NaN of a point that is not finite, and over a
     /// triangle without area.
     pub fn height<F: Float>(&self, point: [F; 3]) -> f64 {
-        self.over(PlaneVector::Point, point)
+        self.over(true, point)
     }
 
     /// By how much a vector rises over the plane, in longest edges of the triangle.
     pub fn rise<F: Float>(&self, vector: [F; 3]) -> f64 {
-        self.over(PlaneVector::Vector, vector)
+        self.over(false, vector)
     }
 
-    /// A product with the normal over the lengths of the normal and of the longest edge: in double-doubles
-    /// if they are certain, else exactly.
-    fn over<F: Float>(&self, what: PlaneVector, vector: [F; 3]) -> f64 {
+    /// The product of a vector, or of a point, with the normal over the lengths of the normal and of the longest edge: in
+    /// double-doubles if they are certain, else exactly.
+    fn over<F: Float>(&self, is_point: bool, vector: [F; 3]) -> f64 {
         let vector = vector.map(F::to_f64);
         if !vector.iter().all(|x| x.is_finite()) {
             return f64::NAN;
         }
         let PlaneMeasures { normal_squared, edge_squared, .. } = &self.near;
-        let product = self.near.product(what, triple(vector, Bounded::new)).approximate();
+        let product = self.near.product(is_point, triple(vector, Bounded::new)).approximate();
         let lengths = normal_squared.approximate().zip(edge_squared.approximate());
         if let Some((product, (normal, edge))) = product.zip(lengths) {
             let height = product / normal.sqrt() / edge.sqrt();
@@ -99,7 +90,7 @@ impl Plane {
             }
         }
         let measures = PlaneMeasures::new(self.vertices, &self.instance, Exact::from_f64);
-        let product = measures.product(what, triple(vector, Exact::from_f64));
+        let product = measures.product(is_point, triple(vector, Exact::from_f64));
         let squares = measures.normal_squared * &measures.edge_squared;
         let height = (product.clone() * &product / &squares).approximate_root();
         if product.is_sign_negative() { -height } else { height }

@@ -33,16 +33,25 @@ const fn number(what: &'static str, default: &'static str) -> Option<Parameter> 
     Some(Parameter { what, default })
 }
 
+/// What a row says unless it says something else: that it takes no number, and runs in both scalars.
+const PLAIN: PublishedScheme = PublishedScheme {
+    name: "",
+    start: "",
+    source: "",
+    parameter: None,
+    usual: &[None],
+    only_f32: false,
+    formula: OffsetFormula::Nothing,
+};
+
 /// Every published scheme, in the order of reports.
 pub static PUBLISHED: &[PublishedScheme] = &[
     PublishedScheme {
         name: "none",
         start: "start at p",
         source: "-",
-        parameter: None,
-        usual: &[None],
-        only_f32: false,
         formula: OffsetFormula::Nothing,
+        ..PLAIN
     },
     PublishedScheme {
         name: "t-min",
@@ -50,8 +59,8 @@ pub static PUBLISHED: &[PublishedScheme] = &[
         source: "Shirley, Black, Hollasch: Ray Tracing in One Weekend, version 4, 2023, section 6.8, https://raytracing.github.io/books/RayTracingInOneWeekend.html",
         parameter: number("the least t", "0.001"),
         usual: &[Some("1e-3")],
-        only_f32: false,
         formula: OffsetFormula::TMin,
+        ..PLAIN
     },
     PublishedScheme {
         name: "t-relative",
@@ -59,8 +68,8 @@ pub static PUBLISHED: &[PublishedScheme] = &[
         source: "Pharr, Humphreys: pbrt-v2, 2010, rayEpsilon in src/shapes/trianglemesh.cpp, https://github.com/mmp/pbrt-v2",
         parameter: number("the share of t", "0.001"),
         usual: &[Some("1e-3")],
-        only_f32: false,
         formula: OffsetFormula::TRelative,
+        ..PLAIN
     },
     PublishedScheme {
         name: "normal",
@@ -68,8 +77,8 @@ pub static PUBLISHED: &[PublishedScheme] = &[
         source: "common practice; for example demont-engine, issue 256, 2026, https://github.com/havokentity/demont-engine/issues/256",
         parameter: number("the distance", "0.001"),
         usual: &[Some("1e-4"), Some("1e-3")],
-        only_f32: false,
         formula: OffsetFormula::Normal,
+        ..PLAIN
     },
     PublishedScheme {
         name: "ulps",
@@ -77,53 +86,49 @@ pub static PUBLISHED: &[PublishedScheme] = &[
         source: "this project: the least that follows the coordinates",
         parameter: number("the number of ulps", "4"),
         usual: &[],
-        only_f32: false,
         formula: OffsetFormula::Ulps,
+        ..PLAIN
     },
     PublishedScheme {
         name: "waechter-binder",
         start: "move each coordinate by 256 ulps times n (by 2^-16 times n near 0)",
         source: "Wächter, Binder: A Fast and Robust Method for Avoiding Self-Intersection, Ray Tracing Gems, chapter 6, 2019, https://doi.org/10.1007/978-1-4842-4427-2_6",
-        parameter: None,
-        usual: &[None],
         only_f32: true,
         formula: OffsetFormula::WaechterBinder,
+        ..PLAIN
     },
     PublishedScheme {
         name: "pbrt-v3",
         start: "start beyond the error box of gamma # around p, along n",
         source: "Pharr, Jakob, Humphreys: Physically Based Rendering, 3rd edition, 2016, section 3.9.5, https://pbr-book.org/3ed-2018/Shapes/Managing_Rounding_Error",
         parameter: number("the n of gamma n", "7"),
-        usual: &[None],
         only_f32: true,
         formula: OffsetFormula::PbrtV3,
+        ..PLAIN
     },
     PublishedScheme {
         name: "pbrt-v4",
         start: "start beyond the error box of gamma # around p, along n",
         source: "Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6, https://pbr-book.org/4ed/Shapes/Managing_Rounding_Error",
         parameter: number("the n of gamma n", "7"),
-        usual: &[None],
-        only_f32: false,
         formula: OffsetFormula::PbrtV4,
+        ..PLAIN
     },
     PublishedScheme {
         name: "mitsuba-3.9",
         start: "start at p + n * # u * (1 + the largest |coordinate| of p)",
         source: "Jakob and others: Mitsuba 3 up to 3.9, 2022 to 2026, offset_p in include/mitsuba/render/interaction.h, https://github.com/mitsuba-renderer/mitsuba3",
         parameter: number("the number of u", "1500"),
-        usual: &[None],
-        only_f32: false,
         formula: OffsetFormula::Mitsuba39,
+        ..PLAIN
     },
     PublishedScheme {
         name: "mitsuba",
         start: "start at p + n * # u * (|n| . the largest |coordinates| of the vertices)",
         source: "Jakob: A better ray epsilon, 2026, by its description, https://github.com/mitsuba-renderer/mitsuba3/pull/1962",
         parameter: number("the number of u", "32"),
-        usual: &[None],
-        only_f32: false,
         formula: OffsetFormula::Mitsuba,
+        ..PLAIN
     },
 ];
 

@@ -85,22 +85,11 @@ impl<F: Scalar> SpawnTrials<F> {
     ) -> SpawnTrials<F> {
         let made = indices.map(|index| (index, source.make::<F>(index).cases()[0]));
         let made: Vec<_> = made.collect();
-        SpawnTrials::placed((entry, epsilons), kind, seed, &made, source.instance())
+        SpawnTrials::of((entry, epsilons), kind, seed, &made, source.instance())
     }
 
-    /// The trials of a kernel on given first rays.
+    /// The trials of a kernel at some epsilons on given first rays, which are of the world if there is an instance.
     pub fn of(
-        entry: &Entry,
-        epsilons: &[F],
-        kind: PointKind,
-        seed: u64,
-        first_rays: &[(u64, Case<F>)],
-    ) -> SpawnTrials<F> {
-        SpawnTrials::placed((entry, epsilons), kind, seed, first_rays, None)
-    }
-
-    /// The first rays are of the world if there is an instance.
-    fn placed(
         (entry, epsilons): (&Entry, &[F]),
         kind: PointKind,
         seed: u64,

@@ -96,8 +96,8 @@ fn read_case(
         finds.extend(of_rows(rows, stored.case, file));
         return Ok(());
     }
-    let at_line = |message: String| InputError::at(file, stored.line, message);
-    let find = Find::of_stored(stored).map_err(|error| at_line(error.to_string()))?;
+    let find = Find::of_stored(stored);
+    let find = find.map_err(|message| InputError::at(file, stored.line, message))?;
     finds.push(named(find, file));
     Ok(())
 }
@@ -107,9 +107,9 @@ fn of_rows(rows: &[Row], case: AnyCase, file: &str) -> impl Iterator<Item = Find
 }
 
 /// With the file that it comes from, if it does not say.
-fn named(find: Find, file: &str) -> Find {
-    let from = find.from.clone().unwrap_or_else(|| file.to_owned());
-    Find { from: Some(from), ..find }
+fn named(mut find: Find, file: &str) -> Find {
+    find.found.from.get_or_insert_with(|| file.to_owned());
+    find
 }
 
 fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), Failure> {

@@ -1,15 +1,14 @@
 //! One kernel in one scalar: its population, the kinds that it knows, and how both grow.
 
-use super::epsilons::CampaignRows;
 use super::find::Find;
 use super::population::{Glance, Individual, Niche, Parents, Population};
 use super::state::SavedIndividual;
 use crate::arith::Float;
-use crate::audit::{Row, RowSpec};
+use crate::audit::{EpsilonChoice, EpsilonText, Row, RowSpec};
 use crate::case::{Case, Draw, Parameters};
 use crate::corpus::lines::AnyCase;
 use crate::explore::{Signature, family_case, mutate, shrink_within};
-use crate::kernel::Scalar;
+use crate::kernel::{PRESETS, Scalar, Tunable};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -45,7 +44,7 @@ impl<F: Scalar> Island<F> {
         Island {
             name: format!("fuzz:{}/{}", rows[0].entry.info.name, F::NAME),
             epsilons: CampaignRows::new(rows, varies),
-            population: Population::new(),
+            population: Population { niches: BTreeMap::new() },
             known: BTreeSet::new(),
         }
     }
@@ -160,16 +159,9 @@ impl<F: Scalar> Newcomer<F> {
         let Newcomer { individual: Individual { case, row }, kind } = self;
         let signature = Signature { epsilons: row.epsilon_argument(), ..kind.clone() };
         let case = shrink_within(case, EFFORT, |case| signature.is_shown(row, case)).case;
-        Find {
-            case: AnyCase::from(case),
-            row: Row::clone(row),
-            signature,
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            seed: Some(seed),
-            evaluations: Some(evaluations),
-            seconds: None,
-            from: None,
-        }
+        let mut find = Find::new(AnyCase::from(case), row, signature);
+        (find.found.seed, find.found.evaluations) = (Some(seed), Some(evaluations));
+        find
     }
 }
 
@@ -187,5 +179,81 @@ fn parameters(draw: &mut Draw) -> Parameters {
         offset,
         unit_direction: draw.below(8) == 0,
         ..Parameters::default()
+    }
+}
+
+/// The rows of one kernel that a campaign draws from.
+struct CampaignRows {
+    rows: Vec<Arc<Row>>,
+    varies: bool,
+}
+
+impl CampaignRows {
+    /// The epsilons of a kernel's rows, of which there is at least one. If they may vary, then also the published
+    /// epsilons that fit, zero, and numbers between.
+    fn new(rows: &[&Row], varies: bool) -> CampaignRows {
+        let mut all: Vec<Row> = rows.iter().map(|row| (*row).clone()).collect();
+        let first = rows[0];
+        let published = PRESETS.iter().filter(|_| varies).filter_map(|preset| {
+            EpsilonChoice::Preset(preset.name.to_owned()).rows(&[first.entry], None).ok()
+        });
+        for row in published.flatten() {
+            if all.iter().all(|known| known.epsilons != row.epsilons) {
+                all.push(Row { contract: first.contract, ..row });
+            }
+        }
+        let varies = varies && first.tuned().next().is_some();
+        CampaignRows { rows: all.into_iter().map(Arc::new).collect(), varies }
+    }
+
+    /// One of the rows, or one with numbers between theirs.
+    fn draw(&self, draw: &mut Draw) -> Arc<Row> {
+        let row = &self.rows[draw.below(self.rows.len())];
+        if self.varies && draw.below(3) == 0 { self.between(row, draw) } else { row.clone() }
+    }
+
+    /// A row some of whose epsilons lie between zero and one that another row has there.
+    fn between(&self, row: &Row, draw: &mut Draw) -> Arc<Row> {
+        let mut row = row.clone();
+        for (i, gate) in row.entry.info.gates.iter().enumerate() {
+            if gate.epsilon == Tunable::Fixed || draw.coin() {
+                continue;
+            }
+            let other = &self.rows[draw.below(self.rows.len())].epsilons[i];
+            let value = other.value::<f64>().filter(|value| *value != 0.0).unwrap_or(1e-6);
+            // Two digits: whoever reads them should be able to remember them.
+            let share = draw.unit() * draw.pick(&[1.0, 1e-2, 1e-4, 1e-8]);
+            row.epsilons[i] = EpsilonText::Decimal(format!("{:.1e}", value * share));
+        }
+        row.set = row.epsilon_argument().unwrap_or(row.set);
+        Arc::new(row)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::KERNELS;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_row_that_is_drawn_can_be_named_again() {
+        let mut draw = Draw::new("epsilons", 1, 0);
+        for entry in KERNELS {
+            let rows = EpsilonChoice::Source.rows(&[entry], None).unwrap();
+            let epsilons = CampaignRows::new(&rows.iter().collect::<Vec<_>>(), true);
+            let mut seen = BTreeSet::new();
+            for _ in 0..200 {
+                let row = epsilons.draw(&mut draw);
+                let argument = row.epsilon_argument();
+                let again = Row::named(entry.info.name, argument.as_deref(), "own").unwrap();
+                assert_eq!(again.epsilons::<f32>(), row.epsilons::<f32>(), "{argument:?}");
+                assert_eq!(again.epsilons::<f64>(), row.epsilons::<f64>(), "{argument:?}");
+                seen.insert(argument);
+            }
+            assert!(rows[0].tuned().next().is_none() || seen.len() > 30, "{}", entry.info.name);
+            let fixed = CampaignRows::new(&[&rows[0]], false);
+            assert!((0..20).all(|_| fixed.draw(&mut draw).epsilons == rows[0].epsilons));
+        }
     }
 }

@@ -10,13 +10,12 @@
 //! Architecture invariant: what is found depends on the rows, the seed and the number of evaluations,
 //! never on a clock or the number of threads.
 
-mod epsilons;
 mod find;
 mod island;
 mod population;
 mod run;
 mod state;
 
-pub use find::{Find, FindError};
+pub use find::Find;
 pub use run::{Campaign, CampaignPlan};
 pub use state::{CampaignState, SavedIndividual};

@@ -100,17 +100,12 @@ impl<F: Scalar> Individual<F> {
     }
 }
 
-/// A bounded population: a few individuals a niche, the best by score.
+/// A bounded population, which begins empty: a few individuals a niche, the best by score.
 pub struct Population<F: Float> {
-    niches: BTreeMap<Niche, Vec<(f64, Individual<F>)>>,
+    pub(super) niches: BTreeMap<Niche, Vec<(f64, Individual<F>)>>,
 }
 
 impl<F: Scalar> Population<F> {
-    /// An empty population.
-    pub fn new() -> Population<F> {
-        Population { niches: BTreeMap::new() }
-    }
-
     /// Keeps an individual if its niche has room or a worse one.
     pub fn offer(&mut self, niche: Niche, score: f64, individual: Individual<F>) {
         let kept = self.niches.entry(niche).or_default();

@@ -77,8 +77,9 @@ impl Campaign {
         let wide = grow(&mut self.f64, seed, round, |task| share(first_wide + task));
         self.rounds += 1;
         self.evaluations += evaluations;
-        let mut finds = into_finds(&narrow, seed, self.evaluations);
-        finds.extend(into_finds(&wide, seed, self.evaluations));
+        let evaluations = self.evaluations;
+        let mut finds = engine::map(&narrow, |newcomer| newcomer.find(seed, evaluations));
+        finds.extend(engine::map(&wide, |newcomer| newcomer.find(seed, evaluations)));
         finds
     }
 
@@ -138,10 +139,6 @@ fn grow<F: Scalar>(
             island.take_in(own)
         })
         .collect()
-}
-
-fn into_finds<F: Scalar>(newcomers: &[Newcomer<F>], seed: u64, evaluations: u64) -> Vec<Find> {
-    engine::map(newcomers, |newcomer| newcomer.find(seed, evaluations))
 }
 
 fn learn<F: Scalar>(islands: &mut [Island<F>], kernel: &str, kind: crate::explore::Signature) {

@@ -38,7 +38,9 @@ pub fn conforms<F: Float>(
     let (truth, t) = (oracle::truth(case), kernel(case));
     let asked = asked(case, &truth, contract, false);
     let gives = Gives { t: true, uv: false, facing: false };
-    let found = judge((contract, asked), (case, &truth), gives, &verdict(t));
+    let miss = Verdict::miss(None);
+    let verdict = t.map_or(miss, |t| Verdict { hit: true, t, ..miss });
+    let found = judge((contract, asked), (case, &truth), gives, &verdict);
     let Some(finding) = found.map(Finding::name) else { return Ok(()) };
     let contract = contract.describe();
     let text = format!("contract {contract}\n{}", describe(case, &truth, t));
@@ -68,13 +70,6 @@ pub fn conforms_together<F: Float>(
     let each = |i: usize| describe(&cases[i], &truths[i], answers[i]);
     let contract = contract.describe();
     Err(WrongAnswer { finding, text: format!("contract {contract}\n{}\n{}", each(0), each(1)) })
-}
-
-fn verdict<F: Float>(t: Option<F>) -> Verdict<F> {
-    match t {
-        Some(t) => Verdict { hit: true, t, ..Verdict::miss(None) },
-        None => Verdict::miss(None),
-    }
 }
 
 fn describe<F: Float>(case: &Case<F>, truth: &Truth, t: Option<F>) -> String {

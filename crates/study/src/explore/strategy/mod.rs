@@ -25,20 +25,21 @@
 //! [`edge_exact`] stays on an edge. Shrinking ends where no single step leads on, or at proptest's
 //! `max_shrink_iters`, whose default of a few thousand rarely matters.
 //!
-//! To add a strategy: a row in [`STRATEGIES`] and a function.
+//! To add a strategy: a row in `strategies!`.
 
 mod conform;
 mod promise;
 mod tree;
 
 pub use conform::{WrongAnswer, conforms, conforms_together};
-pub use promise::{STRATEGIES, StrategyPromise};
+pub use promise::StrategyPromise;
 #[doc(hidden)]
 pub use proptest::test_runner::TestCaseError;
 pub use tree::{CaseTree, FamilyCases};
 
 use crate::case::Case;
 use crate::kernel::Scalar;
+use promise::PromisedNumbers::*;
 use proptest::strategy::Strategy;
 
 /// Cases of the strategy of a name in [`STRATEGIES`], `-` written for `_`; none if there is no such.
@@ -60,8 +61,14 @@ pub fn shared_edge<F: Scalar>() -> impl Strategy<Value = [Case<F>; 2]> {
     named("shared-edge").expect("a row of the table").prop_map(|cases| [cases[0], cases[1]])
 }
 
-macro_rules! single {
-    ($($(#[$doc:meta])* $function:ident $name:literal;)*) => {
+macro_rules! strategies {
+    ($($(#[$doc:meta])* $function:ident $name:literal $shape:expr;)*) => {
+        /// One row a strategy, named as its family.
+        pub static STRATEGIES: &[StrategyPromise] = &[
+            $(StrategyPromise { family: $name, shape: $shape },)*
+            StrategyPromise { family: "shared-edge", shape: SharedEdge },
+        ];
+
         $(
             $(#[$doc])*
             pub fn $function<F: Scalar>() -> impl Strategy<Value = Case<F>> {
@@ -71,47 +78,47 @@ macro_rules! single {
     };
 }
 
-single! {
+strategies! {
     /// Transversal, within the interval, in the interior.
-    interior "interior";
+    interior "interior" Any;
     /// Transversal, in front of the origin, outside the triangle.
-    outside "outside";
+    outside "outside" Any;
     /// Transversal, within, exactly on an open edge.
-    edge_exact "edge-exact";
+    edge_exact "edge-exact" Any;
     /// Transversal, within, some ulps about an edge: in the triangle, on it and out of it.
-    edge_near "edge-near";
+    edge_near "edge-near" Near(1);
     /// Transversal, within, exactly on a vertex.
-    vertex_exact "vertex-exact";
+    vertex_exact "vertex-exact" Any;
     /// Transversal, within, some ulps about a vertex.
-    vertex_near "vertex-near";
+    vertex_near "vertex-near" Near(2);
     /// Parallel to the plane and off it, down to one ulp.
-    parallel_off "parallel-off";
+    parallel_off "parallel-off" Any;
     /// In the plane: through the interior, along an edge, through a vertex, or missing.
-    coplanar "coplanar";
+    coplanar "coplanar" Any;
     /// Transversal, at an angle to the plane whose sine is at most a half, and can be tiny.
-    grazing "grazing";
+    grazing "grazing" Grazing;
     /// Transversal, t = 0, on the face, an edge or a vertex.
-    origin_on "origin-on";
+    origin_on "origin-on" Any;
     /// Transversal, the origin some ulps before or behind the plane of the triangle.
-    origin_near "origin-near";
+    origin_near "origin-near" OriginNear;
     /// Transversal, in the closed triangle, at negative t.
-    behind "behind";
+    behind "behind" Any;
     /// Transversal, in the closed triangle, exactly at t_min or t_max.
-    interval_ends "interval-ends";
+    interval_ends "interval-ends" Any;
     /// Transversal, the longest edge at least eight times the height over it.
-    sliver "sliver";
+    sliver "sliver" Sliver;
     /// Transversal, the longest edge from 2^-42 to 2^-38.
-    tiny "tiny";
+    tiny "tiny" Size(-40);
     /// Transversal, the longest edge from 2^38 to 2^42.
-    huge "huge";
+    huge "huge" Size(40);
     /// Transversal, the longest edge at most an eighth of the largest coordinate of a vertex.
-    far "far";
+    far "far" Far;
     /// Transversal, along an axis.
-    axis_aligned "axis-aligned";
+    axis_aligned "axis-aligned" AlongAxis;
     /// The triangle is a segment or a point.
-    degenerate "degenerate";
+    degenerate "degenerate" Any;
     /// A NaN, an infinity, a zero direction or an impossible interval.
-    invalid "invalid";
+    invalid "invalid" Any;
 }
 
 /// Fails a proptest unless a kernel, `Fn(&Case<F>) -> Option<F>` with t of a hit, does on a case what a

@@ -10,13 +10,13 @@ use num_traits::{One, Signed};
 
 /// A family, and what its truths alone do not say.
 pub struct StrategyPromise {
-    family: &'static str,
-    shape: PromisedNumbers,
+    pub(super) family: &'static str,
+    pub(super) shape: PromisedNumbers,
 }
 
 /// The promise of a strategy about the numbers of a case besides its truth.
 #[derive(Clone, Copy)]
-enum PromisedNumbers {
+pub(super) enum PromisedNumbers {
     Any,
     /// So many weights are near zero: 1 by an edge, 2 by a vertex.
     Near(usize),
@@ -29,35 +29,6 @@ enum PromisedNumbers {
     AlongAxis,
     SharedEdge,
 }
-
-const fn row(family: &'static str, shape: PromisedNumbers) -> StrategyPromise {
-    StrategyPromise { family, shape }
-}
-
-/// One row a strategy, named as its family.
-pub static STRATEGIES: &[StrategyPromise] = &[
-    row("interior", PromisedNumbers::Any),
-    row("outside", PromisedNumbers::Any),
-    row("edge-exact", PromisedNumbers::Any),
-    row("edge-near", PromisedNumbers::Near(1)),
-    row("vertex-exact", PromisedNumbers::Any),
-    row("vertex-near", PromisedNumbers::Near(2)),
-    row("parallel-off", PromisedNumbers::Any),
-    row("coplanar", PromisedNumbers::Any),
-    row("grazing", PromisedNumbers::Grazing),
-    row("origin-on", PromisedNumbers::Any),
-    row("origin-near", PromisedNumbers::OriginNear),
-    row("behind", PromisedNumbers::Any),
-    row("interval-ends", PromisedNumbers::Any),
-    row("sliver", PromisedNumbers::Sliver),
-    row("tiny", PromisedNumbers::Size(-40)),
-    row("huge", PromisedNumbers::Size(40)),
-    row("far", PromisedNumbers::Far),
-    row("axis-aligned", PromisedNumbers::AlongAxis),
-    row("degenerate", PromisedNumbers::Any),
-    row("invalid", PromisedNumbers::Any),
-    row("shared-edge", PromisedNumbers::SharedEdge),
-];
 
 impl StrategyPromise {
     /// The family's name.

@@ -77,7 +77,7 @@ pub fn search<F: Scalar>(
         let scorer = goal.scorer::<F>();
         let mut draw = Draw::new(&goal.name::<F>(), seed, lane);
         let share = evaluations / LANES + u64::from(lane < evaluations % LANES);
-        let best = Climb::new(&scorer).run(&mut draw, share)?;
+        let best = Climb { scorer: &scorer, evaluated: 0, best: None }.run(&mut draw, share)?;
         let score = Decimal::of(&scorer.exact(&best)?)?;
         Some(FoundWorst { case: best, score })
     });
@@ -100,11 +100,7 @@ struct Climb<'a, F: Scalar> {
     best: Option<(f64, Case<F>)>,
 }
 
-impl<'a, F: Scalar> Climb<'a, F> {
-    fn new(scorer: &'a Scorer<'a, F>) -> Self {
-        Climb { scorer, evaluated: 0, best: None }
-    }
-
+impl<F: Scalar> Climb<'_, F> {
     /// Climbs again and again until the evaluations are used up.
     fn run(mut self, draw: &mut Draw, evaluations: u64) -> Option<Case<F>> {
         while self.evaluated < evaluations {

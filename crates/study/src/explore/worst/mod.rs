@@ -3,6 +3,5 @@
 mod climb;
 mod table;
 
-pub use climb::family_case;
-pub use climb::{FoundWorst, LANES, WorstGoal, exact_score, search};
+pub use climb::{FoundWorst, LANES, WorstGoal, exact_score, family_case, search};
 pub use table::{Update, WorstEntry, WorstTable, find_worst, replay};
