@@ -71,11 +71,8 @@ fn about(record: &Record) -> Vec<Block> {
             ),
         ),
     ];
-    terms.extend(provenance.plan_flags.as_ref().map(|flags| {
-        let words = [flags.kernels.as_str(), flags.sources.as_str()];
-        let words: Vec<&str> = words.into_iter().filter(|words| !words.is_empty()).collect();
-        ("again", format!("hairline audit {}", words.join(" ")))
-    }));
+    let again = provenance.plan_flags.as_ref();
+    terms.extend(again.map(|flags| ("again", flags.command(&flags.kernels))));
     vec![Block::terms(terms)]
 }
 
