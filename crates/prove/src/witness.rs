@@ -206,13 +206,13 @@ impl<'a, F: Searched> Search<'a, F> {
             // Exact numbers with roots grow too long; these know their own errors.
             let number = |x: F| Bounded::new(x.to_f64());
             let compare = |x: &Bounded, bound: f64| {
-                (*x - &Bounded::new(bound)).approximate()?.partial_cmp(&0.0)
+                (*x - Bounded::new(bound)).approximate()?.partial_cmp(&0.0)
             };
             let rules = (number, compare, |x: &Bounded| x.approximate());
             self.measure(inputs, goal, &mut Vec::new(), rules)?
         } else {
             let number = |x: F| Exact::from_f64(x.to_f64());
-            let compare = |x: &Exact, bound: f64| (x.clone() - &Exact::from_f64(bound)).sign();
+            let compare = |x: &Exact, bound: f64| (x.clone() - Exact::from_f64(bound)).sign();
             let rules = (number, compare, |x: &Exact| Some(x.approximate()));
             self.measure(inputs, goal, &mut Vec::new(), rules)?
         };
