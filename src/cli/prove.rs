@@ -2,7 +2,6 @@
 
 pub mod check;
 pub mod demand;
-mod files;
 mod job;
 mod leaks;
 mod page;
@@ -14,14 +13,15 @@ mod witnesses;
 use super::exit::{Failure, Status};
 use super::flags::{chosen_scalars, find_kernel, unknown};
 use super::input::read_text;
-use super::output::{OutputArguments, write_json_lines};
+use super::output::{OutputArguments, write_json_lines, write_result};
 use super::sources::about_scene;
 use crate::audit::{EpsilonChoice, Row, shell_word};
 use crate::case;
 use crate::engine;
-use crate::kernel::{self, Entry};
-use crate::prove::{Domain, Effort, Scene, Shape};
-use crate::report::{Context, Format, ProofPart, Record, provenance_of, write_json};
+use crate::kernel::{self, Entry, Scalar};
+use crate::prove::certificate::{self, Claim};
+use crate::prove::{Domain, Effort, Quantity, Scene, Searched, Shape, Summary};
+use crate::report::{Context, Format, ProofPart, Record, number_of, provenance_of, write_json};
 use clap::Args;
 use job::{Epsilons, Job, Parts};
 use leaks::leak;
@@ -171,12 +171,12 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     let default = if scene.is_some() { 20_000 } else { 0 };
     let effort =
         Effort { evaluations: arguments.evaluations.unwrap_or(default), seed: arguments.seed };
-    if entries.len() == 1 {
-        arguments.gate_of(entries[0])?;
+    if let ([entry], Some(gate)) = (&entries[..], &arguments.gate) {
+        ensure_gate(entry, gate)?;
     }
     let outputs = arguments.output.pairs(FORMATS)?;
     if let Some(path) = &arguments.certificate {
-        return files::certify(&entries, scalars, (domain, &parts), (path, arguments.output.quiet));
+        return certify(&entries, scalars, (domain, &parts), (path, arguments.output.quiet));
     }
     if arguments.epsilon.is_some() && entries.len() != 1 {
         return Err(Failure::usage("--epsilon is of one --kernel"));
@@ -227,6 +227,64 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     Ok(Status::Success)
 }
 
+/// An error if a kernel has no gate of this name.
+fn ensure_gate(entry: &Entry, name: &str) -> Result<(), Failure> {
+    let gates = || entry.info.gates.iter().map(|gate| gate.name);
+    let list = format!("hairline prove --kernel {}", entry.info.name);
+    let found = gates().find(|gate| *gate == name);
+    found.map(|_| ()).ok_or_else(|| unknown("gate", name, gates(), &list))
+}
+
+/// Writes the certificate of one kernel in one scalar.
+fn certify(
+    entries: &[&'static Entry],
+    scalars: [bool; 2],
+    domains: (Domain, &[Domain]),
+    (path, quiet): (&str, bool),
+) -> Result<Status, Failure> {
+    let ([entry], [true, false] | [false, true]) = (entries, scalars) else {
+        return Err(Failure::usage("--certificate is of one --kernel in one --scalar"));
+    };
+    let text = match scalars[0] {
+        true => certificate_of::<f32>(entry, domains),
+        false => certificate_of::<f64>(entry, domains),
+    };
+    let text = text.map_err(|why| {
+        let message = format!("{}: no certificate: {why}", entry.info.name);
+        Failure::nothing(message)
+    })?;
+    write_result(path, |out| out.write_all(text.as_bytes()))?;
+    if !quiet {
+        let bounds = text.lines().filter(|line| line.starts_with("claim ")).count() as u64;
+        let bounds = number_of(bounds, "bound", "bounds");
+        let check = format!("check it: hairline prove --check {}", shell_word(path));
+        eprintln!("{path}: {bounds} of what {} compares; {check}", entry.info.name);
+    }
+    Ok(Status::Success)
+}
+
+fn certificate_of<F: Searched + Scalar>(
+    entry: &Entry,
+    (domain, parts): (Domain, &[Domain]),
+) -> Result<String, String> {
+    let summary = Summary::<F>::new(entry, domain, parts, &[], Effort::NONE)?;
+    let mut text = certificate::heading(entry.info.name, F::NAME, summary.format);
+    let mut stated = None;
+    for quantity in summary.proof.quantities.iter().filter(|q| q.bound.is_ok()) {
+        let path = &summary.proof.paths[quantity.path];
+        let Quantity { place, orders, also, .. } = quantity;
+        let gate = &entry.info.gates[quantity.gate];
+        let symmetry = certificate::symmetry_at(gate, path, *place);
+        let claim = Claim { gate: gate.name, place: *place, symmetry, orders, also };
+        if stated != Some(quantity.domain) {
+            text.push_str(&certificate::domain(&quantity.domain));
+            stated = Some(quantity.domain);
+        }
+        text.push_str(&certificate::program(path, &quantity.lemmas, &claim));
+    }
+    if stated.is_none() { Err("no gate has a bound in this domain".to_owned()) } else { Ok(text) }
+}
+
 impl ProveArguments {
     fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
         if self.kernel.is_empty() {
@@ -267,15 +325,6 @@ impl ProveArguments {
         // As an audit would refuse them.
         choice.rows(entries, None)?;
         Ok(Epsilons::Given(choice.given().to_vec()))
-    }
-
-    /// The place of the chosen gate.
-    fn gate_of(&self, entry: &Entry) -> Result<Option<usize>, Failure> {
-        let Some(name) = &self.gate else { return Ok(None) };
-        let gates = || entry.info.gates.iter().map(|gate| gate.name);
-        let found = gates().position(|gate| gate == name);
-        let list = format!("hairline prove --kernel {}", entry.info.name);
-        found.map(Some).ok_or_else(|| unknown("gate", name, gates(), &list))
     }
 
     /// The scene, and the sizes and areas of its triangles.

@@ -3,7 +3,7 @@
 use hairline::internals::arith::Real;
 use hairline::internals::arith::recorded::Operation;
 use hairline::internals::kernel::{self, Path, Scalar};
-use hairline::internals::prove::certificate::{self, Claim, Heading};
+use hairline::internals::prove::certificate::{self, Claim};
 use hairline::internals::prove::checker::{Number, check};
 use hairline::internals::prove::{Domain, Dyadic, Format, Prover, Symmetry, is_impossible};
 use num_traits::Signed;
@@ -25,7 +25,7 @@ fn certificate_of(path: &Path, scalar: &str, domain: Domain, places: &[u32]) -> 
         let claim = Claim { gate: "gate", place: *place, symmetry, orders: &orders, also: &[] };
         certificate::program(path, &prover.lemmas_of(*place), &claim)
     };
-    certificate::heading(&Heading { kernel: "kernel", scalar, format })
+    certificate::heading("kernel", scalar, format)
         + &certificate::domain(&domain)
         + &places.iter().map(program).collect::<String>()
 }

@@ -78,7 +78,7 @@ fn a_search_is_reproducible_and_stays_in_its_domain() {
     let paths = <f32 as Scalar>::subject(kernel).unwrap().gated().unwrap().paths().unwrap();
     let proof = Proof::new(paths, None, Domain::UNIT, Format::F32);
     for quantity in &proof.quantities {
-        let mut search = Search::<f32>::new(&proof, quantity, Domain::UNIT);
+        let mut search = Search::<f32>::new(&proof, quantity, None);
         let mut found = || search.climb(Goal::Error, 3000, &mut Draw::new("test", 1, 2), &[]);
         let (inputs, score) = found().unwrap();
         assert_eq!(found(), Some((inputs, score)));

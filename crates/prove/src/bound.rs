@@ -239,12 +239,4 @@ impl<'a> Prover<'a> {
         orders.retain(|(a, b)| a != b && is_at_most(self.path, *a, *b));
         orders
     }
-
-    /// True if |a| <= |b| follows from the decisions of the path. They say it of inputs only.
-    pub(super) fn is_at_most_in_size(&self, a: Place, b: Place) -> bool {
-        match (self.operation(a), self.operation(b)) {
-            (Operation::Input(a), Operation::Input(b)) => is_at_most(self.path, a, b),
-            _ => false,
-        }
-    }
 }

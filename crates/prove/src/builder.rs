@@ -79,7 +79,7 @@ impl<'p, 'a> Builder<'p, 'a> {
             formula: Formula::default(),
             supports: Vec::new(),
             steps: HashMap::new(),
-            forms: Forms::default(),
+            forms: Forms::new(),
             is_boxed: false,
         }
     }
@@ -206,7 +206,7 @@ impl<'p, 'a> Builder<'p, 'a> {
         let format = self.prover.format;
         let given = if leaf.is_difference() {
             let computed = size.round_up(format.digits);
-            Bound { size, computed, error: format.half_ulp(size) }
+            Bound { size, computed, error: format.half_ulp_of(&size.into()) }
         } else {
             exactly(size)
         };

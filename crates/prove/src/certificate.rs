@@ -23,16 +23,6 @@ impl Display for Dyadic {
     }
 }
 
-/// The lines that all proofs of a certificate share.
-pub struct Heading<'a> {
-    /// The kernel's name, its arithmetic included.
-    pub kernel: &'a str,
-    /// `f32` or `f64`.
-    pub scalar: &'a str,
-    /// The format of the floats.
-    pub format: Format,
-}
-
 /// A claim about a number: a gate compares it, and what else its lines say of it.
 pub struct Claim<'a> {
     /// The gate's name.
@@ -52,13 +42,10 @@ pub fn symmetry_at(gate: &Gate, path: &Path, place: Place) -> Symmetry {
     if gate.role == Role::Edge { symmetry_of(path, place) } else { Symmetry::None }
 }
 
-/// The first lines.
-pub fn heading(h: &Heading) -> String {
-    let Format { digits, smallest, largest } = h.format;
-    format!(
-        "hairline proof 3\nkernel {} {}\nformat {digits} {smallest} {largest}\n",
-        h.kernel, h.scalar
-    )
+/// The first lines: the kernel's name, its arithmetic included, `f32` or `f64`, and the format of the floats.
+pub fn heading(kernel: &str, scalar: &str, format: Format) -> String {
+    let Format { digits, smallest, largest } = format;
+    format!("hairline proof 3\nkernel {kernel} {scalar}\nformat {digits} {smallest} {largest}\n")
 }
 
 /// The domain of the programs that follow.

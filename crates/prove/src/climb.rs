@@ -336,7 +336,7 @@ mod tests {
             let proof = Proof::new(paths, None, Domain::UNIT, format_of::<f64>());
             let quantities = proof.quantities.iter().filter(|q| !q.uses().extent);
             for quantity in quantities.take(4) {
-                let mut search = Search::<f64>::new(&proof, quantity, Domain::UNIT);
+                let mut search = Search::<f64>::new(&proof, quantity, None);
                 let mut draw = Draw::new("amplitude", 1, 0);
                 for _ in 0..5 {
                     let inputs = search.start(Goal::Error, &mut draw);

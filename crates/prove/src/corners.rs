@@ -5,6 +5,14 @@
 //! the other variables, where n is the first, the second and the third axis. By Cauchy and Schwarz a step that
 //! is linear in n is at most the root of the sum of the squares there. So are the effects of errors, each sum
 //! of them being at most Σ|n_i| times that sum at axis i.
+//!
+//! A *mirror* is a set of variables whose change of sign keeps each step or changes its sign. Then each slope keeps its
+//! size too, and so do all effects of errors: of corners that a mirror joins, one is enough. In d·(e1×e2), for instance,
+//! the signs of d, of e1, of e2 and of all x and all y are free: 16 corners of 512 are left.
+//!
+//! A step's sign depends on a set of variables: it changes with an odd number of them. A product's set is the symmetric
+//! difference of its factors' sets. Terms that are added up must have one set: for mirrors, the difference of two of them
+//! is an equation modulo 2. A zero has no sign, is computed as 0 and demands nothing.
 
 use super::bound::SIZE_DIGITS;
 use super::dyadic::{Big, root_up};
@@ -34,22 +42,19 @@ impl Formula {
                 "its formula has variables of {tried} signs, and {MOST_SIGNS} can be tried"
             ));
         }
-        if !self.is_multi_affine() {
-            return Err("its formula has a variable in both factors of a product".to_owned());
-        }
         let too_long = || "its bound needs more digits than there are".to_owned();
         let sizes = self.corner_sizes();
         if sizes.iter().any(|size| !size.is_number()) {
             return Err(too_long());
         }
-        self.bounds = self.higher_order(format, &vec![false; self.steps.len()], Some(&sizes)).1;
+        self.bounds = self.higher_order(format, Some(&sizes)).1;
         let (first, at) = if self.unit.is_empty() {
             self.first_in_box(format, tried <= MOST_TO_CHOOSE && self.below.is_none())
         } else {
             self.first_of_unit(format).ok_or_else(too_long)?
         };
         let corner = (0..count).map(|v| at >> v & 1 == 1).collect();
-        let rest = self.higher_order(format, &self.relative, None).0;
+        let rest = self.higher_order(format, None).0;
         if first.is_number() && rest.is_number() {
             Ok(Maximum { first, rest, corner })
         } else {
@@ -111,16 +116,16 @@ impl Formula {
         let mut either = vec![[0.0f64; 2]; self.steps.len()];
         self.each_corner(|_, at_axes| {
             for (i, either) in either.iter_mut().enumerate() {
-                let effect = |(value, slope): &(Dyadic, Dyadic)| {
+                // Of what is linear, the bound of its error is one of the whole vector.
+                let effect = |(axis, pairs): (usize, &Vec<(Dyadic, Dyadic)>)| {
+                    let (value, slope) = pairs[i];
+                    let is_counted = !linear[i] || axis == 0;
                     let by_size =
-                        if linear[i] { Dyadic::ZERO } else { *slope * self.bounds[i].error };
-                    [by_size, *slope * *value * format.unit()].map(Dyadic::to_f64)
+                        if is_counted { slope * self.bounds[i].error } else { Dyadic::ZERO };
+                    [by_size, slope * value * format.unit()].map(|x| x.to_f64().powi(2))
                 };
-                let squares = at_axes.iter().map(|axis| effect(&axis[i]).map(|x| x * x));
-                let mut sum = squares.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-                if linear[i] {
-                    sum[0] = (at_axes[0][i].1 * self.bounds[i].error).to_f64().powi(2);
-                }
+                let squares = at_axes.iter().enumerate().map(effect);
+                let sum = squares.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
                 *either = [either[0].max(sum[0]), either[1].max(sum[1])];
             }
         });
@@ -187,6 +192,30 @@ impl Formula {
         std::iter::successors(Some(0), next)
     }
 
+    /// The variables whose signs have to be tried, as bits: the lowest one of each independent equation. Every corner
+    /// is joined to one of them by a mirror, which is the first in the order of counting. Signs of unit vectors are
+    /// not tried.
+    pub(super) fn signs_to_try(&self) -> u64 {
+        let unit = self.unit.iter().fold(0u64, |bits, v| bits | 1 << v);
+        let mut signs: Vec<Option<u64>> = Vec::with_capacity(self.steps.len());
+        let mut equations = Equations { unit, by_lowest: [0; 64] };
+        // Its two ends are no mirror images.
+        let fixed = self.below.map_or(0, |(v, _)| 1 << v);
+        for step in &self.steps {
+            let of = |i: usize| signs[i];
+            let term = |(_, a, b): Term<usize>| Some(of(a)? ^ b.map_or(Some(0), of)?);
+            signs.push(match *step {
+                Step::Variables(ref sum) => {
+                    equations.alike(sum.iter().map(|(v, _)| Some(1 << v & !fixed)))
+                }
+                Step::Of(Operation::Number(value)) => (value != 0).then_some(0),
+                _ => equations.alike(step.terms().map(term)),
+            });
+        }
+        let lowest = (0..64).filter(|v| equations.by_lowest[*v] != 0);
+        lowest.fold(fixed, |bits, v| bits | 1 << v) & !unit
+    }
+
     /// True if a step is a coordinate of the unit vector.
     fn is_part(&self, i: usize) -> bool {
         matches!(self.steps[i], Step::Variables(ref sum) if sum.iter().any(|(v, _)| self.unit.contains(v)))
@@ -250,11 +279,8 @@ impl Walk<'_> {
     fn new(formula: &Formula) -> Walk<'_> {
         let terms = formula.steps.iter().map(|step| step.terms().collect()).collect();
         let zeros = vec![Dyadic::ZERO; formula.steps.len()];
-        let mut supports = Vec::with_capacity(zeros.len());
-        for step in &formula.steps {
-            supports.push(step.support(&supports));
-        }
-        Walk { formula, terms, supports, values: zeros.clone(), slopes: zeros, at: None }
+        let (supports, values) = (formula.supports(), zeros.clone());
+        Walk { formula, terms, supports, values, slopes: zeros, at: None }
     }
 
     /// The values at a corner, the unit vector being an axis.
@@ -312,4 +338,34 @@ impl Walk<'_> {
 
 fn negative_if(negative: bool, x: Dyadic) -> Dyadic {
     if negative { -x } else { x }
+}
+
+/// Independent equations modulo 2, each at its lowest variable, those of the unit vector coming first.
+struct Equations {
+    unit: u64,
+    by_lowest: [u64; 64],
+}
+
+impl Equations {
+    /// Demands that terms change their signs alike. Returns with which variables they do, if not all are zero.
+    fn alike(&mut self, terms: impl IntoIterator<Item = Option<u64>>) -> Option<u64> {
+        let mut terms = terms.into_iter().flatten();
+        let first = terms.next()?;
+        for term in terms {
+            self.insert(term ^ first);
+        }
+        Some(first)
+    }
+
+    fn insert(&mut self, mut equation: u64) {
+        while equation != 0 {
+            let first = if equation & self.unit == 0 { equation } else { equation & self.unit };
+            let known = &mut self.by_lowest[first.trailing_zeros() as usize];
+            if *known == 0 {
+                *known = equation;
+                return;
+            }
+            equation ^= *known;
+        }
+    }
 }

@@ -30,12 +30,6 @@ pub struct Judge<'a, F> {
     pub(super) scales: Vec<Scale>,
 }
 
-impl<F> std::fmt::Debug for Judge<'_, F> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Judge").field("uses", &self.uses).finish_non_exhaustive()
-    }
-}
-
 impl<F: Float> Judge<'_, F> {
     /// On a case of the domain whose t is positive, how wrong the verdict is, and true if it is of the wanted kind. Where it is
     /// not, the score counts what the verdict lacks of it twice, so that a search finds large errors first.

@@ -26,15 +26,6 @@ impl Format {
 
     /// The error of rounding a number of at most this size: half the distance of the floats just below the
     /// power of two at or above it. It covers subnormal results too.
-    pub fn half_ulp(self, size: Dyadic) -> Dyadic {
-        if size.is_zero() || !size.is_number() {
-            return size;
-        }
-        let exponent = (size.ceil_log2() - 1 - self.digits as i32).max(self.smallest - 1);
-        Dyadic::power(exponent)
-    }
-
-    /// The same for an exact number.
     pub fn half_ulp_of(self, size: &Big) -> Dyadic {
         if size.is_zero() {
             return Dyadic::ZERO;
@@ -90,7 +81,7 @@ impl Domain {
         direction: Dyadic::ONE,
         extent: Dyadic::ONE,
         direction_floor: Dyadic::HALF,
-        floor: Dyadic::FLOOR,
+        floor: Dyadic::HALF,
         quotient: Dyadic::ONE,
         below: Dyadic::ZERO,
         measures: None,

@@ -28,8 +28,6 @@ impl Dyadic {
     pub const ABOVE_ONE: Dyadic = Dyadic { mantissa: 513, exponent: -9 };
     /// A half.
     pub const HALF: Dyadic = Dyadic { mantissa: 1, exponent: -1 };
-    /// The usual floor of a divisor.
-    pub const FLOOR: Dyadic = Dyadic { mantissa: 1, exponent: -1 };
     /// A result that needed more than 128 bits.
     pub const OVERFLOW: Dyadic = Dyadic { mantissa: i128::MAX, exponent: i32::MAX };
 
@@ -106,16 +104,6 @@ impl Dyadic {
         let exponent = self.exponent + shift as i32;
         // In two steps, so that the power itself does not leave the floats' range.
         mantissa * 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2)
-    }
-
-    /// The larger one.
-    pub fn max(self, other: Dyadic) -> Dyadic {
-        if self < other { other } else { self }
-    }
-
-    /// The smaller one.
-    pub fn min(self, other: Dyadic) -> Dyadic {
-        if other < self { other } else { self }
     }
 
     /// self + other, rounded up if it must be; neither is negative.

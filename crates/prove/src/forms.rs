@@ -69,22 +69,31 @@ type Sum = Vec<(usize, i8)>;
 /// Which sum of variables each input is. Along each axis, differences connect the points; as long as they
 /// close no circle, each of them is a variable of its own, and a difference that closes one is a sum of the
 /// others.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Forms {
     /// By axis and point: the component that it belongs to, and where it lies in it. Component 0 holds the
-    /// points whose coordinates are used as they are.
-    positions: [[Option<(usize, Sum)>; 4]; 3],
+    /// points whose coordinates are used as they are, which are differences to the ground.
+    positions: [[Option<(usize, Sum)>; 5]; 3],
     components: usize,
     /// The variables of directions and ends.
     others: Vec<(Leaf, usize)>,
 }
 
+/// The point from which coordinates are counted.
+const GROUND: usize = 4;
+
 impl Forms {
+    /// Without any input yet.
+    pub fn new() -> Forms {
+        let positions = [(); 3].map(|()| [None, None, None, None, Some((0, Vec::new()))]);
+        Forms { positions, components: 0, others: Vec::new() }
+    }
+
     /// The sum that a leaf is, and whether it is a new variable, numbered `next`.
     pub fn sum(&mut self, leaf: Leaf, next: usize) -> (Sum, bool) {
         match leaf {
             Leaf::Difference(p, q, axis) => self.difference(p, q, axis, next),
-            Leaf::Point(p, axis) => self.point(p, axis, next),
+            Leaf::Point(p, axis) => self.difference(p, GROUND, axis, next),
             _ => match self.others.iter().find(|(known, _)| *known == leaf) {
                 Some((_, variable)) => (vec![(*variable, 1)], false),
                 None => {
@@ -93,18 +102,6 @@ impl Forms {
                 }
             },
         }
-    }
-
-    fn point(&mut self, p: usize, axis: usize, next: usize) -> (Sum, bool) {
-        let variable = vec![(next, 1)];
-        match self.positions[axis][p].clone() {
-            Some((0, sum)) => return (sum, false),
-            Some((component, sum)) => {
-                self.shift(axis, component, 0, &plus(&variable, &sum, -1));
-            }
-            None => self.positions[axis][p] = Some((0, variable.clone())),
-        }
-        (variable, true)
     }
 
     fn difference(&mut self, p: usize, q: usize, axis: usize, next: usize) -> (Sum, bool) {

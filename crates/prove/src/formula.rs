@@ -115,27 +115,21 @@ impl Step {
 pub const DIGITS: u32 = 24;
 
 impl Formula {
-    /// True if no product has one variable in both factors.
-    pub(super) fn is_multi_affine(&self) -> bool {
-        let mut supports: Vec<u64> = Vec::with_capacity(self.steps.len());
+    /// The variables in each step, as bits.
+    pub(super) fn supports(&self) -> Vec<u64> {
+        let mut supports = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
-            let is_apart =
-                |(_, a, b): Term<usize>| b.is_none_or(|b| supports[a] & supports[b] == 0);
-            if !step.terms().all(is_apart) {
-                return false;
-            }
             supports.push(step.support(&supports));
         }
-        true
+        supports
     }
 
     /// The terms of second and higher order, with every number at its largest size and nothing cancelled,
-    /// rounded up. And the bounds of the steps: where the sizes at the corners are given they are made, else
-    /// they are those known.
+    /// rounded up. And the bounds of the steps: where the sizes at the corners are given they are made, and no error
+    /// is relative yet; else they are those known.
     pub(super) fn higher_order(
         &self,
         format: Format,
-        relative: &[bool],
         corners: Option<&[Dyadic]>,
     ) -> (Dyadic, Vec<Bound>) {
         // Of each step: its size, its terms of first order, and the rest.
@@ -163,7 +157,7 @@ impl Formula {
                 }
             };
             let size = Big::from(bound.size);
-            if relative[i] {
+            if self.relative[i] && corners.is_none() {
                 rest = &rest + &unit * &(&first + &rest) + &tiny;
                 first += &unit * &size;
             } else {

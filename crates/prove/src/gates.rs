@@ -8,7 +8,7 @@ use super::order::{is_impossible, unsigned};
 use super::run::cone;
 use super::{Bound, Domain, Dyadic, Format, Limit, Rule};
 use crate::arith::recorded::{Operation, Place};
-use crate::kernel::{Compared, Path};
+use crate::kernel::{Compared, Entry, Path, Role};
 use std::collections::{BTreeSet, HashMap};
 
 /// The proof of a kernel in a domain.
@@ -78,13 +78,6 @@ pub struct Supposed {
     pub limit: Dyadic,
 }
 
-impl Uses {
-    /// True if it supposes nothing but a bound of the edges, and of the direction.
-    pub fn is_of_edges_alone(self) -> bool {
-        self == Uses { edge: true, ..Uses::default() }
-    }
-}
-
 impl Quantity {
     /// The limits of divisors and of quotients that its bound supposes.
     pub fn limits(&self) -> Vec<Supposed> {
@@ -111,8 +104,20 @@ impl Quantity {
 
     /// The suppositions of its bound.
     pub fn uses(&self) -> Uses {
+        Uses::of(&self.lemmas)
+    }
+}
+
+impl Uses {
+    /// True if it supposes nothing but a bound of the edges, and of the direction.
+    pub fn is_of_edges_alone(self) -> bool {
+        self == Uses { edge: true, ..Uses::default() }
+    }
+
+    /// The suppositions of some lemmas.
+    pub fn of<'a>(lemmas: impl IntoIterator<Item = &'a Lemma>) -> Uses {
         let mut uses = Uses::default();
-        for lemma in &self.lemmas {
+        for lemma in lemmas {
             uses.floor |= lemma.rule != Rule::Sum;
             uses.inside |= matches!(lemma.rule, Rule::Quotient { below: Some(_), .. });
             for source in &lemma.formula.sources {
@@ -193,6 +198,12 @@ impl Proof {
         };
         *quantities = quantities.iter().flat_map(prove).collect();
         self
+    }
+
+    /// The numbers that the gates at edges compare.
+    pub(super) fn of_edges(&self, entry: &Entry) -> impl Iterator<Item = &Quantity> {
+        let gates = entry.info.gates;
+        self.quantities.iter().filter(|quantity| gates[quantity.gate].role == Role::Edge)
     }
 
     /// The quantity of a gate with the largest error; an error in one sentence if one has no bound.

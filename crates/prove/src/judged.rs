@@ -1,14 +1,13 @@
-//! A kernel's verdicts at some epsilons: how wrong they can be, and the worst that is known.
+//! A kernel's verdicts at some epsilons: how wrong they can be, the worst that is known, and scenes in which the
+//! bounds of edge gates say something.
 
 use super::depth::Judge;
-use super::gates::{Proof, Quantity, Uses};
-use super::summary::{Effort, Summary, Witness, paths_of, worst};
-use super::verdict::{Verdicts, supposes_weights, verdicts};
+use super::gates::{Proof, Uses};
+use super::summary::{Effort, Summary, Witness, format_of, worst};
+use super::verdict::{USELESS, Verdicts, supposes_weights, verdicts};
 use super::witness::{Goal, Inputs, Searched};
-use super::{Domain, Dyadic};
+use super::{Domain, Dyadic, Scene};
 use crate::kernel::{Entry, Role, Scalar};
-
-const ABOVE_ONE: Dyadic = Dyadic::ABOVE_ONE;
 
 /// The verdicts of a kernel.
 #[derive(Clone, Debug)]
@@ -34,25 +33,24 @@ impl<F: Searched + Scalar> Judged<F> {
         (known, effort): (&[Inputs<F>], Effort),
     ) -> Option<Judged<F>> {
         let proof = &summary.proof;
-        let Summary { domain, format, .. } = *summary;
+        let domain = summary.domain;
         let is_wide = domain.measures.is_none() && supposes_weights(entry, proof);
         // Near the triangle, and anywhere.
         let wide = is_wide.then(|| {
-            [ABOVE_ONE - Dyadic::ONE, ABOVE_ONE].map(|below| {
-                let domain = Domain { quotient: ABOVE_ONE, below, ..domain };
-                paths_of::<F>(entry).map(|paths| Proof::new(paths, None, domain, format)).ok()
+            [Dyadic::ABOVE_ONE - Dyadic::ONE, Dyadic::ABOVE_ONE].map(|below| {
+                let domain = Domain { quotient: Dyadic::ABOVE_ONE, below, ..domain };
+                Proof::of::<F>(entry, None, domain).ok()
             })
         });
         let [near, far] = wide.unwrap_or_default();
         let proofs = [proof, near.as_ref().unwrap_or(proof), far.as_ref().unwrap_or(proof)];
         let floats: Vec<f64> = epsilons.iter().map(|x| x.to_f64()).collect();
         let verdicts = verdicts(entry, proofs, &floats, parts);
-        let is_edge = |quantity: &&Quantity| entry.info.gates[quantity.gate].role == Role::Edge;
-        let of_edges = || proof.quantities.iter().filter(is_edge);
+        let of_edges = || proof.of_edges(entry);
         let judge = Judge {
             gated: F::subject(entry)?.gated()?,
             epsilons,
-            uses: of_edges().map(Quantity::uses).fold(Uses::default(), Uses::or),
+            uses: Uses::of(of_edges().flat_map(|quantity| &quantity.lemmas)),
             scales: verdicts.scales.iter().map(|(scale, _)| *scale).collect(),
         };
         let known = VERDICTS.map(|goal| {
@@ -73,4 +71,55 @@ impl<F: Searched + Scalar> Judged<F> {
         });
         Some(Judged { verdicts, known, contradiction })
     }
+}
+
+/// True if the bounds of edge gates say something about false misses in a scene.
+fn is_useful<F: Searched + Scalar>(entry: &Entry, scene: &Scene, epsilons: &[f64]) -> bool {
+    let share = || {
+        let (domain, format) = (scene.domain().ok()?, format_of::<F>());
+        let parts = scene.parts(&scene.shapes());
+        let edge = entry.info.gates.iter().position(|gate| gate.role == Role::Edge)?;
+        let proof = Proof::of::<F>(entry, Some(edge), domain).ok()?.split(&parts, format);
+        verdicts(entry, [&proof; 3], epsilons, &parts).misses.ok()
+    };
+    share().is_some_and(|it| it.share < USELESS)
+}
+
+/// A sentence on the least changes of one number of a scene, in steps of two, or of the scalar, for which the bound of an edge
+/// gates say something; none if there is none.
+pub fn useful_scenes<F: Searched + Scalar>(
+    entry: &Entry,
+    scene: &Scene,
+    epsilons: &[F],
+) -> Option<String> {
+    let epsilons: Vec<f64> = epsilons.iter().map(|x| x.to_f64()).collect();
+    // The first factor from 2 to the most for which a changed scene is useful; greater ones are, too.
+    let first = |most: f64, changed: &dyn Fn(f64) -> Scene| {
+        let useful = |x: &f64| is_useful::<F>(entry, &changed(*x), &epsilons);
+        let factors = std::iter::successors(Some(2.0), |x| Some(2.0 * x));
+        let factors: Vec<f64> = factors.take_while(|x| *x <= most).collect();
+        let found = factors.last().is_some_and(useful);
+        found.then(|| factors[factors.partition_point(|x| !useful(x))])
+    };
+    let Scene { edge: [shortest, longest], coordinates, distance, grazing, shape, .. } = *scene;
+    let mut all = Vec::new();
+    if F::DIGITS == 24 && entry.scalars()[1] && is_useful::<f64>(entry, scene, &epsilons) {
+        all.push("in f64".to_owned());
+    }
+    let larger = |x: f64| Scene { edge: [x * shortest, longest], ..*scene };
+    // The triangles of a mesh are what they are.
+    let most = if shape.is_none() { longest / shortest } else { 1.0 };
+    let edges = first(most, &larger);
+    all.extend(edges.map(|x| format!("with edges from {}", (x * shortest) as f32)));
+    let nearer = |x: f64| Scene { coordinates: coordinates / x, distance: distance / x, ..*scene };
+    all.extend(first(coordinates / longest, &nearer).map(|x| {
+        let [coordinates, distance] = [coordinates, distance].map(|it| (it / x) as f32);
+        format!(
+            "with coordinates up to {coordinates} and origins up to {distance} from the vertices"
+        )
+    }));
+    let steeper = |x: f64| Scene { grazing: x * grazing, ..*scene };
+    let angle = first(90.0 / grazing, &steeper);
+    all.extend(angle.map(|x| format!("for rays at {} degrees to the plane and more", x * grazing)));
+    (!all.is_empty()).then(|| format!(" It is proved to be less {}.", all.join(", or ")))
 }

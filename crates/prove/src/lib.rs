@@ -21,9 +21,7 @@ mod gates;
 mod judged;
 mod meaning;
 mod measures;
-mod mirrors;
 mod names;
-mod normal;
 mod order;
 mod permanent;
 mod quotient;
@@ -35,8 +33,6 @@ mod statement;
 mod summary;
 #[cfg(test)]
 mod tests;
-mod unit;
-mod useful;
 mod verdict;
 mod watertight;
 mod witness;
@@ -48,7 +44,7 @@ pub use dyadic::Dyadic;
 pub use forms::Leaf;
 pub use formula::{Formula, Maximum, Source, Step};
 pub use gates::{Proof, Quantity, Supposed, Uses, compared};
-pub use judged::{Judged, VERDICTS};
+pub use judged::{Judged, VERDICTS, useful_scenes};
 pub use meaning::Scale;
 pub use measures::{Limit, Measures, Sample};
 pub use names::Names;
@@ -61,7 +57,6 @@ pub use statement::{Published, Triangles, about_edges, above, below, statements,
 pub use summary::{
     Effort, GOALS, GateSummary, Summary, Witness, bound_of_gate, format_of, paths_of,
 };
-pub use useful::useful_scenes;
 pub use verdict::{Depth, Farthest, May, Other, USELESS, Verdicts, supposes_weights, verdicts};
 pub use watertight::Symmetry;
 pub use witness::{Goal, Inputs, Search, Searched};

@@ -131,6 +131,10 @@ impl Scale {
     }
 }
 
+fn product<R: Real>(what: What, scale: Scale, sample: &Sample<R>) -> R {
+    what.of(sample) * scale.of(sample)
+}
+
 /// The meanings of a proof's numbers, each program looked at once.
 pub(super) struct Meanings<'a> {
     proof: &'a Proof,
@@ -153,16 +157,12 @@ impl<'a> Meanings<'a> {
         let samples = self.samples[path].get_or_init(|| Samples::new(&self.proof.paths[path]));
         let all = SCALES.into_iter().flat_map(|scale| WHATS.map(|what| (what, scale)));
         let found = all.into_iter().find(|(what, scale)| {
-            let float = |i: usize| {
-                let sample = &samples.values[i].1;
-                what.of(sample) * scale.of(sample)
-            };
-            samples.may_be(place, float)
-                && samples.is_exactly(place, |sample| what.of(sample) * scale.of(sample))
+            samples.may_be(place, |i| product(*what, *scale, &samples.values[i].1))
+                && samples.is_exactly(place, |sample| product(*what, *scale, sample))
         });
         let meaning = found.map(|(what, scale)| {
             let (values, sample) = &samples.values[0];
-            let is_minus = values[place as usize] * what.of(sample) * scale.of(sample) < 0.0;
+            let is_minus = values[place as usize] * product(what, scale, sample) < 0.0;
             Meaning { what, scale, is_minus }
         });
         self.known.insert(program, meaning);

@@ -141,12 +141,10 @@ impl<'a> Samples<'a> {
 
     /// True if a number is a barycentric coordinate, or 1 less one.
     pub fn is_share(&self, place: Place) -> bool {
-        let is_positive = |(values, sample): &(Vec<f64>, Sample<f64>), vertex: usize, is_rest| {
-            0.0 < values[place as usize] * sample.share(vertex, is_rest)
-        };
+        let (values, sample) = &self.values[0];
         let is = |vertex: usize, is_rest: bool| {
             self.may_be(place, |i| self.values[i].1.share(vertex, is_rest))
-                && is_positive(&self.values[0], vertex, is_rest)
+                && 0.0 < values[place as usize] * sample.share(vertex, is_rest)
                 && self.is_exactly(place, |sample| sample.share(vertex, is_rest))
         };
         (0..3).any(|vertex| is(vertex, false) || is(vertex, true))

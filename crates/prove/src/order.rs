@@ -52,20 +52,11 @@ pub fn largest_axes(path: &Path, axis: impl Fn(Place) -> Option<usize>) -> Vec<u
 /// True if a <= b follows from facts.
 fn follows<T: Copy + PartialEq>(facts: &[(T, T, bool)], a: T, b: T) -> bool {
     let mut seen = vec![a];
-    let mut i = 0;
-    while i < seen.len() {
-        if seen[i] == b {
-            return true;
-        }
-        let from = seen[i];
-        for (_, y, _) in facts.iter().filter(|(x, _, _)| *x == from) {
-            if !seen.contains(y) {
-                seen.push(*y);
-            }
-        }
-        i += 1;
+    let is_new = |seen: &[T], (x, y, _): &(T, T, bool)| seen.contains(x) && !seen.contains(y);
+    while let Some((_, next, _)) = facts.iter().find(|fact| is_new(&seen, fact)) {
+        seen.push(*next);
     }
-    false
+    seen.contains(&b)
 }
 
 /// True if the decisions of a path contradict each other, so that no input takes it.

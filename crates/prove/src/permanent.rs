@@ -26,7 +26,7 @@ use super::formula::DIGITS;
 use super::{Domain, Dyadic, Format, Prover};
 use crate::arith::recorded::{Operation, Place, Term};
 use crate::kernel::Path;
-use num_traits::One;
+use num_traits::{One, Zero};
 
 /// The form relative to the permanent of a number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -107,6 +107,14 @@ struct Node {
     underflow: Big,
 }
 
+impl Node {
+    /// A number of this size that is not rounded.
+    fn exact(size: Dyadic) -> Node {
+        let (roundings, permanent) = (Roundings::default(), Big::from(size));
+        Node { roundings, before: None, sharp: true, permanent, underflow: Big::zero() }
+    }
+}
+
 /// The form of a number relative to its permanent; an error in one sentence if it has none: it is
 /// divided by a number that may cancel, or is a root. The domain says how large numbers are that
 /// multiply an underflow; the factor does not depend on it.
@@ -148,23 +156,13 @@ impl Forms<'_> {
         if let Some(leaf) = Leaf::of(operation, &self.path.operations) {
             let roundings =
                 if leaf.is_difference() { Roundings::ONE } else { Roundings::default() };
-            return Ok(Node {
-                roundings,
-                before: leaf.is_difference().then(Roundings::default),
-                sharp: true,
-                permanent: Big::from(leaf.bound(&self.prover.domain)),
-                underflow: Big::from(Dyadic::ZERO),
-            });
+            let before = leaf.is_difference().then(Roundings::default);
+            let exact = Node::exact(leaf.bound(&self.prover.domain));
+            return Ok(Node { roundings, before, ..exact });
         }
         match operation {
             Operation::Input(_) => unreachable!("inputs are leaves"),
-            Operation::Number(value) => Ok(Node {
-                roundings: Roundings::default(),
-                before: None,
-                sharp: true,
-                permanent: Big::from(Dyadic::new(i128::from(value).abs(), 0)),
-                underflow: Big::from(Dyadic::ZERO),
-            }),
+            Operation::Number(value) => Ok(Node::exact(Dyadic::new(i128::from(value).abs(), 0))),
             Operation::Neg(a) | Operation::Abs(a) => self.node(a),
             Operation::Add(..) | Operation::Sub(..) | Operation::Mul(..) | Operation::Fma(..) => {
                 let term = |(_, a, b): Term<Place>| match b {
@@ -205,14 +203,9 @@ impl Forms<'_> {
                         "it is divided by a number, or of a number, that may cancel".to_owned()
                     );
                 }
-                let permanent = Big::from(self.prover.bound(place)?.size);
-                let quotient = Node {
-                    roundings: n.roundings.and(d.roundings),
-                    before: None,
-                    sharp: false,
-                    permanent,
-                    underflow: Big::from(Dyadic::ZERO),
-                };
+                let exact = Node::exact(self.prover.bound(place)?.size);
+                let roundings = n.roundings.and(d.roundings);
+                let quotient = Node { roundings, sharp: false, ..exact };
                 Ok(Node { before: None, ..self.rounded(quotient, 1) })
             }
             Operation::Sqrt(_) => Err("it has a root".to_owned()),

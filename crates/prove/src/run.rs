@@ -35,33 +35,27 @@ pub fn run<R: Number>(
 ) {
     values.clear();
     for operation in &operations[..=last as usize] {
-        let value = result(*operation, inputs, |place| values[place as usize].clone());
+        let of = |place: Place| values[place as usize].clone();
+        let value = match *operation {
+            Operation::Input(i) => inputs[usize::from(i)].clone(),
+            Operation::Number(0) => R::zero(),
+            Operation::Number(value) => {
+                let size = (0..value.abs()).fold(R::zero(), |sum, _| sum + R::one());
+                if value < 0 { -size } else { size }
+            }
+            Operation::Add(a, b) => of(a) + &of(b),
+            Operation::Sub(a, b) => of(a) - &of(b),
+            Operation::Mul(a, b) => of(a) * &of(b),
+            Operation::Div(a, b) => of(a) / &of(b),
+            Operation::Neg(a) => -of(a),
+            Operation::Abs(a) => of(a).abs(),
+            Operation::Sqrt(a) => of(a).sqrt(),
+            Operation::Fma(a, b, c) => R::fused(&of(a), &of(b), &of(c)),
+            Operation::Minor(a, b, c, d) => {
+                R::difference_of_products(&of(a), &of(b), &of(c), &of(d))
+            }
+        };
         values.push(value);
-    }
-}
-
-/// The result of one operation on the values of its operands.
-pub(super) fn result<R: Number>(
-    operation: Operation,
-    inputs: &[R; 17],
-    mut of: impl FnMut(Place) -> R,
-) -> R {
-    match operation {
-        Operation::Input(i) => inputs[usize::from(i)].clone(),
-        Operation::Number(0) => R::zero(),
-        Operation::Number(value) => {
-            let size = (0..value.abs()).fold(R::zero(), |sum, _| sum + R::one());
-            if value < 0 { -size } else { size }
-        }
-        Operation::Add(a, b) => of(a) + &of(b),
-        Operation::Sub(a, b) => of(a) - &of(b),
-        Operation::Mul(a, b) => of(a) * &of(b),
-        Operation::Div(a, b) => of(a) / &of(b),
-        Operation::Neg(a) => -of(a),
-        Operation::Abs(a) => of(a).abs(),
-        Operation::Sqrt(a) => of(a).sqrt(),
-        Operation::Fma(a, b, c) => R::fused(&of(a), &of(b), &of(c)),
-        Operation::Minor(a, b, c, d) => R::difference_of_products(&of(a), &of(b), &of(c), &of(d)),
     }
 }
 

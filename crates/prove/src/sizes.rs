@@ -2,11 +2,9 @@
 //! bound in a mesh.
 
 use super::summary::{format_of, paths_of};
-use super::witness::Searched;
-use super::{Domain, Dyadic, Proof};
+use super::{Domain, Dyadic, Format, Proof};
 use crate::kernel::{Entry, Path, Scalar};
 use std::collections::HashMap;
-use std::marker::PhantomData;
 
 /// Sizes per binary order: 64 of them, each just below a multiple of a 64th, because the errors of sums
 /// double at powers of two.
@@ -16,18 +14,18 @@ const ORDERS: i32 = 60;
 
 /// The bounds of one gate for triangles of different sizes.
 #[derive(Debug)]
-pub struct BySize<F> {
+pub struct BySize {
     paths: Vec<Path>,
     gate: usize,
     known: HashMap<i32, Option<Dyadic>>,
-    scalar: PhantomData<F>,
+    format: Format,
 }
 
-impl<F: Searched + Scalar> BySize<F> {
-    /// For a gate; none of a kernel without a program.
-    pub fn new(entry: &Entry, gate: usize) -> Option<BySize<F>> {
+impl BySize {
+    /// For a gate in a scalar; none of a kernel without a program.
+    pub fn new<F: Scalar>(entry: &Entry, gate: usize) -> Option<BySize> {
         let paths = paths_of::<F>(entry).ok()?;
-        Some(BySize { paths, gate, known: HashMap::new(), scalar: PhantomData })
+        Some(BySize { paths, gate, known: HashMap::new(), format: format_of::<F>() })
     }
 
     /// The bound where coordinates of edges and of vectors from the origin are at most a size, rounded up to the
@@ -46,9 +44,9 @@ impl<F: Searched + Scalar> BySize<F> {
         self.at(place)
     }
 
-    /// The largest size at which the bound is below an epsilon.
+    /// The largest size at which the bound is below an epsilon of the scalar.
     pub fn largest(&mut self, epsilon: f64) -> Option<Dyadic> {
-        let epsilon = Dyadic::from_f64(F::from_f64(epsilon).to_f64())?;
+        let epsilon = Dyadic::from_f64(epsilon)?;
         let mut holds = |place: i32| self.at(place).is_some_and(|bound| bound < epsilon);
         let (mut low, mut high) = (-ORDERS * STEPS, ORDERS * STEPS);
         if !holds(low) {
@@ -67,7 +65,7 @@ impl<F: Searched + Scalar> BySize<F> {
         }
         let size = size_of(place);
         let domain = Domain { edge: size, reach: size, world: size, ..Domain::UNIT };
-        let proof = Proof::new(self.paths.clone(), Some(self.gate), domain, format_of::<F>());
+        let proof = Proof::new(self.paths.clone(), Some(self.gate), domain, self.format);
         let quantity = proof.gate(self.gate).and_then(Result::ok);
         let bound = quantity.and_then(|q| q.bound.as_ref().ok().map(|bound| bound.error));
         self.known.insert(place, bound);

@@ -71,7 +71,7 @@ pub fn statements<F: Searched + Scalar>(
             above(beta)
         )),
         Role::Parallel if tunable => {
-            let mut sizes = BySize::<F>::new(entry, gate.index);
+            let mut sizes = BySize::new::<F>(entry, gate.index);
             let own = sizes.as_mut().filter(|_| gate.uses.is_of_edges_alone());
             parallel(gate, scene, own, beta, published, &mut lines);
             let sizes = sizes.filter(|_| scene.is_none() && !gate.uses.floor);
@@ -133,7 +133,7 @@ fn supposed(limits: &[Supposed]) -> String {
 fn parallel<F: Searched + Scalar>(
     gate: &GateSummary<F>,
     scene: Option<Triangles>,
-    own: Option<&mut BySize<F>>,
+    own: Option<&mut BySize>,
     beta: f64,
     published: &[Published],
     lines: &mut Vec<String>,
@@ -175,23 +175,20 @@ fn parallel<F: Searched + Scalar>(
         } else {
             "for no angle is it proved that every hit is kept".to_owned()
         };
-        let refuses = if beta < value {
-            "refuses every parallel ray".to_owned()
-        } else {
-            let proved = errors.iter().filter(|error| **error < value).count();
-            match proved {
-                0 => "is not proved to refuse parallel rays".to_owned(),
-                _ if shapes.len() == proved => "refuses every parallel ray".to_owned(),
-                // The shapes of a mesh are its triangles, those of other scenes sizes, the smallest first.
-                _ if is_mesh => format!(
-                    "is proved to refuse the parallel rays of {proved} of {} triangles only",
-                    shapes.len()
-                ),
-                _ => format!(
-                    "is proved to refuse the parallel rays of triangles with edges up to {} only",
-                    below(shapes[proved - 1].0)
-                ),
+        let refuses = match errors.iter().filter(|error| **error < value).count() {
+            proved if beta < value || 0 < proved && proved == shapes.len() => {
+                "refuses every parallel ray".to_owned()
             }
+            0 => "is not proved to refuse parallel rays".to_owned(),
+            // The shapes of a mesh are its triangles, those of other scenes sizes, the smallest first.
+            proved if is_mesh => format!(
+                "is proved to refuse the parallel rays of {proved} of {} triangles only",
+                shapes.len()
+            ),
+            proved => format!(
+                "is proved to refuse the parallel rays of triangles with edges up to {} only",
+                below(shapes[proved - 1].0)
+            ),
         };
         lines.push(format!("In this scene, for |d| = 1, {name} {refuses}; {cost}."));
     };
@@ -205,11 +202,11 @@ fn parallel<F: Searched + Scalar>(
 fn about_epsilon<F: Searched + Scalar>(
     summary: &Summary<F>,
     gate: &GateSummary<F>,
-    sizes: &mut BySize<F>,
+    sizes: &mut BySize,
     (name, value): &Published,
 ) -> String {
     let what = if gate.uses.edge { "edges" } else { "vectors from the origin to the vertices" };
-    let proved = sizes.largest(*value).map_or_else(
+    let proved = sizes.largest(F::from_f64(*value).to_f64()).map_or_else(
         || format!("e = {name} is proved for no size of {what}."),
         |size| {
             format!(

@@ -81,10 +81,21 @@ pub fn paths_of<F: Scalar>(entry: &Entry) -> Result<Vec<Path>, String> {
     subject.gated().ok_or("it is not written for every arithmetic")?.paths()
 }
 
+impl Proof {
+    /// The proof of a kernel, of all gates or of one; an error in one sentence if it has no program.
+    pub fn of<F: Scalar>(
+        entry: &Entry,
+        gate: Option<usize>,
+        domain: Domain,
+    ) -> Result<Proof, String> {
+        Ok(Proof::new(paths_of::<F>(entry)?, gate, domain, format_of::<F>()))
+    }
+}
+
 /// How wrong what a gate compares with its epsilon can be in a domain; none if that has no bound, or other numbers are
 /// compared.
 pub fn bound_of_gate<F: Scalar>(entry: &Entry, gate: usize, domain: Domain) -> Option<Dyadic> {
-    let proof = Proof::new(paths_of::<F>(entry).ok()?, Some(gate), domain, format_of::<F>());
+    let proof = Proof::of::<F>(entry, Some(gate), domain).ok()?;
     let is_margin = proof.quantities.iter().all(|quantity| quantity.is_margin);
     let worst = proof.gate(gate).filter(|_| is_margin)?.ok()?;
     worst.bound.as_ref().map(|bound| bound.error).ok()
@@ -130,12 +141,12 @@ impl<F: Searched + Scalar> Summary<F> {
         effort: Effort,
     ) -> Result<Summary<F>, String> {
         let format = format_of::<F>();
-        let proof = Proof::new(paths_of::<F>(entry)?, None, domain, format).split(parts, format);
+        let proof = Proof::of::<F>(entry, None, domain)?.split(parts, format);
         let mut contradiction = None;
         let gates = entry.info.gates.iter().enumerate().filter_map(|(index, gate)| {
             let bound = proof.gate(index)?;
             let of_gate = || proof.quantities.iter().filter(move |q| q.gate == index);
-            let uses = of_gate().map(Quantity::uses).fold(Uses::default(), Uses::or);
+            let uses = Uses::of(of_gate().flat_map(|quantity| &quantity.lemmas));
             let mut limits: Vec<Supposed> = of_gate().flat_map(Quantity::limits).collect();
             // The weakest of each.
             limits.sort_unstable();
@@ -201,7 +212,7 @@ pub(super) fn worst<F: Searched>(
     known: &[Inputs<F>],
     effort: Effort,
 ) -> Option<Witness<F>> {
-    let mut search = Search::<F>::new(proof, quantity, quantity.domain).judged(judge);
+    let mut search = Search::<F>::new(proof, quantity, judge);
     let known = scaled(known, &quantity.domain);
     let witness = |inputs: Inputs<F>, score: f64| Witness { inputs, score };
     let from_known = known
@@ -233,18 +244,4 @@ fn scaled<F: Float>(known: &[Inputs<F>], domain: &Domain) -> Vec<Inputs<F>> {
         inputs
     };
     known.iter().map(scale).collect()
-}
-
-impl Uses {
-    /// The suppositions of either.
-    pub fn or(self, other: Uses) -> Uses {
-        Uses {
-            edge: self.edge | other.edge,
-            reach: self.reach | other.reach,
-            world: self.world | other.world,
-            extent: self.extent | other.extent,
-            floor: self.floor | other.floor,
-            inside: self.inside | other.inside,
-        }
-    }
 }

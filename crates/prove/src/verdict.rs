@@ -5,12 +5,11 @@
 //! refuses only where λ < (e + β)/σ, and accepts only where λ ≥ -(β - e)/σ. A height is no longer than the longest edge.
 
 use super::facts::{Fact, Form, Reader};
-use super::gates::Quantity;
 use super::meaning::{Meaning, Meanings, Scale, What};
 use super::{Domain, Lemma, Proof, Rule, Source, Step};
 use crate::contract::Sides;
 use crate::kernel::{Acceptance, Compared, Entry, Role};
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// At a share of half a triangle's longest edge and more a bound says nothing.
 pub const USELESS: f64 = 0.5;
@@ -114,8 +113,7 @@ pub fn verdicts(
         shares.try_fold([0.0; 2], |most, share| Ok(larger(most, [share?; 2])))
     });
     let is_wide = supposes_weights(entry, proof);
-    let is_edge = |quantity: &&Quantity| entry.info.gates[quantity.gate].role == Role::Edge;
-    let mut lemmas = far.quantities.iter().filter(is_edge).flat_map(|it| &it.lemmas);
+    let mut lemmas = far.of_edges(entry).flat_map(|it| &it.lemmas);
     let is_linear = !is_wide || lemmas.all(is_linear);
     let hits = farthest(&|domain| {
         if !is_linear {
@@ -126,14 +124,12 @@ pub fn verdicts(
         shares.try_fold([0.0; 2], |most, share| Ok(larger(most, share?)))
     });
     let facts = forms.iter().flat_map(|(forms, _)| forms).flat_map(|form| form.ways.concat());
-    let scales: HashSet<Scale> = facts.map(|fact| fact.scale).collect();
+    let scales: BTreeSet<Scale> = facts.map(|fact| fact.scale).collect();
     let least = |scale: Scale| {
         let least = parts.iter().map(|domain| scale.least(domain));
         (scale, least.fold(f64::INFINITY, f64::min))
     };
-    let mut scales: Vec<(Scale, f64)> = scales.into_iter().map(least).collect();
-    scales.sort_by_key(|(scale, _)| *scale);
-    Verdicts { misses, hits, others, scales }
+    Verdicts { misses, hits, others, scales: scales.into_iter().map(least).collect() }
 }
 
 /// True if no step of a lemma multiplies two numbers that depend on quotients: then its error grows no faster than they do.
@@ -164,14 +160,13 @@ fn larger([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
 /// True if a program divides to get a barycentric coordinate that its proof supposes to be at most 1.
 pub fn supposes_weights(entry: &Entry, proof: &Proof) -> bool {
     let mut meanings = Meanings::new(proof);
-    let is_edge = |quantity: &&Quantity| entry.info.gates[quantity.gate].role == Role::Edge;
-    proof.quantities.iter().filter(is_edge).any(|quantity| {
-        quantity.lemmas.iter().filter(|lemma| matches!(lemma.rule, Rule::Quotient { .. })).any(
-            |lemma| {
-                let meaning = meanings.of(quantity.path, lemma.place);
-                meaning.is_some_and(|it| matches!(it.what, What::Weight(_) | What::Rest(_)))
-            },
-        )
+    proof.of_edges(entry).any(|quantity| {
+        let is_weight = |lemma: &Lemma| {
+            let meaning = meanings.of(quantity.path, lemma.place);
+            meaning.is_some_and(|it| matches!(it.what, What::Weight(_) | What::Rest(_)))
+        };
+        let lemmas = quantity.lemmas.iter();
+        lemmas.filter(|lemma| matches!(lemma.rule, Rule::Quotient { .. })).any(is_weight)
     })
 }
 
@@ -188,12 +183,8 @@ struct Bounds<'a> {
 const WIDE: f64 = 1.0 + 1.0 / 512.0;
 
 impl Bounds<'_> {
-    /// The error of a number over the least size of its scale.
-    fn share(&self, fact: &Fact) -> Result<f64, String> {
-        self.share_in(self.proof, fact)
-    }
-
-    fn share_in(&self, proof: &Proof, fact: &Fact) -> Result<f64, String> {
+    /// The error of a number in a proof over the least size of its scale.
+    fn share(&self, proof: &Proof, fact: &Fact) -> Result<f64, String> {
         let error = error(proof, fact.program, self.domain)?;
         Ok(error / fact.scale.least(self.domain))
     }
@@ -210,19 +201,18 @@ impl Bounds<'_> {
         let facts = || forms.iter().flat_map(|form| form.ways.concat());
         let has_sign = facts().any(|fact| fact.scale.has_sign());
         let is_turned = facts().any(|fact| matches!(fact.scale, Scale::Over(_)));
-        let wanted: &[usize] = match (has_sign, sides) {
-            (false, _) => &[0],
-            (true, Sides::Both) => &[0, 1],
+        let wanted = match sides {
+            _ if !has_sign => 0..1,
             // Met from the front, N·d is negative.
-            (true, _) if !is_turned => &[1],
-            (true, _) => &[0, 1],
+            Sides::Front if !is_turned => 1..2,
+            _ => 0..2,
         };
         let mut most: f64 = 0.0;
         for side in wanted {
             for Form { gate, refuses, .. } in forms {
-                let refuses = refuses[*side].as_ref();
+                let refuses = refuses[side].as_ref();
                 for fact in refuses.ok_or("its edge gates may refuse any hit of one side")? {
-                    let share = self.epsilon(*gate, fact) + self.share(fact)?;
+                    let share = self.epsilon(*gate, fact) + self.share(self.proof, fact)?;
                     // If no weight is below δ, 1 less one of them is not below 2δ.
                     let is_rest = matches!(fact.what, What::Rest(_));
                     most = most.max(if is_rest { share / 2.0 } else { share });
@@ -269,7 +259,7 @@ impl Bounds<'_> {
             let mut all = [None; 3];
             for (gate, fact) in way.iter().filter(|(_, fact)| fact.is_side(side) == is_side) {
                 if let What::Weight(vertex) = fact.what {
-                    let error = self.share_in(proof, fact)?;
+                    let error = self.share(proof, fact)?;
                     all[vertex] = Some((self.epsilon(*gate, fact), error));
                 }
             }
@@ -333,14 +323,12 @@ fn others(
 ) -> Vec<Other> {
     let gates = entry.info.gates.iter().enumerate();
     let others = gates.filter(|(_, gate)| gate.role != Role::Edge);
-    let may = |gate: usize| -> Option<May> {
+    let mut may = |gate: usize| -> Option<May> {
         let e = epsilons[gate];
         let mut may = None;
-        let of_gate = proof.paths.iter().flat_map(|path| &path.compared);
-        if of_gate
-            .filter(|it| it.gate == gate)
-            .any(|it| matches!(it.accepts, Acceptance::Fixed(..)))
-        {
+        let is_fixed =
+            |it: &Compared| it.gate == gate && matches!(it.accepts, Acceptance::Fixed(..));
+        if proof.paths.iter().flat_map(|path| &path.compared).any(is_fixed) {
             return None;
         }
         for quantity in proof.quantities.iter().filter(|quantity| quantity.gate == gate) {
@@ -365,6 +353,5 @@ fn others(
         }
         may
     };
-    let mut may = may;
     others.map(|(gate, _)| Other { gate, may: may(gate).unwrap_or(May::Unknown) }).collect()
 }

@@ -1,14 +1,17 @@
 //! Checks if a kernel's value of an edge is, bit for bit, the negative of the value that it computes for the triangle
 //! on the other side, and shows what follows for rays there.
 //!
-//! If the normal form of an edge's value with the edge's ends exchanged has the same formula and the other sign, the
-//! two values are exact negatives, or both 0.
+//! Rounding to nearest is odd, and sums and products commute, so each number of a program has a normal
+//! form: a sign, and a formula without order and without a sign. Two numbers with the same normal form are equal for
+//! all inputs, but for the signs of zeros (a - b and b - a are both +0), and so for what is divided by one. If the
+//! normal form of an edge's value with the edge's ends exchanged has the same formula and the other sign, the two
+//! values are exact negatives, or both 0.
 
-use super::normal::{Forms, Signed};
 use super::run::parts;
-use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
+use crate::arith::recorded::{Comparison, Operation, Outcome, Place, Term};
 use crate::kernel::{Acceptance, Compared, Path, Refuse};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
+use std::mem::{Discriminant, discriminant};
 use std::ops::Range;
 
 /// The strongest statement that is known of a kernel's edges.
@@ -244,11 +247,8 @@ const ENDS: Range<u8> = 15..17;
 /// The vertices that a number is made of: a, b and c as 2, 3 and 4.
 fn vertices(path: &Path, place: Place) -> Vec<usize> {
     let inputs = inputs(path, place).into_iter();
-    let mut found: Vec<usize> =
-        inputs.filter(|i| VERTICES.contains(i)).map(|i| usize::from(i) / 3).collect();
-    found.sort_unstable();
-    found.dedup();
-    found
+    let found = inputs.filter(|i| VERTICES.contains(i)).map(|i| usize::from(i) / 3);
+    found.collect::<BTreeSet<_>>().into_iter().collect()
 }
 
 /// The inputs that a number is made of.
@@ -261,7 +261,7 @@ fn inputs(path: &Path, place: Place) -> Vec<u8> {
 }
 
 /// The comparison of a path, and its answer.
-type Decision = (u8, Signed, Signed, bool);
+type Decision = (Discriminant<Comparison>, Vec<Signed>, bool);
 
 /// An edge's value as it is of the edge from a to b.
 fn of_edge(forms: &mut Forms, path: &Path, place: Place) -> Signed {
@@ -283,13 +283,78 @@ fn of_the_ray(forms: &mut Forms, path: &Path) -> Vec<Decision> {
     };
     let of_ray: Vec<_> = path.decisions.iter().take_while(is_of_ray).copied().collect();
     let decision = |(comparison, answer): (Comparison, bool)| {
-        let mut of = |place: Place| forms.of(path, place, &|i| i);
-        match comparison {
-            Comparison::Less(a, b) => (0, of(a), of(b), answer),
-            Comparison::AtMost(a, b) => (1, of(a), of(b), answer),
-            Comparison::Zero(a) => (2, of(a), of(a), answer),
-            Comparison::Negative(a) => (3, of(a), of(a), answer),
-        }
+        let places = comparison.places().into_iter();
+        let forms = places.map(|place| forms.of(path, place, &|i| i)).collect();
+        (discriminant(&comparison), forms, answer)
     };
     of_ray.into_iter().map(decision).collect()
+}
+
+/// A formula without order or sign, by number.
+type Form = usize;
+/// A sign (true is minus) and a formula.
+type Signed = (bool, Form);
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+enum Shape {
+    Input(u8),
+    Number(i32),
+    /// Without its sign.
+    Size(Form),
+    Quotient(Form, Form),
+    Root(Form),
+    /// A sum that is rounded once, of products and single numbers; true of each that has the other sign than the first.
+    Terms(Vec<Term<Form>>),
+}
+
+/// The formulas seen so far.
+#[derive(Default)]
+struct Forms {
+    known: HashMap<Shape, Form>,
+}
+
+impl Forms {
+    /// The sign (true is minus) and the form of a number, its inputs renamed.
+    fn of(&mut self, path: &Path, place: Place, rename: &dyn Fn(u8) -> u8) -> Signed {
+        let mut values: Vec<(bool, Form)> = Vec::new();
+        for operation in &path.operations[..=place as usize] {
+            let of = |place: Place| values[place as usize];
+            let term = |(is_minus, a, b): Term<Place>| {
+                let (s, a) = of(a);
+                match b.map(of) {
+                    Some((t, b)) => (is_minus ^ s ^ t, a.min(b), Some(a.max(b))),
+                    None => (is_minus ^ s, a, None),
+                }
+            };
+            let value = match *operation {
+                Operation::Input(i) => (false, self.number(Shape::Input(rename(i)))),
+                Operation::Number(value) => (value < 0, self.number(Shape::Number(value.abs()))),
+                Operation::Neg(a) => (!of(a).0, of(a).1),
+                Operation::Abs(a) => (false, self.number(Shape::Size(of(a).1))),
+                Operation::Sqrt(a) => {
+                    let (sign, a) = of(a);
+                    (false, self.number(Shape::Root(2 * a + usize::from(sign))))
+                }
+                Operation::Div(a, b) => {
+                    let ((s, a), (t, b)) = (of(a), of(b));
+                    (s ^ t, self.number(Shape::Quotient(a, b)))
+                }
+                _ => self.sum(operation.terms().map(term).collect()),
+            };
+            values.push(value);
+        }
+        values[place as usize]
+    }
+
+    fn sum(&mut self, mut terms: Vec<Term<Form>>) -> Signed {
+        terms.sort_by_key(|(_, a, b)| (*a, *b));
+        let sign = terms[0].0;
+        terms.iter_mut().for_each(|term| term.0 ^= sign);
+        (sign, self.number(Shape::Terms(terms)))
+    }
+
+    fn number(&mut self, shape: Shape) -> Form {
+        let next = self.known.len();
+        *self.known.entry(shape).or_insert(next)
+    }
 }

@@ -7,6 +7,7 @@ use super::run::{Number, cone, run};
 use super::{Domain, Leaf, Proof, Rule, Source};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Bounded, Exact, Float};
+use crate::kernel::Path;
 use std::cmp::Ordering;
 
 /// A scalar, with the arithmetic in which a search takes the exact numbers: right to far less than an ulp of
@@ -69,7 +70,6 @@ impl Goal {
 pub type Inputs<F> = [F; 17];
 
 /// One condition of a domain on the exact numbers of a program.
-#[derive(Clone, Copy, Debug)]
 enum Condition {
     /// The size of a number is at most this.
     AtMost(Place, f64),
@@ -80,7 +80,6 @@ enum Condition {
 }
 
 /// A search for the worst inputs of one quantity.
-#[derive(Debug)]
 pub struct Search<'a, F> {
     pub(super) operations: Vec<Operation>,
     decisions: Vec<(Comparison, bool)>,
@@ -97,8 +96,13 @@ pub struct Search<'a, F> {
 }
 
 impl<'a, F: Searched> Search<'a, F> {
-    /// For a quantity of a proof in a domain.
-    pub fn new(proof: &Proof, quantity: &'a Quantity, domain: Domain) -> Search<'a, F> {
+    /// For a quantity of a proof, in the domain of its bound. A judge is for the goals that are about verdicts.
+    pub fn new(
+        proof: &Proof,
+        quantity: &'a Quantity,
+        judge: Option<&'a Judge<'a, F>>,
+    ) -> Search<'a, F> {
+        let domain = quantity.domain;
         let path = &proof.paths[quantity.path];
         let (mut cone, renamed) = cone(&path.operations, quantity.place);
         let mut conditions = Vec::new();
@@ -132,12 +136,13 @@ impl<'a, F: Searched> Search<'a, F> {
                 }
             }
         }
-        for leaf in boxed(quantity) {
-            let Leaf::Difference(p, q, axis) = leaf else { continue };
-            let inputs = [p, q].map(|point| Leaf::Point(point, axis));
-            let at = |leaf: &Leaf| cone.iter().position(|it| Leaf::of(*it, &cone) == Some(*leaf));
-            let [Some(p), Some(q)] = inputs.each_ref().map(at) else { continue };
-            conditions.push(Condition::AtMost(cone.len() as Place, leaf.bound(&domain).to_f64()));
+        for (p, q, axis) in boxed(quantity) {
+            let bound = Leaf::Difference(p, q, axis).bound(&domain).to_f64();
+            let is_point =
+                |it: &Operation, point| Leaf::of(*it, &cone) == Some(Leaf::Point(point, axis));
+            let at = |point: usize| cone.iter().position(|it| is_point(it, point));
+            let (Some(p), Some(q)) = (at(p), at(q)) else { continue };
+            conditions.push(Condition::AtMost(cone.len() as Place, bound));
             cone.push(Operation::Sub(p as Place, q as Place));
         }
         let known = |places: &[Place]| places.iter().all(|p| renamed[*p as usize].is_some());
@@ -154,14 +159,9 @@ impl<'a, F: Searched> Search<'a, F> {
             divides: quantity.uses().floor,
             domain,
             computed: Vec::new(),
-            judge: None,
+            judge,
             counts: true,
         }
-    }
-
-    /// The same for wrong verdicts.
-    pub(super) fn judged(self, judge: Option<&'a Judge<'a, F>>) -> Search<'a, F> {
-        Search { judge, ..self }
     }
 
     /// The score of inputs; none outside the domain or the path.
@@ -171,7 +171,6 @@ impl<'a, F: Searched> Search<'a, F> {
         goal: Goal,
         near: &mut Vec<F::Near>,
     ) -> Option<f64> {
-        let is_verdict = matches!(goal, Goal::Missed | Goal::Hit);
         run(&self.operations, self.last(), inputs, &mut self.computed);
         let computed = &self.computed;
         let holds = |(comparison, answer): &(Comparison, bool)| {
@@ -192,53 +191,32 @@ impl<'a, F: Searched> Search<'a, F> {
         if measures.is_some_and(|of| !of.hold(&Sample::of(&inputs.map(|x| x.to_f64())))) {
             return None;
         }
-        run(&self.operations, self.last(), &inputs.map(F::near), near);
-        let value = |place: Place| F::approximate(&near[place as usize]);
-        let compare = |place, sign: f64, bound: f64| (sign * value(place)?).partial_cmp(&bound);
-        self.holds(is_verdict, compare)?;
-        if is_verdict {
-            let sample = Sample::of(&inputs.map(F::near));
-            let (judge, is_hit) = (self.judge?, goal == Goal::Hit);
-            let found = judge.score(inputs, is_hit, &self.domain, &sample, F::approximate)?;
-            self.counts = found.1;
-            return Some(found.0);
-        }
-        let (exact, computed) = (&near[self.place as usize], computed[self.place as usize]);
-        let error = F::approximate(&(exact.clone() - &computed.near()))?;
-        match goal {
-            Goal::Error => Some(error.abs()),
-            Goal::Zero => (F::approximate(exact)? == 0.0).then(|| computed.to_f64().abs()),
-            Goal::Missed | Goal::Hit => None,
-        }
+        let compare = |x: &F::Near, bound: f64| F::approximate(x)?.partial_cmp(&bound);
+        let rules = (F::near, compare, F::approximate);
+        let (score, counts) = self.measure(inputs, goal, near, rules)?;
+        self.counts = counts;
+        Some(score)
     }
 
     /// The exact score of inputs, in the domain by exact arithmetic; none if they are outside.
-    pub fn exact(&self, inputs: &Inputs<F>, goal: Goal) -> Option<f64> {
-        let mut checked = Search {
-            computed: Vec::new(),
-            conditions: self.conditions.clone(),
-            decisions: self.decisions.clone(),
-            operations: self.operations.clone(),
-            ..*self
-        };
-        checked.score(inputs, goal, &mut Vec::new())?;
-        let computed = checked.computed[self.place as usize].to_f64();
-        if self.operations.iter().any(|operation| matches!(operation, Operation::Sqrt(_))) {
+    pub fn exact(&mut self, inputs: &Inputs<F>, goal: Goal) -> Option<f64> {
+        self.score(inputs, goal, &mut Vec::new())?;
+        let has_root = self.operations.iter().any(|it| matches!(it, Operation::Sqrt(_)));
+        let (score, counts) = if has_root {
             // Exact numbers with roots grow too long; these know their own errors.
-            return self.measure(
-                inputs,
-                goal,
-                computed,
-                Bounded::new,
-                |x, y| {
-                    let difference = *x - y;
-                    difference.approximate().and_then(|d| d.partial_cmp(&0.0))
-                },
-                |x| x.approximate(),
-            );
-        }
-        let compare = |x: &Exact, y: &Exact| (x.clone() - y).sign();
-        self.measure(inputs, goal, computed, Exact::from_f64, compare, |x| Some(x.approximate()))
+            let number = |x: F| Bounded::new(x.to_f64());
+            let compare = |x: &Bounded, bound: f64| {
+                (*x - Bounded::new(bound)).approximate()?.partial_cmp(&0.0)
+            };
+            let rules = (number, compare, |x: &Bounded| x.approximate());
+            self.measure(inputs, goal, &mut Vec::new(), rules)?
+        } else {
+            let number = |x: F| Exact::from_f64(x.to_f64());
+            let compare = |x: &Exact, bound: f64| (x.clone() - Exact::from_f64(bound)).sign();
+            let rules = (number, compare, |x: &Exact| Some(x.approximate()));
+            self.measure(inputs, goal, &mut Vec::new(), rules)?
+        };
+        counts.then_some(score)
     }
 
     /// Its last operation.
@@ -246,12 +224,12 @@ impl<'a, F: Searched> Search<'a, F> {
         self.operations.len() as Place - 1
     }
 
-    /// None outside the domain, or where that is not known, given how a number times a sign compares with a bound.
+    /// True in the domain, given how a number times a sign compares with a bound; false where that is not known.
     fn holds(
         &self,
         is_verdict: bool,
         compare: impl Fn(Place, f64, f64) -> Option<Ordering>,
-    ) -> Option<()> {
+    ) -> bool {
         let is_at_most =
             |place, sign, bound| Some(compare(place, sign, bound)? != Ordering::Greater);
         let is_between = |place, least, most| {
@@ -266,60 +244,59 @@ impl<'a, F: Searched> Search<'a, F> {
             Condition::Between(..) if is_verdict => Some(true),
             Condition::Between(place, least, most) => is_between(place, least, most),
         };
-        self.conditions.iter().all(|it| holds(it).unwrap_or(false)).then_some(())
+        self.conditions.iter().all(|it| holds(it).unwrap_or(false))
     }
 
+    /// The score of inputs that the last run was about, and true if it is of the wanted kind; none outside the domain. In an
+    /// arithmetic that is given by how it makes a number, compares one with a bound, and makes a float of one.
     fn measure<R: Number>(
         &self,
         inputs: &Inputs<F>,
         goal: Goal,
-        computed: f64,
-        number: impl Fn(f64) -> R,
-        compare: impl Fn(&R, &R) -> Option<Ordering>,
-        approximate: impl Fn(&R) -> Option<f64>,
-    ) -> Option<f64> {
-        let mut values = Vec::new();
-        run(&self.operations, self.last(), &inputs.map(|x| number(x.to_f64())), &mut values);
+        values: &mut Vec<R>,
+        (number, compare, float): (
+            impl Fn(F) -> R,
+            impl Fn(&R, f64) -> Option<Ordering>,
+            impl Fn(&R) -> Option<f64>,
+        ),
+    ) -> Option<(f64, bool)> {
         let is_verdict = matches!(goal, Goal::Missed | Goal::Hit);
+        let numbers = inputs.map(&number);
+        run(&self.operations, self.last(), &numbers, values);
         let signed = |place: Place, sign: f64| {
             let value = values[place as usize].clone();
             if sign < 0.0 { -value } else { value }
         };
-        self.holds(is_verdict, |place, sign, bound| compare(&signed(place, sign), &number(bound)))?;
-        let exact = &values[self.place as usize];
-        let zero = number(0.0);
+        if !self.holds(is_verdict, |place, sign, bound| compare(&signed(place, sign), bound)) {
+            return None;
+        }
+        let (exact, computed) = (&values[self.place as usize], self.computed[self.place as usize]);
         match goal {
-            Goal::Error => approximate(&(exact.clone() - &number(computed)).abs()),
-            Goal::Zero => (compare(exact, &zero)? == Ordering::Equal).then(|| computed.abs()),
+            Goal::Error => Some((float(&(exact.clone() - &number(computed)).abs())?, true)),
+            Goal::Zero => {
+                (compare(exact, 0.0)? == Ordering::Equal).then(|| (computed.to_f64().abs(), true))
+            }
             Goal::Missed | Goal::Hit => {
-                let sample = Sample::of(&inputs.map(|x| number(x.to_f64())));
-                let is_hit = goal == Goal::Hit;
-                let judge = self.judge?;
-                let (score, counts) =
-                    judge.score(inputs, is_hit, &self.domain, &sample, approximate)?;
-                counts.then_some(score)
+                let sample = Sample::of(&numbers);
+                self.judge?.score(inputs, goal == Goal::Hit, &self.domain, &sample, float)
             }
         }
     }
 }
 
-/// The differences of all points that are in one box in a quantity's proof.
-fn boxed(quantity: &Quantity) -> Vec<Leaf> {
+/// The pairs of all points, and the axes, that are in one box in a quantity's proof.
+fn boxed(quantity: &Quantity) -> impl Iterator<Item = (usize, usize, usize)> {
     let is_boxed = |point: usize, axis: usize| {
         let mut sources = quantity.lemmas.iter().flat_map(|lemma| &lemma.formula.sources);
         sources.any(|source| *source == Source::Boxed(point, axis))
     };
     let pairs = (0..4).flat_map(|p| (p + 1..4).map(move |q| (p, q)));
-    let all = pairs.flat_map(|(p, q)| (0..3).map(move |axis| Leaf::Difference(p, q, axis)));
-    all.filter(|leaf| match *leaf {
-        Leaf::Difference(p, q, axis) => is_boxed(p, axis) && is_boxed(q, axis),
-        _ => false,
-    })
-    .collect()
+    let all = pairs.flat_map(|(p, q)| (0..3).map(move |axis| (p, q, axis)));
+    all.filter(move |(p, q, axis)| is_boxed(*p, *axis) && is_boxed(*q, *axis))
 }
 
 /// True if a coordinate is used otherwise than in a difference of points.
-fn is_used_alone(path: &crate::kernel::Path, renamed: &[Option<Place>], place: usize) -> bool {
+fn is_used_alone(path: &Path, renamed: &[Option<Place>], place: usize) -> bool {
     path.operations.iter().enumerate().any(|(user, operation)| {
         renamed[user].is_some()
             && operation.operands().contains(&(place as Place))

@@ -33,7 +33,8 @@ fn checked(file: &str) -> Result<String, Failure> {
     let proved = checker::check(&text)
         .map_err(|refusal| InputError::at(file, refusal.line, refusal.message))?;
     let bounds = number_of(proved.len() as u64, "bound", "bounds");
-    let gates = largest_errors(&mut proved.iter());
+    let all: Vec<&Proved> = proved.iter().collect();
+    let gates = largest_errors(&all);
     let (kernel, name, scalar, entry) = kernel_of(&text);
     let recorded = entry.map(|entry| in_named_scalar!(scalar, F => Recorded::new::<F>(entry)));
     let mut is_whole = false;
@@ -74,20 +75,19 @@ fn checked(file: &str) -> Result<String, Failure> {
         }
     }
     // What divides must be there for each size of triangles for which anything is, and so must what does not.
-    let of_kind =
-        |claims: &mut dyn Iterator<Item = &Proved>, is_limited: bool| -> BTreeSet<String> {
-            let of_kind = claims.filter(|claim| has_limits(claim) == is_limited);
-            of_kind.map(|claim| claim.programs[0].operations.clone()).collect()
-        };
+    let of_kind = |claims: &[&Proved], is_limited: bool| -> BTreeSet<String> {
+        let of_kind = claims.iter().filter(|claim| has_limits(claim) == is_limited);
+        of_kind.map(|claim| claim.programs[0].operations.clone()).collect()
+    };
     // A claim without its domain is none.
     for (domain, claims) in &sections {
         let is_limited = claims.iter().any(|claim| has_limits(claim));
-        let here = of_kind(&mut claims.iter().copied(), is_limited);
-        let is_whole = here == of_kind(&mut proved.iter(), is_limited);
+        let here = of_kind(claims, is_limited);
+        let is_whole = here == of_kind(&all, is_limited);
         let missing = if is_whole { "" } else { "; programs of other sizes are missing here" };
         let errors = match sections.len() {
             1 => String::new(),
-            _ => format!(": {}", largest_errors(&mut claims.iter().copied())),
+            _ => format!(": {}", largest_errors(claims)),
         };
         let inputs = inputs(domain, claims);
         said.push_str(&format!("\n  for every float with {inputs}{errors}{missing}"));
@@ -133,7 +133,7 @@ fn float(x: &Number) -> f64 {
 }
 
 /// The largest error of each gate.
-fn largest_errors(proved: &mut dyn Iterator<Item = &Proved>) -> String {
+fn largest_errors(proved: &[&Proved]) -> String {
     let mut gates: BTreeMap<&str, f64> = BTreeMap::new();
     for claim in proved {
         let most = gates.entry(&claim.gate).or_default();
@@ -181,7 +181,7 @@ fn inputs(domain: &[Number; 8], claims: &[&Proved]) -> String {
 /// A kernel's paths that some input takes, and the numbers that its gates compare: for each gate and program, the paths.
 struct Recorded {
     paths: Vec<Path>,
-    numbers: HashMap<(&'static str, String), Vec<usize>>,
+    numbers: HashMap<(String, String), Vec<usize>>,
 }
 
 impl Recorded {
@@ -191,7 +191,7 @@ impl Recorded {
         let mut numbers: HashMap<_, Vec<usize>> = HashMap::new();
         for (index, path) in paths.iter().enumerate() {
             for (compared, place) in compared(path) {
-                let gate = entry.info.gates[compared.gate].name;
+                let gate = entry.info.gates[compared.gate].name.to_owned();
                 numbers.entry((gate, operations(path, place))).or_default().push(index);
             }
         }
@@ -206,13 +206,9 @@ impl Recorded {
     /// True if a gate compares each of the programs of a claim, on a path with its orders.
     fn has(&self, claim: &Proved) -> bool {
         claim.programs.iter().all(|program| {
-            let mut numbers = self.numbers.iter();
-            let found = numbers.find(|((gate, operations), _)| {
-                (*gate, operations) == (&claim.gate, &program.operations)
-            });
-            found.is_some_and(|(_, paths)| {
-                paths.iter().any(|path| self.follow(&program.orders, *path))
-            })
+            let number = (claim.gate.clone(), program.operations.clone());
+            let mut paths = self.numbers.get(&number).into_iter().flatten();
+            paths.any(|path| self.follow(&program.orders, *path))
         })
     }
 
@@ -228,7 +224,7 @@ impl Recorded {
         let missing = self.numbers.iter().filter(|((gate, operations), paths)| {
             !paths.iter().all(|path| is_proved(gate, operations, *path))
         });
-        missing.map(|((gate, _), _)| *gate).collect()
+        missing.map(|((gate, _), _)| &gate[..]).collect()
     }
 
     /// The comparison in words, where nothing is missing.

@@ -1,7 +1,8 @@
 //! The demands of `check` for proofs: `[proved]` in hairline.toml.
 
 use super::super::exit::Failure;
-use super::super::flags::{find_kernel, is_f32, unknown};
+use super::super::flags::{find_kernel, is_f32};
+use super::ensure_gate;
 use crate::audit::Row;
 use crate::kernel::{Entry, Role, Scalar};
 use crate::prove::{Domain, Effort, Searched, Summary, Symmetry};
@@ -56,9 +57,8 @@ impl Demand<'_> {
             (WATERTIGHT, _) => return Err(wrong()),
             _ => value.parse().ok().filter(|x| *x > 0.0).ok_or_else(wrong)?,
         };
-        let gates = || entry.info.gates.iter().map(|gate| gate.name);
-        if gate != WATERTIGHT && !gates().any(|name| name == gate) {
-            return Err(unknown("gate", gate, gates(), &format!("hairline prove --kernel {name}")));
+        if gate != WATERTIGHT {
+            ensure_gate(entry, gate)?;
         }
         Ok(Demand { text, entry, scalar, gate, value, most })
     }

@@ -1,7 +1,7 @@
 //! One kernel in one scalar: what is proved of it, as parts of the record.
 
 use super::record::{GatePart, KernelPart, LimitPart, WitnessPart};
-use super::verdicts::{VerdictPart, is_useful};
+use super::verdicts::VerdictPart;
 use super::witnesses::StoredWitness;
 use crate::arith::Float;
 use crate::audit::{EpsilonChoice, EpsilonText, Observer, Row};
@@ -10,7 +10,7 @@ use crate::cli::progress::Progress;
 use crate::kernel::{Entry, PRESETS, Scalar};
 use crate::prove::{
     Domain, Effort, GOALS, GateSummary, Judged, Published, Scene, Searched, Shape, Summary,
-    Symmetry, Triangles, VERDICTS, about_edges, statements, useful_scenes,
+    Symmetry, Triangles, USELESS, VERDICTS, about_edges, statements, useful_scenes,
 };
 use crate::report::{ProofPart, ProvedGate};
 use rayon::prelude::*;
@@ -142,8 +142,8 @@ impl Job<'_> {
         }
         let verdicts = judged.as_ref().zip(row.as_ref()).map(|(judged, row)| {
             let useful = || useful_scenes::<F>(entry, self.scene.as_ref()?, &row.epsilons::<F>());
-            let is_useless = judged.verdicts.misses.is_ok() && !is_useful(&judged.verdicts.misses);
-            let useful = if is_useless { useful() } else { None };
+            let misses = judged.verdicts.misses.as_ref();
+            let useful = misses.ok().filter(|it| USELESS <= it.share).and_then(|_| useful());
             VerdictPart::new(judged, row, useful.unwrap_or_default())
         });
         let unit = summary.format.unit().to_f64();

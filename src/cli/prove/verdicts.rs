@@ -3,10 +3,7 @@
 use crate::arith::Float;
 use crate::audit::{self, shell_word};
 use crate::case::Case;
-use crate::prove::{
-    Depth, Farthest, Judged, May, Scale, Searched, USELESS, Witness, above, below, case_of,
-};
-
+use crate::prove::{Depth, Judged, May, Scale, Searched, USELESS, Witness, above, below, case_of};
 use crate::report::page::Row;
 
 /// The verdicts at some epsilons.
@@ -70,21 +67,20 @@ impl VerdictPart {
     /// The verdicts of a row.
     pub fn new<F: Searched>(judged: &Judged<F>, row: &audit::Row, useful: String) -> VerdictPart {
         let verdicts = &judged.verdicts;
-        let depth = |bound: &Depth, known: &Option<Witness<F>>| DepthPart {
-            share: bound.as_ref().ok().map(|it| it.share),
-            apart: bound.as_ref().ok().map(|it| it.apart),
-            length: bound.as_ref().ok().and_then(|it| it.length),
-            why: bound.as_ref().err().cloned(),
-            known: known.as_ref().map(|known| KnownPart {
-                share: known.score,
-                command: row.explain_command(&shell_word(&text_of(&case_of(&known.inputs)))),
-            }),
-            factor: bound
-                .as_ref()
-                .ok()
-                .zip(known.as_ref())
-                .map(|(it, known)| it.share / known.score),
-            useful: useful.clone(),
+        let depth = |bound: &Depth, known: &Option<Witness<F>>| {
+            let found = bound.as_ref().ok();
+            DepthPart {
+                share: found.map(|it| it.share),
+                apart: found.map(|it| it.apart),
+                length: found.and_then(|it| it.length),
+                why: bound.as_ref().err().cloned(),
+                known: known.as_ref().map(|known| KnownPart {
+                    share: known.score,
+                    command: row.explain_command(&shell_word(&text_of(&case_of(&known.inputs)))),
+                }),
+                factor: found.zip(known.as_ref()).map(|(it, known)| it.share / known.score),
+                useful: useful.clone(),
+            }
         };
         let scale = |(scale, least): &(Scale, f64)| ScalePart {
             number: scale.name().to_owned(),
@@ -148,17 +144,12 @@ impl VerdictPart {
 
 impl DepthPart {
     fn sentence(&self, what: &str, side: &str) -> String {
-        let known = match (&self.known, self.factor) {
-            (Some(known), Some(factor)) => {
-                format!("; one {} {side} is known (factor {factor:.2})", below(known.share))
-            }
-            _ => String::new(),
-        };
+        let known = self
+            .known
+            .as_ref()
+            .map_or(String::new(), |known| format!("; one {} {side} is known", below(known.share)));
         match (self.share, &self.why) {
             (Some(share), _) if USELESS <= share => {
-                let known = self.known.as_ref().map_or(String::new(), |known| {
-                    format!("; one {} {side} is known", below(known.share))
-                });
                 format!(
                     "Nothing useful follows for {what}es: the bound is half of a triangle's longest edge {side}, or \
                      more{known}.{}",
@@ -168,6 +159,8 @@ impl DepthPart {
             }
             (Some(0.0), _) => format!("No {what} at an edge."),
             (Some(share), _) => {
+                let factor =
+                    self.factor.map_or(String::new(), |factor| format!(" (factor {factor:.2})"));
                 let length = self.length.map_or(String::new(), |length| {
                     format!(", nor than {} as a length of the scene", above(length))
                 });
@@ -175,7 +168,7 @@ impl DepthPart {
                     format!(" (beyond a vertex at most {} from the triangle)", above(x))
                 });
                 format!(
-                    "No {what} is farther {side} an edge than {} of the triangle's longest edge{length}{known}{apart}.",
+                    "No {what} is farther {side} an edge than {} of the triangle's longest edge{length}{known}{factor}{apart}.",
                     above(share)
                 )
             }
@@ -209,9 +202,4 @@ fn text_of<F: Float>(case: &Case<F>) -> String {
         F::NAME
     )
     .replace(' ', "")
-}
-
-/// True if something follows from a bound.
-pub fn is_useful(bound: &Depth) -> bool {
-    matches!(bound, Ok(Farthest { share, .. }) if *share < USELESS)
 }

@@ -1,8 +1,7 @@
 //! A guarded kernel as source code.
 
-use super::language::Language;
-use super::names::AXES;
-use super::nodes::{Node, Nodes, Scope};
+use super::language::Dialect;
+use super::nodes::{AXES, Node, Nodes, Scope};
 use crate::arith::recorded::{Comparison, Place};
 use crate::prove::repair::{Axes, Guarded, Literal, Pattern, Step};
 use std::collections::BTreeSet;
@@ -11,21 +10,21 @@ use std::collections::BTreeSet;
 pub struct Code<'a> {
     nodes: Nodes<'a>,
     guarded: &'a Guarded,
-    language: Language,
+    dialect: Dialect,
     lines: Vec<String>,
     depth: usize,
 }
 
 impl<'a> Code<'a> {
     /// The lines of a guarded kernel's body.
-    pub fn body(guarded: &'a Guarded, language: Language) -> Vec<String> {
+    pub fn body(guarded: &'a Guarded, dialect: Dialect) -> Vec<String> {
         let steps = guarded.steps.all();
         let roots = steps.iter().flat_map(|step| roots_of(step, guarded)).collect();
-        let nodes = Nodes::new(guarded, language, roots);
-        let mut code = Code { nodes, guarded, language, lines: Vec::new(), depth: 1 };
+        let nodes = Nodes::new(guarded, dialect, roots);
+        let mut code = Code { nodes, guarded, dialect, lines: Vec::new(), depth: 1 };
         // Some gate may stay open.
         if steps.iter().any(|step| matches!(step, Step::Gate(..))) {
-            code.line(language.open());
+            code.line(dialect.open());
         }
         code.step(&guarded.steps, Scope::default());
         code.lines
@@ -54,15 +53,15 @@ impl<'a> Code<'a> {
             let size = Node::Size(place, false);
             let nodes = [value, size];
             self.define(&nodes[..if is_exact { 1 } else { 2 }], scope);
-            let (x, is_f32) = (self.nodes.text(value), self.nodes.is_f32());
+            let x = self.nodes.text(value);
             let call = if is_exact {
-                format!("{}({x})", self.language.function("exact_sign", is_f32))
+                format!("{}({x})", self.dialect.function("exact_sign"))
             } else {
-                let factor = self.language.number(margin.factor.to_f64(), is_f32);
-                let function = self.language.function("sure_sign", is_f32);
+                let factor = self.dialect.number(margin.factor.to_f64());
+                let function = self.dialect.function("sure_sign");
                 format!("{function}({x}, {}, {factor})", self.nodes.text(size))
             };
-            self.line(self.language.integer(&self.sign_name(place), &call));
+            self.line(self.dialect.integer(&self.sign_name(place), &call));
         }
     }
 
@@ -126,37 +125,38 @@ impl<'a> Code<'a> {
                             condition = format!("{known} && {wrapped}");
                         }
                     }
-                    self.line(self.language.early(&condition, "MISS"));
+                    self.line(self.dialect.early(&condition, "MISS"));
                 }
                 match &hits[..] {
-                    [] => self.line(self.language.assign_open("")),
+                    [] => self.line(self.dialect.assign_open("")),
                     [pattern] if pattern.is_empty() => {}
-                    _ => self.line(self.language.assign_open(&self.patterns(hits))),
+                    _ => self.line(self.dialect.assign_open(&self.patterns(hits))),
                 }
                 if start < self.lines.len() {
                     let comment = format!("{}// gate {name}", "    ".repeat(self.depth));
-                    self.lines.insert(start, self.language.comment(&comment));
+                    self.lines.insert(start, self.dialect.comment(&comment));
                 }
                 self.step(next, scope);
             }
             Step::Axes(axes, next) => {
+                self.line(self.dialect.axes());
                 self.axes(axes, &mut scope);
                 self.nodes.is_renamed = true;
                 self.step(next, Scope::default());
             }
             Step::Hit(values) => {
-                self.line(self.language.early("open", "ASK"));
+                self.line(self.dialect.early("open", "ASK"));
                 let given: Vec<Option<Node>> =
                     values.iter().map(|place| place.map(Node::Value)).collect();
                 let nodes: Vec<Node> = given.iter().flatten().copied().collect();
                 self.define(&nodes, &mut scope);
                 let text = |node: &Option<Node>| node.map(|node| self.nodes.text(node));
                 let values: Vec<Option<String>> = given.iter().map(text).collect();
-                for line in self.language.hit(&values) {
+                for line in self.dialect.hit(&values) {
                     self.line(line);
                 }
             }
-            Step::Ask => self.line(self.language.answer("ASK")),
+            Step::Ask => self.line(self.dialect.answer("ASK")),
         }
     }
 
@@ -167,9 +167,9 @@ impl<'a> Code<'a> {
     ) {
         for (i, (condition, way)) in ways.into_iter().enumerate() {
             let head = match (i, condition.as_str()) {
-                (0, condition) => self.language.if_(condition),
+                (0, condition) => self.dialect.if_(condition),
                 (_, "") => "} else {".to_owned(),
-                (_, condition) => format!("}} else {}", self.language.if_(condition)),
+                (_, condition) => format!("}} else {}", self.dialect.if_(condition)),
             };
             self.line(head);
             self.depth += 1;
@@ -183,7 +183,7 @@ impl<'a> Code<'a> {
         let nodes: Vec<Node> = comparison.places().into_iter().map(Node::Value).collect();
         self.define(&nodes, scope);
         let text = |place: Place| self.nodes.text(Node::Value(place));
-        let zero = self.language.number(0.0, self.nodes.is_f32());
+        let zero = self.dialect.number(0.0);
         match *comparison {
             Comparison::Less(a, b) => format!("{} < {}", text(a), text(b)),
             Comparison::AtMost(a, b) => format!("{} <= {}", text(a), text(b)),
@@ -194,13 +194,6 @@ impl<'a> Code<'a> {
 
     /// The names of the axes.
     fn axes(&mut self, axes: &Axes, scope: &mut Scope) {
-        for line in self.language.axes() {
-            self.line(line);
-        }
-        self.axes_below(axes, scope);
-    }
-
-    fn axes_below(&mut self, axes: &Axes, scope: &mut Scope) {
         match axes {
             Axes::Are(axes) => {
                 let set: Vec<String> =
@@ -210,7 +203,7 @@ impl<'a> Code<'a> {
             Axes::If(comparison, yes, no) => {
                 let condition = self.comparison(comparison, scope);
                 let ways = [(condition, yes), (String::new(), no)];
-                self.branch(ways, |code, axes| code.axes_below(axes, scope));
+                self.branch(ways, |code, axes| code.axes(axes, scope));
             }
         }
     }

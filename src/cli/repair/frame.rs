@@ -1,24 +1,22 @@
 //! The frame of the body of a guarded kernel: a header comment, its function, and the functions that it calls.
 
 use super::code::Code;
-use super::language::Language;
-use super::names::names;
+use super::language::{Dialect, Language};
+use super::nodes::names;
 use crate::arith::recorded::{Operation, Place};
 use crate::contract::Extent;
 use crate::prove::repair::{Guarded, Margin, Scale};
 
 /// The source of a guarded kernel; the shares of rays on which it asks, if they were counted.
 pub fn source(guarded: &Guarded, language: Language, shares: Option<&str>) -> String {
-    let is_f32 = guarded.scalar == "f32";
-    let number = |x: f64| language.number(x, is_f32);
+    let dialect = Dialect { language, is_f32: guarded.scalar == "f32" };
     let Scale { slack, tiny, far, .. } = guarded.scale;
-    let [slack, tiny, far] = [slack, tiny, far].map(|x| number(x.to_f64()));
-    let real = language.scalar(is_f32);
-    let name = function_name(guarded);
-    let frame = Frame { guarded, language, is_f32, name, real, slack, tiny, far };
+    let [slack, tiny, far] = [slack, tiny, far].map(|x| dialect.number(x.to_f64()));
+    let (real, name) = (dialect.scalar(), function_name(guarded));
+    let frame = Frame { guarded, dialect, name, real, slack, tiny, far };
     let shares = shares.map(|shares| format!("\n\nHow often it asks: {shares}"));
     let comment = frame.comment() + &shares.unwrap_or_default();
-    let body = Code::body(guarded, language).join("\n");
+    let body = Code::body(guarded, dialect).join("\n");
     let marked =
         |mark: &str| comment.lines().map(|line| format!("{mark} {line}\n")).collect::<String>();
     let text = match language {
@@ -31,8 +29,7 @@ pub fn source(guarded: &Guarded, language: Language, shares: Option<&str>) -> St
 
 struct Frame<'a> {
     guarded: &'a Guarded,
-    language: Language,
-    is_f32: bool,
+    dialect: Dialect,
     /// The function's name, the scalar's, and the constants of the margins.
     name: String,
     real: &'static str,
@@ -51,7 +48,7 @@ impl Frame<'_> {
     fn comment(&self) -> String {
         let Guarded { info, scalar, scale, .. } = self.guarded;
         let (extent, is_front) = self.guarded.promise();
-        let language = format!("{:?}", self.language).to_lowercase();
+        let language = format!("{:?}", self.dialect.language).to_lowercase();
         let command = format!("hairline repair --kernel {} --scalar {scalar}", info.name);
         let between = match extent {
             Extent::Line => "at any t (t_min and t_max are not looked at)",
@@ -60,7 +57,7 @@ impl Frame<'_> {
         };
         let sides = if is_front { "front" } else { "both sides" };
         let digits = scale.format.digits;
-        let range = match self.language.is_of_shaders() {
+        let range = match self.dialect.language.is_of_shaders() {
             false => "overflows on the way to a decision is no finite number, and asks.".to_owned(),
             true => format!(
                 "overflows does not occur where coordinates are at most {}: others ask. It supposes finite inputs.
@@ -102,14 +99,14 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
 
     /// The largest coordinate for which nothing overflows.
     fn largest(&self) -> String {
-        let most = if self.is_f32 { 126.0 } else { 1022.0 };
+        let most = if self.dialect.is_f32 { 126.0 } else { 1022.0 };
         let holds = |exponent: &i32| {
             let size = f64::from(*exponent);
             (0..self.guarded.operations.len())
                 .all(|place| self.magnitude(place as Place, size) < most)
         };
         let exponent = (0..self.guarded.scale.far.ceil_log2()).rev().find(holds).unwrap_or(0);
-        self.language.number(2f64.powi(exponent), self.is_f32)
+        self.dialect.number(2f64.powi(exponent))
     }
 
     /// The logarithm of a bound of a number's size, for inputs of a size.
@@ -131,7 +128,7 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
     /// The first lines of a kernel that promises an interval: its ends within the largest size, or it asks.
     fn head(&self) -> Option<String> {
         let far = &self.far;
-        let either = |condition: String, far: String, end: &str| match self.language {
+        let either = |condition: String, far: String, end: &str| match self.dialect.language {
             Language::C => format!("{condition} ? {far} : {end}"),
             Language::Rust => format!("if {condition} {{ {far} }} else {{ {end} }}"),
             _ => format!("{}({end}, {far})", if end == "t_min" { "max" } else { "min" }),
@@ -141,12 +138,12 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
             ("t_to", either(format!("t_max > {far}"), far.clone(), "t_max")),
         ];
         let is_bad = format!("!(t_min <= t_max && t_min <= {far} && t_max >= -{far})");
-        let ask = match self.language {
+        let ask = match self.dialect.language {
             Language::C => format!("if ({is_bad}) return HAIRLINE_ASK;"),
             Language::Rust => format!("if {is_bad} {{ return Answer::Ask; }}"),
             _ => format!("if ({is_bad}) {{ return HAIRLINE_ASK; }}"),
         };
-        let define = |(name, value): (&str, String)| match self.language {
+        let define = |(name, value): (&str, String)| match self.dialect.language {
             Language::C => format!("    const {} {name} = {value};\n", self.real),
             Language::Rust | Language::Wgsl => format!("    let {name} = {value};\n"),
             _ => format!("    {} {name} = {value};\n", self.real),
@@ -168,7 +165,7 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
         let upper = scalar.to_uppercase();
         let guard = format!("HAIRLINE_{}_H", name.to_uppercase());
         let (most, infinity) =
-            if self.is_f32 { ("FLT_MAX", "HUGE_VALF") } else { ("DBL_MAX", "HUGE_VAL") };
+            if self.dialect.is_f32 { ("FLT_MAX", "HUGE_VALF") } else { ("DBL_MAX", "HUGE_VAL") };
         let (extent, is_front) = self.guarded.promise();
         let given = self.given();
         let unused = "    (void)t_min, (void)t_max;\n";
@@ -230,12 +227,12 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
     fn shader(&self, body: &str) -> String {
         let Frame { name, real, slack, tiny, .. } = self;
         let scalar = self.guarded.scalar;
-        let (most, zero) = (self.largest(), self.language.number(0.0, self.is_f32));
-        let is_wgsl = self.language == Language::Wgsl;
-        let (vector, constant) = match self.language {
+        let (most, zero) = (self.largest(), self.dialect.number(0.0));
+        let is_wgsl = self.dialect.language == Language::Wgsl;
+        let (vector, constant) = match self.dialect.language {
             Language::Wgsl => ("vec3f", "const HAIRLINE_$: i32"),
             Language::Hlsl => ("float3", "static const int HAIRLINE_$"),
-            _ => (if self.is_f32 { "vec3" } else { "dvec3" }, "const int HAIRLINE_$"),
+            _ => (if self.dialect.is_f32 { "vec3" } else { "dvec3" }, "const int HAIRLINE_$"),
         };
         let constants = [("MISS", 0), ("HIT", 1), ("ASK", 2)]
             .map(|(name, value)| format!("{} = {value};\n", constant.replace('$', name)));
@@ -256,7 +253,7 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
             false => format!("x > {above} ? 1 : x < {below} ? -1 : 0"),
         };
         let margin = [("margin".to_owned(), format!("factor * size + {tiny}"))];
-        let margin = self.language.definitions(&margin, self.is_f32);
+        let margin = self.dialect.definitions(&margin);
         let sure = function(
             &format!("hairline_sure_sign_{scalar}"),
             typed(real, &["x", "size", "factor"]),
@@ -274,14 +271,14 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
             false => format!("out {vector} answer"),
         });
         let signature = function(name, inputs);
-        let beyond = vectors.map(|v| match self.language {
+        let beyond = vectors.map(|v| match self.dialect.language {
             Language::Glsl => format!("any(greaterThan(abs({v}), {vector}({most})))"),
             Language::Wgsl => format!("any(abs({v}) > vec3f({most}))"),
             _ => format!("any(abs({v}) > {most})"),
         });
         let beyond = beyond.join(" ||\n        ");
         let head = head.unwrap_or_default();
-        let (slack, start) = match self.language {
+        let (slack, start) = match self.dialect.language {
             Language::Wgsl => (format!("let SLACK = {slack};"), String::new()),
             Language::Hlsl => (
                 format!("const {real} SLACK = {slack};"),

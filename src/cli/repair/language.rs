@@ -33,10 +33,19 @@ impl Language {
             Hlsl => "hlsl",
         }
     }
+}
 
+/// A language, and the scalar of a kernel in it.
+#[derive(Clone, Copy)]
+pub struct Dialect {
+    pub language: Language,
+    pub is_f32: bool,
+}
+
+impl Dialect {
     /// The type of a scalar.
-    pub fn scalar(self, is_f32: bool) -> &'static str {
-        match (self, is_f32) {
+    pub fn scalar(self) -> &'static str {
+        match (self.language, self.is_f32) {
             (Rust | Wgsl, true) => "f32",
             (Rust | Wgsl, false) => "f64",
             (_, true) => "float",
@@ -45,12 +54,9 @@ impl Language {
     }
 
     /// A number, so that it is read as the same one.
-    pub fn number(self, x: f64, is_f32: bool) -> String {
-        let shortest = if is_f32 { format!("{:?}", x as f32) } else { format!("{x:?}") };
-        let point =
-            |text: String| if text.contains(['.', 'e']) { text } else { format!("{text}.0") };
-        let text = point(shortest);
-        match (self, is_f32) {
+    pub fn number(self, x: f64) -> String {
+        let text = if self.is_f32 { format!("{:?}", x as f32) } else { format!("{x:?}") };
+        match (self.language, self.is_f32) {
             (C | Hlsl, true) => format!("{text}f"),
             (Wgsl, _) => format!("{text}f"),
             (Glsl, false) => format!("{text}lf"),
@@ -59,14 +65,14 @@ impl Language {
     }
 
     pub fn coordinate(self, vector: &str, axis: usize) -> String {
-        match self {
+        match self.language {
             C | Rust => format!("{vector}[{axis}]"),
             _ => format!("{vector}.{}", ["x", "y", "z"][axis]),
         }
     }
 
-    pub fn abs(self, x: &str, is_f32: bool) -> String {
-        match (self, is_f32) {
+    pub fn abs(self, x: &str) -> String {
+        match (self.language, self.is_f32) {
             (C, true) => format!("fabsf({x})"),
             (C, false) => format!("fabs({x})"),
             (Rust, _) => format!("({x}).abs()"),
@@ -74,8 +80,8 @@ impl Language {
         }
     }
 
-    pub fn sqrt(self, x: &str, is_f32: bool) -> String {
-        match (self, is_f32) {
+    pub fn sqrt(self, x: &str) -> String {
+        match (self.language, self.is_f32) {
             (C, true) => format!("sqrtf({x})"),
             (Rust, _) => format!("({x}).sqrt()"),
             _ => format!("sqrt({x})"),
@@ -83,31 +89,27 @@ impl Language {
     }
 
     /// Definitions of numbers, on one line.
-    pub fn definitions(self, all: &[(String, String)], is_f32: bool) -> String {
-        let scalar = self.scalar(is_f32);
-        let each = |form: &dyn Fn(&str, &str) -> String, with: &str| {
-            all.iter().map(|(name, text)| form(name, text)).collect::<Vec<_>>().join(with)
-        };
-        let plain = |name: &str, text: &str| format!("{name} = {text}");
-        match self {
-            C => format!("const {scalar} {};", each(&plain, ", ")),
-            Glsl | Hlsl => format!("precise {scalar} {};", each(&plain, ", ")),
-            Rust | Wgsl => each(&|name, text| format!("let {name} = {text};"), " "),
+    pub fn definitions(self, all: &[(String, String)]) -> String {
+        let scalar = self.scalar();
+        let all: Vec<String> = all.iter().map(|(name, text)| format!("{name} = {text}")).collect();
+        match self.language {
+            C => format!("const {scalar} {};", all.join(", ")),
+            Glsl | Hlsl => format!("precise {scalar} {};", all.join(", ")),
+            Rust | Wgsl => format!("let {};", all.join("; let ")),
         }
     }
 
     pub fn integer(self, name: &str, text: &str) -> String {
-        match self {
-            C | Glsl | Hlsl => {
-                format!("{}int {name} = {text};", if self == C { "const " } else { "" })
-            }
+        match self.language {
+            C => format!("const int {name} = {text};"),
+            Glsl | Hlsl => format!("int {name} = {text};"),
             Rust | Wgsl => format!("let {name} = {text};"),
         }
     }
 
     /// The variable that says whether a gate could not decide.
     pub fn open(self) -> &'static str {
-        match self {
+        match self.language {
             C => "int open = 0;",
             Glsl | Hlsl => "bool open = false;",
             Rust => "let mut open = false;",
@@ -117,7 +119,7 @@ impl Language {
 
     /// It is open unless a condition holds.
     pub fn assign_open(self, condition: &str) -> String {
-        match (self, condition) {
+        match (self.language, condition) {
             (C, "") => "open = 1;".to_owned(),
             (_, "") => "open = true;".to_owned(),
             (C | Rust, _) => format!("open |= !({condition});"),
@@ -126,7 +128,7 @@ impl Language {
     }
 
     pub fn if_(self, condition: &str) -> String {
-        match self {
+        match self.language {
             Rust => format!("if {condition} {{"),
             _ => format!("if ({condition}) {{"),
         }
@@ -134,7 +136,7 @@ impl Language {
 
     /// Returns an answer if a condition holds.
     pub fn early(self, condition: &str, answer: &str) -> String {
-        match self {
+        match self.language {
             C | Glsl | Hlsl => format!("if ({condition}) {}", self.answer(answer)),
             Rust | Wgsl => format!("{} {} }}", self.if_(condition), self.answer(answer)),
         }
@@ -142,7 +144,7 @@ impl Language {
 
     /// Returns an answer without values.
     pub fn answer(self, answer: &str) -> String {
-        match (self, answer) {
+        match (self.language, answer) {
             (Rust, "MISS") => "return Answer::Miss;".to_owned(),
             (Rust, _) => "return Answer::Ask;".to_owned(),
             _ => format!("return HAIRLINE_{answer};"),
@@ -154,7 +156,7 @@ impl Language {
         // Shaders have the three in a vector.
         let names = [("t", "x"), ("u", "y"), ("v", "z")].into_iter();
         let given = names.zip(values).filter_map(|(names, text)| Some((names, text.as_ref()?)));
-        if self == Rust {
+        if self.language == Rust {
             let field = |((name, _), text): ((&str, _), &String)| match name == text {
                 true => name.to_owned(),
                 false => format!("{name}: {text}"),
@@ -162,7 +164,7 @@ impl Language {
             let fields: Vec<String> = given.map(field).collect();
             return vec![format!("Answer::Hit {{ {} }}", fields.join(", "))];
         }
-        let set = |((name, axis), text): ((&str, &str), &String)| match self {
+        let set = |((name, axis), text): ((&str, &str), &String)| match self.language {
             C => format!("answer->{name} = {text};"),
             Wgsl => format!("(*answer).{axis} = {text};"),
             _ => format!("answer.{axis} = {text};"),
@@ -173,25 +175,25 @@ impl Language {
     }
 
     /// The variables that name the axes.
-    pub fn axes(self) -> Vec<&'static str> {
-        match self {
-            C | Glsl | Hlsl => vec!["int x, y, z;"],
-            Rust => vec!["let (x, y, z): (usize, usize, usize);"],
-            Wgsl => vec!["var x: i32; var y: i32; var z: i32;"],
+    pub fn axes(self) -> &'static str {
+        match self.language {
+            C | Glsl | Hlsl => "int x, y, z;",
+            Rust => "let (x, y, z): (usize, usize, usize);",
+            Wgsl => "var x: i32; var y: i32; var z: i32;",
         }
     }
 
     /// The name of a function that several kernels share.
-    pub fn function(self, name: &str, is_f32: bool) -> String {
-        match self {
+    pub fn function(self, name: &str) -> String {
+        match self.language {
             Rust => name.to_owned(),
-            _ => format!("hairline_{name}_{}", if is_f32 { "f32" } else { "f64" }),
+            _ => format!("hairline_{name}_{}", if self.is_f32 { "f32" } else { "f64" }),
         }
     }
 
     /// A line's comment after `//`.
     pub fn comment(self, line: &str) -> String {
-        match self {
+        match self.language {
             C => format!("{} */", line.replacen("//", "/*", 1)),
             _ => line.to_owned(),
         }

@@ -6,9 +6,7 @@ mod candidates;
 mod code;
 mod frame;
 mod language;
-mod names;
 mod nodes;
-mod patch;
 mod smaller;
 
 use super::before::{scalars_in_use, total_indices};

@@ -1,9 +1,10 @@
-//! The numbers of a guarded kernel, their sizes, and the expressions of both.
+//! The numbers of a guarded kernel, their sizes, the expressions of both, and names from what they are.
 
-use super::language::Language;
-use super::names::{AXES, names};
+use super::language::Dialect;
+use crate::arith::Vector;
 use crate::arith::recorded::{Operation, Place};
 use crate::prove::repair::Guarded;
+use crate::prove::{Leaf, Sample, run};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// A number's value; or its size, with slack or without.
@@ -23,7 +24,7 @@ pub struct Scope {
 /// All of them in one kernel.
 pub struct Nodes<'a> {
     guarded: &'a Guarded,
-    language: Language,
+    dialect: Dialect,
     names: Vec<String>,
     /// How often each node is used.
     uses: HashMap<Node, usize>,
@@ -33,9 +34,9 @@ pub struct Nodes<'a> {
 
 impl<'a> Nodes<'a> {
     /// The nodes that some of them need.
-    pub fn new(guarded: &'a Guarded, language: Language, mut roots: Vec<Node>) -> Nodes<'a> {
+    pub fn new(guarded: &'a Guarded, dialect: Dialect, mut roots: Vec<Node>) -> Nodes<'a> {
         let (names, uses) = (names(guarded), HashMap::new());
-        let mut nodes = Nodes { guarded, language, names, uses, is_renamed: false };
+        let mut nodes = Nodes { guarded, dialect, names, uses, is_renamed: false };
         roots.sort();
         roots.dedup();
         let mut seen = HashSet::new();
@@ -89,32 +90,26 @@ impl<'a> Nodes<'a> {
 
     /// True if a node stands in the expression that uses it.
     fn is_inline(&self, node: Node) -> bool {
-        let place = match node {
-            Node::Value(place) | Node::Size(place, _) => place,
-        };
+        let (Node::Value(place) | Node::Size(place, _)) = node;
         let operation = self.guarded.operations[place as usize];
-        match node {
-            Node::Value(_) => match operation {
-                Operation::Input(_)
-                | Operation::Number(_)
-                | Operation::Neg(_)
-                | Operation::Abs(_) => true,
-                // Where it is compared it has its name.
-                _ => {
-                    self.uses[&node] == 1
-                        && !self.guarded.is_leaf(place)
-                        && !self.guarded.margins.contains_key(&place)
-                }
-            },
-            Node::Size(..) => self.uses[&node] == 1,
+        use Operation::{Abs, Input, Neg, Number};
+        match (node, operation) {
+            (Node::Value(_), Input(_) | Number(_) | Neg(_) | Abs(_)) => true,
+            // Where it is compared it has its name.
+            (Node::Value(_), _) if self.guarded.margins.contains_key(&place) => false,
+            (Node::Value(_), _) => self.uses[&node] == 1 && !self.guarded.is_leaf(place),
+            (Node::Size(..), _) => self.uses[&node] == 1,
         }
     }
 
     /// The expression of a node, and how tightly it binds: 0 a sum, 1 a product, 2 a name.
     fn expression(&self, node: Node) -> (String, u8) {
+        let whole = |node: Node| match self.is_inline(node) {
+            true => self.expression(node),
+            false => (self.name(node), 2),
+        };
         let of = |node: Node, least: u8| {
-            let (text, binds) =
-                if self.is_inline(node) { self.expression(node) } else { (self.name(node), 2) };
+            let (text, binds) = whole(node);
             if binds < least { format!("({text})") } else { text }
         };
         let sum = |a, sign: &str, b| (format!("{} {sign} {}", of(a, 0), of(b, 1)), 0);
@@ -127,8 +122,8 @@ impl<'a> Nodes<'a> {
         {
             let size = match operation {
                 _ if !is_leaf => of(Node::Size(place, false), 0),
-                Operation::Number(x) => self.language.number(f64::from(x).abs(), self.is_f32()),
-                _ => self.language.abs(&of(Node::Value(place), 0), self.is_f32()),
+                Operation::Number(x) => self.dialect.number(f64::from(x).abs()),
+                _ => self.dialect.abs(&of(Node::Value(place), 0)),
             };
             return if slack { (format!("{size} + SLACK"), 0) } else { (size, 2) };
         }
@@ -136,26 +131,19 @@ impl<'a> Nodes<'a> {
         let part = |place: Place| self.part(node, operation, place);
         match operation {
             Operation::Input(i) => (self.input(i), 2),
-            Operation::Number(x) => (self.language.number(x.into(), self.is_f32()), 2),
+            Operation::Number(x) => (self.dialect.number(x.into()), 2),
             Operation::Add(a, b) => sum(part(a), "+", part(b)),
             Operation::Sub(a, b) => sum(part(a), if is_size { "+" } else { "-" }, part(b)),
             Operation::Mul(a, b) => product(part(a), "*", part(b)),
             Operation::Div(a, b) => product(part(a), "/", part(b)),
-            Operation::Neg(a) | Operation::Abs(a) if is_size => match self.is_inline(part(a)) {
-                true => self.expression(part(a)),
-                false => (self.name(part(a)), 2),
-            },
+            Operation::Neg(a) | Operation::Abs(a) if is_size => whole(part(a)),
             Operation::Neg(a) => (format!("-{}", of(part(a), 2)), 1),
-            Operation::Abs(a) => (self.language.abs(&of(part(a), 0), self.is_f32()), 2),
-            Operation::Sqrt(a) => (self.language.sqrt(&of(part(a), 0), self.is_f32()), 2),
+            Operation::Abs(a) => (self.dialect.abs(&of(part(a), 0)), 2),
+            Operation::Sqrt(a) => (self.dialect.sqrt(&of(part(a), 0)), 2),
             Operation::Fma(..) | Operation::Minor(..) => {
                 unreachable!("kernels that fuse are refused")
             }
         }
-    }
-
-    pub fn is_f32(&self) -> bool {
-        self.guarded.scalar == "f32"
     }
 
     fn input(&self, i: u8) -> String {
@@ -168,7 +156,7 @@ impl<'a> Nodes<'a> {
                 if self.is_renamed {
                     format!("{vector}[{}]", AXES[axis])
                 } else {
-                    self.language.coordinate(vector, axis)
+                    self.dialect.coordinate(vector, axis)
                 }
             }
         }
@@ -221,14 +209,100 @@ impl<'a> Nodes<'a> {
                 .last()
                 .is_none_or(|(last, _)| stem(last).is_some() && stem(last) == stem(&name));
             if !fits || 120 < length + expression.len() {
-                lines.push(self.language.definitions(&group, self.is_f32()));
+                lines.push(self.dialect.definitions(&group));
                 group.clear();
             }
             group.push((name, expression));
         }
         if !group.is_empty() {
-            lines.push(self.language.definitions(&group, self.is_f32()));
+            lines.push(self.dialect.definitions(&group));
         }
         lines
     }
+}
+
+/// Inputs at which numbers show what they are.
+const SAMPLE: [f64; 17] = [
+    0.31, -0.72, 0.53, 0.94, 0.25, -0.46, 0.87, 0.18, -0.99, 0.21, 0.62, 0.13, -0.74, 0.35, 0.96,
+    0.07, 1.68,
+];
+
+/// By place: the name of a number that is neither an input nor a whole number.
+pub fn names(guarded: &Guarded) -> Vec<String> {
+    let operations = &guarded.operations;
+    let mut values = Vec::new();
+    run(operations, operations.len() as Place - 1, &SAMPLE, &mut values);
+    let known = known();
+    let (mut taken, mut names) = (HashSet::new(), Vec::new());
+    for (place, operation) in operations.iter().enumerate() {
+        let is_known = |(_, value): &&(&str, f64)| {
+            (values[place].abs() - value.abs()).abs() <= 1e-9 * value.abs()
+        };
+        let found = match Leaf::of(*operation, operations) {
+            Some(Leaf::Difference(p, q, axis)) => {
+                Some(format!("{}{}_{}", POINTS[q], POINTS[p], AXES[axis]))
+            }
+            Some(leaf) => Some(format!("{leaf:?}")),
+            None => cross(operations, operation, &names)
+                .or_else(|| known.iter().find(is_known).map(|(name, _)| (*name).to_owned())),
+        };
+        let stem = found.unwrap_or_else(|| "n".to_owned());
+        let numbered = (1..).map(|i| format!("{stem}{i}"));
+        let first = (stem != "n").then(|| stem.clone());
+        let mut all = first.into_iter().chain(numbered);
+        let name = all.find(|name| !taken.contains(name)).expect("names do not end");
+        taken.insert(name.clone());
+        names.push(name);
+    }
+    names
+}
+
+/// The origin and the vertices.
+const POINTS: [&str; 4] = ["o", "a", "b", "c"];
+/// The axes.
+pub const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The name of a coordinate of a cross product, of vectors with names.
+fn cross(operations: &[Operation], operation: &Operation, names: &[String]) -> Option<String> {
+    let Operation::Sub(p, q) = *operation else { return None };
+    let factors = |place: Place| match operations[place as usize] {
+        Operation::Mul(a, b) => Some([a, b].map(|place| vector(operations, place, names))),
+        _ => None,
+    };
+    let ([Some((v, j)), Some((w, k))], [Some(x), Some(y)]) = (factors(p)?, factors(q)?) else {
+        return None;
+    };
+    let is_turned = [&x, &y] == [&(v.clone(), k), &(w.clone(), j)]
+        || [&y, &x] == [&(v.clone(), k), &(w.clone(), j)];
+    (is_turned && (j + 1) % 3 == k).then(|| format!("{v}_{w}_{}", AXES[(k + 1) % 3]))
+}
+
+/// The vector's name and the axis, if a number is named as a coordinate.
+fn vector(operations: &[Operation], place: Place, names: &[String]) -> Option<(String, usize)> {
+    if let Some(Leaf::Direction(axis)) = Leaf::of(operations[place as usize], operations) {
+        return Some(("d".to_owned(), axis));
+    }
+    let (stem, axis) = names.get(place as usize)?.rsplit_once('_')?;
+    Some((stem.to_owned(), AXES.iter().position(|name| *name == axis)?))
+}
+
+/// The numbers that have names: weights of the vertices, the determinant, and t times it.
+fn known() -> Vec<(&'static str, f64)> {
+    let sample = Sample::of(&SAMPLE);
+    let (det, t) = (sample.volume(), sample.time());
+    let [u, v] = [1, 2].map(|vertex| sample.weight(vertex));
+    vec![
+        ("det", det),
+        ("weight_of_a", sample.weight(0) * det),
+        ("weight_of_b", u * det),
+        ("weight_of_c", v * det),
+        ("t_det", t * det),
+        ("after_t_min", (t - SAMPLE[15]) * det),
+        ("before_t_max", (SAMPLE[16] - t) * det),
+        ("normal_square", sample.normal.dot(&sample.normal)),
+        ("inv_det", 1.0 / det),
+        ("t", t),
+        ("u", u),
+        ("v", v),
+    ]
 }

@@ -1,7 +1,6 @@
 //! Small changes to a kernel: which of them mend what is wrong with it, and what they cost.
 
-use super::candidates::{Candidate, ProvedDepths, candidates, proved};
-use super::patch::patch;
+use super::candidates::{Candidate, ProvedDepths, candidates, patch, proved};
 use crate::audit::{
     self, Audit, CasePlace, Observer, Octave, Plan, Row, Shard, Source, SourceCell,
 };
@@ -152,6 +151,11 @@ impl<F: Searched + Scalar> TriedChanges<F> {
         if self.plan.rows[0].set.contains('=') { "as given" } else { "as published" }
     }
 
+    /// The candidates that are judged as the kernel was.
+    fn comparable(&self) -> impl Iterator<Item = usize> {
+        (1..=self.candidates.len()).filter(|i| self.is_comparable(*i))
+    }
+
     /// True if a candidate is judged as the kernel was.
     fn is_comparable(&self, i: usize) -> bool {
         self.plan.rows[i].contract.extent == self.plan.rows[0].contract.extent
@@ -223,14 +227,13 @@ impl<F: Searched + Scalar> TriedChanges<F> {
         let before = &self.counts[0];
         let sentence = |(name, count): (&str, Count)| {
             let was = count(before);
-            let all = || (1..=self.candidates.len()).filter(|i| self.is_comparable(*i));
             let is_no_worse =
                 |i: usize, of: Count| of(&self.counts[i]) <= of(before).max(1) * 11 / 10;
             let mends = |i: &usize| {
                 count(&self.counts[*i]) * 10 <= was
                     && kinds.iter().all(|(_, of)| is_no_worse(*i, *of))
             };
-            let least = all().min_by_key(|i| count(&self.counts[*i]))?;
+            let least = self.comparable().min_by_key(|i| count(&self.counts[*i]))?;
             let of = |i: usize| {
                 let name = &self.candidates[i - 1].name;
                 format!(
@@ -239,7 +242,7 @@ impl<F: Searched + Scalar> TriedChanges<F> {
                     group_digits(was)
                 )
             };
-            (0 < was).then(|| match all().find(mends) {
+            (0 < was).then(|| match self.comparable().find(mends) {
                 Some(i) => format!("{name}: {}.", of(i)),
                 None => format!(
                     "{name}: no small change mends nine in ten without other harm; {}.",
@@ -256,22 +259,19 @@ impl<F: Searched + Scalar> TriedChanges<F> {
         let before = &self.counts[0];
         let is_better = |i: &usize| {
             let after = &self.counts[*i];
-            self.is_comparable(*i)
-                && self.mends(*i)
+            self.mends(*i)
                 && after.visible * 2 <= before.visible
                 && after.wrong() <= before.wrong()
                 && after.bad <= before.bad
                 && after.cracks <= before.cracks
         };
-        (1..=self.candidates.len()).find(is_better)
+        self.comparable().find(is_better)
     }
 
     /// The change that takes away the most wrong answers, if one takes away some.
     fn most(&self) -> Option<usize> {
         let wrong = |i: &usize| self.counts[*i].wrong();
-        let least =
-            (1..=self.candidates.len()).filter(|i| self.is_comparable(*i)).min_by_key(wrong);
-        least.filter(|i| wrong(i) < wrong(&0))
+        self.comparable().min_by_key(wrong).filter(|i| wrong(i) < wrong(&0))
     }
 }
 
@@ -355,8 +355,7 @@ pub fn blocks<F: Searched + Scalar>(
     blocks.push(Block::Notes(tried.sentences().into_iter().chain([guarded]).collect()));
     let terms = tried.candidates.iter().map(|it| (it.name.clone(), it.what.clone()));
     blocks.push(Block::Terms(terms.collect()));
-    let refuted =
-        (1..=tried.candidates.len()).filter(|i| tried.is_comparable(*i) && !tried.mends(*i));
+    let refuted = tried.comparable().filter(|i| !tried.mends(*i));
     let item = |i: usize| {
         let text = format!(
             "{} is refuted for the worst ray, which stays wrong:",

@@ -11,6 +11,7 @@ use num_traits::Zero;
 use std::collections::HashSet;
 
 /// A step, and what it adds up: variables, a constant, and earlier steps.
+#[derive(Default)]
 pub struct Step<'a> {
     /// The operation that it stands for; none of steps that only a proof needs.
     pub place: Option<usize>,
@@ -85,38 +86,24 @@ impl<'a> Formula<'a> {
         in_quotient: bool,
     ) -> Result<Step<'a>, &'static str> {
         let (&[place, name], words) = words.split_first_chunk().ok_or("more words")?;
-        let place = (place != "-").then(|| indices(&[place], program.operations.len()));
-        let place = place
-            .map(|place| place.ok_or("an operation of the program"))
-            .transpose()?
-            .map(|place| place[0]);
+        const UNKNOWN: &str = "an operation of the program";
+        let place = match place {
+            "-" => None,
+            _ => Some(indices(&[place], program.operations.len()).ok_or(UNKNOWN)?[0]),
+        };
         let operation = place.map(|place| &program.operations[place]);
         let is_known = operation.is_some()
             || in_quotient && ["variables", "number", "add", "mul", "sub"].contains(&name);
-        is_known.then_some(()).ok_or("an operation of the program")?;
-        let mut step = Step {
-            place,
-            name,
-            variables: vec![],
-            constant: 0,
-            terms: vec![],
-            support: 0,
-            given: None,
-            rounds: false,
-            relative: false,
-            left_out: false,
-        };
+        is_known.then_some(()).ok_or(UNKNOWN)?;
+        let mut step = Step { place, name, ..Step::default() };
         if name == "variables" {
             let variable = |word: &&str| {
                 let (sign, v) =
                     word.split_at_checked(1).filter(|(sign, _)| ["+", "-"].contains(sign))?;
                 Some((sign == "-", indices(&[v], self.variables.len())?[0]))
             };
-            step.variables = words
-                .iter()
-                .map(variable)
-                .collect::<Option<_>>()
-                .ok_or("variables, each with its sign")?;
+            let variables: Option<_> = words.iter().map(variable).collect();
+            step.variables = variables.ok_or("variables, each with its sign")?;
             step.support = step.variables.iter().fold(0, |bits, (_, v)| bits | 1 << v);
             let single = match step.variables[..] {
                 [(false, v)] if self.variables[v].leaf.is_none() => Some(&self.variables[v]),

@@ -1,12 +1,12 @@
 //! The certificate of a guarded kernel: its margins, and that its signs decide what its promise asks.
 
 use super::number::{Format, Number, round_up, show, whole};
-use super::program::{Operation, Program, indices};
+use super::program::{Operation, Program, indices, places};
 use super::reader::{Outcome, Reader, ensure};
 use super::signs::{Literal, Promise, Signs};
 use num_bigint::BigInt;
 use num_traits::One;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A tree of decisions is not deeper.
 const MOST_STEPS: usize = 1 << 9;
@@ -32,14 +32,14 @@ impl Count {
 /// The gates that were passed on the way, each with its patterns of acceptance, and the signs that are sure.
 #[derive(Clone, Default)]
 struct Way {
-    gates: Vec<(String, Vec<Vec<Literal>>)>,
+    gates: Vec<Vec<Vec<Literal>>>,
     sure: Vec<Literal>,
 }
 
 struct Guarded<'a> {
     program: Program<'a>,
     /// The numbers that have a margin.
-    margins: HashMap<usize, ()>,
+    margins: HashSet<usize>,
     signs: Signs,
     steps: usize,
 }
@@ -54,7 +54,7 @@ pub fn check<'a>(format: Format, reader: &mut Reader<'a>) -> Outcome<usize> {
     })?;
     let program = Program::of_operations(format, reader)?;
     let signs = Signs::new(promise, &program);
-    let mut guarded = Guarded { program, margins: HashMap::new(), signs, steps: 0 };
+    let mut guarded = Guarded { program, margins: HashSet::new(), signs, steps: 0 };
     let mut counts = HashMap::new();
     while reader.is_next("margin") {
         let count = guarded.program.operations.len();
@@ -62,12 +62,12 @@ pub fn check<'a>(format: Format, reader: &mut Reader<'a>) -> Outcome<usize> {
         let (place, found) = reader.read(form, |words| {
             let &[place, roundings, factor] = words else { return None };
             let place = indices(&[place], count)?[0];
-            let is_new = !guarded.margins.contains_key(&place);
+            let is_new = !guarded.margins.contains(&place);
             is_new.then(|| (place, format!("{roundings} {factor}")))
         })?;
         let right = guarded.margin(place, &mut counts)?;
         ensure(found == right, format!("found `{found}`, expected `{right}`"))?;
-        guarded.margins.insert(place, ());
+        guarded.margins.insert(place);
     }
     guarded.axes(reader)?;
     reader.read("end", |words| words.is_empty().then_some(()))?;
@@ -154,13 +154,7 @@ impl<'a> Guarded<'a> {
             let count = self.program.operations.len();
             let form = "axes XYZ in some order, or a comparison";
             let axes = reader.read(form, |words| match words {
-                [names] => {
-                    let place = |name| names.chars().position(|c| c == name);
-                    let axes =
-                        names.chars().map(|c| "xyz".find(c)).collect::<Option<Vec<usize>>>()?;
-                    let axes: [usize; 3] = axes.try_into().ok()?;
-                    "xyz".chars().all(|name| place(name).is_some()).then_some(Some(axes))
-                }
+                [names] => places(names, "xyz").map(Some),
                 _ => comparison(words, count).map(|()| None),
             })?;
             open = if axes.is_some() { open - 1 } else { open + 1 };
@@ -200,32 +194,28 @@ impl<'a> Guarded<'a> {
             let name = reader
                 .read("gate NAME", |words| (words.len() == 1).then(|| words[0].to_owned()))?;
             let mut hits = Vec::new();
-            for word in ["hit", "miss"] {
-                while reader.is_next(word) {
-                    let form = format!("{word} CONDITIONS");
-                    let pattern = reader.read(&form, |words| {
-                        words.iter().map(|word| self.literal(word)).collect::<Option<Vec<_>>>()
-                    })?;
-                    if word == "hit" {
-                        hits.push(pattern);
-                        continue;
-                    }
-                    let known = [&way.sure[..], &pattern].concat();
-                    self.signs
-                        .ensure_miss(program, &known)
-                        .map_err(|why| format!("gate '{name}' {why}"))?;
-                }
+            while reader.is_next("hit") {
+                hits.push(self.pattern("hit CONDITIONS", reader)?);
+            }
+            while reader.is_next("miss") {
+                let known = [&way.sure[..], &self.pattern("miss CONDITIONS", reader)?].concat();
+                let outcome = self.signs.ensure_miss(program, &known);
+                outcome.map_err(|why| format!("gate '{name}' {why}"))?;
             }
             let mut way = way.clone();
-            way.gates.push((name, hits));
+            way.gates.push(hits);
             return self.step(&way, reader);
         }
         if reader.is_next("found") {
             reader.read("found", |words| words.is_empty().then_some(()))?;
-            let gates: Vec<&[Vec<Literal>]> = way.gates.iter().map(|(_, hits)| &hits[..]).collect();
-            return self.signs.ensure_hit(program, &way.sure, &gates);
+            return self.signs.ensure_hit(program, &way.sure, &way.gates);
         }
         reader.read("ask", |words| words.is_empty().then_some(()))
+    }
+
+    /// A line of conditions.
+    fn pattern(&self, form: &str, reader: &mut Reader<'a>) -> Outcome<Vec<Literal>> {
+        reader.read(form, |words| words.iter().map(|word| self.literal(word)).collect())
     }
 
     /// `-3*7!5`, of numbers with margins.
@@ -239,7 +229,7 @@ impl<'a> Guarded<'a> {
         let signs: Vec<&str> = if signs.is_empty() { vec![] } else { signs.split('*').collect() };
         let places = |words: &[&str]| -> Option<Vec<usize>> {
             let all = words.iter().map(|word| whole(word)).collect::<Option<Vec<usize>>>()?;
-            all.iter().all(|place| self.margins.contains_key(place)).then_some(all)
+            all.iter().all(|place| self.margins.contains(place)).then_some(all)
         };
         Some(Literal { is_negative, signs: places(&signs)?, nonzero: places(&nonzero)? })
     }

@@ -6,7 +6,6 @@
 mod corners;
 mod formula;
 mod guarded;
-mod names;
 mod number;
 mod opposite;
 mod points;
@@ -78,7 +77,7 @@ fn checked<'a, T>(
     text: &'a str,
     check: impl FnOnce(&mut Reader<'a>) -> Outcome<T>,
 ) -> Result<T, Refusal> {
-    let mut reader = Reader { lines: text.lines().peekable(), line: 0 };
+    let mut reader = Reader { lines: text.lines().peekable(), line: 0, work: 0 };
     let checked = ensure(text.len() <= MOST_BYTES, format!("found more than {MOST_BYTES} bytes"));
     let checked = checked.and_then(|()| check(&mut reader));
     checked.map_err(|message| Refusal { line: reader.line, message })
@@ -105,7 +104,7 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
     let format = heading(reader)?;
     let form = "domain edge X reach X world X direction X …";
     let mut domain = reader.read(form, Domain::parse)?;
-    let (mut proved, mut work) = (Vec::new(), 0);
+    let mut proved = Vec::new();
     while reader.lines.peek().is_some() {
         if reader.is_next("domain") {
             domain = reader.read(form, Domain::parse)?;
@@ -113,7 +112,7 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
         let line = reader.line + 1;
         let mut program = Program::read(format.clone(), domain.clone(), reader)?;
         while reader.is_next("lemma") {
-            lemma(&mut program, &mut work, reader)?;
+            lemma(&mut program, reader)?;
         }
         let form = "claim GATE, and opposite or signs where it is so";
         let (gate, symmetry) = reader.read(form, |words| match *words {
@@ -146,7 +145,7 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
 const OF_QUOTIENTS: [&str; 3] = ["quotient", "sum-of-quotients", "rest-of-quotients"];
 
 /// Reads and checks a lemma.
-fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> Outcome<()> {
+fn lemma(program: &mut Program, reader: &mut Reader) -> Outcome<()> {
     let form = "lemma OPERATION sum, unit or quotient, sum-of-quotients or rest-of-quotients, \
                 each of these perhaps with -by-reciprocal, for an operation without a lemma that is no neg or abs";
     let (place, rule) = reader.read(form, |words| {
@@ -159,16 +158,11 @@ fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> 
         (is_known && is_fit && is_new).then_some((place, rule))
     })?;
     let lemma = match rule {
-        "sum" => sum(program, place, work, reader)?,
+        "sum" => sum(program, place, reader)?,
         "unit" => unit(program, place)?,
         _ => {
-            let by_reciprocal = rule.ends_with("-by-reciprocal");
-            let prove = match rule.split('-').next() {
-                Some("quotient") => quotient,
-                Some("sum") => sum_of_quotients,
-                _ => rest_of_quotients,
-            };
-            let bound = prove(program, place, by_reciprocal, work, reader)?;
+            let prove = if rule.starts_with("quotient") { quotient } else { two_quotients };
+            let bound = prove(program, place, rule, reader)?;
             Lemma { before: bound.error.clone(), bound, unit: None }
         }
     };
@@ -180,16 +174,11 @@ fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> 
 }
 
 /// A sum of products.
-fn sum<'a>(
-    program: &Program,
-    place: usize,
-    work: &mut u64,
-    reader: &mut Reader<'a>,
-) -> Outcome<Lemma> {
+fn sum(program: &Program, place: usize, reader: &mut Reader) -> Outcome<Lemma> {
     let formula = Formula::read(program, None, reader)?;
     let last = formula.steps[formula.steps.len() - 1].place;
     ensure(last == Some(place), format!("found another last step, expected operation {place}"))?;
-    let shown = formula.maximum(&program.format, work, reader)?;
+    let shown = formula.maximum(&program.format, reader)?;
     let size = round_up(&shown.size, SIZE_DIGITS);
     let error = round_up(&shown.error, ERROR_DIGITS);
     let bound = Bound { computed: shown.computed.min(&size + &error), size, error };
@@ -212,49 +201,46 @@ fn least(program: &Program, d: usize) -> Outcome<Number> {
     Ok(least)
 }
 
-/// The bound of u + v, two quotients by one divisor that have lemmas.
-fn sum_of_quotients(
+/// The bound of u + v, or of (1 - u) - v where 1 - u has a lemma too, of two quotients by one divisor that have lemmas.
+fn two_quotients(
     program: &Program,
     place: usize,
-    by_reciprocal: bool,
-    work: &mut u64,
+    rule: &str,
     reader: &mut Reader,
 ) -> Outcome<Bound> {
-    let operands = (program.name(place) == "add").then(|| program.operands(place));
-    let &[u, v] = operands.ok_or(UNFIT)? else { return Err(UNFIT.to_owned()) };
-    let size = &program.bound(u)?.size + &program.bound(v)?.size;
-    let size = round_up(&size.min(program.most(place).clone()), SIZE_DIGITS);
-    let sum = (&size, program.down_to(place));
-    let error = error_of_both(program, [u, v], sum, by_reciprocal, work, reader)?;
-    let before = &size + &error;
-    rounded(&program.format, size, error, &before)
-}
-
-/// The bound of (1 - u) - v, of two quotients by one divisor that have lemmas, as 1 - u has.
-fn rest_of_quotients(
-    program: &Program,
-    place: usize,
-    by_reciprocal: bool,
-    work: &mut u64,
-    reader: &mut Reader,
-) -> Outcome<Bound> {
-    let operands = |place: usize| match (program.name(place), program.operands(place)) {
-        ("sub", &[a, b]) => Some((a, b)),
+    let operands = |name: &str, place: usize| match program.operands(place) {
+        &[a, b] if program.name(place) == name => Some((a, b)),
         _ => None,
     };
-    let found = operands(place).and_then(|(rest, v)| Some((rest, operands(rest)?, v)));
-    let (rest, (_, u), v) = found.filter(|(_, (one, _), _)| program.is_one(*one)).ok_or(UNFIT)?;
+    let of_rest = |(rest, v): (usize, usize)| {
+        let (_, u) = operands("sub", rest).filter(|(one, _)| program.is_one(*one))?;
+        Some((u, v, Some(rest)))
+    };
+    let found = match rule.starts_with("sum") {
+        true => operands("add", place).map(|(u, v)| (u, v, None)),
+        false => operands("sub", place).and_then(of_rest),
+    };
+    let (u, v, rest) = found.ok_or(UNFIT)?;
     let both = &program.bound(u)?.size + &program.bound(v)?.size;
     let (most, down_to) = (program.most(place), program.down_to(place));
-    let size = round_up(&(&both + Number::one()).min(most.clone()), SIZE_DIGITS);
-    // The sum of both is 1 less the number.
-    let lower = down_to.map(|_| most - Number::one());
-    let upper = Number::one() + down_to.unwrap_or(most);
-    let upper = lower.clone().map_or(upper.clone(), |lower| upper.max(lower));
-    let sum = (&round_up(&both.min(upper), SIZE_DIGITS), lower.as_ref());
-    let mut error = error_of_both(program, [u, v], sum, by_reciprocal, work, reader)?;
-    let Bound { size: of_rest, error: own, .. } = program.bound(rest)?;
-    error += program.format.half_ulp(&(of_rest + own));
+    let limited = |x: Number, most: Number| round_up(&x.min(most), SIZE_DIGITS);
+    let (size, sum, lower) = if rest.is_none() {
+        let size = limited(both, most.clone());
+        (size.clone(), size, down_to.cloned())
+    } else {
+        // The sum of both is 1 less the number.
+        let lower = down_to.map(|_| most - Number::one());
+        let upper = Number::one() + down_to.unwrap_or(most);
+        let upper = lower.clone().map_or(upper.clone(), |lower| upper.max(lower));
+        let size = limited(&both + Number::one(), most.clone());
+        (size, limited(both, upper), lower)
+    };
+    let by_reciprocal = rule.ends_with("-by-reciprocal");
+    let mut error = error_of_both(program, [u, v], (&sum, lower.as_ref()), by_reciprocal, reader)?;
+    if let Some(rest) = rest {
+        let Bound { size, error: own, .. } = program.bound(rest)?;
+        error += program.format.half_ulp(&(size + own));
+    }
     let before = &size + &error;
     rounded(&program.format, size, error, &before)
 }
@@ -268,7 +254,6 @@ fn error_of_both(
     parts: [usize; 2],
     (size, down_to): (&Number, Option<&Number>),
     by_reciprocal: bool,
-    work: &mut u64,
     reader: &mut Reader,
 ) -> Outcome<Number> {
     let Format { unit, tiny, .. } = &program.format;
@@ -291,7 +276,7 @@ fn error_of_both(
     let of_tiny = tiny / &least;
     let share = unit + &of_tiny;
     let share = &share / (Number::one() - &share);
-    let mut error = formula.maximum(&program.format, work, reader)?.error;
+    let mut error = formula.maximum(&program.format, reader)?.error;
     if formula.leaves_out(program, d) {
         error /= floor - &program.lemma(d)?.before;
         error = &error + &share * (size + &error) + &of_tiny;
@@ -315,15 +300,10 @@ fn error_of_both(
     Ok(error)
 }
 
-/// The bound of n/d, or `by_reciprocal` of n*(1/d).
-fn quotient(
-    program: &Program,
-    place: usize,
-    by_reciprocal: bool,
-    work: &mut u64,
-    reader: &mut Reader,
-) -> Outcome<Bound> {
+/// The bound of n/d, or by a reciprocal of n*(1/d).
+fn quotient(program: &Program, place: usize, rule: &str, reader: &mut Reader) -> Outcome<Bound> {
     let format = &program.format;
+    let by_reciprocal = rule.ends_with("-by-reciprocal");
     let is_fit = by_reciprocal == (program.operations[place].name == "mul");
     let found = program.fraction(place).filter(|_| is_fit);
     let (n, d) = found.ok_or(UNFIT)?;
@@ -351,7 +331,7 @@ fn quotient(
     )?;
     let of_divisor = formula.leaves_out(program, d);
     let closest = if of_divisor { floor - below_before } else { least.clone() };
-    let mut error = formula.maximum(format, work, reader)?.error / closest;
+    let mut error = formula.maximum(format, reader)?.error / closest;
     let mut before = &size + &error;
     let left_out =
         u8::from(of_divisor) + u8::from(n.is_some_and(|n| formula.leaves_out(program, n)));

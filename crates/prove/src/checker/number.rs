@@ -93,7 +93,7 @@ pub fn root_up(x: &Number, digits: i64) -> Number {
 }
 
 /// Bounds of a number of a program.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bound {
     /// A bound of the exact number.
     pub size: Number,

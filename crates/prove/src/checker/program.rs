@@ -1,6 +1,5 @@
 //! One program of a certificate: the operations of a number, what its proof supposes, and the bounds so far.
 
-use super::names::Names;
 use super::number::{Bound, Format, Number, number, power, whole};
 use super::reader::{Outcome, Reader, ensure};
 use num_bigint::BigInt;
@@ -78,6 +77,39 @@ pub fn terms(name: &str, operands: &[usize]) -> Option<Vec<Term>> {
     })
 }
 
+/// The axis in place of each axis, and the vertex in place of each vertex.
+#[derive(Clone, Copy)]
+pub struct Names {
+    axes: [usize; 3],
+    vertices: [usize; 3],
+}
+
+/// The place of each letter of a word that has all three of them.
+pub fn places(word: &str, letters: &str) -> Option<[usize; 3]> {
+    let places: Option<Vec<usize>> = word.chars().map(|letter| letters.find(letter)).collect();
+    let places: [usize; 3] = places?.try_into().ok()?;
+    (0..3).all(|i| places.contains(&i)).then_some(places)
+}
+
+impl Names {
+    pub const SAME: Names = Names { axes: [0, 1, 2], vertices: [0, 1, 2] };
+
+    /// Two words, each with all three letters: the first is in place of x, or of a.
+    pub fn parse(words: &[&str]) -> Option<Names> {
+        let &[axes, vertices] = words else { return None };
+        Some(Names { axes: places(axes, "xyz")?, vertices: places(vertices, "abc")? })
+    }
+
+    /// The input in place of an input. The origin, the direction and the ends stay what they are.
+    pub fn input(&self, i: usize) -> usize {
+        match i {
+            0..6 => i / 3 * 3 + self.axes[i % 3],
+            6..15 => 6 + 3 * self.vertices[i / 3 - 2] + self.axes[i % 3],
+            _ => i,
+        }
+    }
+}
+
 /// A program of which a bound is proved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Variant {
@@ -126,10 +158,7 @@ impl<'a> Program<'a> {
     /// The operations, and what the proof supposes of them.
     pub fn read(format: Format, domain: Domain, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
         reader.read("program", |words| words.is_empty().then_some(()))?;
-        let operations = operations(&format, reader)?;
-        let (orders, lemmas, also) = (BTreeSet::new(), HashMap::new(), Vec::new());
-        let limits = Default::default();
-        let mut program = Program { format, domain, operations, orders, limits, also, lemmas };
+        let mut program = Program { domain, ..Program::of_operations(format, reader)? };
         while reader.is_next("order") {
             let order = reader.read("order INPUT INPUT, each pair once", |words| {
                 let &[a, b] = &indices(words, INPUTS)?[..] else { return None };

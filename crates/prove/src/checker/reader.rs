@@ -7,10 +7,11 @@ use std::str::Lines;
 /// The value that was read, or one sentence on what was found at the last line that was read, and what was expected.
 pub type Outcome<T> = Result<T, String>;
 
-/// The lines that are left, and the number of the last one that was read.
+/// The lines that are left, the number of the last one that was read, and the work that those above took.
 pub struct Reader<'a> {
     pub lines: Peekable<Lines<'a>>,
     pub line: usize,
+    pub work: u64,
 }
 
 impl<'a> Reader<'a> {

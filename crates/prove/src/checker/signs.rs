@@ -51,15 +51,9 @@ struct Monomial {
 
 impl Monomial {
     fn sign(&self, signs: &[i8; COUNT]) -> i8 {
-        let is_zero = self.even.iter().any(|known| signs[*known] == 0);
-        let product: i8 = self.odd.iter().map(|known| signs[*known]).product();
-        if is_zero {
-            0
-        } else if self.is_negative {
-            -product
-        } else {
-            product
-        }
+        let odd: i8 = self.odd.iter().map(|known| signs[*known]).product();
+        let even: i8 = self.even.iter().map(|known| signs[*known].abs()).product();
+        if self.is_negative { -odd * even } else { odd * even }
     }
 }
 
@@ -92,10 +86,7 @@ impl Signs {
     /// An error if these conditions hold for some ray that should hit.
     pub fn ensure_miss(&self, program: &Program, known: &[Literal]) -> Outcome<()> {
         self.every(program, known, &[], |signs| {
-            if self.is_closed_hit(signs) {
-                return Err("rejects rays that may hit".to_owned());
-            }
-            Ok(())
+            ensure(!self.is_closed_hit(signs), "rejects rays that may hit")
         })
     }
 
@@ -104,7 +95,7 @@ impl Signs {
         &self,
         program: &Program,
         sure: &[Literal],
-        gates: &[&[Vec<Literal>]],
+        gates: &[Vec<Vec<Literal>>],
     ) -> Outcome<()> {
         self.every(program, sure, gates, |signs| {
             let wrong = |what: &str| Err(format!("its gates accept rays that {what}"));
@@ -144,10 +135,10 @@ impl Signs {
         &self,
         program: &Program,
         known: &[Literal],
-        gates: &[&[Vec<Literal>]],
+        gates: &[Vec<Vec<Literal>>],
         test: impl Fn(&[i8; COUNT]) -> Outcome<()>,
     ) -> Outcome<()> {
-        let of_gates = gates.iter().flat_map(|patterns| patterns.iter().flatten());
+        let of_gates = gates.iter().flatten().flatten();
         let places: BTreeSet<usize> =
             known.iter().chain(of_gates).flat_map(Literal::places).collect();
         let mut sized = BTreeSet::new();
@@ -181,7 +172,7 @@ impl Signs {
         monomials: &[(usize, Monomial)],
         inner: &Inner,
         known: &[Literal],
-        gates: &[&[Vec<Literal>]],
+        gates: &[Vec<Vec<Literal>>],
         test: &impl Fn(&[i8; COUNT]) -> Outcome<()>,
     ) -> Outcome<()> {
         let mut used: BTreeSet<usize> =
@@ -210,7 +201,7 @@ impl Signs {
             let is_assumed = |(place, is_negative): &(usize, bool)| {
                 sign(*place).is_none_or(|sign| if *is_negative { sign <= 0 } else { sign >= 0 })
             };
-            let accepts = |patterns: &&[Vec<Literal>]| {
+            let accepts = |patterns: &Vec<Vec<Literal>>| {
                 patterns.iter().any(|pattern| pattern.iter().all(may_hold))
             };
             if can_be(&signs, is_interval)

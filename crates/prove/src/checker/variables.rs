@@ -8,6 +8,7 @@ use super::reader::{Outcome, Reader, ensure};
 const MOST_VARIABLES: usize = 32;
 
 /// A variable: a leaf, a number with a lemma, or else the quotient that the lemma is about.
+#[derive(Default)]
 pub struct Variable {
     pub leaf: Option<Leaf>,
     pub cut: Option<usize>,
@@ -27,31 +28,23 @@ pub struct Quotient<'n> {
     pub down_to: Option<&'n Number>,
 }
 
-enum Kind {
-    Leaf(Leaf),
-    Boxed(usize),
-    Cut(usize),
-    Part(usize),
-    Quotient,
-}
-
-/// The variable that a line describes after its first word.
-fn kind(words: &[&str], in_quotient: bool) -> Option<Kind> {
+/// The variable that a line describes after its first word, without its bound; and whether it is a part.
+fn described(words: &[&str], in_quotient: bool) -> Option<(Variable, bool)> {
     let (kind, words) = words.split_first()?;
     let point = |p: usize, axis: usize| if p == 0 { axis } else { 3 + 3 * p + axis };
-    Some(match (*kind, &indices(words, MOST_ROWS)?[..]) {
-        ("point", &[p @ 0..4, axis @ 0..3]) => Kind::Leaf((point(p, axis), None)),
+    let (leaf, cut) = match (*kind, &indices(words, MOST_ROWS)?[..]) {
+        ("point" | "boxed", &[p @ 0..4, axis @ 0..3]) => (Some((point(p, axis), None)), None),
         ("difference", &[p @ 0..4, q @ 0..4, axis @ 0..3]) => {
-            Kind::Leaf((point(p, axis), Some(point(q, axis))))
+            (Some((point(p, axis), Some(point(q, axis)))), None)
         }
-        ("boxed", &[p @ 0..4, axis @ 0..3]) => Kind::Boxed(point(p, axis)),
-        ("direction", &[axis @ 0..3]) => Kind::Leaf((3 + axis, None)),
-        ("end", &[end @ 0..2]) => Kind::Leaf((15 + end, None)),
-        ("cut", &[place]) => Kind::Cut(place),
-        ("part", &[place]) => Kind::Part(place),
-        ("quotient", &[]) if in_quotient => Kind::Quotient,
+        ("direction", &[axis @ 0..3]) => (Some((3 + axis, None)), None),
+        ("end", &[end @ 0..2]) => (Some((15 + end, None)), None),
+        ("cut" | "part", &[place]) => (None, Some(place)),
+        ("quotient", &[]) if in_quotient => (None, None),
         _ => return None,
-    })
+    };
+    let is_boxed = *kind == "boxed";
+    Some((Variable { leaf, cut, is_boxed, ..Variable::default() }, *kind == "part"))
 }
 
 /// With the quotient, in the lemmas that have one.
@@ -66,42 +59,23 @@ pub fn read(
     while reader.is_next("variable") {
         let form = "variable point P AXIS, difference P Q AXIS, boxed P AXIS, direction AXIS, end N, cut OPERATION, \
                     part OPERATION or, in the rules of quotients, quotient";
-        let kind = reader.read(form, |words| kind(words, quotient.is_some()))?;
-        let mut variable = Variable {
-            leaf: None,
-            cut: None,
-            bound: Bound::exactly(&Number::default()),
-            part: None,
-            down_to: None,
-            is_boxed: false,
-        };
-        // What is known of the input's component, or of both.
-        let mut join = |(i, j): Leaf| {
+        let described = reader.read(form, |words| described(words, quotient.is_some()))?;
+        let (mut variable, is_part) = described;
+        if let Some((i, j)) = variable.leaf {
+            // What is known of the input's component, or of both.
             let (from, to) = (components[i], components[j.unwrap_or(17)]);
             components.iter_mut().filter(|c| **c == from).for_each(|c| *c = to);
             let expected =
                 "found a variable that follows from those above, expected an independent one";
-            ensure(from != to, expected)
-        };
-        match kind {
-            Kind::Leaf(leaf) => {
-                join(leaf)?;
-                variable.leaf = Some(leaf);
-                variable.bound = Bound::exactly(program.domain.bound(leaf));
-            }
-            Kind::Boxed(input) => {
-                join((input, None))?;
-                variable.leaf = Some((input, None));
-                variable.is_boxed = true;
-                variable.bound = Bound::exactly(&shifted(program.domain.largest_difference(), -1));
-            }
-            Kind::Cut(place) => {
-                variable.cut = Some(place);
-                variable.bound = program.bound(place)?.clone();
-            }
-            Kind::Part(place) => {
-                variable.cut = Some(place);
-                variable.bound = program.bound(place)?.clone();
+            ensure(from != to, expected)?;
+            let size = program.domain.bound((i, j));
+            variable.bound = match variable.is_boxed {
+                true => Bound::exactly(&shifted(program.domain.largest_difference(), -1)),
+                false => Bound::exactly(size),
+            };
+        } else if let Some(place) = variable.cut {
+            variable.bound = program.bound(place)?.clone();
+            if is_part {
                 variable.part = program.lemma(place)?.unit;
                 let mut others = variables.iter().filter_map(|v| v.part);
                 let is_fit = |(of, length)| others.all(|(o, l)| o != of && l == length);
@@ -110,11 +84,10 @@ pub fn read(
                     "found another number, expected different coordinates of one unit vector",
                 )?;
             }
-            Kind::Quotient => {
-                let quotient = quotient.ok_or("found a quotient, expected none")?;
-                variable.bound = Bound::exactly(quotient.size);
-                variable.down_to = quotient.down_to.cloned();
-            }
+        } else {
+            let Quotient { size, down_to } = quotient.ok_or("found a quotient, expected none")?;
+            variable.bound = Bound::exactly(size);
+            variable.down_to = down_to.cloned();
         }
         variables.push(variable);
         let is_fair = variables.len() <= MOST_VARIABLES;

@@ -1,6 +1,6 @@
 //! The answers of a guarded kernel: its program run on floats.
 
-use super::super::run::{Number, result};
+use super::super::run::{Number, run};
 use super::super::{Dyadic, Searched};
 use super::{Axes, Guarded, Literal, Pattern, Step};
 use crate::arith::recorded::{Comparison, Operation, Place};
@@ -19,14 +19,15 @@ pub enum Answer<F> {
     Ask,
 }
 
-/// A run on one case; numbers are computed when they are needed.
+/// A run on one case.
 struct Run<'a, F> {
     guarded: &'a Guarded,
     inputs: [F; 17],
     /// True for t_min and t_max if they are farther than what stands for them.
     clamped: [bool; 2],
-    values: Vec<Option<F>>,
-    sizes: Vec<Option<F>>,
+    values: Vec<F>,
+    /// Of each number the sum of the sizes of its products.
+    sizes: Vec<F>,
 }
 
 fn float<F: Float>(x: Dyadic) -> F {
@@ -50,14 +51,9 @@ impl Guarded {
         }
         inputs[15] = if clamped[0] { -far } else { near };
         inputs[16] = if clamped[1] { far } else { end };
-        let count = self.operations.len();
-        let run = Run {
-            guarded: self,
-            inputs,
-            clamped,
-            values: vec![None; count],
-            sizes: vec![None; count],
-        };
+        let (values, sizes) = (Vec::new(), Vec::new());
+        let mut run = Run { guarded: self, inputs, clamped, values, sizes };
+        run.compute();
         run.answer(&self.steps)
     }
 
@@ -120,11 +116,10 @@ impl<F: Float + Number> Run<'_, F> {
         for i in 0..15 {
             self.inputs[i] = inputs[i / 3 * 3 + usize::from(axes[i % 3])];
         }
-        self.values.fill(None);
-        self.sizes.fill(None);
+        self.compute();
     }
 
-    fn compare(&mut self, comparison: &Comparison) -> bool {
+    fn compare(&self, comparison: &Comparison) -> bool {
         match *comparison {
             Comparison::Less(a, b) => self.value(a) < self.value(b),
             Comparison::AtMost(a, b) => self.value(a) <= self.value(b),
@@ -133,7 +128,7 @@ impl<F: Float + Number> Run<'_, F> {
         }
     }
 
-    fn rejects(&mut self, pattern: &Pattern) -> bool {
+    fn rejects(&self, pattern: &Pattern) -> bool {
         let guarded = self.guarded;
         // An end that another number stands for proves no miss.
         let is_far = |end: u8| {
@@ -143,57 +138,51 @@ impl<F: Float + Number> Run<'_, F> {
         !is_unknown && pattern.iter().all(|literal| self.holds(literal))
     }
 
-    fn holds(&mut self, literal: &Literal) -> bool {
+    fn holds(&self, literal: &Literal) -> bool {
         let is_negative =
             literal.signs.iter().fold(0, |sum, place| sum ^ i8::from(self.sign(*place) < 0)) == 1;
         literal.places().all(|place| self.sign(place) != 0) && is_negative == literal.is_negative
     }
 
     /// -1 or 1 if the sign is right, else 0.
-    fn sign(&mut self, place: Place) -> i8 {
+    fn sign(&self, place: Place) -> i8 {
         let margin = self.guarded.margins[&place];
         let x = self.value(place);
         let least = match margin.factor.is_zero() {
             true => F::zero(),
             false => {
-                float::<F>(margin.factor) * self.size(place) + float::<F>(self.guarded.scale.tiny)
+                let size = self.sizes[place as usize];
+                float::<F>(margin.factor) * size + float::<F>(self.guarded.scale.tiny)
             }
         };
         i8::from(x > least && x.is_finite()) - i8::from(x < -least && x.is_finite())
     }
 
-    fn value(&mut self, place: Place) -> F {
-        if let Some(known) = self.values[place as usize] {
-            return known;
-        }
-        let (operation, inputs) = (self.guarded.operations[place as usize], self.inputs);
-        let found = result(operation, &inputs, |place| self.value(place));
-        self.values[place as usize] = Some(found);
-        found
+    fn value(&self, place: Place) -> F {
+        self.values[place as usize]
     }
 
-    /// The sum of the sizes of the products.
-    fn size(&mut self, place: Place) -> F {
-        if let Some(known) = self.sizes[place as usize] {
-            return known;
-        }
-        let found = match self.guarded.operations[place as usize] {
-            _ if self.guarded.is_leaf(place) => Real::abs(&self.value(place)),
-            Operation::Add(a, b) | Operation::Sub(a, b) => self.size(a) + self.size(b),
-            Operation::Mul(a, b) => self.factor(a) * self.factor(b),
-            Operation::Neg(a) | Operation::Abs(a) => self.size(a),
-            _ => unreachable!("it has a margin"),
-        };
-        self.sizes[place as usize] = Some(found);
-        found
-    }
-
-    fn factor(&mut self, place: Place) -> F {
-        let slack = self.guarded.sizes().needs_slack(place);
-        if slack {
-            self.size(place) + float::<F>(self.guarded.scale.slack)
-        } else {
-            self.size(place)
+    /// Computes all numbers and their sizes.
+    fn compute(&mut self) {
+        let Run { guarded, inputs, values, sizes, .. } = self;
+        let margins = guarded.sizes();
+        run(&guarded.operations, guarded.operations.len() as Place - 1, inputs, values);
+        sizes.clear();
+        for (place, operation) in (0..).zip(&guarded.operations) {
+            let of = |place: Place| sizes[place as usize];
+            let slack = float::<F>(guarded.scale.slack);
+            let factor = |place: Place| match margins.needs_slack(place) {
+                true => of(place) + slack,
+                false => of(place),
+            };
+            sizes.push(match *operation {
+                _ if guarded.is_leaf(place) => Real::abs(&values[place as usize]),
+                Operation::Add(a, b) | Operation::Sub(a, b) => of(a) + of(b),
+                Operation::Mul(a, b) => factor(a) * factor(b),
+                Operation::Neg(a) | Operation::Abs(a) => of(a),
+                // It has no margin.
+                _ => F::zero(),
+            });
         }
     }
 }

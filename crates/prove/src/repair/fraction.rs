@@ -83,7 +83,11 @@ impl Arena {
             }
             Operation::Number(value) if value != 0 => value < 0,
             _ => {
-                signs.push(place);
+                // A square is not negative.
+                match signs.iter().position(|known| *known == place) {
+                    Some(at) => nonzero.push(signs.swap_remove(at)),
+                    None => signs.push(place),
+                }
                 false
             }
         }
@@ -139,15 +143,6 @@ impl<'a> Numbers<'a> {
             is_negative ^= self.arena.factors(*divisor, &mut signs, &mut nonzero);
         }
         signs.sort_unstable();
-        let mut at = 0;
-        while at + 1 < signs.len() {
-            if signs[at] == signs[at + 1] {
-                nonzero.push(signs[at]);
-                signs.drain(at..at + 2);
-            } else {
-                at += 1;
-            }
-        }
         nonzero.retain(|place| !signs.contains(place));
         nonzero.sort_unstable();
         nonzero.dedup();
@@ -192,10 +187,8 @@ impl<'a> Numbers<'a> {
             Sqrt(a) => {
                 let a = self.fraction(a);
                 // A root of a fraction is left a root, and then has no margin.
-                let inner = match a.divisors[..] {
-                    [] => a.numerator,
-                    _ => a.divisors.iter().fold(a.numerator, |n, d| self.arena.push(Div(n, *d))),
-                };
+                let divided = |n: Place, d: &Place| self.arena.push(Div(n, *d));
+                let inner = a.divisors.iter().fold(a.numerator, divided);
                 Fraction { numerator: self.arena.push(Sqrt(inner)), divisors: vec![] }
             }
             Add(a, b) | Sub(a, b) => {

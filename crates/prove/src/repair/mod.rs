@@ -68,7 +68,11 @@ impl Guarded {
             scalar: F::NAME,
         };
         guarded.keep_used();
-        for place in guarded.signs() {
+        let steps = guarded.steps.all();
+        let literals = steps.into_iter().flat_map(Step::literals);
+        // The numbers whose signs decide.
+        let places: Vec<Place> = literals.flat_map(Literal::places).collect();
+        for place in places {
             let margin = guarded.sizes().of(place);
             let margin = margin
                 .map_err(|why| format!("a number that it decides by has no margin: {why}"))?;
@@ -87,11 +91,6 @@ impl Guarded {
     pub fn is_leaf(&self, place: Place) -> bool {
         let operation = self.operations[place as usize];
         matches!(operation, Operation::Number(_)) || Leaf::of(operation, &self.operations).is_some()
-    }
-
-    /// The numbers whose signs decide.
-    fn signs(&self) -> Vec<Place> {
-        self.steps.all().into_iter().flat_map(Step::literals).flat_map(Literal::places).collect()
     }
 
     /// Drops the operations that nothing needs.

@@ -56,17 +56,18 @@ impl Step {
         }
     }
 
+    /// The steps that may follow at once.
+    pub fn next(&self) -> Vec<&Step> {
+        match self {
+            Step::Choice(_, yes, no) | Step::Sign(_, yes, no) => vec![yes, no],
+            Step::Gate(.., next) | Step::Axes(_, next) => vec![next],
+            Step::Hit(_) | Step::Ask => vec![],
+        }
+    }
+
     /// The step and all that may follow, each before what follows it.
     pub fn all(&self) -> Vec<&Step> {
-        let mut all = vec![self];
-        match self {
-            Step::Choice(_, yes, no) | Step::Sign(_, yes, no) => {
-                all.extend([yes, no].into_iter().flat_map(|step| step.all()));
-            }
-            Step::Gate(.., next) | Step::Axes(_, next) => all.extend(next.all()),
-            Step::Hit(_) | Step::Ask => {}
-        }
-        all
+        [self].into_iter().chain(self.next().into_iter().flat_map(Step::all)).collect()
     }
 
     /// The conditions on signs that it looks at.
@@ -92,11 +93,8 @@ impl Step {
         while let Step::Choice(_, _, no) = body {
             body = no;
         }
-        let mut known: Vec<([u8; 3], Step)> = Vec::new();
-        for i in 0..6 {
-            let axes = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2], [0, 2, 1], [2, 1, 0]][i];
-            known.push((axes, body.renamed(axes, arena)));
-        }
+        let all = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2], [0, 2, 1], [2, 1, 0]];
+        let known = all.map(|axes| (axes, body.renamed(axes, arena)));
         match self.axes(&known) {
             Some(axes) => Step::Axes(axes, Box::new(body.clone())),
             None => self,
@@ -181,43 +179,24 @@ impl Builder<'_> {
         {
             return self.fixed(set, made, gates);
         }
-        let answering = |answer: bool| -> Vec<usize> {
-            set.iter()
-                .copied()
-                .filter(|path| self.paths[*path].decisions[made].1 == answer)
-                .collect()
-        };
-        let [yes, no] = [answering(true), answering(false)];
+        let (yes, no): (Vec<usize>, Vec<usize>) =
+            set.iter().partition(|path| self.paths[**path].decisions[made].1);
         if yes.is_empty() || no.is_empty() {
             return self.steps(set, made + 1, gates);
         }
         // Where two numbers are equal no margin is left. So the formula of all others is as good there.
-        if matches!(comparison, Comparison::Zero(_) | Comparison::AtMost(..)) {
+        if is_equality(&comparison) {
             return self.steps(&no, made + 1, gates);
         }
-        let [yes, no] = [
-            Box::new(self.steps(&yes, made + 1, gates)?),
-            Box::new(self.steps(&no, made + 1, gates)?),
-        ];
+        let yes = Box::new(self.steps(&yes, made + 1, gates)?);
+        let no = Box::new(self.steps(&no, made + 1, gates)?);
         if yes == no {
             return Ok(*no);
         }
-        let number = |place: Place| match path.operations[place as usize] {
-            Operation::Number(0) => None,
-            operation => Some(operation),
-        };
-        let is_sign = match comparison {
-            Comparison::Less(a, b) | Comparison::AtMost(a, b) => {
-                number(a).is_none() || number(b).is_none()
-            }
-            Comparison::Zero(_) | Comparison::Negative(_) => true,
-        };
-        let is_of_input = comparison
-            .places()
-            .iter()
-            .filter_map(|place| number(*place))
-            .all(|it| matches!(it, Operation::Input(_)));
-        if is_sign && !is_of_input {
+        let places = comparison.places().into_iter().map(|place| path.operations[place as usize]);
+        let compared: Vec<Operation> = places.filter(|it| *it != Operation::Number(0)).collect();
+        // One number, and that is computed.
+        if compared.len() < 2 && !compared.iter().all(|it| matches!(it, Operation::Input(_))) {
             let literal = self.literal(set[0], comparison, true);
             return Ok(literal.map_or(Step::Ask, |literal| Step::Sign(literal, yes, no)));
         }
@@ -260,9 +239,6 @@ impl Builder<'_> {
                 );
             }
             // Where two numbers are equal no margin is left.
-            let is_equality = |comparison: &Comparison| {
-                matches!(comparison, Comparison::Zero(_) | Comparison::AtMost(..))
-            };
             if own.iter().any(|(comparison, answer)| is_equality(comparison) && *answer) {
                 continue;
             }
@@ -290,18 +266,14 @@ impl Builder<'_> {
             Acceptance::Clauses(_, clauses) => {
                 let mut numbers = Numbers::new(&mut self.arena, &self.paths[path]);
                 let mut positive = |place: &Place| numbers.difference(*place, None);
-                let clauses =
-                    clauses.iter().map(|clause| clause.iter().map(&mut positive).collect());
-                let clauses: Vec<Pattern> = clauses.collect();
+                let mut pattern = |clause: &Vec<Place>| clause.iter().map(&mut positive).collect();
+                let clauses: Vec<Pattern> = clauses.iter().map(&mut pattern).collect();
                 let mut rejects: Vec<Pattern> = vec![Vec::new()];
                 for clause in &clauses {
-                    let with = |known: &Pattern| {
-                        clause
-                            .iter()
-                            .map(|it| [known.clone(), vec![it.negated()]].concat())
-                            .collect::<Vec<_>>()
-                    };
-                    rejects = rejects.iter().flat_map(with).collect();
+                    let with =
+                        |known: &Pattern, it: &Literal| [&known[..], &[it.negated()]].concat();
+                    let all = |known| clause.iter().map(move |it| with(known, it));
+                    rejects = rejects.iter().flat_map(all).collect();
                 }
                 [clauses, rejects].map(|patterns| simplified(self.possible(patterns)))
             }
@@ -329,11 +301,8 @@ impl Builder<'_> {
             Comparison::Zero(_) if answer => return None,
             Comparison::Zero(a) => {
                 let Literal { signs, nonzero, .. } = numbers.difference(a, None);
-                return Some(Literal {
-                    is_negative: false,
-                    signs: vec![],
-                    nonzero: [signs, nonzero].concat(),
-                });
+                let nonzero = [signs, nonzero].concat();
+                return Some(Literal { is_negative: false, signs: vec![], nonzero });
             }
         };
         let literal = if answer { literal } else { literal.negated() };
@@ -349,6 +318,11 @@ impl Builder<'_> {
         patterns.retain(|pattern| !pattern.iter().any(never_holds));
         patterns
     }
+}
+
+/// True if a comparison holds where the two numbers are equal.
+fn is_equality(comparison: &Comparison) -> bool {
+    matches!(comparison, Comparison::Zero(_) | Comparison::AtMost(..))
 }
 
 /// The same condition with fewer patterns.

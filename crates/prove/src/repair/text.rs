@@ -1,16 +1,14 @@
 //! The certificate of a guarded kernel.
 
-use super::super::certificate::{Heading, comparison_text, heading, operation_text};
+use super::super::certificate::{comparison_text, heading, operation_text};
 use super::{Axes, Guarded, Literal, Step};
 use std::fmt::Write;
 
 impl Guarded {
     /// Its program, its margins and its decisions, for the checker.
     pub fn certificate(&self) -> String {
-        let head =
-            Heading { kernel: self.info.name, scalar: self.scalar, format: self.scale.format };
         let (extent, is_front) = self.promise();
-        let mut text = heading(&head);
+        let mut text = heading(self.info.name, self.scalar, self.scale.format);
         let sides = if is_front { "front" } else { "both" };
         let _ = writeln!(text, "guarded {} {sides}", extent.name());
         for (place, operation) in self.operations.iter().enumerate() {
@@ -25,36 +23,30 @@ impl Guarded {
     }
 
     fn write_step(&self, step: &Step, text: &mut String) {
-        match step {
-            Step::Choice(comparison, yes, no) => {
-                let _ = writeln!(text, "choice {}", comparison_text(comparison));
-                self.write_step(yes, text);
-                self.write_step(no, text);
+        let _ = match step {
+            Step::Choice(comparison, ..) => {
+                writeln!(text, "choice {}", comparison_text(comparison))
             }
-            Step::Sign(literal, yes, no) => {
-                let _ = writeln!(text, "sign {}", literal_text(literal));
-                self.write_step(yes, text);
-                self.write_step(no, text);
-            }
-            Step::Gate(gate, patterns, next) => {
-                let _ = writeln!(text, "gate {}", self.info.gates[*gate].name);
-                for (word, patterns) in ["hit", "miss"].iter().zip(patterns) {
-                    for pattern in patterns {
-                        let words = pattern.iter().map(literal_text);
-                        let words: Vec<String> =
-                            [(*word).to_owned()].into_iter().chain(words).collect();
-                        let _ = writeln!(text, "{}", words.join(" "));
-                    }
+            Step::Sign(literal, ..) => writeln!(text, "sign {}", literal_text(literal)),
+            Step::Gate(gate, patterns, _) => {
+                let mut lines = vec![format!("gate {}", self.info.gates[*gate].name)];
+                for (word, patterns) in ["hit", "miss"].into_iter().zip(patterns) {
+                    lines.extend(patterns.iter().map(|pattern| {
+                        let words =
+                            pattern.iter().map(|literal| format!(" {}", literal_text(literal)));
+                        format!("{word}{}", words.collect::<String>())
+                    }));
                 }
-                self.write_step(next, text);
+                writeln!(text, "{}", lines.join("\n"))
             }
-            Step::Axes(axes, next) => {
+            Step::Axes(axes, _) => {
                 write_axes(axes, text);
-                self.write_step(next, text);
+                Ok(())
             }
-            Step::Hit(_) => text.push_str("found\n"),
-            Step::Ask => text.push_str("ask\n"),
-        }
+            Step::Hit(_) => writeln!(text, "found"),
+            Step::Ask => writeln!(text, "ask"),
+        };
+        step.next().into_iter().for_each(|step| self.write_step(step, text));
     }
 }
 

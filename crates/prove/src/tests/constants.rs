@@ -115,7 +115,7 @@ impl Steps {
         self.0.variables.push(one);
         self.0.sources.push(Source::Quotient);
         let variable = vec![(self.0.variables.len() - 1, 1)];
-        let given = Bound { size: one, computed: one, error: Format::F64.half_ulp(one) };
+        let given = Bound { size: one, computed: one, error: Format::F64.half_ulp_of(&one.into()) };
         self.push(Step::Variables(variable), Some(given))
     }
     fn times(&mut self, a: usize, b: usize) -> usize {

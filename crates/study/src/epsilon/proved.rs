@@ -7,7 +7,7 @@ use crate::arith::{Float, smallest_normal, three_digits};
 use crate::case::{DirectionLength, Scene};
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
-use crate::prove::{self, Proof, Quantity, Uses, format_of, paths_of};
+use crate::prove::{self, Proof, Uses};
 
 /// A value of a knob that is proved.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,10 +66,9 @@ fn beyond<F: Float>(bound: f64, is_above: bool) -> F {
 /// The largest error of what a gate compares with its epsilon in a scene.
 fn bound<F: Scalar>(setting: &Setting<'_, F>, scene: &Scene, gate: usize) -> Option<f64> {
     let domain = proved_scene(scene)?.domain().ok()?;
-    let proof =
-        Proof::new(paths_of::<F>(setting.row.entry).ok()?, Some(gate), domain, format_of::<F>());
+    let proof = Proof::of::<F>(setting.row.entry, Some(gate), domain).ok()?;
     let bound = proof.gate(gate)?.ok()?.bound.as_ref().ok()?.error.to_f64();
-    let uses = proof.quantities.iter().map(Quantity::uses).fold(Uses::default(), Uses::or);
+    let uses = Uses::of(proof.quantities.iter().flat_map(|quantity| &quantity.lemmas));
     let is_margin = proof.quantities.iter().all(|quantity| quantity.is_margin);
     (is_margin && !uses.floor && !uses.extent).then_some(bound)
 }

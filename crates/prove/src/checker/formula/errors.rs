@@ -25,7 +25,7 @@ pub struct Shown {
 
 impl Formula<'_> {
     /// The result of the corners. Reads the corner and both parts of the error's bound.
-    pub fn maximum(&self, format: &Format, work: &mut u64, reader: &mut Reader) -> Outcome<Shown> {
+    pub fn maximum(&self, format: &Format, reader: &mut Reader) -> Outcome<Shown> {
         const LONG: &str = "found numbers that are too long";
         // Every value is an integer times a power of two that does not depend on the corner.
         let ends = |v: &Variable| {
@@ -48,28 +48,18 @@ impl Formula<'_> {
             let of_terms = step.terms.iter().map(|(_, a, b)| scales[*a] + of_term(b));
             let scale = of_variables.clone().chain(of_terms.clone()).min().unwrap_or(0);
             let factor =
-                |minus: bool, of: i64| BigInt::from(if minus { -1 } else { 1 }) << (of - scale);
-            let variables = step
-                .variables
-                .iter()
-                .zip(of_variables)
-                .map(|((minus, v), of)| (factor(*minus, of), *v));
-            let terms = step
-                .terms
-                .iter()
-                .zip(of_terms)
-                .map(|((minus, a, b), of)| (factor(*minus, of), *a, *b));
-            rows.push(Row {
-                constant: step.constant.into(),
-                variables: variables.collect(),
-                terms: terms.collect(),
-                support: step.support,
-            });
+                |minus: &bool, of: i64| BigInt::from(if *minus { -1 } else { 1 }) << (of - scale);
+            let variables = step.variables.iter().zip(of_variables);
+            let variables = variables.map(|((minus, v), of)| (factor(minus, of), *v)).collect();
+            let terms = step.terms.iter().zip(of_terms);
+            let terms = terms.map(|((minus, a, b), of)| (factor(minus, of), *a, *b)).collect();
+            let (constant, support) = (step.constant.into(), step.support);
+            rows.push(Row { constant, variables, terms, support });
             scales.push(scale);
         }
         let tried = signs_to_try(&rows, &self.unit, fixed);
-        *work += (self.steps.len() as u64) << tried.count_ones();
-        ensure(*work <= MOST_WORK, "found too many corners of too many steps in this file")?;
+        reader.work += (self.steps.len() as u64) << tried.count_ones();
+        ensure(reader.work <= MOST_WORK, "found too many corners of too many steps in this file")?;
         let found = search(&rows, &[], &boxes, &self.unit, tried).ok_or(LONG)?;
         let size = |(k, size): (usize, BigInt)| {
             if self.is_linear(k) {
