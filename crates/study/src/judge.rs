@@ -13,22 +13,20 @@ mod tests;
 mod values;
 
 pub use change::exact_to_change;
-pub use class::Class;
-pub use class::TruthKind;
+pub use class::{Class, TruthKind};
 pub use distance::{Distances, Squares, nearest_on_segment, square, ulp_of_points};
 pub use elsewhere::may_be_elsewhere;
 pub use expected::{Demands, Kinds, ask_all, suspects};
-pub use group::owes_groups_alike;
-pub use group::{GroupTruth, group_obligation, group_truth, polygon_obligation, polygon_truth};
-pub use values::{ALLOWANCE, ValueErrors};
-pub use values::{ValueLimits, exact_times, exact_values_are_near};
+pub use group::{
+    GroupTruth, group_obligation, group_truth, owes_groups_alike, polygon_obligation, polygon_truth,
+};
+pub use values::{ALLOWANCE, ValueErrors, ValueLimits, exact_times, exact_values_are_near};
 
-use crate::arith::Float;
+use crate::arith::{Exact, Float, Real, Triple};
 use crate::case::Case;
 use crate::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
 use crate::kernel::{Failure, Gives, Verdict};
 use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
-use num_rational::BigRational;
 use std::cmp::Ordering;
 
 /// A contract's demand on a kernel for a case.
@@ -176,19 +174,16 @@ pub fn is_in_extent(crossing: &Crossing, extent: Extent) -> bool {
 /// True if the contract promises anything for a direction.
 pub fn promises_direction<F: Float>(direction: Direction, d: [F; 3]) -> bool {
     let Direction::Unit { ulps } = direction else { return true };
-    let Some([x, y, z]) = exact(d) else { return false };
-    let length_squared = &x * &x + &y * &y + &z * &z;
-    let one = BigRational::from_integer(1.into());
-    let tolerance = BigRational::from_integer(ulps.into())
-        * BigRational::from_float(F::EPSILON.to_f64()).expect("finite");
-    let zero = BigRational::from_integer(0.into());
-    let (low, high) = ((&one - &tolerance).max(zero), &one + &tolerance);
-    &low * &low <= length_squared && length_squared <= &high * &high
-}
-
-fn exact<F: Float>(v: [F; 3]) -> Option<[BigRational; 3]> {
-    let [x, y, z] = v.map(|x| BigRational::from_float(x.to_f64()));
-    Some([x?, y?, z?])
+    if !d.iter().all(F::is_finite) {
+        return false;
+    }
+    let length_squared = square(&Triple::from(d.map(|x| Exact::from_f64(x.to_f64()))));
+    let tolerance = f64::from(ulps) * F::EPSILON.to_f64();
+    let exact_square = |x: Exact| x.clone() * x;
+    // No length is below 0.
+    let low = exact_square((Exact::one() - Exact::from_f64(tolerance)).larger(Exact::zero()));
+    let high = exact_square(Exact::one() + Exact::from_f64(tolerance));
+    low.is_at_most(&length_squared) && length_squared.is_at_most(&high)
 }
 
 /// As much of a run in any arithmetic as is judged.
