@@ -29,15 +29,15 @@ use crate::kernel::{Failure, Gives, Verdict};
 use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 use std::cmp::Ordering;
 
-/// A contract's demand on a kernel for a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A contract's demand on a kernel for a case; the more it permits to miss, the greater.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Obligation {
     /// A hit.
     MustHit,
-    /// A miss.
-    MustMiss,
     /// Nothing.
     Free,
+    /// A miss.
+    MustMiss,
 }
 
 named! {
@@ -76,13 +76,12 @@ pub fn obligation(truth: &Truth, contract: &Contract, secondary: bool) -> Obliga
     if contract.no_self_hit && secondary && *truth != Truth::Invalid {
         return Obligation::MustMiss;
     }
+    let extent = contract.extent;
     match truth {
         Truth::Invalid => demanded(contract.invalid, false),
         Truth::Parallel => Obligation::MustMiss,
-        Truth::Coplanar(contact) => demanded(contract.coplanar, touches(contact, contract.extent)),
-        Truth::Degenerate(contact) => {
-            demanded(contract.degenerate, touches(contact, contract.extent))
-        }
+        Truth::Coplanar(contact) => demanded(contract.coplanar, touches(contact, extent)),
+        Truth::Degenerate(contact) => demanded(contract.degenerate, touches(contact, extent)),
         Truth::Transversal(crossing) => crossing_obligation(crossing, contract),
     }
 }
@@ -137,11 +136,8 @@ fn crossing_obligation(crossing: &Crossing, contract: &Contract) -> Obligation {
         true => at_rim(contract.ends),
         false => Obligation::MustHit,
     };
-    match (across, along) {
-        (Obligation::MustMiss, _) | (_, Obligation::MustMiss) => Obligation::MustMiss,
-        (Obligation::Free, _) | (_, Obligation::Free) => Obligation::Free,
-        _ => Obligation::MustHit,
-    }
+    // Each of the two may forbid the hit, or leave it free.
+    across.max(along)
 }
 
 /// The demand on a boundary.
@@ -229,21 +225,16 @@ pub fn judge<F: Float>(
     }
     match (obligation, verdict.hit) {
         // No values are compared.
-        (Obligation::MustHit, false) => Some(Finding::FalseMiss),
-        (Obligation::MustMiss, true) => Some(Finding::FalseHit),
-        (_, false) => None,
-        _ => judge_answer(
-            obligation,
-            truth,
-            gives,
-            Answer::of(contract, (case, truth), gives, verdict),
-        )
-        .filter(|finding| {
-            let direction = || case.ray.direction.into();
-            *finding != Finding::WrongValue
-                || promises_direction::<F>(contract.direction, direction())
-        }),
+        (Obligation::MustHit, false) => return Some(Finding::FalseMiss),
+        (Obligation::MustMiss, true) => return Some(Finding::FalseHit),
+        (_, false) => return None,
+        _ => {}
     }
+    let answer = Answer::of(contract, (case, truth), gives, verdict);
+    judge_answer(obligation, truth, gives, answer).filter(|finding| {
+        let direction = || case.ray.direction.into();
+        *finding != Finding::WrongValue || promises_direction::<F>(contract.direction, direction())
+    })
 }
 
 /// Compares an answer with the obligation.

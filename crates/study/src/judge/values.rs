@@ -16,6 +16,7 @@ use crate::arith::{Bounded, Exact, Float, Real, Triple, Vector, bounded};
 use crate::case::{Case, Ray, Triangle};
 use crate::kernel::{Gives, Hit, Verdict};
 use crate::truth::{Feature, Truth};
+use glam::{DVec3, Vec3Swizzles};
 use std::array;
 
 /// How many times u·κ a value may be off. Of 500,000 rays at the insides, the edges and the vertices of
@@ -296,52 +297,42 @@ fn quick(case: &Case<f64>, roundoff: f64) -> Option<[(f64, f64); 3]> {
     if !size.clone().all(|x| x == 0.0 || (1.0 / LARGEST..=LARGEST).contains(&x)) {
         return None;
     }
-    let [o, d, a, b, c] = vectors;
-    let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-    let (ab, ac, start) = (minus(b, a), minus(c, a), minus(a, o));
+    let [o, d, a, b, c] = vectors.map(DVec3::from);
+    let (ab, ac, start) = (b - a, c - a, a - o);
     // A cross product, and the same with all signs dropped.
-    let cross = |p: [f64; 3], q: [f64; 3]| {
-        let of = |i: usize, j: usize| {
-            let (x, y) = (p[i] * q[j], p[j] * q[i]);
-            (x - y, x.abs() + y.abs())
-        };
-        let [x, y, z] = [of(1, 2), of(2, 0), of(0, 1)];
-        ([x.0, y.0, z.0], [x.1, y.1, z.1])
+    let cross = |p: DVec3, q: DVec3| {
+        let (left, right) = (p.yzx() * q.zxy(), p.zxy() * q.yzx());
+        (left - right, left.abs() + right.abs())
     };
-    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    let abs = |p: [f64; 3]| p.map(f64::abs);
     let rows = [cross(ab, ac), cross(d, ac), cross(ab, d)];
-    let determinant = dot(d, rows[0].0).abs();
-    let sign = if dot(d, rows[0].0) < 0.0 { -1.0 } else { 1.0 };
+    let determinant = d.dot(rows[0].0).abs();
+    let sign = if d.dot(rows[0].0) < 0.0 { -1.0 } else { 1.0 };
     // Differences, products and sums: at most eight roundings of half an epsilon on the way to each term.
     let error = 4.0 * f64::EPSILON;
-    let determinant_error = error * dot(abs(d), rows[0].1);
+    let determinant_error = error * d.abs().dot(rows[0].1);
     let least = determinant - determinant_error;
     // False of NaN too.
     let is_known = determinant / 2.0 < least;
     if !is_known {
         return None;
     }
-    let values = rows.map(|(row, _)| sign * dot(row, start) / determinant);
+    let values = rows.map(|(row, _)| sign * row.dot(start) / determinant);
     let errors: [f64; 3] = array::from_fn(|i| {
-        let numerator = error * dot(rows[i].1, abs(start));
+        let numerator = error * rows[i].1.dot(start.abs());
         (numerator + values[i].abs() * determinant_error) / least + error * values[i].abs()
     });
     let [t, u, v] = values;
     let w = 1.0 - u - v;
-    let largest = |p: [f64; 3]| p[0].abs().max(p[1].abs()).max(p[2].abs());
-    let sizes: [f64; 3] = array::from_fn(|j| {
-        (w * a[j]).abs() + (u * b[j]).abs() + (v * c[j]).abs() + o[j].abs() + (t * d[j]).abs()
-    });
+    let largest = |p: DVec3| p.abs().max_element();
+    let sizes = (w * a).abs() + (u * b).abs() + (v * c).abs() + o.abs() + (t * d).abs();
     // The weights' errors move each term by no more than this.
     let moved = (errors[1] + errors[2] + error) * (largest(a) + largest(b) + largest(c))
         + errors[0] * largest(d);
     let size = (largest(sizes) * (1.0 - error) - moved).max(0.0);
     let mut found = [(0.0, 0.0); 3];
     for i in 0..3 {
-        let ([x, y, z], permanents) = (rows[i].0.map(f64::abs), rows[i].1);
-        let row = x + y + z - error * (permanents[0] + permanents[1] + permanents[2]);
-        let row = row.max(0.0);
+        let (row, permanents) = (rows[i].0.abs(), rows[i].1);
+        let row = (row.element_sum() - error * permanents.element_sum()).max(0.0);
         let unit = roundoff * size * row / (determinant + determinant_error);
         let unit = if i == 0 { unit } else { unit.max(roundoff) };
         let off = ALLOWANCE * unit * (1.0 - 1e-9) - errors[i];

@@ -2,7 +2,6 @@
 //! around it, by index. Exact rays have the target on their line, if such floats were found; near rays are
 //! aimed at it by a program that rounds. The oracle says which are exact.
 
-use super::neighbours;
 use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters, Ray, Triangle};
@@ -129,7 +128,7 @@ impl<'m> Targets<'m> {
         cases: &mut Vec<Case<F>>,
     ) -> bool {
         let group = self.faces(part, self.place(part, index).0);
-        let faces = neighbours::around(self.topology, &self.mesh.triangles, group);
+        let faces = self.topology.around(&self.mesh.triangles, group);
         faces.is_some_and(|faces| {
             cases.extend(faces.iter().map(|face| self.case(ray, *face)));
             true
@@ -149,11 +148,8 @@ impl<'m> Targets<'m> {
         let (target, number) = self.place(part, index);
         let mut draw = Draw::new(part.name(), self.seed, index);
         let faces = self.faces(part, target);
-        let ends = match part {
-            AimedPart::Edges => self.topology.shared[target].ends,
-            AimedPart::Vertices => [self.topology.fans.get(target).0; 2],
-        };
-        let ends = ends.map(|point| self.mesh.position(point));
+        let points = self.points(part, target);
+        let ends = [points[0], points[points.len() - 1]].map(|point| self.mesh.position(point));
         let about = self.mesh.vertices(faces[draw.below(faces.len())] as usize);
         self.ray_at(&mut draw, Aim::of(number), ends, about)
     }
