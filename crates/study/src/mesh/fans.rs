@@ -64,15 +64,9 @@ pub(super) fn fan_of(
 ) -> VertexKind {
     arcs.clear();
     arcs.extend(around.iter().map(|face| {
-        let [a, b, c] = corners[*face as usize];
-        let (from, to) = if a == point {
-            (b, c)
-        } else if b == point {
-            (c, a)
-        } else {
-            (a, b)
-        };
-        Arc { from, to, face: *face }
+        let corners = corners[*face as usize];
+        let at = corners.iter().position(|corner| *corner == point).expect("a face at the point");
+        Arc { from: corners[(at + 1) % 3], to: corners[(at + 2) % 3], face: *face }
     }));
     let first = arcs[0];
     arcs.sort_unstable();

@@ -137,13 +137,10 @@ fn read_binary(
             }
             _ => InputError::reading(name, None, &error),
         })?;
-        let float = |place: usize| {
-            let bytes = [0, 1, 2, 3].map(|i| bytes[12 + 4 * place + i]);
-            f32::from_le_bytes(bytes)
-        };
-        let corner = |k: usize| [0, 1, 2].map(|axis| float(3 * k + axis));
+        let (_normal, numbers) = bytes.as_chunks::<4>().0.split_at(3);
         let mut corners = Vec::with_capacity(3);
-        for narrow in [0, 1, 2].map(corner) {
+        for corner in numbers.as_chunks::<3>().0 {
+            let narrow = corner.map(f32::from_le_bytes);
             if let Some(x) = narrow.iter().find(|x| !x.is_finite()) {
                 let message = format!("triangle {number} has {x}, which is not finite");
                 return Err(InputError::of(name, message));
