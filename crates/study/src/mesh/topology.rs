@@ -128,21 +128,6 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// How many faces are of a kind.
-    pub fn faces_of(&self, kind: FaceKind) -> u64 {
-        self.faces[kind as usize].count
-    }
-
-    /// How many edges are of a kind.
-    pub fn edges_of(&self, kind: EdgeKind) -> u64 {
-        self.edges[kind as usize].count
-    }
-
-    /// How many vertices are of a kind.
-    pub fn vertices_of(&self, kind: VertexKind) -> u64 {
-        self.vertices[kind as usize].count
-    }
-
     /// The faces, ascending, that share a point with a face of a group and are not of it; none if there
     /// are more than [`MOST_AROUND`]. If no triangle of a group reports a crossing, a kernel runs on these before the
     /// crossing is called a crack.
