@@ -4,7 +4,7 @@
 //! Vertices are one point where their coordinates are equal in the scalar (-0 = +0), whatever their
 //! indices. Nothing is decided by a tolerance.
 
-use super::fans::{Fans, VertexKind};
+use super::fans::Fans;
 #[cfg(feature = "studies")]
 use rayon::slice::ParallelSliceMut;
 use std::collections::BTreeSet;
@@ -115,7 +115,7 @@ pub struct Topology {
     pub duplicated_places: u64,
     /// By [`EdgeKind`].
     pub edges: [Noted; 5],
-    /// By [`VertexKind`].
+    /// By [`VertexKind`](super::VertexKind).
     pub vertices: [Noted; 4],
     /// The shared edges, by their points.
     pub shared: Vec<SharedEdge>,
