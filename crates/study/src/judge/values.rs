@@ -90,6 +90,11 @@ impl<R: Real> Allowed<R> {
             || 0.0 < tolerance && self.is_within(which, &off, tolerance)
     }
 
+    /// The same of several values of a hit.
+    fn admits_all(&self, values: &[(usize, f64)], tolerance: f64) -> bool {
+        values.iter().all(|&(which, value)| self.admits(which, (self.number)(value), tolerance))
+    }
+
     /// True if an error moves the point by at most so many longest edges, or a weight by at most so much.
     fn is_within(&self, which: usize, off: &R, edges: f64) -> bool {
         if edges == f64::INFINITY {
@@ -113,6 +118,12 @@ fn given(gives: Gives) -> [bool; 3] {
     [gives.t, gives.uv, gives.uv]
 }
 
+/// Those of t, u and v (0, 1 and 2) that a kernel gives.
+fn given_values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Vec<(usize, f64)> {
+    let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64).into_iter().enumerate();
+    values.filter(|(which, _)| given(gives)[*which]).collect()
+}
+
 /// True if each value that the kernel gives is as near to its exact one as rounding may leave it, or as a contract
 /// tolerates. The hit has finite values, and its line crosses the plane.
 pub(super) fn are_near<F: Float>(
@@ -121,20 +132,9 @@ pub(super) fn are_near<F: Float>(
     verdict: &Verdict<F>,
     tolerance: f64,
 ) -> bool {
-    fn near<F: Float, R: Real>(
-        case: &Case<F>,
-        number: fn(f64) -> R,
-        values: &[(usize, f64)],
-        tolerance: f64,
-    ) -> bool {
-        let allowed = Allowed::of(case, number);
-        values.iter().all(|&(which, value)| allowed.admits(which, number(value), tolerance))
-    }
-    let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
-    let values: Vec<_> =
-        values.into_iter().enumerate().filter(|(which, _)| given(gives)[*which]).collect();
-    bounded(|| near(case, Bounded::new, &values, tolerance))
-        .unwrap_or_else(|| near(case, Exact::from_f64, &values, tolerance))
+    let values = given_values(gives, verdict);
+    let in_bounds = bounded(|| Allowed::of(case, Bounded::new).admits_all(&values, tolerance));
+    in_bounds.unwrap_or_else(|| Allowed::of(case, Exact::from_f64).admits_all(&values, tolerance))
 }
 
 /// The same of what a kernel's formula gives without rounding.
@@ -156,10 +156,8 @@ pub fn exact_values_are_near<F: Float>(
 /// and its line crosses the plane.
 pub fn exact_times<F: Float>(case: &Case<F>, gives: Gives, verdict: &Verdict<F>) -> Exact {
     let allowed = Allowed::of(case, Exact::from_f64);
-    let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
-    let given = (0..3).filter(|which| given(gives)[*which]);
-    let times = given.map(|which| {
-        let off = (Exact::from_f64(values[which]) - &allowed.exact[which]).abs();
+    let times = given_values(gives, verdict).into_iter().map(|(which, value)| {
+        let off = (Exact::from_f64(value) - &allowed.exact[which]).abs();
         if off.is_zero() { off } else { off / &allowed.unit[which] }
     });
     times.fold(Exact::from_f64(0.0), Exact::larger)
