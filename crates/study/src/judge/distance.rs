@@ -2,8 +2,9 @@
 //! along the line from the ends of its extent.
 //!
 //! Three steps, each trusted only where it is certain to a thousandth: floats, double-doubles with
-//! bounds, exact numbers. What the truth knows to be zero is zero.
+//! bounds, integers. What the truth knows to be zero is zero.
 
+mod integers;
 #[cfg(test)]
 mod tests;
 
@@ -35,7 +36,7 @@ enum DistanceStep {
     /// Floats, after the case was moved near 1.
     FloatsNearOne,
     DoubleDoubles,
-    ExactNumbers,
+    Integers,
 }
 
 /// Squares of lengths of a case.
@@ -120,11 +121,11 @@ impl Distances {
     ) -> Distances {
         let (zeros, ulp) = (Zeros::of(truth), ulp_of_points(case).to_f64());
         let root = |square: &Bounded| Some(square.approximate()?.sqrt());
-        let lifted = || instance.lift(case, Bounded::new);
-        let found = bounded(|| relative(lifted(), Bounded::new(ulp), &zeros, root));
-        found
-            .flatten()
-            .unwrap_or_else(|| exactly(instance.lift(case, Exact::from_f64), ulp, &zeros))
+        let found = bounded(|| relative((case, instance), Bounded::new, &zeros, ulp, root));
+        found.flatten().unwrap_or_else(|| {
+            let root = |square: &Exact| Some(square.approximate_root());
+            relative((case, instance), Exact::from_f64, &zeros, ulp, root).expect("always a root")
+        })
     }
 
     /// As floats see them, right or not: for a search to climb on.
@@ -155,30 +156,22 @@ impl Distances {
         match by_bounds() {
             Some(found) => (found, DistanceStep::DoubleDoubles),
             None => {
-                let (ray, triangle) = wide.lift(Exact::from_f64);
-                (exactly((ray, triangle, Exact::one()), ulp, &zeros), DistanceStep::ExactNumbers)
+                (integers::distances(&wide, ulp, zeros.along.is_some()), DistanceStep::Integers)
             }
         }
     }
 }
 
-/// Those of a case in exact numbers, all of whose lengths were multiplied by a number.
-fn exactly(lifted: Lifted<Exact>, ulp: f64, zeros: &Zeros) -> Distances {
-    let root = |square: &Exact| Some(square.approximate_root());
-    relative(lifted, Exact::from_f64(ulp), zeros, root).expect("always a root")
-}
-
-/// A case in an arithmetic that does not round, and what its lengths were multiplied by.
-type Lifted<R> = (Ray<Triple<R>>, Triangle<Triple<R>>, R);
-
-/// The distances of such a case, from squares; none where no root is known.
-fn relative<R: Real>(
-    (ray, triangle, times): Lifted<R>,
-    ulp: R,
+/// The distances of an instance, from squares in an arithmetic that does not round; none where no root is known.
+fn relative<F: Float, R: Real>(
+    (case, instance): (&Case<F>, &Instance<F>),
+    number: fn(f64) -> R,
     zeros: &Zeros,
+    ulp: f64,
     root: impl Fn(&R) -> Option<f64>,
 ) -> Option<Distances> {
-    let ulp = ulp * times;
+    let (ray, triangle, times) = instance.lift(case, number);
+    let ulp = number(ulp) * times;
     let Squares { longest, in_space, along } = Squares::of(&ray, &triangle, zeros.along.is_some());
     let unit = if longest.is_zero() { R::one() } else { longest };
     let relative = |square: R| root(&(square / &unit));

@@ -133,25 +133,24 @@ fn distances_are_right_to_a_thousandth_and_each_step_finds_what_it_can() {
 
 #[test]
 fn numbers_lost_beside_a_far_origin_are_not_overlooked() {
-    let exactly_found = |case: Case<f64>| {
+    let by_integers = |case: Case<f64>| {
         let (found, step) = Distances::and_step(&case, &truth(&case));
-        assert_eq!(step, DistanceStep::ExactNumbers, "{}", case.hex());
+        assert_eq!(step, DistanceStep::Integers, "{}", case.hex());
         compare(&case, &mut [0; 4]);
         found
     };
     // What is left near 1 of a number below 2^-174 is zero, and of one of 2^-160 some bits.
     let [far, edge, lost, few] = [900, 510, -176, -160].map(|exponent| scaled(1.0, exponent));
     let triangle = [[0.0; 3], [4.0 * edge, 0.0, 0.0], [0.0, 4.0 * edge, 0.0]];
-    let beside = exactly_found(Case::new([lost, edge, far], [0.0, 0.0, -1.0], triangle));
-    let expected = lost / edge / 32f64.sqrt();
-    assert!((beside.in_space - expected).abs() < 1e-15 * expected);
+    let beside = by_integers(Case::new([lost, edge, far], [0.0, 0.0, -1.0], triangle));
+    assert_eq!(beside.in_space, lost / edge / 32f64.sqrt());
     let above = Case::new([far, 0.0, few], [0.0, 0.0, -1.0], triangle);
     let end = few * (1.0 + scaled(1.0, -20));
-    exactly_found(above.on(end, f64::INFINITY));
-    exactly_found(above.on(0.0, end));
+    by_integers(above.on(end, f64::INFINITY));
+    by_integers(above.on(0.0, end));
     // The triangle would be a point on the line.
     let small = triangle.map(|vertex| vertex.map(|x| scaled(x, -710)));
-    exactly_found(Case::new([edge, edge, far], [0.0, 0.0, -1.0], small));
+    by_integers(Case::new([edge, edge, far], [0.0, 0.0, -1.0], small));
 }
 
 #[test]
@@ -175,9 +174,9 @@ fn what_a_truth_knows_to_be_zero_is_zero_in_every_step() {
         let start = Case::<f64>::new([0.0, edge, edge], [-1.0, 0.0, 0.0], triangle);
         assert_eq!(Distances::of(&start, &truth(&start)).along[0], 0.0);
     }
-    use DistanceStep::{DoubleDoubles, ExactNumbers, FloatsNearOne};
+    use DistanceStep::{DoubleDoubles, FloatsNearOne, Integers};
     let near = [FloatsNearOne, FloatsNearOne, DoubleDoubles];
-    assert_eq!(steps, [near, near, [ExactNumbers; 3]].concat());
+    assert_eq!(steps, [near, near, [Integers; 3]].concat());
 }
 
 #[test]
@@ -249,7 +248,7 @@ fn floats_are_certain_of_distances_from_a_share_of_the_largest_coordinate_on() {
 }
 
 #[test]
-fn edges_whose_squares_could_underflow_are_left_to_exact_numbers_but_points_are_not() {
+fn edges_whose_squares_could_underflow_are_left_to_integers_but_points_are_not() {
     let step = |edges: [f64; 2]| {
         let [x, y] = edges;
         let triangle = [[0.0; 3], [x, 0.0, 0.0], [0.0, y, 0.0]];
@@ -260,9 +259,9 @@ fn edges_whose_squares_could_underflow_are_left_to_exact_numbers_but_points_are_
     let edge = |exponent: i32| scaled(1.5, exponent);
     // The longest edge is √2·1.5 times as long, against 2^-400.
     assert_eq!(step([edge(-401); 2]), DistanceStep::FloatsNearOne);
-    assert_eq!(step([edge(-402); 2]), DistanceStep::ExactNumbers);
+    assert_eq!(step([edge(-402); 2]), DistanceStep::Integers);
     assert_eq!(step([scaled(1.0, -400), 0.0]), DistanceStep::FloatsNearOne);
-    assert_eq!(step([0.0, edge(-450)]), DistanceStep::ExactNumbers);
+    assert_eq!(step([0.0, edge(-450)]), DistanceStep::Integers);
     assert_eq!(step([0.0; 2]), DistanceStep::FloatsNearOne);
 }
 
