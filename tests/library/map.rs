@@ -269,7 +269,7 @@ fn an_svg_paints_every_pixel_and_may_stand_beside_others_in_a_page() {
     {
         let cells = painted(panel.split_once("</g>").unwrap().0, map.size());
         for (i, cell) in cells.iter().enumerate() {
-            assert_eq!(*cell, ink(i).hex(), "{i}");
+            assert_eq!(*cell, ink(i).name(), "{i}");
         }
     }
     assert!(!svg.contains(" id=") && !svg.contains("<style") && !svg.contains("url("));

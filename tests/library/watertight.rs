@@ -113,7 +113,7 @@ fn vertices_are_one_point_where_their_coordinates_are_equal() {
     own[0][0] += 1e-10;
     own[1][1] += 1e-10;
     let apart = mesh(&own, &faces);
-    assert!(Topology::of::<f64>(&apart).edges_of(EdgeKind::Open) > 0);
+    assert!(Topology::of::<f64>(&apart).edges[EdgeKind::Open as usize].count > 0);
     assert!(!Topology::of::<f32>(&apart).is_closed_manifold(), "1e-10 is not 0");
     let mut near_one = cube().0;
     near_one[1][0] = 1.0 + 1e-10;
@@ -122,7 +122,7 @@ fn vertices_are_one_point_where_their_coordinates_are_equal() {
     faces[0][2] = 8;
     let nearly = mesh(&near_one, &faces);
     assert!(Topology::of::<f32>(&nearly).is_closed_manifold());
-    assert_eq!(Topology::of::<f64>(&nearly).edges_of(EdgeKind::Open), 4);
+    assert_eq!(Topology::of::<f64>(&nearly).edges[EdgeKind::Open as usize].count, 4);
 }
 
 #[test]
@@ -182,10 +182,10 @@ fn duplicated_faces_are_found_whichever_way_round() {
     faces.push([3, 2, 1]);
     faces.push([1, 2, 3]);
     let topology = Topology::of::<f32>(&mesh(&points, &faces));
-    assert_eq!(topology.faces_of(FaceKind::Duplicated), 3);
+    assert_eq!(topology.faces[FaceKind::Duplicated as usize].count, 3);
     assert_eq!(topology.duplicated_places, 1);
-    assert_eq!(topology.edges_of(EdgeKind::Unsound), 3);
-    assert_eq!(topology.vertices_of(VertexKind::Irregular), 3);
+    assert_eq!(topology.edges[EdgeKind::Unsound as usize].count, 3);
+    assert_eq!(topology.vertices[VertexKind::Irregular as usize].count, 3);
     assert_eq!(topology.shared.len(), 15);
 }
 
@@ -660,7 +660,7 @@ fn nothing_is_asked_at_the_centre_of_a_fan_that_goes_around_twice() {
     let at_centre = |times| {
         let mesh = fan_around(times);
         let found = found::<f32>(&mesh, &row("woop-watertight"), 400);
-        assert_eq!(Topology::of::<f32>(&mesh).vertices_of(VertexKind::Closed), 1);
+        assert_eq!(Topology::of::<f32>(&mesh).vertices[VertexKind::Closed as usize].count, 1);
         let tally = &found[0][AimedPart::Vertices as usize];
         tally.classes[0].crossings
     };

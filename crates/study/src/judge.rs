@@ -13,33 +13,31 @@ mod tests;
 mod values;
 
 pub use change::exact_to_change;
-pub use class::Class;
-pub use class::TruthKind;
+pub use class::{Class, TruthKind};
 pub use distance::{Distances, Squares, nearest_on_segment, square, ulp_of_points};
 pub use elsewhere::may_be_elsewhere;
 pub use expected::{Demands, Kinds, ask_all, suspects};
-pub use group::owes_groups_alike;
-pub use group::{GroupTruth, group_obligation, group_truth, polygon_obligation, polygon_truth};
-pub use values::{ALLOWANCE, ValueErrors};
-pub use values::{ValueLimits, exact_times, exact_values_are_near};
+pub use group::{
+    GroupTruth, group_obligation, group_truth, owes_groups_alike, polygon_obligation, polygon_truth,
+};
+pub use values::{ALLOWANCE, ValueErrors, ValueLimits, exact_times, exact_values_are_near};
 
-use crate::arith::Float;
+use crate::arith::{Exact, Float, Real, Triple};
 use crate::case::Case;
 use crate::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
 use crate::kernel::{Failure, Gives, Verdict};
 use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
-use num_rational::BigRational;
 use std::cmp::Ordering;
 
-/// A contract's demand on a kernel for a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A contract's demand on a kernel for a case; the more it permits to miss, the greater.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Obligation {
     /// A hit.
     MustHit,
-    /// A miss.
-    MustMiss,
     /// Nothing.
     Free,
+    /// A miss.
+    MustMiss,
 }
 
 named! {
@@ -78,13 +76,12 @@ pub fn obligation(truth: &Truth, contract: &Contract, secondary: bool) -> Obliga
     if contract.no_self_hit && secondary && *truth != Truth::Invalid {
         return Obligation::MustMiss;
     }
+    let extent = contract.extent;
     match truth {
         Truth::Invalid => demanded(contract.invalid, false),
         Truth::Parallel => Obligation::MustMiss,
-        Truth::Coplanar(contact) => demanded(contract.coplanar, touches(contact, contract.extent)),
-        Truth::Degenerate(contact) => {
-            demanded(contract.degenerate, touches(contact, contract.extent))
-        }
+        Truth::Coplanar(contact) => demanded(contract.coplanar, touches(contact, extent)),
+        Truth::Degenerate(contact) => demanded(contract.degenerate, touches(contact, extent)),
         Truth::Transversal(crossing) => crossing_obligation(crossing, contract),
     }
 }
@@ -139,11 +136,8 @@ fn crossing_obligation(crossing: &Crossing, contract: &Contract) -> Obligation {
         true => at_rim(contract.ends),
         false => Obligation::MustHit,
     };
-    match (across, along) {
-        (Obligation::MustMiss, _) | (_, Obligation::MustMiss) => Obligation::MustMiss,
-        (Obligation::Free, _) | (_, Obligation::Free) => Obligation::Free,
-        _ => Obligation::MustHit,
-    }
+    // Each of the two may forbid the hit, or leave it free.
+    across.max(along)
 }
 
 /// The demand on a boundary.
@@ -176,19 +170,16 @@ pub fn is_in_extent(crossing: &Crossing, extent: Extent) -> bool {
 /// True if the contract promises anything for a direction.
 pub fn promises_direction<F: Float>(direction: Direction, d: [F; 3]) -> bool {
     let Direction::Unit { ulps } = direction else { return true };
-    let Some([x, y, z]) = exact(d) else { return false };
-    let length_squared = &x * &x + &y * &y + &z * &z;
-    let one = BigRational::from_integer(1.into());
-    let tolerance = BigRational::from_integer(ulps.into())
-        * BigRational::from_float(F::EPSILON.to_f64()).expect("finite");
-    let zero = BigRational::from_integer(0.into());
-    let (low, high) = ((&one - &tolerance).max(zero), &one + &tolerance);
-    &low * &low <= length_squared && length_squared <= &high * &high
-}
-
-fn exact<F: Float>(v: [F; 3]) -> Option<[BigRational; 3]> {
-    let [x, y, z] = v.map(|x| BigRational::from_float(x.to_f64()));
-    Some([x?, y?, z?])
+    if !d.iter().all(F::is_finite) {
+        return false;
+    }
+    let length_squared = square(&Triple::from(d.map(|x| Exact::from_f64(x.to_f64()))));
+    let tolerance = f64::from(ulps) * F::EPSILON.to_f64();
+    let exact_square = |x: Exact| x.clone() * x;
+    // No length is below 0.
+    let low = exact_square((Exact::one() - Exact::from_f64(tolerance)).larger(Exact::zero()));
+    let high = exact_square(Exact::one() + Exact::from_f64(tolerance));
+    low.is_at_most(&length_squared) && length_squared.is_at_most(&high)
 }
 
 /// As much of a run in any arithmetic as is judged.
@@ -234,21 +225,16 @@ pub fn judge<F: Float>(
     }
     match (obligation, verdict.hit) {
         // No values are compared.
-        (Obligation::MustHit, false) => Some(Finding::FalseMiss),
-        (Obligation::MustMiss, true) => Some(Finding::FalseHit),
-        (_, false) => None,
-        _ => judge_answer(
-            obligation,
-            truth,
-            gives,
-            Answer::of(contract, (case, truth), gives, verdict),
-        )
-        .filter(|finding| {
-            let direction = || case.ray.direction.into();
-            *finding != Finding::WrongValue
-                || promises_direction::<F>(contract.direction, direction())
-        }),
+        (Obligation::MustHit, false) => return Some(Finding::FalseMiss),
+        (Obligation::MustMiss, true) => return Some(Finding::FalseHit),
+        (_, false) => return None,
+        _ => {}
     }
+    let answer = Answer::of(contract, (case, truth), gives, verdict);
+    judge_answer(obligation, truth, gives, answer).filter(|finding| {
+        let direction = || case.ray.direction.into();
+        *finding != Finding::WrongValue || promises_direction::<F>(contract.direction, direction())
+    })
 }
 
 /// Compares an answer with the obligation.

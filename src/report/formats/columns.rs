@@ -68,7 +68,7 @@ impl Column {
     pub(super) fn label(self) -> &'static str {
         match self.topic {
             ColumnTopic::Families(Question::Grid) if self.complete => "lattice",
-            ColumnTopic::Families(question) => question.label(),
+            ColumnTopic::Families(question) => question.name(),
             ColumnTopic::Mesh => "mesh",
             ColumnTopic::Stored => "stored",
         }
@@ -78,7 +78,7 @@ impl Column {
     pub(super) fn about(self) -> &'static str {
         match self.topic {
             ColumnTopic::Families(Question::Grid) if self.complete => "every case of the lattice",
-            ColumnTopic::Families(question) => question.about(),
+            ColumnTopic::Families(question) => question.contents(),
             ColumnTopic::Mesh | ColumnTopic::Stored => "",
         }
     }

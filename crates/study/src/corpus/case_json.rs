@@ -107,18 +107,6 @@ fn parse_case<F: Float>(object: &Object) -> Result<Case<F>, String> {
     Ok(Case::new(origin, direction, corners).on(t_min, t_max))
 }
 
-/// `origin[2]`, written only where something is wrong.
-struct JsonPath {
-    field: &'static str,
-    axis: usize,
-}
-
-impl fmt::Display for JsonPath {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}[{}]", self.field, self.axis)
-    }
-}
-
 /// The numbers of `[1,2,3]` or `{"x":1,"y":2,"z":3}`.
 fn three(value: &str) -> Result<[&str; 3], String> {
     if !value.starts_with('{') {
@@ -129,7 +117,7 @@ fn three(value: &str) -> Result<[&str; 3], String> {
 }
 
 fn parse_vector<F: Float>(
-    field: &'static str,
+    field: &str,
     value: Option<&str>,
     bits: Option<&str>,
 ) -> Result<[F; 3], String> {
@@ -146,7 +134,7 @@ fn parse_vector<F: Float>(
     let mut vector = [F::zero(); 3];
     for (axis, number) in vector.iter_mut().enumerate() {
         let [value, bits] = [values, bits].map(|them| them.map(|them| them[axis]));
-        *number = number_of(JsonPath { field, axis }, value, bits)?.unwrap_or(*number);
+        *number = number_of(format_args!("{field}[{axis}]"), value, bits)?.unwrap_or(*number);
     }
     Ok(vector)
 }

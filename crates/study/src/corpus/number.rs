@@ -2,6 +2,7 @@
 
 use super::json::quoted;
 use crate::arith::Float;
+use std::num::IntErrorKind;
 
 /// The most characters of a number. The exact decimal of an `f64` has at most 1,077.
 const LONGEST: usize = 4096;
@@ -110,12 +111,15 @@ fn hexadecimal<F: Float>(text: &str) -> Option<F> {
 
 /// A decimal exponent; what is beyond every float's is cut off well beyond every float's.
 fn binary_exponent(text: &str) -> Option<i64> {
-    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
-    let magnitude = digits.bytes().try_fold(0i64, |value, digit| {
-        digit.is_ascii_digit().then(|| (10 * value + i64::from(digit - b'0')).min(1 << 30))
-    })?;
-    let sign = if text.starts_with('-') { -1 } else { 1 };
-    (!digits.is_empty()).then_some(sign * magnitude)
+    const MOST: i64 = 1 << 30;
+    match text.parse::<i64>() {
+        Ok(exponent) => Some(exponent.clamp(-MOST, MOST)),
+        Err(error) => match error.kind() {
+            IntErrorKind::PosOverflow => Some(MOST),
+            IntErrorKind::NegOverflow => Some(-MOST),
+            _ => None,
+        },
+    }
 }
 
 /// The float nearest to `integer * 2^exponent`, or to a little more where `inexact` (by less than

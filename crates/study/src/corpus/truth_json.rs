@@ -48,7 +48,23 @@ pub struct ContactLine {
 impl TruthLine {
     /// The truth of a case, and the numbers behind it where they are asked for: what `exact` leaves out is null.
     pub fn new(name: Option<&str>, truth: &Truth, exact: Option<&ExactValues>) -> TruthLine {
-        let mut line = TruthLine::without_fractions(name, truth);
+        let crossing = truth.crossing();
+        let contact = match truth {
+            Truth::Coplanar(contact) | Truth::Degenerate(contact) => Some(contact),
+            Truth::Transversal(_) | Truth::Parallel | Truth::Invalid => None,
+        };
+        let mut line = TruthLine {
+            name: name.map(str::to_owned),
+            class: truth.class_name(),
+            facing: crossing.map(|crossing| crossing.facing.name()),
+            t: crossing.map(|crossing| crossing.place.name()),
+            feature: crossing.map(|crossing| crossing.feature.name()),
+            contact: contact.map(ContactLine::new),
+            hits_closed: truth.hits_closed(),
+            t_exact: None,
+            u_exact: None,
+            v_exact: None,
+        };
         let Some(exact) = exact else { return line };
         let text = |value: &Option<BigRational>| Some(value.as_ref().map(fraction_text));
         (line.t_exact, line.u_exact, line.v_exact) =
@@ -64,26 +80,6 @@ impl TruthLine {
     pub fn leave_out_fractions(&mut self) {
         (self.t_exact, self.u_exact, self.v_exact) = (None, None, None);
         self.contact.iter_mut().for_each(|contact| contact.t = None);
-    }
-
-    fn without_fractions(name: Option<&str>, truth: &Truth) -> TruthLine {
-        let crossing = truth.crossing();
-        let contact = match truth {
-            Truth::Coplanar(contact) | Truth::Degenerate(contact) => Some(contact),
-            Truth::Transversal(_) | Truth::Parallel | Truth::Invalid => None,
-        };
-        TruthLine {
-            name: name.map(str::to_owned),
-            class: truth.class_name(),
-            facing: crossing.map(|crossing| crossing.facing.name()),
-            t: crossing.map(|crossing| crossing.place.name()),
-            feature: crossing.map(|crossing| crossing.feature.name()),
-            contact: contact.map(ContactLine::new),
-            hits_closed: truth.hits_closed(),
-            t_exact: None,
-            u_exact: None,
-            v_exact: None,
-        }
     }
 }
 

@@ -2,11 +2,11 @@
 //! from every boundary.
 
 use super::integer::shuffle;
-use super::{Made, Recipe};
+use super::{Kept, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
-use crate::truth::{Crossing, Feature, Place};
+use crate::truth::{Feature, Place};
 
 pub(super) struct Interior;
 pub(super) struct Outside;
@@ -14,13 +14,12 @@ pub(super) struct Outside;
 impl Recipe for Interior {
     const NAME: &'static str = "interior";
     const PROMISE: &'static str = "transversal, within the interval, in the interior";
+    const KEEPS: Kept = Kept::Crossings(|crossing| {
+        crossing.feature == Feature::Interior && crossing.place == Place::Within
+    });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         Made::One(aimed(draw, &mut interior_weights))
-    }
-
-    fn crosses(crossing: &Crossing) -> bool {
-        crossing.feature == Feature::Interior && crossing.place == Place::Within
     }
 }
 
@@ -28,6 +27,9 @@ impl Recipe for Outside {
     const NAME: &'static str = "outside";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, in front of the origin, outside the triangle";
+    const KEEPS: Kept = Kept::Crossings(|crossing| {
+        crossing.feature == Feature::Outside && crossing.place == Place::Within
+    });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         Made::One(aimed(draw, &mut |draw| {
@@ -41,10 +43,6 @@ impl Recipe for Outside {
             };
             shuffle(draw, weights)
         }))
-    }
-
-    fn crosses(crossing: &Crossing) -> bool {
-        crossing.feature == Feature::Outside && crossing.place == Place::Within
     }
 }
 

@@ -1,10 +1,9 @@
 //! `direction-length`, `axis-aligned`: the same line with other directions, and zeros in them.
 
 use super::control::{aimed, interior_weights};
-use super::integer::{IntegerCase, minus, normal, plus, shuffle, times, triangle_with_edge_point};
+use super::integer::{IntegerCase, LatticePoint, normal, shuffle, triangle_with_edge_point};
 use super::{Made, Recipe};
-use crate::arith::Float;
-use crate::arith::scale_by_power_of_two;
+use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
 
@@ -36,7 +35,7 @@ impl Recipe for AxisAligned {
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let (triangle, edge_point) = loop {
             let (triangle, point) = triangle_with_edge_point(draw, 64);
-            if normal(triangle) != [0; 3] {
+            if normal(triangle) != LatticePoint::ZERO {
                 break (shuffle(draw, triangle), point);
             }
         };
@@ -47,18 +46,15 @@ impl Recipe for AxisAligned {
                 break axis;
             }
         };
-        let mut direction = [0; 3];
+        let mut direction = LatticePoint::ZERO;
         direction[axis] = draw.pick(&[-2, -1, 1, 2]);
         let (vertex, other) = (draw.pick(&triangle), draw.pick(&triangle));
-        let target = draw.pick(&[vertex, other, edge_point, plus(edge_point, [0, 1, 0])]);
-        let origin = minus(target, times(direction, draw.integer(1, 4)));
+        let target = draw.pick(&[vertex, other, edge_point, edge_point + LatticePoint::Y]);
+        let origin = target - direction * draw.integer(1, 4);
         // Half of the cases have a vertex at the coordinate origin: zeros in the triangle.
-        let base = if draw.coin() { draw.pick(&triangle) } else { [0; 3] };
-        let case = IntegerCase {
-            origin: minus(origin, base),
-            direction,
-            triangle: triangle.map(|p| minus(p, base)),
-        };
+        let base = if draw.coin() { draw.pick(&triangle) } else { LatticePoint::ZERO };
+        let case =
+            IntegerCase { origin: origin - base, direction, triangle: triangle.map(|p| p - base) };
         Made::One(with_signed_zeros(draw, case.case()))
     }
 }

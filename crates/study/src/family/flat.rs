@@ -1,11 +1,10 @@
 //! `parallel-off`, `coplanar`, `grazing`: lines parallel to the plane, in it, and almost so.
 
 use super::integer::{
-    IntegerCase, LatticePoint, dot, minus, normal, plus, shuffle, times, transversal,
-    triangle_with_edge_point,
+    IntegerCase, LatticePoint, normal, shuffle, transversal, triangle_with_edge_point,
 };
 use super::scene::{Stratum, grazing_sine};
-use super::{Made, Recipe};
+use super::{Kept, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw, Parameters};
 use crate::kernel::Scalar;
@@ -20,7 +19,7 @@ fn in_plane(draw: &mut Draw, [a, b, c]: [LatticePoint; 3]) -> LatticePoint {
     loop {
         let (i, j) = (draw.integer(-3, 3), draw.integer(-3, 3));
         if (i, j) != (0, 0) {
-            return plus(times(minus(b, a), i), times(minus(c, a), j));
+            return (b - a) * i + (c - a) * j;
         }
     }
 }
@@ -55,6 +54,7 @@ fn level_triangle<F: Float>(draw: &mut Draw, axes: [usize; 3], height: F) -> [[F
 impl Recipe for ParallelOff {
     const NAME: &'static str = "parallel-off";
     const PROMISE: &'static str = "D = 0 exactly, the line off the plane, down to one ulp off";
+    const KEEPS: Kept = Kept::Truths(|truth| *truth == Truth::Parallel);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         if draw.coin() {
@@ -72,11 +72,7 @@ impl Recipe for ParallelOff {
         let triangle = shuffle(draw, triangle);
         let direction = in_plane(draw, triangle);
         let off = transversal(draw, normal(triangle), 2);
-        IntegerCase { origin: plus(minus(point, direction), off), direction, triangle }.made()
-    }
-
-    fn holds(truth: &Truth) -> bool {
-        *truth == Truth::Parallel
+        IntegerCase { origin: point - direction + off, direction, triangle }.made()
     }
 }
 
@@ -84,21 +80,18 @@ impl Recipe for Coplanar {
     const NAME: &'static str = "coplanar";
     const PROMISE: &'static str =
         "in the plane: through the interior, along an edge, through or touching a vertex, missing";
+    const KEEPS: Kept = Kept::Truths(|truth| matches!(truth, Truth::Coplanar(_)));
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let (triangle, edge_point) = triangle_with_edge_point(draw, 64);
         let [a, b, c] = triangle;
         let triangle = shuffle(draw, triangle);
-        let outside = plus(a, times(minus(b, a), draw.pick(&[-1, 2])));
+        let outside = a + (b - a) * draw.pick(&[-1, 2]);
         let target = draw.pick(&[a, b, c, edge_point, edge_point, outside]);
-        let along = draw.pick(&[minus(b, a), minus(c, a), minus(c, b), minus(edge_point, c)]);
+        let along = draw.pick(&[b - a, c - a, c - b, edge_point - c]);
         let direction = if draw.coin() { along } else { in_plane(draw, triangle) };
-        let origin = minus(target, times(direction, draw.integer(-2, 3)));
+        let origin = target - direction * draw.integer(-2, 3);
         IntegerCase { origin, direction, triangle }.made()
-    }
-
-    fn holds(truth: &Truth) -> bool {
-        matches!(truth, Truth::Coplanar(_))
     }
 }
 
@@ -130,8 +123,8 @@ impl Recipe for Grazing {
         let flat = in_plane(draw, triangle);
         let off = transversal(draw, normal(triangle), 2);
         let steepness = draw.integer(1, i64::from(F::DIGITS) - 14);
-        let direction = plus(times(flat, 1 << steepness), off);
-        debug_assert_ne!(dot(direction, normal(triangle)), 0);
-        IntegerCase { origin: minus(point, direction), direction, triangle }.made()
+        let direction = flat * (1 << steepness) + off;
+        debug_assert_ne!(direction.dot(normal(triangle)), 0);
+        IntegerCase { origin: point - direction, direction, triangle }.made()
     }
 }

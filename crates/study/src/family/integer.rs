@@ -3,8 +3,19 @@
 use super::Made;
 use crate::arith::Float;
 use crate::case::{Case, Draw};
+use glam::I64Vec3;
 
-pub(crate) type LatticePoint = [i64; 3];
+pub(crate) type LatticePoint = I64Vec3;
+
+/// The same point in floats.
+pub(crate) fn float<F: Float>(point: LatticePoint) -> [F; 3] {
+    point.to_array().map(|x| F::from_f64(x as f64))
+}
+
+/// Three integers in `-bound..=bound`.
+pub(super) fn lattice_point(draw: &mut Draw, bound: i64) -> LatticePoint {
+    draw.lattice_point(bound).into()
+}
 
 /// A case in integers, times a power of two.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +27,6 @@ pub(super) struct IntegerCase {
 
 impl IntegerCase {
     pub fn case<F: Float>(&self) -> Case<F> {
-        let float = |p: LatticePoint| p.map(|x| F::from_f64(x as f64));
         Case::new(float(self.origin), float(self.direction), self.triangle.map(float))
     }
 
@@ -25,39 +35,16 @@ impl IntegerCase {
     }
 }
 
-pub(crate) fn plus(a: LatticePoint, b: LatticePoint) -> LatticePoint {
-    std::array::from_fn(|i| a[i] + b[i])
-}
-
-pub(crate) fn minus(a: LatticePoint, b: LatticePoint) -> LatticePoint {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-pub(crate) fn times(a: LatticePoint, factor: i64) -> LatticePoint {
-    a.map(|x| x * factor)
-}
-
-pub(super) fn dot(a: LatticePoint, b: LatticePoint) -> i64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
-}
-
-pub(super) fn cross(a: LatticePoint, b: LatticePoint) -> LatticePoint {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    })
-}
-
 /// (b-a)×(c-a).
 pub(super) fn normal([a, b, c]: [LatticePoint; 3]) -> LatticePoint {
-    cross(minus(b, a), minus(c, a))
+    (b - a).cross(c - a)
 }
 
 /// A direction within the bound that is not parallel to the plane of a normal.
 pub(super) fn transversal(draw: &mut Draw, normal: LatticePoint, bound: i64) -> LatticePoint {
     loop {
-        let direction = draw.lattice_point(bound);
-        if dot(direction, normal) != 0 {
+        let direction = lattice_point(draw, bound);
+        if direction.dot(normal) != 0 {
             return direction;
         }
     }
@@ -66,8 +53,8 @@ pub(super) fn transversal(draw: &mut Draw, normal: LatticePoint, bound: i64) -> 
 /// A vector within the bound that is not parallel to another.
 pub(super) fn independent(draw: &mut Draw, other: LatticePoint, bound: i64) -> LatticePoint {
     loop {
-        let vector = draw.lattice_point(bound);
-        if cross(vector, other) != [0; 3] {
+        let vector = lattice_point(draw, bound);
+        if vector.cross(other) != LatticePoint::ZERO {
             return vector;
         }
     }
@@ -93,13 +80,13 @@ pub(super) fn triangle_with_edge_point(
 ) -> ([LatticePoint; 3], LatticePoint) {
     let parts = draw.integer(2, 4);
     let step = loop {
-        let step = draw.lattice_point(reach / 16);
-        if step != [0; 3] {
+        let step = lattice_point(draw, reach / 16);
+        if step != LatticePoint::ZERO {
             break step;
         }
     };
-    let a = draw.lattice_point(reach / 4);
+    let a = lattice_point(draw, reach / 4);
     let side = independent(draw, step, reach / 4);
-    let point = plus(a, times(step, draw.integer(1, parts - 1)));
-    ([a, plus(a, times(step, parts)), plus(a, side)], point)
+    let point = a + step * draw.integer(1, parts - 1);
+    ([a, a + step * parts, a + side], point)
 }

@@ -1,12 +1,10 @@
 //! `behind`, `interval-ends`: hits that the interval decides.
 
-use super::integer::{
-    IntegerCase, minus, normal, shuffle, times, transversal, triangle_with_edge_point,
-};
-use super::{Made, Recipe};
+use super::integer::{IntegerCase, normal, shuffle, transversal, triangle_with_edge_point};
+use super::{Kept, Made, Recipe};
 use crate::case::Draw;
 use crate::kernel::Scalar;
-use crate::truth::{Crossing, Feature, Place};
+use crate::truth::{Feature, Place};
 use std::cmp::Ordering;
 
 pub(super) struct Behind;
@@ -16,25 +14,24 @@ pub(super) struct IntervalEnds;
 fn at(draw: &mut Draw, t: i64) -> IntegerCase {
     let reach = draw.pick(&[64, 2048]);
     let ([a, b, c], edge_point) = triangle_with_edge_point(draw, reach);
-    let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| times(p, 2));
-    let middle = std::array::from_fn(|i| (c[i] + edge_point[i]) / 2);
+    let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| p * 2);
+    let middle = (c + edge_point) / 2;
     let triangle = shuffle(draw, [a, b, c]);
     let target = draw.pick(&[middle, middle, middle, edge_point, c]);
     let direction = transversal(draw, normal(triangle), reach / 8);
-    IntegerCase { origin: minus(target, times(direction, t)), direction, triangle }
+    IntegerCase { origin: target - direction * t, direction, triangle }
 }
 
 impl Recipe for Behind {
     const NAME: &'static str = "behind";
     const PROMISE: &'static str = "transversal, in the closed triangle, at negative t";
+    const KEEPS: Kept = Kept::Crossings(|crossing| {
+        crossing.t_sign == Ordering::Less && crossing.feature != Feature::Outside
+    });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let t = -draw.integer(1, 4);
         at(draw, t).made()
-    }
-
-    fn crosses(crossing: &Crossing) -> bool {
-        crossing.t_sign == Ordering::Less && crossing.feature != Feature::Outside
     }
 }
 
@@ -43,6 +40,10 @@ impl Recipe for IntervalEnds {
     const VERSION: u32 = 2;
     const PROMISE: &'static str =
         "transversal, in the closed triangle, exactly at t_min or t_max, or beyond t_max";
+    const KEEPS: Kept = Kept::Crossings(|crossing| {
+        matches!(crossing.place, Place::AtMin | Place::AtMax | Place::Beyond)
+            && crossing.feature != Feature::Outside
+    });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let t = draw.integer(0, 4);
@@ -55,10 +56,5 @@ impl Recipe for IntervalEnds {
             2 => case.on(end - room, end),
             _ => case.on(end - room - F::one(), end - F::from_f64(draw.pick(&[0.25, 1.0]))),
         })
-    }
-
-    fn crosses(crossing: &Crossing) -> bool {
-        matches!(crossing.place, Place::AtMin | Place::AtMax | Place::Beyond)
-            && crossing.feature != Feature::Outside
     }
 }

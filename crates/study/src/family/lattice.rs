@@ -1,11 +1,10 @@
 //! `lattice`: every case with all 15 coordinates in {-1, 0, 1}: every combinatorial situation there
 //! is. Sums and products on it are exact in every scalar.
 
-use super::integer::IntegerCase;
-use super::{Made, Recipe};
+use super::integer::{IntegerCase, LatticePoint};
+use super::{Kept, Made, Recipe};
 use crate::case::Draw;
 use crate::kernel::Scalar;
-use crate::truth::Truth;
 
 /// 3^15.
 pub const LATTICE_SIZE: u64 = 14_348_907;
@@ -15,21 +14,18 @@ pub(super) struct Lattice;
 impl Recipe for Lattice {
     const NAME: &'static str = "lattice";
     const PROMISE: &'static str = "all coordinates in {-1, 0, 1}, default interval";
+    const KEEPS: Kept = Kept::Truths(|_| true);
 
     fn make<F: Scalar>(_: &mut Draw, index: u64) -> Made<F> {
         let mut rest = index;
         let [origin, direction, a, b, c] = std::array::from_fn(|_| {
-            std::array::from_fn(|_| {
+            LatticePoint::from_array(std::array::from_fn(|_| {
                 let digit = rest % 3;
                 rest /= 3;
                 digit as i64 - 1
-            })
+            }))
         });
         IntegerCase { origin, direction, triangle: [a, b, c] }.made()
-    }
-
-    fn holds(_: &Truth) -> bool {
-        true
     }
 }
 

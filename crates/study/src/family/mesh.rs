@@ -1,8 +1,9 @@
 //! `mesh`: rays at the edges, vertices and faces of a mesh: near, and exact where such a ray exists on
 //! the float grid. The oracle tells which are; reports give the share.
 
-use super::apply;
+use super::boundary::{nudged, toward};
 use super::control::combination;
+use super::{apply, id_of};
 use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters};
 use crate::corpus::mesh::Mesh;
@@ -39,15 +40,19 @@ impl MeshFamily {
 
     /// The id of a case; it holds the mesh's digest.
     pub fn id<F: Float>(&self, parameters: &Parameters, seed: u64, index: u64) -> CaseId {
-        CaseId {
-            family: NAME.to_owned(),
-            version: VERSION,
-            scalar: F::NAME.to_owned(),
-            parameters: Parameters { mesh: Some(self.mesh.digest.clone()), ..parameters.clone() },
-            seed,
-            index,
-            triangle: None,
-        }
+        self.id_of::<F>((NAME, VERSION), parameters, seed, index)
+    }
+
+    /// The id of a case that another family makes of this mesh.
+    pub(crate) fn id_of<F: Float>(
+        &self,
+        family: (&str, u32),
+        parameters: &Parameters,
+        seed: u64,
+        index: u64,
+    ) -> CaseId {
+        let mesh = Some(self.mesh.digest.clone());
+        id_of::<F>(family, Parameters { mesh, ..parameters.clone() }, seed, index)
     }
 
     /// Case `index` of the set of a seed.
@@ -101,7 +106,7 @@ fn exact_ray<F: Float>(draw: &mut Draw, target: [F; 3]) -> ([F; 3], [F; 3]) {
         let step = x.ulp() * F::from_f64(digits);
         if x.is_sign_negative() { -step } else { step }
     });
-    (std::array::from_fn(|i| target[i] - direction[i]), direction)
+    (toward(direction, target), direction)
 }
 
 /// A ray from about the triangle's size away, aimed at the target and nudged by ulps.
@@ -114,7 +119,5 @@ fn near_ray<F: Float>(draw: &mut Draw, target: [F; 3], [a, b, c]: [[F; 3]; 3]) -
     let away = draw.point::<F>();
     let origin: [F; 3] = std::array::from_fn(|i| target[i] + away[i] * distance);
     let ulps = draw.pick(&[0, 0, 1, 4]);
-    let direction =
-        std::array::from_fn(|i| (target[i] - origin[i]).offset_ulps(draw.integer(-ulps, ulps)));
-    (origin, direction)
+    (origin, nudged(draw, toward(origin, target), ulps))
 }

@@ -24,13 +24,14 @@ mod scene;
 mod shape;
 mod sizes;
 
+pub(crate) use boundary::{nudged, toward};
 pub(crate) use control::combination;
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
 pub(crate) use scene::{
     Corners, Pair, Parallel, RayAxes, Ring, TriangleSource, along_axis, any_direction, circle,
-    flat_along, in_plane, rounded, wide,
+    flat_along, in_plane, rounded, unit_vector, wide,
 };
 pub use scene::{Pixel, STRATA, Stratum, TRIES, missed_sine, pixel};
 
@@ -97,24 +98,23 @@ trait Recipe {
     /// About the truth of its cases, in one line.
     const PROMISE: &'static str;
     const GROUPING: Grouping = Grouping::Single;
+    /// The promise: crossings, unless a family says otherwise.
+    const KEEPS: Kept = Kept::Crossings(|_| true);
     /// Case `index` of the set; `draw` is its own stream.
     fn make<F: Scalar>(draw: &mut Draw, index: u64) -> Made<F>;
     /// Finishes a case after the parameters are applied.
     fn finish<F: Scalar>(_draw: &mut Draw, _parameters: &Parameters, _made: &mut Made<F>) {}
-    /// True if the truths of one index keep the promise.
-    fn keeps(truths: &[Truth]) -> bool {
-        truths.iter().all(Self::holds)
-    }
+}
 
-    /// The promise about the truth of each triangle: a crossing, unless a family says otherwise.
-    fn holds(truth: &Truth) -> bool {
-        truth.crossing().is_some_and(Self::crosses)
-    }
-
-    /// The promise about each crossing.
-    fn crosses(_crossing: &Crossing) -> bool {
-        true
-    }
+/// What the truths of one index have to be.
+#[derive(Clone, Copy)]
+enum Kept {
+    /// Each is a crossing of this sort.
+    Crossings(fn(&Crossing) -> bool),
+    /// Each is of this sort.
+    Truths(fn(&Truth) -> bool),
+    /// All together.
+    Together(fn(&[Truth]) -> bool),
 }
 
 /// A row of the table of families.
@@ -131,7 +131,7 @@ pub struct Family {
     pub grouping: Grouping,
     /// The number of its cases, if there are finitely many.
     pub size: Option<u64>,
-    keeps: fn(&[Truth]) -> bool,
+    keeps: Kept,
     make_f32: Generator<f32>,
     make_f64: Generator<f64>,
 }
@@ -147,7 +147,7 @@ const fn row<R: Recipe>(question: Question) -> Family {
         question,
         grouping: R::GROUPING,
         size: None,
-        keeps: R::keeps,
+        keeps: R::KEEPS,
         make_f32: made::<R, f32>,
         make_f64: made::<R, f64>,
     }
@@ -263,21 +263,28 @@ impl Family {
 
     /// True if the truths of one index keep the promise.
     pub fn keeps(&self, truths: &[Truth]) -> bool {
-        (self.keeps)(truths)
+        match self.keeps {
+            Kept::Crossings(is_kept) => truths.iter().all(|it| it.crossing().is_some_and(is_kept)),
+            Kept::Truths(is_kept) => truths.iter().all(is_kept),
+            Kept::Together(are_kept) => are_kept(truths),
+        }
     }
 
     /// The id of a case.
     pub fn id<F: Float>(&self, parameters: &Parameters, seed: u64, index: u64) -> CaseId {
-        CaseId {
-            family: self.name.to_owned(),
-            version: self.version,
-            scalar: F::NAME.to_owned(),
-            parameters: parameters.clone(),
-            seed,
-            index,
-            triangle: None,
-        }
+        id_of::<F>((self.name, self.version), parameters.clone(), seed, index)
     }
+}
+
+/// The id of a case of a family.
+fn id_of<F: Float>(
+    (family, version): (&str, u32),
+    parameters: Parameters,
+    seed: u64,
+    index: u64,
+) -> CaseId {
+    let (family, scalar) = (family.to_owned(), F::NAME.to_owned());
+    CaseId { family, version, scalar, parameters, seed, index, triangle: None }
 }
 
 /// Scales, moves and normalises a case. Where only positions are scaled, t and the ends of the

@@ -1,13 +1,13 @@
 //! `origin-on`, `origin-near`, `secondary-ray`: rays that start at the triangle.
 
-use super::boundary::toward;
+use super::boundary::{nudged, toward};
 use super::control::{combination, interior_weights, is_steep, well_shaped};
 use super::integer::{IntegerCase, normal, shuffle, transversal, triangle_with_edge_point};
 use super::scene::{any_direction, hit_point, rounded};
-use super::{Grouping, Made, Recipe, apply_to_direction};
+use super::{Grouping, Kept, Made, Recipe, apply_to_direction};
 use crate::case::{Case, Draw, Parameters};
 use crate::kernel::{Scalar, find};
-use crate::truth::{Crossing, Feature};
+use crate::truth::Feature;
 use std::cmp::Ordering;
 
 pub(super) struct OriginOn;
@@ -20,21 +20,20 @@ const FIRST_HIT: [&str; 4] = ["moller-trumbore", "plane-unit-normal", "plucker",
 impl Recipe for OriginOn {
     const NAME: &'static str = "origin-on";
     const PROMISE: &'static str = "transversal, t = 0, on the face, an edge or a vertex";
+    const KEEPS: Kept = Kept::Crossings(|crossing| {
+        crossing.t_sign == Ordering::Equal && crossing.feature != Feature::Outside
+    });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let reach = draw.pick(&[64, 4096]);
         let ([a, b, c], edge_point) = triangle_with_edge_point(draw, reach);
         // Twice the triangle has a lattice point inside: the middle of c and the edge point.
-        let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| p.map(|x| 2 * x));
-        let middle = std::array::from_fn(|i| (c[i] + edge_point[i]) / 2);
+        let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| p * 2);
+        let middle = (c + edge_point) / 2;
         let triangle = shuffle(draw, [a, b, c]);
         let origin = draw.pick(&[a, b, c, edge_point, edge_point, middle, middle]);
         let direction = transversal(draw, normal(triangle), reach / 8);
         IntegerCase { origin, direction, triangle }.made()
-    }
-
-    fn crosses(crossing: &Crossing) -> bool {
-        crossing.t_sign == Ordering::Equal && crossing.feature != Feature::Outside
     }
 }
 
@@ -53,7 +52,7 @@ impl Recipe for OriginNear {
             };
             let point = combination(shuffle(draw, triangle), weights.map(F::from_f64));
             let ulps = draw.pick(&[0, 1, 2, 16]);
-            let origin = point.map(|x| x.offset_ulps(draw.integer(-ulps, ulps)));
+            let origin = nudged(draw, point, ulps);
             let direction = draw.point();
             if is_steep(direction, triangle) {
                 return Made::One(Case::new(origin, direction, triangle));

@@ -1,46 +1,34 @@
 //! The questions that families put to a kernel: the columns of the audit's screen.
 
-/// One question, which several families put together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Question {
-    /// Hits and misses that are clear.
-    Inside,
-    /// On an edge, or some ulps from it.
-    Edges,
-    /// On a vertex, or some ulps from it.
-    Vertices,
-    /// The ray is nearly or exactly parallel to the plane, or the triangle has no area.
-    Flat,
-    /// The hit is at, near or beyond the start of the ray or an end of the interval.
-    Ends,
-    /// Coordinates with many zeros: rays along an axis, points of a small integer grid.
-    Grid,
-    /// Tiny, huge, far and thin triangles; short and long directions.
-    Sizes,
-    /// Exponents that have nothing to do with each other, or at the ends of the range.
-    Range,
-    /// NaN, infinities, a zero direction, an impossible interval.
-    Invalid,
+named! {
+    pub names
+    /// One question, which several families put together, with the head of its column.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Question {
+        /// Hits and misses that are clear.
+        Inside = "inside",
+        /// On an edge, or some ulps from it.
+        Edges = "edges",
+        /// On a vertex, or some ulps from it.
+        Vertices = "vertex",
+        /// The ray is nearly or exactly parallel to the plane, or the triangle has no area.
+        Flat = "flat",
+        /// The hit is at, near or beyond the start of the ray or an end of the interval.
+        Ends = "ends",
+        /// Coordinates with many zeros: rays along an axis, points of a small integer grid.
+        Grid = "grid",
+        /// Tiny, huge, far and thin triangles; short and long directions.
+        Sizes = "sizes",
+        /// Exponents that have nothing to do with each other, or at the ends of the range.
+        Range = "range",
+        /// NaN, infinities, a zero direction, an impossible interval.
+        Invalid = "invalid",
+    }
 }
 
 impl Question {
-    /// The head of the column.
-    pub fn label(self) -> &'static str {
-        match self {
-            Question::Inside => "inside",
-            Question::Edges => "edges",
-            Question::Vertices => "vertex",
-            Question::Flat => "flat",
-            Question::Ends => "ends",
-            Question::Grid => "grid",
-            Question::Sizes => "sizes",
-            Question::Range => "range",
-            Question::Invalid => "invalid",
-        }
-    }
-
     /// The contents of the column, where its head does not say them.
-    pub fn about(self) -> &'static str {
+    pub fn contents(self) -> &'static str {
         match self {
             Question::Inside | Question::Edges | Question::Vertices => "",
             Question::Flat => "in or near the plane",

@@ -1,9 +1,10 @@
 //! `mixed-scale`, `range-ends`, `invalid`: exponents of all sizes, the ends of the range, and input that
 //! is not a finite ray and triangle.
 
+use super::boundary::toward;
 use super::control::{aimed, interior_weights};
 use super::integer::shuffle;
-use super::{Made, Recipe};
+use super::{Kept, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -21,7 +22,7 @@ fn drawn<F: Float>(draw: &mut Draw, mut coordinate: impl FnMut(&mut Draw) -> F) 
     let [p, q, _] = shuffle(draw, [a, b, c]);
     let half = F::from_f64(0.5);
     let direction = match draw.below(3) {
-        0 => std::array::from_fn(|i| p[i] - origin[i]),
+        0 => toward(origin, p),
         1 => std::array::from_fn(|i| (p[i] * half + q[i] * half) - origin[i]),
         _ => vector(draw),
     };
@@ -34,6 +35,7 @@ impl Recipe for MixedScale {
     const NAME: &'static str = "mixed-scale";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "finite, each exponent drawn independently in -30..30";
+    const KEEPS: Kept = Kept::Truths(|truth| *truth != Truth::Invalid);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         drawn(draw, |draw| {
@@ -41,16 +43,13 @@ impl Recipe for MixedScale {
             draw.with_exponent(exponent)
         })
     }
-
-    fn holds(truth: &Truth) -> bool {
-        *truth != Truth::Invalid
-    }
 }
 
 impl Recipe for RangeEnds {
     const NAME: &'static str = "range-ends";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "finite, subnormals and values near the largest float";
+    const KEEPS: Kept = Kept::Truths(|truth| *truth != Truth::Invalid);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let (lowest, highest) = (F::MIN_EXPONENT, F::MAX_EXPONENT);
@@ -71,15 +70,12 @@ impl Recipe for RangeEnds {
             if x.is_finite() { x } else { F::one() }
         })
     }
-
-    fn holds(truth: &Truth) -> bool {
-        *truth != Truth::Invalid
-    }
 }
 
 impl Recipe for Invalid {
     const NAME: &'static str = "invalid";
     const PROMISE: &'static str = "a NaN, an infinity, a zero direction or an impossible interval";
+    const KEEPS: Kept = Kept::Truths(|truth| *truth == Truth::Invalid);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let case = aimed::<F>(draw, &mut interior_weights);
@@ -101,9 +97,5 @@ impl Recipe for Invalid {
         }
         let [origin, direction, a, b, c] = vectors;
         Made::One(Case::new(origin, direction, [a, b, c]))
-    }
-
-    fn holds(truth: &Truth) -> bool {
-        *truth == Truth::Invalid
     }
 }

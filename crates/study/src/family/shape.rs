@@ -3,12 +3,11 @@
 use super::control::is_steep;
 use super::flat::placed;
 use super::integer::{
-    IntegerCase, LatticePoint, cross, independent, minus, normal, plus, shuffle, times, transversal,
+    IntegerCase, LatticePoint, independent, lattice_point, normal, shuffle, transversal,
 };
 use super::scene::{RayAxes, any_direction, rounded, wide};
-use super::{Made, Recipe};
-use crate::arith::Float;
-use crate::arith::scale_by_power_of_two;
+use super::{Kept, Made, Recipe};
+use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
@@ -85,50 +84,40 @@ fn level<F: Float>(draw: &mut Draw) -> Case<F> {
 
 /// Tilted, in integers: a long edge of 2^m steps, and a third vertex one small step beside it.
 fn tilted(draw: &mut Draw) -> IntegerCase {
-    let (a, step) = (draw.lattice_point(8), independent(draw, [0, 0, 1], 4));
+    let (a, step) = (lattice_point(draw, 8), independent(draw, LatticePoint::Z, 4));
     let aside = independent(draw, step, 4);
     let m = draw.integer(4, 16);
     let along = if draw.coin() { 0 } else { 1 << (m - 1) };
-    let [b, c] = [plus(a, times(step, 1 << m)), plus(plus(a, times(step, along)), aside)];
+    let [b, c] = [a + step * (1 << m), a + step * along + aside];
     let triangle = shuffle(draw, [a, b, c]);
-    let target = plus(a, times(step, draw.integer(0, 1 << m)));
-    let target = if draw.coin() { target } else { plus(target, aside) };
+    let target = a + step * draw.integer(0, 1 << m);
+    let target = if draw.coin() { target } else { target + aside };
     let direction = transversal(draw, normal(triangle), 8);
-    IntegerCase { origin: minus(target, times(direction, draw.integer(1, 4))), direction, triangle }
+    IntegerCase { origin: target - direction * draw.integer(1, 4), direction, triangle }
 }
 
 impl Recipe for Degenerate {
     const NAME: &'static str = "degenerate";
     const PROMISE: &'static str = "the triangle is a segment or a point";
+    const KEEPS: Kept = Kept::Truths(|truth| matches!(truth, Truth::Degenerate(_)));
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        let a = draw.lattice_point(16);
-        let step = draw.lattice_point(4);
-        let at = |k: i64| -> LatticePoint { plus(a, times(step, k)) };
+        let a = lattice_point(draw, 16);
+        let step = lattice_point(draw, 4);
+        let at = |k: i64| -> LatticePoint { a + step * k };
         let [i, j, k] = [-3, -3, -3].map(|low| draw.integer(low, 3));
         let triangle = draw.pick(&[[a, a, a], [a, a, at(i)], [a, at(i), at(j)]]);
         let triangle = shuffle(draw, triangle);
         let target = at(k);
-        let direction = if step != [0; 3] && draw.below(3) == 0 {
+        let direction = if step != LatticePoint::ZERO && draw.below(3) == 0 {
             step
         } else {
             // Any direction but the segment's own.
-            let other = if step == [0; 3] { [0, 0, 1] } else { step };
+            let other = if step == LatticePoint::ZERO { LatticePoint::Z } else { step };
             independent(draw, other, 4)
         };
-        debug_assert_eq!(
-            cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0])),
-            [0; 3]
-        );
-        IntegerCase {
-            origin: minus(target, times(direction, draw.integer(-1, 3))),
-            direction,
-            triangle,
-        }
-        .made()
-    }
-
-    fn holds(truth: &Truth) -> bool {
-        matches!(truth, Truth::Degenerate(_))
+        debug_assert_eq!(normal(triangle), LatticePoint::ZERO);
+        let origin = target - direction * draw.integer(-1, 3);
+        IntegerCase { origin, direction, triangle }.made()
     }
 }

@@ -1,7 +1,10 @@
 //! `tiny`, `huge`, `far`: triangles of 2^-40 and of 2^40, and small triangles far from the origin.
 
-use super::control::{aimed, interior_weights};
-use super::integer::{minus, normal, plus, shuffle, times, transversal, triangle_with_edge_point};
+use super::boundary::toward;
+use super::control::{aimed, interior_weights, is_steep};
+use super::integer::{
+    LatticePoint, float, lattice_point, normal, shuffle, transversal, triangle_with_edge_point,
+};
 use super::{Made, Recipe, apply};
 use crate::arith::Float;
 use crate::case::{Case, Draw, Parameters};
@@ -56,26 +59,23 @@ impl Recipe for Far {
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         // All on the integer grid of a large offset, which is exact below 2^DIGITS.
         let ([a, b, c], edge_point) = triangle_with_edge_point(draw, 64);
-        let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| times(p, 2));
-        let middle = std::array::from_fn(|i| (c[i] + edge_point[i]) / 2);
-        let target = draw.pick(&[middle, edge_point, c, plus(c, [1, 0, 0])]);
+        let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| p * 2);
+        let middle = (c + edge_point) / 2;
+        let target = draw.pick(&[middle, edge_point, c, c + LatticePoint::X]);
         let [a, b, c] = shuffle(draw, [a, b, c]);
         let exponent = draw.integer(10, i64::from(F::DIGITS) - 2);
-        let base = draw.lattice_point(1 << exponent);
+        let base = lattice_point(draw, 1 << exponent);
         let direction = transversal(draw, normal([a, b, c]), 32);
-        let origin = minus(target, times(direction, draw.integer(1, 8)));
-        let float = |p: [i64; 3]| plus(p, base).map(|x| F::from_f64(x as f64));
+        let origin = target - direction * draw.integer(1, 8);
+        let [a, b, c, goal] = [a, b, c, target].map(|p| float(p + base));
         // Half of the rays come from the far side of the coordinate system.
         if draw.coin() {
-            let start = base.map(|x| F::from_f64(-(x as f64)));
-            let goal = float(target);
-            let direction = std::array::from_fn(|i| goal[i] - start[i]);
-            let case = Case::new(start, direction, [a, b, c].map(float));
-            if super::control::is_steep(direction, [a, b, c].map(float)) {
-                return Made::One(case);
+            let start = float(base).map(|x: F| -x);
+            let direction = toward(start, goal);
+            if is_steep(direction, [a, b, c]) {
+                return Made::One(Case::new(start, direction, [a, b, c]));
             }
         }
-        let direction = direction.map(|x| F::from_f64(x as f64));
-        Made::One(Case::new(float(origin), direction, [a, b, c].map(float)))
+        Made::One(Case::new(float(origin + base), float(direction), [a, b, c]))
     }
 }

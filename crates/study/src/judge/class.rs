@@ -27,11 +27,8 @@ impl TruthKind {
             }
             Truth::Parallel | Truth::Invalid => [false; 3],
         };
-        TruthKind(
-            digits
-                .into_iter()
-                .fold(Class::of(truth).0, |number, digit| 2 * number + u8::from(digit)),
-        )
+        let shifted = |number, digit| 2 * number + u8::from(digit);
+        TruthKind(digits.into_iter().fold(Class::of(truth).0, shifted))
     }
 
     /// Its class.
@@ -41,17 +38,9 @@ impl TruthKind {
 
     /// The side that the ray crosses the plane from; none if it does not.
     pub fn facing(self) -> Option<Facing> {
-        const FACINGS: [Option<Facing>; TruthKind::COUNT] = {
-            let mut facings = [None; TruthKind::COUNT];
-            let mut kind = 0;
-            while kind < 8 * PARTS.len() * SIDES.len() * PLACES.len() {
-                let is_back = kind / 8 / PLACES.len() % SIDES.len() == 1;
-                facings[kind] = Some(if is_back { Facing::Back } else { Facing::Front });
-                kind += 1;
-            }
-            facings
-        };
-        FACINGS[self.number()]
+        let class = self.class();
+        let side = if class.is_back() { Facing::Back } else { Facing::Front };
+        class.crosses().then_some(side)
     }
 
     /// A number below [`TruthKind::COUNT`].
@@ -71,13 +60,15 @@ const SIDES: [&str; 2] = ["front", "back"];
 const PLACES: [&str; 3] = ["within", "before", "beyond"];
 const FLAT: [&str; 4] = ["parallel", "coplanar", "degenerate", "invalid"];
 
+/// The number of the first class whose line does not cross the plane at one point.
+const FIRST_FLAT: usize = PARTS.len() * SIDES.len() * PLACES.len();
+
 impl Class {
     /// The number of classes.
-    pub const COUNT: usize = PARTS.len() * SIDES.len() * PLACES.len() + FLAT.len();
+    pub const COUNT: usize = FIRST_FLAT + FLAT.len();
 
     /// The class of a truth.
     pub fn of(truth: &Truth) -> Class {
-        let first_flat = Class::COUNT - FLAT.len();
         let number = match truth {
             Truth::Transversal(Crossing { facing, place, feature, .. }) => {
                 let part = match feature {
@@ -94,10 +85,10 @@ impl Class {
                 };
                 (part * SIDES.len() + side) * PLACES.len() + place
             }
-            Truth::Parallel => first_flat,
-            Truth::Coplanar(_) => first_flat + 1,
-            Truth::Degenerate(_) => first_flat + 2,
-            Truth::Invalid => first_flat + 3,
+            Truth::Parallel => FIRST_FLAT,
+            Truth::Coplanar(_) => FIRST_FLAT + 1,
+            Truth::Degenerate(_) => FIRST_FLAT + 2,
+            Truth::Invalid => FIRST_FLAT + 3,
         };
         Class(number as u8)
     }
@@ -112,13 +103,25 @@ impl Class {
         usize::from(self.0)
     }
 
+    /// True if the line crosses the plane at one point.
+    fn crosses(self) -> bool {
+        self.number() < FIRST_FLAT
+    }
+
     /// Where the line meets the triangle, or the kind of situation: `edge`, `coplanar`.
     pub fn part(self) -> &'static str {
-        let per_part = SIDES.len() * PLACES.len();
-        PARTS
-            .get(self.number() / per_part)
-            .copied()
-            .unwrap_or_else(|| FLAT[self.number() - PARTS.len() * per_part])
+        match self.crosses() {
+            true => PARTS[self.number() / PLACES.len() / SIDES.len()],
+            false => FLAT[self.number() - FIRST_FLAT],
+        }
+    }
+
+    fn side(self) -> usize {
+        self.number() / PLACES.len() % SIDES.len()
+    }
+
+    fn place(self) -> usize {
+        self.number() % PLACES.len()
     }
 
     /// True if the input has no meaning: no value of a hit is judged then.
@@ -133,24 +136,20 @@ impl Class {
 
     /// True if the line crosses the plane from behind.
     pub fn is_back(self) -> bool {
-        self.name().contains("/back/")
+        self.crosses() && self.side() == 1
     }
 
     /// True if the line crosses the plane before or beyond the interval.
     pub fn is_off_the_interval(self) -> bool {
-        let name = self.name();
-        name.ends_with("/before") || name.ends_with("/beyond")
+        self.crosses() && self.place() != 0
     }
 
     /// The name in records: `edge/front/within`, `coplanar`.
     pub fn name(self) -> String {
-        let per_part = SIDES.len() * PLACES.len();
-        if self.number() >= PARTS.len() * per_part {
-            return self.part().to_owned();
+        match self.crosses() {
+            true => format!("{}/{}/{}", self.part(), SIDES[self.side()], PLACES[self.place()]),
+            false => self.part().to_owned(),
         }
-        let (side, place) =
-            (self.number() / PLACES.len() % SIDES.len(), self.number() % PLACES.len());
-        format!("{}/{}/{}", self.part(), SIDES[side], PLACES[place])
     }
 }
 

@@ -237,17 +237,16 @@ impl NearOne {
 
     /// True if every number equals the case's but for the powers of two: none underflowed.
     fn is_exact(&self, case: &Case<f64>) -> bool {
-        let back = |x: f64, exponent: i32, was: f64| scaled(x, exponent) == was;
         let length = exponent_of(&case.vectors()[1]);
-        let powers = [self.size, length, self.size, self.size, self.size];
-        let vectors = self.case.vectors().into_iter().zip(case.vectors()).zip(powers);
-        let mut numbers = vectors.flat_map(|((near, was), power)| {
-            std::array::from_fn::<_, 3, _>(|i| (near[i], power, was[i]))
-        });
-        let end = self.size - length;
-        numbers.all(|(near, power, was)| back(near, power, was))
-            && back(self.case.ray.t_min, end, case.ray.t_min)
-            && back(self.case.ray.t_max, end, case.ray.t_max)
+        let mut back = self.case.vectors();
+        for (i, vector) in back.iter_mut().enumerate() {
+            let power = if i == 1 { length } else { self.size };
+            *vector = vector.map(|x| scaled(x, power));
+        }
+        let end = |t: f64| scaled(t, self.size - length);
+        let near = &self.case.ray;
+        back == case.vectors()
+            && [end(near.t_min), end(near.t_max)] == [case.ray.t_min, case.ray.t_max]
     }
 }
 

@@ -16,6 +16,7 @@ use crate::arith::{Bounded, Exact, Float, Real, Triple, Vector, bounded};
 use crate::case::{Case, Ray, Triangle};
 use crate::kernel::{Gives, Hit, Verdict};
 use crate::truth::{Feature, Truth};
+use glam::{DVec3, Vec3Swizzles};
 use std::array;
 
 /// How many times u·κ a value may be off. Of 500,000 rays at the insides, the edges and the vertices of
@@ -89,6 +90,11 @@ impl<R: Real> Allowed<R> {
             || 0.0 < tolerance && self.is_within(which, &off, tolerance)
     }
 
+    /// The same of several values of a hit.
+    fn admits_all(&self, values: &[(usize, f64)], tolerance: f64) -> bool {
+        values.iter().all(|&(which, value)| self.admits(which, (self.number)(value), tolerance))
+    }
+
     /// True if an error moves the point by at most so many longest edges, or a weight by at most so much.
     fn is_within(&self, which: usize, off: &R, edges: f64) -> bool {
         if edges == f64::INFINITY {
@@ -112,6 +118,12 @@ fn given(gives: Gives) -> [bool; 3] {
     [gives.t, gives.uv, gives.uv]
 }
 
+/// Those of t, u and v (0, 1 and 2) that a kernel gives.
+fn given_values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Vec<(usize, f64)> {
+    let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64).into_iter().enumerate();
+    values.filter(|(which, _)| given(gives)[*which]).collect()
+}
+
 /// True if each value that the kernel gives is as near to its exact one as rounding may leave it, or as a contract
 /// tolerates. The hit has finite values, and its line crosses the plane.
 pub(super) fn are_near<F: Float>(
@@ -120,20 +132,9 @@ pub(super) fn are_near<F: Float>(
     verdict: &Verdict<F>,
     tolerance: f64,
 ) -> bool {
-    fn near<F: Float, R: Real>(
-        case: &Case<F>,
-        number: fn(f64) -> R,
-        values: &[(usize, f64)],
-        tolerance: f64,
-    ) -> bool {
-        let allowed = Allowed::of(case, number);
-        values.iter().all(|&(which, value)| allowed.admits(which, number(value), tolerance))
-    }
-    let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
-    let values: Vec<_> =
-        values.into_iter().enumerate().filter(|(which, _)| given(gives)[*which]).collect();
-    bounded(|| near(case, Bounded::new, &values, tolerance))
-        .unwrap_or_else(|| near(case, Exact::from_f64, &values, tolerance))
+    let values = given_values(gives, verdict);
+    let in_bounds = bounded(|| Allowed::of(case, Bounded::new).admits_all(&values, tolerance));
+    in_bounds.unwrap_or_else(|| Allowed::of(case, Exact::from_f64).admits_all(&values, tolerance))
 }
 
 /// The same of what a kernel's formula gives without rounding.
@@ -155,10 +156,8 @@ pub fn exact_values_are_near<F: Float>(
 /// and its line crosses the plane.
 pub fn exact_times<F: Float>(case: &Case<F>, gives: Gives, verdict: &Verdict<F>) -> Exact {
     let allowed = Allowed::of(case, Exact::from_f64);
-    let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
-    let given = (0..3).filter(|which| given(gives)[*which]);
-    let times = given.map(|which| {
-        let off = (Exact::from_f64(values[which]) - &allowed.exact[which]).abs();
+    let times = given_values(gives, verdict).into_iter().map(|(which, value)| {
+        let off = (Exact::from_f64(value) - &allowed.exact[which]).abs();
         if off.is_zero() { off } else { off / &allowed.unit[which] }
     });
     times.fold(Exact::from_f64(0.0), Exact::larger)
@@ -296,52 +295,42 @@ fn quick(case: &Case<f64>, roundoff: f64) -> Option<[(f64, f64); 3]> {
     if !size.clone().all(|x| x == 0.0 || (1.0 / LARGEST..=LARGEST).contains(&x)) {
         return None;
     }
-    let [o, d, a, b, c] = vectors;
-    let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-    let (ab, ac, start) = (minus(b, a), minus(c, a), minus(a, o));
+    let [o, d, a, b, c] = vectors.map(DVec3::from);
+    let (ab, ac, start) = (b - a, c - a, a - o);
     // A cross product, and the same with all signs dropped.
-    let cross = |p: [f64; 3], q: [f64; 3]| {
-        let of = |i: usize, j: usize| {
-            let (x, y) = (p[i] * q[j], p[j] * q[i]);
-            (x - y, x.abs() + y.abs())
-        };
-        let [x, y, z] = [of(1, 2), of(2, 0), of(0, 1)];
-        ([x.0, y.0, z.0], [x.1, y.1, z.1])
+    let cross = |p: DVec3, q: DVec3| {
+        let (left, right) = (p.yzx() * q.zxy(), p.zxy() * q.yzx());
+        (left - right, left.abs() + right.abs())
     };
-    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    let abs = |p: [f64; 3]| p.map(f64::abs);
     let rows = [cross(ab, ac), cross(d, ac), cross(ab, d)];
-    let determinant = dot(d, rows[0].0).abs();
-    let sign = if dot(d, rows[0].0) < 0.0 { -1.0 } else { 1.0 };
+    let determinant = d.dot(rows[0].0).abs();
+    let sign = if d.dot(rows[0].0) < 0.0 { -1.0 } else { 1.0 };
     // Differences, products and sums: at most eight roundings of half an epsilon on the way to each term.
     let error = 4.0 * f64::EPSILON;
-    let determinant_error = error * dot(abs(d), rows[0].1);
+    let determinant_error = error * d.abs().dot(rows[0].1);
     let least = determinant - determinant_error;
     // False of NaN too.
     let is_known = determinant / 2.0 < least;
     if !is_known {
         return None;
     }
-    let values = rows.map(|(row, _)| sign * dot(row, start) / determinant);
+    let values = rows.map(|(row, _)| sign * row.dot(start) / determinant);
     let errors: [f64; 3] = array::from_fn(|i| {
-        let numerator = error * dot(rows[i].1, abs(start));
+        let numerator = error * rows[i].1.dot(start.abs());
         (numerator + values[i].abs() * determinant_error) / least + error * values[i].abs()
     });
     let [t, u, v] = values;
     let w = 1.0 - u - v;
-    let largest = |p: [f64; 3]| p[0].abs().max(p[1].abs()).max(p[2].abs());
-    let sizes: [f64; 3] = array::from_fn(|j| {
-        (w * a[j]).abs() + (u * b[j]).abs() + (v * c[j]).abs() + o[j].abs() + (t * d[j]).abs()
-    });
+    let largest = |p: DVec3| p.abs().max_element();
+    let sizes = (w * a).abs() + (u * b).abs() + (v * c).abs() + o.abs() + (t * d).abs();
     // The weights' errors move each term by no more than this.
     let moved = (errors[1] + errors[2] + error) * (largest(a) + largest(b) + largest(c))
         + errors[0] * largest(d);
     let size = (largest(sizes) * (1.0 - error) - moved).max(0.0);
     let mut found = [(0.0, 0.0); 3];
     for i in 0..3 {
-        let ([x, y, z], permanents) = (rows[i].0.map(f64::abs), rows[i].1);
-        let row = x + y + z - error * (permanents[0] + permanents[1] + permanents[2]);
-        let row = row.max(0.0);
+        let (row, permanents) = (rows[i].0.abs(), rows[i].1);
+        let row = (row.element_sum() - error * permanents.element_sum()).max(0.0);
         let unit = roundoff * size * row / (determinant + determinant_error);
         let unit = if i == 0 { unit } else { unit.max(roundoff) };
         let off = ALLOWANCE * unit * (1.0 - 1e-9) - errors[i];

@@ -8,7 +8,7 @@ use super::MapError;
 use super::frame::Stretch;
 use super::panel::Panel;
 use super::scene::{FloatLayer, MapScene};
-use super::svg::{DOCUMENT_BACKGROUND, DOCUMENT_STYLE, wrapped};
+use super::svg::{BOLD, DOCUMENT, SMALL, drawing_of, text, wrapped};
 use crate::arith::{Exact, Float, Real};
 use crate::audit::{Row, exact_severity};
 use crate::case::Case;
@@ -16,9 +16,7 @@ use crate::corpus::number;
 use crate::judge::{asked, judge};
 use crate::kernel::{Scalar, Verdict, verdicts_of};
 use crate::oracle::{self, Definition};
-use crate::plot::escaped;
 use crate::truth::Truth;
-use std::fmt::Write;
 
 const WIDTH: f64 = 640.0;
 const SIDE: f64 = 298.0;
@@ -28,12 +26,12 @@ const LINE: f64 = 18.0;
 /// The drawing of a row on a case, to be put into a page: it has no ids and no styles, and text of the
 /// page's colour.
 pub fn drawing<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, MapError> {
-    Ok(DrawingTexts::new(case, row)?.finish("", ""))
+    Ok(DrawingTexts::new(case, row)?.finish(""))
 }
 
 /// The drawing as a file of its own, dark where the reader's screen is.
 pub fn drawing_document<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, MapError> {
-    Ok(DrawingTexts::new(case, row)?.finish(DOCUMENT_STYLE, DOCUMENT_BACKGROUND))
+    Ok(DrawingTexts::new(case, row)?.finish(DOCUMENT))
 }
 
 /// The texts of the drawing, and its body so far.
@@ -54,12 +52,8 @@ impl DrawingTexts {
         let [verdict] = verdict;
         let definition = oracle::define(case);
         let asked = asked(case, &definition.truth, &row.contract, false);
-        let finding = judge(
-            (&row.contract, asked),
-            (case, &definition.truth),
-            row.entry.info.gives,
-            &verdict,
-        );
+        let gives = row.entry.info.gives;
+        let finding = judge((&row.contract, asked), (case, &definition.truth), gives, &verdict);
         let judged = finding.map_or("as its contract asks", |finding| finding.name());
         let mut witness = DrawingTexts {
             title: format!("{} in {}: {judged}", row.label(), F::NAME),
@@ -67,17 +61,17 @@ impl DrawingTexts {
             body: String::new(),
             y: 0.0,
         };
-        if case.vectors().iter().flatten().all(Real::is_finite) {
-            witness.distances(case, row);
-            let [_, direction, ..] = case.vectors();
-            if direction.iter().any(|x| !x.is_zero()) {
-                witness.scene(&MapScene::new(case, row.entry.info.gives, &verdict, &definition));
-            } else {
-                witness.lines.push("A direction of zero: there is no line to draw.".to_owned());
-            }
-        } else {
+        if !case.vectors().iter().flatten().all(Real::is_finite) {
             let nothing = "A coordinate is not finite: there is nothing to draw.";
             witness.lines.push(nothing.to_owned());
+            return Ok(witness);
+        }
+        witness.distances(case, row);
+        let [_, direction, ..] = case.vectors();
+        if direction.iter().any(|x| !x.is_zero()) {
+            witness.scene(&MapScene::new(case, gives, &verdict, &definition));
+        } else {
+            witness.lines.push("A direction of zero: there is no line to draw.".to_owned());
         }
         Ok(witness)
     }
@@ -92,10 +86,10 @@ impl DrawingTexts {
             distance(space * severity.edge_in_ulps)
         );
         if let Some(in_plane) = severity.in_plane {
-            let _ = write!(text, "; in the plane it is {}", distance(in_plane));
+            text += &format!("; in the plane it is {}", distance(in_plane));
         }
         if let Some(along) = severity.along {
-            let _ = write!(text, "; along the ray {} from an end of it", distance(along));
+            text += &format!("; along the ray {} from an end of it", distance(along));
         }
         self.lines.push(text + ".");
     }
@@ -104,8 +98,8 @@ impl DrawingTexts {
         self.lines.push(scene.seen().to_owned());
         if let Some(apart) = scene.apart() {
             let apart = distance(apart);
-            self.lines
-                .push(format!("The kernel's point is {apart} longest edges from the exact one."));
+            let words = format!("The kernel's point is {apart} longest edges from the exact one.");
+            self.lines.push(words);
         }
         let top = self.y + 52.0;
         let layer = scene.from(&scene.triangle.a);
@@ -115,11 +109,8 @@ impl DrawingTexts {
         if let Some(half) = near.inset_half() {
             let left = WIDTH - MARGIN - SIDE;
             let inset = Panel { left, top, side: SIDE, centre: [0.0; 2], half };
-            self.panel(
-                &inset,
-                &near,
-                &format!("the point, {} times larger", brief(main.half / half)),
-            );
+            let name = format!("the point, {} times larger", brief(main.half / half));
+            self.panel(&inset, &near, &name);
             self.bar(&inset);
         }
         self.y = top + SIDE + 4.0;
@@ -129,22 +120,16 @@ impl DrawingTexts {
     fn panel(&mut self, panel: &Panel, layer: &FloatLayer, name: &str) {
         let Panel { left, top, side, .. } = *panel;
         let out = &mut self.body;
-        let _ = writeln!(
-            out,
-            "<text x=\"{left}\" y=\"{}\" font-weight=\"bold\">{name}</text>",
-            top - 8.0
-        );
+        *out += &text(left, top - 8.0, BOLD, name);
         let edges: Option<Vec<Stretch>> = layer.edges.iter().copied().collect();
         let fill = edges.filter(|_| layer.has_area).map(|edges| panel.left_of(&edges));
         if let Some(path) = fill.filter(|path| !path.is_empty()) {
-            let _ = writeln!(out, "<path d=\"{path}\" fill=\"#6fb4e6\" fill-opacity=\"0.4\"/>");
+            *out += &format!("<path d=\"{path}\" fill=\"#6fb4e6\" fill-opacity=\"0.4\"/>\n");
         }
         let mut stroke = |stretch: &Option<Stretch>, attributes: &str| {
             if let Some([[x1, y1], [x2, y2]]) = stretch.and_then(|stretch| panel.ends(&stretch)) {
-                let _ = writeln!(
-                    out,
-                    "<path d=\"M{x1:.2} {y1:.2}L{x2:.2} {y2:.2}\" fill=\"none\" {attributes}/>"
-                );
+                let ends = format!("M{x1:.2} {y1:.2}L{x2:.2} {y2:.2}");
+                *out += &format!("<path d=\"{ends}\" fill=\"none\" {attributes}/>\n");
             }
         };
         for edge in &layer.edges {
@@ -153,9 +138,8 @@ impl DrawingTexts {
         stroke(&layer.line, "stroke=\"currentColor\" stroke-dasharray=\"3 4\"");
         stroke(&layer.interval, "stroke=\"currentColor\"");
         stroke(&layer.contact, "stroke=\"#0072b2\" stroke-width=\"5\" stroke-opacity=\"0.7\"");
-        let _ = writeln!(
-            out,
-            "<rect x=\"{left}\" y=\"{top}\" width=\"{side}\" height=\"{side}\" fill=\"none\" stroke=\"#808080\"/>"
+        *out += &format!(
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{side}\" height=\"{side}\" fill=\"none\" stroke=\"#808080\"/>\n"
         );
         self.names(panel, layer);
         let marks = [
@@ -166,21 +150,16 @@ impl DrawingTexts {
         for (point, mark) in marks {
             let Some(point) = point else { continue };
             if let Some(place) = panel.place(point) {
-                self.body.push_str(&mark.at(place));
+                self.body += &mark.at(place);
             } else if let (Some(([x, y], [dx, dy])), true) =
                 (panel.pointer(point), mark != PointMark::Origin)
             {
                 // An arrow whose tip is on the rim.
                 let (bx, by) = (x - 12.0 * dx, y - 12.0 * dy);
-                let _ = writeln!(
-                    self.body,
-                    "<path d=\"M{x:.2} {y:.2}L{:.2} {:.2}L{:.2} {:.2}z\" fill=\"{}\"/>",
-                    bx - 5.0 * dy,
-                    by + 5.0 * dx,
-                    bx + 5.0 * dy,
-                    by - 5.0 * dx,
-                    mark.color()
-                );
+                let corner = |side: f64| format!("L{:.2} {:.2}", bx - side * dy, by + side * dx);
+                let (one, other, color) = (corner(5.0), corner(-5.0), mark.color());
+                self.body +=
+                    &format!("<path d=\"M{x:.2} {y:.2}{one}{other}z\" fill=\"{color}\"/>\n");
             }
         }
     }
@@ -191,32 +170,25 @@ impl DrawingTexts {
         for (vertex, name) in layer.vertices.into_iter().zip(["a", "b", "c"]) {
             let Some(place) = panel.place(vertex) else { continue };
             match named.iter_mut().find(|(at, _)| *at == place) {
-                Some((_, names)) => {
-                    names.push_str(" = ");
-                    names.push_str(name);
-                }
+                Some((_, names)) => *names += &format!(" = {name}"),
                 None => named.push((place, name.to_owned())),
             }
         }
         let middle: [f64; 2] = [0, 1].map(|i| layer.vertices.iter().map(|v| v[i] / 3.0).sum());
         let from = panel.place(middle);
         for ([x, y], names) in named {
-            let [dx, dy] = match from {
+            let away = from.map(|[mx, my]| [x - mx, y - my]);
+            let [dx, dy] = match away {
                 _ if !layer.has_area => [0.0, -1.0],
-                Some([mx, my]) if (x - mx).hypot(y - my) > 1.0 => {
-                    let length = (x - mx).hypot(y - my);
-                    [(x - mx) / length, (y - my) / length]
-                }
+                Some([dx, dy]) if dx.hypot(dy) > 1.0 => [dx, dy].map(|way| way / dx.hypot(dy)),
                 _ => [-0.7, -0.7],
             };
             // Within the window.
             let x = (x + 13.0 * dx).clamp(panel.left + 10.0, panel.left + panel.side - 10.0);
             let y = (y + 13.0 * dy).clamp(panel.top + 12.0, panel.top + panel.side - 8.0);
-            let _ = writeln!(
-                self.body,
-                "<text x=\"{x:.2}\" y=\"{:.2}\" text-anchor=\"middle\" font-style=\"italic\">{names}</text>",
-                y + 4.0
-            );
+            let attributes = " text-anchor=\"middle\" font-style=\"italic\"";
+            let [x, y] = [x, y + 4.0].map(|place| format!("{place:.2}"));
+            self.body += &text(x, y, attributes, &names);
         }
     }
 
@@ -228,12 +200,11 @@ impl DrawingTexts {
         if !(1.0..=panel.side).contains(&length) {
             return;
         }
-        let _ = writeln!(
-            self.body,
-            "<path d=\"M{x:.2} {:.2}v6h{length:.2}v-6\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"1.5\"/><text x=\"{x:.2}\" y=\"{:.2}\" font-size=\"12\">1e{power} of the longest edge</text>",
-            y - 3.0,
-            y - 8.0
+        let [x, bar, words] = [x, y - 3.0, y - 8.0].map(|place| format!("{place:.2}"));
+        self.body += &format!(
+            "<path d=\"M{x} {bar}v6h{length:.2}v-6\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"1.5\"/>"
         );
+        self.body += &text(x, words, SMALL, &format!("1e{power} of the longest edge"));
     }
 
     /// Draws the key to the marks.
@@ -248,13 +219,8 @@ impl DrawingTexts {
         let mut x = MARGIN + 8.0;
         self.y += LINE;
         for (mark, words) in keys {
-            let (place, text) = ([x, self.y - 4.5], x + 12.0);
-            self.body.push_str(&mark.at(place));
-            let _ = writeln!(
-                self.body,
-                "<text x=\"{text:.2}\" y=\"{}\" font-size=\"12\">{words}</text>",
-                self.y
-            );
+            self.body += &mark.at([x, self.y - 4.5]);
+            self.body += &text(format_args!("{:.2}", x + 12.0), self.y, SMALL, words);
             x += 40.0 + 6.6 * words.len() as f64;
         }
         let contact = if scene.contact.is_some() { ", thick: in the triangle" } else { "" };
@@ -263,27 +229,16 @@ impl DrawingTexts {
         ));
     }
 
-    fn finish(mut self, style: &str, background: &str) -> String {
+    fn finish(mut self, document: &str) -> String {
         let most = ((WIDTH - 2.0 * MARGIN) / 6.9) as usize;
-        let mut text = format!(
-            "<text x=\"{MARGIN}\" y=\"{}\" font-weight=\"bold\">{}</text>\n",
-            LINE,
-            escaped(&self.title)
-        );
+        self.body += &text(MARGIN, LINE, BOLD, &self.title);
         let mut y = self.y.max(LINE) + 4.0;
         for line in self.lines.iter().flat_map(|line| wrapped(line, most)) {
             y += LINE;
-            let _ = writeln!(
-                text,
-                "<text x=\"{MARGIN}\" y=\"{y}\" font-size=\"12\">{}</text>",
-                escaped(&line)
-            );
+            self.body += &text(MARGIN, y, SMALL, &line);
         }
-        let (height, title) = (y + 10.0, escaped(&self.title));
-        let (description, body) = (escaped(&self.lines.join(" ")), std::mem::take(&mut self.body));
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"13\" fill=\"currentColor\" role=\"img\">\n<title>{title}</title>\n<desc>{description}</desc>\n{style}{background}{body}{text}</svg>\n"
-        )
+        let words = [&*self.title, &self.lines.join(" ")];
+        drawing_of([WIDTH, y + 10.0], words, &(document.to_owned() + &self.body))
     }
 }
 
@@ -310,11 +265,9 @@ impl PointMark {
             PointMark::Origin => format!(
                 "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"7\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.5\"/>\n"
             ),
-            PointMark::Exact => {
-                format!(
-                    "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3.5\" fill=\"{color}\" stroke=\"#fff\"/>\n"
-                )
-            }
+            PointMark::Exact => format!(
+                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3.5\" fill=\"{color}\" stroke=\"#fff\"/>\n"
+            ),
             PointMark::Computed => format!(
                 "<path d=\"M{:.2} {:.2}l11 11m0 -11l-11 11\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2.5\"/>\n",
                 x - 5.5,
@@ -342,11 +295,11 @@ fn overview(layer: &FloatLayer, left: f64, top: f64) -> Panel {
 /// The exact truth in words.
 fn exactly(definition: &Definition) -> String {
     let mut text = format!("Exactly: {}", definition.truth);
-    if let (Truth::Transversal(_), Some(t)) = (definition.truth, &definition.exact.t) {
-        let t = Exact::from_rational(t).approximate();
-        if t.is_finite() {
-            let _ = write!(text, ", t = {}", value(t));
-        }
+    if let (Truth::Transversal(_), Some(t)) = (definition.truth, &definition.exact.t)
+        && let t = Exact::from_rational(t).approximate()
+        && t.is_finite()
+    {
+        text += &format!(", t = {}", value(t));
     }
     text + "."
 }
@@ -366,13 +319,13 @@ fn computed<F: Float>(row: &Row, verdict: &Verdict<F>) -> String {
     let gives = row.entry.info.gives;
     let mut text = "Computed: a hit".to_owned();
     if gives.t {
-        let _ = write!(text, ", t = {}", value(verdict.t));
+        text += &format!(", t = {}", value(verdict.t));
     }
     if gives.uv {
-        let _ = write!(text, ", u = {}, v = {}", value(verdict.u), value(verdict.v));
+        text += &format!(", u = {}, v = {}", value(verdict.u), value(verdict.v));
     }
     if let (true, Some(facing)) = (gives.facing, verdict.facing) {
-        let _ = write!(text, ", {}", facing.name());
+        text += &format!(", {}", facing.name());
     }
     text + "."
 }

@@ -122,8 +122,7 @@ impl<F: Float> Grid<F> {
 /// The default step of an axis: 1 ulp, and for a coordinate that is zero the ulp of the
 /// point's largest coordinate (of `extent`, for a point that is zero).
 fn natural_step<F: Float>(centre: F, values: &[F], extent: F) -> PixelStep {
-    let larger = |m: F, x: &F| if m < x.abs() { x.abs() } else { m };
-    let largest = values.iter().fold(F::zero(), larger);
+    let largest = values.iter().map(F::abs).fold(F::zero(), F::larger);
     let largest = if largest.is_zero() { extent.abs() } else { largest };
     if !centre.is_zero() || largest.is_zero() || !largest.is_finite() {
         return PixelStep::Ulps(1);

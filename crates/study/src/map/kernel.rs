@@ -41,8 +41,7 @@ pub fn grid_of_case<F: Float>(
 ) -> Result<Grid<F>, MapError> {
     let vectors = case.vectors();
     let [origin, _, a, b, c] = vectors;
-    let larger = |m: F, x: F| if m < x { x } else { m };
-    let extent = [origin, a, b, c].as_flattened().iter().map(F::abs).fold(F::zero(), larger);
+    let extent = [origin, a, b, c].as_flattened().iter().map(F::abs).fold(F::zero(), F::larger);
     let coordinates = coordinates.unwrap_or_else(|| plane_axes(case));
     Grid::about(part as usize, &vectors[part as usize], coordinates, step, size, extent)
 }

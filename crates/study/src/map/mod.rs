@@ -117,59 +117,36 @@ pub struct RayPixel {
     pub finding: Option<Finding>,
 }
 
-/// The look of a pixel. Right is pale and wrong is dark, so that wrong pixels are seen without
-/// telling colours apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Ink {
-    /// A hit.
-    Yes,
-    /// A miss.
-    No,
-    /// Exactly on the boundary.
-    Boundary,
-    /// Nothing is demanded.
-    Free,
-    /// A false hit.
-    FalseYes,
-    /// A false miss.
-    FalseNo,
-    /// A hit with a bad or a wrong value.
-    Bad,
-    /// No verdict.
-    Failed,
+named! {
+    pub names
+    /// The look of a pixel, in the order of legends, with its colour as HTML and SVG write it. Right is pale and wrong is
+    /// dark, so that wrong pixels are seen without telling colours apart.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Ink {
+        /// A hit.
+        Yes = "#6fb4e6",
+        /// A miss.
+        No = "#dcdfe2",
+        /// Exactly on the boundary.
+        Boundary = "#f0e442",
+        /// Nothing is demanded.
+        Free = "#fafafa",
+        /// A false hit.
+        FalseYes = "#c83e00",
+        /// A false miss.
+        FalseNo = "#4b127a",
+        /// A hit with a bad or a wrong value.
+        Bad = "#00664b",
+        /// No verdict.
+        Failed = "#000000",
+    }
 }
 
 impl Ink {
-    /// All, in the order of legends.
-    pub const ALL: [Ink; 8] = [
-        Ink::Yes,
-        Ink::No,
-        Ink::Boundary,
-        Ink::Free,
-        Ink::FalseYes,
-        Ink::FalseNo,
-        Ink::Bad,
-        Ink::Failed,
-    ];
-
     /// Red, green, blue.
     pub fn rgb(self) -> [u8; 3] {
-        match self {
-            Ink::Yes => [0x6f, 0xb4, 0xe6],
-            Ink::No => [0xdc, 0xdf, 0xe2],
-            Ink::Boundary => [0xf0, 0xe4, 0x42],
-            Ink::Free => [0xfa, 0xfa, 0xfa],
-            Ink::FalseYes => [0xc8, 0x3e, 0x00],
-            Ink::FalseNo => [0x4b, 0x12, 0x7a],
-            Ink::Bad => [0x00, 0x66, 0x4b],
-            Ink::Failed => [0x00, 0x00, 0x00],
-        }
-    }
-
-    /// As HTML and SVG write it.
-    pub fn hex(self) -> String {
-        let [r, g, b] = self.rgb();
-        format!("#{r:02x}{g:02x}{b:02x}")
+        let part = |place| u8::from_str_radix(&self.name()[place..place + 2], 16);
+        [1, 3, 5].map(|place| part(place).expect("hexadecimal digits"))
     }
 }
 

@@ -13,15 +13,13 @@ const CLEAR: u8 = Ink::ALL.len() as u8;
 /// wide. An error if the picture would have more than 2^26 dots.
 pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, MapError> {
     let [width, height] = map.size();
-    let fits = |dots: usize| dots <= MOST_DOTS;
-    let wide = width.checked_mul(2).and_then(|w| w.checked_mul(scale)).map(|w| w + GAP);
-    let high = height.checked_mul(scale);
-    let dots = wide.zip(high).and_then(|(w, h)| w.checked_mul(h)).filter(|dots| fits(*dots));
-    let (Some(wide), Some(high), Some(_), 1..) = (wide, high, dots, scale) else {
+    let wide = width.saturating_mul(2).saturating_mul(scale).saturating_add(GAP);
+    let high = height.saturating_mul(scale);
+    if !(1..=MOST_DOTS).contains(&wide.saturating_mul(high)) {
         return Err(MapError(format!(
             "{width}x{height} pixels of {scale}x{scale} dots are no picture of 1 to 2^26 dots"
         )));
-    };
+    }
     let mut dots = Vec::with_capacity(wide * high);
     for y in 0..height {
         let side = |ink: &dyn Fn(usize) -> Ink| -> Vec<u8> {

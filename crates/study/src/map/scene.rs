@@ -50,16 +50,14 @@ impl MapScene {
         let contact = definition.exact.contact_t.as_ref();
         let contact = contact.map(|ends| ends.each_ref().map(Exact::from_rational));
         let finite = |x: F| x.is_finite().then(|| Exact::from_f64(x.to_f64()));
-        let by_t = if gives.t && verdict.hit { finite(verdict.t) } else { None };
-        let by_weights = if gives.uv && verdict.hit && !gives.t {
-            finite(verdict.u).zip(finite(verdict.v))
-        } else {
-            None
-        };
         let Triangle { a, b, c } = &triangle;
         let weighed =
             |(u, v): (Exact, Exact)| a.plus(&b.minus(a).times(&u)).plus(&c.minus(a).times(&v));
-        let computed = by_t.map(|t| on_line(&t)).or_else(|| by_weights.map(weighed));
+        let computed = match verdict.hit {
+            true if gives.t => finite(verdict.t).map(|t| on_line(&t)),
+            true if gives.uv => finite(verdict.u).zip(finite(verdict.v)).map(weighed),
+            _ => None,
+        };
         MapScene { frame, ray, triangle, exact, computed, contact }
     }
 

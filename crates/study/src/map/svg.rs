@@ -5,7 +5,7 @@
 
 use super::{AxisText, Ink, Map, PixelStep};
 use crate::plot::{Ticks, escaped, group_digits, pixel_ticks};
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 
 /// The side of a panel's slot.
 const PANEL: f64 = 268.0;
@@ -20,18 +20,36 @@ const LETTER: f64 = 7.0;
 
 /// The drawing, to be put into a page.
 pub fn svg(map: &Map) -> String {
-    SvgDrawing::new(map).finish("", "")
+    SvgDrawing::new(map).finish("")
 }
 
 /// The drawing as a file of its own, dark where the reader's screen is.
 pub fn svg_document(map: &Map) -> String {
-    SvgDrawing::new(map).finish(DOCUMENT_STYLE, DOCUMENT_BACKGROUND)
+    SvgDrawing::new(map).finish(DOCUMENT)
 }
 
-/// The style of drawings in files of their own.
-pub(super) const DOCUMENT_STYLE: &str = "<style>svg{color:#1b1b1b;--paper:#fff}@media(prefers-color-scheme:dark){svg{color:#e6e6e6;--paper:#14171a}}</style>\n";
-pub(super) const DOCUMENT_BACKGROUND: &str =
-    "<rect width=\"100%\" height=\"100%\" fill=\"#fff\" style=\"fill:var(--paper,#fff)\"/>\n";
+/// The style and the background of drawings in files of their own.
+pub(super) const DOCUMENT: &str = "<style>svg{color:#1b1b1b;--paper:#fff}@media(prefers-color-scheme:dark){svg{color:#e6e6e6;--paper:#14171a}}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\" style=\"fill:var(--paper,#fff)\"/>\n";
+
+pub(super) const BOLD: &str = " font-weight=\"bold\"";
+pub(super) const SMALL: &str = " font-size=\"12\"";
+
+/// Text at a place.
+pub(super) fn text(x: impl Display, y: impl Display, attributes: &str, words: &str) -> String {
+    format!("<text x=\"{x}\" y=\"{y}\"{attributes}>{}</text>\n", escaped(words))
+}
+
+/// A drawing of so many dots: its title, its description for a reader who does not see it, and what it consists of.
+pub(super) fn drawing_of(
+    [width, height]: [f64; 2],
+    [title, description]: [&str; 2],
+    body: &str,
+) -> String {
+    let (title, description) = (escaped(title), escaped(description));
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"13\" fill=\"currentColor\" role=\"img\">\n<title>{title}</title>\n<desc>{description}</desc>\n{body}</svg>\n"
+    )
+}
 
 struct SvgDrawing<'a> {
     map: &'a Map,
@@ -43,91 +61,61 @@ struct SvgDrawing<'a> {
 impl<'a> SvgDrawing<'a> {
     fn new(map: &'a Map) -> SvgDrawing<'a> {
         let mut drawing = SvgDrawing { map, body: String::new(), y: 0.0 };
-        drawing.heading();
+        drawing.lines(&title(map), BOLD);
+        drawing.lines(&format!("what is right: {}", map.measure), SMALL);
         drawing.panels();
         drawing.legend();
         drawing
     }
 
-    fn finish(self, style: &str, background: &str) -> String {
-        let (title, description) = (escaped(&title(self.map)), escaped(&description(self.map)));
-        let (height, body) = (self.y + 6.0, self.body);
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"13\" fill=\"currentColor\" role=\"img\">\n<title>{title}</title>\n<desc>{description}</desc>\n{style}{background}{body}</svg>\n"
-        )
-    }
-
-    fn heading(&mut self) {
-        let title = title(self.map);
-        self.text(&title, " font-weight=\"bold\"");
-        let measure = format!("what is right: {}", self.map.measure);
-        self.text(&measure, " font-size=\"12\"");
+    fn finish(self, document: &str) -> String {
+        let words = [&*title(self.map), &description(self.map)];
+        drawing_of([WIDTH, self.y + 6.0], words, &(document.to_owned() + &self.body))
     }
 
     /// Text over the whole width, in as many lines as it takes.
-    fn text(&mut self, text: &str, attributes: &str) {
-        for line in wrapped(text, ((WIDTH - RIGHT - 12.0) / LETTER) as usize) {
+    fn lines(&mut self, words: &str, attributes: &str) {
+        for line in wrapped(words, ((WIDTH - RIGHT - 12.0) / LETTER) as usize) {
             self.y += LINE;
-            let _ = writeln!(
-                self.body,
-                "<text x=\"12\" y=\"{}\"{attributes}>{}</text>",
-                self.y,
-                escaped(&line)
-            );
+            self.body.push_str(&text(12, self.y, attributes, &line));
         }
     }
 
     fn panels(&mut self) {
-        let [width, height] = self.map.size();
+        let map = self.map;
+        let [width, height] = map.size();
         let cell = PANEL / width.max(height) as f64;
         let (wide, high) = (cell * width as f64, cell * height as f64);
         let top = self.y + 34.0;
-        let computed = |pixel| self.map.computed(pixel);
-        let exact = |pixel| self.map.exact(pixel);
         let sides: [(&str, &dyn Fn(usize) -> Ink); 2] =
-            [("computed", &computed), ("exact", &exact)];
-        let mut body = String::new();
+            [("computed", &|pixel| map.computed(pixel)), ("exact", &|pixel| map.exact(pixel))];
         for ((name, ink), left) in sides.into_iter().zip([LEFT, LEFT + PANEL + GAP]) {
-            let _ = writeln!(
-                body,
-                "<text x=\"{left}\" y=\"{}\" font-weight=\"bold\">{name}</text>",
-                top - 10.0
+            let cells = cells([width, height], ink);
+            self.body += &text(left, top - 10.0, BOLD, name);
+            self.body += &format!(
+                "<g transform=\"translate({left} {top}) scale({cell})\" shape-rendering=\"crispEdges\">\n{cells}</g>\n<rect x=\"{left}\" y=\"{top}\" width=\"{wide}\" height=\"{high}\" fill=\"none\" stroke=\"#808080\"/>\n"
             );
-            let _ = writeln!(
-                body,
-                "<g transform=\"translate({left} {top}) scale({cell})\" shape-rendering=\"crispEdges\">"
-            );
-            body.push_str(&cells([width, height], ink));
-            body.push_str("</g>\n");
-            let _ = writeln!(
-                body,
-                "<rect x=\"{left}\" y=\"{top}\" width=\"{wide}\" height=\"{high}\" fill=\"none\" stroke=\"#808080\"/>"
-            );
-            for (at, tick) in ticks(&self.map.axes[0]) {
-                let x = left + at * wide;
-                let _ = writeln!(
-                    body,
-                    "<path d=\"M{x:.1} {:.1}v5\" stroke=\"#808080\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"12\">{tick}</text>",
-                    top + high,
-                    top + high + 18.0
-                );
+            for (at, tick) in ticks(&map.axes[0]) {
+                let (x, y) = (left + at * wide, top + high);
+                let mark = format_args!("{x:.1} {y:.1}v5");
+                self.tick(mark, format_args!("{x:.1}"), y + 18.0, ("middle", &tick));
             }
         }
-        for (at, tick) in ticks(&self.map.axes[1]) {
+        for (at, tick) in ticks(&map.axes[1]) {
             let y = top + (1.0 - at) * high;
-            let _ = writeln!(
-                body,
-                "<path d=\"M{LEFT} {y:.1}h-5\" stroke=\"#808080\"/><text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"12\">{tick}</text>",
-                LEFT - 8.0,
-                y + 4.0
-            );
+            self.tick(format_args!("{LEFT} {y:.1}h-5"), LEFT - 8.0, y + 4.0, ("end", &tick));
         }
-        self.body.push_str(&body);
         self.y = top + high + 24.0;
-        for (axis, way) in self.map.axes.iter().zip(["to the right", "upwards"]) {
-            let line = format!("{way}: {}", axis_words(axis));
-            self.text(&line, " font-size=\"12\"");
+        for (axis, way) in map.axes.iter().zip(["to the right", "upwards"]) {
+            self.lines(&format!("{way}: {}", axis_words(axis)), SMALL);
         }
+    }
+
+    /// A tick and its label.
+    fn tick(&mut self, mark: impl Display, x: impl Display, y: f64, (anchor, label): (&str, &str)) {
+        self.body += &format!("<path d=\"M{mark}\" stroke=\"#808080\"/>");
+        let attributes = format!(" text-anchor=\"{anchor}\"{SMALL}");
+        self.body += &text(x, format_args!("{y:.1}"), &attributes, label);
     }
 
     fn legend(&mut self) {
@@ -137,14 +125,13 @@ impl<'a> SvgDrawing<'a> {
         for (side, left) in sides.iter().zip([12.0, LEFT + PANEL + GAP]) {
             for (i, (ink, words, count)) in side.iter().enumerate() {
                 let y = self.y + LINE * (i as f64 + 1.0);
-                let _ = writeln!(
-                    self.body,
-                    "<rect x=\"{left}\" y=\"{}\" width=\"13\" height=\"13\" fill=\"{}\" stroke=\"#808080\"/><text x=\"{}\" y=\"{y}\">{words}: {}</text>",
+                let count = group_digits(*count as u64);
+                self.body += &format!(
+                    "<rect x=\"{left}\" y=\"{}\" width=\"13\" height=\"13\" fill=\"{}\" stroke=\"#808080\"/>",
                     y - 11.0,
-                    ink.hex(),
-                    left + 20.0,
-                    group_digits(*count as u64)
+                    ink.name()
                 );
+                self.body += &text(left + 20.0, y, "", &format!("{words}: {count}"));
             }
         }
         self.y += LINE * rows as f64;
@@ -220,11 +207,11 @@ fn cells([width, height]: [usize; 2], ink: impl Fn(usize) -> Ink) -> String {
             .collect();
     }
     let mut out =
-        format!("<path fill=\"{}\" d=\"M0 0h{width}v{height}h-{width}z\"/>\n", ground.hex());
+        format!("<path fill=\"{}\" d=\"M0 0h{width}v{height}h-{width}z\"/>\n", ground.name());
     for ink in Ink::ALL {
         let path = &paths[ink as usize];
         if ink != ground && !path.is_empty() {
-            let _ = writeln!(out, "<path fill=\"{}\" d=\"{path}\"/>", ink.hex());
+            let _ = writeln!(out, "<path fill=\"{}\" d=\"{path}\"/>", ink.name());
         }
     }
     out

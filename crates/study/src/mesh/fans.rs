@@ -1,5 +1,7 @@
 //! The faces around a vertex.
 
+use std::iter;
+
 /// A vertex of a mesh, by the faces around it (collapsed ones left out).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum VertexKind {
@@ -64,15 +66,9 @@ pub(super) fn fan_of(
 ) -> VertexKind {
     arcs.clear();
     arcs.extend(around.iter().map(|face| {
-        let [a, b, c] = corners[*face as usize];
-        let (from, to) = if a == point {
-            (b, c)
-        } else if b == point {
-            (c, a)
-        } else {
-            (a, b)
-        };
-        Arc { from, to, face: *face }
+        let corners = corners[*face as usize];
+        let at = corners.iter().position(|corner| *corner == point).expect("a face at the point");
+        Arc { from: corners[(at + 1) % 3], to: corners[(at + 2) % 3], face: *face }
     }));
     let first = arcs[0];
     arcs.sort_unstable();
@@ -86,18 +82,14 @@ pub(super) fn fan_of(
     // Every point starts at most one arc and ends at most one: paths and cycles.
     let after = |to: u32| arcs.binary_search_by_key(&to, |arc| arc.from).ok().map(|i| arcs[i]);
     let is_start = |arc: &&Arc| ends.binary_search(&arc.from).is_err();
-    let paths = arcs.iter().filter(is_start).count();
-    let start = if paths == 0 { first } else { *arcs.iter().find(is_start).unwrap_or(&first) };
-    let mut order = vec![start];
-    let mut at = start;
-    while let Some(next) = after(at.to).filter(|next| *next != start) {
-        order.push(next);
-        at = next;
-    }
+    let open_start = arcs.iter().find(is_start).copied();
+    let start = open_start.unwrap_or(first);
+    let next = |at: &Arc| after(at.to).filter(|next| *next != start);
+    let order: Vec<Arc> = iter::successors(Some(start), next).collect();
     if order.len() < arcs.len() {
         return VertexKind::SeveralFans;
     }
-    if paths > 0 {
+    if open_start.is_some() {
         return VertexKind::Open;
     }
     *arcs = order;

@@ -16,8 +16,6 @@
 #![forbid(unsafe_code)]
 
 mod fans;
-mod incidence;
-mod neighbours;
 mod rays;
 #[cfg(feature = "studies")]
 mod recognise;
@@ -26,9 +24,7 @@ mod surface;
 mod topology;
 
 pub use fans::{Fans, VertexKind};
-pub use incidence::Incidence;
-pub use neighbours::MOST_AROUND;
 pub use rays::{Aim, AimedPart, Targets};
 pub use scene::SceneMesh;
 pub use surface::Surface;
-pub use topology::{EdgeKind, FaceKind, Noted, SharedEdge, Topology};
+pub use topology::{EdgeKind, FaceKind, Incidence, MOST_AROUND, Noted, SharedEdge, Topology};

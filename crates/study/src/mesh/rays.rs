@@ -2,15 +2,15 @@
 //! around it, by index. Exact rays have the target on their line, if such floats were found; near rays are
 //! aimed at it by a program that rounds. The oracle says which are exact.
 
-use super::neighbours;
 use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters, Ray, Triangle};
 use crate::corpus::mesh::Mesh;
-use crate::family::{self, Grouping};
+use crate::family::{self, Grouping, nudged, toward, unit_vector};
 use glam::DVec3;
 
-const VERSION: u32 = 1;
+/// Part of the ids.
+pub(super) const VERSION: u32 = 1;
 
 named! {
     pub names
@@ -25,25 +25,6 @@ named! {
 }
 
 impl AimedPart {
-    /// The id of an index; it holds the mesh's digest.
-    pub(super) fn id<F: Float>(
-        self,
-        mesh: &Mesh,
-        parameters: &Parameters,
-        seed: u64,
-        index: u64,
-    ) -> CaseId {
-        CaseId {
-            family: self.name().to_owned(),
-            version: VERSION,
-            scalar: F::NAME.to_owned(),
-            parameters: Parameters { mesh: Some(mesh.digest.clone()), ..parameters.clone() },
-            seed,
-            index,
-            triangle: None,
-        }
-    }
-
     /// How the triangles of one index belong together.
     pub fn grouping(self) -> Grouping {
         match self {
@@ -147,7 +128,7 @@ impl<'m> Targets<'m> {
         cases: &mut Vec<Case<F>>,
     ) -> bool {
         let group = self.faces(part, self.place(part, index).0);
-        let faces = neighbours::around(self.topology, &self.mesh.triangles, group);
+        let faces = self.topology.around(&self.mesh.triangles, group);
         faces.is_some_and(|faces| {
             cases.extend(faces.iter().map(|face| self.case(ray, *face)));
             true
@@ -167,11 +148,8 @@ impl<'m> Targets<'m> {
         let (target, number) = self.place(part, index);
         let mut draw = Draw::new(part.name(), self.seed, index);
         let faces = self.faces(part, target);
-        let ends = match part {
-            AimedPart::Edges => self.topology.shared[target].ends,
-            AimedPart::Vertices => [self.topology.fans.get(target).0; 2],
-        };
-        let ends = ends.map(|point| self.mesh.position(point));
+        let points = self.points(part, target);
+        let ends = [points[0], points[points.len() - 1]].map(|point| self.mesh.position(point));
         let about = self.mesh.vertices(faces[draw.below(faces.len())] as usize);
         self.ray_at(&mut draw, Aim::of(number), ends, about)
     }
@@ -187,13 +165,13 @@ impl<'m> Targets<'m> {
     ) -> ([F; 3], [F; 3]) {
         let wide = triangle.map(|corner| DVec3::from(corner.map(F::to_f64)));
         let size = (wide[1] - wide[0]).abs().max((wide[2] - wide[0]).abs()).max_element();
-        let toward = if aim.grazing { grazing_direction(draw, wide) } else { any_direction(draw) };
+        let way = if aim.grazing { grazing_direction(draw, wide) } else { any_way(draw) };
         let distance = if draw.coin() {
             self.topology.extent * (0.5 + 1.5 * draw.unit())
         } else {
             size * (1.0 + 7.0 * draw.unit())
         };
-        let away = (toward * distance).to_array();
+        let away = (way * distance).to_array();
         if aim.exact {
             return exact_ray(ends, away);
         }
@@ -202,26 +180,18 @@ impl<'m> Targets<'m> {
         let target: [F; 3] = std::array::from_fn(|i| F::from_f64(p[i] + (q[i] - p[i]) * s));
         let origin: [F; 3] = std::array::from_fn(|i| F::from_f64(target[i].to_f64() - away[i]));
         let ulps = draw.pick(&[0, 0, 1, 4]);
-        let direction =
-            std::array::from_fn(|i| (target[i] - origin[i]).offset_ulps(draw.integer(-ulps, ulps)));
-        (origin, direction)
+        (origin, nudged(draw, toward(origin, target), ulps))
     }
 }
 
 /// A unit vector, rounded; every direction is as likely.
-fn any_direction(draw: &mut Draw) -> DVec3 {
-    loop {
-        let v = DVec3::from_array(std::array::from_fn(|_| 2.0 * draw.unit() - 1.0));
-        let square = v.length_squared();
-        if (0.01..=1.0).contains(&square) {
-            return v / square.sqrt();
-        }
-    }
+fn any_way(draw: &mut Draw) -> DVec3 {
+    unit_vector(draw, 0.01)
 }
 
 /// A vector of about unit length, 2^-1 to 2^-12 off the plane of a triangle.
 fn grazing_direction(draw: &mut Draw, [a, b, c]: [DVec3; 3]) -> DVec3 {
-    let any = any_direction(draw);
+    let any = any_way(draw);
     let tilt = 1.0 / (1u64 << draw.integer(1, 12)) as f64;
     let tilt = if draw.coin() { tilt } else { -tilt };
     // Edges of length about one, so that products neither overflow nor underflow.

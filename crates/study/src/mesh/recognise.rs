@@ -1,8 +1,7 @@
 //! Finds what a mesh is in a scalar: welds its vertices and sorts faces, edges and vertices into their kinds.
 
 use super::fans::{Fans, VertexKind, fan_of};
-use super::incidence::Incidence;
-use super::topology::{EdgeKind, FaceKind, Noted, SharedEdge, Topology};
+use super::topology::{EdgeKind, FaceKind, Incidence, Noted, SharedEdge, Topology};
 use crate::arith::Float;
 use crate::corpus::mesh::Mesh;
 use crate::engine;

@@ -170,19 +170,14 @@ impl<F: Float> TriangleSource<F> for OfMesh<'_> {
     }
 
     fn parallel(&self, draw: &mut Draw) -> Parallel<F> {
-        let mut triangle = self.any_face(draw);
-        let mut direction = None;
-        for _ in 0..TRIES {
-            direction = exactly_parallel(draw, triangle, self.scene);
-            if direction.is_some() {
-                break;
-            }
-            triangle = self.any_face(draw);
-        }
-        let direction = direction.unwrap_or_else(|| {
+        let found = (0..TRIES).find_map(|_| {
+            let triangle = self.any_face(draw);
+            Some((triangle, exactly_parallel(draw, triangle, self.scene)?))
+        });
+        let (triangle, direction) = found.unwrap_or_else(|| {
             // A rounded one, which the oracle keeps only if it is exact by chance.
-            let frame = RayAxes::of(triangle).expect("faces without a normal are left out");
-            rounded(in_plane(draw, &frame))
+            let (triangle, frame) = self.triangle(draw);
+            (triangle, rounded(in_plane(draw, &frame)))
         });
         Parallel { triangle, direction, size: longest_edge(triangle) }
     }

@@ -1,6 +1,6 @@
 //! A mesh with what it is in each scalar: the source of the rays at its edges and vertices.
 
-use super::rays::{AimedPart, Targets};
+use super::rays::{AimedPart, Targets, VERSION};
 use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::{CaseId, Parameters};
@@ -56,6 +56,6 @@ impl Surface {
         seed: u64,
         index: u64,
     ) -> CaseId {
-        part.id::<F>(self.mesh(), parameters, seed, index)
+        self.family.id_of::<F>((part.name(), VERSION), parameters, seed, index)
     }
 }

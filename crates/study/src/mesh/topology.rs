@@ -4,8 +4,10 @@
 //! Vertices are one point where their coordinates are equal in the scalar (-0 = +0), whatever their
 //! indices. Nothing is decided by a tolerance.
 
-use super::fans::{Fans, VertexKind};
-use super::incidence::Incidence;
+use super::fans::Fans;
+#[cfg(feature = "studies")]
+use rayon::slice::ParallelSliceMut;
+use std::collections::BTreeSet;
 
 /// A face of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -62,6 +64,44 @@ pub struct SharedEdge {
     pub faces: [u32; 2],
 }
 
+/// The faces at each point of a mesh, collapsed ones left out.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Incidence {
+    /// Where each point's faces start, and the last one's end.
+    starts: Vec<u32>,
+    faces: Vec<u32>,
+}
+
+impl Incidence {
+    /// The incidence of faces by their points; faces that take no part are left out.
+    #[cfg(feature = "studies")]
+    pub(super) fn of(
+        points: usize,
+        corners: &[[u32; 3]],
+        takes_part: impl Fn(usize) -> bool,
+    ) -> Incidence {
+        let parts = (0..).zip(corners).filter(|(face, _)| takes_part(*face as usize));
+        let mut pairs: Vec<(u32, u32)> =
+            parts.flat_map(|(face, corners)| corners.map(|point| (point, face))).collect();
+        pairs.par_sort_unstable();
+        let mut starts = vec![0; points + 1];
+        pairs.iter().for_each(|(point, _)| starts[*point as usize + 1] += 1);
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        Incidence { starts, faces: pairs.into_iter().map(|(_, face)| face).collect() }
+    }
+
+    /// The faces at a point. Panics if there is no such point.
+    pub fn at(&self, point: usize) -> &[u32] {
+        &self.faces[self.starts[point] as usize..self.starts[point + 1] as usize]
+    }
+}
+
+/// The most faces at the points of a group, each counted at each point, for which the neighbours are
+/// tested. It bounds the cost of a vertex with very many edges.
+pub const MOST_AROUND: usize = 4096;
+
 /// A mesh in one scalar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topology {
@@ -75,7 +115,7 @@ pub struct Topology {
     pub duplicated_places: u64,
     /// By [`EdgeKind`].
     pub edges: [Noted; 5],
-    /// By [`VertexKind`].
+    /// By [`VertexKind`](super::VertexKind).
     pub vertices: [Noted; 4],
     /// The shared edges, by their points.
     pub shared: Vec<SharedEdge>,
@@ -88,19 +128,18 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// How many faces are of a kind.
-    pub fn faces_of(&self, kind: FaceKind) -> u64 {
-        self.faces[kind as usize].count
-    }
-
-    /// How many edges are of a kind.
-    pub fn edges_of(&self, kind: EdgeKind) -> u64 {
-        self.edges[kind as usize].count
-    }
-
-    /// How many vertices are of a kind.
-    pub fn vertices_of(&self, kind: VertexKind) -> u64 {
-        self.vertices[kind as usize].count
+    /// The faces, ascending, that share a point with a face of a group and are not of it; none if there
+    /// are more than [`MOST_AROUND`]. If no triangle of a group reports a crossing, a kernel runs on these before the
+    /// crossing is called a crack.
+    pub(super) fn around(&self, triangles: &[[u32; 3]], group: &[u32]) -> Option<Vec<u32>> {
+        let corners = group.iter().flat_map(|face| triangles[*face as usize]);
+        let points: BTreeSet<u32> = corners.map(|vertex| self.points[vertex as usize]).collect();
+        let faces = points.iter().flat_map(|point| self.incidence.at(*point as usize));
+        if MOST_AROUND < faces.clone().count() {
+            return None;
+        }
+        let others: BTreeSet<u32> = faces.copied().filter(|face| !group.contains(face)).collect();
+        Some(others.into_iter().collect())
     }
 
     /// True if the mesh is a closed surface, wound consistently: every face is sound, every edge shared,

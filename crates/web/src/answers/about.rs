@@ -52,7 +52,7 @@ pub fn about() -> About {
         scenes: SCENES.iter().map(|preset| preset.name).collect(),
         contracts: NAMED.iter().map(|named| [named.name, named.about]).collect(),
         spots: [(f32::NAME, spots::<f32>()), (f64::NAME, spots::<f64>())].into(),
-        inks: Ink::ALL.map(Ink::hex).to_vec(),
+        inks: Ink::ALL.map(|ink| ink.name().to_owned()).to_vec(),
     }
 }
 

@@ -152,15 +152,9 @@ impl MeshBuilder {
 
 fn digest(wide: &[[f64; 3]], narrow: &[[f32; 3]], triangles: &[[u32; 3]]) -> String {
     let mut hash = Hash::new();
-    for coordinate in wide.as_flattened() {
-        hash.update(coordinate.to_bits().to_le_bytes());
-    }
-    for coordinate in narrow.as_flattened() {
-        hash.update(coordinate.to_bits().to_le_bytes());
-    }
-    for index in triangles.as_flattened() {
-        hash.update(index.to_le_bytes());
-    }
+    wide.as_flattened().iter().for_each(|x| hash.update(x.to_le_bytes()));
+    narrow.as_flattened().iter().for_each(|x| hash.update(x.to_le_bytes()));
+    triangles.as_flattened().iter().for_each(|index| hash.update(index.to_le_bytes()));
     hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -3,22 +3,21 @@
 //! The crate gltf reads and checks the JSON. Buffers are read here, with every sum of offsets checked.
 
 mod buffers;
-mod transform;
 
 use super::builder::{FilePlace, MeshBuilder};
 use super::counted::ReadLimits;
 use super::{InputError, Mesh};
 use buffers::Buffers;
-use glam::DAffine3;
+use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf::json;
 use gltf::json::validation::Checked;
 use gltf::mesh::{Mode, Semantic};
+use gltf::scene::Transform;
 use gltf::{Accessor, Document, Glb, Node, Primitive};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::Read;
 use std::mem;
-use transform::{mirrors, placed, transform_of};
 
 /// The first bytes of a GLB file.
 pub(super) const MAGIC: &[u8] = b"glTF";
@@ -171,12 +170,10 @@ impl GltfReader<'_> {
         let mut waiting: Vec<(Node, DAffine3)> = match scene {
             Some(scene) => scene.nodes().map(|node| (node, DAffine3::IDENTITY)).collect(),
             None => {
-                let children: Vec<usize> = document
-                    .nodes()
-                    .flat_map(|node| node.children().map(|child| child.index()).collect::<Vec<_>>())
-                    .collect();
                 let mut is_root = vec![true; document.nodes().len()];
-                children.into_iter().for_each(|child| is_root[child] = false);
+                for node in document.nodes() {
+                    node.children().for_each(|child| is_root[child.index()] = false);
+                }
                 let roots = document.nodes().filter(|node| is_root[node.index()]);
                 roots.map(|node| (node, DAffine3::IDENTITY)).collect()
             }
@@ -209,10 +206,8 @@ impl GltfReader<'_> {
         let mut starts = HashMap::new();
         for primitive in mesh.primitives() {
             let place = format!("meshes[{}].primitives[{}]", mesh.index(), primitive.index());
-            if !matches!(
-                primitive.mode(),
-                Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
-            ) {
+            use Mode::{TriangleFan, TriangleStrip, Triangles};
+            if !matches!(primitive.mode(), Triangles | TriangleStrip | TriangleFan) {
                 self.mesh.note("primitives of lines and points skipped", None);
                 continue;
             }
@@ -334,4 +329,35 @@ impl GltfReader<'_> {
             None => Ok(indices),
         }
     }
+}
+
+/// The transform of a node; none if its matrix is not affine.
+fn transform_of(node: &Transform) -> Option<DAffine3> {
+    let wide = |vector: &[f32; 3]| DVec3::from(vector.map(f64::from));
+    match node {
+        Transform::Matrix { matrix } => {
+            let matrix = DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)));
+            let is_affine = matrix.row(3).to_array() == [0.0, 0.0, 0.0, 1.0];
+            is_affine.then(|| DAffine3::from_mat4(matrix))
+        }
+        Transform::Decomposed { translation, rotation, scale } => {
+            let rotation = DQuat::from_array(rotation.map(f64::from));
+            let (scale, translation) = (wide(scale), wide(translation));
+            Some(DAffine3::from_scale_rotation_translation(scale, rotation, translation))
+        }
+    }
+}
+
+/// A point's place. The identity leaves every bit.
+fn placed(transform: &DAffine3, point: [f32; 3]) -> [f64; 3] {
+    let point = point.map(f64::from);
+    if *transform == DAffine3::IDENTITY {
+        return point;
+    }
+    transform.transform_point3(point.into()).to_array()
+}
+
+/// True if it turns a right hand into a left one; glTF then counts corners the other way round.
+fn mirrors(transform: &DAffine3) -> bool {
+    transform.matrix3.determinant() < 0.0
 }

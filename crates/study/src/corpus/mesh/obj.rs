@@ -20,7 +20,7 @@ pub(super) fn read(
 ) -> Result<Mesh, InputError> {
     let mut source = ObjSource::of(reader, name, limits)?;
     let models = source.models_by_tobj(name)?;
-    source.text = Vec::new();
+    source.text = String::new();
     let mut mesh = source.mesh;
     let mut groups = BTreeSet::new();
     let mut face_lines = source.face_lines.into_iter();
@@ -59,7 +59,7 @@ pub(super) struct ObjSource {
     /// The vertices.
     pub mesh: MeshBuilder,
     /// The `f` lines with absolute vertex indices alone, and the `o` and `g` lines as `g` lines.
-    pub text: Vec<u8>,
+    pub text: String,
     /// For each `f` line its line number in the file.
     pub face_lines: Vec<u32>,
     /// Triangles that the faces make, if none is left out.
@@ -99,7 +99,7 @@ impl ObjSource {
         for index in 0..self.mesh.vertices() {
             writeln!(vertices, "v {index} 0 0").map_err(|e| InputError::of(name, e.to_string()))?;
         }
-        let mut unread = self.text.as_slice();
+        let mut unread = self.text.as_bytes();
         let mut reader = vertices.as_slice().chain(&mut unread);
         let no_materials = |_: &std::path::Path| Ok(Default::default());
         // Neither triangulate nor single_index: polygons stay whole, vertices are what they were.
@@ -107,8 +107,7 @@ impl ObjSource {
             Ok((models, _)) => Ok(models),
             Err(error) => {
                 let read = &self.text[..self.text.len() - unread.len()];
-                let faces =
-                    read.split(|byte| *byte == b'\n').filter(|l| l.starts_with(b"f")).count();
+                let faces = read.lines().filter(|line| line.starts_with('f')).count();
                 let line = self.face_lines.get(faces.saturating_sub(1)).map(|line| *line as usize);
                 Err(InputError { line, ..InputError::of(name, format!("tobj: {error}")) })
             }
@@ -125,12 +124,9 @@ impl ObjSource {
             Some("v") => return self.vertex(words, line, limit),
             Some("f") => return self.face(words, line, limit),
             Some("o" | "g") => {
-                self.text.push(b'g');
-                for word in words {
-                    self.text.push(b' ');
-                    self.text.extend_from_slice(word.as_bytes());
-                }
-                self.text.push(b'\n');
+                self.text.push('g');
+                words.for_each(|word| self.text.extend([" ", word]));
+                self.text.push('\n');
             }
             Some("l" | "p") => self.note("lines and points (l, p) skipped", line),
             None | Some("vt" | "vn" | "vp" | "s" | "usemtl" | "mtllib") => {}
@@ -179,7 +175,7 @@ impl ObjSource {
     ) -> Result<(), String> {
         let vertices = self.mesh.vertices();
         let mut corners = 0;
-        self.text.push(b'f');
+        self.text.push('f');
         for word in words {
             let mut index = face_vertex(word)?;
             if index == 0 {
@@ -197,10 +193,10 @@ impl ObjSource {
             if index > self.largest.0 {
                 self.largest = (index, line);
             }
-            write!(self.text, " {index}").map_err(|error| error.to_string())?;
+            self.text += &format!(" {index}");
             corners += 1;
         }
-        self.text.push(b'\n');
+        self.text.push('\n');
         if corners < 3 {
             return Err(format!("face has {corners} of at least 3 vertices"));
         }

@@ -291,7 +291,7 @@ fn shown(name: &str) -> &str {
 
 /// A line whose words are numbers, as many as the element has; with the digits beside a point that the crate
 /// expects (`.5` becomes `0.5`).
-fn checked_words<'a>(line: &'a str, kind: &ElementDef) -> Result<Cow<'a, str>, String> {
+fn checked_words(line: &str, kind: &ElementDef) -> Result<String, String> {
     let words: Vec<&str> = line.split_ascii_whitespace().collect();
     let mut expected = 0;
     for property in kind.properties.values() {
@@ -304,22 +304,14 @@ fn checked_words<'a>(line: &'a str, kind: &ElementDef) -> Result<Cow<'a, str>, S
         }
         expected += 1;
     }
-    let mut line = Cow::Borrowed(line);
+    let mut line = String::new();
     for word in &words {
         let number: f64 = word.parse().map_err(|_| format!("{} is not a number", quoted(word)))?;
         if !number.is_finite() && !word.bytes().any(|byte| byte.is_ascii_digit()) {
             return Err(format!("{} is not finite", quoted(word)));
         }
-        let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
-        let bytes = word.as_bytes();
-        if let Some(point) = word.find('.')
-            && !(is_digit(point.checked_sub(1).and_then(|i| bytes.get(i)))
-                && is_digit(bytes.get(point + 1)))
-        {
-            let all: Vec<String> = words.iter().map(|word| with_digits(word)).collect();
-            line = Cow::Owned(all.join(" "));
-            break;
-        }
+        line += &with_digits(word);
+        line.push(' ');
     }
     if words.len() != expected {
         return Err(format!("{} of {expected} numbers", words.len()));
@@ -327,12 +319,16 @@ fn checked_words<'a>(line: &'a str, kind: &ElementDef) -> Result<Cow<'a, str>, S
     Ok(line)
 }
 
-fn with_digits(word: &str) -> String {
-    let Some((before, after)) = word.split_once('.') else { return word.to_owned() };
+fn with_digits(word: &str) -> Cow<'_, str> {
     let is_digit = |c: char| c.is_ascii_digit();
-    let left = if before.ends_with(is_digit) { "" } else { "0" };
-    let right = if after.starts_with(is_digit) { "" } else { "0" };
-    format!("{before}{left}.{right}{after}")
+    match word.split_once('.') {
+        Some((before, after)) if !(before.ends_with(is_digit) && after.starts_with(is_digit)) => {
+            let left = if before.ends_with(is_digit) { "" } else { "0" };
+            let right = if after.starts_with(is_digit) { "" } else { "0" };
+            Cow::Owned(format!("{before}{left}.{right}{after}"))
+        }
+        _ => Cow::Borrowed(word),
+    }
 }
 
 /// An element of any kind: what a vertex or a face says of itself.

@@ -81,17 +81,12 @@ fn read_text(reader: impl BufRead, name: &str, limits: ReadLimits) -> Result<Mes
         let word = words.next().unwrap_or_default().to_ascii_lowercase();
         match word.as_str() {
             "vertex" => {
-                let (mut wide, mut narrow, mut count) = ([0.0; 3], [0.0; 3], 0);
-                for word in words {
-                    let (value, rounded) = coordinate(word).map_err(error)?;
-                    if let (Some(x), Some(y)) = (wide.get_mut(count), narrow.get_mut(count)) {
-                        (*x, *y) = (value, rounded);
-                    }
-                    count += 1;
-                }
-                if count != 3 {
-                    return Err(error(format!("vertex has {count} of 3 coordinates")));
-                }
+                let found: Result<Vec<(f64, f32)>, _> = words.map(coordinate).collect();
+                let found = found.map_err(error)?;
+                let Some((all_three, [])) = found.split_first_chunk::<3>() else {
+                    return Err(error(format!("vertex has {} of 3 coordinates", found.len())));
+                };
+                let (wide, narrow) = (all_three.map(|it| it.0), all_three.map(|it| it.1));
                 corners.push(all.corner(wide, narrow, FilePlace::Line(line)));
             }
             "facet" => (corners, facet) = (Vec::new(), line),
@@ -137,13 +132,10 @@ fn read_binary(
             }
             _ => InputError::reading(name, None, &error),
         })?;
-        let float = |place: usize| {
-            let bytes = [0, 1, 2, 3].map(|i| bytes[12 + 4 * place + i]);
-            f32::from_le_bytes(bytes)
-        };
-        let corner = |k: usize| [0, 1, 2].map(|axis| float(3 * k + axis));
+        let (_normal, numbers) = bytes.as_chunks::<4>().0.split_at(3);
         let mut corners = Vec::with_capacity(3);
-        for narrow in [0, 1, 2].map(corner) {
+        for corner in numbers.as_chunks::<3>().0 {
+            let narrow = corner.map(f32::from_le_bytes);
             if let Some(x) = narrow.iter().find(|x| !x.is_finite()) {
                 let message = format!("triangle {number} has {x}, which is not finite");
                 return Err(InputError::of(name, message));

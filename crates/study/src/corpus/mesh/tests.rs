@@ -298,7 +298,7 @@ fn polygons_become_fans_from_their_first_vertex_unless_they_fold() {
 fn errors_of_tobj_carry_the_line_that_it_reached() {
     let mut source = obj::ObjSource::default();
     (1..=3).for_each(|line| source.mesh.vertex([0.0; 3], [0.0; 3], FilePlace::Line(line)));
-    source.text = b"g a\nf 1 2 3\nf 1 2 x\nf 1 2 3\n".to_vec();
+    source.text = "g a\nf 1 2 3\nf 1 2 x\nf 1 2 3\n".to_owned();
     source.face_lines = vec![10, 20, 30];
     let error = source.models_by_tobj("teapot.obj").expect_err("bad face");
     assert_eq!(error.to_string(), "teapot.obj:20: tobj: face parse error");

@@ -4,7 +4,7 @@
 use super::bytes::Bytes;
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::Case;
-use crate::family::integer::{LatticePoint, minus, plus, times};
+use crate::family::integer::{LatticePoint, float};
 
 /// The constructions, in the order of their byte. What the line meets, before any nudge:
 pub const CONSTRUCTIONS: [&str; 10] = [
@@ -31,36 +31,35 @@ const FAR: u8 = 9;
 pub(super) fn construct<F: Float>(bytes: &mut Bytes) -> Case<F> {
     let kind = bytes.below(CONSTRUCTIONS.len() as u8);
     let point =
-        |bytes: &mut Bytes, bound: u8| -> LatticePoint { [(); 3].map(|()| bytes.small(bound)) };
+        |bytes: &mut Bytes, bound: u8| LatticePoint::from([(); 3].map(|()| bytes.small(bound)));
     // Doubled, so that midpoints are integers.
-    let offset = if kind == FAR { times(point(bytes, 100), 1 << 10) } else { point(bytes, 8) };
-    let a = times(offset, 2);
-    let (step, side) = (times(point(bytes, 4), 2), times(point(bytes, 8), 2));
+    let offset = if kind == FAR { point(bytes, 100) * (1 << 10) } else { point(bytes, 8) };
+    let a = offset * 2;
+    let (step, side) = (point(bytes, 4) * 2, point(bytes, 8) * 2);
     let parts = 2 + i64::from(bytes.below(3));
-    let b = plus(a, times(step, parts));
-    let on_edge = plus(a, times(step, 1 + i64::from(bytes.below(parts as u8 - 1))));
+    let b = a + step * parts;
+    let on_edge = a + step * (1 + i64::from(bytes.below(parts as u8 - 1)));
     let c = match kind {
-        SEGMENT => plus(a, times(step, bytes.small(4))),
-        SHARED_EDGE => minus(a, side),
-        _ => plus(a, side),
+        SEGMENT => a + step * bytes.small(4),
+        SHARED_EDGE => a - side,
+        _ => a + side,
     };
-    let half_way = plus(on_edge, c).map(|x| x / 2);
+    let half_way = (on_edge + c) / 2;
     let target = match kind {
         0 | AT_ORIGIN => half_way,
         2 => [a, b, c][usize::from(bytes.below(3))],
-        3 => minus(times(on_edge, 2), half_way),
+        3 => on_edge * 2 - half_way,
         _ => on_edge,
     };
-    let in_plane = plus(times(step, bytes.small(2)), times(side, bytes.small(2)));
+    let in_plane = step * bytes.small(2) + side * bytes.small(2);
     let free = point(bytes, 8);
     let direction = if [IN_PLANE, PARALLEL].contains(&kind) { in_plane } else { free };
     let steps = if kind == AT_ORIGIN { 0 } else { bytes.small(4) };
-    let mut origin = minus(target, times(direction, steps));
+    let mut origin = target - direction * steps;
     if kind == PARALLEL {
-        origin = plus(origin, free);
+        origin += free;
     }
     let triangle = if kind == SHARED_EDGE { [b, a, c] } else { [a, b, c] };
-    let float = |p: LatticePoint| p.map(|x| F::from_f64(x as f64));
     let case = Case::new(float(origin), float(direction), rotated(bytes, triangle).map(float));
     finish(bytes, case, steps)
 }

@@ -37,21 +37,27 @@ pub fn aim<F: Float>(draw: &mut Draw, scene: &Scene, triangle: [[F; 3]; 3]) -> D
 }
 
 pub fn interior_case<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Case<F> {
-    let (triangle, _) = setup.triangles.triangle(draw);
-    let (target, toward) = (point_of(triangle, inside(draw)), aim(draw, setup.scene, triangle));
-    let (start, direction) = ray(draw, setup.scene, target, toward);
-    Case::new(start, direction, triangle)
+    aimed(setup, draw, inside)
 }
 
 pub fn interior<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    Made::One(interior_case(setup, draw))
+    Made::One(aimed(setup, draw, inside))
 }
 
 pub fn outside<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
+    Made::One(aimed(setup, draw, beside))
+}
+
+/// A ray at the point of a triangle that has certain weights.
+fn aimed<F: Float>(
+    setup: &Setup<'_, F>,
+    draw: &mut Draw,
+    weights: fn(&mut Draw) -> [f64; 2],
+) -> Case<F> {
     let (triangle, _) = setup.triangles.triangle(draw);
-    let (target, toward) = (point_of(triangle, beside(draw)), aim(draw, setup.scene, triangle));
+    let (target, toward) = (point_of(triangle, weights(draw)), aim(draw, setup.scene, triangle));
     let (start, direction) = ray(draw, setup.scene, target, toward);
-    Made::One(Case::new(start, direction, triangle))
+    Case::new(start, direction, triangle)
 }
 
 pub fn edges<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {

@@ -45,10 +45,15 @@ pub fn symmetric(draw: &mut Draw) -> f64 {
 
 /// A unit vector, uniform on the sphere.
 pub fn any_direction(draw: &mut Draw) -> DVec3 {
+    unit_vector(draw, 0.0625)
+}
+
+/// The same, made of a vector whose square is no less than that.
+pub fn unit_vector(draw: &mut Draw, least: f64) -> DVec3 {
     loop {
         let v = DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw));
         let square = v.dot(v);
-        if (0.0625..=1.0).contains(&square) {
+        if (least..=1.0).contains(&square) {
             return v / square.sqrt();
         }
     }

@@ -13,14 +13,14 @@ mod planes;
 mod shadow;
 mod triangles;
 
-pub(crate) use draw::{RayAxes, any_direction, circle, in_plane, rounded, wide};
+pub(crate) use draw::{RayAxes, any_direction, circle, in_plane, rounded, unit_vector, wide};
 pub use flat::TRIES;
 pub(super) use flat::grazing_sine;
 pub use pixel::{Pixel, pixel};
 pub(super) use shadow::hit_point;
 pub(crate) use triangles::{Corners, Pair, Parallel, Ring, TriangleSource, along_axis, flat_along};
 
-use super::{Family, Grouping, Made, Question};
+use super::{Family, Grouping, Kept, Made, Question};
 use crate::arith::Float;
 use crate::case::{Draw, Parameters, Scene};
 use crate::kernel::Scalar;
@@ -66,18 +66,41 @@ impl Stratum {
         index: u64,
     ) -> Made<F> {
         let mut draw = Draw::new(self.name(), seed, index);
-        with_scene(parameters, |scene| {
-            let kernel = parameters.kernel.as_deref();
-            self.maker()(&Setup { triangles, scene, kernel }, &mut draw)
-        })
+        self.make_of(Some(triangles), parameters, &mut draw)
     }
 
     /// The same at triangles drawn from the scene's numbers.
     pub(super) fn make<F: Scalar>(self, parameters: &Parameters, draw: &mut Draw) -> Made<F> {
-        with_scene(parameters, |scene| {
-            let kernel = parameters.kernel.as_deref();
-            self.maker()(&Setup { triangles: scene, scene, kernel }, draw)
-        })
+        self.make_of(None, parameters, draw)
+    }
+
+    /// In the scene that the parameters hold, or in the default one.
+    fn make_of<F: Scalar>(
+        self,
+        triangles: Option<&dyn TriangleSource<F>>,
+        parameters: &Parameters,
+        draw: &mut Draw,
+    ) -> Made<F> {
+        let scene = &parameters.scene.clone().unwrap_or_default();
+        let (triangles, kernel) = (triangles.unwrap_or(scene), parameters.kernel.as_deref());
+        self.maker()(&Setup { triangles, scene, kernel }, draw)
+    }
+
+    /// About the truth of its cases, in one line.
+    const fn promise(self) -> &'static str {
+        match self {
+            Stratum::Interior => "at a point inside a triangle, from any direction",
+            Stratum::Edges => "at a point of an edge that two triangles share, from any direction",
+            Stratum::Vertices => "at the vertex that six triangles share, from any direction",
+            Stratum::Grazing => {
+                "almost parallel to a generic plane: sines from 1/8 down to below the rounding of the direction"
+            }
+            Stratum::Parallel => "exactly parallel to the plane, off it or in it",
+            Stratum::Shadow => {
+                "from a kernel's own rounded hit point on the triangle, in every direction"
+            }
+            Stratum::Outside => "at a point of the plane beside the triangle, from any direction",
+        }
     }
 
     fn maker<F: Scalar>(self) -> fn(&Setup<'_, F>, &mut Draw) -> Made<F> {
@@ -113,24 +136,16 @@ struct Setup<'a, F: Float> {
     kernel: Option<&'a str>,
 }
 
-/// Makes something of the scene that the parameters hold, or of the default one.
-fn with_scene<T>(parameters: &Parameters, make: impl FnOnce(&Scene) -> T) -> T {
-    match &parameters.scene {
-        Some(scene) => make(scene),
-        None => make(&Scene::default()),
-    }
-}
-
 macro_rules! stratum {
-    ($name:literal, $version:literal, $question:ident, $grouping:ident, $stratum:ident, $keeps:expr, $promise:literal) => {
+    ($stratum:ident, $version:literal, $question:ident, $grouping:ident, $keeps:expr) => {
         Family {
-            name: $name,
+            name: Stratum::$stratum.name(),
             version: $version,
-            promise: $promise,
+            promise: Stratum::$stratum.promise(),
             question: Question::$question,
             grouping: Grouping::$grouping,
             size: None,
-            keeps: $keeps,
+            keeps: Kept::Truths($keeps),
             make_f32: |parameters, draw, _| Stratum::$stratum.make(parameters, draw),
             make_f64: |parameters, draw, _| Stratum::$stratum.make(parameters, draw),
         }
@@ -139,75 +154,19 @@ macro_rules! stratum {
 
 /// The family of each stratum, in the order of [`Stratum::ALL`].
 pub static STRATA: &[Family] = &[
-    stratum!(
-        "scene-interior",
-        1,
-        Inside,
-        Single,
-        Interior,
-        with_area,
-        "at a point inside a triangle, from any direction"
-    ),
-    stratum!(
-        "scene-edges",
-        2,
-        Edges,
-        SharedEdge,
-        Edges,
-        with_area,
-        "at a point of an edge that two triangles share, from any direction"
-    ),
-    stratum!(
-        "scene-vertices",
-        2,
-        Vertices,
-        Fan,
-        Vertices,
-        with_area,
-        "at the vertex that six triangles share, from any direction"
-    ),
-    stratum!(
-        "scene-grazing",
-        2,
-        Flat,
-        Single,
-        Grazing,
-        with_area,
-        "almost parallel to a generic plane: sines from 1/8 down to below the rounding of the direction"
-    ),
-    stratum!(
-        "scene-parallel",
-        3,
-        Flat,
-        Single,
-        Parallel,
-        parallel_or_in_the_plane,
-        "exactly parallel to the plane, off it or in it"
-    ),
-    stratum!(
-        "scene-shadow",
-        1,
-        Ends,
-        SecondaryRay,
-        Shadow,
-        with_area,
-        "from a kernel's own rounded hit point on the triangle, in every direction"
-    ),
-    stratum!(
-        "scene-outside",
-        2,
-        Inside,
-        Single,
-        Outside,
-        with_area,
-        "at a point of the plane beside the triangle, from any direction"
-    ),
+    stratum!(Interior, 1, Inside, Single, has_area),
+    stratum!(Edges, 2, Edges, SharedEdge, has_area),
+    stratum!(Vertices, 2, Vertices, Fan, has_area),
+    stratum!(Grazing, 2, Flat, Single, has_area),
+    stratum!(Parallel, 3, Flat, Single, is_parallel_or_in_the_plane),
+    stratum!(Shadow, 1, Ends, SecondaryRay, has_area),
+    stratum!(Outside, 2, Inside, Single, has_area),
 ];
 
-fn with_area(truths: &[Truth]) -> bool {
-    truths.iter().all(|truth| !matches!(truth, Truth::Degenerate(_) | Truth::Invalid))
+fn has_area(truth: &Truth) -> bool {
+    !matches!(truth, Truth::Degenerate(_) | Truth::Invalid)
 }
 
-fn parallel_or_in_the_plane(truths: &[Truth]) -> bool {
-    truths.iter().all(|truth| matches!(truth, Truth::Parallel | Truth::Coplanar(_)))
+fn is_parallel_or_in_the_plane(truth: &Truth) -> bool {
+    matches!(truth, Truth::Parallel | Truth::Coplanar(_))
 }
