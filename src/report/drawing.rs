@@ -30,7 +30,7 @@ pub struct MeshDrawing {
     /// True if faces have lines in the file; else they are counted.
     pub has_lines: bool,
     /// The numbers of its vertices in the file, from 1, and where they are drawn: the longest side of the box
-    /// around all of them goes from -[`UNIT`] to `UNIT`.
+    /// around all of them goes from -10^6 to 10^6.
     pub points: Vec<(u32, [i32; 3])>,
     /// Its triangles, by three of the points.
     pub triangles: Vec<[u32; 3]>,
@@ -39,7 +39,7 @@ pub struct MeshDrawing {
 }
 
 /// Half of a drawing's longest side.
-pub const UNIT: f64 = 1e6;
+const UNIT: f64 = 1e6;
 
 /// The places of a row in a scalar.
 #[derive(Clone, Debug)]

@@ -85,11 +85,11 @@ impl<Y: Style> Kernel for MollerTrumbore<Y> {
         let s = origin.minus(a);
         let u = s.dot(&p) * &inverse;
         sink.one(EDGE, Y::U, &u)?;
-sink.one(EDGE, Y::U, &(one() - &u))?;
+        sink.one(EDGE, Y::U, &(one() - &u))?;
         let q = s.cross(&edge1);
         let v = direction.dot(&q) * &inverse;
         sink.one(EDGE, Refuse::Below, &v)?;
-sink.one(EDGE, Refuse::Below, &(one() - (u.clone() + &v)))?;
+        sink.one(EDGE, Refuse::Below, &(one() - (u.clone() + &v)))?;
         let t = edge2.dot(&q) * &inverse;
         match Y::T {
             T::Above => sink.one(TIME, Refuse::UnlessAbove, &t)?,

@@ -3,7 +3,7 @@
 use super::columns::{AcrossColumn, Column, ColumnCell, kinds};
 use super::group_digits;
 use super::record::*;
-use super::row_view::{RowView, cases_in};
+use super::row_view::{RateOf, RowView, cases_in};
 use crate::report::page::Block;
 
 /// One row in one scalar.
@@ -60,7 +60,7 @@ pub(super) fn notes(record: &Record) -> Vec<Block> {
     if record.result.is_placed() {
         all.push(OF_INSTANCE.to_owned());
     }
-    let values: [(fn(&Counts) -> &Rate, &str); 2] = [
+    let values: [(RateOf, &str); 2] = [
         (
             |total| &total.bad_values,
             "a t, u or v that is not finite, or with the wrong side (bad-value). Does it write all that it says that it \

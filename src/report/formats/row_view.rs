@@ -24,8 +24,11 @@ pub(super) const COUNTED: [(&str, Get); 11] = [
     ("self-hits", |r| r.self_hits.as_ref()),
 ];
 
+/// One of the rates of a count.
+pub(super) type RateOf = fn(&Counts) -> &Rate;
+
 /// The wrong verdicts on single triangles.
-pub(super) const WRONG: [(FindingKind, fn(&Counts) -> &Rate); 2] = [
+pub(super) const WRONG: [(FindingKind, RateOf); 2] = [
     (FindingKind::FalseMiss, |total| &total.false_misses),
     (FindingKind::FalseHit, |total| &total.false_hits),
 ];

@@ -30,11 +30,11 @@ pub struct Rounded<F, N> {
     product: Option<([F; 2], N)>,
 }
 
-/// What a number notes of all operations that made it.
+/// The notes of a number on all operations that made it.
 pub trait Notes: Copy + Debug + Default + Send + Sync + 'static {
-    /// Of a given number, which may have been flushed to zero.
+    /// The notes on a given number, which may have been flushed to zero.
     fn of_given(is_flushed: bool) -> Self;
-    /// Of an operation alone, whose result this is.
+    /// The notes on one operation with its result.
     fn of_operation<F: Float>(operation: RoundedOperation<F>, result: F) -> Self;
     /// These notes and others.
     fn and(self, other: Self) -> Self;
@@ -77,7 +77,7 @@ impl<F: Float, N: Notes> Rounded<F, N> {
         self.value
     }
 
-    /// What is noted of the operations that made it.
+    /// The notes on the operations that made it.
     pub fn notes(&self) -> N {
         self.notes
     }

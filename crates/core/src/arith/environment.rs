@@ -4,8 +4,8 @@
 use std::fmt;
 use std::hint::black_box;
 
-/// The state of a thread's floating-point unit, as far as it changes results: [`FLUSHES_RESULTS`], [`FLUSHES_INPUTS`],
-/// and in the two bits above them the place of its rounding direction in [`ROUNDING`].
+/// The state of a thread's floating-point unit, as far as it changes results: a bit if it flushes results, a bit if it
+/// flushes inputs, and in the two bits above them its rounding direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FloatEnvironment(u32);
 

@@ -63,7 +63,7 @@ fn plane<V: Vector>(v0: &V, v1: &V, v2: &V) -> (V, V::Real) {
     (n, d)
 }
 
-/// What the listing refuses of N·R and of an edge.
+/// The values of N·R and of an edge that the listing refuses.
 const BELOW: [Refuse; 2] = [Refuse::Below; 2];
 
 /// The listing from its parallel test on, for any polygon, with the refusals of N·R and of an edge.

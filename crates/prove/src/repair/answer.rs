@@ -26,7 +26,7 @@ struct Run<'a, F> {
     /// True for t_min and t_max if they are farther than what stands for them.
     clamped: [bool; 2],
     values: Vec<F>,
-    /// Of each number the sum of the sizes of its products.
+    /// The sum of the sizes of each number's products.
     sizes: Vec<F>,
 }
 

@@ -106,7 +106,7 @@ trait Recipe {
     fn finish<F: Scalar>(_draw: &mut Draw, _parameters: &Parameters, _made: &mut Made<F>) {}
 }
 
-/// What the truths of one index have to be.
+/// The promise about the truths of one index.
 #[derive(Clone, Copy)]
 enum Kept {
     /// Each is a crossing of this sort.

@@ -33,7 +33,7 @@ const fn number(what: &'static str, default: &'static str) -> Option<Parameter> 
     Some(Parameter { what, default })
 }
 
-/// What a row says unless it says something else: that it takes no number, and runs in both scalars.
+/// The defaults of a row: it takes no number, and runs in both scalars.
 const PLAIN: PublishedScheme = PublishedScheme {
     name: "",
     start: "",

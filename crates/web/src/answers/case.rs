@@ -161,7 +161,10 @@ fn mapped<F: Scalar>(asked: &Map, case: &Case<F>, row: &Row) -> Result<Mapped, S
         (0..width * height).map(|pixel| char::from(b'0' + ink(pixel) as u8)).collect()
     };
     let legend = |legend: Vec<(map::Ink, &'static str, usize)>| {
-        legend.into_iter().map(|(ink, words, count)| (ink.name().to_owned(), words, count)).collect()
+        legend
+            .into_iter()
+            .map(|(ink, words, count)| (ink.name().to_owned(), words, count))
+            .collect()
     };
     Ok(Mapped::Map(MapAnswer {
         computed: digits(&|pixel| map.computed(pixel)),
