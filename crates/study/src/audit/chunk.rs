@@ -124,7 +124,9 @@ impl<F: Scalar> Chunk<F> {
             first_index,
             aimed: Vec::new(),
         };
-        chunk.aimed = source.aimed::<F>(&chunk);
+        let aimed =
+            |(index, cases): (u64, Range<usize>)| source.aimed::<F>(index, &chunk.truths[cases]);
+        chunk.aimed = chunk.groups().filter_map(aimed).collect();
         summary.indices += chunk.starts.len() as u64 - 1;
         summary.cases += chunk.cases.len() as u64;
         for (index, range) in chunk.groups() {

@@ -1,7 +1,6 @@
 //! Where a plan's cases come from, by index.
 
 use super::aimed::{AimedRay, is_on_target};
-use super::chunk::Chunk;
 use super::corpus_set::CorpusSet;
 use super::row::quoted;
 use crate::arith::Float;
@@ -11,7 +10,6 @@ use crate::kernel::Scalar;
 use crate::mesh::{Aim, AimedPart, SceneMesh, Surface, Targets};
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// Indices that go through a run together.
@@ -234,18 +232,13 @@ impl Source {
         surface.targets::<F>(&self.parameters, self.seed)
     }
 
-    /// The targets and classes of the rays of a chunk; none of sources that are no part of a mesh.
-    pub(super) fn aimed<F: Scalar>(&self, chunk: &Chunk<F>) -> Vec<AimedRay> {
-        let (Stock::MeshPart(_, part), Some(targets)) = (&self.stock, self.targets::<F>()) else {
-            return Vec::new();
-        };
-        let aimed = |(index, cases): (u64, Range<usize>)| {
-            let (target, number) = targets.place(*part, index);
-            let is_near = !is_on_target(*part, &chunk.truths[cases]);
-            let class = 2 * usize::from(is_near) + usize::from(Aim::of(number).grazing);
-            AimedRay { target: target as u32, class }
-        };
-        chunk.groups().map(aimed).collect()
+    /// The target and the class of the ray of an index; none of sources that are no part of a mesh.
+    pub(super) fn aimed<F: Float>(&self, index: u64, truths: &[Truth]) -> Option<AimedRay> {
+        let Stock::MeshPart(_, part) = &self.stock else { return None };
+        let (target, number) = self.targets::<F>()?.place(*part, index);
+        let is_near = !is_on_target(*part, truths);
+        let class = 2 * usize::from(is_near) + usize::from(Aim::of(number).grazing);
+        Some(AimedRay { target: target as u32, class })
     }
 
     /// How many polygons of its mesh's file are not in the mesh.
