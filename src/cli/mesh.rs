@@ -1,8 +1,8 @@
 //! `hairline mesh`: whether rays slip through a mesh, where, and how often.
 
-use super::before::{one_scalar, set_threads};
+use super::before::{count_indices, one_scalar, set_threads};
 use super::exit::{Failure, Status};
-use super::flags::{RUNNING, matrix_in};
+use super::flags::{RUNNING, matrix_in, parsed};
 use super::input::read_mesh;
 use super::reporting::{Execution, Outputs, ReportArguments};
 use super::select::KernelArguments;
@@ -74,15 +74,17 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
 }
 
 fn audited(arguments: &MeshArguments, outputs: &Outputs<'_>) -> Result<Status, Failure> {
+    let shard = parsed("--shard", arguments.shard.as_deref())?;
+    let plan = arguments.plan(outputs.illustrate())?;
     let run = Execution {
-        plan: &arguments.plan(outputs.illustrate())?,
+        plan: &plan,
         kernels: &arguments.kernels,
-        shard: arguments.shard.as_deref(),
+        shard,
         quiet: arguments.report.output.quiet,
         illustrate: outputs.illustrate(),
     };
     let record = run.record()?;
-    if record.result.sources.iter().any(|source| 0 < source.cases) {
+    if 0 < count_indices(&plan.sources, plan.scalars) {
         outputs.write(&record)?;
         return Ok(Status::Success);
     }

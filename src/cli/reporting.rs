@@ -83,9 +83,12 @@ impl Outputs<'_> {
         outcome
     }
 
-    /// The same without files.
+    /// The same without files, and without what a failure is written to.
     pub fn on_screen(&self) -> Self {
-        let to_screen = self.pairs.iter().filter(|(_, path)| *path == "-");
+        let tells_failure =
+            |format: &Format| ON_FAILURE.iter().any(|(name, _)| *name == format.name);
+        let to_screen =
+            self.pairs.iter().filter(|(format, path)| *path == "-" && !tells_failure(format));
         Outputs { pairs: to_screen.copied().collect(), ..*self }
     }
 
@@ -168,7 +171,7 @@ impl RunArguments {
         let run = Execution {
             plan,
             kernels: &self.kernels,
-            shard: self.shard.as_deref(),
+            shard: parsed("--shard", self.shard.as_deref())?,
             quiet: self.report.output.quiet,
             illustrate,
         };
@@ -182,8 +185,8 @@ impl RunArguments {
 pub struct Execution<'a> {
     pub plan: &'a Plan,
     pub kernels: &'a KernelArguments,
-    /// The part, as `--shard` names it.
-    pub shard: Option<&'a str>,
+    /// The part that runs, if not the whole.
+    pub shard: Option<Shard>,
     pub quiet: bool,
     /// True if the record is to hold the data for pictures.
     pub illustrate: bool,
@@ -192,8 +195,7 @@ pub struct Execution<'a> {
 impl Execution<'_> {
     /// Runs it and makes its record.
     pub fn record(&self) -> Result<Record, Failure> {
-        let Execution { plan, kernels, quiet, .. } = *self;
-        let shard: Option<Shard> = parsed("--shard", self.shard)?;
+        let Execution { plan, kernels, shard, quiet, .. } = *self;
         let threads = rayon::current_num_threads();
         let total = count_indices(&plan.sources, plan.scalars);
         if !quiet {

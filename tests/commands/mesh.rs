@@ -148,6 +148,9 @@ fn one_triangle_and_faces_without_area_ask_nothing() {
         assert!(out.contains(word), "{out}");
         assert!(error.contains("hairline: a.obj: nothing to ask"), "{error}");
         assert!(!error.contains("panicked"));
+        // A CI reads one document, which says that there is nothing.
+        let (out, _) = ends(&folder, &["mesh", "a.obj", "-q", "--format", "junit"], 4);
+        assert_eq!(out.matches("<?xml").count(), 1, "{out}");
     }
 }
 
@@ -288,6 +291,8 @@ fn parts_of_a_mesh_merge_to_the_record_and_the_page_of_the_whole() {
         let file = format!("{}.json", &shard[..1]);
         run(&["--shard", shard, "--format", "json", "-o", &file]);
     }
+    // A part may be of no ray.
+    run(&["--shard", "0/100000", "--format", "json", "-o", "empty.json"]);
     let merge = ["merge", "-q", "0.json", "2.json", "1.json", "--format", "json,html"];
     ends(&folder, &[&merge[..], &["-o", "merged.json", "-o", "merged.html"]].concat(), 0);
     let result = |file: &str| result_bytes(&folder.join(file));

@@ -2,9 +2,7 @@
 
 use crate::page::{Pages, slug, table};
 use crate::program;
-use hairline::internals::kernel::{
-    Dimension, Entry, Gate, KERNELS, PRESETS, PresetValue, Tunable, all,
-};
+use hairline::internals::kernel::{Dimension, Entry, Gate, KERNELS, PRESETS, Tunable, all};
 use hairline::internals::report::{KernelResult, Record};
 use hairline_league::edition::EntrantResult;
 use maud::{Markup, html};
@@ -69,10 +67,9 @@ pub fn in_use(results: &[EntrantResult]) -> Vec<Epsilon> {
     }
     for preset in PRESETS {
         for entry in preset.entries {
-            let text = match entry.value {
-                PresetValue::Decimal(text) => canonical(text),
-                PresetValue::MachineEpsilon(1.0) => "EPSILON".to_owned(),
-                PresetValue::MachineEpsilon(times) => format!("{times}*EPSILON"),
+            let text = match entry.value.ends_with("EPSILON") {
+                true => entry.value.to_owned(),
+                false => canonical(entry.value),
             };
             // An entrant that is modelled is there already.
             let users = found.entry(text).or_default();

@@ -31,6 +31,6 @@ fn line(kernel: &str, scalar: &str, depth: &Depth) -> Result<String, String> {
     let wrong = |message: &str| format!("{kernel} {}: {message}", depth.case);
     let row = Row::named(kernel, None, "own").map_err(|error| wrong(&error.0))?;
     let mut find = Find::of(&row, depth.case(scalar)).ok_or(wrong("it shows nothing"))?;
-    find.from = Some(depth.case.clone());
+    find.found.from = Some(depth.case.clone());
     Ok(write_case(&find.stored()))
 }

@@ -112,6 +112,11 @@ fn hexadecimal<F: Float>(text: &str) -> Option<F> {
 /// A decimal exponent; what is beyond every float's is cut off well beyond every float's.
 fn binary_exponent(text: &str) -> Option<i64> {
     const MOST: i64 = 1 << 30;
+    // A number that is too large is one before its last characters are read.
+    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
+    if !digits.bytes().all(|digit| digit.is_ascii_digit()) {
+        return None;
+    }
     match text.parse::<i64>() {
         Ok(exponent) => Some(exponent.clamp(-MOST, MOST)),
         Err(error) => match error.kind() {
@@ -308,6 +313,7 @@ mod tests {
             "0x1.gp0",
             "0x1.1.1p0",
             "0x1p1.5",
+            "0x1p-99999999999999999999zzz",
             "0x-1p0",
             "0x1pp1",
             "1,5",
