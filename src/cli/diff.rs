@@ -36,6 +36,9 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
     let comparison = match old.study {
         Study::Audit => {
             let (old, new): (Record, Record) = (old.read()?, new.read()?);
+            if let (Some(before), Some(now)) = (&old.result.mesh, &new.result.mesh) {
+                of_one_question([before, now].map(|mesh| format!("mesh {}", mesh.digest)))?;
+            }
             difference(&old.result, &new.result)
         }
         Study::Epsilon => of_one_study::<SceneResult>(old, new)?,
@@ -60,14 +63,19 @@ fn of_one_study<R: Comparable>(
     new: RecordText<'_>,
 ) -> Result<RecordComparison, Failure> {
     let (old, new) = (old.read::<R>()?, new.read::<R>()?);
-    let [before, now] = [&old, &new].map(|record| record.result.question());
-    if before != now {
-        let message = format!(
-            "nothing to compare: the records answer different questions: before {before}; now {now}"
-        );
-        return Err(Failure::nothing(message));
-    }
+    of_one_question([&old, &new].map(|record| record.result.question()))?;
     Ok(difference_of(&old.result, &new.result))
+}
+
+/// Refuses records of two scenes, meshes or domains: an error in one says nothing about another.
+fn of_one_question([before, now]: [String; 2]) -> Result<(), Failure> {
+    if before == now {
+        return Ok(());
+    }
+    let message = format!(
+        "nothing to compare: the records answer different questions: before {before}; now {now}"
+    );
+    Err(Failure::nothing(message))
 }
 
 #[cfg(test)]

@@ -74,9 +74,9 @@ pub fn drawing(plan: &Plan, audit: &Audit) -> Option<MeshDrawing> {
     let surface = surface::of_plan(plan)?;
     let [edges, vertices] = AimedPart::ALL
         .map(|part| audit.cells.iter().filter(move |cell| cell.source == part as usize));
-    let row = |cells: [&SourceCell; 2]| in_named_scalar!(cells[0].scalar, F => row::<F>(surface, plan, cells));
-    let rows = edges.zip(vertices).filter_map(|(edges, vertices)| row([edges, vertices]));
-    Some(MeshDrawing::new(surface.mesh(), rows.collect()))
+    let of_cells = |(edges, vertices): (&SourceCell, &SourceCell)| in_named_scalar!(edges.scalar, F => row::<F>(surface, plan, [edges, vertices]));
+    let rows = edges.zip(vertices).filter_map(of_cells).collect();
+    Some(MeshDrawing::new(surface.mesh(), rows))
 }
 
 /// The places of a row, of both parts.

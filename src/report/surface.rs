@@ -15,19 +15,17 @@ const VERTICES: [&str; 4] = ["closed_fan", "open_fan", "several_fans", "irregula
 
 /// The mesh whose edges and vertices a plan asks about; none if it asks about anything else.
 pub(super) fn of_plan(plan: &Plan) -> Option<&Surface> {
-    let [Stock::MeshPart(surface, AimedPart::Edges), Stock::MeshPart(_, AimedPart::Vertices)] =
-        [&plan.sources.first()?.stock, &plan.sources.get(1)?.stock]
-    else {
-        return None;
-    };
-    (plan.sources.len() == 2).then_some(surface)
+    let [edges, vertices] = &plan.sources[..] else { return None };
+    match (&edges.stock, &vertices.stock) {
+        (Stock::MeshPart(surface, AimedPart::Edges), Stock::MeshPart(..)) => Some(surface),
+        _ => None,
+    }
 }
 
 /// The mesh of such a plan, with the places of all groups that are examples.
 pub(super) fn mesh_part(plan: &Plan, audit: &Audit) -> Option<MeshPart> {
-    let surface = of_plan(plan)?;
+    let (surface, edges) = (of_plan(plan)?, plan.sources.first()?);
     let mesh = surface.mesh();
-    let [edges, _] = &plan.sources[..] else { return None };
     let mut places = BTreeMap::new();
     for cell in &audit.cells {
         in_named_scalar!(cell.scalar, F => add_places::<F>(plan, cell, &mut places));

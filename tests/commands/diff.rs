@@ -199,10 +199,19 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
     });
     let (told, _) = ends(&folder, &["diff", "--exit-code", "spawn-1.json", "spawn-3.json"], 1);
     assert!(told.starts_with("1 worse, 0 better") && told.contains("wrong sides"), "{told}");
-    // Another scene or domain is another question.
+    // Another scene, mesh or domain is another question.
     write("city.json", &["spawn", "--scene", "city", "-n", "100"]);
     write("domain.json", &["prove", "--scene", "room", "-n", "0"]);
-    for (old, new) in [("spawn-1.json", "city.json"), ("prove-1.json", "domain.json")] {
+    for name in ["far", "needles"] {
+        let mesh = format!("{}/corpora/meshes/{name}.obj", env!("CARGO_MANIFEST_DIR"));
+        write(&format!("{name}.json"), &["mesh", &mesh, "--directions", "1"]);
+    }
+    ends(&folder, &["diff", "--exit-code", "far.json", "far.json"], 0);
+    for (old, new) in [
+        ("spawn-1.json", "city.json"),
+        ("prove-1.json", "domain.json"),
+        ("far.json", "needles.json"),
+    ] {
         let (_, error) = ends(&folder, &["diff", old, new], 4);
         assert!(error.contains("the records answer different questions: before "), "{error}");
     }

@@ -49,14 +49,9 @@ pub(super) fn rows<'a>(result: &'a ResultPart) -> Vec<MeshRow<'a>> {
 }
 
 impl MeshRow<'_> {
-    /// `kernel (epsilons)`.
-    pub fn label(&self) -> String {
-        format!("{} ({})", self.part.kernel, self.part.set)
-    }
-
     /// The same without published epsilons.
     pub fn short_label(&self) -> String {
-        if self.part.set == "source" { self.part.kernel.clone() } else { self.label() }
+        if self.part.set == "source" { self.part.kernel.clone() } else { self.part.label() }
     }
 
     /// The contract's promise.

@@ -118,7 +118,7 @@ fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) ->
     ];
     let times = record.provenance.kernel_nanoseconds.get(&part.scalar);
     let row = |(row, alike): &(&MeshRow<'_>, Vec<&MeshRow<'_>>)| {
-        let time = times.and_then(|times| times.get(&row.label()));
+        let time = times.and_then(|times| times.get(&row.part.label()));
         let promised = row.promised() != Promised::Nothing;
         let exactly = row.promised() == Promised::ExactlyOne;
         let share = |rate: &Rate, is_promised: bool| Cell {
@@ -188,7 +188,7 @@ fn everything(record: &Record, mesh: &MeshPart, rows: &[&MeshRow<'_>]) -> Vec<Bl
         let elsewhere = row.at.iter().filter_map(|at| at.across.elsewhere.as_ref());
         let elsewhere = elsewhere.map(|rate| rate.count).sum();
         let [edges, vertices] = row.at.map(|at| rate(&at.across.cracks));
-        Row::new(row.label(), [edges, vertices, group_digits(elsewhere)])
+        Row::new(row.part.label(), [edges, vertices, group_digits(elsewhere)])
     };
     let table = Table::new(heads.map(Head::of).into(), rows.iter().map(row).collect());
     let mut blocks = vec![Block::Table(table)];
@@ -197,7 +197,7 @@ fn everything(record: &Record, mesh: &MeshPart, rows: &[&MeshRow<'_>]) -> Vec<Bl
         let count = row.failures();
         if 0 < count {
             let count = number_of(count, "case", "cases");
-            blocks.push(Block::Text(format!("{}: no verdict on {count}", row.label())));
+            blocks.push(Block::Text(format!("{}: no verdict on {count}", row.part.label())));
         }
         let mut findings = row.at.iter().flat_map(|at| &at.result.findings);
         let failure = findings.find(|part| part.finding.is_failure());
@@ -205,10 +205,10 @@ fn everything(record: &Record, mesh: &MeshPart, rows: &[&MeshRow<'_>]) -> Vec<Bl
         blocks.extend(failure);
         let examples = examples(row, usize::MAX, true);
         if examples.is_empty() {
-            blocks.push(Block::Text(format!("{}: nowhere", row.label())));
+            blocks.push(Block::Text(format!("{}: nowhere", row.part.label())));
             continue;
         }
-        blocks.push(Block::Text(row.label()));
+        blocks.push(Block::Text(row.part.label()));
         let line = |MeshExample { what, id, command }: MeshExample<'_>| {
             let place = mesh.places.get(id).map(place).unwrap_or_default();
             format!("    {what}: {place}\n        {command}")

@@ -63,7 +63,7 @@ fn drawing(mesh: &MeshPart, drawing: &MeshDrawing, rows: &[ShownRow]) -> Markup 
                     label { "Kernel row "
                         select #row autocomplete="off" {
                             @for (i, row) in rows.iter().enumerate() {
-                                option value=(i) selected[i == worst] { (shortened(&row.row.label(), 80)) " " (row.row.scalar) }
+                                option value=(i) selected[i == worst] { (shortened(&row.row.part.label(), 80)) " " (row.row.scalar) }
                             }
                         }
                     }
@@ -113,7 +113,7 @@ fn places(i: usize, drawing: &MeshDrawing, row: &ShownRow) -> Markup {
     html! {
         details.row id={ "r" (i) } data-marks=(row.marks) data-edges=(edges[0]) data-vertices=(vertices[0]) data-after=(edges[1]) {
             summary {
-                b { (row.row.label()) " " (row.row.scalar) } ": "
+                b { (row.row.part.label()) " " (row.row.scalar) } ": "
                 span.sum {
                     (number_of(leaking[0], "edge leaks", "edges leak")) ", "
                     (number_of(leaking[1], "vertex leaks", "vertices leak")) "; "
@@ -122,7 +122,7 @@ fn places(i: usize, drawing: &MeshDrawing, row: &ShownRow) -> Markup {
                 }
             }
             @if 0 < row.marked {
-                div.scroll role="group" aria-label={ "Places of " (row.row.label()) } tabindex="0" {
+                div.scroll role="group" aria-label={ "Places of " (row.row.part.label()) } tabindex="0" {
                     table {
                         thead { tr { th scope="col" { "place" } th.text scope="col" { "what" } th scope="col" { "rays" } th.text scope="col" { (drawing.faces()) } th.text scope="col" { "the first ray again" } } }
                         tbody {
