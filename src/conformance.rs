@@ -14,7 +14,7 @@ mod tests;
 pub(crate) use expectations::locked;
 pub use outcome::Outcome;
 
-use crate::audit::{self, EpsilonChoice, Plan, PlanError, Row, Source};
+use crate::audit::{self, EpsilonChoice, Plan, Row, Source};
 use crate::case::{Parameters, Scene};
 use crate::contract::{Across, Contract};
 use crate::engine::{self, Unobserved};
@@ -22,6 +22,7 @@ use crate::family::{FAMILIES, Family, Stratum, find};
 use crate::kernel::{Entry, kept};
 use crate::report::{Context, build};
 use crate::suggest::did_you_mean;
+use hairline_core::Error;
 use outcome::ALLOWED;
 use std::collections::BTreeMap;
 
@@ -44,7 +45,7 @@ use std::collections::BTreeMap;
 /// hairline::audit(&kernel).families(["interior"]).count(500).assert_conforms();
 /// let outcome = hairline::audit(&kernel).families(["outside"]).count(500).run()?;
 /// assert!(outcome.findings().any(|finding| finding.finding == FindingKind::FalseHit));
-/// # Ok::<(), hairline::PlanError>(())
+/// # Ok::<(), hairline::Error>(())
 /// ```
 pub fn audit(kernel: &Entry) -> Request {
     Request {
@@ -186,7 +187,7 @@ impl Request {
     /// // The determinant of a triangle of 1 cm is small from every side.
     /// let outcome = room(1e-3).run()?;
     /// assert!(!outcome.conforms() && outcome.to_string().contains("false-miss"));
-    /// # Ok::<(), hairline::PlanError>(())
+    /// # Ok::<(), hairline::Error>(())
     /// ```
     pub fn allow(mut self, finding: &str, share: f64) -> Request {
         self.allowed.insert(finding.to_owned(), share);
@@ -218,12 +219,12 @@ impl Request {
 
     /// Runs it, in each scalar that the kernel runs in. An error names the family, gate, epsilon, scene,
     /// band or finding that does not exist, or what is wrong with the expectations.
-    pub fn run(&self) -> Result<Outcome, PlanError> {
+    pub fn run(&self) -> Result<Outcome, Error> {
         for (finding, share) in &self.allowed {
             if !ALLOWED.contains(&finding.as_str()) || !(0.0..=1.0).contains(share) {
                 let names = ALLOWED.join(", ");
                 let what = format!("allow({finding:?}, {share:?})");
-                return Err(PlanError(format!(
+                return Err(Error(format!(
                     "{what}: expected one of {names}, and a share from 0 to 1"
                 )));
             }
@@ -232,7 +233,7 @@ impl Request {
         if !self.allowed.is_empty() && self.expectations.is_some() {
             let message = "allow: the file of expectations says what may be wrong; it may have \
                            `rates` by family";
-            return Err(PlanError(message.to_owned()));
+            return Err(Error(message.to_owned()));
         }
         let rows = self.rows()?;
         let parameters = Parameters { scene: self.parsed_scene()?, ..self.parameters.clone() };
@@ -276,23 +277,22 @@ impl Request {
     /// One case of it with the kernel's answer, as `hairline explain` shows it; an error says what is wrong with the id
     /// (feature `studies`).
     #[cfg(feature = "studies")]
-    pub fn explain(&self, case: &str) -> Result<String, PlanError> {
-        explained::explained(&self.rows()?, case).map_err(PlanError)
+    pub fn explain(&self, case: &str) -> Result<String, Error> {
+        explained::explained(&self.rows()?, case)
     }
 
     /// The kernel's verdicts around one case of it as an SVG, as `hairline map` draws them: one pixel a float of the ray's
     /// origin (feature `studies`).
     #[cfg(feature = "studies")]
-    pub fn map(&self, case: &str) -> Result<String, PlanError> {
+    pub fn map(&self, case: &str) -> Result<String, Error> {
         let rows = self.rows()?;
-        let first =
-            rows.first().ok_or_else(|| PlanError("the kernel has no epsilons".to_owned()))?;
-        explained::mapped(first, case).map_err(PlanError)
+        let first = rows.first().ok_or_else(|| Error("the kernel has no epsilons".to_owned()))?;
+        explained::mapped(first, case)
     }
 
-    fn rows(&self) -> Result<Vec<Row>, PlanError> {
+    fn rows(&self) -> Result<Vec<Row>, Error> {
         let band = self.band.as_deref().map(str::parse).transpose();
-        let band = band.map_err(|error| PlanError(format!("band: {error}")))?;
+        let band = band.map_err(|error| Error(format!("band: {error}")))?;
         let mut rows = self.epsilons.rows(&[self.entry], None)?;
         for row in &mut rows {
             row.contract = self.contract.unwrap_or(row.contract);
@@ -303,7 +303,7 @@ impl Request {
         Ok(rows)
     }
 
-    fn chosen_families(&self) -> Result<Vec<&'static Family>, PlanError> {
+    fn chosen_families(&self) -> Result<Vec<&'static Family>, Error> {
         let all: Vec<&'static Family> = match self.scene {
             Some(_) => Stratum::ALL.map(Stratum::family).into(),
             None => FAMILIES.iter().collect(),
@@ -315,16 +315,16 @@ impl Request {
             family.ok_or_else(|| {
                 let names = all.iter().map(|family| family.name);
                 let advice = did_you_mean(name, names, "hairline list families");
-                PlanError(format!("unknown family '{name}'{advice}"))
+                Error(format!("unknown family '{name}'{advice}"))
             })
         };
         names.iter().map(known).collect()
     }
 
     /// The scene, which the scalars of the kernel can hold.
-    fn parsed_scene(&self) -> Result<Option<Scene>, PlanError> {
+    fn parsed_scene(&self) -> Result<Option<Scene>, Error> {
         let Some(words) = &self.scene else { return Ok(self.parameters.scene.clone()) };
-        let about = |error| PlanError(format!("scene: {error}"));
+        let about = |error| Error(format!("scene: {error}"));
         let (scene, _) = Scene::parse(words).map_err(about)?;
         let (_, why) = scene.held_in(self.entry.scalars()).map_err(about)?;
         why.map_or(Ok(Some(scene)), |why| Err(about(why)))

@@ -66,7 +66,7 @@ mod expect;
 pub mod cli;
 
 pub use case::{Case, Parameters, Ray, Triangle};
-pub use hairline_core::truth;
+pub use hairline_core::{Error, truth};
 pub use oracle::{Batch, Layers, UnequalColumns, truths, truths_of_rows};
 pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 
@@ -81,7 +81,6 @@ pub use kernel::{
     Scalar, Sink, Subject, Test, Tunable, Verdict, find,
 };
 
-pub use audit::PlanError;
 pub use conformance::{Outcome, Request, audit};
 pub use report::{Example, FindingKind, FindingPart, Rate, SeverityPart};
 #[cfg(feature = "studies")]

@@ -1,7 +1,7 @@
 //! Exit codes, and the errors that lead to them.
 
-use crate::audit::PlanError;
 use crate::corpus::InputError;
+use hairline_core::Error;
 use std::io;
 use std::path::Path;
 
@@ -86,8 +86,8 @@ impl Failure {
     }
 }
 
-impl From<PlanError> for Failure {
-    fn from(error: PlanError) -> Failure {
+impl From<Error> for Failure {
+    fn from(error: Error) -> Failure {
         Failure::usage(error.0)
     }
 }

@@ -13,7 +13,7 @@ use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
-use crate::map::{self, CaseVector, Map, MapError, PixelStep, Spot};
+use crate::map::{self, CaseVector, Map, PixelStep, Spot};
 use crate::report::{Format, Style};
 use clap::Args;
 use std::io::{self, Write};
@@ -135,12 +135,6 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         let _ = io::stderr().write_all(picture.summary.as_bytes());
     }
     Ok(Status::Success)
-}
-
-impl From<MapError> for Failure {
-    fn from(error: MapError) -> Failure {
-        Failure::usage(error.0)
-    }
 }
 
 impl MapArguments {

@@ -1,9 +1,9 @@
 //! An audit from a test, held to a reviewed file of expectations.
 
-use super::PlanError;
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError};
 use crate::report::Record;
+use hairline_core::Error;
 use std::fs::File;
 use std::path::Path;
 use std::{env, fs, io};
@@ -13,7 +13,7 @@ const VARIABLE: &str = "HAIRLINE_BLESS";
 
 /// Compares a record with a file, and says so in it. With the variable the file is written first, unless
 /// something got worse.
-pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), PlanError> {
+pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), Error> {
     let wish = env::var(VARIABLE).unwrap_or_default();
     let [blesses, accepts_worse] = match wish.as_str() {
         "" | "0" | "false" => [false, false],
@@ -21,17 +21,17 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), PlanError> {
         "worse" => [true, true],
         _ => {
             let message = format!("{VARIABLE}: expected 1 or worse, not '{wish}'");
-            return Err(PlanError(message));
+            return Err(Error(message));
         }
     };
     let text = |name: &str| {
         fs::read_to_string(name).map_err(|error| InputError::reading(name, None, &error))
     };
     let _lock = blesses.then(|| locked(file));
-    let said = |error: InputError| PlanError(error.to_string());
+    let said = |error: InputError| Error(error.to_string());
     let old = expect::open(file, true, record, blesses, text).map_err(said)?;
     if old.is_none() && !blesses {
-        return Err(PlanError(format!(
+        return Err(Error(format!(
             "{file}: there is no such file. `{VARIABLE}=1 cargo test` writes it and {}; review and \
              commit both",
             expect::lock_of(file)
@@ -43,7 +43,7 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), PlanError> {
     let may_be_written = is_new || accepts_worse || !compared.change.is_worse();
     if blesses && may_be_written {
         let written = expect::blessed(record, &old, &compared, file).map_err(|error| {
-            PlanError(match error {
+            Error(match error {
                 BlessError::Outside(count) => format!(
                     "{file}: {count} expectations of kernels, scalars or families that this test does not \
                      run would be lost: give each test a file of its own"
@@ -52,7 +52,7 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), PlanError> {
             })
         })?;
         for (name, text) in &written.texts {
-            write(name, text).map_err(|error| PlanError(format!("{name}: {error}")))?;
+            write(name, text).map_err(|error| Error(format!("{name}: {error}")))?;
         }
         compared = expect::compare(&record.result, &target, &written.expectations, Some(file));
     } else if blesses {

@@ -1,6 +1,5 @@
 //! A case of an audit in a test, explained with the kernel of that test, which no other program knows.
 
-use super::PlanError;
 use crate::audit::Row;
 use crate::case::CaseId;
 use crate::engine::Unobserved;
@@ -8,21 +7,22 @@ use crate::family::cases_of;
 use crate::map;
 use crate::report::Format;
 use crate::report::explain::{Together, explain};
+use hairline_core::Error;
 
 /// The environment variable that names the case.
 pub const VARIABLE: &str = "HAIRLINE_CASE";
 
 /// The explanation of the case that the environment names, or what is wrong with it; none if it names none.
-pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, PlanError>) -> Option<String> {
+pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, Error>) -> Option<String> {
     let case = std::env::var(VARIABLE).ok()?;
     let of_rows = |rows: Vec<Row>| {
         explained(&rows, &case).unwrap_or_else(|message| format!("{VARIABLE}: {message}"))
     };
-    Some(rows().map_or_else(|PlanError(text)| text, of_rows))
+    Some(rows().map_or_else(|Error(text)| text, of_rows))
 }
 
 /// The explanation of a case as text. An error says what is wrong with its name.
-pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, String> {
+pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, Error> {
     let id = named(name)?;
     let explanation = in_named_scalar!(id.scalar, F => {
         let (cases, grouping) = cases_of::<F>(&id)?;
@@ -35,7 +35,7 @@ pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, String> {
 }
 
 /// The map of a row around a case as SVG, its origin varied. An error says what is wrong with the case's name.
-pub(super) fn mapped(row: &Row, name: &str) -> Result<String, String> {
+pub(super) fn mapped(row: &Row, name: &str) -> Result<String, Error> {
     let id = named(name)?;
     let drawn = in_named_scalar!(id.scalar, F => {
         let (cases, _) = cases_of::<F>(&id)?;
@@ -43,13 +43,14 @@ pub(super) fn mapped(row: &Row, name: &str) -> Result<String, String> {
         map::grid_of_case(case, map::CaseVector::Origin, None, None, [128; 2])
             .and_then(|grid| map::of_kernel(case, row, &grid, &Unobserved))
     });
-    drawn.map(|drawn| map::svg_document(&drawn)).map_err(|error| error.0)
+    Ok(map::svg_document(&drawn?))
 }
 
-fn named(name: &str) -> Result<CaseId, String> {
+fn named(name: &str) -> Result<CaseId, Error> {
     let id: CaseId = name.parse()?;
     if id.parameters.instance.is_some() {
-        return Err(format!("'{id}' is a case of an instance: `hairline explain` takes it"));
+        let message = format!("'{id}' is a case of an instance: `hairline explain` takes it");
+        return Err(Error(message));
     }
     Ok(id)
 }

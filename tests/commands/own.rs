@@ -1,7 +1,8 @@
 //! Kernels of one's own: in the registry, in every command's tables, and from a test.
 
+use hairline::Error;
 use hairline::internals::arith::{Real, Vector};
-use hairline::internals::audit::{self, EpsilonChoice, PlanError};
+use hairline::internals::audit::{self, EpsilonChoice};
 use hairline::internals::case::{Case, Parameters, Ray, Triangle};
 use hairline::internals::contract::{Across, Boundary, Contract, Demand, Extent, Sides};
 use hairline::internals::kernel::{
@@ -275,7 +276,7 @@ fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
 #[test]
 fn names_and_epsilons_that_there_are_none_of_are_errors() {
     let kernel = Entry::of::<Volumes>();
-    let error = |error: Result<_, PlanError>| error.map(|_: hairline::Outcome| ()).unwrap_err().0;
+    let error = |error: Result<_, Error>| error.map(|_: hairline::Outcome| ()).unwrap_err().0;
     let family = error(hairline::audit(&kernel).families(["edge-nera"]).run());
     assert_eq!(family, "unknown family 'edge-nera'; did you mean 'edge-near'?");
     let gate = error(hairline::audit(&kernel).epsilons(&[("paralel", "0")]).run());

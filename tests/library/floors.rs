@@ -136,7 +136,7 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
 
 /// Lines of code of each crate, without tests, comments and blank lines. A cut lowers its number. It is raised only with
 /// a capability that was asked for, in the same commit.
-const MOST_LINES: [usize; 5] = [7_660, 7_970, 18_490, 1_860, 21_940];
+const MOST_LINES: [usize; 5] = [7_680, 7_970, 18_470, 1_860, 21_940];
 
 #[test]
 fn no_crate_grows() {

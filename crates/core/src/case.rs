@@ -18,6 +18,7 @@ pub use scene::{
 };
 
 use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};
+use crate::error::Error;
 use std::fmt;
 use std::str::FromStr;
 
@@ -189,9 +190,9 @@ impl fmt::Display for Parameters {
 }
 
 impl FromStr for Parameters {
-    type Err = String;
+    type Err = Error;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, Error> {
         let mut parameters = Parameters::default();
         for word in text.split(',').filter(|word| *word != "-") {
             let (key, value) = word.split_once('=').unwrap_or((word, ""));
@@ -211,7 +212,7 @@ impl FromStr for Parameters {
                 _ => {
                     let known = "scale=2^k, scale-direction, offset=x:y:z, unit, mesh=digest, \
                                  the words of a scene, kernel=name, instance=12 numbers";
-                    return Err(format!("unknown parameter '{key}'; there are {known}"));
+                    return Err(format!("unknown parameter '{key}'; there are {known}").into());
                 }
             }
         }
@@ -222,7 +223,9 @@ impl FromStr for Parameters {
             }
             let scales = parameters.scale != 0 || parameters.scale_direction;
             if scales || !parameters.keep_truth() {
-                return Err("a scene has sizes of its own: no scale, offset or unit".to_owned());
+                return Err("a scene has sizes of its own: no scale, offset or unit"
+                    .to_owned()
+                    .into());
             }
         }
         Ok(parameters)
@@ -279,13 +282,13 @@ impl fmt::Display for CaseId {
 }
 
 impl FromStr for CaseId {
-    type Err = String;
+    type Err = Error;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, Error> {
         let shape = || {
-            format!(
+            Error(format!(
                 "'{text}' is not a case id: family@version/scalar/parameters/seed/index, as tiny@2/f32/-/1/135"
-            )
+            ))
         };
         let [family, scalar, parameters, seed, index] =
             text.split('/').collect::<Vec<_>>().try_into().map_err(|_| shape())?;

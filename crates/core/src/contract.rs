@@ -4,6 +4,7 @@
 
 mod words;
 
+use crate::error::Error;
 use std::fmt;
 use std::str::FromStr;
 
@@ -68,16 +69,16 @@ impl fmt::Display for Band {
 }
 
 impl FromStr for Band {
-    type Err = String;
+    type Err = Error;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, Error> {
         let (number, unit) = match text.strip_suffix("ulps").or(text.strip_suffix("ulp")) {
             Some(number) => (number, BandUnit::Ulps),
             None => (text, BandUnit::Edges),
         };
         let size = number.trim().parse().ok().filter(|size: &f64| *size > 0.0 && size.is_finite());
         size.map(|size| Band { size, unit }).ok_or_else(|| {
-            format!("'{text}' is not a band: write a distance above 0, in longest edges as 1e-6 or in ulps as 4ulps")
+            Error(format!("'{text}' is not a band: write a distance above 0, in longest edges as 1e-6 or in ulps as 4ulps"))
         })
     }
 }

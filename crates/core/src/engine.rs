@@ -4,11 +4,12 @@
 
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
+use std::iter;
 #[cfg(not(feature = "rayon"))]
 use std::num::NonZero;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 #[cfg(any(test, not(feature = "rayon")))]
 use std::{panic, thread};
 
@@ -47,29 +48,18 @@ pub fn sum<S: Merge>(
     empty: impl Fn() -> S + Sync,
     add: impl Fn(&mut S, Range<u64>) + Sync,
 ) -> S {
-    let Range { start, end } = indices;
-    let chunks = end.saturating_sub(start).div_ceil(chunk);
-    let next = AtomicU64::new(0);
-    let take = || {
-        let number = next.fetch_add(1, Ordering::Relaxed);
-        let first = (number < chunks).then(|| start + number * chunk)?;
-        Some(first..end.min(first.saturating_add(chunk)))
-    };
-    let of_thread = || {
+    let sums = Mutex::new(Vec::new());
+    on_threads(indices, chunk, observer, &|chunks| {
         let mut sum = empty();
-        while let Some(indices) = take() {
-            let count = indices.end - indices.start;
-            add(&mut sum, indices);
-            observer.advance(count);
-        }
-        sum
-    };
+        chunks.for_each(|indices| add(&mut sum, indices));
+        locked(&sums).push(sum);
+    });
     let merged = |mut sum: S, more: S| {
         sum.merge(more);
         sum
     };
-    let threads = usize::try_from(chunks).unwrap_or(usize::MAX).min(threads());
-    on_threads(threads, of_thread).into_iter().reduce(merged).unwrap_or_else(&empty)
+    let sums = sums.into_inner().unwrap_or_else(PoisonError::into_inner);
+    sums.into_iter().reduce(merged).unwrap_or_else(&empty)
 }
 
 /// Many items are taken several at a time.
@@ -77,24 +67,20 @@ const MOST_CHUNKS: u64 = 4096;
 
 /// The results of a function for all items, in their order.
 pub fn map<T: Sync, U: Send>(items: &[T], become_of: impl Fn(&T) -> U + Sync) -> Vec<U> {
-    struct Numbered<U>(Vec<(u64, U)>);
-    impl<U: Send> Merge for Numbered<U> {
-        fn merge(&mut self, other: Numbered<U>) {
-            self.0.extend(other.0);
-        }
-    }
+    let results: Vec<Mutex<Option<U>>> = items.iter().map(|_| Mutex::new(None)).collect();
     let count = items.len() as u64;
-    let mut all = sum(
-        0..count,
-        (count / MOST_CHUNKS).max(1),
-        &Unobserved,
-        || Numbered(Vec::new()),
-        |Numbered(some), indices| {
-            some.extend(indices.map(|index| (index, become_of(&items[index as usize]))));
-        },
-    );
-    all.0.sort_unstable_by_key(|(index, _)| *index);
-    all.0.into_iter().map(|(_, item)| item).collect()
+    on_threads(0..count, (count / MOST_CHUNKS).max(1), &Unobserved, &|chunks| {
+        for index in chunks.flatten() {
+            let index = index as usize;
+            *locked(&results[index]) = Some(become_of(&items[index]));
+        }
+    });
+    let result = |of_item: Mutex<Option<U>>| of_item.into_inner().ok().flatten();
+    results.into_iter().map(|of_item| result(of_item).expect("every item has its turn")).collect()
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// How many threads there are.
@@ -105,23 +91,35 @@ pub fn threads() -> usize {
     thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-/// The results of a function on each of some threads; one of them is this one, as some machines have no other.
-fn on_threads<S: Send>(threads: usize, run: impl Fn() -> S + Sync) -> Vec<S> {
-    if threads == 1 {
-        return vec![run()];
-    }
-    let results = Mutex::new(Vec::with_capacity(threads));
-    let keep = || {
-        let result = run();
-        results.lock().unwrap_or_else(PoisonError::into_inner).push(result);
+/// The work of one thread: all chunks that come to it.
+type OfThread<'a> = &'a (dyn Fn(&mut dyn Iterator<Item = Range<u64>>) + Sync);
+
+/// Runs on all threads, one of which is this one, as some machines have no other. It is no generic function, so what
+/// threads need is compiled once, and not for every sum.
+fn on_threads(indices: Range<u64>, chunk: u64, observer: &dyn Observer, run: OfThread<'_>) {
+    let Range { start, end } = indices;
+    let chunks = end.saturating_sub(start).div_ceil(chunk);
+    let next = AtomicU64::new(0);
+    let of_thread = || {
+        let mut taken = 0;
+        run(&mut iter::from_fn(|| {
+            // That of the last one, which is done.
+            observer.advance(taken);
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let first = (number < chunks).then(|| start + number * chunk)?;
+            let indices = first..end.min(first.saturating_add(chunk));
+            taken = indices.end - indices.start;
+            Some(indices)
+        }));
     };
-    // Compiled once for all runs: rayon's part of each would be larger than the run itself.
-    let keep: &(dyn Fn() + Sync) = &keep;
+    let threads = usize::try_from(chunks).unwrap_or(usize::MAX).min(threads());
+    if threads == 1 {
+        return of_thread();
+    }
     #[cfg(feature = "rayon")]
-    (0..threads).into_par_iter().with_max_len(1).for_each(|_| keep());
+    (0..threads).into_par_iter().with_max_len(1).for_each(|_| of_thread());
     #[cfg(not(feature = "rayon"))]
-    on_new_threads(threads, keep);
-    results.into_inner().unwrap_or_else(PoisonError::into_inner)
+    on_new_threads(threads, &of_thread);
 }
 
 /// Without a pool: rayon takes longer to build than an audit in a test takes to run.

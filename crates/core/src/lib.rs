@@ -121,6 +121,7 @@ macro_rules! in_named_scalar {
 pub mod arith;
 #[doc(hidden)]
 pub mod engine;
+mod error;
 
 #[doc(hidden)]
 pub mod case;
@@ -137,6 +138,7 @@ pub mod kernel;
 pub mod oracle;
 
 pub use case::{Case, Parameters, Ray, Triangle};
+pub use error::Error;
 pub use oracle::{Batch, Layers, UnequalColumns, truth, truths, truths_of_rows};
 pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 

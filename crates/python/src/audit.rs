@@ -5,7 +5,7 @@ use super::kernel::Function;
 use hairline::internals::contract::Contract;
 use hairline::internals::report::page::Paged;
 use hairline::internals::report::{FindingPart, Format, PlanFlags, Record, Style, severity};
-use hairline::{Entry, Gives, KernelInfo, Outcome, PlanError, Request};
+use hairline::{Entry, Error, Gives, KernelInfo, Outcome, Request};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -93,7 +93,7 @@ fn running<T: Send>(
     py: Python<'_>,
     function: &'static Function,
     answers: &Py<PyAny>,
-    work: impl FnOnce() -> Result<T, PlanError> + Send,
+    work: impl FnOnce() -> Result<T, Error> + Send,
 ) -> PyResult<T> {
     function.start(answers.clone_ref(py));
     let worked = py.detach(|| {
@@ -114,7 +114,7 @@ fn running<T: Send>(
     function.finish()?;
     worked
         .map_err(|_| PyRuntimeError::new_err("hairline itself failed: please report it"))?
-        .map_err(|PlanError(message)| PyValueError::new_err(message))
+        .map_err(|Error(message)| PyValueError::new_err(message))
 }
 
 #[pymethods]

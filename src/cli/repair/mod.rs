@@ -15,7 +15,7 @@ use super::flags::{case_count, chosen_scalars, find_kernel, scalar_names};
 use super::output::{write_page, write_result};
 use super::progress::Progress;
 use super::sources::{about_scene, mesh_scene};
-use crate::audit::{EpsilonChoice, PlanError, Source, shell_word};
+use crate::audit::{EpsilonChoice, Source, shell_word};
 use crate::case::{Parameters, Scene};
 use crate::family::{FAMILIES, Family, Stratum};
 use crate::kernel::{self, Entry};
@@ -24,6 +24,7 @@ use crate::report::page::{Block, Page};
 use asks::Asks;
 use clap::Args;
 use frame::{function_name, source};
+use hairline_core::Error;
 use language::Language;
 use smaller::RepairRays;
 
@@ -181,7 +182,7 @@ impl RepairArguments {
         scalars: [bool; 2],
         scene: Vec<(&'static Family, Source)>,
     ) -> Result<Status, Failure> {
-        let wrong = |error: PlanError| Failure::usage(format!("--epsilon: {error}"));
+        let wrong = |error: Error| Failure::usage(format!("--epsilon: {error}"));
         let choice = match &self.epsilon {
             Some(text) => EpsilonChoice::parse(text).map_err(wrong)?,
             None => EpsilonChoice::Source,

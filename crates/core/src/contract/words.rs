@@ -1,14 +1,15 @@
 //! Contracts in words, as `--contract`, settings, and the hello of a kernel have them.
 
 use super::{Across, Boundary, Contract, Demand, Direction, Extent, NAMED, Sides};
+use crate::error::Error;
 use crate::suggest::nearest_name;
 use std::str::FromStr;
 
 impl FromStr for Contract {
-    type Err = String;
+    type Err = Error;
 
     /// As [`Contract::from_words`], where no kernel's own contract is known.
-    fn from_str(text: &str) -> Result<Contract, String> {
+    fn from_str(text: &str) -> Result<Contract, Error> {
         Contract::from_words(text, None)
     }
 }
@@ -20,7 +21,7 @@ impl Contract {
     /// input is free, and directions of any length are promised.
     ///
     /// Errors: one line that says which word is wrong and what is known.
-    pub fn from_words(text: &str, own: Option<&Contract>) -> Result<Contract, String> {
+    pub fn from_words(text: &str, own: Option<&Contract>) -> Result<Contract, Error> {
         let words: Vec<&str> = text.split(',').map(str::trim).collect();
         let named = match own.filter(|_| words[0] == "own") {
             Some(own) => Some(*own),
@@ -37,10 +38,10 @@ impl Contract {
                         format!(": write {names}, or extent=ray,sides=both,boundary=closed")
                     }
                 };
-                return Err(format!("'{}' is no contract{advice}", words[0]));
+                return Err(Error(format!("'{}' is no contract{advice}", words[0])));
             }
             if let Some(key) = ["extent", "sides", "boundary"].into_iter().find(|key| !has(key)) {
-                return Err(format!("'{text}' does not say {key}=…"));
+                return Err(Error(format!("'{text}' does not say {key}=…")));
             }
         }
         let mut contract =
@@ -220,7 +221,7 @@ mod tests {
             ("closed-ray,values=inf", "'values=inf': write free, or a distance"),
             ("closed-ray,no-self-hit=yes", "'no-self-hit=yes' is none of "),
         ] {
-            let error = read(text).unwrap_err();
+            let Error(error) = read(text).unwrap_err();
             assert!(error.starts_with(message), "{text}: {error}");
         }
     }

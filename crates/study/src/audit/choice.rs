@@ -1,10 +1,11 @@
 //! How epsilons are chosen: as sources have them, from a published library, or given.
 
 use super::epsilon_text::EpsilonText;
-use super::row::{PlanError, Row, RowSpec};
+use super::row::{Row, RowSpec};
 use crate::contract::Contract;
 use crate::kernel::{Entry, Gate, KERNELS, PRESETS, Preset, PresetEntry, Tunable, find};
 use crate::suggest::did_you_mean;
+use hairline_core::Error;
 
 /// How a plan's epsilons are chosen.
 #[derive(Clone, Debug)]
@@ -19,16 +20,16 @@ pub enum EpsilonChoice {
 
 impl EpsilonChoice {
     /// From `gate=value,...`; no gate twice.
-    pub fn parse(text: &str) -> Result<EpsilonChoice, PlanError> {
+    pub fn parse(text: &str) -> Result<EpsilonChoice, Error> {
         let pairs = text.split(',').map(|pair| {
-            let (gate, value) = pair.split_once('=').ok_or_else(|| {
-                PlanError(format!("'{pair}' is not GATE=VALUE, as parallel=1e-6"))
-            })?;
+            let (gate, value) = pair
+                .split_once('=')
+                .ok_or_else(|| Error(format!("'{pair}' is not GATE=VALUE, as parallel=1e-6")))?;
             Ok((gate.trim().to_owned(), value.trim().to_owned()))
         });
-        let pairs: Vec<(String, String)> = pairs.collect::<Result<_, PlanError>>()?;
+        let pairs: Vec<(String, String)> = pairs.collect::<Result<_, Error>>()?;
         if let Some(i) = (1..pairs.len()).find(|&i| pairs[..i].iter().any(|p| p.0 == pairs[i].0)) {
-            return Err(PlanError(format!("gate '{}' is given twice", pairs[i].0)));
+            return Err(Error(format!("gate '{}' is given twice", pairs[i].0)));
         }
         Ok(EpsilonChoice::Given(pairs))
     }
@@ -39,15 +40,14 @@ impl EpsilonChoice {
         &self,
         entries: &[&'static Entry],
         contract: Option<&str>,
-    ) -> Result<Vec<Row>, PlanError> {
+    ) -> Result<Vec<Row>, Error> {
         let words = contract.unwrap_or("own");
         let (mut rows, mut left_over) = (Vec::new(), None);
         // Each given epsilon must reach a gate of some kernel.
         let missing = |(name, _): &(String, String)| Err(unknown_gate(name, entries));
-        let mut applied: Vec<Result<(), PlanError>> = self.given().iter().map(missing).collect();
+        let mut applied: Vec<Result<(), Error>> = self.given().iter().map(missing).collect();
         for entry in entries {
-            let contract =
-                Contract::from_words(words, Some(&entry.info.contract)).map_err(PlanError)?;
+            let contract = Contract::from_words(words, Some(&entry.info.contract))?;
             let decimals = |values: &[&str]| -> Vec<EpsilonText> {
                 let text = |text: &&str| EpsilonText::of(text).expect("the kernel's own epsilons");
                 values.iter().map(text).collect()
@@ -112,7 +112,7 @@ impl EpsilonChoice {
                 }
             }
         }
-        applied.into_iter().collect::<Result<(), PlanError>>()?;
+        applied.into_iter().collect::<Result<(), Error>>()?;
         if let (true, EpsilonChoice::Preset(name), Some(left_over)) =
             (rows.is_empty(), self, left_over)
         {
@@ -131,16 +131,16 @@ impl EpsilonChoice {
 }
 
 /// The preset of a name.
-fn find_preset(name: &str) -> Result<&'static Preset, PlanError> {
+fn find_preset(name: &str) -> Result<&'static Preset, Error> {
     PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
         let names = PRESETS.iter().map(|preset| preset.name);
         let advice = did_you_mean(name, names, "hairline list presets");
-        PlanError(format!("unknown epsilon preset '{name}'{advice}"))
+        Error(format!("unknown epsilon preset '{name}'{advice}"))
     })
 }
 
 /// Why a preset is for none of some kernels: one of its epsilons has no gate there.
-fn unfit(name: &str, left_over: &PresetEntry, entries: &[&'static Entry]) -> PlanError {
+fn unfit(name: &str, left_over: &PresetEntry, entries: &[&'static Entry]) -> Error {
     let of = match entries {
         [entry] => entry.info.name.to_owned(),
         _ => "a selected kernel".to_owned(),
@@ -154,15 +154,15 @@ fn unfit(name: &str, left_over: &PresetEntry, entries: &[&'static Entry]) -> Pla
         false => format!("; it fits {}", others.join(", ")),
     };
     let (form, gate) = (left_over.form, left_over.gate);
-    PlanError(format!(
+    Error(format!(
         "preset '{name}' refuses where {form}, and no gate of {of} is a '{gate}' of that dimension{advice}"
     ))
 }
 
 /// An epsilon that a gate can take.
-fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanError> {
+fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, Error> {
     let epsilon = EpsilonText::of(text)
-        .ok_or_else(|| PlanError(format!("'{text}' is not an epsilon for gate '{}'", gate.name)))?;
+        .ok_or_else(|| Error(format!("'{text}' is not an epsilon for gate '{}'", gate.name)))?;
     let Some(value) = epsilon.value::<f64>() else {
         let name = gate.name;
         let plain = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
@@ -170,15 +170,13 @@ fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanErr
             Some(_) if plain != text => format!("; write {plain}, without a suffix"),
             _ => String::new(),
         };
-        return Err(PlanError(format!(
+        return Err(Error(format!(
             "'{text}' is not an epsilon for gate '{name}': expected a finite decimal number or k*EPSILON{advice}"
         )));
     };
     match gate.epsilon {
-        Tunable::Fixed => {
-            Err(PlanError(format!("gate '{}' of {kernel} takes no epsilon", gate.name)))
-        }
-        Tunable::NonNegative if value < 0.0 => Err(PlanError(format!(
+        Tunable::Fixed => Err(Error(format!("gate '{}' of {kernel} takes no epsilon", gate.name))),
+        Tunable::NonNegative if value < 0.0 => Err(Error(format!(
             "gate '{}' of {kernel} refuses where {}: below 0 that is the same as 0, so {text} means nothing",
             gate.name, gate.refuses
         ))),
@@ -186,7 +184,7 @@ fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanErr
     }
 }
 
-fn unknown_gate(name: &str, entries: &[&'static Entry]) -> PlanError {
+fn unknown_gate(name: &str, entries: &[&'static Entry]) -> Error {
     let gates = entries.iter().flat_map(|entry| entry.info.gates).map(|gate| gate.name);
     let advice = did_you_mean(name, gates, "hairline list kernels");
     let advice = match name {
@@ -197,15 +195,15 @@ fn unknown_gate(name: &str, entries: &[&'static Entry]) -> PlanError {
         }
         _ => advice,
     };
-    PlanError(format!("no selected kernel has a gate '{name}'{advice}"))
+    Error(format!("no selected kernel has a gate '{name}'{advice}"))
 }
 
 impl Row {
     /// The row of a kernel, its epsilons as [`Row::epsilon_argument`] writes them (none: as the source
     /// has them), and a contract in the words of [`Contract::from_words`].
-    pub fn named(kernel: &str, epsilons: Option<&str>, contract: &str) -> Result<Row, PlanError> {
+    pub fn named(kernel: &str, epsilons: Option<&str>, contract: &str) -> Result<Row, Error> {
         let unknown = || {
-            PlanError(format!(
+            Error(format!(
                 "unknown kernel '{kernel}': one of your own is known by its --kernel-lib or --kernel-cmd"
             ))
         };
@@ -220,7 +218,7 @@ impl Row {
 
 impl RowSpec {
     /// The row, if this program has its kernel.
-    pub fn row(&self) -> Result<Row, PlanError> {
+    pub fn row(&self) -> Result<Row, Error> {
         let row = Row::named(&self.kernel, self.epsilons.as_deref(), &self.contract)?;
         Ok(Row { set: self.set.clone().unwrap_or(row.set), ..row })
     }
@@ -230,7 +228,7 @@ impl RowSpec {
 mod tests {
     use super::*;
 
-    fn rows(names: &[&str], choice: EpsilonChoice) -> Result<Vec<Row>, PlanError> {
+    fn rows(names: &[&str], choice: EpsilonChoice) -> Result<Vec<Row>, Error> {
         let entries: Vec<_> = names.iter().map(|name| find(name).unwrap()).collect();
         choice.rows(&entries, None)
     }

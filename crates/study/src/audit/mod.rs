@@ -61,7 +61,7 @@ pub use judging::polygon_verdict;
 pub use places::{PlaceFault, Seen};
 pub use plan::Plan;
 pub use row::flags;
-pub use row::{PlanError, Row, RowSpec, quoted, shell_word};
+pub use row::{Row, RowSpec, quoted, shell_word};
 pub use run::{Audit, SourceCell, finish, run, run_scalar, sum};
 pub use severity::{Severity, exact_severity, severity_of_instance};
 pub use shard::MOST_SHARDS;

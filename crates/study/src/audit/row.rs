@@ -5,20 +5,8 @@ use super::epsilon_text::EpsilonText;
 use crate::arith::Float;
 use crate::contract::Contract;
 use crate::kernel::{Entry, Gate, Tunable};
+use hairline_core::Error;
 use serde::{Deserialize, Serialize};
-use std::fmt;
-
-/// Why a plan cannot be made; one line.
-#[derive(Debug, PartialEq)]
-pub struct PlanError(pub String);
-
-impl fmt::Display for PlanError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for PlanError {}
 
 /// A kernel with its epsilons: a row of every table.
 #[derive(Clone)]
@@ -66,14 +54,14 @@ impl Row {
     }
 
     /// An error if an epsilon is too large for a scalar, or so small that it is 0 there.
-    pub fn check<F: Float>(&self) -> Result<(), PlanError> {
+    pub fn check<F: Float>(&self) -> Result<(), Error> {
         for (gate, text) in self.tuned() {
             if text.fitting::<F>().is_some() {
                 continue;
             }
             let wrong = if text.value::<F>().is_some() { "0 in" } else { "beyond the range of" };
             let (name, gate, scalar) = (self.entry.info.name, gate.name, F::NAME);
-            return Err(PlanError(format!(
+            return Err(Error(format!(
                 "gate '{gate}' of {name}: {text} is {wrong} {scalar} (see --scalar)"
             )));
         }
@@ -81,7 +69,7 @@ impl Row {
     }
 
     /// The same in `f32`, and in `f64`, each if it is chosen and the kernel runs in it.
-    pub fn check_in(&self, scalars: [bool; 2]) -> Result<(), PlanError> {
+    pub fn check_in(&self, scalars: [bool; 2]) -> Result<(), Error> {
         let [in_f32, in_f64] = self.entry.scalars();
         if scalars[0] && in_f32 {
             self.check::<f32>()?;

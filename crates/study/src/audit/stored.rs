@@ -6,6 +6,7 @@ use super::run::Audit;
 use super::source::{Source, Stock};
 use crate::family;
 use crate::judge::Class;
+use hairline_core::Error;
 use serde::{Deserialize, Serialize};
 
 /// A plan with names for what is built in, and paths for what is not.
@@ -114,7 +115,7 @@ impl StoredSource {
             StoredStock::Whole(name) => Stock::Whole(found(name)?),
             stock => open(stock)?,
         };
-        let parameters = self.parameters.parse()?;
+        let parameters = self.parameters.parse().map_err(|Error(line)| line)?;
         Ok(Source { stock, parameters, seed: self.seed, count: self.count })
     }
 }

@@ -124,7 +124,6 @@ impl Recipe for Grazing {
         let off = transversal(draw, normal(triangle), 2);
         let steepness = draw.integer(1, i64::from(F::DIGITS) - 14);
         let direction = flat * (1 << steepness) + off;
-        debug_assert_ne!(direction.dot(normal(triangle)), 0);
         IntegerCase { origin: point - direction, direction, triangle }.made()
     }
 }

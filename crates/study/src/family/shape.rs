@@ -116,7 +116,6 @@ impl Recipe for Degenerate {
             let other = if step == LatticePoint::ZERO { LatticePoint::Z } else { step };
             independent(draw, other, 4)
         };
-        debug_assert_eq!(normal(triangle), LatticePoint::ZERO);
         let origin = target - direction * draw.integer(-1, 3);
         IntegerCase { origin, direction, triangle }.made()
     }

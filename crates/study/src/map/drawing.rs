@@ -4,7 +4,6 @@
 //! Everything is exact until it is a place in the drawing, counted from where it is looked at: digits
 //! are lost neither far from zero nor close to an edge.
 
-use super::MapError;
 use super::frame::Stretch;
 use super::panel::Panel;
 use super::scene::{FloatLayer, MapScene};
@@ -17,6 +16,7 @@ use crate::judge::{asked, judge};
 use crate::kernel::{Scalar, Verdict, verdicts_of};
 use crate::oracle::{self, Definition};
 use crate::truth::Truth;
+use hairline_core::Error;
 
 const WIDTH: f64 = 640.0;
 const SIDE: f64 = 298.0;
@@ -25,12 +25,12 @@ const LINE: f64 = 18.0;
 
 /// The drawing of a row on a case, to be put into a page: it has no ids and no styles, and text of the
 /// page's colour.
-pub fn drawing<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, MapError> {
+pub fn drawing<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, Error> {
     Ok(DrawingTexts::new(case, row)?.finish(""))
 }
 
 /// The drawing as a file of its own, dark where the reader's screen is.
-pub fn drawing_document<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, MapError> {
+pub fn drawing_document<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, Error> {
     Ok(DrawingTexts::new(case, row)?.finish(DOCUMENT))
 }
 
@@ -43,10 +43,10 @@ struct DrawingTexts {
 }
 
 impl DrawingTexts {
-    fn new<F: Scalar>(case: &Case<F>, row: &Row) -> Result<DrawingTexts, MapError> {
+    fn new<F: Scalar>(case: &Case<F>, row: &Row) -> Result<DrawingTexts, Error> {
         let name = row.entry.info.name;
         let subject = F::subject(row.entry)
-            .ok_or_else(|| MapError(format!("kernel '{name}' does not run in {}", F::NAME)))?;
+            .ok_or_else(|| Error(format!("kernel '{name}' does not run in {}", F::NAME)))?;
         let mut verdict = [Verdict::miss(None)];
         verdicts_of(subject, std::slice::from_ref(case), &row.epsilons::<F>(), &mut verdict);
         let [verdict] = verdict;

@@ -1,7 +1,7 @@
 //! Which floats the pixels of a map stand for: two coordinates of one point, each in equal steps.
 
-use super::MapError;
 use crate::arith::{Float, scale_by_power_of_two};
+use hairline_core::Error;
 
 /// How far the neighbouring pixels of an axis are apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,20 +82,20 @@ impl<F: Float> Grid<F> {
         step: Option<PixelStep>,
         [width, height]: [usize; 2],
         extent: F,
-    ) -> Result<Grid<F>, MapError> {
+    ) -> Result<Grid<F>, Error> {
         if coordinates[0] == coordinates[1] || coordinates.iter().any(|&i| i >= values.len()) {
-            return Err(MapError(format!(
+            return Err(Error(format!(
                 "axes are two different ones of a point's {} coordinates",
                 values.len()
             )));
         }
         if ![width, height].iter().all(|side| (1..=MOST_PIXELS).contains(side)) {
-            return Err(MapError(format!(
+            return Err(Error(format!(
                 "a map of {width}x{height} pixels is not possible: each side has 1 to {MOST_PIXELS}"
             )));
         }
         if step == Some(PixelStep::Ulps(0)) {
-            return Err(MapError("a step is at least 1 ulp".to_owned()));
+            return Err(Error("a step is at least 1 ulp".to_owned()));
         }
         let axis = |coordinate: usize, count| {
             let centre = values[coordinate];

@@ -1,6 +1,6 @@
 //! A ray-triangle kernel on the cases of a grid.
 
-use super::{AxisText, Grid, Map, MapError, PixelStep, RayPixel};
+use super::{AxisText, Grid, Map, PixelStep, RayPixel};
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
@@ -10,6 +10,7 @@ use crate::judge::{Obligation, asked, judge, obligation};
 use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
 use crate::oracle::{self, Layers};
 use crate::truth::{Crossing, Feature, Truth};
+use hairline_core::Error;
 
 named! {
     pub names
@@ -38,7 +39,7 @@ pub fn grid_of_case<F: Float>(
     coordinates: Option<[usize; 2]>,
     step: Option<PixelStep>,
     size: [usize; 2],
-) -> Result<Grid<F>, MapError> {
+) -> Result<Grid<F>, Error> {
     let vectors = case.vectors();
     let [origin, _, a, b, c] = vectors;
     let extent = [origin, a, b, c].as_flattened().iter().map(F::abs).fold(F::zero(), F::larger);
@@ -66,10 +67,10 @@ pub fn of_kernel<F: Scalar>(
     row: &Row,
     grid: &Grid<F>,
     observer: &dyn Observer,
-) -> Result<Map, MapError> {
+) -> Result<Map, Error> {
     let name = row.entry.info.name;
     let subject = F::subject(row.entry)
-        .ok_or_else(|| MapError(format!("kernel '{name}' does not run in {}", F::NAME)))?;
+        .ok_or_else(|| Error(format!("kernel '{name}' does not run in {}", F::NAME)))?;
     let epsilons = row.epsilons::<F>();
     let [width, height] = grid.size();
     let line = |&y: &usize| {

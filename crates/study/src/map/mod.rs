@@ -45,20 +45,6 @@ use crate::arith::Float;
 use crate::corpus::number;
 use crate::judge::{Finding, Obligation};
 use crate::truth::Truth;
-use std::fmt;
-
-/// Why there is no map; one line.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MapError(pub String);
-
-impl fmt::Display for MapError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for MapError {}
-
 /// The results at each pixel of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {

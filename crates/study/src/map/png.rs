@@ -1,6 +1,7 @@
 //! A map as PNG: the computed panel, a gap, the exact panel, each pixel a square.
 
-use super::{Ink, Map, MapError};
+use super::{Ink, Map};
+use hairline_core::Error;
 use png::{BitDepth, ColorType, Encoder};
 
 /// The most dots of a picture.
@@ -11,12 +12,12 @@ const CLEAR: u8 = Ink::ALL.len() as u8;
 
 /// The picture, `scale` dots to a pixel's side. The gap between the panels is transparent and eight dots
 /// wide. An error if the picture would have more than 2^26 dots.
-pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, MapError> {
+pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, Error> {
     let [width, height] = map.size();
     let wide = width.saturating_mul(2).saturating_mul(scale).saturating_add(GAP);
     let high = height.saturating_mul(scale);
     if !(1..=MOST_DOTS).contains(&wide.saturating_mul(high)) {
-        return Err(MapError(format!(
+        return Err(Error(format!(
             "{width}x{height} pixels of {scale}x{scale} dots are no picture of 1 to 2^26 dots"
         )));
     }
@@ -45,7 +46,7 @@ pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, MapError> {
     let written = encoder
         .write_header()
         .and_then(|mut writer| writer.write_image_data(&dots).and_then(|()| writer.finish()));
-    written.map_err(|error| MapError(format!("the picture cannot be encoded: {error}")))?;
+    written.map_err(|error| Error(format!("the picture cannot be encoded: {error}")))?;
     Ok(bytes)
 }
 

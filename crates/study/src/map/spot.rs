@@ -1,11 +1,12 @@
 //! The cases that maps are made of when none is named: near an edge, near a vertex, grazing.
 
-use super::{CaseVector, Map, MapError, grid_of_case, of_kernel};
+use super::{CaseVector, Map, grid_of_case, of_kernel};
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::engine::Unobserved;
 use crate::kernel::Scalar;
+use hairline_core::Error;
 
 named! {
     pub names
@@ -52,7 +53,7 @@ impl Spot {
 
 /// The map of a row about a standard case: its ray's origin varied float by float, in the two
 /// coordinates that lie most in the triangle's plane. `size` in pixels: to the right, and upwards.
-pub fn standard<F: Scalar>(row: &Row, spot: Spot, size: [usize; 2]) -> Result<Map, MapError> {
+pub fn standard<F: Scalar>(row: &Row, spot: Spot, size: [usize; 2]) -> Result<Map, Error> {
     let case = spot.case::<F>();
     let grid = grid_of_case(&case, CaseVector::Origin, None, None, size)?;
     of_kernel(&case, row, &grid, &Unobserved)

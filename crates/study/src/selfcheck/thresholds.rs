@@ -26,7 +26,7 @@ pub(super) fn case(seed: u64, index: u64) -> Case<f64> {
         2 => case.on(0.0, 1.0),
         _ => case,
     };
-    debug_assert!(case.vectors().as_flattened().iter().all(|x| x.is_finite()), "{}", case.hex());
+    assert!(case.vectors().as_flattened().iter().all(|x| x.is_finite()), "{}", case.hex());
     case
 }
 

@@ -148,9 +148,8 @@ fn learn<F: Scalar>(islands: &mut [Island<F>], kernel: &str, kind: crate::explor
 }
 
 fn restore<F: Scalar>(islands: &mut [Island<F>], saved: &SavedIndividual) -> Result<(), String> {
-    let row = Row::named(&saved.kernel, saved.epsilons.as_deref(), &saved.contract);
-    let row = row.map_err(|error| error.0)?;
-    row.check::<F>().map_err(|error| error.0)?;
+    let row = Row::named(&saved.kernel, saved.epsilons.as_deref(), &saved.contract)?;
+    row.check::<F>()?;
     let island = islands.iter_mut().find(|island| island.is_of(&saved.kernel));
     let island = island.ok_or_else(|| format!("no {} in {}", saved.kernel, F::NAME))?;
     let bits: &[u64; 17] =

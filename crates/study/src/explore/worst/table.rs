@@ -135,8 +135,8 @@ fn parse_goal(name: &str, case: &AnyCase) -> Result<WorstGoal, String> {
         return Err(format!("'{name}' is of {scalar}, its case of {}", case.scalar()));
     }
     let epsilons = Some(epsilons).filter(|text| *text != "-");
-    let row = Row::named(kernel, epsilons, "own").map_err(|error| error.0)?;
-    row.check_in(case.scalars()).map_err(|error| error.0)?;
+    let row = Row::named(kernel, epsilons, "own")?;
+    row.check_in(case.scalars())?;
     let target = SearchTarget::find(target, row.entry.info)
         .ok_or_else(|| format!("'{target}' is nothing that {kernel} is searched for"))?;
     let domain = SearchDomain::named(domain).ok_or_else(|| format!("unknown domain '{domain}'"))?;
