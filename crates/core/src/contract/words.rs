@@ -224,5 +224,6 @@ mod tests {
             let Error(error) = read(text).unwrap_err();
             assert!(error.starts_with(message), "{text}: {error}");
         }
+        let _: Box<dyn std::error::Error> = read("own").unwrap_err().into();
     }
 }
