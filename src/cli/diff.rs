@@ -47,7 +47,7 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
         Study::Verify => of_one_study::<VerifyResult>(old, new)?,
     };
     if comparison.common == 0 {
-        let message = "nothing to compare: the records have no kernel with its epsilons on the same kind of rays in common";
+        let message = "nothing to compare: the records have no kernel with its epsilons on the same kind of rays in common; two kernels, or two epsilons of one, are compared in one run";
         return Err(Failure::nothing(message));
     }
     arguments.output.write(pairs, &comparison)?;

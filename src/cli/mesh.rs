@@ -30,7 +30,7 @@ pub struct MeshArguments {
     #[command(flatten)]
     kernels: KernelArguments,
 
-    /// f32, f64 or both [default: f32, or f64 where no kernel runs in f32]
+    /// f32, f64, or f32,f64 [default: f32, or f64 where no kernel runs in f32]
     #[arg(long, value_delimiter = ',', value_name = "SCALAR")]
     scalar: Vec<String>,
 

@@ -84,7 +84,7 @@ pub struct SpawnArguments {
     #[arg(long, value_name = "DEGREES", default_value = "45", allow_hyphen_values = true)]
     fold: String,
 
-    /// f32, f64 or both [default: f32, or f64 where no kernel runs in f32]
+    /// f32, f64, or f32,f64 [default: f32, or f64 where no kernel runs in f32]
     #[arg(long, value_delimiter = ',', value_name = "SCALAR", help_heading = RUNNING)]
     scalar: Vec<String>,
 

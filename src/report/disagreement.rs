@@ -3,6 +3,7 @@
 use super::record::*;
 use crate::family::{self, Question};
 use crate::judge::Finding;
+use crate::mesh::AimedPart;
 use std::collections::BTreeMap;
 
 /// Names a class of disagreement of a kernel row on a family in a scalar.
@@ -113,10 +114,10 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
 /// A finding on groups or polygons: its kind, how often, of the set of all, ids of the first.
 pub(super) type GroupFinding<'a> = (FindingKind, &'a Rate, &'a str, &'a [String]);
 
-/// True if a finding of a result counts for single triangles. At the shared edges and vertices of a scene a neighbour
-/// may take the ray: there only a ray that none of them takes is wrong.
+/// True if a finding of a result counts for single triangles. At the shared edges and vertices of a scene or a
+/// mesh a neighbour may take the ray: there only a ray that none of them takes is wrong.
 pub(crate) fn counts_alone(part: &KernelResult, kind: FindingKind) -> bool {
-    !(is_shared_in_scene(&part.family) && kind.is_wrong_verdict())
+    !(is_at_shared(&part.family) && kind.is_wrong_verdict())
 }
 
 /// The findings on groups and on whole polygons, each with its class.
@@ -125,7 +126,7 @@ fn together(part: &KernelResult) -> impl Iterator<Item = (&'static str, GroupFin
     groups.chain(polygons(part).into_iter().map(|found| ("polygon", found)))
 }
 
-/// The counts of all that the contract rules out across triangles. In a scene cracks count even where nothing is promised.
+/// The counts of all that the contract rules out across triangles. Cracks of a scene and of a mesh count even where nothing is promised.
 pub(super) fn across(part: &KernelResult) -> Vec<GroupFinding<'_>> {
     let (Some(across), Some(cracks)) = (&part.across, cracks(part)) else { return Vec::new() };
     let doubles: GroupFinding = (
@@ -137,7 +138,7 @@ pub(super) fn across(part: &KernelResult) -> Vec<GroupFinding<'_>> {
     let folds: GroupFinding =
         (FindingKind::OddFold, &across.odd_folds, &across.odd_fold_digest, &across.first_odd_folds);
     match across.promised {
-        Promised::Nothing if is_shared_in_scene(&part.family) => vec![cracks],
+        Promised::Nothing if is_at_shared(&part.family) => vec![cracks],
         promised => {
             let all = promised.rules_out().into_iter().zip([cracks, doubles, folds]);
             all.filter(|(is_ruled_out, _)| *is_ruled_out).map(|(_, found)| found).collect()
@@ -212,12 +213,14 @@ fn group_example(row: &RowPart, result: &KernelResult, id: &str) -> Example {
     }
 }
 
-/// True if a source aims at the shared edges or vertices of a scene.
-pub(super) fn is_shared_in_scene(family: &str) -> bool {
-    family_of(family).is_some_and(|family| {
-        family.name.starts_with("scene-")
-            && matches!(family.question, Question::Edges | Question::Vertices)
-    })
+/// True if a source aims at the shared edges or vertices of a scene, or of the mesh of `hairline mesh`.
+pub(super) fn is_at_shared(family: &str) -> bool {
+    let part = family.split(':').next().unwrap_or_default();
+    AimedPart::named(part).is_some()
+        || family_of(family).is_some_and(|family| {
+            family.name.starts_with("scene-")
+                && matches!(family.question, Question::Edges | Question::Vertices)
+        })
 }
 
 /// The family of a source by its name, in which a mesh's file may follow.

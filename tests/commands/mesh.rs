@@ -319,6 +319,30 @@ fn a_ci_reads_the_cracks_of_a_mesh_as_failures() {
 }
 
 #[test]
+fn a_crack_fails_a_ci_whatever_is_promised_and_a_watertight_kernel_passes() {
+    let folder = scratch("mesh-ci");
+    let run = ["mesh", &model("torus"), "-q", "-k", "moller-trumbore,woop-watertight"];
+    let (xml, _) = ends(&folder, &[&run[..], &["--format", "junit"]].concat(), 0);
+    let crack = "<failure type=\"crack\" message=\"moller-trumbore (source) f32 mesh-edges:torus.obj: crack of group: ";
+    assert_eq!(xml.matches("<failure").count(), 2, "{xml}");
+    assert!(xml.contains(crack) && !xml.contains("message=\"woop"), "{xml}");
+}
+
+#[test]
+fn a_mesh_with_holes_is_not_said_to_have_none() {
+    let folder = scratch("mesh-holes");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 2 4 3\nf 1 2 3\n";
+    fs::write(folder.join("two.obj"), text).unwrap();
+    let run = ["mesh", "two.obj", "-q", "-k", "woop-watertight"];
+    let (out, _) = ends(&folder, &run, 0);
+    let of = "of 8 aimed at its edges and vertices; 4 edges are not asked about, 4 of them open";
+    // The edges 1-2 and 1-3 of the second face come first, and the first face has open edges too.
+    assert!(flat(&out).contains(of) && out.contains("4 open (first at line 5)"), "{out}");
+    let (part, _) = ends(&folder, &[&run[..], &["--shard", "0/2"]].concat(), 0);
+    assert!(flat(&part).contains("all numbers are of this part"), "{part}");
+}
+
+#[test]
 fn the_screen_has_a_meshs_edges_in_its_column_and_a_command_for_a_crack() {
     let folder = scratch("mesh-screen");
     let file = model("icosphere");

@@ -120,7 +120,7 @@ fn a_small_mesh_is_drawn_whole_and_its_marks_are_the_records_counts() {
     }
     assert!(100 < rows[0].marks.len());
     // Of what the shares are shares, wherever one stands.
-    for head in ["cracks at edges", "% of rays aimed at edges, and of rays aimed at vertices"] {
+    for head in ["cracks at edges", "% of the rays aimed at edges, and at vertices, that cross"] {
         assert!(page.contains(head), "{head}");
     }
     assert!(page.contains("<h1>✕ Rays slip through icosphere.obj with "));

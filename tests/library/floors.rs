@@ -135,8 +135,8 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
 }
 
 /// Lines of code of each crate, without tests, comments and blank lines. A cut lowers its number. It is raised only with
-/// a capability that was asked for, in the same commit.
-const MOST_LINES: [usize; 5] = [7_680, 7_970, 18_470, 1_860, 21_940];
+/// something new that was asked for (a kernel, a study, a format), in the same commit, with the reason.
+const MOST_LINES: [usize; 5] = [7_680, 7_970, 18_470, 1_860, 21_970];
 
 #[test]
 fn no_crate_grows() {

@@ -2,7 +2,7 @@
 //! hits and what most of them come from.
 
 use super::columns::{AcrossColumn, Column, far, short_percent};
-use super::disagreement::is_shared_in_scene;
+use super::disagreement::is_at_shared;
 use super::group_digits;
 use super::lines::{RowLine, column_legend};
 use super::pool::Pool;
@@ -97,7 +97,7 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
         _ => share_cell(&Rate { interval: None, ..rate.clone() }),
     };
     // There a neighbour may take a ray that a triangle leaves, so only cracks are wrong.
-    if results.iter().flatten().all(|result| is_shared_in_scene(&result.family)) {
+    if results.iter().flatten().all(|result| is_at_shared(&result.family)) {
         let cracks = results.iter().map(|results| {
             let across = results.iter().filter_map(|result| result.across.as_ref());
             Pool::of(across.map(|across| &across.cracks))

@@ -1,6 +1,6 @@
 //! Verdicts by question: the columns of the screen and of the summary in Markdown.
 
-use super::disagreement::{family_of, is_shared_in_scene};
+use super::disagreement::{family_of, is_at_shared};
 use super::record::*;
 use super::row_view::{RowView, WRONG};
 use crate::audit::{Octave, Trials, is_of_mesh, kind_of};
@@ -143,7 +143,7 @@ impl ColumnCell {
     pub(super) fn sum(results: &[&KernelResult]) -> ColumnCell {
         let mut cell = ColumnCell::default();
         for result in results {
-            if let (true, Some(across)) = (is_shared_in_scene(&result.family), &result.across) {
+            if let (true, Some(across)) = (is_at_shared(&result.family), &result.across) {
                 cell.wrong.merge(&across.cracks.trials());
                 continue;
             }
@@ -156,11 +156,11 @@ impl ColumnCell {
     }
 }
 
-/// The note on a scene's shared edges and vertices, where a neighbour may take a ray that a triangle leaves.
+/// The note on the shared edges and vertices of a scene or a mesh, where a neighbour may take a ray that a triangle leaves.
 pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
     let sources = &record.result.plan.sources;
-    sources.iter().any(|source| is_shared_in_scene(&source.family)).then_some(
-        "At a scene's shared edges and vertices a ray is wrong if no triangle reports it (a crack); which of them does, \
+    sources.iter().any(|source| is_at_shared(&source.family)).then_some(
+        "At edges and vertices that triangles share a ray is wrong if no triangle reports it (a crack); which of them does, \
          and whether two do, changes no nearest hit.",
     )
 }

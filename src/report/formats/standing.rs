@@ -1,7 +1,7 @@
 //! How well each row did, in all scalars and in the columns of ordinary sizes.
 
 use super::columns::{Column, ColumnCell};
-use super::disagreement::{Key, disagreements, is_shared_in_scene};
+use super::disagreement::{Key, disagreements, is_at_shared};
 use super::lines::RowLine;
 use super::record::*;
 use crate::audit::Trials;
@@ -77,8 +77,8 @@ fn other_findings(record: &Record) -> Others {
     for found in disagreements(&record.result) {
         let Key { kernel, set, family, finding, .. } = found.key;
         // Cracks at the shared edges and vertices of a scene are in the shares, promised or not.
-        let is_in_shares = finding.is_wrong_verdict()
-            || finding == FindingKind::Crack && is_shared_in_scene(&family);
+        let is_in_shares =
+            finding.is_wrong_verdict() || finding == FindingKind::Crack && is_at_shared(&family);
         if !is_in_shares {
             *others.entry([kernel, set]).or_default().entry(finding).or_default() +=
                 found.rate.count;

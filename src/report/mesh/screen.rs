@@ -36,11 +36,16 @@ pub fn page(record: &Record, mesh: &MeshPart) -> Page {
     };
     for part in &mesh.scalars {
         let grain = part.grain();
-        blocks.extend((!grain.is_fine()).then(|| Block::Text(grain.sentence("mesh"))));
+        let is_coarse = part.spacing.is_finite() && !grain.is_fine();
+        blocks.extend(is_coarse.then(|| Block::Text(grain.sentence("mesh"))));
         blocks.extend(blocks_of(record, part, of_scalar(part)));
     }
     #[cfg(feature = "pages")]
     blocks.extend(super::stage::block(record, mesh, &rows));
+    if let Some(partial) = &result.partial {
+        let part = partial.in_words();
+        blocks.push(Block::Text(format!("A part of a run: {part}; all numbers are of this part.")));
+    }
     let places = first_places(&rows);
     if !places.is_empty() {
         blocks.push(Block::Commands("shown by", places));
@@ -83,12 +88,28 @@ fn verdict(result: &ResultPart, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> (Tone,
     let of = format!("of {} aimed at its edges and vertices", group_digits(rays));
     let title = match (leaking, rows.len()) {
         _ if rays == 0 => format!("Nothing to ask of {file}"),
-        (0, 1) => format!("No ray slips through {file}, {of}"),
-        (0, n) => format!("No ray slips through {file} with {n} kernel rows, {of}"),
+        (0, 1) => format!("No ray slips through {file}, {of}{}", not_asked(mesh)),
+        (0, n) => {
+            format!("No ray slips through {file} with {n} kernel rows, {of}{}", not_asked(mesh))
+        }
         (1, 1) => format!("Rays slip through {file}"),
         (k, n) => format!("Rays slip through {file} with {k} of {n} kernel rows"),
     };
     (tone, title)
+}
+
+/// The edges of a mesh through which no ray is aimed, as the end of a sentence; empty if there are none.
+fn not_asked(mesh: &MeshPart) -> String {
+    let Some(part) = mesh.scalars.first() else { return String::new() };
+    let count = |key: &str| part.topology.edges.get(key).map_or(0, |noted| noted.count);
+    let others = EDGE_WORDS[1..].iter().map(|(key, _)| count(key)).sum();
+    match (others, count("open")) {
+        (0, _) => String::new(),
+        (others, open) => format!(
+            "; {} not asked about, {open} of them open",
+            number_of(others, "edge is", "edges are")
+        ),
+    }
 }
 
 /// The mesh in one scalar, and the rows, those that leak least first; rows that answer alike stand together.
@@ -99,7 +120,11 @@ fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) ->
     if rays.iter().all(|rays| *rays == 0) {
         return blocks;
     }
-    rows.sort_by_key(|row| (row.leaks(), row.both(|across| &across.doubles).count));
+    rows.sort_by(|one, other| {
+        let share = |row: &MeshRow<'_>, rate| row.both(rate).rate.unwrap_or(0.0);
+        let of = |rate| share(one, rate).total_cmp(&share(other, rate));
+        of(|across| &across.cracks).then(of(|across| &across.doubles))
+    });
     let counts = |row: &MeshRow<'_>| {
         let rates: [fn(&AcrossPart) -> &Rate; 3] =
             [|across| &across.cracks, |across| &across.doubles, |across| &across.odd_folds];
@@ -144,6 +169,10 @@ fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) ->
         if let Some((hits, is_kept)) = row.promise() {
             let kept = if is_kept { "kept" } else { "BROKEN" };
             below.push(format!("promises hits {hits} where a ray crosses: {kept}"));
+        }
+        if 0 < row.failures() {
+            let count = number_of(row.failures(), "case", "cases");
+            below.push(format!("no verdict on {count}, which are in no share (--details)"));
         }
         Row { below, ..Row::new(row.short_label(), cells) }
     };
@@ -243,8 +272,8 @@ fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, String)> {
         lines.push((name, if parts.is_empty() { "none".to_owned() } else { parts.join(", ") }));
     }
     if topology.duplicated_places > 0 {
-        let places = group_digits(topology.duplicated_places);
-        lines.push(("", format!("the duplicated faces lie in {places} places")));
+        let places = number_of(topology.duplicated_places, "place", "places");
+        lines.push(("", format!("the duplicated faces lie in {places}")));
     }
     if topology.closed_manifold {
         lines.push(("", "a closed surface, wound consistently".to_owned()));
@@ -253,9 +282,9 @@ fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, String)> {
 }
 
 /// The note on the shares in the table.
-const SHARES: &str = "Cracks: % of rays aimed at edges, and of rays aimed at vertices, that cross the surface there; doubles, \
-and wrong at folds: of both together. Rays at the whole mesh rarely come so near an edge. Sorted by leaks at these epsilons; \
-`hairline epsilon --mesh` finds better ones, and weighs lost and false hits too.";
+const SHARES: &str = "Cracks: % of the rays aimed at edges, and at vertices, that cross the surface there, on a side that counts; \
+doubles: of both together; wrong at folds: of those that touch it. Rays at the whole mesh rarely come so near an edge. Sorted by the \
+share of cracks; `hairline epsilon --mesh` finds better epsilons, and weighs lost and false hits too.";
 
 const FACE_WORDS: &[(&str, &str)] = &[
     ("sound", "sound"),

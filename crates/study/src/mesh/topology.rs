@@ -44,14 +44,16 @@ pub enum EdgeKind {
 pub struct Noted {
     /// How many.
     pub count: u64,
-    /// A face of the first, and the first's points.
+    /// The first face of any, and the points of that one.
     pub first: Option<(u32, Vec<u32>)>,
 }
 
 impl Noted {
     pub(super) fn note(&mut self, face: u32, points: &[u32]) {
         self.count += 1;
-        self.first.get_or_insert_with(|| (face, points.to_vec()));
+        if self.first.as_ref().is_none_or(|(first, _)| face < *first) {
+            self.first = Some((face, points.to_vec()));
+        }
     }
 }
 
