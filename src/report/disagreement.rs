@@ -126,7 +126,8 @@ fn together(part: &KernelResult) -> impl Iterator<Item = (&'static str, GroupFin
     groups.chain(polygons(part).into_iter().map(|found| ("polygon", found)))
 }
 
-/// The counts of all that the contract rules out across triangles. Cracks of a scene and of a mesh count even where nothing is promised.
+/// The counts of all that the contract rules out across triangles. Cracks of a scene and of a mesh count even where
+/// nothing is promised.
 pub(super) fn across(part: &KernelResult) -> Vec<GroupFinding<'_>> {
     let (Some(across), Some(cracks)) = (&part.across, cracks(part)) else { return Vec::new() };
     let doubles: GroupFinding = (
@@ -213,7 +214,7 @@ fn group_example(row: &RowPart, result: &KernelResult, id: &str) -> Example {
     }
 }
 
-/// True if a source aims at the shared edges or vertices of a scene, or of the mesh of `hairline mesh`.
+/// True if a source aims at the shared edges or vertices of a scene or a mesh.
 pub(super) fn is_at_shared(family: &str) -> bool {
     let part = family.split(':').next().unwrap_or_default();
     AimedPart::named(part).is_some()

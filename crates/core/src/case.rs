@@ -212,7 +212,7 @@ impl FromStr for Parameters {
                 _ => {
                     let known = "scale=2^k, scale-direction, offset=x:y:z, unit, mesh=digest, \
                                  the words of a scene, kernel=name, instance=12 numbers";
-                    return Err(format!("unknown parameter '{key}'; there are {known}").into());
+                    return Err(Error(format!("unknown parameter '{key}'; there are {known}")));
                 }
             }
         }
@@ -223,9 +223,8 @@ impl FromStr for Parameters {
             }
             let scales = parameters.scale != 0 || parameters.scale_direction;
             if scales || !parameters.keep_truth() {
-                return Err("a scene has sizes of its own: no scale, offset or unit"
-                    .to_owned()
-                    .into());
+                let message = "a scene has sizes of its own: no scale, offset or unit";
+                return Err(Error(message.to_owned()));
             }
         }
         Ok(parameters)

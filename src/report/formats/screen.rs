@@ -158,7 +158,7 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
     let others = told("Breaks its promise across triangles", true) + &told("Besides", false);
     let mut text = text + &others;
     if let Some(partial) = &record.result.partial {
-        text += &format!(" A part of a run: {}; all numbers are of this part.", partial.in_words());
+        text += &format!(" {}", partial.sentence());
     }
     match text.split_once(". ") {
         Some((first, rest)) => (format!("{first}."), rest.to_owned()),

@@ -42,10 +42,7 @@ pub fn page(record: &Record, mesh: &MeshPart) -> Page {
     }
     #[cfg(feature = "pages")]
     blocks.extend(super::stage::block(record, mesh, &rows));
-    if let Some(partial) = &result.partial {
-        let part = partial.in_words();
-        blocks.push(Block::Text(format!("A part of a run: {part}; all numbers are of this part.")));
-    }
+    blocks.extend(result.partial.as_ref().map(|part| Block::Text(part.sentence())));
     let places = first_places(&rows);
     if !places.is_empty() {
         blocks.push(Block::Commands("shown by", places));
@@ -85,13 +82,12 @@ fn verdict(result: &ResultPart, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> (Tone,
         (false, 0) if !failed && 0 < rays => Tone::Good,
         _ => Tone::Plain,
     };
-    let of = format!("of {} aimed at its edges and vertices", group_digits(rays));
+    let aimed = group_digits(rays);
+    let of = format!("of {aimed} aimed at its edges and vertices{}", not_asked(mesh));
     let title = match (leaking, rows.len()) {
         _ if rays == 0 => format!("Nothing to ask of {file}"),
-        (0, 1) => format!("No ray slips through {file}, {of}{}", not_asked(mesh)),
-        (0, n) => {
-            format!("No ray slips through {file} with {n} kernel rows, {of}{}", not_asked(mesh))
-        }
+        (0, 1) => format!("No ray slips through {file}, {of}"),
+        (0, n) => format!("No ray slips through {file} with {n} kernel rows, {of}"),
         (1, 1) => format!("Rays slip through {file}"),
         (k, n) => format!("Rays slip through {file} with {k} of {n} kernel rows"),
     };
@@ -100,15 +96,17 @@ fn verdict(result: &ResultPart, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> (Tone,
 
 /// The edges of a mesh through which no ray is aimed, as the end of a sentence; empty if there are none.
 fn not_asked(mesh: &MeshPart) -> String {
-    let Some(part) = mesh.scalars.first() else { return String::new() };
-    let count = |key: &str| part.topology.edges.get(key).map_or(0, |noted| noted.count);
-    let others = EDGE_WORDS[1..].iter().map(|(key, _)| count(key)).sum();
-    match (others, count("open")) {
-        (0, _) => String::new(),
-        (others, open) => format!(
-            "; {} not asked about, {open} of them open",
-            number_of(others, "edge is", "edges are")
-        ),
+    // In the scalar in which they are most.
+    let of_scalar = |part: &MeshScalar| {
+        let count = |key: &str| part.topology.edges.get(key).map_or(0, |noted| noted.count);
+        (EDGE_WORDS[1..].iter().map(|(key, _)| count(key)).sum(), count("open"))
+    };
+    match mesh.scalars.iter().map(of_scalar).max() {
+        None | Some((0, _)) => String::new(),
+        Some((others, open)) => {
+            let edges = number_of(others, "edge is", "edges are");
+            format!("; {edges} not asked about, {} of them open", group_digits(open))
+        }
     }
 }
 

@@ -22,11 +22,15 @@ pub struct ShardPart {
 }
 
 impl PartialPart {
-    /// `shards 0, 2 of 3 only`.
-    pub(in crate::report) fn in_words(&self) -> String {
+    /// A sentence that says which parts the numbers are of.
+    pub(in crate::report) fn sentence(&self) -> String {
         let present: Vec<String> = self.present.iter().map(u64::to_string).collect();
         let noun = if present.len() == 1 { "shard" } else { "shards" };
-        format!("{noun} {} of {} only", present.join(", "), self.of)
+        let present = present.join(", ");
+        format!(
+            "A part of a run: {noun} {present} of {} only; all numbers are of this part.",
+            self.of
+        )
     }
 }
 
