@@ -327,6 +327,6 @@ impl Request {
         let about = |error| Error(format!("scene: {error}"));
         let (scene, _) = Scene::parse(words).map_err(about)?;
         let (_, why) = scene.held_in(self.entry.scalars()).map_err(about)?;
-        why.map_or(Ok(Some(scene)), |why| Err(about(why)))
+        why.map_or(Ok(Some(scene.to_try_kernels(words))), |why| Err(about(why)))
     }
 }

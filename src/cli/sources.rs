@@ -283,6 +283,7 @@ impl SourceArguments {
         self.refuse_other_families()?;
         let (scene, mesh) = self.mesh_scene(quiet)?;
         self.note_what_is_missed(&scene, Some(&mesh), quiet)?;
+        let scene = scene.to_try_kernels(self.scene.as_deref().unwrap_or_default());
         let parameters = Parameters { scene: Some(scene), ..Parameters::default() };
         let strata = Stratum::ALL.into_iter().filter(|stratum| self.runs(*stratum));
         let (seed, count) = self.seed_and_count();
@@ -313,7 +314,7 @@ impl SourceArguments {
             offset: offset.map_err(|e| Failure::usage(format!("--offset: {e}")))?,
             unit_direction: self.direction.is_some(),
             mesh: None,
-            scene: self.scene()?.map(|(scene, _)| scene),
+            scene: self.scene_to_try_kernels()?,
             kernel: None,
             instance: None,
         })
@@ -327,6 +328,12 @@ impl SourceArguments {
         self.refuse_other_families()?;
         scene.held_in(chosen_scalars(&self.scalar)?).map_err(about_scene)?;
         Ok(Some((scene, unit)))
+    }
+
+    /// The scene as kernels are tried in it.
+    fn scene_to_try_kernels(&self) -> Result<Option<Scene>, Failure> {
+        let words = self.scene.as_deref().unwrap_or_default();
+        Ok(self.scene()?.map(|(scene, _)| scene.to_try_kernels(words)))
     }
 
     fn refuse_other_cases(&self) -> Result<(), Failure> {

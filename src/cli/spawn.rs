@@ -4,6 +4,7 @@ mod choice;
 mod compared;
 mod page;
 mod record;
+mod segments;
 
 use super::before::{one_scalar, refuse_wrong_values, set_threads};
 use super::exit::{Failure, Status};
@@ -20,14 +21,14 @@ use crate::mesh::SceneMesh;
 use crate::plugin::{KernelProgram, OffsetCommand};
 use crate::report::{Context, Format, Record, provenance_of};
 use crate::spawn::{
-    PointKind, Scheme, SpawnPlan, SpawnSums, default_schemes, needs_t, parse, register,
+    PointKind, Scheme, SegmentPlan, SpawnPlan, SpawnSums, default_schemes, needs_t, parse, register,
 };
 use crate::studied::Studied;
 use choice::{least_without_failure, made_for};
 use clap::Args;
 use clap::builder::ArgPredicate;
 pub use record::SpawnResult;
-use record::{DerivedPart, PointsPart};
+use record::{DerivedPart, PointsPart, SegmentsPart};
 use std::sync::Arc;
 
 /// The flags of `spawn`: the run, and how it is reported.
@@ -111,6 +112,9 @@ pub struct SpawnArguments {
     output: OutputArguments,
 }
 
+/// Segments are drawn for the pilots, and for what is reported.
+const PASSES_OF_SEGMENTS: u64 = 2;
+
 /// The kernel that runs if nobody names one.
 const DEFAULT_KERNEL: &str = "moller-trumbore";
 
@@ -162,10 +166,13 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         return Err(Failure::nothing(message));
     }
     let passes = if arguments.makes_schemes() { 3 } else { 2 };
-    let total = (studies.len() * scenes.len()) as u64 * passes * arguments.count;
+    let kernels: usize = rows.iter().map(|row| scalars_of(row.entry, scalars).count()).sum();
+    let runs = studies.len() as u64 * passes + kernels as u64 * PASSES_OF_SEGMENTS;
+    let total = runs * scenes.len() as u64 * arguments.count;
     let progress = Progress::new(total, "first rays", arguments.output.quiet);
     let study = |(plan, name): &(SpawnPlan<'_>, &str)| in_named_scalar!(*name, F => arguments.study::<F>(plan, &scenes, &progress));
     let points = studies.iter().map(study).collect();
+    let segments = arguments.segments(&rows, scalars, &scenes, mesh.as_ref(), &progress);
     progress.finish();
     for (name, command) in commands {
         if let Some(fault) = command.fault() {
@@ -184,6 +191,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         instance,
         planes: scenes.iter().map(|scene| scene.kind().to_string()).collect(),
         points,
+        segments,
     };
     let context = Context { seconds: progress.seconds(), threads };
     arguments.output.write(outputs, &Record::new(result, provenance_of(&context)).sealed())?;
@@ -240,6 +248,32 @@ impl SpawnArguments {
         plans[1..].iter_mut().for_each(|plan| plan.with_least = false);
         let sums = run(&plans);
         PointsPart::new::<F>(&plans, [&pilots, &sums], &made, derived, &self.place())
+    }
+
+    /// Where segments end that go to the hit points of each kernel; in an instance nobody asked.
+    fn segments(
+        &self,
+        rows: &[Row],
+        scalars: [bool; 2],
+        scenes: &[Scene],
+        mesh: Option<&Arc<SceneMesh>>,
+        progress: &Progress,
+    ) -> Vec<SegmentsPart> {
+        if self.instance.is_some() {
+            return Vec::new();
+        }
+        let seeds = [fresh_seed(self.seed), self.seed];
+        let mut parts = Vec::new();
+        for row in rows {
+            let count = self.count;
+            let plan = SegmentPlan { row, scene: &scenes[0], mesh, ends: &[], seed: 0, count };
+            for name in scalars_of(row.entry, scalars) {
+                parts.push(in_named_scalar!(name, F => {
+                    SegmentsPart::study::<F>(&plan, scenes, seeds, progress)
+                }));
+            }
+        }
+        parts
     }
 
     /// True if offsets are made for the scene besides the published ones.

@@ -14,7 +14,8 @@ pub use hard::hard_cases;
 pub use instance::{Instance, Matrix};
 pub use scene::ShortNumber;
 pub use scene::{
-    DirectionLength, PlaneKind, RayKind, SCENES, Scene, SceneKind, ScenePreset, Toward,
+    DirectionLength, PlaneKind, RayKind, SCENES, Scene, SceneInterval, SceneKind, ScenePreset,
+    Toward,
 };
 
 use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};

@@ -44,6 +44,10 @@ studied! {
         plan: &spawn::SpawnPlan<'_>,
         observer: &dyn Observer,
     ) -> spawn::SpawnSums;
+    spawn::run_segments::<Self>: fn segments(
+        plan: &spawn::SegmentPlan<'_>,
+        observer: &dyn Observer,
+    ) -> spawn::SegmentSums;
     worst::find_worst::<Self>: fn find_worst(
         goals: &[WorstGoal],
         evaluations: u64,

@@ -23,6 +23,10 @@ impl Paged for SpawnResult {
             )));
         }
         self.points.iter().for_each(|part| blocks.extend(of_points(self, part)));
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        for part in &self.segments {
+            blocks.extend(part.blocks(&self.planes, &unit));
+        }
         blocks.push(Block::terms(words(self)));
         blocks.push(Block::Details("How to read".to_owned(), how_to_read(self)));
         let several = self.points.iter().filter(|part| 1 < part.schemes.len());
@@ -159,7 +163,7 @@ fn shows_edges(part: &PointsPart) -> bool {
 }
 
 /// Three digits at most: `0.0123`, `2.05`, `1.2e-7`.
-fn size(x: f64) -> String {
+pub(super) fn size(x: f64) -> String {
     match x.abs() {
         0.0 => "0".to_owned(),
         x if !x.is_finite() => "inf".to_owned(),
@@ -275,7 +279,7 @@ fn least(record: &SpawnResult, part: &PointsPart) -> Vec<String> {
 }
 
 /// The words of the first screen.
-fn words(record: &SpawnResult) -> [(&'static str, String); 3] {
+fn words(record: &SpawnResult) -> [(&'static str, String); 4] {
     [
         ("n", "the unit normal on the side that the first ray came from; u: half an ulp of 1".to_owned()),
         (
@@ -290,6 +294,11 @@ fn words(record: &SpawnResult) -> [(&'static str, String); 3] {
                 "over the plane, in longest edges of the triangle; a wall stands {} of one in front of it",
                 record.wall
             ),
+        ),
+        (
+            "blocked",
+            "a shadow ray from another point to p hits the surface at p itself, with a direction that goes to p;              shorter: by how much it ends before p"
+                .to_owned(),
         ),
     ]
 }

@@ -46,6 +46,9 @@ pub(super) fn of_stratum(stratum: Stratum, kind: WrongKind) -> [&'static str; 4]
         (Stratum::Outside, _) => {
             ["beside a triangle", "beside triangles", "rays beside a triangle", "hit it"]
         }
+        (Stratum::Segment, _) => {
+            ["segments", "of segments", "segments", "hit the surface at their end"]
+        }
     }
 }
 

@@ -34,6 +34,8 @@ pub struct Scene {
     pub plane: PlaneKind,
     /// Where rays go.
     pub toward: Toward,
+    /// The intervals of rays.
+    pub interval: SceneInterval,
 }
 
 named! {
@@ -45,6 +47,21 @@ named! {
         Unit = "unit",
         /// From the origin to the target: t = 1 there.
         Target = "target",
+        /// Half unit vectors, a quarter as far as the target, a quarter from 1/64 to 64 long: for kernels that have to be
+        /// right whatever the length is.
+        Mixed = "mixed",
+    }
+}
+
+named! {
+    pub names
+    /// Which intervals of t a scene's rays have.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SceneInterval {
+        /// From 0 to infinity.
+        Whole = "whole",
+        /// Half from 0 to infinity; of the others most hold the crossing, and some are over before it or begin after it.
+        Drawn = "drawn",
     }
 }
 
@@ -78,6 +95,7 @@ const fn preset(
         ray: RayKind::Stored,
         plane: PlaneKind::Generic,
         toward: Toward::Any,
+        interval: SceneInterval::Whole,
     };
     ScenePreset { name, unit, scene }
 }
@@ -103,9 +121,9 @@ const LEAST_SINE: f64 = 1e-30;
 const OF_MESH: &str = "mesh";
 
 /// The words of a scene, as errors list them.
-const WORDS: &str = "extent=1000, center=0, edge=0.01..10 or 0.01..0.1..10, distance=0..2000, direction=unit or target, \
+const WORDS: &str = "extent=1000, center=0, edge=0.01..10 or 0.01..0.1..10, distance=0..2000, direction=unit, target or mixed, \
      sine=1e-7..0.1, aim=inside or both, ray=stored or generated, \
-     plane=generic, axis, axis-near-0, axis-0, terrain or box, toward=any, axis-plane or axis";
+     plane=generic, axis, axis-near-0, axis-0, terrain or box, toward=any, axis-plane or axis, interval=whole or drawn";
 
 impl Scene {
     /// The same with lengths that are so many times as large.
@@ -219,8 +237,12 @@ impl Scene {
             "ray" => self.ray = RayKind::chosen(&word, value)?,
             "plane" => self.plane = PlaneKind::chosen(&word, value)?,
             "toward" => self.toward = Toward::chosen(&word, value)?,
+            "interval" => {
+                let unknown = || format!("{word}: write interval=whole or drawn");
+                self.interval = SceneInterval::named(value).ok_or_else(unknown)?;
+            }
             "direction" => {
-                let unknown = || format!("{word}: write direction=unit or target");
+                let unknown = || format!("{word}: write direction=unit, target or mixed");
                 self.direction = DirectionLength::named(value).ok_or_else(unknown)?;
             }
             _ => return Ok(false),
@@ -272,8 +294,19 @@ impl Scene {
 
     /// True if the words of a scene name a kind of planes or rays.
     pub fn names_kind(text: &str) -> bool {
-        let mut keys = text.split(',').filter_map(|word| word.split('=').next());
-        keys.any(|key| ["plane", "toward"].contains(&key.trim()))
+        names(text, "plane") || names(text, "toward")
+    }
+
+    /// The scene as kernels are tried in it: with directions of all lengths and intervals of every kind, unless its words
+    /// say which. A kernel that is right for unit vectors on `[0, inf)` alone shows nowhere else.
+    pub fn to_try_kernels(mut self, text: &str) -> Scene {
+        if !names(text, "direction") {
+            self.direction = DirectionLength::Mixed;
+        }
+        if !names(text, "interval") {
+            self.interval = SceneInterval::Drawn;
+        }
+        self
     }
 
     /// The largest coordinate of a triangle.
@@ -344,6 +377,11 @@ impl Scene {
             why => Ok((held, why)),
         }
     }
+}
+
+/// True if the words of a scene give a key.
+fn names(text: &str, key: &str) -> bool {
+    text.split(',').filter_map(|word| word.split('=').next()).any(|word| word.trim() == key)
 }
 
 mod kinds;

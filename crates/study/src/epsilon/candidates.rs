@@ -42,6 +42,7 @@ fn cap(knob: Knob, gates: &[Gate], scene: Option<&Scene>) -> f64 {
     let [shortest, longest] = match scene.direction {
         DirectionLength::Unit => [1.0, 1.0],
         DirectionLength::Target => [scene.edge[0], farthest],
+        DirectionLength::Mixed => [scene.edge[0].min(1.0 / 64.0), farthest.max(64.0)],
     };
     let speed = if direction < 0 { shortest } else { longest };
     size.powi(length.into()) * speed.powi(direction.into())

@@ -8,7 +8,7 @@ use super::{Kept, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
-use crate::truth::Place;
+use std::cmp::Ordering;
 
 pub(super) struct EdgeExact;
 pub(super) struct EdgeNear;
@@ -36,9 +36,11 @@ fn through(
 
 impl Recipe for EdgeExact {
     const NAME: &'static str = "edge-exact";
-    const PROMISE: &'static str = "transversal, within, exactly on an open edge";
-    const KEEPS: Kept =
-        Kept::Crossings(|crossing| crossing.place == Place::Within && crossing.feature.is_edge());
+    const VERSION: u32 = 2;
+    const PROMISE: &'static str = "transversal, at t > 0, exactly on an open edge";
+    const KEEPS: Kept = Kept::Crossings(|crossing| {
+        crossing.t_sign == Ordering::Greater && crossing.feature.is_edge()
+    });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let reach = reach(draw);
@@ -49,9 +51,11 @@ impl Recipe for EdgeExact {
 
 impl Recipe for VertexExact {
     const NAME: &'static str = "vertex-exact";
-    const PROMISE: &'static str = "transversal, within, exactly on a vertex";
-    const KEEPS: Kept =
-        Kept::Crossings(|crossing| crossing.place == Place::Within && crossing.feature.is_vertex());
+    const VERSION: u32 = 2;
+    const PROMISE: &'static str = "transversal, at t > 0, exactly on a vertex";
+    const KEEPS: Kept = Kept::Crossings(|crossing| {
+        crossing.t_sign == Ordering::Greater && crossing.feature.is_vertex()
+    });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let reach = reach(draw);
@@ -63,8 +67,10 @@ impl Recipe for VertexExact {
 
 impl Recipe for EdgeNear {
     const NAME: &'static str = "edge-near";
-    const PROMISE: &'static str = "transversal, within, some ulps about an edge: both truths occur";
-    const KEEPS: Kept = Kept::Crossings(|crossing| crossing.place == Place::Within);
+    const VERSION: u32 = 2;
+    const PROMISE: &'static str =
+        "transversal, at t > 0, some ulps about an edge: both truths occur";
+    const KEEPS: Kept = Kept::Crossings(|crossing| crossing.t_sign == Ordering::Greater);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         Made::One(near(draw, |draw| {
@@ -76,9 +82,10 @@ impl Recipe for EdgeNear {
 
 impl Recipe for VertexNear {
     const NAME: &'static str = "vertex-near";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str =
-        "transversal, within, some ulps about a vertex: both truths occur";
-    const KEEPS: Kept = Kept::Crossings(|crossing| crossing.place == Place::Within);
+        "transversal, at t > 0, some ulps about a vertex: both truths occur";
+    const KEEPS: Kept = Kept::Crossings(|crossing| crossing.t_sign == Ordering::Greater);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         Made::One(near(draw, |draw| {

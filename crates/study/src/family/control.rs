@@ -6,16 +6,18 @@ use super::{Kept, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
-use crate::truth::{Feature, Place};
+use crate::truth::Feature;
+use std::cmp::Ordering;
 
 pub(super) struct Interior;
 pub(super) struct Outside;
 
 impl Recipe for Interior {
     const NAME: &'static str = "interior";
-    const PROMISE: &'static str = "transversal, within the interval, in the interior";
+    const VERSION: u32 = 2;
+    const PROMISE: &'static str = "transversal, at t > 0, in the interior";
     const KEEPS: Kept = Kept::Crossings(|crossing| {
-        crossing.feature == Feature::Interior && crossing.place == Place::Within
+        crossing.feature == Feature::Interior && crossing.t_sign == Ordering::Greater
     });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -25,10 +27,10 @@ impl Recipe for Interior {
 
 impl Recipe for Outside {
     const NAME: &'static str = "outside";
-    const VERSION: u32 = 2;
-    const PROMISE: &'static str = "transversal, in front of the origin, outside the triangle";
+    const VERSION: u32 = 3;
+    const PROMISE: &'static str = "transversal, at t > 0, outside the triangle";
     const KEEPS: Kept = Kept::Crossings(|crossing| {
-        crossing.feature == Feature::Outside && crossing.place == Place::Within
+        crossing.feature == Feature::Outside && crossing.t_sign == Ordering::Greater
     });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {

@@ -12,7 +12,7 @@ pub(super) struct AxisAligned;
 
 impl Recipe for DirectionLengthFamily {
     const NAME: &'static str = "direction-length";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, the direction scaled by 2^-60 to 2^60";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -29,7 +29,7 @@ impl Recipe for DirectionLengthFamily {
 
 impl Recipe for AxisAligned {
     const NAME: &'static str = "axis-aligned";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, along an axis, zeros and negative zeros throughout";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {

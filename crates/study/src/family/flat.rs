@@ -53,6 +53,7 @@ fn level_triangle<F: Float>(draw: &mut Draw, axes: [usize; 3], height: F) -> [[F
 
 impl Recipe for ParallelOff {
     const NAME: &'static str = "parallel-off";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "D = 0 exactly, the line off the plane, down to one ulp off";
     const KEEPS: Kept = Kept::Truths(|truth| *truth == Truth::Parallel);
 
@@ -78,6 +79,7 @@ impl Recipe for ParallelOff {
 
 impl Recipe for Coplanar {
     const NAME: &'static str = "coplanar";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str =
         "in the plane: through the interior, along an edge, through or touching a vertex, missing";
     const KEEPS: Kept = Kept::Truths(|truth| matches!(truth, Truth::Coplanar(_)));
@@ -97,7 +99,7 @@ impl Recipe for Coplanar {
 
 impl Recipe for Grazing {
     const NAME: &'static str = "grazing";
-    const VERSION: u32 = 3;
+    const VERSION: u32 = 4;
     const PROMISE: &'static str =
         "transversal, sines from 1/2 down to below an ulp of 1, half of them on generic planes";
 

@@ -24,6 +24,7 @@ fn at(draw: &mut Draw, t: i64) -> IntegerCase {
 
 impl Recipe for Behind {
     const NAME: &'static str = "behind";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, in the closed triangle, at negative t";
     const KEEPS: Kept = Kept::Crossings(|crossing| {
         crossing.t_sign == Ordering::Less && crossing.feature != Feature::Outside
@@ -37,24 +38,38 @@ impl Recipe for Behind {
 
 impl Recipe for IntervalEnds {
     const NAME: &'static str = "interval-ends";
-    const VERSION: u32 = 2;
-    const PROMISE: &'static str =
-        "transversal, in the closed triangle, exactly at t_min or t_max, or beyond t_max";
-    const KEEPS: Kept = Kept::Crossings(|crossing| {
-        matches!(crossing.place, Place::AtMin | Place::AtMax | Place::Beyond)
-            && crossing.feature != Feature::Outside
-    });
+    const VERSION: u32 = 3;
+    const PROMISE: &'static str = "transversal, in the closed triangle: before, at, between and beyond the ends of intervals of every kind";
+    const HAS_OWN_INTERVAL: bool = true;
+    const KEEPS: Kept = Kept::Crossings(|crossing| crossing.feature != Feature::Outside);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        let t = draw.integer(0, 4);
+        let t = draw.integer(-4, 4);
         let case = at(draw, t).case::<F>();
-        let end = F::from_f64(t as f64);
-        let room = F::from_f64(draw.integer(0, 4) as f64);
-        Made::One(match draw.below(4) {
-            0 => case.on(end, F::infinity()),
-            1 => case.on(end, end + room),
-            2 => case.on(end - room, end),
-            _ => case.on(end - room - F::one(), end - F::from_f64(draw.pick(&[0.25, 1.0]))),
-        })
+        let t = t as f64;
+        let place = draw.pick(&PLACES);
+        let gap = draw.pick(&[0.25, 1.0, 2.0, 4.0]);
+        let length = draw.pick(&[0.25, 1.0, 4.0, f64::INFINITY]);
+        let [t_min, t_max] = match place {
+            Place::Before => [t + gap, t + gap + length],
+            Place::AtMin => [t, t + length],
+            Place::Within => [t - gap, t + length],
+            Place::AtMax => [t - gap, t],
+            Place::Beyond => [t - gap - gap, t - gap],
+        };
+        Made::One(case.on(F::from_f64(t_min), F::from_f64(t_max)))
     }
 }
+
+/// Where t lies: two in three are at an end, which nothing else asks so often.
+const PLACES: [Place; 9] = [
+    Place::Before,
+    Place::AtMin,
+    Place::AtMin,
+    Place::AtMin,
+    Place::Within,
+    Place::AtMax,
+    Place::AtMax,
+    Place::AtMax,
+    Place::Beyond,
+];

@@ -16,6 +16,8 @@ impl Recipe for Lattice {
     const PROMISE: &'static str = "all coordinates in {-1, 0, 1}, default interval";
     const KEEPS: Kept = Kept::Truths(|_| true);
 
+    const HAS_OWN_INTERVAL: bool = true;
+
     fn make<F: Scalar>(_: &mut Draw, index: u64) -> Made<F> {
         let mut rest = index;
         let [origin, direction, a, b, c] = std::array::from_fn(|_| {

@@ -3,13 +3,15 @@
 
 use super::boundary::{nudged, toward};
 use super::control::combination;
-use super::{apply, id_of};
+use super::drawn_interval::draw_interval;
+use super::{Grouping, apply, id_of};
 use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters};
 use crate::corpus::mesh::Mesh;
+use std::slice;
 
 const NAME: &str = "mesh";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// A mesh as a source of cases.
 pub struct MeshFamily {
@@ -68,6 +70,7 @@ impl MeshFamily {
         };
         let mut case = Case::new(origin, direction, triangle);
         apply(parameters, &mut case);
+        draw_interval(Grouping::Single, &mut draw, slice::from_mut(&mut case));
         case
     }
 }

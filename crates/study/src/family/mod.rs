@@ -8,6 +8,7 @@
 mod boundary;
 mod control;
 mod directions;
+mod drawn_interval;
 mod flat;
 pub mod integer;
 mod interval;
@@ -40,6 +41,7 @@ use crate::arith::scale_by_power_of_two;
 use crate::case::{Case, CaseId, Draw, Parameters};
 use crate::kernel::{self, Scalar};
 use crate::truth::{Crossing, Truth};
+use drawn_interval::draw_interval;
 use std::any::Any;
 
 /// The triangles that one index of a family makes: one, or a group that shares a ray.
@@ -102,6 +104,8 @@ trait Recipe {
     const KEEPS: Kept = Kept::Crossings(|_| true);
     /// Case `index` of the set; `draw` is its own stream.
     fn make<F: Scalar>(draw: &mut Draw, index: u64) -> Made<F>;
+    /// True if the interval is part of the question; otherwise it is drawn ([`drawn_interval`]).
+    const HAS_OWN_INTERVAL: bool = false;
     /// Finishes a case after the parameters are applied.
     fn finish<F: Scalar>(_draw: &mut Draw, _parameters: &Parameters, _made: &mut Made<F>) {}
 }
@@ -160,6 +164,9 @@ fn made<R: Recipe, F: Scalar>(parameters: &Parameters, draw: &mut Draw, index: u
         apply(parameters, case);
     }
     R::finish(draw, parameters, &mut made);
+    if !R::HAS_OWN_INTERVAL {
+        draw_interval(R::GROUPING, draw, made.cases_mut());
+    }
     made
 }
 

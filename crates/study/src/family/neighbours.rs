@@ -9,14 +9,14 @@ use super::{Grouping, Kept, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
-use crate::truth::Truth;
+use crate::truth::{Feature, Truth};
 
 pub(super) struct SharedEdgeFamily;
 pub(super) struct Fan;
 
 impl Recipe for SharedEdgeFamily {
     const NAME: &'static str = "shared-edge";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str =
         "two triangles on one edge, both transversal: crossings and folds, exact and near";
     const GROUPING: Grouping = Grouping::SharedEdge;
@@ -70,14 +70,12 @@ const RING: [[i64; 2]; 8] = [[2, 0], [2, 2], [0, 2], [-2, 2], [-2, 0], [-2, -2],
 
 impl Recipe for Fan {
     const NAME: &'static str = "fan";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str =
         "a closed fan around a vertex, all transversal and facing alike, the line in its inside";
     const GROUPING: Grouping = Grouping::Fan;
-    const KEEPS: Kept = Kept::Together(|truths| {
-        let is_hit = |truth: &Truth| truth.hits_closed() == Some(true);
-        face_alike(truths) && truths.iter().any(is_hit)
-    });
+    const KEEPS: Kept =
+        Kept::Together(|truths| face_alike(truths) && truths.iter().any(meets_line));
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let size = draw.pick(&[4, 64]);
@@ -110,6 +108,11 @@ impl Recipe for Fan {
         };
         Made::Group((0..ring.len()).map(case).collect())
     }
+}
+
+/// True if the line of a case crosses its closed triangle.
+fn meets_line(truth: &Truth) -> bool {
+    truth.crossing().is_some_and(|crossing| crossing.feature != Feature::Outside)
 }
 
 /// True if a line crosses all triangles from the same side.

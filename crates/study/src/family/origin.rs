@@ -19,6 +19,7 @@ const FIRST_HIT: [&str; 4] = ["moller-trumbore", "plane-unit-normal", "plucker",
 
 impl Recipe for OriginOn {
     const NAME: &'static str = "origin-on";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, t = 0, on the face, an edge or a vertex";
     const KEEPS: Kept = Kept::Crossings(|crossing| {
         crossing.t_sign == Ordering::Equal && crossing.feature != Feature::Outside
@@ -39,6 +40,7 @@ impl Recipe for OriginOn {
 
 impl Recipe for OriginNear {
     const NAME: &'static str = "origin-near";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, the origin some ulps before or behind the triangle";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -63,6 +65,7 @@ impl Recipe for OriginNear {
 
 impl Recipe for SecondaryRay {
     const NAME: &'static str = "secondary-ray";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str =
         "transversal, from a kernel's own rounded hit point on this triangle, in every direction";
     const GROUPING: Grouping = Grouping::SecondaryRay;

@@ -15,6 +15,7 @@ const OCTAGON: [[i64; 2]; 8] =
 
 impl Recipe for Polygon {
     const NAME: &'static str = "polygon";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str =
         "a planar convex polygon of 4 to 8 vertices in its fan's triangles, all transversal";
     const GROUPING: Grouping = Grouping::Polygon;

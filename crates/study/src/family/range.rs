@@ -33,7 +33,7 @@ fn drawn<F: Float>(draw: &mut Draw, mut coordinate: impl FnMut(&mut Draw) -> F) 
 
 impl Recipe for MixedScale {
     const NAME: &'static str = "mixed-scale";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str = "finite, each exponent drawn independently in -30..30";
     const KEEPS: Kept = Kept::Truths(|truth| *truth != Truth::Invalid);
 
@@ -47,7 +47,7 @@ impl Recipe for MixedScale {
 
 impl Recipe for RangeEnds {
     const NAME: &'static str = "range-ends";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str = "finite, subnormals and values near the largest float";
     const KEEPS: Kept = Kept::Truths(|truth| *truth != Truth::Invalid);
 
@@ -74,6 +74,7 @@ impl Recipe for RangeEnds {
 
 impl Recipe for Invalid {
     const NAME: &'static str = "invalid";
+    const HAS_OWN_INTERVAL: bool = true;
     const PROMISE: &'static str = "a NaN, an infinity, a zero direction or an impossible interval";
     const KEEPS: Kept = Kept::Truths(|truth| *truth == Truth::Invalid);
 

@@ -20,7 +20,7 @@ const FINEST: i64 = 40;
 
 impl Recipe for Sliver {
     const NAME: &'static str = "sliver";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, needles and caps of aspect 2^4 to 2^40, on generic planes in half of the cases";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -98,6 +98,7 @@ fn tilted(draw: &mut Draw) -> IntegerCase {
 
 impl Recipe for Degenerate {
     const NAME: &'static str = "degenerate";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "the triangle is a segment or a point";
     const KEEPS: Kept = Kept::Truths(|truth| matches!(truth, Truth::Degenerate(_)));
 

@@ -32,7 +32,7 @@ fn scaled<F: Float>(draw: &mut Draw, scale: i32) -> Made<F> {
 
 impl Recipe for Tiny {
     const NAME: &'static str = "tiny";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, triangles of size 2^-40";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -42,7 +42,7 @@ impl Recipe for Tiny {
 
 impl Recipe for Huge {
     const NAME: &'static str = "huge";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, triangles of size 2^40";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -52,7 +52,7 @@ impl Recipe for Huge {
 
 impl Recipe for Far {
     const NAME: &'static str = "far";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str =
         "transversal, triangles some hundred ulps wide, far from the origin";
 

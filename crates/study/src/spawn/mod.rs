@@ -10,6 +10,8 @@
 //! is right if it lies strictly on the side from which the first ray came. The oracle decides that: the new
 //! ray's line meets the plane at an exact t, and the start is right where that t is before its t_min.
 //!
+//! A *segment* that goes to a hit point has the same question at its other end (`segment.rs`).
+//!
 //! To add a scheme: write its formula in `published.rs` and give it a row in [`PUBLISHED`].
 
 #![forbid(unsafe_code)]
@@ -21,6 +23,7 @@ mod plane;
 mod published;
 mod run;
 mod scheme;
+mod segment;
 mod sums;
 mod trial;
 
@@ -30,5 +33,6 @@ pub use plane::Plane;
 pub use published::{PUBLISHED, Parameter, PublishedScheme};
 pub use run::{Least, SpawnPlan, least, new_ray, run};
 pub use scheme::{Scheme, all, default_schemes, describe, needs_t, parse, register};
+pub use segment::{SegmentEnd, SegmentPlan, SegmentSums, run_segments};
 pub use sums::{Heights, Lengths, OfScheme, SpawnSums};
 pub use trial::{PointKind, SpawnTrial, SpawnTrials};

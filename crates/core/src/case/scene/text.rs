@@ -1,6 +1,6 @@
 //! How the numbers of a scene are read and written.
 
-use super::{PlaneKind, RayKind, Scene, Toward};
+use super::{PlaneKind, RayKind, Scene, SceneInterval, Toward};
 use std::fmt;
 
 /// The extent that words give; 1 if they give none that is a length.
@@ -117,9 +117,12 @@ impl fmt::Display for Scene {
         if self.plane != PlaneKind::Generic {
             write!(f, ",plane={}", self.plane.name())?;
         }
-        match self.toward {
-            Toward::Any => Ok(()),
-            toward => write!(f, ",toward={}", toward.name()),
+        if self.toward != Toward::Any {
+            write!(f, ",toward={}", self.toward.name())?;
+        }
+        match self.interval {
+            SceneInterval::Whole => Ok(()),
+            interval => write!(f, ",interval={interval}"),
         }
     }
 }

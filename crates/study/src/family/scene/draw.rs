@@ -179,8 +179,10 @@ pub fn direction<F: Float>(scene: &Scene, mut way: DVec3, toward: DVec3) -> [F; 
     match scene.direction {
         DirectionLength::Target if is_short => rounded(toward * scene.edge[0]),
         DirectionLength::Target => rounded(way),
-        DirectionLength::Unit if is_short => unit(rounded(toward)),
-        DirectionLength::Unit => unit::<f64>(way.to_array()).map(F::from_f64),
+        DirectionLength::Unit | DirectionLength::Mixed if is_short => unit(rounded(toward)),
+        DirectionLength::Unit | DirectionLength::Mixed => {
+            unit::<f64>(way.to_array()).map(F::from_f64)
+        }
     }
 }
 

@@ -1,5 +1,5 @@
 //! The strata of a scene: rays at the inside, edges and vertices of its triangles and beside them, nearly
-//! and exactly parallel to them, and from a kernel's own hit points on them.
+//! and exactly parallel to them, from a kernel's own hit points on them, and to such points.
 //!
 //! Triangles lie on generic planes, of uniform positions and orientations, or on planes of a kind that the scene
 //! names ([`PlaneKind`](crate::case::PlaneKind)). Points are computed in `f64` and rounded, so the oracle, not the
@@ -20,14 +20,15 @@ pub use pixel::{Pixel, pixel};
 pub(super) use shadow::hit_point;
 pub(crate) use triangles::{Corners, Pair, Parallel, Ring, TriangleSource, along_axis, flat_along};
 
+use super::drawn_interval::draw_interval;
 use super::{Family, Grouping, Kept, Made, Question};
-use crate::arith::Float;
-use crate::case::{Draw, Parameters, Scene};
+use crate::arith::{Float, scale_by_power_of_two};
+use crate::case::{Case, DirectionLength, Draw, Parameters, Scene, SceneInterval};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 use aimed::{edges, interior, outside, vertices};
 use flat::{grazing, grazing_ray, parallel};
-use shadow::shadow;
+use shadow::{segment, shadow};
 
 named! {
     pub names
@@ -48,6 +49,8 @@ named! {
         Shadow = "scene-shadow",
         /// Rays at a point of the plane beside a triangle.
         Outside = "scene-outside",
+        /// Rays from a point to a kernel's own hit point on a triangle, where their interval ends.
+        Segment = "scene-segment",
     }
 }
 
@@ -81,9 +84,22 @@ impl Stratum {
         parameters: &Parameters,
         draw: &mut Draw,
     ) -> Made<F> {
-        let scene = &parameters.scene.clone().unwrap_or_default();
-        let (triangles, kernel) = (triangles.unwrap_or(scene), parameters.kernel.as_deref());
-        self.maker()(&Setup { triangles, scene, kernel }, draw)
+        let mut scene = parameters.scene.clone().unwrap_or_default();
+        let doublings = settle_length(draw, &mut scene);
+        let setup = Setup {
+            triangles: triangles.unwrap_or(&scene),
+            scene: &scene,
+            kernel: parameters.kernel.as_deref(),
+        };
+        let mut made = self.maker()(&setup, draw);
+        if doublings != 0 {
+            made.cases_mut().iter_mut().for_each(|case| lengthen(case, doublings));
+        }
+        // A segment ends where its target is: that is its question.
+        if scene.interval == SceneInterval::Drawn && self != Stratum::Segment {
+            draw_interval(self.family().grouping, draw, made.cases_mut());
+        }
+        made
     }
 
     /// About the truth of its cases, in one line.
@@ -100,6 +116,9 @@ impl Stratum {
                 "from a kernel's own rounded hit point on the triangle, in every direction"
             }
             Stratum::Outside => "at a point of the plane beside the triangle, from any direction",
+            Stratum::Segment => {
+                "from a point to a kernel's own rounded hit point on the triangle, where t_max is"
+            }
         }
     }
 
@@ -112,6 +131,7 @@ impl Stratum {
             Stratum::Parallel => parallel,
             Stratum::Shadow => shadow,
             Stratum::Outside => outside,
+            Stratum::Segment => segment,
         }
     }
 }
@@ -126,6 +146,29 @@ pub fn missed_sine<F: Float>(
 ) -> Option<f64> {
     let mut draw = Draw::new(Stratum::Grazing.family().name, seed, index);
     grazing_ray(&Setup { triangles, scene, kernel: None }, &mut draw).1
+}
+
+/// Chooses the length of one ray's direction in a scene of all lengths: a unit vector in half of the cases, the way to the
+/// target in a quarter, and in a quarter a unit vector that is doubled or halved as often as is returned.
+fn settle_length(draw: &mut Draw, scene: &mut Scene) -> i32 {
+    if scene.direction != DirectionLength::Mixed {
+        return 0;
+    }
+    let kind = draw.below(4);
+    scene.direction = if kind == 0 { DirectionLength::Target } else { DirectionLength::Unit };
+    match kind {
+        1 => draw.pick(&[-6, -3, -1, 1, 3, 6]),
+        _ => 0,
+    }
+}
+
+/// Doubles a direction so many times, and halves the ends of the interval as often; the points that count stay exactly the
+/// same.
+fn lengthen<F: Float>(case: &mut Case<F>, doublings: i32) {
+    let scaled = |x: F, power: i32| F::from_f64(scale_by_power_of_two(x.to_f64(), power));
+    let direction: [F; 3] = case.ray.direction.into();
+    case.ray.direction = direction.map(|x| scaled(x, doublings)).into();
+    *case = case.on(scaled(case.ray.t_min, -doublings), scaled(case.ray.t_max, -doublings));
 }
 
 /// The data from which a stratum's cases are made.
@@ -161,6 +204,7 @@ pub static STRATA: &[Family] = &[
     stratum!(Parallel, 3, Flat, Single, is_parallel_or_in_the_plane),
     stratum!(Shadow, 1, Ends, SecondaryRay, has_area),
     stratum!(Outside, 2, Inside, Single, has_area),
+    stratum!(Segment, 1, Ends, SecondaryRay, has_area),
 ];
 
 fn has_area(truth: &Truth) -> bool {

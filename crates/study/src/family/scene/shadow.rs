@@ -1,11 +1,11 @@
-//! Rays from a kernel's own hit points.
+//! Rays from a kernel's own hit points, and segments that end at them.
 
-use super::super::{Made, control::combination};
+use super::super::{Made, control::combination, unit};
 use super::Setup;
 use super::aimed::{aim, interior_case};
-use super::draw::{between, direction, point_of, rounded};
+use super::draw::{between, direction, point_of, rounded, wide};
 use crate::arith::Vector;
-use crate::case::{Case, Draw};
+use crate::case::{Case, DirectionLength, Draw};
 use crate::kernel::{Entry, Gives, Scalar, Verdict, find, verdicts_of};
 use std::slice;
 
@@ -13,19 +13,35 @@ use std::slice;
 const DEFAULT_SHADOW_KERNEL: &str = "moller-trumbore";
 
 pub fn shadow<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    let name = setup.kernel.unwrap_or(DEFAULT_SHADOW_KERNEL);
-    let (point, triangle) = hit(setup, draw, find(name));
+    let (point, triangle) = hit(setup, draw);
     let toward = aim(draw, setup.scene, triangle);
     let way = toward * between(draw, setup.scene.distance);
     Made::One(Case::new(point, direction(setup.scene, way, toward), triangle))
 }
 
-/// A hit of a kernel: its point, and the triangle. A triangle's middle if the kernel reports no point.
-fn hit<F: Scalar>(
-    setup: &Setup<'_, F>,
-    draw: &mut Draw,
-    kernel: Option<&Entry>,
-) -> ([F; 3], [[F; 3]; 3]) {
+/// From a rounded point to a hit point, as programs ask what stands between the two: a unit vector and the rounded distance,
+/// or their difference and t_max = 1.
+pub fn segment<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
+    let (target, triangle) = hit(setup, draw);
+    let toward = aim(draw, setup.scene, triangle);
+    // A segment has a length: of none there is nothing to ask.
+    let length = between(draw, setup.scene.distance).max(setup.scene.edge[0]);
+    let start: [F; 3] = rounded(wide(target) - toward * length);
+    let way: [F; 3] = std::array::from_fn(|i| target[i] - start[i]);
+    let length = wide(way).length();
+    let case = match setup.scene.direction {
+        DirectionLength::Target => Case::new(start, way, triangle).on(F::zero(), F::one()),
+        DirectionLength::Unit | DirectionLength::Mixed => {
+            Case::new(start, unit(way), triangle).on(F::zero(), F::from_f64(length))
+        }
+    };
+    Made::One(case)
+}
+
+/// A hit of the kernel at whose hit points rays start: its point, and the triangle. A triangle's middle if the kernel
+/// reports no point.
+fn hit<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> ([F; 3], [[F; 3]; 3]) {
+    let kernel = find(setup.kernel.unwrap_or(DEFAULT_SHADOW_KERNEL));
     for _ in 0..64 {
         let case = interior_case(setup, draw);
         let Some(kernel) = kernel else { break };

@@ -237,7 +237,7 @@ fn level<F: Float>(
 /// A direction along an axis, of the length that the scene's directions have.
 pub fn along_axis<F: Float>(draw: &mut Draw, scene: &Scene, axis: usize) -> [F; 3] {
     let length = match scene.direction {
-        DirectionLength::Unit => 1.0,
+        DirectionLength::Unit | DirectionLength::Mixed => 1.0,
         DirectionLength::Target => edge_length(draw, scene),
     };
     let mut direction = [F::zero(); 3];
@@ -248,7 +248,9 @@ pub fn along_axis<F: Float>(draw: &mut Draw, scene: &Scene, axis: usize) -> [F; 
 /// A direction along a unit vector, of the length that the scene's directions have; what is 0 stays so.
 pub fn flat_along<F: Float>(draw: &mut Draw, scene: &Scene, flat: DVec3) -> [F; 3] {
     match scene.direction {
-        DirectionLength::Unit => unit::<f64>(flat.to_array()).map(F::from_f64),
+        DirectionLength::Unit | DirectionLength::Mixed => {
+            unit::<f64>(flat.to_array()).map(F::from_f64)
+        }
         DirectionLength::Target => rounded(flat * edge_length(draw, scene)),
     }
 }

@@ -1,0 +1,165 @@
+//! Where segments to a hit point end: the part of `spawn` that is about the other end of a shadow ray.
+
+use super::record::{SegmentEndPart, SegmentKindPart, SegmentsPart};
+use crate::arith::two_digits;
+use crate::case::{Scene, ShortNumber};
+use crate::cli::progress::Progress;
+use crate::report::elsewhere::ComparedRates;
+use crate::report::page::{Block, Head, Row, Table, Use};
+use crate::report::{Rate, elsewhere, group_digits, percent};
+use crate::spawn::{SegmentEnd, SegmentPlan, SegmentSums};
+use crate::studied::Studied;
+
+/// Shares that are shown besides the ones that are made for the scene: from the scalar's own precision on, ten times as
+/// large each.
+const SHARES: i32 = 4;
+
+/// Ends are this many times as far from the target as any segment of the pilots needs.
+const ROOM: f64 = 2.0;
+
+impl SegmentsPart {
+    /// Makes ends for what is seen on pilots in each scene, the first of which the table is about, and counts them on the
+    /// segments that are reported.
+    pub fn study<F: Studied>(
+        plan: &SegmentPlan<'_>,
+        scenes: &[Scene],
+        [pilot_seed, seed]: [u64; 2],
+        progress: &Progress,
+    ) -> SegmentsPart {
+        let run = |ends: &[SegmentEnd], seed: u64| -> Vec<SegmentSums> {
+            let in_scene = |scene| SegmentPlan { scene, ends, seed, ..*plan };
+            scenes.iter().map(|scene| F::segments(&in_scene(scene), progress)).collect()
+        };
+        let pilots = run(&[], pilot_seed);
+        let mut ends = usual::<F>();
+        let made = made_for(&pilots);
+        ends.extend(&made);
+        let runs = run(&ends, seed);
+        let of_end = |(place, end): (usize, &SegmentEnd)| SegmentEndPart {
+            end: words(*end),
+            is_made: made.contains(end),
+            blocked: Rate::new(runs[0].trials(place), true),
+            shorter_median: runs[0].shorter[place].quantile(0.5),
+            shorter_p99: runs[0].shorter[place].quantile(0.99),
+            elsewhere: scenes[1..]
+                .iter()
+                .zip(&runs[1..])
+                .map(|(scene, sums)| SegmentKindPart {
+                    plane: scene.kind().to_string(),
+                    blocked: Rate::new(sums.trials(place), true),
+                })
+                .collect(),
+        };
+        SegmentsPart {
+            kernel: plan.row.entry.info.name.to_owned(),
+            set: plan.row.set.clone(),
+            scalar: F::NAME.to_owned(),
+            segments: runs[0].segments,
+            ends: ends.iter().enumerate().map(of_end).collect(),
+        }
+    }
+}
+
+/// The target itself, and shares that programs use.
+fn usual<F: Studied>() -> Vec<SegmentEnd> {
+    let precision = F::EPSILON.to_f64().log10().floor() as i32;
+    let shares = (0..SHARES).map(|i| 10f64.powi(precision + i));
+    [0.0].into_iter().chain(shares).map(SegmentEnd::Share).collect()
+}
+
+/// The ends that no pilot needs earlier, on any kind of plane: a share, a length and a lift, as far as t shows them.
+fn made_for(pilots: &[SegmentSums]) -> Vec<SegmentEnd> {
+    let largest = |of: fn(&SegmentSums) -> f64| pilots.iter().map(of).fold(0.0, f64::max);
+    let with_room = |needed: f64| two_digits(ROOM * needed, true);
+    let share = largest(|pilot| pilot.largest_share);
+    if share == 0.0 {
+        return Vec::new();
+    }
+    let mut ends = vec![
+        SegmentEnd::Lift(with_room(largest(|pilot| pilot.largest_lift))),
+        SegmentEnd::Length(with_room(largest(|pilot| pilot.largest_length))),
+    ];
+    // Of 1 or more nothing would be left of the segment.
+    let share = with_room(share);
+    ends.extend((share < 1.0).then_some(SegmentEnd::Share(share)));
+    ends
+}
+
+/// An end as code has it.
+fn words(end: SegmentEnd) -> String {
+    match end {
+        SegmentEnd::Share(0.0) => "1".to_owned(),
+        SegmentEnd::Share(share) => format!("1 - {}", ShortNumber(share)),
+        SegmentEnd::Length(length) => format!("1 - {}/|d|", ShortNumber(length)),
+        SegmentEnd::Lift(height) => format!("1, p + n*{}", ShortNumber(height)),
+    }
+}
+
+impl SegmentsPart {
+    /// The answer, and the ends that argue for it.
+    pub fn blocks(&self, kinds: &[String], unit: &str) -> Vec<Block> {
+        let title = format!("{} {}, segments that end at p", self.kernel, self.scalar);
+        let mut blocks = vec![Block::Heading(title)];
+        blocks.extend(self.answer(kinds, unit));
+        let shorter = |of: f64| super::page::size(of);
+        let row = |end: &SegmentEndPart| {
+            let cells = [
+                end.blocked.rate.map_or("-".to_owned(), percent),
+                shorter(end.shorter_median),
+                shorter(end.shorter_p99),
+            ];
+            Row::new(&end.end, cells)
+        };
+        let heads = vec![
+            Head::text("t_max"),
+            Head::of("blocked"),
+            Head::of("shorter by: median"),
+            Head::of("99 %"),
+        ];
+        blocks.push(Block::Table(Table::new(heads, self.ends.iter().map(row).collect())));
+        let compared = self.ends.iter().map(|end| ComparedRates {
+            label: end.end.clone(),
+            rates: std::iter::once(&end.blocked)
+                .chain(end.elsewhere.iter().map(|other| &other.blocked))
+                .cloned()
+                .collect(),
+        });
+        let compared: Vec<ComparedRates> = compared.collect();
+        blocks.extend(elsewhere::blocks("more blocked", kinds, &compared, |rate| {
+            rate.rate.map_or("-".to_owned(), percent)
+        }));
+        blocks
+    }
+
+    /// The ends that block no segment, the one that leaves out least first.
+    fn answer(&self, kinds: &[String], unit: &str) -> Vec<Block> {
+        let mut safe: Vec<&SegmentEndPart> =
+            self.ends.iter().filter(|end| end.never_blocks()).collect();
+        safe.sort_by(|a, b| a.shorter_median.total_cmp(&b.shorter_median));
+        let segments = group_digits(self.segments);
+        let Some((best, others)) = safe.split_first() else {
+            return vec![Block::text(format!(
+                "Every end here lets the surface at p block some of the {segments} segments: end them earlier."
+            ))];
+        };
+        let others: Vec<&str> = others.iter().map(|end| end.end.as_str()).collect();
+        let kinds = if kinds.len() < 2 { "" } else { ", nor with any other kind of plane or ray" };
+        let mut notes = vec![format!(
+            "the surface at p blocks none of {segments} segments{kinds}; half of them end {}{unit} too early, or less",
+            super::page::size(best.shorter_median)
+        )];
+        if !others.is_empty() {
+            notes.push(format!("as safe, but shorter: t_max = {}", others.join("; t_max = ")));
+        }
+        let text = format!("t_max = {}", best.end);
+        vec![Block::Use(Use { lead: "use".to_owned(), text, notes })]
+    }
+}
+
+impl SegmentEndPart {
+    /// True if no segment was blocked, on any kind of plane.
+    fn never_blocks(&self) -> bool {
+        let all = std::iter::once(&self.blocked).chain(self.elsewhere.iter().map(|on| &on.blocked));
+        all.into_iter().all(|blocked| blocked.count == 0)
+    }
+}
