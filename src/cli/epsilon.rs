@@ -12,14 +12,17 @@ use super::select::KernelArguments;
 use super::sources::SourceArguments;
 use crate::arith::smallest_normal;
 use crate::audit::Row;
+use crate::case::Scene;
+use crate::engine::Unobserved;
 use crate::epsilon::{
     COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Pass, RayCount, Setting, StudiedRays,
-    contract_with, counts, counts_of, own_epsilons,
+    contract_with, counts, counts_of, fresh_seed, own_epsilons,
 };
 use crate::family::STRATA;
 use crate::kernel::{Entry, Scalar, Subject};
-use crate::report::Context;
 use crate::report::epsilon::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
+use crate::report::{Context, SegmentsPart};
+use crate::spawn::SegmentPlan;
 use crate::studied::Studied;
 use crate::suggest::nearest_name;
 use clap::parser::ValueSource;
@@ -153,6 +156,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         least_t: least_t.as_deref(),
         arguments,
         pass: Pass::new(seed, count, &progress),
+        is_alone: tuned.len() == 1,
     };
     let mut parts = Vec::new();
     for tuned in &tuned {
@@ -183,6 +187,8 @@ struct EpsilonRun<'a> {
     least_t: Option<&'a str>,
     arguments: &'a EpsilonArguments,
     pass: Pass<'a>,
+    /// True if one kernel is studied.
+    is_alone: bool,
 }
 
 impl EpsilonRun<'_> {
@@ -254,9 +260,32 @@ impl EpsilonRun<'_> {
         found_margins(name, setting.subject)?;
         let mut study = study.map_err(|error| fault(row.entry, error))?;
         F::try_elsewhere(&setting, &mut study, &self.studied.others, pass);
-        Ok((kernel_part(&setting, &tuned.row.contract, &study, max_error), study.nanoseconds))
+        let mut part = kernel_part(&setting, &tuned.row.contract, &study, max_error);
+        part.segments = self.segments::<F>(tuned.row);
+        Ok((part, study.nanoseconds))
+    }
+
+    /// Where segments end in the scene, for a kernel that has a page of its own.
+    fn segments<F: Studied>(&self, row: &Row) -> Option<SegmentsPart> {
+        let StudiedRays { scene, mesh, others, strata, .. } = self.studied;
+        let scene = scene.as_ref().filter(|_| strata.is_empty() && self.is_alone)?;
+        let scenes: Vec<Scene> =
+            [scene.clone()].into_iter().chain(others.iter().cloned()).collect();
+        let Pass { seed, count, .. } = self.pass;
+        let plan = SegmentPlan {
+            row,
+            scene: &scenes[0],
+            mesh: mesh.as_ref(),
+            ends: &[],
+            seed,
+            count: count.min(MOST_SEGMENTS),
+        };
+        Some(SegmentsPart::study::<F>(&plan, &scenes, [fresh_seed(seed), seed], &Unobserved))
     }
 }
+
+/// Segments of each kind of plane, at most: they are a line beside the epsilons.
+const MOST_SEGMENTS: u64 = 10_000;
 
 impl EpsilonArguments {
     fn check_at(&self) -> Result<(), Failure> {

@@ -23,6 +23,9 @@ use std::sync::Arc;
 const COUNT: u64 = 20_000;
 const SEED: u64 = 1;
 
+/// In place of the names of all families but a scene's.
+const ALL_FAMILIES: &str = "all";
+
 /// The flags that choose cases.
 #[derive(Args)]
 pub struct SourceArguments {
@@ -30,7 +33,8 @@ pub struct SourceArguments {
     #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64", help_heading = RUNNING)]
     scalar: Vec<String>,
 
-    /// A family of cases, or several separated by commas [default: all, or none with --mesh or --corpus]
+    /// A family of cases, or several separated by commas; all stands for every one but a scene's [default: all, or none
+    /// with --scene, --mesh or --corpus]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     family: Vec<String>,
 
@@ -225,7 +229,13 @@ impl SourceArguments {
                 true => Stock::Whole(family),
                 false => Stock::Family(family),
             };
-            sources.push(Source { stock, parameters: parameters.clone(), seed, count });
+            // Other families than those of a scene have sizes of their own.
+            let is_of_scene = Stratum::named(family.name).is_some();
+            let parameters = match parameters.scene.is_some() && !is_of_scene {
+                true => Parameters::default(),
+                false => parameters.clone(),
+            };
+            sources.push(Source { stock, parameters, seed, count });
         }
         for (i, path) in self.mesh.iter().enumerate() {
             // Reports name a mesh by its file alone.
@@ -273,9 +283,10 @@ impl SourceArguments {
         Ok(())
     }
 
-    /// True if no family is named, or a stratum's.
+    /// True if a stratum is named, or none is.
     fn runs(&self, stratum: Stratum) -> bool {
-        self.family.is_empty() || self.family.iter().any(|name| name == stratum.family().name)
+        let mut named = self.family.iter().filter_map(|name| Stratum::named(name)).peekable();
+        named.peek().is_none() || named.any(|other| other == stratum)
     }
 
     /// The strata of the scene that the mesh is.
@@ -292,17 +303,30 @@ impl SourceArguments {
         Ok(strata.map(source).collect())
     }
 
+    /// The families that are named, or all that belong to the other flags. With a scene its strata run in any case, unless
+    /// some of them are named.
     fn families(&self) -> Result<Vec<&'static Family>, Failure> {
-        if self.family.is_empty() {
-            let others = !self.mesh.is_empty() || !self.corpus.is_empty();
-            return Ok(match (others, &self.scene) {
-                (true, _) => Vec::new(),
-                (false, Some(_)) => STRATA.iter().collect(),
-                (false, None) => FAMILIES.iter().collect(),
-            });
-        }
         refuse_twice("--family", &self.family)?;
-        self.family.iter().map(|name| find_family(name)).collect()
+        let mut named: Vec<&'static Family> = Vec::new();
+        for name in &self.family {
+            let families = match name.as_str() {
+                ALL_FAMILIES => FAMILIES.iter().collect(),
+                _ => vec![find_family(name)?],
+            };
+            let is_known = |family: &&Family| named.iter().any(|known| known.name == family.name);
+            let new: Vec<&'static Family> =
+                families.into_iter().filter(|family| !is_known(family)).collect();
+            named.extend(new);
+        }
+        let names_others = !self.mesh.is_empty() || !self.corpus.is_empty();
+        let of_scene = |family: &&Family| Stratum::named(family.name).is_some();
+        match &self.scene {
+            Some(_) if !named.iter().any(|family| of_scene(&family)) => {
+                Ok(STRATA.iter().chain(named).collect())
+            }
+            None if named.is_empty() && !names_others => Ok(FAMILIES.iter().collect()),
+            _ => Ok(named),
+        }
     }
 
     fn parameters(&self) -> Result<Parameters, Failure> {
@@ -325,7 +349,6 @@ impl SourceArguments {
         let Some(text) = &self.scene else { return Ok(None) };
         self.refuse_other_cases()?;
         let (scene, unit) = Scene::parse(text).map_err(about_scene)?;
-        self.refuse_other_families()?;
         scene.held_in(chosen_scalars(&self.scalar)?).map_err(about_scene)?;
         Ok(Some((scene, unit)))
     }

@@ -4,7 +4,6 @@ mod choice;
 mod compared;
 mod page;
 mod record;
-mod segments;
 
 use super::before::{one_scalar, refuse_wrong_values, set_threads};
 use super::exit::{Failure, Status};
@@ -19,7 +18,7 @@ use crate::epsilon::fresh_seed;
 use crate::kernel::Scalar;
 use crate::mesh::SceneMesh;
 use crate::plugin::{KernelProgram, OffsetCommand};
-use crate::report::{Context, Format, Record, provenance_of};
+use crate::report::{Context, Format, Record, SegmentsPart, provenance_of};
 use crate::spawn::{
     PointKind, Scheme, SegmentPlan, SpawnPlan, SpawnSums, default_schemes, needs_t, parse, register,
 };
@@ -28,7 +27,7 @@ use choice::{least_without_failure, made_for};
 use clap::Args;
 use clap::builder::ArgPredicate;
 pub use record::SpawnResult;
-use record::{DerivedPart, PointsPart, SegmentsPart};
+use record::{DerivedPart, PointsPart};
 use std::sync::Arc;
 
 /// The flags of `spawn`: the run, and how it is reported.

@@ -26,6 +26,8 @@ pub mod page;
 mod rate;
 mod record;
 #[cfg(feature = "studies")]
+mod segments;
+#[cfg(feature = "studies")]
 mod shard;
 #[cfg(feature = "studies")]
 mod surface;
@@ -45,6 +47,10 @@ pub use formats::{
 pub use illustration::{Illustrations, ProofPart, ProvedGate};
 pub(crate) use rate::{interval_of, percent};
 pub use record::*;
+#[cfg(feature = "cli")]
+pub(crate) use segments::short_length;
+#[cfg(feature = "studies")]
+pub use segments::{SegmentEndPart, SegmentKindPart, SegmentsPart};
 #[cfg(feature = "studies")]
 pub use shard::{Mergeable, ShardError, mergeable, merged, shard_part};
 

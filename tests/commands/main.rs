@@ -45,3 +45,4 @@ mod terminal;
 mod variants;
 mod vectors;
 mod worst;
+mod wrong_kernels;

@@ -1,10 +1,11 @@
 //! Each family keeps its promise, and the fast oracle agrees with the definition on its cases.
 
-use hairline::internals::case::{Case, Parameters};
-use hairline::internals::family::{FAMILIES, Family, STRATA};
+use hairline::internals::case::{Case, Parameters, Scene};
+use hairline::internals::family::{FAMILIES, Family, STRATA, find};
 use hairline::internals::kernel::Scalar;
 use hairline::internals::oracle;
-use hairline::internals::truth::Truth;
+use hairline::internals::truth::{Place, Truth};
+use num_traits::ToPrimitive;
 
 fn check<F: Scalar>(family: &Family, count: u64) {
     for index in 0..count {
@@ -82,5 +83,101 @@ fn no_family_prefers_a_corner_or_an_edge() {
             // A vertex is as near to both of its edges.
             assert!(all < 400 || counts.iter().all(is_even), "{}: {counts:?}", family.name);
         }
+    }
+}
+
+/// How many crossings in the closed triangle lie before t_min > 0, within a finite interval, within one that begins below
+/// 0, and beyond a finite t_max; and how many directions are not of unit length.
+#[derive(Debug, Default)]
+struct Intervals {
+    before_positive_start: u32,
+    within_finite: u32,
+    within_from_negative: u32,
+    beyond_end: u32,
+    whole: u32,
+    not_unit: u32,
+}
+
+impl Intervals {
+    fn add(&mut self, case: &Case<f32>) {
+        let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
+        self.whole += u32::from(t_min == 0.0 && t_max == f32::INFINITY);
+        let direction: [f32; 3] = case.ray.direction.into();
+        let square: f64 = direction.iter().map(|x| f64::from(*x) * f64::from(*x)).sum();
+        self.not_unit += u32::from((square - 1.0).abs() > 1e-3);
+        let truth = oracle::truth(case);
+        let Some(crossing) = truth.crossing() else { return };
+        let place = crossing.place;
+        self.before_positive_start += u32::from(place == Place::Before && 0.0 < t_min);
+        self.within_finite += u32::from(place == Place::Within && t_max.is_finite());
+        self.within_from_negative += u32::from(place == Place::Within && t_min < 0.0);
+        self.beyond_end += u32::from(place == Place::Beyond && t_max.is_finite());
+    }
+}
+
+/// A kernel that ignores an end of the interval, or is right for unit vectors alone, is wrong wherever rays are drawn.
+#[test]
+fn every_family_and_every_stratum_draws_intervals_of_all_kinds() {
+    // Without crossings at t > 0, or with an interval of their own: the lattice is all of [0, inf].
+    let left_out = ["parallel-off", "coplanar", "degenerate", "invalid", "lattice", "origin-on"];
+    let at_an_end = ["secondary-ray", "scene-parallel", "scene-shadow", "scene-segment", "behind"];
+    let has_all =
+        |family: &&Family| !left_out.contains(&family.name) && !at_an_end.contains(&family.name);
+    let (room, _) = Scene::parse("room").unwrap();
+    let scene = Parameters { scene: Some(room.to_try_kernels("room")), ..Parameters::default() };
+    let is_stratum = |family: &Family| STRATA.iter().any(|other| other.name == family.name);
+    for family in FAMILIES.iter().chain(STRATA).filter(has_all) {
+        let parameters = if is_stratum(family) { scene.clone() } else { Parameters::default() };
+        let mut seen = Intervals::default();
+        for index in 0..4000 {
+            seen.add(&family.make::<f32>(&parameters, 1, index).cases()[0]);
+        }
+        // One in 32, and half of that where t is beyond the range or the family has an interval of its own.
+        let enough = 60;
+        assert!(enough < seen.before_positive_start, "{}: {seen:?}", family.name);
+        assert!(enough < seen.within_finite, "{}: {seen:?}", family.name);
+        assert!(enough < seen.within_from_negative, "{}: {seen:?}", family.name);
+        assert!(enough < seen.beyond_end, "{}: {seen:?}", family.name);
+        assert!(1000 < seen.not_unit, "{}: {seen:?}", family.name);
+        assert!(1600 < seen.whole || family.name == "interval-ends", "{}: {seen:?}", family.name);
+    }
+}
+
+/// A program's own rays, for which epsilons and offsets are chosen, have unit vectors and the whole interval.
+#[test]
+fn a_scene_has_whole_rays_unless_kernels_are_tried_in_it() {
+    let (room, _) = Scene::parse("room").unwrap();
+    let parameters = Parameters { scene: Some(room), ..Parameters::default() };
+    let mut seen = Intervals::default();
+    for index in 0..1000 {
+        let family = find("scene-interior").unwrap();
+        seen.add(&family.make::<f32>(&parameters, 1, index).cases()[0]);
+    }
+    assert_eq!((seen.whole, seen.not_unit), (1000, 0));
+    let words = "room,direction=unit,interval=whole";
+    let (asked, _) = Scene::parse(words).unwrap();
+    assert_eq!(asked.clone().to_try_kernels(words), asked);
+}
+
+/// The end of a segment is where its target is, to rounding: on one side of it about as often as on the other.
+#[test]
+fn segments_end_at_their_target() {
+    for words in ["room", "room,direction=target", "room,direction=mixed,interval=drawn"] {
+        let (room, _) = Scene::parse(words).unwrap();
+        let parameters = Parameters { scene: Some(room), ..Parameters::default() };
+        let family = find("scene-segment").unwrap();
+        let [mut before, mut beyond] = [0u32; 2];
+        for index in 0..2000 {
+            let made = family.make::<f32>(&parameters, 1, index);
+            let case = &made.cases()[0];
+            let truth = oracle::truth(case);
+            let exact = oracle::exact_values(case, &truth).t.and_then(|t| t.to_f64());
+            let Some(t) = exact else { continue };
+            let end = f64::from(case.ray.t_max);
+            assert!((t - end).abs() < 0.05 * end, "{words} {index}: {t} {end}");
+            before += u32::from(t < end);
+            beyond += u32::from(end < t);
+        }
+        assert!(300 < before.min(beyond), "{words}: {before} {beyond}");
     }
 }

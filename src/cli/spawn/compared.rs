@@ -1,7 +1,7 @@
 //! The part of what `spawn` found that is compared with another run: how often each offset went wrong, and which is to be used.
 
-use super::record::{PointsPart, SchemePart, SegmentEndPart, SegmentsPart, SpawnResult, WrongPart};
-use crate::report::{Comparable, NamedRate, NamedValue, Rate, Study};
+use super::record::{PointsPart, SchemePart, SpawnResult, WrongPart};
+use crate::report::{Comparable, NamedRate, NamedValue, Rate, SegmentsPart, Study};
 
 impl Comparable for SpawnResult {
     const STUDY: Study = Study::Spawn;
@@ -45,19 +45,6 @@ impl PointsPart {
     /// The kernel, the scalar and the kind of hit point in words.
     fn name(&self) -> String {
         format!("{} ({}) {} {}", self.kernel, self.set, self.scalar, self.point)
-    }
-}
-
-impl SegmentsPart {
-    /// How often segments are blocked.
-    fn counted(&self) -> Vec<NamedRate> {
-        let SegmentsPart { kernel, set, scalar, .. } = self;
-        let of_end = |end: &SegmentEndPart| NamedRate {
-            what: format!("{kernel} ({set}) {scalar} segments, t_max = {}: blocked", end.end),
-            rate: end.blocked.clone(),
-            command: None,
-        };
-        self.ends.iter().map(of_end).collect()
     }
 }
 

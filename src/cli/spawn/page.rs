@@ -7,7 +7,7 @@ use crate::case::{SceneKind, ShortNumber};
 use crate::kernel::{self, Role};
 use crate::report::elsewhere::{self, ComparedRates};
 use crate::report::page::{Block, Command, Head, Page, Paged, Row, Table, Use};
-use crate::report::{Rate, group_digits, interval_of, percent};
+use crate::report::{Rate, group_digits, interval_of, percent, short_length as size};
 use crate::spawn::describe;
 
 impl Paged for SpawnResult {
@@ -160,20 +160,6 @@ fn weights(derived: &DerivedPart) -> String {
 fn shows_edges(part: &PointsPart) -> bool {
     let entry = kernel::find(&part.kernel);
     entry.is_some_and(|entry| entry.info.gates.iter().any(|gate| gate.role == Role::Edge))
-}
-
-/// Three digits at most: `0.0123`, `2.05`, `1.2e-7`.
-pub(super) fn size(x: f64) -> String {
-    match x.abs() {
-        0.0 => "0".to_owned(),
-        x if !x.is_finite() => "inf".to_owned(),
-        1e5.. => format!("{x:.0e}"),
-        100.0.. => format!("{x:.0}"),
-        10.0.. => format!("{x:.1}"),
-        1.0.. => format!("{x:.2}"),
-        0.01.. => format!("{x:.3}"),
-        _ => format!("{x:.1e}"),
-    }
 }
 
 fn share(rate: &Rate) -> String {

@@ -6,7 +6,7 @@ use crate::audit::{Trials, quoted, words};
 use crate::case::Matrix;
 use crate::corpus::lines::{StoredCase, write_case};
 use crate::kernel::Scalar;
-use crate::report::{Rate, or_infinite};
+use crate::report::{Rate, SegmentsPart, or_infinite};
 use crate::spawn::{
     Heights, Lengths, OfScheme, PointKind, ROOM, Scheme, SpawnPlan, SpawnSums, derived_normal,
     least_weight, new_ray,
@@ -40,48 +40,6 @@ pub struct SpawnResult {
     pub points: Vec<PointsPart>,
     /// By kernel and scalar.
     pub segments: Vec<SegmentsPart>,
-}
-
-/// Segments from a point to a hit point of a kernel in a scalar, and where they end.
-#[apply(part!)]
-pub struct SegmentsPart {
-    /// The kernel's name.
-    pub kernel: String,
-    /// The name of its epsilons.
-    pub set: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
-    /// How many segments, on planes of the first kind.
-    pub segments: u64,
-    /// The results of each end.
-    pub ends: Vec<SegmentEndPart>,
-}
-
-/// The results of one end of segments.
-#[apply(part!)]
-pub struct SegmentEndPart {
-    /// t_max for a direction that goes as far as the target p; and p, if it is moved. n is the unit normal on the side of
-    /// the start.
-    pub end: String,
-    /// True if it was made for the scene.
-    pub is_made: bool,
-    /// Segments that the surface at their target blocks.
-    pub blocked: Rate,
-    /// By how much segments are shorter than their way to the target: the median.
-    pub shorter_median: f64,
-    /// 99 % are shorter by at most this.
-    pub shorter_p99: f64,
-    /// The results on the other kinds of planes.
-    pub elsewhere: Vec<SegmentKindPart>,
-}
-
-/// The results of one end on planes of one kind.
-#[apply(part!)]
-pub struct SegmentKindPart {
-    /// The name of the kind of planes and rays.
-    pub plane: String,
-    /// Segments that the surface at their target blocks.
-    pub blocked: Rate,
 }
 
 /// The hit points of one kind, of a kernel in a scalar.

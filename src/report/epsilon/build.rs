@@ -141,6 +141,7 @@ pub fn kernel_part<F: Scalar>(
         curves: study.curves.iter().map(curve_part).collect(),
         conflicts: conflicts(study),
         relative: study.relative.as_ref().map(tried_part),
+        segments: None,
         elsewhere: study.elsewhere.iter().map(plane_part).collect(),
     }
 }

@@ -23,6 +23,7 @@ pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> Vec<Blo
     let mut blocks = vec![Block::text(standing(record, part).1)];
     blocks.extend(coarse(record, part).map(Block::Text));
     blocks.extend(used(record, part).into_iter().map(Block::Use));
+    blocks.extend(part.segments.as_ref().map(|segments| Block::Text(segments.sentence())));
     blocks.extend(of_given(record, part).map(Block::Text));
     let title = match record.has_scene() {
         true => format!("wrong on fresh rays (seed {})", record.fresh_seed),

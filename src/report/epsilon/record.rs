@@ -2,6 +2,7 @@
 
 pub(super) use crate::epsilon::{RayCount, Rays, WrongKind};
 pub(super) use crate::family::Stratum;
+use crate::report::SegmentsPart;
 use crate::report::record::{Rate, Record};
 use std::collections::BTreeMap;
 
@@ -127,6 +128,9 @@ pub struct SceneKernelPart {
     pub limits: Vec<KnobLimitPart>,
     /// Values that are proved.
     pub proved: Vec<ProvedPart>,
+    /// Where segments to hit points end, at the kernel's own epsilons; of several kernels in a table nobody asks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub segments: Option<SegmentsPart>,
     /// By knob: what each value does.
     pub curves: Vec<CurvePart>,
     /// The knobs for which no value keeps every limit, and what does.

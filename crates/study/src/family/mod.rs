@@ -5,6 +5,7 @@
 
 #![forbid(unsafe_code)]
 
+mod batch;
 mod boundary;
 mod control;
 mod directions;
@@ -196,6 +197,7 @@ pub static FAMILIES: &[Family] = &[
     row::<range::RangeEnds>(Question::Range),
     row::<shape::Degenerate>(Question::Flat),
     row::<range::Invalid>(Question::Invalid),
+    row::<batch::MixedBatch>(Question::Invalid),
     row::<neighbours::SharedEdgeFamily>(Question::Edges),
     row::<neighbours::Fan>(Question::Vertices),
     row::<polygon::Polygon>(Question::Edges),

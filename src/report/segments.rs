@@ -1,12 +1,12 @@
-//! Where segments to a hit point end: the part of `spawn` that is about the other end of a shadow ray.
+//! Where segments to a hit point end: the far end of a shadow ray, for `spawn` and `epsilon`.
 
-use super::record::{SegmentEndPart, SegmentKindPart, SegmentsPart};
+use super::elsewhere::{self, ComparedRates};
+use super::page::{Block, Head, Row, Table, Use};
+use super::record::{NamedRate, Rate};
+use super::{group_digits, percent};
 use crate::arith::two_digits;
 use crate::case::{Scene, ShortNumber};
-use crate::cli::progress::Progress;
-use crate::report::elsewhere::ComparedRates;
-use crate::report::page::{Block, Head, Row, Table, Use};
-use crate::report::{Rate, elsewhere, group_digits, percent};
+use crate::engine::Observer;
 use crate::spawn::{SegmentEnd, SegmentPlan, SegmentSums};
 use crate::studied::Studied;
 
@@ -17,6 +17,48 @@ const SHARES: i32 = 4;
 /// Ends are this many times as far from the target as any segment of the pilots needs.
 const ROOM: f64 = 2.0;
 
+/// Segments from a point to a hit point of a kernel in a scalar, and where they end.
+#[apply(part!)]
+pub struct SegmentsPart {
+    /// The kernel's name.
+    pub kernel: String,
+    /// The name of its epsilons.
+    pub set: String,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// How many segments, on planes of the first kind.
+    pub segments: u64,
+    /// The results of each end.
+    pub ends: Vec<SegmentEndPart>,
+}
+
+/// The results of one end of segments.
+#[apply(part!)]
+pub struct SegmentEndPart {
+    /// t_max for a direction that goes as far as the target p; and p, if it is moved. n is the unit normal on the side of
+    /// the start.
+    pub end: String,
+    /// True if it was made for the scene.
+    pub is_made: bool,
+    /// Segments that the surface at their target blocks.
+    pub blocked: Rate,
+    /// By how much segments are shorter than their way to the target: the median.
+    pub shorter_median: f64,
+    /// 99 % are shorter by at most this.
+    pub shorter_p99: f64,
+    /// The results on the other kinds of planes.
+    pub elsewhere: Vec<SegmentKindPart>,
+}
+
+/// The results of one end on planes of one kind.
+#[apply(part!)]
+pub struct SegmentKindPart {
+    /// The name of the kind of planes and rays.
+    pub plane: String,
+    /// Segments that the surface at their target blocks.
+    pub blocked: Rate,
+}
+
 impl SegmentsPart {
     /// Makes ends for what is seen on pilots in each scene, the first of which the table is about, and counts them on the
     /// segments that are reported.
@@ -24,11 +66,11 @@ impl SegmentsPart {
         plan: &SegmentPlan<'_>,
         scenes: &[Scene],
         [pilot_seed, seed]: [u64; 2],
-        progress: &Progress,
+        observer: &dyn Observer,
     ) -> SegmentsPart {
         let run = |ends: &[SegmentEnd], seed: u64| -> Vec<SegmentSums> {
             let in_scene = |scene| SegmentPlan { scene, ends, seed, ..*plan };
-            scenes.iter().map(|scene| F::segments(&in_scene(scene), progress)).collect()
+            scenes.iter().map(|scene| F::segments(&in_scene(scene), observer)).collect()
         };
         let pilots = run(&[], pilot_seed);
         let mut ends = usual::<F>();
@@ -101,12 +143,11 @@ impl SegmentsPart {
         let title = format!("{} {}, segments that end at p", self.kernel, self.scalar);
         let mut blocks = vec![Block::Heading(title)];
         blocks.extend(self.answer(kinds, unit));
-        let shorter = |of: f64| super::page::size(of);
         let row = |end: &SegmentEndPart| {
             let cells = [
                 end.blocked.rate.map_or("-".to_owned(), percent),
-                shorter(end.shorter_median),
-                shorter(end.shorter_p99),
+                short_length(end.shorter_median),
+                short_length(end.shorter_p99),
             ];
             Row::new(&end.end, cells)
         };
@@ -132,10 +173,16 @@ impl SegmentsPart {
     }
 
     /// The ends that block no segment, the one that leaves out least first.
-    fn answer(&self, kinds: &[String], unit: &str) -> Vec<Block> {
+    fn safe(&self) -> Vec<&SegmentEndPart> {
         let mut safe: Vec<&SegmentEndPart> =
             self.ends.iter().filter(|end| end.never_blocks()).collect();
         safe.sort_by(|a, b| a.shorter_median.total_cmp(&b.shorter_median));
+        safe
+    }
+
+    /// The end to use, and the others that are as safe.
+    fn answer(&self, kinds: &[String], unit: &str) -> Vec<Block> {
+        let safe = self.safe();
         let segments = group_digits(self.segments);
         let Some((best, others)) = safe.split_first() else {
             return vec![Block::text(format!(
@@ -146,13 +193,57 @@ impl SegmentsPart {
         let kinds = if kinds.len() < 2 { "" } else { ", nor with any other kind of plane or ray" };
         let mut notes = vec![format!(
             "the surface at p blocks none of {segments} segments{kinds}; half of them end {}{unit} too early, or less",
-            super::page::size(best.shorter_median)
+            short_length(best.shorter_median)
         )];
         if !others.is_empty() {
             notes.push(format!("as safe, but shorter: t_max = {}", others.join("; t_max = ")));
         }
         let text = format!("t_max = {}", best.end);
         vec![Block::Use(Use { lead: "use".to_owned(), text, notes })]
+    }
+}
+
+impl SegmentsPart {
+    /// How often segments are blocked.
+    pub(crate) fn counted(&self) -> Vec<NamedRate> {
+        let SegmentsPart { kernel, set, scalar, .. } = self;
+        let of_end = |end: &SegmentEndPart| NamedRate {
+            what: format!("{kernel} ({set}) {scalar} segments, t_max = {}: blocked", end.end),
+            rate: end.blocked.clone(),
+            command: None,
+        };
+        self.ends.iter().map(of_end).collect()
+    }
+}
+
+/// A length in three digits at most.
+pub(crate) fn short_length(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        x if !x.is_finite() => "inf".to_owned(),
+        1e5.. => format!("{x:.0e}"),
+        100.0.. => format!("{x:.0}"),
+        10.0.. => format!("{x:.1}"),
+        1.0.. => format!("{x:.2}"),
+        0.01.. => format!("{x:.3}"),
+        _ => format!("{x:.1e}"),
+    }
+}
+
+impl SegmentsPart {
+    /// The best end in one line, as beside the epsilons of a kernel.
+    pub(crate) fn sentence(&self) -> String {
+        let at_target =
+            self.ends.first().and_then(|end| end.blocked.rate).map_or("-".to_owned(), percent);
+        let safe = self.safe();
+        let end = match safe.first() {
+            Some(best) => format!("end them at t_max = {}", best.end),
+            None => "end them before p (`hairline spawn --scene` shows how far)".to_owned(),
+        };
+        format!(
+            "Shadow rays that go to a point p of a surface: {end}, with a direction that goes to p. At t_max = 1 the surface \
+             itself blocks {at_target} of them."
+        )
     }
 }
 
