@@ -3,7 +3,7 @@
 use super::depth::Judge;
 use super::measures::Sample;
 use super::witness::{Goal, Inputs, Search, Searched};
-use super::{Domain, Leaf, Measures, Source};
+use super::{Dyadic, Leaf, Measures, Source};
 use crate::arith::Float;
 use crate::arith::recorded::{Operation, Place};
 use crate::case::Draw;
@@ -52,6 +52,7 @@ impl<F: Searched> Search<'_, F> {
                         && !(is_known && draw.coin())
                     {
                         judge.move_to_boundary(&mut inputs, draw);
+                        inputs[15..].copy_from_slice(&self.domain.interval());
                     }
                     self.score(&inputs, goal, &mut near).map(|score| (inputs, score))
                 });
@@ -76,6 +77,7 @@ impl<F: Searched> Search<'_, F> {
             for _ in 0..1 + draw.below(3) {
                 self.change(&mut tried, draw);
             }
+            self.settle(&mut tried);
             if goal == Goal::Zero {
                 make_parallel(&mut tried, draw);
             }
@@ -127,6 +129,7 @@ impl<F: Searched> Search<'_, F> {
                     _ => tried[i] + F::from_f64(by * scale),
                 };
             }
+            self.settle(&mut tried);
             if let Some(judge) = self.judge {
                 judge.move_to_boundary(&mut tried, draw);
             }
@@ -141,6 +144,19 @@ impl<F: Searched> Search<'_, F> {
             }
         }
         inputs
+    }
+
+    /// Makes the direction of a scene's ray as long as it should be, where it is not.
+    fn settle(&self, inputs: &mut Inputs<F>) {
+        if self.domain.measures.is_none() {
+            return;
+        }
+        let direction = DVec3::from([3, 4, 5].map(|i| inputs[i].to_f64()));
+        if (direction.length() - 1.0).abs() < 2.0 * F::EPSILON.to_f64() {
+            return;
+        }
+        let unit = direction.normalize_or_zero().to_array();
+        inputs[3..6].copy_from_slice(&unit.map(F::from_f64));
     }
 
     /// The most that half an ulp of every rounded number of the last run could add up to, in units of its unit
@@ -181,39 +197,77 @@ impl<F: Searched> Search<'_, F> {
     /// A ray that meets a triangle of a scene, from far away. Often the triangle is as small and flat, and the ray at as
     /// small an angle, as the scene has them: there numbers are divided by the least determinants.
     fn aimed(&self, measures: Measures, draw: &mut Draw) -> Inputs<F> {
-        let Domain { edge, reach, world, direction, extent, .. } = self.domain;
-        let [edge, reach, world, length, extent] =
-            [edge, reach, world, direction, extent].map(|x| x.to_f64());
-        let [area, sine] = [measures.area, measures.sine].map(|x| x.to_f64());
+        let scene = measures.scene;
+        let [longest, sine] = [measures.longest, measures.sine].map(Dyadic::to_f64);
+        let longest = longest.min(scene.edge[1]);
         let any = |draw: &mut Draw| DVec3::from([0; 3].map(|_| draw.symmetric::<f64>()));
         let power = |draw: &mut Draw, most: usize| 2f64.powi(-(draw.below(most) as i32));
         let near_end = |draw: &mut Draw, most: f64| {
             let x = most * (1.0 - draw.unit() * power(draw, 12));
             if draw.coin() { x } else { -x }
         };
-        let a = DVec3::from([0; 3].map(|_| near_end(draw, world))) * power(draw, 4);
+        let a = DVec3::from([0; 3].map(|_| near_end(draw, scene.coordinates))) * power(draw, 4);
         let (along, across) = (any(draw).normalize_or_zero(), any(draw));
         let normal = along.cross(across).normalize_or_zero();
         let across = normal.cross(along);
         // Slightly more than the least.
         let more = |draw: &mut Draw, least: f64| least * (1.0 + power(draw, 8));
-        let size = edge * (1.0 - draw.unit() * power(draw, 8));
-        let height = if draw.below(4) == 0 { size * draw.unit() } else { more(draw, area / size) };
-        let (e1, e2) = (size * along, size * draw.unit() * along + height * across);
+        let size = longest * (1.0 - draw.unit() * power(draw, 8));
+        // The angles at both ends of the first edge.
+        let least = scene.min_angle.to_radians();
+        let angle = |draw: &mut Draw| match draw.below(4) {
+            0 => least + draw.unit() * (1.05 - least).max(0.0),
+            _ => more(draw, least),
+        };
+        let [at_a, at_b] = [angle(draw), angle(draw)].map(|x| 1.0 / libm::tan(x));
+        let height = size / (at_a + at_b);
+        let (e1, e2) = (size * along, height * at_a * along + height * across);
         let sine = if draw.below(4) == 0 { draw.unit() } else { more(draw, sine).min(1.0) };
         let in_plane = (along * draw.symmetric::<f64>() + across * draw.symmetric::<f64>())
             .normalize_or_zero();
-        let short = 1.0 - 4.0 * F::EPSILON.to_f64();
-        let direction = (in_plane * (1.0 - sine * sine).sqrt() + normal * sine) * length * short;
+        let direction = in_plane * (1.0 - sine * sine).sqrt() + normal * sine;
         let (u, v) = (draw.unit(), draw.unit());
         let target = a + e1 * (u * (1.0 - v)) + e2 * v;
-        let origin = target - direction / length * near_end(draw, reach).abs();
-        let vectors = [origin, direction, a, a + e1, a + e2].map(|v| v.to_array());
+        let farthest = (scene.distance - size).max(scene.distance / 2.0);
+        let origin = target - direction * near_end(draw, farthest).abs();
+        self.inputs_of([origin, direction, a, a + e1, a + e2])
+    }
+
+    /// A ray that meets an edge of a triangle, both in one box as large as all sizes of the domain allow, and often near its
+    /// sides: there |N·d| is large.
+    fn aimed_in_a_box(&self, draw: &mut Draw) -> Inputs<F> {
+        let side = self.domain.edge.min(self.domain.reach).min(self.domain.world).to_f64();
+        let near_a_side = |draw: &mut Draw| {
+            let inside = 0.5 * draw.unit() * 2f64.powi(-(draw.below(12) as i32));
+            if draw.coin() { inside } else { 1.0 - inside }
+        };
+        let low = DVec3::from([0; 3].map(|_| -side * draw.unit()));
+        let [a, b, c] = [0; 3].map(|_| low + side * DVec3::from([0; 3].map(|_| near_a_side(draw))));
+        let most = self.domain.direction.to_f64();
+        let direction = most * DVec3::from([0; 3].map(|_| 2.0 * near_a_side(draw) - 1.0));
+        let target = a.lerp(b, draw.unit());
+        // Where the ray enters the box, or a little later.
+        let enters = DVec3::select(direction.cmplt(DVec3::ZERO), low + side, low);
+        let longest = ((target - enters) / direction).min_element();
+        let [start, end] = self.domain.interval::<f64>();
+        let time =
+            longest.clamp(start, end) * (1.0 - draw.unit() * 2f64.powi(-(draw.below(8) as i32)));
+        let origin = target - direction * time;
+        let mut vertices = [a, b, c];
+        vertices.rotate_left(draw.below(3));
+        if draw.coin() {
+            vertices.swap(0, 1);
+        }
+        let [a, b, c] = vertices;
+        self.inputs_of([origin, direction, a, b, c])
+    }
+
+    fn inputs_of(&self, vectors: [DVec3; 5]) -> Inputs<F> {
         let mut inputs = [F::zero(); 17];
-        for (input, x) in inputs.iter_mut().zip(vectors.as_flattened()) {
+        for (input, x) in inputs.iter_mut().zip(vectors.map(|v| v.to_array()).as_flattened()) {
             *input = F::from_f64(*x);
         }
-        inputs[16] = F::from_f64(extent);
+        inputs[15..].copy_from_slice(&self.domain.interval());
         inputs
     }
 
@@ -221,6 +275,9 @@ impl<F: Searched> Search<'_, F> {
     fn start(&self, goal: Goal, draw: &mut Draw) -> Inputs<F> {
         if let Some(measures) = self.domain.measures.filter(|_| goal != Goal::Zero && draw.coin()) {
             return self.aimed(measures, draw);
+        }
+        if self.judge.is_some() && self.domain.measures.is_none() {
+            return self.aimed_in_a_box(draw);
         }
         let mut inputs = [F::zero(); 17];
         let world = self.domain.world.to_f64();
