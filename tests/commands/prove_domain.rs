@@ -107,14 +107,14 @@ fn every_known_ray_lies_in_the_unit_domain_that_is_printed() {
 #[test]
 fn every_known_ray_of_a_scene_has_the_sizes_that_the_scene_says() {
     let far = ["--coordinates", "1000", "--edge", "0.01..10", "--distance", "2000"];
-    let kernels = "moller-trumbore,scalar-triple,plane-unit-normal";
-    let flags = ["prove", "--kernel", kernels, "-q", "-n", "3000", "--format", "json"];
+    let kernel = "moller-trumbore";
+    let flags = ["prove", "--kernel", kernel, "-q", "--format", "json"];
     // In a room the longest edges of triangles are from 0.01 to 3.
     let [edges, longest] =
         [(&far[..], 1000.0, 10.0, 2000.0), (&["--scene", "room"], 15.0, 3.0, 13.0)];
     for ((scene, coordinates, most, distance), is_of_longest) in [(edges, false), (longest, true)] {
         let all = known(&result(&hairline(&[&flags[..], scene].concat())));
-        assert!(5 <= all.len(), "{all:?}");
+        assert!(3 <= all.len(), "{all:?}");
         for (of, command) in all {
             let ray = Ray::of(&command);
             let [origin, direction, a, b, c] = &ray.vectors;

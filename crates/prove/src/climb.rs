@@ -4,7 +4,6 @@ use super::depth::Judge;
 use super::measures::Sample;
 use super::starts::make_parallel;
 use super::witness::{Goal, Inputs, Search, Searched};
-use crate::arith::Float;
 use crate::arith::recorded::{Operation, Place};
 use crate::case::Draw;
 use glam::DVec3;
