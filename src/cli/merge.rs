@@ -61,6 +61,8 @@ fn joined(arguments: &MergeArguments, outputs: &Outputs<'_>) -> Result<Status, F
         let file = error.record.map_or("merge", |i| &files[i]);
         InputError::of(file, error.message)
     })?;
+    let files = arguments.plugins.files();
+    parts.ensure_built_from(&files).map_err(|message| InputError::of("merge", message))?;
     let quiet = arguments.report.output.quiet;
     let progress = Progress::new(0, "indices", true);
     let illustrate = |plan: &Plan, sums: &Audit, record: &mut Record| {

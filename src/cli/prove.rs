@@ -7,6 +7,7 @@ mod leaks;
 mod page;
 mod record;
 mod scenes;
+mod sizes;
 mod verdicts;
 mod witnesses;
 
@@ -28,6 +29,7 @@ use leaks::leak;
 pub use record::ProofResult;
 use record::{DomainPart, GatePart, Report};
 use scenes::{degrees, mesh_scene, range, scene_text};
+use sizes::DemandedSize;
 use std::time::Instant;
 use witnesses::{KNOWN, merge, read_witnesses};
 
@@ -86,8 +88,8 @@ pub struct ProveArguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["coordinates", "edge", "min_angle"], requires = "distance", help_heading = SCENE)]
     mesh: Option<String>,
 
-    /// Search for witnesses: evaluations for each quantity and goal [default: the stored ones, and in a scene
-    /// 20000 more]
+    /// Search for witnesses: evaluations for each quantity and goal [default: the stored ones; in a scene and with
+    /// --epsilon 20000 more]
     #[arg(long, short = 'n', value_name = "N")]
     evaluations: Option<u64>,
 
@@ -95,8 +97,8 @@ pub struct ProveArguments {
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
-    /// Keep the witnesses that are worse than those of this file (the unit domain only)
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["coordinates", "scene", "mesh", "certificate"])]
+    /// Write the worst witnesses to this file: those found, or those that it has (the unit domain only)
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["coordinates", "scene", "mesh", "certificate", "epsilon"])]
     update: Option<String>,
 
     /// Write the proofs of one kernel in one scalar to this file
@@ -106,6 +108,10 @@ pub struct ProveArguments {
     /// Check certificates instead, by code that shares nothing with the prover
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["kernel", "certificate", "update", "coordinates", "scene", "mesh"])]
     check: Vec<String>,
+
+    /// With --check: fail unless the domain of each certificate covers these sizes, named as in its line `domain`
+    #[arg(long, value_name = "NAME=SIZE,...", value_delimiter = ',', value_parser = DemandedSize::parse, requires = "check")]
+    demand_domain: Vec<DemandedSize>,
 
     #[command(flatten)]
     output: OutputArguments,
@@ -168,7 +174,9 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         Some(_) => Vec::new(),
         None => read_witnesses(KNOWN, "corpora/proofs/witnesses.ndjson")?,
     };
-    let default = if scene.is_some() { 20_000 } else { 0 };
+    // Stored witnesses are of the unit domain, at the epsilons of the sources.
+    let is_stored = scene.is_none() && arguments.epsilon.is_none();
+    let default = if is_stored { 0 } else { 20_000 };
     let effort =
         Effort { evaluations: arguments.evaluations.unwrap_or(default), seed: arguments.seed };
     if let ([entry], Some(gate)) = (&entries[..], &arguments.gate) {
@@ -206,9 +214,9 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         return Err(Failure::nothing("no chosen kernel has a program that can be recorded"));
     }
     if let Some(path) = &arguments.update {
-        let raised = merge(&mut stored, found);
+        let changed = merge(&mut stored, found);
         write_json_lines(path, &stored)?;
-        eprintln!("{path}: {raised} of {} witnesses are new or worse", stored.len());
+        eprintln!("{path}: {changed} of {} witnesses have changed", stored.len());
     }
     if let [entry] = entries[..] {
         for kernel in result.kernels.iter_mut().filter(|kernel| kernel.may_leak) {

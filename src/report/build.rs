@@ -20,6 +20,9 @@ use crate::kernel::{Gate, Role, Scalar};
 use hmac_sha256::Hash;
 use std::collections::BTreeMap;
 
+/// This program and its version, as records have it.
+pub(super) const TOOL: &str = concat!("hairline ", env!("CARGO_PKG_VERSION"));
+
 /// The data of a run besides its sums.
 pub struct Context {
     /// Wall-clock seconds of the run.
@@ -349,7 +352,7 @@ fn polygon_part<F: Scalar>(source: &Source, polygons: &PolygonCount) -> PolygonP
 /// Where a record was made, and how long it took.
 pub fn provenance_of(context: &Context) -> Provenance {
     Provenance {
-        tool: format!("hairline {}", env!("CARGO_PKG_VERSION")),
+        tool: TOOL.to_owned(),
         target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
         threads: context.threads,
         seconds: context.seconds,

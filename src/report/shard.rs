@@ -1,11 +1,12 @@
 //! How the records of a run's parts become the record of the whole.
 
-use super::build::plan_part;
+use super::build::{TOOL, plan_part};
 use super::{Context, PartialPart, Provenance, Record, ShardPart, build};
 use crate::audit::{self, Audit, MOST_SHARDS, Observer, Plan, Stock, StoredPlan, StoredStock};
 use crate::corpus::hex;
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 #[derive(Serialize, Deserialize)]
 struct ShardSums {
@@ -55,6 +56,13 @@ pub fn mergeable(records: Vec<Record>, allow_partial: bool) -> Result<Mergeable,
         };
         if partial.of == 0 || MOST_SHARDS < partial.of {
             let message = format!("cut in {} parts, expected 1 to {MOST_SHARDS}", partial.of);
+            return Err(error(i, message));
+        }
+        let tool = &record.provenance.tool;
+        if tool != TOOL {
+            let message = format!(
+                "made by {tool}, and this is {TOOL}: merge parts with the version that made them"
+            );
             return Err(error(i, message));
         }
         if digest(&shard.sums) != shard.digest {
@@ -113,6 +121,26 @@ pub fn mergeable(records: Vec<Record>, allow_partial: bool) -> Result<Mergeable,
 }
 
 impl Mergeable {
+    /// An error in one line if a file that the parts' kernels were made of is none of these, which are here: then the kernels may answer
+    /// otherwise than they did.
+    pub fn ensure_built_from(&self, here: &BTreeMap<String, String>) -> Result<(), String> {
+        let recorded = self.provenance.iter().flat_map(|part| &part.kernel_files);
+        for (file, digest) in recorded {
+            // It may have another name here.
+            if here.values().any(|known| known == digest) {
+                continue;
+            }
+            let found = match here.get(file) {
+                Some(other) => format!("{file} is another build here ({other})"),
+                None => "no file that is named here is that one".to_owned(),
+            };
+            return Err(format!(
+                "the parts ran {file} ({digest}), and {found}: name the file that they ran"
+            ));
+        }
+        Ok(())
+    }
+
     fn missing(&self) -> impl Iterator<Item = u64> {
         (0..self.partial.of).filter(|k| self.partial.present.binary_search(k).is_err())
     }

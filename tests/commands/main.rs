@@ -28,6 +28,7 @@ mod own;
 mod plugin;
 mod program;
 mod prove;
+mod prove_domain;
 #[cfg(unix)]
 mod repair;
 mod repair_languages;

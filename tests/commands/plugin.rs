@@ -415,6 +415,18 @@ fn records_of_a_library_are_merged_when_it_is_named_again() {
         let merged = run(&[&merge[..], &["--kernel-lib", library]].concat(), &at("merged"));
         assert_eq!(merged, whole);
     }
+    // Another build may answer otherwise, and the causes of findings would be its own.
+    let Some(other) = self::library(&source, "merged-other", &["-O0", "-g"]) else { return };
+    assert_ne!(fs::read(&other).unwrap(), fs::read(&library).unwrap());
+    let error = refused(&[&merge[..], &["--kernel-lib", &other]].concat(), 65);
+    assert!(error.contains("no file that is named here is that one: name the file"), "{error}");
+    let folder = folder.join("other");
+    fs::create_dir_all(&folder).unwrap();
+    let namesake = folder.join(Path::new(&library).file_name().unwrap());
+    fs::copy(&other, &namesake).unwrap();
+    let namesake = namesake.to_str().unwrap();
+    let error = refused(&[&merge[..], &["--kernel-lib", namesake]].concat(), 65);
+    assert!(error.contains(" is another build here ("), "{error}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Output;
 use std::sync::OnceLock;
 
-fn hairline(arguments: &[&str]) -> Output {
+pub fn hairline(arguments: &[&str]) -> Output {
     program::hairline(Path::new(env!("CARGO_MANIFEST_DIR")), arguments)
 }
 
@@ -18,29 +18,29 @@ fn json(output: &Output) -> serde_json::Value {
 }
 
 /// The findings of a record.
-fn result(output: &Output) -> serde_json::Value {
+pub fn result(output: &Output) -> serde_json::Value {
     json_schema::result(std::str::from_utf8(&output.stdout).unwrap())
 }
 
 /// The findings about all kernels, which several tests look at.
-fn everything() -> &'static serde_json::Value {
+pub fn everything() -> &'static serde_json::Value {
     static RECORD: OnceLock<serde_json::Value> = OnceLock::new();
     RECORD.get_or_init(|| result(&hairline(&["prove", "--format", "json", "--quiet"])))
 }
 
 /// Everything that is said.
-fn text(arguments: &[&str]) -> String {
+pub fn text(arguments: &[&str]) -> String {
     let output = hairline(&[arguments, &["--details"]].concat());
     assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }
 
 /// Without the breaks of its lines.
-fn words(text: &str) -> String {
+pub fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-fn refused(arguments: &[&str], code: i32, message: &str) {
+pub fn refused(arguments: &[&str], code: i32, message: &str) {
     let output = hairline(arguments);
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{arguments:?}: {error}");
@@ -252,12 +252,29 @@ fn depth(case: &serde_json::Value) -> f64 {
     inside.fold(f64::INFINITY, f64::min) / longest
 }
 
+/// The case of a command that explains it, and the flags behind it.
+pub fn explained(command: &str) -> (&str, &str) {
+    command.strip_prefix("hairline explain '").unwrap().split_once("' ").unwrap()
+}
+
+/// A case as `explain` takes it.
+pub fn case_of(text: &str) -> serde_json::Value {
+    let names = ["scalar", "origin", "direction", "a", "b", "c", "t_max"];
+    let quote = |json: String, name: &&str| {
+        let json = json.replace(&format!("{{{name}:"), &format!("{{\"{name}\":"));
+        json.replace(&format!(",{name}:"), &format!(",\"{name}\":"))
+    };
+    let json = names.iter().fold(text.to_owned(), quote);
+    let json = json.replace(":f32", ":\"f32\"").replace(":f64", ":\"f64\"");
+    serde_json::from_str(&json).unwrap()
+}
+
 /// Of each kernel and scalar the known wrong verdict is below its bound, is as far off as is said, and `explain` says that it is
 /// wrong.
 #[test]
 fn known_verdicts_are_as_wrong_as_is_said_and_no_worse_than_proved() {
     let record = everything();
-    let (mut near, mut explained) = (0, 0);
+    let (mut near, mut shown) = (0, 0);
     for kernel in record["kernels"].as_array().unwrap() {
         for (name, finding, side) in [("misses", "false-miss", 1.0), ("hits", "false-hit", -1.0)] {
             let part = &kernel["verdicts"][name];
@@ -266,30 +283,29 @@ fn known_verdicts_are_as_wrong_as_is_said_and_no_worse_than_proved() {
                 assert!(part["why"].is_string() && part["known"].is_null(), "{text}");
                 continue;
             }
+            // No triangle of the unit domain has all its quotients: see docs/guide/proof.md.
+            if kernel["kernel"] == "baldwin-weber" {
+                assert!(part["why"].is_null() && part["known"].is_null(), "{text}");
+                continue;
+            }
             let share = part["share"].as_f64().unwrap();
             let known = part["known"]["share"].as_f64().unwrap_or_else(|| panic!("{text}"));
             assert!(0.0 < known && known <= share, "{text}");
             near += usize::from(share <= 4.0 * known);
             let command = part["known"]["command"].as_str().unwrap();
-            let (case, rest) =
-                command.strip_prefix("hairline explain '").unwrap().split_once("' ").unwrap();
-            let quoted = ["scalar", "f32", "f64", "origin", "direction", "a", "b", "c"];
-            let json = quoted.iter().fold(case.to_owned(), |json, word| {
-                json.replace(&format!("{word}:"), &format!("\"{word}\":"))
-            });
-            let json = json.replace(":f32", ":\"f32\"").replace(":f64", ":\"f64\"");
-            let deep = side * depth(&serde_json::from_str(&json).unwrap());
+            let (case, rest) = explained(command);
+            let deep = side * depth(&case_of(case));
             assert!((deep / known - 1.0).abs() < 1e-6, "{text}: {deep}");
             if kernel["scalar"] == "f32" {
                 let rest = rest.replace('\'', "");
                 let words = [&["explain", case], &rest.split(' ').collect::<Vec<_>>()[..]].concat();
                 let out = String::from_utf8(hairline(&words).stdout).unwrap();
                 assert!(out.to_lowercase().contains(finding), "{command}: {out}");
-                explained += 1;
+                shown += 1;
             }
         }
     }
-    assert!(explained == 32 && near >= 10, "{explained} {near}");
+    assert!(shown == 30 && near >= 10, "{shown} {near}");
 }
 
 #[test]

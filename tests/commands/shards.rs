@@ -169,6 +169,28 @@ fn parts_of_one_kind_of_machine_become_a_record_of_it() {
 }
 
 #[test]
+fn parts_of_another_version_are_refused() {
+    let folder = folder("shards-versions");
+    let files = shards(&folder, 2);
+    let older = |file: &str| {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        let mut record: serde_json::Value = serde_json::from_str(&text).unwrap();
+        record["provenance"]["tool"] = "hairline 0.0.9".into();
+        fs::write(folder.join("older.json"), record.to_string()).unwrap();
+    };
+    let this = format!("hairline {}", env!("CARGO_PKG_VERSION"));
+    let expected = format!(
+        "hairline: older.json: made by hairline 0.0.9, and this is {this}: merge parts with the version that made them\n"
+    );
+    older(&files[1]);
+    assert_eq!(merge(&folder, &[&files[0], "older.json"], &[], 65), expected);
+    // The first one too, and all of them.
+    older(&files[0]);
+    assert_eq!(merge(&folder, &["older.json", &files[1]], &[], 65), expected);
+    assert_eq!(merge(&folder, &["older.json"], &["--allow-partial"], 65), expected);
+}
+
+#[test]
 fn lost_parts_run_again_alone_on_slurm() {
     let folder = scratch("shards-slurm");
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/deploy/slurm.sh");
@@ -274,6 +296,12 @@ while read -r word id rest; do case $word in case) echo $id miss;; end) echo end
     let all = fs::read_to_string(folder.join("all.json")).unwrap();
     assert!(all.contains("\"kernel_files\""), "{all}");
     never("two");
+    let error = merge(&folder, &["0.json", "1.json"], &with, 65);
+    assert!(
+        error.contains("merge: the parts ran never.sh (")
+            && error.contains("is another build here ("),
+        "{error}"
+    );
     shard("1/2", "1.json");
     let error = merge(&folder, &["0.json", "1.json"], &with, 65);
     assert!(error.contains("1.json: of another build of never.sh ("), "{error}");

@@ -1,10 +1,12 @@
 //! Bounds of programs: every error found is below its bound, and edge values are what is said of them.
 
-use hairline::internals::arith::Arithmetic;
+use hairline::internals::arith::recorded::{Comparison, Operation};
+use hairline::internals::arith::{Arithmetic, Float, Real};
 use hairline::internals::case::Draw;
-use hairline::internals::kernel::{KERNELS, Scalar, find, in_arithmetic};
+use hairline::internals::kernel::{KERNELS, Path, Scalar, find, in_arithmetic};
 use hairline::internals::prove::{
-    Domain, Dyadic, Effort, Format, Goal, Proof, Search, Searched, Summary, Symmetry, paths_of, run,
+    Domain, Dyadic, Effort, Format, Goal, Proof, Sample, Search, Searched, Summary, Symmetry,
+    paths_of, run,
 };
 
 fn no_error_is_above_its_bound<F: Searched + Scalar>(evaluations: u64) {
@@ -99,6 +101,87 @@ fn a_search_is_reproducible_and_stays_in_its_domain() {
             assert!(at(3).abs() <= 1.0);
         }
     }
+}
+
+/// The numbers of a stored witness in a scalar.
+fn numbers<F: Float>(witness: &serde_json::Value) -> [F; 17] {
+    let words = witness["inputs"].as_array().unwrap().iter().map(|word| word.as_str().unwrap());
+    let bits = words.map(|word| F::from_bits(u64::from_str_radix(word, 16).unwrap()));
+    bits.collect::<Vec<F>>().try_into().unwrap()
+}
+
+/// The values of a path's program at inputs, in floats of 53 digits; of the path that the kernel takes there.
+fn taken<F: Searched + Scalar>(paths: &[Path], inputs: &[F; 17]) -> (usize, Vec<f64>) {
+    let is_taken = |path: &&Path| {
+        let mut values = Vec::new();
+        run(&path.operations, path.operations.len() as u32 - 1, inputs, &mut values);
+        let of = |place: u32| values[place as usize];
+        path.decisions.iter().all(|(comparison, answer)| {
+            *answer
+                == match *comparison {
+                    Comparison::Less(a, b) => of(a).is_less(&of(b)),
+                    Comparison::AtMost(a, b) => of(a).is_at_most(&of(b)),
+                    Comparison::Zero(a) => of(a).is_zero(),
+                    Comparison::Negative(a) => of(a).is_sign_negative(),
+                }
+        })
+    };
+    let index = paths.iter().position(|path| is_taken(&path)).unwrap();
+    let path = &paths[index];
+    let mut values = Vec::new();
+    let floats = inputs.map(|x| x.to_f64());
+    run(&path.operations, path.operations.len() as u32 - 1, &floats, &mut values);
+    (index, values)
+}
+
+/// No divisor or root is below a half, and no quotient above 1, but a barycentric coordinate next to its range.
+fn divides_as_the_unit_domain_says<F: Searched + Scalar>(witness: &serde_json::Value) -> usize {
+    let entry = find(witness["kernel"].as_str().unwrap()).unwrap();
+    let paths = paths_of::<F>(entry).unwrap();
+    let inputs = numbers::<F>(witness);
+    let (index, values) = taken(&paths, &inputs);
+    let sample = Sample::of(&inputs.map(|x| x.to_f64()));
+    let is_weight = |x: f64| {
+        let weights = [0, 1, 2].map(|vertex| sample.weight(vertex));
+        weights.into_iter().any(|w| (x - w).abs() < 1e-9 || (x - (1.0 - w)).abs() < 1e-9)
+    };
+    let mut divisions = 0;
+    for (operation, value) in paths[index].operations.iter().zip(&values) {
+        match *operation {
+            Operation::Div(n, d) => {
+                let (numerator, divisor) = (values[n as usize], values[d as usize]);
+                assert!(0.5 - 1e-12 <= divisor.abs(), "{witness}: divides by {divisor}");
+                let is_within = value.abs() <= 1.0 + 1e-12;
+                let is_near = is_weight(*value) && (-1e-3..1.001).contains(value);
+                assert!(is_within || is_near || numerator == 1.0, "{witness}: a quotient {value}");
+                divisions += 1;
+            }
+            Operation::Sqrt(_) => assert!(0.5 - 1e-12 <= *value, "{witness}: a root {value}"),
+            _ => {}
+        }
+    }
+    divisions
+}
+
+#[test]
+fn stored_rays_divide_as_the_unit_domain_says() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../corpora/proofs/witnesses.ndjson");
+    let text = std::fs::read_to_string(file).unwrap();
+    let (mut rays, mut divisions) = (0, 0);
+    for line in text.lines() {
+        let witness: serde_json::Value = serde_json::from_str(line).unwrap();
+        if witness["goal"] != "missed" && witness["goal"] != "hit" {
+            continue;
+        }
+        rays += 1;
+        divisions += match witness["scalar"] == "f32" {
+            true => divides_as_the_unit_domain_says::<f32>(&witness),
+            false => divides_as_the_unit_domain_says::<f64>(&witness),
+        };
+    }
+    // Fifteen kernels, with fused products and without, in two scalars, on two sides.
+    assert_eq!(rays, 120);
+    assert!(200 < divisions, "{divisions}");
 }
 
 fn exact_input(inputs: &[f32; 17], point: usize, axis: usize) -> f64 {

@@ -2,9 +2,8 @@
 
 use super::depth::Judge;
 use super::measures::Sample;
+use super::starts::make_parallel;
 use super::witness::{Goal, Inputs, Search, Searched};
-use super::{Domain, Leaf, Measures, Source};
-use crate::arith::Float;
 use crate::arith::recorded::{Operation, Place};
 use crate::case::Draw;
 use glam::DVec3;
@@ -52,6 +51,7 @@ impl<F: Searched> Search<'_, F> {
                         && !(is_known && draw.coin())
                     {
                         judge.move_to_boundary(&mut inputs, draw);
+                        inputs[15..].copy_from_slice(&self.domain.interval());
                     }
                     self.score(&inputs, goal, &mut near).map(|score| (inputs, score))
                 });
@@ -76,6 +76,7 @@ impl<F: Searched> Search<'_, F> {
             for _ in 0..1 + draw.below(3) {
                 self.change(&mut tried, draw);
             }
+            self.settle(&mut tried);
             if goal == Goal::Zero {
                 make_parallel(&mut tried, draw);
             }
@@ -127,6 +128,7 @@ impl<F: Searched> Search<'_, F> {
                     _ => tried[i] + F::from_f64(by * scale),
                 };
             }
+            self.settle(&mut tried);
             if let Some(judge) = self.judge {
                 judge.move_to_boundary(&mut tried, draw);
             }
@@ -141,6 +143,19 @@ impl<F: Searched> Search<'_, F> {
             }
         }
         inputs
+    }
+
+    /// Makes the direction of a scene's ray as long as it should be, where it is not.
+    fn settle(&self, inputs: &mut Inputs<F>) {
+        if self.domain.measures.is_none() {
+            return;
+        }
+        let direction = DVec3::from([3, 4, 5].map(|i| inputs[i].to_f64()));
+        if (direction.length() - 1.0).abs() < 2.0 * F::EPSILON.to_f64() {
+            return;
+        }
+        let unit = direction.normalize_or_zero().to_array();
+        inputs[3..6].copy_from_slice(&unit.map(F::from_f64));
     }
 
     /// The most that half an ulp of every rounded number of the last run could add up to, in units of its unit
@@ -178,107 +193,6 @@ impl<F: Searched> Search<'_, F> {
         sum
     }
 
-    /// A ray that meets a triangle of a scene, from far away. Often the triangle is as small and flat, and the ray at as
-    /// small an angle, as the scene has them: there numbers are divided by the least determinants.
-    fn aimed(&self, measures: Measures, draw: &mut Draw) -> Inputs<F> {
-        let Domain { edge, reach, world, direction, extent, .. } = self.domain;
-        let [edge, reach, world, length, extent] =
-            [edge, reach, world, direction, extent].map(|x| x.to_f64());
-        let [area, sine] = [measures.area, measures.sine].map(|x| x.to_f64());
-        let any = |draw: &mut Draw| DVec3::from([0; 3].map(|_| draw.symmetric::<f64>()));
-        let power = |draw: &mut Draw, most: usize| 2f64.powi(-(draw.below(most) as i32));
-        let near_end = |draw: &mut Draw, most: f64| {
-            let x = most * (1.0 - draw.unit() * power(draw, 12));
-            if draw.coin() { x } else { -x }
-        };
-        let a = DVec3::from([0; 3].map(|_| near_end(draw, world))) * power(draw, 4);
-        let (along, across) = (any(draw).normalize_or_zero(), any(draw));
-        let normal = along.cross(across).normalize_or_zero();
-        let across = normal.cross(along);
-        // Slightly more than the least.
-        let more = |draw: &mut Draw, least: f64| least * (1.0 + power(draw, 8));
-        let size = edge * (1.0 - draw.unit() * power(draw, 8));
-        let height = if draw.below(4) == 0 { size * draw.unit() } else { more(draw, area / size) };
-        let (e1, e2) = (size * along, size * draw.unit() * along + height * across);
-        let sine = if draw.below(4) == 0 { draw.unit() } else { more(draw, sine).min(1.0) };
-        let in_plane = (along * draw.symmetric::<f64>() + across * draw.symmetric::<f64>())
-            .normalize_or_zero();
-        let short = 1.0 - 4.0 * F::EPSILON.to_f64();
-        let direction = (in_plane * (1.0 - sine * sine).sqrt() + normal * sine) * length * short;
-        let (u, v) = (draw.unit(), draw.unit());
-        let target = a + e1 * (u * (1.0 - v)) + e2 * v;
-        let origin = target - direction / length * near_end(draw, reach).abs();
-        let vectors = [origin, direction, a, a + e1, a + e2].map(|v| v.to_array());
-        let mut inputs = [F::zero(); 17];
-        for (input, x) in inputs.iter_mut().zip(vectors.as_flattened()) {
-            *input = F::from_f64(*x);
-        }
-        inputs[16] = F::from_f64(extent);
-        inputs
-    }
-
-    /// Inputs in the boxes, often near the corner of the bound.
-    fn start(&self, goal: Goal, draw: &mut Draw) -> Inputs<F> {
-        if let Some(measures) = self.domain.measures.filter(|_| goal != Goal::Zero && draw.coin()) {
-            return self.aimed(measures, draw);
-        }
-        let mut inputs = [F::zero(); 17];
-        let world = self.domain.world.to_f64();
-        let shift = draw.below(30) as i32;
-        let offset = |draw: &mut Draw| world * draw.symmetric::<f64>() * 2f64.powi(-shift);
-        let [edge, reach] = [self.domain.edge, self.domain.reach].map(|x| x.to_f64());
-        let at_corner = draw.coin();
-        let size = |draw: &mut Draw, bound: f64| {
-            let size = match draw.below(3) {
-                0 => bound * draw.unit(),
-                1 => bound * (1.0 - draw.unit() * 0.01),
-                _ => bound * (1.0 - draw.unit() * 2f64.powi(-12)),
-            };
-            if draw.coin() { size } else { -size }
-        };
-        let lemma = self.quantity.lemmas.last();
-        let sign = |wanted: Leaf| {
-            let lemma = lemma.filter(|_| at_corner)?;
-            let at = lemma.formula.sources.iter().position(|s| *s == Source::Leaf(wanted))?;
-            Some(*lemma.maximum.corner.get(at)?)
-        };
-        let signed = |x: f64, minus: Option<bool>| match minus {
-            Some(true) => -x.abs(),
-            Some(false) => x.abs(),
-            None => x,
-        };
-        for axis in 0..3 {
-            let a = offset(draw);
-            inputs[6 + axis] = F::from_f64(a);
-            for (point, bound) in [(2, edge), (3, edge), (0, reach)] {
-                let x = size(draw, bound);
-                let minus = sign(Leaf::Difference(point, 1, axis))
-                    .or(sign(Leaf::Difference(1, point, axis)).map(|minus| !minus));
-                let at = if point == 0 { axis } else { 3 + 3 * point + axis };
-                inputs[at] = F::from_f64(a + signed(x, minus));
-            }
-            // Where only vectors from the origin count, they are drawn around it.
-            if sign(Leaf::Difference(1, 0, axis)).is_some() || !self.quantity.uses().edge {
-                let o = offset(draw);
-                inputs[axis] = F::from_f64(o);
-                for point in 1..=3 {
-                    let x = size(draw, reach);
-                    let minus = sign(Leaf::Difference(point, 0, axis));
-                    inputs[3 + 3 * point + axis] = F::from_f64(o + signed(x, minus));
-                }
-            }
-            let direction = size(draw, self.domain.direction.to_f64());
-            inputs[3 + axis] = F::from_f64(signed(direction, sign(Leaf::Direction(axis))));
-        }
-        let extent = self.domain.extent.to_f64();
-        inputs[15] = F::from_f64(size(draw, extent));
-        inputs[16] = F::from_f64(size(draw, extent));
-        if goal == Goal::Zero {
-            make_parallel(&mut inputs, draw);
-        }
-        inputs
-    }
-
     fn change(&self, inputs: &mut Inputs<F>, draw: &mut Draw) {
         let i = draw.below(if self.quantity.uses().extent { 17 } else { 15 });
         let x = inputs[i];
@@ -310,14 +224,6 @@ impl<F: Searched> Search<'_, F> {
                 x + by
             }
         };
-    }
-}
-
-/// Makes the direction one of the edges, so that it lies in the plane if the difference is exact.
-fn make_parallel<F: Float>(inputs: &mut Inputs<F>, draw: &mut Draw) {
-    let (from, to) = draw.pick(&[(6, 9), (6, 12), (9, 12)]);
-    for axis in 0..3 {
-        inputs[3 + axis] = inputs[to + axis] - inputs[from + axis];
     }
 }
 

@@ -1,19 +1,16 @@
 //! How wrong a verdict is: how far from the triangle's boundary the line meets its plane.
 
 use super::Domain;
-use super::gates::Uses;
 use super::meaning::Scale;
-use super::measures::Sample;
+use super::measures::{Angle, Sample};
 use crate::arith::{Float, Real, Triple, Vector};
 use crate::case::{Case, Draw};
 use crate::contract::Sides;
 use crate::kernel::gate::refused_by;
 use crate::kernel::{Gated, Role};
 
-/// A case by its numbers, with the default interval.
+/// A case by its numbers.
 pub fn case_of<F: Float>(inputs: &[F; 17]) -> Case<F> {
-    let mut inputs = *inputs;
-    (inputs[15], inputs[16]) = (F::zero(), F::infinity());
     Case::from_bits(&inputs.map(|x| x.to_bits()))
 }
 
@@ -24,14 +21,12 @@ const NEAR: f64 = 1.0 / 1024.0;
 pub struct Judge<'a, F> {
     pub(super) gated: &'a dyn Gated<F>,
     pub(super) epsilons: &'a [F],
-    /// The bounds of inputs that the edge gates suppose.
-    pub(super) uses: Uses,
     /// The numbers that the edge gates multiply barycentric coordinates by.
     pub(super) scales: Vec<Scale>,
 }
 
 impl<F: Float> Judge<'_, F> {
-    /// On a case of the domain whose t is positive, how wrong the verdict is, and true if it is of the wanted kind. Where it is
+    /// On a case of the domain whose t is between its ends, how wrong the verdict is, and true if it is of the wanted kind. Where it is
     /// not, the score counts what the verdict lacks of it twice, so that a search finds large errors first.
     pub(super) fn score<R: Real>(
         &self,
@@ -45,9 +40,12 @@ impl<F: Float> Judge<'_, F> {
         let is_front = float(&sample.volume())? < 0.0;
         let is_asked = is_front || self.gated.info().contract.sides == Sides::Both;
         let measures = domain.measures.as_ref();
-        let is_of_scene = measures.is_none_or(|it| it.hold(&Sample::of(&inputs.map(F::to_f64))));
-        let is_ahead = 0.0 < float(&sample.time())?;
-        if !(is_asked && is_ahead && is_of_scene && self.holds(domain, sample, &float)?) {
+        let floats = Sample::of(&inputs.map(F::to_f64));
+        let is_of_scene =
+            measures.is_none_or(|it| it.hold(&floats, Angle::OfScene, F::EPSILON.to_f64()));
+        let time = float(&sample.time())?;
+        let is_within = floats.ends[0] < time && time < floats.ends[1];
+        if !(is_asked && is_within && is_of_scene && self.holds(domain, sample, &float)?) {
             return None;
         }
         let margins = self.gated.thresholds(&case_of(inputs));
@@ -58,7 +56,7 @@ impl<F: Float> Judge<'_, F> {
         let is_edge = |gate: &usize| gates[*gate].role == Role::Edge;
         let slack = |gate: usize| margins[gate].to_f64() - self.epsilons[gate].to_f64();
         let slack = (0..gates.len()).filter(is_edge).map(slack).fold(f64::INFINITY, f64::min);
-        let scale = self.scale(&Sample::of(&inputs.map(F::to_f64)));
+        let scale = self.scale(&floats);
         let depth = depth(sample, float)?;
         let score = if is_hit { -depth } else { depth };
         let is_wanted = refused.is_none() == is_hit;
@@ -83,16 +81,29 @@ impl<F: Float> Judge<'_, F> {
         near.filter(|_| is_near).map_or(0.0, |vertex| heights[vertex] / scale)
     }
 
-    /// Moves a ray so that it passes near an edge, or near a vertex.
+    /// The barycentric coordinate at which the gates at edges begin to refuse.
+    fn threshold(&self, sample: &Sample<f64>) -> f64 {
+        let gates = self.gated.info().gates.iter().zip(self.epsilons);
+        let mut edges = gates.filter(|(gate, _)| gate.role == Role::Edge);
+        edges.next().map_or(0.0, |(_, epsilon)| epsilon.to_f64() / self.scale(sample))
+    }
+
+    /// Moves a ray so that it passes near where an edge's gate decides, or near a vertex.
     pub(super) fn move_to_boundary(&self, inputs: &mut [F; 17], draw: &mut Draw) {
         let sample = Sample::of(&inputs.map(F::to_f64));
-        let to = draw.below(3);
-        let from = [(to + 1) % 3, (to + 2) % 3];
+        let distance = |vertex: &usize| sample.weight(*vertex).abs();
+        let nearest = (0..3).min_by(|i, j| distance(i).total_cmp(&distance(j)));
+        // Often the nearest edge, so that the ray's origin stays near where it is.
+        let edge = nearest.filter(|_| draw.coin()).unwrap_or(draw.below(3));
+        let others = [(edge + 1) % 3, (edge + 2) % 3];
+        let [to, other] = if draw.coin() { others } else { [others[1], others[0]] };
         let is_vertex = draw.below(4) == 0;
-        for vertex in from.into_iter().skip(usize::from(!is_vertex && draw.coin())) {
+        let threshold = self.threshold(&sample);
+        for vertex in [edge, other] {
             let by = sample.vertices[to].minus(&sample.vertices[vertex]);
             for (axis, input) in inputs.iter_mut().take(3).enumerate() {
-                *input = F::from_f64(input.to_f64() + sample.weight(vertex) * by.at(axis));
+                let moved = sample.weight(vertex) - threshold;
+                *input = F::from_f64(input.to_f64() + moved * by.at(axis));
             }
             if !is_vertex {
                 break;
@@ -100,6 +111,7 @@ impl<F: Float> Judge<'_, F> {
         }
     }
 
+    /// True of a case of the domain as it is printed, whatever of it the kernel's bounds suppose.
     fn holds<R: Real>(
         &self,
         domain: &Domain,
@@ -108,14 +120,14 @@ impl<F: Float> Judge<'_, F> {
     ) -> Option<bool> {
         let Sample { origin, direction, vertices, edges, .. } = sample;
         let reach = vertices.each_ref().map(|vertex| vertex.minus(origin));
-        let boxes: [(bool, &[Triple<R>], _); 5] = [
-            (self.uses.edge, edges, domain.edge),
-            (self.uses.reach, &reach, domain.reach),
-            (self.uses.world, vertices, domain.world),
-            (self.uses.world, std::slice::from_ref(origin), domain.world),
-            (true, std::slice::from_ref(direction), domain.direction),
+        let boxes: [(&[Triple<R>], _); 5] = [
+            (edges, domain.edge),
+            (&reach, domain.reach),
+            (vertices, domain.world),
+            (std::slice::from_ref(origin), domain.world),
+            (std::slice::from_ref(direction), domain.direction),
         ];
-        for (_, vectors, most) in boxes.into_iter().filter(|(is_used, ..)| *is_used) {
+        for (vectors, most) in boxes {
             for vector in vectors {
                 for axis in 0..3 {
                     if most.to_f64() < float(&vector.at(axis))?.abs() {
@@ -123,6 +135,10 @@ impl<F: Float> Judge<'_, F> {
                     }
                 }
             }
+        }
+        let has_floor = domain.measures.is_none();
+        if has_floor && float(&sample.volume())?.abs() < Scale::Volume.least(domain) {
+            return Some(false);
         }
         for scale in &self.scales {
             if float(&scale.of(sample))?.abs() < scale.least(domain) {

@@ -46,7 +46,7 @@ impl Format {
 }
 
 /// The inputs that a program may have. Every bound is of the absolute values of coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Domain {
     /// The bound of the edge vectors b-a, c-a and c-b.
     pub edge: Dyadic,
@@ -86,6 +86,12 @@ impl Domain {
         below: Dyadic::ZERO,
         measures: None,
     };
+    /// The longest interval of a ray that begins at its origin; in a scene it is as long as the scene says.
+    pub(super) fn interval<F: Float>(&self) -> [F; 2] {
+        let end = self.measures.map_or(self.extent.to_f64(), |measures| measures.scene.distance);
+        [F::zero(), F::from_f64(end)]
+    }
+
     /// Half of a box that holds all points, along each axis: only their differences count.
     pub(super) fn half_box(&self) -> Dyadic {
         self.edge.max(self.reach) * Dyadic::HALF

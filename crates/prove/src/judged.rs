@@ -2,7 +2,7 @@
 //! bounds of edge gates say something.
 
 use super::depth::Judge;
-use super::gates::{Proof, Uses};
+use super::gates::Proof;
 use super::summary::{Effort, Summary, Witness, format_of, worst};
 use super::verdict::{USELESS, Verdicts, supposes_weights, verdicts};
 use super::witness::{Goal, Inputs, Searched};
@@ -50,7 +50,6 @@ impl<F: Searched + Scalar> Judged<F> {
         let judge = Judge {
             gated: F::subject(entry)?.gated()?,
             epsilons,
-            uses: Uses::of(of_edges().flat_map(|quantity| &quantity.lemmas)),
             scales: verdicts.scales.iter().map(|(scale, _)| *scale).collect(),
         };
         let known = VERDICTS.map(|goal| {

@@ -29,6 +29,7 @@ pub mod repair;
 mod run;
 mod scene;
 mod sizes;
+mod starts;
 mod statement;
 mod summary;
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! The limits that a scene gives to numbers that kernels divide by, and to quotients: each is known by its value, in
 //! whatever order a program computes it.
 
-use super::Dyadic;
 use super::order::largest_axes;
 use super::run::{cone, run};
+use super::{Dyadic, Scene};
 use crate::arith::recorded::{Comparison, Place};
 use crate::arith::{Exact, Real, Triple, Vector};
 use crate::case::Draw;
@@ -13,7 +13,7 @@ use std::cell::OnceCell;
 /// The measures of a scene's triangles and rays. In the names of numbers N = (b-a)×(c-a), N_k is its largest coordinate
 /// and N_i another one, d_k the largest coordinate of d, e an edge, p and q are vertices, and u stands for all three
 /// barycentric coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measures {
     /// |N| at least.
     pub area: Dyadic,
@@ -27,6 +27,8 @@ pub struct Measures {
     pub world: Dyadic,
     /// |t| at most.
     pub distance: Dyadic,
+    /// The scene itself, in numbers that are not rounded.
+    pub scene: Scene,
 }
 
 /// A limit of the size of a number, and where it comes from.
@@ -54,6 +56,15 @@ pub(super) struct Known<R> {
     pub name: &'static str,
     pub limit: Dyadic,
     pub value: R,
+}
+
+/// The rays that a search looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Angle {
+    /// Those that meet the plane at the scene's least angle or more.
+    OfScene,
+    /// Those that are parallel to the plane.
+    Zero,
 }
 
 /// The use of a number in a program.
@@ -224,11 +235,10 @@ const LARGER: f64 = 1.01;
 const ROOT: f64 = 1.423;
 
 impl Measures {
-    /// True of a triangle and a ray of the scene: not smaller, and at no smaller angle.
-    pub(super) fn hold(&self, Sample { direction, normal, .. }: &Sample<f64>) -> bool {
-        let [area, sine] = [self.area, self.sine].map(|x| x.to_f64());
-        let (length, volume) = (normal.dot(normal).sqrt(), normal.dot(direction));
-        area <= length && sine * length * direction.dot(direction).sqrt() <= volume.abs()
+    /// True of a triangle and a ray of the scene, and of the size that these measures are about.
+    pub(super) fn hold(&self, sample: &Sample<f64>, angle: Angle, epsilon: f64) -> bool {
+        let length = sample.normal.dot(&sample.normal).sqrt();
+        self.area.to_f64() <= length && self.scene.holds(sample, angle, epsilon)
     }
 
     /// The numbers that a scene knows, given the axes of N's largest coordinate.

@@ -1,8 +1,9 @@
 //! A scene in numbers that a person knows, and the domain that it is.
 
 use super::dyadic::{Big, root_up};
-use super::measures::DIGITS;
+use super::measures::{Angle, DIGITS, Sample};
 use super::{Domain, Dyadic, Measures};
+use crate::arith::{Triple, Vector};
 use crate::case::{self, DirectionLength};
 use num_traits::Zero;
 use std::collections::BTreeMap;
@@ -116,6 +117,7 @@ impl Scene {
             slope: up(slope),
             world: up(coordinates),
             distance: up(distance),
+            scene: *self,
         };
         Domain {
             edge: up(size),
@@ -168,6 +170,43 @@ impl Scene {
         root_up(&square, 53).to_f64()
     }
 
+    /// True of a triangle and a ray as the words of the scene have them. Lengths and angles of floats are what they are to a
+    /// few epsilons of their scalar: no direction of floats is exactly 1 long.
+    pub(super) fn holds(&self, sample: &Sample<f64>, angle: Angle, epsilon: f64) -> bool {
+        let Sample { origin, direction, vertices, edges, normal, .. } = sample;
+        let slack = 4.0 * epsilon;
+        let coordinates =
+            vertices.iter().chain([origin]).flat_map(|point| [0, 1, 2].map(|axis| point.at(axis)));
+        if coordinates.map(f64::abs).any(|x| self.coordinates < x) {
+            return false;
+        }
+        let distances = vertices.iter().map(|vertex| length(&vertex.minus(origin)));
+        if distances.fold(0.0, f64::max) > self.distance * (1.0 + slack) {
+            return false;
+        }
+        let lengths = edges.each_ref().map(length);
+        let longest = lengths.into_iter().fold(0.0, f64::max);
+        let shortest = lengths.into_iter().fold(longest, f64::min);
+        let least = if self.is_of_longest { longest } else { shortest };
+        if least < self.edge[0] * (1.0 - slack) || self.edge[1] * (1.0 + slack) < longest {
+            return false;
+        }
+        let area = length(normal);
+        let [ab, ac, bc] = edges;
+        // |N| over the product is the tangent of the angle; an obtuse angle is not the smallest.
+        let products = [ab.dot(ac), -ab.dot(bc), ac.dot(bc)];
+        let tangent = tangent(self.min_angle) * (1.0 - slack);
+        if products.into_iter().any(|product| area < tangent * product) {
+            return false;
+        }
+        let speed = length(direction);
+        if (speed - 1.0).abs() > slack {
+            return false;
+        }
+        let least = sine(self.grazing) * (1.0 - slack) * area * speed;
+        angle == Angle::Zero || least <= normal.dot(direction).abs()
+    }
+
     /// Twice the smallest area, or slightly less.
     pub fn least_shape(&self) -> f64 {
         // The longest edge, and the smallest angle at both of its ends. Or the shortest edge twice, and the smallest
@@ -198,6 +237,10 @@ impl Scene {
         }
         shapes
     }
+}
+
+fn length(v: &Triple<f64>) -> f64 {
+    v.dot(v).sqrt()
 }
 
 /// The tangent of an angle in degrees, or slightly less.

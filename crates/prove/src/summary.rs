@@ -213,7 +213,7 @@ pub(super) fn worst<F: Searched>(
     effort: Effort,
 ) -> Option<Witness<F>> {
     let mut search = Search::<F>::new(proof, quantity, judge);
-    let known = scaled(known, &quantity.domain);
+    let known = scaled(known, &quantity.domain, judge.is_some());
     let witness = |inputs: Inputs<F>, score: f64| Witness { inputs, score };
     let from_known = known
         .iter()
@@ -231,8 +231,9 @@ pub(super) fn worst<F: Searched>(
     best.into_iter().chain(found).max_by(|a, b| a.score.total_cmp(&b.score))
 }
 
-/// Known inputs of the unit domain, moved into another one by a power of two, which changes no rounding.
-fn scaled<F: Float>(known: &[Inputs<F>], domain: &Domain) -> Vec<Inputs<F>> {
+/// Known inputs of the unit domain, moved into another one by a power of two, which changes no rounding. Rays whose verdicts
+/// are looked at begin at 0, and end where the domain does.
+fn scaled<F: Float>(known: &[Inputs<F>], domain: &Domain, are_verdicts: bool) -> Vec<Inputs<F>> {
     let least = domain.edge.min(domain.reach).min(domain.world).to_f64();
     let exponent = (least / Domain::UNIT.edge.to_f64()).log2().floor();
     let factor = F::from_f64(2f64.powf(exponent));
@@ -240,6 +241,9 @@ fn scaled<F: Float>(known: &[Inputs<F>], domain: &Domain) -> Vec<Inputs<F>> {
         let mut inputs = *inputs;
         for i in (0..3).chain(6..15) {
             inputs[i] = inputs[i] * factor;
+        }
+        if are_verdicts {
+            inputs[15..].copy_from_slice(&domain.interval());
         }
         inputs
     };

@@ -2,9 +2,9 @@
 
 use super::depth::Judge;
 use super::gates::Quantity;
-use super::measures::Sample;
+use super::measures::{Angle, Sample, Samples};
 use super::run::{Number, cone, run};
-use super::{Domain, Leaf, Proof, Rule, Source};
+use super::{Domain, Dyadic, Leaf, Measures, Proof, Rule, Source};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Bounded, Exact, Float};
 use crate::kernel::Path;
@@ -86,7 +86,6 @@ pub struct Search<'a, F> {
     pub(super) place: Place,
     conditions: Vec<Condition>,
     pub(super) quantity: &'a Quantity,
-    divides: bool,
     pub(super) domain: Domain,
     pub(super) computed: Vec<F>,
     /// The judge of verdicts, for the goals that are about them.
@@ -104,8 +103,11 @@ impl<'a, F: Searched> Search<'a, F> {
     ) -> Search<'a, F> {
         let domain = quantity.domain;
         let path = &proof.paths[quantity.path];
-        let (mut cone, renamed) = cone(&path.operations, quantity.place);
-        let mut conditions = Vec::new();
+        // A verdict in the unit domain is held to what is printed of all that the kernel divides.
+        let is_whole = judge.is_some() && domain.measures.is_none();
+        let (mut cone, renamed) =
+            if is_whole { whole(path) } else { cone(&path.operations, quantity.place) };
+        let mut conditions = if is_whole { divisions(path, &domain) } else { Vec::new() };
         for (old, new) in renamed.iter().enumerate() {
             let (Some(new), Some(leaf)) = (new, Leaf::of(path.operations[old], &path.operations))
             else {
@@ -156,7 +158,6 @@ impl<'a, F: Searched> Search<'a, F> {
             operations: cone,
             conditions,
             quantity,
-            divides: quantity.uses().floor,
             domain,
             computed: Vec::new(),
             judge,
@@ -186,9 +187,11 @@ impl<'a, F: Searched> Search<'a, F> {
         if !self.decisions.iter().all(holds) {
             return None;
         }
-        // What divides supposes something of the scene's triangles and rays.
-        let measures = self.domain.measures.filter(|_| self.divides);
-        if measures.is_some_and(|of| !of.hold(&Sample::of(&inputs.map(|x| x.to_f64())))) {
+        let angle = if goal == Goal::Zero { Angle::Zero } else { Angle::OfScene };
+        let is_of_scene = |measures: Measures| {
+            measures.hold(&Sample::of(&inputs.map(F::to_f64)), angle, F::EPSILON.to_f64())
+        };
+        if !self.domain.measures.is_none_or(is_of_scene) {
             return None;
         }
         let compare = |x: &F::Near, bound: f64| F::approximate(x)?.partial_cmp(&bound);
@@ -282,6 +285,39 @@ impl<'a, F: Searched> Search<'a, F> {
             }
         }
     }
+}
+
+/// The program of a path, as a cone is given.
+fn whole(path: &Path) -> (Vec<Operation>, Vec<Option<Place>>) {
+    let operations = path.operations.clone();
+    let places = (0..operations.len() as Place).map(Some).collect();
+    (operations, places)
+}
+
+/// The conditions of a domain on all divisors, quotients and roots of a path.
+fn divisions(path: &Path, domain: &Domain) -> Vec<Condition> {
+    let samples = Samples::new(path);
+    let [direction_floor, floor, quotient] =
+        [domain.direction_floor, domain.floor, domain.quotient].map(Dyadic::to_f64);
+    let mut conditions = Vec::new();
+    for (place, operation) in (0..).zip(&path.operations) {
+        match *operation {
+            Operation::Sqrt(_) => conditions.push(Condition::AtLeast(place, floor)),
+            Operation::Div(numerator, divisor) => {
+                let leaf = Leaf::of(path.operations[divisor as usize], &path.operations);
+                let is_of_direction = matches!(leaf, Some(Leaf::Direction(_)));
+                let least = if is_of_direction { direction_floor } else { floor };
+                conditions.push(Condition::AtLeast(divisor, least));
+                let is_reciprocal = path.operations[numerator as usize] == Operation::Number(1);
+                // A false hit is where a barycentric coordinate is not between 0 and 1.
+                if !is_reciprocal && !samples.is_share(place) {
+                    conditions.push(Condition::AtMost(place, quotient));
+                }
+            }
+            _ => {}
+        }
+    }
+    conditions
 }
 
 /// The pairs of all points, and the axes, that are in one box in a quantity's proof.

@@ -1,6 +1,7 @@
 //! Checks certificates, and says what they prove.
 
 use super::ProveArguments;
+use super::sizes::{DemandedSize, is_within, why_not};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::input::read_text;
 use crate::cli::output::write_result;
@@ -19,13 +20,14 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 pub fn check(arguments: &ProveArguments) -> Result<Status, Failure> {
     // Some take ten times as long as others.
     let files = arguments.check.par_iter().with_max_len(1);
-    let lines: Vec<String> = files.map(|file| checked(file)).collect::<Result<_, _>>()?;
+    let demands = &arguments.demand_domain;
+    let lines: Vec<String> = files.map(|file| checked(file, demands)).collect::<Result<_, _>>()?;
     let path = arguments.output.output.first().map_or("-", String::as_str);
     write_result(path, |out| lines.iter().try_for_each(|line| writeln!(out, "{line}")))?;
     Ok(Status::Success)
 }
 
-fn checked(file: &str) -> Result<String, Failure> {
+fn checked(file: &str, demands: &[DemandedSize]) -> Result<String, Failure> {
     let text = read_text(file)?;
     if text.lines().nth(3).is_some_and(|line| line.starts_with("guarded ")) {
         return guarded(file, &text);
@@ -38,6 +40,9 @@ fn checked(file: &str) -> Result<String, Failure> {
     let (kernel, name, scalar, entry) = kernel_of(&text);
     let recorded = entry.map(|entry| in_named_scalar!(scalar, F => Recorded::new::<F>(entry)));
     let mut is_whole = false;
+    let within: Vec<Proved> =
+        proved.iter().filter(|claim| is_within(demands, claim)).cloned().collect();
+    let mut outside = gates_without(&proved, &within);
     let whose = match recorded {
         None => "no kernel of that name is here to compare".to_owned(),
         Some(Err(why)) => format!("not compared with the kernel: {why}"),
@@ -49,6 +54,7 @@ fn checked(file: &str) -> Result<String, Failure> {
                 return Err(Failure::Message(Status::Disagreements, message));
             }
             let missing = recorded.missing(&proved);
+            outside.extend(recorded.missing(&within).into_iter().map(str::to_owned));
             is_whole = missing.is_empty();
             match is_whole {
                 true => recorded.all(&proved),
@@ -56,6 +62,12 @@ fn checked(file: &str) -> Result<String, Failure> {
             }
         }
     };
+    if !demands.is_empty()
+        && let Some(gate) = outside.first()
+    {
+        let message = format!("{file}: {}", why_not(demands, &proved, gate));
+        return Err(Failure::Message(Status::Disagreements, message));
+    }
     // Signs do not depend on the domain.
     let is_edge = |claim: &&Proved| {
         let mut gates = entry.iter().flat_map(|entry| entry.info.gates);
@@ -93,6 +105,16 @@ fn checked(file: &str) -> Result<String, Failure> {
         said.push_str(&format!("\n  for every float with {inputs}{errors}{missing}"));
     }
     Ok(said)
+}
+
+/// The gates of which some program is not among these claims.
+fn gates_without(all: &[Proved], claims: &[Proved]) -> BTreeSet<String> {
+    let has = |claim: &Proved, wanted: &Proved| {
+        let is_same = claim.programs[0].operations == wanted.programs[0].operations;
+        is_same && claim.gate == wanted.gate
+    };
+    let without = all.iter().filter(|wanted| !claims.iter().any(|claim| has(claim, wanted)));
+    without.map(|claim| claim.gate.clone()).collect()
 }
 
 /// The kernel of a certificate that the checker has read, with its scalar: both, its name, its scalar, and itself.

@@ -189,12 +189,15 @@ const SUPPOSED: &str = "A bound supposes, and its witness keeps, only what the g
 
 fn domain(Report { record, scene, .. }: &Report) -> String {
     let ProofResult { domain, .. } = &record.result;
+    let least = domain.divisor_at_least;
     match scene {
         Some(scene) => format!("Scene: {scene}"),
         None => format!(
-            "Unit domain: coordinates of points and of their differences up to {:.3}, of d up to {}. Where a kernel \
-             divides, divisors of {} and more (the largest coordinate of d too), quotients up to {}, barycentric ones from 0.",
-            domain.edge, domain.direction, domain.divisor_at_least, domain.quotient_at_most
+            "Unit domain: each coordinate of points and of their differences up to 1 - 2^-10, of d up to {}. Where a kernel \
+             divides, divisors of {least} and more (the largest coordinate of d too), quotients up to {}, barycentric ones \
+             from 0 but for false hits. Known rays lie in it, with |N·d| of {least} and more and t_max = {}; the known errors of \
+             gates keep only what their numbers use of it.",
+            domain.direction, domain.quotient_at_most, domain.extent
         ),
     }
 }

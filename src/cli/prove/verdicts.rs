@@ -198,8 +198,9 @@ fn may(may: &May) -> String {
 fn text_of<F: Float>(case: &Case<F>) -> String {
     let [origin, direction, a, b, c] = case.vectors();
     format!(
-        "{{scalar:{},origin:{origin:?},direction:{direction:?},a:{a:?},b:{b:?},c:{c:?}}}",
-        F::NAME
+        "{{scalar:{},origin:{origin:?},direction:{direction:?},a:{a:?},b:{b:?},c:{c:?},t_max:{:?}}}",
+        F::NAME,
+        case.ray.t_max
     )
     .replace(' ', "")
 }

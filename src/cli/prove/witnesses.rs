@@ -4,7 +4,7 @@ use crate::arith::Float;
 use crate::cli::exit::Failure;
 use crate::corpus::InputError;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 /// The witnesses that the program was built with.
 pub const KNOWN: &str = include_str!("../../../corpora/proofs/witnesses.ndjson");
@@ -32,6 +32,11 @@ impl StoredWitness {
         numbers.try_into().ok()
     }
 
+    /// Its place in the file.
+    fn key(&self) -> [&str; 4] {
+        [&self.kernel, &self.scalar, &self.gate, &self.goal]
+    }
+
     /// The nearest numbers of either scalar: a place to search from.
     pub fn nearest<F: Float>(&self) -> Option<[F; 17]> {
         match self.scalar == f32::NAME {
@@ -56,19 +61,14 @@ pub fn read_witnesses(text: &str, path: &str) -> Result<Vec<StoredWitness>, Fail
         .collect()
 }
 
-/// Puts found witnesses into the table; how many are new or worse than those there.
+/// Puts found witnesses in the place of those of the same kernels and scalars; how many are others than before. A stored one that is
+/// still a witness was found again: it was tried.
 pub fn merge(stored: &mut Vec<StoredWitness>, found: Vec<StoredWitness>) -> usize {
-    let key =
-        |w: &StoredWitness| (w.kernel.clone(), w.scalar.clone(), w.gate.clone(), w.goal.clone());
-    let mut table: BTreeMap<_, StoredWitness> = stored.drain(..).map(|w| (key(&w), w)).collect();
-    let mut raised = 0;
-    for witness in found {
-        let known = table.get(&key(&witness));
-        if known.is_none_or(|known| known.units < witness.units) {
-            raised += 1;
-            table.insert(key(&witness), witness);
-        }
-    }
-    stored.extend(table.into_values());
-    raised
+    let run: BTreeSet<(String, String)> =
+        found.iter().map(|it| (it.kernel.clone(), it.scalar.clone())).collect();
+    let changed = found.iter().filter(|witness| !stored.contains(witness)).count();
+    stored.retain(|it| !run.contains(&(it.kernel.clone(), it.scalar.clone())));
+    stored.extend(found);
+    stored.sort_by(|a, b| a.key().cmp(&b.key()));
+    changed
 }
