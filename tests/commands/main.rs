@@ -31,6 +31,8 @@ mod prove;
 #[cfg(unix)]
 mod repair;
 mod repair_languages;
+#[cfg(unix)]
+mod repair_products;
 mod repair_smaller;
 mod rows;
 mod scene;
