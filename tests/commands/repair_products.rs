@@ -102,18 +102,30 @@ fn no_product_of_a_caller_is_fused_into_a_kernel_in_c_and_cpp() {
     }
 }
 
-/// The operands of sums and differences that are inputs.
+/// The sums and differences of which an input is a term.
 fn inputs_in_sums(text: &str) -> Vec<String> {
     let words: Vec<&str> = text.split_whitespace().collect();
-    let is_input = |word: &&str| {
-        let word = word.trim_start_matches(['(', '-']).trim_end_matches([')', ',', ';']);
-        let word = word.strip_prefix("fabsf(").unwrap_or(word);
-        let is_coordinate = word.len() == 4 && word.ends_with(']') && word[1..].starts_with('[');
-        is_coordinate || ["t_from", "t_to", "t_min", "t_max"].contains(&word)
+    let is_sum = |i: &usize| ["+", "-"].contains(&words[*i]);
+    let sums = (2..words.len() - 2).filter(is_sum);
+    let has_input = |i: &usize| {
+        let [left, right] = [words[i - 1], words[i + 1]];
+        let is_term = |word: &str, next: &str| next != "*" || !is_balanced(word);
+        (is_input(left) && is_term(left, words[i - 2]))
+            || (is_input(right) && is_term(right, words[i + 2]))
     };
-    let is_sum = |words: &&[&str]| ["+", "-"].contains(&words[1]);
-    let sums = words.windows(3).filter(is_sum);
-    sums.filter(|sum| is_input(&sum[0]) || is_input(&sum[2])).map(|sum| sum.join(" ")).collect()
+    sums.filter(has_input).map(|i| words[i - 1..i + 2].join(" ")).collect()
+}
+
+/// False if a bracket opens or closes at the word.
+fn is_balanced(word: &str) -> bool {
+    word.matches('(').count() == word.matches(')').count()
+}
+
+fn is_input(word: &str) -> bool {
+    let word = word.trim_start_matches(['(', '-']).trim_end_matches([')', ',', ';']);
+    let word = word.strip_prefix("fabsf(").unwrap_or(word);
+    let is_coordinate = word.len() == 4 && word.ends_with(']') && word[1..].starts_with('[');
+    is_coordinate || ["t_from", "t_to", "t_min", "t_max"].contains(&word)
 }
 
 #[test]
@@ -133,7 +145,8 @@ fn every_sum_of_an_input_is_a_function() {
     assert!(exact.contains(functions.trim_end()), "{functions}");
     let differences = exact.matches("hairline_difference_f64(points[").count();
     assert!(differences == 4 && !exact.contains("] - points["), "{differences}");
-    let plain = "x = b[0] - a[0]; y = fabsf(d[2]) + SLACK, z = (n - t_from) * q; w = p - q * a[0];";
+    let plain =
+        "x = b[0] - a[0]; y = fabsf(d[2]) + SLACK, z = (n - t_from) * q; w = p - a[0] * q + r;";
     let found = ["b[0] - a[0];", "fabsf(d[2]) + SLACK,", "(n - t_from)"];
     assert_eq!(inputs_in_sums(plain), found);
 }
@@ -213,7 +226,8 @@ fn cuda_calls_the_functions_on_both_sides() {
     assert_eq!(text, c.replace("--emit c\n", "--emit cuda\n"));
     let exact = fs::read_to_string(Path::new(HERE).join("include/hairline_exact.h")).unwrap();
     for code in [&text, &exact] {
-        let functions = code.lines().filter(|line| line.contains("inline"));
+        let is_function = |line: &&str| line.contains("inline ") || line.ends_with("inline");
+        let functions = code.lines().filter(is_function);
         let functions: Vec<&str> = functions.map(str::trim).collect();
         let words = ["__host__ __device__ inline", "inline"];
         assert_eq!(
