@@ -109,16 +109,24 @@ fn inputs_in_sums(text: &str) -> Vec<String> {
     let sums = (2..words.len() - 2).filter(is_sum);
     let has_input = |i: &usize| {
         let [left, right] = [words[i - 1], words[i + 1]];
-        let is_term = |word: &str, next: &str| next != "*" || !is_balanced(word);
-        (is_input(left) && is_term(left, words[i - 2]))
-            || (is_input(right) && is_term(right, words[i + 2]))
+        // A factor is no term, unless its bracket begins or ends with it; and no input is a whole bracket.
+        let is_left = match brackets(left) {
+            0 => words[i - 2] != "*",
+            closed => closed < 0,
+        };
+        let is_right = match brackets(right) {
+            0 => words[i + 2] != "*",
+            closed => 0 < closed,
+        };
+        (is_left && is_input(left)) || (is_right && is_input(right))
     };
     sums.filter(has_input).map(|i| words[i - 1..i + 2].join(" ")).collect()
 }
 
-/// False if a bracket opens or closes at the word.
-fn is_balanced(word: &str) -> bool {
-    word.matches('(').count() == word.matches(')').count()
+/// How many brackets more close than open.
+fn brackets(word: &str) -> i32 {
+    let count = |bracket| word.matches(bracket).count() as i32;
+    count(')') - count('(')
 }
 
 fn is_input(word: &str) -> bool {
@@ -146,7 +154,7 @@ fn every_sum_of_an_input_is_a_function() {
     let differences = exact.matches("hairline_difference_f64(points[").count();
     assert!(differences == 4 && !exact.contains("] - points["), "{differences}");
     let plain =
-        "x = b[0] - a[0]; y = fabsf(d[2]) + SLACK, z = (n - t_from) * q; w = p - a[0] * q + r;";
+        "x = b[0] - a[0]; y = fabsf(d[2]) + SLACK, z = (n - t_from) * q; w = p - -(a[0] * q) + r;";
     let found = ["b[0] - a[0];", "fabsf(d[2]) + SLACK,", "(n - t_from)"];
     assert_eq!(inputs_in_sums(plain), found);
 }
