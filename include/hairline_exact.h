@@ -1,6 +1,10 @@
 /* hairline_exact.h: does a ray hit a triangle? The right answer for every finite float and double.
  *
- * One file without dependencies, in C99 and C++17. Plain arithmetic decides where it provably can; integers decide the rest.
+ * One file without dependencies, in C99, C++17 and CUDA. Plain arithmetic decides where it provably can; integers decide the
+ * rest.
+ *
+ * HAIRLINE_ONLY_F32, defined before you include this file, leaves hairline_exact_f64 out: then the integers are short, and 4 KB of
+ * stack are enough instead of 23.
  *
  * Edges: before you include this file, you may define HAIRLINE_EDGES as
  *   HAIRLINE_ONCE    a ray through an edge or a vertex where triangles meet hits exactly one of them (the default):
@@ -42,6 +46,51 @@
 #error "hairline_exact.h: doubles are computed with more than 53 bits: compile with -msse2 -mfpmath=sse, or the like"
 #endif
 
+/* CUDA compiles these functions for both sides. */
+#ifndef HAIRLINE_FUNCTION
+#ifdef __CUDACC__
+#define HAIRLINE_FUNCTION static __host__ __device__ inline
+#else
+#define HAIRLINE_FUNCTION static inline
+#endif
+#endif
+
+/* After this a compiler no longer knows how x was computed. */
+#ifndef HAIRLINE_BARRIER
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__SSE2__)
+#define HAIRLINE_BARRIER(type, x) __asm__("" : "+x"(x))
+#elif (defined(__GNUC__) || defined(__clang__)) && defined(__aarch64__)
+#define HAIRLINE_BARRIER(type, x) __asm__("" : "+w"(x))
+#else
+#define HAIRLINE_BARRIER(type, x)       \
+    do {                                \
+        volatile type hidden_##x = (x); \
+        (x) = hidden_##x;               \
+    } while (0)
+#endif
+#endif
+
+/* Sums of two inputs, or of one and another number. Where the caller's input is a product, a compiler that inlines would fuse
+ * it into a plain sum, and compute with another number than the one that is stored. */
+#ifndef HAIRLINE_SUMS_F64
+#define HAIRLINE_SUMS_F64
+#ifdef __CUDA_ARCH__
+HAIRLINE_FUNCTION double hairline_sum_f64(double x, double y) { return __dadd_rn(x, y); }
+HAIRLINE_FUNCTION double hairline_difference_f64(double x, double y) { return __dsub_rn(x, y); }
+#else
+HAIRLINE_FUNCTION double hairline_sum_f64(double x, double y) {
+    HAIRLINE_BARRIER(double, x);
+    HAIRLINE_BARRIER(double, y);
+    return x + y;
+}
+HAIRLINE_FUNCTION double hairline_difference_f64(double x, double y) {
+    HAIRLINE_BARRIER(double, x);
+    HAIRLINE_BARRIER(double, y);
+    return x - y;
+}
+#endif
+#endif
+
 /* A hit: t along the direction, u and v the weights of b and c, and whether the front was hit (a, b, c counter-clockwise as
  * the ray sees them). hit is 1. asked is 1 if integers were needed. */
 typedef struct {
@@ -51,14 +100,24 @@ typedef struct {
 
 /* ---- integers of any sign and up to HX_LIMBS words ---- */
 
-#define HX_LIMBS 340 /* three numbers of 2,100 bits multiplied and shifted by 3,200, and sums of a few of those */
+/* Inputs are integers times a power of two: as many bits as the largest exponent less the least one. Differences have one bit
+ * more. The longest number is a sum of 18 products of three differences, times t. */
+#ifdef HAIRLINE_ONLY_F32
+#define HX_DIGITS FLT_MANT_DIG
+#define HX_LEAST FLT_MIN_EXP
+#define HX_LIMBS 30 /* 3 * (128 + 149 + 1) + 5 + 24 = 863 bits, and the words that carries need */
+#else
+#define HX_DIGITS DBL_MANT_DIG
+#define HX_LEAST DBL_MIN_EXP
+#define HX_LIMBS 202 /* 3 * (1024 + 1074 + 1) + 5 + 53 = 6355 bits, and the same */
+#endif
 
 typedef struct {
     int sign, n; /* n words, the last of which is not 0 */
     uint32_t w[HX_LIMBS];
 } hx_int;
 
-static inline int hx_compare(const hx_int *a, const hx_int *b) {
+HAIRLINE_FUNCTION int hx_compare(const hx_int *a, const hx_int *b) {
     int i;
     if (a->n != b->n) return a->n < b->n ? -1 : 1;
     for (i = a->n - 1; i >= 0; i--)
@@ -66,13 +125,13 @@ static inline int hx_compare(const hx_int *a, const hx_int *b) {
     return 0;
 }
 
-static inline void hx_trim(hx_int *a) {
+HAIRLINE_FUNCTION void hx_trim(hx_int *a) {
     while (a->n > 0 && a->w[a->n - 1] == 0) a->n--;
     if (a->n == 0) a->sign = 0;
 }
 
 /* a + sign * b */
-static inline void hx_add(hx_int *sum, const hx_int *a, const hx_int *b, int sign) {
+HAIRLINE_FUNCTION void hx_add(hx_int *sum, const hx_int *a, const hx_int *b, int sign) {
     const hx_int *large = a, *small = b;
     int i, order, large_sign = a->sign, small_sign = sign * b->sign;
     uint64_t carry = 0;
@@ -103,7 +162,7 @@ static inline void hx_add(hx_int *sum, const hx_int *a, const hx_int *b, int sig
     memcpy(sum->w, out.w, sizeof(uint32_t) * (size_t)out.n);
 }
 
-static inline void hx_multiply(hx_int *product, const hx_int *a, const hx_int *b) {
+HAIRLINE_FUNCTION void hx_multiply(hx_int *product, const hx_int *a, const hx_int *b) {
     int i, j;
     product->sign = a->sign * b->sign, product->n = product->sign == 0 ? 0 : a->n + b->n;
     if (product->sign == 0) return;
@@ -120,15 +179,15 @@ static inline void hx_multiply(hx_int *product, const hx_int *a, const hx_int *b
 }
 
 /* The least exponent of a bit of x; a large one of 0. */
-static inline int hx_lowest(double x) {
+HAIRLINE_FUNCTION int hx_lowest(double x) {
     int exponent;
     if (x == 0) return 4096;
     (void)frexp(x, &exponent);
-    return (exponent < -1021 ? -1021 : exponent) - 53;
+    return (exponent < HX_LEAST ? HX_LEAST : exponent) - HX_DIGITS;
 }
 
 /* a * 2^bits */
-static inline void hx_shift(hx_int *a, int bits) {
+HAIRLINE_FUNCTION void hx_shift(hx_int *a, int bits) {
     int i, words = bits / 32, rest = bits % 32;
     if (a->sign == 0) return;
     a->w[a->n + words] = 0;
@@ -143,7 +202,7 @@ static inline void hx_shift(hx_int *a, int bits) {
 }
 
 /* x / 2^lowest */
-static inline void hx_read(hx_int *a, double x, int lowest) {
+HAIRLINE_FUNCTION void hx_read(hx_int *a, double x, int lowest) {
     uint64_t bits;
     a->sign = (x > 0) - (x < 0), a->n = 0;
     if (x == 0) return;
@@ -154,7 +213,7 @@ static inline void hx_read(hx_int *a, double x, int lowest) {
 }
 
 /* a / b as a double, times 2^exponent */
-static inline double hx_quotient(const hx_int *a, const hx_int *b, int exponent) {
+HAIRLINE_FUNCTION double hx_quotient(const hx_int *a, const hx_int *b, int exponent) {
     const hx_int *of[2];
     double top[2] = {0, 0};
     int i, k;
@@ -167,7 +226,7 @@ static inline double hx_quotient(const hx_int *a, const hx_int *b, int exponent)
 }
 
 /* x * y - z * w */
-static inline void hx_minor(hx_int *out, const hx_int *x, const hx_int *y, const hx_int *z, const hx_int *w) {
+HAIRLINE_FUNCTION void hx_minor(hx_int *out, const hx_int *x, const hx_int *y, const hx_int *z, const hx_int *w) {
     hx_int one, other;
     hx_multiply(&one, x, y);
     hx_multiply(&other, z, w);
@@ -175,7 +234,7 @@ static inline void hx_minor(hx_int *out, const hx_int *x, const hx_int *y, const
 }
 
 /* x . (y x z) */
-static inline void hx_triple(hx_int *out, const hx_int x[3], const hx_int y[3], const hx_int z[3]) {
+HAIRLINE_FUNCTION void hx_triple(hx_int *out, const hx_int x[3], const hx_int y[3], const hx_int z[3]) {
     hx_int minor, term;
     int i;
     out->sign = out->n = 0;
@@ -189,7 +248,7 @@ static inline void hx_triple(hx_int *out, const hx_int x[3], const hx_int y[3], 
 
 /* The sign of an edge's number; of a ray that meets the edge the one that it has next to it, where exactly one triangle
  * is to be hit: a move of the origin along axis i changes it by component i of (to - from) x d. */
-static inline int hx_side(const hx_int *number, const hx_int from[3], const hx_int to[3], const hx_int d[3], int largest) {
+HAIRLINE_FUNCTION int hx_side(const hx_int *number, const hx_int from[3], const hx_int to[3], const hx_int d[3], int largest) {
     int k;
     if (number->sign != 0 || HAIRLINE_EDGES != HAIRLINE_ONCE) return number->sign;
     for (k = 1; k < 3; k++) {
@@ -203,23 +262,37 @@ static inline int hx_side(const hx_int *number, const hx_int from[3], const hx_i
     return 0;
 }
 
+/* The number of bits of |a|. */
+HAIRLINE_FUNCTION int hx_bits(const hx_int *a) {
+    int bits = 32 * (a->n - 1);
+    uint32_t top;
+    for (top = a->w[a->n - 1]; top != 0; top >>= 1) bits++;
+    return bits;
+}
+
 /* The sign of N - t * D, where N / D is in units of 2^exponent. */
-static inline int hx_past(const hx_int *n, const hx_int *d, double t, int exponent) {
+HAIRLINE_FUNCTION int hx_past(const hx_int *n, const hx_int *d, double t, int exponent) {
     hx_int left = *n, factor, right;
-    int shift = t == 0 ? 0 : hx_lowest(t) - exponent;
-    hx_read(&factor, t, t == 0 ? 0 : hx_lowest(t));
+    int shift, longer;
+    if (t == 0 || n->sign == 0) return n->sign != 0 ? n->sign : ((t < 0) - (t > 0)) * d->sign;
+    hx_read(&factor, t, hx_lowest(t));
     hx_multiply(&right, &factor, d);
+    if (left.sign != right.sign) return left.sign;
+    /* The number with more bits is larger. Else the shift adds no more bits than the other number has. */
+    shift = hx_lowest(t) - exponent;
+    longer = hx_bits(&left) - hx_bits(&right) - shift;
+    if (longer != 0) return longer > 0 ? left.sign : -left.sign;
     hx_shift(shift < 0 ? &left : &right, shift < 0 ? -shift : shift);
     hx_add(&left, &left, &right, -1);
     return left.sign;
 }
 
-static inline double hx_larger(double a, double b) { return a > b ? a : b; }
+HAIRLINE_FUNCTION double hx_larger(double a, double b) { return a > b ? a : b; }
 
-static inline double hx_within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
+HAIRLINE_FUNCTION double hx_within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
 /* The answer by integers. */
-static inline void hx_exact(double points[4][3], const double d[3], double t_min, double t_max, hairline_answer *answer) {
+HAIRLINE_FUNCTION void hx_exact(double points[4][3], const double d[3], double t_min, double t_max, hairline_answer *answer) {
     hx_int p[4][3], direction[3], edges[3], det, n;
     int i, k, of_points = 4096, of_direction = 4096, largest = 0, exponent;
     answer->hit = 0, answer->asked = 1;
@@ -261,7 +334,7 @@ static inline void hx_exact(double points[4][3], const double d[3], double t_min
 /* ---- plain arithmetic, with a margin ---- */
 
 /* x . (y x z), and the sum of the sizes of its terms */
-static inline double hx_plain(const double x[3], const double y[3], const double z[3], double *size) {
+HAIRLINE_FUNCTION double hx_plain(const double x[3], const double y[3], const double z[3], double *size) {
     double sum = 0;
     int i;
     *size = 0;
@@ -274,10 +347,10 @@ static inline double hx_plain(const double x[3], const double y[3], const double
 }
 
 /* The sign of x, 0 where a margin leaves it open. */
-static inline int hx_sign(double x, double margin) { return x > margin ? 1 : x < -margin ? -1 : 0; }
+HAIRLINE_FUNCTION int hx_sign(double x, double margin) { return x > margin ? 1 : x < -margin ? -1 : 0; }
 
 /* The sign of n - t * det: below 0 before the end at t, above it beyond; 0 where it is open. */
-static inline int hx_plain_past(double n, double det, double t, double size_n, double size_det) {
+HAIRLINE_FUNCTION int hx_plain_past(double n, double det, double t, double size_n, double size_det) {
     double end = hx_within(t, -0x1p128, 0x1p128);
     int past = hx_sign(n - end * det, 0x1p-48 * (size_n + fabs(end) * size_det) + 0x1p-620);
     /* An end farther off is only known to be farther off. */
@@ -287,12 +360,13 @@ static inline int hx_plain_past(double n, double det, double t, double size_n, d
 
 /* The values of a hit, as Moeller and Trumbore have them: differences from the corner a. 0 if u, v, or the point in longest
  * edges (or t itself), may be off by more than `loss`. */
-static inline int hx_values(double points[4][3], const double d[3], double loss, hairline_answer *answer) {
+HAIRLINE_FUNCTION int hx_values(double points[4][3], const double d[3], double loss, hairline_answer *answer) {
     double e1[3], e2[3], s[3], det, of_det, of_t, of_u, of_v, edge = 0, step = 0;
     int i;
     for (i = 0; i < 3; i++) {
-        e1[i] = points[2][i] - points[1][i], e2[i] = points[3][i] - points[1][i];
-        s[i] = points[0][i] - points[1][i];
+        e1[i] = hairline_difference_f64(points[2][i], points[1][i]);
+        e2[i] = hairline_difference_f64(points[3][i], points[1][i]);
+        s[i] = hairline_difference_f64(points[0][i], points[1][i]);
         edge = hx_larger(edge, hx_larger(fabs(e1[i]), fabs(e2[i]))), step = hx_larger(step, fabs(d[i]));
     }
     det = hx_plain(d, e2, e1, &of_det);
@@ -307,14 +381,14 @@ static inline int hx_values(double points[4][3], const double d[3], double loss,
 }
 
 /* 1 for a hit, 0 for a miss, 2 to ask. */
-static inline int hx_filter(double points[4][3], const double d[3], double t_min, double t_max, double loss,
+HAIRLINE_FUNCTION int hx_filter(double points[4][3], const double d[3], double t_min, double t_max, double loss,
                             hairline_answer *answer) {
     double p[3][3], edge[3], size[3], det, size_det, n, size_n, most = 0;
     int sign[3], i, k, before, beyond;
     for (i = 0; i < 3; i++) {
         if (fabs(d[i]) > most) most = fabs(d[i]);
         for (k = 0; k < 3; k++) {
-            p[k][i] = points[1 + k][i] - points[0][i];
+            p[k][i] = hairline_difference_f64(points[1 + k][i], points[0][i]);
             if (fabs(p[k][i]) > most) most = fabs(p[k][i]);
         }
     }
@@ -335,7 +409,7 @@ static inline int hx_filter(double points[4][3], const double d[3], double t_min
     return hx_values(points, d, loss, answer) ? 1 : 2;
 }
 
-static inline int hx_answer(double points[4][3], const double d[3], double t_min, double t_max, double largest,
+HAIRLINE_FUNCTION int hx_answer(double points[4][3], const double d[3], double t_min, double t_max, double largest,
                             double loss, hairline_answer *answer) {
     hairline_answer found;
     int i, k;
@@ -354,18 +428,20 @@ static inline int hx_answer(double points[4][3], const double d[3], double t_min
     return 1;
 }
 
+#ifndef HAIRLINE_ONLY_F32
 /* Does the ray o + t * d, t_min <= t <= t_max, hit the triangle? Vectors are arrays of three. Returns 1 for a hit, 0 for a miss.
  * A miss leaves *answer as it was: with its t as t_max, one answer can hold the nearest hit. */
-static inline int hairline_exact_f64(const double o[3], const double d[3], const double a[3], const double b[3], const double c[3],
+HAIRLINE_FUNCTION int hairline_exact_f64(const double o[3], const double d[3], const double a[3], const double b[3], const double c[3],
                               double t_min, double t_max, hairline_answer *answer) {
     double points[4][3];
     int i;
     for (i = 0; i < 3; i++) points[0][i] = o[i], points[1][i] = a[i], points[2][i] = b[i], points[3][i] = c[i];
     return hx_answer(points, d, t_min, t_max, DBL_MAX, 0x1p-32, answer);
 }
+#endif
 
 /* The same in float, where plain arithmetic in double has margins that hardly ever matter. */
-static inline int hairline_exact_f32(const float o[3], const float d[3], const float a[3], const float b[3], const float c[3],
+HAIRLINE_FUNCTION int hairline_exact_f32(const float o[3], const float d[3], const float a[3], const float b[3], const float c[3],
                               float t_min, float t_max, hairline_answer *answer) {
     double points[4][3], direction[3];
     int i;

@@ -14,6 +14,7 @@
 //! as they stand here. K is that of the worst order of a sum, so sums of products may be fused and reordered;
 //! SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. What
 //! overflows on the way to a decision is no finite number, and asks.
+//! An input may be a product of the caller's: Rust fuses no product into a sum.
 //!     det: K = 6, factor 3.632e-7
 //!     weight_of_b: K = 6, factor 3.632e-7
 //!     n16: K = 9, factor 5.420e-7

@@ -37,4 +37,6 @@ const hairline_kernel *hairline_describe(void) { return &KERNEL; }
     }
 
 TEST(float, f32)
+#ifndef HAIRLINE_ONLY_F32
 TEST(double, f64)
+#endif

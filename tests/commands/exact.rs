@@ -92,6 +92,41 @@ fn exactly_one_triangle_is_hit_at_shared_edges_and_vertices() {
     assert!(1000 < crossings, "{crossings}");
 }
 
+/// The largest part of the stack that a function of the header takes, in bytes.
+fn stack(flags: &[&str]) -> Option<u64> {
+    let folder = scratch(&format!("exact-stack{}", flags.len()));
+    let source = PathBuf::from(HERE).join("examples/c/exact.c");
+    let include = format!("-I{HERE}/include");
+    let usage = ["-O2", "-fstack-usage", "-c", "-o", "exact.o", &include];
+    let mut compiler = Command::new("gcc");
+    let built = compiler.args(usage).args(flags).arg(&source).current_dir(&folder).output();
+    let Ok(built) = built else {
+        eprintln!("skipped: no gcc");
+        return None;
+    };
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    let lines = std::fs::read_to_string(folder.join("exact.su")).unwrap();
+    let sizes = lines.lines().filter_map(|line| line.split('\t').nth(1)?.parse().ok());
+    sizes.max()
+}
+
+#[test]
+fn the_form_for_floats_alone_is_right_and_takes_little_stack() {
+    for (name, edges) in [("exact-floats", "CLOSED"), ("exact-floats-once", "ONCE")] {
+        let flags = ["-std=c99", "-pedantic", "-fsanitize=bounds", "-DHAIRLINE_ONLY_F32"];
+        let Some(library) = exact(name, edges, &flags) else { return };
+        let all = ["-n", "3000", "--scalar", "f32", "--kernel-lib", &library];
+        let (record, _) = record(&all);
+        assert_eq!(wrong(&record), [""; 0], "{name}");
+        let results = record["result"]["results"].as_array().unwrap();
+        let across = results.iter().map(|part| &part["across"]).filter(|it| !it.is_null());
+        let cracks = across.map(|across| across["cracks"]["count"].as_u64().unwrap());
+        assert_eq!(cracks.sum::<u64>(), 0, "{name}");
+    }
+    let [Some(both), Some(floats)] = [stack(&[]), stack(&["-DHAIRLINE_ONLY_F32"])] else { return };
+    assert!(floats < 4096 && 4 * floats < both, "{floats} of {both}");
+}
+
 /// The number for t underflows in double: integers have it.
 #[test]
 fn a_t_below_the_range_of_its_products_is_right() {

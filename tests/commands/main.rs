@@ -32,6 +32,8 @@ mod prove_domain;
 #[cfg(unix)]
 mod repair;
 mod repair_languages;
+#[cfg(unix)]
+mod repair_products;
 mod repair_smaller;
 mod rows;
 mod scene;

@@ -32,6 +32,11 @@ pub fn has_compiler() -> bool {
 
 /// Writes a kernel in C; its file.
 pub fn emitted(folder: &Path, kernel: &str, scalar: &str) -> PathBuf {
+    emitted_in("c", folder, kernel, scalar)
+}
+
+/// The same in another language that C compilers read.
+pub fn emitted_in(language: &str, folder: &Path, kernel: &str, scalar: &str) -> PathBuf {
     let file = folder.join(format!("{}_{scalar}.h", kernel.replace('-', "_")));
     let all = [
         "repair",
@@ -40,7 +45,7 @@ pub fn emitted(folder: &Path, kernel: &str, scalar: &str) -> PathBuf {
         "--scalar",
         scalar,
         "--emit",
-        "c",
+        language,
         "-o",
         file.to_str().unwrap(),
     ];
@@ -50,7 +55,12 @@ pub fn emitted(folder: &Path, kernel: &str, scalar: &str) -> PathBuf {
 
 /// Compiles a program; the compiler's words are the test's if it refuses.
 fn compile(source: &Path, output: &Path, flags: &[&str]) {
-    let built = Command::new("cc")
+    compile_by("cc", source, output, flags);
+}
+
+/// The same by another compiler.
+pub fn compile_by(compiler: &str, source: &Path, output: &Path, flags: &[&str]) {
+    let built = Command::new(compiler)
         .arg("-o")
         .arg(output)
         .args(flags)

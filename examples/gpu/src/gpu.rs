@@ -85,6 +85,8 @@ impl Gpu {
         let buffers = self.buffers.as_ref().expect("made above");
         let mut head = batch.count.to_le_bytes().to_vec();
         head.extend(batch.parallel.to_le_bytes());
+        // A zero that the compiler of a guarded kernel does not know.
+        head.extend(0_u32.to_le_bytes());
         self.queue.write_buffer(&buffers.batch, 0, &head);
         self.queue.write_buffer(&buffers.cases, 0, &batch.cases);
 
@@ -134,7 +136,7 @@ impl Gpu {
         let (input, output) = (BufferUsages::COPY_DST, BufferUsages::COPY_SRC);
         Buffers {
             room: count,
-            batch: buffer("batch", 8, BufferUsages::STORAGE | input),
+            batch: buffer("batch", 12, BufferUsages::STORAGE | input),
             cases: buffer("cases", cases, BufferUsages::STORAGE | input),
             verdicts: buffer("verdicts", verdicts, BufferUsages::STORAGE | output),
             read: buffer("read", verdicts, BufferUsages::MAP_READ | input),

@@ -40,7 +40,7 @@ fn compiled(text: &str) -> Result<Vec<u32>, String> {
 }
 
 const WGSL: &str = "
-struct Batch { count: u32, parallel: f32 }
+struct Batch { count: u32, parallel: f32, zero: u32 }
 @group(0) @binding(0) var<storage, read> batch: Batch;
 @group(0) @binding(1) var<storage, read> cases: array<f32>;
 @group(0) @binding(2) var<storage, read_write> verdicts: array<u32>;
@@ -50,7 +50,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     if (id.x >= batch.count) { return; }
     let at = 17u * id.x;
     var values: vec3f;
-    let answer = KERNEL(vector(at), vector(at + 3u), vector(at + 6u), vector(at + 9u), vector(at + 12u)ENDS, &values);
+    let answer = KERNEL(vector(at), vector(at + 3u), vector(at + 6u), vector(at + 9u), vector(at + 12u)ENDS, batch.zero, &values);
     for (var i = 0u; i < 5u; i++) { verdicts[5u * id.x + i] = 0u; }
     if (answer == HAIRLINE_HIT || answer == COUNTED) { verdicts[5u * id.x] = 1u; }
 }

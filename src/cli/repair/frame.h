@@ -17,16 +17,17 @@
 enum {{ HAIRLINE_MISS = 0, HAIRLINE_HIT = 1, HAIRLINE_ASK = 2 }};
 #endif
 
+{sums}
 #ifndef HAIRLINE_SURE_{upper}
 #define HAIRLINE_SURE_{upper}
 /* The sign of x, -1 or 1, if rounding cannot have changed it; otherwise 0. */
-static inline int hairline_sure_sign_{scalar}({real} x, {real} size, {real} factor) {{
+HAIRLINE_FUNCTION int hairline_sure_sign_{scalar}({real} x, {real} size, {real} factor) {{
     const {real} margin = factor * size + {tiny};
     return x > margin && x <= {most} ? 1 : x < -margin && x >= -{most} ? -1 : 0;
 }}
 
 /* The sign of an input, or of a difference of two. */
-static inline int hairline_exact_sign_{scalar}({real} x) {{
+HAIRLINE_FUNCTION int hairline_exact_sign_{scalar}({real} x) {{
     return x > 0 && x <= {most} ? 1 : x < 0 && x >= -{most} ? -1 : 0;
 }}
 #endif
@@ -36,7 +37,7 @@ typedef struct {{
 }} {name}_hit;
 
 /* HAIRLINE_HIT, with *answer; HAIRLINE_MISS or HAIRLINE_ASK. Vectors are arrays of three: the ray o + t * d, the triangle abc. */
-static inline int {name}({inputs}) {{
+HAIRLINE_FUNCTION int {name}({inputs}) {{
     const {real} SLACK = {slack};
 {body}
 }}
@@ -44,7 +45,7 @@ static inline int {name}({inputs}) {{
 #ifdef HAIRLINE_ASK_EXACT
 /* The same, 1 for a hit and 0 for a miss, with the exact test of hairline where it asks. */
 #include "hairline_exact.h"
-static inline int {name}_exact({inputs}) {{
+HAIRLINE_FUNCTION int {name}_exact({inputs}) {{
     hairline_answer exact;
     const int found = {name}(o, d, a, b, c, t_min, t_max, answer);
     if (found != HAIRLINE_ASK) return found;

@@ -20,7 +20,9 @@ pub fn source(guarded: &Guarded, language: Language, shares: Option<&str>) -> St
     let marked =
         |mark: &str| comment.lines().map(|line| format!("{mark} {line}\n")).collect::<String>();
     let text = match language {
-        Language::C => format!("/* {}\n */\n{}", comment.replace('\n', "\n * "), frame.c(&body)),
+        Language::C | Language::Cuda => {
+            format!("/* {}\n */\n{}", comment.replace('\n', "\n * "), frame.c(&body))
+        }
         Language::Rust => marked("//!") + &frame.rust(&body),
         _ => marked("//") + &frame.shader(&body),
     };
@@ -65,6 +67,7 @@ The language does not promise rounding to nearest; graphics devices that are kno
                 self.largest()
             ),
         };
+        let fusing = self.dialect.about_fusing();
         let names = names(self.guarded);
         let margin = |(place, margin): (&Place, &Margin)| {
             let is_input = matches!(self.guarded.operations[*place as usize], Operation::Input(_));
@@ -90,6 +93,7 @@ covers the rounding of the sizes too. It supposes rounding to nearest, and diffe
 as they stand here. K is that of the worst order of a sum, so sums of products may be fused and reordered;
 SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. What
 {range}
+{fusing}
 {margins}Proof: {command} --certificate FILE; hairline prove --check FILE",
             info.name,
             info.source,
@@ -129,7 +133,7 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
     fn head(&self) -> Option<String> {
         let far = &self.far;
         let either = |condition: String, far: String, end: &str| match self.dialect.language {
-            Language::C => format!("{condition} ? {far} : {end}"),
+            Language::C | Language::Cuda => format!("{condition} ? {far} : {end}"),
             Language::Rust => format!("if {condition} {{ {far} }} else {{ {end} }}"),
             _ => format!("{}({end}, {far})", if end == "t_min" { "max" } else { "min" }),
         };
@@ -139,12 +143,12 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
         ];
         let is_bad = format!("!(t_min <= t_max && t_min <= {far} && t_max >= -{far})");
         let ask = match self.dialect.language {
-            Language::C => format!("if ({is_bad}) return HAIRLINE_ASK;"),
+            Language::C | Language::Cuda => format!("if ({is_bad}) return HAIRLINE_ASK;"),
             Language::Rust => format!("if {is_bad} {{ return Answer::Ask; }}"),
             _ => format!("if ({is_bad}) {{ return HAIRLINE_ASK; }}"),
         };
         let define = |(name, value): (&str, String)| match self.dialect.language {
-            Language::C => format!("    const {} {name} = {value};\n", self.real),
+            Language::C | Language::Cuda => format!("    const {} {name} = {value};\n", self.real),
             Language::Rust | Language::Wgsl => format!("    let {name} = {value};\n"),
             _ => format!("    {} {name} = {value};\n", self.real),
         };
@@ -183,6 +187,14 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
             "const {real} o[3], const {real} d[3], const {real} a[3], const {real} b[3], const {real} c[3],\n    \
              {real} t_min, {real} t_max, {name}_hit *answer"
         );
+        let letter = if self.dialect.is_f32 { "f" } else { "d" };
+        let sums = format!(
+            include_str!("sums.h"),
+            letter = letter,
+            real = real,
+            scalar = scalar,
+            upper = upper
+        );
         format!(
             include_str!("frame.h"),
             body = body,
@@ -196,6 +208,7 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
             real = real,
             scalar = scalar,
             slack = slack,
+            sums = sums,
             tiny = tiny,
             unused = unused,
             upper = upper,
@@ -237,8 +250,8 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
         let constants = [("MISS", 0), ("HIT", 1), ("ASK", 2)]
             .map(|(name, value)| format!("{} = {value};\n", constant.replace('$', name)));
         let constants = constants.concat();
-        let typed = |kind: &str, names: &[&str]| -> Vec<String> {
-            let one = |name: &&str| match is_wgsl {
+        let typed = |kind: &str, names: &[String]| -> Vec<String> {
+            let one = |name: &String| match is_wgsl {
                 true => format!("{name}: {kind}"),
                 false => format!("{kind} {name}"),
             };
@@ -256,20 +269,24 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
         let margin = self.dialect.definitions(&margin);
         let sure = function(
             &format!("hairline_sure_sign_{scalar}"),
-            typed(real, &["x", "size", "factor"]),
+            typed(real, &["x", "size", "factor"].map(str::to_owned)),
         );
-        let exact = function(&format!("hairline_exact_sign_{scalar}"), typed(real, &["x"]));
+        let exact =
+            function(&format!("hairline_exact_sign_{scalar}"), typed(real, &["x".to_owned()]));
         let (of_margin, of_zero) = (sign("margin", "-margin"), sign(&zero, &zero));
         let vectors = ["o", "d", "a", "b", "c"];
-        let mut inputs = typed(vector, &vectors);
         let head = self.head();
-        if head.is_some() {
-            inputs.extend(typed(real, &["t_min", "t_max"]));
+        let ends: &[&str] = if head.is_some() { &["t_min", "t_max"] } else { &[] };
+        let passed = |names: &[&str]| -> Vec<String> {
+            let suffix = if is_wgsl { "_in" } else { "" };
+            names.iter().map(|name| format!("{name}{suffix}")).collect()
+        };
+        let mut inputs = typed(vector, &passed(&vectors));
+        inputs.extend(typed(real, &passed(ends)));
+        match is_wgsl {
+            true => inputs.extend(["zero: u32", "answer: ptr<function, vec3f>"].map(str::to_owned)),
+            false => inputs.push(format!("out {vector} answer")),
         }
-        inputs.push(match is_wgsl {
-            true => "answer: ptr<function, vec3f>".to_owned(),
-            false => format!("out {vector} answer"),
-        });
         let signature = function(name, inputs);
         let beyond = vectors.map(|v| match self.dialect.language {
             Language::Glsl => format!("any(greaterThan(abs({v}), {vector}({most})))"),
@@ -279,7 +296,7 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
         let beyond = beyond.join(" ||\n        ");
         let head = head.unwrap_or_default();
         let (slack, start) = match self.dialect.language {
-            Language::Wgsl => (format!("let SLACK = {slack};"), String::new()),
+            Language::Wgsl => (format!("let SLACK = {slack};"), hidden(&vectors, ends)),
             Language::Hlsl => (
                 format!("const {real} SLACK = {slack};"),
                 "    answer = float3(0, 0, 0);\n".to_owned(),
@@ -311,4 +328,15 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
 "
         )
     }
+}
+
+/// The inputs of a function in WGSL, by their names, in a form that no compiler knows.
+fn hidden(vectors: &[&str], numbers: &[&str]) -> String {
+    let vectors = vectors
+        .iter()
+        .map(|v| format!("    let {v} = bitcast<vec3f>(bitcast<vec3u>({v}_in) ^ vec3u(zero));\n"));
+    let numbers = numbers
+        .iter()
+        .map(|x| format!("    let {x} = bitcast<f32>(bitcast<u32>({x}_in) ^ zero);\n"));
+    vectors.chain(numbers).collect()
 }

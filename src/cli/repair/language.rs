@@ -3,8 +3,10 @@
 /// A language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Language {
-    /// C99 and C++17.
+    /// C99, C++17, and CUDA.
     C,
+    /// The same in a file that CUDA includes.
+    Cuda,
     /// Rust.
     Rust,
     /// The OpenGL shading language, 4.00 and later.
@@ -15,7 +17,7 @@ pub enum Language {
     Hlsl,
 }
 
-use Language::{C, Glsl, Hlsl, Rust, Wgsl};
+use Language::{C, Cuda, Glsl, Hlsl, Rust, Wgsl};
 
 impl Language {
     /// True if it runs on GPUs: infinities are not sure to exist there.
@@ -27,6 +29,7 @@ impl Language {
     pub fn extension(self) -> &'static str {
         match self {
             C => "h",
+            Cuda => "cuh",
             Rust => "rs",
             Glsl => "glsl",
             Wgsl => "wgsl",
@@ -57,7 +60,7 @@ impl Dialect {
     pub fn number(self, x: f64) -> String {
         let text = if self.is_f32 { format!("{:?}", x as f32) } else { format!("{x:?}") };
         match (self.language, self.is_f32) {
-            (C | Hlsl, true) => format!("{text}f"),
+            (C | Cuda | Hlsl, true) => format!("{text}f"),
             (Wgsl, _) => format!("{text}f"),
             (Glsl, false) => format!("{text}lf"),
             _ => text,
@@ -66,23 +69,51 @@ impl Dialect {
 
     pub fn coordinate(self, vector: &str, axis: usize) -> String {
         match self.language {
-            C | Rust => format!("{vector}[{axis}]"),
+            C | Cuda | Rust => format!("{vector}[{axis}]"),
             _ => format!("{vector}.{}", ["x", "y", "z"][axis]),
         }
     }
 
     pub fn abs(self, x: &str) -> String {
         match (self.language, self.is_f32) {
-            (C, true) => format!("fabsf({x})"),
-            (C, false) => format!("fabs({x})"),
+            (C | Cuda, true) => format!("fabsf({x})"),
+            (C | Cuda, false) => format!("fabs({x})"),
             (Rust, _) => format!("({x}).abs()"),
             _ => format!("abs({x})"),
         }
     }
 
+    /// A sum or a difference with an input among its terms, and how tightly it binds. C has functions for it, which a product
+    /// that the caller passes is not fused into.
+    pub fn sum_of_input(self, sign: &str, [x, y]: [&str; 2]) -> (String, u8) {
+        let name = if sign == "+" { "sum" } else { "difference" };
+        match self.language {
+            C | Cuda => (format!("{}({x}, {y})", self.function(name)), 2),
+            _ => (format!("{x} {sign} {y}"), 0),
+        }
+    }
+
+    /// How a product that the caller passes is kept from being fused into a difference here.
+    pub fn about_fusing(self) -> &'static str {
+        match self.language {
+            C | Cuda => {
+                "An input may be a product of the caller's: sums of inputs are functions, into which no compiler fuses it."
+            }
+            Glsl | Hlsl => {
+                "An input may be a product of the caller's: `precise` keeps a compiler from fusing it into a difference here."
+            }
+            Rust => "An input may be a product of the caller's: Rust fuses no product into a sum.",
+            Wgsl => {
+                "An input may be a product of the caller's: the bits of each are combined with `zero`, so that no compiler
+fuses it into a difference here. Read `zero` from a uniform or a storage buffer that has a 0 in it: a literal, a constant
+and an override are known to the compiler."
+            }
+        }
+    }
+
     pub fn sqrt(self, x: &str) -> String {
         match (self.language, self.is_f32) {
-            (C, true) => format!("sqrtf({x})"),
+            (C | Cuda, true) => format!("sqrtf({x})"),
             (Rust, _) => format!("({x}).sqrt()"),
             _ => format!("sqrt({x})"),
         }
@@ -93,7 +124,7 @@ impl Dialect {
         let scalar = self.scalar();
         let all: Vec<String> = all.iter().map(|(name, text)| format!("{name} = {text}")).collect();
         match self.language {
-            C => format!("const {scalar} {};", all.join(", ")),
+            C | Cuda => format!("const {scalar} {};", all.join(", ")),
             Glsl | Hlsl => format!("precise {scalar} {};", all.join(", ")),
             Rust | Wgsl => format!("let {};", all.join("; let ")),
         }
@@ -101,7 +132,7 @@ impl Dialect {
 
     pub fn integer(self, name: &str, text: &str) -> String {
         match self.language {
-            C => format!("const int {name} = {text};"),
+            C | Cuda => format!("const int {name} = {text};"),
             Glsl | Hlsl => format!("int {name} = {text};"),
             Rust | Wgsl => format!("let {name} = {text};"),
         }
@@ -110,7 +141,7 @@ impl Dialect {
     /// The variable that says whether a gate could not decide.
     pub fn open(self) -> &'static str {
         match self.language {
-            C => "int open = 0;",
+            C | Cuda => "int open = 0;",
             Glsl | Hlsl => "bool open = false;",
             Rust => "let mut open = false;",
             Wgsl => "var open = false;",
@@ -120,9 +151,9 @@ impl Dialect {
     /// It is open unless a condition holds.
     pub fn assign_open(self, condition: &str) -> String {
         match (self.language, condition) {
-            (C, "") => "open = 1;".to_owned(),
+            (C | Cuda, "") => "open = 1;".to_owned(),
             (_, "") => "open = true;".to_owned(),
-            (C | Rust, _) => format!("open |= !({condition});"),
+            (C | Cuda | Rust, _) => format!("open |= !({condition});"),
             _ => format!("open = open || !({condition});"),
         }
     }
@@ -137,7 +168,7 @@ impl Dialect {
     /// Returns an answer if a condition holds.
     pub fn early(self, condition: &str, answer: &str) -> String {
         match self.language {
-            C | Glsl | Hlsl => format!("if ({condition}) {}", self.answer(answer)),
+            C | Cuda | Glsl | Hlsl => format!("if ({condition}) {}", self.answer(answer)),
             Rust | Wgsl => format!("{} {} }}", self.if_(condition), self.answer(answer)),
         }
     }
@@ -165,7 +196,7 @@ impl Dialect {
             return vec![format!("Answer::Hit {{ {} }}", fields.join(", "))];
         }
         let set = |((name, axis), text): ((&str, &str), &String)| match self.language {
-            C => format!("answer->{name} = {text};"),
+            C | Cuda => format!("answer->{name} = {text};"),
             Wgsl => format!("(*answer).{axis} = {text};"),
             _ => format!("answer.{axis} = {text};"),
         };
@@ -177,7 +208,7 @@ impl Dialect {
     /// The variables that name the axes.
     pub fn axes(self) -> &'static str {
         match self.language {
-            C | Glsl | Hlsl => "int x, y, z;",
+            C | Cuda | Glsl | Hlsl => "int x, y, z;",
             Rust => "let (x, y, z): (usize, usize, usize);",
             Wgsl => "var x: i32; var y: i32; var z: i32;",
         }
@@ -194,7 +225,7 @@ impl Dialect {
     /// A line's comment after `//`.
     pub fn comment(self, line: &str) -> String {
         match self.language {
-            C => format!("{} */", line.replacen("//", "/*", 1)),
+            C | Cuda => format!("{} */", line.replacen("//", "/*", 1)),
             _ => line.to_owned(),
         }
     }

@@ -102,18 +102,42 @@ impl<'a> Nodes<'a> {
         }
     }
 
+    /// True if a number is an input but for its sign.
+    fn is_input(&self, place: Place) -> bool {
+        match self.guarded.operations[place as usize] {
+            Operation::Input(_) => true,
+            Operation::Neg(a) | Operation::Abs(a) => self.is_input(a),
+            _ => false,
+        }
+    }
+
+    /// A node's name or its expression, and how tightly that binds.
+    fn whole(&self, node: Node) -> (String, u8) {
+        if self.is_inline(node) { self.expression(node) } else { (self.name(node), 2) }
+    }
+
+    /// The same as an operand, in brackets if it binds less tightly than the operation.
+    fn operand(&self, node: Node, least: u8) -> String {
+        let (text, binds) = self.whole(node);
+        if binds < least { format!("({text})") } else { text }
+    }
+
+    /// A sum or a difference.
+    fn sum(&self, whole: Node, sign: &str, terms: [Place; 2]) -> (String, u8) {
+        let (Node::Value(place) | Node::Size(place, _)) = whole;
+        let operation = self.guarded.operations[place as usize];
+        let [x, y] = terms.map(|term| self.part(whole, operation, term));
+        let [x, y] = [self.operand(x, 0), self.operand(y, 1)];
+        if terms.iter().any(|term| self.is_input(*term)) {
+            return self.dialect.sum_of_input(sign, [&x, &y]);
+        }
+        (format!("{x} {sign} {y}"), 0)
+    }
+
     /// The expression of a node, and how tightly it binds: 0 a sum, 1 a product, 2 a name.
     fn expression(&self, node: Node) -> (String, u8) {
-        let whole = |node: Node| match self.is_inline(node) {
-            true => self.expression(node),
-            false => (self.name(node), 2),
-        };
-        let of = |node: Node, least: u8| {
-            let (text, binds) = whole(node);
-            if binds < least { format!("({text})") } else { text }
-        };
-        let sum = |a, sign: &str, b| (format!("{} {sign} {}", of(a, 0), of(b, 1)), 0);
-        let product = |a, sign: &str, b| (format!("{} {sign} {}", of(a, 1), of(b, 2)), 1);
+        let product =
+            |a, sign: &str, b| (format!("{} {sign} {}", self.operand(a, 1), self.operand(b, 2)), 1);
         let (Node::Value(place) | Node::Size(place, _)) = node;
         let operation = self.guarded.operations[place as usize];
         let is_leaf = self.guarded.is_leaf(place);
@@ -121,25 +145,29 @@ impl<'a> Nodes<'a> {
             && (slack || is_leaf)
         {
             let size = match operation {
-                _ if !is_leaf => of(Node::Size(place, false), 0),
+                _ if !is_leaf => self.operand(Node::Size(place, false), 0),
                 Operation::Number(x) => self.dialect.number(f64::from(x).abs()),
-                _ => self.dialect.abs(&of(Node::Value(place), 0)),
+                _ => self.dialect.abs(&self.operand(Node::Value(place), 0)),
             };
-            return if slack { (format!("{size} + SLACK"), 0) } else { (size, 2) };
+            return match slack {
+                false => (size, 2),
+                true if self.is_input(place) => self.dialect.sum_of_input("+", [&size, "SLACK"]),
+                true => (format!("{size} + SLACK"), 0),
+            };
         }
         let is_size = matches!(node, Node::Size(..));
         let part = |place: Place| self.part(node, operation, place);
         match operation {
             Operation::Input(i) => (self.input(i), 2),
             Operation::Number(x) => (self.dialect.number(x.into()), 2),
-            Operation::Add(a, b) => sum(part(a), "+", part(b)),
-            Operation::Sub(a, b) => sum(part(a), if is_size { "+" } else { "-" }, part(b)),
+            Operation::Add(a, b) => self.sum(node, "+", [a, b]),
+            Operation::Sub(a, b) => self.sum(node, if is_size { "+" } else { "-" }, [a, b]),
             Operation::Mul(a, b) => product(part(a), "*", part(b)),
             Operation::Div(a, b) => product(part(a), "/", part(b)),
-            Operation::Neg(a) | Operation::Abs(a) if is_size => whole(part(a)),
-            Operation::Neg(a) => (format!("-{}", of(part(a), 2)), 1),
-            Operation::Abs(a) => (self.dialect.abs(&of(part(a), 0)), 2),
-            Operation::Sqrt(a) => (self.dialect.sqrt(&of(part(a), 0)), 2),
+            Operation::Neg(a) | Operation::Abs(a) if is_size => self.whole(part(a)),
+            Operation::Neg(a) => (format!("-{}", self.operand(part(a), 2)), 1),
+            Operation::Abs(a) => (self.dialect.abs(&self.operand(part(a), 0)), 2),
+            Operation::Sqrt(a) => (self.dialect.sqrt(&self.operand(part(a), 0)), 2),
             Operation::Fma(..) | Operation::Minor(..) => {
                 unreachable!("kernels that fuse are refused")
             }
