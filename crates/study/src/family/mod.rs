@@ -20,6 +20,7 @@ mod origin;
 mod polygon;
 mod question;
 mod range;
+mod ring;
 mod scene;
 mod shape;
 mod sizes;
@@ -29,6 +30,7 @@ pub(crate) use control::combination;
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
+pub(crate) use ring::add_ring;
 pub(crate) use scene::{
     Corners, Pair, Parallel, RayAxes, Ring, TriangleSource, along_axis, any_direction, circle,
     flat_along, in_plane, rounded, unit_vector, wide,
