@@ -17,7 +17,13 @@ struct Extreme<'a> {
 
 /// A promise across triangles that was broken, and the worst verdicts in ordinary sizes; at most so many.
 pub(super) fn blocks(columns: &[Column], lines: &[RowLine], most: usize) -> Vec<Block> {
-    let broken = lines.iter().find_map(|line| Some((line, broken_promise(line)?)));
+    let broken = |extremes: bool| {
+        let is_so = |line: &&RowLine| {
+            line.across.as_ref().is_some_and(|it| it.is_broken_by_extremes() == extremes)
+        };
+        lines.iter().filter(is_so).find_map(|line| Some((line, broken_promise(line)?)))
+    };
+    let broken = broken(false).or_else(|| broken(true));
     let worst = chosen(all(columns, lines), most - usize::from(broken.is_some()));
     let is_all = columns.iter().all(|column| column.is_ordinary());
     let place = if is_all { "" } else { " in ordinary sizes" };
@@ -46,7 +52,11 @@ fn broken_promise(line: &RowLine) -> Option<(String, String)> {
         line.row.results.iter().find_map(|result| Some((*result, first(result)?)))
     };
     let [no_crack, _] = across.rules_out();
-    let (what, [count, of], (result, id)) = if no_crack && 0 < across.cracks[0] {
+    let by_extremes = across.is_broken_by_extremes();
+    let (what, [count, of], (result, id)) = if by_extremes {
+        let what = "next to noise or at extreme exponents no triangle reports";
+        (what, across.extreme_cracks, first(|part| &part.first_cracks)?)
+    } else if no_crack && 0 < across.cracks[0] {
         ("no triangle reports", across.cracks, first(|part| &part.first_cracks)?)
     } else {
         ("two triangles report", across.doubles, first(|part| &part.first_doubles)?)

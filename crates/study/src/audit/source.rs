@@ -270,7 +270,8 @@ impl Source {
                 targets.add_neighbours((*part, index), &ray, cases)
             }
             Stock::SceneMesh(mesh, stratum) => {
-                mesh.add_neighbours(*stratum, (self.seed, index), &ray, cases)
+                let draw = &mut stratum.draw(self.seed, index);
+                mesh.add_neighbours(*stratum, draw, &ray, cases)
             }
             _ => add_ring(group, &ray, cases),
         }

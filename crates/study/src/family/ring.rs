@@ -5,6 +5,7 @@
 //! at twice its distance from the centre encloses it, and the quadrilateral beyond an edge of the rim lies in the plane of
 //! the triangle on this side of it. No numbers are drawn: the ring follows from the corners of the group.
 
+use super::Grouping;
 use crate::arith::Float;
 use crate::case::{Case, Ray, Triangle};
 
@@ -33,6 +34,18 @@ pub(crate) fn add_ring<F: Float>(
         }
     }
     true
+}
+
+/// The ring around the cases of an index that belong together so; none if there should be one, and is not.
+pub fn around<F: Float>(group: &[Case<F>], grouping: Grouping) -> Option<Vec<Case<F>>> {
+    let is_whole = 1 < group.len();
+    let mut ring = Vec::new();
+    match grouping {
+        Grouping::SharedEdge | Grouping::Fan if is_whole => {
+            add_ring(group, &group[0].ray, &mut ring).then_some(ring)
+        }
+        _ => Some(ring),
+    }
 }
 
 fn corners<F: Float>(case: &Case<F>) -> [[F; 3]; 3] {

@@ -101,18 +101,17 @@ impl SceneMesh {
         stratum.make_at(&self.triangles::<F>(&scene), parameters, seed, index)
     }
 
-    /// Adds the triangles that share a point with one of the group of an index, with a ray; false if they are too many
-    /// ([`super::MOST_AROUND`]), or if the stratum has no groups.
+    /// Adds the triangles that share a point with one of a stratum's group, with a ray; false if they are too many
+    /// ([`super::MOST_AROUND`]), or if the stratum has no groups. The numbers are those from which the group is drawn,
+    /// before anything else.
     pub fn add_neighbours<F: Float>(
         &self,
         stratum: Stratum,
-        (seed, index): (u64, u64),
+        draw: &mut Draw,
         ray: &Ray<F::Vector>,
         cases: &mut Vec<Case<F>>,
     ) -> bool {
         let topology = self.surface.topology::<F>().expect("a scalar of the run");
-        // A stratum draws its group before anything else.
-        let draw = &mut Draw::new(stratum.name(), seed, index);
         let group = match stratum {
             Stratum::Edges => &any_edge(topology, draw).faces,
             Stratum::Vertices => any_fan(topology, draw).1,

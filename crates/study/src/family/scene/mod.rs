@@ -16,8 +16,9 @@ mod triangles;
 pub(crate) use draw::{RayAxes, any_direction, circle, in_plane, rounded, unit_vector, wide};
 pub use flat::TRIES;
 pub(super) use flat::grazing_sine;
-pub use pixel::{Pixel, pixel};
+pub use pixel::{Pixel, pixel, pixel_draw};
 pub(super) use shadow::hit_point;
+pub(super) use triangles::HEXAGON;
 pub(crate) use triangles::{Corners, Pair, Parallel, Ring, TriangleSource, along_axis, flat_along};
 
 use super::{Family, Grouping, Kept, Made, Question};
@@ -65,8 +66,12 @@ impl Stratum {
         seed: u64,
         index: u64,
     ) -> Made<F> {
-        let mut draw = Draw::new(self.name(), seed, index);
-        self.make_of(Some(triangles), parameters, &mut draw)
+        self.make_of(Some(triangles), parameters, &mut self.draw(seed, index))
+    }
+
+    /// The numbers from which a case is drawn, those of its triangles first.
+    pub fn draw(self, seed: u64, index: u64) -> Draw {
+        Draw::new(self.name(), seed, index)
     }
 
     /// The same at triangles drawn from the scene's numbers.
