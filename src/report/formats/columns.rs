@@ -95,6 +95,11 @@ impl Column {
     }
 }
 
+/// True if the cases of a source are of sizes that occur, by its name.
+pub(super) fn is_of_ordinary_size(family: &str) -> bool {
+    Column::of(family, true).is_ordinary()
+}
+
 /// The kinds of a record's planes and rays; the one that tables are about comes first.
 pub(super) fn kinds(record: &Record) -> Vec<SceneKind> {
     let mut kinds: Vec<SceneKind> = Vec::new();
@@ -190,8 +195,8 @@ impl AcrossColumn {
     pub(super) fn of(row: &RowView, kind: SceneKind) -> Option<AcrossColumn> {
         let results = || row.results.iter().filter(|result| kind_of(&result.family) == kind);
         let parts = || results().filter_map(|result| result.across.as_ref());
-        let is_ordinary = |result: &&&KernelResult| Column::of(&result.family, true).is_ordinary();
-        let ordinary = results().filter(is_ordinary).filter_map(|result| result.across.as_ref());
+        let ordinary = results().filter(|result| is_of_ordinary_size(&result.family));
+        let ordinary = ordinary.filter_map(|result| result.across.as_ref());
         let [mut cracks, all] = [sum(ordinary, |it| &it.cracks), sum(parts(), |it| &it.cracks)];
         if cracks[1] == 0 {
             cracks = all;

@@ -1,6 +1,6 @@
 //! The worst findings of a record, in words, each with the command that shows it.
 
-use super::columns::Column;
+use super::columns::{Column, is_of_ordinary_size};
 use super::group_digits;
 use super::lines::RowLine;
 use super::record::*;
@@ -47,12 +47,16 @@ pub(super) fn blocks(columns: &[Column], lines: &[RowLine], most: usize) -> Vec<
 /// The promise across triangles that a row broke, and the command that shows the first case.
 fn broken_promise(line: &RowLine) -> Option<(String, String)> {
     let across = line.across.as_ref().filter(|across| across.is_broken())?;
+    let by_extremes = across.is_broken_by_extremes();
+    let results = line.row.results.iter().copied();
+    let (shown, others): (Vec<_>, Vec<_>) =
+        results.partition(|result| is_of_ordinary_size(&result.family) != by_extremes);
     let first = |ids: fn(&AcrossPart) -> &[String]| {
         let first = |result: &KernelResult| Some(ids(result.across.as_ref()?).first()?.clone());
-        line.row.results.iter().find_map(|result| Some((*result, first(result)?)))
+        let mut results = shown.iter().chain(&others);
+        results.find_map(|result| Some((*result, first(result)?)))
     };
     let [no_crack, _] = across.rules_out();
-    let by_extremes = across.is_broken_by_extremes();
     let (what, [count, of], (result, id)) = if by_extremes {
         let what = "next to noise or at extreme exponents no triangle reports";
         (what, across.extreme_cracks, first(|part| &part.first_cracks)?)
