@@ -2,7 +2,7 @@
 //! would. Rounding may carry a ray over the rim of the group, and there the ring has the hit.
 //!
 //! Seen from its centre (the vertex of a fan, the middle of a pair's edge) the rim of a group is star-shaped. So the rim
-//! at twice its distance from the centre encloses it, and the quadrilateral beyond an edge of the rim lies in the plane of
+//! at many times its distance from the centre encloses it, and the quadrilateral beyond an edge of the rim lies in the plane of
 //! the triangle on this side of it. No numbers are drawn: the ring follows from the corners of the group.
 
 use super::Grouping;
@@ -72,7 +72,13 @@ fn rim<F: Float>(triangles: &[[[F; 3]; 3]]) -> Vec<[[F; 3]; 2]> {
     edges.clone().filter(is_open).collect()
 }
 
-/// The point at twice a point's distance from the centre.
+/// How much farther from the centre the ring ends than it begins, in distances of the rim. A triangle that a ray grazes is
+/// narrow as the ray sees it, and so is the ring beyond it. At 1 a watertight kernel's hit went over a ring of a city in one of
+/// 80,000 crossings.
+const WIDTH: f64 = 15.0;
+
+/// The point of the ring's outer edge beyond a point of its inner one.
 fn beyond<F: Float>(point: [F; 3], centre: [F; 3]) -> [F; 3] {
-    std::array::from_fn(|i| point[i] + (point[i] - centre[i]))
+    let width = F::from_f64(WIDTH);
+    std::array::from_fn(|i| point[i] + (point[i] - centre[i]) * width)
 }
