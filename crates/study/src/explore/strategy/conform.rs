@@ -58,7 +58,7 @@ pub fn conforms_together<F: Float>(
     for case in cases {
         conforms(&kernel, contract, case)?;
     }
-    let (truths, answers) = (cases.each_ref().map(oracle::truth), cases.each_ref().map(kernel));
+    let (truths, answers) = (cases.each_ref().map(oracle::truth), cases.each_ref().map(&kernel));
     let hits = answers.iter().flatten().count();
     let owed = group_obligation(cases, &truths, contract, Grouping::SharedEdge);
     let finding = match (owed, contract.across) {
