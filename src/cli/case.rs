@@ -39,7 +39,7 @@ pub struct Group<F: Scalar> {
     pub cases: Vec<Case<F>>,
     /// How they belong together.
     pub grouping: Grouping,
-    /// The triangles of a mesh around those of the group; `None` if they are too many to be asked.
+    /// The triangles around those of the group; `None` if they are too many to be asked, or cannot be made.
     pub neighbours: Option<Vec<Case<F>>>,
     /// Where the triangles are put, if an id says so; then the rays are of the world.
     pub instance: Option<Instance<F>>,
@@ -197,7 +197,8 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
     }
     family_of(id, id.family.strip_suffix("-all").unwrap_or(&id.family))?;
     let (cases, grouping) = family::cases_of(id).map_err(Failure::usage)?;
-    Ok(Group::alone(cases, grouping))
+    let neighbours = family::around(&cases, grouping);
+    Ok(Group { neighbours, ..Group::alone(cases, grouping) })
 }
 
 /// The triangle of a group that an id names, or all.
@@ -244,7 +245,12 @@ fn of_scene_mesh<F: Scalar>(
         return Err(Failure::bad_input(message));
     }
     let made = mesh.make::<F>(stratum, &id.parameters, id.seed, id.index);
-    Ok(Group::alone(chosen_triangle(id, made.cases().to_vec())?, grouping))
+    let (mut around, ray) = (Vec::new(), &made.cases()[0].ray);
+    let draw = &mut stratum.draw(id.seed, id.index);
+    let is_asked = mesh.add_neighbours(stratum, draw, ray, &mut around);
+    let neighbours = is_asked.then_some(around);
+    let cases = chosen_triangle(id, made.cases().to_vec())?;
+    Ok(Group { neighbours, ..Group::alone(cases, grouping) })
 }
 
 /// The family of an id, which must be of the version that this program makes.

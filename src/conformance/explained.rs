@@ -3,7 +3,7 @@
 use crate::audit::Row;
 use crate::case::CaseId;
 use crate::engine::Unobserved;
-use crate::family::cases_of;
+use crate::family::{around, cases_of};
 use crate::map;
 use crate::report::Format;
 use crate::report::explain::{Together, explain};
@@ -26,7 +26,9 @@ pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, Error> {
     let id = named(name)?;
     let explanation = in_named_scalar!(id.scalar, F => {
         let (cases, grouping) = cases_of::<F>(&id)?;
-        let group = Together { cases: &cases, grouping, neighbours: Some(&[]), instance: None };
+        let around = around(&cases, grouping);
+        let neighbours = around.as_deref();
+        let group = Together { cases: &cases, grouping, neighbours, instance: None };
         explain(name, group, rows)
     });
     let mut text = Vec::new();

@@ -12,13 +12,18 @@ use std::path::Path;
 const COLUMNS: [(&str, &[&str]); 8] = [
     ("inside", &["interior", "outside"]),
     ("edges", &["edge-exact", "edge-near", "shared-edge", "polygon"]),
-    ("vertex", &["vertex-exact", "vertex-near", "fan"]),
+    ("vertex", &["vertex-exact", "vertex-near", "fan", "vertex-fan"]),
     ("flat", &["parallel-off", "coplanar", "grazing", "degenerate"]),
     ("ends", &["origin-on", "origin-near", "secondary-ray", "behind", "interval-ends"]),
     ("grid", &["axis-aligned", "lattice"]),
     ("sizes", &["sliver", "tiny", "huge", "far", "direction-length"]),
-    ("range", &["mixed-scale", "range-ends"]),
+    ("range", &["mixed-scale", "range-ends", "noise"]),
 ];
+
+/// The families of ordinary sizes: those of all columns but the last.
+fn ordinary() -> Vec<&'static str> {
+    COLUMNS[..7].iter().flat_map(|(_, families)| *families).copied().collect()
+}
 
 /// Runs an audit, and returns what it prints and its record.
 fn audit(folder: &Path, arguments: &[&str]) -> (String, Value) {
@@ -115,9 +120,9 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
             (count, of)
         };
         let scalars = ["f32", "f64"];
-        let leaks = scalars.map(|scalar| of(scalar, &[], "/across/cracks"));
+        let ordinary = ordinary();
+        let leaks = scalars.map(|scalar| of(scalar, &ordinary, "/across/cracks"));
         assert_eq!(cells[0], worse(leaks.into_iter()), "{label}");
-        let ordinary: Vec<&str> = COLUMNS[..7].iter().flat_map(|(_, it)| *it).copied().collect();
         let values = scalars.map(|scalar| of(scalar, &ordinary, "/total/wrong_values"));
         assert_eq!(cells[2], worse(values.into_iter()), "{label}");
         for (cell, name) in cells[3..5].iter().zip(["sizes", "flat"]) {
@@ -165,7 +170,7 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
                 });
                 assert_eq!(shown(name), percent(count, of), "{label} {scalar} {name}");
             }
-            let all = results(&record, row, scalar, &[]);
+            let all = results(&record, row, scalar, &ordinary());
             let [cracks, of] =
                 ["count", "of"].map(|n| sum(&all, &[&format!("/across/cracks/{n}")]));
             assert_eq!(shown("leaks"), percent(cracks, of), "{label} {scalar}");
@@ -261,6 +266,28 @@ fn cracks_under_a_promise_are_marked_and_shown_first() {
         );
         assert!(flat(&screen).contains(&expected), "{screen}");
     }
+}
+
+#[test]
+fn leaks_next_to_noise_are_counted_by_themselves() {
+    let folder = scratch("screen-noise");
+    let kernels = ["-n", "300", "--scalar", "f32", "--kernel", "woop-watertight,plucker"];
+    let (screen, record) =
+        audit(&folder, &[&kernels[..], &["--family", "noise,vertex-fan"]].concat());
+    let woop = serde_json::json!({"kernel": "woop-watertight", "set": "source"});
+    let of = |family: &str| {
+        let all = results(&record, &woop, "f32", &[family]);
+        ["count", "of"].map(|n| sum(&all, &[&format!("/across/cracks/{n}")]))
+    };
+    let ([none, fans], [leaks, pairs]) = (of("vertex-fan"), of("noise"));
+    assert!(none == 0 && 0 < leaks && leaks < pairs);
+    let expected = format!(
+        "No leak seen at shared edges and vertices in ordinary sizes: woop-watertight (0 of {fans} rays). Next to noise or at \
+         extreme exponents: woop-watertight ({leaks} of {pairs} rays). Breaks what its documentation promises there: plucker."
+    );
+    assert!(flat(&screen).contains(&expected), "{screen}");
+    // The promise that is shown broken is that of an ordinary size, if one is.
+    assert!(screen.contains("hairline explain 'vertex-fan@"), "{screen}");
 }
 
 #[test]

@@ -24,6 +24,7 @@ mod severity;
 mod shrink;
 mod spawn;
 mod strategy;
+mod surroundings;
 mod trials;
 mod vectors;
 mod watertight;

@@ -10,7 +10,9 @@ use hairline::internals::epsilon::{
     WrongKind, cheapest, contract_with, count_at, counts, limits, proved,
 };
 use hairline::internals::family::{MeshFamily, Stratum};
-use hairline::internals::judge::{GroupTruth, Obligation, asked, group_obligation};
+use hairline::internals::judge::{
+    GroupTruth, Obligation, asked, group_obligation, may_be_elsewhere,
+};
 use hairline::internals::kernel::{KERNELS, Scalar, Verdict, find};
 use hairline::internals::mesh::{SceneMesh, Surface};
 use hairline::internals::oracle;
@@ -160,6 +162,8 @@ fn setting<'a>(
 struct Counted {
     count: usize,
     cases: Vec<Case<f32>>,
+    /// Those of the triangles around a group.
+    around: Vec<Case<f32>>,
 }
 
 /// Everything that is counted, straight from the generators, the oracle and the judge.
@@ -188,7 +192,11 @@ fn all_counted(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Counte
                 }
             };
             if is_counted {
-                all.push(Counted { count, cases });
+                let mut around = Vec::new();
+                if *kind == WrongKind::Crack {
+                    assert!(source.add_neighbours(index, &cases, &mut around));
+                }
+                all.push(Counted { count, cases, around });
             }
         }
     }
@@ -208,11 +216,22 @@ fn shares(setting: &Setting<'_, f32>, all: &[Counted], epsilons: &[f32]) -> Vec<
     let kernel = f32::subject(setting.row.entry).unwrap();
     let (mut wrong, mut of) = (vec![0; setting.counts.len()], vec![0; setting.counts.len()]);
     let mut verdicts = [Verdict::miss(None); 8];
-    for Counted { count, cases } in all {
+    let has_least_t = least_t != f32::NEG_INFINITY;
+    let is_kept = |v: &Verdict<f32>| v.hit && (!has_least_t || least_t <= v.t);
+    for Counted { count, cases, around } in all {
         let verdicts = &mut verdicts[..cases.len()];
         kernel.run(cases, &of_gates, verdicts);
-        let has_least_t = least_t != f32::NEG_INFINITY;
-        let hit = verdicts.iter().any(|v| v.hit && (!has_least_t || least_t <= v.t));
+        let mut hit = verdicts.iter().any(is_kept);
+        if !hit && !around.is_empty() {
+            let mut verdicts = vec![Verdict::miss(None); around.len()];
+            kernel.run(around, &of_gates, &mut verdicts);
+            verdicts.iter_mut().for_each(|verdict| verdict.hit = is_kept(verdict));
+            let truths: Vec<Truth> = around.iter().map(oracle::truth).collect();
+            let first = oracle::truth(&cases[0]);
+            let facing = first.crossing().unwrap().facing;
+            let contract = &setting.row.contract;
+            hit = may_be_elsewhere(facing, around, &truths, &verdicts, contract);
+        }
         of[*count] += 1;
         wrong[*count] += u64::from(
             hit != matches!(setting.counts[*count].kind, WrongKind::Crack | WrongKind::Miss),

@@ -15,7 +15,7 @@ mod values;
 pub use change::exact_to_change;
 pub use class::{Class, TruthKind};
 pub use distance::{Distances, Squares, nearest_on_segment, square, ulp_of_points};
-pub use elsewhere::may_be_elsewhere;
+pub use elsewhere::{is_moved, may_be_elsewhere};
 pub use expected::{Demands, Kinds, ask_all, suspects};
 pub use group::{
     GroupTruth, group_obligation, group_truth, owes_groups_alike, polygon_obligation, polygon_truth,

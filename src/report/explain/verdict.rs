@@ -18,7 +18,7 @@ pub struct Together<'a, F: Scalar> {
     pub cases: &'a [Case<F>],
     /// How they belong together.
     pub grouping: Grouping,
-    /// The triangles of a mesh around those of the group; none if they are too many to be asked.
+    /// The triangles around those of the group; none if they are too many to be asked, or cannot be made.
     pub neighbours: Option<&'a [Case<F>]>,
     /// Where the triangles are put, if not where they are.
     pub instance: Option<&'a Instance<F>>,

@@ -95,6 +95,11 @@ impl Column {
     }
 }
 
+/// True if the cases of a source are of sizes that occur, by its name.
+pub(super) fn is_of_ordinary_size(family: &str) -> bool {
+    Column::of(family, true).is_ordinary()
+}
+
 /// The kinds of a record's planes and rays; the one that tables are about comes first.
 pub(super) fn kinds(record: &Record) -> Vec<SceneKind> {
     let mut kinds: Vec<SceneKind> = Vec::new();
@@ -175,8 +180,10 @@ pub(super) fn far(result: &KernelResult, kind: FindingKind) -> u64 {
 #[derive(Clone, Debug)]
 pub(super) struct AcrossColumn {
     promised: Promised,
-    /// Crossings without a hit: how many, of how many.
+    /// Crossings without a hit in ordinary sizes: how many, of how many. If none is of ordinary size, of all.
     pub(super) cracks: [u64; 2],
+    /// Crossings without a hit in other sizes.
+    pub(super) extreme_cracks: [u64; 2],
     /// Crossings with two hits or more.
     pub(super) doubles: [u64; 2],
     /// Folds with the wrong parity.
@@ -188,13 +195,18 @@ impl AcrossColumn {
     pub(super) fn of(row: &RowView, kind: SceneKind) -> Option<AcrossColumn> {
         let results = || row.results.iter().filter(|result| kind_of(&result.family) == kind);
         let parts = || results().filter_map(|result| result.across.as_ref());
-        let sum = |rate: fn(&AcrossPart) -> &Rate| {
-            parts().fold([0, 0], |[n, of], part| [n + rate(part).count, of + rate(part).of])
-        };
-        let [cracks, doubles] = [sum(|part| &part.cracks), sum(|part| &part.doubles)];
-        let odd_folds = sum(|part| &part.odd_folds)[0];
+        let ordinary = results().filter(|result| is_of_ordinary_size(&result.family));
+        let ordinary = ordinary.filter_map(|result| result.across.as_ref());
+        let [mut cracks, all] = [sum(ordinary, |it| &it.cracks), sum(parts(), |it| &it.cracks)];
+        if cracks[1] == 0 {
+            cracks = all;
+        }
+        let doubles = sum(parts(), |it| &it.doubles);
+        let odd_folds = sum(parts(), |it| &it.odd_folds)[0];
+        let extreme_cracks = [all[0] - cracks[0], all[1] - cracks[1]];
         let promised = parts().next()?.promised;
-        (0 < cracks[1]).then_some(AcrossColumn { promised, cracks, doubles, odd_folds })
+        let across = AcrossColumn { promised, cracks, extreme_cracks, doubles, odd_folds };
+        (0 < all[1]).then_some(across)
     }
 
     /// True if the contract rules out cracks, and true if it rules out doubles.
@@ -203,10 +215,18 @@ impl AcrossColumn {
         [cracks, doubles]
     }
 
-    /// True if something happened that the contract rules out.
+    /// True if something happened that the contract rules out, in any size.
     pub(super) fn is_broken(&self) -> bool {
-        let happened = [self.cracks[0], self.doubles[0], self.odd_folds];
+        let happened = [self.cracks[0] + self.extreme_cracks[0], self.doubles[0], self.odd_folds];
         self.promised.rules_out().into_iter().zip(happened).any(|(ruled_out, n)| ruled_out && 0 < n)
+    }
+
+    /// True if all that happened so are leaks in other than ordinary sizes.
+    pub(super) fn is_broken_by_extremes(&self) -> bool {
+        let [_, no_doubles, no_odd_folds] = self.promised.rules_out();
+        let is_broken_otherwise =
+            no_doubles && 0 < self.doubles[0] || no_odd_folds && 0 < self.odd_folds;
+        self.is_broken() && self.cracks[0] == 0 && !is_broken_otherwise
     }
 
     /// The promise, and the word `kept` or `BROKEN`; none without a promise.
@@ -214,6 +234,14 @@ impl AcrossColumn {
         let kept = if self.is_broken() { "BROKEN" } else { "kept" };
         self.promised.in_short().map(|promise| format!("{promise}: {kept}"))
     }
+}
+
+/// The sum of a rate of some parts: how many, of how many.
+fn sum<'a>(
+    parts: impl Iterator<Item = &'a AcrossPart>,
+    rate: fn(&AcrossPart) -> &Rate,
+) -> [u64; 2] {
+    parts.map(rate).fold([0, 0], |[n, of], rate| [n + rate.count, of + rate.of])
 }
 
 /// A share in percent in four characters: `0`, `<0.1`, `12.3`, `100`.

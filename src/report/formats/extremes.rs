@@ -1,6 +1,6 @@
 //! The worst findings of a record, in words, each with the command that shows it.
 
-use super::columns::Column;
+use super::columns::{Column, is_of_ordinary_size};
 use super::group_digits;
 use super::lines::RowLine;
 use super::record::*;
@@ -17,7 +17,13 @@ struct Extreme<'a> {
 
 /// A promise across triangles that was broken, and the worst verdicts in ordinary sizes; at most so many.
 pub(super) fn blocks(columns: &[Column], lines: &[RowLine], most: usize) -> Vec<Block> {
-    let broken = lines.iter().find_map(|line| Some((line, broken_promise(line)?)));
+    let broken = |extremes: bool| {
+        let is_so = |line: &&RowLine| {
+            line.across.as_ref().is_some_and(|it| it.is_broken_by_extremes() == extremes)
+        };
+        lines.iter().filter(is_so).find_map(|line| Some((line, broken_promise(line)?)))
+    };
+    let broken = broken(false).or_else(|| broken(true));
     let worst = chosen(all(columns, lines), most - usize::from(broken.is_some()));
     let is_all = columns.iter().all(|column| column.is_ordinary());
     let place = if is_all { "" } else { " in ordinary sizes" };
@@ -41,12 +47,20 @@ pub(super) fn blocks(columns: &[Column], lines: &[RowLine], most: usize) -> Vec<
 /// The promise across triangles that a row broke, and the command that shows the first case.
 fn broken_promise(line: &RowLine) -> Option<(String, String)> {
     let across = line.across.as_ref().filter(|across| across.is_broken())?;
+    let by_extremes = across.is_broken_by_extremes();
+    let results = line.row.results.iter().copied();
+    let (shown, others): (Vec<_>, Vec<_>) =
+        results.partition(|result| is_of_ordinary_size(&result.family) != by_extremes);
     let first = |ids: fn(&AcrossPart) -> &[String]| {
         let first = |result: &KernelResult| Some(ids(result.across.as_ref()?).first()?.clone());
-        line.row.results.iter().find_map(|result| Some((*result, first(result)?)))
+        let mut results = shown.iter().chain(&others);
+        results.find_map(|result| Some((*result, first(result)?)))
     };
     let [no_crack, _] = across.rules_out();
-    let (what, [count, of], (result, id)) = if no_crack && 0 < across.cracks[0] {
+    let (what, [count, of], (result, id)) = if by_extremes {
+        let what = "next to noise or at extreme exponents no triangle reports";
+        (what, across.extreme_cracks, first(|part| &part.first_cracks)?)
+    } else if no_crack && 0 < across.cracks[0] {
         ("no triangle reports", across.cracks, first(|part| &part.first_cracks)?)
     } else {
         ("two triangles report", across.doubles, first(|part| &part.first_doubles)?)

@@ -54,6 +54,19 @@ fn names<'a>(all: impl Iterator<Item = &'a Standing<'a>>) -> Option<String> {
     (!names.is_empty()).then(|| listed(&names, MOST_NAMES))
 }
 
+/// The names of some rows with the rays that leak, and of how many; none without a row.
+fn counted<'a>(
+    all: impl Iterator<Item = &'a Standing<'a>>,
+    count: impl Fn(&Standing<'a>) -> [u64; 2],
+) -> Option<String> {
+    let counted = |standing: &'a Standing| {
+        let [count, of] = count(standing).map(group_digits);
+        format!("{} ({count} of {of} rays)", label(standing.part))
+    };
+    let counts: Vec<String> = all.map(counted).collect();
+    (!counts.is_empty()).then(|| listed(&counts, MOST_NAMES))
+}
+
 /// The answer in sentences.
 pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String {
     let rows = ranked(standings);
@@ -65,10 +78,15 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
     }
     if standings.iter().any(|it| it.leaks().is_some()) {
         let is_tight = |it: &&Standing| it.leaks().is_some_and(|[count, _]| count == 0);
-        text.push(match names(sorted().filter(is_tight)) {
-            Some(names) => format!("No leak at shared edges and vertices: {names}."),
-            None => "Every kernel leaks at shared edges or vertices.".to_owned(),
+        text.push(match counted(sorted().filter(is_tight), |it| [0, it.crossings()]) {
+            Some(counts) => format!("No leak seen at shared edges and vertices{place}: {counts}."),
+            None => format!("Every kernel leaks at shared edges or vertices{place}."),
         });
+        let is_extreme = |it: &&Standing| is_tight(it) && 0 < it.extreme_leaks()[0];
+        let extreme = counted(sorted().filter(is_extreme), Standing::extreme_leaks);
+        text.extend(
+            extreme.map(|counts| format!("Next to noise or at extreme exponents: {counts}.")),
+        );
     }
     if let Some(names) = names(sorted().filter(|it| it.breaks_promise())) {
         text.push(format!("Breaks what its documentation promises there: {names}."));

@@ -1,6 +1,6 @@
 //! How well each row did, in all scalars and in the columns of ordinary sizes.
 
-use super::columns::{Column, ColumnCell};
+use super::columns::{AcrossColumn, Column, ColumnCell};
 use super::disagreement::{Key, disagreements, is_at_shared};
 use super::lines::RowLine;
 use super::record::*;
@@ -38,9 +38,24 @@ impl Standing<'_> {
         all.max_by(|a, b| share(*a).total_cmp(&share(*b)))
     }
 
-    /// True if it broke what it promises across triangles.
+    /// How many rays at shared edges and vertices there were, in all scalars.
+    pub fn crossings(&self) -> u64 {
+        self.across().map(|across| across.cracks[1]).sum()
+    }
+
+    /// The rays at shared edges and vertices of other than ordinary sizes that hit nothing, of how many, in all scalars.
+    pub fn extreme_leaks(&self) -> [u64; 2] {
+        let all = self.across().map(|across| across.extreme_cracks);
+        all.fold([0, 0], |[count, of], [more, of_more]| [count + more, of + of_more])
+    }
+
+    fn across(&self) -> impl Iterator<Item = &AcrossColumn> {
+        self.lines.iter().filter_map(|line| line.across.as_ref())
+    }
+
+    /// True if it broke what it promises across triangles, and not by leaks in other than ordinary sizes alone.
     pub fn breaks_promise(&self) -> bool {
-        self.lines.iter().any(|line| line.across.as_ref().is_some_and(|it| it.is_broken()))
+        self.across().any(|it| it.is_broken() && !it.is_broken_by_extremes())
     }
 
     /// The trials in the scalar in which more are wrong.
@@ -56,7 +71,10 @@ impl Standing<'_> {
         let cell = |cell: &ColumnCell| (count(&cell.wrong), cell.far);
         let numbers = |line: &&RowLine| {
             let cells: Vec<_> = line.cells.iter().map(cell).collect();
-            let across = line.across.as_ref().map(|across| (across.cracks, across.doubles));
+            let across = line
+                .across
+                .as_ref()
+                .map(|across| (across.cracks, across.extreme_cracks, across.doubles));
             (cells, cell(&line.values), across)
         };
         self.others == other.others

@@ -56,7 +56,7 @@ impl<F: Scalar> RowIn<F> {
         for ((index, group), _) in missed {
             let Some(crossing) = chunk.truths[group.start].crossing() else { continue };
             // Where the neighbours are too many to be tried, nobody is accused.
-            if !source.add_neighbours(index, &chunk.cases[group.start].ray, &mut cases) {
+            if !source.add_neighbours(index, &chunk.cases[group], &mut cases) {
                 elsewhere.push(index);
                 continue;
             }

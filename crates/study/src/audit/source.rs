@@ -4,8 +4,8 @@ use super::aimed::{AimedRay, is_on_target};
 use super::corpus_set::CorpusSet;
 use super::row::quoted;
 use crate::arith::Float;
-use crate::case::{Case, Instance, Matrix, Parameters, Ray, SceneKind, Toward};
-use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum};
+use crate::case::{Case, Instance, Matrix, Parameters, SceneKind, Toward};
+use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum, add_ring};
 use crate::kernel::Scalar;
 use crate::mesh::{Aim, AimedPart, SceneMesh, Surface, Targets};
 use crate::oracle::{self, Layers};
@@ -248,25 +248,33 @@ impl Source {
 
     /// True if there are triangles around those of a group, which may have the hit that it lacks.
     pub fn has_neighbours(&self) -> bool {
-        matches!(self.stock, Stock::MeshPart(..))
+        matches!(self.grouping(), Grouping::SharedEdge | Grouping::Fan)
     }
 
-    /// Adds the triangles around those of an index, with its ray; false if they are too many, or if there are
-    /// none.
+    /// Adds the triangles around those of an index, with its ray: of a mesh its faces, of other groups a ring. False if
+    /// they are too many, or if there are none.
     pub fn add_neighbours<F: Scalar>(
         &self,
         index: u64,
-        ray: &Ray<F::Vector>,
+        group: &[Case<F>],
         cases: &mut Vec<Case<F>>,
     ) -> bool {
-        let Stock::MeshPart(_, part) = &self.stock else { return false };
         // Of an instance the ray is another for the kernel than in the world.
         let ray = match self.instance::<F>() {
             Some(_) => self.make::<F>(index).cases()[0].ray,
-            None => *ray,
+            None => group[0].ray,
         };
-        let targets = self.targets::<F>();
-        targets.is_some_and(|targets| targets.add_neighbours((*part, index), &ray, cases))
+        match &self.stock {
+            Stock::MeshPart(_, part) => {
+                let targets = self.targets::<F>().expect("a scalar of the run");
+                targets.add_neighbours((*part, index), &ray, cases)
+            }
+            Stock::SceneMesh(mesh, stratum) => {
+                let draw = &mut stratum.draw(self.seed, index);
+                mesh.add_neighbours(*stratum, draw, &ray, cases)
+            }
+            _ => add_ring(group, &ray, cases),
+        }
     }
 
     /// True if its rates are those of a random sample, which has an interval; false if those of a whole set.

@@ -272,8 +272,14 @@ mod tests {
         // Of an edge and a least t: the triangle that is met, and its neighbour far beside it.
         let (inf, no) = (f64::INFINITY, f64::NEG_INFINITY);
         let margins = [[0.5, 1.0, inf], [-0.3, 9.0, inf], [no; 3]];
-        let trial =
-            Trial { count: 0, guards: [true; 3], margins: &margins, cases: &[], values: &[] };
+        let trial = Trial {
+            count: 0,
+            guards: [true; 3],
+            margins: &margins,
+            around: 0,
+            cases: &[],
+            values: &[],
+        };
         let own = |least_t: f64| {
             let largest = alone(&trial, 0, &[0.0, least_t, 0.0]);
             (largest, is_own(&trial, 0, largest))

@@ -117,8 +117,8 @@ impl WrongAnswers {
         let kind = setting.counts[trial.count].kind;
         if kind == WrongKind::Crack {
             for (attempt, sums) in attempts.iter().zip(&mut self.of_hits) {
-                let hits = trial.margins.iter().filter(|m| accepts(m, &attempt.epsilons));
-                sums.doubles[trial.count].add_ray(u64::from(1 < hits.count()), 1);
+                let hits = trial.hits(&attempt.epsilons);
+                sums.doubles[trial.count].add_ray(u64::from(1 < hits), 1);
             }
         }
         if kind != WrongKind::Miss {
@@ -244,8 +244,14 @@ mod tests {
     fn what_other_knobs_refuse_does_not_count_for_a_limit() {
         // Of an edge and a least t: the triangle that is met, and its neighbour far beside it.
         let margins = [[0.5, 1.0, f64::INFINITY], [-0.3, 9.0, f64::INFINITY]];
-        let trial =
-            Trial { count: 0, guards: [true; 3], margins: &margins, cases: &[], values: &[] };
+        let trial = Trial {
+            count: 0,
+            guards: [true; 3],
+            margins: &margins,
+            around: 0,
+            cases: &[],
+            values: &[],
+        };
         let counts = [RayCount { rays: Rays::Stratum(Stratum::Edges), kind: WrongKind::Crack }];
         let cracks = |least_t: f64, of_knob: Option<usize>| {
             let attempt = Attempt { epsilons: vec![0.6, least_t], of_knob };

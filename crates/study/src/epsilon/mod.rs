@@ -10,6 +10,7 @@
 
 mod candidates;
 mod confidence;
+mod crossings;
 mod curves;
 mod errors;
 mod joint;

@@ -4,7 +4,9 @@
 //! picture that these triangles cover once, side by side. No numbers of the kernel are asked, only its answers, so
 //! epsilons may be as wide as they like.
 
+use super::knob::KnobMargins;
 use super::trials::{Pass, Setting, accepts, is_unknown};
+use crate::case::Case;
 use crate::engine;
 use crate::family::{Pixel, Stratum};
 use crate::judge::{Obligation, obligation};
@@ -38,8 +40,10 @@ pub fn holes<F: Scalar>(
         let mut sums = empty.clone();
         let indices = *start..count.min(start + CHUNK);
         pass.observer.advance(indices.end - indices.start);
-        indices
-            .for_each(|index| sums.add(setting, epsilons, &setting.pixel(scene, pass.seed, index)));
+        for index in indices {
+            let pixel = setting.pixel(scene, pass.seed, index);
+            sums.add(&pixel, setting.leaking(epsilons, (pass.seed, index), &pixel));
+        }
         sums
     };
     // In their order: sums of floats depend on it.
@@ -53,28 +57,53 @@ pub fn holes<F: Scalar>(
 }
 
 impl RaySums {
-    fn add<F: Scalar>(&mut self, setting: &Setting<'_, F>, epsilons: &[Vec<F>], pixel: &Pixel<F>) {
-        let Pixel { cases, area, triangles } = pixel;
-        let (mut margins, _) = setting.margins(cases);
-        if margins.iter().any(is_unknown) {
-            return;
-        }
-        if setting.relative {
-            margins = setting.relative_margins(cases, &margins);
-        }
-        self.triangles += triangles;
-        let mut truths = Vec::with_capacity(cases.len());
-        oracle::truths(cases, &mut truths, &mut Layers::default());
-        let contract = &setting.row.contract;
-        let must_hit = |truth| obligation(truth, contract, false) == Obligation::MustHit;
-        if !truths.iter().any(must_hit) {
-            return;
-        }
-        for (leaks, epsilons) in self.leaks.iter_mut().zip(epsilons) {
-            if !margins.iter().any(|margins| accepts(margins, epsilons)) {
-                *leaks += area;
+    /// Adds a pixel: by epsilons, if its ray leaks; nothing if the kernel failed.
+    fn add<F: Scalar>(&mut self, pixel: &Pixel<F>, leaking: Option<Vec<bool>>) {
+        let Some(leaking) = leaking else { return };
+        self.triangles += pixel.triangles;
+        for (leaks, is_leaking) in self.leaks.iter_mut().zip(leaking) {
+            if is_leaking {
+                *leaks += pixel.area;
             }
         }
+    }
+}
+
+impl<F: Scalar> Setting<'_, F> {
+    /// By epsilons, if the ray of a pixel leaks: it must hit one of its triangles, and neither these report it nor those
+    /// around them. None if the kernel failed.
+    fn leaking(
+        &self,
+        epsilons: &[Vec<F>],
+        (seed, index): (u64, u64),
+        pixel: &Pixel<F>,
+    ) -> Option<Vec<bool>> {
+        let none = vec![false; epsilons.len()];
+        let own = self.margins_of_pixel(&pixel.cases)?;
+        let mut truths = Vec::with_capacity(pixel.cases.len());
+        oracle::truths(&pixel.cases, &mut truths, &mut Layers::default());
+        let contract = &self.row.contract;
+        let must_hit = |truth| obligation(truth, contract, false) == Obligation::MustHit;
+        let is_lost = |epsilons: &Vec<F>| !own.iter().any(|margins| accepts(margins, epsilons));
+        if !truths.iter().any(must_hit) || !epsilons.iter().any(is_lost) {
+            return Some(none);
+        }
+        // Where the triangles around it are too many, or the kernel fails on them, nobody is accused.
+        let around = self.around_pixel(pixel, seed, index);
+        let Some(around) = around.and_then(|around| self.margins_of_pixel(&around)) else {
+            return Some(none);
+        };
+        let is_moved = |epsilons: &Vec<F>| around.iter().any(|margins| accepts(margins, epsilons));
+        Some(epsilons.iter().map(|epsilons| is_lost(epsilons) && !is_moved(epsilons)).collect())
+    }
+
+    /// The margins of a pixel's triangles, relative if epsilons are; none if the kernel failed.
+    fn margins_of_pixel(&self, cases: &[Case<F>]) -> Option<Vec<KnobMargins<F>>> {
+        let (margins, _) = self.margins(cases);
+        if margins.iter().any(is_unknown) {
+            return None;
+        }
+        Some(if self.relative { self.relative_margins(cases, &margins) } else { margins })
     }
 }
 

@@ -21,8 +21,20 @@ pub(super) struct Prepared<F: Float> {
     pub relative: OnceLock<Vec<KnobMargins<F>>>,
     /// The values that a hit of each case would report.
     pub values: Vec<Option<Hit<F>>>,
-    /// Which count each trial is for, which knobs guard it, and its cases.
-    pub trials: Vec<(usize, Guards, Range<usize>)>,
+    /// The trials.
+    pub trials: Vec<PreparedTrial>,
+}
+
+/// A trial: what it is for, and its cases.
+pub(super) struct PreparedTrial {
+    /// Which of the setting's counts it is for.
+    pub count: usize,
+    /// Which knobs guard it.
+    pub guards: Guards,
+    /// Its cases: of a group those of the group, and then those of triangles around it that may have its hit.
+    pub cases: Range<usize>,
+    /// How many of them are of triangles around a group.
+    pub around: usize,
 }
 
 /// Some indices: the kind of their rays, the place of their source among those of the kind, and where they start and end.

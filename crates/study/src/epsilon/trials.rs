@@ -1,16 +1,15 @@
 //! The trials of a kernel in a scene, or on other sources, and one pass over them.
 
 use super::knob::{Guards, Knob, KnobMargins, MOST_KNOBS};
-use super::prepared::{Prepared, Store};
+use super::prepared::{Prepared, PreparedTrial, Store};
 use super::rays::{RayCount, Rays, WrongKind, guards, guards_start};
 use super::relative::{relative, scale};
 use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, SourceSummary, Stock};
 use crate::case::{Case, Parameters, Scene};
-use crate::contract::Contract;
 use crate::engine::{self, Merge, Observer, Unobserved};
-use crate::family::{Grouping, Pixel, Stratum, pixel};
-use crate::judge::{Class, GroupTruth, Obligation};
+use crate::family::{Grouping, Pixel, Stratum, add_ring, pixel, pixel_draw};
+use crate::judge::{Class, Obligation};
 use crate::kernel::{Hit, Scalar, Subject};
 use crate::mesh::SceneMesh;
 use std::ops::Range;
@@ -93,8 +92,10 @@ pub struct Trial<'a, F: Float> {
     pub count: usize,
     /// By knob: true if it is there to refuse such a ray, where refusing it is right.
     pub guards: Guards,
-    /// The margins of each triangle; a hit is reported if one is accepted.
+    /// The margins of each triangle, those around a group at the end; a hit is reported if one is accepted.
     pub margins: &'a [KnobMargins<F>],
+    /// How many of the triangles are around the group and not of it.
+    pub around: usize,
     /// The triangles with their ray.
     pub cases: &'a [Case<F>],
     /// The values that a hit of each triangle would report.
@@ -106,15 +107,12 @@ impl<F: Float> Trial<'_, F> {
     pub fn is_hit(&self, epsilons: &[F]) -> bool {
         self.margins.iter().any(|margins| accepts(margins, epsilons))
     }
-}
 
-/// The triangles of each ray that crosses a surface at an edge or vertex which they share.
-fn crossings<'a, F: Scalar>(
-    chunk: &'a Chunk<F>,
-    contract: &Contract,
-) -> impl Iterator<Item = Range<usize>> + use<'a, F> {
-    let groups = chunk.groups().zip(chunk.group_truths(contract));
-    groups.filter(|(_, truth)| *truth == GroupTruth::Crossing).map(|((_, range), _)| range)
+    /// How many triangles of the group itself report a hit with these epsilons.
+    pub fn hits(&self, epsilons: &[F]) -> usize {
+        let own = &self.margins[..self.margins.len() - self.around];
+        own.iter().filter(|margins| accepts(margins, epsilons)).count()
+    }
 }
 
 /// True if the kernel failed while its margins were looked for.
@@ -164,10 +162,12 @@ impl<F: Scalar> Setting<'_, F> {
                         false => margins,
                     };
                     look(sums, cases, margins);
-                    for (count, guards, range) in trials {
+                    for trial in trials {
+                        let PreparedTrial { count, guards, around, cases: range } = trial;
+                        let (count, guards, around) = (*count, *guards, *around);
                         let (margins, cases) = (&margins[range.clone()], &cases[range.clone()]);
                         let values = &values[range.clone()];
-                        add(sums, Trial { count: *count, guards: *guards, margins, cases, values });
+                        add(sums, Trial { count, guards, margins, around, cases, values });
                     }
                 };
                 let indices = 0..source.count::<F>();
@@ -211,14 +211,36 @@ impl<F: Scalar> Setting<'_, F> {
         }
     }
 
+    /// The triangles around those of a pixel that may have its hit, with its ray; none if they are too many to be asked.
+    pub(super) fn around_pixel(
+        &self,
+        pixel: &Pixel<F>,
+        seed: u64,
+        index: u64,
+    ) -> Option<Vec<Case<F>>> {
+        let (ray, mut around) = (&pixel.cases[0].ray, Vec::new());
+        let draw = &mut pixel_draw(seed, index);
+        let is_asked = match self.mesh {
+            Some(mesh) => mesh.add_neighbours(Stratum::Edges, draw, ray, &mut around),
+            None => add_ring(&pixel.cases, ray, &mut around),
+        };
+        self.keep_moved(&self.source(Stratum::Edges, seed, 0), &mut around);
+        is_asked.then_some(around)
+    }
+
     /// The cases of some indices, their margins, and the trials among them.
     fn prepare(&self, source: &Source, rays: Rays, indices: Range<u64>) -> Prepared<F> {
         let mut summary = SourceSummary::new(0, F::NAME);
         let chunk = Chunk::<F>::make(source, indices, &Unobserved, &mut summary);
         let (margins, values) = self.margins(&chunk.cases);
-        let mut trials = self.trials(&chunk, rays);
-        trials.retain(|(.., range)| !margins[range.clone()].iter().any(is_unknown));
-        Prepared { cases: chunk.cases, margins, relative: OnceLock::new(), values, trials }
+        let trials = self.trials(&chunk, rays);
+        let crossings = self.crossings(source, &chunk, rays);
+        let cases = chunk.cases;
+        let mut prepared = Prepared { cases, margins, relative: OnceLock::new(), values, trials };
+        self.add_crossings(crossings, &mut prepared);
+        let Prepared { margins, trials, .. } = &mut prepared;
+        trials.retain(|trial| !margins[trial.cases.clone()].iter().any(is_unknown));
+        prepared
     }
 
     /// The place of a count, if it is counted.
@@ -227,9 +249,9 @@ impl<F: Scalar> Setting<'_, F> {
     }
 
     /// Which cases are a trial together, and of which count; other rays than those of a stratum may count for several things.
-    fn trials(&self, chunk: &Chunk<F>, rays: Rays) -> Vec<(usize, Guards, Range<usize>)> {
+    fn trials(&self, chunk: &Chunk<F>, rays: Rays) -> Vec<PreparedTrial> {
         let (contract, gates) = (&self.row.contract, self.row.entry.info.gates);
-        let [cracks, misses, hits, self_hits] = WrongKind::ALL.map(|kind| self.place(rays, kind));
+        let [_, misses, hits, self_hits] = WrongKind::ALL.map(|kind| self.place(rays, kind));
         let stratum = match rays {
             Rays::Stratum(stratum) => Some(stratum.family()),
             _ => None,
@@ -258,13 +280,9 @@ impl<F: Scalar> Setting<'_, F> {
                 Obligation::MustMiss => hits,
                 Obligation::Free => None,
             };
-            trials.extend(count.map(|count| (count, guards, i..i + 1)));
+            let cases = i..i + 1;
+            trials.extend(count.map(|count| PreparedTrial { count, guards, cases, around: 0 }));
         }
-        let crossings = cracks.map(|count| {
-            let guards = [stratum.is_some(); MOST_KNOBS];
-            crossings(chunk, contract).map(move |range| (count, guards, range))
-        });
-        trials.extend(crossings.into_iter().flatten());
         trials
     }
 

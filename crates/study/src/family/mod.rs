@@ -10,6 +10,7 @@ mod boundary;
 mod control;
 mod directions;
 mod drawn_interval;
+mod exact_ray;
 mod flat;
 pub mod integer;
 mod interval;
@@ -18,24 +19,30 @@ mod lattice;
 pub mod manifest;
 mod mesh;
 mod neighbours;
+mod noise;
 mod origin;
 mod polygon;
 mod question;
 mod range;
+mod ring;
 mod scene;
 mod shape;
 mod sizes;
+mod vertex_fan;
 
 pub(crate) use boundary::{nudged, toward};
 pub(crate) use control::combination;
+pub(crate) use exact_ray::exact_ray;
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
+pub(crate) use ring::add_ring;
+pub use ring::around;
 pub(crate) use scene::{
     Corners, Pair, Parallel, RayAxes, Ring, TriangleSource, along_axis, any_direction, circle,
     flat_along, in_plane, rounded, unit_vector, wide,
 };
-pub use scene::{Pixel, STRATA, Stratum, TRIES, missed_sine, pixel};
+pub use scene::{Pixel, STRATA, Stratum, TRIES, missed_sine, pixel, pixel_draw};
 
 use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;
@@ -200,6 +207,8 @@ pub static FAMILIES: &[Family] = &[
     row::<batch::MixedBatch>(Question::Invalid),
     row::<neighbours::SharedEdgeFamily>(Question::Edges),
     row::<neighbours::Fan>(Question::Vertices),
+    row::<vertex_fan::VertexFan>(Question::Vertices),
+    row::<noise::Noise>(Question::Range),
     row::<polygon::Polygon>(Question::Edges),
     Family { size: Some(LATTICE_SIZE), ..row::<lattice::Lattice>(Question::Grid) },
 ];

@@ -19,7 +19,7 @@ named! {
         Grid = "grid",
         /// Tiny, huge, far and thin triangles; short and long directions.
         Sizes = "sizes",
-        /// Exponents that have nothing to do with each other, or at the ends of the range.
+        /// Exponents that have nothing to do with each other, or at the ends of the range; noise next to 1.
         Range = "range",
         /// NaN, infinities, a zero direction, an impossible interval.
         Invalid = "invalid",

@@ -5,7 +5,7 @@ use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::{Contract, Sides};
 use crate::kernel::Verdict;
-use crate::truth::{Facing, Feature, Truth};
+use crate::truth::{Crossing, Facing, Feature, Truth};
 
 /// How near to a neighbour's boundary a line counts as one that rounding may move past it: in units of
 /// the longest edge, in space.
@@ -33,10 +33,7 @@ pub fn may_be_elsewhere<F: Float>(
     // and the side, whether none reports it.
     let mut shared: Vec<(Rim<F>, bool, bool)> = Vec::new();
     for ((case, truth), verdict) in neighbours.iter().zip(truths).zip(verdicts) {
-        let crossing = truth.crossing().filter(|crossing| {
-            crossing.feature != Feature::Outside && is_in_extent(crossing, contract.extent)
-        });
-        match crossing {
+        match met(truth, contract) {
             _ if verdict.failure.is_some() => return true,
             None if verdict.hit => return true,
             Some(crossing) if Distances::of(case, truth).in_space < NEAR => {
@@ -58,6 +55,20 @@ pub fn may_be_elsewhere<F: Float>(
     lost += lost_on_rims.clone().count();
     beside_silhouette |= lost_on_rims.clone().any(|(_, from_behind, _)| *from_behind);
     beside_silhouette && (lost % 2 == 1 || contract.sides == Sides::Front)
+}
+
+/// True if a hit of a triangle around a group is the group's, which rounding has moved: the exact line does not meet that
+/// triangle.
+pub fn is_moved(truth: &Truth, contract: &Contract) -> bool {
+    met(truth, contract).is_none()
+}
+
+/// Where the exact line meets a triangle within the extent.
+fn met<'t>(truth: &'t Truth, contract: &Contract) -> Option<&'t Crossing> {
+    let is_met = |crossing: &&Crossing| {
+        crossing.feature != Feature::Outside && is_in_extent(crossing, contract.extent)
+    };
+    truth.crossing().filter(is_met)
 }
 
 /// The ends of an edge, the lesser first, or a vertex twice.

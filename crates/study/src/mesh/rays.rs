@@ -6,7 +6,7 @@ use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters, Ray, Triangle};
 use crate::corpus::mesh::Mesh;
-use crate::family::{self, Grouping, nudged, toward, unit_vector};
+use crate::family::{self, Grouping, exact_ray, nudged, toward, unit_vector};
 use glam::DVec3;
 
 /// Part of the ids.
@@ -203,109 +203,4 @@ fn grazing_direction(draw: &mut Draw, [a, b, c]: [DVec3; 3]) -> DVec3 {
     }
     let normal = normal / length;
     any - any.dot(normal) * normal + tilt * normal
-}
-
-/// A ray through the middle of a segment (or through a point given twice), from about as far away as
-/// said. Where floats allow it the middle lies on its line exactly, though it need be no float itself:
-/// the direction is (p - o) + (q - o).
-fn exact_ray<F: Float>([p, q]: [[F; 3]; 2], away: [f64; 3]) -> ([F; 3], [F; 3]) {
-    let axes: [(F, F); 3] = std::array::from_fn(|i| exact_axis(p[i], q[i], away[i]));
-    (axes.map(|(origin, _)| origin), axes.map(|(_, direction)| direction))
-}
-
-/// o and d of one axis with d = (p - o) + (q - o), exactly if such were found: with o on the coarser
-/// grid of p and q, and near enough for d to keep the finer one's digits.
-fn exact_axis<F: Float>(p: F, q: F, away: f64) -> (F, F) {
-    let (wide_p, wide_q) = (p.to_f64(), q.to_f64());
-    let middle = wide_p * 0.5 + wide_q * 0.5;
-    let ulps = |x: F, of_zero: f64| if x.is_zero() { of_zero } else { x.ulp().to_f64() };
-    let coarse = ulps(p, 0.0).max(ulps(q, 0.0));
-    let fine = ulps(p, f64::INFINITY).min(ulps(q, f64::INFINITY));
-    let reach = fine * (1u64 << (F::DIGITS - 3)) as f64;
-    let mut nearest = (F::zero(), F::zero());
-    for away in [away, away.min(reach).max(-reach)] {
-        let start = middle - away;
-        let on_grid = (start / coarse).round() * coarse;
-        let origin = F::from_f64(if on_grid.is_finite() { on_grid } else { start });
-        let (sum, exact) = sum_of_differences(wide_p, wide_q, origin.to_f64());
-        let direction = F::from_f64(sum);
-        nearest = (origin, direction);
-        if exact && direction.to_f64() == sum {
-            break;
-        }
-    }
-    nearest
-}
-
-/// (p - o) + (q - o), and whether no step rounded.
-fn sum_of_differences(p: f64, q: f64, o: f64) -> (f64, bool) {
-    let (from_p, e1) = two_sum(p, -o);
-    let (from_q, e2) = two_sum(q, -o);
-    let (sum, e3) = two_sum(from_p, from_q);
-    (sum, e1 == 0.0 && e2 == 0.0 && e3 == 0.0)
-}
-
-/// The rounded sum and its error (Knuth).
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use num_rational::BigRational;
-
-    fn exact<F: Float>(x: F) -> BigRational {
-        BigRational::from_float(x.to_f64()).expect("finite")
-    }
-
-    /// How many of the axes of random segments have the middle on the line exactly.
-    fn exact_axes<F: Float>(segment: impl Fn(&mut Draw) -> (F, F, f64)) -> usize {
-        let mut draw = Draw::new("exact-axes", 1, 0);
-        let is_exact = |_: &u32| {
-            let (p, q, away) = segment(&mut draw);
-            let (origin, direction) = exact_axis(p, q, away);
-            let origin = exact(origin);
-            exact(p) + exact(q) - &origin - &origin == exact(direction)
-        };
-        (0..1000).filter(is_exact).count()
-    }
-
-    #[test]
-    fn the_middle_of_nearly_every_segment_is_on_a_ray_exactly() {
-        fn near<F: Float>(draw: &mut Draw) -> (F, F, f64) {
-            let p = 1.0 + draw.unit();
-            let q = p + (draw.unit() - 0.5) / 16.0;
-            (F::from_f64(p), F::from_f64(q), draw.unit() * 4.0 - 2.0)
-        }
-        assert!(exact_axes::<f32>(near) > 990);
-        assert!(exact_axes::<f64>(near) > 990);
-        // Of very different sizes, one of them zero, and a vertex.
-        let apart = |draw: &mut Draw| {
-            (draw.symmetric::<f32>(), F32_SMALL * draw.symmetric::<f32>(), draw.unit())
-        };
-        assert!(exact_axes::<f32>(apart) > 500);
-        assert_eq!(exact_axes::<f32>(|draw| (draw.symmetric(), 0.0, draw.unit())), 1000);
-        let vertex = |draw: &mut Draw| {
-            let p = draw.symmetric::<f64>();
-            (p, p, 2.0 * draw.unit())
-        };
-        assert_eq!(exact_axes::<f64>(vertex), 1000);
-    }
-
-    const F32_SMALL: f32 = 1.0 / 1024.0;
-
-    #[test]
-    fn nothing_panics_at_the_ends_of_the_range() {
-        for p in [0.0f64, -0.0, 5e-324, f64::MAX, f64::MIN_POSITIVE, 1.0] {
-            for q in [0.0, f64::MAX, -f64::MAX, 5e-324] {
-                for away in [0.0, 1e308, f64::INFINITY, f64::NAN, -1.0] {
-                    exact_axis(p, q, away);
-                    exact_axis(p as f32, q as f32, away);
-                }
-            }
-        }
-    }
 }

@@ -2,9 +2,9 @@
 //! triangles drawn from numbers.
 
 use super::surface::Surface;
-use super::topology::Topology;
+use super::topology::{SharedEdge, Topology};
 use crate::arith::{Float, three_digits};
-use crate::case::{DirectionLength, Draw, Parameters, Scene};
+use crate::case::{Case, DirectionLength, Draw, Parameters, Ray, Scene, Triangle};
 use crate::corpus::is_without_area;
 use crate::family::{
     Corners, Made, Pair, Parallel, RayAxes, Ring, Stratum, TriangleSource, along_axis, circle,
@@ -101,6 +101,31 @@ impl SceneMesh {
         stratum.make_at(&self.triangles::<F>(&scene), parameters, seed, index)
     }
 
+    /// Adds the triangles that share a point with one of a stratum's group, with a ray; false if they are too many
+    /// ([`super::MOST_AROUND`]), or if the stratum has no groups. The numbers are those from which the group is drawn,
+    /// before anything else.
+    pub fn add_neighbours<F: Float>(
+        &self,
+        stratum: Stratum,
+        draw: &mut Draw,
+        ray: &Ray<F::Vector>,
+        cases: &mut Vec<Case<F>>,
+    ) -> bool {
+        let topology = self.surface.topology::<F>().expect("a scalar of the run");
+        let group = match stratum {
+            Stratum::Edges => &any_edge(topology, draw).faces,
+            Stratum::Vertices => any_fan(topology, draw).1,
+            _ => return false,
+        };
+        let mesh = self.surface.mesh();
+        let Some(faces) = topology.around(&mesh.triangles, group) else { return false };
+        for face in faces {
+            let [a, b, c] = mesh.vertices(face as usize).map(F::Vector::from);
+            cases.push(Case { ray: *ray, triangle: Triangle::new(a, b, c) });
+        }
+        true
+    }
+
     /// Its triangles, for rays of a scene.
     pub fn triangles<'a, F: Float>(
         &'a self,
@@ -125,6 +150,16 @@ fn faces_with_area<F: Float>(surface: &Surface) -> Vec<u32> {
         Some(_) => (0..mesh.triangles.len() as u32).filter(has_area).collect(),
         None => Vec::new(),
     }
+}
+
+/// An edge of two faces; there is one.
+fn any_edge<'t>(topology: &'t Topology, draw: &mut Draw) -> &'t SharedEdge {
+    &topology.shared[draw.below(topology.shared.len())]
+}
+
+/// The centre and the faces of a closed fan; there is one.
+fn any_fan<'t>(topology: &'t Topology, draw: &mut Draw) -> (u32, &'t [u32]) {
+    topology.fans.get(draw.below(topology.fans.len()))
 }
 
 fn longest_edge<F: Float>(corners: Corners<F>) -> f64 {
@@ -158,13 +193,13 @@ impl<F: Float> TriangleSource<F> for OfMesh<'_> {
     }
 
     fn pair(&self, draw: &mut Draw) -> Pair<F> {
-        let edge = self.topology.shared[draw.below(self.topology.shared.len())];
+        let edge = any_edge(self.topology, draw);
         let ends = edge.ends.map(|point| self.mesh.surface.mesh().position(point));
         Pair { ends, triangles: edge.faces.map(|face| self.corners(face)) }
     }
 
     fn fan(&self, draw: &mut Draw) -> Ring<F> {
-        let (center, faces) = self.topology.fans.get(draw.below(self.topology.fans.len()));
+        let (center, faces) = any_fan(self.topology, draw);
         let triangles = faces.iter().map(|face| self.corners(*face)).collect();
         Ring { center: self.mesh.surface.mesh().position(center), triangles }
     }

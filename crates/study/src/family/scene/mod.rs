@@ -16,8 +16,9 @@ mod triangles;
 pub(crate) use draw::{RayAxes, any_direction, circle, in_plane, rounded, unit_vector, wide};
 pub use flat::TRIES;
 pub(super) use flat::grazing_sine;
-pub use pixel::{Pixel, pixel};
+pub use pixel::{Pixel, pixel, pixel_draw};
 pub(super) use shadow::hit_point;
+pub(super) use triangles::HEXAGON;
 pub(crate) use triangles::{Corners, Pair, Parallel, Ring, TriangleSource, along_axis, flat_along};
 
 use super::drawn_interval::draw_interval;
@@ -68,8 +69,12 @@ impl Stratum {
         seed: u64,
         index: u64,
     ) -> Made<F> {
-        let mut draw = Draw::new(self.name(), seed, index);
-        self.make_of(Some(triangles), parameters, &mut draw)
+        self.make_of(Some(triangles), parameters, &mut self.draw(seed, index))
+    }
+
+    /// The numbers from which a case is drawn, those of its triangles first.
+    pub fn draw(self, seed: u64, index: u64) -> Draw {
+        Draw::new(self.name(), seed, index)
     }
 
     /// The same at triangles drawn from the scene's numbers.
@@ -85,7 +90,9 @@ impl Stratum {
         draw: &mut Draw,
     ) -> Made<F> {
         let mut scene = parameters.scene.clone().unwrap_or_default();
-        let doublings = settle_length(draw, &mut scene);
+        // A stream of its own: the first numbers of the other are those of the triangles.
+        let mut lengths = Draw::new("scene-lengths", draw.clone().bits(), 0);
+        let doublings = settle_length(&mut lengths, &mut scene);
         let setup = Setup {
             triangles: triangles.unwrap_or(&scene),
             scene: &scene,

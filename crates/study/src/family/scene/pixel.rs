@@ -15,6 +15,11 @@ use std::f64::consts::LN_2;
 /// So many halvings are below the scalar's precision.
 const HALVINGS: f64 = 8.0;
 
+/// The numbers from which a ray is drawn, those of its pair of triangles first.
+pub fn pixel_draw(seed: u64, index: u64) -> Draw {
+    Draw::new("scene-pixels", seed, index)
+}
+
 /// A ray near an edge that triangles share. Areas are as it sees them: at right angles to it.
 pub struct Pixel<F: Float> {
     /// The triangles with their ray.
@@ -33,7 +38,7 @@ pub fn pixel<F: Float>(
     index: u64,
 ) -> Pixel<F> {
     let setup = Setup { triangles, scene, kernel: None };
-    let draw = &mut Draw::new("scene-pixels", seed, index);
+    let draw = &mut pixel_draw(seed, index);
     let Pair { ends, triangles } = setup.triangles.pair(draw);
     let toward = aim(draw, scene, triangles[0]);
     let areas = triangles.map(|triangle| {

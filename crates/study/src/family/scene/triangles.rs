@@ -134,7 +134,7 @@ impl<F: Float> TriangleSource<F> for Scene {
 }
 
 /// The corners of a hexagon: cosines and sines of multiples of 60 degrees.
-const HEXAGON: [[f64; 2]; 6] = {
+pub const HEXAGON: [[f64; 2]; 6] = {
     const SINE: f64 = 0.866_025_403_784_438_6;
     [[1.0, 0.0], [0.5, SINE], [-0.5, SINE], [-1.0, 0.0], [-0.5, -SINE], [0.5, -SINE]]
 };
