@@ -111,7 +111,7 @@ impl Recipe for Fan {
 }
 
 /// True if the line of a case crosses its closed triangle.
-fn meets_line(truth: &Truth) -> bool {
+pub(super) fn meets_line(truth: &Truth) -> bool {
     truth.crossing().is_some_and(|crossing| crossing.feature != Feature::Outside)
 }
 

@@ -7,13 +7,12 @@
 use super::control::is_steep;
 use super::exact_ray::exact_ray;
 use super::integer::turned;
-use super::neighbours::face_alike;
+use super::neighbours::{face_alike, meets_line};
 use super::scene::{HEXAGON, RayAxes, any_direction, rounded, wide};
 use super::{Grouping, Kept, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
-use crate::truth::Truth;
 
 pub(super) struct VertexFan;
 
@@ -22,10 +21,8 @@ impl Recipe for VertexFan {
     const PROMISE: &'static str = "a closed fan of three to six triangles, all transversal and facing alike, the line \
                                    through its vertex where floats allow it";
     const GROUPING: Grouping = Grouping::Fan;
-    const KEEPS: Kept = Kept::Together(|truths| {
-        let is_hit = |truth: &Truth| truth.hits_closed() == Some(true);
-        face_alike(truths) && truths.iter().any(is_hit)
-    });
+    const KEEPS: Kept =
+        Kept::Together(|truths| face_alike(truths) && truths.iter().any(meets_line));
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         loop {
