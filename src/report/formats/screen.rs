@@ -7,7 +7,7 @@ use super::lines::{RowLine, notes};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid};
 use super::standing::{Standing, standings};
-use super::{close_up, extremes, number_of, ranking};
+use super::{close_up, extremes, number_of, ranking, relations};
 use crate::case::SceneKind;
 use crate::kernel;
 use crate::report::elsewhere::{self, ComparedRates};
@@ -26,7 +26,7 @@ pub(super) fn blocks(
     lines: &[RowLine],
 ) -> (String, Vec<Block>) {
     let standings = standings(record, columns, lines);
-    let (title, rest) = answer(record, columns, &standings);
+    let (title, rest) = diagnosed(record, answer(record, columns, &standings));
     let mut blocks = vec![Block::Text(rest), Block::Text(head(record))];
     blocks.extend(notes(record));
     blocks.extend(shared_in_scenes(record).map(Block::text));
@@ -50,6 +50,15 @@ pub(super) fn blocks(
         blocks.push(Block::Commands("next", commands));
     }
     (title, blocks)
+}
+
+/// An answer, its first sentence and the others, after the mistakes that explain it.
+fn diagnosed(record: &Record, answer: (String, String)) -> (String, String) {
+    let mistakes = relations::sentences(record);
+    match mistakes.is_empty() {
+        true => answer,
+        false => (format!("{}.", mistakes.join(". ")), format!("{} {}", answer.0, answer.1)),
+    }
 }
 
 /// Which kernels ran, and on how many cases.

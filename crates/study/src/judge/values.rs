@@ -30,22 +30,22 @@ pub(super) fn has_values(truth: &Truth) -> bool {
 }
 
 /// Exact t, u, v of a line that crosses the plane, and how far each may be off.
-struct Allowed<R> {
-    exact: [R; 3],
+pub(super) struct Allowed<R> {
+    pub(super) exact: [R; 3],
     /// u·κ; [`ALLOWANCE`] times as much is allowed.
-    unit: [R; 3],
+    pub(super) unit: [R; 3],
     /// The squares of the longest edge and of the direction's length.
     edge_squared: R,
     direction_squared: R,
     /// The least positive number of the scalar.
     least: f64,
-    number: fn(f64) -> R,
+    pub(super) number: fn(f64) -> R,
 }
 
 impl<R: Real> Allowed<R> {
     /// In an arithmetic that does not round, of a case in a scalar with this unit roundoff and this least
     /// number.
-    fn of<F: Float>(case: &Case<F>, number: fn(f64) -> R) -> Allowed<R> {
+    pub(super) fn of<F: Float>(case: &Case<F>, number: fn(f64) -> R) -> Allowed<R> {
         let roundoff = roundoff::<F>();
         let (ray, triangle) = case.widen().lift(number);
         let (Ray { origin: o, direction: d, .. }, Triangle { a, b, c }) = (&ray, &triangle);
@@ -91,7 +91,7 @@ impl<R: Real> Allowed<R> {
     }
 
     /// The same of several values of a hit.
-    fn admits_all(&self, values: &[(usize, f64)], tolerance: f64) -> bool {
+    pub(super) fn admits_all(&self, values: &[(usize, f64)], tolerance: f64) -> bool {
         values.iter().all(|&(which, value)| self.admits(which, (self.number)(value), tolerance))
     }
 
@@ -110,7 +110,7 @@ impl<R: Real> Allowed<R> {
 }
 
 /// Half the distance from 1 to the next number of a scalar.
-fn roundoff<F: Float>() -> f64 {
+pub(super) fn roundoff<F: Float>() -> f64 {
     F::EPSILON.to_f64() / 2.0
 }
 
@@ -119,7 +119,7 @@ fn given(gives: Gives) -> [bool; 3] {
 }
 
 /// Those of t, u and v (0, 1 and 2) that a kernel gives.
-fn given_values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Vec<(usize, f64)> {
+pub(super) fn given_values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Vec<(usize, f64)> {
     let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64).into_iter().enumerate();
     values.filter(|(which, _)| given(gives)[*which]).collect()
 }
@@ -227,7 +227,8 @@ fn measure<F: Float, R: Real>(
     Some(all)
 }
 
-fn length(v: [f64; 3]) -> f64 {
+/// The length of a vector, without overflow on the way.
+pub(super) fn length(v: [f64; 3]) -> f64 {
     let largest = v.into_iter().map(f64::abs).fold(0.0, f64::max);
     largest * v.into_iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
 }
