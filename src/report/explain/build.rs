@@ -2,6 +2,7 @@
 
 use super::advice::{advice, group_advice, of_line};
 use super::margin::margin_text;
+use super::near::Nearby;
 use super::nearest::nearest;
 use super::verdict::{Together, group_verdict, number, plain, short, verdict_of};
 use super::{ExplainedGate, ExplainedRow, Explanation, InstancePart, TogetherPart, TrianglePart};
@@ -212,8 +213,11 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
         };
         part.why = Some(in_words(cause, subject.gated().is_some()).to_owned());
         part.advice = advice(case, is_secondary, row, (finding, cause), &verdict);
-        if subject.gated().is_none() {
-            part.notes.extend(nearest(case, is_secondary, row, &verdict));
+        if subject.gated().is_none()
+            && let Some(nearby) = Nearby::of(case, row)
+        {
+            part.notes.extend(nearby.relations(row));
+            part.notes.extend(nearest(case, is_secondary, row, &verdict, &nearby));
         }
     }
     part.notes.extend(of_line(case, row, &verdict));

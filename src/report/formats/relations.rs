@@ -1,6 +1,5 @@
 //! The sentences about the mistakes of a kernel that a simple relation explains.
 
-use super::group_digits;
 use super::record::*;
 use crate::audit::Related;
 use std::collections::BTreeMap;
@@ -10,7 +9,7 @@ use std::collections::BTreeMap;
 pub(super) fn sentences(record: &Record) -> Vec<String> {
     let rows = record.result.plan.rows.iter();
     let of_row = |row: &RowPart| {
-        let known: Vec<String> = known(record, row).into_iter().map(sentence).collect();
+        let known: Vec<String> = known(record, row).iter().map(Related::to_string).collect();
         (!known.is_empty()).then(|| format!("{}: {}", row.label(), known.join("; ")))
     };
     rows.filter_map(of_row).collect()
@@ -28,16 +27,4 @@ fn known(record: &Record, row: &RowPart) -> Vec<Related> {
         sum.of += of;
     }
     sums.into_values().collect()
-}
-
-fn sentence(related: Related) -> String {
-    let Related { relation, count, of } = related;
-    let cases = relation.part().cases();
-    match count == of {
-        true => format!("{} on all {} {cases}", relation.about(), group_digits(of)),
-        false => {
-            let [count, of] = [count, of].map(group_digits);
-            format!("{} on {count} of {of} {cases}", relation.about())
-        }
-    }
 }

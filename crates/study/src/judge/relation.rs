@@ -1,6 +1,7 @@
 //! Simple relations between the answers of a kernel and the exact values, by which a mistake is known: t is twice the exact
 //! t, u and v are exchanged, t_min is ignored.
 
+use super::distance::Distances;
 use super::values::{ALLOWANCE, Allowed, given_values, length, roundoff};
 use super::{Obligation, obligation};
 use crate::arith::{Bounded, Exact, Float, Real, bounded};
@@ -20,33 +21,33 @@ named! {
         TwiceT = "t-twice",
         /// t is half the exact t.
         HalfT = "t-half",
-        /// t is -t, of the opposite sign.
+        /// t has the opposite sign.
         OppositeT = "t-opposite",
-        /// t is t*|d|: a length, not a multiple of the direction.
+        /// t is t*|d|.
         LengthT = "t-times-length",
-        /// t is t*|d|^2: not divided by d.d.
+        /// t is t*|d|^2.
         SquaredLengthT = "t-times-squared-length",
-        /// t is t/|d|: divided by the length of the direction once too often.
+        /// t is t/|d|.
         OverLengthT = "t-over-length",
-        /// t is t - t_min: counted from the start of the interval.
+        /// t is t - t_min.
         FromStartT = "t-less-t-min",
-        /// t is (t - t_min)/(t_max - t_min): a share of the interval.
+        /// t is (t - t_min)/(t_max - t_min).
         ShareT = "t-in-interval",
         /// t is clamped to t_max.
         ClampedT = "t-clamped",
         /// u and v are exchanged.
         Exchanged = "u-v-exchanged",
-        /// u is the weight of a, 1 - u - v.
+        /// u is the weight of a (1 - u - v).
         WeightAForU = "w-for-u",
-        /// v is the weight of a, 1 - u - v.
+        /// v is the weight of a (1 - u - v).
         WeightAForV = "w-for-v",
-        /// u and v are the weights of a and b, not those of b and c.
+        /// u and v are the weights of a and b.
         WeightsOfAb = "weights-of-a-b",
-        /// u and v are the weights of c and a, not those of b and c.
+        /// u and v are the weights of c and a.
         WeightsOfCa = "weights-of-c-a",
-        /// its values are those of f32, not f64.
+        /// t, u and v are computed in f32.
         InF32 = "in-f32",
-        /// it gives the previous answer again.
+        /// t, u and v are those of the previous answer.
         Previous = "previous-answer",
         /// it takes |t| for t.
         AbsoluteT = "t-absolute",
@@ -246,6 +247,10 @@ fn is_near<R: Real>(allowed: &Allowed<R>, found: &R, expected: R, unit: R) -> bo
     off.is_at_most(&((allowed.number)(ALLOWANCE) * unit))
 }
 
+/// How far, in longest edges, a case must be from where its obligation changes to show how the interval is read: nearer to an
+/// end rounding decides.
+const CLEAR: f64 = 1.0 / 1024.0;
+
 /// The relations about hit or miss that demand another answer to a case than its contract, each with what it demands. The
 /// contract demands something there.
 pub fn other_demands<F: Float>(
@@ -263,7 +268,9 @@ pub fn other_demands<F: Float>(
         let is_other = other != owed && owed != Obligation::Free && other != Obligation::Free;
         is_other.then_some((relation, other))
     });
-    others.collect()
+    let others: Vec<(Relation, Obligation)> = others.collect();
+    let is_clear = || CLEAR <= Distances::of(case, truth).nearest_change(truth, contract);
+    if others.is_empty() || !is_clear() { Vec::new() } else { others }
 }
 
 /// A crossing as a kernel takes it of which a relation is true; none if the relation changes no answer to the case.
