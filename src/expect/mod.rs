@@ -8,6 +8,7 @@
 
 #![forbid(unsafe_code)]
 
+mod accuracy;
 mod bless;
 mod changed;
 mod compare;

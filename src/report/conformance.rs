@@ -252,13 +252,13 @@ impl Conformance {
         (self.known.len() + deviations) as u64
     }
 
-    /// How many findings the known disagreements have together, in brackets; empty where there are none.
+    /// How many findings the known disagreements have together; empty where there are none.
     pub fn findings(&self) -> String {
         match self.known.iter().map(|known| known.found.count).sum() {
             0 => String::new(),
             count => format!(
-                ", each of a kernel, a family and a class ({} in all)",
-                number_of(count, "finding", "findings")
+                " of {} (each disagreement is of a kernel, a family and a class)",
+                number_of(count, "known finding", "known findings")
             ),
         }
     }

@@ -22,7 +22,9 @@ pub use group::{
     GroupTruth, group_obligation, group_truth, owes_groups_alike, polygon_obligation, polygon_truth,
 };
 pub use relation::{Part, RelatedValues, Relation, answers_as, other_demands};
-pub use values::{ALLOWANCE, ValueErrors, ValueLimits, exact_times, exact_values_are_near};
+pub use values::{
+    ALLOWANCE, ValueErrors, ValueLimits, exact_times, exact_values_are_near, rounds_to_infinity,
+};
 
 use crate::arith::{Exact, Float, Real, Triple};
 use crate::case::Case;
@@ -205,7 +207,8 @@ impl Answer {
         gives: Gives,
         verdict: &Verdict<F>,
     ) -> Answer {
-        let finite = (!gives.t || verdict.t.is_finite())
+        let is_number = |t: F| t.is_finite() || values::rounds_to_infinity(case, truth, t);
+        let finite = (!gives.t || is_number(verdict.t))
             && (!gives.uv || (verdict.u.is_finite() && verdict.v.is_finite()));
         let compares = verdict.hit && finite && values::has_values(truth);
         let near = !compares || values::are_near(case, gives, verdict, contract.value_tolerance);

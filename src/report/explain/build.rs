@@ -1,8 +1,8 @@
 //! An explanation from the case itself: every kernel runs here once more, as it is and without rounding.
 
-use super::advice::{advice, group_advice, of_line};
+use super::advice::{advice, group_advice, of_invalid, of_line};
 use super::margin::margin_text;
-use super::near::Nearby;
+use super::near::{Nearby, add_relations};
 use super::nearest::nearest;
 use super::verdict::{Together, group_verdict, number, plain, short, verdict_of};
 use super::{ExplainedGate, ExplainedRow, Explanation, InstancePart, TogetherPart, TrianglePart};
@@ -216,11 +216,12 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
         if subject.gated().is_none()
             && let Some(nearby) = Nearby::of(case, row)
         {
-            part.notes.extend(nearby.relations(row));
+            add_relations(&mut part, nearby.relations(row), cause);
             part.notes.extend(nearest(case, is_secondary, row, &verdict, &nearby));
         }
     }
     part.notes.extend(of_line(case, row, &verdict));
+    part.notes.extend(of_invalid(&truth, subject, &verdict));
     if verdict.hit {
         part.values.push(values(gives, &verdict));
         let tolerance = row.contract.value_tolerance;

@@ -1,7 +1,8 @@
 //! Cases like a given one, with a kernel's answers to them: by what it does there a mistake is known.
 
+use super::ExplainedRow;
 use crate::arith::Float;
-use crate::audit::{Relations, Row};
+use crate::audit::{Attribution, Relations, Row};
 use crate::case::{Case, Draw};
 use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
 
@@ -43,7 +44,21 @@ impl<F: Scalar> Nearby<F> {
         let gives = row.entry.info.gives;
         let relations = Relations::of(&self.drawn, &row.contract, gives, &self.answers);
         let known = relations.known().into_iter();
-        known.map(|related| format!("on cases like this one {related}")).collect()
+        known.map(|related| format!("{related} like this one")).collect()
+    }
+}
+
+/// Adds simple relations that hold near the case: where nothing else is known of the cause, they are the cause.
+pub(super) fn add_relations(
+    part: &mut ExplainedRow,
+    relations: Vec<String>,
+    cause: Option<Attribution>,
+) {
+    match cause {
+        None | Some(Attribution::NotEpsilon) if !relations.is_empty() => {
+            part.why = Some(relations.join("; "));
+        }
+        _ => part.notes.extend(relations),
     }
 }
 

@@ -21,7 +21,8 @@ pub(super) fn other_epsilon<F: Scalar>(formula: &Row, nearby: &Nearby<F>) -> Opt
     let epsilons: Vec<F> = formula.epsilons();
     let drawn = nearby.drawn.iter().zip(&nearby.answers);
     let scaled = nearby.scaled.iter().map(|(case, answer)| (case, answer));
-    let measured = |(case, answer): (&Case<F>, &Verdict<F>)| (gated.measure(case).margins, answer.hit);
+    let measured =
+        |(case, answer): (&Case<F>, &Verdict<F>)| (gated.measure(case).margins, answer.hit);
     let answers: Vec<(Vec<F>, bool)> = drawn.chain(scaled).map(measured).collect();
     let gates = formula.entry.info.gates.iter().enumerate();
     let tuned = gates.filter(|(_, gate)| gate.epsilon != Tunable::Fixed);
@@ -29,7 +30,8 @@ pub(super) fn other_epsilon<F: Scalar>(formula: &Row, nearby: &Nearby<F>) -> Opt
         let range = range(&answers, &epsilons, place)?;
         let old = epsilons[place];
         let is_old = range.low < old && old <= range.high;
-        (!is_old).then(|| format!("{} {} in place of {}", gate.name, range.in_words(), shortest(old)))
+        (!is_old)
+            .then(|| format!("{} {} in place of {}", gate.name, range.in_words(), shortest(old)))
     });
     let found: Vec<String> = of_gate.collect();
     match &found[..] {

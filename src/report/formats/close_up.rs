@@ -1,7 +1,7 @@
 //! A few rows, each by itself: its contract and gates, and for each question its false misses, its false
 //! hits and what most of them come from.
 
-use super::columns::{AcrossColumn, Column, far, short_percent};
+use super::columns::{AcrossColumn, Column, visible};
 use super::disagreement::is_at_shared;
 use super::group_digits;
 use super::lines::{RowLine, column_legend};
@@ -75,8 +75,7 @@ fn table(columns: &[Column], lines: &[&RowLine]) -> Table {
         }
         heads.push(Head::text("cause of most").optional());
     }
-    let far_off = Head::of("far off, %").about("wrong by over 1/1000 of the longest edge");
-    heads.push(far_off.optional());
+    heads.push(Head::of("visible").about("answers off by over 1/1000 of an edge, values included"));
     let rows = columns.iter().enumerate().filter_map(|(i, column)| row(column, i, lines));
     Table::new(heads, rows.collect())
 }
@@ -106,7 +105,8 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
         let has_cracks = cracks.iter().any(|pool| 0 < pool.rate().count);
         row.cells.extend(cracks.iter().map(|pool| share(pool.rate())));
         row.cells.push(if has_cracks { "cracks" } else { "no cracks" }.to_owned().into());
-        row.cells.resize_with(2 * lines.len() + 3, Cell::default);
+        row.cells.resize_with(2 * lines.len() + 2, Cell::default);
+        row.cells.push(group_digits(visible(&results.concat())).into());
         return Some(row);
     }
     for (kind, rate) in WRONG {
@@ -119,10 +119,7 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
         }));
         row.cells.push(cause(&results.concat(), kind).into());
     }
-    let all = results.iter().flatten();
-    let far = all.flat_map(|result| WRONG.map(|(kind, _)| far(result, kind))).sum();
-    let of = cells.iter().map(|cell| cell.wrong.of).sum();
-    row.cells.push(short_percent([far, of]).into());
+    row.cells.push(group_digits(visible(&results.concat())).into());
     Some(row)
 }
 

@@ -1,6 +1,7 @@
 //! One row of a record, folded: what it promises, its gates and what is proved of them, its rates, why it is wrong, drawings of
 //! the worst, and every class of its findings.
 
+use super::disagreement::counts_alone;
 use super::pool::{Pool, counted};
 use super::record::*;
 use super::row_view::{COUNTED, RowView, WRONG};
@@ -212,8 +213,9 @@ fn by_family(record: &Record, views: &[&RowView]) -> Table {
     let row = |source: &PlannedSource| {
         let cells = results.iter().flat_map(|results| {
             let result = results.get(&*source.family);
-            WRONG.map(|(_, rate)| {
-                let rate = result.map(|result| rate(&result.total)).filter(|rate| 0 < rate.of);
+            WRONG.map(|(kind, rate)| {
+                let alone = result.filter(|result| counts_alone(result, kind));
+                let rate = alone.map(|result| rate(&result.total)).filter(|rate| 0 < rate.of);
                 Cell {
                     text: rate.map_or("-".to_owned(), counted),
                     share: rate.and_then(|rate| rate.rate),

@@ -114,7 +114,7 @@ fn incomplete_meshes(record: &Record) -> BTreeSet<String> {
     record.result.sources.iter().filter_map(sentence).collect()
 }
 
-fn capitalised(text: &str) -> String {
+pub(super) fn capitalised(text: &str) -> String {
     let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
     format!("{}{rest}", first.to_uppercase())
 }

@@ -85,7 +85,8 @@ impl Relations {
         for (i, (case, verdict)) in cases.iter().zip(verdicts).enumerate() {
             let truth = oracle::truth(case);
             let owed = asked(case, &truth, contract, false);
-            if judge((contract, owed), (case, &truth), gives, verdict) == Some(Finding::WrongValue) {
+            if judge((contract, owed), (case, &truth), gives, verdict) == Some(Finding::WrongValue)
+            {
                 let values = RelatedValues::of(case, gives, verdict, contract.value_tolerance);
                 let before = i.checked_sub(1).map(|place| &verdicts[place]);
                 relations.add_values(&values, verdict, before);

@@ -220,8 +220,9 @@ impl<F: Float> HitValues<'_, F> {
         let weights = [R::one() - u - v, u.clone(), v.clone()];
         let unit = allowed.unit[1].clone() + &allowed.unit[2];
         let found = [self.verdict.u, self.verdict.v].map(|x| (allowed.number)(x.to_f64()));
-        let stands_for =
-            |place: usize, weight: usize| is_near(allowed, &found[place], weights[weight].clone(), unit.clone());
+        let stands_for = |place: usize, weight: usize| {
+            is_near(allowed, &found[place], weights[weight].clone(), unit.clone())
+        };
         let holds = |[for_u, for_v]: [usize; 2]| stands_for(0, for_u) && stands_for(1, for_v);
         let held = WEIGHTS.into_iter().filter(|(_, weights)| holds(*weights));
         held.map(|(relation, _)| relation).collect()

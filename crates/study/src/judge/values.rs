@@ -118,10 +118,12 @@ fn given(gives: Gives) -> [bool; 3] {
     [gives.t, gives.uv, gives.uv]
 }
 
-/// Those of t, u and v (0, 1 and 2) that a kernel gives.
+/// Those of t, u and v (0, 1 and 2) that a kernel gives; not a t that is rightly infinite, which is as near as a number can
+/// be.
 pub(super) fn given_values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Vec<(usize, f64)> {
     let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64).into_iter().enumerate();
-    values.filter(|(which, _)| given(gives)[*which]).collect()
+    let finite = values.filter(|(_, value)| value.is_finite());
+    finite.filter(|(which, _)| given(gives)[*which]).collect()
 }
 
 /// True if each value that the kernel gives is as near to its exact one as rounding may leave it, or as a contract
@@ -137,7 +139,21 @@ pub(super) fn are_near<F: Float>(
     in_bounds.unwrap_or_else(|| Allowed::of(case, Exact::from_f64).admits_all(&values, tolerance))
 }
 
-/// The same of what a kernel's formula gives without rounding.
+/// True if a t is an infinity to which the exact t of a hit rounds: it is as far beyond the largest number as half of that
+/// number's last place.
+pub fn rounds_to_infinity<F: Float>(case: &Case<F>, truth: &Truth, t: F) -> bool {
+    if t.is_nan() || t.is_finite() || !has_values(truth) {
+        return false;
+    }
+    let largest = F::infinity().offset_ulps(-1);
+    let half = Exact::from_f64(largest.ulp().to_f64()) / Exact::from_f64(2.0);
+    let limit = Exact::from_f64(largest.to_f64()) + half;
+    let [exact, ..] = Allowed::of(case, Exact::from_f64).exact;
+    let exact = if t < F::zero() { -exact } else { exact };
+    limit.is_at_most(&exact)
+}
+
+/// True if what a kernel's formula gives without rounding is as near.
 pub fn exact_values_are_near<F: Float>(
     case: &Case<F>,
     gives: Gives,
