@@ -1,13 +1,18 @@
 //! The errors of right hits in two records: a kernel whose values get worse may be right as often as before.
 
+use super::LockedTarget;
 use super::difference::{OtherValue, Trend};
-use crate::report::{Distribution, ResultPart, RowTotal};
+use crate::report::{Distribution, ErrorChange, ResultPart, RowTotal};
+use std::collections::BTreeMap;
 
 /// Quantiles that differ by less than this factor are the same: they are rounded up by at most an eighth.
 const SAME_CASES: f64 = 1.25;
 
 /// The same for other cases, of which a sample differs by chance too.
 const OTHER_CASES: f64 = 2.0;
+
+/// Two samples with numbers of hits that differ by more than this share are of other cases.
+const SAME_HITS: f64 = 0.1;
 
 /// Errors of at most this many ulps are those of one rounding.
 const ROUNDED: f64 = 0.5;
@@ -30,13 +35,14 @@ pub(super) fn accuracy_changes(
     new: &ResultPart,
     same_cases: bool,
 ) -> Vec<OtherValue> {
-    let factor = if same_cases { SAME_CASES } else { OTHER_CASES };
     let mut changes = Vec::new();
     for before in &old.totals {
         let Some(now) = new.totals.iter().find(|now| is_same_row(before, now)) else { continue };
         for (value, name) in VALUES {
             let errors = before.accuracy.get(value).zip(now.accuracy.get(value));
             let Some((old, new)) = errors else { continue };
+            let is_same_sample = same_cases && are_alike(old.count, new.count);
+            let factor = if is_same_sample { SAME_CASES } else { OTHER_CASES };
             for (share, quantile) in QUANTILES {
                 let [old, new] = [quantile(old), quantile(new)];
                 changes.extend(trend(old, new, factor).map(|trend| OtherValue {
@@ -49,6 +55,63 @@ pub(super) fn accuracy_changes(
                     new: ulps(new),
                 }));
             }
+        }
+    }
+    changes
+}
+
+/// The errors of the hits of a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HitErrors {
+    /// How many hits.
+    pub hits: u64,
+    /// Within how many ulps half and 99 % of them are.
+    pub quantiles: [f64; 2],
+}
+
+/// Errors by kernel, epsilons, scalar and value.
+pub(super) type LockedErrors = BTreeMap<[String; 4], HitErrors>;
+
+/// True if samples have nearly as many hits.
+fn are_alike(one: u64, other: u64) -> bool {
+    one.abs_diff(other) as f64 <= SAME_HITS * one.max(other) as f64
+}
+
+/// The quantiles of a run.
+pub(super) fn errors_of(result: &ResultPart) -> LockedErrors {
+    let of_row = |row: &RowTotal| {
+        let key = |value: &String| {
+            [row.kernel.clone(), row.set.clone(), row.scalar.clone(), value.clone()]
+        };
+        let errors = |errors: &Distribution| HitErrors {
+            hits: errors.count,
+            quantiles: QUANTILES.map(|(_, quantile)| quantile(errors)),
+        };
+        let all = row.accuracy.iter().map(|(value, of)| (key(value), errors(of)));
+        all.collect::<Vec<_>>()
+    };
+    result.totals.iter().flat_map(of_row).collect()
+}
+
+/// The quantiles of a run that are not those of a blessed run on the same cases.
+pub(super) fn error_changes(result: &ResultPart, known: &LockedTarget) -> Vec<ErrorChange> {
+    let mut changes = Vec::new();
+    for (key, now) in errors_of(result) {
+        let before = known.errors.get(&key).filter(|it| are_alike(it.hits, now.hits));
+        let Some(before) = before.map(|it| it.quantiles) else { continue };
+        let now = now.quantiles;
+        let [kernel, set, scalar, value] = &key;
+        let named = VALUES.iter().find(|(word, _)| word == value);
+        let name = named.map_or(value.as_str(), |(_, name)| *name);
+        for (i, (share, _)) in QUANTILES.iter().enumerate() {
+            changes.extend(trend(before[i], now[i], SAME_CASES).map(|trend| ErrorChange {
+                what: format!(
+                    "{kernel} ({set}) {scalar}: {share} of the right hits have a {name} within"
+                ),
+                before: ulps(before[i]),
+                now: ulps(now[i]),
+                is_worse: trend == Trend::Worse,
+            }));
         }
     }
     changes

@@ -21,6 +21,7 @@ mod named;
 mod rows;
 mod scene;
 
+pub use accuracy::HitErrors;
 pub use bless::{BlessError, bless};
 pub use compare::compare;
 pub use difference::{Difference, RecordComparison, Trend, difference};

@@ -26,8 +26,11 @@ mod mesh_files;
 mod mesh_page;
 mod own;
 mod plugin;
+mod numbers;
 mod program;
 mod prove;
+#[cfg(unix)]
+mod relations;
 #[cfg(unix)]
 mod repair;
 mod repair_languages;

@@ -7,7 +7,7 @@ enum mistake {
     NONE, TWICE, HALF, OPPOSITE, LENGTH, SQUARED_LENGTH, OVER_LENGTH, FROM_START, SHARE, CLAMPED, EXCHANGED, W_FOR_U, W_FOR_V,
     OF_AB, OF_CA, IN_F32, PREVIOUS, ABSOLUTE, NO_T_MIN, ZERO_T_MIN, CLAMPED_T_MIN, NO_T_MAX,
     /* No simple relation: */
-    AFFINE, SOMETIMES_TWICE,
+    AFFINE, SOMETIMES_TWICE, OFF_BY_ULPS,
 };
 
 uint32_t hairline_abi(void) { return HAIRLINE_ABI; }
@@ -85,6 +85,7 @@ static void one(const hairline_case_f64 *c, size_t place, hairline_verdict_f64 *
     case OF_AB: verdict->u = w; verdict->v = u; break;
     case OF_CA: verdict->u = v; verdict->v = w; break;
     case ABSOLUTE: verdict->t = fabs(t); break;
+    case OFF_BY_ULPS: verdict->t = t * (1 + 0x1p-50); verdict->u = u * (1 + 0x1p-50); break;
     case AFFINE: verdict->t = 2 * t + 1; break;
     case SOMETIMES_TWICE: verdict->t = place % 4 == 0 ? 2 * t : t + 1; break;
     default: break;

@@ -1,7 +1,7 @@
 //! A few rows, each by itself: its contract and gates, and for each question its false misses, its false
 //! hits and what most of them come from.
 
-use super::columns::{AcrossColumn, Column, visible};
+use super::columns::{AcrossColumn, Column, kinds, visible};
 use super::disagreement::is_at_shared;
 use super::group_digits;
 use super::lines::{RowLine, column_legend};
@@ -10,7 +10,7 @@ use super::rate::percent;
 use super::record::*;
 use super::row_view::{COUNTED, WRONG};
 use super::why::{cause_shares, of_kind};
-use crate::audit::Attribution;
+use crate::audit::{Attribution, kind_of};
 use crate::kernel::{self, Role};
 use crate::report::page::{Block, Cell, Head, Row, Table};
 
@@ -24,7 +24,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[RowLine]) -> 
         blocks.push(Block::Heading(format!("{}, contract: {}", first.label(), part.contract)));
         blocks.push(Block::Notes(gates(first)));
         blocks.push(Block::Table(table(columns, &of_part)));
-        blocks.push(Block::Notes(others(&of_part)));
+        blocks.push(Block::Notes(others(record, columns, &of_part)));
     }
     let intervals = match record.result.plan.scalars.len() {
         1 => ", with 95 % intervals",
@@ -123,9 +123,12 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
     Some(row)
 }
 
-/// The counts besides false misses and false hits, a line each; why no causes are told, and if the promise across triangles
+/// The counts besides false misses and false hits on planes of the own kind, a line each; why no causes are told, and if the promise across triangles
 /// is kept.
-fn others(lines: &[&RowLine]) -> Vec<String> {
+fn others(record: &Record, columns: &[Column], lines: &[&RowLine]) -> Vec<String> {
+    let own = kinds(record)[0];
+    let has_extremes = columns.iter().any(|column| !column.is_ordinary());
+    let scope = if has_extremes { ", extreme exponents included" } else { "" };
     let is_alone = lines.len() == 1;
     let mut all = Vec::new();
     if lines.iter().any(|line| is_untold(line)) {
@@ -134,7 +137,10 @@ fn others(lines: &[&RowLine]) -> Vec<String> {
     }
     // Hits of the triangle that a ray leaves are no promise's, unless they are false hits.
     for (name, get) in COUNTED[2..].iter().filter(|(name, _)| *name != "self-hits") {
-        let pools = lines.iter().map(|line| (line.row.scalar, line.row.total(get)));
+        let of_own_kind = |result: &KernelResult| {
+            if kind_of(&result.family) == own { get(result) } else { None }
+        };
+        let pools = lines.iter().map(|line| (line.row.scalar, line.row.total(of_own_kind)));
         let counts = pools.filter(|(_, pool)| 0 < pool.counts()[0]).map(|(scalar, pool)| {
             if is_alone {
                 pool.to_string()
@@ -143,8 +149,10 @@ fn others(lines: &[&RowLine]) -> Vec<String> {
             }
         });
         let counts: Vec<String> = counts.collect();
+        let is_of_values = name.ends_with("values");
+        let scope = if is_of_values { scope } else { "" };
         if !counts.is_empty() {
-            all.push(format!("{name}: {}", counts.join(", ")));
+            all.push(format!("{name}: {}{scope}", counts.join(", ")));
         }
     }
     for line in lines {
