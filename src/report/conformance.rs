@@ -345,7 +345,10 @@ impl Conformance {
         };
         let errors = match self.worse_errors() {
             0 => String::new(),
-            n => format!("{}, ", number_of(n as u64, "larger error of hits", "larger errors of hits")),
+            n => format!(
+                "{}, ",
+                number_of(n as u64, "larger error of hits", "larger errors of hits")
+            ),
         };
         let unsteady = match self.unsteady.len() {
             0 => String::new(),

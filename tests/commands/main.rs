@@ -24,9 +24,9 @@ mod map_command;
 mod mesh;
 mod mesh_files;
 mod mesh_page;
+mod numbers;
 mod own;
 mod plugin;
-mod numbers;
 mod program;
 mod prove;
 #[cfg(unix)]

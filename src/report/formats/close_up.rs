@@ -137,10 +137,11 @@ fn others(record: &Record, columns: &[Column], lines: &[&RowLine]) -> Vec<String
     }
     // Hits of the triangle that a ray leaves are no promise's, unless they are false hits.
     for (name, get) in COUNTED[2..].iter().filter(|(name, _)| *name != "self-hits") {
-        let of_own_kind = |result: &KernelResult| {
-            if kind_of(&result.family) == own { get(result) } else { None }
-        };
-        let pools = lines.iter().map(|line| (line.row.scalar, line.row.total(of_own_kind)));
+        let pools = lines.iter().map(|line| {
+            let results = line.row.results.iter();
+            let own = results.copied().filter(|result| kind_of(&result.family) == own);
+            (line.row.scalar, Pool::of(own.filter_map(get)))
+        });
         let counts = pools.filter(|(_, pool)| 0 < pool.counts()[0]).map(|(scalar, pool)| {
             if is_alone {
                 pool.to_string()
