@@ -89,7 +89,7 @@ impl LockedTarget {
             Err(words) => words,
         };
         // Until 0.1.0 a line of six words had how many groups were judged.
-        if words.len() == 6 {
+        if words.len() == 6 && words[0] != ERRORS {
             return Ok(false);
         }
         let words = match <[String; 8]>::try_from(words) {

@@ -176,4 +176,19 @@ fn fused_products_and_another_epsilon_are_found_by_value() {
     assert!(said.contains("FALSE-MISS"), "{said}");
     assert!(said.contains("it answers as moller-trumbore does"), "{said}");
     assert!(said.contains("it would on all with parallel = 3e-3 in place of 1e-6"), "{said}");
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("fma") {
+        fused_products_are_found(&folder, &source);
+    }
+}
+
+/// The same source, whose products a compiler fuses into sums.
+#[cfg(target_arch = "x86_64")]
+fn fused_products_are_found(folder: &Path, source: &Path) {
+    let flags = ["-O2", "-mfma", "-ffp-contract=fast"];
+    let Some(library) = library(source, "fused-epsilon", &flags) else { return };
+    let case = "{\"scalar\":\"f32\",\"origin\":[0.011,0.013,1],\"direction\":[0.001,0.002,-1],\"a\":[0,0,0],\
+                \"b\":[0.05,0.01,0.02],\"c\":[0,0.05,0.003]}";
+    let said = flat(&ends(folder, &["explain", case, "--kernel-lib", &library], 0).0);
+    assert!(said.contains("it answers as moller-trumbore with fused products does"), "{said}");
 }
