@@ -10,6 +10,7 @@ use super::plugins;
 use super::prove::demand;
 use super::reporting::{Outputs, RunArguments, self_check};
 use super::settings::{self, Given};
+use crate::audit::Plan;
 use crate::conformance::locked;
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError, Expectations};
@@ -22,6 +23,9 @@ use std::path::Path;
 
 /// Where expectations are looked for by default.
 const DEFAULT_FILE: &str = "hairline.expectations.toml";
+
+/// On how many indices of each source the errors of right hits are measured.
+const MEASURED: usize = 100;
 
 /// The flags of `check`: the run, the expectations, and how it is reported.
 #[derive(Args)]
@@ -151,7 +155,8 @@ fn checked(
     let plan = match arguments.record {
         Some(_) => None,
         None => {
-            Some(arguments.run.plan(arguments.attribute).map_err(|failure| blame(failure, given))?)
+            let plan = arguments.run.plan(arguments.attribute);
+            Some(Plan { measured: MEASURED, ..plan.map_err(|failure| blame(failure, given))? })
         }
     };
     let rows = plan.as_ref().map_or(&[][..], |plan| &plan.rows);
@@ -189,7 +194,7 @@ fn checked(
             eprintln!(
                 "hairline: {file} is not written: answers that differ from run to run can be no known disagreements"
             );
-        } else if known_file.is_some() && change.is_worse() && !arguments.accept_worse {
+        } else if known_file.is_some() && conformance.is_worse() && !arguments.accept_worse {
             let instead = match conformance.method {
                 Method::CaseByCase => "",
                 Method::Intervals => {

@@ -40,7 +40,7 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), Error> {
     let (is_new, old) = (old.is_none(), old.unwrap_or_default());
     let target = record.provenance.target.clone();
     let mut compared = expect::compare(&record.result, &target, &old, Some(file));
-    let may_be_written = is_new || accepts_worse || !compared.change.is_worse();
+    let may_be_written = is_new || accepts_worse || !compared.is_worse();
     if blesses && may_be_written {
         let written = expect::blessed(record, &old, &compared, file).map_err(|error| {
             Error(match error {

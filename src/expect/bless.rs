@@ -44,6 +44,7 @@ pub fn bless(
         let is_planned =
             |kernel: &String, set: &String| now.rows.contains_key(&[kernel.clone(), set.clone()]);
         target.rows.retain(|[kernel, set], _| is_planned(kernel, set));
+        target.errors.retain(|[kernel, set, ..], _| is_planned(kernel, set));
         target.cases.retain(|key, _| old.entries.contains_key(&key.of_all_classes()));
     }
     let mut lock = Lock { cases: cases_of_plan, targets: kept };

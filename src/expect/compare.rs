@@ -1,5 +1,6 @@
 //! A run beside its expectations.
 
+use super::accuracy::error_changes;
 use super::changed::{CaseChange, changed_case};
 use super::known::{FoundDisagreement, KnownDisagreements};
 use super::rows::changed_rows;
@@ -110,6 +111,8 @@ pub fn compare(
         (0, _) => ComparisonVerdict::Stale,
         _ => ComparisonVerdict::Disagreements,
     };
+    let target = known.target.filter(|_| same_plan);
+    conformance.add_errors(target.map_or(Vec::new(), |target| error_changes(result, target)));
     conformance
 }
 

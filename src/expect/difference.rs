@@ -1,5 +1,6 @@
 //! Two records side by side: what got better, what got worse.
 
+use super::accuracy::accuracy_changes;
 use super::changed::{CaseChange, changed_case};
 use super::compare::tail;
 use crate::report::page::{Block, Item, Page, Paged, Tone};
@@ -75,6 +76,8 @@ pub struct RecordComparison {
     pub contracts: Vec<OtherValue>,
     /// Numbers that were chosen or proved, and differ.
     pub chosen: Vec<OtherValue>,
+    /// Quantiles of the errors of right hits that differ.
+    pub accuracy: Vec<OtherValue>,
     /// Classes of disagreement of kernels, epsilons, scalars or families that only the old record has.
     pub only_old: usize,
     /// And only the new one.
@@ -82,9 +85,9 @@ pub struct RecordComparison {
 }
 
 impl RecordComparison {
-    /// True if something is more frequent, or a bound is higher.
+    /// True if something is more frequent, or a bound or an error is higher.
     pub fn is_worse(&self) -> bool {
-        let bounds = self.chosen.iter().filter_map(|it| it.change);
+        let bounds = self.chosen.iter().chain(&self.accuracy).filter_map(|it| it.change);
         self.differences.iter().map(|it| it.change).chain(bounds).any(|it| it == Trend::Worse)
     }
 }
@@ -95,6 +98,8 @@ impl RecordComparison {
 pub fn difference(old: &ResultPart, new: &ResultPart) -> RecordComparison {
     let contracts = contract_changes(old, new);
     let same_parts = old.partial == new.partial;
+    let is_of_same_cases = same_parts && old.plan.hash_of_cases() == new.plan.hash_of_cases();
+    let accuracy = accuracy_changes(old, new, is_of_same_cases);
     let (old, new) = (Side::of(old), Side::of(new));
     let keys: BTreeSet<&Key> = old.found.keys().chain(new.found.keys()).collect();
     let (common, lone): (Vec<&Key>, Vec<&Key>) =
@@ -111,6 +116,7 @@ pub fn difference(old: &ResultPart, new: &ResultPart) -> RecordComparison {
         differences,
         contracts,
         chosen: Vec::new(),
+        accuracy,
         only_old: lone.iter().filter(|key| old.found.contains_key(**key)).count(),
         only_new: lone.iter().filter(|key| new.found.contains_key(**key)).count(),
     }
@@ -273,12 +279,8 @@ impl Paged for RecordComparison {
                 "{worse} worse, {better} better, {other} as often but on other cases, {same} too little to tell"
             ));
         }
-        if !self.chosen.is_empty() {
-            let differ = number_of(self.chosen.len() as u64, "value differs", "values differ");
-            let worse = self.chosen.iter().filter(|it| it.change == Some(Trend::Worse)).count();
-            let worse = if 0 < worse { format!(", {worse} of them worse") } else { String::new() };
-            answers.push(differ + &worse);
-        }
+        answers.extend(counted(&self.chosen, ["value differs", "values differ"]));
+        answers.extend(counted(&self.accuracy, ["error of hits differs", "errors of hits differ"]));
         if !self.contracts.is_empty() {
             let rows = number_of(self.contracts.len() as u64, "row is", "rows are");
             answers.push(format!("{rows} judged by another contract"));
@@ -319,8 +321,16 @@ impl Paged for RecordComparison {
             blocks.extend(Block::items(title, MOST, of_change.map(Difference::item).collect()));
         }
         blocks.extend(values("Values that were chosen or proved", MOST, &self.chosen));
+        blocks.extend(values("Errors of right hits, of a sample", MOST, &self.accuracy));
         Page { command: "diff", title: answers.join("; "), tone, blocks }
     }
+}
+
+/// How many values differ, and how many of them are worse; none if none differ.
+fn counted(values: &[OtherValue], [one, many]: [&str; 2]) -> Option<String> {
+    let worse = values.iter().filter(|it| it.change == Some(Trend::Worse)).count();
+    let worse = if 0 < worse { format!(", {worse} of them worse") } else { String::new() };
+    (!values.is_empty()).then(|| number_of(values.len() as u64, one, many) + &worse)
 }
 
 impl OtherValue {

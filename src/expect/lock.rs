@@ -1,6 +1,7 @@
 //! The lock file: for each target the rows that ran, and the cases behind the counts, one line a class, so that a
 //! difference of two versions shows what changed.
 
+use super::accuracy::{HitErrors, LockedErrors, errors_of};
 use super::{Amount, Expectations};
 use crate::audit::Digest;
 use crate::corpus::InputError;
@@ -10,6 +11,10 @@ use std::fmt;
 
 /// The first word of the file, after its comment.
 const SCHEMA: &str = "hairline-expectations-lock/1";
+
+/// The first word of a line that has the errors of right hits: a value of a kernel in a scalar, the number of hits, and
+/// within how many ulps half and 99 % of them are.
+const ERRORS: &str = "errors";
 
 /// How the file comes about.
 const WRITER: &str = "`hairline check --bless`, or HAIRLINE_BLESS=1 in a test, writes this file";
@@ -30,6 +35,8 @@ pub struct LockedTarget {
     pub rows: BTreeMap<[String; 2], RowSettings>,
     /// The cases, by class of finding.
     pub cases: BTreeMap<Key, LockedCases>,
+    /// Quantiles of the errors of right hits, of a sample; files of before 0.2 have none.
+    pub(super) errors: LockedErrors,
 }
 
 /// The settings of a row.
@@ -65,6 +72,7 @@ impl LockedTarget {
                 .map(|row| ([row.kernel.clone(), row.set.clone()], RowSettings::of(row)))
                 .collect(),
             cases: cases.collect(),
+            errors: errors_of(result),
         }
     }
 
@@ -81,9 +89,21 @@ impl LockedTarget {
             Err(words) => words,
         };
         // Until 0.1.0 a line of six words had how many groups were judged.
-        if words.len() == 6 {
+        if words.len() == 6 && words[0] != ERRORS {
             return Ok(false);
         }
+        let words = match <[String; 8]>::try_from(words) {
+            Ok([word, kernel, set, scalar, value, hits, half, most]) if word == ERRORS => {
+                let error = |text: &str| {
+                    text.parse::<f64>().map_err(|_| format!("an error in ulps, not '{text}'"))
+                };
+                let quantiles = [error(&half)?, error(&most)?];
+                let errors = HitErrors { hits: number(&hits)?, quantiles };
+                return Ok(self.errors.insert([kernel, set, scalar, value], errors).is_some());
+            }
+            Ok(words) => words.to_vec(),
+            Err(words) => words,
+        };
         let Ok([kernel, set, scalar, family, class, finding, count, of, digest]) =
             <[String; 9]>::try_from(words)
         else {
@@ -180,6 +200,13 @@ impl fmt::Display for Lock {
             writeln!(f, "[{target}]")?;
             for ([kernel, set], RowSettings { epsilons, contract }) in &entries.rows {
                 writeln!(f, "{kernel}\t{set}\t{epsilons}\t{contract}")?;
+            }
+            for ([kernel, set, scalar, value], errors) in &entries.errors {
+                let HitErrors { hits, quantiles: [half, most] } = errors;
+                writeln!(
+                    f,
+                    "{ERRORS}\t{kernel}\t{set}\t{scalar}\t{value}\t{hits}\t{half}\t{most}"
+                )?;
             }
             for (Key { kernel, set, scalar, family, class, finding }, cases) in &entries.cases {
                 let LockedCases { count, of, digest } = cases;

@@ -8,6 +8,7 @@
 
 #![forbid(unsafe_code)]
 
+mod accuracy;
 mod bless;
 mod changed;
 mod compare;
@@ -20,6 +21,7 @@ mod named;
 mod rows;
 mod scene;
 
+pub use accuracy::HitErrors;
 pub use bless::{BlessError, bless};
 pub use compare::compare;
 pub use difference::{Difference, RecordComparison, Trend, difference};

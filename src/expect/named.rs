@@ -54,6 +54,7 @@ pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
         differences,
         contracts: Vec::new(),
         chosen: chosen.iter().filter_map(other).collect(),
+        accuracy: Vec::new(),
         only_old: lone(&counted, &counted_new) + lone(&chosen, &chosen_new),
         only_new: lone(&counted_new, &counted) + lone(&chosen_new, &chosen),
     }

@@ -37,7 +37,7 @@ impl Expectations {
         let entries = std::mem::take(&mut self.entries).into_iter();
         self.entries = entries.map(|(place, entry)| (key(place), entry)).collect();
         for target in self.lock.iter_mut().flat_map(|lock| lock.targets.values_mut()) {
-            let LockedTarget { rows, cases } = std::mem::take(target);
+            let LockedTarget { rows, cases, errors } = std::mem::take(target);
             *target = LockedTarget {
                 rows: rows
                     .into_iter()
@@ -47,6 +47,13 @@ impl Expectations {
                     })
                     .collect(),
                 cases: cases.into_iter().map(|(place, cases)| (key(place), cases)).collect(),
+                errors: errors
+                    .into_iter()
+                    .map(|([kernel, mut set, scalar, value], errors)| {
+                        name(&kernel, &mut set);
+                        ([kernel, set, scalar, value], errors)
+                    })
+                    .collect(),
             };
         }
     }

@@ -37,6 +37,9 @@ pub struct Conformance {
     pub stale: Vec<Deviation>,
     /// Expectations that came true.
     pub known: Vec<Deviation>,
+    /// Errors of right hits that are not those of the blessed run.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub errors: Vec<ErrorChange>,
     /// Classes of disagreement without an expectation that are too rare to tell from none.
     pub too_rare_to_tell: u64,
     /// Expectations of kernels, scalars or families that the plan leaves out.
@@ -128,6 +131,26 @@ pub(crate) fn apart(list: &str, other: &str, between: &str, none: &str) -> Strin
     let parts: Vec<&str> = list.split(between).filter(|part| !others.contains(part)).collect();
     let parts = parts.join(between);
     if parts.is_empty() { none.to_owned() } else { parts }
+}
+
+/// A quantile of the errors of right hits that is not the one of the blessed run.
+#[apply(part!)]
+pub struct ErrorChange {
+    /// Which quantile of which value, of which row in which scalar.
+    pub what: String,
+    /// As it was.
+    pub before: String,
+    /// As it is.
+    pub now: String,
+    /// True if it is larger.
+    pub is_worse: bool,
+}
+
+impl fmt::Display for ErrorChange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ErrorChange { what, before, now, .. } = self;
+        write!(f, "{what} {now}; blessed with {before}")
+    }
 }
 
 /// How counts are compared with expectations.
@@ -252,13 +275,13 @@ impl Conformance {
         (self.known.len() + deviations) as u64
     }
 
-    /// How many findings the known disagreements have together, in brackets; empty where there are none.
+    /// How many findings the known disagreements have together; empty where there are none.
     pub fn findings(&self) -> String {
         match self.known.iter().map(|known| known.found.count).sum() {
             0 => String::new(),
             count => format!(
-                ", each of a kernel, a family and a class ({} in all)",
-                number_of(count, "finding", "findings")
+                " of {} (each disagreement is of a kernel, a family and a class)",
+                number_of(count, "known finding", "known findings")
             ),
         }
     }
@@ -277,6 +300,25 @@ impl Conformance {
             self.verdict = ComparisonVerdict::Unsteady;
         }
         self.unsteady = unsteady;
+    }
+
+    /// True if something got worse: more cases are wrong, or right hits have larger errors.
+    pub fn is_worse(&self) -> bool {
+        self.change.is_worse() || 0 < self.worse_errors()
+    }
+
+    fn worse_errors(&self) -> usize {
+        self.errors.iter().filter(|change| change.is_worse).count()
+    }
+
+    /// Adds errors of right hits that differ from those of the blessed run.
+    pub fn add_errors(&mut self, errors: Vec<ErrorChange>) {
+        self.errors = errors;
+        if 0 < self.worse_errors() {
+            self.verdict = ComparisonVerdict::Disagreements;
+        } else if !self.errors.is_empty() && self.verdict == ComparisonVerdict::Conforms {
+            self.verdict = ComparisonVerdict::Stale;
+        }
     }
 
     /// One line.
@@ -301,6 +343,13 @@ impl Conformance {
             1 => "1 proof missing, ".to_owned(),
             n => format!("{n} proofs missing, "),
         };
+        let errors = match self.worse_errors() {
+            0 => String::new(),
+            n => format!(
+                "{}, ",
+                number_of(n as u64, "larger error of hits", "larger errors of hits")
+            ),
+        };
         let unsteady = match self.unsteady.len() {
             0 => String::new(),
             n => {
@@ -309,7 +358,7 @@ impl Conformance {
             }
         };
         format!(
-            "{verdict}: {proofs}{unsteady}{}{how}, {}, {}{}",
+            "{verdict}: {proofs}{unsteady}{errors}{}{how}, {}, {}{}",
             count(&self.unexpected, "unexpected disagreement", "unexpected disagreements"),
             count(&self.stale, "stale expectation", "stale expectations"),
             match self.expected() {

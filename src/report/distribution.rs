@@ -2,7 +2,9 @@
 
 use super::record::*;
 use crate::arith::Float;
-use crate::audit::{Accuracy, Attribution, Audit, Causes, Histogram, Plan, Severities};
+use crate::audit::{
+    Accuracy, Attribution, Audit, Causes, Histogram, Plan, Related, Relations, Severities,
+};
 use crate::judge::Finding;
 use std::collections::BTreeMap;
 
@@ -57,9 +59,11 @@ pub(super) fn totals(plan: &Plan, audit: &Audit) -> Vec<RowTotal> {
         for (number, row) in plan.rows.iter().enumerate().filter(|_| wanted) {
             let mut all: BTreeMap<Finding, Severities> = BTreeMap::new();
             let mut values = Accuracy::default();
+            let mut related = Relations::default();
             for cell in &audit.cells {
                 if (cell.scalar, cell.row) == (scalar, number) {
                     values.merge(&cell.tally.accuracy);
+                    related.merge(&cell.tally.relations);
                     for (finding, more) in &cell.tally.severities {
                         all.entry(*finding).or_default().merge(more);
                     }
@@ -71,8 +75,14 @@ pub(super) fn totals(plan: &Plan, audit: &Audit) -> Vec<RowTotal> {
                 set: row.set.clone(),
                 severity: severities(&all),
                 accuracy: accuracy(&values),
+                relations: relations(&related),
             });
         }
     }
     totals
+}
+
+fn relations(relations: &Relations) -> Vec<RelationPart> {
+    let part = |Related { relation, count, of }| RelationPart { relation, count, of };
+    relations.known().into_iter().map(part).collect()
 }

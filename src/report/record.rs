@@ -141,6 +141,9 @@ pub struct RowTotal {
     pub severity: BTreeMap<FindingKind, SeverityDistribution>,
     /// Errors of right hits in ulps, of a sample of the indices: by `t`, `uv` and `point` (o + t·d).
     pub accuracy: BTreeMap<String, Distribution>,
+    /// The relations that explain the wrong answers of a kernel of one's own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub relations: Vec<RelationPart>,
 }
 
 /// The summary of a source in one scalar.

@@ -24,11 +24,14 @@ mod map_command;
 mod mesh;
 mod mesh_files;
 mod mesh_page;
+mod numbers;
 mod own;
 mod plugin;
 mod program;
 mod prove;
 mod prove_domain;
+#[cfg(unix)]
+mod relations;
 #[cfg(unix)]
 mod repair;
 mod repair_languages;

@@ -31,7 +31,8 @@ fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
     let share = |command: &str| {
         let words: Vec<&str> = command.split_whitespace().skip(1).collect();
         let (out, _) = ends(&folder, &[&words[..], &["-q"]].concat(), 0);
-        let (_, rest) = out.split_once(" is wrong on ").unwrap_or_else(|| panic!("{out}"));
+        let out = flat(&out);
+        let (_, rest) = out.split_once(" Wrong on ").unwrap_or_else(|| panic!("{out}"));
         rest.split(' ').next().unwrap().trim_start_matches('<').parse::<f64>().unwrap()
     };
     let audits: Vec<&&str> = lines.iter().filter(|line| line.starts_with("next: ")).collect();

@@ -8,6 +8,7 @@ mod distance;
 mod elsewhere;
 mod expected;
 mod group;
+mod relation;
 #[cfg(test)]
 mod tests;
 mod values;
@@ -20,7 +21,10 @@ pub use expected::{Demands, Kinds, ask_all, suspects};
 pub use group::{
     GroupTruth, group_obligation, group_truth, owes_groups_alike, polygon_obligation, polygon_truth,
 };
-pub use values::{ALLOWANCE, ValueErrors, ValueLimits, exact_times, exact_values_are_near};
+pub use relation::{Part, RelatedValues, Relation, answers_as, other_demands};
+pub use values::{
+    ALLOWANCE, ValueErrors, ValueLimits, exact_times, exact_values_are_near, rounds_to_infinity,
+};
 
 use crate::arith::{Exact, Float, Real, Triple};
 use crate::case::Case;
@@ -203,7 +207,8 @@ impl Answer {
         gives: Gives,
         verdict: &Verdict<F>,
     ) -> Answer {
-        let finite = (!gives.t || verdict.t.is_finite())
+        let is_number = |t: F| t.is_finite() || values::rounds_to_infinity(case, truth, t);
+        let finite = (!gives.t || is_number(verdict.t))
             && (!gives.uv || (verdict.u.is_finite() && verdict.v.is_finite()));
         let compares = verdict.hit && finite && values::has_values(truth);
         let near = !compares || values::are_near(case, gives, verdict, contract.value_tolerance);

@@ -74,7 +74,7 @@ pub fn scene_text(scene: &Scene) -> String {
     let Scene { coordinates, edge: [low, high], distance, min_angle, grazing, .. } = *scene;
     let [coordinates, low, high, distance, min_angle, grazing] =
         [coordinates, low, high, distance, min_angle, grazing].map(digits);
-    let edges = if scene.is_of_longest { "each triangle's longest edge" } else { "edges" };
+    let edges = if scene.is_of_longest { "each triangle's longest edge" } else { "every edge" };
     format!(
         "coordinates up to {coordinates}, {edges} from {low} to {high}, origins up to {distance} from the \
          vertices, angles from {min_angle}°, rays at {grazing}° to the plane and more with |d| = 1, t_min and t_max \

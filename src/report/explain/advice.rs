@@ -11,7 +11,7 @@ use crate::kernel::{self, Entry, Role, Scalar, Subject, Tunable, Verdict};
 use crate::oracle;
 use crate::report::epsilon::shortest;
 use crate::report::listed;
-use crate::truth::Facing;
+use crate::truth::{Facing, Truth};
 use std::slice;
 
 /// So many other kernels are named.
@@ -119,6 +119,28 @@ pub(super) fn of_line<F: Scalar>(
             number(verdict.t)
         )
     })
+}
+
+/// A note on what lets a hit on invalid input pass: the contract, and comparisons that are false of a NaN.
+pub(super) fn of_invalid<F: Scalar>(
+    truth: &Truth,
+    subject: &dyn Subject<F>,
+    verdict: &Verdict<F>,
+) -> Option<String> {
+    if *truth != Truth::Invalid || !verdict.hit {
+        return None;
+    }
+    let passes = match subject.gated() {
+        Some(_) => {
+            "each of its gates refuses only where a comparison is true, and one with NaN is false"
+        }
+        None => {
+            "a comparison that refuses lets NaN pass, as `if (u < 0) return false` does; `if (!(u >= 0)) return false` does not"
+        }
+    };
+    Some(format!(
+        "a hit on invalid input: {passes}; a contract with invalid=miss calls that a false hit"
+    ))
 }
 
 /// The epsilons nearest to a row's with which it is right.

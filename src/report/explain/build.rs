@@ -1,7 +1,8 @@
 //! An explanation from the case itself: every kernel runs here once more, as it is and without rounding.
 
-use super::advice::{advice, group_advice, of_line};
+use super::advice::{advice, group_advice, of_invalid, of_line};
 use super::margin::margin_text;
+use super::near::{Nearby, add_relations};
 use super::nearest::nearest;
 use super::verdict::{Together, group_verdict, number, plain, short, verdict_of};
 use super::{ExplainedGate, ExplainedRow, Explanation, InstancePart, TogetherPart, TrianglePart};
@@ -212,11 +213,15 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
         };
         part.why = Some(in_words(cause, subject.gated().is_some()).to_owned());
         part.advice = advice(case, is_secondary, row, (finding, cause), &verdict);
-        if subject.gated().is_none() {
-            part.notes.extend(nearest(case, is_secondary, row, &verdict));
+        if subject.gated().is_none()
+            && let Some(nearby) = Nearby::of(case, row)
+        {
+            add_relations(&mut part, nearby.relations(row), cause);
+            part.notes.extend(nearest(case, is_secondary, row, &verdict, &nearby));
         }
     }
     part.notes.extend(of_line(case, row, &verdict));
+    part.notes.extend(of_invalid(&truth, subject, &verdict));
     if verdict.hit {
         part.values.push(values(gives, &verdict));
         let tolerance = row.contract.value_tolerance;

@@ -4,7 +4,9 @@
 mod advice;
 mod build;
 mod margin;
+mod near;
 mod nearest;
+mod other_epsilon;
 mod page;
 mod verdict;
 

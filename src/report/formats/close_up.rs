@@ -1,7 +1,7 @@
 //! A few rows, each by itself: its contract and gates, and for each question its false misses, its false
 //! hits and what most of them come from.
 
-use super::columns::{AcrossColumn, Column, far, short_percent};
+use super::columns::{AcrossColumn, Column, kinds, visible};
 use super::disagreement::is_at_shared;
 use super::group_digits;
 use super::lines::{RowLine, column_legend};
@@ -10,7 +10,7 @@ use super::rate::percent;
 use super::record::*;
 use super::row_view::{COUNTED, WRONG};
 use super::why::{cause_shares, of_kind};
-use crate::audit::Attribution;
+use crate::audit::{Attribution, kind_of};
 use crate::kernel::{self, Role};
 use crate::report::page::{Block, Cell, Head, Row, Table};
 
@@ -24,7 +24,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[RowLine]) -> 
         blocks.push(Block::Heading(format!("{}, contract: {}", first.label(), part.contract)));
         blocks.push(Block::Notes(gates(first)));
         blocks.push(Block::Table(table(columns, &of_part)));
-        blocks.push(Block::Notes(others(&of_part)));
+        blocks.push(Block::Notes(others(record, columns, &of_part)));
     }
     let intervals = match record.result.plan.scalars.len() {
         1 => ", with 95 % intervals",
@@ -75,8 +75,7 @@ fn table(columns: &[Column], lines: &[&RowLine]) -> Table {
         }
         heads.push(Head::text("cause of most").optional());
     }
-    let far_off = Head::of("far off, %").about("wrong by over 1/1000 of the longest edge");
-    heads.push(far_off.optional());
+    heads.push(Head::of("visible").about("answers off by over 1/1000 of an edge, values included"));
     let rows = columns.iter().enumerate().filter_map(|(i, column)| row(column, i, lines));
     Table::new(heads, rows.collect())
 }
@@ -106,7 +105,8 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
         let has_cracks = cracks.iter().any(|pool| 0 < pool.rate().count);
         row.cells.extend(cracks.iter().map(|pool| share(pool.rate())));
         row.cells.push(if has_cracks { "cracks" } else { "no cracks" }.to_owned().into());
-        row.cells.resize_with(2 * lines.len() + 3, Cell::default);
+        row.cells.resize_with(2 * lines.len() + 2, Cell::default);
+        row.cells.push(group_digits(visible(&results.concat())).into());
         return Some(row);
     }
     for (kind, rate) in WRONG {
@@ -119,16 +119,16 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
         }));
         row.cells.push(cause(&results.concat(), kind).into());
     }
-    let all = results.iter().flatten();
-    let far = all.flat_map(|result| WRONG.map(|(kind, _)| far(result, kind))).sum();
-    let of = cells.iter().map(|cell| cell.wrong.of).sum();
-    row.cells.push(short_percent([far, of]).into());
+    row.cells.push(group_digits(visible(&results.concat())).into());
     Some(row)
 }
 
-/// The counts besides false misses and false hits, a line each; why no causes are told, and if the promise across triangles
+/// The counts besides false misses and false hits on planes of the own kind, a line each; why no causes are told, and if the promise across triangles
 /// is kept.
-fn others(lines: &[&RowLine]) -> Vec<String> {
+fn others(record: &Record, columns: &[Column], lines: &[&RowLine]) -> Vec<String> {
+    let own = kinds(record)[0];
+    let has_extremes = columns.iter().any(|column| !column.is_ordinary());
+    let scope = if has_extremes { ", extreme exponents included" } else { "" };
     let is_alone = lines.len() == 1;
     let mut all = Vec::new();
     if lines.iter().any(|line| is_untold(line)) {
@@ -137,7 +137,11 @@ fn others(lines: &[&RowLine]) -> Vec<String> {
     }
     // Hits of the triangle that a ray leaves are no promise's, unless they are false hits.
     for (name, get) in COUNTED[2..].iter().filter(|(name, _)| *name != "self-hits") {
-        let pools = lines.iter().map(|line| (line.row.scalar, line.row.total(get)));
+        let pools = lines.iter().map(|line| {
+            let results = line.row.results.iter();
+            let own = results.copied().filter(|result| kind_of(&result.family) == own);
+            (line.row.scalar, Pool::of(own.filter_map(get)))
+        });
         let counts = pools.filter(|(_, pool)| 0 < pool.counts()[0]).map(|(scalar, pool)| {
             if is_alone {
                 pool.to_string()
@@ -146,8 +150,10 @@ fn others(lines: &[&RowLine]) -> Vec<String> {
             }
         });
         let counts: Vec<String> = counts.collect();
+        let is_of_values = name.ends_with("values");
+        let scope = if is_of_values { scope } else { "" };
         if !counts.is_empty() {
-            all.push(format!("{name}: {}", counts.join(", ")));
+            all.push(format!("{name}: {}{scope}", counts.join(", ")));
         }
     }
     for line in lines {

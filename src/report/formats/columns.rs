@@ -24,6 +24,17 @@ enum ColumnTopic {
     Stored,
 }
 
+/// The sizes of the triangles of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ColumnSizes {
+    /// As scenes have them.
+    Ordinary,
+    /// Tiny, huge, far or thin.
+    Unusual,
+    /// Numbers at the ends of the range, or whose exponents have nothing to do with each other.
+    Extreme,
+}
+
 impl Column {
     /// The column of a source by its name.
     fn of(family: &str, complete: bool) -> Column {
@@ -83,9 +94,23 @@ impl Column {
         }
     }
 
+    /// The sizes of its triangles.
+    pub(super) fn sizes(self) -> ColumnSizes {
+        match self.topic {
+            ColumnTopic::Families(question) if !question.is_ordinary() => ColumnSizes::Extreme,
+            ColumnTopic::Families(Question::Sizes) => ColumnSizes::Unusual,
+            _ => ColumnSizes::Ordinary,
+        }
+    }
+
     /// True if its cases are of sizes that occur.
     pub(super) fn is_ordinary(self) -> bool {
-        !matches!(self.topic, ColumnTopic::Families(question) if !question.is_ordinary())
+        self.sizes() != ColumnSizes::Extreme
+    }
+
+    /// True if a source belongs to it.
+    pub(super) fn has(self, source: &SourcePart) -> bool {
+        self == Column::of(&source.family, !source.sample)
     }
 
     /// One row's results in it.
@@ -138,7 +163,6 @@ impl ColumnCell {
         for column in columns.iter().filter(|column| column.is_ordinary()) {
             for result in column.results(row) {
                 cell.wrong.merge(&result.total.wrong_values.trials());
-                cell.far += far(result, FindingKind::WrongValue);
             }
         }
         cell
@@ -161,6 +185,12 @@ impl ColumnCell {
     }
 }
 
+/// The answers that can be seen to be wrong: verdicts, and values of hits, that are off by [`FAR`] longest edges or more.
+pub(super) fn visible(results: &[&KernelResult]) -> u64 {
+    let values = results.iter().map(|result| far(result, FindingKind::WrongValue));
+    ColumnCell::sum(results).far + values.sum::<u64>()
+}
+
 /// The note on the shared edges and vertices of a scene or a mesh, where a neighbour may take a ray that a triangle leaves.
 pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
     let sources = &record.result.plan.sources;
@@ -171,7 +201,7 @@ pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
 }
 
 /// The findings of a kind that are off by [`FAR`] longest edges or more.
-pub(super) fn far(result: &KernelResult, kind: FindingKind) -> u64 {
+fn far(result: &KernelResult, kind: FindingKind) -> u64 {
     let Some(severity) = result.severity.get(&kind) else { return 0 };
     severity.edges.octaves.range(Octave::From(FAR)..).map(|(_, n)| n).sum()
 }

@@ -15,7 +15,7 @@ struct Extreme<'a> {
     part: &'a FindingPart,
 }
 
-/// A promise across triangles that was broken, and the worst verdicts in ordinary sizes; at most so many.
+/// A promise across triangles that was broken, and the worst verdicts but for those at extreme exponents; at most so many.
 pub(super) fn blocks(columns: &[Column], lines: &[RowLine], most: usize) -> Vec<Block> {
     let broken = |extremes: bool| {
         let is_so = |line: &&RowLine| {
@@ -26,7 +26,7 @@ pub(super) fn blocks(columns: &[Column], lines: &[RowLine], most: usize) -> Vec<
     let broken = broken(false).or_else(|| broken(true));
     let worst = chosen(all(columns, lines), most - usize::from(broken.is_some()));
     let is_all = columns.iter().all(|column| column.is_ordinary());
-    let place = if is_all { "" } else { " in ordinary sizes" };
+    let place = if is_all { "" } else { " but for extreme exponents" };
     let head = match most {
         1 => format!("Worst{place}, in longest edges of the triangle:"),
         _ => format!("Worst{place}, in longest edges, of different causes:"),
@@ -70,7 +70,7 @@ fn broken_promise(line: &RowLine) -> Option<(String, String)> {
     Some((text, line.row.part.explain_group(result, &id)))
 }
 
-/// The worst of each class of false misses, false hits and wrong values in ordinary sizes. A triangle without area may
+/// The worst of each class of false misses, false hits and wrong values but for extreme exponents. A triangle without area may
 /// be a point, which has no edge to measure by.
 fn all<'a>(columns: &[Column], lines: &'a [RowLine<'a>]) -> Vec<Extreme<'a>> {
     let mut all = Vec::new();

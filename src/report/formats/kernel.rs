@@ -1,6 +1,8 @@
 //! One row of a record, folded: what it promises, its gates and what is proved of them, its rates, why it is wrong, drawings of
 //! the worst, and every class of its findings.
 
+use super::columns::kinds;
+use super::disagreement::counts_alone;
 use super::pool::{Pool, counted};
 use super::record::*;
 use super::row_view::{COUNTED, RowView, WRONG};
@@ -140,7 +142,11 @@ fn proved(proof: &ProofPart, gate: &str) -> String {
 
 /// The sums over all sources, scalar by scalar.
 fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
-    let heads = ["all families"].into_iter().chain(views.iter().map(|view| view.scalar));
+    let all = match kinds(record).len() {
+        1 => "all families".to_owned(),
+        several => format!("all families in {several} kinds of planes and rays"),
+    };
+    let heads = [all].into_iter().chain(views.iter().map(|view| view.scalar.to_owned()));
     let mut rows = Vec::new();
     for (name, get) in COUNTED {
         let pools: Vec<Pool> = views.iter().map(|view| view.total(get)).collect();
@@ -212,8 +218,9 @@ fn by_family(record: &Record, views: &[&RowView]) -> Table {
     let row = |source: &PlannedSource| {
         let cells = results.iter().flat_map(|results| {
             let result = results.get(&*source.family);
-            WRONG.map(|(_, rate)| {
-                let rate = result.map(|result| rate(&result.total)).filter(|rate| 0 < rate.of);
+            WRONG.map(|(kind, rate)| {
+                let alone = result.filter(|result| counts_alone(result, kind));
+                let rate = alone.map(|result| rate(&result.total)).filter(|rate| 0 < rate.of);
                 Cell {
                     text: rate.map_or("-".to_owned(), counted),
                     share: rate.and_then(|rate| rate.rate),

@@ -12,6 +12,7 @@ mod lines;
 mod page;
 mod pool;
 mod ranking;
+mod relations;
 mod row_view;
 mod sarif;
 mod screen;

@@ -5,6 +5,7 @@ use super::kernel;
 use super::lines::lines;
 use super::mesh;
 use super::record::*;
+use super::relations;
 use super::row_view::RowView;
 use super::{ComparisonVerdict, Record, group_digits, number_of, ranking, screen, verdict};
 use crate::report::page::{Block, Page, Paged, Tone};
@@ -22,7 +23,8 @@ impl Paged for Record {
         match &self.conformance {
             None => page.blocks = on_screen,
             Some(conformance) => {
-                let title = std::mem::replace(&mut page.title, capitalised(&conformance.summary()));
+                let verdict = capitalised(&conformance.summary());
+                let run_title = std::mem::replace(&mut page.title, diagnosed(self, verdict));
                 page.tone = match conformance.verdict {
                     ComparisonVerdict::Conforms => Tone::Good,
                     ComparisonVerdict::Disagreements | ComparisonVerdict::Unsteady => Tone::Bad,
@@ -30,7 +32,7 @@ impl Paged for Record {
                 };
                 page.command = "check";
                 page.blocks = verdict::blocks(self, conformance);
-                let run = [Block::Text(title)].into_iter().chain(on_screen).collect();
+                let run = [Block::Text(run_title)].into_iter().chain(on_screen).collect();
                 page.blocks.push(Block::Details("The run".to_owned(), run));
             }
         }
@@ -53,6 +55,16 @@ impl Paged for Record {
         }
         page.blocks.push(Block::Details("About this run".to_owned(), about(self)));
         page
+    }
+}
+
+/// The verdict of a check, after the mistakes that explain why a run does not conform.
+fn diagnosed(record: &Record, verdict: String) -> String {
+    let is_bad = record.conformance.as_ref().is_some_and(|it| !it.unexpected.is_empty());
+    let mistakes = if is_bad { relations::sentences(record) } else { Vec::new() };
+    match mistakes.is_empty() {
+        true => verdict,
+        false => format!("{}. {verdict}", mistakes.join(". ")),
     }
 }
 
@@ -102,7 +114,7 @@ fn incomplete_meshes(record: &Record) -> BTreeSet<String> {
     record.result.sources.iter().filter_map(sentence).collect()
 }
 
-fn capitalised(text: &str) -> String {
+pub(super) fn capitalised(text: &str) -> String {
     let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
     format!("{}{rest}", first.to_uppercase())
 }

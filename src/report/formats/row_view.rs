@@ -1,5 +1,6 @@
 //! A record by kernel row, as the text walks through it.
 
+use super::disagreement::counts_alone;
 use super::group_digits;
 use super::pool::Pool;
 use super::record::*;
@@ -11,8 +12,8 @@ type Get = fn(&KernelResult) -> Option<&Rate>;
 
 /// Everything that is counted of a row, by its name.
 pub(super) const COUNTED: [(&str, Get); 11] = [
-    ("false misses", |r| Some(&r.total.false_misses)),
-    ("false hits", |r| Some(&r.total.false_hits)),
+    ("false misses", |r| counts_alone(r, FindingKind::FalseMiss).then_some(&r.total.false_misses)),
+    ("false hits", |r| counts_alone(r, FindingKind::FalseHit).then_some(&r.total.false_hits)),
     ("bad values", |r| Some(&r.total.bad_values)),
     ("wrong values", |r| Some(&r.total.wrong_values)),
     ("cracks", |r| Some(&r.across.as_ref()?.cracks)),
@@ -112,6 +113,12 @@ pub(super) fn failures(rows: &[&RowView]) -> Vec<String> {
             .then(|| format!("{}: {} in {cases} cases", row.part.label(), words.join(", ")))
     };
     rows.iter().filter_map(failures).collect()
+}
+
+/// The rays of a record in a scalar: a case is a ray and one of its triangles.
+pub(super) fn rays_in(record: &Record, scalar: &str) -> u64 {
+    let sources = record.result.sources.iter().filter(|source| source.scalar == scalar);
+    sources.map(|source| source.indices).sum()
 }
 
 /// The cases of a record in a scalar.

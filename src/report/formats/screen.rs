@@ -1,13 +1,14 @@
 //! The screen of `hairline audit`: the answer, one table with the best row first, the worst finding, and what to do next.
 //! Everything else is behind `--details`.
 
-use super::columns::{Column, ColumnCell, kinds, shared_in_scenes, short_percent};
+use super::columns::{Column, ColumnCell, ColumnSizes, kinds, shared_in_scenes, short_percent};
 use super::disagreement::family_of;
 use super::lines::{RowLine, notes};
+use super::page::capitalised;
 use super::record::*;
-use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid};
+use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid, rays_in};
 use super::standing::{Standing, standings};
-use super::{close_up, extremes, number_of, ranking};
+use super::{close_up, extremes, group_digits, number_of, ranking, relations};
 use crate::case::SceneKind;
 use crate::kernel;
 use crate::report::elsewhere::{self, ComparedRates};
@@ -26,7 +27,7 @@ pub(super) fn blocks(
     lines: &[RowLine],
 ) -> (String, Vec<Block>) {
     let standings = standings(record, columns, lines);
-    let (title, rest) = answer(record, columns, &standings);
+    let (title, rest) = diagnosed(record, answer(record, columns, &standings));
     let mut blocks = vec![Block::Text(rest), Block::Text(head(record))];
     blocks.extend(notes(record));
     blocks.extend(shared_in_scenes(record).map(Block::text));
@@ -52,20 +53,33 @@ pub(super) fn blocks(
     (title, blocks)
 }
 
+/// An answer, its first sentence and the others, after the mistakes that explain it.
+fn diagnosed(record: &Record, answer: (String, String)) -> (String, String) {
+    let mistakes = relations::sentences(record);
+    match mistakes.is_empty() {
+        true => answer,
+        false => (format!("{}.", mistakes.join(". ")), format!("{} {}", answer.0, answer.1)),
+    }
+}
+
 /// Which kernels ran, and on how many cases.
 fn head(record: &Record) -> String {
     let (result, provenance) = (&record.result, &record.provenance);
-    let cases = |scalar: &String| cases_in(record, scalar);
+    let counted = |scalar: &String| [cases_in(record, scalar), rays_in(record, scalar)];
     // Usually as many in each scalar.
-    let mut counts: Vec<(u64, Vec<&str>)> = Vec::new();
+    let mut counts: Vec<([u64; 2], Vec<&str>)> = Vec::new();
     for scalar in &result.plan.scalars {
         match counts.last_mut() {
-            Some((count, names)) if *count == cases(scalar) => names.push(scalar),
-            _ => counts.push((cases(scalar), vec![scalar])),
+            Some((count, names)) if *count == counted(scalar) => names.push(scalar),
+            _ => counts.push((counted(scalar), vec![scalar])),
         }
     }
-    let counts = counts.iter().map(|(count, names)| {
-        format!("{} in {}", number_of(*count, "case", "cases"), names.join(" and in "))
+    let counts = counts.iter().map(|([cases, rays], names)| {
+        let rays = match cases == rays {
+            true => String::new(),
+            false => format!(" of {}", number_of(*rays, "ray", "rays")),
+        };
+        format!("{}{rays} in {}", number_of(*cases, "case", "cases"), names.join(" and in "))
     });
     let sources = &result.plan.sources;
     let families: BTreeSet<Option<&str>> =
@@ -106,10 +120,11 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
     let place = match &special[..] {
         [] => String::new(),
         // Each is a row of a close-up.
-        special if is_close_up(record) => {
-            format!(" in ordinary sizes (all rows but {})", special.join(" and "))
+        special if is_close_up(record) => format!(" in all rows but {}", special.join(" and ")),
+        special if special.contains(&"invalid") => {
+            " but for extreme exponents and invalid input".to_owned()
         }
-        _ => " in ordinary sizes".to_owned(),
+        _ => " but for extreme exponents".to_owned(),
     };
     let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
     let mean = if 1 < meant { ", the mean of the rows" } else { "" };
@@ -119,21 +134,20 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
             "No case has both a verdict and a contract that demands one.".to_owned()
         }
         all if all.iter().all(|row| row.share.is_none()) => {
-            "No case is of ordinary size.".to_owned()
+            "Every case has extreme exponents.".to_owned()
         }
-        [only] if only.wrong == 0 && only.others.is_empty() => {
-            format!("{}: every verdict is right{place}.", only.part.label())
+        [only] => {
+            let wrong = match only.wrong {
+                0 if only.others.is_empty() => format!("Every verdict is right{place}."),
+                0 => format!("No false miss and no false hit{place}."),
+                _ => format!(
+                    "Wrong on {} % of the cases{place}{mean}.",
+                    percent(only.share.unwrap_or_default())
+                ),
+            };
+            format!("{} {wrong}", of_one(only, columns, judged(record, columns)))
         }
-        [only] if only.wrong == 0 => {
-            format!("{}: no false miss and no false hit{place}.", only.part.label())
-        }
-        [only] => format!(
-            "{} is wrong on {} % of the cases{place}{mean}, {} by over 1/1000 of an edge.",
-            only.part.label(),
-            percent(only.share.unwrap_or_default()),
-            number_of(only.far, "time", "times"),
-        ),
-        all => ranking::answer(all, judged(record), &place),
+        all => ranking::answer(all, judged(record, columns), &place),
     };
     // Of several the table tells.
     let broken = match standings {
@@ -166,9 +180,53 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
     }
 }
 
-/// The cases of a record, in all scalars.
-fn judged(record: &Record) -> u64 {
-    record.result.sources.iter().map(|source| source.cases).sum()
+/// The answer about one row: does it leak, how many errors can be seen, and in which sizes?
+fn of_one(row: &Standing, columns: &[Column], cases: u64) -> String {
+    let label = row.part.label();
+    let leaks = row.leaks().map(|[count, of]| match count {
+        0 => format!(
+            "{label}: no leak seen in {of} rays at shared edges and vertices. ",
+            of = group_digits(of)
+        ),
+        _ => {
+            let [count, of] = [count, of].map(group_digits);
+            format!(
+                "{label} leaks: {count} of {of} rays at shared edges and vertices hit nothing. "
+            )
+        }
+    });
+    let seen = "by over 1/1000 of an edge, values included";
+    let visible = match row.all_far() {
+        0 => format!("no visible error ({seen}) in {} answers", group_digits(cases)),
+        count => {
+            let [count, cases] = [count, cases].map(group_digits);
+            format!("visible errors ({seen}): {count} of {cases} answers")
+        }
+    };
+    let visible = match leaks {
+        Some(_) => capitalised(&visible),
+        None => format!("{label}: {visible}"),
+    };
+    let sizes = [
+        (ColumnSizes::Ordinary, "in ordinary sizes"),
+        (ColumnSizes::Unusual, "at tiny, huge, far or thin triangles"),
+        (ColumnSizes::Extreme, "at extreme exponents"),
+    ];
+    let asked = sizes.iter().filter(|(sizes, _)| columns.iter().any(|it| it.sizes() == *sizes));
+    let sizes = asked.map(|(sizes, words)| match row.visible_in(*sizes) {
+        0 => format!("none {words}"),
+        count => format!("{} {words}", group_digits(count)),
+    });
+    let sizes = sizes.collect::<Vec<_>>().join(", ");
+    format!("{}{visible}. By size: {sizes}.", leaks.unwrap_or_default())
+}
+
+/// The cases of a record in some columns but for those of extreme exponents, in all scalars.
+fn judged(record: &Record, columns: &[Column]) -> u64 {
+    let is_judged = |source: &&SourcePart| {
+        columns.iter().any(|column| column.is_ordinary() && column.has(source))
+    };
+    record.result.sources.iter().filter(is_judged).map(|source| source.cases).sum()
 }
 
 /// Which rows are more often wrong on planes, or with rays, of other kinds than the table's, and where most.

@@ -1,6 +1,6 @@
 //! How well each row did, in all scalars and in the columns of ordinary sizes.
 
-use super::columns::{AcrossColumn, Column, ColumnCell};
+use super::columns::{AcrossColumn, Column, ColumnCell, ColumnSizes, visible};
 use super::disagreement::{Key, disagreements, is_at_shared};
 use super::lines::RowLine;
 use super::record::*;
@@ -17,18 +17,21 @@ pub(super) struct Standing<'a> {
     pub share: Option<f64>,
     /// Wrong verdicts, in every kind of planes and rays.
     pub wrong: u64,
-    /// Wrong verdicts that can be seen.
-    pub far: u64,
-    /// Wrong values that can be seen.
-    far_values: u64,
+    /// How many answers, verdicts and values, can be seen to be wrong, in ordinary, unusual and extreme sizes.
+    visible: [u64; 3],
     /// The other breaches of the contract, on any case: `crash`, `bad-value`, `crack`, ….
     pub others: BTreeMap<FindingKind, u64>,
 }
 
 impl Standing<'_> {
-    /// How many answers are off so far that it can be seen.
+    /// How many answers can be seen to be wrong, but for those at extreme exponents.
     pub fn all_far(&self) -> u64 {
-        self.far + self.far_values
+        self.visible_in(ColumnSizes::Ordinary) + self.visible_in(ColumnSizes::Unusual)
+    }
+
+    /// The same in some sizes.
+    pub fn visible_in(&self, sizes: ColumnSizes) -> u64 {
+        self.visible[sizes as usize]
     }
 
     /// The share of rays at shared edges and vertices that hit nothing, in the worse scalar; none if there are no such
@@ -69,6 +72,9 @@ impl Standing<'_> {
     pub fn is_like(&self, other: &Standing) -> bool {
         let count = |trials: &Trials| [trials.count, trials.of];
         let cell = |cell: &ColumnCell| (count(&cell.wrong), cell.far);
+        if self.visible != other.visible {
+            return false;
+        }
         let numbers = |line: &&RowLine| {
             let cells: Vec<_> = line.cells.iter().map(cell).collect();
             let across = line
@@ -80,6 +86,17 @@ impl Standing<'_> {
         self.others == other.others
             && self.lines.iter().map(numbers).eq(other.lines.iter().map(numbers))
     }
+}
+
+/// The answers that can be seen to be wrong, by the sizes of the columns.
+fn all_visible(columns: &[Column], lines: &[&RowLine]) -> [u64; 3] {
+    let mut sums = [0; 3];
+    for line in lines {
+        for column in columns {
+            sums[column.sizes() as usize] += visible(&column.results(&line.row));
+        }
+    }
+    sums
 }
 
 /// A share of a number; nought of none.
@@ -132,8 +149,7 @@ pub(super) fn standings<'a>(
             part,
             share: (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64),
             wrong: lines.iter().map(|line| wrong_in(&everywhere, line)).sum(),
-            far: cells.iter().map(|(_, cell)| cell.far).sum(),
-            far_values: lines.iter().map(|line| line.values.far).sum(),
+            visible: all_visible(columns, &lines),
             others: others
                 .get(&[part.kernel.clone(), part.set.clone()])
                 .cloned()

@@ -54,6 +54,9 @@ pub(super) fn blocks(record: &Record, conformance: &Conformance) -> Vec<Block> {
     let net = net_lines(conformance);
     let net = net.into_iter().map(|text| Item { text, ..Item::default() }).collect();
     blocks.extend(Block::items("What changed, in cases", MOST_LISTED, net));
+    let errors = conformance.errors.iter();
+    let errors = errors.map(|it| Item { text: it.to_string(), ..Item::default() }).collect();
+    blocks.extend(Block::items("Errors of right hits, of a sample", MOST_LISTED, errors));
     let stale =
         "Stale expectations (what was wrong is less so, or gone; --bless writes what was found)";
     let unsteady = "Answers differ from run to run, so these kernels are not compared";

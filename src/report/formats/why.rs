@@ -1,15 +1,17 @@
 //! Why, in the text: shares of causes.
 
+use super::disagreement::counts_alone;
 use super::rate::percent;
 use super::record::*;
 use crate::audit::Attribution;
 
-/// The findings of a kind, of any class.
+/// The findings of a kind that counts for single triangles, of any class.
 pub(super) fn of_kind<'a>(
     results: &[&'a KernelResult],
     kind: FindingKind,
 ) -> impl Iterator<Item = &'a FindingPart> {
-    let findings = results.iter().flat_map(|result| &result.findings);
+    let alone = results.iter().filter(move |result| counts_alone(result, kind));
+    let findings = alone.flat_map(|result| &result.findings);
     findings.filter(move |part| part.finding == kind)
 }
 

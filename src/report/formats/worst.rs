@@ -1,6 +1,6 @@
 //! The worst examples in words: by how much a verdict is wrong and why, and the command that shows it.
 
-use super::disagreement::{across, cracks, polygons};
+use super::disagreement::{across, counts_alone, cracks, polygons};
 use super::pool::{Pool, counted};
 use super::record::{FindingKind, FindingPart, Rate};
 use super::row_view::RowView;
@@ -11,8 +11,11 @@ use std::collections::BTreeMap;
 /// The findings of a row in a scalar, of each kind and of each class: how many, and the worst; then cracks and whole polygons.
 pub(super) fn findings(row: &RowView) -> Vec<Item> {
     let mut parts: BTreeMap<(FindingKind, &str), Vec<&FindingPart>> = BTreeMap::new();
-    for finding in row.results.iter().flat_map(|result| &result.findings) {
-        parts.entry((finding.finding, &finding.class)).or_default().push(finding);
+    for result in &row.results {
+        let alone = result.findings.iter().filter(|part| counts_alone(result, part.finding));
+        for finding in alone {
+            parts.entry((finding.finding, &finding.class)).or_default().push(finding);
+        }
     }
     let item = |text, command| Item::shown_by(format!("{} {text}", row.scalar), command);
     let of_class = |((kind, class), parts): (&(FindingKind, &str), &Vec<&FindingPart>)| {
@@ -40,7 +43,8 @@ pub(super) fn findings(row: &RowView) -> Vec<Item> {
 impl RowView<'_> {
     /// The findings of a kind and a class.
     fn found(&self, kind: FindingKind, class: &str) -> Pool {
-        let counts = self.results.iter().filter_map(|result| result.classes.get(class));
+        let alone = self.results.iter().filter(|result| counts_alone(result, kind));
+        let counts = alone.filter_map(|result| result.classes.get(class));
         let rates: Vec<Rate> = counts.filter_map(|counts| counts.rate(kind)).collect();
         Pool::of(rates.iter())
     }

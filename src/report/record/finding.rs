@@ -2,6 +2,7 @@
 
 use super::{FindingKind, Promised, Rate, or_infinite};
 use crate::audit::{Attribution, Octave};
+use crate::judge::Relation;
 use std::collections::BTreeMap;
 
 /// One finding in one class.
@@ -66,6 +67,18 @@ pub struct Distribution {
     /// number, `inf` the infinite.
     #[cfg_attr(test, schemars(with = "BTreeMap<String, u64>"))]
     pub octaves: BTreeMap<Octave, u64>,
+}
+
+/// A simple relation between the wrong answers of a kernel of one's own and the exact values.
+#[apply(part!)]
+pub struct RelationPart {
+    /// `t-twice`, `u-v-exchanged`, `t-min-ignored`, ….
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub relation: Relation,
+    /// The cases on which it holds.
+    pub count: u64,
+    /// All cases that could show it.
+    pub of: u64,
 }
 
 /// A case that shows a finding.

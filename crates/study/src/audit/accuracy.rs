@@ -8,9 +8,9 @@
 use super::histogram::Histogram;
 use crate::arith::{Bounded, Exact, Float, Real, Triple, Vector};
 use crate::case::{Case, Ray, Triangle};
-use crate::judge::ulp_of_points;
+use crate::judge::{rounds_to_infinity, ulp_of_points};
 use crate::kernel::{Gives, Verdict};
-use crate::truth::{Crossing, Feature};
+use crate::truth::{Crossing, Feature, Truth};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
@@ -78,6 +78,7 @@ struct Measure<'a, F: Float> {
     case: &'a Case<F>,
     /// True for each of t, u and v that is exactly zero.
     zeros: [bool; 3],
+    truth: Truth,
     /// The units in which errors of a t, u or v of zero are measured.
     units: [f64; 3],
 }
@@ -92,6 +93,7 @@ impl<'a, F: Float> Measure<'a, F> {
         Measure {
             case,
             zeros: [crossing.t_sign == Ordering::Equal, u, v],
+            truth: Truth::Transversal(*crossing),
             units: [t_unit, one, one],
         }
     }
@@ -109,6 +111,9 @@ impl<'a, F: Float> Measure<'a, F> {
         let (ray, triangle) = self.case.lift(lift);
         let exact = values(&ray, &triangle);
         let error_of = |which: usize, found: F| -> Option<f64> {
+            if which == 0 && rounds_to_infinity(self.case, &self.truth, found) {
+                return Some(0.0);
+            }
             if !found.is_finite() {
                 return Some(f64::INFINITY);
             }

@@ -161,6 +161,11 @@ impl<F: Scalar> Chunk<F> {
         if self.world.is_some() { Gives::NOTHING } else { gives }
     }
 
+    /// True if a matrix puts the triangles into the world.
+    pub(super) fn is_placed(&self) -> bool {
+        self.world.is_some()
+    }
+
     /// How far a valid case is from where its truth would change.
     pub fn distances(&self, case: usize) -> Distances {
         match &self.world {

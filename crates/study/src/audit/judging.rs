@@ -12,7 +12,8 @@ use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{
-    self, Class, Distances, Finding, Obligation, ValueErrors, polygon_obligation, polygon_truth,
+    self, Class, Distances, Finding, Obligation, RelatedValues, ValueErrors, polygon_obligation,
+    polygon_truth,
 };
 use crate::kernel::{Failure, Scalar, Subject, Verdict};
 use crate::truth::Feature;
@@ -78,6 +79,12 @@ impl<F: Scalar> RowIn<F> {
                     };
                     (edges, distances.edge_in_ulps)
                 });
+                if self.is_own && finding == Finding::WrongValue {
+                    let tolerance = contract.value_tolerance;
+                    let values = RelatedValues::of(case, gives, verdict, tolerance);
+                    let before = i.checked_sub(1).map(|place| &verdicts[place]);
+                    tally.relations.add_values(&values, verdict, before);
+                }
                 tally.find(class(i), finding, (chunk.places[i], *hash), severity);
                 if finding.is_failure() {
                     tally.classes[number].fail(obligation);
@@ -91,6 +98,9 @@ impl<F: Scalar> RowIn<F> {
             add_rays(chunk, asked, verdicts, &found, tally);
         }
         tally.hits(&hits);
+        if self.is_own {
+            self.relate_answers(chunk, contract, asked, verdicts, &mut tally.relations);
+        }
         if chunk.grouping == Grouping::SecondaryRay {
             tally.self_hits.rays += verdicts.len() as u64;
             tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;

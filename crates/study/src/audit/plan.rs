@@ -13,9 +13,11 @@ pub struct Plan {
     pub scalars: [bool; 2],
     /// How many examples of each class of finding to keep, by index.
     pub examples: usize,
-    /// How many findings of each class, the first by index, to attribute to a cause; and on how many
+    /// How many findings of each class, the first by index, to attribute to a cause; and on at least how many
     /// indices of each source, evenly spread, to measure the values of right hits.
     pub attribute: usize,
+    /// On how many indices of each source to measure the values of right hits, if that is more.
+    pub measured: usize,
     /// How many places of a mesh to keep for a drawing, of each row, part and scalar.
     pub places: usize,
 }
@@ -23,7 +25,7 @@ pub struct Plan {
 impl Plan {
     /// A plan that counts and keeps so many examples, without causes, accuracy and places.
     pub fn new(rows: Vec<Row>, sources: Vec<Source>, scalars: [bool; 2], examples: usize) -> Plan {
-        Plan { rows, sources, scalars, examples, attribute: 0, places: 0 }
+        Plan { rows, sources, scalars, examples, attribute: 0, measured: 0, places: 0 }
     }
 
     /// How many examples, findings to attribute and places a tally keeps.

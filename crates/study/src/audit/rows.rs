@@ -20,6 +20,8 @@ pub(super) struct RowIn<F: 'static> {
     pub number: usize,
     pub subject: &'static dyn Subject<F>,
     pub info: &'static KernelInfo,
+    /// True of a kernel of one's own, whose mistakes are not known.
+    pub is_own: bool,
     pub epsilons: Vec<F>,
     /// Which of the contracts.
     pub contract: usize,
@@ -36,7 +38,8 @@ impl<F: Scalar> Rows<F> {
                 contracts.len() - 1
             });
             let info = row.entry.info;
-            Some(RowIn { number, subject, info, epsilons: row.epsilons(), contract })
+            let is_own = !row.entry.is_built_in();
+            Some(RowIn { number, subject, info, is_own, epsilons: row.epsilons(), contract })
         };
         let each = rows.iter().enumerate().filter_map(resolve).collect();
         Rows { each, contracts }

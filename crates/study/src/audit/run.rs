@@ -213,10 +213,11 @@ impl<'a, F: Scalar> Runner<'a, F> {
 
     /// The cases of a chunk on which the values of hits are measured.
     fn sample(&self, source: &Source, chunk: &Chunk<F>) -> Vec<usize> {
-        if self.plan.attribute == 0 {
+        let measured = self.plan.measured.max(self.plan.attribute);
+        if measured == 0 {
             return Vec::new();
         }
-        let every = source.count::<F>().div_ceil(self.plan.attribute as u64).max(1);
+        let every = source.count::<F>().div_ceil(measured as u64).max(1);
         let sampled = chunk.groups().filter(|(index, _)| index.is_multiple_of(every));
         sampled.flat_map(|(_, cases)| cases).collect()
     }

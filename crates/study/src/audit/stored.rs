@@ -18,6 +18,7 @@ pub struct StoredPlan {
     scalars: [bool; 2],
     examples: usize,
     attribute: usize,
+    measured: usize,
     places: usize,
 }
 
@@ -62,6 +63,7 @@ impl StoredPlan {
             scalars: plan.scalars,
             examples: plan.examples,
             attribute: plan.attribute,
+            measured: plan.measured,
             places: plan.places,
         }
     }
@@ -79,6 +81,7 @@ impl StoredPlan {
             scalars: self.scalars,
             examples: self.examples,
             attribute: self.attribute,
+            measured: self.measured,
             places: self.places,
         })
     }

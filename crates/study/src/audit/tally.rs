@@ -6,6 +6,7 @@ use super::by_finding::ByFinding;
 use super::digest::{CasePlace, Digest};
 use super::group_count::{GroupCount, JudgedGroup};
 use super::histogram::Histogram;
+use super::relations::Relations;
 use super::trials::{RayProducts, Trials};
 use crate::contract::Across;
 use crate::judge::{Class, Finding, Obligation};
@@ -212,6 +213,8 @@ pub struct Tally {
     pub severities: BTreeMap<Finding, Severities>,
     /// How accurate the values of right hits are, of a sample.
     pub accuracy: Accuracy,
+    /// Relations between wrong answers and the exact values, of a kernel of one's own.
+    pub relations: Relations,
     /// The outcomes of groups.
     pub groups: GroupCount,
     /// The same at the edges, or at the vertices, of a mesh.
@@ -236,6 +239,7 @@ impl Tally {
             examples: ByFinding::default(),
             severities: BTreeMap::new(),
             accuracy: Accuracy::default(),
+            relations: Relations::default(),
             groups: GroupCount::default(),
             aimed: Aimed::default(),
             polygons: PolygonCount::default(),
@@ -319,6 +323,7 @@ impl Tally {
             self.severities.entry(*finding).or_default().merge(more);
         }
         self.accuracy.merge(&other.accuracy);
+        self.relations.merge(&other.relations);
         self.groups.merge(other.groups, self.group_limit);
         self.aimed.merge(other.aimed, [self.group_limit, self.place_limit]);
         self.polygons.merge(other.polygons, self.group_limit);

@@ -52,8 +52,13 @@ pub fn holes<F: Scalar>(
             leaks: sums.leaks.iter().zip(part.leaks).map(|(sum, more)| sum + more).collect(),
             triangles: sums.triangles + part.triangles,
         });
-    let share = |leaks: &f64| (0.0 < sums.triangles).then(|| leaks / sums.triangles);
-    sums.leaks.iter().map(share).collect()
+    sums.leaks.iter().map(|leaks| hole_share(*leaks, sums.triangles)).collect()
+}
+
+/// The share of holes of two estimated areas; none without a triangle. The area of leaks is that of a sample in which places
+/// near the edge have more rays, and where every ray leaks it may come out above that of the triangles.
+fn hole_share(leaks: f64, triangles: f64) -> Option<f64> {
+    (0.0 < triangles).then(|| (leaks / triangles).min(1.0))
 }
 
 impl RaySums {
@@ -117,6 +122,13 @@ mod tests {
     use crate::kernel::Role;
     use glam::DVec3;
     use std::slice;
+
+    #[test]
+    fn there_are_no_more_holes_than_pixels() {
+        assert_eq!(hole_share(1.1, 1.0), Some(1.0));
+        assert_eq!(hole_share(0.5, 2.0), Some(0.25));
+        assert_eq!(hole_share(0.0, 0.0), None);
+    }
 
     /// The share of holes among rays at uniform points of both triangles, parallel to their own. Those that are nearest
     /// to the shared edge count, for each of a triangle's three edges; and how many they are.

@@ -30,22 +30,22 @@ pub(super) fn has_values(truth: &Truth) -> bool {
 }
 
 /// Exact t, u, v of a line that crosses the plane, and how far each may be off.
-struct Allowed<R> {
-    exact: [R; 3],
+pub(super) struct Allowed<R> {
+    pub(super) exact: [R; 3],
     /// u·κ; [`ALLOWANCE`] times as much is allowed.
-    unit: [R; 3],
+    pub(super) unit: [R; 3],
     /// The squares of the longest edge and of the direction's length.
     edge_squared: R,
     direction_squared: R,
     /// The least positive number of the scalar.
     least: f64,
-    number: fn(f64) -> R,
+    pub(super) number: fn(f64) -> R,
 }
 
 impl<R: Real> Allowed<R> {
     /// In an arithmetic that does not round, of a case in a scalar with this unit roundoff and this least
     /// number.
-    fn of<F: Float>(case: &Case<F>, number: fn(f64) -> R) -> Allowed<R> {
+    pub(super) fn of<F: Float>(case: &Case<F>, number: fn(f64) -> R) -> Allowed<R> {
         let roundoff = roundoff::<F>();
         let (ray, triangle) = case.widen().lift(number);
         let (Ray { origin: o, direction: d, .. }, Triangle { a, b, c }) = (&ray, &triangle);
@@ -91,7 +91,7 @@ impl<R: Real> Allowed<R> {
     }
 
     /// The same of several values of a hit.
-    fn admits_all(&self, values: &[(usize, f64)], tolerance: f64) -> bool {
+    pub(super) fn admits_all(&self, values: &[(usize, f64)], tolerance: f64) -> bool {
         values.iter().all(|&(which, value)| self.admits(which, (self.number)(value), tolerance))
     }
 
@@ -110,7 +110,7 @@ impl<R: Real> Allowed<R> {
 }
 
 /// Half the distance from 1 to the next number of a scalar.
-fn roundoff<F: Float>() -> f64 {
+pub(super) fn roundoff<F: Float>() -> f64 {
     F::EPSILON.to_f64() / 2.0
 }
 
@@ -118,10 +118,12 @@ fn given(gives: Gives) -> [bool; 3] {
     [gives.t, gives.uv, gives.uv]
 }
 
-/// Those of t, u and v (0, 1 and 2) that a kernel gives.
-fn given_values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Vec<(usize, f64)> {
+/// Those of t, u and v (0, 1 and 2) that a kernel gives; not a t that is rightly infinite, which is as near as a number can
+/// be.
+pub(super) fn given_values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Vec<(usize, f64)> {
     let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64).into_iter().enumerate();
-    values.filter(|(which, _)| given(gives)[*which]).collect()
+    let finite = values.filter(|(_, value)| value.is_finite());
+    finite.filter(|(which, _)| given(gives)[*which]).collect()
 }
 
 /// True if each value that the kernel gives is as near to its exact one as rounding may leave it, or as a contract
@@ -137,7 +139,21 @@ pub(super) fn are_near<F: Float>(
     in_bounds.unwrap_or_else(|| Allowed::of(case, Exact::from_f64).admits_all(&values, tolerance))
 }
 
-/// The same of what a kernel's formula gives without rounding.
+/// True if a t is an infinity to which the exact t of a hit rounds: it is as far beyond the largest number as half of that
+/// number's last place.
+pub fn rounds_to_infinity<F: Float>(case: &Case<F>, truth: &Truth, t: F) -> bool {
+    if t.is_nan() || t.is_finite() || !has_values(truth) {
+        return false;
+    }
+    let largest = F::infinity().offset_ulps(-1);
+    let half = Exact::from_f64(largest.ulp().to_f64()) / Exact::from_f64(2.0);
+    let limit = Exact::from_f64(largest.to_f64()) + half;
+    let [exact, ..] = Allowed::of(case, Exact::from_f64).exact;
+    let exact = if t < F::zero() { -exact } else { exact };
+    limit.is_at_most(&exact)
+}
+
+/// True if what a kernel's formula gives without rounding is as near.
 pub fn exact_values_are_near<F: Float>(
     case: &Case<F>,
     gives: Gives,
@@ -227,7 +243,8 @@ fn measure<F: Float, R: Real>(
     Some(all)
 }
 
-fn length(v: [f64; 3]) -> f64 {
+/// The length of a vector, without overflow on the way.
+pub(super) fn length(v: [f64; 3]) -> f64 {
     let largest = v.into_iter().map(f64::abs).fold(0.0, f64::max);
     largest * v.into_iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
 }

@@ -3,9 +3,10 @@
 use super::super::Paged;
 use super::*;
 use crate::report::{
-    ComparisonVerdict, Conformance, Counts, Deviation, Example, FindingKind, FindingPart,
-    Illustrations, KernelResult, Method, NetChange, PlanPart, PlannedSource, ProofPart, ProvedGate,
-    Provenance, Rate, Record, ResultPart, RowChange, RowPart, SourcePart, Unproved,
+    ComparisonVerdict, Conformance, Counts, Deviation, ErrorChange, Example, FindingKind,
+    FindingPart, Illustrations, KernelResult, Method, NetChange, PlanPart, PlannedSource,
+    ProofPart, ProvedGate, Provenance, Rate, Record, ResultPart, RowChange, RowPart, SourcePart,
+    Unproved,
 };
 use std::collections::BTreeMap;
 
@@ -150,6 +151,12 @@ pub fn conformance(deviations: Vec<Deviation>) -> Conformance {
             demanded: HOSTILE.to_owned(),
             why: HOSTILE.to_owned(),
             command: HOSTILE.to_owned(),
+        }],
+        errors: vec![ErrorChange {
+            what: HOSTILE.to_owned(),
+            before: HOSTILE.to_owned(),
+            now: HOSTILE.to_owned(),
+            is_worse: true,
         }],
         unexpected: deviations.clone(),
         stale: deviations.clone(),
