@@ -260,7 +260,7 @@ impl Request {
     /// kind of finding with its rate and 95 % interval, and the first cases with the command that
     /// shows their truth.
     ///
-    /// `HAIRLINE_CASE='behind@1/f32/-/1/7' cargo test NAME` explains one case of it instead (feature `studies`, which `cli`
+    /// `HAIRLINE_CASE='behind@2/f32/-/1/7' cargo test NAME` explains one case of it instead (feature `studies`, which `cli`
     /// has).
     #[track_caller]
     pub fn assert_conforms(&self) {

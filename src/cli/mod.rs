@@ -58,6 +58,7 @@ use clap::{Arg, ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Duration;
 
 /// Audits ray-triangle kernels and their epsilons against exact predicates.
 #[derive(Parser)]
@@ -118,6 +119,9 @@ enum Chosen {
     KernelHost {
         /// The library
         file: PathBuf,
+        /// Ask the first whole batch again and again before its answer counts, for so many milliseconds at most
+        #[arg(long, default_value_t = 0)]
+        long_run: u64,
     },
 }
 
@@ -253,7 +257,9 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Chosen::Help(arguments) => help::run(&arguments, self::command()),
         Chosen::Completions(arguments) => help::completions(&arguments, self::command()),
         Chosen::Man(arguments) => help::man(&arguments, self::command()),
-        Chosen::KernelHost { file } => return plugin::serve(&file),
+        Chosen::KernelHost { file, long_run } => {
+            return plugin::serve(&file, Duration::from_millis(long_run));
+        }
     };
     plugins::finish();
     // A broken kernel of the user's is reported before anything that its verdicts led to.

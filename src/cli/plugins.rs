@@ -14,7 +14,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
 /// The flags that bring kernels along.
@@ -49,6 +49,12 @@ pub struct PluginArguments {
     #[serde(default)]
     require_ieee: bool,
 }
+
+/// How long a library may be asked its first batch again and again, in milliseconds; 0 for not at all.
+static LONG_RUN: AtomicU64 = AtomicU64::new(0);
+
+/// As long as that, if the kernel's own timeout is long.
+const LONGEST_RUN: f64 = 2.0;
 
 /// True if nothing is said of a kernel while it runs.
 static IS_QUIET: AtomicBool = AtomicBool::new(false);
@@ -109,6 +115,12 @@ impl PluginArguments {
             Some((name, hex(&Hash::hash(&bytes)[..8])))
         };
         paths.filter_map(digest).collect()
+    }
+
+    /// Lets libraries answer their first batch again and again: a kernel may be wrong after many calls.
+    pub fn run_long(&self) {
+        let seconds = LONGEST_RUN.min(self.kernel_timeout / 4.0).max(0.0);
+        LONG_RUN.store((seconds * 1000.0) as u64, Ordering::Relaxed);
     }
 
     /// Starts the kernels and puts them into the table.
@@ -192,7 +204,10 @@ fn host_of(path: &str) -> Result<KernelProgram, Failure> {
         Some(words) => words.iter().map(OsString::from).collect(),
         None => vec![own().map_err(|error| Failure::of_file("this program", &error))?],
     };
+    let long_run = LONG_RUN.load(Ordering::Relaxed);
+    let long_run = (0 < long_run).then(|| format!("--long-run={long_run}").into());
     let words = this.into_iter().chain([HOST_COMMAND.into(), whole.into_os_string()]);
+    let words = words.chain(long_run);
     let words = words.map(|word| word.into_string().ok()).collect::<Option<Vec<String>>>();
     words
         .map(KernelProgram::host)

@@ -138,6 +138,7 @@ impl RunArguments {
     pub fn plan(&self, attribute: usize) -> Result<Plan, Failure> {
         // Before anything runs on all threads, as the reading of a mesh does.
         set_threads(self.threads)?;
+        self.kernels.plugins.run_long();
         let rows = self.kernels.rows()?;
         let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
         let sources = self.sources.sources(self.report.output.quiet)?;

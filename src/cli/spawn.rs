@@ -249,7 +249,8 @@ impl SpawnArguments {
         PointsPart::new::<F>(&plans, [&pilots, &sums], &made, derived, &self.place())
     }
 
-    /// Where segments end that go to the hit points of each kernel; in an instance nobody asked.
+    /// Where segments end that go to the hit points of each kernel; in an instance, and beside schemes that are named, nobody
+    /// asks.
     fn segments(
         &self,
         rows: &[Row],
@@ -258,7 +259,7 @@ impl SpawnArguments {
         mesh: Option<&Arc<SceneMesh>>,
         progress: &Progress,
     ) -> Vec<SegmentsPart> {
-        if self.instance.is_some() {
+        if self.instance.is_some() || !self.makes_schemes() {
             return Vec::new();
         }
         let seeds = [fresh_seed(self.seed), self.seed];

@@ -62,7 +62,7 @@ fn all_kinds_of_a_scene_causes_and_a_case_are_there_for_the_asking() {
     let request = audit(kernel).families(["edge-near"]).count(100);
     assert_eq!(with_causes(&request), 0);
     assert!(0 < with_causes(&request.clone().attribute(10)));
-    let text = request.explain("edge-near@1/f32/-/1/7").unwrap();
+    let text = request.explain("edge-near@2/f32/-/1/7").unwrap();
     assert!(text.starts_with("moller-trumbore (source): "), "{text}");
     let error = request.explain("edge-near").unwrap_err().to_string();
     assert!(error.contains("edge-near"), "{error}");

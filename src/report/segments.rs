@@ -237,12 +237,11 @@ impl SegmentsPart {
             self.ends.first().and_then(|end| end.blocked.rate).map_or("-".to_owned(), percent);
         let safe = self.safe();
         let end = match safe.first() {
-            Some(best) => format!("end them at t_max = {}", best.end),
-            None => "end them before p (`hairline spawn --scene` shows how far)".to_owned(),
+            Some(best) => format!("end at t_max = {}", best.end),
+            None => "end before p (`hairline spawn`)".to_owned(),
         };
         format!(
-            "Shadow rays that go to a point p of a surface: {end}, with a direction that goes to p. At t_max = 1 the surface \
-             itself blocks {at_target} of them."
+            "Shadow rays to a point p of a surface: {end} (at t_max = 1 the surface blocks {at_target} of them)."
         )
     }
 }

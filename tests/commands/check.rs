@@ -90,7 +90,7 @@ fn without_expectations_every_disagreement_fails_and_names_its_case_and_command(
          hairline.expectations.toml, for people to review, and the cases into \
          hairline.expectations.toml.lock; commit both\n",
         "moller-trumbore (source) f32 tiny: false-miss of interior/front/within: ",
-        ", expected none\n    hairline explain 'tiny@2/f32/-/1/",
+        ", expected none\n    hairline explain 'tiny@3/f32/-/1/",
         "\nof interior/back/within: where the line meets the triangle, ",
         "Does not conform: ",
     ] {

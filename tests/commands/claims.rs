@@ -205,15 +205,16 @@ fn an_audit_of_a_scene_says_on_which_planes_a_kernel_is_more_often_wrong() {
     let words: Vec<&str> = line.split_whitespace().rev().take(3).collect();
     let [kind, most, own] = words[..] else { panic!("{line}") };
     let percent = |word: &str| word.trim_end_matches('%').parse::<f64>().unwrap();
-    // Shadow rays from floors at coordinate 0 start there exactly, so their t is 0: 0 <= t accepts half of them.
-    assert!(kind.starts_with("axis") && percent(own) < 2.0 && 10.0 < percent(most), "{line}");
+    // Shadow rays from floors at coordinate 0 start there exactly, so their t is 0: 0 <= t accepts half of them. Segments
+    // that end at their target are half of the rest, on any plane.
+    assert!(kind.starts_with("axis") && percent(own) + 8.0 < percent(most), "{line}");
     let json = ["--scene", "room", "--format", "json"];
     let record: serde_json::Value =
         serde_json::from_str(&ends(&folder, &[&flags[..], &json].concat(), 0).0).unwrap();
     let sources = record["result"]["plan"]["sources"].as_array().unwrap();
     let names: Vec<&str> = sources.iter().map(|it| it["family"].as_str().unwrap()).collect();
-    // Seven strata; rays along axes are in five, which are not about the angle to the plane.
-    assert_eq!(names.len(), 7 * 6 + 5 * 3, "{names:?}");
+    // Eight strata; rays along axes are in six, which are not about the angle to the plane.
+    assert_eq!(names.len(), 8 * 6 + 6 * 3, "{names:?}");
     for name in ["scene-shadow", "scene-shadow:axis-0", "scene-edges:axis+axis-rays"] {
         assert!(names.contains(&name), "{name}");
     }
@@ -263,7 +264,7 @@ fn a_demand_is_not_met_by_a_proof_of_something_else_than_what_runs() {
 #[test]
 fn values_are_free_where_the_contract_leaves_the_direction_out() {
     let folder = scratch("claims-direction");
-    let case = ["explain", "sliver@2/f32/-/1/593", "--kernel", "half-space"];
+    let case = ["explain", "sliver@3/f32/-/1/593", "--kernel", "half-space"];
     let unit = ["--contract", "own,direction=unit:4"];
     let screen = ends(&folder, &case, 0).0;
     assert!(screen.contains("wrong-value") && screen.contains("wrong t: reported"), "{screen}");
@@ -284,7 +285,7 @@ fn a_contract_that_tolerates_more_of_the_values_has_fewer_findings() {
     let [own, tiny, small, free] =
         ["own", "own,values=1e-6", "own,values=1e-3", "own,values=free"].map(count);
     assert!(0 == free && free < small && small < own && tiny <= own, "{own} {tiny} {small}");
-    let case = ["explain", "sliver@2/f32/-/1/593", "--kernel", "half-space", "--contract"];
+    let case = ["explain", "sliver@3/f32/-/1/593", "--kernel", "half-space", "--contract"];
     let far = ends(&folder, &[&case[..], &["own,values=1e-9"]].concat(), 0).0;
     let free = ends(&folder, &[&case[..], &["own,values=free"]].concat(), 0).0;
     assert!(far.contains("wrong t: reported") && !free.contains("wrong"), "{far}\n{free}");

@@ -68,7 +68,7 @@ fn the_audit_lists_every_kernel_scalar_and_family() {
             .collect::<std::collections::BTreeSet<_>>()
             .len()
     };
-    assert_eq!((distinct("kernel"), distinct("scalar"), distinct("family")), (17, 2, 28));
+    assert_eq!((distinct("kernel"), distinct("scalar"), distinct("family")), (17, 2, 31));
     for source in record["result"]["sources"].as_array().unwrap() {
         assert_eq!(source["promise_broken"], 0, "{source}");
     }
@@ -394,7 +394,7 @@ fn wrong_names_suggest_the_nearest_and_wrong_numbers_say_the_range() {
         (&["audit", "--offset", "1:2"], "write x:y:z"),
         (&["audit", "--threads", "0"], "not from 1"),
         (&["explain", "nonsense"], "is not a case id"),
-        (&["explain", "edge-near@1/f32/-/1/3", "--kernel", "x"], "unknown kernel 'x'"),
+        (&["explain", "edge-near@2/f32/-/1/3", "--kernel", "x"], "unknown kernel 'x'"),
     ] {
         assert!(
             refused(here, arguments, 2).contains(message),
@@ -575,7 +575,7 @@ fn explain_says_why_a_case_is_invalid_and_which_rows_fail_on_a_group() {
         assert!(screen.contains(&format!("\ntruth  invalid: {reason}\n")), "{screen}");
     }
     assert!(case("\"origin\":[\"nan\",0,1],\"direction\":[0,0,-1]").contains("passes at every e"));
-    let output = hairline(&["explain", "shared-edge@2/f32/-/1/5"]);
+    let output = hairline(&["explain", "shared-edge@3/f32/-/1/5"]);
     let screen = text(&output.stdout);
     let (title, rest) = screen.split_once("\n\n").unwrap();
     let wrong = title.split(' ').next().unwrap().parse::<usize>().unwrap();
@@ -688,7 +688,7 @@ fn a_stored_case_is_explained_by_name_and_a_given_one_by_its_json() {
     let given = hairline(&["explain", CASE, "--kernel", "moller-trumbore"]);
     assert!(text(&given.stdout).contains("edge_ab"), "{}", text(&given.stderr));
     let group =
-        text(&hairline(&["explain", "shared-edge@2/f32/-/1/3", "--kernel", "plucker"]).stdout);
+        text(&hairline(&["explain", "shared-edge@3/f32/-/1/3", "--kernel", "plucker"]).stdout);
     assert!(group.contains("triangle 1 of 2"), "{group}");
 }
 

@@ -39,7 +39,7 @@ fn the_same_cases_differ_by_count_and_other_cases_by_intervals() {
     let line = "Worse\ncramer (bvh: parallel+t) f32 edge-near: false-miss of ";
     assert!(worse.contains(line), "{worse}");
     assert!(
-        flat(&worse).contains(" now hairline explain 'edge-near@1/f32/scale=2^-30/1/"),
+        flat(&worse).contains(" now hairline explain 'edge-near@2/f32/scale=2^-30/1/"),
         "{worse}"
     );
     assert!(worse.contains("that only the old record has"), "{worse}");

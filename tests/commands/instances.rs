@@ -247,7 +247,7 @@ fn what_takes_no_instance_says_so() {
     }
     let error = ends(&folder, &["epsilon", "--instance", IDENTITY], 2).1;
     assert!(error.contains("unexpected argument '--instance' found"), "{error}");
-    let id = "edge-near@1/f32/instance=1e0:0e0:0e0:0e0:0e0:1e0:0e0:0e0:0e0:0e0:1e0:0e0/1/5";
+    let id = "edge-near@2/f32/instance=1e0:0e0:0e0:0e0:0e0:1e0:0e0:0e0:0e0:0e0:1e0:0e0/1/5";
     for command in [&["fuzz", "shrink", id][..], &["map", "--kernel", "plucker", id]] {
         let error = ends(&folder, command, 2).1;
         assert!(error.ends_with("is a case of an instance: only `explain` takes it\n"), "{error}");

@@ -77,7 +77,7 @@ fn options_choose_what_is_varied() {
 #[test]
 fn a_drawing_is_an_svg_with_the_exact_words() {
     let folder = scratch("map-drawing");
-    let id = "tiny@2/f32/-/1/2314";
+    let id = "tiny@3/f32/-/1/2314";
     let kernel = ["--kernel", "moller-trumbore", "--epsilon", "parallel=1e-6,edge=0"];
     let (out, error) =
         ends(&folder, &[&["map", id, "--drawing", "-o", "w.svg"], &kernel[..]].concat(), 0);
@@ -100,7 +100,7 @@ fn wrong_usage_and_bad_input_end_with_their_codes() {
         (&["map", "--at", "edges", "--kernel", "cramer"], 2, "did you mean 'edge'?"),
         (&["map", "--at", "edge", "--scalar", "f16", "--kernel", "cramer"], 2, "unknown scalar"),
         (&["map", "nonsense", "--kernel", "cramer"], 2, "is not a case id"),
-        (&["map", "fan@2/f32/-/1/2", "--kernel", "cramer"], 2, "say which"),
+        (&["map", "fan@3/f32/-/1/2", "--kernel", "cramer"], 2, "say which"),
         (&["map", "{\"scalar\":\"f32\"}", "--kernel", "cramer"], 65, "missing field 'origin'"),
     ];
     let with_kernel: &[(&[&str], i32, &str)] = &[

@@ -159,7 +159,7 @@ fn a_failed_assertion_reads_like_this() {
         "f32 behind (own): false-hit vertex/back/before: 2 of 2 (100.0% [15.8%, 100.0%])";
     assert!(lines.contains(&vertices) && message.contains("\n        o=42000000,"), "{message}");
     // A kernel of one's own is known to its own tests only; the case is also there as Rust.
-    let command = "\n    HAIRLINE_CASE='behind@1/f32/-/7/";
+    let command = "\n    HAIRLINE_CASE='behind@2/f32/-/7/";
     assert!(message.contains(command), "{message}");
     let test = " cargo test own::a_failed_assertion_reads_like_this\n        Case::<f32>::new([32.0, 0.0, -14.0], ";
     assert!(message.contains(test), "{message}");
@@ -176,7 +176,7 @@ fn the_command_of_a_failed_test_explains_the_case_with_the_kernel_of_that_test()
         let output = command.args(["--exact", test]).env("HAIRLINE_CASE", case).output().unwrap();
         String::from_utf8_lossy(&output.stdout).into_owned()
     };
-    let text = explained("behind@1/f32/-/7/1");
+    let text = explained("behind@2/f32/-/7/1");
     let expected = "\nalways (own): hit; its contract asks a miss: FALSE-HIT\n";
     assert!(text.contains(expected) && text.contains("before"), "{text}");
     let unknown = explained("nowhere@1/f32/-/7/1");
@@ -268,7 +268,7 @@ fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
     let panics = panics.expect("panics on polygons");
     assert_eq!((panics.rate.count, panics.rate.of), (pentagons.len() as u64, 300));
     let example = panics.example.as_ref().expect("a place");
-    assert_eq!(example.case, format!("polygon@1/f32/-/1/{}", pentagons[0]));
+    assert_eq!(example.case, format!("polygon@2/f32/-/1/{}", pentagons[0]));
     assert!(example.command.starts_with(&format!("hairline explain '{}'", example.case)));
     assert!(outcome.to_string().contains("panic"), "{outcome}");
 }
@@ -327,7 +327,7 @@ fn the_example_is_the_whole_program_with_two_kernels_in_it() {
         code == Some(4) && error.contains("no selected kernel runs in the chosen scalars"),
         "{error}"
     );
-    let (_, shown, _) = run(&["explain", "interior@1/f64/-/1/1", "--kernel", "mine,bounding-box"]);
+    let (_, shown, _) = run(&["explain", "interior@2/f64/-/1/1", "--kernel", "mine,bounding-box"]);
     assert!(shown.contains("mine (own): does not run in f64"), "{shown}");
     assert!(shown.contains("bounding-box (own): hit;"), "{shown}");
     // Nobody sees its gates, so it runs at many epsilons.

@@ -168,7 +168,7 @@ fn what_a_kernel_prints_does_not_flood_standard_error() {
     assert_eq!(error.lines().filter(|line| line.contains("case ")).count(), 50, "{error}");
     assert_eq!(error.matches(left_out).count(), 1, "{error}");
     // What one case prints is there, also what came last.
-    let explain = ["explain", "interior@1/f64/-/1/3", "--kernel-lib", &library];
+    let explain = ["explain", "interior@2/f64/-/1/3", "--kernel-lib", &library];
     let error = text(&hairline(&explain).stderr);
     assert!(error.starts_with("case 0 of 1\n") && error.ends_with("HLA1"), "{error}");
     assert!(!error.contains(left_out), "{error}");
@@ -343,7 +343,7 @@ fn a_kernel_whose_second_answer_is_another_is_named_and_is_no_regression() {
     let expected = [
         "Cannot be compared: answers of 1 kernel row differ from run to run, 0 unexpected disagreements, 0 stale ",
         "expected the same answer each time, but answers differ from run to run: asked again, the case shown is none",
-        "hairline explain 'outside@2/f64/-/1/",
+        "hairline explain 'outside@3/f64/-/1/",
     ];
     for expected in expected {
         assert!(out.contains(expected), "{expected}: {out}");
@@ -528,23 +528,23 @@ fn the_example_in_c_is_moller_trumbore_bit_for_bit() {
     assert!(listed.contains("c-moller-trumbore\n    source: Moller and Trumbore"), "{listed}");
     // Its epsilon is a gate like any other, and what is not shown is said.
     let tight =
-        ["explain", "tiny@2/f32/-/1/0", "--epsilon", "parallel=0", "--kernel-lib", &library];
+        ["explain", "tiny@3/f32/-/1/0", "--epsilon", "parallel=0", "--kernel-lib", &library];
     let shown = text(&hairline(&tight).stdout);
     assert!(shown.contains("c-moller-trumbore (parallel=0): hit;"), "{shown}");
     assert!(shown.contains("it does not show its formula"), "{shown}");
     // At its own epsilon it is refused by that, and right with every epsilon 0: the cause.
-    let tiny = ["explain", "tiny@2/f32/-/1/0", "--kernel-lib", &library];
+    let tiny = ["explain", "tiny@3/f32/-/1/0", "--kernel-lib", &library];
     let shown = text(&hairline(&tiny).stdout);
     // The same formula is found, and what it does here; other epsilons part from it, and other answers are of none.
     let said = flat(&shown);
     let found = "compared, not proved: on 1,000 of 1,000 cases like this one it answers as moller-trumbore does";
     let here = "here that formula refuses by its gate parallel (abs(det) < e) too: epsilon";
     assert!(said.contains(found) && said.contains(here), "{said}");
-    let plain = ["explain", "interior@1/f32/-/1/0", "--kernel-lib", &library, "--epsilon"];
+    let plain = ["explain", "interior@2/f32/-/1/0", "--kernel-lib", &library, "--epsilon"];
     let parted = flat(&text(&hairline(&[&plain[..], &["parallel=0.26"]].concat()).stdout));
     let apart = "here they part: that formula hits, so something else decides";
     assert!(parted.contains(apart), "{parted}");
-    let shell = ["explain", "interior@1/f64/-/1/0", "--kernel-cmd", &shell(MISSES)];
+    let shell = ["explain", "interior@2/f64/-/1/0", "--kernel-cmd", &shell(MISSES)];
     let none = flat(&text(&hairline(&shell).stdout));
     assert!(none.contains("FALSE-MISS") && !none.contains("compared, not proved"), "{none}");
     assert!(
@@ -592,7 +592,7 @@ fn the_epsilons_of_a_library_are_those_of_the_same_kernel_with_gates() {
         ["epsilon", "--kernel-lib", &library, "--gate", "parallel", "--family", "grazing"];
     let shown = text(&hairline(&[&of_gate[..], &["-n", "500"]].concat()).stdout);
     assert!(shown.contains("c-moller-trumbore f32 on grazing"), "{shown}");
-    let case = ["explain", "tiny@2/f32/-/1/0", "--kernel", "moller-trumbore", "--kernel-lib"];
+    let case = ["explain", "tiny@3/f32/-/1/0", "--kernel", "moller-trumbore", "--kernel-lib"];
     let output = hairline(&[&case[..], &[&library, "--format", "json"]].concat());
     let shown: Value = serde_json::from_slice(&output.stdout).unwrap();
     let rows = shown["triangles"][0]["rows"].as_array().unwrap();
@@ -862,7 +862,7 @@ fn a_command_that_dies_or_is_silent_on_a_case_is_a_finding() {
     }
     let silent =
         shell("while read -r word id rest; do case $word in end) echo end $id;; esac; done");
-    let flags = ["explain", "interior@1/f64/-/1/3", "--kernel-timeout", "0.2", "--kernel-cmd"];
+    let flags = ["explain", "interior@2/f64/-/1/3", "--kernel-timeout", "0.2", "--kernel-cmd"];
     let error = refused_after_output(&[&flags[..], &[&silent]].concat());
     assert!(error.contains("expected the verdict on case 0 of 1, found 'end 1'"), "{error}");
     // Killed with what it started: `sleep` would hold this test's pipes.
@@ -993,11 +993,11 @@ while head := read.read(16):
         interior.make::<f32>(&Parameters::default(), 1, *index).cases()[0].vectors()[0][0] > 0.0
     };
     assert_eq!(count(&record, "hits"), (0..600).filter(positive).count() as u64);
-    let flags = ["explain", "interior@1/f32/-/1/0", "--epsilon", "t=0.25", "--kernel-cmd", &kernel];
+    let flags = ["explain", "interior@2/f32/-/1/0", "--epsilon", "t=0.25", "--kernel-cmd", &kernel];
     let mut shown = text(&hairline(&flags).stdout);
     if !positive(&0) {
         let index = (0..600).find(positive).unwrap();
-        let id = format!("interior@1/f32/-/1/{index}");
+        let id = format!("interior@2/f32/-/1/{index}");
         shown = text(&hairline(&[&["explain", &id][..], &flags[2..]].concat()).stdout);
     }
     assert!(shown.contains("binary (t=0.25): hit;"), "{shown}");

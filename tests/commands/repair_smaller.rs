@@ -186,7 +186,7 @@ fn a_form_that_is_not_there_is_answered_with_those_that_are() {
 #[test]
 fn a_gate_of_an_epsilon_by_size_says_so() {
     let folder = scratch("repair-by-size");
-    let explain = ["explain", "tiny@2/f32/-/1/15467", "--kernel", "moller-trumbore+by-size"];
+    let explain = ["explain", "tiny@3/f32/-/1/15467", "--kernel", "moller-trumbore+by-size"];
     let (said, _) = ends(&folder, &explain, 0);
     assert!(said.contains("abs(det) < max(e*L*L*D, TINY)"), "{said}");
 }

@@ -203,7 +203,7 @@ fn the_worst_findings_are_of_ordinary_sizes_and_their_commands_show_them() {
         let words: Vec<&str> =
             command.split_whitespace().map(|word| word.trim_matches('\'')).collect();
         let (shown, _) = ends(&folder, &[&["explain"], &words[..]].concat(), 0);
-        assert!(shown.contains("FALSE-"), "{command}: {shown}");
+        assert!(shown.contains("FALSE-") || shown.contains("CRACK"), "{command}: {shown}");
     }
     // No false verdict in an ordinary family is farther off than the first, of those that can be measured.
     let ordinary: Vec<&str> =

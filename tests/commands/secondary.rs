@@ -97,7 +97,7 @@ fn a_file_may_hold_both_and_a_case_is_explained_as_it_is_judged() {
     let folder = scratch("secondary-both");
     generate(&folder, "40");
     let shadow = fs::read_to_string(folder.join("shadow.jsonl")).unwrap();
-    let plain = shadow.replace(r#""starts":"on-triangle","#, "").replace("secondary-ray@1", "ray");
+    let plain = shadow.replace(r#""starts":"on-triangle","#, "").replace("secondary-ray@2", "ray");
     fs::write(folder.join("both.jsonl"), format!("{plain}{shadow}")).unwrap();
     let flags = ["--kernel", "plane-unit-normal", "--contract", "no-self-hit", "--corpus"];
     let audit = ["audit", "--scalar", "f32", "--format", "json", "-q"];
@@ -114,14 +114,14 @@ fn a_file_may_hold_both_and_a_case_is_explained_as_it_is_judged() {
         ends(&folder, &[&before[..], &[corpus], rest].concat(), 0);
     }
     ends(&folder, &["merge", "0.json", "1.json", "-q"], 0);
-    let told = [&["explain", "secondary-ray@1/f32/-/1/0", "--details"], &flags[..2]].concat();
+    let told = [&["explain", "secondary-ray@2/f32/-/1/0", "--details"], &flags[..2]].concat();
     assert!(ends(&folder, &told, 0).0.contains(r#""starts":"on-triangle""#));
     // Where the exact ray crosses its triangle, the mark decides what is owed.
     let owed = |name: &str| {
         let all = [&["explain", name], &flags[..], &["both.jsonl"]].concat();
         ends(&folder, &all, 0).0.contains("its contract asks a hit")
     };
-    let names: Vec<String> = (0..40).map(|i| format!("secondary-ray@1/f32/-/1/{i}")).collect();
+    let names: Vec<String> = (0..40).map(|i| format!("secondary-ray@2/f32/-/1/{i}")).collect();
     assert!(names.iter().all(|name| !owed(name)));
-    assert!(names.iter().any(|name| owed(&name.replace("secondary-ray@1", "ray"))));
+    assert!(names.iter().any(|name| owed(&name.replace("secondary-ray@2", "ray"))));
 }

@@ -16,7 +16,7 @@ fn text(bytes: &[u8]) -> String {
 #[test]
 fn the_command_prints_the_case_in_three_languages_and_shrinks_its_own_output_no_further() {
     let kernel = ["--kernel", "moller-trumbore"];
-    let first = hairline(&[&["fuzz", "shrink", "tiny@2/f32/-/1/2314"][..], &kernel].concat());
+    let first = hairline(&[&["fuzz", "shrink", "tiny@3/f32/-/1/2314"][..], &kernel].concat());
     assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
     let printed = text(&first.stdout);
     for expected in [
@@ -45,15 +45,15 @@ fn the_command_prints_the_case_in_three_languages_and_shrinks_its_own_output_no_
 fn what_cannot_be_shrunk_is_refused_with_the_reason() {
     for (arguments, code, reason) in [
         (
-            &["fuzz", "shrink", "interior@1/f32/-/1/0", "--kernel", "cramer"][..],
+            &["fuzz", "shrink", "interior@2/f32/-/1/0", "--kernel", "cramer"][..],
             4,
             "cramer (source) does as",
         ),
-        (&["fuzz", "shrink", "interior@1/f32/-/1/0"], 4, "every chosen kernel does as"),
-        (&["fuzz", "shrink", "fan@2/f32/-/1/0", "--kernel", "cramer"], 2, "fan@2/f32/-/1/0.0"),
-        (&["fuzz", "shrink", "tiny@2/f32/-/1/2314"], 2, "choose one by --kernel and --epsilon"),
+        (&["fuzz", "shrink", "interior@2/f32/-/1/0"], 4, "every chosen kernel does as"),
+        (&["fuzz", "shrink", "fan@3/f32/-/1/0", "--kernel", "cramer"], 2, "fan@3/f32/-/1/0.0"),
+        (&["fuzz", "shrink", "tiny@3/f32/-/1/2314"], 2, "choose one by --kernel and --epsilon"),
         (
-            &["fuzz", "shrink", "tiny@2/f32/-/1/2314", "--kernel", "crammer"],
+            &["fuzz", "shrink", "tiny@3/f32/-/1/2314", "--kernel", "crammer"],
             2,
             "did you mean 'cramer'?",
         ),
@@ -62,7 +62,7 @@ fn what_cannot_be_shrunk_is_refused_with_the_reason() {
             &[
                 "fuzz",
                 "shrink",
-                "tiny@2/f32/-/1/2314",
+                "tiny@3/f32/-/1/2314",
                 "--kernel",
                 "cramer",
                 "--epsilon",

@@ -24,7 +24,7 @@ fn the_screen_says_what_to_use_and_its_command_works() {
     let is_text = |line: &&&str| !line.contains("hairline ");
     let long = lines.iter().filter(is_text).find(|line| 80 < line.chars().count());
     assert!(long.is_none(), "{long:?}");
-    assert_eq!(screen.matches("\n  use  ").count(), 2, "{screen}");
+    assert_eq!(screen.matches("\n  use  ").count(), 3, "{screen}");
     for part in ["Which hit point is yours?", "p = (1-u-v)*a + u*b + v*c", "p = o + t*d", "\nnone "]
     {
         assert!(screen.contains(part), "{part}: {screen}");

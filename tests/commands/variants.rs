@@ -93,7 +93,7 @@ fn findings_of_a_variant_are_shown_again_and_attributed_in_its_arithmetic() {
     assert!(text.contains("--kernel plane-inside-out+ftz"), "{text}");
     let folder = scratch("variant-explain");
     let explain = |kernel: &str| {
-        ends(&folder, &["explain", "shared-edge@2/f32/-/1/5", "--kernel", kernel], 0).0
+        ends(&folder, &["explain", "shared-edge@3/f32/-/1/5", "--kernel", kernel], 0).0
     };
     assert!(explain("woop-watertight").contains("1 of 2 triangles hit"));
     assert!(
@@ -126,7 +126,7 @@ fn the_other_commands_take_a_variant_by_its_name() {
         &[
             "fuzz",
             "shrink",
-            "shared-edge@2/f32/-/1/69.0",
+            "shared-edge@3/f32/-/1/69.0",
             "--kernel=woop-watertight+fma",
             "--contract=closed-ray",
         ],

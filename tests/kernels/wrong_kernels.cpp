@@ -6,11 +6,13 @@
 #define HAIRLINE_EDGES HAIRLINE_CLOSED
 #include "hairline.h"
 #include "hairline_exact.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
 #include <limits>
+#include <vector>
 
 namespace {
 
@@ -268,6 +270,15 @@ template <class Case, class Verdict, class Real>
 void test(const Case *cases, size_t count, Verdict *verdicts, bool is_float, Real widest) {
     static Case cached;
     static bool has_cached = false;
+    /* So that 2^24 calls take no longer than those of a plain kernel, a batch that is asked again is not computed again. */
+    static std::vector<Case> batch;
+    static std::vector<Verdict> answers;
+    if (is("wrong after 2^24 calls") && count == batch.size() && !std::memcmp(cases, batch.data(), count * sizeof(Case))) {
+        calls += count;
+        std::copy(answers.begin(), answers.end(), verdicts);
+        for (size_t i = 0; calls > (1u << 24) && i < count; i++) verdicts[i].hit = 0;
+        return;
+    }
     for (size_t i = 0; i < count; i++) {
         Question q = read(cases[i]);
         Verdict &verdict = verdicts[i];
@@ -287,6 +298,8 @@ void test(const Case *cases, size_t count, Verdict *verdicts, bool is_float, Rea
         if (is("the first of a batch is missed") && i == 0) verdict.hit = 0;
         if (is("the last of a batch is missed") && i + 1 == count) verdict.hit = 0;
     }
+    batch.assign(cases, cases + count);
+    answers.assign(verdicts, verdicts + count);
     if (is("a NaN spoils its group of eight")) {
         for (size_t start = 0; start < count; start += 8) {
             bool spoiled = false;

@@ -19,6 +19,7 @@ mod planes;
 mod proofs;
 mod prove;
 mod response;
+mod rounded;
 mod scenes;
 mod severity;
 mod shrink;

@@ -73,7 +73,7 @@ fn check<F: Scalar>(stratum: Stratum, scene: &Scene) {
         Stratum::Grazing => 0.02..=0.7,
         // Small distances from the plane round to none.
         Stratum::Parallel => 0.0..=0.6,
-        Stratum::Shadow => 0.2..=0.8,
+        Stratum::Shadow | Stratum::Segment => 0.2..=0.8,
         Stratum::Outside => 0.0..=0.2,
     };
     println!("{:?} {} {scene}: {share}", stratum, F::NAME);
@@ -458,6 +458,7 @@ fn cases_are_the_same_on_every_machine() {
         [17009795235220384855, 8630289535108491134],
         [8360894271225813315, 2046316959174811182],
         [6225250750103278271, 7090790742106470397],
+        [0, 0],
     ];
     assert_eq!(found, pinned, "{found:#018x?}");
 }

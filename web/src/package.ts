@@ -83,7 +83,7 @@ export class Hairline {
     this.#instance = new Instance(module, (...columns) => this.#run(...columns));
   }
 
-  /** The exact answer for a case, or for the first triangle of an id such as `edge-near@1/f64/-/1/7`. */
+  /** The exact answer for a case, or for the first triangle of an id such as `edge-near@2/f64/-/1/7`. */
   truth(of: Case | string, scalar: "f32" | "f64" = "f64"): ExactTruth {
     const word = (x: number) => (Number.isFinite(x) ? x : String(x).replace("Infinity", "inf").toLowerCase());
     const json = () => JSON.stringify({ scalar, ...(of as Case) }, (_, value) => (typeof value === "number" ? word(value) : value));

@@ -152,12 +152,12 @@ test("what is wrong with a request is said in a line", () => {
   assert.throws(() => hairline.audit("moller"), /no kernel 'moller'/);
   assert.throws(() => hairline.truths(new Float64Array(16)), /17 numbers a case, found 16/);
   for (const [id, message] of [
-    ["nothing", /not a case id/], ["edge-near@1/f16/-/1/2", /unknown scalar/], ["edge@1/f32/-/1/2", /makes no cases of/],
-    ["edge-near@1/f32/-/1/2.7", /has 1 triangle, counted from 0/], ["scene-shadow@1/f32/kernel=none/1/2", /no kernel 'none'/],
+    ["nothing", /not a case id/], ["edge-near@2/f16/-/1/2", /unknown scalar/], ["edge@1/f32/-/1/2", /makes no cases of/],
+    ["edge-near@2/f32/-/1/2.7", /has 1 triangle, counted from 0/], ["scene-shadow@1/f32/kernel=none/1/2", /no kernel 'none'/],
     ['{"scalar":"f32"}', /origin/],
   ]) assert.throws(() => hairline.truth(id), message, id);
   // And the next request is answered.
-  assert.equal(hairline.truth("edge-near@1/f64/-/1/2").class, "transversal");
+  assert.equal(hairline.truth("edge-near@2/f64/-/1/2").class, "transversal");
 });
 
 test("what a hit does not report is not judged, from whichever side it comes", () => {

@@ -27,8 +27,11 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 /// Loads a library and answers batches from standard input until it ends; returns the exit code.
-pub fn serve(path: &Path) -> u8 {
-    let mut job = LibraryJob { path, code: 1 };
+///
+/// A library that is asked more than once may be wrong after many calls. So for `long_run`, if it is not 0, the first whole
+/// batch is asked again and again before its answer counts.
+pub fn serve(path: &Path, long_run: Duration) -> u8 {
+    let mut job = LibraryJob { path, long_run, code: 1 };
     // A thread, but none of Rust's: at the end of such a one stands a handler for all exceptions, and a C++
     // runtime that finds a handler does not say what was thrown. For the same reason `on_thread` may unwind;
     // nothing ever does that far.
@@ -50,6 +53,7 @@ pub fn serve(path: &Path) -> u8 {
 /// The job of a library's thread.
 struct LibraryJob<'a> {
     path: &'a Path,
+    long_run: Duration,
     code: u8,
 }
 
@@ -60,17 +64,17 @@ type UnwindingStart = extern "C-unwind" fn(*mut c_void) -> *mut c_void;
 extern "C-unwind" fn on_thread(job: *mut c_void) -> *mut c_void {
     // SAFETY: `serve` passes its job, and waits.
     let job = unsafe { &mut *job.cast::<LibraryJob>() };
-    job.code = serve_here(job.path);
+    job.code = serve_here(job.path, job.long_run);
     std::ptr::null_mut()
 }
 
-fn serve_here(path: &Path) -> u8 {
+fn serve_here(path: &Path, long_run: Duration) -> u8 {
     match Protocol::take() {
         Err(error) => {
             eprintln!("hairline: {error}");
             1
         }
-        Ok(mut protocol) => match protocol.serve(path) {
+        Ok(mut protocol) => match protocol.serve(path, long_run) {
             Ok(()) => 0,
             Err(message) => {
                 let _ = writeln!(protocol.output, "error {}", one_line(&message));
@@ -98,7 +102,7 @@ impl Protocol {
         if moved { Ok(Protocol { input, output }) } else { Err(io::Error::last_os_error()) }
     }
 
-    fn serve(&mut self, path: &Path) -> Result<(), String> {
+    fn serve(&mut self, path: &Path, long_run: Duration) -> Result<(), String> {
         limit_damage();
         let library = Library::open(path)?;
         let hello = library.hello()?;
@@ -108,7 +112,11 @@ impl Protocol {
         self.output.write_all(hello.as_bytes()).map_err(failed)?;
         watch(self.output.as_raw_fd(), library.current_exception());
         let mut room = Room::new().map_err(failed)?;
+        let mut long_run = Some(long_run).filter(|limit| !limit.is_zero());
         while let Some(batch) = self.batch(&library, &mut room).map_err(failed)? {
+            if let Some(limit) = long_run.take_if(|_| batch.is_whole()) {
+                batch.ask_often(&mut room, limit).map_err(failed)?;
+            }
             self.answer(&batch, &mut room, &mut floats).map_err(failed)?;
         }
         Ok(())
@@ -207,7 +215,36 @@ struct HostBatch {
     with_margins: bool,
 }
 
+/// A batch of so many cases is a whole one, and no part in which a failure is looked for.
+const WHOLE: usize = 1024;
+
+/// More calls than a 24-bit counter or a float can count.
+const MANY_CALLS: usize = (1 << 24) + WHOLE;
+
 impl HostBatch {
+    fn is_whole(&self) -> bool {
+        WHOLE <= self.count && !self.with_margins
+    }
+
+    /// Asks the library all of this again until it has answered so many cases; not at all if that would take longer than a
+    /// limit.
+    fn ask_often(&self, room: &mut Room, limit: Duration) -> io::Result<()> {
+        let record = if self.size == 4 { verdict_bytes::<f32>() } else { verdict_bytes::<f64>() };
+        room.verdicts.fit(self.count * record)?;
+        let [cases, epsilons, verdicts] = [&room.cases, &room.epsilons, &room.verdicts]
+            .map(|buffer| buffer.start().cast::<c_void>());
+        let rounds = MANY_CALLS.div_ceil(self.count);
+        let start = Instant::now();
+        for round in 0..rounds {
+            // SAFETY: the pointers are valid for what include/hairline.h promises the library, as in `answer`.
+            unsafe { (self.test)(cases, self.count, epsilons, verdicts) };
+            if round == 0 && limit < start.elapsed() * rounds as u32 {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
     /// The bytes of each case's margins, one a gate. An answer that is neither a hit nor a miss, at whatever
     /// epsilons, becomes the case's verdict, which this program's parent refuses; none if it wrote before its
     /// output.

@@ -37,7 +37,7 @@ pub const HOST_COMMAND: &str = "kernel-host";
 
 /// On other systems a library has no host.
 #[cfg(not(unix))]
-pub fn serve(_: &std::path::Path) -> u8 {
+pub fn serve(_: &std::path::Path, _: std::time::Duration) -> u8 {
     eprintln!("hairline: --kernel-lib needs a Unix system: its library runs behind guard pages");
     1
 }

@@ -12,7 +12,7 @@ ONE = "None for a miss, t, a tuple (t, u, v), a bool, or a dict of 'hit', 't', '
 
 
 def case(id: str) -> "dict[str, Any]":
-    """The arguments of a case by its id, for a kernel or for `truth`: `my_kernel(**hairline.case("edge-near@1/f32/-/1/7"))`.
+    """The arguments of a case by its id, for a kernel or for `truth`: `my_kernel(**hairline.case("edge-near@2/f32/-/1/7"))`.
 
     Vectors have the shape (n, 3), t_min and t_max (n,), with n = 1 but for cases of several triangles.
     """

@@ -1,6 +1,6 @@
 """A function in Python for every command of the program, over a pipe (docs/protocol.md):
 
-    hairline explain 'edge-near@1/f32/-/1/7' --kernel-cmd 'python3 -m hairline.pipe my_module:kernel closed-ray'
+    hairline explain 'edge-near@2/f32/-/1/7' --kernel-cmd 'python3 -m hairline.pipe my_module:kernel closed-ray'
 
 Instead of a module's name it may be a file: `tests/my_kernel.py:kernel`. The function is as `hairline.audit` takes it;
 `--scalar-function` says that it takes one case at a time.

@@ -3,7 +3,8 @@
 
 use super::choice::derived_name;
 use super::record::{BestPart, DerivedPart, PointsPart, SchemePart, SpawnResult};
-use crate::case::{SceneKind, ShortNumber};
+use crate::arith::Float;
+use crate::case::{Scene, SceneKind, ShortNumber};
 use crate::kernel::{self, Role};
 use crate::report::elsewhere::{self, ComparedRates};
 use crate::report::page::{Block, Command, Head, Page, Paged, Row, Table, Use};
@@ -81,6 +82,11 @@ fn answer(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
             0 => {
                 "The kernel hits no triangle of this scene: give it other epsilons (`hairline epsilon --scene`).".to_owned()
             }
+            _ if has_endless_normals(record, part) => format!(
+                "No offset here is right: the squared length of the normals of such triangles overflows in {}. Use a larger \
+                 unit of length, or f64.",
+                part.scalar
+            ),
             _ => format!("Every offset here fails for some of the {hits} new rays: use a larger one, or f64."),
         })];
     };
@@ -115,6 +121,14 @@ fn answer(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
     ));
     let text = format!("{}{}", best.scheme, describe(&best.scheme));
     vec![Block::Use(Use { lead: "use".to_owned(), text, notes })]
+}
+
+/// True if the squared length of the normal of the scene's largest triangles, the fourth power of an edge, is beyond the
+/// range of the scalar.
+fn has_endless_normals(record: &SpawnResult, part: &PointsPart) -> bool {
+    let largest = if part.scalar == f32::NAME { f64::from(f32::MAX) } else { f64::MAX };
+    let scene = Scene::parse(&record.scene).ok().filter(|_| record.mesh.is_none());
+    scene.is_some_and(|(scene, _)| largest < scene.edge[1].powi(4))
 }
 
 /// The rows that argue: what is recommended, the user's own, no offset at all, and the best that was published with a
@@ -189,6 +203,9 @@ fn table(record: &SpawnResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Tab
         more("in ulps", Box::new(|scheme| height(scheme.height_in_ulps.median)));
         more("times least", Box::new(|scheme| scheme.over_least.map_or("-".to_owned(), size)));
     }
+    if !is_whole && 1 < record.planes.len() {
+        columns.insert(1, (Head::of("on its worst kind"), Box::new(on_worst_kind)));
+    }
     columns.push((
         Head::of(format!("past a wall at {}", record.wall)),
         Box::new(|scheme| share(&scheme.beyond_wall)),
@@ -203,6 +220,19 @@ fn table(record: &SpawnResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Tab
     let rows = schemes.iter().map(row).collect();
     let heads = [Head::of("offset")].into_iter().chain(columns.into_iter().map(|(head, _)| head));
     Table::new(heads.collect(), rows)
+}
+
+/// The largest share of wrong sides on any kind of planes, and that kind; nothing if it is the first.
+fn on_worst_kind(scheme: &SchemePart) -> String {
+    let of_rate = |rate: &Rate| rate.rate.unwrap_or(0.0);
+    let worst =
+        scheme.elsewhere.iter().max_by(|a, b| of_rate(&a.wrong).total_cmp(&of_rate(&b.wrong)));
+    match worst {
+        Some(worst) if of_rate(&scheme.wrong) < of_rate(&worst.wrong) => {
+            format!("{} {}", share(&worst.wrong), worst.plane)
+        }
+        _ => "-".to_owned(),
+    }
 }
 
 /// The shares of wrong sides on other kinds of planes, of the schemes that are worse there.

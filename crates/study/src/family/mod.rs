@@ -204,7 +204,7 @@ pub static FAMILIES: &[Family] = &[
     row::<range::RangeEnds>(Question::Range),
     row::<shape::Degenerate>(Question::Flat),
     row::<range::Invalid>(Question::Invalid),
-    row::<batch::MixedBatch>(Question::Invalid),
+    row::<batch::MixedBatch>(Question::Inside),
     row::<neighbours::SharedEdgeFamily>(Question::Edges),
     row::<neighbours::Fan>(Question::Vertices),
     row::<vertex_fan::VertexFan>(Question::Vertices),
