@@ -184,7 +184,7 @@ fn a_year_of_a_kernel_in_c() {
         let of = |name: &str| change[name].as_u64().unwrap();
         assert!(0 < of("better") && 0 < of("worse"), "{change}");
         let said = format!(" ({} worse", of("worse"));
-        assert!(ran.text.contains(&said), "{}", ran.text);
+        assert!(flat(&ran.text).contains(&said), "{}", ran.text);
         let shown = witnesses(&folder, &ran, "first", "fused");
         assert!(ran.unexpected().len() * 3 / 4 <= shown, "{shown} of {}", ran.unexpected().len());
         let (_, error) = ends(&folder, &["check", "--bless", "--quiet"], 1);
