@@ -51,6 +51,16 @@ fn write_cases<F: Scalar>(out: &mut dyn Write, source: &Source) -> io::Result<u6
             out.write_all(text::case_line(id, case).as_bytes())?;
             written += 1;
         }
+        // An audit asks about these if the kernel reports none of a group.
+        let mut around = Vec::new();
+        if several && source.has_neighbours() && source.instance::<F>().is_none() {
+            source.add_neighbours(index, made.cases(), &mut around);
+        }
+        for (k, case) in around.iter().enumerate() {
+            let id = format!("{}/around.{k}", source.id::<F>(index, None));
+            out.write_all(text::case_line(id, case).as_bytes())?;
+            written += 1;
+        }
     }
     Ok(written)
 }

@@ -357,7 +357,7 @@ fn a_scene_has_the_words_that_it_has_for_samples() {
     let room = words(&with(&["--scene", "room", "--min-angle", "60deg"]));
     let all = words(&with(&[&numbers[..], &["--min-angle", "60deg"]].concat()));
     let without_next = |text: &str| text.rsplit_once(" next: ").unwrap().0.to_owned();
-    let room = room.replacen("each triangle's longest edge", "edges", 1);
+    let room = room.replacen("each triangle's longest edge", "every edge", 1);
     assert_eq!(without_next(&room), without_next(&all));
     // Flatter triangles have shorter edges than that, and smaller areas.
     let divisor = |scene: &[&str]| {
