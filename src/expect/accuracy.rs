@@ -1,7 +1,7 @@
 //! The errors of right hits in two records: a kernel whose values get worse may be right as often as before.
 
 use super::LockedTarget;
-use super::difference::{OtherValue, Trend};
+use super::trend::{OtherValue, Trend};
 use crate::report::{Distribution, ErrorChange, ResultPart, RowTotal};
 use std::collections::BTreeMap;
 

@@ -3,6 +3,7 @@
 use super::accuracy::accuracy_changes;
 use super::changed::{CaseChange, changed_case};
 use super::compare::tail;
+use super::trend::{OtherValue, Trend};
 use crate::report::page::{Block, Item, Page, Paged, Tone};
 use crate::report::{
     Disagreement, KernelResult, Key, Rate, ResultPart, RowPart, disagreements, group_digits,
@@ -13,20 +14,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The schema of a comparison.
 pub(super) const DIFF_SCHEMA: &str = "hairline-diff/1";
-
-/// The trend of a class of disagreement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Trend {
-    /// It is more frequent.
-    Worse,
-    /// It is less frequent.
-    Better,
-    /// As many cases, but other ones.
-    Other,
-    /// The rates differ by no more than their intervals allow.
-    Insignificant,
-}
 
 /// A class of disagreement in two records.
 #[derive(Clone, Debug, Serialize)]
@@ -44,19 +31,6 @@ pub struct Difference {
     pub command: Option<String>,
     /// Says in words if that case is wrong in one of them only.
     pub shown: &'static str,
-}
-
-/// A word or a number that differs: the contract of a kernel, an epsilon that was chosen, a bound.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct OtherValue {
-    /// What, of which kernel.
-    pub what: String,
-    /// Better or worse, if it is a bound.
-    pub change: Option<Trend>,
-    /// The old record's.
-    pub old: String,
-    /// The new one's.
-    pub new: String,
 }
 
 /// The comparison of two records: what they have in common, and where they differ.
@@ -331,21 +305,6 @@ fn counted(values: &[OtherValue], [one, many]: [&str; 2]) -> Option<String> {
     let worse = values.iter().filter(|it| it.change == Some(Trend::Worse)).count();
     let worse = if 0 < worse { format!(", {worse} of them worse") } else { String::new() };
     (!values.is_empty()).then(|| number_of(values.len() as u64, one, many) + &worse)
-}
-
-impl OtherValue {
-    fn item(&self) -> Item {
-        let trend = match self.change {
-            Some(Trend::Worse) => " (worse)",
-            Some(_) => " (better)",
-            None => "",
-        };
-        Item {
-            text: format!("{}{trend}", self.what),
-            notes: vec![format!("before: {}", self.old), format!("now: {}", self.new)],
-            ..Item::default()
-        }
-    }
 }
 
 impl Difference {

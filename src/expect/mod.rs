@@ -20,15 +20,17 @@ mod lock;
 mod named;
 mod rows;
 mod scene;
+mod trend;
 
 pub use accuracy::HitErrors;
 pub use bless::{BlessError, bless};
 pub use compare::compare;
-pub use difference::{Difference, RecordComparison, Trend, difference};
+pub use difference::{Difference, RecordComparison, difference};
 pub use file::read;
 pub use files::{Written, blessed, lock_of, open};
 pub use lock::{Lock, LockedCases, LockedTarget, RowSettings};
 pub use named::difference_of;
+pub use trend::Trend;
 
 use crate::report::Key;
 use std::collections::BTreeMap;

@@ -1,9 +1,8 @@
 //! Two records of one study that is no audit, side by side: its rates and its values by their names.
 
 use super::compare::tail;
-use super::difference::{
-    DIFF_SCHEMA, Difference, DifferenceJudge, OtherValue, RecordComparison, Trend, worst_first,
-};
+use super::difference::{DIFF_SCHEMA, Difference, DifferenceJudge, RecordComparison, worst_first};
+use super::trend::{OtherValue, Trend};
 use crate::report::{Comparable, NamedRate, NamedValue};
 use std::collections::BTreeMap;
 

@@ -184,6 +184,7 @@ proptest! {
         let case = row.make::<f64>(&Parameters::default(), 5, index).cases()[0];
         let [o, d, a, b, c] = case.vectors();
         let moved = |p: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| p[i] + offset[i] as f64) };
-        prop_assert_eq!(truth(&Case::new(moved(o), d, [a, b, c].map(moved))), truth(&case));
+        let moved = Case::new(moved(o), d, [a, b, c].map(moved)).on(case.ray.t_min, case.ray.t_max);
+        prop_assert_eq!(truth(&moved), truth(&case));
     }
 }

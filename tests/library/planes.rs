@@ -110,7 +110,10 @@ fn on_generic_planes_a_larger_epsilon_of_moller_trumbore_trades_false_hits_for_h
     let kernel = f32::subject(kernel::find("moller-trumbore").unwrap()).unwrap();
     for seed in 1..=5 {
         let mut cases = cases::<f32>("grazing", seed, 20_000);
-        cases.retain(is_generic);
+        // The kernel looks at no end of the ray.
+        cases.retain(|case| {
+            is_generic(case) && case.ray.t_min == 0.0 && case.ray.t_max.is_infinite()
+        });
         let truths: Vec<bool> =
             cases.iter().map(|case| oracle::truth(case).hits_closed().unwrap()).collect();
         let [zero, ulp, published] = [0.0, 1.1920929e-7, 1e-6].map(|epsilon| {

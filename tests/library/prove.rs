@@ -179,8 +179,8 @@ fn stored_rays_divide_as_the_unit_domain_says() {
             false => divides_as_the_unit_domain_says::<f64>(&witness),
         };
     }
-    // Fifteen kernels, with fused products and without, in two scalars, on two sides.
-    assert_eq!(rays, 120);
+    // Fifteen kernels at least, with fused products and without, in two scalars, on two sides.
+    assert!(120 <= rays, "{rays}");
     assert!(200 < divisions, "{divisions}");
 }
 

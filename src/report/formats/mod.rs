@@ -98,3 +98,9 @@ pub fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()>
     serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)
 }
+
+/// A text with a large first letter.
+fn capitalised(text: &str) -> String {
+    let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
+    format!("{}{rest}", first.to_uppercase())
+}

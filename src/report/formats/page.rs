@@ -23,7 +23,7 @@ impl Paged for Record {
         match &self.conformance {
             None => page.blocks = on_screen,
             Some(conformance) => {
-                let verdict = capitalised(&conformance.summary());
+                let verdict = super::capitalised(&conformance.summary());
                 let run_title = std::mem::replace(&mut page.title, diagnosed(self, verdict));
                 page.tone = match conformance.verdict {
                     ComparisonVerdict::Conforms => Tone::Good,
@@ -112,9 +112,4 @@ fn incomplete_meshes(record: &Record) -> BTreeSet<String> {
         Some(format!("{file}: {count} left out, because they cross themselves or fold over"))
     };
     record.result.sources.iter().filter_map(sentence).collect()
-}
-
-pub(super) fn capitalised(text: &str) -> String {
-    let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
-    format!("{}{rest}", first.to_uppercase())
 }

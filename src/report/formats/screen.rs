@@ -1,10 +1,10 @@
 //! The screen of `hairline audit`: the answer, one table with the best row first, the worst finding, and what to do next.
 //! Everything else is behind `--details`.
 
+use super::capitalised;
 use super::columns::{Column, ColumnCell, ColumnSizes, kinds, shared_in_scenes, short_percent};
 use super::disagreement::family_of;
 use super::lines::{RowLine, notes};
-use super::page::capitalised;
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid, rays_in};
 use super::standing::{Standing, standings};

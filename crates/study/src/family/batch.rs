@@ -3,6 +3,7 @@
 //! another.
 
 use super::control::{combination, interior_weights, is_steep, well_shaped};
+use super::integer::shuffle;
 use super::{Kept, Made, Recipe};
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -32,6 +33,7 @@ impl Recipe for MixedBatch {
             // Half of the rays miss.
             let [u, v, w] = interior_weights(draw);
             let weights = if draw.coin() { [u, v, w] } else { [u + w, v + w, -w] };
+            let weights = shuffle(draw, weights);
             let origin = draw.point::<F>();
             let target = combination(triangle, weights.map(F::from_f64));
             let direction = std::array::from_fn(|i| target[i] - origin[i]);

@@ -62,7 +62,7 @@ fn bad_scenes_say_what_was_expected() {
         ("edge=0.5..2", "the longest edge is at most the extent, 1"),
         ("distance=0", "not 0 alone"),
         ("distance=-1..2", "from 0 up"),
-        ("direction=long", "direction=unit or target"),
+        ("direction=long", "direction=unit, target or mixed"),
         ("sine=0..1", "sines of angles are from 1e-30 to 1"),
         ("sine=0.5..2", "to 1"),
         ("aim=up", "write aim=inside or both"),

@@ -7,6 +7,8 @@
 //! use hairline::{Case, Contract};
 //! use proptest::prelude::*;
 //!
+//! let contract: Contract = "closed-interval".parse().unwrap();
+//!
 //! // Stands for your kernel: t of a hit.
 //! fn intersect(case: &Case<f32>) -> Option<f32> {
 //!     # let exact = hairline_core::oracle::define(case);
@@ -16,7 +18,7 @@
 //! }
 //!
 //! proptest!(|(case in edge_exact::<f32>())| {
-//!     hairline::prop_assert_conforms!(intersect, Contract::CLOSED_RAY, case);
+//!     hairline::prop_assert_conforms!(intersect, contract, case);
 //! });
 //! ```
 //!
