@@ -95,7 +95,7 @@ fn wide<F: Float>(vector: [F; 3]) -> DVec3 {
     vector.map(F::to_f64).into()
 }
 
-/// What happened to the segments of a plan.
+/// The counts of the segments of a plan.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SegmentSums {
     /// How many segments.
