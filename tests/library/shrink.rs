@@ -45,8 +45,10 @@ fn an_edge_hit_that_open_signs_lose_shrinks_to_zeros_ones_and_twos() {
 #[test]
 fn a_triangle_behind_the_origin_shrinks_to_integers_up_to_three() {
     let row = row("half-space", None);
-    let cases = findings::<f64>(&row, "behind", 20);
-    assert_eq!(cases.len(), 20);
+    let mut cases = findings::<f64>(&row, "behind", 60);
+    // A finding keeps its place against the interval: one that is not [0, inf] has digits of its own.
+    cases.retain(|(case, _)| case.ray.t_min == 0.0 && case.ray.t_max.is_infinite());
+    assert!(20 < cases.len());
     for (case, signature) in cases {
         assert_eq!((signature.finding, signature.exactly), (Finding::FalseHit, None));
         let (_, shrunk) = shrink_finding(&row, &case).unwrap();
