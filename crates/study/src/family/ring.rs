@@ -73,8 +73,8 @@ fn rim<F: Float>(triangles: &[[[F; 3]; 3]]) -> Vec<[[F; 3]; 2]> {
 }
 
 /// How much farther from the centre the ring ends than it begins, in distances of the rim. A triangle that a ray grazes is
-/// narrow as the ray sees it, and so is the ring beyond it. At 1 a watertight kernel's hit went over a ring of a city in one of
-/// 80,000 crossings.
+/// narrow as the ray sees it, and so is the ring beyond it. At 1 a watertight kernel's hit went over
+/// the ring of one group in a city.
 const WIDTH: f64 = 15.0;
 
 /// The point of the ring's outer edge beyond a point of its inner one.
