@@ -321,9 +321,7 @@ impl SourceArguments {
         let names_others = !self.mesh.is_empty() || !self.corpus.is_empty();
         let of_scene = |family: &&Family| Stratum::named(family.name).is_some();
         match &self.scene {
-            Some(_) if !named.iter().any(of_scene) => {
-                Ok(STRATA.iter().chain(named).collect())
-            }
+            Some(_) if !named.iter().any(of_scene) => Ok(STRATA.iter().chain(named).collect()),
             None if named.is_empty() && !names_others => Ok(FAMILIES.iter().collect()),
             _ => Ok(named),
         }

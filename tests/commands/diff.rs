@@ -134,7 +134,7 @@ fn triangles_of_one_ray_that_are_wrong_together_are_no_difference() {
         let rest = ["--seed", seed, "--format", "json", "-o", &file];
         ends(&folder, &[&plan[..], &family, &rest].concat(), 0);
     }
-    // As independent trials, 162 of 166 false misses at a vertex differ from 122 of 145.
+    // As independent trials, false misses at a vertex would differ: a ray has up to six triangles there.
     let (out, _) = ends(&folder, &["diff", "27.json", "77.json"], 0);
     assert!(
         out.starts_with("0 worse, 0 better, 0 as often but on other cases, 12 too little"),
@@ -145,7 +145,7 @@ fn triangles_of_one_ray_that_are_wrong_together_are_no_difference() {
     let record: serde_json::Value = serde_json::from_str(&record).unwrap();
     let result = &record["result"]["results"][0];
     let rays = &result["classes"]["vertex/back/within"]["false_misses"]["rays"];
-    let products = json!({ "count_squared": 468, "count_times_of": 474, "of_squared": 484 });
+    let products = json!({ "count_squared": 323, "count_times_of": 328, "of_squared": 336 });
     assert_eq!(rays, &products);
     assert_eq!(result["across"]["cracks"].get("rays"), None);
 }
