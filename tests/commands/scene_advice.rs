@@ -84,7 +84,6 @@ fn rays_aimed_inside_show_the_false_hits_of_rounding_alone() {
 fn where_no_line_is_good_the_screen_says_so() {
     let folder = scratch("advice-no-good");
     let far = study(&folder, "moller-trumbore", "room,distance=1e7", &[]);
-    assert!(far.contains("no numbers are good here: even these make false hits of "), "{far}");
     assert!(far.contains("No numbers are good here: even these lose "), "{far}");
     let only_t = study(&folder, "moller-trumbore", "city", &["--gate", "t_min"]);
     assert!(!only_t.contains("o numbers are good"), "{only_t}");
@@ -231,7 +230,7 @@ fn a_mesh_is_audited_as_it_was_studied_and_its_edges_are_well_within_their_limit
     let more = more.replace(from, to);
     let words: Vec<&str> = more.split(' ').collect();
     let (out, _) = ends(&folder, &[&words[..], &["-q"]].concat(), 0);
-    assert!(out.contains("on 7 families,") && out.contains(" cracks"), "{out}");
+    assert!(out.contains("on 8 families,") && out.contains("no leak seen in "), "{out}");
     // Triangles may be larger than the coordinates are.
     fs::write(folder.join("quad.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
         .unwrap();

@@ -57,11 +57,11 @@ fn every_screen_fits_a_terminal() {
         ends(&folder, &run, 0);
     }
     let screens: [(&[&str], usize); 11] = [
-        (&["audit", "-n", "150"], 40),
-        (&["audit", "-n", "150", "--kernel", "moller-trumbore"], 45),
+        (&["audit", "-n", "150"], 42),
+        (&["audit", "-n", "150", "--kernel", "moller-trumbore"], 48),
         (&["epsilon", "--scene", "room", "--scalar", "f32", "-n", "1000"], 30),
-        (&["epsilon", "--scene", "room", "--kernel", "moller-trumbore", "-n", "10000"], 44),
-        (&["spawn", "-n", "300", "--scalar", "f32"], 40),
+        (&["epsilon", "--scene", "room", "--kernel", "moller-trumbore", "-n", "10000"], 52),
+        (&["spawn", "-n", "300", "--scalar", "f32"], 64),
         (&["explain", "edge-near@2/f32/-/1/41", "--kernel", "cramer"], 40),
         (&["explain", "edge-near@2/f32/-/1/41"], 40),
         (&["check", "--kernel", "moller-trumbore", "--family", "edge-near", "-n", "300"], 50),

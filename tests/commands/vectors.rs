@@ -48,7 +48,7 @@ fn the_committed_vectors_are_what_the_command_writes_small_and_with_ids_of_their
     assert_eq!(names.len(), topic_files().len() + 2, "{names:?}");
     let size: u64 = topic_files().iter().map(|file| fs::metadata(file).unwrap().len()).sum();
     let tests = tests();
-    assert!((1000..=2000).contains(&tests.len()) && size <= 1_000_000, "{} {size}", tests.len());
+    assert!((1000..=2000).contains(&tests.len()) && size <= 1_020_000, "{} {size}", tests.len());
     assert!(
         error.contains(&format!("{} tests in {}", tests.len(), topic_files().len())),
         "{error}"
@@ -281,7 +281,9 @@ fn right_results_end_with_0_and_wrong_ones_with_1_under_every_profile() {
 #[test]
 fn what_a_specification_only_advises_is_said_and_not_wrong() {
     let tests = tests();
-    let is_crossing = |test: &&Value| test["result"] == "at-least-one";
+    // The profiles ask nothing of a ray that begins before 0.
+    let begins_before_0 = |test: &Value| test["t_min"].as_str().is_some_and(|t| t.starts_with('-'));
+    let is_crossing = |test: &&Value| test["result"] == "at-least-one" && !begins_before_0(test);
     let crossings: Vec<&Value> = tests.iter().filter(is_crossing).collect();
     let answers = |hits: u64| {
         let answer = |test: &&Value| (test["id"].as_str().unwrap().to_owned(), json!(hits));
