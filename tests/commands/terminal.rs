@@ -58,7 +58,7 @@ fn every_screen_fits_a_terminal() {
     }
     let screens: [(&[&str], usize); 11] = [
         (&["audit", "-n", "150"], 42),
-        (&["audit", "-n", "150", "--kernel", "moller-trumbore"], 48),
+        (&["audit", "-n", "150", "--kernel", "moller-trumbore"], 50),
         (&["epsilon", "--scene", "room", "--scalar", "f32", "-n", "1000"], 30),
         (&["epsilon", "--scene", "room", "--kernel", "moller-trumbore", "-n", "10000"], 52),
         (&["spawn", "-n", "300", "--scalar", "f32"], 64),
