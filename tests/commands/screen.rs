@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// The columns, each with its families. A family that is missing here has no column.
 const COLUMNS: [(&str, &[&str]); 8] = [
-    ("inside", &["interior", "outside"]),
+    ("inside", &["interior", "outside", "mixed-batch"]),
     ("edges", &["edge-exact", "edge-near", "shared-edge", "polygon"]),
     ("vertex", &["vertex-exact", "vertex-near", "fan", "vertex-fan"]),
     ("flat", &["parallel-off", "coplanar", "grazing", "degenerate"]),
