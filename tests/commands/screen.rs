@@ -122,7 +122,8 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
         let scalars = ["f32", "f64"];
         let ordinary = ordinary();
         let leaks = scalars.map(|scalar| of(scalar, &ordinary, "/across/cracks"));
-        assert_eq!(cells[0], worse(leaks.into_iter()), "{label}");
+        // A `!` says that the kernel's documentation rules leaks out.
+        assert_eq!(cells[0].trim_end_matches('!'), worse(leaks.into_iter()), "{label}");
         let values = scalars.map(|scalar| of(scalar, &ordinary, "/total/wrong_values"));
         assert_eq!(cells[2], worse(values.into_iter()), "{label}");
         for (cell, name) in cells[3..5].iter().zip(["sizes", "flat"]) {
