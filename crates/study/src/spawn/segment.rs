@@ -10,7 +10,7 @@ use crate::arith::Float;
 use crate::audit::{Row, Source, Trials};
 use crate::case::{Case, DirectionLength, Parameters, Scene, SceneInterval};
 use crate::engine::{self, Merge, Observer};
-use crate::family::Stratum;
+use crate::family::{Stratum, wide};
 use crate::kernel::{Scalar, Verdict, verdicts_of};
 use crate::mesh::SceneMesh;
 use glam::DVec3;
@@ -89,10 +89,6 @@ fn normal_of<F: Float>(case: &Case<F>) -> DVec3 {
     let [a, b, c] = case.triangle.vertices().map(|corner| wide(corner.into()));
     let normal = (b - a).cross(c - a).normalize_or_zero();
     if 0.0 < normal.dot(way(case)) { -normal } else { normal }
-}
-
-fn wide<F: Float>(vector: [F; 3]) -> DVec3 {
-    vector.map(F::to_f64).into()
 }
 
 /// The counts of the segments of a plan.
