@@ -172,6 +172,11 @@ impl SegmentsPart {
         blocks
     }
 
+    /// True if the kernel hit surfaces at p, and its t shows where segments must end.
+    fn shows_ends(&self) -> bool {
+        self.ends.iter().any(|end| end.is_made)
+    }
+
     /// The ends that block no segment, the one that leaves out least first.
     fn safe(&self) -> Vec<&SegmentEndPart> {
         let mut safe: Vec<&SegmentEndPart> =
@@ -182,6 +187,11 @@ impl SegmentsPart {
 
     /// The end to use, and the others that are as safe.
     fn answer(&self, kinds: &[String], unit: &str) -> Vec<Block> {
+        if !self.shows_ends() {
+            return vec![Block::text(
+                "No end is advised: the kernel reports no t, or hits no surface at p.",
+            )];
+        }
         let safe = self.safe();
         let segments = group_digits(self.segments);
         let Some((best, others)) = safe.split_first() else {
@@ -231,8 +241,11 @@ pub(crate) fn short_length(x: f64) -> String {
 }
 
 impl SegmentsPart {
-    /// The best end in one line, as beside the epsilons of a kernel.
-    pub(crate) fn sentence(&self) -> String {
+    /// The best end in one line, as beside the epsilons of a kernel; none if nothing shows where segments must end.
+    pub(crate) fn sentence(&self) -> Option<String> {
+        if !self.shows_ends() {
+            return None;
+        }
         let at_target =
             self.ends.first().and_then(|end| end.blocked.rate).map_or("-".to_owned(), percent);
         let safe = self.safe();
@@ -240,9 +253,9 @@ impl SegmentsPart {
             Some(best) => format!("end at t_max = {}", best.end),
             None => "end before p (`hairline spawn`)".to_owned(),
         };
-        format!(
+        Some(format!(
             "Shadow rays to a point p of a surface: {end} (at t_max = 1 the surface blocks {at_target} of them)."
-        )
+        ))
     }
 }
 

@@ -42,6 +42,16 @@ fn the_screen_says_what_to_use_and_its_command_works() {
     }
 }
 
+/// A kernel that hits nothing shows nothing of the end of a segment, and no end is advised for it.
+#[test]
+fn no_end_of_a_segment_is_advised_where_the_kernel_hits_no_surface() {
+    let folder = scratch("spawn-no-end");
+    let tiny = "extent=1e-4,edge=1e-5,distance=0..1e-4";
+    let (screen, _) = ends(&folder, &["spawn", "--scene", tiny, "-n", "2000", "-q"], 0);
+    assert!(screen.contains("No end is advised: "), "{screen}");
+    assert!(!screen.contains("use  t_max"), "{screen}");
+}
+
 #[test]
 fn an_offset_that_jumps_over_the_scene_is_not_recommended() {
     let folder = scratch("spawn-high");

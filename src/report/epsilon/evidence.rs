@@ -12,6 +12,7 @@ use super::words::{label, share};
 use crate::case::{Scene, SceneKind};
 use crate::epsilon::Rays;
 use crate::family::Stratum;
+use crate::report::SegmentsPart;
 use crate::report::elsewhere::{self, ComparedRates};
 use crate::report::page::{Block, Command, Head, Row, Table};
 
@@ -23,7 +24,7 @@ pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> Vec<Blo
     let mut blocks = vec![Block::text(standing(record, part).1)];
     blocks.extend(coarse(record, part).map(Block::Text));
     blocks.extend(used(record, part).into_iter().map(Block::Use));
-    blocks.extend(part.segments.as_ref().map(|segments| Block::Text(segments.sentence())));
+    blocks.extend(part.segments.as_ref().and_then(SegmentsPart::sentence).map(Block::Text));
     blocks.extend(of_given(record, part).map(Block::Text));
     let title = match record.has_scene() {
         true => format!("wrong on fresh rays (seed {})", record.fresh_seed),
