@@ -120,7 +120,12 @@ void spoil_input(Question &q) {
     if (is("b and c exchanged")) for (int i = 0; i < 3; i++) { double x = q.b[i]; q.b[i] = q.c[i]; q.c[i] = x; }
 }
 
-void spoil_ends(Question &q, double widest) {
+/* The next number of so many bits, towards another. */
+double next(double x, double to, bool is_float) {
+    return is_float ? (double)std::nextafter((float)x, (float)to) : std::nextafter(x, to);
+}
+
+void spoil_ends(Question &q, bool is_float, double widest) {
     double lo = q.t_min, hi = q.t_max, infinity = std::numeric_limits<double>::infinity();
     if (is("t_min ignored")) q.t_min = -infinity;
     if (is("t_max ignored")) q.t_max = infinity;
@@ -133,8 +138,8 @@ void spoil_ends(Question &q, double widest) {
     if (is("t_max is infinite from 1e6 on") && hi > 1e6) q.t_max = infinity;
     if (is("t_max at most 1e6") && hi > 1e6) q.t_max = 1e6;
     if (is("t_max at most 1") && hi > 1) q.t_max = 1;
-    if (is("t_min excluded")) q.t_min = std::nextafter(lo, infinity);
-    if (is("t_max excluded")) q.t_max = std::nextafter(hi, -infinity);
+    if (is("t_min excluded")) q.t_min = next(lo, infinity, is_float);
+    if (is("t_max excluded")) q.t_max = next(hi, -infinity, is_float);
     if (is("ends exchanged if negative") && lo < 0) q.t_min = -hi, q.t_max = -lo;
     if (is("t_min + 1e-4")) q.t_min = lo + 1e-4;
     if (is("t_max - 1e-4")) q.t_max = hi - 1e-4;
@@ -239,7 +244,7 @@ int answer_to(Question q, bool is_float, double widest, hairline_answer &answer)
     if (has_nan(q)) { answer.hit = is("NaN is a hit"); return answer.hit; }
     Question asked = q;
     spoil_input(q);
-    spoil_ends(q, widest);
+    spoil_ends(q, is_float, widest);
     int hit;
     if (is_float || is("computed in float")) {
         float v[5][3];

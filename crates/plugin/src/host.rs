@@ -218,6 +218,9 @@ struct HostBatch {
 /// A batch of so many cases is a whole one, and no part in which a failure is looked for.
 const WHOLE: usize = 1024;
 
+/// Rounds whose time says nothing about the next: a library's first call reads files, builds tables, fills caches.
+const WARM_UP: usize = 3;
+
 /// More calls than a 24-bit counter or a float can count.
 const MANY_CALLS: usize = (1 << 24) + WHOLE;
 
@@ -226,19 +229,19 @@ impl HostBatch {
         WHOLE <= self.count && !self.with_margins
     }
 
-    /// Asks the library all of this again until it has answered so many cases; not at all if that would take longer than a
-    /// limit.
+    /// Asks the library all of this again until it has answered so many cases; a few times only, if that would take longer
+    /// than a limit.
     fn ask_often(&self, room: &mut Room, limit: Duration) -> io::Result<()> {
         let record = if self.size == 4 { verdict_bytes::<f32>() } else { verdict_bytes::<f64>() };
         room.verdicts.fit(self.count * record)?;
         let [cases, epsilons, verdicts] = [&room.cases, &room.epsilons, &room.verdicts]
             .map(|buffer| buffer.start().cast::<c_void>());
         let rounds = MANY_CALLS.div_ceil(self.count);
-        let start = Instant::now();
         for round in 0..rounds {
+            let start = Instant::now();
             // SAFETY: the pointers are valid for what include/hairline.h promises the library, as in `answer`.
             unsafe { (self.test)(cases, self.count, epsilons, verdicts) };
-            if round == 0 && limit < start.elapsed() * rounds as u32 {
+            if round == WARM_UP && limit < start.elapsed() * rounds as u32 {
                 return Ok(());
             }
         }
