@@ -2,7 +2,8 @@
 
 use super::exit::{Failure, Status};
 use super::flags::JUDGING;
-use super::reporting::{Outputs, RunArguments, self_check};
+use super::reporting::{MEASURED, Outputs, RunArguments, self_check};
+use crate::audit::Plan;
 use clap::Args;
 
 /// The flags of `audit`: the run, and how it is reported.
@@ -11,9 +12,8 @@ pub struct AuditArguments {
     #[command(flatten)]
     run: RunArguments,
 
-    /// How many findings of each class of each family to attribute to a cause, and on how many indices to
-    /// measure the errors of t, u and v; 0 for none
-    #[arg(long, default_value_t = 100, value_name = "N", help_heading = JUDGING)]
+    /// How many findings of each class of each family to attribute to a cause; 0 for none, and for no errors of t, u and v
+    #[arg(long, default_value_t = 30, value_name = "N", help_heading = JUDGING)]
     attribute: usize,
 }
 
@@ -24,7 +24,8 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
 }
 
 fn audited(arguments: &AuditArguments, outputs: &Outputs<'_>) -> Result<Status, Failure> {
-    let plan = arguments.run.plan(arguments.attribute)?;
+    let measured = if arguments.attribute == 0 { 0 } else { MEASURED };
+    let plan = Plan { measured, ..arguments.run.plan(arguments.attribute)? };
     let record = arguments.run.execute(&plan, outputs.illustrate())?;
     self_check(&record)?;
     outputs.write(&record)?;

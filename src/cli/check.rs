@@ -8,7 +8,7 @@ use super::input::{read_record, read_text};
 use super::output::{write_result, write_results};
 use super::plugins;
 use super::prove::demand;
-use super::reporting::{Outputs, RunArguments, self_check};
+use super::reporting::{MEASURED, Outputs, RunArguments, self_check};
 use super::settings::{self, Given};
 use crate::audit::Plan;
 use crate::conformance::locked;
@@ -23,9 +23,6 @@ use std::path::Path;
 
 /// Where expectations are looked for by default.
 const DEFAULT_FILE: &str = "hairline.expectations.toml";
-
-/// On how many indices of each source the errors of right hits are measured.
-const MEASURED: usize = 100;
 
 /// The flags of `check`: the run, the expectations, and how it is reported.
 #[derive(Args)]

@@ -18,6 +18,9 @@ use crate::report::{
 };
 use clap::{Args, ValueEnum};
 
+/// On how many indices of each source the errors of right hits are measured.
+pub const MEASURED: usize = 100;
+
 /// The flags that say how to report.
 #[derive(Args)]
 #[command(mut_arg("format", |format| {

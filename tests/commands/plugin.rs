@@ -557,7 +557,7 @@ fn the_example_in_c_is_moller_trumbore_bit_for_bit() {
     );
     let audit =
         ["audit", "-q", "--kernel-lib", &library, "--family", "tiny,edge-near", "-n", "500"];
-    let screen = text(&hairline(&audit).stdout);
+    let screen = text(&hairline(&[&audit[..], &["--attribute", "100"]].concat()).stdout);
     assert!(
         screen.contains("  epsilon 98.8%") && screen.contains("  not-epsilon 100.0%"),
         "{screen}"

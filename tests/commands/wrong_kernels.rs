@@ -12,7 +12,7 @@ const HERE: &str = env!("CARGO_MANIFEST_DIR");
 
 /// Cases of each family and stratum: few, so that a hundred runs take half a minute. Whatever is found with them is found
 /// with the 20,000 that are usual.
-const FEW: &str = "300";
+const FEW: &str = "100";
 
 /// The fault that takes more calls than the plan of a test has.
 const LATE: &str = "wrong after 2^24 calls";
