@@ -61,6 +61,8 @@ mod conformance;
 mod descriptors;
 #[cfg(feature = "cli")]
 mod expect;
+#[cfg(feature = "cli")]
+mod named_file;
 
 #[cfg(feature = "cli")]
 pub mod cli;

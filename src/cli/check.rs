@@ -14,6 +14,7 @@ use crate::audit::Plan;
 use crate::conformance::locked;
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError, Expectations};
+use crate::named_file::SizeLimit;
 use crate::report::{
     ComparisonVerdict, Conformance, JSON_SCHEMA, Method, PartialPart, Record, number_of,
 };
@@ -226,7 +227,7 @@ fn checked(
 
 /// The text of a file of expectations, or of its lock.
 fn read_expected(name: &str) -> Result<String, Failure> {
-    match read_text(name) {
+    match read_text(name, SizeLimit::EXPECTATIONS) {
         Err(Failure::Message(status, message)) if !Path::new(name).exists() => {
             let message = format!("{message}; with --bless this command writes it");
             Err(Failure::Message(status, message))
@@ -325,7 +326,7 @@ impl CheckFlags {
     fn settings(&self, matches: Option<&ArgMatches>) -> Result<Vec<Given>, Failure> {
         let default = || Path::new(settings::FILE).exists().then_some(settings::FILE);
         let from_file = match self.config.as_deref().or_else(default) {
-            Some(file) => settings::from_file(&read_text(file)?, file)?,
+            Some(file) => settings::from_file(&read_text(file, SizeLimit::SETTINGS)?, file)?,
             None => Vec::new(),
         };
         let from_environment = settings::from_environment(|name| std::env::var(name).ok())?;

@@ -14,9 +14,9 @@ use crate::explore::campaign::Find;
 use crate::family::manifest::{self, ManifestLine};
 use crate::family::{Family, Grouping};
 use crate::kernel::Scalar;
+use crate::named_file::{self, SizeLimit};
 use crate::oracle;
 use clap::{Args, Subcommand};
-use std::fs;
 use std::io::{self, BufReader, Write};
 use std::path::Path;
 
@@ -146,7 +146,8 @@ fn verify(path: &str) -> Result<Status, Failure> {
                 ManifestLine::Set(_) => Vec::new(),
                 ManifestLine::Mesh(line) => {
                     let path = folder.join("meshes").join(&line.mesh);
-                    fs::read(&path).map_err(|error| Failure::of_path(&path, &error))?
+                    named_file::read(&path, SizeLimit::CASES)
+                        .map_err(|error| Failure::of_path(&path, &error))?
                 }
             };
             manifest::verify(line, &mesh)

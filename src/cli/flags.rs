@@ -42,13 +42,11 @@ pub fn find_kernel(name: &str) -> Result<&'static Entry, Failure> {
         let Some(base) = name.rsplit_once('+').and_then(|(base, _)| kernel::find(base)) else {
             return unknown("kernel", name, names(), "hairline list kernels");
         };
-        let forms: String = kernel::forms(base)
-            .iter()
-            .map(|(name, about)| format!("\n  +{name}: {about}"))
-            .collect();
+        let forms: Vec<String> =
+            kernel::forms(base).iter().map(|(name, about)| format!("+{name} ({about})")).collect();
         let base = base.info.name;
-        let forms = if forms.is_empty() { " nothing" } else { &forms };
-        Failure::usage(format!("unknown kernel '{name}': behind '{base}' can stand{forms}"))
+        let forms = if forms.is_empty() { "nothing".to_owned() } else { forms.join(", ") };
+        Failure::usage(format!("unknown kernel '{name}': behind '{base}' can stand {forms}"))
     };
     kernel::find(name).ok_or_else(wrong)
 }

@@ -12,6 +12,7 @@ use super::flags::chosen_scalars;
 use super::output::{standard_output, write_result};
 use super::progress::Progress;
 use super::select::KernelArguments;
+use crate::audit::shell_word;
 use crate::explore::campaign::{Campaign, CampaignPlan, CampaignState, Find};
 use clap::{Args, Subcommand};
 use directory::{Begun, CAMPAIGN, Directory, FORMAT, NO_BAND};
@@ -146,19 +147,28 @@ impl FuzzArguments {
             directory.begin(&asked)?;
             return Ok(asked);
         };
+        let is_other = self.kernels != KernelArguments::default()
+            && asked.kernels != begun.kernels
+            && !begun.kernels.are_named_by(&self.kernels);
         let other = [
-            ("kernels, epsilons or contract", {
-                self.kernels != KernelArguments::default() && asked.kernels != begun.kernels
-            }),
+            ("kernels, epsilons or contract", is_other),
             ("scalars", !self.scalar.is_empty() && asked.scalar != begun.scalar),
             ("seed", self.seed.is_some() && asked.seed != begun.seed),
         ];
-        match other.into_iter().find(|(_, differs)| *differs) {
-            None => Ok(begun),
-            Some((what, _)) => Err(Failure::usage(format!(
+        if let Some((what, _)) = other.into_iter().find(|(_, differs)| *differs) {
+            return Err(Failure::usage(format!(
                 "{path}: the campaign was begun with other {what} (see {path}/{CAMPAIGN}); leave those flags out to go on with it, or name another directory"
-            ))),
+            )));
         }
+        // A directory may be somebody else's: what it names is not run because it stands there.
+        if !begun.kernels.runs_no_more_than(&self.kernels) {
+            let programs = begun.kernels.program_flags().join(" ");
+            return Err(Failure::usage(format!(
+                "{path}: the campaign runs a program that {path}/{CAMPAIGN} names: to run it, name it again: hairline fuzz {} {programs}",
+                shell_word(path)
+            )));
+        }
+        Ok(begun)
     }
 }
 

@@ -7,10 +7,11 @@ use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::{self, Mesh};
 use crate::descriptors;
+use crate::named_file::{self, SizeLimit};
 use crate::report::{Findings, Record, SCHEMA, Study, number_of};
 use serde::Deserialize;
 use std::collections::{HashMap, HashSet};
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
@@ -24,17 +25,13 @@ pub fn open(path: &str) -> Result<Box<dyn Read>, Failure> {
         descriptors::standard_input().map_err(failed)?;
         return Ok(Box::new(io::stdin()));
     }
-    let file = File::open(path).map_err(failed)?;
-    if file.metadata().map_err(failed)?.is_dir() {
-        return Err(Failure::of_file(path, &io::Error::from(io::ErrorKind::IsADirectory)));
-    }
-    Ok(Box::new(file))
+    Ok(Box::new(named_file::open(Path::new(path)).map_err(failed)?))
 }
 
 /// Reads a text file whole.
-pub fn read_text(path: &str) -> Result<String, Failure> {
-    let mut bytes = Vec::new();
-    open(path)?.read_to_end(&mut bytes).map_err(|error| Failure::of_file(path, &error))?;
+pub fn read_text(path: &str, limit: SizeLimit) -> Result<String, Failure> {
+    let bytes = named_file::read_within(open(path)?, limit);
+    let bytes = bytes.map_err(|error| Failure::of_file(path, &error))?;
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
@@ -57,7 +54,7 @@ impl<'a> RecordText<'a> {
             schema: String,
             study: Option<Study>,
         }
-        let text = read_text(path)?;
+        let text = read_text(path, SizeLimit::RECORD)?;
         let envelope: Envelope = serde_json::from_str(&text)
             .map_err(|error| InputError::at(path, error.line(), error.to_string()))?;
         match envelope {
@@ -83,16 +80,7 @@ impl<'a> RecordText<'a> {
         }
         let record: Record<R> = serde_json::from_str(&text)
             .map_err(|error| InputError::at(path, error.line(), error.to_string()))?;
-        if record.checksum.as_ref().is_some_and(|written| *written != record.checksum_now()) {
-            return Err(wrong("its result is not the one that hairline wrote: the checksum differs, so numbers were changed since".to_owned()));
-        }
-        let target = &record.provenance.target;
-        let is_of_target = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-        if target.is_empty() || !target.chars().all(is_of_target) {
-            return Err(wrong(format!(
-                "provenance.target: {target:?} is none; expected one as x86_64-linux"
-            )));
-        }
+        record.check().map_err(wrong)?;
         Ok(record)
     }
 }
@@ -110,12 +98,7 @@ pub fn read_mesh(path: &str, quiet: bool) -> Result<Mesh, Failure> {
     let mut beside = |name: &str, most: u64| {
         let mut bytes = Vec::new();
         let path = Path::new(path).with_file_name(name);
-        // A pipe may never have a writer.
-        if !fs::metadata(&path)?.is_file() {
-            return Err(io::Error::other("no ordinary file"));
-        }
-        let file = File::open(path)?;
-        file.take(most).read_to_end(&mut bytes).map(|_| bytes)
+        named_file::open(&path)?.take(most).read_to_end(&mut bytes).map(|_| bytes)
     };
     let mesh = mesh::read(file, path, &mut beside, &mut |bytes| progress.set(bytes));
     progress.finish();

@@ -6,7 +6,7 @@ use super::before::set_threads;
 use super::case::CaseArguments;
 use super::exit::{Failure, Status};
 use super::flags::{is_f32, unknown};
-use super::output::{paired_outputs, write_results};
+use super::output::{format_of, paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
 use crate::audit::Row;
@@ -17,7 +17,6 @@ use crate::map::{self, CaseVector, Map, PixelStep, Spot};
 use crate::report::{Format, Style};
 use clap::Args;
 use std::io::{self, Write};
-use std::path::Path;
 
 /// Which input, whose verdicts, which pixels, and where to.
 #[derive(Args)]
@@ -167,14 +166,11 @@ impl MapArguments {
             return Ok(vec!["text".to_owned()]);
         }
         let of = |output: &String| {
-            let end = Path::new(output).extension().and_then(|end| end.to_str());
-            match end {
-                Some("svg" | "png") => Ok(end.unwrap_or_default().to_owned()),
-                Some("txt") => Ok("text".to_owned()),
-                _ => Err(Failure::usage(format!(
+            format_of(FORMATS, output).map(str::to_owned).ok_or_else(|| {
+                Failure::usage(format!(
                     "-o {output}: its name does not end in .svg, .png or .txt; say --format"
-                ))),
-            }
+                ))
+            })
         };
         self.output.iter().map(of).collect()
     }

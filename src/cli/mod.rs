@@ -2,11 +2,13 @@
 
 #![forbid(unsafe_code)]
 
-/// Prints to standard error. Unlike the standard library's it does not panic if nobody can read it.
+/// Prints a line to standard error. Unlike the standard library's it does not panic if nobody can read it; and what other
+/// people wrote, as a name or a reason, is shown by a terminal and not obeyed.
 macro_rules! eprintln {
     ($($words:tt)*) => {{
         use std::io::Write as _;
-        let _ = writeln!(std::io::stderr(), $($words)*);
+        let line = $crate::corpus::json::printable(&format!($($words)*));
+        let _ = writeln!(std::io::stderr(), "{line}");
     }};
 }
 

@@ -42,8 +42,8 @@ impl ColorChoice {
 /// The flags that say how to report, and where.
 #[derive(Args)]
 pub struct OutputArguments {
-    /// text, json, markdown or html, or several separated by commas
-    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text", help_heading = OUTPUT)]
+    /// text, json, markdown or html, or several separated by commas [default: as the file of -o ends, else text]
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT", help_heading = OUTPUT)]
     pub format: Vec<String>,
 
     /// Where to write, once for each format; - is standard output
@@ -119,6 +119,20 @@ pub fn paired_outputs<'a, R>(
             Failure::usage(format!("unknown format '{name}'{advice}"))
         })
     };
+    let of_endings: Vec<String>;
+    let formats = match formats {
+        [] => {
+            of_endings = match outputs {
+                [] => vec![table[0].name.to_owned()],
+                outputs => outputs
+                    .iter()
+                    .map(|path| format_of(table, path).unwrap_or(table[0].name).to_owned())
+                    .collect(),
+            };
+            &of_endings
+        }
+        named => named,
+    };
     let formats = formats.iter().map(find).collect::<Result<Vec<_>, _>>()?;
     // `a`, `./a` and a link to it are one file.
     let place = |path: &String| match linked(Path::new(path)) {
@@ -140,6 +154,18 @@ pub fn paired_outputs<'a, R>(
             number_of(m as u64, "output", "outputs"),
         ))),
     }
+}
+
+/// The ends of files' names, with the formats that they stand for; the others are the formats' own names.
+const ENDINGS: [(&str, &str); 4] =
+    [("md", "markdown"), ("htm", "html"), ("xml", "junit"), ("txt", "text")];
+
+/// The format in which a file of a name is expected; none if its end names none of a table.
+pub fn format_of<R>(table: &[Format<R>], path: &str) -> Option<&'static str> {
+    let ending = Path::new(path).extension()?.to_str()?.to_ascii_lowercase();
+    let named = ENDINGS.iter().find(|(short, _)| *short == ending).map(|(_, name)| *name);
+    let name = named.unwrap_or(&ending);
+    table.iter().find(|format| format.name == name).map(|format| format.name)
 }
 
 /// Writes a result to standard output (`-`) or to a file, which appears whole or stays as it was.

@@ -99,6 +99,13 @@ impl PluginArguments {
         !self.kernel_lib.is_empty() || !self.kernel_cmd.is_empty()
     }
 
+    /// The programs that they start: each flag with its word.
+    pub fn programs(&self) -> Vec<(&'static str, &str)> {
+        let libraries = self.kernel_lib.iter().map(|path| ("--kernel-lib", path.as_str()));
+        let commands = self.kernel_cmd.iter().map(|line| ("--kernel-cmd", line.as_str()));
+        libraries.chain(commands).collect()
+    }
+
     /// The flags that bring the kernels along, as a shell takes them.
     pub fn flags(&self) -> Vec<String> {
         [again("--kernel-lib", &self.kernel_lib), again("--kernel-cmd", &self.kernel_cmd)].concat()

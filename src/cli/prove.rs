@@ -20,6 +20,7 @@ use crate::audit::{EpsilonChoice, Row, shell_word};
 use crate::case;
 use crate::engine;
 use crate::kernel::{self, Entry, Scalar};
+use crate::named_file::SizeLimit;
 use crate::prove::certificate::{self, Claim};
 use crate::prove::{Domain, Effort, Quantity, Scene, Searched, Shape, Summary};
 use crate::report::{Context, Format, ProofPart, Record, number_of, provenance_of, write_json};
@@ -169,7 +170,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     let parts = scene.as_ref().map_or(Vec::new(), |scene| scene.parts(&shapes));
     let mut stored = match &arguments.update {
         Some(path) if std::fs::exists(path).map_err(|e| Failure::of_file(path, &e))? => {
-            read_witnesses(&read_text(path)?, path)?
+            read_witnesses(&read_text(path, SizeLimit::CASES)?, path)?
         }
         Some(_) => Vec::new(),
         None => read_witnesses(KNOWN, "corpora/proofs/witnesses.ndjson")?,
@@ -184,7 +185,11 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     }
     let outputs = arguments.output.pairs(FORMATS)?;
     if let Some(path) = &arguments.certificate {
-        return certify(&entries, scalars, (domain, &parts), (path, arguments.output.quiet));
+        let status = certify(&entries, scalars, (domain, &parts), (path, arguments.output.quiet))?;
+        let OutputArguments { format, output, .. } = &arguments.output;
+        if format.is_empty() && output.is_empty() {
+            return Ok(status);
+        }
     }
     if arguments.epsilon.is_some() && entries.len() != 1 {
         return Err(Failure::usage("--epsilon is of one --kernel"));

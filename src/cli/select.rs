@@ -60,6 +60,24 @@ const NO_BAND: &str =
     "a scene counts cracks, which a band does not change; a tolerance is what is chosen";
 
 impl KernelArguments {
+    /// True if others name the same programs, and nothing else.
+    pub fn are_named_by(&self, others: &KernelArguments) -> bool {
+        let named =
+            KernelArguments { plugins: others.plugins.clone(), ..KernelArguments::default() };
+        named == *others && self.plugins.programs() == others.plugins.programs()
+    }
+
+    /// True if every program that these start is one that others name.
+    pub fn runs_no_more_than(&self, others: &KernelArguments) -> bool {
+        let named = others.plugins.programs();
+        self.plugins.programs().iter().all(|program| named.contains(program))
+    }
+
+    /// The flags that name the programs, as a shell takes them.
+    pub fn program_flags(&self) -> Vec<String> {
+        self.plugins.flags()
+    }
+
     /// Goes on after any number of crashes of a user's kernel, unless the flags set a limit.
     pub fn go_on_after_failures(mut self) -> Self {
         self.plugins.go_on_after_failures();

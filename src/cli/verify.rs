@@ -8,6 +8,7 @@ use super::flags::unknown;
 use super::input::read_text;
 use super::output::OutputArguments;
 use crate::corpus::{InputError, json};
+use crate::named_file::SizeLimit;
 use crate::report::{Context, Record, provenance_of};
 use crate::vectors::profile::{Answered, Profile, demanded, is_right};
 use crate::vectors::{VectorTest, core, digest, json::topic_file};
@@ -50,7 +51,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
         Profile::find(name).ok_or_else(wrong)
     };
     let profile = arguments.profile.as_ref().map(found).transpose()?;
-    let text = read_text(&arguments.file)?;
+    let text = read_text(&arguments.file, SizeLimit::RECORD)?;
     let topics = core();
     let files: Vec<_> = topics.iter().map(|(topic, tests)| topic_file(topic, tests)).collect();
     let read = Results::parse(&text, &digest(&files));

@@ -2,6 +2,7 @@
 
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError};
+use crate::named_file::{self, SizeLimit};
 use crate::report::Record;
 use hairline_core::Error;
 use std::fs::File;
@@ -25,7 +26,9 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), Error> {
         }
     };
     let text = |name: &str| {
-        fs::read_to_string(name).map_err(|error| InputError::reading(name, None, &error))
+        let bytes = named_file::read(Path::new(name), SizeLimit::EXPECTATIONS);
+        let text = bytes.and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
+        text.map_err(|error| InputError::reading(name, None, &error))
     };
     let _lock = blesses.then(|| locked(file));
     let said = |error: InputError| Error(error.to_string());

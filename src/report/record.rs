@@ -3,6 +3,8 @@
 //! `result` is what a study found: the same bytes whatever the number of threads. `provenance` says where and how it was
 //! made and is never compared.
 
+#[cfg(feature = "studies")]
+mod checked;
 mod finding;
 mod kind;
 mod mesh;
@@ -84,6 +86,19 @@ impl<R: Findings> Record<R> {
     pub fn checksum_now(&self) -> String {
         let text = serde_json::to_string(&self.result).unwrap_or_default();
         hex(&Hash::hash(text.as_bytes()))
+    }
+
+    /// An error in one line if it is not as this program writes records: changed since, or put together by somebody else.
+    #[cfg(feature = "studies")]
+    pub fn check(&self) -> Result<(), String> {
+        let Some(written) = &self.checksum else {
+            return Err("it has no checksum, as every record has that hairline wrote".to_owned());
+        };
+        if *written != self.checksum_now() {
+            return Err("its result is not the one that hairline wrote: the checksum differs, so numbers were changed since".to_owned());
+        }
+        self.result.check()?;
+        self.provenance.check()
     }
 
     /// The same with its checksum.

@@ -90,7 +90,8 @@ fn the_action_takes_a_command_with_spaces_or_all_from_the_file() {
         assert_eq!((ran.code, ran.kernels()), (code, kernels.to_vec()));
     };
     ends_with("--kernel-cmd 'sh never.sh' --seed 7", 1, &["never"]);
-    ends_with("--kernel-cmd \"sh never.sh", 1, &[]);
+    // Words that are none are wrong usage, and no disagreement.
+    ends_with("--kernel-cmd \"sh never.sh", 2, &[]);
     // All from the file, before and after what is known is written down.
     let all = format!("{settings}kernel-cmd = \"sh never.sh\"\n");
     fs::write(folder.join("hairline.toml"), all).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::program;
 
-use program::{ends_flat as ends, hairline_with, result_bytes, scratch, without_checksum};
+use program::{ends_flat as ends, hairline_with, resealed, result_bytes, scratch};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -717,17 +717,20 @@ fn the_other_exit_codes_come_from_real_commands() {
     ends(&folder, &["check", "-q", "-o", "no/such/folder.txt"], 74);
     ends(&folder, &["check", "-q", "--format", "json", "-o", "r.json"], 0);
     ends(&folder, &["check", "-q", "--record", "r.json"], 0);
-    let record = without_checksum(&fs::read_to_string(folder.join("r.json")).unwrap());
-    let spoil = |from: &str, to: &str| {
+    let record = fs::read_to_string(folder.join("r.json")).unwrap();
+    let spoiled = |from: &str, to: &str| {
         let spoiled = record.replacen(from, to, 1);
         assert_ne!(spoiled, record);
-        fs::write(folder.join("spoiled.json"), spoiled).unwrap();
-        folder.clone()
+        spoiled
     };
     let judge = ["check", "-q", "--record", "spoiled.json"];
-    let (_, error) = ends(&spoil("\"promise_broken\": 0", "\"promise_broken\": 1"), &judge, 70);
+    let broken = resealed(&spoiled("\"promise_broken\": 0", "\"promise_broken\": 1"));
+    fs::write(folder.join("spoiled.json"), broken).unwrap();
+    let (_, error) = ends(&folder, &judge, 70);
     assert!(error.contains("self-check: family 'interior' breaks its promise"), "{error}");
-    let (_, error) = ends(&spoil("hairline-record/2", "hairline-record/9"), &judge, 65);
+    let other = spoiled("hairline-record/2", "hairline-record/9");
+    fs::write(folder.join("spoiled.json"), other).unwrap();
+    let (_, error) = ends(&folder, &judge, 65);
     assert!(error.contains("schema 'hairline-record/9', expected 'hairline-record/2'"), "{error}");
     fs::write(folder.join("spoiled.json"), &record[..record.len() / 2]).unwrap();
     let (_, error) = ends(&folder, &judge, 65);

@@ -2,7 +2,8 @@
 
 use crate::program;
 
-use program::{ends, flat, scratch};
+use hairline::internals::report::Record;
+use program::{ends, flat, resealed, scratch, with_value};
 use serde_json::json;
 use std::fs;
 use std::path::Path;
@@ -74,9 +75,15 @@ fn one_case_more_on_the_same_cases_is_worse() {
     std::fs::write(folder.join("more.json"), &changed).unwrap();
     let (_, error) = ends(&folder, &["diff", "one.json", "more.json"], 65);
     assert!(error.contains("more.json: its result is not the one that hairline wrote"), "{error}");
-    record.as_object_mut().unwrap().remove("checksum").unwrap();
-    std::fs::write(folder.join("more.json"), record.to_string()).unwrap();
-    // A rate that its counts do not give is refused with or without a checksum.
+    // The total too, as the classes add up to it.
+    let total = &mut record["result"]["results"][0]["total"][&field];
+    let all = total["count"].as_u64().unwrap() + 1;
+    total["rate"] = (all as f64 / total["of"].as_f64().unwrap()).into();
+    total["count"] = all.into();
+    let more: Record = serde_json::from_value(record.clone()).unwrap();
+    std::fs::write(folder.join("more.json"), serde_json::to_string(&more.sealed()).unwrap())
+        .unwrap();
+    // A rate that its counts do not give is refused whatever the checksum says.
     let wrong = changed.replacen(&format!("\"count\":{count},"), "\"count\":987654321,", 1);
     std::fs::write(folder.join("wrong.json"), wrong).unwrap();
     let (_, error) = ends(&folder, &["diff", "one.json", "wrong.json"], 65);
@@ -180,23 +187,19 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
     assert!(0 < spawn["compared"].as_u64().unwrap(), "{spawn}");
     assert_eq!(prove["chosen"].as_array().unwrap().len(), 0);
     // A bound and a rate that are higher.
-    let edited = |file: &str, to: &str, edit: &dyn Fn(&mut serde_json::Value)| {
-        let text = fs::read_to_string(folder.join(file)).unwrap();
-        let mut record: serde_json::Value = serde_json::from_str(&text).unwrap();
-        record.as_object_mut().unwrap().remove("checksum").unwrap();
-        edit(&mut record["result"]);
-        fs::write(folder.join(to), record.to_string()).unwrap();
-    };
-    edited("prove-1.json", "prove-3.json", &|result| result["gates"][0]["bound"] = 0.5.into());
+    let read = |file: &str| fs::read_to_string(folder.join(file)).unwrap();
+    let write_edited = |to: &str, text: &str| fs::write(folder.join(to), resealed(text)).unwrap();
+    write_edited("prove-3.json", &with_value(&read("prove-1.json"), &["gates", "bound"], "0.5"));
     let (told, _) = ends(&folder, &["diff", "--exit-code", "prove-1.json", "prove-3.json"], 1);
     assert!(told.starts_with("1 value differs, 1 of them worse\n"), "{told}");
     ends(&folder, &["diff", "--exit-code", "prove-3.json", "prove-1.json"], 0);
-    edited("spawn-1.json", "spawn-3.json", &|result| {
-        let rate = &mut result["points"][0]["schemes"][0]["wrong"];
-        let more = rate["of"].as_u64().unwrap();
-        assert_ne!(rate["count"], more);
-        (rate["count"], rate["rate"]) = (more.into(), 1.0.into());
-    });
+    let spawn = read("spawn-1.json");
+    let parsed: serde_json::Value = serde_json::from_str(&spawn).unwrap();
+    let rate = &parsed["result"]["points"][0]["schemes"][0]["wrong"];
+    assert_ne!(rate["count"], rate["of"]);
+    let wrong = ["points", "schemes", "wrong"];
+    let all = with_value(&spawn, &[&wrong[..], &["count"]].concat(), &rate["of"].to_string());
+    write_edited("spawn-3.json", &with_value(&all, &[&wrong[..], &["rate"]].concat(), "1.0"));
     let (told, _) = ends(&folder, &["diff", "--exit-code", "spawn-1.json", "spawn-3.json"], 1);
     assert!(told.starts_with("1 worse, 0 better") && told.contains("wrong sides"), "{told}");
     // Another scene, mesh or domain is another question.

@@ -48,6 +48,7 @@ mod shrink;
 mod spawn;
 #[cfg(unix)]
 mod terminal;
+mod trust;
 mod variants;
 mod vectors;
 mod worst;

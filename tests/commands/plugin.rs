@@ -696,8 +696,13 @@ fn a_campaign_on_a_command_goes_on_and_its_finds_are_told_again() {
     };
     let begun = fuzz(&["--kernel-cmd", &misses]);
     assert!(begun.contains("\"kernel\":\"sh\""), "{begun}");
-    // The campaign knows its kernel, and every find is of a kind of its own.
-    let more = fuzz(&[]);
+    // The campaign knows its kernel, and does not start it because a directory says so.
+    let unasked = refused(&["fuzz", folder, "--evaluations", "3000", "-q"], 2);
+    assert!(unasked.contains("to run it, name it again: hairline fuzz "), "{unasked}");
+    let other = refused(&["fuzz", folder, "-q", "--kernel-cmd", "true"], 65);
+    assert!(other.contains("true: before its hello"), "{other}");
+    // Every find is of a kind of its own.
+    let more = fuzz(&["--kernel-cmd", &misses]);
     assert!(more.starts_with(&begun), "{more}");
     let kind = |line: &str| {
         let find: Value = serde_json::from_str(line).unwrap();

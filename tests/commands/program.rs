@@ -84,10 +84,36 @@ pub fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A record as JSON without its checksum, to be changed.
-pub fn without_checksum(record: &str) -> String {
-    let lines = record.lines().filter(|line| !line.starts_with("  \"checksum\": "));
-    lines.map(|line| format!("{line}\n")).collect()
+/// A record that was changed, with the checksum of what it says now.
+pub fn resealed(record: &str) -> String {
+    let (head, rest) = record.split_once("\"result\": ").unwrap();
+    let (result, rest) = rest.split_once(",\n  \"checksum\": \"").unwrap();
+    let (_, tail) = rest.split_once('"').unwrap();
+    let mut is_in_string = false;
+    let mut is_escaped = false;
+    let mut compact = String::with_capacity(result.len());
+    for c in result.chars() {
+        if is_in_string || !c.is_whitespace() {
+            compact.push(c);
+        }
+        is_in_string ^= c == '"' && !is_escaped;
+        is_escaped = c == '\\' && !is_escaped;
+    }
+    let digest = hmac_sha256::Hash::hash(compact.as_bytes());
+    let checksum: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    format!("{head}\"result\": {result},\n  \"checksum\": \"{checksum}\"{tail}")
+}
+
+/// A record with another value behind keys, each of which stands somewhere after the one before.
+pub fn with_value(record: &str, keys: &[&str], value: &str) -> String {
+    let mut start = 0;
+    for key in keys {
+        let quoted = format!("\"{key}\": ");
+        start += record[start..].find(&quoted).unwrap() + quoted.len();
+    }
+    let line = record[start..].lines().next().unwrap();
+    let end = start + line.trim_end_matches(',').len();
+    format!("{}{value}{}", &record[..start], &record[end..])
 }
 
 /// A record's `result`, byte for byte.

@@ -173,14 +173,14 @@ fn a_form_that_is_not_there_is_answered_with_those_that_are() {
     let (listed, _) = ends(&folder, &["list", "kernels"], 0);
     for change in Change::ALL {
         let (name, about) = (change.name(), change.about());
-        assert!(said.contains(&format!("\n  +{name}: {about}\n")), "{said}");
+        assert!(said.contains(&format!("+{name} ({about})")), "{said}");
         assert!(listed.contains(&format!("+{name}  ")), "{listed}");
         let (meaning, _) = ends(&folder, &["help", name], 0);
         assert!(meaning.contains(&format!("+{name}")), "{meaning}");
     }
     // It tests t already, and so do its forms.
     let (_, said) = ends(&folder, &["audit", "--kernel", "woop-watertight+ahead"], 2);
-    assert!(said.contains("+sorted: ") && !said.contains("  +ahead"), "{said}");
+    assert!(said.contains("+sorted (") && !said.contains("+ahead ("), "{said}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::program;
 
-use program::{ends, result_bytes, scratch};
+use program::{ends, resealed, result_bytes, scratch, with_value};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -246,10 +246,8 @@ fn a_run_is_cut_in_as_many_parts_as_may_be_and_at_least_in_one() {
     ends(&folder, &[&["audit", "--shard", "0/2", "-o", "part.json"], &words[..]].concat(), 0);
     let text = fs::read_to_string(folder.join("part.json")).unwrap();
     let cut_in = |of: u64| {
-        let mut record: serde_json::Value = serde_json::from_str(&text).unwrap();
-        record["result"]["partial"]["of"] = of.into();
-        record.as_object_mut().unwrap().remove("checksum").unwrap();
-        fs::write(folder.join("other.json"), record.to_string()).unwrap();
+        let cut = with_value(&text, &["partial", "of"], &of.to_string());
+        fs::write(folder.join("other.json"), resealed(&cut)).unwrap();
         merge(&folder, &["other.json"], &["-q"], 65)
     };
     assert_eq!(

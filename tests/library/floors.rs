@@ -136,19 +136,24 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
 
 /// Lines of code of each crate, without tests, comments and blank lines. A cut lowers its number. It is raised only with
 /// something new that was asked for (a kernel, a study, a format), in the same commit, with the reason.
-const MOST_LINES: [usize; 5] = [7_710, 8_120, 19_710, 1_890, 23_110];
+const MOST_LINES: [usize; 5] = [7_720, 8_120, 19_730, 1_890, 23_480];
 
 #[test]
 fn no_crate_grows() {
+    let mut wrong = Vec::new();
     for (of_crate, most) in CRATES.into_iter().zip(MOST_LINES) {
         let is_test = |place: &Path| place.iter().any(|part| part == "tests" || part == "tests.rs");
         let files = rust_files(of_crate).into_iter().filter(|(_, place)| !is_test(place));
         let lines =
             |file: &PathBuf| code(file).lines().filter(|line| !line.trim().is_empty()).count();
         let all: usize = files.map(|(file, _)| lines(&file)).sum();
-        assert!(all <= most, "{of_crate}: {all} lines of code, more than {most}");
-        assert!(most < all + 100, "{of_crate}: {all} lines of code: lower its number, {most}");
+        if most < all {
+            wrong.push(format!("{of_crate}: {all} lines of code, more than {most}"));
+        } else if all + 100 <= most {
+            wrong.push(format!("{of_crate}: {all} lines of code: lower its number, {most}"));
+        }
     }
+    assert_eq!(wrong, [""; 0]);
 }
 
 #[test]
@@ -198,6 +203,8 @@ fn below_the_command_line_nothing_prints_opens_files_or_reads_a_clock() {
         let is_test = place.components().any(|part| part.as_os_str() == "tests");
         let may = place.starts_with("cli") || is_test || file.starts_with(source("crates/plugin"));
         let may = may || place.ends_with("conformance/expectations.rs");
+        // The one way in which the two open what people name.
+        let may = may || place.ends_with("named_file.rs");
         if may || place.ends_with("main.rs") {
             continue;
         }

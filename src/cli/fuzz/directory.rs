@@ -13,6 +13,7 @@ use crate::cli::select::KernelArguments;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, write_case};
 use crate::explore::campaign::{CampaignState, Find};
+use crate::named_file::{self, SizeLimit};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, TryLockError};
@@ -29,6 +30,8 @@ pub const CAMPAIGN: &str = "campaign.json";
 pub const FINDS: &str = "finds.jsonl";
 
 const STATE: &str = "state.json";
+
+const LOCK: &str = "lock";
 
 /// Why neither a campaign nor triage takes a band.
 pub const NO_BAND: &str = "findings are kept and run again without one";
@@ -63,6 +66,8 @@ impl Directory {
     pub fn open(path: &str) -> Result<Directory, Failure> {
         let path = PathBuf::from(path);
         fs::create_dir_all(&path).map_err(|error| Failure::of_path(&path, &error))?;
+        let files = [CAMPAIGN, FINDS, STATE, LOCK].map(|name| path.join(name));
+        files.iter().try_for_each(|file| refuse_link(file))?;
         let lock = FolderLock::take(&path)?;
         let finds_path = path.join(FINDS);
         let finds = File::options().create(true).append(true).open(&finds_path);
@@ -90,7 +95,8 @@ impl Directory {
     /// The finds until now, each run again; a last line without its end is cut off.
     pub fn finds(&mut self) -> Result<Vec<Find>, Failure> {
         let path = self.path.join(FINDS);
-        let bytes = fs::read(&path).map_err(|error| Failure::of_path(&path, &error))?;
+        let bytes = named_file::read(&path, SizeLimit::CASES)
+            .map_err(|error| Failure::of_path(&path, &error))?;
         let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
         let name = path.display().to_string();
         // First read, then cut: a file that is no finds file is left alone.
@@ -154,6 +160,20 @@ impl Directory {
     }
 }
 
+/// An error if a file of a campaign leads elsewhere, or is none: a directory that was handed on must not choose what is
+/// written to.
+fn refuse_link(path: &Path) -> Result<(), Failure> {
+    let Ok(metadata) = fs::symlink_metadata(path) else { return Ok(()) };
+    match metadata.is_file() {
+        true => Ok(()),
+        false => {
+            let error =
+                io::Error::other("no ordinary file: a campaign's files are its own, and no links");
+            Err(Failure::of_path(path, &error))
+        }
+    }
+}
+
 /// The plan that the campaign in a directory was begun with; none if there is no campaign.
 pub fn read_begun(directory: &Path) -> Result<Option<Begun>, Failure> {
     let path = directory.join(CAMPAIGN);
@@ -177,7 +197,7 @@ pub fn read_finds(text: &[u8], name: &str) -> Result<Vec<Find>, Failure> {
 }
 
 fn read_json<T: DeserializeOwned>(path: &Path, advice: &str) -> Result<Option<T>, Failure> {
-    let text = match fs::read(path) {
+    let text = match named_file::read(path, SizeLimit::CASES) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         text => text.map_err(|error| Failure::of_path(path, &error))?,
     };
@@ -199,7 +219,7 @@ struct FolderLock {
 impl FolderLock {
     /// Takes the lock of a folder, and tells if the last process to hold it was killed.
     fn take(folder: &Path) -> Result<FolderLock, Failure> {
-        let path = folder.join("lock");
+        let path = folder.join(LOCK);
         let failed = |error: io::Error| Failure::of_path(&path, &error);
         let file = File::options().create(true).truncate(false).write(true).open(&path);
         let mut file = file.map_err(failed)?;

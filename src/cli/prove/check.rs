@@ -7,6 +7,7 @@ use crate::cli::input::read_text;
 use crate::cli::output::write_result;
 use crate::corpus::InputError;
 use crate::kernel::{self, Entry, Path, Role, Scalar};
+use crate::named_file::SizeLimit;
 use crate::prove::certificate::operations;
 use crate::prove::checker::{self, Number, Proved};
 use crate::prove::repair::Guarded;
@@ -28,7 +29,7 @@ pub fn check(arguments: &ProveArguments) -> Result<Status, Failure> {
 }
 
 fn checked(file: &str, demands: &[DemandedSize]) -> Result<String, Failure> {
-    let text = read_text(file)?;
+    let text = read_text(file, SizeLimit::CERTIFICATE)?;
     if text.lines().nth(3).is_some_and(|line| line.starts_with("guarded ")) {
         return guarded(file, &text);
     }

@@ -18,7 +18,7 @@ pub(super) fn write(page: &Page, style: Style, out: &mut dyn Write) -> io::Resul
 /// The page in at most so many bytes, cut after a line, with a note of it.
 pub fn within(page: &Page, style: Style, limit: usize) -> String {
     let mut writer = MarkdownWriter { text: String::new(), style };
-    writer.page(page);
+    writer.page(&page.clone().readable());
     let text = writer.text;
     if text.len() <= limit {
         return text;
@@ -59,7 +59,7 @@ impl MarkdownWriter {
             Block::Commands(lead, commands) => {
                 let lines: Vec<&str> =
                     commands.iter().map(|command| command.line.as_str()).collect();
-                format!("\n{lead}:\n\n```\n{}\n```\n", lines.join("\n"))
+                format!("\n{lead}:\n{}", listing(&lines.join("\n")))
             }
             Block::Terms(terms) => {
                 let terms = terms.iter().map(|(term, meaning)| match term.is_empty() {
@@ -68,7 +68,7 @@ impl MarkdownWriter {
                 });
                 list(&terms.collect::<Vec<_>>())
             }
-            Block::Listing(text) => format!("\n```\n{}\n```\n", text.trim_end()),
+            Block::Listing(text) => listing(text),
             Block::Items(Items { items, .. }) => {
                 let item = |item: &Item| {
                     let notes = item.notes.iter().chain(&item.url).map(|note| words(note));
@@ -115,9 +115,10 @@ fn table(table: &Table) -> String {
     }
 }
 
-/// Text outside of code.
+/// Text outside of code: neither a link nor a picture nor an element, whoever wrote it.
 fn words(text: &str) -> String {
-    cell(text).replace('<', "&lt;")
+    let text = text.replace('\\', "\\\\").replace('[', "\\[");
+    cell(&text).replace('<', "&lt;")
 }
 
 /// Text inside a table's cell.
@@ -127,8 +128,21 @@ fn cell(text: &str) -> String {
 
 /// Code; a command holds no backtick unless a file's name does.
 fn code(text: &str) -> String {
-    let fence = if text.contains('`') { "``" } else { "`" };
-    format!("{fence}{}{fence}", cell(text))
+    let fence = "`".repeat(longest_run(text) + 1);
+    let space = if text.contains('`') { " " } else { "" };
+    format!("{fence}{space}{}{space}{fence}", cell(text))
+}
+
+/// Lines of code.
+fn listing(text: &str) -> String {
+    let fence = "`".repeat(longest_run(text).max(2) + 1);
+    format!("\n{fence}\n{}\n{fence}\n", text.trim_end())
+}
+
+/// The most backticks that stand one after the other.
+fn longest_run(text: &str) -> usize {
+    let others = text.split(|c| c != '`');
+    others.map(str::len).max().unwrap_or(0)
 }
 
 #[cfg(test)]

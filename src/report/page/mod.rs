@@ -5,6 +5,7 @@
 #[cfg(feature = "pages")]
 pub(in crate::report) mod html;
 mod markdown;
+mod readable;
 mod table;
 mod text;
 
@@ -171,7 +172,7 @@ impl<R: Paged> Format<R> {
     /// For a terminal. The layout is not stable.
     pub const TEXT: Format<R> = Format {
         name: "text",
-        write: |record, style, out| text::write(&record.page(), style, out),
+        write: |record, style, out| text::write(&record.page().readable(), style, out),
     };
     /// For a forge or a chat.
     pub const MARKDOWN: Format<R> = Format {
@@ -180,8 +181,10 @@ impl<R: Paged> Format<R> {
     };
     /// One file that needs nothing else: light and dark, wide and narrow, without scripts and without a network.
     #[cfg(feature = "pages")]
-    pub const HTML: Format<R> =
-        Format { name: super::HTML, write: |record, _, out| html::write(&record.page(), out) };
+    pub const HTML: Format<R> = Format {
+        name: super::HTML,
+        write: |record, _, out| html::write(&record.page().readable(), out),
+    };
 }
 
 #[cfg(feature = "pages")]

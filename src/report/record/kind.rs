@@ -42,6 +42,11 @@ impl FindingKind {
     /// Those that expectations may name: all that runs find.
     pub const FOUND: &[FindingKind] = FindingKind::ALL.split_at(FindingKind::Unproved as usize).0;
 
+    /// Those of single triangles.
+    #[cfg(feature = "studies")]
+    pub(super) const OF_A_TRIANGLE: &[FindingKind] =
+        FindingKind::ALL.split_at(FindingKind::Crack as usize).0;
+
     /// True if the kernel gave no verdict at all.
     pub fn is_failure(self) -> bool {
         matches!(self, FindingKind::Panic | FindingKind::Crash | FindingKind::Timeout)

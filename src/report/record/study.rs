@@ -26,10 +26,20 @@ named! {
 pub trait Findings: Serialize + DeserializeOwned {
     /// The study.
     const STUDY: Study;
+
+    /// An error in one line if something in it contradicts something else.
+    fn check(&self) -> Result<(), String> {
+        Ok(())
+    }
 }
 
 impl Findings for ResultPart {
     const STUDY: Study = Study::Audit;
+
+    #[cfg(feature = "studies")]
+    fn check(&self) -> Result<(), String> {
+        self.check_counts()
+    }
 }
 
 impl<R: Comparable> Findings for R {

@@ -290,10 +290,8 @@ pub fn kept(entry: &Entry) -> &'static Entry {
     entry
 }
 
-/// Adds a kernel for the rest of the process; every command then knows its name. An error if the
-/// name is empty, taken, or not a word.
-pub fn register(entry: Entry) -> Result<&'static Entry, String> {
-    let name = entry.info.name;
+/// An error if a name is empty or not a word.
+pub fn check_name(name: &str) -> Result<(), String> {
     let is_word = |c: char| c.is_ascii_alphanumeric() || "-_.+@".contains(c);
     if name.is_empty() || !name.chars().all(is_word) {
         return Err(format!(
@@ -301,6 +299,14 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
             name.escape_default()
         ));
     }
+    Ok(())
+}
+
+/// Adds a kernel for the rest of the process; every command then knows its name. An error if the
+/// name is empty, taken, or not a word.
+pub fn register(entry: Entry) -> Result<&'static Entry, String> {
+    let name = entry.info.name;
+    check_name(name)?;
     if let Some((kernel, form)) = name_and_variant(name) {
         let form_of = match form {
             KernelForm::InArithmetic(_) => "a kernel in another arithmetic",

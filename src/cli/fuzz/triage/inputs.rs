@@ -8,6 +8,7 @@ use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::explore::campaign::Find;
 use crate::explore::inputs;
+use crate::named_file::{self, SizeLimit};
 use std::fs;
 use std::path::Path;
 
@@ -113,6 +114,7 @@ fn named(mut find: Find, file: &str) -> Find {
 }
 
 fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), Failure> {
-    let bytes = fs::read(path).map_err(|error| Failure::of_path(path, &error))?;
+    let bytes =
+        named_file::read(path, SizeLimit::CASES).map_err(|error| Failure::of_path(path, &error))?;
     Ok((path.display().to_string(), bytes))
 }
