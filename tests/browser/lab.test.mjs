@@ -1,49 +1,13 @@
 // What somebody does in the lab, in a real browser. `web/build` makes it.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { createServer } from "node:http";
 import path from "node:path";
-import { after, before, describe, test } from "node:test";
+import { describe, test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { edit, folder, lab, settled, then, title } from "./serve.mjs";
 import { AXE, THEMES, cutText, out, visit } from "./visit.mjs";
 
-const dist = fileURLToPath(new URL("../../web/dist/", import.meta.url));
 const meshes = fileURLToPath(new URL("../../corpora/meshes/", import.meta.url));
-const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
-
-let server, folder;
-before(async () => {
-  server = createServer(async ({ url }, response) => {
-    const name = new URL(url, "http://lab").pathname.slice(1) || "index.html";
-    const bytes = await readFile(path.join(dist, name)).catch(() => undefined);
-    response.writeHead(bytes ? 200 : 404, { "Content-Type": TYPES[path.extname(name)] ?? "text/plain" }).end(bytes);
-  });
-  await new Promise((done) => server.listen(0, "127.0.0.1", done));
-  folder = `http://127.0.0.1:${server.address().port}/`;
-});
-after(() => server.close());
-
-const settled = (page) => page.waitForFunction(() => !document.body.classList.contains("running")
-  && (!document.getElementById("verdict").hidden || !document.getElementById("error").hidden));
-/** The lab with an address's end, when it has answered. */
-async function lab(t, hash = "", options = {}) {
-  const page = await visit(t, folder + hash, { folder, ...options });
-  await settled(page);
-  return page;
-}
-/** Does something, and waits for the answer to it. */
-async function then(page, action) {
-  await page.evaluate(() => document.body.classList.add("running"));
-  await action();
-  await settled(page);
-}
-const title = (page) => page.textContent("#title");
-const edit = async (page, text) => {
-  await page.locator(".cm-content").click();
-  await page.keyboard.press("Control+A");
-  await page.evaluate((text) => navigator.clipboard?.writeText?.(text).catch(() => {}), text);
-  await page.keyboard.insertText(text);
-};
 const picture = (page, id) => page.$eval(`#${id}`, (canvas) => canvas.toDataURL());
 
 for (const theme of THEMES) {

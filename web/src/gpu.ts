@@ -40,7 +40,7 @@ export function described(text: string): Described {
   for (const [name, value] of found) if (!Number.isFinite(value)) throw new Error(`epsilon ${name}: expected a number`);
   const epsilons: Epsilons = Object.fromEntries(found.sort(([a], [b]) => (a < b ? -1 : 1)));
   const contract = /^\/\/ contract +(\S+) *$/m.exec(text)?.[1] ?? "closed-ray,boundary=free,coplanar=free,degenerate=free,invalid=free";
-  return { epsilons, contract, gives: [true, true] };
+  return { epsilons, contract, gives: [true, true], less: [] };
 }
 
 /** A device, and the kernel that it has at the time. */
@@ -57,6 +57,11 @@ export class Gpu {
     const adapter = await navigator.gpu?.requestAdapter();
     if (!adapter) throw new Error("this browser has no WebGPU here: a kernel in WGSL needs it");
     return new Gpu(await adapter.requestDevice(), adapter.info);
+  }
+
+  /** Leaves the device, whatever it is doing. */
+  destroy() {
+    this.#device.destroy();
   }
 
   /** Takes a kernel's text; an error has the line in it. */
