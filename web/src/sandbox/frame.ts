@@ -12,10 +12,12 @@ if (self.origin === "null") {
   addEventListener("message", ({ data, ports, source }) => {
     if (source !== parent) return;
     const worker = new Worker(`data:text/javascript;charset=utf-8,${encodeURIComponent(workerText)}`, { type: "module" });
-    // No words of the kernel's: only that the worker did not start, or threw where nobody waits.
+    // Only that it does not start. Later errors are the kernel's own, where nobody waits for it.
+    let isThere = false;
+    worker.onmessage = () => { isThere = true; };
     worker.onerror = (event) => {
       event.preventDefault();
-      parent.postMessage("error", "*");
+      if (!isThere) parent.postMessage("no worker", "*");
     };
     worker.postMessage(data, [...ports]);
   }, { once: true });

@@ -114,6 +114,6 @@ export class Sandbox {
   }
 
   #failed = ({ source }: MessageEvent) => {
-    if (source === this.#frame.contentWindow) this.close(new Error("the kernel's worker could not start, or threw where nobody waits for it"));
+    if (source === this.#frame.contentWindow) this.close(new Error("this browser does not start the kernel's worker"));
   };
 }

@@ -23,6 +23,8 @@ addEventListener("message", async ({ data: text, ports: [port] }: MessageEvent<s
   }
 }, { once: true });
 
+postMessage("started");
+
 /** The start of an error's text. */
 function words(error: unknown): string {
   try {
