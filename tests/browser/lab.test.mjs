@@ -99,7 +99,7 @@ describe("a kernel in JavaScript", () => {
       if (origin[0] > a[0] + 1) throw new RangeError("x is <b>too</b> large");
       return null;
     };`));
-    assert.equal(await page.textContent("#threw"), "The kernel throws on some of the cases. What it says the first time: RangeError: x is <b>too</b> large");
+    assert.equal(await page.textContent("#threw"), "The kernel gives no verdict on some of the cases. The first time: RangeError: x is <b>too</b> large");
     await then(page, () => edit(page, "export default () => null;"));
     assert.ok(await page.locator("#threw").isHidden());
   });
@@ -221,6 +221,27 @@ describe("a kernel in WGSL", () => {
       export default ({ origin, direction }, { a, b, c }, { edge }) =>
         (origin[0] > a[1] && direction[2] < edge ? { t: origin[1], u: b[0], v: c[2] } : null);`));
     assert.deepEqual([await title(page), ...await numbers()], on_device);
+  });
+
+  test("is ended in its loops when it does not end", async (t) => {
+    const page = await wgsl(t, "room&n=20");
+    if (!page) return;
+    // Said in a comment that ends where WGSL's lines end; and in a loop in a loop.
+    for (const loop of ["while (x < 1e30 + ray.t_min) { x = x * 0.5 + 1.0; }", "// \u2028 loop { for (;;) { x += ray.t_min * 0.0; if (x > 2.0) { break; } } if (x > 3.0) { break; } }\n"]) {
+      await then(page, () => edit(page, `fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {
+        var x = 1.0;
+        ${loop}
+        return Hit(x > 0.0, x, 0.0, 0.0);
+      }`));
+      assert.equal(await page.textContent("#error"), "");
+      assert.equal(await page.textContent("#threw"), "The kernel gives no verdict on some of the cases. The first time: its loops were ended after 16,384 steps");
+    }
+    await then(page, () => edit(page, "fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {\n  for (;;) { hairline_steps = 9u; }\n}"));
+    assert.match(await page.textContent("#error"), /^line 2: names that begin with hairline_ are the lab's/);
+    // The device answers the next.
+    await then(page, () => page.locator("#kernel").selectOption("cramer"));
+    await then(page, () => page.locator("#kernel").selectOption("wgsl"));
+    assert.match(await title(page), /^yours \(parallel=1e-6\)/);
   });
 
   test("tells its mistakes with their lines, and the device's arithmetic as JSON", async (t) => {

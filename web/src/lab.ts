@@ -93,7 +93,7 @@ async function run() {
     report(answer.title, answer.html, answer.record, seconds);
     isTold = true;
     former(false);
-    line("threw", session.threw === undefined ? "" : `The kernel throws on some of the cases. What it says the first time: ${session.threw}`);
+    line("threw", session.threw === undefined ? "" : `The kernel gives no verdict on some of the cases. The first time: ${session.threw}`);
     line("hint", isOwn() && described ? hint(described) : "");
     ofRules(state.kernel === "wgsl" ? session.permitted : undefined, (name) => void go(name));
     await remember();

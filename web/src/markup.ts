@@ -7,8 +7,9 @@ import DOMPurify from "dompurify";
 
 const ALLOWED = {
   USE_PROFILES: { html: true, svg: true },
-  FORBID_TAGS: ["form", "style", "audio", "video", "picture", "source"],
-  // Ids stay, one of which is `reset`, the name of a property of forms: nothing here looks elements up as properties.
+  FORBID_TAGS: ["style", "audio", "video", "picture", "source"],
+  // Ids stay, one of which is `reset`, the name of a property of forms: nothing here looks elements up as properties. A form
+  // sends nothing, which the page's policy forbids.
   SANITIZE_DOM: false,
   RETURN_DOM_FRAGMENT: true,
 };

@@ -25,7 +25,7 @@ export class Session {
   #described: Described | undefined;
   /** What WGSL's rules say of the last audit's verdicts, or why they say nothing. */
   permitted: Answer["permitted"];
-  /** The text of the first exception that the kernel threw on the cases of the last question. */
+  /** Why the kernel gave no verdict on a case of the last question, in its own words: the first time. */
   threw: string | undefined;
   /** Ends the question that waits for its answer. */
   #end: ((why: string) => void) | undefined;
@@ -64,7 +64,7 @@ export class Session {
   ask<T>(request: object, source?: Source): Promise<T> {
     return this.#inTurn(async () => {
       await this.#start(source);
-      this.#sandbox?.takeThrown();
+      await this.#takeThrown();
       let told = await this.#send({ request });
       let left = LIMIT;
       while (told.asked) {
@@ -74,7 +74,7 @@ export class Session {
         told = await this.#send({ answers });
       }
       if (told.permitted !== undefined) this.permitted = told.permitted;
-      this.threw = this.#sandbox?.takeThrown();
+      this.threw = await this.#takeThrown();
       const answer = JSON.parse(told.json!) as T & { error?: string };
       if (answer.error !== undefined) throw new Error(answer.error);
       return answer;
@@ -94,6 +94,10 @@ export class Session {
 
   async #verdicts(asked: NonNullable<Answer["asked"]>): Promise<Float64Array[]> {
     return this.#source?.language === "wgsl" ? (await this.gpu).run(asked) : this.#sandbox!.run(asked);
+  }
+
+  async #takeThrown(): Promise<string | undefined> {
+    return this.#source?.language === "wgsl" ? (await this.gpu).takeUsedUp() : this.#sandbox?.takeThrown();
   }
 
   /** Has the judge there, and the kernel if there is to be one. */
