@@ -241,3 +241,16 @@ test("a link's other words act neither in the page nor in a shell", async (t) =>
   const bomb = await lab(t, link(`// ${"x".repeat(50_000_000)}\n${PLAIN}`, "n=20&cases=room&"));
   assert.match(await title(bomb), /^yours \(parallel=1e-6\)/);
 });
+
+test("where the browser cannot have WebAssembly wait, the verdict is the same", async (t) => {
+  const without = () => { delete WebAssembly.Suspending; };
+  const words = "n=20&scalar=f64&";
+  const text = PLAIN.replace("}, { a, b, c }) {", "}, { a, b, c }, { edge }) {").replace("< 0.5", "< edge");
+  const there = await lab(t, link(`export const epsilons = { edge: 0.5 };\n${text}`, words));
+  assert.ok(await there.evaluate(() => "Suspending" in WebAssembly), "this browser has it");
+  const page = await lab(t, new URL(there.url()).hash, { before: without });
+  assert.ok(await page.evaluate(() => !("Suspending" in WebAssembly)));
+  assert.deepEqual(await shown(page), await shown(there));
+  const curve = (page) => page.locator("#curve svg").innerHTML();
+  assert.equal(await curve(page), await curve(there));
+});
