@@ -184,6 +184,7 @@ describe("a kernel does not change its verdict", () => {
     ["nothing", "undefined"],
     ["more text than is read", "new Uint8Array(1e7).fill(32)"],
     ["text that is no JSON", "new TextEncoder().encode('no leak')"],
+    ["a second exception", "(post.call(this, new TextEncoder().encode('{\"threw\":\"a\"}')), new TextEncoder().encode('{\"threw\":\"b\"}'))"],
     ["a second description", "new TextEncoder().encode(JSON.stringify({ described: { epsilons: {}, contract: 'x', gives: [false, false], less: [] } }))"],
   ]) {
     test(`by a message that is not its verdicts: ${what}`, async (t) => {

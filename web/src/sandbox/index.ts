@@ -81,12 +81,15 @@ export class Sandbox {
     const all = new Float64Array(before.length + cases.length);
     all.set(before);
     all.set(cases, before.length);
+    // One exception's text a call, so that nobody is kept busy with more.
+    let hasThrown = false;
     return this.#answer((done) => {
       this.#heard = (message) => {
         const verdicts = verdictsOf(message, this.#call, cases.length / 17);
         if (verdicts) return done(verdicts);
         const told = toldOf(message);
-        if (told === undefined || !("threw" in told)) throw new Error(OTHER);
+        if (told === undefined || !("threw" in told) || hasThrown) throw new Error(OTHER);
+        hasThrown = true;
         this.#threw ??= told.threw;
       };
       this.#port.postMessage(all, [all.buffer]);

@@ -104,7 +104,7 @@ fn sources(cases: &Cases, scalars: [bool; 2]) -> Result<Vec<Source>, String> {
         if let (_, Some(why)) = scene.held_in(scalars).map_err(about)? {
             return Err(about(why));
         }
-        parameters.scene = Some(scene);
+        parameters.scene = Some(scene.to_try_kernels(words));
     }
     let all = if cases.scene.is_some() { STRATA } else { FAMILIES };
     let family = |name: &String| -> Result<&'static Family, String> {
