@@ -1,49 +1,13 @@
 // What somebody does in the lab, in a real browser. `web/build` makes it.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { createServer } from "node:http";
 import path from "node:path";
-import { after, before, describe, test } from "node:test";
+import { describe, test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { edit, folder, lab, settled, then, title } from "./serve.mjs";
 import { AXE, THEMES, cutText, out, visit } from "./visit.mjs";
 
-const dist = fileURLToPath(new URL("../../web/dist/", import.meta.url));
 const meshes = fileURLToPath(new URL("../../corpora/meshes/", import.meta.url));
-const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
-
-let server, folder;
-before(async () => {
-  server = createServer(async ({ url }, response) => {
-    const name = new URL(url, "http://lab").pathname.slice(1) || "index.html";
-    const bytes = await readFile(path.join(dist, name)).catch(() => undefined);
-    response.writeHead(bytes ? 200 : 404, { "Content-Type": TYPES[path.extname(name)] ?? "text/plain" }).end(bytes);
-  });
-  await new Promise((done) => server.listen(0, "127.0.0.1", done));
-  folder = `http://127.0.0.1:${server.address().port}/`;
-});
-after(() => server.close());
-
-const settled = (page) => page.waitForFunction(() => !document.body.classList.contains("running")
-  && (!document.getElementById("verdict").hidden || !document.getElementById("error").hidden));
-/** The lab with an address's end, when it has answered. */
-async function lab(t, hash = "", options = {}) {
-  const page = await visit(t, folder + hash, { folder, ...options });
-  await settled(page);
-  return page;
-}
-/** Does something, and waits for the answer to it. */
-async function then(page, action) {
-  await page.evaluate(() => document.body.classList.add("running"));
-  await action();
-  await settled(page);
-}
-const title = (page) => page.textContent("#title");
-const edit = async (page, text) => {
-  await page.locator(".cm-content").click();
-  await page.keyboard.press("Control+A");
-  await page.evaluate((text) => navigator.clipboard?.writeText?.(text).catch(() => {}), text);
-  await page.keyboard.insertText(text);
-};
 const picture = (page, id) => page.$eval(`#${id}`, (canvas) => canvas.toDataURL());
 
 for (const theme of THEMES) {
@@ -79,13 +43,13 @@ describe("a kernel in JavaScript", () => {
   test("is run again when it is edited, and tells its mistakes", async (t) => {
     const page = await lab(t);
     for (const [text, error] of [
-      ["export default (", /^SyntaxError: /],
-      ["export default ({ origin }, { a }) => { origin[0] < a[0] ? 1 : null; };", /^Error: the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing/],
-      ["export default (point, direction, triangle) => triangle[0][0];", /^TypeError: .*\. It is called as kernel\(\{ origin, direction, tMin, tMax \}, \{ a, b, c \}, epsilon\), with vectors \[x, y, z\]$/],
-      ["export const epsilons = {};", /^Error: the module has no kernel: write `export default function/],
-      ["export default () => nobody;", /^ReferenceError: nobody is not defined/],
-      ["import { Ray } from 'three';\nexport default () => null;", /^TypeError: .*The lab loads no other modules: paste here what yours needs$/],
-      ["const dot = require('gl-vec3/dot');\nexport default () => null;", /^ReferenceError: require is not defined\. The lab loads no other/],
+      ["export default (", /^The kernel cannot be run\. SyntaxError: /],
+      ["export default ({ origin }, { a }) => { origin[0] < a[0] ? 1 : null; };", /^The kernel cannot be run\. Error: the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing/],
+      ["export default (point, direction, triangle) => triangle[0][0];", /^The kernel cannot be run\. TypeError: .*\. It is called as kernel\(\{ origin, direction, tMin, tMax \}, \{ a, b, c \}, epsilon\), with vectors \[x, y, z\]$/],
+      ["export const epsilons = {};", /^The kernel cannot be run\. Error: the module has no kernel: write `export default function/],
+      ["export default () => nobody;", /^The kernel cannot be run\. ReferenceError: nobody is not defined/],
+      ["import { Ray } from 'three';\nexport default () => null;", /^The kernel cannot be run\. TypeError: .*The lab loads no other modules: paste here what yours needs$/],
+      ["const dot = require('gl-vec3/dot');\nexport default () => null;", /^The kernel cannot be run\. ReferenceError: require is not defined\. The lab loads no other/],
       ["export const contract = 'most';\nexport default () => null;", /^contract: /],
     ]) {
       await then(page, () => edit(page, text));
@@ -101,19 +65,24 @@ describe("a kernel in JavaScript", () => {
     assert.ok(await page.locator("#epsilons").isHidden());
   });
 
-  test("reaches neither the page nor the network, and is ended when it does not end", { timeout: 120_000 }, async (t) => {
+  test("is ended when it does not end, and the page stays alive meanwhile", { timeout: 120_000 }, async (t) => {
     const page = await lab(t);
-    await then(page, () => edit(page, `
-      const reached = ["fetch", "XMLHttpRequest", "WebSocket", "indexedDB", "importScripts", "Worker", "navigator", "document", "window", "parent"]
-        .filter((name) => { try { return (0, eval)("typeof " + name) !== "undefined"; } catch { return typeof globalThis[name] !== "undefined"; } });
-      const imported = await import("https://example.org/x.js").then(() => "imported", () => "refused");
-      if (reached.length || imported !== "refused") throw new Error("reached " + reached + imported);
-      export default () => null;`)).catch(() => {});
-    assert.equal(await page.textContent("#error"), "");
+    await page.evaluate(() => { window.ticks = 0; setInterval(() => { window.ticks++; }, 100); });
     await then(page, () => edit(page, "export default () => { for (;;); };"));
+    assert.ok(await page.evaluate(() => window.ticks) > 100, "20 s are 200 ticks");
     assert.match(await page.textContent("#error"), /gave no answer in \d+ s, and was ended/);
+    // What is below is of the kernel before, and says so.
+    assert.equal(await page.textContent("#former"), "What is below is of the kernel before this one.");
+    assert.ok(await page.locator("#former").isVisible());
+    assert.ok(await page.$eval("#verdict", (part) => part.inert && Number(getComputedStyle(part).opacity) < 0.5));
+    assert.equal(await page.locator("iframe").count(), 0);
     await then(page, () => edit(page, "export default () => null;"));
     assert.match(await title(page), /^yours/);
+    assert.ok(await page.locator("#former").isHidden());
+    assert.ok(await page.$eval("#verdict", (part) => !part.inert && getComputedStyle(part).opacity === "1"));
+    // One that does not end before it is asked, either.
+    await then(page, () => edit(page, "for (;;);"));
+    assert.match(await page.textContent("#error"), /gave no answer in \d+ s, and was ended/);
     // Nobody waits for it when something else is asked.
     await edit(page, "export default () => { for (;;) { /* again */ } };");
     await page.waitForFunction(() => document.getElementById("status").textContent === "Running…");
@@ -121,6 +90,18 @@ describe("a kernel in JavaScript", () => {
     await then(page, () => page.locator("#kernel").selectOption("cramer"));
     assert.match(await title(page), /^cramer/);
     t.diagnostic(`another kernel answers ${Date.now() - start} ms after an endless one`);
+  });
+
+  test("that throws is told with what it says", async (t) => {
+    const page = await lab(t, "#n=20&cases=room");
+    assert.ok(await page.locator("#threw").isHidden());
+    await then(page, () => edit(page, `export default ({ origin }, { a }) => {
+      if (origin[0] > a[0] + 1) throw new RangeError("x is <b>too</b> large");
+      return null;
+    };`));
+    assert.equal(await page.textContent("#threw"), "The kernel gives no verdict on some of the cases. The first time: RangeError: x is <b>too</b> large");
+    await then(page, () => edit(page, "export default () => null;"));
+    assert.ok(await page.locator("#threw").isHidden());
   });
 
   test("tells its times: the first answer, and 100,000 rays", async (t) => {
@@ -240,6 +221,27 @@ describe("a kernel in WGSL", () => {
       export default ({ origin, direction }, { a, b, c }, { edge }) =>
         (origin[0] > a[1] && direction[2] < edge ? { t: origin[1], u: b[0], v: c[2] } : null);`));
     assert.deepEqual([await title(page), ...await numbers()], on_device);
+  });
+
+  test("is ended in its loops when it does not end", async (t) => {
+    const page = await wgsl(t, "room&n=20");
+    if (!page) return;
+    // Said in a comment that ends where WGSL's lines end; and in a loop in a loop.
+    for (const loop of ["while (x < 1e30 + ray.t_min) { x = x * 0.5 + 1.0; }", "// \u2028 loop { for (;;) { x += ray.t_min * 0.0; if (x > 2.0) { break; } } if (x > 3.0) { break; } }\n"]) {
+      await then(page, () => edit(page, `fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {
+        var x = 1.0;
+        ${loop}
+        return Hit(x > 0.0, x, 0.0, 0.0);
+      }`));
+      assert.equal(await page.textContent("#error"), "");
+      assert.equal(await page.textContent("#threw"), "The kernel gives no verdict on some of the cases. The first time: its loops were ended after 16,384 steps");
+    }
+    await then(page, () => edit(page, "fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit {\n  for (;;) { hairline_steps = 9u; }\n}"));
+    assert.match(await page.textContent("#error"), /^line 2: names that begin with hairline_ are the lab's/);
+    // The device answers the next.
+    await then(page, () => page.locator("#kernel").selectOption("cramer"));
+    await then(page, () => page.locator("#kernel").selectOption("wgsl"));
+    assert.match(await title(page), /^yours \(parallel=1e-6\)/);
   });
 
   test("tells its mistakes with their lines, and the device's arithmetic as JSON", async (t) => {

@@ -1,5 +1,6 @@
 // A kernel in WGSL on the visitor's own device, and what the device's answers say of its arithmetic.
 import type { Described, Epsilons } from "./kernel.js";
+import { bounded, DECLARED, STEPS } from "./wgsl/bounded";
 
 /** The cases of one call, and its epsilons. */
 export interface Asked { cases: Float64Array; epsilons: Float64Array }
@@ -17,6 +18,7 @@ export function prelude(names: string[]): string {
 }
 
 const MAIN = `
+${DECLARED}
 @group(0) @binding(0) var<storage, read> hairline_cases: array<f32>;
 @group(0) @binding(1) var<storage, read> hairline_epsilon: Epsilon;
 @group(0) @binding(2) var<storage, read_write> hairline_hits: array<vec4f>;
@@ -27,12 +29,12 @@ fn hairline_vector(at: u32) -> vec3f { return vec3f(hairline_cases[at], hairline
   let at = 17 * i;
   let ray = Ray(hairline_vector(at), hairline_vector(at + 3), hairline_cases[at + 15], hairline_cases[at + 16]);
   let hit = kernel(ray, Triangle(hairline_vector(at + 6), hairline_vector(at + 9), hairline_vector(at + 12)), hairline_epsilon);
-  hairline_hits[i] = vec4f(select(0.0, 1.0, hit.hit), hit.t, hit.u, hit.v);
+  hairline_hits[i] = vec4f(select(select(0.0, 1.0, hit.hit), 2.0, hairline_steps == 0u), hit.t, hit.u, hit.v);
 }
 `;
 
-/** The most cases of one dispatch: 65,535 groups of 64, in buffers that every device has. */
-const MOST = 1 << 20;
+/** The most cases of one dispatch: with loops that use up their steps it ends in a second or two, on a processor too. */
+const MOST = 1 << 16;
 
 /** What the comments of a text say: lines `// epsilon NAME = VALUE` and `// contract WORDS`. */
 export function described(text: string): Described {
@@ -40,7 +42,7 @@ export function described(text: string): Described {
   for (const [name, value] of found) if (!Number.isFinite(value)) throw new Error(`epsilon ${name}: expected a number`);
   const epsilons: Epsilons = Object.fromEntries(found.sort(([a], [b]) => (a < b ? -1 : 1)));
   const contract = /^\/\/ contract +(\S+) *$/m.exec(text)?.[1] ?? "closed-ray,boundary=free,coplanar=free,degenerate=free,invalid=free";
-  return { epsilons, contract, gives: [true, true] };
+  return { epsilons, contract, gives: [true, true], less: [] };
 }
 
 /** A device, and the kernel that it has at the time. */
@@ -48,6 +50,7 @@ export class Gpu {
   #device: GPUDevice;
   #pipeline: GPUComputePipeline | undefined;
   readonly info: GPUAdapterInfo;
+  #isUsedUp = false;
 
   private constructor(device: GPUDevice, info: GPUAdapterInfo) {
     [this.#device, this.info] = [device, info];
@@ -59,9 +62,14 @@ export class Gpu {
     return new Gpu(await adapter.requestDevice(), adapter.info);
   }
 
+  /** Leaves the device, whatever it is doing. */
+  destroy() {
+    this.#device.destroy();
+  }
+
   /** Takes a kernel's text; an error has the line in it. */
   async compile(text: string, names: string[]) {
-    this.#pipeline = await this.#built(prelude(names), text, MAIN, "hairline_main");
+    this.#pipeline = await this.#built(prelude(names), bounded(text), MAIN, "hairline_main");
   }
 
   async #built(before: string, text: string, after: string, entryPoint: string) {
@@ -104,10 +112,18 @@ export class Gpu {
       at = 0;
       for (const i of group) {
         answers[i].set(hits.subarray(at, at + answers[i].length));
+        for (let k = 0; k < answers[i].length; k += 4) this.#isUsedUp ||= answers[i][k] === 2;
         at += answers[i].length;
       }
     }
     return answers;
+  }
+
+  /** A sentence if loops have used up their steps since this was asked before. */
+  takeUsedUp(): string | undefined {
+    const isUsedUp = this.#isUsedUp;
+    this.#isUsedUp = false;
+    return isUsedUp ? `its loops were ended after ${STEPS.toLocaleString("en")} steps` : undefined;
   }
 
   /** What a pipeline writes into its last binding, from what is in the others. */

@@ -16,21 +16,23 @@ export interface Described {
   contract: string;
   /** True if hits have t, and true if they have u and v. */
   gives: [boolean, boolean];
-  /** What it does that the contract forbids, and that may be meant: a sentence, with the contract that would say so. */
-  hint?: string;
+  /** What it promises less than a plain contract asks, if it names no contract: words that may be added to it. */
+  less: Less[];
 }
+export type Less = "sides=front" | "extent=line";
 
 export const isHit = (hit: Hit): hit is Exclude<Hit, false | null | undefined> => hit !== null && hit !== undefined && hit !== false;
 
 /** A kernel over columns of numbers: of a case origin, direction, a, b, c, t_min, t_max; of a verdict what it is (0 a
- * miss, 1 a hit, 2 an exception), t, u, v. */
-export function runner(kernel: Kernel, names: string[]) {
+ * miss, 1 a hit, 2 an exception), t, u, v. `threw` is given the first exception of a call. */
+export function runner(kernel: Kernel, names: string[], threw: (error: unknown) => void = () => {}) {
   const ray: Ray = { origin: [0, 0, 0], direction: [0, 0, 0], tMin: 0, tMax: 0 };
   const triangle: Triangle = { a: [0, 0, 0], b: [0, 0, 0], c: [0, 0, 0] };
   const vectors = [ray.origin, ray.direction, triangle.a, triangle.b, triangle.c];
   const held: Epsilons = {};
   return (cases: Float64Array, epsilons: Float64Array, verdicts: Float64Array) => {
     names.forEach((name, i) => { held[name] = epsilons[i]; });
+    let isFirst = true;
     for (let i = 0, at = 0, to = 0; to < verdicts.length; i++, at = 17 * i, to = 4 * i) {
       for (const vector of vectors) {
         vector[0] = cases[at++];
@@ -42,8 +44,10 @@ export function runner(kernel: Kernel, names: string[]) {
       let hit: Hit;
       try {
         hit = kernel(ray, triangle, held);
-      } catch {
+      } catch (error) {
         verdicts[to] = 2;
+        if (isFirst) threw(error);
+        isFirst = false;
         continue;
       }
       verdicts[to] = isHit(hit) ? 1 : 0;
@@ -57,7 +61,7 @@ export function runner(kernel: Kernel, names: string[]) {
 }
 
 /** What a kernel says of plain rays: which values its hits have, and what it promises less than a contract asks. */
-export function given(kernel: Kernel, epsilons: Epsilons): { gives: [boolean, boolean]; less: string[] } {
+export function given(kernel: Kernel, epsilons: Epsilons): { gives: [boolean, boolean]; less: Less[] } {
   const plain = (from: number, along: number) =>
     kernel({ origin: [1, 1, from], direction: [0, 0, along], tMin: 0, tMax: Infinity }, { a: [0, 0, 0], b: [4, 0, 0], c: [0, 4, 0] }, epsilons);
   const [front, back, ...behind] = [plain(4, -4), plain(-4, 4), plain(4, 4), plain(-4, -4)];
@@ -65,7 +69,7 @@ export function given(kernel: Kernel, epsilons: Epsilons): { gives: [boolean, bo
     throw new Error("the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing, or does it read origin.x of the array origin? A miss is null");
   }
   const { t, u, v } = valuesOf([front, back].find(isHit) ?? true);
-  const less = [...(isHit(front) && !isHit(back) ? ["sides=front"] : []), ...(behind.some(isHit) ? ["extent=line"] : [])];
+  const less: Less[] = [...(isHit(front) && !isHit(back) ? ["sides=front" as const] : []), ...(behind.some(isHit) ? ["extent=line" as const] : [])];
   return { gives: [!Number.isNaN(t), !Number.isNaN(u) && !Number.isNaN(v)], less };
 }
 
@@ -91,10 +95,14 @@ export function describe(module: Record<string, unknown>): Described & { kernel:
   const epsilons = Object.fromEntries(named) as Epsilons;
   const contract = String(module.contract ?? PLAIN_CONTRACT);
   const { gives, less } = given(kernel, epsilons);
-  if (module.contract || less.length === 0) return { kernel, epsilons, contract, gives };
+  return { kernel, epsilons, contract, gives, less: module.contract ? [] : less };
+}
+
+/** What a kernel does that the contract forbids, and that may be meant: a sentence, with the contract that would say so. */
+export function hint({ less }: Described): string {
+  if (less.length === 0) return "";
   const does = less.map((words) => (words === "sides=front" ? "misses a plain triangle from the back" : "hits what lies behind the ray's start"));
-  const hint = `It ${does.join(", and ")}. If that is meant, say so: export const contract = "${[PLAIN_CONTRACT, ...less].join(",")}";`;
-  return { kernel, epsilons, contract, gives, hint };
+  return `It ${does.join(", and ")}. If that is meant, say so: export const contract = "${[PLAIN_CONTRACT, ...less].join(",")}";`;
 }
 
 /** The kernel of a request, as the module takes it. */

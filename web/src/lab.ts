@@ -1,9 +1,11 @@
-// The page: what is chosen, what is asked of the worker, and where the answers go.
+// The page: what is chosen, what is asked, and where the answers go.
 import { afterwards, digits, element, made } from "./dom";
 import { editor } from "./editor";
 import { EXAMPLES, WGSL } from "./examples";
-import { asChosen, decimal, type Described } from "./kernel.js";
+import { asChosen, decimal, hint, type Described } from "./kernel.js";
+import { markup } from "./markup";
 import { Session, type Source } from "./session";
+import { quoted } from "./shell";
 import { read, START, written, type State } from "./state";
 import { takeHome } from "./take-home";
 import { curve, POINTS, type Point } from "./views/curve";
@@ -35,8 +37,8 @@ const SELECTOR = "--kernel-cmd 'node kernel.mjs'";
 let state = await read(location.hash, EXAMPLES[FIRST]);
 const isOwn = () => state.kernel === "js" || state.kernel === "wgsl";
 const source = (): Source | undefined => (isOwn() ? { language: state.kernel as Source["language"], text: state.text } : undefined);
-// With the kernel at once; one that cannot be loaded is told of when it runs.
-const about = await session.ask<About>({ do: "about" }, source()).catch(() => session.ask<About>({ do: "about" }))
+// Without the kernel: the page is there whatever it does.
+const about = await session.ask<About>({ do: "about" })
   .catch((error: Error) => { fail(error); throw error; });
 let described: Described | undefined;
 
@@ -48,11 +50,11 @@ function gates(): Gate[] {
   if (!isOwn()) return builtIn()?.gates ?? [];
   return Object.entries(described?.epsilons ?? {}).map(([name, value]) => [name, "", decimal(value), true]);
 }
-const epsilonOf = (gate: string, own: string) => state.epsilons[gate] ?? own;
+const epsilonOf = (gate: string, own: string) => (Object.hasOwn(state.epsilons, gate) ? state.epsilons[gate] : own);
 
 /** The kernel of a request, with some epsilons instead of those that are set. */
 function chosen(epsilons?: Record<string, string>) {
-  const all = gates().map(([gate, , own]) => `${gate}=${epsilons?.[gate] ?? epsilonOf(gate, own)}`);
+  const all = gates().map(([gate, , own]) => `${gate}=${epsilons && Object.hasOwn(epsilons, gate) ? epsilons[gate] : epsilonOf(gate, own)}`);
   const contract = state.contract || undefined;
   const choice = { epsilons: all.join(","), contract };
   return isOwn() ? { ...choice, ...asChosen(described!, state.kernel === "js" ? SELECTOR : "") } : { ...choice, name: state.kernel };
@@ -80,6 +82,7 @@ async function run() {
   element("status").textContent = "Running…";
   document.body.classList.add("running");
   const start = performance.now();
+  let isTold = false;
   try {
     if (isOwn()) described = await session.describe(source()!);
     if (isLate()) return;
@@ -88,8 +91,10 @@ async function run() {
     if (isLate()) return;
     const seconds = (performance.now() - start) / 1000;
     report(answer.title, answer.html, answer.record, seconds);
-    element("hint").textContent = (isOwn() && described?.hint) || "";
-    element("hint").hidden = element("hint").textContent === "";
+    isTold = true;
+    former(false);
+    line("threw", session.threw === undefined ? "" : `The kernel gives no verdict on some of the cases. The first time: ${session.threw}`);
+    line("hint", isOwn() && described ? hint(described) : "");
     ofRules(state.kernel === "wgsl" ? session.permitted : undefined, (name) => void go(name));
     await remember();
     if (!state.shown) await show(worst(answer.record));
@@ -98,9 +103,23 @@ async function run() {
   } catch (error) {
     if (isLate()) return;
     fail(error as Error);
+    if (!isTold) former(true);
   } finally {
     if (!isLate()) document.body.classList.remove("running");
   }
+}
+
+/** A line of its own, if there is something to say. */
+function line(id: string, text: string) {
+  element(id).textContent = text;
+  element(id).hidden = text === "";
+}
+
+/** Says that what is shown is of another kernel, or that it is not. */
+function former(isFormer: boolean) {
+  document.body.classList.toggle("former", isFormer);
+  element("former").hidden = !isFormer || element("verdict").hidden;
+  for (const id of ["verdict", "curve-part", "case-part", "map-part"]) element(id).inert = isFormer;
 }
 
 function fail({ message }: Error) {
@@ -131,7 +150,7 @@ function report(title: string, html: string, found: Record_, seconds: number) {
 
 /** Puts what the program wrote into an element, and makes each of its cases a button. */
 function fill(parent: HTMLElement, html: string) {
-  parent.innerHTML = html;
+  parent.replaceChildren(markup(html));
   for (const line of parent.querySelectorAll("code")) {
     const name = /^hairline explain '([^']+)'/.exec(line.textContent ?? "")?.[1];
     if (!name || name.includes("mesh=")) continue;
@@ -194,20 +213,22 @@ async function show(name: string | undefined) {
     if (mine !== asked) return;
     element("map-part").hidden = true;
     element("case-name").textContent = `${name}: ${(error as Error).message}`;
+    element("case-command").textContent = "";
+    for (const id of ["drawing", "space", "explained"]) element(id).replaceChildren();
     return;
   }
   const { numbers, truth, finding, said, drawing } = told.triangles[which];
   const of = told.triangles.length > 1 ? `, triangle ${which} of ${told.triangles.length}` : "";
   element("case-title").textContent = finding ? `One case: ${finding.replace("-", " ")}` : "One case";
   element("case-name").textContent = `${name.startsWith("{") ? "A case from the map" : name}${of}: ${said}.${rules}`;
-  const contract = state.contract ? ` --contract ${state.contract}` : "";
+  const contract = state.contract ? ` --contract ${/^[\w=,.-]+$/.test(state.contract) ? state.contract : quoted(state.contract)}` : "";
   const epsilons = gates().map(([gate, , own]) => `${gate}=${epsilonOf(gate, own)}`).join(",");
   // A kernel in WGSL is here alone: the program shows the case with its own.
   const kernel = state.kernel === "js" ? SELECTOR : isOwn() ? "" : `--kernel ${state.kernel}`;
   element("case-command").textContent = kernel
-    ? `hairline explain '${name}' ${kernel}${epsilons ? ` --epsilon '${epsilons}'` : ""}${contract}`
-    : `hairline explain '${name}'`;
-  element("drawing").innerHTML = drawing ?? "";
+    ? `hairline explain ${quoted(name)} ${kernel}${epsilons ? ` --epsilon ${quoted(epsilons)}` : ""}${contract}`
+    : `hairline explain ${quoted(name)}`;
+  element("drawing").replaceChildren(markup(drawing ?? ""));
   space(element("space"), numbers, truth.t_exact ?? null);
   fill(element("explained"), told.html);
   await around();

@@ -80,7 +80,7 @@ export class Hairline {
   #run = (_cases: Float64Array, _epsilons: Float64Array, _verdicts: Float64Array) => {};
 
   constructor(module: WebAssembly.Module) {
-    this.#instance = new Instance(module, (...columns) => this.#run(...columns));
+    this.#instance = Instance.with(module, (...columns) => this.#run(...columns));
   }
 
   /** The exact answer for a case, or for the first triangle of an id such as `edge-near@2/f64/-/1/7`. */

@@ -87,8 +87,21 @@ async function packed(text: string): Promise<string> {
   return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
+/** The most characters of a kernel's text in a link: a short link can unpack to a thousand times its length. */
+const LONGEST = 1 << 20;
+
 async function unpacked(text: string): Promise<string> {
   const binary = atob(text.replaceAll("-", "+").replaceAll("_", "/"));
   const bytes = Uint8Array.from(binary, (c) => c.charCodeAt(0));
-  return new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw")));
+  const pieces = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw")).pipeThrough(new TextDecoderStream());
+  const reader = pieces.getReader();
+  let all = "";
+  for (let next = await reader.read(); !next.done; next = await reader.read()) {
+    all += next.value;
+    if (all.length > LONGEST) {
+      await reader.cancel();
+      throw new RangeError("the link's kernel is longer than any");
+    }
+  }
+  return all;
 }

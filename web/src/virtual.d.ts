@@ -1,9 +1,13 @@
 // What the build puts in (bundle.mjs).
-declare module "virtual:worker" {
+declare module "virtual:judge" {
+  const text: string;
+  export default text;
+}
+declare module "virtual:sandbox-worker" {
   const text: string;
   export default text;
 }
 declare module "virtual:mesh-script" {
-  const text: string;
-  export default text;
+  /** Draws the mesh that the page has now. */
+  export default function (): void;
 }

@@ -10,12 +10,12 @@ import { build } from "esbuild";
 
 const PROGRAM = process.env.HAIRLINE ?? path.resolve(import.meta.dirname, "../../target/release/hairline");
 const bundled = await build({
-  stdin: { contents: 'export * from "./wgsl/kernel"; export * from "./examples"; export * from "./wgsl/verdicts"; export { prelude } from "./gpu";', resolveDir: path.resolve(import.meta.dirname, "../src") },
+  stdin: { contents: 'export * from "./wgsl/kernel"; export * from "./examples"; export * from "./wgsl/verdicts"; export { prelude } from "./gpu"; export { bounded } from "./wgsl/bounded";', resolveDir: path.resolve(import.meta.dirname, "../src") },
   bundle: true, format: "esm", write: false,
 });
 const folder = mkdtempSync(path.join(tmpdir(), "wgsl-"));
 writeFileSync(path.join(folder, "wgsl.mjs"), bundled.outputFiles[0].text);
-const { Kernel, WGSL, answers, permitted, prelude } = await import(path.join(folder, "wgsl.mjs"));
+const { Kernel, WGSL, answers, bounded, permitted, prelude } = await import(path.join(folder, "wgsl.mjs"));
 
 const number = (word) => Number(word.replace("inf", "Infinity"));
 const cases = (...args) => execFileSync(PROGRAM, ["generate", "--scalar", "f32", ...args], { encoding: "utf8", maxBuffer: 1 << 28, stdio: ["pipe", "pipe", "ignore"] })
@@ -229,4 +229,23 @@ test("branches, loops, variables and functions are followed", () => {
   assert.throws(() => kernel_of("fn test() -> f32 { return 1.0; }"), /no function named kernel/);
   // Without an end it is given up.
   assert.equal(kernel_of("fn kernel(ray: Ray, triangle: Triangle, epsilon: Epsilon) -> Hit { loop { } return Hit(true, 1.0, 1.0, 1.0); }").ways(Array(17).fill(1), []), undefined);
+});
+
+test("each loop of a kernel is counted, and nothing else is changed", () => {
+  const counted = " if (hairline_steps == 0u) { break; } hairline_steps -= 1u; ";
+  // `#` stands for what is put in.
+  for (const text of [
+    "for (var i = 0; i < 9; i++) {#x(); }",
+    "while a(b, (c)) {#for (;;) {#if (d) { e(); } } }",
+    "loop {#continuing { break if (x); } } if (y) { z(); }",
+    "loop @diagnostic(off, derivative_uniformity) {#}",
+    "while /* { */ (x) // {\n {#}",
+    "// for (;;) {\nlet loops = before.while_ + fore;",
+    "/* loop { /* for { */ while { */ loop {#}",
+    "/*/ loop { */ loop {#}",
+    ...["\n", "\v", "\f", "\r", "\u0085", "\u2028", "\u2029"].map((end) => `// x${end} loop {#}`),
+    "let löop = 1; let xwhile = 2; let for1 = 3; { x(); }",
+    WGSL,
+  ]) assert.equal(bounded(text.replaceAll("#", "")), text.replaceAll("#", counted));
+  assert.throws(() => bounded("fn f() {\n hairline_steps = 1u; }"), /^Error: line 2: names that begin with hairline_/);
 });

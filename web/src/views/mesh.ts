@@ -1,6 +1,6 @@
 // A mesh of the visitor's own: chosen or dropped, and its cracks drawn by the program's own script.
 import { element } from "../dom";
-import meshScript from "virtual:mesh-script";
+import draw from "virtual:mesh-script";
 
 /** Asks about each file that is chosen or dropped, and shows the answer. */
 export function meshes(
@@ -16,8 +16,7 @@ export function meshes(
       const answer = await ask(file);
       title.textContent = answer.title;
       fill(element("mesh"), answer.html);
-      const address = URL.createObjectURL(new Blob([meshScript], { type: "text/javascript" }));
-      await import(address).finally(() => URL.revokeObjectURL(address));
+      draw();
     } catch (error) {
       title.textContent = (error as Error).message;
     }

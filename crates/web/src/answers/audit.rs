@@ -11,6 +11,11 @@ use serde::Serialize;
 
 /// The most cases of a family in one request: some minutes on a slow machine.
 const MOST: u64 = 1_000_000;
+/// As `hairline audit` by default: the cases of a class that are shown, those whose cause is looked for, and the indices of
+/// a source on which the errors of right hits are measured.
+const EXAMPLES: usize = 3;
+const ATTRIBUTED: usize = 30;
+const MEASURED: usize = 100;
 
 #[derive(Serialize)]
 pub struct AuditAnswer {
@@ -40,7 +45,7 @@ pub fn audit(asked: &Audit) -> Result<AuditAnswer, String> {
     // The commands that lead on name the kernel and the cases. No command runs a kernel in WGSL.
     let is_known = !row.entry.selector().is_empty();
     let flags = PlanFlags { kernels: row.flags(), sources: asked.cases.flags() };
-    let mut record = record(vec![row], &asked.cases, 3, 100)?;
+    let mut record = record(vec![row], &asked.cases, [EXAMPLES, ATTRIBUTED, MEASURED])?;
     record.provenance.plan_flags = Some(flags).filter(|_| is_known);
     let record = record.sealed();
     let title = record.page().title;
@@ -52,7 +57,7 @@ pub fn curve(asked: &Curve) -> Result<Vec<Point>, String> {
     for epsilons in &asked.epsilons {
         rows.extend(asked.kernel.rows(Some(epsilons))?.into_iter().take(1));
     }
-    let record = record(rows, &asked.cases, 0, 0)?;
+    let record = record(rows, &asked.cases, [0; 3])?;
     let mut points: Vec<Point> = asked
         .epsilons
         .iter()
@@ -71,11 +76,11 @@ pub fn curve(asked: &Curve) -> Result<Vec<Point>, String> {
     Ok(points)
 }
 
+/// The record of examples, attributed findings and measured indices, so many of each.
 fn record(
     rows: Vec<Row>,
     cases: &Cases,
-    examples: usize,
-    attribute: usize,
+    [examples, attribute, measured]: [usize; 3],
 ) -> Result<Record, String> {
     let scalars = scalars_of(&cases.scalar)?;
     rows.iter().try_for_each(|row| row.check_in(scalars)).map_err(|error| error.0)?;
@@ -83,7 +88,7 @@ fn record(
         return Err(format!("the kernel does not run in {}", cases.scalar));
     }
     let sources = sources(cases, scalars)?;
-    let plan = Plan { attribute, ..Plan::new(rows, sources, scalars, examples) };
+    let plan = Plan { attribute, measured, ..Plan::new(rows, sources, scalars, examples) };
     let sums = audit::run(&plan, &Unobserved);
     Ok(build(&plan, &sums, &Context { seconds: 0.0, threads: 1 }))
 }
@@ -99,7 +104,7 @@ fn sources(cases: &Cases, scalars: [bool; 2]) -> Result<Vec<Source>, String> {
         if let (_, Some(why)) = scene.held_in(scalars).map_err(about)? {
             return Err(about(why));
         }
-        parameters.scene = Some(scene);
+        parameters.scene = Some(scene.to_try_kernels(words));
     }
     let all = if cases.scene.is_some() { STRATA } else { FAMILIES };
     let family = |name: &String| -> Result<&'static Family, String> {
