@@ -159,7 +159,10 @@ fn records_from_before_and_from_anybody_are_shown() {
     let hostile = text.replace("moller-trumbore", "<script>alert(1)</script>");
     let (_, error) = show("hostile.json", &hostile, 65);
     assert!(error.contains("is no name for a kernel"), "{error}");
-    let (page, _) = show("family.json", &text.replace("edge-near", "\\\"><img src=x>"), 1);
+    let family = "\"family\": \"";
+    let hostile_family =
+        text.replace(&format!("{family}edge-near"), &format!("{family}\\\"><img src=x>"));
+    let (page, _) = show("family.json", &hostile_family, 1);
     assert!(page.contains("&lt;img src=x&gt;") && !page.contains("<img"));
 }
 
