@@ -198,7 +198,7 @@ impl Session {
         let last = finds.iter().filter_map(|find| find.found.seconds).fold(0.0, f64::max);
         Session {
             progress: Progress::without_end(arguments.quiet),
-            sessions: state.sessions + 1,
+            sessions: state.sessions.saturating_add(1),
             seconds_before: state.seconds.max(last),
             finds_before: finds.len(),
             evaluations_before: campaign.evaluations,

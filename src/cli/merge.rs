@@ -92,8 +92,17 @@ impl From<Failure> for Unmergeable {
     }
 }
 
+/// An error if a part names a stream in place of a file: nobody has said that it is there.
+fn ensure_file(path: &str) -> Result<(), String> {
+    match path == "-" || path.starts_with("/dev/") || path.starts_with("/proc/") {
+        true => Err(format!("a part is of '{path}', which is no file")),
+        false => Ok(()),
+    }
+}
+
 fn open(stock: &StoredStock, scalars: [bool; 2], quiet: bool) -> Result<Stock, Unmergeable> {
     let family = |path| -> Result<_, Unmergeable> {
+        ensure_file(path)?;
         Ok(Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path)))
     };
     Ok(match stock {
@@ -110,6 +119,7 @@ fn open(stock: &StoredStock, scalars: [bool; 2], quiet: bool) -> Result<Stock, U
             Stock::SceneMesh(Arc::new(SceneMesh::new(surface)), stratum)
         }
         StoredStock::Corpus(file, is_secondary) => {
+            ensure_file(file)?;
             let [others, secondary] = corpus_sets(file)?;
             Stock::Corpus(if *is_secondary { secondary } else { others })
         }

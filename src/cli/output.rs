@@ -4,6 +4,7 @@ use super::exit::Failure;
 use super::flags::OUTPUT;
 use super::plugins;
 use crate::descriptors;
+use crate::named_file;
 use crate::report::page::Page;
 use crate::report::{Format, Style, number_of};
 use crate::suggest::nearest_name;
@@ -364,7 +365,7 @@ fn remove_abandoned(place: &Path) {
     for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let is_beside = name.starts_with(BESIDE) && name.ends_with(".tmp");
-        let file = is_beside.then(|| File::open(&path).ok()).flatten();
+        let file = is_beside.then(|| named_file::open(&path).ok()).flatten();
         if file.is_some_and(|file| file.try_lock().is_ok()) {
             let _ = fs::remove_file(&path);
         }

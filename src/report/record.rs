@@ -97,7 +97,7 @@ impl<R: Findings> Record<R> {
         if *written != self.checksum_now() {
             return Err("its result is not the one that hairline wrote: the checksum differs, so numbers were changed since".to_owned());
         }
-        self.result.check()?;
+        self.result.check(&self.provenance)?;
         self.provenance.check()
     }
 

@@ -149,11 +149,26 @@ fn a_record_is_as_hairline_writes_it_or_refused() {
         let error = refused(&resealed(&record.replacen(command, other, 1)));
         assert!(error.contains("does not show"), "{other}: {error}");
     }
-    for selector in ["--kernel cramer; curl evil", "; curl evil", "--kernel 'a' 'b'", "cramer"] {
+    for selector in [
+        "--kernel cramer; curl evil",
+        "; curl evil",
+        "--kernel 'a' 'b'",
+        "--kernel \\\\' -o x \\\\'",
+        "cramer",
+    ] {
         let error =
             refused(&resealed(&record.replace("\"--kernel cramer\"", &format!("\"{selector}\""))));
         assert!(error.contains("chooses no kernel"), "{selector}: {error}");
     }
+    let flags = "\"kernels\": \"--kernel cramer,moller-trumbore\"";
+    for more in ["--kernel-cmd 'touch pwned'", "-o /etc/passwd", "--kernel-lib x.so"] {
+        let changed = format!("{} {more}\"", flags.trim_end_matches('"'));
+        assert!(record.contains(flags));
+        let error = refused(&record.replace(flags, &changed));
+        assert!(error.contains("is of no row of the plan"), "{more}: {error}");
+    }
+    let most = record.replacen("\"panics\": 0", &format!("\"panics\": {}", u64::MAX), 1);
+    assert!(refused(&resealed(&most)).contains("by class"));
     let error =
         refused(&resealed(&record.replace("\"kernel\": \"cramer\"", "\"kernel\": \"a b\"")));
     assert!(error.contains("is no name for a kernel"), "{error}");

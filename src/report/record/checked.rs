@@ -52,27 +52,36 @@ impl RowPart {
     }
 }
 
-/// True for one word of a shell, in apostrophes or without.
+/// True for one word of a shell, plain or as [`quoted`] writes it.
 fn is_one_word(text: &str) -> bool {
-    let mut words = text.split('\'').step_by(2);
-    is_one_command(text) && !text.is_empty() && words.all(|outside| !outside.contains(' '))
+    let quoted = text.strip_prefix('\'').and_then(|rest| rest.strip_suffix('\''));
+    let is_whole = match quoted {
+        // An apostrophe in it stands outside of the quotes, behind a backslash.
+        Some(inside) => !inside.replace("'\\''", "").contains('\''),
+        None => !text.contains([' ', '\'', '\\']),
+    };
+    is_whole && !text.is_empty() && is_one_command(text)
 }
 
 impl KernelResult {
     fn check(&self, row: &RowPart) -> Result<(), String> {
         for (what, count) in COUNTED {
-            let of_classes: u64 = self.classes.values().map(count).sum();
+            // Numbers of somebody else may have no sum.
+            let of_classes = self.classes.values().map(count).fold(0, u64::saturating_add);
             let total = count(&self.total);
             if of_classes != total {
                 return Err(format!("{what}: {total} in all, and {of_classes} by class"));
             }
+        }
+        if self.total.cases < self.total.hits {
+            return Err(format!("{} hits of {} cases", self.total.hits, self.total.cases));
         }
         for (class, counts) in &self.classes {
             for &kind in FindingKind::OF_A_TRIANGLE {
                 let counted = counts.rate(kind).map_or(0, |rate| rate.count);
                 let parts = self.findings.iter();
                 let told = parts.filter(|part| part.finding == kind && part.class == *class);
-                let told: u64 = told.map(|part| part.rate.count).sum();
+                let told = told.map(|part| part.rate.count).fold(0, u64::saturating_add);
                 if counted != told {
                     return Err(format!("{kind} of {class}: {counted} counted, {told} told"));
                 }
@@ -92,13 +101,18 @@ impl KernelResult {
 type Count = fn(&Counts) -> u64;
 
 /// Counts of a result that those of its classes add up to.
-const COUNTED: [(&str, Count); 9] = [
+const COUNTED: [(&str, Count); 14] = [
     ("cases", |counts| counts.cases),
     ("free cases", |counts| counts.free),
     ("hits", |counts| counts.hits),
     ("cases to hit", |counts| counts.false_misses.of),
+    ("false misses", |counts| counts.false_misses.count),
     ("cases to miss", |counts| counts.false_hits.of),
-    ("values", |counts| counts.wrong_values.of),
+    ("false hits", |counts| counts.false_hits.count),
+    ("values", |counts| counts.bad_values.of),
+    ("bad values", |counts| counts.bad_values.count),
+    ("finite values", |counts| counts.wrong_values.of),
+    ("wrong values", |counts| counts.wrong_values.count),
     ("panics", |counts| counts.panics),
     ("crashes", |counts| counts.crashes),
     ("timeouts", |counts| counts.timeouts),
@@ -139,6 +153,27 @@ fn without_flags(command: &str, row: &RowPart) -> Option<String> {
 }
 
 impl Provenance {
+    /// An error in one line if its flags start a program that no row of the plan is of, or write a file.
+    pub(super) fn check_programs(&self, rows: &[RowPart]) -> Result<(), String> {
+        let Some(PlanFlags { kernels, sources }) = &self.plan_flags else { return Ok(()) };
+        // A selector may stand there without the quotes that it does not need.
+        let forms =
+            rows.iter().flat_map(|row| [row.selector.clone(), row.selector.replace('\'', "")]);
+        let known = forms.filter(|form| !form.is_empty());
+        let rest = known.fold(format!("{kernels} {sources}"), |rest, form| rest.replace(&form, ""));
+        let mut words = rest.split(' ');
+        let acts = |word: &str| {
+            word.contains("--kernel-lib")
+                || word.contains("--kernel-cmd")
+                || word.starts_with("-o")
+                || word.starts_with("--o")
+        };
+        match words.find(|word| acts(word)) {
+            Some(word) => Err(format!("provenance.plan_flags: {word:?} is of no row of the plan")),
+            None => Ok(()),
+        }
+    }
+
     /// An error in one line if something in it would do more than be told.
     pub(super) fn check(&self) -> Result<(), String> {
         let is_of_target = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);

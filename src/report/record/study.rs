@@ -1,6 +1,6 @@
 //! The study that a record is of, and the part of it that can be compared with another's.
 
-use super::{Rate, ResultPart};
+use super::{Provenance, Rate, ResultPart};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -27,8 +27,8 @@ pub trait Findings: Serialize + DeserializeOwned {
     /// The study.
     const STUDY: Study;
 
-    /// An error in one line if something in it contradicts something else.
-    fn check(&self) -> Result<(), String> {
+    /// An error in one line if something in it contradicts something else, or the flags that made it.
+    fn check(&self, _: &Provenance) -> Result<(), String> {
         Ok(())
     }
 }
@@ -37,8 +37,9 @@ impl Findings for ResultPart {
     const STUDY: Study = Study::Audit;
 
     #[cfg(feature = "studies")]
-    fn check(&self) -> Result<(), String> {
-        self.check_counts()
+    fn check(&self, provenance: &Provenance) -> Result<(), String> {
+        self.check_counts()?;
+        provenance.check_programs(&self.plan.rows)
     }
 }
 

@@ -213,7 +213,7 @@ pub fn printable(text: &str) -> String {
 /// direction of what follows (Unicode Standard Annex 9, table of explicit formatting characters).
 pub fn is_obeyed(c: char) -> bool {
     c.is_control()
-        || matches!(c, '\u{feff}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+        || matches!(c, '\u{feff}' | '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 /// [`excerpt`] between apostrophes.
