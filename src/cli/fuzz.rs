@@ -162,7 +162,7 @@ impl FuzzArguments {
         }
         // A directory may be somebody else's: what it names is not run because it stands there.
         if !begun.kernels.runs_no_more_than(&self.kernels) {
-            let programs = begun.kernels.program_flags().join(" ");
+            let programs = begun.kernels.plugins.flags().join(" ");
             return Err(Failure::usage(format!(
                 "{path}: the campaign runs a program that {path}/{CAMPAIGN} names: to run it, name it again: hairline fuzz {} {programs}",
                 shell_word(path)

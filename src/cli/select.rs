@@ -73,11 +73,6 @@ impl KernelArguments {
         self.plugins.programs().iter().all(|program| named.contains(program))
     }
 
-    /// The flags that name the programs, as a shell takes them.
-    pub fn program_flags(&self) -> Vec<String> {
-        self.plugins.flags()
-    }
-
     /// Goes on after any number of crashes of a user's kernel, unless the flags set a limit.
     pub fn go_on_after_failures(mut self) -> Self {
         self.plugins.go_on_after_failures();

@@ -44,10 +44,11 @@ fn shell(folder: &Path, line: &str) -> (i32, String, String) {
     (output.status.code().unwrap(), text(&output.stdout), text(&output.stderr))
 }
 
-/// Runs with a file as standard input. Whoever still runs after half a minute is killed.
-fn in_time(arguments: &[&str], input: &Path) -> Output {
+/// Runs in a folder with a file as standard input. Whoever still runs after half a minute is killed.
+pub fn in_time(folder: &Path, arguments: &[&str], input: &Path) -> Output {
     let mut child = Command::new(PROGRAM)
         .args(arguments)
+        .current_dir(folder)
         .stdin(File::open(input).unwrap())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -81,7 +82,7 @@ fn a_line_that_is_too_long_is_refused_at_once_whatever_it_holds() {
         }
     }
     // An input without an end.
-    let output = in_time(&["truth", "-"], Path::new("/dev/zero"));
+    let output = in_time(Path::new("."), &["truth", "-"], Path::new("/dev/zero"));
     let error = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(65), "{error}");
     assert!(error.starts_with("hairline: -:1: a line of more than "), "{error}");
@@ -227,7 +228,7 @@ fn what_cannot_be_read_ends_with_74_and_what_is_wrong_with_65() {
         &["diff", "-", "-"],
         &["check", "--record", "-"],
     ] {
-        let output = in_time(arguments, &folder);
+        let output = in_time(&folder, arguments, &folder);
         let error = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(74), "{arguments:?}: {error}");
         assert!(error.contains("hairline: -") && error.contains("directory"), "{error}");

@@ -115,7 +115,7 @@ fn table(table: &Table) -> String {
     }
 }
 
-/// Text outside of code: neither a link nor a picture nor an element, whoever wrote it.
+/// Text outside of code: neither a picture nor an element nor a link behind other words, whoever wrote it.
 fn words(text: &str) -> String {
     let text = text.replace('\\', "\\\\").replace('[', "\\[");
     cell(&text).replace('<', "&lt;")

@@ -4,7 +4,7 @@
 
 use super::{Block, Command, Item, Page, Row, Table};
 use crate::audit::is_one_command;
-use crate::corpus::json::printable;
+use crate::corpus::json::{is_obeyed, printable};
 
 /// Stands for a line that a shell would take for more than one command.
 const NOT_SHOWN: &str = "(no line to paste: a name or a word in it would make a shell do more)";
@@ -76,14 +76,10 @@ fn make_item_readable(item: &mut Item) {
 
 /// Sentences may stand in several lines, which a writer breaks anew.
 fn make_printable(text: &mut String) {
-    if text.chars().any(is_not_shown) {
+    if text.chars().any(|c| c != '\n' && c != '\t' && is_obeyed(c)) {
         let words: Vec<String> = text.split(['\n', '\t']).map(printable).collect();
         *text = words.join(" ");
     }
-}
-
-fn is_not_shown(c: char) -> bool {
-    c != '\n' && c != '\t' && crate::corpus::json::is_obeyed(c)
 }
 
 /// A command stays if it is one; other lines to paste, as bits, are text.

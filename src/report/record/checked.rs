@@ -12,8 +12,8 @@ use crate::kernel;
 const SELECTORS: [&str; 3] = ["--kernel ", "--kernel-lib ", "--kernel-cmd "];
 
 impl ResultPart {
-    /// An error in one line if something contradicts something else.
-    pub(super) fn check_counts(&self) -> Result<(), String> {
+    /// An error in one line if something contradicts something else, or the flags that made it.
+    pub(super) fn check_with(&self, provenance: &Provenance) -> Result<(), String> {
         for row in &self.plan.rows {
             row.check().map_err(|message| format!("plan.rows: {message}"))?;
         }
@@ -26,7 +26,7 @@ impl ResultPart {
             };
             checked.map_err(|message| format!("results of {}: {message}", place.join(" ")))?;
         }
-        Ok(())
+        provenance.check_programs(&self.plan.rows)
     }
 }
 
@@ -154,7 +154,7 @@ fn without_flags(command: &str, row: &RowPart) -> Option<String> {
 
 impl Provenance {
     /// An error in one line if its flags start a program that no row of the plan is of, or write a file.
-    pub(super) fn check_programs(&self, rows: &[RowPart]) -> Result<(), String> {
+    fn check_programs(&self, rows: &[RowPart]) -> Result<(), String> {
         let Some(PlanFlags { kernels, sources }) = &self.plan_flags else { return Ok(()) };
         // A selector may stand there without the quotes that it does not need.
         let forms =

@@ -38,8 +38,7 @@ impl Findings for ResultPart {
 
     #[cfg(feature = "studies")]
     fn check(&self, provenance: &Provenance) -> Result<(), String> {
-        self.check_counts()?;
-        provenance.check_programs(&self.plan.rows)
+        self.check_with(provenance)
     }
 }
 
