@@ -10,13 +10,15 @@ use super::plugins;
 use super::prove::demand;
 use super::reporting::{MEASURED, Outputs, RunArguments, self_check};
 use super::settings::{self, Given};
-use crate::audit::Plan;
+use crate::audit::{Plan, Row};
+use crate::case::Case;
 use crate::conformance::locked;
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError, Expectations};
 use crate::named_file::SizeLimit;
+use crate::report::explain::misused_formula;
 use crate::report::{
-    ComparisonVerdict, Conformance, JSON_SCHEMA, Method, PartialPart, Record, number_of,
+    ComparisonVerdict, Conformance, Deviation, JSON_SCHEMA, Method, PartialPart, Record, number_of,
 };
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
@@ -24,6 +26,9 @@ use std::path::Path;
 
 /// Where expectations are looked for by default.
 const DEFAULT_FILE: &str = "hairline.expectations.toml";
+
+/// How many unexpected classes of a kernel are tried to find the formula that it computes.
+const TRIED: usize = 10;
 
 /// The flags of `check`: the run, the expectations, and how it is reported.
 #[derive(Args)]
@@ -213,6 +218,7 @@ fn checked(
         }
     }
     drop(lock);
+    conformance.misused = plan.as_ref().map_or(Vec::new(), |plan| misused(plan, &conformance));
     conformance.demand(unproved);
     record.conformance = Some(conformance);
     outputs.write(&record)?;
@@ -223,6 +229,24 @@ fn checked(
         Some(ComparisonVerdict::Stale) => Status::Stale,
         _ => Status::Success,
     })
+}
+
+/// The formulas that kernels of one's own with unexpected answers compute, but for an epsilon or fused products.
+fn misused(plan: &Plan, conformance: &Conformance) -> Vec<String> {
+    let foreign = plan.rows.iter().filter(|row| !row.entry.is_built_in());
+    let sentence = |row: &Row| {
+        let is_of_row = |found: &&Deviation| {
+            (&*found.kernel, &found.set) == (row.entry.info.name, &row.set)
+                && !found.finding.is_failure()
+        };
+        let found = conformance.unexpected.iter().filter(is_of_row);
+        let mut shown = found.filter_map(|found| Some((found, found.bits.as_ref()?))).take(TRIED);
+        let formula = shown.find_map(|(found, bits)| {
+            in_named_scalar!(found.scalar, F => misused_formula(&Case::<F>::from_hex(bits)?, row))
+        });
+        Some(format!("{}: {}", row.label(), formula?))
+    };
+    foreign.filter_map(sentence).collect()
 }
 
 /// The text of a file of expectations, or of its lock.

@@ -20,6 +20,9 @@ pub struct Conformance {
     /// A note on what was not compared, and why.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+    /// The formulas that wrong kernels of one's own compute with another epsilon or with fused products, in words.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub misused: Vec<String>,
     /// The changes, added up.
     pub change: NetChange,
     /// Kernel rows that are set to something else than what the expectations are of.

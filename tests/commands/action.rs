@@ -1,6 +1,7 @@
 //! The action of action.yml as GitHub runs it: its script, its report, and a year of a project with it.
 
 use crate::program;
+use crate::tools::not_tested;
 
 use program::{ends_flat as ends, flat, hairline, hairline_with, scratch};
 use serde_json::Value;
@@ -59,7 +60,7 @@ fn run_action(folder: &Path, arguments: &str) -> Option<Ran> {
         .env_remove("GITHUB_STEP_SUMMARY")
         .output();
     let Ok(output) = output else {
-        eprintln!("NOT TESTED: there is no bash on this machine");
+        not_tested("there is no 'bash' on this machine");
         return None;
     };
     let code = output.status.code().unwrap();
@@ -114,7 +115,7 @@ fn build(folder: &Path, name: &str, flags: &[&str]) -> bool {
         .arg("-lm")
         .output();
     let Ok(built) = built else {
-        eprintln!("NOT TESTED: there is no cc on this machine");
+        not_tested("there is no 'cc' on this machine");
         return false;
     };
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));

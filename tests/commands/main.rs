@@ -48,6 +48,7 @@ mod shrink;
 mod spawn;
 #[cfg(unix)]
 mod terminal;
+mod tools;
 mod trust;
 mod variants;
 mod vectors;

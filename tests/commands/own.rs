@@ -1,5 +1,6 @@
 //! Kernels of one's own: in the registry, in every command's tables, and from a test.
 
+use crate::tools::not_tested;
 use hairline::Error;
 use hairline::internals::arith::{Real, Vector};
 use hairline::internals::audit::{self, EpsilonChoice};
@@ -291,7 +292,7 @@ fn the_example_is_the_whole_program_with_two_kernels_in_it() {
     let program = program.with_file_name("examples").join("own_kernel");
     if !program.exists() {
         // `cargo test` builds the examples, `cargo test --test commands` does not.
-        eprintln!("NOT TESTED: {} is not built", program.display());
+        not_tested(&format!("{} is not built", program.display()));
         return;
     }
     let run = |arguments: &[&str]| {

@@ -4,6 +4,7 @@
 #![cfg(unix)]
 
 use crate::program::flat;
+use crate::tools::has;
 use hairline::internals::case::Parameters;
 use hairline::internals::family;
 use serde_json::Value;
@@ -20,15 +21,6 @@ fn hairline(arguments: &[&str]) -> Output {
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// Whether a program runs here; says loudly what is left out if not.
-fn has(program: &str) -> bool {
-    let found = Command::new(program).arg("--version").output().is_ok();
-    if !found {
-        eprintln!("NOT TESTED: there is no '{program}' on this machine");
-    }
-    found
 }
 
 /// A library built by `cc`, or by `c++` if the flags say that it is C++; none if there is no such compiler.

@@ -176,6 +176,10 @@ fn fused_products_and_another_epsilon_are_found_by_value() {
     assert!(said.contains("FALSE-MISS"), "{said}");
     assert!(said.contains("it answers as moller-trumbore does"), "{said}");
     assert!(said.contains("it would on all with parallel = 3e-3 in place of 1e-6"), "{said}");
+    for plan in [&["--family", "interior,tiny"][..], &["--scene", "room"]] {
+        let start = "c-moller-trumbore (own): it computes moller-trumbore with parallel = 3e-3 in place of 1e-6: ";
+        assert_check_starts(&folder, &library, plan, start);
+    }
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("fma") {
         fused_products_are_found(&folder, &source);
@@ -191,4 +195,13 @@ fn fused_products_are_found(folder: &Path, source: &Path) {
                 \"b\":[0.05,0.01,0.02],\"c\":[0,0.05,0.003]}";
     let said = flat(&ends(folder, &["explain", case, "--kernel-lib", &library], 0).0);
     assert!(said.contains("it answers as moller-trumbore with fused products does"), "{said}");
+    let start = "c-moller-trumbore (own): it computes moller-trumbore with fused products";
+    assert_check_starts(folder, &library, &["--family", "edge-near,tiny"], start);
+}
+
+/// The first line of a check that fails.
+fn assert_check_starts(folder: &Path, library: &str, plan: &[&str], start: &str) {
+    let check = ["check", "-q", "-n", "1000", "--kernel-lib", library];
+    let said = flat(&ends(folder, &[&check, plan].concat(), 1).0);
+    assert!(said.starts_with(start), "{said}");
 }

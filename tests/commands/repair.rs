@@ -1,6 +1,7 @@
 //! `hairline repair`: kernels that say hit, miss or ask, held to integers of any length and to hairline's own run of them.
 
 use crate::program::{ends, scratch};
+use crate::tools::has;
 use hairline::internals::case::{Case, Parameters};
 use hairline::internals::family::FAMILIES;
 use hairline::internals::kernel::{Scalar, find};
@@ -21,14 +22,6 @@ const STRICT: [&str; 6] = [
     "-fsanitize=address,undefined",
     "-fno-sanitize-recover=all",
 ];
-
-pub fn has_compiler() -> bool {
-    let found = Command::new("cc").arg("--version").output().is_ok();
-    if !found {
-        eprintln!("skipped: no C compiler");
-    }
-    found
-}
 
 /// Writes a kernel in C; its file.
 pub fn emitted(folder: &Path, kernel: &str, scalar: &str) -> PathBuf {
@@ -97,7 +90,7 @@ pub const INTERVAL: [&str; 2] = ["-DEXTENT=2", "-DFRONT=0"];
 
 #[test]
 fn no_answer_is_wrong_however_it_is_compiled_and_without_margins_many_are() {
-    if !has_compiler() {
+    if !has("cc") {
         return;
     }
     let folder = scratch("repair-check");
@@ -220,7 +213,7 @@ fn is_alike<F: Scalar + Searched>(
 
 #[test]
 fn the_c_answers_bit_for_bit_what_the_recorded_program_does() {
-    if !has_compiler() {
+    if !has("cc") {
         return;
     }
     for kernel in ["moller-trumbore", "woop-watertight", "baldwin-weber"] {

@@ -1,7 +1,8 @@
 //! `hairline repair`: what it writes in other languages than C, and of kernels of one's own.
 
 use crate::program::{ends, hairline, scratch};
-use crate::repair::{INTERVAL, LINE, has_compiler, tried};
+use crate::repair::{INTERVAL, LINE, tried};
+use crate::tools::{has, not_tested};
 use hairline::internals::arith::Vector;
 use hairline::internals::case::{Ray, Triangle};
 use hairline::internals::contract::{Boundary, Contract, Demand, Extent, Sides};
@@ -39,7 +40,7 @@ fn validates(language: &str, file: &Path) -> Option<bool> {
             Some(true)
         }
         Err(_) => {
-            eprintln!("skipped: no validator of {language}");
+            not_tested(&format!("there is no validator of {language}"));
             None
         }
     }
@@ -115,7 +116,7 @@ pub unsafe extern "C" fn {name}(o: *const f32, d: *const f32, a: *const f32, b: 
 
 #[test]
 fn no_answer_of_the_rust_is_wrong_by_integers_of_any_length() {
-    if !has_compiler() {
+    if !has("cc") {
         return;
     }
     for (kernel, promise) in [("moller-trumbore", LINE), ("woop-watertight", INTERVAL)] {
@@ -178,7 +179,7 @@ fn a_kernel_of_ones_own_is_guarded_in_the_same_way() {
     // The checker accepts the proof; the program, which does not know the kernel, says so too.
     let check = ["hairline", "prove", "--check", proof.to_str().unwrap()];
     assert_eq!(hairline::cli::run(check.map(Into::into)), 0);
-    if !has_compiler() {
+    if !has("cc") {
         return;
     }
     let promise = ["-DEXTENT=0", "-DFRONT=1"];
@@ -195,7 +196,7 @@ fn wrong_on_a_device(folder: &Path, file: &Path) -> Option<[u64; 2]> {
     let written = |path: &Path| fs::metadata(path).and_then(|it| it.modified()).ok();
     let mut sources = fs::read_dir(Path::new(home).join("src")).unwrap();
     if sources.any(|source| written(&program) < written(&source.unwrap().path())) {
-        eprintln!("skipped: to run shaders, cargo build --manifest-path examples/gpu/Cargo.toml");
+        not_tested("shaders on a device: cargo build --manifest-path examples/gpu/Cargo.toml");
         return None;
     }
     let mut wrong = [0; 2];
@@ -208,8 +209,8 @@ fn wrong_on_a_device(folder: &Path, file: &Path) -> Option<[u64; 2]> {
         let output = hairline(folder, &[&all[..], &["0", "--format", "json", "-q"]].concat());
         let error = String::from_utf8_lossy(&output.stderr);
         if error.contains("no GPU adapter") || error.contains("glslangValidator: No such file") {
-            eprintln!(
-                "skipped: no driver or no compiler (Debian: mesa-vulkan-drivers, glslang-tools): {error}"
+            not_tested(
+                "shaders on a device: no driver or no compiler (Debian: mesa-vulkan-drivers, glslang-tools)",
             );
             return None;
         }

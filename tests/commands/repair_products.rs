@@ -1,7 +1,8 @@
 //! Guarded kernels whose inputs are products of their caller: compilers that inline fuse such a product into a sum where they may.
 
 use crate::program::{ends, scratch};
-use crate::repair::{INTERVAL, LINE, compile_by, emitted, emitted_in, has_compiler};
+use crate::repair::{INTERVAL, LINE, compile_by, emitted, emitted_in};
+use crate::tools::{has, not_tested};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -45,14 +46,6 @@ fn run(program: &Path) -> Option<[u64; 2]> {
     Some([wrong_hits, wrong_misses])
 }
 
-fn has(compiler: &str) -> bool {
-    let found = Command::new(compiler).arg("--version").output().is_ok();
-    if !found {
-        eprintln!("skipped: no {compiler}");
-    }
-    found
-}
-
 /// True if this machine fuses products.
 fn fuses() -> bool {
     #[cfg(target_arch = "x86_64")]
@@ -64,7 +57,7 @@ fn fuses() -> bool {
 #[test]
 fn no_product_of_a_caller_is_fused_into_a_kernel_in_c_and_cpp() {
     if !fuses() {
-        eprintln!("skipped: no x86-64 with fused products");
+        not_tested("this processor fuses no products");
         return;
     }
     let folder = scratch("repair-products");
@@ -180,7 +173,7 @@ pub unsafe extern "C" fn scaled_in_rust(all: *const [f32; 19]) -> i32 {
 
 #[test]
 fn rust_fuses_no_product_unless_its_back_end_is_told_to() {
-    if !has_compiler() || !fuses() {
+    if !has("cc") || !fuses() {
         return;
     }
     let folder = scratch("repair-products-rust");
@@ -224,7 +217,7 @@ int main() {
 
 #[test]
 fn cuda_calls_the_functions_on_both_sides() {
-    if !has_compiler() {
+    if !has("cc") {
         return;
     }
     let folder = scratch("repair-cuda");
@@ -272,7 +265,7 @@ fn no_product_of_a_caller_is_fused_on_a_device() {
     ] {
         let file = emitted_in("cuda", &folder, kernel, scalar);
         let Some(found) = run(&built("nvcc", &file, promise, &flags)) else {
-            eprintln!("skipped: no device that CUDA sees");
+            not_tested("there is no device that CUDA sees");
             return;
         };
         assert_eq!(found, [0; 2], "{kernel} {scalar}");

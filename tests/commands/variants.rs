@@ -2,6 +2,7 @@
 //! to what a compiler makes of the same source, and what they do at shared edges.
 
 use crate::program;
+use crate::tools::{has, not_tested};
 
 use program::{ends, flat, scratch};
 use serde_json::Value;
@@ -178,8 +179,11 @@ fn unknown_and_impossible_arithmetics_are_refused_in_one_line() {
 /// The example in C, built with these flags; none where its arithmetic cannot be had.
 #[cfg(all(target_arch = "x86_64", unix))]
 fn built(name: &str, flags: &[&str], flush: bool) -> Option<String> {
-    if !is_x86_feature_detected!("fma") || Command::new("cc").arg("--version").output().is_err() {
-        eprintln!("NOT TESTED: no 'cc', or a processor without fused multiply-adds");
+    if !is_x86_feature_detected!("fma") {
+        not_tested("this processor fuses no products");
+        return None;
+    }
+    if !has("cc") {
         return None;
     }
     let path = scratch(&format!("variant-{name}")).join("libmt.so");

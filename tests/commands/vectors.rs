@@ -2,6 +2,7 @@
 
 use crate::json_schema;
 use crate::program::{ends, scratch};
+use crate::tools::has;
 use hmac_sha256::Hash;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashSet};
@@ -81,15 +82,6 @@ fn every_file_is_as_its_schema_says_and_explains_its_flags() {
             }
         }
     }
-}
-
-/// Whether a program starts; prints a note if it does not.
-fn has(program: &str) -> bool {
-    let found = Command::new(program).arg("--version").output().is_ok();
-    if !found {
-        println!("no {program}: the part of this test that needs it was not run");
-    }
-    found
 }
 
 #[test]

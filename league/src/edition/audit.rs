@@ -46,6 +46,9 @@ pub struct ScalarResult {
     /// Of the rays through edges and vertices that triangles share: hits of none and of more than one.
     pub cracks: Share,
     pub doubles: Share,
+    /// Cracks where coordinates of about 1 stand beside some of about 2^-53; since league-2026.4.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cracks_beside_noise: Option<Share>,
     /// The deepest false miss and false hit of the groups that count for the verdict.
     pub deepest_miss: Option<Depth>,
     pub deepest_hit: Option<Depth>,
@@ -112,11 +115,11 @@ impl Depth {
 pub const GROUPS: &[(&str, &[&str])] = &[
     ("plain", &["interior", "outside", "behind", "axis-aligned", "lattice"]),
     ("edges", &["edge-exact", "edge-near", "shared-edge", "polygon"]),
-    ("vertices", &["vertex-exact", "vertex-near", "fan"]),
+    ("vertices", &["vertex-exact", "vertex-near", "fan", "vertex-fan"]),
     ("parallel", &["grazing", "sliver", "parallel-off"]),
     ("start", &["origin-on", "origin-near", "secondary-ray", "interval-ends"]),
     ("size", &["tiny", "huge", "far", "direction-length"]),
-    ("range", &["mixed-scale", "range-ends"]),
+    ("range", &["mixed-scale", "range-ends", NOISE]),
 ];
 
 /// A false verdict within this many ulps of the largest coordinate is a matter of the input's last digits.
@@ -177,13 +180,9 @@ fn scalar_result(
         }
         shares
     };
-    let [mut cracks, mut doubles] = [Share::default(); 2];
-    let mut promised = Promised::Nothing;
-    for part in results.iter().filter_map(|result| result.across.as_ref()) {
-        cracks.add(part.cracks.count, part.cracks.of);
-        doubles.add(part.doubles.count, part.doubles.of);
-        promised = part.promised;
-    }
+    let is_of_noise = |result: &&&KernelResult| result.family == NOISE;
+    let ordinary_sizes = Across::of(results.iter().filter(|result| !is_of_noise(result)));
+    let noise = Across::of(results.iter().filter(is_of_noise));
     let deepest = |finding: FindingKind, groups: &[&str]| {
         let results = groups.iter().flat_map(|group| of_group(group));
         let depths = results.flat_map(|result| {
@@ -198,18 +197,14 @@ fn scalar_result(
         let depths = findings.into_iter().filter_map(|finding| deepest(finding, groups));
         depths.map(|depth| depth.ulps).fold(0.0, f64::max)
     });
-    let is_broken = match promised {
-        Promised::ExactlyOne => cracks.count + doubles.count > 0,
-        Promised::AtLeastOne => cracks.count > 0,
-        _ => false,
-    };
     let half = half_of_digits(scalar);
     let verdict = match () {
         () if entrant.claim.is_empty() => "none",
-        () if is_broken => "refuted",
+        () if ordinary_sizes.breaks_its_promise() => "refuted",
+        () if entrant.only_shared && noise.breaks_its_promise() => "refuted by size",
         () if entrant.only_shared => "held",
         () if ordinary > half => "refuted",
-        () if sized > half => "refuted by size",
+        () if sized > half || noise.breaks_its_promise() => "refuted by size",
         () if ordinary.max(sized) > HELD => "rounding",
         () => "held",
     };
@@ -223,13 +218,48 @@ fn scalar_result(
     ScalarResult {
         verdict: verdict.to_owned(),
         groups: GROUPS.iter().map(|(name, _)| ((*name).to_owned(), shares(name))).collect(),
-        cracks,
-        doubles,
+        cracks: ordinary_sizes.cracks,
+        doubles: ordinary_sizes.doubles,
+        cracks_beside_noise: (0 < noise.cracks.of).then_some(noise.cracks),
         deepest_miss: deepest(FindingKind::FalseMiss, all),
         deepest_hit: deepest(FindingKind::FalseHit, all),
         t_error_ulps: t.and_then(|t| Some([t.median?, t.percent_99?])),
         wrong_values: (0 < wrong_values.of).then_some(wrong_values),
         nanoseconds: nanoseconds.map(f64::round),
+    }
+}
+
+/// The family whose coordinates of about 1 stand beside some of about 2^-53. Its leaks have a number of their own.
+const NOISE: &str = "noise";
+
+/// Rays through edges and vertices that triangles share, and what the kernel promises about them.
+struct Across {
+    cracks: Share,
+    doubles: Share,
+    promised: Promised,
+}
+
+impl Across {
+    fn of<'a>(results: impl Iterator<Item = &'a &'a KernelResult>) -> Across {
+        let mut sum = Across {
+            cracks: Share::default(),
+            doubles: Share::default(),
+            promised: Promised::Nothing,
+        };
+        for part in results.filter_map(|result| result.across.as_ref()) {
+            sum.cracks.add(part.cracks.count, part.cracks.of);
+            sum.doubles.add(part.doubles.count, part.doubles.of);
+            sum.promised = part.promised;
+        }
+        sum
+    }
+
+    fn breaks_its_promise(&self) -> bool {
+        match self.promised {
+            Promised::ExactlyOne => 0 < self.cracks.count + self.doubles.count,
+            Promised::AtLeastOne => 0 < self.cracks.count,
+            _ => false,
+        }
     }
 }
 
@@ -242,10 +272,10 @@ pub fn half_of_digits(scalar: &str) -> f64 {
 fn depth(entrant: &Entrant, family: &str, part: &FindingPart) -> Option<Depth> {
     let severity = part.worst.severity.as_ref()?;
     let along = severity.along.unwrap_or(f64::INFINITY);
-    // To be missed because of where the ray starts alone: the line passes through the triangle.
-    let is_behind = part.class.ends_with("/before") && !part.class.starts_with("outside");
+    // To be missed because of where the ray starts and ends alone: the line passes through the triangle.
+    let is_off_an_end = severity.off_end.is_some() && !part.class.starts_with("outside");
     let edges = match part.finding {
-        FindingKind::FalseHit if is_behind => along,
+        FindingKind::FalseHit if is_off_an_end => along,
         FindingKind::FalseHit => severity.in_space,
         _ => severity.in_space.min(along),
     };

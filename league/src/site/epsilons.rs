@@ -287,8 +287,9 @@ fn proved(kernel: &str, gate: &str, set: &str, scalar: &str) -> Result<Markup, S
     let arguments =
         ["prove", "--kernel", kernel, "--gate", gate, "--epsilon", set, "--scalar", scalar];
     let record: Value = program::json(&arguments)?;
-    let part = &record["gates"][0];
-    let verdicts = &record["kernels"][0]["verdicts"];
+    let result = &record["result"];
+    let part = &result["gates"][0];
+    let verdicts = &result["kernels"][0]["verdicts"];
     let sentences = [&verdicts["sentences"], &part["statements"]].into_iter();
     let sentences = sentences.flat_map(|it| it.as_array().map_or(&[][..], Vec::as_slice));
     Ok(html! {

@@ -93,6 +93,9 @@ fn section(
         (table(&format!("By kind of rays, {scalar}"), &head, &body))
         @if let Some(facts) = facts { pre { code { (command(entrant, facts, scalar)) } } }
         p { "Rays through shared edges and vertices: " (of(result.cracks)) " hit nothing, " (of(result.doubles)) " more than one triangle." }
+        @if let Some(noise) = result.cracks_beside_noise {
+            p { "Where coordinates of about 1 stand beside some of about 2^-53: " (of(noise)) " hit nothing." }
+        }
         @if let Some([half, most]) = result.t_error_ulps {
             p { "Of plain hits, half have t within " (short(half)) " ulps of the exact one, 99 % within " (short(most)) "." }
         }

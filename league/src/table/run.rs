@@ -31,6 +31,8 @@ const FAMILIES: &[&str] = &[
     "range-ends",
     "shared-edge",
     "fan",
+    "vertex-fan",
+    "noise",
     "polygon",
     "lattice",
 ];

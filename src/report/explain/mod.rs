@@ -11,6 +11,7 @@ mod page;
 mod verdict;
 
 pub use build::explain;
+pub use nearest::misused_formula;
 pub use verdict::Together;
 
 use crate::corpus::truth_json::TruthLine;

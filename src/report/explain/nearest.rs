@@ -39,9 +39,6 @@ pub(super) fn nearest<F: Scalar>(
 ) -> Option<String> {
     let nearest = nearest_formula(row, nearby)?;
     let FormulaBeside { hits, same, agreed, .. } = nearest;
-    if hits < FEWEST_HITS || (same as f64) < SAME * hits as f64 {
-        return None;
-    }
     let text = format!(
         "{} of {} cases like this one it answers as {} does, and on {same} of {hits} hits of both with the same bits",
         group_digits(agreed as u64),
@@ -54,7 +51,23 @@ pub(super) fn nearest<F: Scalar>(
     Some(format!("compared, not proved: on {text}{other}; {here}"))
 }
 
-/// The formula with the most hits of the same values: a kernel's own, or the same with fused products.
+/// The built-in formula that a wrong kernel computes with another epsilon or with fused products, as its answers to cases like
+/// a given one show: `moller-trumbore with parallel = 1e-4 in place of 1e-6`; none where neither is seen.
+pub fn misused_formula<F: Scalar>(case: &Case<F>, row: &Row) -> Option<String> {
+    let nearby = Nearby::of(case, row)?;
+    let formula = nearest_formula(row, &nearby)?;
+    let name = formula.row.entry.info.name;
+    let other = other_epsilon(&formula.row, &nearby);
+    if other.is_none() && !name.ends_with(FUSED) {
+        return None;
+    }
+    let how = other.map_or(String::new(), |other| format!(" with {other}"));
+    let (same, hits) = (group_digits(formula.same as u64), group_digits(formula.hits as u64));
+    Some(format!("it computes {}{how}: {same} of {hits} hits have its bits", in_words(name)))
+}
+
+/// The formula with the most hits of the same values, if they are enough to know it by: a kernel's own, or the same with fused
+/// products.
 fn nearest_formula<F: Scalar>(row: &Row, nearby: &Nearby<F>) -> Option<FormulaBeside> {
     if !row.entry.info.gives.t {
         return None;
@@ -80,7 +93,8 @@ fn nearest_formula<F: Scalar>(row: &Row, nearby: &Nearby<F>) -> Option<FormulaBe
             agreed: pairs().filter(|(one, other)| one.hit == other.hit).count(),
         })
     });
-    beside.max_by_key(|it| (it.same, it.agreed))
+    let most = beside.max_by_key(|it| (it.same, it.agreed));
+    most.filter(|it| FEWEST_HITS <= it.hits && SAME * it.hits as f64 <= it.same as f64)
 }
 
 /// The name of a formula: `moller-trumbore with fused products`.

@@ -60,12 +60,12 @@ impl Paged for Record {
 
 /// The verdict of a check, after the mistakes that explain why a run does not conform.
 fn diagnosed(record: &Record, verdict: String) -> String {
-    let is_bad = record.conformance.as_ref().is_some_and(|it| !it.unexpected.is_empty());
-    let mistakes = if is_bad { relations::sentences(record) } else { Vec::new() };
-    match mistakes.is_empty() {
-        true => verdict,
-        false => format!("{}. {verdict}", mistakes.join(". ")),
-    }
+    let failed = record.conformance.as_ref().filter(|it| !it.unexpected.is_empty());
+    let Some(conformance) = failed else { return verdict };
+    let mut sentences = relations::sentences(record);
+    sentences.extend(conformance.misused.iter().cloned());
+    sentences.push(verdict);
+    sentences.join(". ")
 }
 
 /// How the record was made, and how it is made again.
