@@ -55,8 +55,8 @@ impl Promise {
         signs[SUM] != 0 && is_one_sided && is_between && is_of_side
     }
 
-    /// What is wrong with a hit of rays with these signs; none if it is inside the triangle, between the ends and on a side
-    /// that counts.
+    /// The reason why a hit of rays with these signs is wrong; none if it is inside the triangle, between the ends and on
+    /// a side that counts.
     fn wrong_hit(&self, signs: &[i8; COUNT]) -> Option<&'static str> {
         let is_inside = signs[U] != 0 && signs[U] == signs[V] && signs[V] == signs[W];
         if !is_inside {

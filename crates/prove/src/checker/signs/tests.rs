@@ -1,4 +1,4 @@
-//! What signs mean, and how many points tell two polynomials apart.
+//! The meaning of signs, and the points that tell two polynomials apart.
 
 use super::super::number::{F32, Format};
 use super::super::reader::Reader;
