@@ -1,6 +1,8 @@
 //! The formula of a lemma: its variables, its steps, and what the corners say.
 
-use super::{BOXED, INVERSE, QUOTIENT, RECIPROCAL, REST, SHARED, SUM, UNIT};
+use super::{
+    ADDED, BOXED, INVERSE, NEGATED, QUOTIENT, RECIPROCAL, REST, SHARED, SUM, TURNED, UNIT,
+};
 use super::{assert_each_is_refused, refusal};
 
 #[test]
@@ -62,6 +64,7 @@ fn steps() {
     const VARIABLES: &str = "expected variables that are, or add up to, this operation";
     const SIGNS: &str = "expected variables, each with its sign";
     const SAME: &str = "expected the operation of the program with its operands";
+    const NUMBER: &str = "expected the program's number";
     const UNUSED: &str = "found steps that the last one does not use, or none";
     let all = "step 2 variables +0\nstep 3 variables +1\nstep 4 mul 0 1\nrelative 0\n";
     let third = "step 4 mul 0 1";
@@ -102,6 +105,14 @@ fn steps() {
                 "expected factors without a variable in common",
             ),
             (
+                "nor one that both terms of a sum have",
+                &[
+                    ("op 4 mul 2 3", "op 4 mul 2 3\nop 5 add 4 2\nop 6 mul 5 2"),
+                    (third, "step 4 mul 0 1\nstep 5 add 2 0\nstep 6 mul 3 0"),
+                ],
+                "found `step 6 mul 3 0`, expected factors without a variable in common",
+            ),
+            (
                 "a minor is of f32 or f64",
                 &[
                     (
@@ -113,6 +124,9 @@ fn steps() {
                 ],
                 "expected no minor in this format",
             ),
+            // An input has the number of its place, and what has operands has 0.
+            ("an input is no number", &[("step 3 variables +1", "step 3 number 3")], NUMBER),
+            ("nor is a difference", &[("step 2 variables +0", "step 2 number 0")], NUMBER),
             ("every step is used", &[(third, "step 3 variables +1\nstep 4 mul 0 1")], UNUSED),
             ("there is a step", &[(all, "")], UNUSED),
             (
@@ -122,14 +136,13 @@ fn steps() {
             ),
         ],
     );
-    let number = "expected the program's number";
     let quotient = "step - variables +2";
     assert_each_is_refused(
         REST,
         &[
-            ("a number is the program's", &[("step 5 number 1", "step 5 number 3")], number),
-            ("and no other operation", &[("step 5 number 1", "step 0 number 1")], number),
-            ("it is one number", &[("step 5 number 1", "step 5 number 1 1")], number),
+            ("a number is the program's", &[("step 5 number 1", "step 5 number 3")], NUMBER),
+            ("and no other operation", &[("step 5 number 1", "step 0 number 1")], NUMBER),
+            ("it is one number", &[("step 5 number 1", "step 5 number 1 1")], NUMBER),
             ("a number with a lemma", &[("step 2 variables +0", "step 4 variables +0")], VARIABLES),
             ("has its sign", &[("step 2 variables +0", "step 2 variables -0")], VARIABLES),
             // A coordinate in place of the quotient: n - x·d says nothing of n / d.
@@ -139,7 +152,7 @@ fn steps() {
     );
     assert_each_is_refused(
         INVERSE,
-        &[("a numerator of none is 1", &[("step - number 1", "step - number 3")], number)],
+        &[("a numerator of none is 1", &[("step - number 1", "step - number 3")], NUMBER)],
     );
     assert_each_is_refused(
         QUOTIENT,
@@ -218,23 +231,28 @@ fn relative_steps() {
         &[
             ("not of the numerator", &[(last, "step - sub 2 5\nrelative 2\n")], RELATIVE),
             ("not of the divisor", &[(last, "step - sub 2 5\nrelative 3\n")], RELATIVE),
-            ("not of the proof alone", &[(last, "step - sub 2 5\nrelative 5\n")], RELATIVE),
+            ("not of a product for the proof", &[(last, "step - sub 2 5\nrelative 5\n")], RELATIVE),
+            ("nor of its last step", &[(last, "step - sub 2 5\nrelative 6\n")], RELATIVE),
         ],
     );
 }
 
-/// The rounding of a numerator is left out of the formula only if no other step has it. Then the formula's error is that
-/// of a_x - o_x alone, 2^-25; in `SHARED` that error counts in the numerator and in the divisor.
+/// The last rounding of a numerator or a divisor is left out of the formula if one step alone has it, whatever its sign.
+/// Then only what is made of a_x - o_x before counts, 2^-25 for each use.
 #[test]
 fn a_rounding_is_left_out_if_its_step_is_used_once() {
-    let formula_of = |text: &str| -> String {
-        let (_, lemma) = text.rsplit_once("corner ").unwrap();
-        lemma.lines().nth(1).unwrap().to_owned()
-    };
-    assert_eq!([QUOTIENT, SHARED].map(refusal), [None, None]);
-    assert_eq!([QUOTIENT, SHARED].map(formula_of), ["first 1*2^-25", "first 3*2^-25"]);
-    // A product whose factors do not round has no error but what is left out.
-    assert_eq!(formula_of(RECIPROCAL), "first 0");
+    for (roundings_that_count, certificate, first) in [
+        ("the difference in a product", QUOTIENT, "first 1*2^-25"),
+        ("the same under a negation", NEGATED, "first 1*2^-25"),
+        ("both differences in a sum", ADDED, "first 1*2^-24"),
+        ("a numerator that the divisor has too", SHARED, "first 3*2^-25"),
+        ("the same under a negation that both have", TURNED, "first 3*2^-25"),
+        ("none, of an input", RECIPROCAL, "first 0"),
+    ] {
+        assert_eq!(refusal(certificate), None, "{roundings_that_count}");
+        let (_, lemma) = certificate.rsplit_once("corner ").unwrap();
+        assert_eq!(lemma.lines().nth(1), Some(first), "{roundings_that_count}");
+    }
 }
 
 #[test]

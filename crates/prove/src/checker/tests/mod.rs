@@ -23,6 +23,12 @@ const QUOTIENT: &str = include_str!("quotient.proof");
 const LARGE: &str = include_str!("large.proof");
 /// n / (n · d_x), n being a_x - o_x: the formula has the numerator twice, so its rounding is not left out.
 const SHARED: &str = include_str!("shared.proof");
+/// The same of o_x - a_x, computed as -(a_x - o_x).
+const TURNED: &str = include_str!("turned.proof");
+/// -((a_x - o_x) · d_x) / (b_y - o_y).
+const NEGATED: &str = include_str!("negated.proof");
+/// ((a_x - o_x) + (b_x - o_x)) / d_x.
+const ADDED: &str = include_str!("added.proof");
 /// d_y / d_x, where d_x is the largest coordinate of the direction.
 const ORDERED: &str = include_str!("ordered.proof");
 /// (a_x - o_x) · d_y / d_x, where d_x is the largest coordinate of the direction.
