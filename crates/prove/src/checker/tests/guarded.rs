@@ -33,6 +33,15 @@ fn promise_and_margins() {
             ("no fused product", &[(last, "op 69 fma 68 67 0")], &without("fma")),
         ],
     );
+    // The signs of inputs and of differences are exact, of points and of others.
+    let difference = "op 70 sub 0 4\n";
+    for place in [0, 15, 17, 70] {
+        let exact = format!("{difference}margin {place} 0 0\n");
+        assert_eq!(refusal(&with_operations(&exact)), None);
+        let inexact = format!("{difference}margin {place} 0 1*2^-24\n");
+        let found = refusal(&with_operations(&inexact)).unwrap();
+        assert!(found.ends_with("found `0 1*2^-24`, expected `0 0`"), "{found}");
+    }
     // A sum of a number with itself seven times has 128 terms, each of which may underflow twice.
     let double = |i: usize| format!("op {} add {} {}\n", 70 + i, 69 + i, 69 + i);
     let square = |i: usize| format!("op {} mul {} {}\n", 70 + i, 69 + i, 69 + i);
@@ -141,6 +150,22 @@ fn rays_that_pass_all_gates_hit_surely() {
     let line = changed(GUARDED, &[("guarded interval", "guarded line"), (NEAR, ""), (FAR, "")]);
     let of_t = "gate t\nhit +39*44\nmiss -39*44\n";
     assert_each_is_refused(&ray, &[("t is looked at", &[(of_t, "")], "at t <= 0")]);
+    // Where the front alone counts, the determinant has one sign, and both signs of t must be tried.
+    let front = |certificate: &str, extent: &str| {
+        let sides = [format!("guarded {extent} both"), format!("guarded {extent} front")];
+        changed(certificate, &[(&sides[0], &sides[1]), ("hit +!39", "hit -39\nmiss +39")])
+    };
+    assert_each_is_refused(
+        &front(GUARDED, "interval"),
+        &[
+            ("t_min of a front", &[(NEAR, "")], "meet the triangle at t <= t_min"),
+            ("t_max of a front", &[(FAR, "")], "meet the triangle at t >= t_max"),
+        ],
+    );
+    assert_each_is_refused(
+        &front(&ray, "ray"),
+        &[("t of a front", &[(of_t, "")], "meet the triangle at t <= 0")],
+    );
     assert_each_is_refused(
         &line,
         &[(

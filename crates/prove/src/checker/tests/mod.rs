@@ -29,6 +29,10 @@ const TURNED: &str = include_str!("turned.proof");
 const NEGATED: &str = include_str!("negated.proof");
 /// ((a_x - o_x) + (b_x - o_x)) / d_x.
 const ADDED: &str = include_str!("added.proof");
+/// The quotient above, with a divisor whose rounding counts as a share of its exact value.
+const RELATIVE: &str = include_str!("relative.proof");
+/// In f64 d_x·a_x - d_y·a_y, in wider arithmetic, over the length of the vector of it, d_x and d_y.
+const WIDE: &str = include_str!("wide.proof");
 /// d_y / d_x, where d_x is the largest coordinate of the direction.
 const ORDERED: &str = include_str!("ordered.proof");
 /// (a_x - o_x) · d_y / d_x, where d_x is the largest coordinate of the direction.

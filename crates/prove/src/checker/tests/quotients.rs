@@ -1,6 +1,6 @@
 //! The rules of quotients: n / d, n · (1 / d), the sum of two quotients by one divisor, and 1 less both.
 
-use super::{BOTH, INVERSE, LARGE, ORDERED, QUOTIENT, RECIPROCAL, REST, SHEAR};
+use super::{BOTH, INVERSE, LARGE, ORDERED, QUOTIENT, RECIPROCAL, RELATIVE, REST, SHEAR, WIDE};
 use super::{assert_each_is_refused, changed};
 
 const UNFIT: &str = "found a rule that does not fit its operation";
@@ -128,6 +128,25 @@ fn the_error_of_a_reciprocal_counts() {
     assert_each_is_refused(
         RECIPROCAL,
         &[("the reciprocal's error", &[(error, "error 1*2^-23")], &format!("expected `{error}`"))],
+    );
+}
+
+/// A lemma's bound before the last rounding leaves out one rounding, of a fixed size. That of a relative step is a share of
+/// the exact value, and a difference in wider arithmetic has several in f64: nothing is left out of their bounds.
+#[test]
+fn only_one_rounding_of_a_fixed_size_is_left_out_of_a_divisor() {
+    let quotient = ("error 4194305*2^-43", "error 8388609*2^-44");
+    assert_each_is_refused(
+        RELATIVE,
+        &[("a relative rounding counts", &[quotient], "expected `error 4194305*2^-43`")],
+    );
+    let coordinate = [
+        ("computed 4503599627370501*2^-52", "computed 4503599627370499*2^-52"),
+        ("error 5687927*2^-72", "error 10743933*2^-74"),
+    ];
+    assert_each_is_refused(
+        WIDE,
+        &[("more than one counts", &coordinate, "expected `computed 4503599627370501*2^-52`")],
     );
 }
 
