@@ -169,7 +169,7 @@ impl DifferenceJudge {
         let (old_rate, new_rate) = (old.rate(key)?, new.rate(key)?);
         let digests = [old, new].map(|side| side.found.get(key).map(|found| found.digest));
         let same_set = digests[0] == digests[1];
-        if old_rate.count == new_rate.count && old_rate.of == new_rate.of && same_set {
+        if is_as_often(&old_rate, &new_rate) && same_set {
             return None;
         }
         let same_cases = self.same_cases(key, old, new);
@@ -231,6 +231,11 @@ impl DifferenceJudge {
             Trend::Insignificant
         }
     }
+}
+
+/// True if as many were found among as many.
+fn is_as_often(old: &Rate, new: &Rate) -> bool {
+    old.count == new.count && old.of == new.of
 }
 
 /// So many of each trend stand on the screen.
@@ -319,6 +324,14 @@ impl Difference {
 mod tests {
     use super::*;
     use crate::audit::Trials;
+
+    #[test]
+    fn as_many_of_more_or_fewer_is_a_difference() {
+        let rate = |count, of| Rate::new(Trials::independent(count, of), true);
+        for (count, of, is_same) in [(10, 90, true), (9, 90, false), (10, 89, false)] {
+            assert_eq!(is_as_often(&rate(10, 90), &rate(count, of)), is_same, "{count} of {of}");
+        }
+    }
 
     #[test]
     fn any_change_of_the_same_cases_is_one_and_rates_differ_if_their_intervals_are_disjoint() {

@@ -48,6 +48,10 @@ fn under_another_plan_samples_go_by_intervals_and_whole_sets_do_not() {
     assert_eq!((rates(1100, true), rates(900, true)), (0, 0));
     assert_eq!((rates(1400, true), rates(700, true)), (1, -1));
     assert_eq!((rates(1001, false), rates(1000, false), rates(999, false)), (1, 0, -1));
+    // Whole sets of other sizes go by intervals too: 1,001 of twice as many are not one more.
+    let of_twice_as_many =
+        |found| outcome(Method::Intervals, count(1000, 10_000, "a"), (found, 20_000, false), "a");
+    assert_eq!([1001, 2001, 2999].map(of_twice_as_many), [-1, 0, 1]);
 }
 
 #[test]
@@ -94,6 +98,27 @@ fn what_has_no_expectation_is_unexpected_unless_its_row_has_some_and_it_is_rare(
     ];
     assert!(others.into_iter().all(|key| is_unexpected(Method::Intervals, key, (1, true))));
     assert!(is_unexpected(Method::CaseByCase, key("mine", FindingKind::FalseMiss), (1, true)));
+}
+
+/// An expectation is about something else if the plan has not its kernel, its scalar or its family. Other epsilons of
+/// the kernel do not matter.
+#[test]
+fn an_expectation_outside_the_plan_is_left_out() {
+    let plan: PlanPart = serde_json::from_value(serde_json::json!({
+        "hash": "",
+        "rows": [{
+            "kernel": "mine", "selector": "mine", "set": "source", "epsilons": {}, "contract": "",
+        }],
+        "sources": [{ "family": "tiny", "set": "tiny@1/-/1", "count": 9 }],
+        "scalars": ["f32"],
+    }))
+    .unwrap();
+    let key = || key("mine", FindingKind::FalseHit);
+    assert!(!is_left_out(&plan, &key()));
+    assert!(!is_left_out(&plan, &Key { set: "other".to_owned(), ..key() }));
+    assert!(is_left_out(&plan, &Key { kernel: "other".to_owned(), ..key() }));
+    assert!(is_left_out(&plan, &Key { scalar: "f64".to_owned(), ..key() }));
+    assert!(is_left_out(&plan, &Key { family: "edges".to_owned(), ..key() }));
 }
 
 #[test]

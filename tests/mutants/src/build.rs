@@ -68,13 +68,19 @@ impl Tree {
 
     fn digest_of(&self, root: &Path) -> Result<u64, String> {
         let mut files = self.files(&self.root)?;
-        files.retain(|file| [".rs", ".toml", ".lock", ".jsonl"].iter().any(|e| file.ends_with(e)));
+        files.retain(|file| {
+            [".rs", ".toml", ".lock", ".jsonl", ".proof"].iter().any(|e| file.ends_with(e))
+        });
         files.retain(|file| root.join(file).is_file());
         Ok(digest(&contents(root, files)?))
     }
 
-    /// All mutants of some files.
-    pub fn find(&self, files: &[String]) -> Result<Finder, String> {
+    /// All mutants of some files; `with_conditions` says in which of them conditions are left out.
+    pub fn find(
+        &self,
+        files: &[String],
+        with_conditions: impl Fn(&str) -> bool,
+    ) -> Result<Finder, String> {
         let mut finder = Finder::default();
         let mut parsed = Vec::new();
         for file in files {
@@ -85,6 +91,7 @@ impl Tree {
         }
         for (file, text, syntax) in &parsed {
             finder.constants = constants(syntax);
+            finder.conditions = with_conditions(file);
             finder.add_file(file, text, syntax);
         }
         Ok(finder)

@@ -32,6 +32,9 @@ pub struct Module {
     /// The share of its mutants that may live.
     #[serde(default)]
     pub may_live: f64,
+    /// True if its conditions are left out too, one by one: those of a checker decide what it accepts.
+    #[serde(default)]
+    pub conditions: bool,
 }
 
 impl Module {

@@ -100,6 +100,8 @@ pub struct Finder {
     pub mutants: Vec<Mutant>,
     pub sites: HashMap<String, Vec<Site>>,
     pub constants: HashMap<String, Constant>,
+    /// True if conditions of the file are left out.
+    pub conditions: bool,
     site_count: u32,
     file: String,
     text: String,
@@ -197,12 +199,32 @@ impl Finder {
         let (left, right) = (self.text_of(&binary.left), self.text_of(&binary.right));
         let (left, right) = (left.to_owned(), right.to_owned());
         let was = self.text_of(&binary.op).to_owned();
+        if self.conditions && matches!(binary.op, syn::BinOp::And(_)) {
+            for (side, kept) in [("left", &right), ("right", &left)] {
+                let change = format!("drop the {side} of &&");
+                self.replace(expr, binary.op.span(), change, format!("({kept})"));
+            }
+        }
         for now in instead_of(&binary.op) {
             let text = match is_assignment(&binary.op) {
                 true => format!("{left} {now} {right}"),
                 false => format!("({left}) {now} ({right})"),
             };
             self.replace(expr, binary.op.span(), format!("replace {was} with {now}"), text);
+        }
+    }
+
+    /// A condition that a method has in a closure or before its dot.
+    fn condition_of_method(&mut self, call: &syn::ExprMethodCall) {
+        let method = call.method.to_string();
+        match call.args.first() {
+            Some(Expr::Closure(closure)) if TAKES_CONDITION.contains(&method.as_str()) => {
+                self.condition(&closure.body, &method, &[true]);
+            }
+            _ if ["then", "then_some"].contains(&method.as_str()) => {
+                self.condition(&call.receiver, &method, &[true]);
+            }
+            _ => {}
         }
     }
 
@@ -330,7 +352,8 @@ impl<'a> Visit<'a> for Finder {
         if let Stmt::Expr(expr, Some(_)) = statement {
             let removable = match expr {
                 Expr::Binary(binary) => is_assignment(&binary.op),
-                expr => matches!(expr, Expr::Call(_) | Expr::MethodCall(_) | Expr::Assign(_)),
+                Expr::Try(tried) if self.conditions => is_call(&tried.expr),
+                expr => is_call(expr) || matches!(expr, Expr::Assign(_)),
             };
             if removable {
                 let place = (statement.span().byte_range(), Form::Statement);
@@ -364,12 +387,24 @@ impl<'a> Visit<'a> for Finder {
                 }
             }
             Expr::Path(path) => self.constant(expr, path),
+            Expr::MethodCall(call) if self.conditions => self.condition_of_method(call),
+            Expr::Call(call) if self.conditions && self.text_of(&call.func) == "ensure" => {
+                call.args.first().iter().for_each(|holds| self.condition(holds, "ensure", &[true]));
+            }
             _ => {}
         }
         self.around.push(expr.span().byte_range());
         visit::visit_expr(self, expr);
         self.around.pop();
     }
+}
+
+/// Methods whose closure is a condition.
+const TAKES_CONDITION: [&str; 7] =
+    ["all", "any", "filter", "find", "is_none_or", "is_some_and", "take_while"];
+
+fn is_call(expr: &Expr) -> bool {
+    matches!(expr, Expr::Call(_) | Expr::MethodCall(_))
 }
 
 fn has_let(expr: &Expr) -> bool {

@@ -115,7 +115,9 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
     };
     let modules: Vec<_> = config.modules.iter().filter(of_group).collect();
     let files = tree.sources(|file| modules.iter().any(|module| module.has(file)))?;
-    let finder = tree.find(&files)?;
+    let with_conditions =
+        |file: &str| modules.iter().any(|module| module.conditions && module.has(file));
+    let finder = tree.find(&files, with_conditions)?;
     config.check_equivalents(&finder.mutants, &files)?;
     let chosen = choose(arguments, &finder.mutants);
     if chosen.is_empty() && arguments.sample != Some(0) {

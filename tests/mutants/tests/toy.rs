@@ -194,6 +194,52 @@ fn both_orders() {
 }
 
 #[test]
+fn conditions_are_left_out_where_a_module_says_so() {
+    let root = toy("conditions");
+    let library = "fn ensure(holds: bool) -> Result<(), ()> {
+    if holds { Ok(()) } else { Err(()) }
+}
+
+pub fn check(a: i32, b: i32, all: &[i32]) -> Result<usize, ()> {
+    ensure(a == 1)?;
+    ensure(b == 1 && a == b)?;
+    Ok(all.iter().filter(|x| **x == 1).count())
+}
+
+#[test]
+fn ones() {
+    assert_eq!([check(1, 1, &[1]), check(2, 2, &[1])], [Ok(1), Err(())]);
+}
+";
+    fs::write(root.join("src/lib.rs"), library).unwrap();
+    // The changes that lived, without operators.
+    let lived = || {
+        let (_, out, err) = run(&root, &[]);
+        let survivors = out.lines().filter(|line| line.starts_with("src/"));
+        let changes = survivors.map(|line| {
+            let (_, described) = line.split_once(": ").unwrap();
+            described.split_once(" in ").unwrap().0.to_owned()
+        });
+        let changes: Vec<String> = changes.filter(|change| !change.contains("replace")).collect();
+        (changes, out + &err)
+    };
+    assert_eq!(lived().0, [""; 0]);
+    fs::write(root.join("mutants.toml"), CONFIG.to_owned() + "conditions = true\n").unwrap();
+    let (changes, screen) = lived();
+    // Each of both conditions refuses (2, 2), and every number is a 1.
+    let expected = [
+        "delete statement",
+        "ensure -> true",
+        "delete statement",
+        "ensure -> true",
+        "drop the left of &&",
+        "drop the right of &&",
+        "filter -> true",
+    ];
+    assert_eq!(changes, expected, "{screen}");
+}
+
+#[test]
 fn an_equivalent_that_matches_nothing_is_an_error() {
     let root = toy("unknown");
     let unknown = EQUIVALENT.replace("a > b", "a > c");

@@ -146,31 +146,4 @@ fn dot<F: Float>([a, b, c]: [F; 3], [p, q, r]: [F; 3]) -> F {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_ray_goes_by_the_inverse_as_glam_has_it() {
-        let columns = [[0.3f32, -1.7, 0.2], [2.1, 0.4, -0.9], [0.1, 0.6, 1.3], [10.5, -3.25, 0.7]];
-        let matrix = [0, 1, 2].map(|row| columns.map(|column| column[row]));
-        let instance = Instance::new(matrix).unwrap();
-        let affine = glam::Affine3::from_cols_array_2d(&columns).inverse();
-        let case = Case::new(
-            [1.1f32, 2.2, 3.3],
-            [0.5, -0.25, 0.125],
-            [[0.; 3], [1., 0., 0.], [0., 1., 0.]],
-        );
-        let case = case.on(0.5, 7.0);
-        let found = instance.in_object(&case);
-        let [origin, direction, ..] = found.vectors();
-        let expected = affine.transform_point3(glam::Vec3::new(1.1, 2.2, 3.3)).to_array();
-        assert_eq!(origin, expected);
-        let expected = affine.transform_vector3(glam::Vec3::new(0.5, -0.25, 0.125)).to_array();
-        assert_eq!(direction, expected);
-        assert_eq!(
-            (found.vectors()[3], found.ray.t_min, found.ray.t_max),
-            ([1., 0., 0.], 0.5, 7.0)
-        );
-        assert_eq!(Instance::new([[1f32, 2., 3., 0.], [2., 4., 6., 0.], [0., 0., 1., 0.]]), None);
-    }
-}
+mod tests;

@@ -237,7 +237,7 @@ impl<'a> Formula<'a> {
             expected.insert(0, above);
         }
         let Step { name, place, terms, .. } = &self.steps[above];
-        let of = |(minus, a, b): &Term| (!minus && b.is_none()).then(|| self.steps[*a].place)?;
+        let of = |(_, a, _): &Term| self.steps[*a].place;
         let is_numerator = match numerators {
             [] => *name == "number",
             [n] => *place == Some(*n),

@@ -120,8 +120,7 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
             [gate, symmetry @ ("opposite" | "signs")] => Some((gate, symmetry)),
             _ => None,
         })?;
-        program.ensure_used()?;
-        let last = program.operations.len() - 1;
+        let last = program.last_of_used()?;
         let bound = program.bound(last)?.clone();
         if !symmetry.is_empty() {
             opposite::check(&program, last, symmetry)?;
@@ -407,3 +406,6 @@ fn squares(program: &Program, root: usize) -> Option<Vec<usize>> {
     }
     Some(squares)
 }
+
+#[cfg(test)]
+mod tests;

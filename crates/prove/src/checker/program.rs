@@ -191,13 +191,14 @@ impl<'a> Program<'a> {
         Ok(program)
     }
 
-    /// An error if something is written that no proof of the last operation's number uses.
-    pub fn ensure_used(&self) -> Outcome<()> {
-        let last = self.operations.len().saturating_sub(1);
+    /// The last operation; an error if there is none, or if something is written that no proof of its number uses.
+    pub fn last_of_used(&self) -> Outcome<usize> {
+        const UNUSED: &str = "found operations that the last one does not use, or none";
+        let last = self.operations.len().checked_sub(1).ok_or(UNUSED)?;
         let used: HashSet<usize> =
             self.operations.iter().flat_map(|operation| operation.operands.clone()).collect();
-        let is_used = used.len() == last && (0..last).all(|place| used.contains(&place));
-        ensure(is_used, "found operations that the last one does not use, or none")?;
+        // Operands are earlier operations.
+        ensure(used.len() == last, UNUSED)?;
         let uses = |(a, b): &(usize, usize)| {
             self.lemmas.keys().filter_map(|place| self.fraction(*place)).any(|(n, d)| {
                 self.input(d) == Some(*b)
@@ -205,7 +206,7 @@ impl<'a> Program<'a> {
             })
         };
         let unused = self.orders.iter().find(|order| !uses(order));
-        unused.map_or(Ok(()), |(a, b)| Err(format!("found `order {a} {b}`, which no lemma uses")))
+        unused.map_or(Ok(last), |(a, b)| Err(format!("found `order {a} {b}`, which no lemma uses")))
     }
 
     /// The program and its orders under these names.

@@ -40,6 +40,41 @@ pub struct Promise {
     pub is_front: bool,
 }
 
+impl Promise {
+    /// True if the triangle with its edges may be hit between the ends, these included.
+    fn is_closed_hit(&self, signs: &[i8; COUNT]) -> bool {
+        let weights = &signs[U..=W];
+        let is_one_sided = weights.iter().all(|x| *x >= 0) || weights.iter().all(|x| *x <= 0);
+        let after = |number: usize| signs[number] * -signs[SUM] >= 0;
+        let is_between = match self.extent.as_str() {
+            "ray" => after(T),
+            "interval" => after(NEAR) && after(FAR),
+            _ => true,
+        };
+        let is_of_side = !self.is_front || signs[SUM] > 0;
+        signs[SUM] != 0 && is_one_sided && is_between && is_of_side
+    }
+
+    /// The reason why a hit of rays with these signs is wrong; none if it is inside the triangle, between the ends and on
+    /// a side that counts.
+    fn wrong_hit(&self, signs: &[i8; COUNT]) -> Option<&'static str> {
+        let is_inside = signs[U] != 0 && signs[U] == signs[V] && signs[V] == signs[W];
+        if !is_inside {
+            return Some("do not pass through the inside of the triangle");
+        }
+        if self.is_front && signs[SUM] < 0 {
+            return Some("hit the back, and it promises the front only");
+        }
+        let after = |number: usize| signs[number] * -signs[SUM];
+        match self.extent.as_str() {
+            "ray" if after(T) <= 0 => Some("meet the triangle at t <= 0"),
+            "interval" if after(NEAR) <= 0 => Some("meet the triangle at t <= t_min"),
+            "interval" if after(FAR) <= 0 => Some("meet the triangle at t >= t_max"),
+            _ => None,
+        }
+    }
+}
+
 /// A number's sign: that of the product of some known ones, or its opposite.
 #[derive(Clone, Debug)]
 struct Monomial {
@@ -86,7 +121,7 @@ impl Signs {
     /// An error if these conditions hold for some ray that should hit.
     pub fn ensure_miss(&self, program: &Program, known: &[Literal]) -> Outcome<()> {
         self.every(program, known, &[], |signs| {
-            ensure(!self.is_closed_hit(signs), "rejects rays that may hit")
+            ensure(!self.promise.is_closed_hit(signs), "rejects rays that may hit")
         })
     }
 
@@ -97,37 +132,10 @@ impl Signs {
         sure: &[Literal],
         gates: &[Vec<Vec<Literal>>],
     ) -> Outcome<()> {
-        self.every(program, sure, gates, |signs| {
-            let wrong = |what: &str| Err(format!("its gates accept rays that {what}"));
-            let is_inside = signs[U] != 0 && signs[U] == signs[V] && signs[V] == signs[W];
-            if !is_inside {
-                return wrong("do not pass through the inside of the triangle");
-            }
-            if self.promise.is_front && signs[SUM] < 0 {
-                return wrong("hit the back, and it promises the front only");
-            }
-            let after = |number: usize| signs[number] * -signs[SUM];
-            match self.promise.extent.as_str() {
-                "ray" if after(T) <= 0 => wrong("meet the triangle at t <= 0"),
-                "interval" if after(NEAR) <= 0 => wrong("meet the triangle at t <= t_min"),
-                "interval" if after(FAR) <= 0 => wrong("meet the triangle at t >= t_max"),
-                _ => Ok(()),
-            }
+        self.every(program, sure, gates, |signs| match self.promise.wrong_hit(signs) {
+            Some(what) => Err(format!("its gates accept rays that {what}")),
+            None => Ok(()),
         })
-    }
-
-    /// True if the triangle with its edges may be hit between the ends, these included.
-    fn is_closed_hit(&self, signs: &[i8; COUNT]) -> bool {
-        let weights = &signs[U..=W];
-        let is_one_sided = weights.iter().all(|x| *x >= 0) || weights.iter().all(|x| *x <= 0);
-        let after = |number: usize| signs[number] * -signs[SUM] >= 0;
-        let is_between = match self.promise.extent.as_str() {
-            "ray" => after(T),
-            "interval" => after(NEAR) && after(FAR),
-            _ => true,
-        };
-        let is_of_side = !self.promise.is_front || signs[SUM] > 0;
-        signs[SUM] != 0 && is_one_sided && is_between && is_of_side
     }
 
     /// Tries every combination of signs under which the conditions hold, and a pattern of each gate.
@@ -285,3 +293,6 @@ fn can_be(signs: &[i8; COUNT], is_interval: bool) -> bool {
     let pairs = is_sum(U, V, UV) && is_sum(V, W, VW) && is_sum(W, U, WU);
     is_possible && pairs && is_sum(UV, W, SUM) && is_sum(VW, U, SUM) && is_sum(WU, V, SUM)
 }
+
+#[cfg(test)]
+mod tests;

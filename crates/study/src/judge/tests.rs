@@ -64,6 +64,17 @@ fn unit_directions_are_measured_exactly() {
     assert!(!promises_direction(unit, [1.0f32 - 1.5 * f32::EPSILON, 0.0, 0.0]));
     assert!(!promises_direction(unit, [f32::NAN, 0.0, 0.0]));
     assert!(promises_direction(Direction::Any, [7.0f64, 0.0, 0.0]));
+    // A tolerance of four is no tolerance of five.
+    let [four, five] = [4.0, 5.0].map(|ulps| ulps * f32::EPSILON);
+    for (off, is_promised) in [(four, true), (-four, true), (five, false), (-five, false)] {
+        let promised = promises_direction(Direction::Unit { ulps: 4 }, [0.0, 1.0 + off, 0.0]);
+        assert_eq!(promised, is_promised, "{off:e}");
+    }
+    // A tolerance of 2 admits every length from 0 to 3.
+    let two = Direction::Unit { ulps: 1 << 24 };
+    for (length, is_promised) in [(0.0f32, true), (0.5, true), (3.0, true), (3.5, false)] {
+        assert_eq!(promises_direction(two, [length, 0.0, 0.0]), is_promised, "{length}");
+    }
     for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
         let length = |d: [f64; 3]| promises_direction(unit, axes.map(|i| d[i]));
         // Quadruples of integers: 2² + 3² + 6² = 7², 1² + 4² + 8² = 9².

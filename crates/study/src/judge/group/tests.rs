@@ -62,6 +62,26 @@ fn of_a_group_seen_from_behind_a_contract_for_fronts_demands_nothing() {
     assert_eq!(owed, GroupTruth::Free, "inside one, on an edge of the other");
 }
 
+/// At an end of the interval each triangle of a group may count the hit or not.
+#[test]
+fn a_group_that_is_met_at_an_end_of_the_extent_is_free() {
+    let [a, b, c, d] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [4.0, -4.0, 0.0]];
+    let asked = |extent: Extent, [t_min, t_max]: [f64; 2]| {
+        // The plane is met at t = 2.
+        let ray = |triangle| Case::<f64>::new([1.0, 1.0, 2.0], [0.0, 0.0, -1.0], triangle);
+        let truth = |triangle| truth(&ray(triangle).on(t_min, t_max));
+        let contract = Contract { extent, ..Contract::CLOSED_RAY };
+        let truths = [truth([a, b, c]), truth([b, a, d])];
+        group_truth(&truths, &contract, Grouping::SharedEdge)
+    };
+    assert_eq!(asked(Extent::Interval, [1.0, 3.0]), GroupTruth::Crossing, "within");
+    assert_eq!(asked(Extent::Interval, [1.0, 2.0]), GroupTruth::Free, "at t_max");
+    assert_eq!(asked(Extent::Interval, [2.0, 3.0]), GroupTruth::Free, "at t_min");
+    assert_eq!(asked(Extent::Interval, [1.0, 1.5]), GroupTruth::Free, "beyond t_max");
+    assert_eq!(asked(Extent::Interval, [2.5, 3.0]), GroupTruth::Free, "before t_min");
+    assert_eq!(asked(Extent::Ray, [1.0, 2.0]), GroupTruth::Crossing, "a ray has no t_max");
+}
+
 #[test]
 fn a_fan_that_is_crossed_beside_its_centre_is_crossed_once() {
     let ring = [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [-4.0, -4.0, 0.0]];

@@ -230,3 +230,22 @@ fn the_worst_value_is_counted_in_units_of_rounding() {
         }
     }
 }
+
+/// A value is wrong where it is farther off than rounding explains and than the contract tolerates.
+#[test]
+fn a_tolerated_value_is_not_wrong() {
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let case = Case::<f64>::new([0.25, 0.25, 1.0], [0.0, 0.0, -1.0], corners);
+    let truth = oracle::truth(&case);
+    let errors = |values: [f64; 3]| ValueErrors::of(&case, &truth, ALL, &hit(values));
+    let right = errors([1.0, 0.25, 0.25]);
+    let off = errors([1.0 + 0.125, 0.25 + 0.125, 0.25 - 0.125]);
+    for which in 0..3 {
+        assert!(!right.is_wrong(which, 0.0), "{which}");
+        assert!(off.is_wrong(which, 0.0), "{which}");
+        // The longest edge is the root of 2.
+        let share = if which == 0 { 0.125 / 2.0f64.sqrt() } else { 0.125 };
+        assert!(off.is_wrong(which, share * 0.999), "{which}");
+        assert!(!off.is_wrong(which, share * 1.001), "{which}");
+    }
+}
