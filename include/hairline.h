@@ -94,7 +94,7 @@ const hairline_kernel *hairline_describe(void);
 
 /* Optional: how many processes should load the library at most, at least 1. A library for a GPU returns 1: then one
  * process answers the cases of all threads. Without it hairline starts with one, and starts another, up to one a
- * thread, whenever its processes have worked for as long as one takes to start. */
+ * thread, whenever its processes have worked for four times as long as one takes to start. */
 uint32_t hairline_processes(void);
 
 /* Answers `count` cases. `epsilons` has epsilon_count values in the order of hairline_describe.

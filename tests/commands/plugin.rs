@@ -203,7 +203,7 @@ fn a_start_has_a_limit_of_its_own_and_is_no_cases_fault() {
 
 #[test]
 fn a_kernel_may_want_one_process_and_answers_as_in_many() {
-    let slow_calls = "-DCALL=0.02";
+    let slow_calls = "-DCALL=0.05";
     let Some((one, of_one)) = starting("start-one", &["-DPROCESSES=1", slow_calls]) else { return };
     let (many, of_many) = starting("start-many", &[slow_calls]).unwrap();
     let flags = ["--family", "edge-near", "-n", "40000", "--scalar", "f64", "--threads", "4"];
@@ -218,11 +218,11 @@ fn a_kernel_may_want_one_process_and_answers_as_in_many() {
     // Over a pipe it is a line of the hello.
     let file = of_one.with_extension("piped");
     let _ = fs::remove_file(&file);
-    let piped = MISSES.replace("end) ", "end) sleep 0.05; ");
-    let piped = shell(&format!("echo $$ >>\"{}\"; {piped}", file.display()));
+    let piped = shell(&format!("echo $$ >>\"{}\"; {MISSES}", file.display()));
     let piped = piped.replace("ready", "processes 1\\nready");
-    let (record, _) = record(&[&["--threads", "4", "--kernel-cmd", &piped][..], &FLAGS].concat());
-    assert_eq!((count(&record, "false_misses/count"), lines_of(&file)), (COUNT, 1));
+    let flags = ["--family", "interior", "-n", "4096", "--scalar", "f64", "--threads", "4"];
+    let (record, _) = record(&[&flags[..], &["--kernel-cmd", &piped]].concat());
+    assert_eq!((count(&record, "false_misses/count"), lines_of(&file)), (4096, 1));
     let (none, _) = starting("start-none", &["-DPROCESSES=0"]).unwrap();
     let error = refused(&["audit", "--kernel-lib", &none], 65);
     assert!(error.contains("processes: '0' is not 1 or more"), "{error}");

@@ -184,11 +184,13 @@ impl Process {
             Some(running) => running,
             None => self.another()?,
         };
+        let since = Instant::now();
         let said = if self.hello.binary {
             exchange::in_binary(&mut running, cases, epsilons, verdicts, margins)
         } else {
             exchange::in_text(&mut running, cases, epsilons, verdicts)
         };
+        self.turns.add_work(since.elapsed());
         let said = said?;
         if let Some(floats) = said.floats {
             self.has_changed_to(floats)?;

@@ -3,57 +3,55 @@
 #![forbid(unsafe_code)]
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-/// The turns of a kernel. There is one at first. Another is added whenever its processes have worked for as long as one
-/// takes to start, so that starting them never costs more than it may save.
+/// The turns of a kernel. There is one at first; another is added whenever its processes have worked for much longer than
+/// one takes to start.
 pub(super) struct Turns {
     /// The number of processes that the kernel wants at most.
     most: u32,
-    /// How long a process takes to start.
-    start: Duration,
+    /// How much work is worth the start of a process.
+    worth: Duration,
     state: Mutex<TurnsState>,
     ended: Condvar,
 }
 
+/// All threads may wait at the end of a family for one whose process starts.
+const WORK_A_START: u32 = 4;
+
 #[derive(Default)]
 struct TurnsState {
     taken: u32,
-    /// How long turns took, all together.
+    /// How long processes took to answer, all together.
     worked: Duration,
 }
 
 /// A turn; dropping it ends it.
-pub(super) struct Turn<'a> {
-    turns: &'a Turns,
-    since: Instant,
-}
+pub(super) struct Turn<'a>(&'a Turns);
 
 impl Turns {
+    /// Those of a kernel that wants so many processes at most, each of which takes so long to start.
     pub fn new(most: u32, start: Duration) -> Turns {
-        let start = start.max(Duration::from_millis(1));
-        Turns { most, start, state: Mutex::default(), ended: Condvar::new() }
+        let worth = WORK_A_START * start.max(Duration::from_millis(1));
+        Turns { most, worth, state: Mutex::default(), ended: Condvar::new() }
     }
 
     /// Waits for a turn.
     pub fn take(&self) -> Turn<'_> {
-        let mut state = self.state();
-        while self.number(&state) <= state.taken {
-            let woken = self.ended.wait_timeout(state, self.start);
-            let (after, wait) = woken.unwrap_or_else(PoisonError::into_inner);
-            state = after;
-            if wait.timed_out() {
-                // A kernel that hangs has worked meanwhile.
-                state.worked += self.start;
-            }
-        }
-        state.taken += 1;
-        Turn { turns: self, since: Instant::now() }
+        let is_over = |state: &mut TurnsState| self.number(state) <= state.taken;
+        let free = self.ended.wait_while(self.state(), is_over);
+        free.unwrap_or_else(PoisonError::into_inner).taken += 1;
+        Turn(self)
+    }
+
+    /// Adds how long a process took to answer.
+    pub fn add_work(&self, time: Duration) {
+        self.state().worked += time;
     }
 
     /// The number of turns that there are.
     fn number(&self, state: &TurnsState) -> u32 {
-        let more = state.worked.as_nanos() / self.start.as_nanos();
+        let more = state.worked.as_nanos() / self.worth.as_nanos();
         u32::try_from(more).unwrap_or(u32::MAX).saturating_add(1).min(self.most)
     }
 
@@ -64,10 +62,8 @@ impl Turns {
 
 impl Drop for Turn<'_> {
     fn drop(&mut self) {
-        let mut state = self.turns.state();
-        state.taken -= 1;
-        state.worked += self.since.elapsed();
-        self.turns.ended.notify_one();
+        self.0.state().taken -= 1;
+        self.0.ended.notify_one();
     }
 }
 
@@ -77,35 +73,27 @@ mod tests {
     use std::sync::atomic::{AtomicU32, Ordering};
     use std::thread;
 
-    /// The largest number of turns at the same time, of eight threads that take three each.
-    fn most_at_once(turns: &Turns, each: Duration) -> u32 {
-        let (now, most) = (AtomicU32::new(0), AtomicU32::new(0));
-        let three_turns = || {
-            for _ in 0..3 {
+    /// The largest number of turns at the same time, of eight threads that take five each.
+    fn most_at_once(most: u32, start: Duration) -> u32 {
+        let turns = Turns::new(most, start);
+        let (now, largest) = (AtomicU32::new(0), AtomicU32::new(0));
+        let five_turns = || {
+            for _ in 0..5 {
                 let _turn = turns.take();
-                most.fetch_max(now.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
-                thread::sleep(each);
+                largest.fetch_max(now.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
+                thread::sleep(Duration::from_millis(4));
+                turns.add_work(Duration::from_millis(4));
                 now.fetch_sub(1, Ordering::SeqCst);
             }
         };
-        thread::scope(|scope| (0..8).for_each(|_| drop(scope.spawn(three_turns))));
-        most.into_inner()
+        thread::scope(|scope| (0..8).for_each(|_| drop(scope.spawn(five_turns))));
+        largest.into_inner()
     }
 
     #[test]
     fn there_are_more_turns_as_work_outweighs_a_start_and_never_more_than_wanted() {
-        let each = Duration::from_millis(4);
-        let slow_start = Duration::from_secs(60);
-        assert_eq!(most_at_once(&Turns::new(u32::MAX, slow_start), each), 1);
-        assert_eq!(most_at_once(&Turns::new(2, Duration::ZERO), each), 2);
-        assert!(2 < most_at_once(&Turns::new(u32::MAX, Duration::ZERO), each));
-    }
-
-    #[test]
-    fn nobody_waits_for_a_turn_that_does_not_end() {
-        let turns = Turns::new(u32::MAX, Duration::from_millis(5));
-        let _hangs = turns.take();
-        let _other = turns.take();
-        assert_eq!(turns.state().taken, 2);
+        assert_eq!(most_at_once(u32::MAX, Duration::from_secs(60)), 1);
+        assert_eq!(most_at_once(2, Duration::ZERO), 2);
+        assert!(2 < most_at_once(u32::MAX, Duration::ZERO));
     }
 }
