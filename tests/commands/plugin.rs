@@ -175,7 +175,9 @@ fn lines_of(file: &Path) -> usize {
 
 #[test]
 fn a_start_has_a_limit_of_its_own_and_is_no_cases_fault() {
-    let Some((slow, started)) = starting("start-slow", &["-DFIRST=1.5"]) else { return };
+    let Some((slow, started)) = starting("start-slow", &["-DFIRST=1.5", "-DCALL=0.1"]) else {
+        return;
+    };
     let flags = ["--kernel-timeout", "0.5", "--threads", "2", "--kernel-lib"];
     let (answered, error) = record(&[&flags[..], &[&slow], &FLAGS].concat());
     assert_eq!((count(&answered, "timeouts"), &error[..]), (0, ""));
