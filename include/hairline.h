@@ -1,13 +1,18 @@
 /* hairline.h: a ray-triangle kernel as a shared library, for `hairline audit --kernel-lib FILE`.
  *
- * Build it as  cc -O2 -shared -fPIC -o libmine.so mine.c  and define the three or four functions at
+ * Build it as  cc -O2 -shared -fPIC -o libmine.so mine.c  and define the functions at
  * the end of this file, with C linkage. hairline loads the library in a process of its own. There a
  * crash, a C++ exception, a call of exit, an endless loop or an access outside the buffers is a finding
  * about the case at hand, and the run goes on. What the library prints goes to standard error.
  *
  * Everything that hairline passes belongs to hairline and is valid during the call only; everything
  * that the library returns from hairline_describe belongs to the library and must stay valid.
- * Calls come from one thread at a time; several processes may each have loaded the library.
+ * Calls come from one thread at a time; several processes may each have loaded the library, unless
+ * hairline_processes says otherwise.
+ *
+ * The first call in each process, of each function for cases that there is, is one plain case, a hit in
+ * the middle of its triangle. Its verdict is not judged, and what starts slowly, such as a GPU's context,
+ * may take long in it (--kernel-start SECONDS, 60 by default).
  */
 #ifndef HAIRLINE_H
 #define HAIRLINE_H
@@ -78,13 +83,19 @@ typedef struct {
     const hairline_epsilon *epsilons; /* this many; NULL if none */
 } hairline_kernel;
 
-/* What the library defines: the first two, and one or both of the others. */
+/* What the library defines: the first two, and one or both of those that answer cases. hairline_processes is
+ * optional. */
 
 /* Returns HAIRLINE_ABI. */
 uint32_t hairline_abi(void);
 
 /* What the kernel is and promises. */
 const hairline_kernel *hairline_describe(void);
+
+/* Optional: how many processes should load the library at most, at least 1. A library for a GPU returns 1: then one
+ * process answers the cases of all threads. Without it hairline starts with one, and starts another, up to one a
+ * thread, whenever its processes have worked for four times as long as one takes to start. */
+uint32_t hairline_processes(void);
 
 /* Answers `count` cases. `epsilons` has epsilon_count values in the order of hairline_describe.
  * `cases` and `epsilons` are read-only, `verdicts` has room for `count` and no more. Answers depend

@@ -81,6 +81,9 @@ static void run(const Case *cases, size_t count, Real epsilon, Verdict *verdicts
 
 extern "C" uint32_t hairline_abi(void) { return HAIRLINE_ABI; }
 
+/* One process opens the GPU, and answers for all threads. */
+extern "C" uint32_t hairline_processes(void) { return 1; }
+
 extern "C" const hairline_kernel *hairline_describe(void) {
     static const hairline_epsilon epsilons[] = {{"parallel", "1e-6", "abs(det) < e", 2, 1, 1, 0}};
     static const hairline_kernel kernel = {

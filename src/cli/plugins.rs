@@ -29,6 +29,17 @@ pub struct PluginArguments {
     #[arg(long, value_name = "COMMAND", help_heading = "Kernels of your own")]
     kernel_cmd: Vec<String>,
 
+    /// How long such a kernel may take to start: to be loaded and to answer its first call, or until its hello is over; never
+    /// less than --kernel-timeout
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value_t = START_SECONDS,
+        help_heading = "Kernels of your own"
+    )]
+    #[serde(default = "start_seconds")]
+    kernel_start: f64,
+
     /// How long to wait for an answer of such a kernel
     #[arg(
         long,
@@ -64,6 +75,13 @@ pub fn be_quiet() {
     IS_QUIET.store(true, Ordering::Relaxed);
 }
 
+/// How long a kernel may take to start by default.
+const START_SECONDS: f64 = 60.0;
+
+fn start_seconds() -> f64 {
+    START_SECONDS
+}
+
 /// How long a kernel may be silent by default.
 const TIMEOUT_SECONDS: f64 = 10.0;
 
@@ -81,6 +99,7 @@ impl Default for PluginArguments {
         PluginArguments {
             kernel_lib: Vec::new(),
             kernel_cmd: Vec::new(),
+            kernel_start: START_SECONDS,
             kernel_timeout: TIMEOUT_SECONDS,
             kernel_failures: None,
             require_ieee: false,
@@ -169,12 +188,14 @@ impl PluginArguments {
     }
 
     fn limits(&self) -> Result<ProcessLimits, Failure> {
-        let seconds = self.kernel_timeout;
-        if !(0.001..=86_400.0).contains(&seconds) {
-            let message = format!("--kernel-timeout: {seconds} is not from 0.001 to 86400 seconds");
-            return Err(Failure::usage(message));
+        let (start, seconds) = (self.kernel_start, self.kernel_timeout);
+        for (flag, seconds) in [("--kernel-start", start), ("--kernel-timeout", seconds)] {
+            if !(0.001..=86_400.0).contains(&seconds) {
+                let message = format!("{flag}: {seconds} is not from 0.001 to 86400 seconds");
+                return Err(Failure::usage(message));
+            }
         }
-        let silence = Duration::from_secs_f64(seconds);
+        let [start, silence] = [start.max(seconds), seconds].map(Duration::from_secs_f64);
         let failures = self.kernel_failures.unwrap_or(FAILURES);
         // A limit that is set is meant.
         let (first_failures, timeouts) = match self.kernel_failures {
@@ -187,7 +208,7 @@ impl PluginArguments {
             }
         };
         let require_ieee = self.require_ieee;
-        Ok(ProcessLimits { silence, failures, first_failures, timeouts, tell, require_ieee })
+        Ok(ProcessLimits { start, silence, failures, first_failures, timeouts, tell, require_ieee })
     }
 }
 

@@ -50,6 +50,7 @@ const SETTINGS: &[FlagSetting] = &[
     setting("kernel", ValueKind::Names, "moller-trumbore"),
     setting("kernel-lib", ValueKind::Files, "libmine.so"),
     setting("kernel-cmd", ValueKind::Commands, "node kernel.mjs"),
+    setting("kernel-start", ValueKind::Text, ""),
     setting("kernel-timeout", ValueKind::Text, ""),
     setting("kernel-failures", ValueKind::Text, "1000"),
     setting("require-ieee", ValueKind::Flag, ""),

@@ -152,6 +152,76 @@ fn a_library_that_hangs_is_a_finding_and_the_run_ends() {
     assert!(error.contains("gave no answer in time on '{\"scalar\":"), "{error}");
 }
 
+/// A library of tests/kernels/start.c, and the file to which each of its processes appends a line.
+fn starting(name: &str, flags: &[&str]) -> Option<(String, PathBuf)> {
+    let source = PathBuf::from(HERE).join("tests/kernels/start.c");
+    let started = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.started"));
+    let _ = fs::remove_file(&started);
+    let to = format!("-DSTARTED=\"{}\"", started.display());
+    Some((library(&source, name, &[flags, &[&to]].concat())?, started))
+}
+
+fn lines_of(file: &Path) -> usize {
+    fs::read_to_string(file).unwrap().lines().count()
+}
+
+#[test]
+fn a_start_has_a_limit_of_its_own_and_is_no_cases_fault() {
+    let Some((slow, started)) = starting("start-slow", &["-DFIRST=1.5", "-DCALL=0.1"]) else {
+        return;
+    };
+    let flags = ["--kernel-timeout", "0.5", "--threads", "2", "--kernel-lib"];
+    let (answered, error) = record(&[&flags[..], &[&slow], &FLAGS].concat());
+    assert_eq!((count(&answered, "timeouts"), &error[..]), (0, ""));
+    // No other process is worth another second and a half.
+    assert_eq!(lines_of(&started), 1);
+    let (hangs, _) = starting("start-hangs", &["-DFIRST=100"]).unwrap();
+    let flags = ["audit", "--kernel-start", "0.4", "--kernel-timeout", "0.2", "--kernel-lib"];
+    let error = refused(&[&flags[..], &[&hangs], &FLAGS].concat(), 65);
+    let message = "in its first call, on a plain case, it was silent for 0.4 s after its start (--kernel-start";
+    assert!(error.contains(message), "{error}");
+    // The first process dies of its first batch, and no other gets as far.
+    let file = started.with_extension("again");
+    let _ = fs::remove_file(&file);
+    let dies = shell("read line; exit 3");
+    let once = format!("test -e \"{0}\" && sleep 100; touch \"{0}\"; printf", file.display());
+    let dies = dies.replacen("printf", &once, 1);
+    let flags = ["audit", "--kernel-start", "0.4", "--kernel-timeout", "0.2", "--kernel-cmd"];
+    let error = refused(&[&flags[..], &[&dies], &FLAGS].concat(), 65);
+    let message =
+        "kernel 'sh': started again, before its hello was over it was silent for 0.4 s after";
+    assert!(error.contains(message), "{error}");
+    let error = refused(&["audit", "--kernel-start", "0", "--kernel-lib", &slow], 2);
+    assert!(error.contains("--kernel-start: 0 is not from 0.001"), "{error}");
+}
+
+#[test]
+fn a_kernel_may_want_one_process_and_answers_as_in_many() {
+    let slow_calls = "-DCALL=0.05";
+    let Some((one, of_one)) = starting("start-one", &["-DPROCESSES=1", slow_calls]) else { return };
+    let (many, of_many) = starting("start-many", &[slow_calls]).unwrap();
+    let flags = ["--family", "edge-near", "-n", "40000", "--scalar", "f64", "--threads", "4"];
+    let [in_one, in_many] = [&one, &many].map(|library| {
+        let (record, _) = record(&[&flags[..], &["--kernel-lib", library]].concat());
+        record["result"]["results"][0]["total"].clone()
+    });
+    assert!(in_one.is_object());
+    assert_eq!(in_one, in_many);
+    assert_eq!(lines_of(&of_one), 1);
+    assert!(1 < lines_of(&of_many), "{}", lines_of(&of_many));
+    // Over a pipe it is a line of the hello.
+    let file = of_one.with_extension("piped");
+    let _ = fs::remove_file(&file);
+    let piped = shell(&format!("echo $$ >>\"{}\"; {MISSES}", file.display()));
+    let piped = piped.replace("ready", "processes 1\\nready");
+    let flags = ["--family", "interior", "-n", "4096", "--scalar", "f64", "--threads", "4"];
+    let (record, _) = record(&[&flags[..], &["--kernel-cmd", &piped]].concat());
+    assert_eq!((count(&record, "false_misses/count"), lines_of(&file)), (4096, 1));
+    let (none, _) = starting("start-none", &["-DPROCESSES=0"]).unwrap();
+    let error = refused(&["audit", "--kernel-lib", &none], 65);
+    assert!(error.contains("processes: '0' is not 1 or more"), "{error}");
+}
+
 #[test]
 fn what_a_kernel_prints_does_not_flood_standard_error() {
     let left_out = "note: kernel 'misbehave': it writes more than 50 different lines to standard error; the rest is left out";
@@ -740,7 +810,7 @@ fn a_command_that_is_no_kernel_is_refused_with_what_was_found_and_expected() {
         ("echo hello", 65, "its first line is 'hello', expected 'hairline-kernel 1'"),
         ("echo hairline-kernel 2", 65, "it speaks protocol '2', this program speaks 1"),
         ("echo error no three here", 65, "echo error no three here: no three here"),
-        ("sleep 100", 65, "it said no hello within 0.4 s"),
+        ("sleep 100", 65, "before its hello was over it was silent for 0.4 s after its start"),
         (
             "sh -c 'head -c 100000 /dev/zero; sleep 100'",
             65,
@@ -749,7 +819,8 @@ fn a_command_that_is_no_kernel_is_refused_with_what_was_found_and_expected() {
     ];
     let start = Instant::now();
     for (command, code, message) in cases {
-        let flags = ["audit", "--kernel-timeout", "0.4", "--kernel-cmd", command];
+        let limits = ["--kernel-start", "0.4", "--kernel-timeout", "0.4"];
+        let flags = [&["audit"][..], &limits, &["--kernel-cmd", command]].concat();
         let error = refused(&[&flags[..], &FLAGS].concat(), *code);
         assert!(error.contains(message), "{command}: {error}");
     }

@@ -24,6 +24,8 @@ pub struct Hello {
     pub floats: FloatEnvironment,
     /// True if it can be asked for margins.
     pub margins: bool,
+    /// The number of processes that it wants at most.
+    pub processes: u32,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -56,6 +58,7 @@ impl Default for HelloLines {
             binary: false,
             floats: FloatEnvironment::default(),
             margins: false,
+            processes: u32::MAX,
         };
         HelloLines { said: Vec::new(), hello }
     }
@@ -89,10 +92,15 @@ impl HelloLines {
                     floats.ok_or_else(|| format!("floats: '{}' is not 0 to 15", shown(rest)))?;
             }
             "margins" => hello.margins = true,
+            "processes" => {
+                let number = rest.parse().ok().filter(|number| 0 < *number);
+                hello.processes = number
+                    .ok_or_else(|| format!("processes: '{}' is not 1 or more", shown(rest)))?;
+            }
             "epsilon" => hello.epsilons.push(epsilon(rest)?),
             "ready" => return self.finish().map(Some),
             _ => {
-                let known = "name, source, contract, gives, scalars, encoding, floats, margins, epsilon, ready, error";
+                let known = "name, source, contract, gives, scalars, encoding, floats, margins, processes, epsilon, ready, error";
                 return Err(format!("'{}' is none of {known}", shown(line)));
             }
         }
@@ -101,6 +109,11 @@ impl HelloLines {
         }
         self.said.push(word.to_owned());
         Ok(None)
+    }
+
+    /// True if a line came.
+    pub fn have_begun(&self) -> bool {
+        !self.said.is_empty()
     }
 
     /// True if a line began with a word.
@@ -345,6 +358,7 @@ mod tests {
             ("signed\nready", "signed role=side\nready", "epsilon edge: 'role=side' is none of"),
             ("1e-6 2 1 non", "1e-6 two 1 non", "epsilon: 'parallel 1e-6 two"),
             ("source here", "floats 16\nsource", "floats: '16' is not 0 to 15"),
+            ("source here", "processes 0\nsource", "processes: '0' is not 1 or more"),
             ("source here", "sauce here", "'sauce here and there' is none of name, source,"),
             ("source here", "error three is not installed\nsource", "three is not installed"),
         ] {

@@ -11,8 +11,11 @@ mod library;
 
 use super::binary::{
     ANSWER, BATCH, BATCH_HEAD, Before, CASE_NUMBERS, MARGINS, float, push, verdict_bytes,
+    write_batch,
 };
 use crate::arith::{Float, FloatEnvironment};
+use crate::case::Case;
+use crate::corpus::number;
 use crate::kernel::{Failure, by_running};
 use guard::{Buffer, watch};
 use library::{Library, TestFunction, one_line};
@@ -107,13 +110,18 @@ impl Protocol {
         let library = Library::open(path)?;
         let hello = library.hello()?;
         let mut floats = FloatEnvironment::now();
-        let hello = format!("{hello}floats {}\nmargins\nready\n", floats.bits());
+        let announced = format!("{hello}floats {}\nmargins\n", floats.bits());
         let failed = |error: io::Error| error.to_string();
-        self.output.write_all(hello.as_bytes()).map_err(failed)?;
+        self.output.write_all(announced.as_bytes()).map_err(failed)?;
         watch(self.output.as_raw_fd(), library.current_exception());
         let mut room = Room::new().map_err(failed)?;
+        first_call::<f32>(&library, &hello, &mut room).map_err(failed)?;
+        first_call::<f64>(&library, &hello, &mut room).map_err(failed)?;
+        self.output.write_all(b"ready\n").map_err(failed)?;
         let mut long_run = Some(long_run).filter(|limit| !limit.is_zero());
-        while let Some(batch) = self.batch(&library, &mut room).map_err(failed)? {
+        while let Some(batch) =
+            HostBatch::read(&mut self.input, &library, &mut room).map_err(failed)?
+        {
             if let Some(limit) = long_run.take_if(|_| batch.is_whole()) {
                 batch.ask_often(&mut room, limit).map_err(failed)?;
             }
@@ -122,48 +130,16 @@ impl Protocol {
         Ok(())
     }
 
-    /// A batch; none at the end of the input.
-    fn batch(&mut self, library: &Library, room: &mut Room) -> io::Result<Option<HostBatch>> {
-        let mut head = [0; BATCH_HEAD];
-        if self.input.read(&mut head[..1])? == 0 {
-            return Ok(None);
-        }
-        self.input.read_exact(&mut head[1..])?;
-        let word = |at: usize| {
-            u32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]) as usize
-        };
-        let test = if word(4) == 32 { library.f32 } else { library.f64 };
-        let with_margins = head[..4] == MARGINS;
-        let (Some(test), true) = (test, with_margins || head[..4] == BATCH) else {
-            return Err(io::Error::other("not a batch"));
-        };
-        let (size, count) = (word(4) / 8, word(8));
-        let lengths = [word(12) * size, count * CASE_NUMBERS * size];
-        for (buffer, length) in [&mut room.epsilons, &mut room.cases].into_iter().zip(lengths) {
-            buffer.fit(length)?;
-            self.input.read_exact(buffer.bytes())?;
-            buffer.make_read_only()?;
-        }
-        Ok(Some(HostBatch { test, size, count, with_margins }))
-    }
-
     fn answer(
         &mut self,
         batch: &HostBatch,
         room: &mut Room,
         floats: &mut FloatEnvironment,
     ) -> io::Result<()> {
-        let &HostBatch { test, size, count, with_margins } = batch;
-        let record = if size == 4 { verdict_bytes::<f32>() } else { verdict_bytes::<f64>() };
-        room.verdicts.fit(count * record)?;
-        // No verdict has a hit of -1: what stays so was not answered.
-        room.verdicts.bytes().fill(0xff);
-        let [cases, epsilons, verdicts] = [&room.cases, &room.epsilons, &room.verdicts]
-            .map(|buffer| buffer.start().cast::<c_void>());
+        let &HostBatch { size, count, with_margins, .. } = batch;
+        batch.make_room(room)?;
         let start = Instant::now();
-        // SAFETY: the pointers are valid for what include/hairline.h promises the library; whether
-        // the library keeps to it is what this process is for.
-        unsafe { test(cases, count, epsilons, verdicts) };
+        batch.call(room);
         let took = Before::Took(start.elapsed().as_nanos() as u64);
         let margins = match (with_margins, size) {
             (false, _) => Some(Vec::new()),
@@ -215,6 +191,29 @@ struct HostBatch {
     with_margins: bool,
 }
 
+/// Answers a plain case, a hit in the middle of its triangle, and forgets the verdict: a library may take long for its
+/// first call, and that is no case's fault.
+fn first_call<F: Float>(library: &Library, hello: &str, room: &mut Room) -> io::Result<()> {
+    let is_there = if size_of::<F>() == 4 { library.f32 } else { library.f64 };
+    if is_there.is_none() {
+        return Ok(());
+    }
+    let vector = |numbers: [f64; 3]| numbers.map(F::from_f64);
+    let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(vector);
+    let plain = Case::new(vector([0.3, 0.3, 1.0]), vector([0.0, 0.0, -1.0]), triangle);
+    // An invalid value is refused by who reads the hello.
+    let value = |line: &str| number::parse(line.split(' ').nth(2)?).ok();
+    let epsilons = hello.lines().filter(|line| line.starts_with("epsilon "));
+    let epsilons: Vec<F> = epsilons.map(|line| value(line).unwrap_or(F::zero())).collect();
+    let mut bytes = Vec::new();
+    write_batch(BATCH, &[plain], &epsilons, &mut bytes);
+    if let Some(batch) = HostBatch::read(&mut &bytes[..], library, room)? {
+        batch.make_room(room)?;
+        batch.call(room);
+    }
+    Ok(())
+}
+
 /// A batch of so many cases is a whole one, and no part in which a failure is looked for.
 const WHOLE: usize = 1024;
 
@@ -225,6 +224,52 @@ const WARM_UP: usize = 3;
 const MANY_CALLS: usize = (1 << 24) + WHOLE;
 
 impl HostBatch {
+    /// Reads a batch; none at the end of the input.
+    fn read(
+        input: &mut impl Read,
+        library: &Library,
+        room: &mut Room,
+    ) -> io::Result<Option<HostBatch>> {
+        let mut head = [0; BATCH_HEAD];
+        if input.read(&mut head[..1])? == 0 {
+            return Ok(None);
+        }
+        input.read_exact(&mut head[1..])?;
+        let word = |at: usize| {
+            u32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]) as usize
+        };
+        let test = if word(4) == 32 { library.f32 } else { library.f64 };
+        let with_margins = head[..4] == MARGINS;
+        let (Some(test), true) = (test, with_margins || head[..4] == BATCH) else {
+            return Err(io::Error::other("not a batch"));
+        };
+        let (size, count) = (word(4) / 8, word(8));
+        let lengths = [word(12) * size, count * CASE_NUMBERS * size];
+        for (buffer, length) in [&mut room.epsilons, &mut room.cases].into_iter().zip(lengths) {
+            buffer.fit(length)?;
+            input.read_exact(buffer.bytes())?;
+            buffer.make_read_only()?;
+        }
+        Ok(Some(HostBatch { test, size, count, with_margins }))
+    }
+
+    /// Makes room for its verdicts. No verdict has a hit of -1: what stays so was not answered.
+    fn make_room(&self, room: &mut Room) -> io::Result<()> {
+        let record = if self.size == 4 { verdict_bytes::<f32>() } else { verdict_bytes::<f64>() };
+        room.verdicts.fit(self.count * record)?;
+        room.verdicts.bytes().fill(0xff);
+        Ok(())
+    }
+
+    /// Lets the library answer it.
+    fn call(&self, room: &Room) {
+        let [cases, epsilons, verdicts] = [&room.cases, &room.epsilons, &room.verdicts]
+            .map(|buffer| buffer.start().cast::<c_void>());
+        // SAFETY: the pointers are valid for what include/hairline.h promises the library; whether
+        // the library keeps to it is what this process is for.
+        unsafe { (self.test)(cases, self.count, epsilons, verdicts) };
+    }
+
     fn is_whole(&self) -> bool {
         WHOLE <= self.count && !self.with_margins
     }
@@ -232,15 +277,11 @@ impl HostBatch {
     /// Asks the library all of this again until it has answered so many cases; a few times only, if that would take longer
     /// than a limit.
     fn ask_often(&self, room: &mut Room, limit: Duration) -> io::Result<()> {
-        let record = if self.size == 4 { verdict_bytes::<f32>() } else { verdict_bytes::<f64>() };
-        room.verdicts.fit(self.count * record)?;
-        let [cases, epsilons, verdicts] = [&room.cases, &room.epsilons, &room.verdicts]
-            .map(|buffer| buffer.start().cast::<c_void>());
+        self.make_room(room)?;
         let rounds = MANY_CALLS.div_ceil(self.count);
         for round in 0..rounds {
             let start = Instant::now();
-            // SAFETY: the pointers are valid for what include/hairline.h promises the library, as in `answer`.
-            unsafe { (self.test)(cases, self.count, epsilons, verdicts) };
+            self.call(room);
             if round == WARM_UP && limit < start.elapsed() * rounds as u32 {
                 return Ok(());
             }

@@ -20,6 +20,7 @@ mod process;
 mod running;
 mod stderr;
 pub mod text;
+mod turns;
 
 pub use hello::Hello;
 pub use offset::OffsetCommand;

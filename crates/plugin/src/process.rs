@@ -1,14 +1,15 @@
-//! A kernel in processes of its own, as a [`Subject`]: one process a thread, which receives batches. If a
+//! A kernel in processes of its own, as a [`Subject`]: one process a turn, which receives batches. If a
 //! batch ends its process the cases run again one by one, to find the one that does it.
 
 #![forbid(unsafe_code)]
 
-use super::binary;
+use super::binary::{self, Before};
 use super::exchange;
 use super::hello::{Hello, HelloLines};
 use super::margins::{self, MARGINS_AT_ONCE, MarginFailures};
 use super::running::{self, KernelProgram, Lost, Running};
 use super::stderr::MOST_LINES;
+use super::turns::Turns;
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
 use crate::corpus::lines::bare_case;
@@ -16,11 +17,13 @@ use crate::kernel::{Entry, Failure, Hit, KernelInfo, Subject, Verdict, open_epsi
 use crate::plot::{group_digits, number_of};
 use std::io;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How much this program tolerates of a process.
 #[derive(Clone, Copy, Debug)]
 pub struct ProcessLimits {
+    /// How long it may be silent while it starts.
+    pub start: Duration,
     /// How long it may be silent when an answer is due.
     pub silence: Duration,
     /// On how many cases it may crash or hang before the run ends.
@@ -57,16 +60,10 @@ pub fn load(
     limits: ProcessLimits,
     flag: String,
 ) -> Result<Entry, LoadError> {
-    let running = program.start(limits.silence).map_err(LoadError::Start)?;
-    let (hello, running) = greet(running).map_err(|lost| {
-        LoadError::Hello(match lost {
-            Lost::Garbled(message) => message,
-            Lost::Failed(Failure::Timeout) => {
-                format!("it said no hello within {} s", limits.silence.as_secs_f64())
-            }
-            Lost::Failed(failure) => format!("before its hello was over it {failure}"),
-        })
-    })?;
+    let since = Instant::now();
+    let running = program.start(limits.start).map_err(LoadError::Start)?;
+    let (hello, running) = greet(running, &program, &limits).map_err(LoadError::Hello)?;
+    let turns = Turns::new(hello.processes, since.elapsed());
     let mut notes = hello.notes();
     if !hello.floats.is_default() {
         let note = format!(
@@ -82,7 +79,7 @@ pub fn load(
     let info = hello.info();
     let scalars = hello.scalars;
     let state = Mutex::new(ProcessState { idle: vec![running], notes, ..ProcessState::default() });
-    let kernel = Process { program, limits, hello, state };
+    let kernel = Process { program, limits, hello, turns, state };
     let kernel: &'static Process = Box::leak(Box::new(kernel));
     let mut entry = Entry::new(info).chosen_by(flag.leak());
     if scalars[0] {
@@ -94,14 +91,44 @@ pub fn load(
     Ok(entry)
 }
 
-/// Reads a process's hello.
-fn greet(mut running: Running) -> Result<(Hello, Running), Lost> {
-    let mut start = HelloLines::default();
+/// Reads a process's hello. An error says in one line why it cannot be used.
+fn greet(
+    mut running: Running,
+    program: &KernelProgram,
+    limits: &ProcessLimits,
+) -> Result<(Hello, Running), String> {
+    let mut lines = HelloLines::default();
     loop {
-        let line = running.line()?;
-        if let Some(hello) = start.take(&line).map_err(Lost::Garbled)? {
-            return Ok((hello, running));
-        }
+        let failure = match running.line() {
+            Ok(line) => match lines.take(&line)? {
+                None => continue,
+                Some(hello) => {
+                    running.wait_at_most(limits.silence);
+                    return Ok((hello, running));
+                }
+            },
+            Err(Lost::Garbled(message)) => return Err(message),
+            Err(Lost::Failed(failure)) => failure,
+        };
+        let failure = match binary::before_answer(running.unread()) {
+            Some(Before::Failure(said)) => said,
+            _ => failure,
+        };
+        let limit = limits.start.as_secs_f64();
+        // The host of a library announces it, then calls it.
+        let when = match program.is_host && lines.have_begun() {
+            true => "in its first call, on a plain case,",
+            false => "before its hello was over",
+        };
+        return Err(match failure {
+            Failure::Timeout => format!(
+                "{when} it was silent for {limit} s after its start (--kernel-start SECONDS waits longer)"
+            ),
+            Failure::Overrun => {
+                format!("{when} it {failure}: are its structs those of include/hairline.h?")
+            }
+            failure => format!("{when} it {failure}"),
+        });
     }
 }
 
@@ -109,6 +136,7 @@ struct Process {
     program: KernelProgram,
     limits: ProcessLimits,
     hello: Hello,
+    turns: Turns,
     state: Mutex<ProcessState>,
 }
 
@@ -156,11 +184,13 @@ impl Process {
             Some(running) => running,
             None => self.another()?,
         };
+        let since = Instant::now();
         let said = if self.hello.binary {
             exchange::in_binary(&mut running, cases, epsilons, verdicts, margins)
         } else {
             exchange::in_text(&mut running, cases, epsilons, verdicts)
         };
+        self.turns.add_work(since.elapsed());
         let said = said?;
         if let Some(floats) = said.floats {
             self.has_changed_to(floats)?;
@@ -175,9 +205,11 @@ impl Process {
     }
 
     fn another(&self) -> Result<Running, Lost> {
+        // What goes wrong at a start is no case's fault.
         let cannot = |error| Lost::Garbled(format!("it cannot be started again: {error}"));
-        let started = self.program.start(self.limits.silence).map_err(cannot)?;
-        let (hello, running) = greet(started)?;
+        let started = self.program.start(self.limits.start).map_err(cannot)?;
+        let again = |message| Lost::Garbled(format!("started again, {message}"));
+        let (hello, running) = greet(started, &self.program, &self.limits).map_err(again)?;
         if hello != self.hello {
             let message = "started again, it announced itself differently".to_owned();
             return Err(Lost::Garbled(message));
@@ -316,6 +348,7 @@ impl<F: Float> Subject<F> for Process {
         verdicts: &mut [Verdict<F>],
     ) -> Option<u64> {
         verdicts.fill(Verdict::miss(None));
+        let _turn = self.turns.take();
         let has_given_up = self.state().gave_up.is_some();
         if has_given_up {
             return None;
@@ -339,6 +372,7 @@ impl<F: Float> Subject<F> for Process {
     ) {
         let mut verdicts = vec![Verdict::miss(None); cases.len()];
         if self.hello.has_epsilons() {
+            let _turn = self.turns.take();
             let (open, width) = (open_epsilons(info), info.gates.len());
             let ask = |cases: &[Case<F>], verdicts: &mut [Verdict<F>], margins: &mut [F]| {
                 self.ask(cases, &open, verdicts, margins).map(|_| ())

@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 pub struct KernelProgram {
     words: Vec<String>,
     /// True if it is this program as the host of a library.
-    is_host: bool,
+    pub(super) is_host: bool,
     /// The lines that it wrote to standard error.
     pub(super) said: StderrLines,
 }
@@ -64,11 +64,16 @@ impl KernelProgram {
 #[cfg(unix)]
 fn socket(mut command: Command, silence: Duration) -> io::Result<(Child, Link)> {
     let (ours, its) = UnixStream::pair()?;
-    ours.set_read_timeout(Some(silence))?;
-    ours.set_write_timeout(Some(silence))?;
+    set_timeouts(&ours, silence)?;
     let ends = [its.try_clone()?, its].map(|end| Stdio::from(std::os::fd::OwnedFd::from(end)));
     let [input, output] = ends;
     Ok((command.stdin(input).stdout(output).spawn()?, Link::Socket(ours)))
+}
+
+#[cfg(unix)]
+fn set_timeouts(socket: &UnixStream, silence: Duration) -> io::Result<()> {
+    socket.set_read_timeout(Some(silence))?;
+    socket.set_write_timeout(Some(silence))
 }
 
 /// Starts a process with a pipe each way.
@@ -140,6 +145,20 @@ impl Running {
     /// Memory to write into what is sent next: new memory for each batch costs more than the batch.
     pub fn spare(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.spare)
+    }
+
+    /// From now on it is lost when it is silent for this long.
+    pub fn wait_at_most(&mut self, silence: Duration) {
+        self.silence = silence;
+        #[cfg(unix)]
+        if let Some(Link::Socket(socket)) = &self.link {
+            let _ = set_timeouts(socket, silence);
+        }
+    }
+
+    /// The bytes that came after those that were taken.
+    pub fn unread(&self) -> &[u8] {
+        self.inbox.unread()
     }
 
     /// Hands bytes over to be written; what is left of a dead process shows when reading.

@@ -51,7 +51,7 @@ fn answer() -> io::Result<()> {
     for line in hello.lines() {
         writeln!(output, "{line}{}", if line.starts_with("source ") { &on } else { "" })?;
     }
-    writeln!(output, "encoding binary\nready")?;
+    writeln!(output, "processes 1\nencoding binary\nready")?;
     output.flush()?;
     while let Some(batch) = Batch::read(&mut input)? {
         let verdicts = gpu.run(&batch).map_err(io::Error::other)?;

@@ -124,6 +124,12 @@ impl Library {
         hello += &format!("gives{}\n", words(&gives));
         let scalars = [(self.f32.is_some(), "f32"), (self.f64.is_some(), "f64")];
         hello += &format!("scalars{}\n", words(&scalars));
+        // SAFETY: by include/hairline.h this symbol has this type, and takes nothing.
+        let processes = unsafe {
+            let processes = self.symbol::<unsafe extern "C" fn() -> u32>("hairline_processes");
+            processes.map(|processes| processes())
+        };
+        hello += &processes.map_or_else(String::new, |number| format!("processes {number}\n"));
         if kernel.epsilon_count > 0 && kernel.epsilons.is_null() {
             return Err("its epsilons are NULL, and epsilon_count is not 0".to_owned());
         }
