@@ -14,10 +14,13 @@ use crate::vectors::profile::{Answered, Profile, demanded, is_right};
 use crate::vectors::{VectorTest, core, digest, json::topic_file};
 use clap::Args;
 pub use report::VerifyResult;
-use report::{FORMATS, JudgedAnswer, JudgedTest, VerifyCounts};
+use report::{FORMATS, JudgedAnswer, JudgedTest, TestAnswer};
 use serde::de::IgnoredAny;
 use std::collections::HashMap;
 use values::GivenAnswer;
+
+/// What results say of a test that the product was not asked.
+const NOT_ASKED: &str = "\"not asked\"";
 
 /// Which results, and by what they are judged.
 #[derive(Args)]
@@ -62,10 +65,16 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     let error = |value: &str, message: String| {
         InputError::at(&arguments.file, line_of(&text, value), message)
     };
-    let mut answers: HashMap<&str, (GivenAnswer, &str)> = HashMap::new();
+    // None where the product was not asked.
+    let mut answers: HashMap<&str, (Option<GivenAnswer>, &str)> = HashMap::new();
     for (id, value) in &results.answers {
-        let answer = GivenAnswer::parse(value)
-            .map_err(|message| error(value, format!("{id}: {message}")))?;
+        let answer = match *value {
+            NOT_ASKED => None,
+            value => Some(
+                GivenAnswer::parse(value)
+                    .map_err(|message| error(value, format!("{id}: {message}")))?,
+            ),
+        };
         if answers.insert(id, (answer, value)).is_some() {
             return Err(error(value, format!("a second result of '{id}'")).into());
         }
@@ -88,8 +97,13 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     for (topic, tests) in &topics {
         for test in tests {
             let demanded = demanded(test, profile.as_ref());
-            let answer = answers.remove(test.id.as_str());
-            let answer = answer.map(|answer| judge(test, demanded, answer)).transpose()?;
+            let answer = match answers.remove(test.id.as_str()) {
+                None => TestAnswer::Missing,
+                Some((None, _)) => TestAnswer::NotAsked,
+                Some((Some(answer), value)) => {
+                    TestAnswer::Given(judge(test, demanded, (answer, value))?)
+                }
+            };
             judged.push(JudgedTest { topic: topic.name, test, demanded, answer });
         }
     }
@@ -99,8 +113,8 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     }
     let Results { product, vectors, .. } = &results;
     let result = VerifyResult::new([product, vectors], profile.as_ref(), &judged);
-    let VerifyCounts { tests, wrong, missing, .. } = result.total;
-    if tests == missing {
+    let wrong = result.total.wrong;
+    if result.total.answered() == 0 {
         return Err(Failure::nothing(format!("{}: no results in it", arguments.file)));
     }
     let provenance = provenance_of(&Context { seconds: 0.0, threads: 1 });

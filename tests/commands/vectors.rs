@@ -256,7 +256,7 @@ fn right_results_end_with_0_and_wrong_ones_with_1_under_every_profile() {
             let report: Value = json_schema::result(&report);
             let owed = tests.len() - free;
             let (right, wrong) = if right { (owed, 0) } else { (0, owed) };
-            let total = json!({"tests": tests.len(), "right": right, "wrong": wrong, "free": free, "missing": 0});
+            let total = json!({"tests": tests.len(), "right": right, "wrong": wrong, "free": free, "missing": 0, "not_asked": 0});
             assert_eq!(report["total"], total, "{name}");
             assert_eq!(report["wrong"].as_array().unwrap().len(), wrong);
             // The page counts the same.
@@ -374,6 +374,25 @@ fn the_text_counts_by_topic_and_shows_wrong_and_missing_answers() {
     );
     let (report, _) = verify(&results(&[(id, json!("hit"))]), &[], 0);
     assert!(report.starts_with("mine: 0 wrong answers, 1 right; "), "{report}");
+}
+
+#[test]
+fn a_test_that_was_not_asked_is_not_missing() {
+    let tests = tests();
+    let id = |place: usize| tests[place]["id"].as_str().unwrap().to_owned();
+    let hit = tests.iter().find(|test| test["result"] == "hit").unwrap();
+    let hit = (hit["id"].as_str().unwrap().to_owned(), json!("hit"));
+    let other = (0..).map(id).find(|id| *id != hit.0).unwrap();
+    let asked = (other, json!("not asked"));
+    let report = unwrapped(&verify(&results(&[hit.clone(), asked.clone()]), &[], 0).0);
+    let (missing, all) = (tests.len() - 2, tests.len());
+    let counts = format!("{missing} of {all} tests without a result, 1 not asked");
+    assert!(report.contains(&counts), "{report}");
+    let (_, error) = verify(&results(&[asked]), &[], 4);
+    assert!(error.contains("no results in it"), "{error}");
+    let infinite = (hit.0, json!({"hit": true, "t": "inf"}));
+    let (report, _) = verify(&results(&[infinite]), &["--format", "json"], 1);
+    assert!(report.contains("a value that is not finite"), "{report}");
 }
 
 #[test]

@@ -27,8 +27,17 @@ pub struct JudgedTest<'a> {
     pub topic: &'static str,
     pub test: &'a VectorTest,
     pub demanded: &'static str,
-    /// None if the product has no answer.
-    pub answer: Option<JudgedAnswer>,
+    pub answer: TestAnswer,
+}
+
+/// What a product says to a test.
+pub enum TestAnswer {
+    /// Its results do not name the test.
+    Missing,
+    /// It was not asked: it has no doubles, or wants what the test does not have.
+    NotAsked,
+    /// An answer.
+    Given(JudgedAnswer),
 }
 
 /// An answer that was judged.
@@ -57,6 +66,9 @@ pub struct VerifyResult {
     wrong: Vec<WrongTest>,
     /// The ids of tests without an answer.
     missing: Vec<String>,
+    /// The ids of tests that the product was not asked.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    not_asked: Vec<String>,
     /// The ids of answers against what the profile's specification only advises: they are not wrong.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     unadvised: Vec<String>,
@@ -78,6 +90,16 @@ pub struct VerifyCounts {
     free: u64,
     /// Without an answer.
     pub missing: u64,
+    /// Not asked, as the results say.
+    #[serde(default)]
+    pub not_asked: u64,
+}
+
+impl VerifyCounts {
+    /// How many were answered.
+    pub fn answered(&self) -> u64 {
+        self.tests - self.missing - self.not_asked
+    }
 }
 
 /// A wrong answer.
@@ -107,16 +129,13 @@ impl Comparable for VerifyResult {
     }
 
     fn cases(&self) -> String {
-        self.missing.join(" ")
+        self.missing.iter().chain(&self.not_asked).cloned().collect::<Vec<_>>().join(" ")
     }
 
     fn counted(&self) -> Vec<NamedRate> {
         let counted = |(topic, counts): &(String, VerifyCounts)| NamedRate {
             what: format!("{topic}: wrong answers"),
-            rate: Rate::new(
-                Trials::independent(counts.wrong, counts.tests - counts.missing),
-                false,
-            ),
+            rate: Rate::new(Trials::independent(counts.wrong, counts.answered()), false),
             command: self.wrong.iter().find(|it| it.topic == *topic).map(|it| explain(&it.id)),
         };
         self.topics.iter().map(counted).collect()
@@ -145,14 +164,22 @@ impl VerifyResult {
         let mut wrong = Vec::new();
         for JudgedTest { topic, test, demanded, answer } in tests {
             report.count(topic, |counts| match answer {
-                None => &mut counts.missing,
-                Some(JudgedAnswer { right: false, .. }) => &mut counts.wrong,
-                Some(_) if *demanded == "free" => &mut counts.free,
-                Some(_) => &mut counts.right,
+                TestAnswer::Missing => &mut counts.missing,
+                TestAnswer::NotAsked => &mut counts.not_asked,
+                TestAnswer::Given(JudgedAnswer { right: false, .. }) => &mut counts.wrong,
+                TestAnswer::Given(_) if *demanded == "free" => &mut counts.free,
+                TestAnswer::Given(_) => &mut counts.right,
             });
-            let Some(JudgedAnswer { answered, right, wrong_values }) = answer else {
-                report.missing.push(test.id.clone());
-                continue;
+            let JudgedAnswer { answered, right, wrong_values } = match answer {
+                TestAnswer::Given(answer) => answer,
+                TestAnswer::Missing => {
+                    report.missing.push(test.id.clone());
+                    continue;
+                }
+                TestAnswer::NotAsked => {
+                    report.not_asked.push(test.id.clone());
+                    continue;
+                }
             };
             if let Some(saying) = profile.and_then(|it| it.advice_against(test, *answered)) {
                 report.unadvised.push(test.id.clone());
@@ -222,21 +249,26 @@ impl VerifyResult {
 impl Paged for VerifyResult {
     fn page(&self) -> Page {
         let VerifyResult { product, profile, total, topics, wrong, unadvised, sayings, .. } = self;
-        let VerifyCounts { tests, right, wrong: count, free, missing } = total;
+        let VerifyCounts { tests, right, wrong: count, free, missing, not_asked } = total;
         let answers = number_of(*count, "wrong answer", "wrong answers");
         let by = profile.as_ref().map_or(String::new(), |name| format!(" by profile {name}"));
+        let asked = match not_asked {
+            0 => String::new(),
+            count => format!(", {count} not asked"),
+        };
         let title = format!(
-            "{}: {answers}, {right} right{by}; {free} free to be either, {missing} of {tests} tests without a result",
+            "{}: {answers}, {right} right{by}; {free} free to be either, {missing} of {tests} tests without a result{asked}",
             product.escape_debug()
         );
         let row = |(name, counts): &(String, VerifyCounts)| {
-            let VerifyCounts { tests, right, wrong, free, missing } = *counts;
-            let mut row =
-                Row::new(name, [tests, wrong, right, free, missing].map(|n| n.to_string()));
+            let VerifyCounts { tests, right, wrong, free, missing, not_asked } = *counts;
+            let numbers = [tests, wrong, right, free, missing, not_asked];
+            let mut row = Row::new(name, numbers.map(|n| n.to_string()));
             row.cells[1].is_broken = 0 < wrong;
             row
         };
-        let heads = ["topic", "tests", "wrong", "right", "free", "missing"].map(Head::of);
+        let heads =
+            ["topic", "tests", "wrong", "right", "free", "missing", "not asked"].map(Head::of);
         let mut blocks =
             vec![Block::Table(Table::new(heads.into(), topics.iter().map(row).collect()))];
         let wrong = wrong.iter().map(|it| Item::shown_by(it.text(), explain(&it.id)));

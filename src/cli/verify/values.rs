@@ -51,7 +51,7 @@ impl<'a> GivenAnswer<'a> {
                 .map_err(|_| {
                     format!(
                         "expected \"hit\", \"miss\" or a number of hits, found {}; a hit with its values is \
-                         {{\"hit\": true, \"t\": 1.5}}",
+                         {{\"hit\": true, \"t\": 1.5}}, and a test that was not asked \"not asked\"",
                         json::excerpt(other)
                     )
                 })
@@ -68,8 +68,14 @@ impl<'a> GivenAnswer<'a> {
         let nan = F::from_f64(f64::NAN);
         let read = |i: usize| match self.values[i] {
             None => Ok(nan),
-            Some(text) => number::parse::<F>(text)
-                .map_err(|message| format!("{}: {message}", ["t", "u", "v"][i])),
+            Some(text) => {
+                // JSON has no infinity and no NaN: they are strings.
+                let parsed = match text.starts_with('"') {
+                    true => json::string(text).and_then(|text| number::parse::<F>(&text)),
+                    false => number::parse::<F>(text),
+                };
+                parsed.map_err(|message| format!("{}: {message}", ["t", "u", "v"][i]))
+            }
         };
         let (t, u, v) = (read(0)?, read(1)?, read(2)?);
         let [t_given, uv_given, _] = self.values.map(|value| value.is_some());

@@ -115,9 +115,10 @@ fn table(table: &Table) -> String {
     }
 }
 
-/// Text outside of code: neither a picture nor an element nor a link behind other words, whoever wrote it.
+/// Text outside of code: neither a picture nor an element nor a link, whoever wrote it; an address alone is a link on GitHub.
 fn words(text: &str) -> String {
     let text = text.replace('\\', "\\\\").replace('[', "\\[");
+    let text = text.replace("://", ":\\//").replace("www.", "www\\.");
     cell(&text).replace('<', "&lt;")
 }
 

@@ -338,6 +338,15 @@ fn gltf_files_that_are_wrong_say_where() {
         });
     });
     assert!(refusal("a.glb", zeros).contains("accessors[0]: 90000000 elements, more than the "));
+    // A small file that places one mesh very often.
+    let crowd = changed(|document| {
+        let primitive = document["meshes"][0]["primitives"][0].clone();
+        document["meshes"][0]["primitives"] = vec![primitive; 100].into();
+        document["scenes"][0]["nodes"] = (0..3_000).collect();
+        document["nodes"] = vec![json!({ "mesh": 0 }); 3_000].into();
+    });
+    let said = refusal("a.glb", crowd);
+    assert!(said.contains(": placed so often that "), "{said}");
     let mut not_finite = solid();
     not_finite.vertices[5][1] = f32::NAN;
     assert_eq!(

@@ -151,6 +151,10 @@ fn said(error: &gltf::Error) -> String {
     }
 }
 
+/// How many triangles a file of any size may have. Nodes can place one mesh any number of times, so a larger file may have one
+/// triangle for each of its bytes: one that is placed once takes more than a byte.
+const TRIANGLES_OF_ANY_FILE: usize = 2_000_000;
+
 struct GltfReader<'a> {
     name: &'a str,
     limits: ReadLimits,
@@ -275,6 +279,13 @@ impl GltfReader<'_> {
         let limit = self.limits.elements;
         if triangles > limit - self.mesh.triangles().min(limit) {
             return self.error(format!("{place}: more than {limit} triangles"));
+        }
+        let read = self.buffers.bytes();
+        if self.mesh.triangles() + triangles > read.max(TRIANGLES_OF_ANY_FILE) {
+            let message = format!(
+                "{place}: placed so often that {read} bytes make more than as many triangles"
+            );
+            return self.error(message);
         }
         let indices = match primitive.indices() {
             Some(accessor) => self.indices(&accessor, vertices, place)?,

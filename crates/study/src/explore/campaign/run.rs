@@ -75,8 +75,8 @@ impl Campaign {
         let first_wide = self.f32.len() as u64 * LANES;
         let narrow = grow(&mut self.f32, seed, round, share);
         let wide = grow(&mut self.f64, seed, round, |task| share(first_wide + task));
-        self.rounds += 1;
-        self.evaluations += evaluations;
+        self.rounds = self.rounds.saturating_add(1);
+        self.evaluations = self.evaluations.saturating_add(evaluations);
         let evaluations = self.evaluations;
         let mut finds = engine::map(&narrow, |newcomer| newcomer.find(seed, evaluations));
         finds.extend(engine::map(&wide, |newcomer| newcomer.find(seed, evaluations)));

@@ -38,6 +38,11 @@ impl<'a> Buffers<'a> {
         Buffers { name, binary, beside, loaded: HashMap::new(), bytes }
     }
 
+    /// How many bytes were read so far.
+    pub fn bytes(&self) -> usize {
+        self.bytes
+    }
+
     /// An accessor's elements without gaps.
     pub fn elements(&mut self, accessor: &Accessor) -> Result<Vec<u8>, InputError> {
         let (count, size, index) = (accessor.count(), accessor.size(), accessor.index());
