@@ -19,7 +19,7 @@ use serde::de::IgnoredAny;
 use std::collections::HashMap;
 use values::GivenAnswer;
 
-/// What results say of a test that the product was not asked.
+/// The answer in results to a test that the product was not asked.
 const NOT_ASKED: &str = "\"not asked\"";
 
 /// Which results, and by what they are judged.

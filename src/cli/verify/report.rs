@@ -30,7 +30,7 @@ pub struct JudgedTest<'a> {
     pub answer: TestAnswer,
 }
 
-/// What a product says to a test.
+/// The answer of a product to a test, if there is one.
 pub enum TestAnswer {
     /// Its results do not name the test.
     Missing,
