@@ -388,6 +388,6 @@ mod tests {
             .collect();
         // Three flags are false, which takes no word.
         let words = read_settings(&examples.join("\n"), "h.toml").unwrap();
-        assert_eq!(words.len(), 25, "{words:?}");
+        assert_eq!(words.len(), 26, "{words:?}");
     }
 }
