@@ -14,10 +14,10 @@ pub fn has(program: &str) -> bool {
 }
 
 /// Says why a test ends before it has tried all, on its standard error, which `cargo test` shows of failed tests alone, and in
-/// the file that `HAIRLINE_NOT_TESTED` names: `.ci/run` prints it at its end.
+/// the file that `NOT_TESTED` names: `.ci/run` prints it at its end.
 pub fn not_tested(why: &str) {
     eprintln!("NOT TESTED: {why}");
-    let Some(name) = std::env::var_os("HAIRLINE_NOT_TESTED") else { return };
+    let Some(name) = std::env::var_os("NOT_TESTED") else { return };
     let file = OpenOptions::new().create(true).append(true).open(name);
     writeln!(file.unwrap(), "{why}").unwrap();
 }

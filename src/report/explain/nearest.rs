@@ -45,7 +45,7 @@ pub(super) fn nearest<F: Scalar>(
         group_digits(nearby.drawn.len() as u64),
         in_words(nearest.row.entry.info.name),
     );
-    let other = other_epsilon(&nearest.row, nearby);
+    let other = other_epsilon(row, &nearest.row, nearby);
     let other = other.map_or(String::new(), |words| format!("; it would on all with {words}"));
     let here = here(case, is_secondary, &nearest.row, verdict)?;
     Some(format!("compared, not proved: on {text}{other}; {here}"))
@@ -57,7 +57,7 @@ pub fn misused_formula<F: Scalar>(case: &Case<F>, row: &Row) -> Option<String> {
     let nearby = Nearby::of(case, row)?;
     let formula = nearest_formula(row, &nearby)?;
     let name = formula.row.entry.info.name;
-    let other = other_epsilon(&formula.row, &nearby);
+    let other = other_epsilon(row, &formula.row, &nearby);
     if other.is_none() && !name.ends_with(FUSED) {
         return None;
     }

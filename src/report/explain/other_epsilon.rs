@@ -15,10 +15,22 @@ struct EpsilonRange<F> {
 }
 
 /// The gate of a formula with another epsilon at which it explains every answer of a kernel nearby: `parallel = 1e-4 in place
-/// of 1e-6`; none if its own epsilons do, or if one other epsilon does not.
-pub(super) fn other_epsilon<F: Scalar>(formula: &Row, nearby: &Nearby<F>) -> Option<String> {
+/// of 1e-6`; none if its own epsilons do, or if one other epsilon does not. Where the kernel, in its row, names an epsilon as the
+/// formula does, its value counts.
+pub(super) fn other_epsilon<F: Scalar>(
+    row: &Row,
+    formula: &Row,
+    nearby: &Nearby<F>,
+) -> Option<String> {
     let gated = F::subject(formula.entry)?.gated()?;
-    let epsilons: Vec<F> = formula.epsilons();
+    let mut epsilons: Vec<F> = formula.epsilons();
+    let declared = row.entry.info.gates.iter().zip(row.epsilons::<F>());
+    for (own, value) in declared.filter(|(own, _)| own.epsilon != Tunable::Fixed) {
+        let place = formula.entry.info.gates.iter().position(|gate| gate.name == own.name);
+        if let Some(place) = place {
+            epsilons[place] = value;
+        }
+    }
     let drawn = nearby.drawn.iter().zip(&nearby.answers);
     let scaled = nearby.scaled.iter().map(|(case, answer)| (case, answer));
     let measured =
