@@ -68,13 +68,8 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     // None where the product was not asked.
     let mut answers: HashMap<&str, (Option<GivenAnswer>, &str)> = HashMap::new();
     for (id, value) in &results.answers {
-        let answer = match *value {
-            NOT_ASKED => None,
-            value => Some(
-                GivenAnswer::parse(value)
-                    .map_err(|message| error(value, format!("{id}: {message}")))?,
-            ),
-        };
+        let answer = (*value != NOT_ASKED).then(|| GivenAnswer::parse(value)).transpose();
+        let answer = answer.map_err(|message| error(value, format!("{id}: {message}")))?;
         if answers.insert(id, (answer, value)).is_some() {
             return Err(error(value, format!("a second result of '{id}'")).into());
         }

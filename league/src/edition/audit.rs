@@ -180,9 +180,9 @@ fn scalar_result(
         }
         shares
     };
-    let is_of_noise = |result: &&&KernelResult| result.family == NOISE;
-    let ordinary_sizes = Across::of(results.iter().filter(|result| !is_of_noise(result)));
-    let noise = Across::of(results.iter().filter(is_of_noise));
+    let (noise, others): (Vec<_>, Vec<_>) =
+        results.iter().copied().partition(|it| it.family == NOISE);
+    let [noise, ordinary_sizes] = [noise, others].map(|results| Across::of(&results));
     let deepest = |finding: FindingKind, groups: &[&str]| {
         let results = groups.iter().flat_map(|group| of_group(group));
         let depths = results.flat_map(|result| {
@@ -201,10 +201,10 @@ fn scalar_result(
     let verdict = match () {
         () if entrant.claim.is_empty() => "none",
         () if ordinary_sizes.breaks_its_promise() => "refuted",
-        () if entrant.only_shared && noise.breaks_its_promise() => "refuted by size",
+        () if ordinary > half && !entrant.only_shared => "refuted",
+        () if noise.breaks_its_promise() => "refuted by size",
         () if entrant.only_shared => "held",
-        () if ordinary > half => "refuted",
-        () if sized > half || noise.breaks_its_promise() => "refuted by size",
+        () if sized > half => "refuted by size",
         () if ordinary.max(sized) > HELD => "rounding",
         () => "held",
     };
@@ -240,13 +240,13 @@ struct Across {
 }
 
 impl Across {
-    fn of<'a>(results: impl Iterator<Item = &'a &'a KernelResult>) -> Across {
+    fn of(results: &[&KernelResult]) -> Across {
         let mut sum = Across {
             cracks: Share::default(),
             doubles: Share::default(),
             promised: Promised::Nothing,
         };
-        for part in results.filter_map(|result| result.across.as_ref()) {
+        for part in results.iter().filter_map(|result| result.across.as_ref()) {
             sum.cracks.add(part.cracks.count, part.cracks.of);
             sum.doubles.add(part.doubles.count, part.doubles.of);
             sum.promised = part.promised;

@@ -129,7 +129,7 @@ impl Comparable for VerifyResult {
     }
 
     fn cases(&self) -> String {
-        self.missing.iter().chain(&self.not_asked).cloned().collect::<Vec<_>>().join(" ")
+        [&self.missing[..], &self.not_asked].concat().join(" ")
     }
 
     fn counted(&self) -> Vec<NamedRate> {

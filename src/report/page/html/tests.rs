@@ -136,7 +136,7 @@ pub fn conformance(deviations: Vec<Deviation>) -> Conformance {
         is_by_family: false,
         expectations: Some(HOSTILE.to_owned()),
         note: Some(HOSTILE.to_owned()),
-        misused: Vec::new(),
+        misused: vec![HOSTILE.to_owned()],
         change: NetChange::default(),
         rows: vec![RowChange {
             row: HOSTILE.to_owned(),

@@ -280,12 +280,12 @@ impl GltfReader<'_> {
         if triangles > limit - self.mesh.triangles().min(limit) {
             return self.error(format!("{place}: more than {limit} triangles"));
         }
-        let read = self.buffers.bytes();
-        if self.mesh.triangles() + triangles > read.max(TRIANGLES_OF_ANY_FILE) {
-            let message = format!(
-                "{place}: placed so often that {read} bytes make more than as many triangles"
-            );
-            return self.error(message);
+        let bytes = self.buffers.bytes();
+        let limit = bytes.max(TRIANGLES_OF_ANY_FILE);
+        if self.mesh.triangles() + triangles > limit {
+            return self.error(format!(
+                "{place}: more than {limit} triangles, of {bytes} bytes: meshes are placed too often"
+            ));
         }
         let indices = match primitive.indices() {
             Some(accessor) => self.indices(&accessor, vertices, place)?,
