@@ -136,7 +136,7 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
 
 /// Lines of code of each crate, without tests, comments and blank lines. A cut lowers its number. It is raised only with
 /// something new that was asked for (a kernel, a study, a format), in the same commit, with the reason.
-const MOST_LINES: [usize; 5] = [7_720, 8_120, 19_740, 2_030, 23_620];
+const MOST_LINES: [usize; 5] = [7_720, 8_120, 19_740, 2_040, 23_620];
 
 #[test]
 fn no_crate_grows() {

@@ -4,7 +4,7 @@ use super::near::Nearby;
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
-use crate::kernel::{Scalar, Tunable, Verdict};
+use crate::kernel::{KERNELS, Role, Scalar, Tunable, Verdict};
 use crate::report::epsilon::shortest;
 
 /// The range of an epsilon: the kernel refuses at a margin of `low` and accepts at one of `high`.
@@ -14,8 +14,9 @@ struct EpsilonRange<F> {
     high: F,
 }
 
-/// The gate of a formula with another epsilon at which it explains every answer of a kernel nearby: `parallel = 1e-4 in place
-/// of 1e-6`; none if its own epsilons do, or if one other epsilon does not. Where the kernel, in its row, names an epsilon as the
+/// The gate of a formula with another epsilon at which it explains every answer of a kernel nearby: `parallel between 9.8e-5 and
+/// 1.04e-4 in place of 1e-6`; none if its own epsilons do, if one other epsilon does not, or if the epsilon is one that the
+/// kernel declares or that another formula publishes for that gate. Where the kernel, in its row, names an epsilon as the
 /// formula does, its value counts.
 pub(super) fn other_epsilon<F: Scalar>(
     row: &Row,
@@ -24,9 +25,9 @@ pub(super) fn other_epsilon<F: Scalar>(
 ) -> Option<String> {
     let gated = F::subject(formula.entry)?.gated()?;
     let mut epsilons: Vec<F> = formula.epsilons();
-    let declared = row.entry.info.gates.iter().zip(row.epsilons::<F>());
-    for (own, value) in declared.filter(|(own, _)| own.epsilon != Tunable::Fixed) {
-        let place = formula.entry.info.gates.iter().position(|gate| gate.name == own.name);
+    let declared: Vec<(&str, F)> = tunable(row);
+    for &(name, value) in &declared {
+        let place = formula.entry.info.gates.iter().position(|gate| gate.name == name);
         if let Some(place) = place {
             epsilons[place] = value;
         }
@@ -37,19 +38,37 @@ pub(super) fn other_epsilon<F: Scalar>(
         |(case, answer): (&Case<F>, &Verdict<F>)| (gated.measure(case).margins, answer.hit);
     let answers: Vec<(Vec<F>, bool)> = drawn.chain(scaled).map(measured).collect();
     let gates = formula.entry.info.gates.iter().enumerate();
-    let tuned = gates.filter(|(_, gate)| gate.epsilon != Tunable::Fixed);
+    // Cases have intervals: a kernel's t_min and a gate on t cannot be told apart.
+    let tuned = gates.filter(|(_, gate)| gate.epsilon != Tunable::Fixed && gate.role != Role::T);
     let of_gate = tuned.filter_map(|(place, gate)| {
         let range = range(&answers, &epsilons, place)?;
         let old = epsilons[place];
-        let is_old = range.low < old && old <= range.high;
-        (!is_old)
-            .then(|| format!("{} {} in place of {}", gate.name, range.in_words(), shortest(old)))
+        // A kernel may call its epsilon as it likes.
+        let is_declared = declared.iter().any(|(_, value)| range.holds(*value));
+        if range.holds(old) || is_declared || published(gate.name).any(|it| range.holds(it)) {
+            return None;
+        }
+        Some(format!("{} {} in place of {}", gate.name, range.in_words(), shortest(old)))
     });
     let found: Vec<String> = of_gate.collect();
     match &found[..] {
         [one] => Some(one.clone()),
         _ => None,
     }
+}
+
+/// The epsilons of a row that can be chosen, with the names of their gates.
+fn tunable<F: Scalar>(row: &Row) -> Vec<(&'static str, F)> {
+    let gates = row.entry.info.gates.iter().zip(row.epsilons::<F>());
+    let chosen = gates.filter(|(gate, _)| gate.epsilon != Tunable::Fixed);
+    chosen.map(|(gate, value)| (gate.name, value)).collect()
+}
+
+/// The epsilons that built-in formulas publish for a gate of this name.
+fn published<F: Scalar>(name: &str) -> impl Iterator<Item = F> {
+    let rows = KERNELS.iter().filter_map(|entry| Row::named(entry.info.name, None, "own").ok());
+    let all = rows.flat_map(|row| tunable::<F>(&row));
+    all.filter(move |(gate, _)| *gate == name).map(|(_, value)| value)
 }
 
 /// The range of one gate's epsilon that explains all answers; none if no epsilon does, or if it has no end.
@@ -75,17 +94,16 @@ fn range<F: Float>(
 }
 
 impl<F: Float> EpsilonRange<F> {
-    /// The number of fewest digits in the range, or its ends.
+    fn holds(self, epsilon: F) -> bool {
+        self.low < epsilon && epsilon <= self.high
+    }
+
+    /// Its ends, rounded outwards to three digits: which number between them the kernel has, its answers do not tell.
     fn in_words(self) -> String {
-        let ends = [self.low, self.high].map(F::to_f64);
-        let rounded = |digits: usize| ends.map(|end| format!("{end:.digits$e}"));
-        let is_inside = |text: &String| {
-            let number = text.parse().map_or(self.low, F::from_f64);
-            self.low < number && number <= self.high
-        };
-        match (0..3).flat_map(rounded).find(is_inside) {
-            Some(text) => format!("= {text}"),
-            None => format!("between {:.1e} and {:.1e}", ends[0], ends[1]),
-        }
+        // Three digits are off by half a percent at most.
+        const ROUNDING: f64 = 0.005;
+        let [low, high] = [self.low, self.high].map(F::to_f64);
+        let [low, high] = [low - ROUNDING * low.abs(), high + ROUNDING * high.abs()];
+        format!("between {low:.2e} and {high:.2e}")
     }
 }

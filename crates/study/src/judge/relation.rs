@@ -248,8 +248,8 @@ fn is_near<R: Real>(allowed: &Allowed<R>, found: &R, expected: R, unit: R) -> bo
     off.is_at_most(&((allowed.number)(ALLOWANCE) * unit))
 }
 
-/// How far, in longest edges, a case must be from where its obligation changes to show how the interval is read: nearer to an
-/// end rounding decides.
+/// How far, in longest edges, a case must be from where its obligation changes, and from the triangle's boundary, to show how
+/// the interval is read: nearer to either rounding decides.
 const CLEAR: f64 = 1.0 / 1024.0;
 
 /// The relations about hit or miss that demand another answer to a case than its contract, each with what it demands. The
@@ -270,7 +270,10 @@ pub fn other_demands<F: Float>(
         is_other.then_some((relation, other))
     });
     let others: Vec<(Relation, Obligation)> = others.collect();
-    let is_clear = || CLEAR <= Distances::of(case, truth).nearest_change(truth, contract);
+    let is_clear = || {
+        let distances = Distances::of(case, truth);
+        CLEAR <= distances.in_space.min(distances.nearest_change(truth, contract))
+    };
     if others.is_empty() || !is_clear() { Vec::new() } else { others }
 }
 
