@@ -110,7 +110,8 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     let result = VerifyResult::new([product, vectors], profile.as_ref(), &judged);
     let wrong = result.total.wrong;
     if result.total.answered() == 0 {
-        return Err(Failure::nothing(format!("{}: no results in it", arguments.file)));
+        let message = "it answers no test: all results are missing or \"not asked\"";
+        return Err(Failure::nothing(format!("{}: {message}", arguments.file)));
     }
     let provenance = provenance_of(&Context { seconds: 0.0, threads: 1 });
     arguments.output.write(outputs, &Record::new(result, provenance).sealed())?;

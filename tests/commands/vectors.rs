@@ -389,7 +389,7 @@ fn a_test_that_was_not_asked_is_not_missing() {
     let counts = format!("{missing} of {all} tests without a result, 1 not asked");
     assert!(report.contains(&counts), "{report}");
     let (_, error) = verify(&results(&[asked]), &[], 4);
-    assert!(error.contains("no results in it"), "{error}");
+    assert!(error.contains("it answers no test"), "{error}");
     let infinite = (hit.0, json!({"hit": true, "t": "inf"}));
     let (report, _) = verify(&results(&[infinite]), &["--format", "json"], 1);
     assert!(report.contains("a value that is not finite"), "{report}");
@@ -527,7 +527,7 @@ fn bad_results_are_refused_in_one_line_with_file_and_line() {
         assert_eq!(error.lines().count(), 1, "{what}: {error}");
     }
     let (_, error) = verify(&results(&[]), &[], 4);
-    assert!(error.contains("results.json: no results in it"), "{error}");
+    assert!(error.contains("results.json: it answers no test"), "{error}");
     let (_, error) = verify(&good, &["--profile", "vulcan"], 2);
     assert!(error.contains("unknown profile 'vulcan'; did you mean 'vulkan'?"), "{error}");
     let (_, error) = ends(&scratch("verify-none"), &["verify", "none.json"], 74);

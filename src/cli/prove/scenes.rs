@@ -44,10 +44,11 @@ pub fn mesh_scene(
             let area = Scene::twice_area(&vertices);
             size = sides.iter().flatten().fold(size, |most, x| most.max(x.abs()));
             coordinates = vertices.iter().flatten().fold(coordinates, |most, x| most.max(x.abs()));
-            edge[1] = lengths.into_iter().fold(edge[1], f64::max);
+            let longest = lengths.into_iter().fold(0.0, f64::max);
+            edge[1] = edge[1].max(longest);
             if area > 0.0 {
                 shape = shape.min(area);
-                edge[0] = lengths.into_iter().fold(edge[0], f64::min);
+                edge[0] = edge[0].min(longest);
                 let angle = (0..3).map(|i| (area / (lengths[i] * lengths[(i + 1) % 3])).min(1.0));
                 let angle = angle.fold(1.0, f64::min).asin().to_degrees();
                 min_angle = min_angle.min(angle);
@@ -61,7 +62,8 @@ pub fn mesh_scene(
     }
     // Origins are up to the distance away from the vertices.
     let coordinates = coordinates + distance;
-    let (is_of_longest, shape) = (false, Some(shape));
+    // As `epsilon --mesh` has them.
+    let (is_of_longest, shape) = (true, Some(shape));
     let scene = Scene { coordinates, edge, is_of_longest, distance, min_angle, grazing, shape };
     Ok((scene, shapes))
 }

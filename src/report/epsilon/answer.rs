@@ -137,13 +137,25 @@ pub(super) fn column(part: &SceneKernelPart, name: &str) -> String {
 /// The row of the holes in a picture.
 pub(super) const PICTURE: &str = "of a million pixels: holes";
 
-/// Holes in a million pixels, in two digits.
-pub(super) fn holes_text(holes: f64) -> String {
-    match holes {
+/// An interval of holes whose ends are farther apart than this factor is told in place of their number.
+const UNCERTAIN: f64 = 4.0;
+
+/// Holes in a million pixels, in two digits: `0.24`, or `0.002 to 0.3` where few rays leaked; none where they were not counted.
+pub(super) fn holes_text(tried: &TriedPart) -> Option<String> {
+    let holes = tried.holes_per_million?;
+    let number = |x: f64, is_up| match x {
         0.0 => "0".to_owned(),
         ..1e-4 => "< 0.0001".to_owned(),
-        _ => human(&format!("{:e}", two_digits(holes, true))),
-    }
+        _ => human(&format!("{:e}", two_digits(x, is_up))),
+    };
+    Some(match tried.holes_interval {
+        Some([_, high]) if high < 1e-4 => number(high, true),
+        Some([..1e-4, high]) => format!("up to {}", number(high, true)),
+        Some([low, high]) if low * UNCERTAIN < high => {
+            format!("{} to {}", number(low, false), number(high, true))
+        }
+        _ => number(holes, true),
+    })
 }
 
 /// The results of what was tried.
@@ -156,8 +168,7 @@ pub(super) fn rows(part: &SceneKernelPart) -> Vec<Row> {
         }
         rows.push(Row::new(label(count), columns(part).map(|tried| share(&tried.wrong[i]))));
         if count.rays == Rays::Stratum(Stratum::Edges) {
-            let holes: Option<Vec<String>> =
-                columns(part).map(|tried| tried.holes_per_million.map(holes_text)).collect();
+            let holes: Option<Vec<String>> = columns(part).map(holes_text).collect();
             rows.extend(holes.map(|holes| Row::new(PICTURE, holes)));
         }
         let several = match (count.rays, count.kind) {

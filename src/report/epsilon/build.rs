@@ -236,12 +236,15 @@ fn error_parts(errors: &[ErrorSums]) -> Vec<ErrorPart> {
 }
 
 fn tried_part<F: Float>(tried: &Tried<F>, is_limited: bool) -> TriedPart {
+    let in_a_million = |share: f64| 1e6 * share;
+    let interval = tried.holes.and_then(|holes| holes.interval);
     TriedPart {
         name: tried.name.clone(),
         epsilons: tried.epsilons.iter().map(|epsilon| shortest(*epsilon)).collect(),
         wrong: rates(&tried.wrong),
         cost: tried.cost,
-        holes_per_million: tried.holes.map(|share| 1e6 * share),
+        holes_per_million: tried.holes.map(|holes| in_a_million(holes.share)),
+        holes_interval: interval.map(|ends| [ends.low, ends.high].map(in_a_million)),
         doubles: rates(&tried.doubles),
         errors: error_parts(&tried.errors),
         exceeded: if is_limited { rates(&tried.exceeded) } else { Vec::new() },

@@ -187,6 +187,9 @@ pub struct TriedPart {
     /// where no crack at shared edges is counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub holes_per_million: Option<f64>,
+    /// The 95 % interval of that; none where no ray leaked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub holes_interval: Option<[f64; 2]>,
     /// The errors of the hits that remain.
     pub errors: Vec<ErrorPart>,
     /// If errors are limited: by count, the hits that remain and are farther off; of none where no hit can

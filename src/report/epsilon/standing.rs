@@ -51,8 +51,8 @@ pub(super) fn of_given(record: &SceneResult, part: &SceneKernelPart) -> Option<S
             let [own, best] = [tried, best].map(|tried| cost(record, part, tried));
             own - best <= (AS_GOOD * best).clamp(TELLING, 10.0 * TELLING)
         };
-        let holes = |holes: f64| format!(", {} holes in a million pixels", holes_text(holes));
-        let holes = tried.holes_per_million.map_or(String::new(), holes);
+        let holes = holes_text(tried);
+        let holes = holes.map_or(String::new(), |it| format!(", {it} holes in a million pixels"));
         let costs = format!("cost {:.3} against {:.3}{holes}", tried.cost, best.cost);
         let rest = remains(record, part, tried, Some(best), 1);
         let rest = rest.map_or(String::new(), |rest| format!(": {rest}"));

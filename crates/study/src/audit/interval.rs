@@ -16,7 +16,7 @@ pub struct Interval {
 ///
 /// Its ends are the quantiles of Beta(k, n-k+1) at `tail` and of Beta(k+1, n-k) at 1 - `tail`, which k
 /// and n need not be whole for.
-pub(super) fn clopper_pearson(k: f64, n: f64, tail: f64) -> Interval {
+pub fn clopper_pearson(k: f64, n: f64, tail: f64) -> Interval {
     // With no success (or no failure) the beta distribution has a closed form.
     let all_of_one_kind = -expm1(log(tail) / n);
     let low = if k <= 0.0 {

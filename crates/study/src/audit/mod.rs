@@ -57,7 +57,7 @@ pub use epsilon_text::EpsilonText;
 pub use group_count::GroupCount;
 pub use group_count::JudgedGroup;
 pub use histogram::{Histogram, Octave};
-pub use interval::Interval;
+pub use interval::{Interval, clopper_pearson};
 pub use judging::polygon_verdict;
 pub use places::{PlaceFault, Seen};
 pub use plan::Plan;

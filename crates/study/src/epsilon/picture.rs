@@ -6,6 +6,7 @@
 
 use super::knob::KnobMargins;
 use super::trials::{Pass, Setting, accepts, is_unknown};
+use crate::audit::{Interval, clopper_pearson};
 use crate::case::Case;
 use crate::engine;
 use crate::family::{Pixel, Stratum};
@@ -16,11 +17,34 @@ use crate::oracle::{self, Layers};
 /// Rays that are summed together.
 const CHUNK: u64 = 1024;
 
+/// The share of a picture's pixels that are holes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HoleShare {
+    /// As estimated.
+    pub share: f64,
+    /// The 95 % interval; none where no ray leaked, which does not say how far from the edge one would.
+    pub interval: Option<Interval>,
+}
+
+/// How much larger than the largest leak that was seen the next may be: of samples of 300 rays, 19 in 20 have the share of a
+/// million rays in their interval with 8, 9 in 10 with 4.
+const UNSEEN: f64 = 8.0;
+
+/// The areas for which leaking rays stand.
+#[derive(Clone, Copy, Default)]
+struct Leaks {
+    area: f64,
+    /// The sum of the areas' squares.
+    squares: f64,
+    /// The largest area of one.
+    largest: f64,
+}
+
 /// The sums of some rays.
 #[derive(Clone)]
 struct RaySums {
-    /// By epsilons: the area of leaks.
-    leaks: Vec<f64>,
+    /// By epsilons.
+    leaks: Vec<Leaks>,
     triangles: f64,
 }
 
@@ -30,10 +54,10 @@ pub fn holes<F: Scalar>(
     setting: &Setting<'_, F>,
     epsilons: &[Vec<F>],
     pass: Pass<'_>,
-) -> Vec<Option<f64>> {
+) -> Vec<Option<HoleShare>> {
     // Families are no scene, whose triangles could cover a picture.
     let Some(scene) = setting.scene else { return vec![None; epsilons.len()] };
-    let empty = RaySums { leaks: vec![0.0; epsilons.len()], triangles: 0.0 };
+    let empty = RaySums { leaks: vec![Leaks::default(); epsilons.len()], triangles: 0.0 };
     let count = setting.source(Stratum::Edges, pass.seed, pass.count).count::<F>();
     let starts: Vec<u64> = (0..count).step_by(CHUNK as usize).collect();
     let of_chunk = |start: &u64| {
@@ -46,29 +70,70 @@ pub fn holes<F: Scalar>(
         }
         sums
     };
+    let mut sums = empty.clone();
     // In their order: sums of floats depend on it.
-    let sums =
-        engine::map(&starts, of_chunk).into_iter().fold(empty.clone(), |sums, part| RaySums {
-            leaks: sums.leaks.iter().zip(part.leaks).map(|(sum, more)| sum + more).collect(),
-            triangles: sums.triangles + part.triangles,
-        });
-    sums.leaks.iter().map(|leaks| hole_share(*leaks, sums.triangles)).collect()
+    for part in engine::map(&starts, of_chunk) {
+        sums.merge(&part);
+    }
+    sums.leaks.iter().map(|leaks| leaks.share_of(sums.triangles)).collect()
 }
 
-/// The share of holes of two estimated areas; none without a triangle. The area of leaks is that of a sample in which places
-/// near the edge have more rays, and where every ray leaks it may come out above that of the triangles.
-fn hole_share(leaks: f64, triangles: f64) -> Option<f64> {
-    (0.0 < triangles).then(|| (leaks / triangles).min(1.0))
+impl Leaks {
+    fn add(&mut self, area: f64) {
+        self.area += area;
+        self.squares += area * area;
+        self.largest = self.largest.max(area);
+    }
+
+    fn merge(&mut self, other: &Leaks) {
+        self.area += other.area;
+        self.squares += other.squares;
+        self.largest = self.largest.max(other.largest);
+    }
+
+    /// The share of holes, given the area of the triangles; none without a triangle. The area of leaks is that of a sample in
+    /// which places near the edge have more rays, and where every ray leaks it may come out above that of the triangles.
+    ///
+    /// Leaks of unequal area count as so many of equal area as have the same variance, for the interval of Clopper and
+    /// Pearson (Korn and Graubard 1998). Its upper end supposes one leak more (Fay and Feuer 1997): each halving of the
+    /// distance from the edge has as many rays, so that the next leak may be [`UNSEEN`] times as far out as the farthest.
+    fn share_of(&self, triangles: f64) -> Option<HoleShare> {
+        if triangles <= 0.0 {
+            return None;
+        }
+        let share = (self.area / triangles).min(1.0);
+        if self.area == 0.0 {
+            return Some(HoleShare { share, interval: None });
+        }
+        let seen = self.interval(triangles, 0.0);
+        let mut supposed = *self;
+        supposed.add(UNSEEN * self.largest);
+        let interval = Interval { low: seen.low, high: supposed.interval(triangles, 1.0).high };
+        Some(HoleShare { share, interval: Some(interval) })
+    }
+
+    /// The binomial interval of equal leaks, some less than were seen.
+    fn interval(&self, triangles: f64, fewer: f64) -> Interval {
+        let unit = self.squares / self.area;
+        clopper_pearson(self.area / unit - fewer, triangles / unit, 0.025)
+    }
 }
 
 impl RaySums {
+    fn merge(&mut self, other: &RaySums) {
+        self.triangles += other.triangles;
+        for (leaks, more) in self.leaks.iter_mut().zip(&other.leaks) {
+            leaks.merge(more);
+        }
+    }
+
     /// Adds a pixel: by epsilons, if its ray leaks; nothing if the kernel failed.
     fn add<F: Scalar>(&mut self, pixel: &Pixel<F>, leaking: Option<Vec<bool>>) {
         let Some(leaking) = leaking else { return };
         self.triangles += pixel.triangles;
         for (leaks, is_leaking) in self.leaks.iter_mut().zip(leaking) {
             if is_leaking {
-                *leaks += pixel.area;
+                leaks.add(pixel.area);
             }
         }
     }
@@ -125,9 +190,26 @@ mod tests {
 
     #[test]
     fn there_are_no_more_holes_than_pixels() {
-        assert_eq!(hole_share(1.1, 1.0), Some(1.0));
-        assert_eq!(hole_share(0.5, 2.0), Some(0.25));
-        assert_eq!(hole_share(0.0, 0.0), None);
+        let share = |areas: &[f64], triangles: f64| {
+            let mut leaks = Leaks::default();
+            areas.iter().for_each(|area| leaks.add(*area));
+            leaks.share_of(triangles)
+        };
+        let estimated = |areas: &[f64], triangles| share(areas, triangles).map(|it| it.share);
+        assert_eq!(estimated(&[0.6, 0.5], 1.0), Some(1.0));
+        assert_eq!(estimated(&[0.5], 2.0), Some(0.25));
+        assert_eq!(estimated(&[], 0.0), None);
+        assert_eq!(share(&[], 2.0).unwrap().interval, None);
+        // Of equal areas the lower end is the binomial's; a leak of hardly any area adds hardly anything.
+        let interval =
+            |areas: &[f64], triangles| share(areas, triangles).unwrap().interval.unwrap();
+        assert_eq!(interval(&[1.0; 3], 40.0).low, clopper_pearson(3.0, 40.0, 0.025).low);
+        let [unequal, single] = [&[1.0, 1e-9][..], &[1.0]].map(|areas| interval(areas, 1e6));
+        assert!((unequal.low / single.low - 1.0).abs() < 1e-3, "{unequal:?} {single:?}");
+        assert!((unequal.high / single.high - 1.0).abs() < 1e-3, "{unequal:?} {single:?}");
+        // With one of 8 more, a leak of 1 is as many as 9²/65 equal ones of 65/9.
+        let by_hand = clopper_pearson(16.0 / 65.0, 1e6 / (65.0 / 9.0), 0.025).high;
+        assert!((single.high / by_hand - 1.0).abs() < 1e-12, "{single:?} {by_hand}");
     }
 
     /// The share of holes among rays at uniform points of both triangles, parallel to their own. Those that are nearest
@@ -173,6 +255,29 @@ mod tests {
     }
 
     #[test]
+    fn the_interval_covers_the_share_of_many_more_rays() {
+        let tuned =
+            Tuned::new("moller-trumbore", "extent=1e5,edge=1..4,distance=10..100,direction=unit");
+        let at = |seed: u64, count: u64, epsilon: f32| {
+            let epsilons = vec![epsilon; tuned.knobs.len()];
+            holes(&tuned.setting(), &[epsilons], Pass::new(seed, count, &Unobserved))[0].unwrap()
+        };
+        for epsilon in [0.0, 0.01] {
+            let truth = at(1, 1_000_000, epsilon).share;
+            let few = (2..202).map(|seed| at(seed, 300, epsilon));
+            let intervals: Vec<Interval> = few.filter_map(|holes| holes.interval).collect();
+            let covers = |it: &&Interval| it.low <= truth && truth <= it.high;
+            let covering = intervals.iter().filter(covers).count();
+            println!("{epsilon}: {truth:e}, {covering} of {}", intervals.len());
+            assert!(
+                9 * intervals.len() <= 10 * covering,
+                "{epsilon}: {covering} of {}",
+                intervals.len()
+            );
+        }
+    }
+
+    #[test]
     fn holes_are_those_of_pixels_all_over_the_triangles() {
         // Far from the origin, so that pixels meet enough holes.
         let numbers = "extent=1e5,edge=1..4,distance=10..100,direction=unit";
@@ -194,7 +299,7 @@ mod tests {
                 slice::from_ref(&epsilons),
                 Pass::new(7, 60_000, &Unobserved),
             );
-            let found = found[0].unwrap();
+            let found = found[0].unwrap().share;
             let (share, pixels) = by_pixels(&tuned, &epsilons, 600_000);
             assert!(fewest <= pixels, "{kernel} {at}: {pixels} pixels");
             match fewest {

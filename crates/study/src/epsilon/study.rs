@@ -8,7 +8,7 @@ use super::joint::{Costs, Joint, KnobGrid};
 use super::knob::{Knob, KnobMargins};
 use super::limits::{KnobLimit, all_limits, between, limits, printed};
 use super::measure::{Attempt, OfHits, Ran, WrongAnswers, count_at, differs, measure};
-use super::picture::holes;
+use super::picture::{HoleShare, holes};
 use super::prepared::Store;
 use super::proved::{ProvedValue, proved};
 use super::rays::{RayCount, Rays, WrongKind};
@@ -81,7 +81,7 @@ pub struct Tried<F> {
     /// By count: the rays at a shared edge or vertex that hit more than one triangle, which cost nothing.
     pub doubles: Vec<Trials>,
     /// The share of a picture's pixels that are holes at shared edges, where they are counted.
-    pub holes: Option<f64>,
+    pub holes: Option<HoleShare>,
 }
 
 /// The name of epsilons that follow each case's size.

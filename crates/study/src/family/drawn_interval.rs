@@ -14,7 +14,7 @@ use crate::case::{Case, Draw};
 ///
 /// Where t is not in the range of `f64`, the ray keeps the interval that it has. A ray that starts on its triangle keeps
 /// its start, t = 0: on which side of that the triangle lies is the question.
-pub(super) fn draw_interval<F: Float>(grouping: Grouping, draw: &mut Draw, cases: &mut [Case<F>]) {
+pub(crate) fn draw_interval<F: Float>(grouping: Grouping, draw: &mut Draw, cases: &mut [Case<F>]) {
     let crossing = Crossing::of(&cases[0]);
     let [t_min, t_max] = match grouping {
         Grouping::SecondaryRay => crossing.end_far_beyond(draw),

@@ -32,6 +32,7 @@ mod vertex_fan;
 
 pub(crate) use boundary::{nudged, toward};
 pub(crate) use control::combination;
+pub(crate) use drawn_interval::draw_interval;
 pub(crate) use exact_ray::exact_ray;
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
@@ -49,7 +50,6 @@ use crate::arith::scale_by_power_of_two;
 use crate::case::{Case, CaseId, Draw, Parameters};
 use crate::kernel::{self, Scalar};
 use crate::truth::{Crossing, Truth};
-use drawn_interval::draw_interval;
 use std::any::Any;
 
 /// The triangles that one index of a family makes: one, or a group that shares a ray.

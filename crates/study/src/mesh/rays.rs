@@ -6,11 +6,12 @@ use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters, Ray, Triangle};
 use crate::corpus::mesh::Mesh;
-use crate::family::{self, Grouping, exact_ray, nudged, toward, unit_vector};
+use crate::family::{self, Grouping, draw_interval, exact_ray, nudged, toward, unit_vector};
 use glam::DVec3;
+use std::slice;
 
 /// Part of the ids.
-pub(super) const VERSION: u32 = 1;
+pub(super) const VERSION: u32 = 2;
 
 named! {
     pub names
@@ -109,12 +110,14 @@ impl<'m> Targets<'m> {
         self.mesh.position::<F>(vertex).map(F::to_f64)
     }
 
-    /// Adds the cases of an index: one ray, and each triangle around its target.
+    /// Adds the cases of an index: one ray with its interval, and each triangle around its target.
     pub fn make<F: Float>(&self, part: AimedPart, index: u64, cases: &mut Vec<Case<F>>) {
         let faces = self.faces(part, self.place(part, index).0);
-        let (origin, direction) = self.ray(part, index);
+        let mut draw = Draw::new(part.name(), self.seed, index);
+        let (origin, direction) = self.ray(part, index, &mut draw);
         let mut first = Case::new(origin, direction, self.mesh.vertices(faces[0] as usize));
         family::apply(self.parameters, &mut first);
+        draw_interval(part.grouping(), &mut draw, slice::from_mut(&mut first));
         cases.push(first);
         cases.extend(faces[1..].iter().map(|face| self.case(&first.ray, *face)));
     }
@@ -144,14 +147,13 @@ impl<'m> Targets<'m> {
     }
 
     /// The ray of an index, before the parameters.
-    fn ray<F: Float>(&self, part: AimedPart, index: u64) -> ([F; 3], [F; 3]) {
+    fn ray<F: Float>(&self, part: AimedPart, index: u64, draw: &mut Draw) -> ([F; 3], [F; 3]) {
         let (target, number) = self.place(part, index);
-        let mut draw = Draw::new(part.name(), self.seed, index);
         let faces = self.faces(part, target);
         let points = self.points(part, target);
         let ends = [points[0], points[points.len() - 1]].map(|point| self.mesh.position(point));
         let about = self.mesh.vertices(faces[draw.below(faces.len())] as usize);
-        self.ray_at(&mut draw, Aim::of(number), ends, about)
+        self.ray_at(draw, Aim::of(number), ends, about)
     }
 
     /// A ray at the segment between two points (or at one point, given twice), which belongs to a
