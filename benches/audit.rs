@@ -44,7 +44,9 @@ fn median(mut numbers: Vec<f64>) -> f64 {
 fn plan(families: &[&'static Family], count: u64, scalars: [bool; 2]) -> Plan {
     let entries: Vec<_> = KERNELS.iter().collect();
     let source = |family: &&'static Family| Source::of(family, Parameters::default(), 1, count);
-    let rows = EpsilonChoice::Source.rows(&entries, None).expect("the default plan");
+    let rows = EpsilonChoice::Source
+        .rows(&entries, None)
+        .expect("the default plan");
     Plan::new(rows, families.iter().map(source).collect(), scalars, 3)
 }
 
@@ -54,7 +56,12 @@ fn line<F: Scalar>(name: &str, families: &[&'static Family], count: u64) {
         .iter()
         .flat_map(|family| {
             let cases: Vec<Case<F>> = (0..count)
-                .flat_map(|i| family.make::<F>(&Parameters::default(), 1, i).cases().to_vec())
+                .flat_map(|i| {
+                    family
+                        .make::<F>(&Parameters::default(), 1, i)
+                        .cases()
+                        .to_vec()
+                })
                 .collect();
             cases.chunks(1024).map(<[_]>::to_vec).collect::<Vec<_>>()
         })
@@ -80,8 +87,9 @@ fn line<F: Scalar>(name: &str, families: &[&'static Family], count: u64) {
     let mut audit = || {
         black_box(run(&plan, &Clock(Instant::now())).cells.len());
     };
-    let rounds: Vec<[f64; 3]> =
-        (0..ROUNDS).map(|_| [time(&mut kernels), time(&mut oracle), time(&mut audit)]).collect();
+    let rounds: Vec<[f64; 3]> = (0..ROUNDS)
+        .map(|_| [time(&mut kernels), time(&mut oracle), time(&mut audit)])
+        .collect();
     let of = |number: fn(&[f64; 3]) -> f64| median(rounds.iter().map(number).collect());
     println!(
         "{name:<22} {} {:>10.0} {:>10.0} {:>10.0} {:>8.2}",
@@ -96,14 +104,21 @@ fn line<F: Scalar>(name: &str, families: &[&'static Family], count: u64) {
 /// A guarded kernel beside others on the same rays, in nanoseconds a ray.
 fn repaired(family: &'static Family) {
     let cases: Vec<Case<f32>> = (0..20_000)
-        .flat_map(|i| family.make::<f32>(&Parameters::default(), 1, i).cases().to_vec())
+        .flat_map(|i| {
+            family
+                .make::<f32>(&Parameters::default(), 1, i)
+                .cases()
+                .to_vec()
+        })
         .collect();
     let wide: Vec<Case<f64>> = cases.iter().map(Case::widen).collect();
     let plain = |name: &str| f32::subject(find(name).expect("built in")).expect("in f32");
     let (moller, woop) = (plain("moller-trumbore"), plain("woop-watertight"));
     let double = f64::subject(find("moller-trumbore").expect("built in")).expect("in f64");
-    let (mut verdicts, mut doubles) =
-        (vec![Verdict::miss(None); cases.len()], vec![Verdict::miss(None); cases.len()]);
+    let (mut verdicts, mut doubles) = (
+        vec![Verdict::miss(None); cases.len()],
+        vec![Verdict::miss(None); cases.len()],
+    );
     let mut asks = 0;
     let rounds: Vec<[f64; 4]> = (0..ROUNDS)
         .map(|_| {
@@ -134,20 +149,36 @@ fn repaired(family: &'static Family) {
 
 fn main() {
     // cargo passes --bench; a filter would be the first other word.
-    let filter = std::env::args().skip(1).find(|word| !word.starts_with('-')).unwrap_or_default();
-    let stock = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    let filter = std::env::args()
+        .skip(1)
+        .find(|word| !word.starts_with('-'))
+        .unwrap_or_default();
+    let stock = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("one thread");
     if "repaired".contains(&filter) {
         println!("ns a ray, f32, one thread: moller-trumbore, the same guarded, and others");
         println!(
             "{:<26} {:>10} {:>10} {:>10} {:>10} {:>8} {:>9}",
             "family", "plain", "guarded", "woop", "in f64", "ratio", "asks"
         );
-        let names = ["interior", "outside", "edge-near", "scene-interior", "scene-outside"];
+        let names = [
+            "interior",
+            "outside",
+            "edge-near",
+            "scene-interior",
+            "scene-outside",
+        ];
         let all = FAMILIES.iter().chain(STRATA);
-        all.filter(|family| names.contains(&family.name)).for_each(repaired);
+        all.filter(|family| names.contains(&family.name))
+            .for_each(repaired);
     }
     stock.install(|| {
-        println!("ns a case, one thread, {} kernels with their default epsilons", KERNELS.len());
+        println!(
+            "ns a case, one thread, {} kernels with their default epsilons",
+            KERNELS.len()
+        );
         println!(
             "{:<26} {:>10} {:>10} {:>10} {:>8}",
             "family", "kernels", "oracle", "audit", "ratio"
@@ -157,7 +188,10 @@ fn main() {
             line::<f32>("all families", &all, 20_000);
             line::<f64>("all families", &all, 20_000);
         }
-        for family in FAMILIES.iter().filter(|family| family.name.contains(&filter)) {
+        for family in FAMILIES
+            .iter()
+            .filter(|family| family.name.contains(&filter))
+        {
             line::<f32>(family.name, &[family], 5000);
             line::<f64>(family.name, &[family], 5000);
         }

@@ -24,20 +24,56 @@ type Maker = fn(&mut Draw) -> Case<f64>;
 const CLASSES: &[(&str, Maker, f64)] = &[
     ("generic f64", |draw| random(draw, f64::symmetric), 1.0),
     ("generic f32", |draw| random(draw, f32::symmetric), 1.0),
-    ("near edge f32", |draw| near_edge(draw, f32::symmetric, 1.0, false), 2.0),
-    ("near edge f32, unit d", |draw| near_edge(draw, f32::symmetric, 1.0, true), 2.0),
+    (
+        "near edge f32",
+        |draw| near_edge(draw, f32::symmetric, 1.0, false),
+        2.0,
+    ),
+    (
+        "near edge f32, unit d",
+        |draw| near_edge(draw, f32::symmetric, 1.0, true),
+        2.0,
+    ),
     ("wide f32 (2^±30)", wide, 2.0),
     ("exact edge, small", |draw| exact(draw, 1000, false, 0), 5.0),
-    ("exact vertex, small", |draw| exact(draw, 1000, true, 0), 5.0),
+    (
+        "exact vertex, small",
+        |draw| exact(draw, 1000, true, 0),
+        5.0,
+    ),
     ("coplanar, small", |draw| coplanar(draw, 30, 30, 0), 5.0),
-    ("exact edge, fine", |draw| exact(draw, 1 << 20, false, -40), 5.0),
-    ("coplanar, fine", |draw| coplanar(draw, 1 << 10, 1 << 9, -40), 5.0),
+    (
+        "exact edge, fine",
+        |draw| exact(draw, 1 << 20, false, -40),
+        5.0,
+    ),
+    (
+        "coplanar, fine",
+        |draw| coplanar(draw, 1 << 10, 1 << 9, -40),
+        5.0,
+    ),
     ("parallel, full f64", |draw| flat(draw, false), 25.0),
     ("coplanar, full f64", |draw| flat(draw, true), 25.0),
-    ("near edge f64", |draw| near_edge(draw, f64::symmetric, 1.0, false), 20.0),
-    ("near edge f64, far unit d", |draw| near_edge(draw, f64::symmetric, 1000.0, true), 20.0),
-    ("any finite f32", |draw| random(draw, any_float::<f32>), 12.0),
-    ("any finite f64", |draw| random(draw, any_float::<f64>), 40.0),
+    (
+        "near edge f64",
+        |draw| near_edge(draw, f64::symmetric, 1.0, false),
+        20.0,
+    ),
+    (
+        "near edge f64, far unit d",
+        |draw| near_edge(draw, f64::symmetric, 1000.0, true),
+        20.0,
+    ),
+    (
+        "any finite f32",
+        |draw| random(draw, any_float::<f32>),
+        12.0,
+    ),
+    (
+        "any finite f64",
+        |draw| random(draw, any_float::<f64>),
+        40.0,
+    ),
 ];
 
 /// A number drawn in a scalar and rounded to it after each step.
@@ -102,11 +138,19 @@ fn exact(draw: &mut Draw, reach: i64, vertex: bool, k: i32) -> Case<f64> {
     let parts = draw.integer(2, 9);
     let step = draw.lattice_point(reach / 10);
     let [a, c, o] = [0, 0, 0].map(|_| draw.lattice_point(reach));
-    let at = if vertex { 0 } else { draw.integer(1, parts - 1) };
+    let at = if vertex {
+        0
+    } else {
+        draw.integer(1, parts - 1)
+    };
     let along = |n: i64| std::array::from_fn(|i| a[i] + n * step[i]);
     let target: [i64; 3] = along(at);
     let d = std::array::from_fn(|i| scale_by_power_of_two((target[i] - o[i]) as f64, k));
-    let [a, b, c] = draw.pick(&[[a, along(parts), c], [c, a, along(parts)], [along(parts), c, a]]);
+    let [a, b, c] = draw.pick(&[
+        [a, along(parts), c],
+        [c, a, along(parts)],
+        [along(parts), c, a],
+    ]);
     Case::new(float(o), d, [a, b, c].map(float))
 }
 
@@ -127,7 +171,11 @@ fn flat(draw: &mut Draw, coplanar: bool) -> Case<f64> {
     let combined = |i: i64, j: i64| [0, 1, 2].map(|k| i * (b[k] - a[k]) + j * (c[k] - a[k]));
     let (i, j) = draw.pick(&[(1, 0), (0, 1), (1, 1), (1, -1), (2, -1)]);
     let from = draw.pick(&[a, b, c, combined(1, 1)]);
-    let o = if coplanar { [0, 1, 2].map(|k| from[k] - combined(j, i)[k]) } else { o };
+    let o = if coplanar {
+        [0, 1, 2].map(|k| from[k] - combined(j, i)[k])
+    } else {
+        o
+    };
     let scale = |p: [i64; 3]| float(p).map(|x| scale_by_power_of_two(x, -50));
     Case::new(scale(o), scale(combined(i, j)), [a, b, c].map(scale))
 }
@@ -138,13 +186,27 @@ fn plain(case: &Case<f64>) -> u8 {
     let [o, d, a, b, c] = case.vectors();
     let [a, b, c] = [a, b, c].map(|p| [p[0] - o[0], p[1] - o[1], p[2] - o[2]]);
     let cross = |a: [f64; 3], b: [f64; 3]| {
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ]
     };
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let n = cross([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]);
-    [dot(d, cross(c, b)), dot(d, cross(a, c)), dot(d, cross(b, a)), dot(n, a)]
-        .iter()
-        .fold(0, |bits, x| bits << 2 | u8::from(*x > 0.0) << 1 | u8::from(*x < 0.0))
+    let n = cross(
+        [b[0] - a[0], b[1] - a[1], b[2] - a[2]],
+        [c[0] - a[0], c[1] - a[1], c[2] - a[2]],
+    );
+    [
+        dot(d, cross(c, b)),
+        dot(d, cross(a, c)),
+        dot(d, cross(b, a)),
+        dot(n, a),
+    ]
+    .iter()
+    .fold(0, |bits, x| {
+        bits << 2 | u8::from(*x > 0.0) << 1 | u8::from(*x < 0.0)
+    })
 }
 
 /// How often each work is timed.
@@ -208,8 +270,9 @@ fn line<F: Float>(name: &str, cases: &[Case<F>], target: &str) {
     oracle::truths(cases, &mut Vec::new(), &mut layers);
     let share = |count: u64| 100.0 * count as f64 / cases.len() as f64;
     let decided = layers.named().into_iter().filter(|(_, count)| *count > 0);
-    let shares: Vec<String> =
-        decided.map(|(layer, count)| format!("{layer} {:.1}%", share(count))).collect();
+    let shares: Vec<String> = decided
+        .map(|(layer, count)| format!("{layer} {:.1}%", share(count)))
+        .collect();
     println!(
         "{name:<26} {plain:>6.1} {single:>8.1} {:>6.1} {slice:>8.1} {:>6.1} {columns:>8.1} {:>6.1} {target:>7} {definition:>10.0}  {}",
         single / plain,
@@ -221,14 +284,22 @@ fn line<F: Float>(name: &str, cases: &[Case<F>], target: &str) {
 
 fn family_line<F: Scalar>(family: &Family) {
     let cases: Vec<Case<F>> = (0..OF_A_FAMILY)
-        .flat_map(|i| family.make::<F>(&Parameters::default(), 1, i).cases().to_vec())
+        .flat_map(|i| {
+            family
+                .make::<F>(&Parameters::default(), 1, i)
+                .cases()
+                .to_vec()
+        })
         .collect();
     line(&format!("{} {}", family.name, F::NAME), &cases, "");
 }
 
 fn main() {
     // cargo passes --bench; a filter would be the first other word.
-    let filter = std::env::args().skip(1).find(|word| !word.starts_with('-')).unwrap_or_default();
+    let filter = std::env::args()
+        .skip(1)
+        .find(|word| !word.starts_with('-'))
+        .unwrap_or_default();
     println!(
         "ns a case, one thread, {CASES} cases a class, fastest of {ROUNDS}; ratios are to plain"
     );
@@ -246,11 +317,15 @@ fn main() {
         "definition"
     );
     for (name, maker, target) in CLASSES.iter().filter(|(name, ..)| name.contains(&filter)) {
-        let cases: Vec<Case<f64>> =
-            (0..CASES).map(|i| maker(&mut Draw::new(name, 42, i as u64))).collect();
+        let cases: Vec<Case<f64>> = (0..CASES)
+            .map(|i| maker(&mut Draw::new(name, 42, i as u64)))
+            .collect();
         line(name, &cases, &target.to_string());
     }
-    for family in FAMILIES.iter().filter(|family| family.name.contains(&filter)) {
+    for family in FAMILIES
+        .iter()
+        .filter(|family| family.name.contains(&filter))
+    {
         family_line::<f32>(family);
         family_line::<f64>(family);
     }

@@ -36,18 +36,31 @@ fn median(mut work: impl FnMut()) -> f64 {
 const COUNT: u64 = 20_000;
 
 fn sources() -> Vec<Source> {
-    let families = ["interior", "outside", "edge-near", "grazing", "coplanar", "shared-edge"];
+    let families = [
+        "interior",
+        "outside",
+        "edge-near",
+        "grazing",
+        "coplanar",
+        "shared-edge",
+    ];
     let source = |family: &'static hairline::internals::family::Family| {
         Source::of(family, Parameters::default(), 1, COUNT)
     };
-    FAMILIES.iter().filter(|family| families.contains(&family.name)).map(source).collect()
+    FAMILIES
+        .iter()
+        .filter(|family| families.contains(&family.name))
+        .map(source)
+        .collect()
 }
 
 fn lines<F: Scalar>() {
     let sources = sources();
     let make = || -> Vec<Case<F>> {
         let made = |source: &Source| {
-            (0..COUNT).flat_map(|i| source.make::<F>(i).cases().to_vec()).collect::<Vec<_>>()
+            (0..COUNT)
+                .flat_map(|i| source.make::<F>(i).cases().to_vec())
+                .collect::<Vec<_>>()
         };
         sources.iter().flat_map(made).collect()
     };
@@ -63,7 +76,9 @@ fn lines<F: Scalar>() {
         }
     });
     let entries: Vec<_> = KERNELS.iter().collect();
-    let mut rows = EpsilonChoice::Source.rows(&entries, None).expect("the default plan");
+    let mut rows = EpsilonChoice::Source
+        .rows(&entries, None)
+        .expect("the default plan");
     rows.dedup_by(|second, first| second.entry.info.name == first.entry.info.name);
     for row in &rows {
         let knobs = Knob::all(row);
@@ -94,8 +109,13 @@ fn lines<F: Scalar>() {
             store: None,
         };
         let attempt = [Attempt::new(vec![F::zero(); knobs.len()])];
-        let response =
-            median(|| drop(black_box(count_at(&setting, &attempt, Pass::new(1, COUNT, &Silent)))));
+        let response = median(|| {
+            drop(black_box(count_at(
+                &setting,
+                &attempt,
+                Pass::new(1, COUNT, &Silent),
+            )))
+        });
         println!(
             "{:<28}{}{:>8.0}{:>8.0}{:>8.0}{:>10.0}{:>8.2}{:>8.2}",
             row.entry.info.name,
@@ -111,7 +131,10 @@ fn lines<F: Scalar>() {
 }
 
 fn main() {
-    let stock = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    let stock = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("one thread");
     stock.install(|| {
         println!("ns a case, one thread; the last two: a pass over making, kernel and oracle,");
         println!("and a pass less making over kernel and oracle");

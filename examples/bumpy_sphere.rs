@@ -11,14 +11,20 @@ use std::collections::HashMap;
 use std::io::{self, BufWriter, Write};
 
 fn main() -> io::Result<()> {
-    let n = std::env::args().nth(1).map_or(Some(289), |n| n.parse().ok());
+    let n = std::env::args()
+        .nth(1)
+        .map_or(Some(289), |n| n.parse().ok());
     let Some(n) = n.filter(|n| (1..=2048).contains(n)) else {
         return Err(io::Error::other("the argument is no number from 1 to 2048"));
     };
     let mut out = BufWriter::new(io::stdout().lock());
     let (vertices, faces) = bumpy_sphere(n);
-    vertices.iter().try_for_each(|[x, y, z]| writeln!(out, "v {x} {y} {z}"))?;
-    faces.iter().try_for_each(|[a, b, c]| writeln!(out, "f {} {} {}", a + 1, b + 1, c + 1))?;
+    vertices
+        .iter()
+        .try_for_each(|[x, y, z]| writeln!(out, "v {x} {y} {z}"))?;
+    faces
+        .iter()
+        .try_for_each(|[a, b, c]| writeln!(out, "f {} {} {}", a + 1, b + 1, c + 1))?;
     out.flush()
 }
 

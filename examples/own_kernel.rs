@@ -20,7 +20,10 @@ impl Test<f32> for Mine {
 /// It promises what `closed-ray` says, and takes one epsilon, t, of dimension length / direction.
 const MINE: KernelInfo = KernelInfo {
     gates: &[Gate::signed(Role::T, "!(t >= e)", 1, -1)],
-    epsilon_sets: &[EpsilonSet { name: "own", values: &["1e-4"] }],
+    epsilon_sets: &[EpsilonSet {
+        name: "own",
+        values: &["1e-4"],
+    }],
     ..KernelInfo::own("mine", Contract::CLOSED_RAY)
 };
 

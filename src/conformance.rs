@@ -236,24 +236,35 @@ impl Request {
             return Err(Error(message.to_owned()));
         }
         let rows = self.rows()?;
-        let parameters = Parameters { scene: self.parsed_scene()?, ..self.parameters.clone() };
+        let parameters = Parameters {
+            scene: self.parsed_scene()?,
+            ..self.parameters.clone()
+        };
         let source = |family| Source::of(family, parameters.clone(), self.seed, self.count);
         let mut sources: Vec<Source> = self.chosen_families()?.into_iter().map(source).collect();
         if self.all_kinds {
             let others: Vec<Source> = sources.iter().flat_map(Source::in_other_kinds).collect();
             sources.extend(others);
         }
-        let plan =
-            Plan { attribute: self.attribute, ..Plan::new(rows, sources, self.entry.scalars(), 3) };
+        let plan = Plan {
+            attribute: self.attribute,
+            ..Plan::new(rows, sources, self.entry.scalars(), 3)
+        };
         let sums = audit::run(&plan, &Unobserved);
-        let context = Context { seconds: 0.0, threads: engine::threads() };
+        let context = Context {
+            seconds: 0.0,
+            threads: engine::threads(),
+        };
         #[allow(unused_mut)]
         let mut record = build(&plan, &sums, &context);
         #[cfg(feature = "cli")]
         if let Some(file) = &self.expectations {
             expectations::hold(&mut record, file)?;
         }
-        Ok(Outcome { record, allowed: self.allowed.clone() })
+        Ok(Outcome {
+            record,
+            allowed: self.allowed.clone(),
+        })
     }
 
     /// Runs it and panics unless the kernel keeps its contract on every case, or as its expectations say. The message has each
@@ -286,7 +297,9 @@ impl Request {
     #[cfg(feature = "studies")]
     pub fn map(&self, case: &str) -> Result<String, Error> {
         let rows = self.rows()?;
-        let first = rows.first().ok_or_else(|| Error("the kernel has no epsilons".to_owned()))?;
+        let first = rows
+            .first()
+            .ok_or_else(|| Error("the kernel has no epsilons".to_owned()))?;
         explained::mapped(first, case)
     }
 
@@ -308,7 +321,9 @@ impl Request {
             Some(_) => Stratum::ALL.map(Stratum::family).into(),
             None => FAMILIES.iter().collect(),
         };
-        let Some(names) = &self.families else { return Ok(all) };
+        let Some(names) = &self.families else {
+            return Ok(all);
+        };
         let known = |name: &String| {
             let family =
                 find(name).filter(|family| all.iter().any(|other| other.name == family.name));
@@ -323,7 +338,9 @@ impl Request {
 
     /// The scene, which the scalars of the kernel can hold.
     fn parsed_scene(&self) -> Result<Option<Scene>, Error> {
-        let Some(words) = &self.scene else { return Ok(self.parameters.scene.clone()) };
+        let Some(words) = &self.scene else {
+            return Ok(self.parameters.scene.clone());
+        };
         let about = |error| Error(format!("scene: {error}"));
         let (scene, _) = Scene::parse(words).map_err(about)?;
         let (_, why) = scene.held_in(self.entry.scalars()).map_err(about)?;

@@ -26,9 +26,10 @@ pub(crate) fn standard_output() -> io::Result<()> {
 
 #[cfg(target_os = "linux")]
 extern "C" fn look() {
-    for (descriptor, usable, wrong) in
-        [(0, &READABLE, libc::O_WRONLY), (1, &WRITABLE, libc::O_RDONLY)]
-    {
+    for (descriptor, usable, wrong) in [
+        (0, &READABLE, libc::O_WRONLY),
+        (1, &WRITABLE, libc::O_RDONLY),
+    ] {
         // SAFETY: it reads the flags of a descriptor, and fails for one that is closed.
         let flags = unsafe { libc::fcntl(descriptor, libc::F_GETFL) };
         usable.store(flags != -1 && flags & libc::O_ACCMODE != wrong, Relaxed);

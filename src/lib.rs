@@ -24,7 +24,10 @@
 //! DESIGN.md has the picture of the modules behind this; a test compares it with their `use` lines.
 
 // Some of the modules' items serve only this project's own tests, through `internals`.
-#![cfg_attr(not(all(feature = "internals", feature = "cli")), allow(dead_code, unused_imports))]
+#![cfg_attr(
+    not(all(feature = "internals", feature = "cli")),
+    allow(dead_code, unused_imports)
+)]
 
 // What stands below: the words, the numbers, the kernels, the truth; the proofs; cases, counts and studies; kernels of others.
 #[macro_use(either_scalar, in_named_scalar, named)]

@@ -16,15 +16,30 @@ pub(crate) struct SizeLimit {
 
 impl SizeLimit {
     /// A record, or a product's answers.
-    pub(crate) const RECORD: SizeLimit = SizeLimit { kind: "a record", mebibytes: 256 };
+    pub(crate) const RECORD: SizeLimit = SizeLimit {
+        kind: "a record",
+        mebibytes: 256,
+    };
     /// hairline.toml, and what a campaign was begun with.
-    pub(crate) const SETTINGS: SizeLimit = SizeLimit { kind: "settings", mebibytes: 1 };
+    pub(crate) const SETTINGS: SizeLimit = SizeLimit {
+        kind: "settings",
+        mebibytes: 1,
+    };
     /// Expectations, and their lock.
-    pub(crate) const EXPECTATIONS: SizeLimit = SizeLimit { kind: "expectations", mebibytes: 64 };
+    pub(crate) const EXPECTATIONS: SizeLimit = SizeLimit {
+        kind: "expectations",
+        mebibytes: 64,
+    };
     /// A certificate; its checker takes no larger one.
-    pub(crate) const CERTIFICATE: SizeLimit = SizeLimit { kind: "a certificate", mebibytes: 4 };
+    pub(crate) const CERTIFICATE: SizeLimit = SizeLimit {
+        kind: "a certificate",
+        mebibytes: 4,
+    };
     /// Cases: finds, witnesses, inputs of a fuzzer.
-    pub(crate) const CASES: SizeLimit = SizeLimit { kind: "a file of cases", mebibytes: 256 };
+    pub(crate) const CASES: SizeLimit = SizeLimit {
+        kind: "a file of cases",
+        mebibytes: 256,
+    };
 
     fn bytes(self) -> u64 {
         self.mebibytes << 20
@@ -33,9 +48,10 @@ impl SizeLimit {
 
 /// Opens a file. A stream that a shell has opened, as for `<(command)`, is one too, and so is nothing.
 pub(crate) fn open(path: &Path) -> io::Result<File> {
-    let is_open_already =
-        ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.starts_with(folder))
-            || ["/dev/stdin", "/dev/null"].contains(&&*path.to_string_lossy());
+    let is_open_already = ["/dev/fd", "/proc/self/fd"]
+        .iter()
+        .any(|folder| path.starts_with(folder))
+        || ["/dev/stdin", "/dev/null"].contains(&&*path.to_string_lossy());
     let metadata = fs::metadata(path)?;
     if metadata.is_dir() {
         return Err(io::Error::from(io::ErrorKind::IsADirectory));

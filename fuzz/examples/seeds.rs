@@ -24,7 +24,11 @@ fn main() {
         }
     }
     let curated = fs::read("corpora/curated.jsonl").expect("the curated cases");
-    for (i, stored) in read(&curated[..], "curated").flatten().step_by(16).enumerate() {
+    for (i, stored) in read(&curated[..], "curated")
+        .flatten()
+        .step_by(16)
+        .enumerate()
+    {
         let entry = &KERNELS[i % KERNELS.len()];
         let input = match stored.case {
             AnyCase::F32(case) => AnyInput::F32(Input::of_source(entry, case)),

@@ -6,7 +6,10 @@ use hairline::internals::corpus::lines::{read, write_case};
 fn read_back(data: &[u8]) {
     for stored in read(data, "fuzz").flatten() {
         let line = write_case(&stored);
-        let again = read(line.as_bytes(), "again").next().expect("a line").expect("a case");
+        let again = read(line.as_bytes(), "again")
+            .next()
+            .expect("a line")
+            .expect("a case");
         assert_eq!(write_case(&again), line);
     }
 }

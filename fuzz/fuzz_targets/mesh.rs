@@ -8,7 +8,10 @@ fn indices_in_range(data: &[u8]) {
     if let Ok(mesh) = read(data, "fuzz", &mut beside, &mut |_| {}) {
         assert_eq!(mesh.places.len(), mesh.triangles.len());
         for triangle in 0..mesh.triangles.len() {
-            let _ = (mesh.vertices::<f32>(triangle), mesh.vertices::<f64>(triangle));
+            let _ = (
+                mesh.vertices::<f32>(triangle),
+                mesh.vertices::<f64>(triangle),
+            );
         }
     }
 }

@@ -85,7 +85,9 @@ pub fn replay(target: fn(&[u8])) {
 fn replay_path(path: &Path, target: fn(&[u8])) -> usize {
     if path.is_dir() {
         let entries = fs::read_dir(path).expect("a folder that can be read");
-        return entries.map(|entry| replay_path(&entry.expect("an entry").path(), target)).sum();
+        return entries
+            .map(|entry| replay_path(&entry.expect("an entry").path(), target))
+            .sum();
     }
     target(&fs::read(path).expect("a file that can be read"));
     1

@@ -35,22 +35,32 @@ impl Pinned {
                 (gate.to_owned(), value.to_owned())
             });
             let rows = EpsilonChoice::Given(pairs.collect()).rows(&[kernel], None);
-            rows.unwrap_or_else(|error| panic!("HAIRLINE_EPSILON: {error}")).remove(0)
+            rows.unwrap_or_else(|error| panic!("HAIRLINE_EPSILON: {error}"))
+                .remove(0)
         });
         let finding = |name: &str| {
-            let found = Finding::ALL.into_iter().find(|finding| finding.name() == name);
+            let found = Finding::ALL
+                .into_iter()
+                .find(|finding| finding.name() == name);
             found.unwrap_or_else(|| panic!("HAIRLINE_FINDING: no finding '{name}'"))
         };
         let findings = variable("HAIRLINE_FINDING")
             .map_or(Vec::new(), |text| text.split(',').map(finding).collect());
         let beyond = variable("HAIRLINE_BEYOND")
             .map_or(0.0, |text| text.parse().expect("HAIRLINE_BEYOND: a number"));
-        Pinned { kernel, epsilons, findings, beyond }
+        Pinned {
+            kernel,
+            epsilons,
+            findings,
+            beyond,
+        }
     }
 
     /// The input with the kernel and the epsilons that were asked for.
     pub fn pin<F: Scalar>(&self, mut input: Input<F>) -> Input<F> {
-        if let Some(kernel) = self.kernel.filter(|kernel| kernel.info.name != input.entry.info.name)
+        if let Some(kernel) = self
+            .kernel
+            .filter(|kernel| kernel.info.name != input.entry.info.name)
         {
             input = Input::of_source(kernel, input.case);
         }
@@ -62,13 +72,16 @@ impl Pinned {
 
     /// The kernel's disagreement, if it is one that ends the run.
     pub fn unwanted<F: Scalar>(&self, input: &Input<F>) -> Result<(), String> {
-        let Some(signature) = disagreement(input) else { return Ok(()) };
+        let Some(signature) = disagreement(input) else {
+            return Ok(());
+        };
         if !self.findings.contains(&signature.finding) || !self.is_beyond(input, &signature) {
             return Ok(());
         }
         let row = input.row();
-        let epsilons =
-            row.epsilon_argument().map_or(String::new(), |e| format!(" --epsilon '{e}'"));
+        let epsilons = row
+            .epsilon_argument()
+            .map_or(String::new(), |e| format!(" --epsilon '{e}'"));
         let line = json(input);
         Err(format!(
             "{signature}\nhairline explain '{line}' --kernel {}{epsilons}",
@@ -95,5 +108,9 @@ fn json<F: Float>(input: &Input<F>) -> String {
 }
 
 fn number<F: Float>(x: F) -> String {
-    if x.is_finite() { format!("{x:e}") } else { format!("\"{x}\"").to_lowercase() }
+    if x.is_finite() {
+        format!("{x:e}")
+    } else {
+        format!("\"{x}\"").to_lowercase()
+    }
 }

@@ -25,7 +25,13 @@ pub const BOX3D_RUST: Entrant = Entrant {
 
 const INFO: KernelInfo = KernelInfo {
     source: "box3d-rust 0.5.0, math_functions::intersect_ray_triangle",
-    ..KernelInfo::own("box3d-rust", Contract { sides: Sides::Front, ..PROMISE })
+    ..KernelInfo::own(
+        "box3d-rust",
+        Contract {
+            sides: Sides::Front,
+            ..PROMISE
+        },
+    )
 };
 
 fn entry() -> Entry {

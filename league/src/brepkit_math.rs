@@ -28,8 +28,18 @@ pub const BREPKIT_MATH: Entrant = Entrant {
 
 const INFO: KernelInfo = KernelInfo {
     source: "brepkit-math 4.6.20, ray_triangle::watertight_ray_triangle_intersect",
-    gives: Gives { t: true, uv: true, facing: false },
-    ..KernelInfo::own("brepkit-math", Contract { across: Across::ExactlyOne, ..PROMISE })
+    gives: Gives {
+        t: true,
+        uv: true,
+        facing: false,
+    },
+    ..KernelInfo::own(
+        "brepkit-math",
+        Contract {
+            across: Across::ExactlyOne,
+            ..PROMISE
+        },
+    )
 };
 
 fn entry() -> Entry {
@@ -37,6 +47,9 @@ fn entry() -> Entry {
         let [o, d, a, b, c] = case.vectors();
         let [o, a, b, c] = [o, a, b, c].map(|[x, y, z]| Point3::new(x, y, z));
         let hit = watertight_ray_triangle_intersect(o, Vec3::new(d[0], d[1], d[2]), a, b, c)?;
-        Some(Hit { uv: Some((hit.u, hit.v)), ..Hit::at(hit.t) })
+        Some(Hit {
+            uv: Some((hit.u, hit.v)),
+            ..Hit::at(hit.t)
+        })
     })
 }

@@ -31,9 +31,23 @@ pub const BVH: Entrant = Entrant {
 const INFO: KernelInfo = KernelInfo {
     source: "bvh 0.13.0, Ray::intersects_triangle",
     gates: GATES_CULLING,
-    epsilon_sets: &[EpsilonSet { name: "source", values: &["EPSILON", "0", "EPSILON", "0"] }],
-    gives: Gives { t: true, uv: true, facing: false },
-    ..KernelInfo::own("bvh", Contract { sides: Sides::Front, direction: UNIT, ..PROMISE })
+    epsilon_sets: &[EpsilonSet {
+        name: "source",
+        values: &["EPSILON", "0", "EPSILON", "0"],
+    }],
+    gives: Gives {
+        t: true,
+        uv: true,
+        facing: false,
+    },
+    ..KernelInfo::own(
+        "bvh",
+        Contract {
+            sides: Sides::Front,
+            direction: UNIT,
+            ..PROMISE
+        },
+    )
 };
 
 fn entry() -> Entry {
@@ -59,8 +73,15 @@ where
     let [o, d, a, b, c] = case.vectors();
     let [a, b, c] = [a, b, c].map(Point3::from);
     let inv_direction = Vector3::from(d.map(|x| <F as One>::one() / x));
-    let ray = Ray { origin: Point3::from(o), direction: Vector3::from(d), inv_direction };
+    let ray = Ray {
+        origin: Point3::from(o),
+        direction: Vector3::from(d),
+        inv_direction,
+    };
     let hit = ray.intersects_triangle(&a, &b, &c);
     let is_hit = hit.distance != <F as Float>::infinity();
-    is_hit.then(|| Hit { uv: Some((hit.u, hit.v)), ..Hit::at(hit.distance) })
+    is_hit.then(|| Hit {
+        uv: Some((hit.u, hit.v)),
+        ..Hit::at(hit.distance)
+    })
 }

@@ -67,7 +67,10 @@ pub enum Run {
     Heavy,
     /// In a process of its own, by these arguments of `league audit`, from the project's root. `needs` is
     /// a file that is there if it is installed.
-    Process { arguments: &'static [&'static str], needs: &'static str },
+    Process {
+        arguments: &'static [&'static str],
+        needs: &'static str,
+    },
 }
 
 /// What most entrants have in common.

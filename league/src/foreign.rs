@@ -7,7 +7,10 @@ use crate::{ENTRANT, Entrant, Run};
 macro_rules! node {
     ($kernel:literal, $package:literal) => {
         Run::Process {
-            arguments: &["--kernel-cmd", concat!("node league/javascript/kernel.mjs ", $kernel)],
+            arguments: &[
+                "--kernel-cmd",
+                concat!("node league/javascript/kernel.mjs ", $kernel),
+            ],
             needs: concat!("league/javascript/node_modules/", $package),
         }
     };
@@ -32,7 +35,10 @@ macro_rules! python {
 macro_rules! embree {
     ($robust:literal) => {
         Run::Process {
-            arguments: &["--kernel-lib", concat!("examples/embree/libembree", $robust, ".so")],
+            arguments: &[
+                "--kernel-lib",
+                concat!("examples/embree/libembree", $robust, ".so"),
+            ],
             needs: concat!("examples/embree/libembree", $robust, ".so"),
         }
     };

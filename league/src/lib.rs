@@ -36,14 +36,27 @@ pub use entrant::{ENTRANT, Entrant, PROMISE, Run, UNIT};
 pub fn entrants() -> Vec<Entrant> {
     let crates = [
         vec![parry3d::PARRY3D, ncollide3d::NCOLLIDE3D, bvh::BVH],
-        vec![obvhs::OBVHS, obvhs::OBVHS_EMBREE, rayx::RAYX, rayx::RAYX_MOLLER_TRUMBORE],
+        vec![
+            obvhs::OBVHS,
+            obvhs::OBVHS_EMBREE,
+            rayx::RAYX,
+            rayx::RAYX_MOLLER_TRUMBORE,
+        ],
         vec![manifold_rust::MANIFOLD_RUST, brepkit_math::BREPKIT_MATH],
         vec![tri_mesh::TRI_MESH, mesh_geometry::MESH_GEOMETRY],
         vec![fyrox_math::FYROX_MATH, box3d_rust::BOX3D_RUST],
         vec![oxideav_mesh3d::OXIDEAV, oxideav_mesh3d::OXIDEAV_WATERTIGHT],
-        vec![vek::VEK, maths_rs::MATHS_RS, rustsim_geometry::RUSTSIM_GEOMETRY],
+        vec![
+            vek::VEK,
+            maths_rs::MATHS_RS,
+            rustsim_geometry::RUSTSIM_GEOMETRY,
+        ],
     ];
-    crates.concat().into_iter().chain(foreign::ENTRANTS.iter().copied()).collect()
+    crates
+        .concat()
+        .into_iter()
+        .chain(foreign::ENTRANTS.iter().copied())
+        .collect()
 }
 
 /// The entrants that are built into this program, as kernels.

@@ -24,7 +24,10 @@ pub const MANIFOLD_RUST: Entrant = Entrant {
 const INFO: KernelInfo = KernelInfo {
     source: "manifold-rust 0.19.2, collider::ray_triangle_intersection",
     gates: GATES,
-    epsilon_sets: &[EpsilonSet { name: "source", values: &["1e-9", "0", "1e-9"] }],
+    epsilon_sets: &[EpsilonSet {
+        name: "source",
+        values: &["1e-9", "0", "1e-9"],
+    }],
     ..KernelInfo::own("manifold-rust", PROMISE)
 };
 

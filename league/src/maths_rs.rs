@@ -24,8 +24,18 @@ pub const MATHS_RS: Entrant = Entrant {
 
 const INFO: KernelInfo = KernelInfo {
     source: "maths-rs 1.0.0, ray_vs_triangle",
-    gives: Gives { t: false, uv: false, facing: false },
-    ..KernelInfo::own("maths-rs", Contract { direction: UNIT, ..PROMISE })
+    gives: Gives {
+        t: false,
+        uv: false,
+        facing: false,
+    },
+    ..KernelInfo::own(
+        "maths-rs",
+        Contract {
+            direction: UNIT,
+            ..PROMISE
+        },
+    )
 };
 
 fn entry() -> Entry {
@@ -35,5 +45,9 @@ fn entry() -> Entry {
 fn test<F: Scalar + Float>(case: &Case<F>, _: &[F]) -> Option<Hit<F>> {
     let [o, d, a, b, c] = case.vectors().map(|[x, y, z]| Vec3::new(x, y, z));
     maths_rs::ray_vs_triangle(o, d, a, b, c)?;
-    Some(Hit { t: None, uv: None, facing: None })
+    Some(Hit {
+        t: None,
+        uv: None,
+        facing: None,
+    })
 }

@@ -27,8 +27,15 @@ pub const MESH_GEOMETRY: Entrant = Entrant {
 const INFO: KernelInfo = KernelInfo {
     source: "mesh-geometry 0.4.0, queries::ray_intersects_triangle",
     gates: GATES,
-    epsilon_sets: &[EpsilonSet { name: "source", values: &["1e-8", "0", "1e-8"] }],
-    gives: Gives { t: true, uv: true, facing: false },
+    epsilon_sets: &[EpsilonSet {
+        name: "source",
+        values: &["1e-8", "0", "1e-8"],
+    }],
+    gives: Gives {
+        t: true,
+        uv: true,
+        facing: false,
+    },
     ..KernelInfo::own("mesh-geometry", PROMISE)
 };
 
@@ -49,7 +56,13 @@ impl Style for Model {
 fn test<F: Scalar + Float>(case: &Case<F>, _: &[F]) -> Option<Hit<F>> {
     let [o, [x, y, z], a, b, c] = case.vectors();
     let [origin, a, b, c] = [o, a, b, c].map(|[x, y, z]| Point3::new(x, y, z));
-    let ray = Ray { origin, dir: Vec3::new(x, y, z) };
+    let ray = Ray {
+        origin,
+        dir: Vec3::new(x, y, z),
+    };
     let (t, u, v) = ray_intersects_triangle(ray, a, b, c)?;
-    Some(Hit { uv: Some((u, v)), ..Hit::at(t) })
+    Some(Hit {
+        uv: Some((u, v)),
+        ..Hit::at(t)
+    })
 }

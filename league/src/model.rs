@@ -29,8 +29,16 @@ pub fn with_f64<K: Kernel>(entry: Entry, function: impl Test<f64> + 'static) -> 
 }
 
 fn modelled<K: Kernel, F: Scalar>(function: impl Test<F> + 'static) -> &'static dyn Subject<F> {
-    let source = K::INFO.epsilon_sets[0].values.iter().map(|text| number(text)).collect();
-    Box::leak(Box::new(Modelled { function, source, model: PhantomData::<fn() -> K> }))
+    let source = K::INFO.epsilon_sets[0]
+        .values
+        .iter()
+        .map(|text| number(text))
+        .collect();
+    Box::leak(Box::new(Modelled {
+        function,
+        source,
+        model: PhantomData::<fn() -> K>,
+    }))
 }
 
 /// An epsilon of a source, as hairline reads it.

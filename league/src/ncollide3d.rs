@@ -27,8 +27,18 @@ pub const NCOLLIDE3D: Entrant = Entrant {
 
 const INFO: KernelInfo = KernelInfo {
     source: "ncollide3d 0.33.0, query::ray_intersection_with_triangle",
-    gives: Gives { t: true, uv: true, facing: false },
-    ..KernelInfo::own("ncollide3d", Contract { direction: UNIT, ..PROMISE })
+    gives: Gives {
+        t: true,
+        uv: true,
+        facing: false,
+    },
+    ..KernelInfo::own(
+        "ncollide3d",
+        Contract {
+            direction: UNIT,
+            ..PROMISE
+        },
+    )
 };
 
 fn entry() -> Entry {
@@ -40,5 +50,8 @@ fn test<F: Scalar + RealField>(case: &Case<F>, _: &[F]) -> Option<Hit<F>> {
     let [a, b, c] = [a, b, c].map(Point3::from);
     let ray = Ray::new(Point3::from(o), Vector3::from(d));
     let (hit, weights) = ray_intersection_with_triangle(&a, &b, &c, &ray)?;
-    Some(Hit { uv: Some((weights.y, weights.z)), ..Hit::at(hit.toi) })
+    Some(Hit {
+        uv: Some((weights.y, weights.z)),
+        ..Hit::at(hit.toi)
+    })
 }

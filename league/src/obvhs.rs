@@ -37,10 +37,15 @@ pub const OBVHS_EMBREE: Entrant = Entrant {
     ..ENTRANT
 };
 
-const CONTRACT: Contract = Contract { extent: Extent::Interval, ..PROMISE };
+const CONTRACT: Contract = Contract {
+    extent: Extent::Interval,
+    ..PROMISE
+};
 
-const INTERSECT: KernelInfo =
-    KernelInfo { source: "obvhs 0.4.0, Triangle::intersect", ..KernelInfo::own("obvhs", CONTRACT) };
+const INTERSECT: KernelInfo = KernelInfo {
+    source: "obvhs 0.4.0, Triangle::intersect",
+    ..KernelInfo::own("obvhs", CONTRACT)
+};
 
 const INTERSECT_EMBREE: KernelInfo = KernelInfo {
     source: "obvhs 0.4.0, Triangle::intersect_embree",
@@ -63,7 +68,10 @@ fn intersect_embree() -> Entry {
 
 fn convert(case: &Case<f32>) -> (Triangle, Ray) {
     let [origin, direction, v0, v1, v2] = case.vectors().map(glam::Vec3A::from);
-    (Triangle { v0, v1, v2 }, Ray::new(origin, direction, case.ray.t_min, case.ray.t_max))
+    (
+        Triangle { v0, v1, v2 },
+        Ray::new(origin, direction, case.ray.t_min, case.ray.t_max),
+    )
 }
 
 fn hit(t: f32) -> Option<Hit<f32>> {

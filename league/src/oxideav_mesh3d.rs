@@ -44,14 +44,27 @@ pub const OXIDEAV_WATERTIGHT: Entrant = Entrant {
     ..ENTRANT
 };
 
-const CONTRACT: Contract = Contract { extent: Extent::Interval, ..PROMISE };
+const CONTRACT: Contract = Contract {
+    extent: Extent::Interval,
+    ..PROMISE
+};
 
-const GIVES: Gives = Gives { t: true, uv: true, facing: true };
+const GIVES: Gives = Gives {
+    t: true,
+    uv: true,
+    facing: true,
+};
 
 const MOLLER_TRUMBORE: KernelInfo = KernelInfo {
     source: "oxideav-mesh3d 0.0.7, ray::intersect_triangle",
     gives: GIVES,
-    ..KernelInfo::own("oxideav-mesh3d", Contract { least_determinant: 1e-8, ..PROMISE })
+    ..KernelInfo::own(
+        "oxideav-mesh3d",
+        Contract {
+            least_determinant: 1e-8,
+            ..PROMISE
+        },
+    )
 };
 
 const WATERTIGHT: KernelInfo = KernelInfo {
@@ -59,7 +72,10 @@ const WATERTIGHT: KernelInfo = KernelInfo {
     gives: GIVES,
     ..KernelInfo::own(
         "oxideav-mesh3d-watertight",
-        Contract { across: Across::AtLeastOne, ..CONTRACT },
+        Contract {
+            across: Across::AtLeastOne,
+            ..CONTRACT
+        },
     )
 };
 
@@ -75,11 +91,16 @@ fn watertight() -> Entry {
         let [o, d, a, b, c] = case.vectors();
         let ray = PreparedRay::new(Ray::new(o, d));
         let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
-        ray.intersect_triangle(TriangleTest::Watertight, a, b, c, t_min, t_max).map(hit)
+        ray.intersect_triangle(TriangleTest::Watertight, a, b, c, t_min, t_max)
+            .map(hit)
     })
 }
 
 fn hit((t, u, v, front): (f32, f32, f32, bool)) -> Hit<f32> {
     let facing = if front { Facing::Front } else { Facing::Back };
-    Hit { uv: Some((u, v)), facing: Some(facing), ..Hit::at(t) }
+    Hit {
+        uv: Some((u, v)),
+        facing: Some(facing),
+        ..Hit::at(t)
+    }
 }

@@ -27,8 +27,18 @@ pub const PARRY3D: Entrant = Entrant {
 
 const INFO: KernelInfo = KernelInfo {
     source: "parry3d, parry3d-f64 0.31.1, local_ray_intersection_with_triangle",
-    gives: Gives { t: true, uv: true, facing: false },
-    ..KernelInfo::own("parry3d", Contract { ends: Boundary::Closed, ..PROMISE })
+    gives: Gives {
+        t: true,
+        uv: true,
+        facing: false,
+    },
+    ..KernelInfo::own(
+        "parry3d",
+        Contract {
+            ends: Boundary::Closed,
+            ..PROMISE
+        },
+    )
 };
 
 fn entry() -> Entry {
@@ -40,7 +50,10 @@ fn test_f32(case: &Case<f32>, _: &[f32]) -> Option<Hit<f32>> {
     let [o, d, a, b, c] = case.vectors().map(|[x, y, z]| Vector::new(x, y, z));
     let (hit, weights) = local_ray_intersection_with_triangle(a, b, c, &Ray::new(o, d))?;
     let uv = Some((weights.y, weights.z));
-    Some(Hit { uv, ..Hit::at(hit.time_of_impact) })
+    Some(Hit {
+        uv,
+        ..Hit::at(hit.time_of_impact)
+    })
 }
 
 fn test_f64(case: &Case<f64>, _: &[f64]) -> Option<Hit<f64>> {
@@ -50,5 +63,8 @@ fn test_f64(case: &Case<f64>, _: &[f64]) -> Option<Hit<f64>> {
     let [o, d, a, b, c] = case.vectors().map(|[x, y, z]| Vector::new(x, y, z));
     let (hit, weights) = local_ray_intersection_with_triangle(a, b, c, &Ray::new(o, d))?;
     let uv = Some((weights.y, weights.z));
-    Some(Hit { uv, ..Hit::at(hit.time_of_impact) })
+    Some(Hit {
+        uv,
+        ..Hit::at(hit.time_of_impact)
+    })
 }

@@ -39,9 +39,16 @@ pub const RAYX_MOLLER_TRUMBORE: Entrant = Entrant {
     ..ENTRANT
 };
 
-const CONTRACT: Contract = Contract { extent: Extent::Interval, ..PROMISE };
+const CONTRACT: Contract = Contract {
+    extent: Extent::Interval,
+    ..PROMISE
+};
 
-const GIVES: Gives = Gives { t: true, uv: true, facing: false };
+const GIVES: Gives = Gives {
+    t: true,
+    uv: true,
+    facing: false,
+};
 
 const BALDWIN_WEBER: KernelInfo = KernelInfo {
     source: "rayx 0.2.0, Triangle::intersect",
@@ -52,13 +59,18 @@ const BALDWIN_WEBER: KernelInfo = KernelInfo {
 const MOLLER_TRUMBORE: KernelInfo = KernelInfo {
     source: "rayx 0.2.0, intersect_moller_trumbore",
     gates: GATES_INTERVAL,
-    epsilon_sets: &[EpsilonSet { name: "source", values: &["16*EPSILON", "0", "0"] }],
+    epsilon_sets: &[EpsilonSet {
+        name: "source",
+        values: &["16*EPSILON", "0", "0"],
+    }],
     gives: GIVES,
     ..KernelInfo::own("rayx-moller-trumbore", CONTRACT)
 };
 
 fn baldwin_weber() -> Entry {
-    Entry::new(&BALDWIN_WEBER).f32(test_baldwin_weber::<f32>).f64(test_baldwin_weber::<f64>)
+    Entry::new(&BALDWIN_WEBER)
+        .f32(test_baldwin_weber::<f32>)
+        .f64(test_baldwin_weber::<f64>)
 }
 
 fn moller_trumbore() -> Entry {
@@ -79,7 +91,9 @@ impl Style for Model {
 fn test_baldwin_weber<F: Scalar + Float + RealField>(case: &Case<F>, _: &[F]) -> Option<Hit<F>> {
     let [o, d, a, b, c] = case.vectors();
     let triangle = Triangle::new(a, b, c).ok()?;
-    triangle.intersect(Ray::new(o, d), case.ray.t_min, case.ray.t_max).map(hit)
+    triangle
+        .intersect(Ray::new(o, d), case.ray.t_min, case.ray.t_max)
+        .map(hit)
 }
 
 fn test_moller_trumbore<F: Scalar + Float + RealField>(case: &Case<F>, _: &[F]) -> Option<Hit<F>> {
@@ -90,5 +104,8 @@ fn test_moller_trumbore<F: Scalar + Float + RealField>(case: &Case<F>, _: &[F]) 
 }
 
 fn hit<F: Float + RealField>(hit: rayx::Hit<F>) -> Hit<F> {
-    Hit { uv: Some((hit.u, hit.v)), ..Hit::at(hit.t) }
+    Hit {
+        uv: Some((hit.u, hit.v)),
+        ..Hit::at(hit.t)
+    }
 }

@@ -28,6 +28,8 @@ const INFO: KernelInfo = KernelInfo {
 fn entry() -> Entry {
     Entry::new(&INFO).f64(|case: &Case<f64>, _: &[f64]| {
         let [origin, dir, a, b, c] = case.vectors();
-        Triangle3 { a, b, c }.intersect_ray(&Ray3 { origin, dir }).map(Hit::at)
+        Triangle3 { a, b, c }
+            .intersect_ray(&Ray3 { origin, dir })
+            .map(Hit::at)
     })
 }

@@ -11,7 +11,9 @@ use hairline::internals::case::Case;
 pub fn past_the_triangle(case: &Case<f32>) -> ([f32; 3], f32) {
     let [origin, direction, a, b, c] = case.vectors().map(|v| v.map(f64::from));
     let largest = |v: [f64; 3]| v.into_iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let reach = [a, b, c].into_iter().map(|v| largest(std::array::from_fn(|i| v[i] - origin[i])));
+    let reach = [a, b, c]
+        .into_iter()
+        .map(|v| largest(std::array::from_fn(|i| v[i] - origin[i])));
     let wanted = 4.0 * reach.fold(0.0, f64::max) / largest(direction);
     let mut scale = 1.0f32;
     while f64::from(scale) < wanted && scale < 2.0f32.powi(126) {

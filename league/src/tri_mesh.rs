@@ -25,15 +25,26 @@ pub const TRI_MESH: Entrant = Entrant {
 
 const INFO: KernelInfo = KernelInfo {
     source: "tri-mesh 0.6.1, Mesh::ray_intersection",
-    gives: Gives { t: false, uv: false, facing: false },
+    gives: Gives {
+        t: false,
+        uv: false,
+        facing: false,
+    },
     ..KernelInfo::own("tri-mesh", PROMISE)
 };
 
 fn entry() -> Entry {
     Entry::new(&INFO).f64(|case: &Case<f64>, _: &[f64]| {
         let [o, d, a, b, c] = case.vectors().map(Vector3::from);
-        let mesh: Mesh =
-            TriMesh { positions: Positions::F64(vec![a, b, c]), ..Default::default() }.into();
-        mesh.ray_intersection(&o, &d).map(|_| Hit { t: None, uv: None, facing: None })
+        let mesh: Mesh = TriMesh {
+            positions: Positions::F64(vec![a, b, c]),
+            ..Default::default()
+        }
+        .into();
+        mesh.ray_intersection(&o, &d).map(|_| Hit {
+            t: None,
+            uv: None,
+            facing: None,
+        })
     })
 }

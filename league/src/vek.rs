@@ -29,7 +29,13 @@ pub const VEK: Entrant = Entrant {
 
 const INFO: KernelInfo = KernelInfo {
     source: "vek 0.17.2, geom::Ray::triangle_intersection",
-    ..KernelInfo::own("vek", Contract { direction: UNIT, ..PROMISE })
+    ..KernelInfo::own(
+        "vek",
+        Contract {
+            direction: UNIT,
+            ..PROMISE
+        },
+    )
 };
 
 fn entry() -> Entry {

@@ -7,7 +7,10 @@ use hairline::internals::oracle;
 use hairline_league::{PROMISE, kernels};
 
 fn kernel(name: &str) -> Entry {
-    kernels().into_iter().find(|kernel| kernel.info.name == name).unwrap()
+    kernels()
+        .into_iter()
+        .find(|kernel| kernel.info.name == name)
+        .unwrap()
 }
 
 fn verdict<F: Scalar>(entry: &Entry, case: &Case<F>) -> Verdict<F> {
@@ -15,7 +18,9 @@ fn verdict<F: Scalar>(entry: &Entry, case: &Case<F>) -> Verdict<F> {
     let entry: &'static Entry = Box::leak(Box::new(*entry));
     let epsilons = row.rows(&[entry], None).unwrap()[0].epsilons::<F>();
     let mut verdict = [Verdict::miss(None)];
-    F::subject(entry).unwrap().run(std::slice::from_ref(case), &epsilons, &mut verdict);
+    F::subject(entry)
+        .unwrap()
+        .run(std::slice::from_ref(case), &epsilons, &mut verdict);
     verdict[0]
 }
 
@@ -34,11 +39,17 @@ fn obvhs_leaves_a_crack_along_an_edge_that_is_seen_from_the_back() {
         let entry = kernel(name);
         let ray = |triangle| Case::<f32>::new([1.0, 0.0, z], [0.0, 0.0, -z], triangle);
         let cases = [[o, x, y], [o, below, x]].map(ray);
-        cases.iter().filter(|case| verdict(&entry, case).hit).count()
+        cases
+            .iter()
+            .filter(|case| verdict(&entry, case).hit)
+            .count()
     };
     // The ray meets both triangles on the edge that they share, from the front at z = 1.
     assert_eq!([hits("obvhs", 1.0), hits("obvhs", -1.0)], [2, 0]);
-    assert_eq!([hits("obvhs-embree", 1.0), hits("obvhs-embree", -1.0)], [1, 2]);
+    assert_eq!(
+        [hits("obvhs-embree", 1.0), hits("obvhs-embree", -1.0)],
+        [1, 2]
+    );
     assert_eq!([hits("parry3d", 1.0), hits("parry3d", -1.0)], [2, 2]);
 }
 
@@ -56,7 +67,10 @@ fn parry_and_ncollide_mirror_a_triangle_if_the_ray_starts_in_its_plane_and_leave
         let entry = kernel(name);
         // (-1, -1, 0) is 1.4 units off the triangle.
         let outside = from_the_plane::<f32>(-1.0);
-        assert_eq!(oracle::truth(&outside).to_string(), "transversal, back, t at_min, outside");
+        assert_eq!(
+            oracle::truth(&outside).to_string(),
+            "transversal, back, t at_min, outside"
+        );
         let shown = verdict(&entry, &outside);
         assert!(shown.hit, "{name}");
         // The weights are those of (1, 1, 0), on the other side of a.
@@ -64,7 +78,10 @@ fn parry_and_ncollide_mirror_a_triangle_if_the_ray_starts_in_its_plane_and_leave
         assert!(verdict(&entry, &from_the_plane::<f64>(-1.0)).hit, "{name}");
         // (1, 1, 0) itself, inside the triangle, is missed.
         let inside = from_the_plane::<f32>(1.0);
-        assert_eq!(oracle::truth(&inside).to_string(), "transversal, back, t at_min, interior");
+        assert_eq!(
+            oracle::truth(&inside).to_string(),
+            "transversal, back, t at_min, interior"
+        );
         assert!(!verdict(&entry, &inside).hit, "{name}");
         assert!(!verdict(&entry, &from_the_plane::<f64>(1.0)).hit, "{name}");
         // From the front both are right.
@@ -111,7 +128,11 @@ fn shortest_leg<F: Scalar>(name: &str) -> i32 {
     let entry = kernel(name);
     let is_hit = |power: i32| verdict(&entry, &down_on_legs::<F>(2f64.powi(power))).hit;
     assert!(is_hit(0), "{name}");
-    (-60..=0).rev().take_while(|power| is_hit(*power)).last().unwrap()
+    (-60..=0)
+        .rev()
+        .take_while(|power| is_hit(*power))
+        .last()
+        .unwrap()
 }
 
 #[test]
@@ -158,7 +179,11 @@ fn brepkit(case: &Case<f64>, fused: bool) -> bool {
     });
     let edge = |p: [f64; 3], q: [f64; 3]| {
         let (ahead, back) = (p[0] * q[1], p[1] * q[0]);
-        let value = if fused { p[0].mul_add(q[1], -back) } else { ahead - back };
+        let value = if fused {
+            p[0].mul_add(q[1], -back)
+        } else {
+            ahead - back
+        };
         let sign = |is_positive: bool| if is_positive { 1.0 } else { -1.0 } * f64::MIN_POSITIVE;
         match value {
             0.0 if ahead != back => sign(ahead > back),
@@ -176,9 +201,16 @@ fn brepkit(case: &Case<f64>, fused: bool) -> bool {
 
 /// Cracks and doubles, of how many crossings.
 fn across(entry: &Entry, family: &str) -> [u64; 3] {
-    let outcome = hairline::audit(entry).families([family]).count(20_000).run().unwrap();
+    let outcome = hairline::audit(entry)
+        .families([family])
+        .count(20_000)
+        .run()
+        .unwrap();
     let results = outcome.record.result.results.into_iter();
-    let part = results.filter(|r| r.scalar == "f64").find_map(|r| r.across).unwrap();
+    let part = results
+        .filter(|r| r.scalar == "f64")
+        .find_map(|r| r.across)
+        .unwrap();
     [part.cracks.count, part.doubles.count, part.cracks.of]
 }
 
@@ -186,15 +218,23 @@ fn across(entry: &Entry, family: &str) -> [u64; 3] {
 fn brepkits_fused_multiply_add_breaks_its_promise_of_exactly_one_hit() {
     const FUSED: KernelInfo = KernelInfo::own("fused", PROMISE);
     const APART: KernelInfo = KernelInfo::own("apart", PROMISE);
-    let hit = || Some(Hit { t: None, uv: None, facing: None });
+    let hit = || {
+        Some(Hit {
+            t: None,
+            uv: None,
+            facing: None,
+        })
+    };
     let fused = Entry::new(&FUSED)
         .f64(move |case: &Case<f64>, _: &[f64]| brepkit(case, true).then(hit).flatten());
     let apart = Entry::new(&APART)
         .f64(move |case: &Case<f64>, _: &[f64]| brepkit(case, false).then(hit).flatten());
     let published = kernel("brepkit-math");
-    for (family, expected) in
-        [("shared-edge", [291, 284, 8803]), ("fan", [29, 27, 20_000]), ("polygon", [36, 32, 5030])]
-    {
+    for (family, expected) in [
+        ("shared-edge", [291, 284, 8803]),
+        ("fan", [29, 27, 20_000]),
+        ("polygon", [36, 32, 5030]),
+    ] {
         let found = across(&published, family);
         // With both products rounded the promise is kept.
         let [cracks, doubles, _] = across(&apart, family);
@@ -225,7 +265,13 @@ fn parrys_branch_by_the_sign_of_d_mends_starts_in_the_plane_and_changes_nothing_
     const REPAIRED: KernelInfo = KernelInfo::own("repaired", PROMISE);
     let published = kernel("parry3d");
     let contract = published.info.contract;
-    let hit = || Some(Hit { t: None, uv: None, facing: None });
+    let hit = || {
+        Some(Hit {
+            t: None,
+            uv: None,
+            facing: None,
+        })
+    };
     let entry = |info: &'static KernelInfo, repaired| {
         Entry::new(info)
             .f32(move |case: &Case<f32>, _: &[f32]| parry(case, repaired).then(hit).flatten())
@@ -233,12 +279,22 @@ fn parrys_branch_by_the_sign_of_d_mends_starts_in_the_plane_and_changes_nothing_
     let with_contract = |info: KernelInfo| -> &'static KernelInfo {
         Box::leak(Box::new(KernelInfo { contract, ..info }))
     };
-    let [mirrored, repaired] =
-        [entry(with_contract(MIRRORED), false), entry(with_contract(REPAIRED), true)];
+    let [mirrored, repaired] = [
+        entry(with_contract(MIRRORED), false),
+        entry(with_contract(REPAIRED), true),
+    ];
     let wrong = |entry: &Entry, family: &str| {
-        let outcome = hairline::audit(entry).families([family]).count(20_000).run().unwrap();
+        let outcome = hairline::audit(entry)
+            .families([family])
+            .count(20_000)
+            .run()
+            .unwrap();
         let results = outcome.record.result.results.into_iter();
-        let total = results.into_iter().find(|result| result.scalar == "f32").unwrap().total;
+        let total = results
+            .into_iter()
+            .find(|result| result.scalar == "f32")
+            .unwrap()
+            .total;
         [total.false_misses.count, total.false_hits.count]
     };
     for (family, before, after) in [
@@ -252,7 +308,11 @@ fn parrys_branch_by_the_sign_of_d_mends_starts_in_the_plane_and_changes_nothing_
             wrong(&mirrored, family),
             wrong(&repaired, family)
         );
-        assert_eq!(found, wrong(&mirrored, family), "{family}: not the same test");
+        assert_eq!(
+            found,
+            wrong(&mirrored, family),
+            "{family}: not the same test"
+        );
         assert_eq!(found, before, "{family}");
         assert_eq!(wrong(&repaired, family), after, "{family}");
     }
@@ -277,24 +337,42 @@ fn obvhs(case: &Case<f32>, repaired: bool) -> bool {
 
 #[test]
 fn obvhs_weights_compared_as_numbers_leave_fewer_cracks() {
-    const INTERVAL: Contract = Contract { extent: Extent::Interval, ..PROMISE };
+    const INTERVAL: Contract = Contract {
+        extent: Extent::Interval,
+        ..PROMISE
+    };
     const BITS: KernelInfo = KernelInfo::own("bits", INTERVAL);
     const NUMBERS: KernelInfo = KernelInfo::own("numbers", INTERVAL);
-    let hit = || Some(Hit { t: None, uv: None, facing: None });
+    let hit = || {
+        Some(Hit {
+            t: None,
+            uv: None,
+            facing: None,
+        })
+    };
     let entry = |info: &'static KernelInfo, repaired| {
         Entry::new(info)
             .f32(move |case: &Case<f32>, _: &[f32]| obvhs(case, repaired).then(hit).flatten())
     };
     let [bits, numbers] = [entry(&BITS, false), entry(&NUMBERS, true)];
     let across = |entry: &Entry, family: &str| {
-        let outcome = hairline::audit(entry).families([family]).count(20_000).run().unwrap();
+        let outcome = hairline::audit(entry)
+            .families([family])
+            .count(20_000)
+            .run()
+            .unwrap();
         let results = outcome.record.result.results.into_iter();
-        let part = results.filter(|r| r.scalar == "f32").find_map(|r| r.across).unwrap();
+        let part = results
+            .filter(|r| r.scalar == "f32")
+            .find_map(|r| r.across)
+            .unwrap();
         [part.cracks.count, part.cracks.of]
     };
-    for (family, of, before, after) in
-        [("shared-edge", 7278, 1541, 304), ("fan", 16_723, 1933, 238), ("polygon", 4082, 438, 0)]
-    {
+    for (family, of, before, after) in [
+        ("shared-edge", 7278, 1541, 304),
+        ("fan", 16_723, 1933, 238),
+        ("polygon", 4082, 438, 0),
+    ] {
         assert_eq!(
             across(&kernel("obvhs"), family),
             across(&bits, family),

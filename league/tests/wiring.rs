@@ -50,7 +50,11 @@ fn case(
     let [a, b, c] = triangle.map(|p| p.map(f64::from));
     let edge = |p: [f64; 3]| [0, 1, 2].map(|i| p[i] - a[i]);
     let [p, q] = [edge(b), edge(c)];
-    let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+    let n = [
+        p[1] * q[2] - p[2] * q[1],
+        p[2] * q[0] - p[0] * q[2],
+        p[0] * q[1] - p[1] * q[0],
+    ];
     let (u, v, side) = (f64::from(u), f64::from(v), if front { -1.0 } else { 1.0 });
     // Not along the normal: a direction that leans.
     let lean = [0, 1, 2].map(|i| side * n[i] + 0.25 * (p[i] - q[i]));
@@ -76,18 +80,29 @@ fn verdict<F: Scalar>(entry: &Entry, case: &Case<F>) -> Option<Verdict<F>> {
     let leaked: &'static Entry = Box::leak(Box::new(*entry));
     let rows = EpsilonChoice::Source.rows(&[leaked], None).unwrap();
     let mut verdict = [Verdict::miss(None)];
-    F::subject(entry)?.run(std::slice::from_ref(case), &rows[0].epsilons::<F>(), &mut verdict);
+    F::subject(entry)?.run(
+        std::slice::from_ref(case),
+        &rows[0].epsilons::<F>(),
+        &mut verdict,
+    );
     Some(verdict[0])
 }
 
 /// Asserts that a kernel does as its contract asks, and reports the exact t, u and v to a thousandth.
 fn check<F: Scalar>(entry: &Entry, case: &Case<F>, hits: &mut usize) {
-    let Some(verdict) = verdict(entry, case) else { return };
+    let Some(verdict) = verdict(entry, case) else {
+        return;
+    };
     let (name, contract) = (entry.info.name, &entry.info.contract);
     let truth = oracle::truth(case);
     let asked = asked(case, &truth, contract, false);
     assert_ne!(asked, Obligation::Free, "{name}: {}", case.hex());
-    assert_eq!(verdict.hit, asked == Obligation::MustHit, "{name}: {truth}: {}", case.hex());
+    assert_eq!(
+        verdict.hit,
+        asked == Obligation::MustHit,
+        "{name}: {truth}: {}",
+        case.hex()
+    );
     if !verdict.hit {
         return;
     }
@@ -96,7 +111,11 @@ fn check<F: Scalar>(entry: &Entry, case: &Case<F>, hits: &mut usize) {
     let near = |what: &str, value: F, exact: Option<BigRational>| {
         let exact = exact.and_then(|x| x.to_f64()).expect("a crossing");
         let error = (value.to_f64() - exact).abs();
-        assert!(error < 1e-3, "{name}: {what} = {value:?}, exactly {exact}: {}", case.hex());
+        assert!(
+            error < 1e-3,
+            "{name}: {what} = {value:?}, exactly {exact}: {}",
+            case.hex()
+        );
     };
     let gives = entry.info.gives;
     if gives.t && !gives_scaled_t(name) {
@@ -124,7 +143,11 @@ fn every_entrant_is_right_on_easy_rays_in_both_directions_and_its_values_are_tho
                 check(&entry, &case.widen(), &mut hits);
             }
         }
-        let sides = if entry.info.contract.sides == Sides::Front { 1 } else { 2 };
+        let sides = if entry.info.contract.sides == Sides::Front {
+            1
+        } else {
+            2
+        };
         let scalars = entry.scalars().iter().filter(|runs| **runs).count();
         let scalars = if unit { 1 } else { scalars };
         assert_eq!(hits, 3 * 8 * sides * scalars, "{}", entry.info.name);
@@ -135,17 +158,26 @@ fn every_entrant_is_right_on_easy_rays_in_both_directions_and_its_values_are_tho
 fn every_entrant_sees_nearly_all_of_the_plain_families_right() {
     for entry in kernels() {
         let unit_direction = entry.info.contract.direction != Direction::Any;
-        let parameters = Parameters { unit_direction, ..Parameters::default() };
+        let parameters = Parameters {
+            unit_direction,
+            ..Parameters::default()
+        };
         for family in ["interior", "outside", "behind"] {
-            let outcome =
-                hairline::audit(&entry).families([family]).parameters(parameters.clone()).run();
+            let outcome = hairline::audit(&entry)
+                .families([family])
+                .parameters(parameters.clone())
+                .run();
             for result in outcome.unwrap().record.result.results {
                 let (wrong, of) = (
                     result.total.false_misses.count + result.total.false_hits.count,
                     result.total.cases,
                 );
                 let name = entry.info.name;
-                assert!(wrong * 50 <= of, "{name} {family} {}: {wrong} of {of}", result.scalar);
+                assert!(
+                    wrong * 50 <= of,
+                    "{name} {family} {}: {wrong} of {of}",
+                    result.scalar
+                );
                 assert!(result.total.free * 2 <= of, "{name} {family}: mostly free");
             }
         }
@@ -158,10 +190,20 @@ fn entrants_have_names_of_their_own_and_say_where_their_contract_comes_from() {
     for (i, entrant) in entrants.iter().enumerate() {
         assert!(entrants[..i].iter().all(|other| other.name != entrant.name));
         let name = entrant.name;
-        assert!(entrant.page.starts_with("https://") && !entrant.function.is_empty(), "{name}");
-        assert!(!entrant.claim.is_empty() || !entrant.note.is_empty(), "{name}");
+        assert!(
+            entrant.page.starts_with("https://") && !entrant.function.is_empty(),
+            "{name}"
+        );
+        assert!(
+            !entrant.claim.is_empty() || !entrant.note.is_empty(),
+            "{name}"
+        );
         let starts_with_digit = |part: &str| part.starts_with(|c: char| c.is_ascii_digit());
-        assert!(starts_with_digit(entrant.version), "{name}: {}", entrant.version);
+        assert!(
+            starts_with_digit(entrant.version),
+            "{name}: {}",
+            entrant.version
+        );
         if let Run::Here(kernel) = entrant.run {
             assert_eq!(kernel().info.name, name);
         }

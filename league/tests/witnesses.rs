@@ -10,12 +10,16 @@ use std::path::PathBuf;
 
 fn witnesses() -> Vec<StoredCase> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/witnesses");
-    let mut files: Vec<PathBuf> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut files: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
     files.sort();
     let read = |path: &PathBuf| {
         let bytes = fs::read(path).unwrap();
-        lines::read(&bytes[..], &path.display().to_string()).map(Result::unwrap).collect::<Vec<_>>()
+        lines::read(&bytes[..], &path.display().to_string())
+            .map(Result::unwrap)
+            .collect::<Vec<_>>()
     };
     files.iter().flat_map(read).collect()
 }
@@ -32,7 +36,11 @@ fn every_witness_is_shown_by_the_published_function_and_every_kernel_has_one() {
         replayed.insert(find.signature.kernel);
     }
     for kernel in kernels() {
-        assert!(replayed.contains(kernel.info.name), "{} has no witness", kernel.info.name);
+        assert!(
+            replayed.contains(kernel.info.name),
+            "{} has no witness",
+            kernel.info.name
+        );
     }
 }
 

@@ -32,10 +32,14 @@ pub fn compare(
     }
     let is_unsteady = |key: &Key| unsteady.iter().any(|found| found.key().is_of_row(key));
     let mut steady = result.clone();
-    steady.results.retain(|part| !is_unsteady(&Key::of(part, "", FindingKind::Crash)));
+    steady
+        .results
+        .retain(|part| !is_unsteady(&Key::of(part, "", FindingKind::Crash)));
     steady.totals.retain(|row| {
         let place = [&row.kernel, &row.set, &row.scalar];
-        unsteady.iter().all(|found| [&found.kernel, &found.set, &found.scalar] != place)
+        unsteady
+            .iter()
+            .all(|found| [&found.kernel, &found.set, &found.scalar] != place)
     });
     let expected = expected.clone().without(is_unsteady);
     let mut conformance = expect::compare(&steady, target, &expected, file);
@@ -48,7 +52,9 @@ pub fn compare(
 fn unsteady(plan: &Plan, result: &ResultPart, conformance: &mut Conformance) -> Vec<Deviation> {
     let mut unsteady: Vec<Deviation> = Vec::new();
     let mut whole = BTreeMap::new();
-    let Conformance { unexpected, stale, .. } = conformance;
+    let Conformance {
+        unexpected, stale, ..
+    } = conformance;
     let unexpected = unexpected.iter_mut().map(|found| (found, true));
     // A case of a stale entry is right now.
     let stale = stale.iter_mut().map(|found| (found, false));
@@ -57,7 +63,9 @@ fn unsteady(plan: &Plan, result: &ResultPart, conformance: &mut Conformance) -> 
         if unsteady.iter().any(|other| other.key().is_of_row(&key)) {
             continue;
         }
-        let Some((plan, index, count)) = part(plan, found) else { continue };
+        let Some((plan, index, count)) = part(plan, found) else {
+            continue;
+        };
         let is_other = || {
             let again = findings(&run(&plan, Shard::of_index(index, count)), &key);
             // What a kernel says that was given up is nothing.
@@ -68,7 +76,9 @@ fn unsteady(plan: &Plan, result: &ResultPart, conformance: &mut Conformance) -> 
             continue;
         }
         let place = [&key.kernel, &key.set, &key.scalar, &key.family].map(Clone::clone);
-        let again = whole.entry(place).or_insert_with(|| run(&plan, Shard::WHOLE));
+        let again = whole
+            .entry(place)
+            .or_insert_with(|| run(&plan, Shard::WHOLE));
         if plugins::check().is_err() {
             break;
         }
@@ -81,7 +91,10 @@ fn unsteady(plan: &Plan, result: &ResultPart, conformance: &mut Conformance) -> 
             let expected = format!(
                 "the same answer each time, but answers differ from run to run: asked again, the case shown {is}"
             );
-            unsteady.push(Deviation { expected, ..found.clone() });
+            unsteady.push(Deviation {
+                expected,
+                ..found.clone()
+            });
         }
     }
     unsteady
@@ -91,8 +104,14 @@ fn unsteady(plan: &Plan, result: &ResultPart, conformance: &mut Conformance) -> 
 /// and where no case is shown.
 fn part(plan: &Plan, found: &Deviation) -> Option<(Plan, u64, u64)> {
     let is_row = |name: &str, set: &str| (name, set) == (&found.kernel, &found.set);
-    let row = plan.rows.iter().find(|row| is_row(row.entry.info.name, &row.set))?;
-    let source = plan.sources.iter().find(|source| source.name() == found.family)?;
+    let row = plan
+        .rows
+        .iter()
+        .find(|row| is_row(row.entry.info.name, &row.set))?;
+    let source = plan
+        .sources
+        .iter()
+        .find(|source| source.name() == found.family)?;
     let case = found.case.as_ref().filter(|_| !row.entry.is_built_in())?;
     let (count, index) = in_named_scalar!(found.scalar, F => {
         let count = source.count::<F>();
@@ -111,12 +130,22 @@ fn part(plan: &Plan, found: &Deviation) -> Option<(Plan, u64, u64)> {
 /// The findings of a part of a plan.
 fn run(plan: &Plan, shard: Shard) -> ResultPart {
     let sums = audit::sum(plan, shard, &Unobserved);
-    build(plan, &sums, &Context { seconds: 0.0, threads: 1 }).result
+    build(
+        plan,
+        &sums,
+        &Context {
+            seconds: 0.0,
+            threads: 1,
+        },
+    )
+    .result
 }
 
 /// Those of a class, or of all classes together.
 fn findings(result: &ResultPart, key: &Key) -> FindingDigests {
     let found = disagreements(result).into_iter();
     let of_key = found.filter(|found| found.key == *key || found.key.of_all_classes() == *key);
-    of_key.map(|found| (found.key, found.digest.to_owned())).collect()
+    of_key
+        .map(|found| (found.key, found.digest.to_owned()))
+        .collect()
 }

@@ -24,8 +24,15 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
 }
 
 fn audited(arguments: &AuditArguments, outputs: &Outputs<'_>) -> Result<Status, Failure> {
-    let measured = if arguments.attribute == 0 { 0 } else { MEASURED };
-    let plan = Plan { measured, ..arguments.run.plan(arguments.attribute)? };
+    let measured = if arguments.attribute == 0 {
+        0
+    } else {
+        MEASURED
+    };
+    let plan = Plan {
+        measured,
+        ..arguments.run.plan(arguments.attribute)?
+    };
     let record = arguments.run.execute(&plan, outputs.illustrate())?;
     self_check(&record)?;
     outputs.write(&record)?;

@@ -28,15 +28,24 @@ pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Fail
 /// The same where one scalar is run unless both are named: `f32`, or `f64` if no kernel runs in `f32`.
 pub fn one_scalar(rows: &[Row], names: &[String]) -> Result<[bool; 2], Failure> {
     let is_in_f32 = rows.iter().any(|row| row.entry.scalars()[0]);
-    let chosen = if names.is_empty() { [is_in_f32, !is_in_f32] } else { chosen_scalars(names)? };
+    let chosen = if names.is_empty() {
+        [is_in_f32, !is_in_f32]
+    } else {
+        chosen_scalars(names)?
+    };
     scalars_in_use(rows, chosen)
 }
 
 /// Refuses kernels whose t, u or v is wrong on plain hits: no epsilon and no offset can be right for them. They are run on
 /// the control family, at the insides of well-shaped triangles; one hit in a hundred may be off there.
 pub fn refuse_wrong_values(rows: &[Row], scalars: [bool; 2]) -> Result<(), Failure> {
-    let unit_direction = rows.iter().any(|row| row.contract.direction != Direction::Any);
-    let parameters = Parameters { unit_direction, ..Parameters::default() };
+    let unit_direction = rows
+        .iter()
+        .any(|row| row.contract.direction != Direction::Any);
+    let parameters = Parameters {
+        unit_direction,
+        ..Parameters::default()
+    };
     let family = family::find("interior").expect("the control family");
     let source = Source::of(family, parameters, 1, 1024);
     let plan = Plan::new(rows.to_vec(), vec![source], scalars, 1);
@@ -107,8 +116,9 @@ pub fn note_missed_angles(scene: &Scene, mesh: Option<&SceneMesh>, scalars: [boo
             None => missed_sine::<F>(scene, scene, seed, index),
         });
         let missed: Vec<f64> = missed.collect();
-        let ends =
-            missed.iter().fold([1.0, 0.0], |[low, high], sine| [sine.min(low), sine.max(high)]);
+        let ends = missed.iter().fold([1.0, 0.0], |[low, high], sine| {
+            [sine.min(low), sine.max(high)]
+        });
         if !missed.is_empty() {
             eprintln!(
                 "note: the angle that was drawn is missed by {} of the first {LOOKED_AT} almost parallel rays in {}: none of \
@@ -128,9 +138,9 @@ pub fn note_missed_angles(scene: &Scene, mesh: Option<&SceneMesh>, scalars: [boo
 /// The indices of a run; an error if there are none.
 pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Failure> {
     match count_indices(sources, scalars) {
-        0 => {
-            Err(Failure::nothing("nothing to run: the sources have no case in the chosen scalars"))
-        }
+        0 => Err(Failure::nothing(
+            "nothing to run: the sources have no case in the chosen scalars",
+        )),
         total => Ok(total),
     }
 }
@@ -145,14 +155,19 @@ pub fn count_indices(sources: &[Source], scalars: [bool; 2]) -> u64 {
 /// The scalars in which the sources have a case.
 pub fn scalars_with_cases(sources: &[Source], scalars: [bool; 2]) -> [bool; 2] {
     let has = |count: fn(&Source) -> u64| sources.iter().any(|source| 0 < count(source));
-    [scalars[0] && has(Source::count::<f32>), scalars[1] && has(Source::count::<f64>)]
+    [
+        scalars[0] && has(Source::count::<f32>),
+        scalars[1] && has(Source::count::<f64>),
+    ]
 }
 
 /// Sets the number of threads, all cores if none is given; returns how many there are.
 pub fn set_threads(threads: Option<usize>) -> Result<usize, Failure> {
     if let Some(threads) = threads {
         if threads == 0 || threads > 4096 {
-            return Err(Failure::usage(format!("--threads: {threads} is not from 1 to 4096")));
+            return Err(Failure::usage(format!(
+                "--threads: {threads} is not from 1 to 4096"
+            )));
         }
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

@@ -47,7 +47,12 @@ pub struct Group<F: Scalar> {
 
 impl<F: Scalar> Group<F> {
     fn alone(cases: Vec<Case<F>>, grouping: Grouping) -> Group<F> {
-        Group { cases, grouping, neighbours: Some(Vec::new()), instance: None }
+        Group {
+            cases,
+            grouping,
+            neighbours: Some(Vec::new()),
+            instance: None,
+        }
     }
 }
 
@@ -56,8 +61,10 @@ impl CaseArguments {
     pub fn cases(&self) -> Result<Cases, Failure> {
         let cases = self.cases_and_instances()?;
         if either_scalar!(&cases, group => group.instance.is_some()) {
-            let message =
-                format!("'{}' is a case of an instance: only `explain` takes it", self.case);
+            let message = format!(
+                "'{}' is a case of an instance: only `explain` takes it",
+                self.case
+            );
             return Err(Failure::usage(message));
         }
         Ok(cases)
@@ -80,9 +87,15 @@ impl CaseArguments {
         if let Some(path) = &self.corpus {
             return self.stored(path);
         }
-        if self.case.trim_start_matches('\u{feff}').trim_start().starts_with(['{', '[']) {
-            let stored: Vec<_> =
-                lines::read(self.case.as_bytes(), "argument").take(2).collect::<Result<_, _>>()?;
+        if self
+            .case
+            .trim_start_matches('\u{feff}')
+            .trim_start()
+            .starts_with(['{', '['])
+        {
+            let stored: Vec<_> = lines::read(self.case.as_bytes(), "argument")
+                .take(2)
+                .collect::<Result<_, _>>()?;
             let [stored] = &stored[..] else {
                 let found = if stored.is_empty() { "none" } else { "more" };
                 return Err(Failure::usage(format!(
@@ -95,7 +108,9 @@ impl CaseArguments {
             return test;
         }
         let id: CaseId = self.case.parse().map_err(|error| {
-            Failure::usage(format!("{error}; for the name of a stored case add --corpus FILE"))
+            Failure::usage(format!(
+                "{error}; for the name of a stored case add --corpus FILE"
+            ))
         })?;
         match is_f32(&id.scalar, &format!(" in '{id}'"))? {
             true => in_world(&id, self.mesh.as_deref()).map(Cases::F32),
@@ -111,9 +126,14 @@ impl CaseArguments {
             return None;
         }
         let mut tests = vectors::core().into_iter().flat_map(|(_, tests)| tests);
-        let Some(VectorTest { cases, grouping, .. }) = tests.find(|test| test.id == self.case)
+        let Some(VectorTest {
+            cases, grouping, ..
+        }) = tests.find(|test| test.id == self.case)
         else {
-            let message = format!("no test of the core set of vectors has the id '{}'", self.case);
+            let message = format!(
+                "no test of the core set of vectors has the id '{}'",
+                self.case
+            );
             return Some(Err(Failure::usage(message)));
         };
         Some(Ok(alone(&cases, grouping)))
@@ -134,7 +154,12 @@ impl CaseArguments {
         }
         if found.is_empty() {
             let names = names.iter().map(String::as_str);
-            return Err(unknown("case", &self.case, names, &format!("hairline truth {path}")));
+            return Err(unknown(
+                "case",
+                &self.case,
+                names,
+                &format!("hairline truth {path}"),
+            ));
         }
         let places: Vec<&str> = found.iter().map(|(place, _)| place.as_str()).collect();
         Err(Failure::usage(format!(
@@ -155,19 +180,35 @@ fn alone(cases: &[AnyCase], grouping: Grouping) -> Cases {
 }
 
 fn stored_cases(stored: &StoredCase) -> Cases {
-    let grouping = if stored.is_secondary { Grouping::SecondaryRay } else { Grouping::Single };
+    let grouping = if stored.is_secondary {
+        Grouping::SecondaryRay
+    } else {
+        Grouping::Single
+    };
     alone(&[stored.case], grouping)
 }
 
 /// The cases of an id, whose rays are brought to the world if it has an instance.
 fn in_world<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failure> {
     let group = from_id(id, mesh)?;
-    let Some(matrix) = id.parameters.instance else { return Ok(group) };
+    let Some(matrix) = id.parameters.instance else {
+        return Ok(group);
+    };
     let instance = placed(matrix.map(|row| row.map(F::from_f64)))?;
     let moved = |cases: Vec<Case<F>>| cases.iter().map(|case| instance.in_world(case)).collect();
-    let Group { cases, grouping, neighbours, .. } = group;
+    let Group {
+        cases,
+        grouping,
+        neighbours,
+        ..
+    } = group;
     let neighbours = neighbours.map(moved);
-    Ok(Group { cases: moved(cases), grouping, neighbours, instance: Some(instance) })
+    Ok(Group {
+        cases: moved(cases),
+        grouping,
+        neighbours,
+        instance: Some(instance),
+    })
 }
 
 /// The cases of an id as they are made, and how they belong together.
@@ -181,8 +222,10 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
         })?;
         let mesh = read_mesh(path, true)?;
         if mesh.digest != *digest {
-            let message =
-                format!("{path}: its digest is {}, the case's mesh has {digest}", mesh.digest);
+            let message = format!(
+                "{path}: its digest is {}, the case's mesh has {digest}",
+                mesh.digest
+            );
             return Err(Failure::bad_input(message));
         }
         if let Some(part) = AimedPart::named(&id.family) {
@@ -198,13 +241,20 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
     family_of(id, id.family.strip_suffix("-all").unwrap_or(&id.family))?;
     let (cases, grouping) = family::cases_of(id).map_err(Failure::usage)?;
     let neighbours = family::around(&cases, grouping);
-    Ok(Group { neighbours, ..Group::alone(cases, grouping) })
+    Ok(Group {
+        neighbours,
+        ..Group::alone(cases, grouping)
+    })
 }
 
 /// The triangle of a group that an id names, or all.
 fn chosen_triangle<F: Scalar>(id: &CaseId, cases: Vec<Case<F>>) -> Result<Vec<Case<F>>, Failure> {
-    let Some(triangle) = id.triangle else { return Ok(cases) };
-    Ok(vec![family::chosen_triangle(id, triangle, &cases).map_err(Failure::usage)?])
+    let Some(triangle) = id.triangle else {
+        return Ok(cases);
+    };
+    Ok(vec![
+        family::chosen_triangle(id, triangle, &cases).map_err(Failure::usage)?,
+    ])
 }
 
 /// The cases of a ray at an edge or vertex of a mesh.
@@ -228,7 +278,10 @@ fn around_target<F: Scalar>(
     let mut around = Vec::new();
     let few = targets.add_neighbours((part, id.index), &cases[0].ray, &mut around);
     let neighbours = few.then_some(around);
-    Ok(Group { neighbours, ..Group::alone(chosen_triangle(id, cases)?, part.grouping()) })
+    Ok(Group {
+        neighbours,
+        ..Group::alone(chosen_triangle(id, cases)?, part.grouping())
+    })
 }
 
 /// The cases of a stratum of the scene that a mesh is.
@@ -250,7 +303,10 @@ fn of_scene_mesh<F: Scalar>(
     let is_asked = mesh.add_neighbours(stratum, draw, ray, &mut around);
     let neighbours = is_asked.then_some(around);
     let cases = chosen_triangle(id, made.cases().to_vec())?;
-    Ok(Group { neighbours, ..Group::alone(cases, grouping) })
+    Ok(Group {
+        neighbours,
+        ..Group::alone(cases, grouping)
+    })
 }
 
 /// The family of an id, which must be of the version that this program makes.

@@ -93,11 +93,13 @@ fn words_command() -> clap::Command {
 
 /// The flags that words of settings give, without the defaults of all other flags.
 fn parsed(words: &[String]) -> Result<ArgMatches, String> {
-    let mut matches = words_command().try_get_matches_from(words).map_err(|error| {
-        let text = error.to_string();
-        let line = text.lines().next().unwrap_or_default();
-        line.strip_prefix("error: ").unwrap_or(line).to_owned()
-    })?;
+    let mut matches = words_command()
+        .try_get_matches_from(words)
+        .map_err(|error| {
+            let text = error.to_string();
+            let line = text.lines().next().unwrap_or_default();
+            line.strip_prefix("error: ").unwrap_or(line).to_owned()
+        })?;
     let ids: Vec<String> = matches.ids().map(ToString::to_string).collect();
     for id in ids {
         if matches.value_source(&id) != Some(ValueSource::CommandLine) {
@@ -119,12 +121,19 @@ pub fn read_settings(text: &str, file: &str) -> Result<Vec<String>, String> {
         Ok(_) => Ok(given.words),
         Err(message) => Err(format!("{}: {message}", given.place)),
     };
-    Ok(given.into_iter().map(words).collect::<Result<Vec<_>, _>>()?.concat())
+    Ok(given
+        .into_iter()
+        .map(words)
+        .collect::<Result<Vec<_>, _>>()?
+        .concat())
 }
 
 /// Runs the command; `matches` says which flags the command line has.
 pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<Status, Failure> {
-    let CheckArguments { command, flags: mut arguments } = arguments;
+    let CheckArguments {
+        command,
+        flags: mut arguments,
+    } = arguments;
     if let Some(command) = command {
         let text = match command {
             CheckCommand::Config => settings::default_file(&words_command()),
@@ -159,7 +168,10 @@ fn checked(
         Some(_) => None,
         None => {
             let plan = arguments.run.plan(arguments.attribute);
-            Some(Plan { measured: MEASURED, ..plan.map_err(|failure| blame(failure, given))? })
+            Some(Plan {
+                measured: MEASURED,
+                ..plan.map_err(|failure| blame(failure, given))?
+            })
         }
     };
     let rows = plan.as_ref().map_or(&[][..], |plan| &plan.rows);
@@ -178,14 +190,24 @@ fn checked(
     let is_demanded = !is_default_file && given.iter().all(|given| given.key != "expectations");
     let may_be_missing = arguments.bless || !is_demanded;
     let lock = arguments.bless.then(|| locked(file));
-    let expected = expect::open(file, may_be_missing, &record, arguments.bless, read_expected)?;
+    let expected = expect::open(
+        file,
+        may_be_missing,
+        &record,
+        arguments.bless,
+        read_expected,
+    )?;
     let known_file = expected.is_some().then_some(file.as_str());
     let mut expected = expected.unwrap_or_default();
     let (result, target) = (&record.result, record.provenance.target.as_str());
     let mut conformance = again::compare(plan.as_ref(), result, target, &expected, known_file);
     if known_file.is_none() && !conformance.unexpected.is_empty() {
         let has_settings = arguments.config.is_some() || Path::new(settings::FILE).exists();
-        conformance.note = Some(first_steps(file, conformance.unexpected.len(), has_settings));
+        conformance.note = Some(first_steps(
+            file,
+            conformance.unexpected.len(),
+            has_settings,
+        ));
     } else if !arguments.bless && !conformance.unexpected.is_empty() {
         let wanted = "if what is unexpected is wanted, the same command with --bless --accept-worse takes it as known";
         let note = conformance.note.map_or(String::new(), |note| note + "; ");
@@ -218,17 +240,21 @@ fn checked(
         }
     }
     drop(lock);
-    conformance.misused = plan.as_ref().map_or(Vec::new(), |plan| misused(plan, &conformance));
+    conformance.misused = plan
+        .as_ref()
+        .map_or(Vec::new(), |plan| misused(plan, &conformance));
     conformance.demand(unproved);
     record.conformance = Some(conformance);
     outputs.write(&record)?;
     github::announce(&record)?;
-    Ok(match record.conformance.map(|conformance| conformance.verdict) {
-        Some(ComparisonVerdict::Disagreements) => Status::Disagreements,
-        Some(ComparisonVerdict::Unsteady) => Status::BadInput,
-        Some(ComparisonVerdict::Stale) => Status::Stale,
-        _ => Status::Success,
-    })
+    Ok(
+        match record.conformance.map(|conformance| conformance.verdict) {
+            Some(ComparisonVerdict::Disagreements) => Status::Disagreements,
+            Some(ComparisonVerdict::Unsteady) => Status::BadInput,
+            Some(ComparisonVerdict::Stale) => Status::Stale,
+            _ => Status::Success,
+        },
+    )
 }
 
 /// The formulas that kernels of one's own with unexpected answers compute, but for an epsilon or fused products.
@@ -240,7 +266,9 @@ fn misused(plan: &Plan, conformance: &Conformance) -> Vec<String> {
                 && !found.finding.is_failure()
         };
         let found = conformance.unexpected.iter().filter(is_of_row);
-        let mut shown = found.filter_map(|found| Some((found, found.bits.as_ref()?))).take(TRIED);
+        let mut shown = found
+            .filter_map(|found| Some((found, found.bits.as_ref()?)))
+            .take(TRIED);
         let formula = shown.find_map(|(found, bits)| {
             in_named_scalar!(found.scalar, F => misused_formula(&Case::<F>::from_hex(bits)?, row))
         });
@@ -265,7 +293,10 @@ fn first_steps(file: &str, disagreements: usize, has_settings: bool) -> String {
     let settings = match has_settings {
         true => String::new(),
         false => {
-            format!("there is no {} here, so flags alone say which kernels ran; ", settings::FILE)
+            format!(
+                "there is no {} here, so flags alone say which kernels ran; ",
+                settings::FILE
+            )
         }
     };
     format!(
@@ -293,7 +324,9 @@ fn part_only(arguments: &CheckFlags, partial: &PartialPart) -> Result<(), Failur
 
 /// Names the setting that a plan fails for: the one that fails alone in the same way.
 fn blame(failure: Failure, given: &[Given]) -> Failure {
-    let Failure::Message(status, message) = &failure else { return failure };
+    let Failure::Message(status, message) = &failure else {
+        return failure;
+    };
     let kernels = given.iter().find(|given| given.key == "kernel");
     for setting in given {
         let context = kernels.filter(|_| setting.key.starts_with("epsilon"));
@@ -333,7 +366,11 @@ fn blessed(
                  which would be lost: run the whole plan, or remove them first"
             )),
         })?;
-    let texts = written.texts.iter().map(|(name, text)| (text, name.as_str())).collect();
+    let texts = written
+        .texts
+        .iter()
+        .map(|(name, text)| (text, name.as_str()))
+        .collect();
     write_results(texts, |text, _, out| out.write_all(text.as_bytes()))?;
     if !written.dropped.is_empty() {
         eprintln!(
@@ -356,7 +393,9 @@ impl CheckFlags {
         let from_environment = settings::from_environment(|name| std::env::var(name).ok())?;
         if !self.run.report.output.quiet {
             let names = std::env::vars_os().filter_map(|(name, _)| name.into_string().ok());
-            settings::unknown_variables(names).iter().for_each(|note| eprintln!("{note}"));
+            settings::unknown_variables(names)
+                .iter()
+                .for_each(|note| eprintln!("{note}"));
         }
         settings::layered([from_environment, from_file], |key| {
             let source = matches.and_then(|matches| matches.value_source(&key.replace('-', "_")));
@@ -368,7 +407,8 @@ impl CheckFlags {
     fn set(&mut self, given: &Given) -> Result<(), Failure> {
         let wrong = |message: String| Failure::usage(format!("{}: {message}", given.place));
         let matches = parsed(&given.words).map_err(wrong)?;
-        self.update_from_arg_matches(&matches).map_err(|error| wrong(error.to_string()))
+        self.update_from_arg_matches(&matches)
+            .map_err(|error| wrong(error.to_string()))
     }
 }
 
@@ -384,7 +424,11 @@ mod tests {
         read_settings(&text, "h.toml").unwrap();
         let examples: Vec<&str> = text
             .lines()
-            .map(|l| l.strip_prefix("# ").filter(|l| l.contains(" = ")).unwrap_or(l))
+            .map(|l| {
+                l.strip_prefix("# ")
+                    .filter(|l| l.contains(" = "))
+                    .unwrap_or(l)
+            })
             .collect();
         // Three flags are false, which takes no word.
         let words = read_settings(&examples.join("\n"), "h.toml").unwrap();

@@ -67,7 +67,14 @@ enum CorpusCommand {
 pub fn run(arguments: &CorpusArguments) -> Result<Status, Failure> {
     match &arguments.command {
         CorpusCommand::Verify { path } => verify(path),
-        CorpusCommand::Generate { family: Some(name), scalar, count, seed, output, .. } => {
+        CorpusCommand::Generate {
+            family: Some(name),
+            scalar,
+            count,
+            seed,
+            output,
+            ..
+        } => {
             let family = find_family(name)?;
             let (seed, count) = (*seed, *count);
             is_f32(scalar, "")?;
@@ -112,7 +119,10 @@ fn verify(path: &str) -> Result<Status, Failure> {
     let (mut report, mut nothing) = (Vec::new(), true);
     for file in corpus_files(path)? {
         let stored = read_corpus(&file)?;
-        let with_truth = stored.iter().filter(|stored| stored.truth.is_some()).count();
+        let with_truth = stored
+            .iter()
+            .filter(|stored| stored.truth.is_some())
+            .count();
         // read_corpus holds the stored truths to the fast oracle, which must agree with the definition.
         let (mut scores, mut finds) = (0, 0);
         for case in &stored {
@@ -126,9 +136,16 @@ fn verify(path: &str) -> Result<Status, Failure> {
                 finds += 1;
             }
         }
-        let finds = if finds > 0 { format!(", {finds} finds shown again") } else { String::new() };
-        let scores =
-            if scores > 0 { format!(", {scores} stored scores right") } else { String::new() };
+        let finds = if finds > 0 {
+            format!(", {finds} finds shown again")
+        } else {
+            String::new()
+        };
+        let scores = if scores > 0 {
+            format!(", {scores} stored scores right")
+        } else {
+            String::new()
+        };
         let cases = stored.len();
         nothing &= cases == 0;
         report.push(format!(
@@ -153,15 +170,21 @@ fn verify(path: &str) -> Result<Status, Failure> {
             manifest::verify(line, &mesh)
                 .map_err(|message| InputError::at(&name, *number, message))?;
         }
-        let meshes = lines.iter().filter(|(_, line)| matches!(line, ManifestLine::Mesh(_))).count();
+        let meshes = lines
+            .iter()
+            .filter(|(_, line)| matches!(line, ManifestLine::Mesh(_)))
+            .count();
         let sets = lines.len() - meshes;
-        report
-            .push(format!("{name}: {sets} generated sets and {meshes} meshes are the same again"));
+        report.push(format!(
+            "{name}: {sets} generated sets and {meshes} meshes are the same again"
+        ));
     }
     if nothing {
         return Err(Failure::nothing(format!("{path}: no case to verify")));
     }
-    write_result("-", |out| report.iter().try_for_each(|line| writeln!(out, "{line}")))?;
+    write_result("-", |out| {
+        report.iter().try_for_each(|line| writeln!(out, "{line}"))
+    })?;
     Ok(Status::Success)
 }
 

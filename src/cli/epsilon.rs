@@ -53,7 +53,12 @@ pub struct EpsilonArguments {
     gate: Vec<String>,
 
     /// More values of the one number that --gate names, separated by commas
-    #[arg(long, value_delimiter = ',', value_name = "E", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "E",
+        allow_hyphen_values = true
+    )]
     at: Vec<String>,
 
     /// Count curves at every number of two digits
@@ -93,9 +98,16 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     let formats = snippet.unwrap_or(&arguments.output.format);
     let outputs = paired_outputs(SCENE_FORMATS, formats, &arguments.output.output)?;
     let threads = set_threads(arguments.threads)?;
-    let costs = arguments.cost.as_deref().map_or(Ok(Costs::default()), Costs::parse);
+    let costs = arguments
+        .cost
+        .as_deref()
+        .map_or(Ok(Costs::default()), Costs::parse);
     let costs = costs.map_err(|error| Failure::usage(format!("--cost: {error}")))?;
-    let max_error = arguments.max_error.as_deref().map(MaxError::parse).transpose();
+    let max_error = arguments
+        .max_error
+        .as_deref()
+        .map(MaxError::parse)
+        .transpose();
     let max_error = max_error.map_err(|error| Failure::usage(format!("--max-error: {error}")))?;
     let max_error = max_error.as_ref();
     let (rows, least_t) = arguments.kernels.rows_and_least_t()?;
@@ -104,16 +116,27 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     let (mut tuned, mut reasons): (Vec<Tuned<'_>>, Vec<String>) = Default::default();
     for row in &rows {
         let name = row.entry.info.name;
-        if let Some(known) = tuned.iter_mut().find(|known| known.row.entry.info.name == name) {
+        if let Some(known) = tuned
+            .iter_mut()
+            .find(|known| known.row.entry.info.name == name)
+        {
             known.sets.push(row);
             continue;
         }
         match arguments.knobs(row) {
-            Ok(knobs) => tuned.push(Tuned { row, sets: vec![row], knobs }),
+            Ok(knobs) => tuned.push(Tuned {
+                row,
+                sets: vec![row],
+                knobs,
+            }),
             Err(reason) => reasons.push(reason),
         }
     }
-    if least_t.is_some() && !tuned.iter().any(|tuned| tuned.knobs.contains(&Knob::LeastT)) {
+    if least_t.is_some()
+        && !tuned
+            .iter()
+            .any(|tuned| tuned.knobs.contains(&Knob::LeastT))
+    {
         return Err(Failure::usage(
             "--epsilon: no kernel here has a t_min to choose, or --gate does not name it",
         ));
@@ -122,7 +145,9 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     match reasons.first() {
         Some(reason) if tuned.is_empty() => return Err(Failure::usage(reason)),
         _ if arguments.output.quiet => {}
-        _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
+        _ => reasons
+            .iter()
+            .for_each(|reason| eprintln!("left out: {reason}")),
     }
     let scalars = match studied.scene {
         Some(_) => scalars,
@@ -143,10 +168,18 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     }
     arguments.warn_of_subnormals(&rows, scalars);
     let (seed, count) = arguments.sources.seed_and_count();
-    let count = if is_count_given || studied.scene.is_none() { count } else { COUNT };
+    let count = if is_count_given || studied.scene.is_none() {
+        count
+    } else {
+        COUNT
+    };
     let studies = scalars.iter().filter(|scalar| **scalar).count() * tuned.len();
     let passes = PASSES + studied.others.len() as u64;
-    let kinds = if studied.scene.is_some() { STRATA.len() } else { studied.sources.len() };
+    let kinds = if studied.scene.is_some() {
+        STRATA.len()
+    } else {
+        studied.sources.len()
+    };
     let total = passes * kinds as u64 * count * studies as u64;
     let progress = Progress::new(total, "indices", arguments.output.quiet);
     let run = EpsilonRun {
@@ -165,7 +198,10 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         }
     }
     progress.finish();
-    let context = Context { seconds: progress.seconds(), threads };
+    let context = Context {
+        seconds: progress.seconds(),
+        threads,
+    };
     let mut record = scene_record(&studied, &costs, max_error, seed, count, &context, parts);
     record.result.left_out = arguments.sources.left_out()?;
     arguments.output.write(outputs, &record.sealed())?;
@@ -194,7 +230,12 @@ struct EpsilonRun<'a> {
 impl EpsilonRun<'_> {
     /// The counts of a kernel: in a scene only of the strata that are named, if some are.
     fn counts(&self, knobs: &[Knob], row: &Row) -> Vec<RayCount> {
-        let StudiedRays { scene, sources, strata, .. } = self.studied;
+        let StudiedRays {
+            scene,
+            sources,
+            strata,
+            ..
+        } = self.studied;
         if scene.is_none() {
             return counts_of(sources, knobs, row);
         }
@@ -210,10 +251,15 @@ impl EpsilonRun<'_> {
         let Tuned { row, sets, knobs } = tuned;
         let name = row.entry.info.name;
         let missing = || Failure::usage(format!("{name} does not run in {}", F::NAME));
-        let row = Row { contract: contract_with(knobs, &row.contract), ..(*row).clone() };
+        let row = Row {
+            contract: contract_with(knobs, &row.contract),
+            ..(*row).clone()
+        };
         let counts = self.counts(knobs, &row);
         if counts.is_empty() {
-            return Err(Failure::nothing(format!("{name}: nothing to count on such rays")));
+            return Err(Failure::nothing(format!(
+                "{name}: nothing to count on such rays"
+            )));
         }
         let setting = Setting {
             row: &row,
@@ -232,12 +278,19 @@ impl EpsilonRun<'_> {
             let wrong = || format!("{flag}: '{text}' is not a finite number of {}", F::NAME);
             value.ok_or_else(|| Failure::usage(wrong()))
         };
-        let least_t = self.least_t.map(|text| number("--epsilon", text)).transpose()?;
+        let least_t = self
+            .least_t
+            .map(|text| number("--epsilon", text))
+            .transpose()?;
         if least_t.is_some_and(|t| t < F::zero()) {
-            return Err(Failure::usage(format!("--epsilon: {LEAST_T} is at least 0")));
+            return Err(Failure::usage(format!(
+                "--epsilon: {LEAST_T} is at least 0"
+            )));
         }
         let own = |set: &&Row| {
-            let name = self.least_t.map(|text| format!("{},{LEAST_T}={text}", set.set));
+            let name = self
+                .least_t
+                .map(|text| format!("{},{LEAST_T}={text}", set.set));
             let epsilons = own_epsilons::<F>(set, knobs, least_t.unwrap_or(F::zero()));
             (name.unwrap_or_else(|| set.set.clone()), epsilons)
         };
@@ -255,7 +308,12 @@ impl EpsilonRun<'_> {
             }
             named.push((text.clone(), vec![value]));
         }
-        let EpsilonRun { costs, max_error, pass, .. } = *self;
+        let EpsilonRun {
+            costs,
+            max_error,
+            pass,
+            ..
+        } = *self;
         let study = F::study_scene(&setting, costs, max_error, &named, pass);
         found_margins(name, setting.subject)?;
         let mut study = study.map_err(|error| fault(row.entry, error))?;
@@ -267,10 +325,20 @@ impl EpsilonRun<'_> {
 
     /// Where segments end in the scene, for a kernel that has a page of its own.
     fn segments<F: Studied>(&self, row: &Row) -> Option<SegmentsPart> {
-        let StudiedRays { scene, mesh, others, strata, .. } = self.studied;
-        let scene = scene.as_ref().filter(|_| strata.is_empty() && self.is_alone)?;
-        let scenes: Vec<Scene> =
-            [scene.clone()].into_iter().chain(others.iter().cloned()).collect();
+        let StudiedRays {
+            scene,
+            mesh,
+            others,
+            strata,
+            ..
+        } = self.studied;
+        let scene = scene
+            .as_ref()
+            .filter(|_| strata.is_empty() && self.is_alone)?;
+        let scenes: Vec<Scene> = [scene.clone()]
+            .into_iter()
+            .chain(others.iter().cloned())
+            .collect();
         let Pass { seed, count, .. } = self.pass;
         let plan = SegmentPlan {
             row,
@@ -280,7 +348,12 @@ impl EpsilonRun<'_> {
             seed,
             count: count.min(MOST_SEGMENTS),
         };
-        Some(SegmentsPart::study::<F>(&plan, &scenes, [fresh_seed(seed), seed], &Unobserved))
+        Some(SegmentsPart::study::<F>(
+            &plan,
+            &scenes,
+            [fresh_seed(seed), seed],
+            &Unobserved,
+        ))
     }
 }
 
@@ -291,10 +364,14 @@ impl EpsilonArguments {
     fn check_at(&self) -> Result<(), Failure> {
         refuse_twice("--gate", &self.gate)?;
         if !self.at.is_empty() && self.gate.len() != 1 {
-            return Err(Failure::usage("--at: name one --gate, whose values they are"));
+            return Err(Failure::usage(
+                "--at: name one --gate, whose values they are",
+            ));
         }
         if MOST_AT < self.at.len() {
-            return Err(Failure::usage(format!("--at: at most {MOST_AT} values fit the screen")));
+            return Err(Failure::usage(format!(
+                "--at: at most {MOST_AT} values fit the screen"
+            )));
         }
         Ok(())
     }
@@ -306,14 +383,24 @@ impl EpsilonArguments {
         tells_margins(row.entry)?;
         let all = Knob::all(row);
         let names: Vec<&str> = all.iter().map(|knob| knob.gate(info.gates).name).collect();
-        if let Some(unknown) = self.gate.iter().find(|gate| !names.contains(&gate.as_str())) {
+        if let Some(unknown) = self
+            .gate
+            .iter()
+            .find(|gate| !names.contains(&gate.as_str()))
+        {
             let near = nearest_name(unknown, names.iter().copied());
             let near = near.map_or(String::new(), |near| format!(", did you mean '{near}'?"));
             let names = names.join(", ");
-            return Err(format!("{name} has no '{unknown}' to choose{near}: there are {names}"));
+            return Err(format!(
+                "{name} has no '{unknown}' to choose{near}: there are {names}"
+            ));
         }
         let is_chosen = |knob: &Knob| {
-            self.gate.is_empty() || self.gate.iter().any(|gate| gate == knob.gate(info.gates).name)
+            self.gate.is_empty()
+                || self
+                    .gate
+                    .iter()
+                    .any(|gate| gate == knob.gate(info.gates).name)
         };
         let chosen: Vec<Knob> = all.into_iter().filter(is_chosen).collect();
         match chosen.len() {

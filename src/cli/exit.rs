@@ -94,7 +94,11 @@ impl From<Error> for Failure {
 
 impl From<InputError> for Failure {
     fn from(error: InputError) -> Failure {
-        let status = if error.unreadable { Status::InputOutput } else { Status::BadInput };
+        let status = if error.unreadable {
+            Status::InputOutput
+        } else {
+            Status::BadInput
+        };
         Failure::Message(status, error.to_string())
     }
 }

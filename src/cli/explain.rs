@@ -34,7 +34,8 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
     let rows = arguments.kernels.rows()?;
     let cases = arguments.case.cases_and_instances()?;
     let name = &arguments.case.case;
-    rows.iter().try_for_each(|row| row.check_in(cases.scalars()))?;
+    rows.iter()
+        .try_for_each(|row| row.check_in(cases.scalars()))?;
     let record = either_scalar!(&cases, group => {
         // As a run reads it, whose numbers are doubles at first.
         let narrow = |text| placed(matrix(text)?.map(|row| row.map(Float::from_f64)));

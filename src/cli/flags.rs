@@ -26,7 +26,10 @@ pub fn unknown<'a>(
     names: impl IntoIterator<Item = &'a str>,
     list: &str,
 ) -> Failure {
-    Failure::usage(format!("unknown {what} '{name}'{}", did_you_mean(name, names, list)))
+    Failure::usage(format!(
+        "unknown {what} '{name}'{}",
+        did_you_mean(name, names, list)
+    ))
 }
 
 /// The family of a name.
@@ -39,14 +42,25 @@ pub fn find_family(name: &str) -> Result<&'static Family, Failure> {
 pub fn find_kernel(name: &str) -> Result<&'static Entry, Failure> {
     let names = || kernel::all().into_iter().map(|entry| entry.info.name);
     let wrong = || {
-        let Some(base) = name.rsplit_once('+').and_then(|(base, _)| kernel::find(base)) else {
+        let Some(base) = name
+            .rsplit_once('+')
+            .and_then(|(base, _)| kernel::find(base))
+        else {
             return unknown("kernel", name, names(), "hairline list kernels");
         };
-        let forms: Vec<String> =
-            kernel::forms(base).iter().map(|(name, about)| format!("+{name} ({about})")).collect();
+        let forms: Vec<String> = kernel::forms(base)
+            .iter()
+            .map(|(name, about)| format!("+{name} ({about})"))
+            .collect();
         let base = base.info.name;
-        let forms = if forms.is_empty() { "nothing".to_owned() } else { forms.join(", ") };
-        Failure::usage(format!("unknown kernel '{name}': behind '{base}' can stand {forms}"))
+        let forms = if forms.is_empty() {
+            "nothing".to_owned()
+        } else {
+            forms.join(", ")
+        };
+        Failure::usage(format!(
+            "unknown kernel '{name}': behind '{base}' can stand {forms}"
+        ))
     };
     kernel::find(name).ok_or_else(wrong)
 }
@@ -56,7 +70,9 @@ pub fn is_f32(name: &str, place: &str) -> Result<bool, Failure> {
     match name {
         "f32" => Ok(true),
         "f64" => Ok(false),
-        _ => Err(Failure::usage(format!("unknown scalar '{name}'{place}: there are f32 and f64"))),
+        _ => Err(Failure::usage(format!(
+            "unknown scalar '{name}'{place}: there are f32 and f64"
+        ))),
     }
 }
 
@@ -71,7 +87,10 @@ pub fn parsed<T: FromStr<Err: Display>>(
 
 /// A flag with each of its values, as a shell takes them.
 pub fn again<'a>(flag: &str, values: impl IntoIterator<Item = &'a String>) -> Vec<String> {
-    values.into_iter().map(|value| format!("{flag} {}", shell_word(value))).collect()
+    values
+        .into_iter()
+        .map(|value| format!("{flag} {}", shell_word(value)))
+        .collect()
 }
 
 /// The most cases of one family: beyond it a run would take years.
@@ -87,7 +106,10 @@ pub fn case_count(text: &str) -> Result<u64, &'static str> {
 /// An error if a flag names something twice.
 pub fn refuse_twice<T: PartialEq + Display>(flag: &str, named: &[T]) -> Result<(), Failure> {
     match (1..named.len()).find(|&i| named[..i].contains(&named[i])) {
-        Some(i) => Err(Failure::usage(format!("{flag}: '{}' is given twice", named[i]))),
+        Some(i) => Err(Failure::usage(format!(
+            "{flag}: '{}' is given twice",
+            named[i]
+        ))),
         None => Ok(()),
     }
 }
@@ -103,7 +125,11 @@ pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
 
 /// The names of the chosen scalars.
 pub fn scalar_names(chosen: [bool; 2]) -> impl Iterator<Item = &'static str> {
-    [f32::NAME, f64::NAME].into_iter().zip(chosen).filter(|(_, is)| *is).map(|(name, _)| name)
+    [f32::NAME, f64::NAME]
+        .into_iter()
+        .zip(chosen)
+        .filter(|(_, is)| *is)
+        .map(|(name, _)| name)
 }
 
 /// The names of the chosen scalars in which a kernel runs.
@@ -114,10 +140,22 @@ pub fn scalars_of(entry: &Entry, chosen: [bool; 2]) -> impl Iterator<Item = &'st
 /// Reads the matrix of `--instance`: twelve numbers, row by row.
 pub fn matrix(text: &str) -> Result<Matrix<f64>, Failure> {
     let wrong = |message: String| Failure::usage(format!("--instance: {message}"));
-    let words = text.split([',', ' ', ';', '\n']).filter(|word| !word.is_empty());
-    let numbers = words.map(number::parse).collect::<Result<Vec<f64>, _>>().map_err(wrong)?;
-    let count = || wrong(format!("expected 12 numbers, row by row, found {}", numbers.len()));
-    let (rows, []) = numbers.as_chunks::<4>() else { return Err(count()) };
+    let words = text
+        .split([',', ' ', ';', '\n'])
+        .filter(|word| !word.is_empty());
+    let numbers = words
+        .map(number::parse)
+        .collect::<Result<Vec<f64>, _>>()
+        .map_err(wrong)?;
+    let count = || {
+        wrong(format!(
+            "expected 12 numbers, row by row, found {}",
+            numbers.len()
+        ))
+    };
+    let (rows, []) = numbers.as_chunks::<4>() else {
+        return Err(count());
+    };
     rows.try_into().map_err(|_| count())
 }
 

@@ -46,7 +46,11 @@ pub struct FuzzArguments {
     command: Option<FuzzCommand>,
 
     /// The campaign's directory; a campaign that is already there goes on
-    #[arg(value_name = "DIR", required_unless_present = "output", conflicts_with = "output")]
+    #[arg(
+        value_name = "DIR",
+        required_unless_present = "output",
+        conflicts_with = "output"
+    )]
     directory: Option<String>,
 
     /// The same as DIR
@@ -99,8 +103,13 @@ pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
 fn campaign(arguments: &FuzzArguments) -> Result<Status, Failure> {
     let path = arguments.directory.as_ref().or(arguments.output.as_ref());
     let path = path.ok_or_else(|| Failure::usage("say where the campaign is kept: DIR"))?;
-    if let Some(seconds) = arguments.time.filter(|seconds| seconds.is_nan() || *seconds < 0.0) {
-        return Err(Failure::usage(format!("--time: {seconds} is no number of seconds")));
+    if let Some(seconds) = arguments
+        .time
+        .filter(|seconds| seconds.is_nan() || *seconds < 0.0)
+    {
+        return Err(Failure::usage(format!(
+            "--time: {seconds} is no number of seconds"
+        )));
     }
     // Wrong flags are found out before a directory is made.
     plan(&arguments.asked())?;
@@ -111,7 +120,9 @@ fn campaign(arguments: &FuzzArguments) -> Result<Status, Failure> {
     let finds = directory.finds()?;
     finds.iter().for_each(|find| campaign.learn(find));
     let state = directory.state()?;
-    campaign.restore(&state).map_err(|message| directory.wrong_state(message))?;
+    campaign
+        .restore(&state)
+        .map_err(|message| directory.wrong_state(message))?;
     let mut session = Session::new(arguments, directory, campaign, finds, &state);
     let outcome = session.go_on(arguments);
     session.progress.finish();
@@ -126,18 +137,33 @@ fn plan(begun: &Begun) -> Result<CampaignPlan, Failure> {
     let rows = begun.kernels.rows_without_band(NO_BAND)?;
     let scalars = scalars_in_use(&rows, chosen_scalars(&begun.scalar)?)?;
     let varies = !begun.kernels.chooses_epsilons();
-    Ok(CampaignPlan { rows, varies, scalars, seed: begun.seed })
+    Ok(CampaignPlan {
+        rows,
+        varies,
+        scalars,
+        seed: begun.seed,
+    })
 }
 
 impl FuzzArguments {
     /// The beginning of a new campaign under these flags.
     fn asked(&self) -> Begun {
         let both = || vec!["f32".to_owned(), "f64".to_owned()];
-        let scalar = if self.scalar.is_empty() { both() } else { self.scalar.clone() };
+        let scalar = if self.scalar.is_empty() {
+            both()
+        } else {
+            self.scalar.clone()
+        };
         // A campaign is for keeping on, and to a kernel that crashes a crash is no news.
         let kernels = self.kernels.clone().go_on_after_failures();
         let version = env!("CARGO_PKG_VERSION").to_owned();
-        Begun { format: FORMAT, version, kernels, scalar, seed: self.seed.unwrap_or(1) }
+        Begun {
+            format: FORMAT,
+            version,
+            kernels,
+            scalar,
+            seed: self.seed.unwrap_or(1),
+        }
     }
 
     /// The plan that the campaign was begun with; a new one is begun. Flags that are given must agree.
@@ -152,7 +178,10 @@ impl FuzzArguments {
             && !begun.kernels.are_named_by(&self.kernels);
         let other = [
             ("kernels, epsilons or contract", is_other),
-            ("scalars", !self.scalar.is_empty() && asked.scalar != begun.scalar),
+            (
+                "scalars",
+                !self.scalar.is_empty() && asked.scalar != begun.scalar,
+            ),
             ("seed", self.seed.is_some() && asked.seed != begun.seed),
         ];
         if let Some((what, _)) = other.into_iter().find(|(_, differs)| *differs) {
@@ -195,7 +224,10 @@ impl Session {
         state: &CampaignState,
     ) -> Session {
         // Finds may be younger than the state.
-        let last = finds.iter().filter_map(|find| find.found.seconds).fold(0.0, f64::max);
+        let last = finds
+            .iter()
+            .filter_map(|find| find.found.seconds)
+            .fold(0.0, f64::max);
         Session {
             progress: Progress::without_end(arguments.quiet),
             sessions: state.sessions.saturating_add(1),
@@ -213,8 +245,12 @@ impl Session {
         self.save()?;
         let mut saved = 0.0;
         loop {
-            let left = arguments.evaluations.map(|n| n.saturating_sub(self.campaign.evaluations));
-            let time_is_up = arguments.time.is_some_and(|limit| limit <= self.progress.seconds());
+            let left = arguments
+                .evaluations
+                .map(|n| n.saturating_sub(self.campaign.evaluations));
+            let time_is_up = arguments
+                .time
+                .is_some_and(|limit| limit <= self.progress.seconds());
             if time_is_up || left == Some(0) {
                 return self.save();
             }
@@ -235,11 +271,15 @@ impl Session {
             return Ok(());
         }
         let seconds = (self.seconds() * 10.0).round() / 10.0;
-        finds.iter_mut().for_each(|find| find.found.seconds = Some(seconds));
+        finds
+            .iter_mut()
+            .for_each(|find| find.found.seconds = Some(seconds));
         self.directory.append(&finds)?;
         if print {
             let mut out = standard_output()?;
-            finds.iter().try_for_each(|find| writeln!(out, "{}", find.name()))?;
+            finds
+                .iter()
+                .try_for_each(|find| writeln!(out, "{}", find.name()))?;
             out.flush()?;
         }
         self.finds.extend(finds);
@@ -264,8 +304,10 @@ impl Session {
 
     fn status(&self) -> String {
         let here = self.campaign.evaluations - self.evaluations_before;
-        let last =
-            self.finds.last().map_or(String::new(), |find| format!("; last: {}", find.name()));
+        let last = self
+            .finds
+            .last()
+            .map_or(String::new(), |find| format!("; last: {}", find.name()));
         format!(
             "{:.0} s, {} evaluations ({:.0}/s), {} signatures (+{}){last}",
             self.seconds(),

@@ -47,7 +47,9 @@ fn write_cases<F: Scalar>(out: &mut dyn Write, source: &Source) -> io::Result<u6
         let several = made.cases().len() > 1;
         for (k, case) in made.cases().iter().enumerate() {
             // A name in a corpus may have blanks, and an id in a line has none.
-            let id = source.id::<F>(index, several.then_some(k)).replace(char::is_whitespace, "_");
+            let id = source
+                .id::<F>(index, several.then_some(k))
+                .replace(char::is_whitespace, "_");
             out.write_all(text::case_line(id, case).as_bytes())?;
             written += 1;
         }

@@ -14,7 +14,9 @@ const MOST_ANNOTATIONS: usize = 10;
 pub fn announce(record: &Record) -> Result<(), Failure> {
     let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     if let (Some(_), Some(conformance)) = (set("GITHUB_ACTIONS"), &record.conformance) {
-        annotations(conformance).iter().for_each(|line| eprintln!("{line}"));
+        annotations(conformance)
+            .iter()
+            .for_each(|line| eprintln!("{line}"));
     }
     match set("GITHUB_STEP_SUMMARY") {
         Some(file) => append(&file, record).map_err(|error| Failure::of_file(&file, &error)),
@@ -25,14 +27,24 @@ pub fn announce(record: &Record) -> Result<(), Failure> {
 /// Appends the record as Markdown: the file as a whole may have a mebibyte.
 fn append(file: &str, record: &Record) -> io::Result<()> {
     let used = fs::metadata(file).map_or(0, |metadata| metadata.len()) as usize;
-    let text =
-        markdown_within(&record.page(), Style::default(), MARKDOWN_LIMIT.saturating_sub(used));
-    File::options().create(true).append(true).open(file)?.write_all(text.as_bytes())
+    let text = markdown_within(
+        &record.page(),
+        Style::default(),
+        MARKDOWN_LIMIT.saturating_sub(used),
+    );
+    File::options()
+        .create(true)
+        .append(true)
+        .open(file)?
+        .write_all(text.as_bytes())
 }
 
 fn annotations(conformance: &Conformance) -> Vec<String> {
     let missing = |unproved: &Unproved| {
-        format!("::error title=hairline%3A proof missing::{}", data(&unproved.to_string()))
+        format!(
+            "::error title=hairline%3A proof missing::{}",
+            data(&unproved.to_string())
+        )
     };
     let mut lines: Vec<String> = conformance.unproved.iter().map(missing).collect();
     for (list, title) in [
@@ -41,7 +53,11 @@ fn annotations(conformance: &Conformance) -> Vec<String> {
         (&conformance.stale, "stale expectation"),
     ] {
         let room = MOST_ANNOTATIONS - usize::from(list.len() > MOST_ANNOTATIONS);
-        lines.extend(list.iter().take(room).map(|found| annotation(conformance, found, title)));
+        lines.extend(
+            list.iter()
+                .take(room)
+                .map(|found| annotation(conformance, found, title)),
+        );
         if let Some(more) = list.len().checked_sub(room).filter(|more| *more > 0) {
             lines.push(format!("::error title=hairline: {title}::and {more} more"));
         }
@@ -58,12 +74,18 @@ fn annotation(conformance: &Conformance, found: &Deviation, title: &str) -> Stri
     if let Some(command) = &found.command {
         text.push_str(&format!("\n{command}"));
     }
-    format!("::error {place}title={}::{}", property(&format!("hairline: {title}")), data(&text))
+    format!(
+        "::error {place}title={}::{}",
+        property(&format!("hairline: {title}")),
+        data(&text)
+    )
 }
 
 /// As the runner's toolkit escapes a message.
 fn data(text: &str) -> String {
-    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+    text.replace('%', "%25")
+        .replace('\r', "%0D")
+        .replace('\n', "%0A")
 }
 
 /// And a property.

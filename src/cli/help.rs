@@ -16,20 +16,47 @@ const WORDS: &str = include_str!("../../docs/guide/words.md");
 
 /// By command: a call that does its main job.
 pub const EXAMPLES: &[(&str, &str)] = &[
-    ("audit", "hairline audit --kernel moller-trumbore,woop-watertight --scalar f32"),
-    ("epsilon", "hairline epsilon --kernel moller-trumbore --scene room"),
-    ("spawn", "hairline spawn --kernel moller-trumbore --scene room"),
-    ("prove", "hairline prove --kernel moller-trumbore --scalar f32"),
-    ("repair", "hairline repair --kernel moller-trumbore --emit c -o guarded.h"),
+    (
+        "audit",
+        "hairline audit --kernel moller-trumbore,woop-watertight --scalar f32",
+    ),
+    (
+        "epsilon",
+        "hairline epsilon --kernel moller-trumbore --scene room",
+    ),
+    (
+        "spawn",
+        "hairline spawn --kernel moller-trumbore --scene room",
+    ),
+    (
+        "prove",
+        "hairline prove --kernel moller-trumbore --scalar f32",
+    ),
+    (
+        "repair",
+        "hairline repair --kernel moller-trumbore --emit c -o guarded.h",
+    ),
     ("mesh", "hairline mesh model.obj"),
-    ("explain", "hairline explain 'tiny@3/f32/-/1/15467' --kernel moller-trumbore"),
-    ("map", "hairline map 'tiny@3/f32/-/1/15467' --kernel moller-trumbore -o map.svg"),
+    (
+        "explain",
+        "hairline explain 'tiny@3/f32/-/1/15467' --kernel moller-trumbore",
+    ),
+    (
+        "map",
+        "hairline map 'tiny@3/f32/-/1/15467' --kernel moller-trumbore -o map.svg",
+    ),
     ("list", "hairline list kernels"),
-    ("fuzz", "hairline fuzz campaign --kernel moller-trumbore --time 60"),
+    (
+        "fuzz",
+        "hairline fuzz campaign --kernel moller-trumbore --time 60",
+    ),
     ("check", "hairline check --bless"),
     ("merge", "hairline merge 1.json 2.json -o all.json"),
     ("diff", "hairline diff before.json after.json"),
-    ("generate", "hairline generate --family edge-near --scalar f32 -o cases.txt"),
+    (
+        "generate",
+        "hairline generate --family edge-near --scalar f32 -o cases.txt",
+    ),
     ("truth", "hairline truth cases.jsonl"),
     ("vectors", "hairline vectors --format csv -o core.csv"),
     ("verify", "hairline verify results.json --profile dxr"),
@@ -82,7 +109,10 @@ pub fn run(arguments: &HelpArguments, mut program: clap::Command) -> Result<Stat
     let asked = arguments.words.join(" ");
     let page = match asked.as_str() {
         "words" => all_words(),
-        _ => Page { title: meaning(&asked)?, ..Page::default() },
+        _ => Page {
+            title: meaning(&asked)?,
+            ..Page::default()
+        },
     };
     write_page(page)?;
     Ok(Status::Success)
@@ -133,9 +163,14 @@ fn meaning(word: &str) -> Result<String, Failure> {
     let entries: Vec<(String, &str)> = WORDS.lines().filter_map(entry).collect();
     let is_asked = |name: &str| {
         let name = plain(name);
-        name == asked || ["s", "es"].iter().any(|end| asked.strip_suffix(end) == Some(&name))
+        name == asked
+            || ["s", "es"]
+                .iter()
+                .any(|end| asked.strip_suffix(end) == Some(&name))
     };
-    let found = entries.iter().find(|(names, _)| names.split(", ").any(is_asked));
+    let found = entries
+        .iter()
+        .find(|(names, _)| names.split(", ").any(is_asked));
     let names = || entries.iter().flat_map(|(names, _)| names.split(", "));
     if let Some((names, meaning)) = found {
         return Ok(format!("{names}: {}", meaning.replace('`', "'")));
@@ -147,13 +182,21 @@ fn meaning(word: &str) -> Result<String, Failure> {
 /// A kernel, a family, a contract, a scheme or a change of this name.
 fn named(name: &str) -> Option<String> {
     let kernel = kernel::find(name).map(|entry| {
-        format!("a kernel: {}; its contract: {}", entry.info.source, entry.info.contract.describe())
+        format!(
+            "a kernel: {}; its contract: {}",
+            entry.info.source,
+            entry.info.contract.describe()
+        )
     });
     let family =
         || family::find(name).map(|family| format!("a family of cases: {}", family.promise));
     let contract = || {
         let found = NAMED.iter().find(|named| named.name == name)?;
-        Some(format!("a contract: {}: {}", found.about, found.contract.describe()))
+        Some(format!(
+            "a contract: {}: {}",
+            found.about,
+            found.contract.describe()
+        ))
     };
     let scheme = || {
         let found = PUBLISHED.iter().find(|published| published.name == name)?;
@@ -161,9 +204,17 @@ fn named(name: &str) -> Option<String> {
     };
     let change = || {
         let change = Change::named(name.trim_start_matches('+'))?;
-        Some(format!("a change of a kernel (KERNEL+{}): {}", change.name(), change.about()))
+        Some(format!(
+            "a change of a kernel (KERNEL+{}): {}",
+            change.name(),
+            change.about()
+        ))
     };
-    let about = kernel.or_else(family).or_else(contract).or_else(scheme).or_else(change)?;
+    let about = kernel
+        .or_else(family)
+        .or_else(contract)
+        .or_else(scheme)
+        .or_else(change)?;
     Some(format!("{name}: {about}"))
 }
 
@@ -171,10 +222,18 @@ fn all_words() -> Page {
     let mut blocks = Vec::new();
     for part in WORDS.split("\n## ").skip(1) {
         let terms = part.lines().filter_map(entry);
-        blocks.push(Block::Heading(part.lines().next().unwrap_or_default().to_owned()));
+        blocks.push(Block::Heading(
+            part.lines().next().unwrap_or_default().to_owned(),
+        ));
         blocks.push(Block::Terms(
-            terms.map(|(names, meaning)| (names, meaning.replace('`', "'"))).collect(),
+            terms
+                .map(|(names, meaning)| (names, meaning.replace('`', "'")))
+                .collect(),
         ));
     }
-    Page { title: "The words on the screens".to_owned(), blocks, ..Page::default() }
+    Page {
+        title: "The words on the screens".to_owned(),
+        blocks,
+        ..Page::default()
+    }
 }

@@ -58,9 +58,10 @@ impl<'a> RecordText<'a> {
         let envelope: Envelope = serde_json::from_str(&text)
             .map_err(|error| InputError::at(path, error.line(), error.to_string()))?;
         match envelope {
-            Envelope { schema, study: Some(study) } if schema == SCHEMA => {
-                Ok(RecordText { path, text, study })
-            }
+            Envelope {
+                schema,
+                study: Some(study),
+            } if schema == SCHEMA => Ok(RecordText { path, text, study }),
             Envelope { schema, .. } => {
                 let message = format!("a record of schema '{schema}', expected '{SCHEMA}'");
                 Err(InputError::of(path, message).into())
@@ -98,7 +99,10 @@ pub fn read_mesh(path: &str, quiet: bool) -> Result<Mesh, Failure> {
     let mut beside = |name: &str, most: u64| {
         let mut bytes = Vec::new();
         let path = Path::new(path).with_file_name(name);
-        named_file::open(&path)?.take(most).read_to_end(&mut bytes).map(|_| bytes)
+        named_file::open(&path)?
+            .take(most)
+            .read_to_end(&mut bytes)
+            .map(|_| bytes)
     };
     let mesh = mesh::read(file, path, &mut beside, &mut |bytes| progress.set(bytes));
     progress.finish();
@@ -108,7 +112,9 @@ pub fn read_mesh(path: &str, quiet: bool) -> Result<Mesh, Failure> {
         let vertices = number_of(mesh.positions_f64.len() as u64, "vertex", "vertices");
         let groups = number_of(mesh.groups as u64, "group", "groups");
         eprintln!("{path}: {triangles}, {vertices}, {groups}");
-        mesh.notes.iter().for_each(|note| eprintln!("{path}: {note}"));
+        mesh.notes
+            .iter()
+            .for_each(|note| eprintln!("{path}: {note}"));
     }
     Ok(mesh)
 }
@@ -122,12 +128,16 @@ pub fn corpus_files(path: &str) -> Result<Vec<String>, Failure> {
         flag if flag.starts_with('-') => format!("./{flag}"),
         path => path.to_owned(),
     };
-    if !fs::metadata(&path).map_err(|error| Failure::of_file(&path, &error))?.is_dir() {
+    if !fs::metadata(&path)
+        .map_err(|error| Failure::of_file(&path, &error))?
+        .is_dir()
+    {
         return Ok(vec![path]);
     }
     let mut files = files_under(Path::new(&path), |_| false)?;
     files.retain(|file| {
-        file.extension().is_some_and(|extension| extension == "jsonl")
+        file.extension()
+            .is_some_and(|extension| extension == "jsonl")
             && file.file_name().is_some_and(|name| name != MANIFEST)
     });
     if files.is_empty() {
@@ -157,8 +167,11 @@ pub fn files_under(root: &Path, whole: impl Fn(&Path) -> bool) -> Result<Vec<Pat
             continue;
         }
         let entries = fs::read_dir(&path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
-        let mut inside: Vec<PathBuf> =
-            entries.map_err(failed)?.into_iter().map(|entry| entry.path()).collect();
+        let mut inside: Vec<PathBuf> = entries
+            .map_err(failed)?
+            .into_iter()
+            .map(|entry| entry.path())
+            .collect();
         inside.sort();
         let (linked, real) = inside.into_iter().rev().partition(|path| path.is_symlink());
         links.extend::<Vec<_>>(linked);
@@ -196,8 +209,11 @@ pub fn read_corpus(file: &str) -> Result<Vec<StoredCase>, Failure> {
 /// The cases of a corpus file for a run, those that start on their triangle last; unnamed ones are called by file
 /// and line. Without any case an empty set of others.
 pub fn corpus_sets(file: &str) -> Result<[CorpusSet; 2], Failure> {
-    let set =
-        |is_secondary| CorpusSet { file: file.to_owned(), is_secondary, ..CorpusSet::default() };
+    let set = |is_secondary| CorpusSet {
+        file: file.to_owned(),
+        is_secondary,
+        ..CorpusSet::default()
+    };
     let mut sets = [set(false), set(true)];
     for stored in read_corpus(file)? {
         let set = &mut sets[usize::from(stored.is_secondary)];
@@ -212,5 +228,8 @@ pub fn corpus_sets(file: &str) -> Result<[CorpusSet; 2], Failure> {
 
 /// A stored case's name, or `line-N`.
 pub fn name_of(stored: &StoredCase) -> String {
-    stored.name.clone().unwrap_or_else(|| format!("line-{}", stored.line))
+    stored
+        .name
+        .clone()
+        .unwrap_or_else(|| format!("line-{}", stored.line))
 }

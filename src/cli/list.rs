@@ -54,7 +54,9 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
         Listed::Kernels => kernels(),
         Listed::Families => {
             let term = |family: &Family| (family.name.to_owned(), family.promise.to_owned());
-            vec![Block::Terms(FAMILIES.iter().chain(STRATA).map(term).collect())]
+            vec![Block::Terms(
+                FAMILIES.iter().chain(STRATA).map(term).collect(),
+            )]
         }
         Listed::Contracts => contracts(),
         Listed::Presets => presets(),
@@ -64,17 +66,25 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
             vec![Block::Terms(Arithmetic::ALL.iter().map(term).collect())]
         }
     };
-    write_page(Page { blocks, ..Page::default() })?;
+    write_page(Page {
+        blocks,
+        ..Page::default()
+    })?;
     Ok(Status::Success)
 }
 
 /// The kernels, and what may stand behind their names.
 fn kernels() -> Vec<Block> {
     let mut blocks = all(kernel::all().iter().map(|entry| of_kernel(entry.info)));
-    let arithmetics = Arithmetic::ALL.iter().skip(1).map(|it| (it.name(), it.describe()));
+    let arithmetics = Arithmetic::ALL
+        .iter()
+        .skip(1)
+        .map(|it| (it.name(), it.describe()));
     let changes = Change::ALL.iter().map(|it| (it.name(), it.about()));
     let forms = arithmetics.chain(changes);
-    let forms = forms.map(|(name, about)| (format!("+{name}"), about.to_owned())).collect();
+    let forms = forms
+        .map(|(name, about)| (format!("+{name}"), about.to_owned()))
+        .collect();
     let text = "A kernel in another form is NAME+FORM, as moller-trumbore+fma. One form at a time, where it would change something:";
     blocks.extend([Block::Text(text.to_owned()), Block::Terms(forms)]);
     blocks
@@ -82,14 +92,22 @@ fn kernels() -> Vec<Block> {
 
 /// All of some items.
 fn all(items: impl Iterator<Item = Item>) -> Vec<Block> {
-    vec![Block::Items(Items { items: items.collect(), most: usize::MAX })]
+    vec![Block::Items(Items {
+        items: items.collect(),
+        most: usize::MAX,
+    })]
 }
 
 fn contracts() -> Vec<Block> {
-    let own =
-        ("own".to_owned(), "each kernel by what its own source states (the default)".to_owned());
+    let own = (
+        "own".to_owned(),
+        "each kernel by what its own source states (the default)".to_owned(),
+    );
     let named = NAMED.iter().map(|named| {
-        (named.name.to_owned(), format!("{}: {}", named.about, named.contract.describe()))
+        (
+            named.name.to_owned(),
+            format!("{}: {}", named.about, named.contract.describe()),
+        )
     });
     vec![Block::Terms([own].into_iter().chain(named).collect())]
 }
@@ -104,13 +122,24 @@ fn of_coverage() -> Vec<Block> {
         let places = first..first + aspects.len();
         first = places.end;
         let names = aspects.iter().map(|aspect| Head::of(aspect.name));
-        let heads = [Head::of(aspects[0].kind)].into_iter().chain(names).collect();
+        let heads = [Head::of(aspects[0].kind)]
+            .into_iter()
+            .chain(names)
+            .collect();
         let row = |(name, shares): &(&str, Vec<f64>)| {
-            Row::new(*name, shares[places.clone()].iter().map(|share| percent_in_three(*share)))
+            Row::new(
+                *name,
+                shares[places.clone()]
+                    .iter()
+                    .map(|share| percent_in_three(*share)),
+            )
         };
         Block::Table(Table::new(heads, rows.iter().map(row).collect()))
     };
-    ASPECTS.chunk_by(|a, b| a.kind == b.kind).map(table).collect()
+    ASPECTS
+        .chunk_by(|a, b| a.kind == b.kind)
+        .map(table)
+        .collect()
 }
 
 /// `.`, `<1`, `37`, `100`.
@@ -123,15 +152,23 @@ fn percent_in_three(share: f64) -> String {
 }
 
 fn of_kernel(info: &KernelInfo) -> Item {
-    let mut notes =
-        vec![format!("source: {}", info.source), format!("contract: {}", info.contract.describe())];
+    let mut notes = vec![
+        format!("source: {}", info.source),
+        format!("contract: {}", info.contract.describe()),
+    ];
     for (i, gate) in info.gates.iter().enumerate() {
         let refuses = gate.refuses;
         if gate.epsilon == Tunable::Fixed {
-            notes.push(format!("test {}: refuses where {refuses}; takes no epsilon", gate.name));
+            notes.push(format!(
+                "test {}: refuses where {refuses}; takes no epsilon",
+                gate.name
+            ));
             continue;
         }
-        let sets = info.epsilon_sets.iter().map(|set| format!("{} ({})", set.values[i], set.name));
+        let sets = info
+            .epsilon_sets
+            .iter()
+            .map(|set| format!("{} ({})", set.values[i], set.name));
         notes.push(format!(
             "gate {}: refuses where {refuses}; dimension length^{} direction^{}; e = {}",
             gate.name,
@@ -140,7 +177,11 @@ fn of_kernel(info: &KernelInfo) -> Item {
             sets.collect::<Vec<_>>().join(", ")
         ));
     }
-    Item { text: info.name.to_owned(), notes, ..Item::default() }
+    Item {
+        text: info.name.to_owned(),
+        notes,
+        ..Item::default()
+    }
 }
 
 fn of_scheme(published: &PublishedScheme) -> Item {
@@ -149,13 +190,24 @@ fn of_scheme(published: &PublishedScheme) -> Item {
         .parameter
         .as_ref()
         .map(|parameter| format!("{name}=VALUE: {} [{}]", parameter.what, parameter.default));
-    let notes = [format!("source: {source}")].into_iter().chain(parameter).collect();
-    Item { text: format!("{name}{}", describe(name)), notes, ..Item::default() }
+    let notes = [format!("source: {source}")]
+        .into_iter()
+        .chain(parameter)
+        .collect();
+    Item {
+        text: format!("{name}{}", describe(name)),
+        notes,
+        ..Item::default()
+    }
 }
 
 fn presets() -> Vec<Block> {
     let own = "as each kernel's source has them (the default)".to_owned();
-    let own = Item { text: "source".to_owned(), notes: vec![own], ..Item::default() };
+    let own = Item {
+        text: "source".to_owned(),
+        notes: vec![own],
+        ..Item::default()
+    };
     let of_preset = |preset: &Preset| {
         let entries = preset.entries.iter().map(|entry| {
             let (value, Dimension { length, direction }) = (entry.value, entry.dimension);
@@ -164,8 +216,15 @@ fn presets() -> Vec<Block> {
                 entry.gate, entry.form
             )
         });
-        let notes = [preset.source.to_owned()].into_iter().chain(entries).collect();
-        Item { text: preset.name.to_owned(), notes, ..Item::default() }
+        let notes = [preset.source.to_owned()]
+            .into_iter()
+            .chain(entries)
+            .collect();
+        Item {
+            text: preset.name.to_owned(),
+            notes,
+            ..Item::default()
+        }
     };
     all([own].into_iter().chain(PRESETS.iter().map(of_preset)))
 }

@@ -59,7 +59,12 @@ pub struct MapArguments {
     step: Option<String>,
 
     /// Width and height in pixels, the case in the middle; one number for both
-    #[arg(long, value_name = "W[xH]", default_value = "128", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "W[xH]",
+        default_value = "128",
+        allow_hyphen_values = true
+    )]
     size: String,
 
     /// The side of a pixel in a PNG, in dots [default: the picture becomes about 1000 dots wide]
@@ -91,9 +96,18 @@ pub struct MapArguments {
 
 /// One row per format.
 const FORMATS: &[Format<MapPicture>] = &[
-    Format { name: "text", write: |picture, _, out| out.write_all(picture.summary.as_bytes()) },
-    Format { name: "svg", write: |picture, _, out| out.write_all(picture.svg.as_bytes()) },
-    Format { name: "png", write: |picture, _, out| out.write_all(&picture.png) },
+    Format {
+        name: "text",
+        write: |picture, _, out| out.write_all(picture.summary.as_bytes()),
+    },
+    Format {
+        name: "svg",
+        write: |picture, _, out| out.write_all(picture.svg.as_bytes()),
+    },
+    Format {
+        name: "png",
+        write: |picture, _, out| out.write_all(&picture.png),
+    },
 ];
 
 /// The most pixels of an SVG, which has a shape for each run of them.
@@ -114,7 +128,9 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     let outputs = paired_outputs(FORMATS, &formats, &arguments.output)?;
     let wants = |name: &str| outputs.iter().any(|(format, _)| format.name == name);
     if arguments.drawing && wants("png") {
-        return Err(Failure::usage("a drawing is written as svg or text, not as png"));
+        return Err(Failure::usage(
+            "a drawing is written as svg or text, not as png",
+        ));
     }
     set_threads(arguments.threads)?;
     let [width, height] = arguments.size()?;
@@ -128,7 +144,9 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         picture.png = map::png(map, arguments.dots(map))?;
     }
     let quiet = arguments.quiet || wants("text");
-    write_results(outputs, |format, _, out| (format.write)(&picture, Style::default(), out))?;
+    write_results(outputs, |format, _, out| {
+        (format.write)(&picture, Style::default(), out)
+    })?;
     if !quiet {
         // A summary that nobody reads is no error.
         let _ = io::stderr().write_all(picture.summary.as_bytes());
@@ -139,7 +157,9 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
 impl MapArguments {
     /// The case.
     fn input(&self) -> Result<AnyCase, Failure> {
-        let Some(case) = self.case.clone() else { return self.standard() };
+        let Some(case) = self.case.clone() else {
+            return self.standard();
+        };
         let (mesh, corpus) = (self.mesh.clone(), self.corpus.clone());
         let named = CaseArguments { case, mesh, corpus };
         either_scalar!(&named.cases()?, group => Ok((*named.one(group)?).into()))
@@ -166,11 +186,13 @@ impl MapArguments {
             return Ok(vec!["text".to_owned()]);
         }
         let of = |output: &String| {
-            format_of(FORMATS, output).map(str::to_owned).ok_or_else(|| {
-                Failure::usage(format!(
-                    "-o {output}: its name does not end in .svg, .png or .txt; say --format"
-                ))
-            })
+            format_of(FORMATS, output)
+                .map(str::to_owned)
+                .ok_or_else(|| {
+                    Failure::usage(format!(
+                        "-o {output}: its name does not end in .svg, .png or .txt; say --format"
+                    ))
+                })
         };
         self.output.iter().map(of).collect()
     }
@@ -181,7 +203,11 @@ impl MapArguments {
         if self.drawing {
             let svg = map::drawing_document(case, &row)?;
             let summary = summary::of_drawing(case, &row);
-            return Ok(MapPicture { summary, svg, ..MapPicture::default() });
+            return Ok(MapPicture {
+                summary,
+                svg,
+                ..MapPicture::default()
+            });
         }
         let part = self.varied()?;
         let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
@@ -192,8 +218,17 @@ impl MapArguments {
         let again = |pixel| summary::explain(&map::case_at(case, &grid, pixel), &row);
         let summary = summary::of_map(&map, &grid, &again);
         let is_small = pixels <= MOST_SVG_PIXELS;
-        let svg = if is_small { map::svg_document(&map) } else { String::new() };
-        Ok(MapPicture { summary, svg, map: Some(map), ..MapPicture::default() })
+        let svg = if is_small {
+            map::svg_document(&map)
+        } else {
+            String::new()
+        };
+        Ok(MapPicture {
+            summary,
+            svg,
+            map: Some(map),
+            ..MapPicture::default()
+        })
     }
 
     /// The one kernel with its epsilons.
@@ -218,7 +253,9 @@ impl MapArguments {
 
     /// Which vector is varied.
     fn varied(&self) -> Result<CaseVector, Failure> {
-        let Some(name) = &self.vary else { return Ok(CaseVector::Origin) };
+        let Some(name) = &self.vary else {
+            return Ok(CaseVector::Origin);
+        };
         CaseVector::named(name).ok_or_else(|| {
             let names = CaseVector::ALL.map(CaseVector::name).join(", ");
             Failure::usage(format!("--vary: unknown point '{name}': there are {names}"))
@@ -226,7 +263,9 @@ impl MapArguments {
     }
 
     fn axes(&self) -> Result<Option<[usize; 2]>, Failure> {
-        let Some(text) = &self.axes else { return Ok(None) };
+        let Some(text) = &self.axes else {
+            return Ok(None);
+        };
         let coordinate = |name: &str| ["x", "y", "z"].iter().position(|axis| *axis == name.trim());
         text.split_once(',')
             .and_then(|(a, b)| Some([coordinate(a)?, coordinate(b)?]))
@@ -237,13 +276,22 @@ impl MapArguments {
     }
 
     fn step(&self) -> Result<Option<PixelStep>, Failure> {
-        let Some(text) = &self.step else { return Ok(None) };
+        let Some(text) = &self.step else {
+            return Ok(None);
+        };
         let power = |k: &str| {
-            k.parse().ok().filter(|k| (-1100..=1100).contains(k)).map(PixelStep::PowerOfTwo)
+            k.parse()
+                .ok()
+                .filter(|k| (-1100..=1100).contains(k))
+                .map(PixelStep::PowerOfTwo)
         };
         let step = match text.strip_prefix("2^") {
             Some(k) => power(k),
-            None => text.parse().ok().filter(|ulps| *ulps >= 1).map(PixelStep::Ulps),
+            None => text
+                .parse()
+                .ok()
+                .filter(|ulps| *ulps >= 1)
+                .map(PixelStep::Ulps),
         };
         step.map(Some).ok_or_else(|| {
             Failure::usage(format!(
@@ -253,16 +301,25 @@ impl MapArguments {
     }
 
     fn size(&self) -> Result<[usize; 2], Failure> {
-        let side =
-            |text: &str| text.parse().ok().filter(|side| (1..=map::MOST_PIXELS).contains(side));
-        let (width, height) = self.size.split_once('x').unwrap_or((&self.size, &self.size));
-        side(width).zip(side(height)).map(|(width, height)| [width, height]).ok_or_else(|| {
-            Failure::usage(format!(
-                "--size: '{}' is not W or WxH with sides from 1 to {} pixels",
-                self.size,
-                map::MOST_PIXELS
-            ))
-        })
+        let side = |text: &str| {
+            text.parse()
+                .ok()
+                .filter(|side| (1..=map::MOST_PIXELS).contains(side))
+        };
+        let (width, height) = self
+            .size
+            .split_once('x')
+            .unwrap_or((&self.size, &self.size));
+        side(width)
+            .zip(side(height))
+            .map(|(width, height)| [width, height])
+            .ok_or_else(|| {
+                Failure::usage(format!(
+                    "--size: '{}' is not W or WxH with sides from 1 to {} pixels",
+                    self.size,
+                    map::MOST_PIXELS
+                ))
+            })
     }
 
     /// The side of a pixel in a PNG.

@@ -41,11 +41,15 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
 
 fn joined(arguments: &MergeArguments, outputs: &Outputs<'_>) -> Result<Status, Failure> {
     let files = &arguments.records;
-    let records = files.iter().map(|file| read_record(file)).collect::<Result<Vec<_>, _>>()?;
+    let records = files
+        .iter()
+        .map(|file| read_record(file))
+        .collect::<Result<Vec<_>, _>>()?;
     // What they answer is looked at again, for the worst findings and their causes. They go by the words of the run.
     let rows = records.iter().flat_map(|record| &record.result.plan.rows);
-    let selectors: BTreeMap<String, String> =
-        rows.map(|row| (row.kernel.clone(), row.selector.clone())).collect();
+    let selectors: BTreeMap<String, String> = rows
+        .map(|row| (row.kernel.clone(), row.selector.clone()))
+        .collect();
     arguments.plugins.entries_known_as(&selectors)?;
     let is_unknown = |(kernel, flag): &(&String, &String)| {
         flag.starts_with("--kernel-") && kernel::find(kernel).is_none()
@@ -62,7 +66,9 @@ fn joined(arguments: &MergeArguments, outputs: &Outputs<'_>) -> Result<Status, F
         InputError::of(file, error.message)
     })?;
     let files = arguments.plugins.files();
-    parts.ensure_built_from(&files).map_err(|message| InputError::of("merge", message))?;
+    parts
+        .ensure_built_from(&files)
+        .map_err(|message| InputError::of("merge", message))?;
     let quiet = arguments.report.output.quiet;
     let progress = Progress::new(0, "indices", true);
     let illustrate = |plan: &Plan, sums: &Audit, record: &mut Record| {
@@ -70,8 +76,10 @@ fn joined(arguments: &MergeArguments, outputs: &Outputs<'_>) -> Result<Status, F
             illustrate(plan, sums, record);
         }
     };
-    let record = merged(parts, illustrate, &progress, |stock, scalars| open(stock, scalars, quiet))
-        .map_err(|Unmergeable(failure)| failure)?;
+    let record = merged(parts, illustrate, &progress, |stock, scalars| {
+        open(stock, scalars, quiet)
+    })
+    .map_err(|Unmergeable(failure)| failure)?;
     self_check(&record)?;
     outputs.write(&record)?;
     Ok(Status::Success)

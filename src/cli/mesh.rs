@@ -99,7 +99,9 @@ fn audited(arguments: &MeshArguments, outputs: &Outputs<'_>) -> Result<Status, F
 
 impl MeshArguments {
     fn plan(&self, illustrate: bool) -> Result<Plan, Failure> {
-        let rows = self.kernels.rows_without_band("every ray goes to an edge or a vertex")?;
+        let rows = self
+            .kernels
+            .rows_without_band("every ray goes to an edge or a vertex")?;
         let scalars = one_scalar(&rows, &self.scalar)?;
         let parameters = Parameters {
             unit_direction: self.direction.is_some(),
@@ -113,6 +115,9 @@ impl MeshArguments {
         let places = if is_drawn { places(family.mesh()) } else { 0 };
         let surface = Arc::new(Surface::new(Arc::new(family), scalars));
         let sources = Source::parts_of(&surface, &parameters, self.seed, self.directions).into();
-        Ok(Plan { places, ..Plan::new(rows, sources, scalars, self.examples) })
+        Ok(Plan {
+            places,
+            ..Plan::new(rows, sources, scalars, self.examples)
+        })
     }
 }

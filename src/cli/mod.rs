@@ -131,11 +131,16 @@ enum Chosen {
 const GROUPS: [(&str, &[&str]); 6] = [
     (
         "Choose an epsilon",
-        &["audit", "epsilon", "spawn", "prove", "repair", "mesh", "explain", "map", "list"],
+        &[
+            "audit", "epsilon", "spawn", "prove", "repair", "mesh", "explain", "map", "list",
+        ],
     ),
     ("Hunt with a fuzzer", &["fuzz"]),
     ("Gate a CI", &["check", "merge", "diff"]),
-    ("Bring your own", &["generate", "truth", "vectors", "verify"]),
+    (
+        "Bring your own",
+        &["generate", "truth", "vectors", "verify"],
+    ),
     ("Trust it", &["selfcheck", "corpus"]),
     ("Find your way", &["help", "completions", "man"]),
 ];
@@ -144,8 +149,9 @@ const GROUPS: [(&str, &[&str]); 6] = [
 fn command() -> clap::Command {
     let mut command = Arguments::command().term_width(output::screen_width());
     for (name, example) in EXAMPLES {
-        command = command
-            .mut_subcommand(name, |command| command.before_help(format!("Example: {example}")));
+        command = command.mut_subcommand(name, |command| {
+            command.before_help(format!("Example: {example}"))
+        });
     }
     let styles = Styles::default();
     let (header, name_style) = (styles.get_header(), styles.get_literal());
@@ -153,11 +159,19 @@ fn command() -> clap::Command {
     for (title, names) in GROUPS {
         help.push_str(&format!("\n{header}{title}:{header:#}\n"));
         for name in names {
-            let about = command.find_subcommand(name).and_then(clap::Command::get_about);
+            let about = command
+                .find_subcommand(name)
+                .and_then(clap::Command::get_about);
             let about = about.map(ToString::to_string).unwrap_or_default();
             let own = commands_of(&command, name).join(", ");
-            let own = if own.is_empty() { own } else { format!(" [{own}]") };
-            help.push_str(&format!("  {name_style}{name:<11}{name_style:#}  {about}{own}\n"));
+            let own = if own.is_empty() {
+                own
+            } else {
+                format!(" [{own}]")
+            };
+            help.push_str(&format!(
+                "  {name_style}{name:<11}{name_style:#}  {about}{own}\n"
+            ));
         }
     }
     help.push_str(&format!("\n{header}Options:{header:#}\n{{options}}\n"));
@@ -167,7 +181,10 @@ fn command() -> clap::Command {
 
 /// The names of a command's own commands.
 fn commands_of(command: &clap::Command, parent: &str) -> Vec<String> {
-    let all = command.find_subcommand(parent).into_iter().flat_map(|c| c.get_subcommands());
+    let all = command
+        .find_subcommand(parent)
+        .into_iter()
+        .flat_map(|c| c.get_subcommands());
     all.map(|child| child.get_name().to_owned()).collect()
 }
 
@@ -225,7 +242,9 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
                 return Status::Usage as u8;
             }
             // Help and version are no errors.
-            let printed = output::standard_output().map(drop).and_then(|()| Ok(error.print()?));
+            let printed = output::standard_output()
+                .map(drop)
+                .and_then(|()| Ok(error.print()?));
             return printed.map_or_else(ended, |()| Status::Success as u8);
         }
     };
@@ -273,7 +292,9 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// True if the command line says --quiet.
 fn is_quiet(matches: &ArgMatches) -> bool {
-    let has_flag = matches.try_get_one("quiet").is_ok_and(|quiet| quiet == Some(&true));
+    let has_flag = matches
+        .try_get_one("quiet")
+        .is_ok_and(|quiet| quiet == Some(&true));
     has_flag || matches.subcommand().is_some_and(|(_, own)| is_quiet(own))
 }
 
@@ -284,10 +305,14 @@ fn check_outputs(command: &clap::Command, matches: &ArgMatches) -> Result<(), Fa
     };
     if command.get_arguments().any(is_file) {
         let files = matches.get_many::<String>("output");
-        files.into_iter().flatten().try_for_each(|file| output::check_place(file))?;
+        files
+            .into_iter()
+            .flatten()
+            .try_for_each(|file| output::check_place(file))?;
     }
-    let own =
-        matches.subcommand().and_then(|(name, own)| Some((command.find_subcommand(name)?, own)));
+    let own = matches
+        .subcommand()
+        .and_then(|(name, own)| Some((command.find_subcommand(name)?, own)));
     own.map_or(Ok(()), |(command, matches)| check_outputs(command, matches))
 }
 
@@ -295,7 +320,9 @@ fn check_outputs(command: &clap::Command, matches: &ArgMatches) -> Result<(), Fa
 fn not_utf8(words: &[OsString]) -> Failure {
     let wrong = words.iter().find(|word| word.to_str().is_none());
     let wrong = wrong.map_or_else(Default::default, |word| word.to_string_lossy());
-    Failure::usage(format!("'{wrong}' is not UTF-8: rename the file, or hand it in as - < FILE"))
+    Failure::usage(format!(
+        "'{wrong}' is not UTF-8: rename the file, or hand it in as - < FILE"
+    ))
 }
 
 /// Says why a command stops.
@@ -314,7 +341,9 @@ mod tests {
     fn every_visible_command_is_in_one_group_with_a_line_that_fits() {
         let mut command = command();
         command.build();
-        let visible = command.get_subcommands().filter(|command| !command.is_hide_set());
+        let visible = command
+            .get_subcommands()
+            .filter(|command| !command.is_hide_set());
         let mut visible: Vec<&str> = visible.map(clap::Command::get_name).collect();
         let mut grouped: Vec<&str> = GROUPS.iter().flat_map(|group| group.1).copied().collect();
         visible.sort();
@@ -322,14 +351,23 @@ mod tests {
         assert_eq!(visible, grouped);
         let help = command.clone().render_long_help().to_string();
         let subcommands = command.get_subcommands().flat_map(|command| {
-            [command.clone().render_help(), command.clone().render_long_help()]
+            [
+                command.clone().render_help(),
+                command.clone().render_long_help(),
+            ]
         });
-        for page in subcommands.map(|page| page.to_string()).chain([help.clone()]) {
+        for page in subcommands
+            .map(|page| page.to_string())
+            .chain([help.clone()])
+        {
             // A command line is not broken.
             let wide = page.lines().find(|line| 80 < line.chars().count());
             assert_eq!(wide.filter(|line| !line.starts_with("Example: ")), None);
         }
-        assert!(help.contains("\nGate a CI:\n  check        Compare a run"), "{help}");
+        assert!(
+            help.contains("\nGate a CI:\n  check        Compare a run"),
+            "{help}"
+        );
         command.clone().debug_assert();
         // Every command has an example that it takes.
         let mut examples: Vec<&str> = EXAMPLES.iter().map(|(name, _)| *name).collect();
@@ -337,7 +375,10 @@ mod tests {
         assert_eq!(visible, examples);
         for (name, example) in EXAMPLES {
             let words = shlex::split(example).unwrap();
-            let words = words.split(|word| [">", "|"].contains(&word.as_str())).next().unwrap();
+            let words = words
+                .split(|word| [">", "|"].contains(&word.as_str()))
+                .next()
+                .unwrap();
             let matches = super::command().try_get_matches_from(words).unwrap();
             assert_eq!(matches.subcommand_name(), Some(*name));
         }

@@ -77,8 +77,11 @@ impl OutputArguments {
     pub fn write<R>(&self, pairs: Vec<(&Format<R>, &str)>, record: &R) -> Result<(), Failure> {
         let OutputArguments { color, details, .. } = *self;
         write_results(pairs, |format, path, out| {
-            let style =
-                Style { color: color.enabled(path == "-"), details, width: width(path, details) };
+            let style = Style {
+                color: color.enabled(path == "-"),
+                details,
+                width: width(path, details),
+            };
             (format.write)(record, style, out)
         })
     }
@@ -86,7 +89,10 @@ impl OutputArguments {
 
 /// Writes a page to standard output, where there are no flags for how.
 pub fn write_page(page: Page) -> Result<(), Failure> {
-    let style = Style { width: screen_width(), ..Style::default() };
+    let style = Style {
+        width: screen_width(),
+        ..Style::default()
+    };
     write_result("-", |out| (Format::TEXT.write)(&page, style, out))
 }
 
@@ -98,9 +104,13 @@ pub fn screen_width() -> usize {
 /// The width of an output: of a terminal its own, within what can be read; of anything else 80,
 /// or where everything is asked for, as much as a table needs.
 fn width(path: &str, details: bool) -> usize {
-    let terminal = (path == "-" && io::stdout().is_terminal()).then(terminal_size).flatten();
+    let terminal = (path == "-" && io::stdout().is_terminal())
+        .then(terminal_size)
+        .flatten();
     let otherwise = if details { Style::WIDEST } else { Style::WIDTH };
-    terminal.map_or(otherwise, |(width, _)| usize::from(width.0).clamp(60, Style::WIDEST))
+    terminal.map_or(otherwise, |(width, _)| {
+        usize::from(width.0).clamp(60, Style::WIDEST)
+    })
 }
 
 /// Formats with where they go: each named format to its output, one alone to standard output.
@@ -142,13 +152,17 @@ pub fn paired_outputs<'a, R>(
     };
     let places: Vec<PathBuf> = outputs.iter().map(place).collect();
     if let Some(i) = (1..places.len()).find(|&i| places[..i].contains(&places[i])) {
-        return Err(Failure::usage(format!("-o: '{}' is given twice", outputs[i])));
+        return Err(Failure::usage(format!(
+            "-o: '{}' is given twice",
+            outputs[i]
+        )));
     }
     match (formats.len(), outputs.len()) {
         (1, 0) => Ok(vec![(formats[0], "-")]),
-        (n, m) if n == m => {
-            Ok(formats.into_iter().zip(outputs.iter().map(String::as_str)).collect())
-        }
+        (n, m) if n == m => Ok(formats
+            .into_iter()
+            .zip(outputs.iter().map(String::as_str))
+            .collect()),
         (n, m) => Err(Failure::usage(format!(
             "{} but {}: give -o once for each format, in the same order",
             number_of(n as u64, "format", "formats"),
@@ -158,15 +172,25 @@ pub fn paired_outputs<'a, R>(
 }
 
 /// The ends of files' names, with the formats that they stand for; the others are the formats' own names.
-const ENDINGS: [(&str, &str); 4] =
-    [("md", "markdown"), ("htm", "html"), ("xml", "junit"), ("txt", "text")];
+const ENDINGS: [(&str, &str); 4] = [
+    ("md", "markdown"),
+    ("htm", "html"),
+    ("xml", "junit"),
+    ("txt", "text"),
+];
 
 /// The format in which a file of a name is expected; none if its end names none of a table.
 pub fn format_of<R>(table: &[Format<R>], path: &str) -> Option<&'static str> {
     let ending = Path::new(path).extension()?.to_str()?.to_ascii_lowercase();
-    let named = ENDINGS.iter().find(|(short, _)| *short == ending).map(|(_, name)| *name);
+    let named = ENDINGS
+        .iter()
+        .find(|(short, _)| *short == ending)
+        .map(|(_, name)| *name);
     let name = named.unwrap_or(&ending);
-    table.iter().find(|format| format.name == name).map(|format| format.name)
+    table
+        .iter()
+        .find(|format| format.name == name)
+        .map(|format| format.name)
 }
 
 /// Writes a result to standard output (`-`) or to a file, which appears whole or stays as it was.
@@ -205,7 +229,9 @@ pub fn write_failure<T>(
     outputs: Vec<(T, &str)>,
     write: impl Fn(T, &str, &mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    all_written(outputs, write)?.into_iter().try_for_each(FileBeside::put_in_place)
+    all_written(outputs, write)?
+        .into_iter()
+        .try_for_each(FileBeside::put_in_place)
 }
 
 fn all_written<T>(
@@ -242,9 +268,10 @@ fn written(
         write(&mut out).and_then(|()| out.flush())
     };
     let (outcome, file) = match Destination::of(name).map_err(failed)? {
-        Destination::StandardOutput => {
-            (through(&mut standard_output()?).map_err(Failure::from), None)
-        }
+        Destination::StandardOutput => (
+            through(&mut standard_output()?).map_err(Failure::from),
+            None,
+        ),
         Destination::Stream(mut file) => (through(&mut file).map_err(failed), None),
         Destination::Beside(mut beside) => {
             (through(&mut beside.file).map_err(failed), Some(beside))
@@ -279,9 +306,10 @@ impl Destination {
         match fs::metadata(&path) {
             Ok(metadata) if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
             // What a shell has opened goes on at its end.
-            Ok(metadata) if !metadata.is_file() || is_descriptor(&path) => {
-                File::options().append(true).open(&path).map(Destination::Stream)
-            }
+            Ok(metadata) if !metadata.is_file() || is_descriptor(&path) => File::options()
+                .append(true)
+                .open(&path)
+                .map(Destination::Stream),
             _ => FileBeside::new(path).map(Destination::Beside),
         }
     }
@@ -305,7 +333,9 @@ fn linked(path: &Path) -> PathBuf {
 
 /// True if a path, links followed, names standard output.
 fn is_standard_output(path: &Path) -> bool {
-    ["-", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
+    ["-", "/dev/fd/1", "/proc/self/fd/1"]
+        .iter()
+        .any(|name| path == Path::new(name))
 }
 
 /// True if a path names an open file, as that of `/dev/stdout` does.
@@ -353,7 +383,10 @@ impl FileBeside {
     }
 
     fn put_in_place(self) -> Result<(), Failure> {
-        let renamed = self.file.sync_all().and_then(|()| fs::rename(&self.path, &self.place));
+        let renamed = self
+            .file
+            .sync_all()
+            .and_then(|()| fs::rename(&self.path, &self.place));
         renamed.map_err(|error| Failure::of_path(&self.place, &error))
     }
 }
@@ -361,7 +394,9 @@ impl FileBeside {
 /// Removes what killed runs left beside a file: nobody holds its lock.
 fn remove_abandoned(place: &Path) {
     let folder = place.parent().filter(|folder| *folder != Path::new(""));
-    let Ok(entries) = fs::read_dir(folder.unwrap_or(Path::new("."))) else { return };
+    let Ok(entries) = fs::read_dir(folder.unwrap_or(Path::new("."))) else {
+        return;
+    };
     for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let is_beside = name.starts_with(BESIDE) && name.ends_with(".tmp");

@@ -120,19 +120,33 @@ impl PluginArguments {
 
     /// The programs that they start: each flag with its word.
     pub fn programs(&self) -> Vec<(&'static str, &str)> {
-        let libraries = self.kernel_lib.iter().map(|path| ("--kernel-lib", path.as_str()));
-        let commands = self.kernel_cmd.iter().map(|line| ("--kernel-cmd", line.as_str()));
+        let libraries = self
+            .kernel_lib
+            .iter()
+            .map(|path| ("--kernel-lib", path.as_str()));
+        let commands = self
+            .kernel_cmd
+            .iter()
+            .map(|line| ("--kernel-cmd", line.as_str()));
         libraries.chain(commands).collect()
     }
 
     /// The flags that bring the kernels along, as a shell takes them.
     pub fn flags(&self) -> Vec<String> {
-        [again("--kernel-lib", &self.kernel_lib), again("--kernel-cmd", &self.kernel_cmd)].concat()
+        [
+            again("--kernel-lib", &self.kernel_lib),
+            again("--kernel-cmd", &self.kernel_cmd),
+        ]
+        .concat()
     }
 
     /// The names of the libraries, and of the files that commands name, with the digests of their contents.
     pub fn files(&self) -> BTreeMap<String, String> {
-        let words = self.kernel_cmd.iter().filter_map(|line| shlex::split(line)).flatten();
+        let words = self
+            .kernel_cmd
+            .iter()
+            .filter_map(|line| shlex::split(line))
+            .flatten();
         let paths = self.kernel_lib.iter().cloned().chain(words);
         let digest = |path: String| {
             let bytes = Path::new(&path).is_file().then(|| fs::read(&path))?.ok()?;
@@ -165,7 +179,10 @@ impl PluginArguments {
         let started = |flag: &str, what: &String, program: fn(&str) -> _| {
             let selector = format!("{flag} {}", quoted(what));
             // It is started once for the whole run.
-            if let Some(entry) = kernel::all().into_iter().find(|it| it.selector() == selector) {
+            if let Some(entry) = kernel::all()
+                .into_iter()
+                .find(|it| it.selector() == selector)
+            {
                 return Ok(entry);
             }
             let entry = load(program(what)?, limits, selector).map_err(|error| match error {
@@ -182,8 +199,14 @@ impl PluginArguments {
             let taken = |message| Failure::bad_input(format!("{what}: {message}"));
             kernel::register(entry).map_err(taken)
         };
-        let libraries = self.kernel_lib.iter().map(|path| started("--kernel-lib", path, host_of));
-        let commands = self.kernel_cmd.iter().map(|line| started("--kernel-cmd", line, parsed));
+        let libraries = self
+            .kernel_lib
+            .iter()
+            .map(|path| started("--kernel-lib", path, host_of));
+        let commands = self
+            .kernel_cmd
+            .iter()
+            .map(|line| started("--kernel-cmd", line, parsed));
         libraries.chain(commands).collect()
     }
 
@@ -200,7 +223,10 @@ impl PluginArguments {
         // A limit that is set is meant.
         let (first_failures, timeouts) = match self.kernel_failures {
             Some(failures) => (u64::MAX, failures.saturating_add(1)),
-            None => (FIRST_FAILURES, ((PATIENCE_SECONDS / seconds).ceil() as u64).max(3)),
+            None => (
+                FIRST_FAILURES,
+                ((PATIENCE_SECONDS / seconds).ceil() as u64).max(3),
+            ),
         };
         let tell: fn(&str) = |line| {
             if !IS_QUIET.load(Ordering::Relaxed) {
@@ -208,7 +234,15 @@ impl PluginArguments {
             }
         };
         let require_ieee = self.require_ieee;
-        Ok(ProcessLimits { start, silence, failures, first_failures, timeouts, tell, require_ieee })
+        Ok(ProcessLimits {
+            start,
+            silence,
+            failures,
+            first_failures,
+            timeouts,
+            tell,
+            require_ieee,
+        })
     }
 }
 
@@ -226,7 +260,9 @@ fn host_of(path: &str) -> Result<KernelProgram, Failure> {
         let message = "--kernel-lib needs a Unix system; --kernel-cmd works everywhere";
         return Err(Failure::usage(message));
     }
-    let whole = Path::new(path).canonicalize().map_err(|error| Failure::of_file(path, &error))?;
+    let whole = Path::new(path)
+        .canonicalize()
+        .map_err(|error| Failure::of_file(path, &error))?;
     let own = || std::env::current_exe().map(PathBuf::into_os_string);
     let this = match AGAIN.get() {
         Some(words) => words.iter().map(OsString::from).collect(),
@@ -234,9 +270,13 @@ fn host_of(path: &str) -> Result<KernelProgram, Failure> {
     };
     let long_run = LONG_RUN.load(Ordering::Relaxed);
     let long_run = (0 < long_run).then(|| format!("--long-run={long_run}").into());
-    let words = this.into_iter().chain([HOST_COMMAND.into(), whole.into_os_string()]);
+    let words = this
+        .into_iter()
+        .chain([HOST_COMMAND.into(), whole.into_os_string()]);
     let words = words.chain(long_run);
-    let words = words.map(|word| word.into_string().ok()).collect::<Option<Vec<String>>>();
+    let words = words
+        .map(|word| word.into_string().ok())
+        .collect::<Option<Vec<String>>>();
     words
         .map(KernelProgram::host)
         .ok_or_else(|| Failure::usage(format!("--kernel-lib {path}: a path that is not UTF-8")))
@@ -254,7 +294,10 @@ pub fn check() -> Result<(), Failure> {
         let f32 = f32::subject(entry).and_then(|subject| subject.gave_up());
         let f64 = || f64::subject(entry).and_then(|subject| subject.gave_up());
         if let Some(message) = f32.or_else(f64) {
-            return Err(Failure::bad_input(format!("kernel '{}': {message}", entry.info.name)));
+            return Err(Failure::bad_input(format!(
+                "kernel '{}': {message}",
+                entry.info.name
+            )));
         }
     }
     Ok(())

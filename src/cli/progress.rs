@@ -23,20 +23,32 @@ impl Progress {
     /// With a total in some unit; hidden if `quiet` or not on a terminal.
     pub fn new(total: u64, unit: &str, quiet: bool) -> Progress {
         let hidden = quiet || !std::io::stderr().is_terminal();
-        let target =
-            if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let target = if hidden {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr()
+        };
         let bar = ProgressBar::with_draw_target(Some(total), target);
         let template = format!("{{wide_bar}} {{human_pos}}/{{human_len}} {unit} {{eta}}");
         if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
         let (unit, is_told) = (unit.to_owned(), AtomicBool::new(quiet));
-        Progress { bar, start: Instant::now(), unit, is_told }
+        Progress {
+            bar,
+            start: Instant::now(),
+            unit,
+            is_told,
+        }
     }
 
     /// For what is written to an output; hidden if that is a terminal, as the lines would mix.
     pub fn of_output(total: u64, unit: &str, output: &str) -> Progress {
-        Progress::new(total, unit, output == "-" && std::io::stdout().is_terminal())
+        Progress::new(
+            total,
+            unit,
+            output == "-" && std::io::stdout().is_terminal(),
+        )
     }
 
     /// For work without an end, which [`Progress::tell`] describes.

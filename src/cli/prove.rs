@@ -50,7 +50,12 @@ pub struct ProveArguments {
     kernel_cmd: Vec<String>,
 
     /// f32, f64, or both separated by a comma
-    #[arg(long, value_delimiter = ',', default_value = "f32,f64", value_name = "SCALAR")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "f32,f64",
+        value_name = "SCALAR"
+    )]
     scalar: Vec<String>,
 
     /// Only this gate
@@ -123,7 +128,10 @@ const SCENE: &str = "Scene (without one: everything at most 1)";
 /// One row per format.
 const FORMATS: &[Format<Report>] = &[
     Format::TEXT,
-    Format { name: "json", write: |report, _, out| write_json(&report.record, out) },
+    Format {
+        name: "json",
+        write: |report, _, out| write_json(&report.record, out),
+    },
     Format::MARKDOWN,
     Format::HTML,
 ];
@@ -167,7 +175,9 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         Some(scene) => scene.domain().map_err(Failure::usage)?,
         None => Domain::UNIT,
     };
-    let parts = scene.as_ref().map_or(Vec::new(), |scene| scene.parts(&shapes));
+    let parts = scene
+        .as_ref()
+        .map_or(Vec::new(), |scene| scene.parts(&shapes));
     let mut stored = match &arguments.update {
         Some(path) if std::fs::exists(path).map_err(|e| Failure::of_file(path, &e))? => {
             read_witnesses(&read_text(path, SizeLimit::CASES)?, path)?
@@ -178,14 +188,21 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     // Stored witnesses are of the unit domain, at the epsilons of the sources.
     let is_stored = scene.is_none() && arguments.epsilon.is_none();
     let default = if is_stored { 0 } else { 20_000 };
-    let effort =
-        Effort { evaluations: arguments.evaluations.unwrap_or(default), seed: arguments.seed };
+    let effort = Effort {
+        evaluations: arguments.evaluations.unwrap_or(default),
+        seed: arguments.seed,
+    };
     if let ([entry], Some(gate)) = (&entries[..], &arguments.gate) {
         ensure_gate(entry, gate)?;
     }
     let outputs = arguments.output.pairs(FORMATS)?;
     if let Some(path) = &arguments.certificate {
-        let status = certify(&entries, scalars, (domain, &parts), (path, arguments.output.quiet))?;
+        let status = certify(
+            &entries,
+            scalars,
+            (domain, &parts),
+            (path, arguments.output.quiet),
+        )?;
         let OutputArguments { format, output, .. } = &arguments.output;
         if format.is_empty() && output.is_empty() {
             return Ok(status);
@@ -196,18 +213,34 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     }
     let epsilons = arguments.epsilons(&entries)?;
     let shared = arguments.update.is_some();
-    let job = Job { scene, shapes, domain, parts, effort, epsilons, stored: &stored, shared };
+    let job = Job {
+        scene,
+        shapes,
+        domain,
+        parts,
+        effort,
+        epsilons,
+        stored: &stored,
+        shared,
+    };
     let started = Instant::now();
     let results = job.run_all(&entries, scalars, arguments.output.quiet);
-    let mut result =
-        ProofResult { domain: DomainPart::new(&domain), gates: Vec::new(), kernels: Vec::new() };
+    let mut result = ProofResult {
+        domain: DomainPart::new(&domain),
+        gates: Vec::new(),
+        kernels: Vec::new(),
+    };
     let mut found = Vec::new();
     for part in results {
         if let Some(message) = part.contradiction {
             return Err(Failure::self_check(message));
         }
-        let wanted =
-            |part: &GatePart| arguments.gate.as_deref().is_none_or(|name| name == part.gate);
+        let wanted = |part: &GatePart| {
+            arguments
+                .gate
+                .as_deref()
+                .is_none_or(|name| name == part.gate)
+        };
         result.gates.extend(part.gates.into_iter().filter(wanted));
         result.kernels.extend(part.kernel);
         found.extend(part.witnesses);
@@ -216,12 +249,17 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         }
     }
     if result.gates.is_empty() {
-        return Err(Failure::nothing("no chosen kernel has a program that can be recorded"));
+        return Err(Failure::nothing(
+            "no chosen kernel has a program that can be recorded",
+        ));
     }
     if let Some(path) = &arguments.update {
         let changed = merge(&mut stored, found);
         write_json_lines(path, &stored)?;
-        eprintln!("{path}: {changed} of {} witnesses have changed", stored.len());
+        eprintln!(
+            "{path}: {changed} of {} witnesses have changed",
+            stored.len()
+        );
     }
     if let [entry] = entries[..] {
         for kernel in result.kernels.iter_mut().filter(|kernel| kernel.may_leak) {
@@ -229,7 +267,10 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         }
     }
     let seconds = started.elapsed().as_secs_f64();
-    let context = Context { seconds, threads: engine::threads() };
+    let context = Context {
+        seconds,
+        threads: engine::threads(),
+    };
     let report = Report {
         record: Record::new(result, provenance_of(&context)).sealed(),
         scene: scene.as_ref().map(scene_text),
@@ -245,7 +286,9 @@ fn ensure_gate(entry: &Entry, name: &str) -> Result<(), Failure> {
     let gates = || entry.info.gates.iter().map(|gate| gate.name);
     let list = format!("hairline prove --kernel {}", entry.info.name);
     let found = gates().find(|gate| *gate == name);
-    found.map(|_| ()).ok_or_else(|| unknown("gate", name, gates(), &list))
+    found
+        .map(|_| ())
+        .ok_or_else(|| unknown("gate", name, gates(), &list))
 }
 
 /// Writes the certificate of one kernel in one scalar.
@@ -256,7 +299,9 @@ fn certify(
     (path, quiet): (&str, bool),
 ) -> Result<Status, Failure> {
     let ([entry], [true, false] | [false, true]) = (entries, scalars) else {
-        return Err(Failure::usage("--certificate is of one --kernel in one --scalar"));
+        return Err(Failure::usage(
+            "--certificate is of one --kernel in one --scalar",
+        ));
     };
     let text = match scalars[0] {
         true => certificate_of::<f32>(entry, domains),
@@ -268,10 +313,16 @@ fn certify(
     })?;
     write_result(path, |out| out.write_all(text.as_bytes()))?;
     if !quiet {
-        let bounds = text.lines().filter(|line| line.starts_with("claim ")).count() as u64;
+        let bounds = text
+            .lines()
+            .filter(|line| line.starts_with("claim "))
+            .count() as u64;
         let bounds = number_of(bounds, "bound", "bounds");
         let check = format!("check it: hairline prove --check {}", shell_word(path));
-        eprintln!("{path}: {bounds} of what {} compares; {check}", entry.info.name);
+        eprintln!(
+            "{path}: {bounds} of what {} compares; {check}",
+            entry.info.name
+        );
     }
     Ok(Status::Success)
 }
@@ -285,17 +336,32 @@ fn certificate_of<F: Searched + Scalar>(
     let mut stated = None;
     for quantity in summary.proof.quantities.iter().filter(|q| q.bound.is_ok()) {
         let path = &summary.proof.paths[quantity.path];
-        let Quantity { place, orders, also, .. } = quantity;
+        let Quantity {
+            place,
+            orders,
+            also,
+            ..
+        } = quantity;
         let gate = &entry.info.gates[quantity.gate];
         let symmetry = certificate::symmetry_at(gate, path, *place);
-        let claim = Claim { gate: gate.name, place: *place, symmetry, orders, also };
+        let claim = Claim {
+            gate: gate.name,
+            place: *place,
+            symmetry,
+            orders,
+            also,
+        };
         if stated != Some(quantity.domain) {
             text.push_str(&certificate::domain(&quantity.domain));
             stated = Some(quantity.domain);
         }
         text.push_str(&certificate::program(path, &quantity.lemmas, &claim));
     }
-    if stated.is_none() { Err("no gate has a bound in this domain".to_owned()) } else { Ok(text) }
+    if stated.is_none() {
+        Err("no gate has a bound in this domain".to_owned())
+    } else {
+        Ok(text)
+    }
 }
 
 impl ProveArguments {
@@ -331,7 +397,11 @@ impl ProveArguments {
     fn epsilons(&self, entries: &[&'static Entry]) -> Result<Epsilons, Failure> {
         let Some(text) = &self.epsilon else {
             let one = self.kernel.len() == 1;
-            return Ok(if one { Epsilons::Published } else { Epsilons::None });
+            return Ok(if one {
+                Epsilons::Published
+            } else {
+                Epsilons::None
+            });
         };
         let choice = EpsilonChoice::parse(text)
             .map_err(|error| Failure::usage(format!("--epsilon: {}", error.0)))?;
@@ -350,14 +420,21 @@ impl ProveArguments {
         if let Some(text) = &self.scene {
             let (scene, _) = case::Scene::parse(text).map_err(about_scene)?;
             let scene = Scene::of(&scene).map_err(about_scene)?;
-            let scene = Scene { min_angle: self.min_angle, grazing: self.grazing, ..scene };
-            return Ok((Some(scene), scene.domain().map_or(Vec::new(), |_| scene.shapes())));
+            let scene = Scene {
+                min_angle: self.min_angle,
+                grazing: self.grazing,
+                ..scene
+            };
+            return Ok((
+                Some(scene),
+                scene.domain().map_or(Vec::new(), |_| scene.shapes()),
+            ));
         }
         let Some(edge) = self.edge else {
             return match self.distance {
-                Some(_) => {
-                    Err(Failure::usage("--distance needs --coordinates and --edge, or --mesh"))
-                }
+                Some(_) => Err(Failure::usage(
+                    "--distance needs --coordinates and --edge, or --mesh",
+                )),
                 None => Ok((None, Vec::new())),
             };
         };
@@ -369,7 +446,15 @@ impl ProveArguments {
         let distance = self.distance.unwrap_or(2.0 * coordinates);
         let (min_angle, grazing) = (self.min_angle, self.grazing);
         let (is_of_longest, shape) = (false, None);
-        let scene = Scene { coordinates, edge, is_of_longest, distance, min_angle, grazing, shape };
+        let scene = Scene {
+            coordinates,
+            edge,
+            is_of_longest,
+            distance,
+            min_angle,
+            grazing,
+            shape,
+        };
         let shapes = scene.domain().map_or(Vec::new(), |_| scene.shapes());
         Ok((Some(scene), shapes))
     }

@@ -62,7 +62,11 @@ impl ReportArguments {
             IllustrateChoice::Auto => pairs.iter().any(|(format, _)| format.name == HTML),
             choice => choice == IllustrateChoice::Always,
         };
-        Ok(Outputs { pairs, illustrate, flags: &self.output })
+        Ok(Outputs {
+            pairs,
+            illustrate,
+            flags: &self.output,
+        })
     }
 }
 
@@ -80,8 +84,9 @@ impl Outputs<'_> {
                 Some((write, *path))
             });
             // The first failure is the one to tell.
-            let _ =
-                write_failure(told.collect(), |write, _, out| write(*status as u8, message, out));
+            let _ = write_failure(told.collect(), |write, _, out| {
+                write(*status as u8, message, out)
+            });
         }
         outcome
     }
@@ -90,9 +95,14 @@ impl Outputs<'_> {
     pub fn on_screen(&self) -> Self {
         let tells_failure =
             |format: &Format| ON_FAILURE.iter().any(|(name, _)| *name == format.name);
-        let to_screen =
-            self.pairs.iter().filter(|(format, path)| *path == "-" && !tells_failure(format));
-        Outputs { pairs: to_screen.copied().collect(), ..*self }
+        let to_screen = self
+            .pairs
+            .iter()
+            .filter(|(format, path)| *path == "-" && !tells_failure(format));
+        Outputs {
+            pairs: to_screen.copied().collect(),
+            ..*self
+        }
     }
 
     /// Writes a record to each.
@@ -158,20 +168,29 @@ impl RunArguments {
             Some(matrix) => sources.map(|source| source.placed(matrix)).collect(),
             None => sources.collect(),
         };
-        Ok(Plan { attribute, ..Plan::new(rows, sources, scalars, self.examples) })
+        Ok(Plan {
+            attribute,
+            ..Plan::new(rows, sources, scalars, self.examples)
+        })
     }
 
     /// The flags that choose the cases again.
     fn source_flags(&self) -> String {
         let directions = (self.directions != 8).then(|| self.directions.to_string());
-        let others = [again("--directions", &directions), again("--instance", &self.instance)];
+        let others = [
+            again("--directions", &directions),
+            again("--instance", &self.instance),
+        ];
         [self.sources.flags(), others.concat()].concat().join(" ")
     }
 
     /// Runs a plan and makes its record, illustrated if asked.
     pub fn execute(&self, plan: &Plan, illustrate: bool) -> Result<Record, Failure> {
         total_indices(&plan.sources, plan.scalars)?;
-        let flags = PlanFlags { kernels: self.kernels.flags(), sources: self.source_flags() };
+        let flags = PlanFlags {
+            kernels: self.kernels.flags(),
+            sources: self.source_flags(),
+        };
         let run = Execution {
             plan,
             kernels: &self.kernels,
@@ -199,14 +218,23 @@ pub struct Execution<'a> {
 impl Execution<'_> {
     /// Runs it and makes its record.
     pub fn record(&self) -> Result<Record, Failure> {
-        let Execution { plan, kernels, shard, quiet, .. } = *self;
+        let Execution {
+            plan,
+            kernels,
+            shard,
+            quiet,
+            ..
+        } = *self;
         let threads = rayon::current_num_threads();
         let total = count_indices(&plan.sources, plan.scalars);
         if !quiet {
             note_secondary_rays(&plan.rows, &plan.sources);
             let rows = number_of(plan.rows.len() as u64, "kernel row", "kernel rows");
-            let sources =
-                number_of(plan.sources.len() as u64, "source of cases", "sources of cases");
+            let sources = number_of(
+                plan.sources.len() as u64,
+                "source of cases",
+                "sources of cases",
+            );
             let threads = number_of(threads as u64, "thread", "threads");
             let scalars: Vec<&str> = scalar_names(plan.scalars).collect();
             eprintln!(

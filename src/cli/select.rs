@@ -62,15 +62,20 @@ const NO_BAND: &str =
 impl KernelArguments {
     /// True if others name the same programs, and nothing else.
     pub fn are_named_by(&self, others: &KernelArguments) -> bool {
-        let named =
-            KernelArguments { plugins: others.plugins.clone(), ..KernelArguments::default() };
+        let named = KernelArguments {
+            plugins: others.plugins.clone(),
+            ..KernelArguments::default()
+        };
         named == *others && self.plugins.programs() == others.plugins.programs()
     }
 
     /// True if every program that these start is one that others name.
     pub fn runs_no_more_than(&self, others: &KernelArguments) -> bool {
         let named = others.plugins.programs();
-        self.plugins.programs().iter().all(|program| named.contains(program))
+        self.plugins
+            .programs()
+            .iter()
+            .all(|program| named.contains(program))
     }
 
     /// Goes on after any number of crashes of a user's kernel, unless the flags set a limit.
@@ -86,7 +91,9 @@ impl KernelArguments {
         let (choice, contract) = (self.choice()?, self.contract.as_deref());
         if self.epsilon_preset.is_some() && self.names_kernels() {
             // Each kernel that is named takes the whole preset.
-            entries.iter().try_for_each(|entry| choice.rows(&[*entry], contract).map(drop))?;
+            entries
+                .iter()
+                .try_for_each(|entry| choice.rows(&[*entry], contract).map(drop))?;
         }
         let mut rows = choice.rows(&entries, contract)?;
         if band.is_some() {
@@ -103,14 +110,23 @@ impl KernelArguments {
         let (given, gates): (Vec<&str>, Vec<&str>) = words.partition(least);
         let value = match given[..] {
             [] => return Ok((self.rows_without_band(NO_BAND)?, None)),
-            [word] => word.split_once('=').map(|(_, value)| value.trim().to_owned()),
+            [word] => word
+                .split_once('=')
+                .map(|(_, value)| value.trim().to_owned()),
             _ => None,
         };
-        let wrong =
-            || Failure::usage(format!("--epsilon: write {LEAST_T} once, as {LEAST_T}=1e-3"));
+        let wrong = || {
+            Failure::usage(format!(
+                "--epsilon: write {LEAST_T} once, as {LEAST_T}=1e-3"
+            ))
+        };
         let value = value.ok_or_else(wrong)?;
         let epsilon = (!gates.is_empty()).then(|| gates.join(","));
-        let rows = KernelArguments { epsilon, ..self.clone() }.rows_without_band(NO_BAND)?;
+        let rows = KernelArguments {
+            epsilon,
+            ..self.clone()
+        }
+        .rows_without_band(NO_BAND)?;
         Ok((rows, Some(value)))
     }
 
@@ -121,7 +137,10 @@ impl KernelArguments {
 
     /// The rows for a command to which a band means nothing; an error with the reason if there is one.
     pub fn rows_without_band(&self, why: &str) -> Result<Vec<Row>, Failure> {
-        let in_words = self.contract.as_ref().is_some_and(|words| words.contains("band="));
+        let in_words = self
+            .contract
+            .as_ref()
+            .is_some_and(|words| words.contains("band="));
         match self.band.is_some() || in_words {
             true => Err(Failure::usage(format!("--band: {why}"))),
             false => self.rows(),
@@ -190,9 +209,10 @@ impl KernelArguments {
         let mut all: Vec<&'static Entry> = Vec::new();
         for entry in entries {
             let variants = match has_others(entry) {
-                true => {
-                    arithmetics.iter().filter_map(|a| kernel::in_arithmetic(entry, *a)).collect()
-                }
+                true => arithmetics
+                    .iter()
+                    .filter_map(|a| kernel::in_arithmetic(entry, *a))
+                    .collect(),
                 false => vec![entry],
             };
             for variant in variants {
@@ -211,7 +231,9 @@ impl KernelArguments {
                 name => EpsilonChoice::Preset(name.to_owned()),
             });
         }
-        let Some(text) = &self.epsilon else { return Ok(EpsilonChoice::Source) };
+        let Some(text) = &self.epsilon else {
+            return Ok(EpsilonChoice::Source);
+        };
         EpsilonChoice::parse(text)
             .map_err(|error| Failure::usage(format!("--epsilon: {}", error.0)))
     }

@@ -45,8 +45,19 @@ pub struct SelfcheckArguments {
 
 /// Runs the command: a line a check, then which layer decided how often.
 pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
-    let &SelfcheckArguments { cases, integers, seed, no_lattice, quick, quiet } = arguments;
-    let (cases, integers) = if quick { (100, 200_000) } else { (cases, integers) };
+    let &SelfcheckArguments {
+        cases,
+        integers,
+        seed,
+        no_lattice,
+        quick,
+        quiet,
+    } = arguments;
+    let (cases, integers) = if quick {
+        (100, 200_000)
+    } else {
+        (cases, integers)
+    };
     let no_lattice = no_lattice || quick;
     let lattice_size = if no_lattice { 0 } else { LATTICE_SIZE };
     let sets = 2 * (FAMILIES.len() as u64 + 1) + THRESHOLDS;
@@ -65,14 +76,22 @@ pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
         }
     };
     if !no_lattice {
-        add("all 3^15 lattice cases, integers".to_owned(), &|| lattice(&progress));
+        add("all 3^15 lattice cases, integers".to_owned(), &|| {
+            lattice(&progress)
+        });
     }
     for (reference, held_to, n) in runs.into_iter().filter(|(.., n)| *n != 0) {
         let (p, many) = (&progress, THRESHOLDS * n);
         let set = |name: &str| format!("{name}, {held_to}");
-        add(set("thresholds f64"), &|| thresholds(reference, seed, many, p));
-        add(set("any finite f32"), &|| f32::check_range(reference, seed, n, p));
-        add(set("any finite f64"), &|| f64::check_range(reference, seed, n, p));
+        add(set("thresholds f64"), &|| {
+            thresholds(reference, seed, many, p)
+        });
+        add(set("any finite f32"), &|| {
+            f32::check_range(reference, seed, n, p)
+        });
+        add(set("any finite f64"), &|| {
+            f64::check_range(reference, seed, n, p)
+        });
         for row in FAMILIES {
             let of = |scalar: &str| set(&format!("{} {scalar}", row.name));
             add(of("f32"), &|| f32::check_family(row, reference, seed, n, p));
@@ -90,10 +109,18 @@ pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
 }
 
 fn write(out: &mut dyn Write, results: &[(String, Check)], seconds: f64) -> io::Result<()> {
-    writeln!(out, "{:<36} {:>10} {:>12}", "set, and what it is held to", "cases", "differences")?;
+    writeln!(
+        out,
+        "{:<36} {:>10} {:>12}",
+        "set, and what it is held to", "cases", "differences"
+    )?;
     let (mut layers, mut cases) = (Layers::default(), 0);
     for (name, check) in results {
-        writeln!(out, "{name:<36} {:>10} {:>12}", check.cases, check.differences)?;
+        writeln!(
+            out,
+            "{name:<36} {:>10} {:>12}",
+            check.cases, check.differences
+        )?;
         if let Some((index, message)) = &check.first {
             writeln!(out, "    first at index {index}: {message}")?;
         }
@@ -102,7 +129,11 @@ fn write(out: &mut dyn Write, results: &[(String, Check)], seconds: f64) -> io::
     }
     writeln!(out, "\n{cases} cases in {seconds:.1} s; decided by")?;
     for (name, count) in layers.named() {
-        writeln!(out, "    {name:<16} {count:>10}  {:.2} %", 100.0 * count as f64 / cases as f64)?;
+        writeln!(
+            out,
+            "    {name:<16} {count:>10}  {:.2} %",
+            100.0 * count as f64 / cases as f64
+        )?;
     }
     Ok(())
 }

@@ -71,10 +71,18 @@ const SETTINGS: &[FlagSetting] = &[
     setting("scene", ValueKind::Text, "room"),
     setting("mesh", ValueKind::Files, "model.obj"),
     setting("directions", ValueKind::Text, ""),
-    setting("instance", ValueKind::Text, "0 0 -2 1000  2 0 0 0.5  0 -2 0 -64"),
+    setting(
+        "instance",
+        ValueKind::Text,
+        "0 0 -2 1000  2 0 0 0.5  0 -2 0 -64",
+    ),
     setting("corpus", ValueKind::Files, "cases.jsonl"),
     setting("examples", ValueKind::Text, ""),
-    setting("proved", ValueKind::Demands, "woop-watertight/f32/watertight=true"),
+    setting(
+        "proved",
+        ValueKind::Demands,
+        "woop-watertight/f32/watertight=true",
+    ),
     setting("expectations", ValueKind::File, ""),
 ];
 
@@ -84,11 +92,17 @@ pub fn default_file(check: &clap::Command) -> String {
                     # (HAIRLINE_COUNT for count), which wins over this file. Paths are from this file's folder.\n"
         .to_owned();
     for FlagSetting { key, kind, example } in SETTINGS {
-        let Some(flag) = check.get_arguments().find(|flag| flag.get_long() == Some(key)) else {
+        let Some(flag) = check
+            .get_arguments()
+            .find(|flag| flag.get_long() == Some(key))
+        else {
             continue;
         };
         let about = flag.get_help().map(ToString::to_string).unwrap_or_default();
-        let default = flag.get_default_values().first().map(|value| value.to_string_lossy());
+        let default = flag
+            .get_default_values()
+            .first()
+            .map(|value| value.to_string_lossy());
         let (sign, value) = match (&default, kind) {
             (Some(value), _) => ("", &**value),
             (None, ValueKind::Flag) => ("", "false"),
@@ -97,7 +111,10 @@ pub fn default_file(check: &clap::Command) -> String {
         let quoted = |text: &str| format!("\"{text}\"");
         let value = match kind {
             _ if kind.is_list() => {
-                format!("[{}]", value.split(',').map(quoted).collect::<Vec<_>>().join(", "))
+                format!(
+                    "[{}]",
+                    value.split(',').map(quoted).collect::<Vec<_>>().join(", ")
+                )
             }
             ValueKind::Flag => value.to_owned(),
             _ if value.parse::<u64>().is_ok() && *key != "scale" => value.to_owned(),
@@ -137,7 +154,10 @@ fn variable(key: &str) -> String {
 
 /// A note on each variable whose name begins as those of settings do, and is none.
 pub fn unknown_variables(names: impl Iterator<Item = String>) -> Vec<String> {
-    let known: Vec<String> = SETTINGS.iter().map(|setting| variable(setting.key)).collect();
+    let known: Vec<String> = SETTINGS
+        .iter()
+        .map(|setting| variable(setting.key))
+        .collect();
     let is_unknown = |name: &String| name.starts_with(PREFIX) && !known.contains(name);
     let note = |name: String| {
         // What all names have in common makes none of them nearer.
@@ -161,7 +181,9 @@ pub fn from_environment(get: impl Fn(&str) -> Option<String>) -> Result<Vec<Give
     let mut all = Vec::new();
     for setting in SETTINGS {
         let place = variable(setting.key);
-        let Some(text) = get(&place).filter(|text| !text.is_empty()) else { continue };
+        let Some(text) = get(&place).filter(|text| !text.is_empty()) else {
+            continue;
+        };
         let words = match (setting.kind, text.as_str()) {
             (ValueKind::Flag, "1" | "true") => vec![format!("--{}", setting.key)],
             (ValueKind::Flag, "0" | "false") => Vec::new(),
@@ -172,20 +194,34 @@ pub fn from_environment(get: impl Fn(&str) -> Option<String>) -> Result<Vec<Give
             }
             _ => vec![format!("--{}={text}", setting.key)],
         };
-        all.push(Given { key: setting.key, words, place });
+        all.push(Given {
+            key: setting.key,
+            words,
+            place,
+        });
     }
     Ok(all)
 }
 
 /// The settings of a file's text.
 pub fn from_file(text: &str, file: &str) -> Result<Vec<Given>, Failure> {
-    let line = |at: usize| text.as_bytes()[..at].iter().filter(|b| **b == b'\n').count() + 1;
+    let line = |at: usize| {
+        text.as_bytes()[..at]
+            .iter()
+            .filter(|b| **b == b'\n')
+            .count()
+            + 1
+    };
     let error = |at: usize, message: String| {
         let message = message.replace('\n', "; ");
         Failure::usage(format!("{file}:{}: {message}", line(at)))
     };
-    let table = DeTable::parse(text)
-        .map_err(|e| error(e.span().map_or(0, |span| span.start), e.message().to_owned()))?;
+    let table = DeTable::parse(text).map_err(|e| {
+        error(
+            e.span().map_or(0, |span| span.start),
+            e.message().to_owned(),
+        )
+    })?;
     let folder = Path::new(file).parent().unwrap_or(Path::new(""));
     let mut all = Vec::new();
     for (key, value) in table.get_ref() {
@@ -194,7 +230,11 @@ pub fn from_file(text: &str, file: &str) -> Result<Vec<Given>, Failure> {
             return Err(error(at, unknown_key(name)));
         };
         let words = words(setting, value.get_ref(), folder).map_err(|m| error(at, m))?;
-        all.push(Given { key: setting.key, words, place: format!("{file}:{}", line(at)) });
+        all.push(Given {
+            key: setting.key,
+            words,
+            place: format!("{file}:{}", line(at)),
+        });
     }
     Ok(all)
 }
@@ -204,7 +244,10 @@ fn unknown_key(name: &str) -> String {
     match nearest_name(name, keys()) {
         Some(near) => format!("unknown setting '{name}'; did you mean '{near}'?"),
         None => {
-            format!("unknown setting '{name}'; there are {}", keys().collect::<Vec<_>>().join(", "))
+            format!(
+                "unknown setting '{name}'; there are {}",
+                keys().collect::<Vec<_>>().join(", ")
+            )
         }
     }
 }
@@ -223,21 +266,29 @@ fn words(setting: &FlagSetting, value: &DeValue, folder: &Path) -> Result<Vec<St
     }
     let is_list = setting.kind.is_list();
     let texts = match value {
-        DeValue::Array(items) if is_list => {
-            items.iter().map(|item| scalar_text(item.get_ref())).collect::<Option<Vec<_>>>()
-        }
+        DeValue::Array(items) if is_list => items
+            .iter()
+            .map(|item| scalar_text(item.get_ref()))
+            .collect::<Option<Vec<_>>>(),
         one => scalar_text(one).map(|text| vec![text]),
     };
-    let expected = if is_list { "a string or a list of strings" } else { "a string or a number" };
+    let expected = if is_list {
+        "a string or a list of strings"
+    } else {
+        "a string or a number"
+    };
     let texts = texts.ok_or_else(|| format!("{key}: expected {expected}"))?;
     if texts.is_empty() {
-        return Err(format!("{key}: the list is empty; leave it out for the default"));
+        return Err(format!(
+            "{key}: the list is empty; leave it out for the default"
+        ));
     }
     Ok(match setting.kind {
         ValueKind::Names | ValueKind::Demands => vec![format!("--{key}={}", texts.join(","))],
-        ValueKind::Files | ValueKind::File => {
-            texts.iter().map(|text| format!("--{key}={}", folder.join(text).display())).collect()
-        }
+        ValueKind::Files | ValueKind::File => texts
+            .iter()
+            .map(|text| format!("--{key}={}", folder.join(text).display()))
+            .collect(),
         _ => texts.iter().map(|text| format!("--{key}={text}")).collect(),
     })
 }
@@ -248,9 +299,13 @@ fn demands(kernels: &DeTable) -> Result<Vec<String>, String> {
         || "proved: expected KERNEL.SCALAR.GATE = UNITS or KERNEL.SCALAR.watertight = true";
     let mut all = Vec::new();
     for (kernel, scalars) in kernels {
-        let DeValue::Table(scalars) = scalars.get_ref() else { return Err(expected().to_owned()) };
+        let DeValue::Table(scalars) = scalars.get_ref() else {
+            return Err(expected().to_owned());
+        };
         for (scalar, gates) in scalars {
-            let DeValue::Table(gates) = gates.get_ref() else { return Err(expected().to_owned()) };
+            let DeValue::Table(gates) = gates.get_ref() else {
+                return Err(expected().to_owned());
+            };
             for (gate, value) in gates {
                 let value = match value.get_ref() {
                     DeValue::Boolean(true) => "true".to_owned(),
@@ -261,7 +316,11 @@ fn demands(kernels: &DeTable) -> Result<Vec<String>, String> {
             }
         }
     }
-    if all.is_empty() { Err(expected().to_owned()) } else { Ok(all) }
+    if all.is_empty() {
+        Err(expected().to_owned())
+    } else {
+        Ok(all)
+    }
 }
 
 fn scalar_text(value: &DeValue) -> Option<String> {
@@ -279,13 +338,21 @@ pub fn layered(
     layers: [Vec<Given>; 2],
     on_command_line: impl Fn(&str) -> bool,
 ) -> Result<Vec<Given>, Failure> {
-    let subject = |key: &'static str| if key == "epsilon-preset" { "epsilon" } else { key };
+    let subject = |key: &'static str| {
+        if key == "epsilon-preset" {
+            "epsilon"
+        } else {
+            key
+        }
+    };
     let mut taken: Vec<Given> = Vec::new();
     for layer in layers {
         let above = taken.len();
         for given in layer {
             let key = subject(given.key);
-            let is_above = SETTINGS.iter().any(|s| subject(s.key) == key && on_command_line(s.key));
+            let is_above = SETTINGS
+                .iter()
+                .any(|s| subject(s.key) == key && on_command_line(s.key));
             let other = taken.iter().position(|other| subject(other.key) == key);
             match other {
                 _ if is_above => {}
@@ -323,7 +390,11 @@ mod tests {
         };
         let environment = from_environment(environment).unwrap();
         let taken = layered([environment, file], |key| key == "count").unwrap();
-        let words: Vec<&str> = taken.iter().flat_map(|g| &g.words).map(String::as_str).collect();
+        let words: Vec<&str> = taken
+            .iter()
+            .flat_map(|g| &g.words)
+            .map(String::as_str)
+            .collect();
         assert_eq!(words, ["--epsilon-preset=bvh", "--seed=3", "--scalar=f32"]);
         assert_eq!(taken[2].place, "c/h.toml:4");
     }
@@ -338,8 +409,15 @@ mod tests {
     fn a_command_is_one_word_whatever_is_in_it() {
         let text = "kernel-cmd = [\"node k.mjs --fast\", \"sh -c 'a, b'\"]\nrequire-ieee = true\n";
         let given = from_file(text, "c/h.toml").unwrap();
-        let words: Vec<&str> = given.iter().flat_map(|g| &g.words).map(String::as_str).collect();
-        let commands = ["--kernel-cmd=node k.mjs --fast", "--kernel-cmd=sh -c 'a, b'"];
+        let words: Vec<&str> = given
+            .iter()
+            .flat_map(|g| &g.words)
+            .map(String::as_str)
+            .collect();
+        let commands = [
+            "--kernel-cmd=node k.mjs --fast",
+            "--kernel-cmd=sh -c 'a, b'",
+        ];
         assert_eq!(words, [&commands[..], &["--require-ieee"]].concat());
     }
 
@@ -355,8 +433,14 @@ mod tests {
         ];
         let notes = unknown_variables(names.into_iter().map(str::to_owned));
         assert_eq!(notes.len(), 4);
-        assert!(notes[1].ends_with("; in `check` it is the flag --bless"), "{notes:?}");
-        assert!(notes[2].ends_with("HAIRLINE_CARGO is no setting, and is not used"), "{notes:?}");
+        assert!(
+            notes[1].ends_with("; in `check` it is the flag --bless"),
+            "{notes:?}"
+        );
+        assert!(
+            notes[2].ends_with("HAIRLINE_CARGO is no setting, and is not used"),
+            "{notes:?}"
+        );
         let expected =
             "note: HAIRLINE_CUONT is no setting, and is not used; did you mean HAIRLINE_COUNT?";
         assert_eq!(notes[3], expected);
@@ -365,12 +449,27 @@ mod tests {
     #[test]
     fn what_is_wrong_is_named_with_its_line() {
         for (text, expected) in [
-            ("\nkernal = \"x\"", "h.toml:2: unknown setting 'kernal'; did you mean 'kernel'?"),
-            ("zzzzzzzzzzz = 1", "h.toml:1: unknown setting 'zzzzzzzzzzz'; there are kernel, "),
-            ("count = [1]", "h.toml:1: count: expected a string or a number"),
-            ("kernel = [true]", "h.toml:1: kernel: expected a string or a list of strings"),
+            (
+                "\nkernal = \"x\"",
+                "h.toml:2: unknown setting 'kernal'; did you mean 'kernel'?",
+            ),
+            (
+                "zzzzzzzzzzz = 1",
+                "h.toml:1: unknown setting 'zzzzzzzzzzz'; there are kernel, ",
+            ),
+            (
+                "count = [1]",
+                "h.toml:1: count: expected a string or a number",
+            ),
+            (
+                "kernel = [true]",
+                "h.toml:1: kernel: expected a string or a list of strings",
+            ),
             ("family = []", "h.toml:1: family: the list is empty"),
-            ("exhaustive = 1", "h.toml:1: exhaustive: expected true or false"),
+            (
+                "exhaustive = 1",
+                "h.toml:1: exhaustive: expected true or false",
+            ),
             ("seed = 1\nseed = 2", "h.toml:2: duplicate key"),
             ("seed = ", "h.toml:1: "),
         ] {

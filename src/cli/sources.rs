@@ -125,14 +125,22 @@ impl SourceArguments {
     /// the families and stored cases that are named.
     pub fn studied_rays(&self, quiet: bool) -> Result<StudiedRays, Failure> {
         let is_stratum = |name: &String| Stratum::named(name).is_some();
-        let strata: Vec<String> =
-            self.family.iter().filter(|name| is_stratum(name)).cloned().collect();
-        let studied = StudiedRays { strata, ..StudiedRays::default() };
+        let strata: Vec<String> = self
+            .family
+            .iter()
+            .filter(|name| is_stratum(name))
+            .cloned()
+            .collect();
+        let studied = StudiedRays {
+            strata,
+            ..StudiedRays::default()
+        };
         let other = studied.strata.len() < self.family.len() || !self.corpus.is_empty();
         if other || self.exhaustive || self.changes_cases() {
-            for (flag, is_given) in
-                [("--scene", self.scene.is_some()), ("--mesh", !self.mesh.is_empty())]
-            {
+            for (flag, is_given) in [
+                ("--scene", self.scene.is_some()),
+                ("--mesh", !self.mesh.is_empty()),
+            ] {
                 if is_given {
                     let message = format!(
                         "leave out {flag}, whose rays are studied, or families, --corpus and changes to cases (--scale, \
@@ -142,20 +150,37 @@ impl SourceArguments {
                 }
             }
             let flags = self.case_flags().join(" ");
-            return Ok(StudiedRays { sources: self.sources(quiet)?, flags, ..studied });
+            return Ok(StudiedRays {
+                sources: self.sources(quiet)?,
+                flags,
+                ..studied
+            });
         }
         if !self.mesh.is_empty() {
             let (scene, mesh) = self.mesh_scene(quiet)?;
             self.note_what_is_missed(&scene, Some(&mesh), quiet)?;
-            return Ok(StudiedRays { scene: Some(scene), mesh: Some(mesh), ..studied });
+            return Ok(StudiedRays {
+                scene: Some(scene),
+                mesh: Some(mesh),
+                ..studied
+            });
         }
         let (scene, unit) = self.scene()?.unwrap_or_default();
         if let Some(text) = self.scene.as_deref().filter(|_| !quiet) {
             note_left_out(&scene, text);
         }
         self.note_what_is_missed(&scene, None, quiet)?;
-        let others = if self.names_kind() { Vec::new() } else { scene.of_all_kinds().split_off(1) };
-        Ok(StudiedRays { scene: Some(scene), unit, others, ..studied })
+        let others = if self.names_kind() {
+            Vec::new()
+        } else {
+            scene.of_all_kinds().split_off(1)
+        };
+        Ok(StudiedRays {
+            scene: Some(scene),
+            unit,
+            others,
+            ..studied
+        })
     }
 
     /// True if cases are changed.
@@ -196,7 +221,9 @@ impl SourceArguments {
 
     /// The reason for which one of the scalars is left out.
     pub fn left_out(&self) -> Result<Option<String>, Failure> {
-        Ok(self.held_in(chosen_scalars(&self.scalar)?).and_then(|(_, why)| why))
+        Ok(self
+            .held_in(chosen_scalars(&self.scalar)?)
+            .and_then(|(_, why)| why))
     }
 
     /// The scalars that can hold the scene that the words are of, and why another cannot; none without a scene.
@@ -222,7 +249,9 @@ impl SourceArguments {
         let mut sources = Vec::new();
         let families = self.families()?;
         if self.exhaustive && families.iter().all(|family| family.size.is_none()) {
-            return Err(Failure::usage("--exhaustive: only the family 'lattice' is finite"));
+            return Err(Failure::usage(
+                "--exhaustive: only the family 'lattice' is finite",
+            ));
         }
         for family in families {
             let stock = match self.exhaustive && family.size.is_some() {
@@ -235,7 +264,12 @@ impl SourceArguments {
                 true => Parameters::default(),
                 false => parameters.clone(),
             };
-            sources.push(Source { stock, parameters, seed, count });
+            sources.push(Source {
+                stock,
+                parameters,
+                seed,
+                count,
+            });
         }
         for (i, path) in self.mesh.iter().enumerate() {
             // Reports name a mesh by its file alone.
@@ -246,7 +280,12 @@ impl SourceArguments {
             }
             let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
             let stock = Stock::Mesh(family);
-            sources.push(Source { stock, parameters: parameters.clone(), seed, count });
+            sources.push(Source {
+                stock,
+                parameters: parameters.clone(),
+                seed,
+                count,
+            });
         }
         let mut seen = HashSet::new();
         for path in &self.corpus {
@@ -285,7 +324,11 @@ impl SourceArguments {
 
     /// True if a stratum is named, or none is.
     fn runs(&self, stratum: Stratum) -> bool {
-        let mut named = self.family.iter().filter_map(|name| Stratum::named(name)).peekable();
+        let mut named = self
+            .family
+            .iter()
+            .filter_map(|name| Stratum::named(name))
+            .peekable();
         named.peek().is_none() || named.any(|other| other == stratum)
     }
 
@@ -295,8 +338,13 @@ impl SourceArguments {
         let (scene, mesh) = self.mesh_scene(quiet)?;
         self.note_what_is_missed(&scene, Some(&mesh), quiet)?;
         let scene = scene.to_try_kernels(self.scene.as_deref().unwrap_or_default());
-        let parameters = Parameters { scene: Some(scene), ..Parameters::default() };
-        let strata = Stratum::ALL.into_iter().filter(|stratum| self.runs(*stratum));
+        let parameters = Parameters {
+            scene: Some(scene),
+            ..Parameters::default()
+        };
+        let strata = Stratum::ALL
+            .into_iter()
+            .filter(|stratum| self.runs(*stratum));
         let (seed, count) = self.seed_and_count();
         let source =
             |stratum| Source::of_stratum(stratum, Some(&mesh), parameters.clone(), seed, count);
@@ -314,8 +362,10 @@ impl SourceArguments {
                 _ => vec![find_family(name)?],
             };
             let is_known = |family: &&Family| named.iter().any(|known| known.name == family.name);
-            let new: Vec<&'static Family> =
-                families.into_iter().filter(|family| !is_known(family)).collect();
+            let new: Vec<&'static Family> = families
+                .into_iter()
+                .filter(|family| !is_known(family))
+                .collect();
             named.extend(new);
         }
         let names_others = !self.mesh.is_empty() || !self.corpus.is_empty();
@@ -344,10 +394,14 @@ impl SourceArguments {
 
     /// The scene, which a scalar of the run can hold, and its unit of length.
     fn scene(&self) -> Result<Option<(Scene, &'static str)>, Failure> {
-        let Some(text) = &self.scene else { return Ok(None) };
+        let Some(text) = &self.scene else {
+            return Ok(None);
+        };
         self.refuse_other_cases()?;
         let (scene, unit) = Scene::parse(text).map_err(about_scene)?;
-        scene.held_in(chosen_scalars(&self.scalar)?).map_err(about_scene)?;
+        scene
+            .held_in(chosen_scalars(&self.scalar)?)
+            .map_err(about_scene)?;
         Ok(Some((scene, unit)))
     }
 
@@ -369,7 +423,11 @@ impl SourceArguments {
     }
 
     fn refuse_other_families(&self) -> Result<(), Failure> {
-        match self.family.iter().find(|name| Stratum::named(name).is_none()) {
+        match self
+            .family
+            .iter()
+            .find(|name| Stratum::named(name).is_none())
+        {
             Some(other) => Err(about_scene(format!("'{other}' is no part of a scene"))),
             None => Ok(()),
         }

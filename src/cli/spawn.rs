@@ -63,7 +63,12 @@ pub struct SpawnArguments {
 
     /// Offset schemes, separated by commas, some with a value: normal=1e-3,waechter-binder (see `hairline
     /// list schemes`) [default: all published ones, and two that are made for the scene]
-    #[arg(long, value_delimiter = ',', value_name = "SCHEME", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "SCHEME",
+        allow_hyphen_values = true
+    )]
     scheme: Vec<String>,
 
     /// An offset of your own as a command that answers hit points over its pipes (docs/guide/spawn.md), with a
@@ -72,16 +77,31 @@ pub struct SpawnArguments {
     scheme_cmd: Vec<String>,
 
     /// How hit points are formed: uv (from the vertices and u, v), ray (o + t*d), or both
-    #[arg(long, value_delimiter = ',', value_name = "POINT", default_value = "uv,ray")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "POINT",
+        default_value = "uv,ray"
+    )]
     point: Vec<String>,
 
     /// A wall in front of every triangle, this many of its longest edges away: starts beyond it are counted
-    #[arg(long, value_name = "EDGES", default_value = "0.01", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "EDGES",
+        default_value = "0.01",
+        allow_hyphen_values = true
+    )]
     wall: String,
 
     /// A neighbour on the edge nearest to each hit point, folded up to this angle with the triangle: starts behind
     /// it are counted
-    #[arg(long, value_name = "DEGREES", default_value = "45", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "DEGREES",
+        default_value = "45",
+        allow_hyphen_values = true
+    )]
     fold: String,
 
     /// f32, f64, or f32,f64 [default: f32, or f64 where no kernel runs in f32]
@@ -157,7 +177,11 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
                 count: arguments.count,
             };
             let runs = |name: &&str| in_named_scalar!(*name, F => has::<F>(&schemes));
-            studies.extend(scalars_of(row.entry, scalars).filter(runs).map(|name| (plan, name)));
+            studies.extend(
+                scalars_of(row.entry, scalars)
+                    .filter(runs)
+                    .map(|name| (plan, name)),
+            );
         }
     }
     if studies.is_empty() {
@@ -165,7 +189,10 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         return Err(Failure::nothing(message));
     }
     let passes = if arguments.makes_schemes() { 3 } else { 2 };
-    let kernels: usize = rows.iter().map(|row| scalars_of(row.entry, scalars).count()).sum();
+    let kernels: usize = rows
+        .iter()
+        .map(|row| scalars_of(row.entry, scalars).count())
+        .sum();
     let runs = studies.len() as u64 * passes + kernels as u64 * PASSES_OF_SEGMENTS;
     let total = runs * scenes.len() as u64 * arguments.count;
     let progress = Progress::new(total, "first rays", arguments.output.quiet);
@@ -188,12 +215,21 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         wall,
         fold,
         instance,
-        planes: scenes.iter().map(|scene| scene.kind().to_string()).collect(),
+        planes: scenes
+            .iter()
+            .map(|scene| scene.kind().to_string())
+            .collect(),
         points,
         segments,
     };
-    let context = Context { seconds: progress.seconds(), threads };
-    arguments.output.write(outputs, &Record::new(result, provenance_of(&context)).sealed())?;
+    let context = Context {
+        seconds: progress.seconds(),
+        threads,
+    };
+    arguments.output.write(
+        outputs,
+        &Record::new(result, provenance_of(&context)).sealed(),
+    )?;
     Ok(Status::Success)
 }
 
@@ -208,13 +244,20 @@ fn has<F: Scalar>(schemes: &[Scheme]) -> bool {
 
 /// The number of a flag, above 0 and below a limit; `expected` says so.
 fn number_below(flag: &str, text: &str, limit: f64, expected: &str) -> Result<f64, Failure> {
-    let number = text.trim().parse().ok().filter(|number| 0.0 < *number && *number < limit);
+    let number = text
+        .trim()
+        .parse()
+        .ok()
+        .filter(|number| 0.0 < *number && *number < limit);
     number.ok_or_else(|| Failure::usage(format!("{flag}: '{text}' is not {expected}")))
 }
 
 /// A plan in each of some scenes.
 fn on_each<'a>(scenes: &'a [Scene], plan: &SpawnPlan<'a>) -> Vec<SpawnPlan<'a>> {
-    scenes.iter().map(|scene| SpawnPlan { scene, ..*plan }).collect()
+    scenes
+        .iter()
+        .map(|scene| SpawnPlan { scene, ..*plan })
+        .collect()
 }
 
 impl SpawnArguments {
@@ -232,19 +275,38 @@ impl SpawnArguments {
         let run = |plans: &[SpawnPlan<'_>]| -> Vec<SpawnSums> {
             plans.iter().map(|plan| F::spawn(plan, progress)).collect()
         };
-        let pilots = run(&on_each(scenes, &SpawnPlan { schemes: &schemes, ..*plan }));
+        let pilots = run(&on_each(
+            scenes,
+            &SpawnPlan {
+                schemes: &schemes,
+                ..*plan
+            },
+        ));
         let (given, derived) = (schemes.len(), DerivedPart::of::<F>(plan, &pilots));
         if self.makes_schemes() {
             let made = made_for(&pilots, derived.as_ref().map(|derived| derived.normal));
             let all = made.concat();
-            let tried = SpawnPlan { schemes: &all, with_least: false, ..*plan };
+            let tried = SpawnPlan {
+                schemes: &all,
+                with_least: false,
+                ..*plan
+            };
             let tried = run(&on_each(scenes, &tried));
             schemes.extend(least_without_failure(made, &tried));
         }
         let made: Vec<usize> = (given..schemes.len()).collect();
-        let mut plans = on_each(scenes, &SpawnPlan { schemes: &schemes, seed: self.seed, ..*plan });
+        let mut plans = on_each(
+            scenes,
+            &SpawnPlan {
+                schemes: &schemes,
+                seed: self.seed,
+                ..*plan
+            },
+        );
         // How much a hit point needs is reported of the first kind of plane.
-        plans[1..].iter_mut().for_each(|plan| plan.with_least = false);
+        plans[1..]
+            .iter_mut()
+            .for_each(|plan| plan.with_least = false);
         let sums = run(&plans);
         PointsPart::new::<F>(&plans, [&pilots, &sums], &made, derived, &self.place())
     }
@@ -266,7 +328,14 @@ impl SpawnArguments {
         let mut parts = Vec::new();
         for row in rows {
             let count = self.count;
-            let plan = SegmentPlan { row, scene: &scenes[0], mesh, ends: &[], seed: 0, count };
+            let plan = SegmentPlan {
+                row,
+                scene: &scenes[0],
+                mesh,
+                ends: &[],
+                seed: 0,
+                count,
+            };
             for name in scalars_of(row.entry, scalars) {
                 parts.push(in_named_scalar!(name, F => {
                     SegmentsPart::study::<F>(&plan, scenes, seeds, progress)
@@ -282,16 +351,24 @@ impl SpawnArguments {
     }
 
     fn rows(&self) -> Result<Vec<Row>, Failure> {
-        let rows = self.kernels.rows_without_band("it means nothing for the start of a ray")?;
+        let rows = self
+            .kernels
+            .rows_without_band("it means nothing for the start of a ray")?;
         if self.kernels.names_kernels() || rows.iter().any(|row| !row.entry.is_built_in()) {
             return Ok(rows);
         }
-        Ok(rows.into_iter().filter(|row| row.entry.info.name == DEFAULT_KERNEL).collect())
+        Ok(rows
+            .into_iter()
+            .filter(|row| row.entry.info.name == DEFAULT_KERNEL)
+            .collect())
     }
 
     /// The flags that name the scene or the mesh.
     fn place(&self) -> String {
-        let mesh = self.mesh.as_ref().map(|path| format!("--mesh {} ", shell_word(path)));
+        let mesh = self
+            .mesh
+            .as_ref()
+            .map(|path| format!("--mesh {} ", shell_word(path)));
         let instance = self.instance.as_ref();
         let instance = instance.map(|words| format!(" --instance {}", shell_word(words)));
         let (mesh, instance) = (mesh.unwrap_or_default(), instance.unwrap_or_default());
@@ -346,7 +423,10 @@ impl SpawnArguments {
         if self.scheme.is_empty() {
             return Ok(default_schemes());
         }
-        let of_commands = self.scheme_cmd.iter().filter_map(|command| command.split_once('='));
+        let of_commands = self
+            .scheme_cmd
+            .iter()
+            .filter_map(|command| command.split_once('='));
         let of_commands = of_commands.map(|(name, _)| name.trim().to_owned());
         let more = of_commands.filter(|name| !self.scheme.contains(name));
         let chosen =

@@ -63,13 +63,21 @@ pub fn run(arguments: &TruthArguments) -> Result<Status, Failure> {
                     lines_before += block.lines;
                     cases += block.cases;
                 }
-                Ok(if is_last { BlockBatch::default() } else { read_batch(&mut reader) })
+                Ok(if is_last {
+                    BlockBatch::default()
+                } else {
+                    read_batch(&mut reader)
+                })
             })?;
             before = decided;
         }
         let message = format!("{file}: no cases in it");
         let failure = Failure::nothing(message);
-        if cases > 0 { Ok(()) } else { Err(stop(failure)) }
+        if cases > 0 {
+            Ok(())
+        } else {
+            Err(stop(failure))
+        }
     });
     match bad_input {
         Some(failure) => Err(failure),
@@ -98,11 +106,18 @@ fn read_batch(reader: &mut impl BufRead) -> BlockBatch {
         let mut bytes = Vec::with_capacity(BLOCK as usize + (1 << 12));
         let start = reader.by_ref().take(BLOCK).read_to_end(&mut bytes);
         // The rest of a line, unless it is too long for one.
-        let mut rest = || reader.take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut bytes);
+        let mut rest = || {
+            reader
+                .take(LONGEST_LINE as u64 + 1)
+                .read_until(b'\n', &mut bytes)
+        };
         let failure = start.and_then(|_| rest()).err();
         batch.is_last = bytes.last() != Some(&b'\n') || failure.is_some();
         if failure.is_some() || !bytes.is_empty() {
-            batch.blocks.push(LineBlock { bytes, failure: Failing(failure) });
+            batch.blocks.push(LineBlock {
+                bytes,
+                failure: Failing(failure),
+            });
         }
     }
     batch
@@ -131,7 +146,10 @@ struct Decided {
 fn decide(block: LineBlock, file: &str, exact: bool) -> Decided {
     // A truth is about as long as its case.
     let truths = Vec::with_capacity(block.bytes.len() * 5 / 4);
-    let mut decided = Decided { truths, ..Decided::default() };
+    let mut decided = Decided {
+        truths,
+        ..Decided::default()
+    };
     let reader = block.bytes.chain(BufReader::new(block.failure));
     let mut texts = TextLines::new(reader, file, LONGEST_LINE);
     for text in texts.by_ref() {
@@ -158,7 +176,10 @@ fn decide(block: LineBlock, file: &str, exact: bool) -> Decided {
 
 /// The line that the command prints for a case; an error if its stored truth is another.
 fn line(stored: &StoredCase, exact: bool) -> Result<TruthLine, String> {
-    let is_stored_exactly = stored.truth.as_ref().is_some_and(StoredTruth::has_fractions);
+    let is_stored_exactly = stored
+        .truth
+        .as_ref()
+        .is_some_and(StoredTruth::has_fractions);
     let mut line = stored.truth_line(exact || is_stored_exactly);
     if let Some(truth) = &stored.truth {
         truth.check(&line)?;

@@ -14,7 +14,11 @@ use std::path::Path;
 #[derive(Args)]
 pub struct VectorsArguments {
     /// The folder to write the core set to: JSON by topic, all in one CSV, and their digest
-    #[arg(default_value = "vectors", value_name = "DIR", conflicts_with = "format")]
+    #[arg(
+        default_value = "vectors",
+        value_name = "DIR",
+        conflicts_with = "format"
+    )]
     path: String,
 
     /// Write one file of this format instead
@@ -26,7 +30,13 @@ pub struct VectorsArguments {
     count: Option<u64>,
 
     /// Where that file goes; - is standard output
-    #[arg(short, long, default_value = "-", value_name = "FILE", requires = "format")]
+    #[arg(
+        short,
+        long,
+        default_value = "-",
+        value_name = "FILE",
+        requires = "format"
+    )]
     output: String,
 }
 
@@ -67,18 +77,35 @@ pub fn run(arguments: &VectorsArguments) -> Result<Status, Failure> {
 fn write_core(folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|error| Failure::of_path(folder, &error))?;
     let topics = core();
-    let mut files: Vec<(String, String)> =
-        topics.iter().map(|(topic, tests)| json::topic_file(topic, tests)).collect();
+    let mut files: Vec<(String, String)> = topics
+        .iter()
+        .map(|(topic, tests)| json::topic_file(topic, tests))
+        .collect();
     let digest = digest(&files);
-    let rows: String = topics.iter().flat_map(|(_, tests)| tests).map(csv::rows).collect();
+    let rows: String = topics
+        .iter()
+        .flat_map(|(_, tests)| tests)
+        .map(csv::rows)
+        .collect();
     files.push(("core.csv".to_owned(), format!("{}\n{rows}", csv::HEADER)));
     files.push(("sha256.txt".to_owned(), format!("{digest}\n")));
-    let paths: Vec<String> =
-        files.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
-    let outputs = files.iter().map(|(_, text)| text).zip(paths.iter().map(String::as_str));
-    write_results(outputs.collect(), |text, _, out| out.write_all(text.as_bytes()))?;
+    let paths: Vec<String> = files
+        .iter()
+        .map(|(name, _)| folder.join(name).display().to_string())
+        .collect();
+    let outputs = files
+        .iter()
+        .map(|(_, text)| text)
+        .zip(paths.iter().map(String::as_str));
+    write_results(outputs.collect(), |text, _, out| {
+        out.write_all(text.as_bytes())
+    })?;
     let count: usize = topics.iter().map(|(_, tests)| tests.len()).sum();
-    eprintln!("{}: {count} tests in {} topics, SHA-256 {digest}", folder.display(), topics.len());
+    eprintln!(
+        "{}: {count} tests in {} topics, SHA-256 {digest}",
+        folder.display(),
+        topics.len()
+    );
     Ok(())
 }
 
@@ -90,8 +117,13 @@ fn write_numbered(
 ) -> io::Result<()> {
     for start in (0..count).step_by(CHUNK as usize) {
         let numbers: Vec<u64> = (start..count.min(start + CHUNK)).collect();
-        let parts = engine::map(&numbers, |n| numbered(*n).map(|test| written(format, &test)));
-        parts.iter().flatten().try_for_each(|part| out.write_all(part.as_bytes()))?;
+        let parts = engine::map(&numbers, |n| {
+            numbered(*n).map(|test| written(format, &test))
+        });
+        parts
+            .iter()
+            .flatten()
+            .try_for_each(|part| out.write_all(part.as_bytes()))?;
         progress.set(start);
     }
     Ok(())

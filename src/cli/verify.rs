@@ -56,7 +56,10 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     let profile = arguments.profile.as_ref().map(found).transpose()?;
     let text = read_text(&arguments.file, SizeLimit::RECORD)?;
     let topics = core();
-    let files: Vec<_> = topics.iter().map(|(topic, tests)| topic_file(topic, tests)).collect();
+    let files: Vec<_> = topics
+        .iter()
+        .map(|(topic, tests)| topic_file(topic, tests))
+        .collect();
     let read = Results::parse(&text, &digest(&files));
     let results = read.map_err(|(line, message)| InputError {
         line,
@@ -68,7 +71,9 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     // None where the product was not asked.
     let mut answers: HashMap<&str, (Option<GivenAnswer>, &str)> = HashMap::new();
     for (id, value) in &results.answers {
-        let answer = (*value != NOT_ASKED).then(|| GivenAnswer::parse(value)).transpose();
+        let answer = (*value != NOT_ASKED)
+            .then(|| GivenAnswer::parse(value))
+            .transpose();
         let answer = answer.map_err(|message| error(value, format!("{id}: {message}")))?;
         if answers.insert(id, (answer, value)).is_some() {
             return Err(error(value, format!("a second result of '{id}'")).into());
@@ -83,10 +88,16 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
         };
         let right = is_right(demanded, answered).filter(|_| fits);
         let right = right.ok_or_else(|| wrong(expected(test)))?;
-        let wrong_values = answer.wrong_values(test).map_err(|message| wrong(&message))?;
+        let wrong_values = answer
+            .wrong_values(test)
+            .map_err(|message| wrong(&message))?;
         let wrong_values = wrong_values.filter(|_| right);
         let right = right && wrong_values.is_none();
-        Ok::<_, InputError>(JudgedAnswer { answered, right, wrong_values })
+        Ok::<_, InputError>(JudgedAnswer {
+            answered,
+            right,
+            wrong_values,
+        })
     };
     let mut judged = Vec::new();
     for (topic, tests) in &topics {
@@ -99,23 +110,39 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
                     TestAnswer::Given(judge(test, demanded, (answer, value))?)
                 }
             };
-            judged.push(JudgedTest { topic: topic.name, test, demanded, answer });
+            judged.push(JudgedTest {
+                topic: topic.name,
+                test,
+                demanded,
+                answer,
+            });
         }
     }
     if let Some((id, (_, value))) = answers.iter().min_by_key(|(_, (_, value))| value.as_ptr()) {
         let message = format!("no test of these vectors has the id {}", json::quoted(id));
         return Err(error(value, message).into());
     }
-    let Results { product, vectors, .. } = &results;
+    let Results {
+        product, vectors, ..
+    } = &results;
     let result = VerifyResult::new([product, vectors], profile.as_ref(), &judged);
     let wrong = result.total.wrong;
     if result.total.answered() == 0 {
         let message = "it answers no test: all results are missing or \"not asked\"";
         return Err(Failure::nothing(format!("{}: {message}", arguments.file)));
     }
-    let provenance = provenance_of(&Context { seconds: 0.0, threads: 1 });
-    arguments.output.write(outputs, &Record::new(result, provenance).sealed())?;
-    Ok(if 0 < wrong { Status::Disagreements } else { Status::Success })
+    let provenance = provenance_of(&Context {
+        seconds: 0.0,
+        threads: 1,
+    });
+    arguments
+        .output
+        .write(outputs, &Record::new(result, provenance).sealed())?;
+    Ok(if 0 < wrong {
+        Status::Disagreements
+    } else {
+        Status::Success
+    })
 }
 
 /// The expected form of the answer to a test.
@@ -129,7 +156,11 @@ fn expected(test: &VectorTest) -> &'static str {
 /// The line of a part of a text, counted from 1.
 fn line_of(text: &str, part: &str) -> usize {
     let offset = part.as_ptr() as usize - text.as_ptr() as usize;
-    text.as_bytes()[..offset].iter().filter(|byte| **byte == b'\n').count() + 1
+    text.as_bytes()[..offset]
+        .iter()
+        .filter(|byte| **byte == b'\n')
+        .count()
+        + 1
 }
 
 /// A results file.
@@ -163,6 +194,10 @@ impl<'a> Results<'a> {
         }
         let answers = json::pairs(required("results")?);
         let answers = answers.map_err(|message| at("results", message))?;
-        Ok(Results { vectors, product, answers })
+        Ok(Results {
+            vectors,
+            product,
+            answers,
+        })
     }
 }

@@ -71,7 +71,9 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), Error> {
 /// Held while expectations are read and written, so that of two programs that bless at once the second reads what
 /// the first wrote; released when dropped. None where a folder cannot be locked, as on Windows.
 pub(crate) fn locked(file: &str) -> Option<File> {
-    let folder = Path::new(file).parent().filter(|folder| *folder != Path::new(""));
+    let folder = Path::new(file)
+        .parent()
+        .filter(|folder| *folder != Path::new(""));
     let folder = File::open(folder.unwrap_or(Path::new("."))).ok()?;
     folder.lock().ok().map(|()| folder)
 }

@@ -12,8 +12,15 @@ use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
 /// The kinds of finding that may be allowed.
-pub(super) const ALLOWED: [&str; 7] =
-    ["false-miss", "false-hit", "bad-value", "wrong-value", "crack", "double", "odd-fold"];
+pub(super) const ALLOWED: [&str; 7] = [
+    "false-miss",
+    "false-hit",
+    "bad-value",
+    "wrong-value",
+    "crack",
+    "double",
+    "odd-fold",
+];
 
 /// The outcome of an audit.
 #[derive(Clone, Debug)]
@@ -26,7 +33,11 @@ pub struct Outcome {
 impl Outcome {
     /// Each class of finding that occurred, by scalar, family and epsilons.
     pub fn findings(&self) -> impl Iterator<Item = &FindingPart> {
-        self.record.result.results.iter().flat_map(|result| &result.findings)
+        self.record
+            .result
+            .results
+            .iter()
+            .flat_map(|result| &result.findings)
     }
 
     /// True if the kernel kept its contract on every case, and what it promises across triangles, but for
@@ -36,18 +47,29 @@ impl Outcome {
         if let Some(conformance) = &self.record.conformance {
             return conformance.verdict == ComparisonVerdict::Conforms;
         }
-        disagreements(&self.record.result).iter().all(|found| self.is_allowed(&found.key))
+        disagreements(&self.record.result)
+            .iter()
+            .all(|found| self.is_allowed(&found.key))
     }
 
     /// True if a kind of finding is rare enough in its family and scalar.
     fn is_allowed(&self, key: &Key) -> bool {
-        let part = self.record.result.results.iter().find(|part| part.place() == key.place());
+        let part = self
+            .record
+            .result
+            .results
+            .iter()
+            .find(|part| part.place() == key.place());
         // A kernel that promises nothing across triangles breaks no promise; expectations count its cracks.
-        let promised = part.and_then(|part| part.across.as_ref()).map(|across| across.promised);
+        let promised = part
+            .and_then(|part| part.across.as_ref())
+            .map(|across| across.promised);
         if key.finding == FindingKind::Crack && promised == Some(Promised::Nothing) {
             return true;
         }
-        let Some(most) = self.allowed.get(key.finding.name()) else { return false };
+        let Some(most) = self.allowed.get(key.finding.name()) else {
+            return false;
+        };
         let rate = part.map(|part| rate_of(part, ALL_CLASSES, key.finding));
         rate.is_some_and(|rate| rate.count as f64 <= most * rate.of as f64)
     }
@@ -81,10 +103,18 @@ impl fmt::Display for Outcome {
         }
         // What single cases do not show: polygons, and what is promised across triangles.
         let across = disagreements(&self.record.result);
-        for found in
-            across.iter().filter(|found| !found.is_of_cases() && !self.is_allowed(&found.key))
+        for found in across
+            .iter()
+            .filter(|found| !found.is_of_cases() && !self.is_allowed(&found.key))
         {
-            let Key { kernel, set, scalar, family, class, finding } = &found.key;
+            let Key {
+                kernel,
+                set,
+                scalar,
+                family,
+                class,
+                finding,
+            } = &found.key;
             let Rate { count, of, .. } = found.rate;
             let share = interval_of(found.rate);
             let mut text = format!(
@@ -97,12 +127,23 @@ impl fmt::Display for Outcome {
         }
         for row in &self.record.result.plan.rows {
             let breaks = if parts.is_empty() { "keeps" } else { "breaks" };
-            writeln!(f, "{} ({}) {breaks} its contract: {}", row.kernel, row.set, row.contract)?;
+            writeln!(
+                f,
+                "{} ({}) {breaks} its contract: {}",
+                row.kernel, row.set, row.contract
+            )?;
         }
         for (finding, share) in &self.allowed {
-            writeln!(f, "allowed: {finding} in up to {} of each family", percent(*share))?;
+            writeln!(
+                f,
+                "allowed: {finding} in up to {} of each family",
+                percent(*share)
+            )?;
         }
-        parts.iter().take(SHOWN).try_for_each(|part| f.write_str(part))?;
+        parts
+            .iter()
+            .take(SHOWN)
+            .try_for_each(|part| f.write_str(part))?;
         match parts.len().saturating_sub(SHOWN) {
             0 => Ok(()),
             more => writeln!(f, "and {more} more classes of findings"),
@@ -114,7 +155,10 @@ impl fmt::Display for Outcome {
 fn describe(at: &str, kernel: &str, part: &FindingPart) -> Result<String, fmt::Error> {
     let Rate { count, of, .. } = part.rate;
     let share = interval_of(&part.rate);
-    let mut text = format!("{at}: {} {}: {count} of {of}{share}\n", part.finding, part.class);
+    let mut text = format!(
+        "{at}: {} {}: {count} of {of}{share}\n",
+        part.finding, part.class
+    );
     for example in &part.first {
         write_case(kernel, example, &mut text)?;
     }
@@ -134,14 +178,25 @@ fn beside_expectations(conformance: &Conformance, f: &mut fmt::Formatter<'_>) ->
     let unexpected = conformance.unexpected.iter().map(|found| ("", found));
     let stale = conformance.stale.iter().map(|found| ("stale: ", found));
     for (what, found) in unexpected.chain(stale).take(SHOWN) {
-        let line = found.line.map_or(String::new(), |line| format!("{file}:{line}: "));
+        let line = found
+            .line
+            .map_or(String::new(), |line| format!("{file}:{line}: "));
         writeln!(f, "{line}{what}{}", found.describe())?;
         if let Some(why) = &found.why {
             writeln!(f, "    {why}")?;
         }
         if let (Some(case), Some(command)) = (found.case.clone(), found.command.clone()) {
             let bits = found.bits.clone().unwrap_or_default();
-            write_case(&found.kernel, &Example { case, bits, severity: None, command }, f)?;
+            write_case(
+                &found.kernel,
+                &Example {
+                    case,
+                    bits,
+                    severity: None,
+                    command,
+                },
+                f,
+            )?;
         }
     }
     let more = (conformance.unexpected.len() + conformance.stale.len()).saturating_sub(SHOWN);
@@ -162,7 +217,9 @@ fn write_case(kernel: &str, example: &Example, text: &mut impl Write) -> fmt::Re
     let case = literal(bits, is_elsewhere);
     let bits =
         Some(bits.to_owned()).filter(|bits| !(bits.is_empty() || is_elsewhere && case.is_some()));
-    case.into_iter().chain(bits).try_for_each(|line| writeln!(text, "        {line}"))
+    case.into_iter()
+        .chain(bits)
+        .try_for_each(|line| writeln!(text, "        {line}"))
 }
 
 /// The command that shows an example; a kernel of one's own is known to its own tests only.

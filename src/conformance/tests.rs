@@ -17,47 +17,83 @@ fn an_entry_is_kept_once_however_often_it_is_audited() {
     assert_ne!(kept(&always), kept(&never));
     let hits = |entry: &Entry| {
         let outcome = audit(entry).families(["behind"]).count(20).run().unwrap();
-        outcome.findings().any(|finding| finding.finding == FindingKind::FalseHit)
+        outcome
+            .findings()
+            .any(|finding| finding.finding == FindingKind::FalseHit)
     };
     assert_eq!([hits(&always), hits(&never)], [true, false]);
 }
 
 #[test]
 fn what_is_allowed_passes_up_to_its_share_and_no_further() {
-    let kernel = KERNELS.iter().find(|entry| entry.info.name == "moller-trumbore").unwrap();
+    let kernel = KERNELS
+        .iter()
+        .find(|entry| entry.info.name == "moller-trumbore")
+        .unwrap();
     let request = audit(kernel).families(["edge-near"]).count(500);
     let outcome = request.run().unwrap();
     assert!(!outcome.conforms());
     let results = &outcome.record.result.results;
     let most = |rate: fn(&crate::report::Counts) -> f64| {
-        results.iter().map(|result| rate(&result.total)).fold(0.0, f64::max)
+        results
+            .iter()
+            .map(|result| rate(&result.total))
+            .fold(0.0, f64::max)
     };
     let share = |rate: &crate::report::Rate| rate.count as f64 / rate.of as f64;
-    let [misses, hits] =
-        [most(|c| c.false_misses.rate.unwrap()), most(|c| c.false_hits.rate.unwrap())];
-    assert_eq!(misses, results.iter().map(|r| share(&r.total.false_misses)).fold(0.0, f64::max));
+    let [misses, hits] = [
+        most(|c| c.false_misses.rate.unwrap()),
+        most(|c| c.false_hits.rate.unwrap()),
+    ];
+    assert_eq!(
+        misses,
+        results
+            .iter()
+            .map(|r| share(&r.total.false_misses))
+            .fold(0.0, f64::max)
+    );
     let both = |misses: f64, hits: f64| {
-        let request = request.clone().allow("false-miss", misses).allow("false-hit", hits);
+        let request = request
+            .clone()
+            .allow("false-miss", misses)
+            .allow("false-hit", hits);
         request.run().unwrap()
     };
     let more = |share: f64| share * (1.0 + 1e-12);
     assert!(both(more(misses), more(hits)).conforms());
     let outcome = both(misses * 0.99, more(hits));
     let text = outcome.to_string();
-    assert!(!outcome.conforms() && !text.contains("(source): false-hit"), "{text}");
+    assert!(
+        !outcome.conforms() && !text.contains("(source): false-hit"),
+        "{text}"
+    );
     assert!(text.contains("allowed: false-miss in up to"), "{text}");
-    assert!(text.contains("::new([") && text.contains(" --kernel moller-trumbore"), "{text}");
+    assert!(
+        text.contains("::new([") && text.contains(" --kernel moller-trumbore"),
+        "{text}"
+    );
 }
 
 #[test]
 fn all_kinds_of_a_scene_causes_and_a_case_are_there_for_the_asking() {
-    let kernel = KERNELS.iter().find(|entry| entry.info.name == "moller-trumbore").unwrap();
-    let request = audit(kernel).scene("room").families(["scene-edges"]).count(50);
+    let kernel = KERNELS
+        .iter()
+        .find(|entry| entry.info.name == "moller-trumbore")
+        .unwrap();
+    let request = audit(kernel)
+        .scene("room")
+        .families(["scene-edges"])
+        .count(50);
     let sources = |request: &Request| request.run().unwrap().record.result.plan.sources.len();
     assert_eq!(sources(&request), 1);
     assert!(5 < sources(&request.clone().all_kinds()));
     let with_causes = |request: &Request| {
-        request.run().unwrap().findings().filter(|finding| finding.causes.is_some()).count()
+        request
+            .run()
+            .unwrap()
+            .findings()
+            .filter(|finding| finding.causes.is_some())
+            .count()
     };
     let request = audit(kernel).families(["edge-near"]).count(100);
     assert_eq!(with_causes(&request), 0);
@@ -70,7 +106,10 @@ fn all_kinds_of_a_scene_causes_and_a_case_are_there_for_the_asking() {
 
 #[test]
 fn a_promise_a_band_and_a_scene_change_what_is_asked() {
-    let kernel = KERNELS.iter().find(|entry| entry.info.name == "moller-trumbore").unwrap();
+    let kernel = KERNELS
+        .iter()
+        .find(|entry| entry.info.name == "moller-trumbore")
+        .unwrap();
     let scene = |request: Request| request.scene("room").families(["scene-edges"]).count(500);
     let findings = |request: &Request| -> Vec<FindingKind> {
         let outcome = request.run().unwrap();
@@ -90,19 +129,36 @@ fn a_promise_a_band_and_a_scene_change_what_is_asked() {
     }
     // As the guide has it: a test without a crack passes whatever single triangles say.
     let crackless = |name: &str| {
-        let entry = KERNELS.iter().find(|entry| entry.info.name == name).unwrap();
-        let request = scene(audit(entry)).promise(Across::AtLeastOne).allow("crack", 1e-3);
+        let entry = KERNELS
+            .iter()
+            .find(|entry| entry.info.name == name)
+            .unwrap();
+        let request = scene(audit(entry))
+            .promise(Across::AtLeastOne)
+            .allow("crack", 1e-3);
         request.run().unwrap().conforms()
     };
-    assert_eq!(["woop-watertight", "moller-trumbore"].map(crackless), [true, false]);
+    assert_eq!(
+        ["woop-watertight", "moller-trumbore"].map(crackless),
+        [true, false]
+    );
     // At an edge everything is within a hundredth of a triangle's size.
     assert_eq!(findings(&plain.clone().band("0.01")), []);
     for (request, part) in [
         (plain.clone().band("wide"), "band: "),
         (plain.clone().scene("castle"), "scene: "),
-        (plain.clone().families(["edge-near"]), "unknown family 'edge-near'"),
-        (plain.clone().allow("crash", 0.1), "expected one of false-miss"),
-        (plain.clone().allow("crack", f64::NAN), "a share from 0 to 1"),
+        (
+            plain.clone().families(["edge-near"]),
+            "unknown family 'edge-near'",
+        ),
+        (
+            plain.clone().allow("crash", 0.1),
+            "expected one of false-miss",
+        ),
+        (
+            plain.clone().allow("crack", f64::NAN),
+            "a share from 0 to 1",
+        ),
     ] {
         let error = request.run().unwrap_err().to_string();
         assert!(error.contains(part), "{part}: {error}");

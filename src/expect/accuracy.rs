@@ -37,12 +37,18 @@ pub(super) fn accuracy_changes(
 ) -> Vec<OtherValue> {
     let mut changes = Vec::new();
     for before in &old.totals {
-        let Some(now) = new.totals.iter().find(|now| is_same_row(before, now)) else { continue };
+        let Some(now) = new.totals.iter().find(|now| is_same_row(before, now)) else {
+            continue;
+        };
         for (value, name) in VALUES {
             let errors = before.accuracy.get(value).zip(now.accuracy.get(value));
             let Some((old, new)) = errors else { continue };
             let is_same_sample = same_cases && are_alike(old.count, new.count);
-            let factor = if is_same_sample { SAME_CASES } else { OTHER_CASES };
+            let factor = if is_same_sample {
+                SAME_CASES
+            } else {
+                OTHER_CASES
+            };
             for (share, quantile) in QUANTILES {
                 let [old, new] = [quantile(old), quantile(new)];
                 changes.extend(trend(old, new, factor).map(|trend| OtherValue {
@@ -81,13 +87,21 @@ fn are_alike(one: u64, other: u64) -> bool {
 pub(super) fn errors_of(result: &ResultPart) -> LockedErrors {
     let of_row = |row: &RowTotal| {
         let key = |value: &String| {
-            [row.kernel.clone(), row.set.clone(), row.scalar.clone(), value.clone()]
+            [
+                row.kernel.clone(),
+                row.set.clone(),
+                row.scalar.clone(),
+                value.clone(),
+            ]
         };
         let errors = |errors: &Distribution| HitErrors {
             hits: errors.count,
             quantiles: QUANTILES.map(|(_, quantile)| quantile(errors)),
         };
-        let all = row.accuracy.iter().map(|(value, of)| (key(value), errors(of)));
+        let all = row
+            .accuracy
+            .iter()
+            .map(|(value, of)| (key(value), errors(of)));
         all.collect::<Vec<_>>()
     };
     result.totals.iter().flat_map(of_row).collect()
@@ -97,21 +111,28 @@ pub(super) fn errors_of(result: &ResultPart) -> LockedErrors {
 pub(super) fn error_changes(result: &ResultPart, known: &LockedTarget) -> Vec<ErrorChange> {
     let mut changes = Vec::new();
     for (key, now) in errors_of(result) {
-        let before = known.errors.get(&key).filter(|it| are_alike(it.hits, now.hits));
-        let Some(before) = before.map(|it| it.quantiles) else { continue };
+        let before = known
+            .errors
+            .get(&key)
+            .filter(|it| are_alike(it.hits, now.hits));
+        let Some(before) = before.map(|it| it.quantiles) else {
+            continue;
+        };
         let now = now.quantiles;
         let [kernel, set, scalar, value] = &key;
         let named = VALUES.iter().find(|(word, _)| word == value);
         let name = named.map_or(value.as_str(), |(_, name)| *name);
         for (i, (share, _)) in QUANTILES.iter().enumerate() {
-            changes.extend(trend(before[i], now[i], SAME_CASES).map(|trend| ErrorChange {
-                what: format!(
-                    "{kernel} ({set}) {scalar}: {share} of the right hits have a {name} within"
-                ),
-                before: ulps(before[i]),
-                now: ulps(now[i]),
-                is_worse: trend == Trend::Worse,
-            }));
+            changes.extend(
+                trend(before[i], now[i], SAME_CASES).map(|trend| ErrorChange {
+                    what: format!(
+                        "{kernel} ({set}) {scalar}: {share} of the right hits have a {name} within"
+                    ),
+                    before: ulps(before[i]),
+                    now: ulps(now[i]),
+                    is_worse: trend == Trend::Worse,
+                }),
+            );
         }
     }
     changes

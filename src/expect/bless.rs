@@ -43,14 +43,26 @@ pub fn bless(
     for target in kept.values_mut() {
         let is_planned =
             |kernel: &String, set: &String| now.rows.contains_key(&[kernel.clone(), set.clone()]);
-        target.rows.retain(|[kernel, set], _| is_planned(kernel, set));
-        target.errors.retain(|[kernel, set, ..], _| is_planned(kernel, set));
-        target.cases.retain(|key, _| old.entries.contains_key(&key.of_all_classes()));
+        target
+            .rows
+            .retain(|[kernel, set], _| is_planned(kernel, set));
+        target
+            .errors
+            .retain(|[kernel, set, ..], _| is_planned(kernel, set));
+        target
+            .cases
+            .retain(|key, _| old.entries.contains_key(&key.of_all_classes()));
     }
-    let mut lock = Lock { cases: cases_of_plan, targets: kept };
+    let mut lock = Lock {
+        cases: cases_of_plan,
+        targets: kept,
+    };
     lock.targets.insert(target.clone(), now);
     let dropped = dropped.into_keys().filter(|name| name != target).collect();
-    Ok(([reviewed(&lock, record, old, compared), lock.to_string()], dropped))
+    Ok((
+        [reviewed(&lock, record, old, compared), lock.to_string()],
+        dropped,
+    ))
 }
 
 /// Families, each with its amount, the larger count first.
@@ -68,28 +80,46 @@ fn reviewed(lock: &Lock, record: &Record, old: &Expectations, compared: &Conform
         lock.cases
     );
     let flags = record.provenance.plan_flags.as_ref();
-    if let Some(sources) = flags.map(|flags| &flags.sources).filter(|flags| !flags.is_empty()) {
+    if let Some(sources) = flags
+        .map(|flags| &flags.sources)
+        .filter(|flags| !flags.is_empty())
+    {
         let _ = writeln!(text, "sources = {}", quoted(sources));
     }
     if let Some(scene) = scene_of(&record.result.plan) {
         let _ = writeln!(text, "scene = {}", quoted(&scene));
     }
-    let exceeded: BTreeSet<Key> = compared.unexpected.iter().map(|found| found.key()).collect();
+    let exceeded: BTreeSet<Key> = compared
+        .unexpected
+        .iter()
+        .map(|found| found.key())
+        .collect();
     let mut most = lock.most();
     let stale: BTreeSet<Key> = compared.stale.iter().map(|found| found.key()).collect();
     // A bound of what did not occur holds, too.
     let is_bound = |entry: &super::ExpectedEntry| matches!(entry.amount, Amount::Rate(_));
-    let bounds = old.entries.iter().filter(|(key, entry)| is_bound(entry) && !stale.contains(key));
+    let bounds = old
+        .entries
+        .iter()
+        .filter(|(key, entry)| is_bound(entry) && !stale.contains(key));
     bounds.for_each(|(key, _)| {
         most.entry(key.clone()).or_insert(0);
     });
-    let rows: BTreeSet<(&str, &str)> =
-        most.keys().map(|key| (key.kernel.as_str(), key.set.as_str())).collect();
+    let rows: BTreeSet<(&str, &str)> = most
+        .keys()
+        .map(|key| (key.kernel.as_str(), key.set.as_str()))
+        .collect();
     for row in rows {
         let (kernel, set) = (quoted(row.0), quoted(row.1));
-        let _ = write!(text, "\n[[known]]\nkernel = {kernel}\nset = {set}\nfindings = [\n");
+        let _ = write!(
+            text,
+            "\n[[known]]\nkernel = {kernel}\nset = {set}\nfindings = [\n"
+        );
         let mut lines: BTreeMap<[Option<&str>; 4], [Amounts; 2]> = BTreeMap::new();
-        for (key, count) in most.iter().filter(|(key, _)| (&*key.kernel, &*key.set) == row) {
+        for (key, count) in most
+            .iter()
+            .filter(|(key, _)| (&*key.kernel, &*key.set) == row)
+        {
             let old = old.entries.get(key);
             let why = old.and_then(|old| old.why.as_deref());
             let url = old.and_then(|old| old.url.as_deref());
@@ -111,7 +141,9 @@ fn reviewed(lock: &Lock, record: &Record, old: &Expectations, compared: &Conform
                 (!each.is_empty()).then(|| format!("{{ {} }}", each.join(", ")))
             });
             let names = ["scalar", "finding", "counts", "rates", "why", "url"];
-            let parts = names.into_iter().zip([scalar, finding, counts, rates, why, url]);
+            let parts = names
+                .into_iter()
+                .zip([scalar, finding, counts, rates, why, url]);
             let parts = parts.filter_map(|(name, value)| Some(format!("{name} = {}", value?)));
             let _ = writeln!(text, "  {{ {} }},", parts.collect::<Vec<_>>().join(", "));
         }
@@ -123,7 +155,11 @@ fn reviewed(lock: &Lock, record: &Record, old: &Expectations, compared: &Conform
 /// A TOML key.
 fn named(key: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
-    if !key.is_empty() && key.chars().all(is_bare) { key.to_owned() } else { quoted(key) }
+    if !key.is_empty() && key.chars().all(is_bare) {
+        key.to_owned()
+    } else {
+        quoted(key)
+    }
 }
 
 /// A TOML string.
@@ -145,10 +181,22 @@ mod tests {
 
     #[test]
     fn what_is_written_is_what_toml_reads() {
-        for text in ["plain", "", "a-b_c", "two words", "\"", "\\", "a\tb\n\u{1}\u{7f}", "ä:€"] {
+        for text in [
+            "plain",
+            "",
+            "a-b_c",
+            "two words",
+            "\"",
+            "\\",
+            "a\tb\n\u{1}\u{7f}",
+            "ä:€",
+        ] {
             let line = format!("{} = {}", named(text), quoted(text));
             let table: toml::Table = line.parse().unwrap();
-            assert_eq!(table.into_iter().collect::<Vec<_>>(), [(text.to_owned(), text.into())]);
+            assert_eq!(
+                table.into_iter().collect::<Vec<_>>(),
+                [(text.to_owned(), text.into())]
+            );
         }
     }
 }

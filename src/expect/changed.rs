@@ -50,7 +50,10 @@ pub fn changed_case(
         return None;
     }
     let is_source = |scalar: &str, family: &str| scalar == key.scalar && family == key.family;
-    let source = result.sources.iter().find(|source| is_source(&source.scalar, &source.family))?;
+    let source = result
+        .sources
+        .iter()
+        .find(|source| is_source(&source.scalar, &source.family))?;
     let place = has.beyond(&has_not, source.indices).min()?;
     let mut id: CaseId = example.case.parse().ok()?;
     // Of a family of single cases another triangle is none: several places were taken for one.
@@ -59,10 +62,17 @@ pub fn changed_case(
     }
     (id.index, id.triangle) = (place.index, id.triangle.map(|_| place.triangle as usize));
     let case = id.to_string();
-    let Parameters { mesh, scene, instance, .. } = &id.parameters;
+    let Parameters {
+        mesh,
+        scene,
+        instance,
+        ..
+    } = &id.parameters;
     let is_plain = mesh.is_none() && scene.is_none() && instance.is_none();
     let is_of_cases = !example.bits.is_empty() && is_plain;
-    let bits = is_of_cases.then(|| in_named_scalar!(id.scalar, F => bits::<F>(&id))).flatten();
+    let bits = is_of_cases
+        .then(|| in_named_scalar!(id.scalar, F => bits::<F>(&id)))
+        .flatten();
     Some(Example {
         command: example.command.replace(&example.case, &case),
         bits: bits.unwrap_or_default(),

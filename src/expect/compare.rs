@@ -31,19 +31,28 @@ pub fn compare(
     let same_plan = result.plan.hash_of_cases() == expectations.cases;
     let known = KnownDisagreements::of(expectations, same_plan, target, file.unwrap_or_default());
     let all = known.found(result);
-    let method = if same_plan { Method::CaseByCase } else { Method::Intervals };
+    let method = if same_plan {
+        Method::CaseByCase
+    } else {
+        Method::Intervals
+    };
     let entries = &known.entries;
     let found: BTreeMap<&Key, &FoundDisagreement> =
         all.iter().map(|found| (&found.key, found)).collect();
     let keys: BTreeSet<&Key> = entries.keys().chain(found.keys().copied()).collect();
-    let judge = ClassJudge { method, tail: tail(keys.len()) };
+    let judge = ClassJudge {
+        method,
+        tail: tail(keys.len()),
+    };
     let results = result.by_place();
     let mut conformance = Conformance {
         method,
         is_by_family: same_plan && known.target.is_none(),
         expectations: file.map(str::to_owned),
         note: known.note.clone(),
-        rows: known.target.map_or(Vec::new(), |target| changed_rows(&result.plan, target)),
+        rows: known
+            .target
+            .map_or(Vec::new(), |target| changed_rows(&result.plan, target)),
         ..Conformance::default()
     };
     for key in keys {
@@ -105,7 +114,9 @@ pub fn compare(
             }
         }
     }
-    conformance.unexpected.sort_by_key(|found| Reverse(harm(found)));
+    conformance
+        .unexpected
+        .sort_by_key(|found| Reverse(harm(found)));
     conformance.verdict = match (conformance.unexpected.len(), conformance.stale.len()) {
         (0, 0) => ComparisonVerdict::Conforms,
         (0, _) => ComparisonVerdict::Stale,
@@ -121,14 +132,20 @@ pub fn compare(
 fn is_left_out(plan: &PlanPart, key: &Key) -> bool {
     let is_planned = plan.rows.iter().any(|row| row.kernel == key.kernel)
         && plan.scalars.contains(&key.scalar)
-        && plan.sources.iter().any(|source| source.family == key.family);
+        && plan
+            .sources
+            .iter()
+            .any(|source| source.family == key.family);
     !is_planned
 }
 
 /// How much harm a disagreement does: cases without a verdict are worst, then what has the most cases more than expected.
 fn harm(found: &Deviation) -> (bool, u64) {
     let expected = found.expected_count.unwrap_or(0);
-    (found.finding.is_failure(), found.found.count.saturating_sub(expected))
+    (
+        found.finding.is_failure(),
+        found.found.count.saturating_sub(expected),
+    )
 }
 
 /// The probability at each end of each interval.
@@ -143,7 +160,13 @@ fn changed(
     found: &FoundDisagreement,
     change: CaseChange,
 ) -> Option<Example> {
-    let Amount::Count { cases: Some((_, expected)), .. } = &entry.amount else { return None };
+    let Amount::Count {
+        cases: Some((_, expected)),
+        ..
+    } = &entry.amount
+    else {
+        return None;
+    };
     let digests = [Some(expected.as_str()), Some(found.digest?)];
     changed_case(result, &found.key, found.example.as_ref()?, change, digests)
 }
@@ -186,8 +209,9 @@ impl ClassJudge {
                 if !exact {
                     return self.rates(*count, of.unwrap_or(found.of), found);
                 }
-                let same_cases =
-                    cases.as_ref().is_none_or(|(_, expected)| Some(expected.as_str()) == digest);
+                let same_cases = cases
+                    .as_ref()
+                    .is_none_or(|(_, expected)| Some(expected.as_str()) == digest);
                 // The number of trials moves with other findings: a crash gives no verdict, and bad values are
                 // counted among the hits.
                 if found.count < *count {
@@ -221,7 +245,10 @@ impl ClassJudge {
         let share = found.rate.unwrap_or(0.0);
         let interval = match found.interval {
             Some(_) => found.trials().interval_at(self.tail),
-            None => Interval { low: share, high: share },
+            None => Interval {
+                low: share,
+                high: share,
+            },
         };
         if bound < interval.low {
             ClassOutcome::Worse
@@ -271,7 +298,12 @@ fn deviation(
 fn show(deviation: &mut Deviation, change: CaseChange, changed: Option<Example>) {
     deviation.expected += change.note(changed.is_some(), deviation.case.is_some());
     match changed {
-        Some(Example { case, bits, command, .. }) => {
+        Some(Example {
+            case,
+            bits,
+            command,
+            ..
+        }) => {
             (deviation.case, deviation.command) = (Some(case), Some(command));
             deviation.bits = Some(bits).filter(|bits| !bits.is_empty());
         }
@@ -284,7 +316,9 @@ fn show(deviation: &mut Deviation, change: CaseChange, changed: Option<Example>)
 
 /// True if the expected number of cases was found, and among as many cases as expected.
 fn is_as_many(amount: &Amount, found: &Rate) -> bool {
-    let Amount::Count { count, cases } = amount else { return false };
+    let Amount::Count { count, cases } = amount else {
+        return false;
+    };
     *count == found.count && cases.as_ref().is_none_or(|(of, _)| *of == found.of)
 }
 
@@ -293,7 +327,10 @@ fn describe(amount: &Amount, found: &Rate, digest: Option<&str>) -> String {
     match amount {
         Amount::Rate(bound) => format!("a share of at most {bound}, and not none"),
         Amount::Count { count, cases: None } => group_digits(*count),
-        Amount::Count { count, cases: Some((of, expected)) } => {
+        Amount::Count {
+            count,
+            cases: Some((of, expected)),
+        } => {
             let is_other = is_as_many(amount, found) && Some(expected.as_str()) != digest;
             let other = if is_other { " (other cases)" } else { "" };
             format!("{} of {}{other}", group_digits(*count), group_digits(*of))
@@ -331,8 +368,10 @@ fn repaired(
         Amount::Count { count, .. } => *count,
         Amount::Rate(_) => 0,
     };
-    let failed: Vec<(&Key, &ExpectedEntry)> =
-        entries.iter().filter(|(other, _)| keeps(other, key)).collect();
+    let failed: Vec<(&Key, &ExpectedEntry)> = entries
+        .iter()
+        .filter(|(other, _)| keeps(other, key))
+        .collect();
     let failing = all.iter().filter(|other| keeps(&other.key, key));
     let before: u64 = failed.iter().map(|(_, entry)| count(entry)).sum();
     let fewer = before.checked_sub(failing.map(|other| other.rate.count).sum())?;

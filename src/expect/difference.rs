@@ -61,8 +61,16 @@ pub struct RecordComparison {
 impl RecordComparison {
     /// True if something is more frequent, or a bound or an error is higher.
     pub fn is_worse(&self) -> bool {
-        let bounds = self.chosen.iter().chain(&self.accuracy).filter_map(|it| it.change);
-        self.differences.iter().map(|it| it.change).chain(bounds).any(|it| it == Trend::Worse)
+        let bounds = self
+            .chosen
+            .iter()
+            .chain(&self.accuracy)
+            .filter_map(|it| it.change);
+        self.differences
+            .iter()
+            .map(|it| it.change)
+            .chain(bounds)
+            .any(|it| it == Trend::Worse)
     }
 }
 
@@ -76,23 +84,39 @@ pub fn difference(old: &ResultPart, new: &ResultPart) -> RecordComparison {
     let accuracy = accuracy_changes(old, new, is_of_same_cases);
     let (old, new) = (Side::of(old), Side::of(new));
     let keys: BTreeSet<&Key> = old.found.keys().chain(new.found.keys()).collect();
-    let (common, lone): (Vec<&Key>, Vec<&Key>) =
-        keys.into_iter().partition(|key| old.result(key).is_some() && new.result(key).is_some());
-    let judge = DifferenceJudge { same_parts, tail: tail(common.len()) };
-    let mut differences: Vec<Difference> =
-        common.iter().filter_map(|key| judge.difference(key, &old, &new)).collect();
+    let (common, lone): (Vec<&Key>, Vec<&Key>) = keys
+        .into_iter()
+        .partition(|key| old.result(key).is_some() && new.result(key).is_some());
+    let judge = DifferenceJudge {
+        same_parts,
+        tail: tail(common.len()),
+    };
+    let mut differences: Vec<Difference> = common
+        .iter()
+        .filter_map(|key| judge.difference(key, &old, &new))
+        .collect();
     worst_first(&mut differences);
     RecordComparison {
         schema: DIFF_SCHEMA,
         same_cases: common.iter().all(|key| judge.same_cases(key, &old, &new)),
-        common: old.results.keys().filter(|place| new.results.contains_key(*place)).count(),
+        common: old
+            .results
+            .keys()
+            .filter(|place| new.results.contains_key(*place))
+            .count(),
         compared: common.len(),
         differences,
         contracts,
         chosen: Vec::new(),
         accuracy,
-        only_old: lone.iter().filter(|key| old.found.contains_key(**key)).count(),
-        only_new: lone.iter().filter(|key| new.found.contains_key(**key)).count(),
+        only_old: lone
+            .iter()
+            .filter(|key| old.found.contains_key(**key))
+            .count(),
+        only_new: lone
+            .iter()
+            .filter(|key| new.found.contains_key(**key))
+            .count(),
     }
 }
 
@@ -138,7 +162,9 @@ impl<'a> Side<'a> {
                 .map(|found| (found.key.clone(), found))
                 .collect(),
             results: result.by_place(),
-            sources: sources.map(|s| (s.family.as_str(), (s.set.as_str(), s.count))).collect(),
+            sources: sources
+                .map(|s| (s.family.as_str(), (s.set.as_str(), s.count)))
+                .collect(),
         }
     }
 
@@ -152,7 +178,8 @@ impl<'a> Side<'a> {
     }
 
     fn rate(&self, key: &Key) -> Option<Rate> {
-        self.result(key).map(|part| rate_of(part, &key.class, key.finding))
+        self.result(key)
+            .map(|part| rate_of(part, &key.class, key.finding))
     }
 }
 
@@ -174,7 +201,11 @@ impl DifferenceJudge {
         }
         let same_cases = self.same_cases(key, old, new);
         let change = self.change(same_cases, &old_rate, &new_rate);
-        let which = if change == Trend::Better { CaseChange::Right } else { CaseChange::New };
+        let which = if change == Trend::Better {
+            CaseChange::Right
+        } else {
+            CaseChange::New
+        };
         let of_side =
             |side: &&Side<'_>| side.found.get(key).and_then(|found| found.example.clone());
         // What is right now is shown as the new record runs it, if it says how; on other cases the record
@@ -243,9 +274,19 @@ const MOST: usize = 3;
 
 impl Paged for RecordComparison {
     fn page(&self) -> Page {
-        let count = |change| self.differences.iter().filter(|d| d.change == change).count() as u64;
-        let [worse, better, other, same] =
-            [Trend::Worse, Trend::Better, Trend::Other, Trend::Insignificant].map(count);
+        let count = |change| {
+            self.differences
+                .iter()
+                .filter(|d| d.change == change)
+                .count() as u64
+        };
+        let [worse, better, other, same] = [
+            Trend::Worse,
+            Trend::Better,
+            Trend::Other,
+            Trend::Insignificant,
+        ]
+        .map(count);
         let tone = match (self.is_worse(), better) {
             (true, _) => Tone::Bad,
             (false, 0) => Tone::Plain,
@@ -259,7 +300,10 @@ impl Paged for RecordComparison {
             ));
         }
         answers.extend(counted(&self.chosen, ["value differs", "values differ"]));
-        answers.extend(counted(&self.accuracy, ["error of hits differs", "errors of hits differ"]));
+        answers.extend(counted(
+            &self.accuracy,
+            ["error of hits differs", "errors of hits differ"],
+        ));
         if !self.contracts.is_empty() {
             let rows = number_of(self.contracts.len() as u64, "row is", "rows are");
             answers.push(format!("{rows} judged by another contract"));
@@ -297,18 +341,42 @@ impl Paged for RecordComparison {
             ("Other cases, as many", Trend::Other),
         ] {
             let of_change = self.differences.iter().filter(|d| d.change == change);
-            blocks.extend(Block::items(title, MOST, of_change.map(Difference::item).collect()));
+            blocks.extend(Block::items(
+                title,
+                MOST,
+                of_change.map(Difference::item).collect(),
+            ));
         }
-        blocks.extend(values("Values that were chosen or proved", MOST, &self.chosen));
-        blocks.extend(values("Errors of right hits, of a sample", MOST, &self.accuracy));
-        Page { command: "diff", title: answers.join("; "), tone, blocks }
+        blocks.extend(values(
+            "Values that were chosen or proved",
+            MOST,
+            &self.chosen,
+        ));
+        blocks.extend(values(
+            "Errors of right hits, of a sample",
+            MOST,
+            &self.accuracy,
+        ));
+        Page {
+            command: "diff",
+            title: answers.join("; "),
+            tone,
+            blocks,
+        }
     }
 }
 
 /// How many values differ, and how many of them are worse; none if none differ.
 fn counted(values: &[OtherValue], [one, many]: [&str; 2]) -> Option<String> {
-    let worse = values.iter().filter(|it| it.change == Some(Trend::Worse)).count();
-    let worse = if 0 < worse { format!(", {worse} of them worse") } else { String::new() };
+    let worse = values
+        .iter()
+        .filter(|it| it.change == Some(Trend::Worse))
+        .count();
+    let worse = if 0 < worse {
+        format!(", {worse} of them worse")
+    } else {
+        String::new()
+    };
     (!values.is_empty()).then(|| number_of(values.len() as u64, one, many) + &worse)
 }
 
@@ -316,7 +384,11 @@ impl Difference {
     fn item(&self) -> Item {
         let (old, new) = (self.old.counts(), self.new.counts());
         let text = format!("{}: {old} before, {new} now{}", self.what, self.shown);
-        Item { text, lines: self.command.iter().cloned().collect(), ..Item::default() }
+        Item {
+            text,
+            lines: self.command.iter().cloned().collect(),
+            ..Item::default()
+        }
     }
 }
 
@@ -329,7 +401,11 @@ mod tests {
     fn as_many_of_more_or_fewer_is_a_difference() {
         let rate = |count, of| Rate::new(Trials::independent(count, of), true);
         for (count, of, is_same) in [(10, 90, true), (9, 90, false), (10, 89, false)] {
-            assert_eq!(is_as_often(&rate(10, 90), &rate(count, of)), is_same, "{count} of {of}");
+            assert_eq!(
+                is_as_often(&rate(10, 90), &rate(count, of)),
+                is_same,
+                "{count} of {of}"
+            );
         }
     }
 
@@ -339,7 +415,11 @@ mod tests {
         let change = |same_cases: bool, rates: [(u64, u64, bool); 2]| {
             let [old, new] = rates
                 .map(|(count, of, is_sample)| Rate::new(Trials::independent(count, of), is_sample));
-            DifferenceJudge { same_parts: true, tail: 1e-5 }.change(same_cases, &old, &new)
+            DifferenceJudge {
+                same_parts: true,
+                tail: 1e-5,
+            }
+            .change(same_cases, &old, &new)
         };
         // The standard deviation is 30: both intervals at 1e-5 reach about 4.3 of it.
         for (count, same, others) in [
@@ -350,13 +430,18 @@ mod tests {
             (1400, Worse, Worse),
         ] {
             let of = |is_sample| [(1000, 10_000, is_sample), (count, 10_000, is_sample)];
-            assert_eq!([change(true, of(true)), change(false, of(true))], [same, others]);
+            assert_eq!(
+                [change(true, of(true)), change(false, of(true))],
+                [same, others]
+            );
             // All cases that there are need no interval.
             assert_eq!(change(false, of(false)), same);
         }
-        for (of, is_sample) in
-            [(10_001, [false; 2]), (10_000, [true, false]), (10_000, [false, true])]
-        {
+        for (of, is_sample) in [
+            (10_001, [false; 2]),
+            (10_000, [true, false]),
+            (10_000, [false, true]),
+        ] {
             let rates = [(1000, 10_000, is_sample[0]), (1001, of, is_sample[1])];
             assert_eq!(change(false, rates), Insignificant, "{rates:?}");
         }

@@ -60,7 +60,11 @@ struct FindingText {
 /// Reads expectations, without their lock file; `file` is their name in errors. Kernels may also be those of a
 /// record, which this process does not have.
 pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, InputError> {
-    let reader = ExpectationsReader { text, file, of_record };
+    let reader = ExpectationsReader {
+        text,
+        file,
+        of_record,
+    };
     let version: Version = reader.parse()?;
     if version.schema.get_ref() != SCHEMA {
         let found = version.schema.get_ref();
@@ -85,8 +89,19 @@ pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, 
             }
         }
     }
-    let FileText { cases, sources, scene, .. } = parsed;
-    Ok(Expectations { cases, sources, scene, entries, lock: None })
+    let FileText {
+        cases,
+        sources,
+        scene,
+        ..
+    } = parsed;
+    Ok(Expectations {
+        cases,
+        sources,
+        scene,
+        entries,
+        lock: None,
+    })
 }
 
 /// The advice for a kernel that was renamed.
@@ -156,7 +171,14 @@ impl ExpectationsReader<'_> {
         row: &RowText,
         spanned: &Spanned<FindingText>,
     ) -> Result<Vec<(Key, ExpectedEntry)>, InputError> {
-        let FindingText { scalar, finding, counts, rates, why, url } = spanned.get_ref();
+        let FindingText {
+            scalar,
+            finding,
+            counts,
+            rates,
+            why,
+            url,
+        } = spanned.get_ref();
         let kinds: Vec<&str> = FindingKind::FOUND.iter().map(|kind| kind.name()).collect();
         let families = FAMILIES.iter().chain(STRATA);
         let families: Vec<&str> = families.map(|family| family.name).collect();
@@ -164,19 +186,24 @@ impl ExpectationsReader<'_> {
         self.check("finding", (finding.get_ref(), finding.span()), &kinds)?;
         let wrong = |message: String| self.error(&spanned.span(), message);
         let count = |(family, count): (&String, &u64)| match *count {
-            0 => Err(wrong(format!("count 0 of {family} is what is expected anyway: remove it"))),
+            0 => Err(wrong(format!(
+                "count 0 of {family} is what is expected anyway: remove it"
+            ))),
             count => Ok((family.clone(), Amount::Count { count, cases: None })),
         };
         let rate = |(family, rate): (&String, &f64)| match *rate {
             rate if 0.0 < rate && rate <= 1.0 => Ok((family.clone(), Amount::Rate(rate))),
-            rate => Err(wrong(format!("rate {rate} of {family} is not above 0 and at most 1"))),
+            rate => Err(wrong(format!(
+                "rate {rate} of {family} is not above 0 and at most 1"
+            ))),
         };
         let amounts = counts.iter().map(count).chain(rates.iter().map(rate));
         let entry = |amount: Result<(String, Amount), InputError>| {
             let (family, amount) = amount?;
             if !is_of_mesh(&family) && !family.starts_with("corpus:") {
-                let of_kind =
-                    family.split_once(':').filter(|(_, kind)| SceneKind::named(kind).is_some());
+                let of_kind = family
+                    .split_once(':')
+                    .filter(|(_, kind)| SceneKind::named(kind).is_some());
                 let name = of_kind.map_or(family.clone(), |(stratum, _)| stratum.to_owned());
                 self.check("family", (&name, spanned.span()), &families)?;
             }
@@ -189,7 +216,15 @@ impl ExpectationsReader<'_> {
                 finding: FindingKind::named(finding.get_ref()).expect("checked above"),
             };
             let line = self.line(&spanned.span());
-            Ok((key, ExpectedEntry { line, amount, why: why.clone(), url: url.clone() }))
+            Ok((
+                key,
+                ExpectedEntry {
+                    line,
+                    amount,
+                    why: why.clone(),
+                    url: url.clone(),
+                },
+            ))
         };
         let entries: Vec<(Key, ExpectedEntry)> = amounts.map(entry).collect::<Result<_, _>>()?;
         match entries.is_empty() {
@@ -241,16 +276,56 @@ mod tests {
         let refused = |text: &str| read(text, "e.toml", &[]).unwrap_err().to_string();
         let entry = file(ENTRY);
         for (from, to, expected) in [
-            ("cramer", "cramr", "e.toml:5: unknown kernel 'cramr': did you mean 'cramer'?"),
-            ("f32", "f16", "e.toml:8: unknown scalar 'f16': did you mean 'f32'?"),
-            ("tiny", "tyni", "e.toml:8: unknown family 'tyni': did you mean 'tiny'?"),
-            ("false-hit", "falsehit", "e.toml:8: unknown finding 'falsehit'"),
-            ("counts =", "count =", "e.toml:8: unknown field `count`, expected one of"),
-            ("= 3", "= 0", "e.toml:8: count 0 of tiny is what is expected anyway"),
-            ("0.5", "2.0", "e.toml:8: rate 2 of interior is not above 0 and at most 1"),
-            ("0.5", "0.0", "e.toml:8: rate 0 of interior is not above 0 and at most 1"),
-            ("interior", "tiny", "e.toml:8: tiny a second time, first in line 8"),
-            ("expectations/2", "expectations/1", "e.toml:1: schema 'hairline-expectations/1'"),
+            (
+                "cramer",
+                "cramr",
+                "e.toml:5: unknown kernel 'cramr': did you mean 'cramer'?",
+            ),
+            (
+                "f32",
+                "f16",
+                "e.toml:8: unknown scalar 'f16': did you mean 'f32'?",
+            ),
+            (
+                "tiny",
+                "tyni",
+                "e.toml:8: unknown family 'tyni': did you mean 'tiny'?",
+            ),
+            (
+                "false-hit",
+                "falsehit",
+                "e.toml:8: unknown finding 'falsehit'",
+            ),
+            (
+                "counts =",
+                "count =",
+                "e.toml:8: unknown field `count`, expected one of",
+            ),
+            (
+                "= 3",
+                "= 0",
+                "e.toml:8: count 0 of tiny is what is expected anyway",
+            ),
+            (
+                "0.5",
+                "2.0",
+                "e.toml:8: rate 2 of interior is not above 0 and at most 1",
+            ),
+            (
+                "0.5",
+                "0.0",
+                "e.toml:8: rate 0 of interior is not above 0 and at most 1",
+            ),
+            (
+                "interior",
+                "tiny",
+                "e.toml:8: tiny a second time, first in line 8",
+            ),
+            (
+                "expectations/2",
+                "expectations/1",
+                "e.toml:1: schema 'hairline-expectations/1'",
+            ),
             ("set = \"zero\"", "set = zero", "e.toml:6: "),
         ] {
             let message = refused(&entry.replace(from, to));

@@ -58,8 +58,12 @@ impl Expectations {
     /// Errors: what the file is about, and what to run.
     fn are_about(&self, record: &Record, file: &str) -> Result<(), InputError> {
         let result = &record.result;
-        let origins: Vec<&str> =
-            result.plan.sources.iter().map(|source| origin(&source.family)).collect();
+        let origins: Vec<&str> = result
+            .plan
+            .sources
+            .iter()
+            .map(|source| origin(&source.family))
+            .collect();
         let mut about: Vec<&str> = self.entries.keys().map(|key| key.family.as_str()).collect();
         let is_about = |family: &&str| origins.contains(&origin(family));
         if about.is_empty() || about.iter().any(is_about) || disagreements(result).is_empty() {
@@ -112,10 +116,20 @@ pub fn blessed(
     };
     let expectations = read_again().map_err(BlessError::Unread)?;
     let texts = [(file.to_owned(), text), (lock, text_of_lock)];
-    Ok(Written { expectations, texts, dropped })
+    Ok(Written {
+        expectations,
+        texts,
+        dropped,
+    })
 }
 
 /// The kernels of a record: those of one's own need not be here.
 fn kernels_of(record: &Record) -> Vec<&str> {
-    record.result.plan.rows.iter().map(|row| row.kernel.as_str()).collect()
+    record
+        .result
+        .plan
+        .rows
+        .iter()
+        .map(|row| row.kernel.as_str())
+        .collect()
 }

@@ -37,7 +37,10 @@ impl KnownDisagreements<'_> {
     ) -> KnownDisagreements<'a> {
         // A lock of other cases says nothing of those of the file and the run.
         let is_of_others = |lock: &&Lock| same_plan && lock.cases != expectations.cases;
-        let lock = expectations.lock.as_ref().filter(|lock| !is_of_others(lock));
+        let lock = expectations
+            .lock
+            .as_ref()
+            .filter(|lock| !is_of_others(lock));
         let known = lock.and_then(|lock| lock.targets.get(target));
         let cases = known.map(|known| &known.cases);
         let is_rate = |entry: &ExpectedEntry| matches!(entry.amount, Amount::Rate(_));
@@ -54,8 +57,17 @@ impl KnownDisagreements<'_> {
             let entry = expectations.entries.get(&key.of_all_classes());
             if let Some(entry) = entry.filter(|entry| !is_rate(entry)) {
                 let of_class = Some((cases.of, cases.digest.clone()));
-                let amount = Amount::Count { count: cases.count, cases: of_class };
-                entries.insert(key.clone(), ExpectedEntry { amount, ..entry.clone() });
+                let amount = Amount::Count {
+                    count: cases.count,
+                    cases: of_class,
+                };
+                entries.insert(
+                    key.clone(),
+                    ExpectedEntry {
+                        amount,
+                        ..entry.clone()
+                    },
+                );
             }
         }
         let lacking = match lock {
@@ -66,12 +78,18 @@ impl KnownDisagreements<'_> {
         let note = match (cases, same_plan) {
             (Some(_), _) => None,
             _ if expectations.entries.values().all(is_rate) => None,
-            (None, true) => Some(format!("{lacking}: counts by family are compared, not cases")),
+            (None, true) => Some(format!(
+                "{lacking}: counts by family are compared, not cases"
+            )),
             (None, false) => Some(format!(
                 "{lacking}, and the counts of {file} are of other cases: they are not used"
             )),
         };
-        KnownDisagreements { entries, target: known, note }
+        KnownDisagreements {
+            entries,
+            target: known,
+            note,
+        }
     }
 
     /// The findings of a run, for each class, or for all together where the expectation is.
@@ -79,7 +97,13 @@ impl KnownDisagreements<'_> {
         let results = result.by_place();
         let mut together: BTreeSet<Key> = BTreeSet::new();
         let mut all: Vec<FoundDisagreement> = Vec::new();
-        for Disagreement { key, rate, digest, example } in disagreements(result) {
+        for Disagreement {
+            key,
+            rate,
+            digest,
+            example,
+        } in disagreements(result)
+        {
             let whole = key.of_all_classes();
             if !self.entries.contains_key(&whole) {
                 all.push(FoundDisagreement {
@@ -91,7 +115,12 @@ impl KnownDisagreements<'_> {
             } else if together.insert(whole.clone()) {
                 let part = results[&key.place()];
                 let rate = rate_of(part, &whole.class, whole.finding);
-                all.push(FoundDisagreement { key: whole, rate, digest: None, example });
+                all.push(FoundDisagreement {
+                    key: whole,
+                    rate,
+                    digest: None,
+                    example,
+                });
             }
         }
         all

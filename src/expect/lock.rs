@@ -51,7 +51,10 @@ pub struct RowSettings {
 impl RowSettings {
     /// Those of a row.
     pub fn of(row: &RowPart) -> RowSettings {
-        let words = row.epsilons.iter().map(|(name, value)| format!("{name}={value}"));
+        let words = row
+            .epsilons
+            .iter()
+            .map(|(name, value)| format!("{name}={value}"));
         RowSettings {
             epsilons: words.collect::<Vec<_>>().join(","),
             contract: row.contract.clone(),
@@ -79,8 +82,10 @@ impl LockedTarget {
     /// Takes a line; whether there was one of the same. An error says what was expected.
     fn take(&mut self, line: &str) -> Result<bool, String> {
         let words: Vec<String> = line.split('\t').map(str::to_owned).collect();
-        let number =
-            |text: &str| text.parse::<u64>().map_err(|_| format!("a number, not '{text}'"));
+        let number = |text: &str| {
+            text.parse::<u64>()
+                .map_err(|_| format!("a number, not '{text}'"))
+        };
         let words = match <[String; 4]>::try_from(words) {
             Ok([kernel, set, epsilons, contract]) => {
                 let settings = RowSettings { epsilons, contract };
@@ -95,17 +100,35 @@ impl LockedTarget {
         let words = match <[String; 8]>::try_from(words) {
             Ok([word, kernel, set, scalar, value, hits, half, most]) if word == ERRORS => {
                 let error = |text: &str| {
-                    text.parse::<f64>().map_err(|_| format!("an error in ulps, not '{text}'"))
+                    text.parse::<f64>()
+                        .map_err(|_| format!("an error in ulps, not '{text}'"))
                 };
                 let quantiles = [error(&half)?, error(&most)?];
-                let errors = HitErrors { hits: number(&hits)?, quantiles };
-                return Ok(self.errors.insert([kernel, set, scalar, value], errors).is_some());
+                let errors = HitErrors {
+                    hits: number(&hits)?,
+                    quantiles,
+                };
+                return Ok(self
+                    .errors
+                    .insert([kernel, set, scalar, value], errors)
+                    .is_some());
             }
             Ok(words) => words.to_vec(),
             Err(words) => words,
         };
-        let Ok([kernel, set, scalar, family, class, finding, count, of, digest]) =
-            <[String; 9]>::try_from(words)
+        let Ok(
+            [
+                kernel,
+                set,
+                scalar,
+                family,
+                class,
+                finding,
+                count,
+                of,
+                digest,
+            ],
+        ) = <[String; 9]>::try_from(words)
         else {
             let shape = "9 words between tabs: kernel, epsilons, scalar, family, class, finding, count, of, digest; or 4 \
                          of a row: kernel, name, epsilons, contract";
@@ -118,8 +141,18 @@ impl LockedTarget {
         Digest::try_from(digest.clone()).map_err(|_| "the digest of a set of cases".to_owned())?;
         let finding = FindingKind::named(&finding)
             .ok_or_else(|| format!("a kind of finding, not '{finding}'"))?;
-        let key = Key { kernel, set, scalar, family, class, finding };
-        Ok(self.cases.insert(key, LockedCases { count, of, digest }).is_some())
+        let key = Key {
+            kernel,
+            set,
+            scalar,
+            family,
+            class,
+            finding,
+        };
+        Ok(self
+            .cases
+            .insert(key, LockedCases { count, of, digest })
+            .is_some())
     }
 }
 
@@ -151,12 +184,15 @@ impl Lock {
                 continue;
             }
             if lock.cases.is_empty() {
-                let cases = line.strip_prefix(SCHEMA).and_then(|rest| rest.strip_prefix(" cases "));
+                let cases = line
+                    .strip_prefix(SCHEMA)
+                    .and_then(|rest| rest.strip_prefix(" cases "));
                 cases
                     .ok_or_else(|| wrong(format!("'{SCHEMA} cases HASH'")))?
                     .clone_into(&mut lock.cases);
-            } else if let Some(target) =
-                line.strip_prefix('[').and_then(|line| line.strip_suffix(']'))
+            } else if let Some(target) = line
+                .strip_prefix('[')
+                .and_then(|line| line.strip_suffix(']'))
             {
                 section = Some(lock.targets.entry(target.to_owned()).or_default());
             } else {
@@ -164,7 +200,9 @@ impl Lock {
                     .as_mut()
                     .ok_or_else(|| wrong("a target, as [x86_64-linux]".to_owned()))?;
                 if section.take(line).map_err(wrong)? {
-                    return Err(wrong("each row, and each class of a finding, once".to_owned()));
+                    return Err(wrong(
+                        "each row, and each class of a finding, once".to_owned(),
+                    ));
                 }
             }
         }
@@ -202,13 +240,27 @@ impl fmt::Display for Lock {
                 writeln!(f, "{kernel}\t{set}\t{epsilons}\t{contract}")?;
             }
             for ([kernel, set, scalar, value], errors) in &entries.errors {
-                let HitErrors { hits, quantiles: [half, most] } = errors;
+                let HitErrors {
+                    hits,
+                    quantiles: [half, most],
+                } = errors;
                 writeln!(
                     f,
                     "{ERRORS}\t{kernel}\t{set}\t{scalar}\t{value}\t{hits}\t{half}\t{most}"
                 )?;
             }
-            for (Key { kernel, set, scalar, family, class, finding }, cases) in &entries.cases {
+            for (
+                Key {
+                    kernel,
+                    set,
+                    scalar,
+                    family,
+                    class,
+                    finding,
+                },
+                cases,
+            ) in &entries.cases
+            {
                 let LockedCases { count, of, digest } = cases;
                 writeln!(
                     f,
@@ -225,7 +277,9 @@ impl Expectations {
     ///
     /// Errors: file and line of a count that differs, and what to do.
     pub fn agree(&self, file: &str) -> Result<(), InputError> {
-        let Some(lock) = &self.lock else { return Ok(()) };
+        let Some(lock) = &self.lock else {
+            return Ok(());
+        };
         let advice = "put back what was there, or let `hairline check --bless` (in a test HAIRLINE_BLESS=1) write \
                       both files";
         if lock.cases != self.cases {
@@ -237,7 +291,9 @@ impl Expectations {
             return Err(InputError::of(file, message));
         }
         let most = lock.most();
-        let keys = most.keys().chain(self.entries.keys().filter(|key| !most.contains_key(key)));
+        let keys = most
+            .keys()
+            .chain(self.entries.keys().filter(|key| !most.contains_key(key)));
         for key in keys {
             let locked = most.get(key).copied().unwrap_or(0);
             let entry = self.entries.get(key);
@@ -247,13 +303,21 @@ impl Expectations {
                 None => 0,
             };
             if count != locked {
-                let Key { scalar, family, finding, .. } = key;
+                let Key {
+                    scalar,
+                    family,
+                    finding,
+                    ..
+                } = key;
                 let message = format!(
                     "{} {scalar} {family} {finding}: {count} here, {locked} in {file}.lock: {advice}",
                     key.row()
                 );
                 let line = entry.map(|entry| entry.line);
-                return Err(InputError { line, ..InputError::of(file, message) });
+                return Err(InputError {
+                    line,
+                    ..InputError::of(file, message)
+                });
             }
         }
         Ok(())
@@ -280,12 +344,27 @@ mod tests {
             + &LINE.replace("\t3\t", "\t5\t")
             + "\n";
         let lock = Lock::read(&text, "e.lock").unwrap();
-        let most: Vec<(String, u64)> =
-            lock.most().into_iter().map(|(key, n)| (key.to_string(), n)).collect();
-        assert_eq!(most, [("cramer (source) f32 tiny: false-hit of any class".to_owned(), 6)]);
-        assert_eq!(Lock::read(&lock.to_string(), "e.lock").unwrap().targets, lock.targets);
+        let most: Vec<(String, u64)> = lock
+            .most()
+            .into_iter()
+            .map(|(key, n)| (key.to_string(), n))
+            .collect();
+        assert_eq!(
+            most,
+            [(
+                "cramer (source) f32 tiny: false-hit of any class".to_owned(),
+                6
+            )]
+        );
+        assert_eq!(
+            Lock::read(&lock.to_string(), "e.lock").unwrap().targets,
+            lock.targets
+        );
         let target = &lock.targets["pdp11-unix"];
-        assert_eq!(target.rows.values().next().unwrap().epsilons, "parallel=1e-7");
+        assert_eq!(
+            target.rows.values().next().unwrap().epsilons,
+            "parallel=1e-7"
+        );
     }
 
     #[test]
@@ -296,22 +375,55 @@ mod tests {
                 "-lock/9",
                 "e.lock:2: expected 'hairline-expectations-lock/1 cases HASH'; ",
             ),
-            ("[pdp11-unix]", "pdp11-unix", "e.lock:3: expected a target, as [x86_64-linux]; "),
-            ("\tf32\t", " f32 ", "e.lock:4: expected 9 words between tabs: kernel, "),
-            ("\t3\t", "\tthree\t", "e.lock:4: expected a number, not 'three'; "),
-            ("\t3\t", "\t0\t", "e.lock:4: expected a count from 1 to 9, not 0; "),
-            ("\t3\t", "\t10\t", "e.lock:4: expected a count from 1 to 9, not 10; "),
-            ("0a:", "0a", "e.lock:4: expected the digest of a set of cases; "),
-            (LINE, &ROW.replace("\tray", " ray"), "e.lock:4: expected 9 words between tabs: "),
-            (LINE, &format!("{ROW}\n{ROW}"), "e.lock:5: expected each row, and each class of a "),
+            (
+                "[pdp11-unix]",
+                "pdp11-unix",
+                "e.lock:3: expected a target, as [x86_64-linux]; ",
+            ),
+            (
+                "\tf32\t",
+                " f32 ",
+                "e.lock:4: expected 9 words between tabs: kernel, ",
+            ),
+            (
+                "\t3\t",
+                "\tthree\t",
+                "e.lock:4: expected a number, not 'three'; ",
+            ),
+            (
+                "\t3\t",
+                "\t0\t",
+                "e.lock:4: expected a count from 1 to 9, not 0; ",
+            ),
+            (
+                "\t3\t",
+                "\t10\t",
+                "e.lock:4: expected a count from 1 to 9, not 10; ",
+            ),
+            (
+                "0a:",
+                "0a",
+                "e.lock:4: expected the digest of a set of cases; ",
+            ),
+            (
+                LINE,
+                &ROW.replace("\tray", " ray"),
+                "e.lock:4: expected 9 words between tabs: ",
+            ),
+            (
+                LINE,
+                &format!("{ROW}\n{ROW}"),
+                "e.lock:5: expected each row, and each class of a ",
+            ),
             (
                 LINE,
                 &format!("{LINE}\n{LINE}"),
                 "e.lock:5: expected each row, and each class of a finding, once; ",
             ),
         ] {
-            let error =
-                Lock::read(&file(LINE).replace(from, to), "e.lock").unwrap_err().to_string();
+            let error = Lock::read(&file(LINE).replace(from, to), "e.lock")
+                .unwrap_err()
+                .to_string();
             assert!(error.starts_with(expected), "{expected}: {error}");
             assert!(error.ends_with(WRITER), "{error}");
         }

@@ -58,7 +58,10 @@ impl Expectations {
     /// Leaves out some.
     pub fn without(mut self, is_left_out: impl Fn(&Key) -> bool) -> Expectations {
         self.entries.retain(|key, _| !is_left_out(key));
-        let targets = self.lock.iter_mut().flat_map(|lock| lock.targets.values_mut());
+        let targets = self
+            .lock
+            .iter_mut()
+            .flat_map(|lock| lock.targets.values_mut());
         targets.for_each(|target| target.cases.retain(|key, _| !is_left_out(key)));
         self
     }

@@ -18,10 +18,16 @@ pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
     let [counted, counted_new] = [old, new].map(|it| by_name(it.counted(), |it| it.what.clone()));
     let [chosen, chosen_new] = [old, new].map(|it| by_name(it.chosen(), |it| it.what.clone()));
     let same_cases = old.cases() == new.cases();
-    let common =
-        || counted.iter().filter_map(|(what, old)| Some((what, old, counted_new.get(what)?)));
+    let common = || {
+        counted
+            .iter()
+            .filter_map(|(what, old)| Some((what, old, counted_new.get(what)?)))
+    };
     let compared = common().count();
-    let judge = DifferenceJudge { same_parts: true, tail: tail(compared) };
+    let judge = DifferenceJudge {
+        same_parts: true,
+        tail: tail(compared),
+    };
     let differs = common()
         .filter(|(_, old, new)| (old.rate.count, old.rate.of) != (new.rate.count, new.rate.of));
     let difference = |(what, old, new): (&String, &NamedRate, &NamedRate)| Difference {
@@ -37,7 +43,11 @@ pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
     let other = |(what, old): (&String, &NamedValue)| {
         let new = chosen_new.get(what).filter(|new| new.value != old.value)?;
         let [before, now] = [old, new].map(|it| it.value.parse::<f64>().ok());
-        let trend = if before < now { Trend::Worse } else { Trend::Better };
+        let trend = if before < now {
+            Trend::Worse
+        } else {
+            Trend::Better
+        };
         Some(OtherValue {
             what: what.clone(),
             change: new.is_bound.then_some(trend),
@@ -48,7 +58,11 @@ pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
     RecordComparison {
         schema: DIFF_SCHEMA,
         same_cases,
-        common: compared + chosen.keys().filter(|what| chosen_new.contains_key(*what)).count(),
+        common: compared
+            + chosen
+                .keys()
+                .filter(|what| chosen_new.contains_key(*what))
+                .count(),
         compared,
         differences,
         contracts: Vec::new(),

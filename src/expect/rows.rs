@@ -14,7 +14,11 @@ impl Expectations {
             known.entry(kernel.clone()).or_default().insert(set.clone());
         }
         for (kernel, sets) in known {
-            let now: Vec<&RowPart> = plan.rows.iter().filter(|row| row.kernel == kernel).collect();
+            let now: Vec<&RowPart> = plan
+                .rows
+                .iter()
+                .filter(|row| row.kernel == kernel)
+                .collect();
             if let (Some(was), [row]) = (sets.first().filter(|_| sets.len() == 1), &now[..])
                 && *was != row.set
             {
@@ -36,8 +40,16 @@ impl Expectations {
         };
         let entries = std::mem::take(&mut self.entries).into_iter();
         self.entries = entries.map(|(place, entry)| (key(place), entry)).collect();
-        for target in self.lock.iter_mut().flat_map(|lock| lock.targets.values_mut()) {
-            let LockedTarget { rows, cases, errors } = std::mem::take(target);
+        for target in self
+            .lock
+            .iter_mut()
+            .flat_map(|lock| lock.targets.values_mut())
+        {
+            let LockedTarget {
+                rows,
+                cases,
+                errors,
+            } = std::mem::take(target);
             *target = LockedTarget {
                 rows: rows
                     .into_iter()
@@ -46,7 +58,10 @@ impl Expectations {
                         ([kernel, set], settings)
                     })
                     .collect(),
-                cases: cases.into_iter().map(|(place, cases)| (key(place), cases)).collect(),
+                cases: cases
+                    .into_iter()
+                    .map(|(place, cases)| (key(place), cases))
+                    .collect(),
                 errors: errors
                     .into_iter()
                     .map(|([kernel, mut set, scalar, value], errors)| {
@@ -61,7 +76,10 @@ impl Expectations {
 
 /// Where the rows of a plan differ from those of the expectations, in the order of the plan.
 pub(super) fn changed_rows(plan: &PlanPart, known: &LockedTarget) -> Vec<RowChange> {
-    plan.rows.iter().flat_map(|row| changes(row, plan, known)).collect()
+    plan.rows
+        .iter()
+        .flat_map(|row| changes(row, plan, known))
+        .collect()
 }
 
 fn changes(row: &RowPart, plan: &PlanPart, known: &LockedTarget) -> Vec<RowChange> {
@@ -84,7 +102,11 @@ fn changes(row: &RowPart, plan: &PlanPart, known: &LockedTarget) -> Vec<RowChang
         return gone.collect();
     };
     let [old, new] = [before, &now].map(|settings| -> BTreeMap<&str, &str> {
-        settings.epsilons.split(',').filter_map(|word| word.split_once('=')).collect()
+        settings
+            .epsilons
+            .split(',')
+            .filter_map(|word| word.split_once('='))
+            .collect()
     });
     let names: BTreeSet<&&str> = old.keys().chain(new.keys()).collect();
     let epsilons = names.into_iter().filter_map(|name| {

@@ -6,7 +6,10 @@ use crate::report::{PlanPart, Record, apart};
 
 /// The numbers of a plan's scene, as case ids have them; none if it has no scene.
 pub(super) fn scene_of(plan: &PlanPart) -> Option<String> {
-    plan.parameters().filter_map(|parameters| parameters.scene).next().map(|it| it.to_string())
+    plan.parameters()
+        .filter_map(|parameters| parameters.scene)
+        .next()
+        .map(|it| it.to_string())
 }
 
 impl Expectations {
@@ -25,7 +28,10 @@ impl Expectations {
             None => "HAIRLINE_BLESS=worse",
         };
         let none = "none of the other's";
-        let [before, now] = [apart(before, &now, ",", none), apart(&now, before, ",", none)];
+        let [before, now] = [
+            apart(before, &now, ",", none),
+            apart(&now, before, ",", none),
+        ];
         let message = format!(
             "its cases are of a scene with {before}, and this run's scene has {now}: how many are wrong in one \
              says nothing about the other; give that scene, or let {bless} write what is wrong in this one"

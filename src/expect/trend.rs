@@ -39,7 +39,10 @@ impl OtherValue {
         };
         Item {
             text: format!("{}{trend}", self.what),
-            notes: vec![format!("before: {}", self.old), format!("now: {}", self.new)],
+            notes: vec![
+                format!("before: {}", self.old),
+                format!("now: {}", self.new),
+            ],
             ..Item::default()
         }
     }

@@ -44,7 +44,11 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
         mesh: surface::mesh_part(plan, audit),
         #[cfg(not(feature = "studies"))]
         mesh: None,
-        sources: audit.sources.iter().map(|summary| source_part(plan, summary)).collect(),
+        sources: audit
+            .sources
+            .iter()
+            .map(|summary| source_part(plan, summary))
+            .collect(),
         results,
         totals: distribution::totals(plan, audit),
     };
@@ -119,12 +123,20 @@ fn corpus_digest(set: &CorpusSet, instance: Option<&Matrix<f64>>) -> String {
     let mut digest = Hash::new();
     let mut add = |name: &str, bits: &[u64]| {
         digest.update(name.as_bytes());
-        bits.iter().for_each(|bits| digest.update(bits.to_le_bytes()));
+        bits.iter()
+            .for_each(|bits| digest.update(bits.to_le_bytes()));
     };
-    set.f32.iter().for_each(|(name, case)| add(name, &case.bits()));
-    set.f64.iter().for_each(|(name, case)| add(name, &case.bits()));
+    set.f32
+        .iter()
+        .for_each(|(name, case)| add(name, &case.bits()));
+    set.f64
+        .iter()
+        .for_each(|(name, case)| add(name, &case.bits()));
     if let Some(matrix) = instance {
-        add("instance", &[0, 1, 2].map(|row| matrix[row].map(f64::to_bits)).concat());
+        add(
+            "instance",
+            &[0, 1, 2].map(|row| matrix[row].map(f64::to_bits)).concat(),
+        );
     }
     hex(&digest.finalize()[..8])
 }
@@ -177,13 +189,21 @@ pub(super) fn counts(tally: &Tally, class: Option<Class>, sample: bool) -> Count
 }
 
 fn kernel_result<F: Scalar>(plan: &Plan, cell: &SourceCell) -> KernelResult {
-    let (source, row, tally) = (&plan.sources[cell.source], &plan.rows[cell.row], &cell.tally);
+    let (source, row, tally) = (
+        &plan.sources[cell.source],
+        &plan.rows[cell.row],
+        &cell.tally,
+    );
     let sample = source.is_sample();
     // In an instance values belong to another ray than the truth.
     let judged = |counts: Counts| match source.instance::<F>() {
         Some(_) => {
             let (bad_values, wrong_values) = Default::default();
-            Counts { bad_values, wrong_values, ..counts }
+            Counts {
+                bad_values,
+                wrong_values,
+                ..counts
+            }
         }
         None => counts,
     };
@@ -195,7 +215,13 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &SourceCell) -> KernelResult {
         let causes = cell.causes.get(&(class, finding));
         let causes = causes.map(|causes| distribution::causes(causes, trials.count));
         let example = |place, severe| example::<F>(source, row, place, severe);
-        finding_part((class, finding), Rate::new(trials, sample), examples, causes, example)
+        finding_part(
+            (class, finding),
+            Rate::new(trials, sample),
+            examples,
+            causes,
+            example,
+        )
     });
     let grouping = source.grouping();
     KernelResult {
@@ -208,7 +234,9 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &SourceCell) -> KernelResult {
         findings: findings.collect(),
         severity: distribution::severities(&tally.severities),
         accuracy: distribution::accuracy(&tally.accuracy),
-        across: grouping.shares_a_ray().then(|| across_in_source::<F>(source, row, tally)),
+        across: grouping
+            .shares_a_ray()
+            .then(|| across_in_source::<F>(source, row, tally)),
         polygons: (grouping == Grouping::Polygon && row.entry.info.polygons)
             .then(|| polygon_part::<F>(source, &tally.polygons)),
         self_hits: (grouping == Grouping::SecondaryRay)
@@ -236,7 +264,11 @@ pub(super) fn finding_part(
         causes,
         digest: examples.digest.to_string(),
         worst,
-        first: examples.first.iter().map(|place| example(*place, false)).collect(),
+        first: examples
+            .first
+            .iter()
+            .map(|place| example(*place, false))
+            .collect(),
     }
 }
 
@@ -308,7 +340,9 @@ fn across_in_source<F: Scalar>(source: &Source, row: &Row, tally: &Tally) -> Acr
         elsewhere: source
             .has_neighbours()
             .then(|| rate(groups.elsewhere, groups.crossings, sample)),
-        ..across_part(row.contract.across.into(), groups, sample, |i| source.id::<F>(i, None))
+        ..across_part(row.contract.across.into(), groups, sample, |i| {
+            source.id::<F>(i, None)
+        })
     };
     let mut across = part(&tally.groups);
     across.file = source.file_flag();
@@ -328,12 +362,18 @@ fn polygon_part<F: Scalar>(source: &Source, polygons: &PolygonCount) -> PolygonP
         let places = examples.iter().flat_map(|examples| &examples.first);
         PolygonFinding {
             finding: finding.into(),
-            rate: rate(polygons.count.of(finding), polygons.count.trials(finding), sample),
+            rate: rate(
+                polygons.count.of(finding),
+                polygons.count.trials(finding),
+                sample,
+            ),
             digest: examples
                 .map(|examples| examples.digest.clone())
                 .unwrap_or_default()
                 .to_string(),
-            first: places.map(|place| source.id::<F>(place.index, None)).collect(),
+            first: places
+                .map(|place| source.id::<F>(place.index, None))
+                .collect(),
         }
     };
     let (misses, hits) = (part(Finding::FalseMiss), part(Finding::FalseHit));
@@ -403,21 +443,29 @@ fn provenance(plan: &Plan, audit: &Audit, context: &Context) -> Provenance {
         let sum = cases.entry(summary.scalar).or_default();
         sum.0 += summary.oracle_nanoseconds;
         sum.1 += summary.cases;
-        let layers = provenance.oracle_layers.entry(summary.scalar.to_owned()).or_default();
+        let layers = provenance
+            .oracle_layers
+            .entry(summary.scalar.to_owned())
+            .or_default();
         for (name, count) in summary.layers.named() {
             *layers.entry(name.to_owned()).or_default() += count;
         }
     }
     let per = |time: u64, count: u64| time as f64 / count.max(1) as f64;
     for (scalar, (time, count)) in &cases {
-        provenance.oracle_nanoseconds.insert((*scalar).to_owned(), per(*time, *count));
+        provenance
+            .oracle_nanoseconds
+            .insert((*scalar).to_owned(), per(*time, *count));
     }
     let mut times: BTreeMap<(&str, usize), u64> = BTreeMap::new();
     for cell in &audit.cells {
         *times.entry((cell.scalar, cell.row)).or_default() += cell.nanoseconds;
     }
     for ((scalar, row), time) in times {
-        let by_row = provenance.kernel_nanoseconds.entry(scalar.to_owned()).or_default();
+        let by_row = provenance
+            .kernel_nanoseconds
+            .entry(scalar.to_owned())
+            .or_default();
         by_row.insert(plan.rows[row].label(), per(time, cases[scalar].1));
     }
     provenance

@@ -40,7 +40,10 @@ pub(super) fn file(title: &str, height: f64, drawing: &str) -> String {
 
 /// A text at a place.
 pub(super) fn text_at(x: f64, y: f64, class: &str, text: &str) -> String {
-    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" class=\"{class}\">{}</text>\n", escaped(text))
+    format!(
+        "<text x=\"{x:.1}\" y=\"{y:.1}\" class=\"{class}\">{}</text>\n",
+        escaped(text)
+    )
 }
 
 /// A text in lines that fit into a plot's width.
@@ -88,7 +91,13 @@ impl Chart {
         let top = ABOVE + LINE * rows as f64;
         let bottom = top + PLOT;
         let down = ShareAxis::new(top, bottom, of, MOST_DECADES);
-        let mut chart = Chart { across, down, top, drawing: String::new(), height: bottom + 24.0 };
+        let mut chart = Chart {
+            across,
+            down,
+            top,
+            drawing: String::new(),
+            height: bottom + 24.0,
+        };
         chart.axes();
         for (mark, middle, row) in placed {
             // The first row is the lowest, next to the plot.
@@ -156,8 +165,11 @@ impl Chart {
         self.height += 20.0;
         for (mark, text) in lines {
             let y = self.height;
-            let _ =
-                writeln!(self.drawing, "<g transform=\"translate(12 {:.1})\">{mark}</g>", y - 4.0);
+            let _ = writeln!(
+                self.drawing,
+                "<g transform=\"translate(12 {:.1})\">{mark}</g>",
+                y - 4.0
+            );
             self.drawing += &text_at(50.0, y, "", text);
             self.height += LINE;
         }
@@ -166,7 +178,12 @@ impl Chart {
 
     fn axes(&mut self) {
         let (top, bottom) = (self.top, self.top + PLOT);
-        for (y, label) in self.down.ticks().into_iter().chain([(bottom, "none".to_owned())]) {
+        for (y, label) in self
+            .down
+            .ticks()
+            .into_iter()
+            .chain([(bottom, "none".to_owned())])
+        {
             let _ = writeln!(
                 self.drawing,
                 "<path class=\"grid\" d=\"M{LEFT} {y:.1}H{RIGHT}\"/><text class=\"soft\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>",
@@ -174,8 +191,10 @@ impl Chart {
                 y + 4.0
             );
         }
-        let _ =
-            writeln!(self.drawing, "<path class=\"axis\" d=\"M{LEFT} {top}V{bottom}H{RIGHT}\"/>");
+        let _ = writeln!(
+            self.drawing,
+            "<path class=\"axis\" d=\"M{LEFT} {top}V{bottom}H{RIGHT}\"/>"
+        );
         for (x, label) in self.across.ticks(LABEL, WIDTH) {
             let _ = writeln!(
                 self.drawing,
@@ -198,8 +217,13 @@ fn in_rows<'a>(
         let half = CHARACTER * mark.text.chars().count() as f64 / 2.0;
         // The name stays in the panel.
         let most = (WIDTH - 4.0 - half).max(WIDTH / 2.0);
-        let middle = across.x(mark.value).clamp((4.0 + half).min(WIDTH / 2.0), most);
-        let row = ends.iter().position(|end| *end + 6.0 <= middle - half).unwrap_or(ends.len());
+        let middle = across
+            .x(mark.value)
+            .clamp((4.0 + half).min(WIDTH / 2.0), most);
+        let row = ends
+            .iter()
+            .position(|end| *end + 6.0 <= middle - half)
+            .unwrap_or(ends.len());
         if row == ends.len() {
             ends.push(0.0);
         }

@@ -92,7 +92,14 @@ impl NetChange {
 
 impl fmt::Display for NetChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let NetChange { better, worse, new, other_cases, newly_judged, unchanged } = self;
+        let NetChange {
+            better,
+            worse,
+            new,
+            other_cases,
+            newly_judged,
+            unchanged,
+        } = self;
         write!(
             f,
             "{better} better, {worse} worse, {new} new, {other_cases} of other cases, {unchanged} unchanged"
@@ -120,10 +127,18 @@ pub struct RowChange {
 
 impl fmt::Display for RowChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RowChange { row, what, before, now } = self;
+        let RowChange {
+            row,
+            what,
+            before,
+            now,
+        } = self;
         let is = if what == "epsilons" { "are" } else { "is" };
         let none = "nothing of it";
-        let [now, before] = [apart(now, before, ", ", none), apart(before, now, ", ", none)];
+        let [now, before] = [
+            apart(now, before, ", ", none),
+            apart(before, now, ", ", none),
+        ];
         write!(f, "{row}: its {what} {is} now {now}; blessed with {before}")
     }
 }
@@ -131,9 +146,16 @@ impl fmt::Display for RowChange {
 /// The parts of a list that another list does not have; other words if there is none.
 pub(crate) fn apart(list: &str, other: &str, between: &str, none: &str) -> String {
     let others: Vec<&str> = other.split(between).collect();
-    let parts: Vec<&str> = list.split(between).filter(|part| !others.contains(part)).collect();
+    let parts: Vec<&str> = list
+        .split(between)
+        .filter(|part| !others.contains(part))
+        .collect();
     let parts = parts.join(between);
-    if parts.is_empty() { none.to_owned() } else { parts }
+    if parts.is_empty() {
+        none.to_owned()
+    } else {
+        parts
+    }
 }
 
 /// A quantile of the errors of right hits that is not the one of the blessed run.
@@ -151,7 +173,9 @@ pub struct ErrorChange {
 
 impl fmt::Display for ErrorChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ErrorChange { what, before, now, .. } = self;
+        let ErrorChange {
+            what, before, now, ..
+        } = self;
         write!(f, "{what} {now}; blessed with {before}")
     }
 }
@@ -201,11 +225,21 @@ impl Unproved {
 
 impl fmt::Display for Unproved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Unproved { kernel, scalar, gate, demanded, why, .. } = self;
+        let Unproved {
+            kernel,
+            scalar,
+            gate,
+            demanded,
+            why,
+            ..
+        } = self;
         match gate.as_str() {
             WATERTIGHT => write!(f, "{kernel} {scalar} must be proved watertight: {why}"),
             _ => {
-                write!(f, "{kernel} {scalar} {gate} must be proved to at most {demanded} u: {why}")
+                write!(
+                    f,
+                    "{kernel} {scalar} {gate} must be proved to at most {demanded} u: {why}"
+                )
             }
         }
     }
@@ -266,7 +300,12 @@ impl Deviation {
 
     /// `key: 3 of 1,000, expected none`.
     pub fn describe(&self) -> String {
-        format!("{}: {}, expected {}", self.key(), self.found.counts(), self.expected)
+        format!(
+            "{}: {}, expected {}",
+            self.key(),
+            self.found.counts(),
+            self.expected
+        )
     }
 }
 
@@ -274,7 +313,12 @@ impl Conformance {
     /// How many disagreements are known, as the expectations of this plan have them.
     pub fn expected(&self) -> u64 {
         let is_known = |found: &&Deviation| found.line.is_some();
-        let deviations = self.unexpected.iter().chain(&self.stale).filter(is_known).count();
+        let deviations = self
+            .unexpected
+            .iter()
+            .chain(&self.stale)
+            .filter(is_known)
+            .count();
         (self.known.len() + deviations) as u64
     }
 
@@ -333,8 +377,17 @@ impl Conformance {
             ComparisonVerdict::Unsteady => "cannot be compared",
             ComparisonVerdict::Stale => "better than expected: the expectations are stale",
         };
-        let NetChange { worse, new, other_cases, .. } = self.change;
-        let how = [(worse, "worse"), (new, "new"), (other_cases, "of other cases")];
+        let NetChange {
+            worse,
+            new,
+            other_cases,
+            ..
+        } = self.change;
+        let how = [
+            (worse, "worse"),
+            (new, "new"),
+            (other_cases, "of other cases"),
+        ];
         let how = how.iter().filter(|(count, _)| 0 < *count);
         let how = how.map(|(count, how)| format!("{} {how}", group_digits(*count)));
         let how = match how.collect::<Vec<_>>().join(", ") {
@@ -362,7 +415,11 @@ impl Conformance {
         };
         format!(
             "{verdict}: {proofs}{unsteady}{errors}{}{how}, {}, {}{}",
-            count(&self.unexpected, "unexpected disagreement", "unexpected disagreements"),
+            count(
+                &self.unexpected,
+                "unexpected disagreement",
+                "unexpected disagreements"
+            ),
             count(&self.stale, "stale expectation", "stale expectations"),
             match self.expected() {
                 all if all == self.known.len() as u64 => {

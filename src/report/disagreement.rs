@@ -41,7 +41,10 @@ impl Key {
 
     /// The same finding, of all classes together.
     pub fn of_all_classes(&self) -> Key {
-        Key { class: ALL_CLASSES.to_owned(), ..self.clone() }
+        Key {
+            class: ALL_CLASSES.to_owned(),
+            ..self.clone()
+        }
     }
 
     /// True if it is of the same kernel row in the same scalar.
@@ -62,7 +65,13 @@ impl Key {
 
 impl std::fmt::Display for Key {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Key { scalar, family, class, finding, .. } = self;
+        let Key {
+            scalar,
+            family,
+            class,
+            finding,
+            ..
+        } = self;
         write!(f, "{} {scalar} {family}: {finding} of {class}", self.row())
     }
 }
@@ -89,11 +98,18 @@ impl Disagreement<'_> {
 
 /// Every disagreement of a record that a contract does not allow, in the order of the record.
 pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
-    let rows: BTreeMap<(&str, &str), &RowPart> =
-        result.plan.rows.iter().map(|row| ((row.kernel.as_str(), row.set.as_str()), row)).collect();
+    let rows: BTreeMap<(&str, &str), &RowPart> = result
+        .plan
+        .rows
+        .iter()
+        .map(|row| ((row.kernel.as_str(), row.set.as_str()), row))
+        .collect();
     let mut all = Vec::new();
     for part in &result.results {
-        let findings = part.findings.iter().filter(|found| counts_alone(part, found.finding));
+        let findings = part
+            .findings
+            .iter()
+            .filter(|found| counts_alone(part, found.finding));
         all.extend(findings.map(|finding| Disagreement {
             key: Key::of(part, &finding.class, finding.finding),
             rate: &finding.rate,
@@ -102,9 +118,16 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
         }));
         let row = rows.get(&(part.kernel.as_str(), part.set.as_str()));
         for (class, (finding, rate, digest, first)) in together(part) {
-            let example = row.zip(first.first()).map(|(row, id)| group_example(row, part, id));
+            let example = row
+                .zip(first.first())
+                .map(|(row, id)| group_example(row, part, id));
             let key = Key::of(part, class, finding);
-            all.push(Disagreement { key, rate, digest, example });
+            all.push(Disagreement {
+                key,
+                rate,
+                digest,
+                example,
+            });
         }
     }
     all.retain(|disagreement| disagreement.rate.count > 0);
@@ -129,20 +152,31 @@ fn together(part: &KernelResult) -> impl Iterator<Item = (&'static str, GroupFin
 /// The counts of all that the contract rules out across triangles. Cracks of a scene and of a mesh count even where
 /// nothing is promised.
 pub(super) fn across(part: &KernelResult) -> Vec<GroupFinding<'_>> {
-    let (Some(across), Some(cracks)) = (&part.across, cracks(part)) else { return Vec::new() };
+    let (Some(across), Some(cracks)) = (&part.across, cracks(part)) else {
+        return Vec::new();
+    };
     let doubles: GroupFinding = (
         FindingKind::Double,
         &across.doubles,
         &across.double_digest,
         across.first_doubles.as_slice(),
     );
-    let folds: GroupFinding =
-        (FindingKind::OddFold, &across.odd_folds, &across.odd_fold_digest, &across.first_odd_folds);
+    let folds: GroupFinding = (
+        FindingKind::OddFold,
+        &across.odd_folds,
+        &across.odd_fold_digest,
+        &across.first_odd_folds,
+    );
     match across.promised {
         Promised::Nothing if is_at_shared(&part.family) => vec![cracks],
         promised => {
-            let all = promised.rules_out().into_iter().zip([cracks, doubles, folds]);
-            all.filter(|(is_ruled_out, _)| *is_ruled_out).map(|(_, found)| found).collect()
+            let all = promised
+                .rules_out()
+                .into_iter()
+                .zip([cracks, doubles, folds]);
+            all.filter(|(is_ruled_out, _)| *is_ruled_out)
+                .map(|(_, found)| found)
+                .collect()
         }
     }
 }
@@ -150,12 +184,19 @@ pub(super) fn across(part: &KernelResult) -> Vec<GroupFinding<'_>> {
 /// The count of cracks, whatever is promised.
 pub(super) fn cracks(part: &KernelResult) -> Option<GroupFinding<'_>> {
     let across = part.across.as_ref()?;
-    Some((FindingKind::Crack, &across.cracks, &across.crack_digest, &across.first_cracks))
+    Some((
+        FindingKind::Crack,
+        &across.cracks,
+        &across.crack_digest,
+        &across.first_cracks,
+    ))
 }
 
 /// The findings on whole polygons.
 pub(super) fn polygons(part: &KernelResult) -> Vec<GroupFinding<'_>> {
-    let Some(part) = &part.polygons else { return Vec::new() };
+    let Some(part) = &part.polygons else {
+        return Vec::new();
+    };
     let others = part.others.iter();
     let others = others
         .map(|found| -> GroupFinding { (found.finding, &found.rate, &found.digest, &found.first) });
@@ -180,8 +221,14 @@ pub fn rate_of(part: &KernelResult, class: &str, finding: FindingKind) -> Rate {
     let together = together(part)
         .filter(|(of, (kind, ..))| (of_all || *of == class) && *kind == finding)
         .map(|(_, (_, rate, ..))| rate.clone());
-    let counts = if of_all { Some(&part.total) } else { part.classes.get(class) };
-    let alone = counts.filter(|_| counts_alone(part, finding)).and_then(|it| it.rate(finding));
+    let counts = if of_all {
+        Some(&part.total)
+    } else {
+        part.classes.get(class)
+    };
+    let alone = counts
+        .filter(|_| counts_alone(part, finding))
+        .and_then(|it| it.rate(finding));
     let mut rates = together.chain(alone);
     match of_all {
         true => Rate::sum(&rates.collect::<Vec<_>>()),

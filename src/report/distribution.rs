@@ -19,7 +19,11 @@ pub(super) fn causes(causes: &Causes, found: u64) -> CausesPart {
     let is_rare = |why| matches!(why, Attribution::NotEpsilon | Attribution::Transform);
     let is_told = |why: &Attribution| !is_rare(*why) || 0 < causes.of(*why).count;
     let told = Attribution::ALL.into_iter().filter(is_told);
-    CausesPart { by: told.map(share).collect(), untold: causes.untold, worst: causes.worst }
+    CausesPart {
+        by: told.map(share).collect(),
+        untold: causes.untold,
+        worst: causes.worst,
+    }
 }
 
 /// By finding.
@@ -30,14 +34,25 @@ pub(super) fn severities(
         edges: distribution(&severities.edges),
         ulps: distribution(&severities.ulps),
     };
-    severities.iter().map(|(finding, of)| ((*finding).into(), part(of))).collect()
+    severities
+        .iter()
+        .map(|(finding, of)| ((*finding).into(), part(of)))
+        .collect()
 }
 
 /// By the value's name; those that the kernel does not give are left out.
 pub(super) fn accuracy(accuracy: &Accuracy) -> BTreeMap<String, Distribution> {
-    let parts = [("t", &accuracy.t), ("uv", &accuracy.uv), ("point", &accuracy.point)];
-    let counted = parts.into_iter().filter(|(_, histogram)| histogram.count() > 0);
-    counted.map(|(name, histogram)| (name.to_owned(), distribution(histogram))).collect()
+    let parts = [
+        ("t", &accuracy.t),
+        ("uv", &accuracy.uv),
+        ("point", &accuracy.point),
+    ];
+    let counted = parts
+        .into_iter()
+        .filter(|(_, histogram)| histogram.count() > 0);
+    counted
+        .map(|(name, histogram)| (name.to_owned(), distribution(histogram)))
+        .collect()
 }
 
 fn distribution(histogram: &Histogram) -> Distribution {
@@ -83,6 +98,14 @@ pub(super) fn totals(plan: &Plan, audit: &Audit) -> Vec<RowTotal> {
 }
 
 fn relations(relations: &Relations) -> Vec<RelationPart> {
-    let part = |Related { relation, count, of }| RelationPart { relation, count, of };
+    let part = |Related {
+                    relation,
+                    count,
+                    of,
+                }| RelationPart {
+        relation,
+        count,
+        of,
+    };
     relations.known().into_iter().map(part).collect()
 }

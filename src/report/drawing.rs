@@ -19,7 +19,11 @@ const TRIANGLES: usize = 20_000;
 
 /// How many places of a row to keep for the drawing of a mesh.
 pub fn places(mesh: &Mesh) -> usize {
-    if mesh.triangles.len() <= WHOLE { usize::MAX } else { PLACES }
+    if mesh.triangles.len() <= WHOLE {
+        usize::MAX
+    } else {
+        PLACES
+    }
 }
 
 /// The drawing of a mesh.
@@ -72,8 +76,12 @@ pub struct MeshMark {
 /// The drawing of the mesh whose edges and vertices a plan asks about.
 pub fn drawing(plan: &Plan, audit: &Audit) -> Option<MeshDrawing> {
     let surface = surface::of_plan(plan)?;
-    let [edges, vertices] = AimedPart::ALL
-        .map(|part| audit.cells.iter().filter(move |cell| cell.source == part as usize));
+    let [edges, vertices] = AimedPart::ALL.map(|part| {
+        audit
+            .cells
+            .iter()
+            .filter(move |cell| cell.source == part as usize)
+    });
     let of_cells = |(edges, vertices): (&SourceCell, &SourceCell)| in_named_scalar!(edges.scalar, F => row::<F>(surface, plan, [edges, vertices]));
     let rows = edges.zip(vertices).filter_map(of_cells).collect();
     Some(MeshDrawing::new(surface.mesh(), rows))
@@ -86,19 +94,36 @@ fn row<F: Scalar>(surface: &Surface, plan: &Plan, cells: [&SourceCell; 2]) -> Op
     for (part, cell) in AimedPart::ALL.into_iter().zip(cells) {
         let targets = plan.sources[cell.source].targets::<F>()?;
         for (order, target, seen) in cell.tally.aimed.places.iter() {
-            let (faces, points) =
-                (targets.faces(part, target as usize), targets.points(part, target as usize));
-            let mut lines: Vec<u32> =
-                faces.iter().map(|face| mesh.places[*face as usize]).collect();
+            let (faces, points) = (
+                targets.faces(part, target as usize),
+                targets.points(part, target as usize),
+            );
+            let mut lines: Vec<u32> = faces
+                .iter()
+                .map(|face| mesh.places[*face as usize])
+                .collect();
             lines.dedup();
             let mut around = Vec::new();
             if mesh.triangles.len() > WHOLE {
-                let at = points.iter().flat_map(|point| topology.incidence.at(*point as usize));
+                let at = points
+                    .iter()
+                    .flat_map(|point| topology.incidence.at(*point as usize));
                 around.extend(faces.iter().chain(at).copied().take(AROUND));
             }
             let ends = [points[0], points[points.len() - 1]];
             let (wrong, rays, index) = (order.0, seen.rays, seen.first);
-            marks.push((order, MeshMark { wrong, part, ends, lines, rays, index, around }));
+            marks.push((
+                order,
+                MeshMark {
+                    wrong,
+                    part,
+                    ends,
+                    lines,
+                    rays,
+                    index,
+                    around,
+                },
+            ));
         }
     }
     marks.sort_by_key(|(order, _)| *order);
@@ -120,7 +145,11 @@ fn row<F: Scalar>(surface: &Surface, plan: &Plan, cells: [&SourceCell; 2]) -> Op
 impl MeshDrawing {
     /// The words before the numbers of faces.
     pub(super) fn faces(&self) -> &'static str {
-        if self.has_lines { "faces at lines" } else { "faces" }
+        if self.has_lines {
+            "faces at lines"
+        } else {
+            "faces"
+        }
     }
 
     /// The drawing of the rows' places on a mesh. Places whose triangles would be too many are left out, the last of
@@ -139,16 +168,26 @@ impl MeshDrawing {
                 vertices.len() as u32 - 1
             })
         };
-        let triangles =
-            faces.iter().map(|face| mesh.triangles[*face as usize].map(&mut place)).collect();
+        let triangles = faces
+            .iter()
+            .map(|face| mesh.triangles[*face as usize].map(&mut place))
+            .collect();
         for mark in rows.iter_mut().flat_map(|row| &mut row.marks) {
             mark.ends = mark.ends.map(&mut place);
         }
-        let positions: Vec<[f64; 3]> =
-            vertices.iter().map(|vertex| mesh.positions_f64[*vertex as usize]).collect();
+        let positions: Vec<[f64; 3]> = vertices
+            .iter()
+            .map(|vertex| mesh.positions_f64[*vertex as usize])
+            .collect();
         let numbers = vertices.iter().map(|vertex| vertex + 1);
         let points = numbers.zip(drawn(&positions)).collect();
-        MeshDrawing { whole, has_lines: mesh.has_lines, points, triangles, rows }
+        MeshDrawing {
+            whole,
+            has_lines: mesh.has_lines,
+            points,
+            triangles,
+            rows,
+        }
     }
 }
 
@@ -170,7 +209,10 @@ fn faces_around(rows: &mut [DrawnRow]) -> Vec<u32> {
 
 /// Where points are drawn. The largest finite numbers do not overflow.
 fn drawn(positions: &[[f64; 3]]) -> Vec<[i32; 3]> {
-    let largest = positions.as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let largest = positions
+        .as_flattened()
+        .iter()
+        .fold(0.0, |m: f64, x| m.max(x.abs()));
     let size = if largest == 0.0 { 1.0 } else { largest };
     let (mut low, mut high) = ([1.0f64; 3], [-1.0f64; 3]);
     for position in positions {

@@ -22,7 +22,9 @@ pub(crate) fn blocks(
     rows: &[ComparedRates],
     share: fn(&Rate) -> String,
 ) -> Vec<Block> {
-    let [first, others @ ..] = kinds else { return Vec::new() };
+    let [first, others @ ..] = kinds else {
+        return Vec::new();
+    };
     if others.is_empty() {
         return Vec::new();
     }
@@ -31,7 +33,10 @@ pub(crate) fn blocks(
         let (own, others) = row.rates.split_first()?;
         let [_, high] = own.interval.unwrap_or([0.0, 1.0]);
         let is_worse = |rate: &Rate| rate.interval.is_some_and(|[low, _]| high < low);
-        let worse = others.iter().zip(&kinds[1..]).filter(|(rate, _)| is_worse(rate));
+        let worse = others
+            .iter()
+            .zip(&kinds[1..])
+            .filter(|(rate, _)| is_worse(rate));
         let (most, kind) = worse.max_by(|(a, _), (b, _)| of_rate(a).total_cmp(&of_rate(b)))?;
         let cells = [share(own), share(most), kind.clone()];
         Some((of_rate(most) - of_rate(own), Row::new(&row.label, cells)))
@@ -39,7 +44,9 @@ pub(crate) fn blocks(
     let mut worse: Vec<(f64, Row)> = rows.iter().filter_map(most).collect();
     if worse.is_empty() {
         let others = others.join(", ");
-        return vec![Block::text(format!("{title} on other planes or rays: nothing ({others})"))];
+        return vec![Block::text(format!(
+            "{title} on other planes or rays: nothing ({others})"
+        ))];
     }
     worse.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let heads = vec![

@@ -40,7 +40,13 @@ impl TryFrom<Read> for Rate {
     type Error = String;
 
     fn try_from(read: Read) -> Result<Rate, String> {
-        let Read { count, of, rate, interval, rays } = read;
+        let Read {
+            count,
+            of,
+            rate,
+            interval,
+            rays,
+        } = read;
         let trials = Trials::independent(count, of);
         if of < count || rate != trials.share() {
             let found = rate.map_or_else(|| "null".to_owned(), |rate| rate.to_string());
@@ -48,14 +54,24 @@ impl TryFrom<Read> for Rate {
                 "found a rate of {found} for {count} of {of}, expected their quotient, at most 1"
             ));
         }
-        Ok(Rate { count, of, rate, interval, rays })
+        Ok(Rate {
+            count,
+            of,
+            rate,
+            interval,
+            rays,
+        })
     }
 }
 
 impl Rate {
     /// With an interval if the trials are a random sample.
     pub(crate) fn new(trials: Trials, sample: bool) -> Rate {
-        let Trials { count, of, products } = trials;
+        let Trials {
+            count,
+            of,
+            products,
+        } = trials;
         let interval = (sample && 0 < of).then(|| trials.interval());
         Rate {
             count,
@@ -83,8 +99,14 @@ impl Rate {
 
     /// The trials, of which an interval of any width can be had.
     pub(crate) fn trials(&self) -> Trials {
-        let products = self.rays.unwrap_or_else(|| RayProducts::of_single(self.count, self.of));
-        Trials { count: self.count, of: self.of, products }
+        let products = self
+            .rays
+            .unwrap_or_else(|| RayProducts::of_single(self.count, self.of));
+        Trials {
+            count: self.count,
+            of: self.of,
+            products,
+        }
     }
 }
 
@@ -93,7 +115,12 @@ pub(crate) fn interval_of(rate: &Rate) -> String {
     let (Some(share), Some([low, high])) = (rate.rate, rate.interval) else {
         return String::new();
     };
-    format!(" ({} [{}, {}])", percent(share), percent(low), percent(high))
+    format!(
+        " ({} [{}, {}])",
+        percent(share),
+        percent(low),
+        percent(high)
+    )
 }
 
 /// `12.3%`, `0.45%`, `3e-4%`.

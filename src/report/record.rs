@@ -104,7 +104,10 @@ impl<R: Findings> Record<R> {
     /// The same with its checksum.
     #[cfg(feature = "studies")]
     pub fn sealed(self) -> Record<R> {
-        Record { checksum: Some(self.checksum_now()), ..self }
+        Record {
+            checksum: Some(self.checksum_now()),
+            ..self
+        }
     }
 }
 
@@ -137,7 +140,10 @@ impl ResultPart {
 
     /// The results by kernel, epsilon set, scalar and family.
     pub(crate) fn by_place(&self) -> BTreeMap<[&str; 4], &KernelResult> {
-        self.results.iter().map(|part| (part.place(), part)).collect()
+        self.results
+            .iter()
+            .map(|part| (part.place(), part))
+            .collect()
     }
 }
 

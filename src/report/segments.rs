@@ -69,8 +69,16 @@ impl SegmentsPart {
         observer: &dyn Observer,
     ) -> SegmentsPart {
         let run = |ends: &[SegmentEnd], seed: u64| -> Vec<SegmentSums> {
-            let in_scene = |scene| SegmentPlan { scene, ends, seed, ..*plan };
-            scenes.iter().map(|scene| F::segments(&in_scene(scene), observer)).collect()
+            let in_scene = |scene| SegmentPlan {
+                scene,
+                ends,
+                seed,
+                ..*plan
+            };
+            scenes
+                .iter()
+                .map(|scene| F::segments(&in_scene(scene), observer))
+                .collect()
         };
         let pilots = run(&[], pilot_seed);
         let mut ends = usual::<F>();
@@ -106,7 +114,11 @@ impl SegmentsPart {
 fn usual<F: Studied>() -> Vec<SegmentEnd> {
     let precision = F::EPSILON.to_f64().log10().floor() as i32;
     let shares = (0..SHARES).map(|i| 10f64.powi(precision + i));
-    [0.0].into_iter().chain(shares).map(SegmentEnd::Share).collect()
+    [0.0]
+        .into_iter()
+        .chain(shares)
+        .map(SegmentEnd::Share)
+        .collect()
 }
 
 /// The ends that no pilot needs earlier, on any kind of plane: a share, a length and a lift, as far as t shows them.
@@ -157,7 +169,10 @@ impl SegmentsPart {
             Head::of("shorter by: median"),
             Head::of("99 %"),
         ];
-        blocks.push(Block::Table(Table::new(heads, self.ends.iter().map(row).collect())));
+        blocks.push(Block::Table(Table::new(
+            heads,
+            self.ends.iter().map(row).collect(),
+        )));
         let compared = self.ends.iter().map(|end| ComparedRates {
             label: end.end.clone(),
             rates: std::iter::once(&end.blocked)
@@ -166,9 +181,12 @@ impl SegmentsPart {
                 .collect(),
         });
         let compared: Vec<ComparedRates> = compared.collect();
-        blocks.extend(elsewhere::blocks("more blocked", kinds, &compared, |rate| {
-            rate.rate.map_or("-".to_owned(), percent)
-        }));
+        blocks.extend(elsewhere::blocks(
+            "more blocked",
+            kinds,
+            &compared,
+            |rate| rate.rate.map_or("-".to_owned(), percent),
+        ));
         blocks
     }
 
@@ -200,25 +218,44 @@ impl SegmentsPart {
             ))];
         };
         let others: Vec<&str> = others.iter().map(|end| end.end.as_str()).collect();
-        let kinds = if kinds.len() < 2 { "" } else { ", nor with any other kind of plane or ray" };
+        let kinds = if kinds.len() < 2 {
+            ""
+        } else {
+            ", nor with any other kind of plane or ray"
+        };
         let mut notes = vec![format!(
             "the surface at p blocks none of {segments} segments{kinds}; half of them end {}{unit} too early, or less",
             short_length(best.shorter_median)
         )];
         if !others.is_empty() {
-            notes.push(format!("as safe, but shorter: t_max = {}", others.join("; t_max = ")));
+            notes.push(format!(
+                "as safe, but shorter: t_max = {}",
+                others.join("; t_max = ")
+            ));
         }
         let text = format!("t_max = {}", best.end);
-        vec![Block::Use(Use { lead: "use".to_owned(), text, notes })]
+        vec![Block::Use(Use {
+            lead: "use".to_owned(),
+            text,
+            notes,
+        })]
     }
 }
 
 impl SegmentsPart {
     /// How often segments are blocked.
     pub(crate) fn counted(&self) -> Vec<NamedRate> {
-        let SegmentsPart { kernel, set, scalar, .. } = self;
+        let SegmentsPart {
+            kernel,
+            set,
+            scalar,
+            ..
+        } = self;
         let of_end = |end: &SegmentEndPart| NamedRate {
-            what: format!("{kernel} ({set}) {scalar} segments, t_max = {}: blocked", end.end),
+            what: format!(
+                "{kernel} ({set}) {scalar} segments, t_max = {}: blocked",
+                end.end
+            ),
             rate: end.blocked.clone(),
             command: None,
         };
@@ -246,8 +283,11 @@ impl SegmentsPart {
         if !self.shows_ends() {
             return None;
         }
-        let at_target =
-            self.ends.first().and_then(|end| end.blocked.rate).map_or("-".to_owned(), percent);
+        let at_target = self
+            .ends
+            .first()
+            .and_then(|end| end.blocked.rate)
+            .map_or("-".to_owned(), percent);
         let safe = self.safe();
         let end = match safe.first() {
             Some(best) => format!("end at t_max = {}", best.end),

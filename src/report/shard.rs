@@ -16,9 +16,15 @@ struct ShardSums {
 
 /// The part of a record that merging needs; `audit` is as it is before it is finished.
 pub fn shard_part(plan: &Plan, audit: &Audit) -> ShardPart {
-    let sums = ShardSums { plan: StoredPlan::of(plan), audit: audit.clone() };
+    let sums = ShardSums {
+        plan: StoredPlan::of(plan),
+        audit: audit.clone(),
+    };
     let sums = serde_json::to_string(&sums).unwrap_or_default();
-    ShardPart { digest: digest(&sums), sums }
+    ShardPart {
+        digest: digest(&sums),
+        sums,
+    }
 }
 
 fn digest(sums: &str) -> String {
@@ -35,7 +41,10 @@ pub struct ShardError {
 }
 
 fn error(record: usize, message: impl Into<String>) -> ShardError {
-    ShardError { record: Some(record), message: message.into() }
+    ShardError {
+        record: Some(record),
+        message: message.into(),
+    }
 }
 
 /// Records that are parts of one plan, each once.
@@ -73,16 +82,27 @@ pub fn mergeable(records: Vec<Record>, allow_partial: bool) -> Result<Mergeable,
         let hash = record.result.plan.hash;
         let Some(all) = &mut all else {
             let (parts, provenance) = (vec![sums.audit], vec![record.provenance]);
-            all = Some(Mergeable { plan: sums.plan, hash, parts, partial, provenance });
+            all = Some(Mergeable {
+                plan: sums.plan,
+                hash,
+                parts,
+                partial,
+                provenance,
+            });
             continue;
         };
         if hash != all.hash || sums.plan != all.plan {
-            let message = format!("of another plan: {hash}, expected {} as the first", all.hash);
+            let message = format!(
+                "of another plan: {hash}, expected {} as the first",
+                all.hash
+            );
             return Err(error(i, message));
         }
         if partial.of != all.partial.of {
-            let message =
-                format!("cut in {}, expected {} as the first", partial.of, all.partial.of);
+            let message = format!(
+                "cut in {}, expected {} as the first",
+                partial.of, all.partial.of
+            );
             return Err(error(i, message));
         }
         let (target, first) = (&record.provenance.target, &all.provenance[0].target);
@@ -94,20 +114,33 @@ pub fn mergeable(records: Vec<Record>, allow_partial: bool) -> Result<Mergeable,
         }
         let files = &record.provenance.kernel_files;
         if let Some((file, digest)) = files.iter().find(|(file, digest)| {
-            all.provenance[0].kernel_files.get(*file).is_some_and(|first| first != *digest)
+            all.provenance[0]
+                .kernel_files
+                .get(*file)
+                .is_some_and(|first| first != *digest)
         }) {
             let message = format!("of another build of {file} ({digest}) than the first");
             return Err(error(i, message));
         }
-        if let Some(twice) = partial.present.iter().find(|k| all.partial.present.contains(k)) {
-            return Err(error(i, format!("shard {twice}/{} is given twice", partial.of)));
+        if let Some(twice) = partial
+            .present
+            .iter()
+            .find(|k| all.partial.present.contains(k))
+        {
+            return Err(error(
+                i,
+                format!("shard {twice}/{} is given twice", partial.of),
+            ));
         }
         all.parts.push(sums.audit);
         all.partial.present.extend(partial.present);
         all.provenance.push(record.provenance);
     }
     let Some(mut all) = all else {
-        return Err(ShardError { record: None, message: "no records".to_owned() });
+        return Err(ShardError {
+            record: None,
+            message: "no records".to_owned(),
+        });
     };
     all.partial.present.sort_unstable();
     let missing: Vec<String> = all.missing().map(|k| k.to_string()).collect();
@@ -115,7 +148,10 @@ pub fn mergeable(records: Vec<Record>, allow_partial: bool) -> Result<Mergeable,
         let (of, missing) = (all.partial.of, missing.join(", "));
         let message =
             format!("shards {missing} of {of} are missing (--allow-partial goes without)");
-        return Err(ShardError { record: None, message });
+        return Err(ShardError {
+            record: None,
+            message,
+        });
     }
     Ok(all)
 }
@@ -172,7 +208,12 @@ pub fn merged<E: From<String>>(
     let shard = (!complete).then(|| shard_part(&plan, &audit));
     audit::finish(&plan, observer, &mut audit);
     let seconds = parts.provenance.iter().map(|part| part.seconds).sum();
-    let threads = parts.provenance.iter().map(|part| part.threads).max().unwrap_or(0);
+    let threads = parts
+        .provenance
+        .iter()
+        .map(|part| part.threads)
+        .max()
+        .unwrap_or(0);
     let mut record = build(&plan, &audit, &Context { seconds, threads });
     record.result.partial = (!complete).then_some(parts.partial);
     record.shard = shard;
@@ -180,12 +221,24 @@ pub fn merged<E: From<String>>(
     if let Some(first) = parts.provenance.first() {
         record.provenance.plan_flags.clone_from(&first.plan_flags);
         record.provenance.target.clone_from(&first.target);
-        record.provenance.kernel_files.clone_from(&first.kernel_files);
+        record
+            .provenance
+            .kernel_files
+            .clone_from(&first.kernel_files);
     }
     for (kernel, notes) in parts.provenance.iter().flat_map(|part| &part.kernel_notes) {
-        let known = record.provenance.kernel_notes.entry(kernel.clone()).or_default();
-        known
-            .extend(notes.iter().filter(|note| !known.contains(note)).cloned().collect::<Vec<_>>());
+        let known = record
+            .provenance
+            .kernel_notes
+            .entry(kernel.clone())
+            .or_default();
+        known.extend(
+            notes
+                .iter()
+                .filter(|note| !known.contains(note))
+                .cloned()
+                .collect::<Vec<_>>(),
+        );
     }
     record.provenance.parts = parts.provenance;
     Ok(record.sealed())

@@ -9,13 +9,21 @@ use crate::mesh::{AimedPart, Noted, Surface, Targets, Topology};
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
-const FACES: [&str; 5] = ["sound", "collapsed", "without_area", "duplicated", "out_of_range"];
+const FACES: [&str; 5] = [
+    "sound",
+    "collapsed",
+    "without_area",
+    "duplicated",
+    "out_of_range",
+];
 const EDGES: [&str; 5] = ["shared", "open", "inconsistent", "non_manifold", "unsound"];
 const VERTICES: [&str; 4] = ["closed_fan", "open_fan", "several_fans", "irregular"];
 
 /// The mesh whose edges and vertices a plan asks about; none if it asks about anything else.
 pub(super) fn of_plan(plan: &Plan) -> Option<&Surface> {
-    let [edges, vertices] = &plan.sources[..] else { return None };
+    let [edges, vertices] = &plan.sources[..] else {
+        return None;
+    };
     match (&edges.stock, &vertices.stock) {
         (Stock::MeshPart(surface, AimedPart::Edges), Stock::MeshPart(..)) => Some(surface),
         _ => None,
@@ -53,26 +61,52 @@ fn add_places<F: Scalar>(plan: &Plan, cell: &SourceCell, places: &mut BTreeMap<S
     };
     let mesh = surface.mesh();
     let first = |groups: &'_ GroupCount| {
-        let GroupCount { first_cracks, first_doubles, first_odd_folds, first_elsewhere, .. } =
-            groups;
-        [first_cracks, first_doubles, first_odd_folds, first_elsewhere].map(Vec::clone).concat()
+        let GroupCount {
+            first_cracks,
+            first_doubles,
+            first_odd_folds,
+            first_elsewhere,
+            ..
+        } = groups;
+        [
+            first_cracks,
+            first_doubles,
+            first_odd_folds,
+            first_elsewhere,
+        ]
+        .map(Vec::clone)
+        .concat()
     };
     for index in cell.tally.aimed.classes.iter().flat_map(first) {
         let (target, _) = targets.place(*part, index);
         let faces = targets.faces(*part, target).iter();
         let numbers: Vec<u32> = faces.map(|face| mesh.places[*face as usize]).collect();
-        let (lines, faces) =
-            if mesh.has_lines { (numbers, Vec::new()) } else { (Vec::new(), numbers) };
+        let (lines, faces) = if mesh.has_lines {
+            (numbers, Vec::new())
+        } else {
+            (Vec::new(), numbers)
+        };
         let points = targets.points(*part, target).into_iter();
         let points = points.map(|point| targets.position::<F>(point)).collect();
-        places.insert(source.id::<F>(index, None), PlacePart { points, lines, faces });
+        places.insert(
+            source.id::<F>(index, None),
+            PlacePart {
+                points,
+                lines,
+                faces,
+            },
+        );
     }
 }
 
 /// A mesh in a scalar; none if the plan does not run in it.
 fn scalar<F: Scalar>(surface: &Surface, plan: &Plan) -> Option<MeshScalar> {
     let (targets, topology) = (plan.sources[0].targets::<F>()?, surface.topology::<F>()?);
-    let builder = TopologyBuilder::<F> { surface, targets: &targets, scalar: PhantomData };
+    let builder = TopologyBuilder::<F> {
+        surface,
+        targets: &targets,
+        scalar: PhantomData,
+    };
     Some(MeshScalar {
         scalar: F::NAME.to_owned(),
         topology: builder.topology(topology),
@@ -83,7 +117,10 @@ fn scalar<F: Scalar>(surface: &Surface, plan: &Plan) -> Option<MeshScalar> {
 
 /// The largest coordinate of a mesh.
 fn reach(mesh: &Mesh) -> f64 {
-    mesh.positions_f64.as_flattened().iter().fold(0.0, |most, x| f64::max(most, x.abs()))
+    mesh.positions_f64
+        .as_flattened()
+        .iter()
+        .fold(0.0, |most, x| f64::max(most, x.abs()))
 }
 
 /// The longest edge of the smallest triangle that has one.
@@ -91,11 +128,15 @@ fn smallest(mesh: &Mesh) -> f64 {
     let longest = |triangle: usize| {
         let [a, b, c] = mesh.vertices::<f64>(triangle);
         let length = |p: [f64; 3], q: [f64; 3]| {
-            p.iter().zip(q).fold(0.0, |sum: f64, (p, q)| sum.hypot(p - q))
+            p.iter()
+                .zip(q)
+                .fold(0.0, |sum: f64, (p, q)| sum.hypot(p - q))
         };
         length(a, b).max(length(b, c)).max(length(c, a))
     };
-    let all = (0..mesh.triangles.len()).map(longest).filter(|size| 0.0 < *size);
+    let all = (0..mesh.triangles.len())
+        .map(longest)
+        .filter(|size| 0.0 < *size);
     all.fold(f64::INFINITY, f64::min)
 }
 
@@ -108,7 +149,9 @@ struct TopologyBuilder<'a, F> {
 impl<F: Float> TopologyBuilder<'_, F> {
     fn finite(&self, points: &[u32]) -> Vec<[Option<f64>; 3]> {
         let finite = |point: &u32| {
-            self.targets.position::<F>(*point).map(|x| Some(x).filter(|x| x.is_finite()))
+            self.targets
+                .position::<F>(*point)
+                .map(|x| Some(x).filter(|x| x.is_finite()))
         };
         points.iter().map(finite).collect()
     }
@@ -116,7 +159,10 @@ impl<F: Float> TopologyBuilder<'_, F> {
     fn topology(&self, topology: &Topology) -> TopologyPart {
         let mesh = self.surface.mesh();
         let noted = |noted: &Noted| {
-            let place = noted.first.as_ref().map(|(face, _)| mesh.places[*face as usize]);
+            let place = noted
+                .first
+                .as_ref()
+                .map(|(face, _)| mesh.places[*face as usize]);
             NotedPart {
                 count: noted.count,
                 first_line: place.filter(|_| mesh.has_lines),
@@ -128,7 +174,11 @@ impl<F: Float> TopologyBuilder<'_, F> {
             }
         };
         let named = |names: &[&str], of: &[Noted]| -> BTreeMap<String, NotedPart> {
-            names.iter().map(|name| (*name).to_owned()).zip(of.iter().map(noted)).collect()
+            names
+                .iter()
+                .map(|name| (*name).to_owned())
+                .zip(of.iter().map(noted))
+                .collect()
         };
         let mut faces = named(&FACES, &topology.faces);
         if let Some(note) = mesh.left_out() {

@@ -9,7 +9,13 @@ pub(super) static FLAGS: LazyLock<Vec<(&str, &str)>> =
 
 /// The flags that follow from a truth.
 pub(super) fn of_truth(truth: &Truth) -> Vec<&'static str> {
-    let Truth::Transversal(Crossing { facing, place, feature, .. }) = truth else {
+    let Truth::Transversal(Crossing {
+        facing,
+        place,
+        feature,
+        ..
+    }) = truth
+    else {
         return vec![truth.class_name()];
     };
     let met = *feature != Feature::Outside;
@@ -18,9 +24,16 @@ pub(super) fn of_truth(truth: &Truth) -> Vec<&'static str> {
         ("vertex", feature.is_vertex()),
         ("back", *facing == Facing::Back),
         ("interval-end", matches!(place, Place::AtMin | Place::AtMax)),
-        ("out-of-interval", met && matches!(place, Place::Before | Place::Beyond)),
+        (
+            "out-of-interval",
+            met && matches!(place, Place::Before | Place::Beyond),
+        ),
     ];
-    flags.into_iter().filter(|(_, holds)| *holds).map(|(name, _)| name).collect()
+    flags
+        .into_iter()
+        .filter(|(_, holds)| *holds)
+        .map(|(name, _)| name)
+        .collect()
 }
 
 /// The flag of a family's cases.
@@ -32,5 +45,8 @@ pub(super) fn of_family(family: &str) -> Option<&'static str> {
         "axis-aligned" => "zeros",
         other => other,
     };
-    FLAGS.iter().map(|(name, _)| *name).find(|name| *name == flag)
+    FLAGS
+        .iter()
+        .map(|(name, _)| *name)
+        .find(|name| *name == flag)
 }

@@ -19,9 +19,13 @@ const LONGEST_FRACTION: usize = 60;
 pub fn topic_file(topic: &VectorTopic, tests: &[VectorTest]) -> (String, String) {
     let used = |name: &str| tests.iter().any(|test| test.flags.contains(&name));
     let flags = FLAGS.iter().filter(|(name, _)| used(name));
-    let flags: Vec<String> =
-        flags.map(|(name, effect)| format!("\n\"{name}\":{}", json!(effect))).collect();
-    let lines: Vec<String> = tests.iter().map(|test| format!("\n{}", line(test))).collect();
+    let flags: Vec<String> = flags
+        .map(|(name, effect)| format!("\n\"{name}\":{}", json!(effect)))
+        .collect();
+    let lines: Vec<String> = tests
+        .iter()
+        .map(|test| format!("\n{}", line(test)))
+        .collect();
     let text = format!(
         "{{\n\"schema\":\"{SCHEMA}\",\n\"topic\":\"{}\",\n\"about\":{},\n\"licence\":\"CC0-1.0\",\n\"flags\":{{{}\n}},\n\"tests\":[{}\n]\n}}\n",
         topic.name,
@@ -37,7 +41,11 @@ pub fn line(test: &VectorTest) -> String {
     let mut fields = Fields(Vec::new());
     fields.add("id", json!(test.id));
     fields.add("comment", json!(test.comment));
-    fields.0.extend(test.source.as_ref().map(|source| ("source", json!(source).to_string())));
+    fields.0.extend(
+        test.source
+            .as_ref()
+            .map(|source| ("source", json!(source).to_string())),
+    );
     fields.add("flags", json!(test.flags));
     fields.add("scalar", json!(test.scalar));
     let text = |numbers: &[EitherFloat]| numbers.iter().map(EitherFloat::text).collect::<Vec<_>>();
@@ -132,5 +140,9 @@ fn patterns(vertex: &[EitherFloat]) -> Vec<&str> {
 /// The nearest double; null beyond the largest.
 fn double(value: &BigRational) -> String {
     let nearest = nearest(value);
-    if nearest.is_finite() { number::write(nearest) } else { "null".to_owned() }
+    if nearest.is_finite() {
+        number::write(nearest)
+    } else {
+        "null".to_owned()
+    }
 }

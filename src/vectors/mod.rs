@@ -106,22 +106,37 @@ impl VectorTest {
     fn new<F: Float>(label: Label, cases: &[Case<F>], grouping: Grouping) -> Option<VectorTest> {
         let triangles: Vec<TestTriangle> = cases.iter().map(TestTriangle::new).collect();
         let truths: Vec<Truth> = triangles.iter().map(|triangle| triangle.truth).collect();
-        let group = grouping.shares_a_ray().then(|| TestGroup::new(cases, &truths, grouping));
+        let group = grouping
+            .shares_a_ray()
+            .then(|| TestGroup::new(cases, &truths, grouping));
         if group.is_some_and(|group| group.truth == GroupTruth::Free) {
             return None;
         }
         let [[ox, oy, oz], [dx, dy, dz], ..] = cases[0].vectors();
         let (t_min, t_max) = (cases[0].ray.t_min, cases[0].ray.t_max);
         let ray = [ox, oy, oz, dx, dy, dz, t_min, t_max].map(EitherFloat::of);
-        let Label { name, comment, source, flag } = label;
+        let Label {
+            name,
+            comment,
+            source,
+            flag,
+        } = label;
         let mut flags: Vec<&str> = flag.into_iter().collect();
-        let mut numbers = ray.iter().chain(triangles.iter().flat_map(|triangle| &triangle.numbers));
-        let of_numbers = numbers.any(|number| number.is_extreme).then_some("range-ends");
-        truths.iter().flat_map(flags::of_truth).chain(of_numbers).for_each(|flag| {
-            if !flags.contains(&flag) {
-                flags.push(flag)
-            }
-        });
+        let mut numbers = ray
+            .iter()
+            .chain(triangles.iter().flat_map(|triangle| &triangle.numbers));
+        let of_numbers = numbers
+            .any(|number| number.is_extreme)
+            .then_some("range-ends");
+        truths
+            .iter()
+            .flat_map(flags::of_truth)
+            .chain(of_numbers)
+            .for_each(|flag| {
+                if !flags.contains(&flag) {
+                    flags.push(flag)
+                }
+            });
         let mut test = VectorTest {
             id: name,
             comment,
@@ -141,13 +156,21 @@ impl VectorTest {
     /// The bit patterns of the ray and then of each triangle, in hexadecimal between spaces.
     fn bits(&self) -> String {
         let triangles = self.triangles.iter().flat_map(|triangle| &triangle.numbers);
-        let words: Vec<&str> = self.ray.iter().chain(triangles).map(|it| &*it.bits).collect();
+        let words: Vec<&str> = self
+            .ray
+            .iter()
+            .chain(triangles)
+            .map(|it| &*it.bits)
+            .collect();
         words.join(" ")
     }
 
     /// The first [`DIGITS`] digits of the SHA-256 of the scalar and the bit patterns.
     fn digest(&self) -> String {
-        hex(&Hash::hash(format!("{} {}", self.scalar, self.bits()).as_bytes()))[..DIGITS].to_owned()
+        hex(&Hash::hash(
+            format!("{} {}", self.scalar, self.bits()).as_bytes(),
+        ))[..DIGITS]
+            .to_owned()
     }
 }
 
@@ -156,7 +179,11 @@ impl TestTriangle {
         let vertices = case.vectors();
         let numbers = std::array::from_fn(|i| EitherFloat::of(vertices[2 + i / 3][i % 3]));
         let truth = truth(case);
-        TestTriangle { numbers, truth, values: values(case, &truth) }
+        TestTriangle {
+            numbers,
+            truth,
+            values: values(case, &truth),
+        }
     }
 
     /// Hit, miss, or free for invalid input, if edges, vertices, ends and every contact are hits.
@@ -174,14 +201,24 @@ impl TestTriangle {
         let crossing = |is: fn(&Crossing) -> bool| self.truth.crossing().is_some_and(is);
         let is_class = |name: &str| self.truth.class_name() == name;
         let reasons = [
-            ("boundary", crossing(|c| c.feature.is_edge() || c.feature.is_vertex())),
-            ("ends", crossing(|c| matches!(c.place, Place::AtMin | Place::AtMax))),
+            (
+                "boundary",
+                crossing(|c| c.feature.is_edge() || c.feature.is_vertex()),
+            ),
+            (
+                "ends",
+                crossing(|c| matches!(c.place, Place::AtMin | Place::AtMax)),
+            ),
             ("coplanar", is_class("coplanar")),
             ("degenerate", is_class("degenerate")),
             ("invalid", is_class("invalid")),
         ];
         let free = result(&self.truth) == Obligation::Free;
-        reasons.into_iter().filter(|(_, holds)| free && *holds).map(|(name, _)| name).collect()
+        reasons
+            .into_iter()
+            .filter(|(_, holds)| free && *holds)
+            .map(|(name, _)| name)
+            .collect()
     }
 }
 
@@ -203,22 +240,33 @@ fn values<F: Float>(case: &Case<F>, truth: &Truth) -> Option<[BigRational; 4]> {
 /// The demand of both readings; free if they differ.
 fn result(truth: &Truth) -> Obligation {
     let [closed, open] = [CLOSED, OPEN].map(|reading| obligation(truth, &reading, false));
-    if closed == open { closed } else { Obligation::Free }
+    if closed == open {
+        closed
+    } else {
+        Obligation::Free
+    }
 }
 
 /// Where a line meets the plane, or the class of a line that does not cross it.
 fn place(truth: &Truth) -> &'static str {
-    truth.crossing().map_or(truth.class_name(), |crossing| crossing.feature.name())
+    truth
+        .crossing()
+        .map_or(truth.class_name(), |crossing| crossing.feature.name())
 }
 
 impl TestGroup {
     fn new<F: Float>(cases: &[Case<F>], truths: &[Truth], grouping: Grouping) -> TestGroup {
         let hits = |reading| {
-            let asked = truths.iter().map(|truth| obligation(truth, &reading, false));
+            let asked = truths
+                .iter()
+                .map(|truth| obligation(truth, &reading, false));
             asked.filter(|asked| *asked == Obligation::MustHit).count()
         };
         let truth = group_obligation(cases, truths, &CLOSED, grouping);
-        TestGroup { truth, counts: [CLOSED, OPEN].map(hits) }
+        TestGroup {
+            truth,
+            counts: [CLOSED, OPEN].map(hits),
+        }
     }
 
     /// The number of hits that is right.
@@ -232,7 +280,11 @@ impl TestGroup {
 
     /// The parity of the number of triangles that the line passes: `odd` or `even`.
     pub fn parity(&self) -> &'static str {
-        if self.truth == (GroupTruth::Fold { odd: false }) { "even" } else { "odd" }
+        if self.truth == (GroupTruth::Fold { odd: false }) {
+            "even"
+        } else {
+            "odd"
+        }
     }
 }
 

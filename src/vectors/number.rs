@@ -26,7 +26,11 @@ impl EitherFloat {
 
     /// As C, Python and Java read it: `-0x1.8p-3`, `Infinity`, `NaN`.
     pub fn text(&self) -> String {
-        let sign = if self.value.is_sign_negative() { "-" } else { "" };
+        let sign = if self.value.is_sign_negative() {
+            "-"
+        } else {
+            ""
+        };
         if self.value.is_nan() {
             return "NaN".to_owned();
         }
@@ -43,7 +47,10 @@ impl EitherFloat {
         let fraction = format!("{fraction:016x}");
         let fraction = fraction.trim_end_matches('0');
         let point = if fraction.is_empty() { "" } else { "." };
-        format!("{sign}0x1{point}{fraction}p{}", exponent + i64::from(places))
+        format!(
+            "{sign}0x1{point}{fraction}p{}",
+            exponent + i64::from(places)
+        )
     }
 }
 

@@ -12,7 +12,10 @@ use std::fmt;
 const PROFILES: [(&str, &str); 4] = [
     ("dxr", include_str!("../../vectors/profiles/dxr.json")),
     ("parity", include_str!("../../vectors/profiles/parity.json")),
-    ("picking", include_str!("../../vectors/profiles/picking.json")),
+    (
+        "picking",
+        include_str!("../../vectors/profiles/picking.json"),
+    ),
     ("vulkan", include_str!("../../vectors/profiles/vulkan.json")),
 ];
 
@@ -119,7 +122,14 @@ impl Profile {
     }
 
     fn contract(&self) -> Contract {
-        let FreeAnswers { boundary, ends, coplanar, degenerate, invalid, .. } = &self.answers;
+        let FreeAnswers {
+            boundary,
+            ends,
+            coplanar,
+            degenerate,
+            invalid,
+            ..
+        } = &self.answers;
         let rim = |answer: &ProfileAnswer<Demand>| match answer.result {
             Demand::Hit => Boundary::Closed,
             Demand::Miss => Boundary::Open,
@@ -155,9 +165,13 @@ impl Profile {
             asked != Obligation::Free && answer.result.name() == word(asked)
         };
         let reasons = test.triangles[0].free_because();
-        let answers = reasons.into_iter().map(|reason| (reason, self.answers.of_single(reason)));
+        let answers = reasons
+            .into_iter()
+            .map(|reason| (reason, self.answers.of_single(reason)));
         let deciding = answers.filter(|(_, answer)| decides(answer));
-        deciding.map(|(reason, answer)| answer.saying(reason)).collect()
+        deciding
+            .map(|(reason, answer)| answer.saying(reason))
+            .collect()
     }
 }
 

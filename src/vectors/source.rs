@@ -44,7 +44,9 @@ pub fn core() -> Vec<(VectorTopic, Vec<VectorTest>)> {
             let groups = published.chunk_by(|one, other| group_name(one) == group_name(other));
             tests.extend(groups.filter_map(|cases| named(cases, Some("published"))));
         }
-        let curated = curated.iter().filter_map(|case| named(std::slice::from_ref(case), None));
+        let curated = curated
+            .iter()
+            .filter_map(|case| named(std::slice::from_ref(case), None));
         tests.extend(curated.filter(|test| topic_of(&test.triangles[0].truth) == topic.name));
         for &(family, count) in &topic.families {
             let family = find(family).expect("a family of the table");
@@ -73,13 +75,20 @@ fn named(stored: &[StoredCase], flag: Option<&'static str>) -> Option<VectorTest
         flag,
     };
     let cases = stored.iter().map(|stored| &stored.case);
-    let grouping = if stored.len() > 1 { Grouping::SharedEdge } else { Grouping::Single };
+    let grouping = if stored.len() > 1 {
+        Grouping::SharedEdge
+    } else {
+        Grouping::Single
+    };
     in_named_scalar!(stored[0].case.scalar(), F => VectorTest::new(label, &in_scalar::<F>(cases), grouping))
 }
 
 /// The name before `.0` or `.1`.
 fn group_name(stored: &StoredCase) -> Option<&str> {
-    stored.name.as_deref().and_then(|name| name.split('.').next())
+    stored
+        .name
+        .as_deref()
+        .and_then(|name| name.split('.').next())
 }
 
 /// The file of a curated case.
@@ -99,13 +108,17 @@ fn picked<F: Scalar>(topic: &str, family: &'static Family, count: usize) -> Vec<
     let mut ranked: Vec<(usize, u64)> = (0..PICKED_FROM)
         .map(|index| {
             let made = family.make::<F>(&Parameters::default(), SEED, index);
-            let rank = of_kind.entry(kind(made.cases(), family.grouping)).or_default();
+            let rank = of_kind
+                .entry(kind(made.cases(), family.grouping))
+                .or_default();
             *rank += 1;
             (*rank, index)
         })
         .collect();
     ranked.sort();
-    let tests = ranked.iter().filter_map(|(_, index)| generated::<F>(topic, family, *index));
+    let tests = ranked
+        .iter()
+        .filter_map(|(_, index)| generated::<F>(topic, family, *index));
     tests.take(count).collect()
 }
 
@@ -152,7 +165,10 @@ fn generated<F: Scalar>(name: &str, family: &'static Family, index: u64) -> Opti
         Some(group) => {
             let [closed, open] = group.counts;
             let count = test.triangles.len();
-            write!(test.comment, ": {count} triangles; hits: {closed} closed, {open} open")
+            write!(
+                test.comment,
+                ": {count} triangles; hits: {closed} closed, {open} open"
+            )
         }
     };
     Some(test)

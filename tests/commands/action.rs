@@ -14,7 +14,9 @@ fn script_of_the_action() -> String {
     let action = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/action.yml")).unwrap();
     let step = action.split("      id: check\n").nth(1).unwrap();
     let script = step.split("      run: |\n").nth(1).unwrap();
-    let lines = script.lines().take_while(|line| line.starts_with("        "));
+    let lines = script
+        .lines()
+        .take_while(|line| line.starts_with("        "));
     lines.map(|line| format!("{}\n", &line[8..])).collect()
 }
 
@@ -33,7 +35,9 @@ impl Ran {
     fn kernels(&self) -> Vec<&str> {
         let rows = self.record["result"]["plan"]["rows"].as_array();
         rows.map_or(Vec::new(), |rows| {
-            rows.iter().map(|row| row["kernel"].as_str().unwrap()).collect()
+            rows.iter()
+                .map(|row| row["kernel"].as_str().unwrap())
+                .collect()
         })
     }
 
@@ -51,7 +55,14 @@ fn run_action(folder: &Path, arguments: &str) -> Option<Ran> {
     let program = temporary.join("hairline/bin/hairline");
     std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_hairline"), program).unwrap();
     let output = Command::new("bash")
-        .args(["--noprofile", "--norc", "-eo", "pipefail", "-c", &script_of_the_action()])
+        .args([
+            "--noprofile",
+            "--norc",
+            "-eo",
+            "pipefail",
+            "-c",
+            &script_of_the_action(),
+        ])
         .current_dir(folder)
         .env("ARGUMENTS", arguments)
         .env("RUNNER_TEMP", &temporary)
@@ -74,7 +85,12 @@ fn run_action(folder: &Path, arguments: &str) -> Option<Ran> {
     }
     let [text, error] =
         [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    Some(Ran { code, text, error, record })
+    Some(Ran {
+        code,
+        text,
+        error,
+        record,
+    })
 }
 
 #[test]
@@ -87,7 +103,9 @@ fn the_action_takes_a_command_with_spaces_or_all_from_the_file() {
     let settings = "family = \"interior\"\nscalar = \"f64\"\ncount = 50\n";
     fs::write(folder.join("hairline.toml"), settings).unwrap();
     let ends_with = |arguments: &str, code: i32, kernels: &[&str]| {
-        let Some(ran) = run_action(&folder, arguments) else { return };
+        let Some(ran) = run_action(&folder, arguments) else {
+            return;
+        };
         assert_eq!((ran.code, ran.kernels()), (code, kernels.to_vec()));
     };
     ends_with("--kernel-cmd 'sh never.sh' --seed 7", 1, &["never"]);
@@ -109,8 +127,17 @@ fn build(folder: &Path, name: &str, flags: &[&str]) -> bool {
     let here = env!("CARGO_MANIFEST_DIR");
     let library = folder.join(format!("lib{name}.so"));
     let built = Command::new("cc")
-        .args(["-O2", "-shared", "-fPIC", &format!("-I{here}/include"), "-o"])
-        .args([library.as_os_str(), format!("{here}/tests/kernels/year.c").as_ref()])
+        .args([
+            "-O2",
+            "-shared",
+            "-fPIC",
+            &format!("-I{here}/include"),
+            "-o",
+        ])
+        .args([
+            library.as_os_str(),
+            format!("{here}/tests/kernels/year.c").as_ref(),
+        ])
         .args(flags)
         .arg("-lm")
         .output();
@@ -118,7 +145,11 @@ fn build(folder: &Path, name: &str, flags: &[&str]) -> bool {
         not_tested("there is no 'cc' on this machine");
         return false;
     };
-    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    assert!(
+        built.status.success(),
+        "{}",
+        String::from_utf8_lossy(&built.stderr)
+    );
     fs::copy(library, folder.join("libmine.so")).unwrap();
     true
 }
@@ -126,9 +157,15 @@ fn build(folder: &Path, name: &str, flags: &[&str]) -> bool {
 /// Whether a kernel shows a finding on a case.
 fn shows(folder: &Path, library: &str, case: &str, finding: &str) -> bool {
     let library = folder.join(format!("lib{library}.so"));
-    let output = hairline(folder, &["explain", case, "--kernel-lib", library.to_str().unwrap()]);
+    let output = hairline(
+        folder,
+        &["explain", case, "--kernel-lib", library.to_str().unwrap()],
+    );
     let text = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success() && text.contains("mine (own)"), "{text}");
+    assert!(
+        output.status.success() && text.contains("mine (own)"),
+        "{text}"
+    );
     text.contains(&format!(": {}\n", finding.to_uppercase()))
 }
 
@@ -157,7 +194,9 @@ fn a_year_of_a_kernel_in_c() {
     if !build(&folder, "first", &[OFF]) {
         return;
     }
-    let Some(ran) = run_action(&folder, "") else { return };
+    let Some(ran) = run_action(&folder, "") else {
+        return;
+    };
 
     // It is adopted: red as long as nothing is written down, then green, and a person can read why.
     assert_eq!((ran.code, ran.kernels()), (1, vec!["mine"]));
@@ -178,7 +217,11 @@ fn a_year_of_a_kernel_in_c() {
     action(0);
 
     // Another compiler, which fuses multiplications and additions.
-    let fused = if cfg!(target_arch = "x86_64") { &["-mfma"][..] } else { &[] };
+    let fused = if cfg!(target_arch = "x86_64") {
+        &["-mfma"][..]
+    } else {
+        &[]
+    };
     build(&folder, "fused", &[fused, &["-ffp-contract=fast"]].concat());
     if cfg!(not(target_arch = "x86_64")) || std::arch::is_x86_feature_detected!("fma") {
         let ran = action(1);
@@ -188,15 +231,27 @@ fn a_year_of_a_kernel_in_c() {
         let said = format!(" ({} worse", of("worse"));
         assert!(flat(&ran.text).contains(&said), "{}", ran.text);
         let shown = witnesses(&folder, &ran, "first", "fused");
-        assert!(ran.unexpected().len() * 3 / 4 <= shown, "{shown} of {}", ran.unexpected().len());
+        assert!(
+            ran.unexpected().len() * 3 / 4 <= shown,
+            "{shown} of {}",
+            ran.unexpected().len()
+        );
         let (_, error) = ends(&folder, &["check", "--bless", "--quiet"], 1);
-        assert!(error.contains(" stays as it is: ") && error.contains(" better, "), "{error}");
+        assert!(
+            error.contains(" stays as it is: ") && error.contains(" better, "),
+            "{error}"
+        );
     }
 
     // A worse epsilon: every disagreement shows a case that passed until now, but for one of 14 cases instead of 13.
     build(&folder, "worse", &[OFF, "-DEPSILON=\"1e-5\""]);
     let ran = action(1);
-    assert!(ran.text.contains("; the case shown is new\n    hairline explain '"), "{}", ran.text);
+    assert!(
+        ran.text
+            .contains("; the case shown is new\n    hairline explain '"),
+        "{}",
+        ran.text
+    );
     let shown = witnesses(&folder, &ran, "first", "worse");
     assert!(ran.unexpected().len() <= shown + 1, "{shown}: {}", ran.text);
     let set = "\nmine (own): its epsilon parallel is now 1e-5; blessed with 1e-7\n";
@@ -206,7 +261,12 @@ fn a_year_of_a_kernel_in_c() {
     fs::rename(folder.join("hairline.toml"), folder.join("kept.toml")).unwrap();
     let (out, _) = program::ends(
         &folder,
-        &["check", "-q", "--record", "runner/hairline-report/check.json"],
+        &[
+            "check",
+            "-q",
+            "--record",
+            "runner/hairline-report/check.json",
+        ],
         1,
     );
     assert_eq!(out, ran.text);
@@ -217,18 +277,34 @@ fn a_year_of_a_kernel_in_c() {
     // One class has as many cases as before, but not the same ones, which is red.
     let ran = action(1);
     let told = flat(&ran.text);
-    assert!(told.contains(" unexpected disagreement (1 of other cases), "), "{told}");
+    assert!(
+        told.contains(" unexpected disagreement (1 of other cases), "),
+        "{told}"
+    );
     assert!(told.contains(" stale expectations"), "{told}");
-    ends(&folder, &["check", "--bless", "--accept-worse", "--quiet"], 0);
+    ends(
+        &folder,
+        &["check", "--bless", "--accept-worse", "--quiet"],
+        0,
+    );
     assert!(of("hairline.expectations.toml").len() < reviewed.len());
     action(0);
 
     // A crash.
     build(&folder, "crash", &[OFF, "-DWIDE", "-DCRASH"]);
     let ran = action(1);
-    let crash = ran.unexpected().iter().find(|found| found["finding"] == "crash").unwrap();
+    let crash = ran
+        .unexpected()
+        .iter()
+        .find(|found| found["finding"] == "crash")
+        .unwrap();
     assert_eq!(crash["expected"], "none");
-    assert!(shows(&folder, "crash", crash["case"].as_str().unwrap(), "crash"));
+    assert!(shows(
+        &folder,
+        "crash",
+        crash["case"].as_str().unwrap(),
+        "crash"
+    ));
 }
 
 #[test]
@@ -243,14 +319,27 @@ fn what_a_crash_kept_from_being_judged_is_new_once_it_is_repaired_and_said_to_be
     ends(&folder, &["check", "--bless", "--quiet"], 0);
     build(&folder, "repaired", &["-ffp-contract=off"]);
     let (out, _) = ends(&folder, &["check", "--quiet"], 1);
-    let said = out.split_once("; before, the kernel crashed on ").unwrap().1;
-    assert!(said.split_once(' ').unwrap().1.starts_with("cases that it answers now"), "{out}");
+    let said = out
+        .split_once("; before, the kernel crashed on ")
+        .unwrap()
+        .1;
+    assert!(
+        said.split_once(' ')
+            .unwrap()
+            .1
+            .starts_with("cases that it answers now"),
+        "{out}"
+    );
     let (_, error) = ends(&folder, &["check", "--bless"], 1);
     assert!(
         error.contains(" where the kernel failed before); --accept-worse writes it"),
         "{error}"
     );
-    ends(&folder, &["check", "--bless", "--accept-worse", "--quiet"], 0);
+    ends(
+        &folder,
+        &["check", "--bless", "--accept-worse", "--quiet"],
+        0,
+    );
     ends(&folder, &["check", "--quiet"], 0);
 }
 
@@ -266,45 +355,72 @@ fn the_worst_is_told_first() {
     let found = |code: i32| {
         let words = ["check", "-q", "--format", "json"];
         let record: Value = serde_json::from_str(&ends(&folder, &words, code).0).unwrap();
-        let unexpected = record["conformance"]["unexpected"].as_array().unwrap().clone();
+        let unexpected = record["conformance"]["unexpected"]
+            .as_array()
+            .unwrap()
+            .clone();
         let list = unexpected.iter().map(|found| {
             let count = found["found"]["count"].as_u64().unwrap();
-            let expected = found["expected"].as_str().unwrap().split(' ').next().unwrap();
+            let expected = found["expected"]
+                .as_str()
+                .unwrap()
+                .split(' ')
+                .next()
+                .unwrap();
             let more = count - expected.replace(',', "").parse::<u64>().unwrap_or(0);
             (found["finding"].as_str().unwrap() == "crash", more)
         });
         list.collect::<Vec<_>>()
     };
     ends(&folder, &["check", "--bless", "--quiet"], 0);
-    build(&folder, "worse", &["-ffp-contract=off", "-DCRASH", "-DEPSILON=\"0.5\""]);
+    build(
+        &folder,
+        "worse",
+        &["-ffp-contract=off", "-DCRASH", "-DEPSILON=\"0.5\""],
+    );
     // A crash weighs more than any number of wrong verdicts.
     let mut list = found(1);
     list.reverse();
     assert!(list.is_sorted(), "{list:?}");
     let crashes = list.iter().filter(|(is_crash, _)| *is_crash).count();
     assert!(1 < crashes && crashes + 1 < list.len(), "{list:?}");
-    assert!(list[crashes..].iter().any(|(_, more)| list[0].1 < *more), "{list:?}");
+    assert!(
+        list[crashes..].iter().any(|(_, more)| list[0].1 < *more),
+        "{list:?}"
+    );
 }
 
 #[test]
 fn a_class_that_is_gone_is_shown_with_the_new_library() {
     let folder = scratch("gone");
-    for (name, flags) in [("first", &["-DEPSILON=\"0.5\""][..]), ("better", &["-DWIDE"])] {
+    for (name, flags) in [
+        ("first", &["-DEPSILON=\"0.5\""][..]),
+        ("better", &["-DWIDE"]),
+    ] {
         if !build(&folder, name, flags) {
             return;
         }
         let library = format!("./lib{name}.so");
         let run = "audit -q --scalar f32 --family interior,edge-near -n 5000 --format json";
         let record = format!("{name}.json");
-        let words =
-            [&run.split(' ').collect::<Vec<_>>()[..], &["--kernel-lib", &library, "-o", &record]];
+        let words = [
+            &run.split(' ').collect::<Vec<_>>()[..],
+            &["--kernel-lib", &library, "-o", &record],
+        ];
         ends(&folder, &words.concat(), 0);
     }
-    let (out, _) = program::ends(&folder, &["diff", "first.json", "better.json", "--details"], 0);
+    let (out, _) = program::ends(
+        &folder,
+        &["diff", "first.json", "better.json", "--details"],
+        0,
+    );
     let gone: Vec<&str> = out
         .lines()
         .skip_while(|line| !line.contains("interior: false-miss") || !line.contains(", 0 of"))
         .take(2)
         .collect();
-    assert!(gone[1].contains("--kernel-lib './libbetter.so' --epsilon 'parallel=1e-7'"), "{out}");
+    assert!(
+        gone[1].contains("--kernel-lib './libbetter.so' --epsilon 'parallel=1e-7'"),
+        "{out}"
+    );
 }

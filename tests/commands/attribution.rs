@@ -6,7 +6,9 @@ fn the_examples_of_the_documentation_replay() {
     let mut lines = text.lines();
     let mut causes = Vec::new();
     while let Some(line) = lines.next() {
-        let Some(command) = line.strip_prefix("$ hairline explain '") else { continue };
+        let Some(command) = line.strip_prefix("$ hairline explain '") else {
+            continue;
+        };
         let (case, flags) = command.split_once("' ").unwrap();
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_hairline"))
             .args(["explain", case])

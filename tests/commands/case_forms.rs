@@ -14,7 +14,11 @@ fn truths(folder: &Path, text: &str) -> Vec<String> {
     fs::write(folder.join("a.jsonl"), text).unwrap();
     let (truths, _) = ends(folder, &["truth", "--exact", "a.jsonl"], 0);
     // The same file as a corpus, and each case by its name.
-    ends(folder, &["audit", "--corpus", "a.jsonl", "--kernel", "plucker"], 0);
+    ends(
+        folder,
+        &["audit", "--corpus", "a.jsonl", "--kernel", "plucker"],
+        0,
+    );
     truths.lines().map(str::to_owned).collect()
 }
 
@@ -45,7 +49,10 @@ fn a_case_is_the_same_in_every_form_in_which_people_have_it() {
         CASE.replace('"', ""),
         // Bit patterns beside the numbers, or alone.
         with("}", &format!(r#","bits":{{"origin":{bits}}}}}"#)),
-        with(&format!(r#""origin":{origin}"#), &format!(r#""bits":{{"origin":{bits}}}"#)),
+        with(
+            &format!(r#""origin":{origin}"#),
+            &format!(r#""bits":{{"origin":{bits}}}"#),
+        ),
         with(
             &format!(r#""origin":{origin}"#),
             r#""bits":{"origin":["0x3dcccccd","0x3E4CCCCD","0x40000000"],"t_max":"7f800000"}"#,
@@ -57,7 +64,10 @@ fn a_case_is_the_same_in_every_form_in_which_people_have_it() {
         format!("\u{feff}[\n  {}\n]\n", CASE.replace(',', ",\n")),
         format!("\u{feff}{CASE}\n"),
         // Notes.
-        with("}", r#","note":"x","comment":1,"id":[],"source":null,"tags":["y"],"_mine":{"a":2}}"#),
+        with(
+            "}",
+            r#","note":"x","comment":1,"id":[],"source":null,"tags":["y"],"_mine":{"a":2}}"#,
+        ),
     ] {
         assert_eq!(truths(&form), expected, "{form}");
         let explained = hairline(&folder, &["explain", &form, "-k", "plucker", "--details"]);
@@ -66,7 +76,10 @@ fn a_case_is_the_same_in_every_form_in_which_people_have_it() {
         assert_eq!(text(&explained.stdout), text(&plain.stdout), "{form}");
         assert_eq!(explained.status.code(), Some(0));
     }
-    let many = format!("[{CASE}, {CASE},\n {}, {CASE}\n,{CASE}]\n", CASE.replace(',', ",\n"));
+    let many = format!(
+        "[{CASE}, {CASE},\n {}, {CASE}\n,{CASE}]\n",
+        CASE.replace(',', ",\n")
+    );
     assert_eq!(truths(&many), vec![expected[0].clone(); 5]);
 }
 
@@ -96,42 +109,81 @@ fn what_is_no_case_is_refused_with_its_line_and_field() {
     let with = |from: &str, to: &str| CASE.replace(from, to);
     let bits = |patterns: &str| with("}", &format!(r#","bits":{{"origin":{patterns}}}}}"#));
     for (text, message) in [
-        (with("}", r#","tmax":1}"#), "1: unknown field 'tmax': did you mean 't_max'?"),
+        (
+            with("}", r#","tmax":1}"#),
+            "1: unknown field 'tmax': did you mean 't_max'?",
+        ),
         (
             with("}", r#","material":1}"#),
             "1: unknown field 'material', expected one of name, scalar,",
         ),
-        (with("0.2", "None"), "1: origin[1]: 'None' is not a number: write a decimal"),
-        (with("0.2", "0.2f64"), "1: origin[1]: '0.2f64' is not a number"),
-        (with("[0.1,0.2,2]", "vec3(0.5)"), "1: origin: expected 3 numbers, found 1"),
-        (with("[0.1,0.2,2]", r#""0.1 0.2 2""#), "1: origin: expected an array of 3 numbers"),
+        (
+            with("0.2", "None"),
+            "1: origin[1]: 'None' is not a number: write a decimal",
+        ),
+        (
+            with("0.2", "0.2f64"),
+            "1: origin[1]: '0.2f64' is not a number",
+        ),
+        (
+            with("[0.1,0.2,2]", "vec3(0.5)"),
+            "1: origin: expected 3 numbers, found 1",
+        ),
+        (
+            with("[0.1,0.2,2]", r#""0.1 0.2 2""#),
+            "1: origin: expected an array of 3 numbers",
+        ),
         (with("\"a\":[0,0,0],", ""), "1: missing field 'a'"),
-        (bits(r#"["3dcccccd","3e4ccccd","40000001"]"#), "1: bits.origin[2] is 2.000000238418579"),
+        (
+            bits(r#"["3dcccccd","3e4ccccd","40000001"]"#),
+            "1: bits.origin[2] is 2.000000238418579",
+        ),
         (bits(r#"[0,1,2]"#), "1: bits.origin[0]: expected a string"),
-        (with("}", r#","from":[0,0,0]}"#), "1: origin: leave it out, or 'from' and 'to'"),
-        (with("origin", "from"), "1: direction: leave it out, or 'from' and 'to'"),
+        (
+            with("}", r#","from":[0,0,0]}"#),
+            "1: origin: leave it out, or 'from' and 'to'",
+        ),
+        (
+            with("origin", "from"),
+            "1: direction: leave it out, or 'from' and 'to'",
+        ),
         (format!("{CASE}{CASE}"), "1: trailing characters at column"),
-        (format!("{CASE}\n[{CASE}]"), "2: expected an object, found ["),
-        (format!("{}\n{CASE}", &CASE[..60]), "1: expected ',' or ']' at column 64"),
+        (
+            format!("{CASE}\n[{CASE}]"),
+            "2: expected an object, found [",
+        ),
+        (
+            format!("{}\n{CASE}", &CASE[..60]),
+            "1: expected ',' or ']' at column 64",
+        ),
         (format!("{}\n{CASE}", &CASE[..30]), "1: "),
         (
             format!("\n[{CASE},\n{CASE},"),
             "4: expected an object, found the end of an array without its ]",
         ),
-        (format!("[{CASE},\n{}]", with("0.2", "x")), "2: origin[1]: 'x' is not a number"),
+        (
+            format!("[{CASE},\n{}]", with("0.2", "x")),
+            "2: origin[1]: 'x' is not a number",
+        ),
         ("[1,2]".to_owned(), "1: expected an object, found [1,2]"),
     ] {
         fs::write(folder.join("a.jsonl"), &text).unwrap();
         for arguments in [&["truth", "a.jsonl"][..], &["audit", "--corpus", "a.jsonl"]] {
             let (_, error) = ends(&folder, arguments, 65);
-            assert!(error.starts_with(&format!("hairline: a.jsonl:{message}")), "{text}\n{error}");
+            assert!(
+                error.starts_with(&format!("hairline: a.jsonl:{message}")),
+                "{text}\n{error}"
+            );
             assert_eq!(error.lines().count(), 1, "{error}");
         }
     }
     let two = format!("[{CASE},{CASE}]");
     for (text, found) in [(two.as_str(), "more"), ("[]", "none")] {
         let (_, error) = ends(&folder, &["explain", text], 2);
-        assert_eq!(error, format!("hairline: the argument should hold one case, found {found}\n"));
+        assert_eq!(
+            error,
+            format!("hairline: the argument should hold one case, found {found}\n")
+        );
     }
 }
 
@@ -139,7 +191,14 @@ fn what_is_no_case_is_refused_with_its_line_and_field() {
 fn an_instance_is_held_against_the_exact_triangle_in_the_world() {
     let folder = scratch("case-instances");
     let explained = |case: &str, more: &[&str]| {
-        let flags = ["explain", case, "-k", "plucker,moller-trumbore", "--format", "json"];
+        let flags = [
+            "explain",
+            case,
+            "-k",
+            "plucker,moller-trumbore",
+            "--format",
+            "json",
+        ];
         let text = ends(&folder, &[&flags[..], more].concat(), 0).0;
         let explanation: Value = serde_json::from_str(&text).unwrap();
         explanation["triangles"][0].clone()
@@ -169,9 +228,17 @@ fn an_instance_is_held_against_the_exact_triangle_in_the_world() {
         let ray = format!(r#""origin":{o:?},"direction":{d:?}"#);
         let seen = explained(&case(&ray, corners), &["--instance", matrix]);
         let world = explained(&case(&ray, in_world), &[]);
-        let words = ends(&folder, &["explain", &case(&ray, in_world), "-k", "plucker"], 0).0;
+        let words = ends(
+            &folder,
+            &["explain", &case(&ray, in_world), "-k", "plucker"],
+            0,
+        )
+        .0;
         let truth = seen["instance"]["truth"].as_str().unwrap();
-        assert!(program::flat(&words).contains(&format!("truth {truth}")), "{truth}\n{words}");
+        assert!(
+            program::flat(&words).contains(&format!("truth {truth}")),
+            "{truth}\n{words}"
+        );
         for (i, name) in ["t_exact", "u_exact", "v_exact"].into_iter().enumerate() {
             let moved = seen["instance"]["moved"][i].as_f64().unwrap();
             let apart = (exact(&seen["truth"], name) - exact(&world["truth"], name)).abs();
@@ -184,16 +251,32 @@ fn an_instance_is_held_against_the_exact_triangle_in_the_world() {
     assert!(wrong > 0, "rounding the inverse loses some hit at a corner");
     let case = case(r#""origin":[1,1,1],"direction":[0,0,-1]"#, corners);
     let screen = |matrix: &str, code| {
-        ends(&folder, &["explain", &case, "-k", "plucker", "--instance", matrix], code)
+        ends(
+            &folder,
+            &["explain", &case, "-k", "plucker", "--instance", matrix],
+            code,
+        )
     };
     assert!(screen("1 0 0 0  0 1 0 0  0 0 1 0", 0).0.contains("world"));
     for (matrix, message) in [
-        ("1,0,0,0,0,1,0,0,0,0,1", "expected 12 numbers, row by row, found 11"),
+        (
+            "1,0,0,0,0,1,0,0,0,0,1",
+            "expected 12 numbers, row by row, found 11",
+        ),
         ("1,0,0,0,0,1,0,0,0,0,1,x", "'x' is not a number"),
-        ("1,0,0,0,0,1,0,0,0,0,0,0", "the matrix is singular in f32: it has no inverse"),
-        ("1e30,0,0,0,0,1e30,0,0,0,0,1e30,0", "its inverse is not finite in f32"),
+        (
+            "1,0,0,0,0,1,0,0,0,0,0,0",
+            "the matrix is singular in f32: it has no inverse",
+        ),
+        (
+            "1e30,0,0,0,0,1e30,0,0,0,0,1e30,0",
+            "its inverse is not finite in f32",
+        ),
     ] {
         let error = screen(matrix, 2).1;
-        assert!(error.starts_with(&format!("hairline: --instance: {message}")), "{error}");
+        assert!(
+            error.starts_with(&format!("hairline: --instance: {message}")),
+            "{error}"
+        );
     }
 }

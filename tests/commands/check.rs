@@ -43,7 +43,11 @@ fn edit(folder: &Path, change: impl Fn(&str) -> String) {
 /// The line of a file, counted from 1, that holds a text.
 fn line_with(folder: &Path, file: &str, text: &str) -> (usize, String) {
     let file = fs::read_to_string(folder.join(file)).unwrap();
-    let (i, line) = file.lines().enumerate().find(|(_, line)| line.contains(text)).unwrap();
+    let (i, line) = file
+        .lines()
+        .enumerate()
+        .find(|(_, line)| line.contains(text))
+        .unwrap();
     (i + 1, line.to_owned())
 }
 
@@ -75,7 +79,11 @@ fn count_of(text: &str, family: &str) -> u64 {
 fn recount(folder: &Path, family: &str, change: impl Fn(u64) -> u64) {
     edit(folder, |text| {
         let count = count_of(text, family);
-        text.replacen(&format!("{family} = {count}"), &format!("{family} = {}", change(count)), 1)
+        text.replacen(
+            &format!("{family} = {count}"),
+            &format!("{family} = {}", change(count)),
+            1,
+        )
     });
 }
 
@@ -98,7 +106,10 @@ fn without_expectations_every_disagreement_fails_and_names_its_case_and_command(
     }
     // The bits are for those who want all.
     let (details, _) = ends(&folder, &["check", "--quiet", "--details"], 1);
-    assert!(!out.contains("\n    o=") && details.contains("\n    o="), "{details}");
+    assert!(
+        !out.contains("\n    o=") && details.contains("\n    o="),
+        "{details}"
+    );
     assert!(!folder.join(FILE).exists());
 }
 
@@ -111,13 +122,20 @@ fn a_blessed_run_conforms_and_blessing_again_changes_nothing() {
     let first = both();
     ends(&folder, &["check", "--bless", "--quiet"], 0);
     assert_eq!(both(), first);
-    assert_eq!(fs::read_dir(&folder).unwrap().count(), 3, "nothing is left beside");
+    assert_eq!(
+        fs::read_dir(&folder).unwrap().count(),
+        3,
+        "nothing is left beside"
+    );
     // A line for each finding in one file, a line for each class in the other, in order.
     assert_eq!(first[0].matches("scalar = ").count(), 4, "{}", first[0]);
     let lines: Vec<&str> = first[1].lines().skip(3).collect();
     let (rows, lines) = lines.split_at(2);
     let row = "moller-trumbore\tsource\tedge=0,parallel=1e-6\tline, both sides, closed, ";
-    assert!(rows[0].starts_with(row) && rows[1].starts_with("woop-watertight\t"), "{rows:?}");
+    assert!(
+        rows[0].starts_with(row) && rows[1].starts_with("woop-watertight\t"),
+        "{rows:?}"
+    );
     assert!(10 < lines.len() && lines.is_sorted() && lines.iter().all(|l| l.contains("\tf32\t")));
 }
 
@@ -126,10 +144,15 @@ fn a_family_without_its_count_is_an_unexpected_disagreement_by_name() {
     let folder = blessed("check-removed");
     forget_cases(&folder);
     let tiny = count_of(&fs::read_to_string(folder.join(FILE)).unwrap(), "tiny");
-    edit(&folder, |text| text.replacen(&format!("tiny = {tiny}, "), "", 1));
+    edit(&folder, |text| {
+        text.replacen(&format!("tiny = {tiny}, "), "", 1)
+    });
     let (out, _) = ends(&folder, &["check", "--quiet"], 1);
     let named = "moller-trumbore (source) f32 tiny: false-miss of interior/front/within: ";
-    assert!(out.contains(named) && out.contains("Does not conform: 6 unexpected"), "{out}");
+    assert!(
+        out.contains(named) && out.contains("Does not conform: 6 unexpected"),
+        "{out}"
+    );
     // Without the lock file, although what is new has a class.
     assert!(out.contains("compared family by family with "), "{out}");
     let net = format!("\nmoller-trumbore (source) f32: false-miss +{tiny} (tiny +{tiny})\n");
@@ -144,9 +167,14 @@ fn counts_that_are_not_those_of_the_cases_are_refused_with_their_line() {
     let advice = "put back what was there, or let `hairline check --bless` (in a test HAIRLINE_BLESS=1) write both \
                   files\n";
     // One more that no case is behind.
-    edit(&folder, |text| text.replacen("counts = { ", "counts = { interior = 1, ", 1));
+    edit(&folder, |text| {
+        text.replacen("counts = { ", "counts = { interior = 1, ", 1)
+    });
     let (_, error) = ends(&folder, &["check", "--quiet"], 65);
-    assert!(error.contains(" f32 interior false-hit: 1 here, 0 in "), "{error}");
+    assert!(
+        error.contains(" f32 interior false-hit: 1 here, 0 in "),
+        "{error}"
+    );
     edit(&folder, |text| text.replacen("interior = 1, ", "", 1));
     recount(&folder, "tiny", |count| count - 1);
     let (out, error) = ends(&folder, &["check", "--quiet"], 65);
@@ -155,16 +183,24 @@ fn counts_that_are_not_those_of_the_cases_are_refused_with_their_line() {
         tiny - 1
     );
     assert_eq!((out.as_str(), error), ("", found));
-    edit(&folder, |text| text.replacen(&format!("tiny = {}, ", tiny - 1), "", 1));
+    edit(&folder, |text| {
+        text.replacen(&format!("tiny = {}, ", tiny - 1), "", 1)
+    });
     let (_, error) = ends(&folder, &["check", "--quiet"], 65);
-    assert!(
-        error.contains(&format!("{FILE}: moller-trumbore (source) f32 tiny false-miss: 0 here, "))
-    );
+    assert!(error.contains(&format!(
+        "{FILE}: moller-trumbore (source) f32 tiny false-miss: 0 here, "
+    )));
     // What a person took out is new.
     ends(&folder, &["check", "--quiet", "--bless"], 1);
-    ends(&folder, &["check", "--quiet", "--bless", "--accept-worse"], 0);
+    ends(
+        &folder,
+        &["check", "--quiet", "--bless", "--accept-worse"],
+        0,
+    );
     ends(&folder, &["check", "--quiet"], 0);
-    edit(&folder, |text| text.replacen("cases = \"", "cases = \"0", 1));
+    edit(&folder, |text| {
+        text.replacen("cases = \"", "cases = \"0", 1)
+    });
     let (_, error) = ends(&folder, &["check", "--quiet"], 65);
     assert!(
         error.contains(&format!(", but {LOCK} has cases ")) && error.ends_with(advice),
@@ -175,7 +211,9 @@ fn counts_that_are_not_those_of_the_cases_are_refused_with_their_line() {
     edit_file(&folder, LOCK, |text| text.replacen("\tf32\t", " f32 ", 1));
     let (_, error) = ends(&folder, &["check", "--quiet"], 65);
     assert!(
-        error.starts_with(&format!("hairline: {LOCK}:6: expected 9 words between tabs: ")),
+        error.starts_with(&format!(
+            "hairline: {LOCK}:6: expected 9 words between tabs: "
+        )),
         "{error}"
     );
     assert!(
@@ -198,33 +236,58 @@ fn a_target_without_cases_is_compared_by_counts_and_blesses_its_own() {
     );
     assert!(out.contains(&said), "{out}");
     // The counts of people are those of the target that has the most: here one false miss more there.
-    let (_, line) = line_with(&folder, LOCK, "\tedge-near\tinterior/back/within\tfalse-miss\t");
+    let (_, line) = line_with(
+        &folder,
+        LOCK,
+        "\tedge-near\tinterior/back/within\tfalse-miss\t",
+    );
     let (head, rest) = line.split_once("\tfalse-miss\t").unwrap();
     let (count, rest) = rest.split_once('\t').unwrap();
-    let more = format!("{head}\tfalse-miss\t{}\t{rest}", count.parse::<u64>().unwrap() + 1);
+    let more = format!(
+        "{head}\tfalse-miss\t{}\t{rest}",
+        count.parse::<u64>().unwrap() + 1
+    );
     edit_file(&folder, LOCK, |text| text.replacen(&line, &more, 1));
     let (_, of_people) = line_with(&folder, FILE, "false-miss");
     let count = count_of(&of_people, "edge-near");
-    let with_more =
-        of_people.replace(&format!("edge-near = {count}"), &format!("edge-near = {}", count + 1));
+    let with_more = of_people.replace(
+        &format!("edge-near = {count}"),
+        &format!("edge-near = {}", count + 1),
+    );
     edit(&folder, |text| text.replacen(&of_people, &with_more, 1));
     let (out, _) = ends(&folder, &["check", "--quiet"], 3);
-    assert!(out.contains("are stale: 0 unexpected disagreements, 1 stale"), "{out}");
+    assert!(
+        out.contains("are stale: 0 unexpected disagreements, 1 stale"),
+        "{out}"
+    );
     let by_counts = format!("compared family by family with {FILE}\n");
-    assert!(out.contains(&by_counts) && !out.contains("case by case"), "{out}");
+    assert!(
+        out.contains(&by_counts) && !out.contains("case by case"),
+        "{out}"
+    );
     let net =
         "\nWhat changed, in cases\nmoller-trumbore (source) f32: false-miss -1 (edge-near -1)\n";
     assert!(out.contains(net), "{out}");
     let reviewed = fs::read_to_string(folder.join(FILE)).unwrap();
     let (_, said) = ends(&folder, &["check", "--bless"], 0);
-    assert!(said.contains("(1 better, 0 worse, 0 new, 0 of other cases, "), "{said}");
+    assert!(
+        said.contains("(1 better, 0 worse, 0 new, 0 of other cases, "),
+        "{said}"
+    );
     assert_eq!(fs::read_to_string(folder.join(FILE)).unwrap(), reviewed);
     let lock = fs::read_to_string(folder.join(LOCK)).unwrap();
-    assert!(lock.contains(&more) && lock.contains(&line) && lock.contains(&target), "{lock}");
+    assert!(
+        lock.contains(&more) && lock.contains(&line) && lock.contains(&target),
+        "{lock}"
+    );
     let (out, _) = ends(&folder, &["check", "--quiet"], 0);
     assert!(!out.contains("has no section"), "{out}");
     // Other cases are others everywhere.
-    let (_, said) = ends(&folder, &["check", "--bless", "--accept-worse", "--seed", "3"], 0);
+    let (_, said) = ends(
+        &folder,
+        &["check", "--bless", "--accept-worse", "--seed", "3"],
+        0,
+    );
     assert!(
         said.contains(&format!(
             "{LOCK}: the counts of pdp11-unix were of other cases, and are gone\n"
@@ -245,23 +308,40 @@ fn rates_are_bounds_that_need_no_counts() {
         );
         fs::write(folder.join(FILE), text).unwrap();
         let _ = fs::remove_file(folder.join(LOCK));
-        let all = [&["check", "--quiet", "--kernel", "moller-trumbore"], arguments].concat();
+        let all = [
+            &["check", "--quiet", "--kernel", "moller-trumbore"],
+            arguments,
+        ]
+        .concat();
         ends(&folder, &all, code).0
     };
     assert!(!with("0.5", &[], 0).contains("are compared"));
     with("0.5", &["--seed", "5"], 0);
     let out = with("0.001", &[], 1);
-    assert!(out.contains("expected a share of at most 0.001, and not none; "), "{out}");
+    assert!(
+        out.contains("expected a share of at most 0.001, and not none; "),
+        "{out}"
+    );
     assert!(!out.contains("What changed, in cases"), "{out}");
     // Blessing keeps a bound that holds, and its reason, and writes the count where it does not.
     with("0.5", &["--bless"], 0);
     let (_, line) = line_with(&folder, FILE, "det");
-    assert!(line.contains("rates = { tiny = 1.0, edge-near = 0.5 }, why = \"det\" }"), "{line}");
+    assert!(
+        line.contains("rates = { tiny = 1.0, edge-near = 0.5 }, why = \"det\" }"),
+        "{line}"
+    );
     with("0.001", &["--bless"], 1);
     with("0.001", &["--bless", "--accept-worse"], 0);
     let (_, line) = line_with(&folder, FILE, "det");
-    assert!(line.contains("counts = { edge-near = 49 }, rates = { tiny = 1.0 }, why = "), "{line}");
-    ends(&folder, &["check", "--quiet", "--kernel", "moller-trumbore"], 0);
+    assert!(
+        line.contains("counts = { edge-near = 49 }, rates = { tiny = 1.0 }, why = "),
+        "{line}"
+    );
+    ends(
+        &folder,
+        &["check", "--quiet", "--kernel", "moller-trumbore"],
+        0,
+    );
 }
 
 #[test]
@@ -269,17 +349,29 @@ fn what_no_longer_happens_is_stale_with_its_line_and_its_reason() {
     let folder = blessed("check-stale");
     forget_cases(&folder);
     let new = "  { scalar = \"f32\", finding = \"false-hit\", counts = { interior = 7 }, why = \"an old bug\" },\n";
-    edit(&folder, |text| text.replacen("findings = [\n", &format!("findings = [\n{new}"), 1));
+    edit(&folder, |text| {
+        text.replacen("findings = [\n", &format!("findings = [\n{new}"), 1)
+    });
     let (line, _) = line_with(&folder, FILE, "an old bug");
     let (out, _) = ends(&folder, &["check", "--quiet"], 3);
-    assert!(out.contains(format!("{FILE}:{line}: moller-trumbore (source) f32 interior")), "{out}");
-    assert!(out.contains("    an old bug\n") && out.contains("are stale: 0 unexpected"), "{out}");
+    assert!(
+        out.contains(format!(
+            "{FILE}:{line}: moller-trumbore (source) f32 interior"
+        )),
+        "{out}"
+    );
+    assert!(
+        out.contains("    an old bug\n") && out.contains("are stale: 0 unexpected"),
+        "{out}"
+    );
     assert!(out.contains(format!(
         "{LOCK} is missing (--bless writes it): counts by family are compared, not cases"
     )));
     // An unexpected one beside it wins.
     let tiny = count_of(&fs::read_to_string(folder.join(FILE)).unwrap(), "tiny");
-    edit(&folder, |text| text.replacen(&format!("tiny = {tiny}, "), "", 1));
+    edit(&folder, |text| {
+        text.replacen(&format!("tiny = {tiny}, "), "", 1)
+    });
     ends(&folder, &["check", "--quiet"], 1);
     // Blessing removes what is stale, and takes what is new only if told so.
     let before = fs::read(folder.join(FILE)).unwrap();
@@ -302,7 +394,11 @@ fn what_no_longer_happens_is_stale_with_its_line_and_its_reason() {
         said.contains(" known findings (each disagreement is of a kernel, a family and a class)"),
         "{said}"
     );
-    assert!(!fs::read_to_string(folder.join(FILE)).unwrap().contains("an old bug"));
+    assert!(
+        !fs::read_to_string(folder.join(FILE))
+            .unwrap()
+            .contains("an old bug")
+    );
 }
 
 #[test]
@@ -312,20 +408,39 @@ fn a_better_epsilon_makes_its_old_expectations_stale() {
     let settings = "kernel = \"moller-trumbore\"\nfamily = \"interior\"\nscalar = \"f64\"\ncount = 500\n\
                     epsilon = \"parallel=1000\"\n";
     fs::write(folder.join("hairline.toml"), settings).unwrap();
-    [FILE, LOCK].iter().for_each(|file| fs::remove_file(folder.join(file)).unwrap());
+    [FILE, LOCK]
+        .iter()
+        .for_each(|file| fs::remove_file(folder.join(file)).unwrap());
     ends(&folder, &["check", "--bless", "--quiet"], 0);
     let better = settings.replace("1000", "1e-6");
     fs::write(folder.join("hairline.toml"), better).unwrap();
     let (out, _) = ends(&folder, &["check", "--quiet"], 3);
     // What changed is counted, although the epsilons have another name.
-    assert!(out.contains("moller-trumbore (parallel=1e-6) f64 interior: false-miss of"), "{out}");
-    assert!(out.contains("its epsilon parallel is now 1e-6; blessed with 1000"), "{out}");
-    assert!(out.contains("(parallel=1e-6) f64: false-miss -500 (interior -500)"), "{out}");
+    assert!(
+        out.contains("moller-trumbore (parallel=1e-6) f64 interior: false-miss of"),
+        "{out}"
+    );
+    assert!(
+        out.contains("its epsilon parallel is now 1e-6; blessed with 1000"),
+        "{out}"
+    );
+    assert!(
+        out.contains("(parallel=1e-6) f64: false-miss -500 (interior -500)"),
+        "{out}"
+    );
     // Reasons are kept under the new name, and a change to the worse is one.
     edit(&folder, |text| {
-        text.replacen("finding = \"false-miss\"", "finding = \"false-miss\", why = \"mine\"", 1)
+        text.replacen(
+            "finding = \"false-miss\"",
+            "finding = \"false-miss\", why = \"mine\"",
+            1,
+        )
     });
-    fs::write(folder.join("hairline.toml"), settings.replace("1000", "999")).unwrap();
+    fs::write(
+        folder.join("hairline.toml"),
+        settings.replace("1000", "999"),
+    )
+    .unwrap();
     let (_, error) = ends(&folder, &["check", "--quiet", "--bless"], 0);
     assert_eq!(error, "");
     let written = fs::read_to_string(folder.join(FILE)).unwrap();
@@ -351,15 +466,27 @@ fn one_case_more_or_another_one_is_noticed() {
             || out.contains("edge-near: false-miss of interior/front/within"),
         "{out}"
     );
-    assert!(out.contains(" (other cases); the case shown may have failed before\n"), "{out}");
-    assert!(out.contains("1 unexpected disagreement (1 of other cases), "), "{out}");
+    assert!(
+        out.contains(" (other cases); the case shown may have failed before\n"),
+        "{out}"
+    );
+    assert!(
+        out.contains("1 unexpected disagreement (1 of other cases), "),
+        "{out}"
+    );
     fs::write(folder.join(LOCK), old).unwrap();
     // By counts alone.
     forget_cases(&folder);
     recount(&folder, "edge-near", |count| count - 1);
     let (out, _) = ends(&folder, &["check", "--quiet"], 1);
-    assert!(out.contains("; the case shown may have failed before\n"), "{out}");
-    assert!(out.contains("1 unexpected disagreement (1 worse), "), "{out}");
+    assert!(
+        out.contains("; the case shown may have failed before\n"),
+        "{out}"
+    );
+    assert!(
+        out.contains("1 unexpected disagreement (1 worse), "),
+        "{out}"
+    );
     recount(&folder, "edge-near", |count| count + 2);
     ends(&folder, &["check", "--quiet"], 3);
 }
@@ -373,9 +500,15 @@ fn blessing_another_plan_takes_no_higher_rate_and_nothing_new_unasked() {
     let (_, said) = ends(&folder, &["check", "--bless", "--quiet"], 1);
     assert!(said.contains(": 0 better, 0 worse, "), "{said}");
     assert_eq!(fs::read_to_string(folder.join(FILE)).unwrap(), before);
-    ends(&folder, &["check", "--bless", "--quiet", "--accept-worse"], 0);
+    ends(
+        &folder,
+        &["check", "--bless", "--quiet", "--accept-worse"],
+        0,
+    );
     // As many cases as expected, but of fewer: the rate is a hundred times higher.
-    edit(&folder, |text| text.replacen("cases = \"", "cases = \"0", 1));
+    edit(&folder, |text| {
+        text.replacen("cases = \"", "cases = \"0", 1)
+    });
     edit_file(&folder, LOCK, |text| {
         let of = |line: &str| match line.rsplit_once('\t') {
             Some((head, digest)) => format!("{head}00\t{digest}\n"),
@@ -384,7 +517,10 @@ fn blessing_another_plan_takes_no_higher_rate_and_nothing_new_unasked() {
         text.lines().map(of).collect()
     });
     let (_, said) = ends(&folder, &["check", "--bless", "--quiet"], 1);
-    assert!(said.contains(", 0 new, 0 of other cases, ") && !said.contains(" 0 worse"), "{said}");
+    assert!(
+        said.contains(", 0 new, 0 of other cases, ") && !said.contains(" 0 worse"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -396,7 +532,10 @@ fn another_seed_conforms_by_intervals_and_another_kernel_does_not() {
     let (_, line) = line_with(&folder, LOCK, "\ttiny\tinterior/front/within\tfalse-miss\t");
     let (head, rest) = line.split_once("\tfalse-miss\t").unwrap();
     let (count, rest) = rest.split_once('\t').unwrap();
-    let (count, tenth) = (count.parse::<u64>().unwrap(), count.parse::<u64>().unwrap() / 10);
+    let (count, tenth) = (
+        count.parse::<u64>().unwrap(),
+        count.parse::<u64>().unwrap() / 10,
+    );
     let new = format!("{head}\tfalse-miss\t{tenth}\t{rest}");
     edit_file(&folder, LOCK, |text| text.replacen(&line, &new, 1));
     recount(&folder, "tiny", |all| all - count + tenth);
@@ -407,9 +546,16 @@ fn another_seed_conforms_by_intervals_and_another_kernel_does_not() {
     assert!(out.contains(
         "the counts of hairline.expectations.toml are of other cases: they are not used; "
     ));
-    assert!(out.contains(", 0 stale expectations, 0 known disagreements\n"), "{out}");
+    assert!(
+        out.contains(", 0 stale expectations, 0 known disagreements\n"),
+        "{out}"
+    );
     // A row that has no entry is expected to be right.
-    ends(&folder, &["check", "--quiet", "--seed", "5", "--kernel", "cramer"], 1);
+    ends(
+        &folder,
+        &["check", "--quiet", "--seed", "5", "--kernel", "cramer"],
+        1,
+    );
 }
 
 #[test]
@@ -428,7 +574,11 @@ fn another_seed_conforms_where_triangles_of_one_ray_are_wrong_together() {
 fn reasons_are_kept_and_nothing_outside_the_plan_is_lost_by_blessing() {
     let folder = blessed("check-kept");
     edit(&folder, |text| {
-        text.replacen(" },", ", why = \"a \\\"known\\\" gap\", url = \"https://a.b\" },", 1)
+        text.replacen(
+            " },",
+            ", why = \"a \\\"known\\\" gap\", url = \"https://a.b\" },",
+            1,
+        )
     });
     ends(&folder, &["check", "--bless", "--quiet"], 0);
     let (_, line) = line_with(&folder, FILE, "https://a.b");
@@ -443,13 +593,26 @@ fn reasons_are_kept_and_nothing_outside_the_plan_is_lost_by_blessing() {
             tiny.trim_end_matches(", ")
         ),
     );
-    edit(&folder, |text| text.replacen(&line, &format!("{part}\n{rest}"), 1));
+    edit(&folder, |text| {
+        text.replacen(&line, &format!("{part}\n{rest}"), 1)
+    });
     ends(&folder, &["check", "--quiet"], 0);
     ends(&folder, &["check", "--bless", "--quiet"], 0);
-    assert!(fs::read_to_string(folder.join(FILE)).unwrap().contains(&format!("{rest}\n{part}\n")));
+    assert!(
+        fs::read_to_string(folder.join(FILE))
+            .unwrap()
+            .contains(&format!("{rest}\n{part}\n"))
+    );
     let before = fs::read(folder.join(FILE)).unwrap();
-    let (_, error) = ends(&folder, &["check", "--bless", "--quiet", "--family", "tiny"], 2);
-    assert!(error.contains("outside this plan, which would be lost"), "{error}");
+    let (_, error) = ends(
+        &folder,
+        &["check", "--bless", "--quiet", "--family", "tiny"],
+        2,
+    );
+    assert!(
+        error.contains("outside this plan, which would be lost"),
+        "{error}"
+    );
     assert_eq!(fs::read(folder.join(FILE)).unwrap(), before);
     // A kernel that is no longer there: its entries are taken out of the file for people, and the lock follows.
     let fewer = SETTINGS.replace(", \"woop-watertight\"", "");
@@ -458,12 +621,20 @@ fn reasons_are_kept_and_nothing_outside_the_plan_is_lost_by_blessing() {
     assert!(error.contains("or remove them first"), "{error}");
     edit_file(&folder, LOCK, |text| {
         let section = text.split_once("\n[").unwrap().1;
-        format!("{text}[pdp11-unix]\n{}", section.split_once('\n').unwrap().1)
+        format!(
+            "{text}[pdp11-unix]\n{}",
+            section.split_once('\n').unwrap().1
+        )
     });
-    edit(&folder, |text| text.rsplit_once("[[known]]").unwrap().0.to_owned());
+    edit(&folder, |text| {
+        text.rsplit_once("[[known]]").unwrap().0.to_owned()
+    });
     ends(&folder, &["check", "--bless", "--quiet"], 0);
     let lock = fs::read_to_string(folder.join(LOCK)).unwrap();
-    assert!(lock.contains("[pdp11-unix]\nmoller") && !lock.contains("woop"), "{lock}");
+    assert!(
+        lock.contains("[pdp11-unix]\nmoller") && !lock.contains("woop"),
+        "{lock}"
+    );
     ends(&folder, &["check", "--quiet"], 0);
 }
 
@@ -471,7 +642,9 @@ fn reasons_are_kept_and_nothing_outside_the_plan_is_lost_by_blessing() {
 fn bad_expectations_are_refused_with_their_line() {
     let folder = blessed("check-bad");
     let (line, _) = line_with(&folder, FILE, "kernel = ");
-    edit(&folder, |text| text.replacen("moller-trumbore", "moler-trumbore", 1));
+    edit(&folder, |text| {
+        text.replacen("moller-trumbore", "moler-trumbore", 1)
+    });
     let (out, error) = ends(&folder, &["check", "--quiet"], 65);
     let expected = format!(
         "hairline: {FILE}:{line}: unknown kernel 'moler-trumbore': did you mean 'moller-trumbore'? \
@@ -487,7 +660,14 @@ fn settings_come_from_the_command_line_then_the_environment_then_the_file() {
         let all = [&["check", "--family", "tiny"], arguments].concat();
         let output = hairline_with(&folder, &all, variables);
         let error = String::from_utf8(output.stderr).unwrap();
-        error.split(": ").nth(1).unwrap().split(' ').next().unwrap().to_owned()
+        error
+            .split(": ")
+            .nth(1)
+            .unwrap()
+            .split(' ')
+            .next()
+            .unwrap()
+            .to_owned()
     };
     assert_eq!(indices(&[], &[]), "1,000");
     assert_eq!(indices(&[], &[("HAIRLINE_COUNT", "300")]), "300");
@@ -508,7 +688,10 @@ fn bad_settings_are_refused_with_their_line_or_variable() {
             "count = 0\n",
             "hairline.toml:1: invalid value '0' for '--count <N>': not a number of cases from 1 to",
         ),
-        ("\nseed = \"x\"\n", "hairline.toml:2: invalid value 'x' for '--seed <SEED>'"),
+        (
+            "\nseed = \"x\"\n",
+            "hairline.toml:2: invalid value 'x' for '--seed <SEED>'",
+        ),
         (
             "count = 5\nkernel = \"cramr\"\n",
             "hairline.toml:2: unknown kernel 'cramr'; did you mean 'cramer'?",
@@ -521,17 +704,26 @@ fn bad_settings_are_refused_with_their_line_or_variable() {
             "epsilon = \"edge=0\"\nepsilon-preset = \"bvh\"\n",
             "hairline.toml:2: epsilon-preset cannot be used with epsilon (hairline.toml:1)",
         ),
-        ("\nband = \"wide\"\n", "hairline.toml:2: --band: 'wide' is not a band"),
+        (
+            "\nband = \"wide\"\n",
+            "hairline.toml:2: --band: 'wide' is not a band",
+        ),
         ("contract = \"own,ends=x\"\n", "hairline.toml:1: "),
     ] {
         fs::write(folder.join("hairline.toml"), text).unwrap();
         let (_, error) = ends(&folder, &["check", "--quiet"], 2);
-        assert!(error.starts_with(&format!("hairline: {expected}")), "{expected}: {error}");
+        assert!(
+            error.starts_with(&format!("hairline: {expected}")),
+            "{expected}: {error}"
+        );
     }
     fs::remove_file(folder.join("hairline.toml")).unwrap();
     let output = hairline_with(&folder, &["check"], &[("HAIRLINE_FAMILY", "tyni")]);
     let error = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(error, "hairline: HAIRLINE_FAMILY: unknown family 'tyni'; did you mean 'tiny'?\n");
+    assert_eq!(
+        error,
+        "hairline: HAIRLINE_FAMILY: unknown family 'tyni'; did you mean 'tiny'?\n"
+    );
 }
 
 #[test]
@@ -543,14 +735,27 @@ fn the_contract_and_the_band_of_a_project_are_settings() {
         fs::write(folder.join("hairline.toml"), text).unwrap();
         let output = hairline_with(&folder, &["check", "-q", "--format", "json"], variables);
         let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        let words = record["provenance"]["plan_flags"]["kernels"].as_str().unwrap().to_owned();
+        let words = record["provenance"]["plan_flags"]["kernels"]
+            .as_str()
+            .unwrap()
+            .to_owned();
         (words, output.status.code())
     };
     let (words, code) = contract(settings, &[]);
-    assert!(words.ends_with("--contract own,coplanar=free --band 64ulps"), "{words}");
-    assert_eq!(code, Some(0), "every false answer near an edge is within the band");
+    assert!(
+        words.ends_with("--contract own,coplanar=free --band 64ulps"),
+        "{words}"
+    );
+    assert_eq!(
+        code,
+        Some(0),
+        "every false answer near an edge is within the band"
+    );
     let (words, code) = contract(settings, &[("HAIRLINE_BAND", "1e-30")]);
-    assert!(words.ends_with("--contract own,coplanar=free --band 1e-30"), "{words}");
+    assert!(
+        words.ends_with("--contract own,coplanar=free --band 1e-30"),
+        "{words}"
+    );
     assert_eq!(code, Some(1));
 }
 
@@ -563,18 +768,37 @@ fn expectations_stand_beside_the_configuration_wherever_check_runs() {
     let inside = folder.join("inside");
     fs::create_dir_all(&inside).unwrap();
     ends(&inside, &["check", "-q", "--config", "../hairline.toml"], 0);
-    [FILE, LOCK].iter().for_each(|file| fs::remove_file(folder.join(file)).unwrap());
+    [FILE, LOCK]
+        .iter()
+        .for_each(|file| fs::remove_file(folder.join(file)).unwrap());
     ends(&inside, &["check", "-q", "--config", "../hairline.toml"], 1);
     // Blessing writes it there, too.
-    ends(&inside, &["check", "-q", "--config", "../hairline.toml", "--bless", "--accept-worse"], 0);
+    ends(
+        &inside,
+        &[
+            "check",
+            "-q",
+            "--config",
+            "../hairline.toml",
+            "--bless",
+            "--accept-worse",
+        ],
+        0,
+    );
     assert!(folder.join("hairline.expectations.toml").exists());
 }
 
 #[test]
 fn a_scene_is_blessed_and_a_lock_that_is_cut_is_refused() {
     let folder = scratch("check-scene");
-    let scene = ["check", "-q", "--scene", "room", "--kernel", "cramer", "--scalar", "f32"];
-    ends(&folder, &[&scene[..], &["-n", "300", "--bless"]].concat(), 0);
+    let scene = [
+        "check", "-q", "--scene", "room", "--kernel", "cramer", "--scalar", "f32",
+    ];
+    ends(
+        &folder,
+        &[&scene[..], &["-n", "300", "--bless"]].concat(),
+        0,
+    );
     ends(&folder, &[&scene[..], &["-n", "300"]].concat(), 0);
     let lock = folder.join("hairline.expectations.toml.lock");
     let text = fs::read_to_string(&lock).unwrap();
@@ -586,26 +810,59 @@ fn a_scene_is_blessed_and_a_lock_that_is_cut_is_refused() {
 #[test]
 fn the_place_of_a_stored_case_is_not_taken_for_its_name() {
     let folder = scratch("check-stored");
-    let made = ["corpus", "generate", "--family", "edge-near", "-n", "400", "--scalar", "f32"];
+    let made = [
+        "corpus",
+        "generate",
+        "--family",
+        "edge-near",
+        "-n",
+        "400",
+        "--scalar",
+        "f32",
+    ];
     let (made, _) = program::ends(&folder, &made, 0);
     // The names are ids, in another order.
     let reversed: Vec<&str> = made.lines().rev().collect();
     fs::write(folder.join("stored.jsonl"), reversed.join("\n") + "\n").unwrap();
-    let check = ["check", "-q", "--corpus", "stored.jsonl", "--kernel", "cramer"];
-    ends(&folder, &[&check[..], &["--band", "1ulps", "--bless"]].concat(), 0);
+    let check = [
+        "check",
+        "-q",
+        "--corpus",
+        "stored.jsonl",
+        "--kernel",
+        "cramer",
+    ];
+    ends(
+        &folder,
+        &[&check[..], &["--band", "1ulps", "--bless"]].concat(),
+        0,
+    );
     let (out, _) = ends(&folder, &check, 1);
-    assert!(out.contains("may have failed before") && !out.contains("is new"), "{out}");
+    assert!(
+        out.contains("may have failed before") && !out.contains("is new"),
+        "{out}"
+    );
 }
 
 #[test]
 fn a_bound_of_what_does_not_occur_is_kept_by_blessing() {
     let folder = scratch("check-bound");
-    let check =
-        ["check", "-q", "--family", "interior,edge-near", "--kernel", "cramer", "-n", "200"];
+    let check = [
+        "check",
+        "-q",
+        "--family",
+        "interior,edge-near",
+        "--kernel",
+        "cramer",
+        "-n",
+        "200",
+    ];
     let bless = [&check[..], &["--scalar", "f32", "--bless"]].concat();
     ends(&folder, &bless, 0);
     let line = "  { scalar = \"f32\", finding = \"false-miss\", rates = { interior = 0.001 }, why = \"ours\" },";
-    edit(&folder, |text| text.replacen("findings = [", &format!("findings = [\n{line}"), 1));
+    edit(&folder, |text| {
+        text.replacen("findings = [", &format!("findings = [\n{line}"), 1)
+    });
     let before = fs::read_to_string(folder.join("hairline.expectations.toml")).unwrap();
     assert!(before.contains(line));
     ends(&folder, &[&check[..], &["--scalar", "f32"]].concat(), 0);
@@ -613,20 +870,49 @@ fn a_bound_of_what_does_not_occur_is_kept_by_blessing() {
     let after = fs::read_to_string(folder.join("hairline.expectations.toml")).unwrap();
     assert!(after.contains(line), "{after}");
     // One expectation that the plan leaves out is one too many.
-    let edges = ["check", "-q", "--family", "edge-near", "--kernel", "cramer", "-n", "200"];
-    let error = ends(&folder, &[&edges[..], &["--scalar", "f32", "--bless"]].concat(), 2).1;
+    let edges = [
+        "check",
+        "-q",
+        "--family",
+        "edge-near",
+        "--kernel",
+        "cramer",
+        "-n",
+        "200",
+    ];
+    let error = ends(
+        &folder,
+        &[&edges[..], &["--scalar", "f32", "--bless"]].concat(),
+        2,
+    )
+    .1;
     assert!(error.contains("has 1 expectations of kernels"), "{error}");
     // What is surely better than its bound is stale, and goes.
     let old = "rates = { interior = 0.001 }";
-    edit(&folder, |text| text.replacen(old, "rates = { interior = 0.9 }", 1));
+    edit(&folder, |text| {
+        text.replacen(old, "rates = { interior = 0.9 }", 1)
+    });
     ends(&folder, &bless, 0);
-    assert!(!fs::read_to_string(folder.join(FILE)).unwrap().contains("interior = "));
+    assert!(
+        !fs::read_to_string(folder.join(FILE))
+            .unwrap()
+            .contains("interior = ")
+    );
 }
 
 #[test]
 fn files_of_which_one_is_older_are_refused_and_blessed_again() {
     let folder = scratch("check-half-written");
-    let check = ["check", "-q", "--family", "edge-near", "--kernel", "cramer", "-n", "300"];
+    let check = [
+        "check",
+        "-q",
+        "--family",
+        "edge-near",
+        "--kernel",
+        "cramer",
+        "-n",
+        "300",
+    ];
     let run = |seed: &'static str, more: &[&'static str], code: i32| {
         let flags = ["--scalar", "f32", "--seed", seed];
         ends(&folder, &[&check[..], &flags, more].concat(), code)
@@ -646,11 +932,23 @@ fn files_of_which_one_is_older_are_refused_and_blessed_again() {
 #[test]
 fn the_case_of_what_got_better_is_right_now() {
     let folder = scratch("check-better");
-    let check = ["check", "-q", "--family", "edge-near", "--kernel", "cramer", "--scalar", "f32"];
+    let check = [
+        "check",
+        "-q",
+        "--family",
+        "edge-near",
+        "--kernel",
+        "cramer",
+        "--scalar",
+        "f32",
+    ];
     let run = |more: &[&'static str], code| ends(&folder, &[&check[..], more].concat(), code).0;
     run(&["-n", "400", "--bless"], 0);
     let out = run(&["-n", "400", "--band", "1ulps"], 3);
-    let better: Vec<&str> = out.split("; the case shown no longer shows it").skip(1).collect();
+    let better: Vec<&str> = out
+        .split("; the case shown no longer shows it")
+        .skip(1)
+        .collect();
     assert!(!better.is_empty(), "{out}");
     for text in better {
         let id = text.split('\'').nth(1).unwrap();
@@ -663,38 +961,64 @@ fn the_case_of_what_got_better_is_right_now() {
     let record: serde_json::Value = serde_json::from_str(&out).unwrap();
     let stale = record["conformance"]["stale"].as_array().unwrap();
     for found in stale {
-        let is_told = found["expected"].as_str().unwrap().contains("nothing is demanded");
+        let is_told = found["expected"]
+            .as_str()
+            .unwrap()
+            .contains("nothing is demanded");
         assert_eq!(is_told, found["found"]["of"] == 0, "{found}");
     }
     let better = stale.iter().filter(|found| found["case"].is_string());
     let mut shown = 0;
     for found in better {
         let id = found["case"].as_str().unwrap();
-        let (text, _) = ends(&folder, &["explain", id, "--kernel", "cramer", "--details"], 0);
+        let (text, _) = ends(
+            &folder,
+            &["explain", id, "--kernel", "cramer", "--details"],
+            0,
+        );
         let bits = found["bits"].as_str().unwrap().split([' ', '=', ',']);
-        bits.filter(|word| word.len() == 8).for_each(|word| assert!(text.contains(word), "{text}"));
+        bits.filter(|word| word.len() == 8)
+            .for_each(|word| assert!(text.contains(word), "{text}"));
         shown += 1;
     }
     assert_eq!(record["conformance"]["change"]["better"], stale.len());
     assert!(0 < shown);
     // Nothing is demanded any more.
     let out = run(&["-n", "400", "--band", "1e9"], 3);
-    assert!(out.contains("nothing is demanded there now: has the contract changed?"), "{out}");
+    assert!(
+        out.contains("nothing is demanded there now: has the contract changed?"),
+        "{out}"
+    );
 }
 
 #[test]
 fn the_same_cases_among_more_trials_are_the_same() {
     let folder = scratch("check-hits");
-    let check = ["check", "-q", "--family", "range-ends", "--kernel", "moller-trumbore"];
+    let check = [
+        "check",
+        "-q",
+        "--family",
+        "range-ends",
+        "--kernel",
+        "moller-trumbore",
+    ];
     let run = |more: &[&'static str], code: i32| {
-        ends(&folder, &[&check[..], &["--scalar", "f32", "-n", "500"], more].concat(), code).0
+        ends(
+            &folder,
+            &[&check[..], &["--scalar", "f32", "-n", "500"], more].concat(),
+            code,
+        )
+        .0
     };
     run(&["--bless"], 0);
     let lock = folder.join("hairline.expectations.toml.lock");
     let blessed = fs::read_to_string(&lock).unwrap();
     // One more of which they are, as if the kernel had lost a hit, or crashed, on another case since.
     for finding in ["bad-value", "false-miss"] {
-        let line = blessed.lines().find(|line| line.contains(&format!("\t{finding}\t"))).unwrap();
+        let line = blessed
+            .lines()
+            .find(|line| line.contains(&format!("\t{finding}\t")))
+            .unwrap();
         let mut words: Vec<String> = line.split('\t').map(str::to_owned).collect();
         words[7] = (words[7].parse::<u64>().unwrap() + 1).to_string();
         fs::write(&lock, blessed.replacen(line, &words.join("\t"), 1)).unwrap();
@@ -707,15 +1031,35 @@ fn the_other_exit_codes_come_from_real_commands() {
     let folder = blessed("check-codes");
     let case = "{\"scalar\":\"f32\",\"origin\":[1,0,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[2,0,0],\"c\":[0,2,0]}\n";
     fs::write(folder.join("c.jsonl"), case).unwrap();
-    let nothing =
-        ["check", "-q", "--config", "none.toml", "--corpus", "c.jsonl", "--scalar", "f64"];
+    let nothing = [
+        "check",
+        "-q",
+        "--config",
+        "none.toml",
+        "--corpus",
+        "c.jsonl",
+        "--scalar",
+        "f64",
+    ];
     fs::write(folder.join("none.toml"), "").unwrap();
     ends(&folder, &nothing, 4);
-    let error = ends(&folder, &["check", "-q", "--expectations", "missing.toml"], 74).1;
-    assert!(error.ends_with("; with --bless this command writes it\n"), "{error}");
+    let error = ends(
+        &folder,
+        &["check", "-q", "--expectations", "missing.toml"],
+        74,
+    )
+    .1;
+    assert!(
+        error.ends_with("; with --bless this command writes it\n"),
+        "{error}"
+    );
     ends(&folder, &["check", "-q", "--config", "missing.toml"], 74);
     ends(&folder, &["check", "-q", "-o", "no/such/folder.txt"], 74);
-    ends(&folder, &["check", "-q", "--format", "json", "-o", "r.json"], 0);
+    ends(
+        &folder,
+        &["check", "-q", "--format", "json", "-o", "r.json"],
+        0,
+    );
     ends(&folder, &["check", "-q", "--record", "r.json"], 0);
     let record = fs::read_to_string(folder.join("r.json")).unwrap();
     let spoiled = |from: &str, to: &str| {
@@ -727,11 +1071,17 @@ fn the_other_exit_codes_come_from_real_commands() {
     let broken = resealed(&spoiled("\"promise_broken\": 0", "\"promise_broken\": 1"));
     fs::write(folder.join("spoiled.json"), broken).unwrap();
     let (_, error) = ends(&folder, &judge, 70);
-    assert!(error.contains("self-check: family 'interior' breaks its promise"), "{error}");
+    assert!(
+        error.contains("self-check: family 'interior' breaks its promise"),
+        "{error}"
+    );
     let other = spoiled("hairline-record/2", "hairline-record/9");
     fs::write(folder.join("spoiled.json"), other).unwrap();
     let (_, error) = ends(&folder, &judge, 65);
-    assert!(error.contains("schema 'hairline-record/9', expected 'hairline-record/2'"), "{error}");
+    assert!(
+        error.contains("schema 'hairline-record/9', expected 'hairline-record/2'"),
+        "{error}"
+    );
     fs::write(folder.join("spoiled.json"), &record[..record.len() / 2]).unwrap();
     let (_, error) = ends(&folder, &judge, 65);
     assert!(error.starts_with("hairline: spoiled.json:"), "{error}");
@@ -744,7 +1094,16 @@ fn the_result_and_the_verdict_do_not_depend_on_the_number_of_threads() {
         .iter()
         .map(|threads| {
             let file = format!("{threads}.json");
-            let arguments = ["check", "-q", "--threads", threads, "--format", "json", "-o", &file];
+            let arguments = [
+                "check",
+                "-q",
+                "--threads",
+                threads,
+                "--format",
+                "json",
+                "-o",
+                &file,
+            ];
             ends(&folder, &arguments, 0);
             result_bytes(&folder.join(file))
         })
@@ -760,8 +1119,10 @@ fn on_github_deviations_are_annotated_and_the_summary_is_appended() {
     recount(&folder, "tiny", |count| count - 1);
     let summary = folder.join("summary.md");
     fs::write(&summary, "before\n").unwrap();
-    let variables =
-        [("GITHUB_ACTIONS", "true"), ("GITHUB_STEP_SUMMARY", summary.to_str().unwrap())];
+    let variables = [
+        ("GITHUB_ACTIONS", "true"),
+        ("GITHUB_STEP_SUMMARY", summary.to_str().unwrap()),
+    ];
     let output = hairline_with(&folder, &["check", "-q", "--format", "json"], &variables);
     assert_eq!(output.status.code(), Some(1));
     assert!(serde_json::from_slice::<serde_json::Value>(&output.stdout).is_ok());
@@ -774,19 +1135,37 @@ fn on_github_deviations_are_annotated_and_the_summary_is_appended() {
     );
     assert_eq!(error.lines().count(), 1, "{error}");
     let text = fs::read_to_string(&summary).unwrap();
-    assert!(text.starts_with("before\n## Does not conform: 1 unexpected"), "{text}");
+    assert!(
+        text.starts_with("before\n## Does not conform: 1 unexpected"),
+        "{text}"
+    );
     // A summary that is all but full is not overrun.
     fs::write(&summary, "x".repeat((1 << 20) - 1300)).unwrap();
     hairline_with(&folder, &["check", "-q"], &variables);
     let text = fs::read_to_string(&summary).unwrap();
-    assert!(text.len() < 1 << 20 && text.ends_with("has everything.\n"), "{}", text.len());
+    assert!(
+        text.len() < 1 << 20 && text.ends_with("has everything.\n"),
+        "{}",
+        text.len()
+    );
 }
 
 #[test]
 fn this_repositorys_own_expectations_are_of_its_default_plan() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     // Few cases, which are others, so rates are compared. CI compares the whole plan case by case.
-    ends(root, &["check", "-q", "--count", "200", "--family", "tiny,edge-exact"], 0);
+    ends(
+        root,
+        &[
+            "check",
+            "-q",
+            "--count",
+            "200",
+            "--family",
+            "tiny,edge-exact",
+        ],
+        0,
+    );
 }
 
 #[test]
@@ -800,7 +1179,10 @@ fn a_band_frees_polygons_and_groups_as_it_frees_cases() {
     let polygons = "check --quiet --kernel convex-polygon --epsilon parallel=1000 \
                     --family polygon --scalar f32 -n 2000";
     let (out, _) = with(polygons, 1);
-    assert!(out.contains("polygon: polygon-false-miss of polygon: "), "{out}");
+    assert!(
+        out.contains("polygon: polygon-false-miss of polygon: "),
+        "{out}"
+    );
     with(&format!("{polygons} --band 1"), 0);
     // Within a thousandth of a longest edge hardly any lattice ray passes that is not on the outline.
     with(&format!("{polygons} --band 1e-3"), 1);
@@ -811,7 +1193,10 @@ fn a_band_frees_polygons_and_groups_as_it_frees_cases() {
         let record: serde_json::Value =
             serde_json::from_slice(&fs::read(folder.join("record.json")).unwrap()).unwrap();
         let results = record["result"]["results"].as_array().unwrap();
-        results.iter().map(|part| part["across"]["cracks"]["of"].as_u64().unwrap()).collect()
+        results
+            .iter()
+            .map(|part| part["across"]["cracks"]["of"].as_u64().unwrap())
+            .collect()
     };
     assert!(crossings("").iter().all(|of| 100 < *of));
     assert_eq!(crossings(" --band 1"), [0, 0]);
@@ -824,11 +1209,15 @@ fn a_polygons_finding_has_a_command_that_shows_the_polygon_as_a_whole() {
                --scalar f32 -n 50 --details --format text,html -o text -o html";
     ends(&folder, &run.split_whitespace().collect::<Vec<_>>(), 0);
     let text = fs::read_to_string(folder.join("text")).unwrap();
-    let mut lines =
-        text.lines().skip_while(|line| !line.contains("f32 polygon-false-miss in polygon: "));
+    let mut lines = text
+        .lines()
+        .skip_while(|line| !line.contains("f32 polygon-false-miss in polygon: "));
     assert!(lines.next().is_some(), "{text}");
     let command = lines.next().unwrap().trim();
-    let words: Vec<String> = command.split(' ').map(|word| word.replace('\'', "")).collect();
+    let words: Vec<String> = command
+        .split(' ')
+        .map(|word| word.replace('\'', ""))
+        .collect();
     assert_eq!(words[..2], ["hairline", "explain"]);
     let words: Vec<&str> = words[1..].iter().map(String::as_str).collect();
     let (shown, _) = ends(&folder, &words, 0);
@@ -849,7 +1238,11 @@ fn a_scene_is_a_setting_and_a_run_of_none_of_the_expected_cases_is_one_error() {
     ends(&folder, &["check", "-q", "--bless", "--scene", "room"], 0);
     let bare = hairline_with(&folder, &["check", "-q"], &[]);
     let error = String::from_utf8(bare.stderr).unwrap();
-    assert_eq!((bare.status.code(), bare.stdout.len()), (Some(65), 0), "{error}");
+    assert_eq!(
+        (bare.status.code(), bare.stdout.len()),
+        (Some(65), 0),
+        "{error}"
+    );
     let of =
         "hairline.expectations.toml: its cases are of `--scalar f32 --scene room -n 300` (scene-";
     assert!(error.contains(of), "{error}");
@@ -858,14 +1251,25 @@ fn a_scene_is_a_setting_and_a_run_of_none_of_the_expected_cases_is_one_error() {
     ));
     assert_eq!(error.lines().count(), 1, "{error}");
     // A variable, and the file.
-    let code =
-        |words: &[&str], variables| hairline_with(&folder, words, variables).status.code().unwrap();
+    let code = |words: &[&str], variables| {
+        hairline_with(&folder, words, variables)
+            .status
+            .code()
+            .unwrap()
+    };
     assert_eq!(code(&["check", "-q"], &[("HAIRLINE_SCENE", "room")]), 0);
-    fs::write(folder.join("hairline.toml"), format!("{settings}scene = \"room\"\n")).unwrap();
+    fs::write(
+        folder.join("hairline.toml"),
+        format!("{settings}scene = \"room\"\n"),
+    )
+    .unwrap();
     assert_eq!(code(&["check", "-q"], &[]), 0);
     // A family runs besides the scene; nothing of it is known yet.
     let (more, _) = ends(&folder, &["check", "-q", "--family", "tiny"], 1);
-    assert!(more.contains("moller-trumbore (source) f32 tiny: false-miss"), "{more}");
+    assert!(
+        more.contains("moller-trumbore (source) f32 tiny: false-miss"),
+        "{more}"
+    );
 }
 
 #[test]
@@ -892,8 +1296,11 @@ fn another_scene_is_one_error_with_the_numbers_that_changed() {
     let folder = scratch("check-other-scene");
     let settings = "kernel = \"moller-trumbore\"\nscalar = \"f32\"\ncount = 300\n";
     let with = |scene: &str| {
-        fs::write(folder.join("hairline.toml"), format!("{settings}scene = \"{scene}\"\n"))
-            .unwrap();
+        fs::write(
+            folder.join("hairline.toml"),
+            format!("{settings}scene = \"{scene}\"\n"),
+        )
+        .unwrap();
     };
     with("extent=5,edge=0.01..3,distance=0..10");
     ends(&folder, &["check", "-q", "--bless"], 0);
@@ -933,10 +1340,18 @@ fn what_a_row_is_set_to_since_it_was_blessed_is_told() {
     let kernels = "kernel = [\"moller-trumbore\", \"woop-watertight\"]\n";
     with(kernels);
     ends(&folder, &["check", "-q", "--bless"], 0);
-    assert!(!ends(&folder, &["check", "-q"], 0).0.contains("blessed with"));
+    assert!(
+        !ends(&folder, &["check", "-q"], 0)
+            .0
+            .contains("blessed with")
+    );
     // Kernels that are fewer are no other kernels.
     with("kernel = \"woop-watertight\"\n");
-    assert!(!ends(&folder, &["check", "-q"], 0).0.contains("blessed with"));
+    assert!(
+        !ends(&folder, &["check", "-q"], 0)
+            .0
+            .contains("blessed with")
+    );
     with(&format!("{kernels}band = \"4ulps\"\n"));
     let out = ends(&folder, &["check", "-q"], 3).0;
     let line = "\nwoop-watertight (source): its contract is now free within 4ulps of the boundary; blessed with \
@@ -957,28 +1372,47 @@ fn what_a_row_is_set_to_since_it_was_blessed_is_told() {
 fn a_record_counts_what_was_compared_left_out_and_too_rare() {
     let folder = blessed("check-counts");
     let told = |more: &[&'static str]| {
-        let (out, _) =
-            ends(&folder, &[&["check", "--quiet", "--format", "json"], more].concat(), 0);
+        let (out, _) = ends(
+            &folder,
+            &[&["check", "--quiet", "--format", "json"], more].concat(),
+            0,
+        );
         let record: serde_json::Value = serde_json::from_str(&out).unwrap();
         record["conformance"].clone()
     };
     let lock = fs::read_to_string(folder.join(LOCK)).unwrap();
     let classes = |of_family: fn(&str) -> bool| {
-        let words = lock.lines().map(|line| line.split('\t').collect::<Vec<_>>());
-        words.filter(|words| words.len() == 9 && of_family(words[3])).count()
+        let words = lock
+            .lines()
+            .map(|line| line.split('\t').collect::<Vec<_>>());
+        words
+            .filter(|words| words.len() == 9 && of_family(words[3]))
+            .count()
     };
     let tiny = told(&["--family", "tiny"]);
     assert_eq!(tiny["outside_the_plan"], classes(|family| family != "tiny"));
-    assert_eq!(tiny["change"]["unchanged"], classes(|family| family == "tiny"));
-    assert_eq!([&tiny["change"]["better"], &tiny["too_rare_to_tell"]], [0, 0]);
+    assert_eq!(
+        tiny["change"]["unchanged"],
+        classes(|family| family == "tiny")
+    );
+    assert_eq!(
+        [&tiny["change"]["better"], &tiny["too_rare_to_tell"]],
+        [0, 0]
+    );
     for known in tiny["known"].as_array().unwrap() {
-        assert!(known["case"].is_null() && known["command"].is_null(), "{known}");
+        assert!(
+            known["case"].is_null() && known["command"].is_null(),
+            "{known}"
+        );
     }
     // Of few in 300 cases another seed shows as few, which is not surely more than none: front and back.
     let place = "woop-watertight\tsource\tf32\ttiny\t";
     edit_file(&folder, LOCK, |text| {
         let is_few = |line: &&str| line.starts_with(place) && line.contains("\tfalse-miss\t");
-        text.lines().filter(|line| !is_few(line)).map(|line| format!("{line}\n")).collect()
+        text.lines()
+            .filter(|line| !is_few(line))
+            .map(|line| format!("{line}\n"))
+            .collect()
     });
     edit(&folder, |text| {
         let (head, woop) = text.split_once("woop-watertight").unwrap();
@@ -987,5 +1421,8 @@ fn a_record_counts_what_was_compared_left_out_and_too_rare() {
         format!("{head}woop-watertight{}", woop.replacen(&few, "", 1))
     });
     let seed = told(&["--seed", "5"]);
-    assert_eq!([&seed["too_rare_to_tell"], &seed["change"]["unchanged"]], [3, 23]);
+    assert_eq!(
+        [&seed["too_rare_to_tell"], &seed["change"]["unchanged"]],
+        [3, 23]
+    );
 }

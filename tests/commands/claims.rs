@@ -12,20 +12,40 @@ struct Claim {
 }
 
 const fn says(flags: &'static [&'static str], part: &'static str) -> Claim {
-    Claim { flags, part, is_there: true }
+    Claim {
+        flags,
+        part,
+        is_there: true,
+    }
 }
 
 const fn withholds(flags: &'static [&'static str], part: &'static str) -> Claim {
-    Claim { flags, part, is_there: false }
+    Claim {
+        flags,
+        part,
+        is_there: false,
+    }
 }
 
 fn hold(folder: &str, command: &[&str], claims: &[Claim]) {
     let folder = scratch(folder);
-    for Claim { flags, part, is_there } in claims {
+    for Claim {
+        flags,
+        part,
+        is_there,
+    } in claims
+    {
         let (screen, _) = ends(&folder, &[command, flags, &["--details"]].concat(), 0);
         let screen = flat(&screen);
-        assert_eq!(screen.contains(part), *is_there, "{flags:?}: {part}\n{screen}");
-        assert!(command[0] != "spawn" || !screen.contains("prove"), "{flags:?}\n{screen}");
+        assert_eq!(
+            screen.contains(part),
+            *is_there,
+            "{flags:?}: {part}\n{screen}"
+        );
+        assert!(
+            command[0] != "spawn" || !screen.contains("prove"),
+            "{flags:?}\n{screen}"
+        );
     }
 }
 
@@ -44,18 +64,41 @@ fn an_offset_has_a_bound_only_where_the_flags_leave_the_weights_in_its_range() {
             // Epsilons: of the edges and of others, with and without a dimension.
             says(&["--epsilon", "edge=0.01"], INSIDE),
             says(&["--epsilon", "edge=-50"], "u, v and 1-u-v from -99 to 199"),
-            says(&["--epsilon", "edge=-50"], "the edge test lets no weight below -99 through"),
+            says(
+                &["--epsilon", "edge=-50"],
+                "the edge test lets no weight below -99 through",
+            ),
             withholds(&["--epsilon", "edge=-50"], INSIDE),
             withholds(&[], "lets no other weights through"),
             says(&[], "axis-0: floors and walls at coordinate 0;"),
             withholds(&["--scene", "unit,plane=axis"], "floors and walls"),
             says(&["--epsilon", "parallel=0"], INSIDE),
-            says(&["--kernel", "cramer", "--epsilon", "t=-1,edge=-0.5"], "from -0.5 to 2"),
+            says(
+                &["--kernel", "cramer", "--epsilon", "t=-1,edge=-0.5"],
+                "from -0.5 to 2",
+            ),
             says(&["--kernel", "woop-watertight"], INSIDE),
-            withholds(&["--kernel", "woop-watertight", "--epsilon", "edge=-1e-9"], BOUND),
-            says(&["--kernel", "plucker", "--epsilon", "edge=-0.25"], "from -0.25 to 1.5"),
-            withholds(&["--kernel", "scalar-triple", "--epsilon", "edge=-1e-9"], BOUND),
-            withholds(&["--kernel", "moller-trumbore-culling", "--epsilon", "edge=-1"], BOUND),
+            withholds(
+                &["--kernel", "woop-watertight", "--epsilon", "edge=-1e-9"],
+                BOUND,
+            ),
+            says(
+                &["--kernel", "plucker", "--epsilon", "edge=-0.25"],
+                "from -0.25 to 1.5",
+            ),
+            withholds(
+                &["--kernel", "scalar-triple", "--epsilon", "edge=-1e-9"],
+                BOUND,
+            ),
+            withholds(
+                &[
+                    "--kernel",
+                    "moller-trumbore-culling",
+                    "--epsilon",
+                    "edge=-1",
+                ],
+                BOUND,
+            ),
             says(&["--kernel", "cramer", "--epsilon-preset", "godot"], INSIDE),
             // Arithmetics and contracts change neither the weights' range nor how points are formed.
             says(&["--kernel", "moller-trumbore+fma"], INSIDE),
@@ -63,9 +106,17 @@ fn an_offset_has_a_bound_only_where_the_flags_leave_the_weights_in_its_range() {
             says(&["--contract", "open-ray"], INSIDE),
             says(&["--scalar", "f64"], INSIDE),
             // Scenes in which normals overflow or underflow.
-            withholds(&["--scene", "extent=1e11,edge=5e10,distance=0..1e11"], BOUND),
             withholds(
-                &["--scene", "extent=3e-9,edge=1e-9..3e-9", "--epsilon", "parallel=0"],
+                &["--scene", "extent=1e11,edge=5e10,distance=0..1e11"],
+                BOUND,
+            ),
+            withholds(
+                &[
+                    "--scene",
+                    "extent=3e-9,edge=1e-9..3e-9",
+                    "--epsilon",
+                    "parallel=0",
+                ],
                 BOUND,
             ),
             // A scheme of one's own is none of `normal=`, and another distance is not at the bound.
@@ -92,10 +143,22 @@ done
 "
         );
         fs::write(folder.join("mine.sh"), script).unwrap();
-        let flags = ["spawn", "-n", "200", "-q", "--point", "uv", "--kernel-cmd", "sh mine.sh"];
+        let flags = [
+            "spawn",
+            "-n",
+            "200",
+            "-q",
+            "--point",
+            "uv",
+            "--kernel-cmd",
+            "sh mine.sh",
+        ];
         // A kernel whose plain hits have other values than the exact ones is told nothing at all.
         let (screen, error) = ends(&folder, &flags, 1);
-        assert!(screen.is_empty() && error.contains("of 1024 plain hits"), "{weights}\n{error}");
+        assert!(
+            screen.is_empty() && error.contains("of 1024 plain hits"),
+            "{weights}\n{error}"
+        );
     }
 }
 
@@ -110,15 +173,45 @@ fn a_scene_has_proved_numbers_only_where_the_flags_keep_what_the_proof_supposes(
         &[
             says(&["--kernel", "moller-trumbore"], PROVED),
             says(&["--kernel", "moller-trumbore-t"], PROVED),
-            says(&["--kernel", "moller-trumbore", "--epsilon", "edge=-50"], PROVED),
-            says(&["--kernel", "moller-trumbore", "--epsilon", "parallel=0,t_min=3"], PROVED),
+            says(
+                &["--kernel", "moller-trumbore", "--epsilon", "edge=-50"],
+                PROVED,
+            ),
+            says(
+                &[
+                    "--kernel",
+                    "moller-trumbore",
+                    "--epsilon",
+                    "parallel=0,t_min=3",
+                ],
+                PROVED,
+            ),
             says(&["--kernel", "moller-trumbore+fma"], PROVED),
-            says(&["--kernel", "moller-trumbore", "--contract", "open-ray"], PROVED),
-            says(&["--kernel", "moller-trumbore", "--scene", "room,sine=1e-6..1e-5"], PROVED),
+            says(
+                &["--kernel", "moller-trumbore", "--contract", "open-ray"],
+                PROVED,
+            ),
+            says(
+                &[
+                    "--kernel",
+                    "moller-trumbore",
+                    "--scene",
+                    "room,sine=1e-6..1e-5",
+                ],
+                PROVED,
+            ),
             // Flushed numbers have errors of their own; with another length of d the bound is another.
             withholds(&["--kernel", "moller-trumbore+ftz"], PROVED),
             withholds(&["--kernel", "moller-trumbore+ftz"], BELOW),
-            withholds(&["--kernel", "moller-trumbore", "--scene", "room,direction=target"], PROVED),
+            withholds(
+                &[
+                    "--kernel",
+                    "moller-trumbore",
+                    "--scene",
+                    "room,direction=target",
+                ],
+                PROVED,
+            ),
             // The proof supposes more than a scene's sizes: a smallest divisor.
             withholds(&["--kernel", "woop-watertight"], PROVED),
             withholds(&["--kernel", "woop-watertight"], BELOW),
@@ -127,8 +220,21 @@ fn a_scene_has_proved_numbers_only_where_the_flags_keep_what_the_proof_supposes(
     );
     let folder = scratch("claims-mesh");
     let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/meshes/icosphere.obj");
-    let flags = ["epsilon", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "2000", "-q"];
-    for (scene, code) in [("mesh", 0), ("mesh,edge=0.01..0.02", 2), ("mesh,extent=0.1", 2)] {
+    let flags = [
+        "epsilon",
+        "--kernel",
+        "moller-trumbore",
+        "--scalar",
+        "f32",
+        "-n",
+        "2000",
+        "-q",
+    ];
+    for (scene, code) in [
+        ("mesh", 0),
+        ("mesh,edge=0.01..0.02", 2),
+        ("mesh,extent=0.1", 2),
+    ] {
         let all = [&flags[..], &["--mesh", mesh, "--scene", scene]].concat();
         let (screen, _) = ends(&folder, &[&all[..], &["--details"]].concat(), code);
         assert_eq!(screen.contains(PROVED), code == 0, "{scene}\n{screen}");
@@ -145,12 +251,23 @@ fn what_prove_says_names_its_domain() {
                 &["--kernel", "woop-watertight"],
                 "Watertight at its edges at an epsilon of 0 or less",
             ),
-            withholds(&["--kernel", "woop-watertight+fma"], "Watertight at its edges at"),
-            withholds(&["--kernel", "moller-trumbore"], "Watertight at its edges at"),
+            withholds(
+                &["--kernel", "woop-watertight+fma"],
+                "Watertight at its edges at",
+            ),
+            withholds(
+                &["--kernel", "moller-trumbore"],
+                "Watertight at its edges at",
+            ),
         ],
     );
     let folder = scratch("claims-ftz");
-    assert_eq!(hairline(&folder, &["prove", "--kernel", "plucker+ftz"]).status.code(), Some(4));
+    assert_eq!(
+        hairline(&folder, &["prove", "--kernel", "plucker+ftz"])
+            .status
+            .code(),
+        Some(4)
+    );
 }
 
 #[test]
@@ -161,7 +278,10 @@ fn numbers_that_are_no_good_are_not_to_be_used() {
         &["epsilon", "--scalar", "f32", "-n", "2000", "-q", "--scene"],
         &[
             says(&[FAR, "--kernel", "baldwin-weber"], " least bad: --epsilon"),
-            says(&[FAR, "--kernel", "baldwin-weber"], "No numbers are good here"),
+            says(
+                &[FAR, "--kernel", "baldwin-weber"],
+                "No numbers are good here",
+            ),
             withholds(&[FAR, "--kernel", "baldwin-weber"], " use --"),
             withholds(&[FAR, "--kernel", "baldwin-weber"], "recommended,"),
             says(&["room", "--kernel", "moller-trumbore"], " use --epsilon"),
@@ -184,7 +304,11 @@ fn an_audit_of_a_scene_draws_every_kind_of_planes_and_rays_unless_one_is_named()
         (&["--scene", "room,plane=box,toward=axis"], [false, false]),
         (&["--family", "interior"], [false, false]),
     ] {
-        let all = [&["audit", "-n", "20", "-q", "--kernel", "cramer"][..], flags].concat();
+        let all = [
+            &["audit", "-n", "20", "-q", "--kernel", "cramer"][..],
+            flags,
+        ]
+        .concat();
         let screen = squeezed(ends(&folder, &all, 0).0);
         assert_eq!(
             [AT_ZERO, BOXES].map(|part| screen.contains(part)),
@@ -199,23 +323,47 @@ fn an_audit_of_a_scene_draws_every_kind_of_planes_and_rays_unless_one_is_named()
 #[test]
 fn an_audit_of_a_scene_says_on_which_planes_a_kernel_is_more_often_wrong() {
     let folder = scratch("claims-elsewhere");
-    let flags = ["audit", "-n", "2000", "-q", "--kernel", "woop-watertight", "--scalar", "f32"];
+    let flags = [
+        "audit",
+        "-n",
+        "2000",
+        "-q",
+        "--kernel",
+        "woop-watertight",
+        "--scalar",
+        "f32",
+    ];
     let (screen, _) = ends(&folder, &[&flags[..], &["--scene", "room"]].concat(), 0);
-    let line = screen.lines().find(|line| line.contains("f32: ends")).expect(&screen);
+    let line = screen
+        .lines()
+        .find(|line| line.contains("f32: ends"))
+        .expect(&screen);
     let words: Vec<&str> = line.split_whitespace().rev().take(3).collect();
-    let [kind, most, own] = words[..] else { panic!("{line}") };
+    let [kind, most, own] = words[..] else {
+        panic!("{line}")
+    };
     let percent = |word: &str| word.trim_end_matches('%').parse::<f64>().unwrap();
     // Shadow rays from floors at coordinate 0 start there exactly, so their t is 0: 0 <= t accepts half of them. Segments
     // that end at their target are half of the rest, on any plane.
-    assert!(kind.starts_with("axis") && percent(own) + 8.0 < percent(most), "{line}");
+    assert!(
+        kind.starts_with("axis") && percent(own) + 8.0 < percent(most),
+        "{line}"
+    );
     let json = ["--scene", "room", "--format", "json"];
     let record: serde_json::Value =
         serde_json::from_str(&ends(&folder, &[&flags[..], &json].concat(), 0).0).unwrap();
     let sources = record["result"]["plan"]["sources"].as_array().unwrap();
-    let names: Vec<&str> = sources.iter().map(|it| it["family"].as_str().unwrap()).collect();
+    let names: Vec<&str> = sources
+        .iter()
+        .map(|it| it["family"].as_str().unwrap())
+        .collect();
     // Eight strata; rays along axes are in six, which are not about the angle to the plane.
     assert_eq!(names.len(), 8 * 6 + 6 * 3, "{names:?}");
-    for name in ["scene-shadow", "scene-shadow:axis-0", "scene-edges:axis+axis-rays"] {
+    for name in [
+        "scene-shadow",
+        "scene-shadow:axis-0",
+        "scene-edges:axis+axis-rays",
+    ] {
         assert!(names.contains(&name), "{name}");
     }
 }
@@ -225,7 +373,9 @@ fn angles_that_no_ray_has_are_counted_and_said() {
     const FAR: &str = "extent=1000,center=500000,edge=10..50,distance=15..20,sine=1e-6..1e-5";
     const NOTE: &str = "almost parallel rays in f32: none of 4096 tries has it";
     let folder = scratch("claims-angles");
-    let flags = ["audit", "-n", "20", "--kernel", "cramer", "--scalar", "f32", "--scene"];
+    let flags = [
+        "audit", "-n", "20", "--kernel", "cramer", "--scalar", "f32", "--scene",
+    ];
     for (scene, more, is_said) in [
         (FAR, &[][..], true),
         (FAR, &["-q"], false),
@@ -248,16 +398,29 @@ fn a_demand_is_not_met_by_a_proof_of_something_else_than_what_runs() {
     for (settings, why) in [
         ("", None),
         ("epsilon = \"edge=-1e-9\"\n", None),
-        ("epsilon = \"edge=1e-9\"\n", Some("the plan runs it at edge=1e-9, above 0")),
-        ("arithmetic = \"fma\"\n", Some("the plan runs woop-watertight+fma in its place")),
+        (
+            "epsilon = \"edge=1e-9\"\n",
+            Some("the plan runs it at edge=1e-9, above 0"),
+        ),
+        (
+            "arithmetic = \"fma\"\n",
+            Some("the plan runs woop-watertight+fma in its place"),
+        ),
         ("arithmetic = \"ieee,fma\"\n", None),
     ] {
-        fs::write(folder.join("hairline.toml"), format!("{plan}{settings}{demand}")).unwrap();
+        fs::write(
+            folder.join("hairline.toml"),
+            format!("{plan}{settings}{demand}"),
+        )
+        .unwrap();
         let output = hairline(&folder, &["check", "-q"]);
         let text = flat(&String::from_utf8_lossy(&output.stdout));
         let is_missing = text.contains("must be proved watertight");
         assert_eq!(is_missing, why.is_some(), "{settings}: {text}");
-        assert!(why.is_none_or(|why| text.contains(why)), "{settings}: {text}");
+        assert!(
+            why.is_none_or(|why| text.contains(why)),
+            "{settings}: {text}"
+        );
     }
 }
 
@@ -267,7 +430,10 @@ fn values_are_free_where_the_contract_leaves_the_direction_out() {
     let case = ["explain", "sliver@3/f32/-/1/593", "--kernel", "half-space"];
     let unit = ["--contract", "own,direction=unit:4"];
     let screen = ends(&folder, &case, 0).0;
-    assert!(screen.contains("wrong-value") && screen.contains("wrong t: reported"), "{screen}");
+    assert!(
+        screen.contains("wrong-value") && screen.contains("wrong t: reported"),
+        "{screen}"
+    );
     let screen = ends(&folder, &[&case[..], &unit].concat(), 0).0;
     assert!(!screen.contains("wrong"), "{screen}");
 }
@@ -276,17 +442,52 @@ fn values_are_free_where_the_contract_leaves_the_direction_out() {
 fn a_contract_that_tolerates_more_of_the_values_has_fewer_findings() {
     let folder = scratch("claims-values");
     let count = |words: &str| {
-        let flags = ["audit", "--kernel", "baldwin-weber", "--scalar", "f32", "-n", "3000", "-q"];
-        let more = ["--family", "sliver", "--format", "json", "--contract", words];
+        let flags = [
+            "audit",
+            "--kernel",
+            "baldwin-weber",
+            "--scalar",
+            "f32",
+            "-n",
+            "3000",
+            "-q",
+        ];
+        let more = [
+            "--family",
+            "sliver",
+            "--format",
+            "json",
+            "--contract",
+            words,
+        ];
         let json = ends(&folder, &[&flags[..], &more].concat(), 0).0;
         let record: serde_json::Value = serde_json::from_str(&json).unwrap();
-        record["result"]["results"][0]["total"]["wrong_values"]["count"].as_u64().unwrap()
+        record["result"]["results"][0]["total"]["wrong_values"]["count"]
+            .as_u64()
+            .unwrap()
     };
-    let [own, tiny, small, free] =
-        ["own", "own,values=1e-6", "own,values=1e-3", "own,values=free"].map(count);
-    assert!(0 == free && free < small && small < own && tiny <= own, "{own} {tiny} {small}");
-    let case = ["explain", "sliver@3/f32/-/1/593", "--kernel", "half-space", "--contract"];
+    let [own, tiny, small, free] = [
+        "own",
+        "own,values=1e-6",
+        "own,values=1e-3",
+        "own,values=free",
+    ]
+    .map(count);
+    assert!(
+        0 == free && free < small && small < own && tiny <= own,
+        "{own} {tiny} {small}"
+    );
+    let case = [
+        "explain",
+        "sliver@3/f32/-/1/593",
+        "--kernel",
+        "half-space",
+        "--contract",
+    ];
     let far = ends(&folder, &[&case[..], &["own,values=1e-9"]].concat(), 0).0;
     let free = ends(&folder, &[&case[..], &["own,values=free"]].concat(), 0).0;
-    assert!(far.contains("wrong t: reported") && !free.contains("wrong"), "{far}\n{free}");
+    assert!(
+        far.contains("wrong t: reported") && !free.contains("wrong"),
+        "{far}\n{free}"
+    );
 }

@@ -46,7 +46,10 @@ fn refused(folder: &Path, arguments: &[&str], expected: i32) -> String {
     let error = text(&output.stderr);
     assert_eq!(code(&output), expected, "{arguments:?}: {error}");
     assert_eq!(text(&output.stdout), "", "{arguments:?}");
-    let lines: Vec<&str> = error.lines().filter(|line| line.starts_with("hairline: ")).collect();
+    let lines: Vec<&str> = error
+        .lines()
+        .filter(|line| line.starts_with("hairline: "))
+        .collect();
     assert_eq!(lines.len(), 1, "{arguments:?}: {error}");
     lines[0].to_owned()
 }
@@ -58,7 +61,9 @@ fn json(output: &Output) -> serde_json::Value {
 
 #[test]
 fn the_audit_lists_every_kernel_scalar_and_family() {
-    let record = json(&hairline(&["audit", "--count", "50", "--format", "json", "--quiet"]));
+    let record = json(&hairline(&[
+        "audit", "--count", "50", "--format", "json", "--quiet",
+    ]));
     assert_eq!(record["schema"], "hairline-record/2");
     let results = record["result"]["results"].as_array().unwrap();
     let distinct = |key: &str| {
@@ -68,7 +73,10 @@ fn the_audit_lists_every_kernel_scalar_and_family() {
             .collect::<std::collections::BTreeSet<_>>()
             .len()
     };
-    assert_eq!((distinct("kernel"), distinct("scalar"), distinct("family")), (17, 2, 31));
+    assert_eq!(
+        (distinct("kernel"), distinct("scalar"), distinct("family")),
+        (17, 2, 31)
+    );
     for source in record["result"]["sources"].as_array().unwrap() {
         assert_eq!(source["promise_broken"], 0, "{source}");
     }
@@ -120,15 +128,24 @@ fn the_text_table_names_the_kernel_the_place_the_cost_and_the_command() {
         assert!(table.contains(expected), "{expected}: {table}");
     }
     // The command that it prints shows the same disagreement again.
-    let command = table.lines().find(|line| line.contains("hairline explain")).unwrap();
-    let words: Vec<&str> =
-        command.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
+    let command = table
+        .lines()
+        .find(|line| line.contains("hairline explain"))
+        .unwrap();
+    let words: Vec<&str> = command
+        .split_whitespace()
+        .skip(1)
+        .map(|word| word.trim_matches('\''))
+        .collect();
     let explained = hairline(&words);
     assert_eq!(code(&explained), 0, "{}", text(&explained.stderr));
     let explained = text(&explained.stdout);
     assert!(explained.contains("FALSE-"), "{explained}");
     assert!(explained.contains("exactly"), "{explained}");
-    assert!(explained.contains("<- decides") || explained.contains(": hit;"), "{explained}");
+    assert!(
+        explained.contains("<- decides") || explained.contains(": hit;"),
+        "{explained}"
+    );
 }
 
 #[test]
@@ -157,10 +174,21 @@ fn epsilons_and_presets_change_the_verdict() {
     assert!(misses(&["--epsilon-preset", "zero"]) < 50);
     assert!(misses(&["--epsilon-preset", "three-mesh-bvh"]) > 200);
     // A scalar that has no such number cannot be asked; one that has it can.
-    let tiny = ["audit", "-n", "20", "--family", "tiny", "--epsilon", "parallel=1e-60"];
+    let tiny = [
+        "audit",
+        "-n",
+        "20",
+        "--family",
+        "tiny",
+        "--epsilon",
+        "parallel=1e-60",
+    ];
     let in_f64 = ["--scalar", "f64", "--kernel", "moller-trumbore"];
     let error = refused(Path::new("."), &tiny, 2);
-    assert!(error.contains("1e-60 is 0 in f32 (see --scalar)"), "{error}");
+    assert!(
+        error.contains("1e-60 is 0 in f32 (see --scalar)"),
+        "{error}"
+    );
     assert_eq!(code(&hairline(&[&tiny[..], &in_f64].concat())), 0);
     // A tolerance on the edges takes more hits than none.
     assert!(
@@ -180,7 +208,14 @@ fn a_table_of_nothing_says_why() {
     );
     let folder = scratch("one-scalar");
     fs::write(folder.join("one.jsonl"), format!("{CASE}\n")).unwrap();
-    let one = ["audit", "--corpus", "one.jsonl", "--kernel", "cramer", "--details"];
+    let one = [
+        "audit",
+        "--corpus",
+        "one.jsonl",
+        "--kernel",
+        "cramer",
+        "--details",
+    ];
     let table = hairline_in(&folder, &one, "");
     assert!(!text(&table.stdout).contains("\nf64 kernel"), "{table:?}");
 }
@@ -231,7 +266,9 @@ fn formats_go_to_their_outputs_whole() {
     let output = hairline_in(&folder, &arguments, "");
     assert_eq!((code(&output), text(&output.stdout)), (0, String::new()));
     assert!(
-        fs::read_to_string(folder.join("table.txt")).unwrap().contains("The worst of each class")
+        fs::read_to_string(folder.join("table.txt"))
+            .unwrap()
+            .contains("The worst of each class")
     );
     let record: serde_json::Value =
         serde_json::from_slice(&fs::read(folder.join("record.json")).unwrap()).unwrap();
@@ -259,7 +296,10 @@ fn truth_prints_one_json_line_a_case() {
     let run = |arguments: &[&str]| -> Vec<serde_json::Value> {
         let output = hairline_in(&folder, arguments, &format!("{CASE}\n\n{coplanar}\n"));
         assert_eq!(code(&output), 0);
-        text(&output.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+        text(&output.stdout)
+            .lines()
+            .map(|line| serde_json::from_str(line).unwrap())
+            .collect()
     };
     let (lines, brief) = (run(&["truth", "--exact", "-"]), run(&["truth", "-"]));
     // Without --exact the same but for the fractions, which are left out.
@@ -277,7 +317,10 @@ fn truth_prints_one_json_line_a_case() {
     });
     assert_eq!(lines[0], expected);
     let contact = serde_json::json!({"kind": "segment", "feature": null, "t": ["1/1", "2/1"]});
-    assert_eq!((&lines[1]["class"], &lines[1]["contact"]), (&"coplanar".into(), &contact));
+    assert_eq!(
+        (&lines[1]["class"], &lines[1]["contact"]),
+        (&"coplanar".into(), &contact)
+    );
     assert_eq!(
         (&lines[1]["name"], &lines[1]["t"]),
         (&serde_json::Value::Null, &serde_json::Value::Null)
@@ -294,8 +337,14 @@ fn bad_corpus_lines_are_refused_with_file_line_and_field() {
             format!("{CASE}\n{}", CASE.replace("origin", "orign")),
             "bad.jsonl:2: unknown field 'orign'",
         ),
-        (CASE.replace(r#""a":[0,0,0],"#, ""), "bad.jsonl:1: missing field 'a'"),
-        (CASE.replace("[1,0,1]", "[1,0,1e39]"), "bad.jsonl:1: origin[2]: '1e39' overflows f32"),
+        (
+            CASE.replace(r#""a":[0,0,0],"#, ""),
+            "bad.jsonl:1: missing field 'a'",
+        ),
+        (
+            CASE.replace("[1,0,1]", "[1,0,1e39]"),
+            "bad.jsonl:1: origin[2]: '1e39' overflows f32",
+        ),
         (
             wrong,
             "bad.jsonl:1: stored truth is wrong: feature is 'vertex_a', the oracle says 'edge_ab'",
@@ -311,7 +360,14 @@ fn bad_corpus_lines_are_refused_with_file_line_and_field() {
         );
         assert!(refused(&folder, &["audit", "--corpus", "bad.jsonl"], 65).contains(message));
         // To a file: nothing half-written.
-        assert_eq!(code(&hairline_in(&folder, &["truth", "bad.jsonl", "-o", "out.jsonl"], "")), 65);
+        assert_eq!(
+            code(&hairline_in(
+                &folder,
+                &["truth", "bad.jsonl", "-o", "out.jsonl"],
+                ""
+            )),
+            65
+        );
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
     }
 }
@@ -320,7 +376,10 @@ fn bad_corpus_lines_are_refused_with_file_line_and_field() {
 fn bad_meshes_are_refused_with_file_and_line() {
     let folder = scratch("bad-meshes");
     for (content, message) in [
-        (&b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"[..], "bad.obj:4: face names vertex 4"),
+        (
+            &b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"[..],
+            "bad.obj:4: face names vertex 4",
+        ),
         (b"v 0 0 0\nv 1 0 nan\n", "bad.obj:2: "),
         (b"v 0 0 0\nv 1 0\n", "bad.obj:2: "),
         (b"v 0 0 0\nv \xff\xfe 0 0\n", "bad.obj:2: "),
@@ -355,8 +414,13 @@ fn a_mesh_and_a_corpus_are_audited() {
     let table = text(&output.stdout);
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     // The curated set holds more than 150 cases, and each is run.
-    let record =
-        json(&hairline(&["audit", "--corpus", "corpora/curated.jsonl", "--format", "json"]));
+    let record = json(&hairline(&[
+        "audit",
+        "--corpus",
+        "corpora/curated.jsonl",
+        "--format",
+        "json",
+    ]));
     let cases: u64 = record["result"]["sources"]
         .as_array()
         .unwrap()
@@ -365,11 +429,16 @@ fn a_mesh_and_a_corpus_are_audited() {
         .sum();
     assert!(cases >= 150);
     // A finding on a mesh can be shown again.
-    let mut lines = table.lines().skip_while(|line| !line.starts_with("f32 false-"));
+    let mut lines = table
+        .lines()
+        .skip_while(|line| !line.starts_with("f32 false-"));
     let command = lines.find(|line| line.contains("hairline explain") && line.contains("--mesh"));
     let command = command.expect("a finding on the mesh");
-    let words: Vec<&str> =
-        command.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
+    let words: Vec<&str> = command
+        .split_whitespace()
+        .skip(1)
+        .map(|word| word.trim_matches('\''))
+        .collect();
     let shown = text(&hairline(&words).stdout);
     assert!(shown.contains("FALSE-"), "{shown}");
 }
@@ -378,23 +447,47 @@ fn a_mesh_and_a_corpus_are_audited() {
 fn wrong_names_suggest_the_nearest_and_wrong_numbers_say_the_range() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     for (arguments, message) in [
-        (&["audit", "--kernel", "moler-trumbore"][..], "did you mean 'moller-trumbore'?"),
-        (&["audit", "--family", "edge-exat"], "did you mean 'edge-exact'?"),
-        (&["audit", "--epsilon", "paralel=0"], "did you mean 'parallel'?"),
-        (&["audit", "--epsilon", "parallel"], "is not GATE=VALUE"),
-        (&["audit", "--epsilon-preset", "gdot"], "did you mean 'godot'?"),
         (
-            &["audit", "--epsilon-preset", "godot", "--kernel", "moller-trumbore,cramer"],
+            &["audit", "--kernel", "moler-trumbore"][..],
+            "did you mean 'moller-trumbore'?",
+        ),
+        (
+            &["audit", "--family", "edge-exat"],
+            "did you mean 'edge-exact'?",
+        ),
+        (
+            &["audit", "--epsilon", "paralel=0"],
+            "did you mean 'parallel'?",
+        ),
+        (&["audit", "--epsilon", "parallel"], "is not GATE=VALUE"),
+        (
+            &["audit", "--epsilon-preset", "gdot"],
+            "did you mean 'godot'?",
+        ),
+        (
+            &[
+                "audit",
+                "--epsilon-preset",
+                "godot",
+                "--kernel",
+                "moller-trumbore,cramer",
+            ],
             "preset 'godot' refuses where !(t > e), and no gate of moller-trumbore is a 't'",
         ),
-        (&["audit", "--contract", "closed-rai"], "did you mean 'closed-ray'?"),
+        (
+            &["audit", "--contract", "closed-rai"],
+            "did you mean 'closed-ray'?",
+        ),
         (&["audit", "--format", "jsn"], "did you mean 'json'?"),
         (&["audit", "--scalar", "f16"], "unknown scalar 'f16'"),
         (&["audit", "--scale", "3"], "write 2^k"),
         (&["audit", "--offset", "1:2"], "write x:y:z"),
         (&["audit", "--threads", "0"], "not from 1"),
         (&["explain", "nonsense"], "is not a case id"),
-        (&["explain", "edge-near@2/f32/-/1/3", "--kernel", "x"], "unknown kernel 'x'"),
+        (
+            &["explain", "edge-near@2/f32/-/1/3", "--kernel", "x"],
+            "unknown kernel 'x'",
+        ),
     ] {
         assert!(
             refused(here, arguments, 2).contains(message),
@@ -423,7 +516,10 @@ fn wrong_names_suggest_the_nearest_and_wrong_numbers_say_the_range() {
     for count in ["0", "-5", "99999999999999999999"] {
         let output = hairline(&["audit", "--count", count]);
         let error = text(&output.stderr);
-        assert!(code(&output) == 2 && error.contains("not a number of cases from 1"), "{error}");
+        assert!(
+            code(&output) == 2 && error.contains("not a number of cases from 1"),
+            "{error}"
+        );
     }
 }
 
@@ -436,12 +532,24 @@ fn nothing_selected_bad_data_and_failed_output_have_codes_of_their_own() {
     fs::create_dir(folder.join("bare")).unwrap();
     assert!(refused(&folder, &["audit", "--corpus", "bare"], 4).contains("no .jsonl files"));
     assert!(refused(&folder, &["explain", "edge-near@9/f32/-/1/3"], 65).contains("version 9"));
-    let unwritable = ["audit", "-n", "5", "--family", "tiny", "-o", "no/such/folder/file.txt"];
+    let unwritable = [
+        "audit",
+        "-n",
+        "5",
+        "--family",
+        "tiny",
+        "-o",
+        "no/such/folder/file.txt",
+    ];
     assert!(refused(&folder, &unwritable, 74).contains("no/such/folder/file.txt: "));
     assert!(refused(&folder, &["truth", "missing.jsonl"], 74).contains("missing.jsonl: "));
     assert!(
-        refused(&folder, &["audit", "-n", "5", "--family", "tiny", "-o", "."], 74)
-            .contains("directory")
+        refused(
+            &folder,
+            &["audit", "-n", "5", "--family", "tiny", "-o", "."],
+            74
+        )
+        .contains("directory")
     );
 }
 
@@ -464,7 +572,10 @@ fn a_full_disk_is_reported_and_a_closed_pipe_is_no_error() {
 #[test]
 fn every_kernel_family_contract_and_preset_is_listed() {
     let list = |what: &str| {
-        text(&hairline(&["list", what]).stdout).split_whitespace().collect::<Vec<_>>().join(" ")
+        text(&hairline(&["list", what]).stdout)
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
     };
     for entry in hairline::internals::kernel::KERNELS {
         assert!(list("kernels").contains(entry.info.name));
@@ -485,19 +596,33 @@ fn the_corpora_verify_and_a_changed_digest_does_not() {
     fs::create_dir_all(folder.join("made/meshes")).unwrap();
     for mesh in fs::read_dir(corpora.join("meshes")).unwrap() {
         let mesh = mesh.unwrap();
-        fs::copy(mesh.path(), folder.join("made/meshes").join(mesh.file_name())).unwrap();
+        fs::copy(
+            mesh.path(),
+            folder.join("made/meshes").join(mesh.file_name()),
+        )
+        .unwrap();
     }
     let stored = fs::read_to_string(corpora.join("manifest.jsonl")).unwrap();
     // Lines of meshes stay, those of sets are made again.
     let old: String = stored.split_inclusive('\n').skip(1).collect();
     fs::write(folder.join("made/manifest.jsonl"), old).unwrap();
-    assert_eq!(code(&hairline_in(&folder, &["corpus", "generate", "made"], "")), 0);
+    assert_eq!(
+        code(&hairline_in(&folder, &["corpus", "generate", "made"], "")),
+        0
+    );
     let manifest = fs::read_to_string(folder.join("made/manifest.jsonl")).unwrap();
-    assert_eq!(manifest, stored, "the committed manifest is the program's own");
+    assert_eq!(
+        manifest, stored,
+        "the committed manifest is the program's own"
+    );
     let output = hairline(&["corpus", "verify"]);
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     assert!(text(&output.stdout).contains("stored truths right"));
-    fs::copy(corpora.join("curated.jsonl"), folder.join("made/curated.jsonl")).unwrap();
+    fs::copy(
+        corpora.join("curated.jsonl"),
+        folder.join("made/curated.jsonl"),
+    )
+    .unwrap();
     fs::write(folder.join("made/meshes/torus.obj"), "v 0 0 0\n").unwrap();
     assert!(refused(&folder, &["corpus", "verify", "made"], 65).contains("manifest.jsonl:"));
     fs::write(folder.join("empty.jsonl"), "").unwrap();
@@ -508,7 +633,9 @@ fn the_corpora_verify_and_a_changed_digest_does_not() {
 #[test]
 fn generated_cases_carry_truths_that_verify() {
     let folder = scratch("generated");
-    let made = hairline(&["corpus", "generate", "--family", "fan", "--scalar", "f64", "-n", "30"]);
+    let made = hairline(&[
+        "corpus", "generate", "--family", "fan", "--scalar", "f64", "-n", "30",
+    ]);
     fs::write(folder.join("fan.jsonl"), &made.stdout).unwrap();
     let output = hairline_in(&folder, &["truth", "fan.jsonl"], "");
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
@@ -519,7 +646,13 @@ fn generated_cases_carry_truths_that_verify() {
 fn truths_are_those_of_the_definition_in_the_order_of_the_lines() {
     let folder = scratch("truth-order");
     let mut all = String::new();
-    for family in ["coplanar", "degenerate", "edge-near", "range-ends", "invalid"] {
+    for family in [
+        "coplanar",
+        "degenerate",
+        "edge-near",
+        "range-ends",
+        "invalid",
+    ] {
         for scalar in ["f32", "f64"] {
             let flags = ["--family", family, "--scalar", scalar, "-n", "700"];
             let made = hairline(&[&["corpus", "generate"][..], &flags].concat());
@@ -529,7 +662,10 @@ fn truths_are_those_of_the_definition_in_the_order_of_the_lines() {
     fs::write(folder.join("all.jsonl"), &all).unwrap();
     // Several blocks of lines.
     let run = |arguments: &[&str]| text(&hairline_in(&folder, arguments, "").stdout);
-    let (fast, exact) = (run(&["truth", "all.jsonl"]), run(&["truth", "--exact", "all.jsonl"]));
+    let (fast, exact) = (
+        run(&["truth", "all.jsonl"]),
+        run(&["truth", "--exact", "all.jsonl"]),
+    );
     assert!(5000 < fast.lines().count());
     for (fast, exact) in fast.lines().zip(exact.lines()) {
         let [fast, exact]: [serde_json::Value; 2] =
@@ -540,10 +676,17 @@ fn truths_are_those_of_the_definition_in_the_order_of_the_lines() {
         assert_eq!(fast["contact"]["kind"], exact["contact"]["kind"], "{exact}");
     }
     // A wrong line stops where it stands, and names itself.
-    fs::write(folder.join("all.jsonl"), all.replacen("\"scalar\":\"f64\"", "\"scalar\":\"f6\"", 1))
-        .unwrap();
+    fs::write(
+        folder.join("all.jsonl"),
+        all.replacen("\"scalar\":\"f64\"", "\"scalar\":\"f6\"", 1),
+    )
+    .unwrap();
     let output = hairline_in(&folder, &["truth", "all.jsonl"], "");
-    let line = all.lines().position(|line| line.contains("\"scalar\":\"f64\"")).unwrap() + 1;
+    let line = all
+        .lines()
+        .position(|line| line.contains("\"scalar\":\"f64\""))
+        .unwrap()
+        + 1;
     let error = text(&output.stderr);
     assert!(
         code(&output) == 65 && error.contains(&format!("all.jsonl:{line}: scalar: ")),
@@ -562,17 +705,32 @@ fn explain_says_why_a_case_is_invalid_and_which_rows_fail_on_a_group() {
     };
     let start = "\"origin\":[0.25,0.25,1]";
     for (ray, reason) in [
-        ("\"origin\":[0.25,\"nan\",1],\"direction\":[0,0,-1]".to_owned(), "a coordinate is NaN"),
-        (format!("{start},\"direction\":[0,0,\"-inf\"]"), "a coordinate is infinite"),
-        (format!("{start},\"direction\":[0,0,-0.0]"), "the direction is 0"),
-        (format!("{start},\"direction\":[0,0,-1],\"t_max\":\"nan\""), "t_min or t_max is NaN"),
+        (
+            "\"origin\":[0.25,\"nan\",1],\"direction\":[0,0,-1]".to_owned(),
+            "a coordinate is NaN",
+        ),
+        (
+            format!("{start},\"direction\":[0,0,\"-inf\"]"),
+            "a coordinate is infinite",
+        ),
+        (
+            format!("{start},\"direction\":[0,0,-0.0]"),
+            "the direction is 0",
+        ),
+        (
+            format!("{start},\"direction\":[0,0,-1],\"t_max\":\"nan\""),
+            "t_min or t_max is NaN",
+        ),
         (
             format!("{start},\"direction\":[0,0,-1],\"t_min\":2,\"t_max\":1"),
             "t_min is greater than t_max",
         ),
     ] {
         let screen = case(&ray);
-        assert!(screen.contains(&format!("\ntruth  invalid: {reason}\n")), "{screen}");
+        assert!(
+            screen.contains(&format!("\ntruth  invalid: {reason}\n")),
+            "{screen}"
+        );
     }
     assert!(case("\"origin\":[\"nan\",0,1],\"direction\":[0,0,-1]").contains("passes at every e"));
     let output = hairline(&["explain", "shared-edge@3/f32/-/1/5"]);
@@ -582,7 +740,11 @@ fn explain_says_why_a_case_is_invalid_and_which_rows_fail_on_a_group() {
     assert!(title.ends_with("together.") && 2 < wrong, "{title}");
     let lines: Vec<&str> = rest.lines().skip(1).take(9).collect();
     let is_wrong = |line: &&str| line.ends_with(": CRACK") || line.ends_with(": DOUBLE");
-    assert_eq!(lines.iter().filter(|line| is_wrong(line)).count(), wrong.min(8), "{screen}");
+    assert_eq!(
+        lines.iter().filter(|line| is_wrong(line)).count(),
+        wrong.min(8),
+        "{screen}"
+    );
     assert_eq!(lines[8], "13 more rows: --details");
 }
 
@@ -594,43 +756,81 @@ fn help_knows_commands_and_the_words_of_the_screens() {
         text(&output.stdout)
     };
     assert_eq!(out(&["help"]), out(&["--help"]));
-    assert_eq!(out(&["help", "fuzz", "triage"]), out(&["fuzz", "triage", "--help"]));
+    assert_eq!(
+        out(&["help", "fuzz", "triage"]),
+        out(&["fuzz", "triage", "--help"])
+    );
     let epsilon = out(&["help", "epsilon"]);
-    assert!(epsilon.starts_with("Example: hairline epsilon --kernel "), "{epsilon}");
+    assert!(
+        epsilon.starts_with("Example: hairline epsilon --kernel "),
+        "{epsilon}"
+    );
     // Any case, number and hyphen; several names of one thing.
     let miss = out(&["help", "False-Misses"]);
-    assert!(miss.starts_with("false miss: the contract demands a hit"), "{miss}");
+    assert!(
+        miss.starts_with("false miss: the contract demands a hit"),
+        "{miss}"
+    );
     assert_eq!(out(&["help", "leaks"]), out(&["help", "crack"]));
     let all = out(&["help", "words"]);
     let guide =
         fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/guide/words.md"));
-    let entries = guide.unwrap().lines().filter(|line| line.starts_with("- ")).count();
-    let terms = all.lines().filter(|line| line.contains("  ") && !line.starts_with(' ')).count();
-    assert!(50 < entries && terms == entries, "{terms} of {entries}: {all}");
+    let entries = guide
+        .unwrap()
+        .lines()
+        .filter(|line| line.starts_with("- "))
+        .count();
+    let terms = all
+        .lines()
+        .filter(|line| line.contains("  ") && !line.starts_with(' '))
+        .count();
+    assert!(
+        50 < entries && terms == entries,
+        "{terms} of {entries}: {all}"
+    );
     let output = hairline(&["help", "epslion"]);
     assert_eq!(code(&output), 2);
     assert!(text(&output.stderr).contains("unknown word 'epslion'; did you mean 'epsilon'?"));
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let script = out(&["completions", shell]);
-        assert!(script.contains("--kernel") && script.contains("prove"), "{shell}");
+        assert!(
+            script.contains("--kernel") && script.contains("prove"),
+            "{shell}"
+        );
     }
     assert!(out(&["man"]).starts_with(".ie"), "roff");
     assert!(out(&["man", "spawn"]).contains("\\-\\-scheme"));
     let output = hairline(&["man", "spwan"]);
     assert_eq!(code(&output), 2);
-    assert!(text(&output.stderr).contains("did you mean 'spawn'?"), "{}", text(&output.stderr));
+    assert!(
+        text(&output.stderr).contains("did you mean 'spawn'?"),
+        "{}",
+        text(&output.stderr)
+    );
 }
 
 #[test]
 fn exact_margins_are_right_where_a_factor_leaves_the_range_of_f64() {
     let explain = |case: &str| {
-        let arguments = ["explain", case, "--kernel", "plane-unit-normal", "--format", "json"];
+        let arguments = [
+            "explain",
+            case,
+            "--kernel",
+            "plane-unit-normal",
+            "--format",
+            "json",
+        ];
         let output = hairline(&arguments);
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
         json(&output)["triangles"][0]["rows"][0]["gates"].clone()
     };
     let exact = |gates: &serde_json::Value, name: &str| {
-        let gate = gates.as_array().unwrap().iter().find(|gate| gate["gate"] == name).unwrap();
+        let gate = gates
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|gate| gate["gate"] == name)
+            .unwrap();
         gate["exact"].as_str().unwrap().to_owned()
     };
     // The normal has length 1e-320, a double with few digits, and n·d is still 1.
@@ -640,11 +840,16 @@ fn exact_margins_are_right_where_a_factor_leaves_the_range_of_f64() {
     let out = explain(
         r#"{"scalar":"f64","origin":[0,1.307417906300652e-147,9.357568648109375e-129],"direction":[-2.010587294856603e68,1.2786583404417773e-26,-9.357568648109375e-129],"a":[-2.010587294856603e68,1.2786583404417773e-26,4.278987726543438e-183],"b":[7.135326654204777e-221,-2.2667036188029826e212,6.997413646268349e274],"c":[-1.0055630559043359e-44,6.4704406234944485e-93,-2.696317217341118e-112]}"#,
     );
-    let all: Vec<String> = ["parallel", "t", "edge"].iter().map(|gate| exact(&out, gate)).collect();
+    let all: Vec<String> = ["parallel", "t", "edge"]
+        .iter()
+        .map(|gate| exact(&out, gate))
+        .collect();
     assert!(all.iter().any(|exact| exact == "6.470441e-93"), "{all:?}");
     assert!(all.iter().all(|exact| exact != "NaN"), "{all:?}");
     // The product of two edges is beyond the doubles.
-    let wide = case.replace("1e-160", "1e200").replace("[0,0,1]", "[1e199,1e199,1]");
+    let wide = case
+        .replace("1e-160", "1e200")
+        .replace("[0,0,1]", "[1e199,1e199,1]");
     let out = explain(&wide);
     assert!(exact(&out, "edge").ends_with("e399"), "{out}");
 }
@@ -657,14 +862,33 @@ fn explain_shows_on_which_side_of_the_epsilon_a_margin_lies() {
         let epsilon = format!("parallel={epsilon}");
         let out =
             text(&hairline(&["explain", case, "--kernel", kernel, "--epsilon", &epsilon]).stdout);
-        out.lines().find(|line| line.starts_with("parallel")).expect("a gate").to_owned()
+        out.lines()
+            .find(|line| line.starts_with("parallel"))
+            .expect("a gate")
+            .to_owned()
     };
     for (kernel, epsilon, expected) in [
-        ("moller-trumbore", "2.9955555e-19", "2.9955555e-19 2.9955555e-19 2.9955555e-19 passes"),
-        ("moller-trumbore", "2.9955552e-19", "2.99555549e-19 2.99555549e-19 2.9955552e-19 passes"),
+        (
+            "moller-trumbore",
+            "2.9955555e-19",
+            "2.9955555e-19 2.9955555e-19 2.9955555e-19 passes",
+        ),
+        (
+            "moller-trumbore",
+            "2.9955552e-19",
+            "2.99555549e-19 2.99555549e-19 2.9955552e-19 passes",
+        ),
         // A gate that refuses x <= e accepts what is below x.
-        ("cramer", "2.9955555e-19", "2.995555e-19 below 2.9955555e-19 2.9955555e-19 refuses"),
-        ("moller-trumbore", "1e-6", "2.995555e-19 2.995555e-19 1e-6 ref"),
+        (
+            "cramer",
+            "2.9955555e-19",
+            "2.995555e-19 below 2.9955555e-19 2.9955555e-19 refuses",
+        ),
+        (
+            "moller-trumbore",
+            "1e-6",
+            "2.995555e-19 2.995555e-19 1e-6 ref",
+        ),
     ] {
         let line = parallel(kernel, epsilon);
         let words = line.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -684,9 +908,17 @@ fn a_stored_case_is_explained_by_name_and_a_given_one_by_its_json() {
         "--contract",
         "closed-line",
     ]);
-    assert!(text(&named.stdout).contains("FALSE-MISS"), "{}", text(&named.stdout));
+    assert!(
+        text(&named.stdout).contains("FALSE-MISS"),
+        "{}",
+        text(&named.stdout)
+    );
     let given = hairline(&["explain", CASE, "--kernel", "moller-trumbore"]);
-    assert!(text(&given.stdout).contains("edge_ab"), "{}", text(&given.stderr));
+    assert!(
+        text(&given.stdout).contains("edge_ab"),
+        "{}",
+        text(&given.stderr)
+    );
     let group =
         text(&hairline(&["explain", "shared-edge@3/f32/-/1/3", "--kernel", "plucker"]).stdout);
     assert!(group.contains("triangle 1 of 2"), "{group}");
@@ -715,20 +947,37 @@ fn the_readme_lists_the_exit_codes_of_the_program() {
 #[test]
 fn the_record_says_why_how_far_and_how_accurately_and_a_band_frees() {
     let audit = |more: &[&str]| {
-        let arguments = ["audit", "-n", "2000", "--scalar", "f32", "--kernel", "woop-watertight"];
+        let arguments = [
+            "audit",
+            "-n",
+            "2000",
+            "--scalar",
+            "f32",
+            "--kernel",
+            "woop-watertight",
+        ];
         let rest = ["--family", "edge-near", "--format", "json", "--quiet"];
         json(&hairline(&[&arguments[..], &rest, more].concat()))
     };
     let record = audit(&[]);
     let result = &record["result"]["results"][0];
     let finding = &result["findings"][0];
-    assert_eq!(finding["causes"]["by"]["rounding"]["rate"], 1.0, "{finding}");
+    assert_eq!(
+        finding["causes"]["by"]["rounding"]["rate"], 1.0,
+        "{finding}"
+    );
     let severity = &record["result"]["totals"][0]["severity"]["false-miss"];
     let [median, worst] = ["median", "worst"].map(|key| severity["ulps"][key].as_f64().unwrap());
     assert!(0.0 < median && median < worst && worst < 10.0, "{severity}");
-    assert_eq!(severity["ulps"]["count"], result["total"]["false_misses"]["count"]);
+    assert_eq!(
+        severity["ulps"]["count"],
+        result["total"]["false_misses"]["count"]
+    );
     let t = &result["accuracy"]["t"];
-    assert!(t["count"].as_u64().unwrap() > 20 && t["median"].as_f64().unwrap() < 4.0, "{t}");
+    assert!(
+        t["count"].as_u64().unwrap() > 20 && t["median"].as_f64().unwrap() < 4.0,
+        "{t}"
+    );
     assert!(
         audit(&["--attribute", "0"])["result"]["results"][0]["findings"][0]["causes"].is_null()
     );

@@ -7,16 +7,25 @@ use std::fs;
 use std::path::Path;
 
 fn record(folder: &Path, more: &[&str]) -> SceneResult {
-    let all = ["epsilon", "--scalar", "f32", "-n", "4000", "-q", "--format", "json"];
+    let all = [
+        "epsilon", "--scalar", "f32", "-n", "4000", "-q", "--format", "json",
+    ];
     let (text, _) = ends(folder, &[&all[..], more].concat(), 0);
-    assert!(text.contains("\"kernel_nanoseconds\": {\n      \"f32\": {"), "{text}");
+    assert!(
+        text.contains("\"kernel_nanoseconds\": {\n      \"f32\": {"),
+        "{text}"
+    );
     json_schema::result(&text)
 }
 
 /// How often something is wrong with tried epsilons, on rays of a family.
 fn wrong(part: &SceneKernelPart, name: &str, family: &str, kind: &str) -> (u64, u64) {
     let is_it = |tried: &&hairline::internals::report::epsilon::TriedPart| tried.name == name;
-    let tried = part.tried.iter().find(is_it).unwrap_or_else(|| panic!("{name}"));
+    let tried = part
+        .tried
+        .iter()
+        .find(is_it)
+        .unwrap_or_else(|| panic!("{name}"));
     let place = part
         .counts
         .iter()
@@ -29,14 +38,27 @@ fn wrong(part: &SceneKernelPart, name: &str, family: &str, kind: &str) -> (u64, 
 fn a_gate_on_parallel_rays_trades_hits_for_false_hits() {
     let folder = scratch("epsilon-families");
     let families = ["--family", "interior,sliver,parallel-off,coplanar"];
-    let kernel = ["-k", "moller-trumbore", "--gate", "parallel", "--at", "1.1920929e-7,0"];
+    let kernel = [
+        "-k",
+        "moller-trumbore",
+        "--gate",
+        "parallel",
+        "--at",
+        "1.1920929e-7,0",
+    ];
     let record = record(&folder, &[&kernel[..], &families].concat());
     assert_eq!((record.scene.as_str(), record.sources.len()), ("", 4));
-    assert_eq!(record.flags, "--family interior,sliver,parallel-off,coplanar");
+    assert_eq!(
+        record.flags,
+        "--family interior,sliver,parallel-off,coplanar"
+    );
     let part = &record.kernels[0];
     // Zero refuses no parallel ray; a published epsilon loses hits; the recommended one does neither.
-    let zero =
-        if part.tried.iter().any(|tried| tried.name == "zero") { "zero" } else { "recommended" };
+    let zero = if part.tried.iter().any(|tried| tried.name == "zero") {
+        "zero"
+    } else {
+        "recommended"
+    };
     assert!(0 < wrong(part, zero, "parallel-off", "hit").0);
     assert_eq!(wrong(part, "1.1920929e-7", "parallel-off", "hit").0, 0);
     assert!(0 < wrong(part, "1.1920929e-7", "sliver", "miss").0);
@@ -48,12 +70,20 @@ fn a_gate_on_parallel_rays_trades_hits_for_false_hits() {
     assert!(slivers("recommended") < slivers("1.1920929e-7"));
     // The limits of the gate are between what it must refuse and what it must not.
     let value = |is_lower: bool| -> Vec<f64> {
-        let limits = part.limits.iter().filter(|limit| limit.is_lower == is_lower);
-        limits.filter_map(|limit| limit.value.as_ref()?.parse().ok()).collect()
+        let limits = part
+            .limits
+            .iter()
+            .filter(|limit| limit.is_lower == is_lower);
+        limits
+            .filter_map(|limit| limit.value.as_ref()?.parse().ok())
+            .collect()
     };
     let (lower, upper) = (value(true), value(false));
     assert!(!lower.is_empty() && !upper.is_empty());
-    assert!(lower.iter().all(|low| upper.iter().all(|high| low <= high)), "{lower:?} {upper:?}");
+    assert!(
+        lower.iter().all(|low| upper.iter().all(|high| low <= high)),
+        "{lower:?} {upper:?}"
+    );
 }
 
 #[test]
@@ -64,14 +94,23 @@ fn a_gate_on_t_answers_for_rays_that_start_on_their_triangle() {
     let record = record(&folder, &more);
     let part = &record.kernels[0];
     let (count, of) = wrong(part, "zero", "secondary-ray", "self-hit");
-    assert!(0.3 * (of as f64) < count as f64, "self-hits at 0: {count} of {of}");
+    assert!(
+        0.3 * (of as f64) < count as f64,
+        "self-hits at 0: {count} of {of}"
+    );
     let is_of_starts = |kind: &str| {
-        let mut counts = part.counts.iter().filter(|count| count.rays.name() == "secondary-ray");
+        let mut counts = part
+            .counts
+            .iter()
+            .filter(|count| count.rays.name() == "secondary-ray");
         counts.any(|count| count.kind.name() == kind)
     };
     assert!(!is_of_starts("miss") && !is_of_starts("hit"));
     let near = |name: &str| wrong(part, name, "origin-near", "miss").0;
-    assert!(near("recommended") >= near("zero"), "near contacts are the price");
+    assert!(
+        near("recommended") >= near("zero"),
+        "near contacts are the price"
+    );
 }
 
 #[test]
@@ -79,13 +118,33 @@ fn stored_cases_are_studied_as_they_are() {
     let folder = scratch("epsilon-stored");
     ends(
         &folder,
-        &["corpus", "generate", "--family", "secondary-ray", "-n", "300", "-o", "s.jsonl"],
+        &[
+            "corpus",
+            "generate",
+            "--family",
+            "secondary-ray",
+            "-n",
+            "300",
+            "-o",
+            "s.jsonl",
+        ],
         0,
     );
-    let of = ["-k", "plane-unit-normal", "--gate", "t", "--corpus", "s.jsonl"];
+    let of = [
+        "-k",
+        "plane-unit-normal",
+        "--gate",
+        "t",
+        "--corpus",
+        "s.jsonl",
+    ];
     let record = record(&folder, &of);
     let part = &record.kernels[0];
-    assert!(part.counts.iter().all(|count| count.rays.name() == "stored"));
+    assert!(
+        part.counts
+            .iter()
+            .all(|count| count.rays.name() == "stored")
+    );
     let (count, of) = wrong(part, "zero", "stored", "self-hit");
     assert!(0 < count && 100 < of, "{count} of {of}");
 }
@@ -93,20 +152,44 @@ fn stored_cases_are_studied_as_they_are() {
 #[test]
 fn strata_are_those_of_the_scene() {
     let folder = scratch("epsilon-strata");
-    let grazing = ["-k", "moller-trumbore", "--gate", "parallel", "--family", "scene-grazing"];
+    let grazing = [
+        "-k",
+        "moller-trumbore",
+        "--gate",
+        "parallel",
+        "--family",
+        "scene-grazing",
+    ];
     let record = record(&folder, &grazing);
     assert!(record.scene.starts_with("extent=1,"), "{}", record.scene);
     let part = &record.kernels[0];
-    assert!(part.counts.iter().all(|count| count.rays.name() == "scene-grazing"));
+    assert!(
+        part.counts
+            .iter()
+            .all(|count| count.rays.name() == "scene-grazing")
+    );
 }
 
 #[test]
 fn the_screen_names_the_families_and_its_commands_work() {
     let folder = scratch("epsilon-screen");
-    let all = ["epsilon", "-k", "cramer", "--family", "grazing,shared-edge", "--scalar", "f32"];
+    let all = [
+        "epsilon",
+        "-k",
+        "cramer",
+        "--family",
+        "grazing,shared-edge",
+        "--scalar",
+        "f32",
+    ];
     let (screen, _) = ends(&folder, &[&all[..], &["-q", "-n", "3000"]].concat(), 0);
-    assert!(screen.starts_with("cramer f32 on grazing, shared-edge\n"), "{screen}");
-    let command = screen.lines().find_map(|line| line.strip_prefix("next: hairline "));
+    assert!(
+        screen.starts_with("cramer f32 on grazing, shared-edge\n"),
+        "{screen}"
+    );
+    let command = screen
+        .lines()
+        .find_map(|line| line.strip_prefix("next: hairline "));
     let command = command.unwrap_or_else(|| panic!("{screen}"));
     let again: Vec<&str> = command.split(' ').chain(["-q"]).collect();
     assert!(again.contains(&"grazing,shared-edge"), "{command}");
@@ -127,24 +210,47 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
 #[test]
 fn a_snippet_has_every_number_with_its_comparison() {
     let folder = scratch("epsilon-snippet");
-    let all = ["epsilon", "-k", "moller-trumbore", "--scene", "room", "--scalar", "f32", "-q"];
-    for (language, start) in
-        [("c", "static const float "), ("rust", "const "), ("glsl", "const float ")]
-    {
+    let all = [
+        "epsilon",
+        "-k",
+        "moller-trumbore",
+        "--scene",
+        "room",
+        "--scalar",
+        "f32",
+        "-q",
+    ];
+    for (language, start) in [
+        ("c", "static const float "),
+        ("rust", "const "),
+        ("glsl", "const float "),
+    ] {
         let more = ["-n", "2000", "--snippet", language];
         let (text, _) = ends(&folder, &[&all[..], &more].concat(), 0);
-        let constants: Vec<&str> = text.lines().filter(|line| line.starts_with(start)).collect();
+        let constants: Vec<&str> = text
+            .lines()
+            .filter(|line| line.starts_with(start))
+            .collect();
         assert_eq!(constants.len(), 3, "{text}");
         assert!(
             constants[0].contains("PARALLEL_EPSILON") && constants[0].contains("refuse where"),
             "{text}"
         );
-        assert!(constants[2].contains("count a hit only where t >= T_MIN"), "{text}");
+        assert!(
+            constants[2].contains("count a hit only where t >= T_MIN"),
+            "{text}"
+        );
     }
-    let (text, _) = ends(&folder, &[&all[..], &["-n", "2000", "--snippet", "c"]].concat(), 0);
+    let (text, _) = ends(
+        &folder,
+        &[&all[..], &["-n", "2000", "--snippet", "c"]].concat(),
+        0,
+    );
     fs::write(folder.join("a.c"), format!("{text}int main(void) {{ return PARALLEL_EPSILON < 0 || T_MIN < 0 || EDGE_EPSILON > 1; }}\n")).unwrap();
-    let built =
-        std::process::Command::new("cc").args(["a.c", "-o", "a"]).current_dir(&folder).status();
+    let built = std::process::Command::new("cc")
+        .args(["a.c", "-o", "a"])
+        .current_dir(&folder)
+        .status();
     assert!(built.is_ok_and(|status| status.success()), "{text}");
 }
 
@@ -154,10 +260,27 @@ fn the_guides_pictures_are_what_the_program_draws() {
     let kept = |name: &str| {
         fs::read_to_string(format!("{}/docs/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
     };
-    let curves = ["epsilon", "--kernel", "plane-unit-normal", "--scene", "room", "--scalar", "f32"];
+    let curves = [
+        "epsilon",
+        "--kernel",
+        "plane-unit-normal",
+        "--scene",
+        "room",
+        "--scalar",
+        "f32",
+    ];
     let curves = drawn(&[&curves[..], &["-n", "4000", "-q", "--format", "svg"]].concat());
     assert!(curves == kept("plane-unit-normal-f32.svg"));
-    let map = ["map", "--at", "vertex", "--kernel", "moller-trumbore", "-q", "--format", "svg"];
+    let map = [
+        "map",
+        "--at",
+        "vertex",
+        "--kernel",
+        "moller-trumbore",
+        "-q",
+        "--format",
+        "svg",
+    ];
     assert!(drawn(&map) == kept("map-moller-trumbore-f32.svg"));
 }
 
@@ -167,15 +290,24 @@ fn bad_arguments_are_refused_with_a_reason() {
         let output = hairline(Path::new("."), &[&["epsilon"], arguments].concat());
         let error = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
-        assert!(error.contains(words) && output.stdout.is_empty(), "{arguments:?}: {error}");
+        assert!(
+            error.contains(words) && output.stdout.is_empty(),
+            "{arguments:?}: {error}"
+        );
     };
     let kernel = ["--kernel", "moller-trumbore"];
     let with = |more: &[&'static str]| [&kernel[..], more].concat();
     refused(&with(&["--gate", "paralel"]), "did you mean 'parallel'?");
     refused(&with(&["--gate", "edge,edge"]), "given twice");
     refused(&["--gate", "paralel"], "did you mean 'parallel'?");
-    refused(&with(&["--gate", "edge", "--at", "nan"]), "not a finite number");
-    refused(&with(&["--gate", "parallel", "--at", "-1"]), "means nothing");
+    refused(
+        &with(&["--gate", "edge", "--at", "nan"]),
+        "not a finite number",
+    );
+    refused(
+        &with(&["--gate", "parallel", "--at", "-1"]),
+        "means nothing",
+    );
     refused(&with(&["--at", "1"]), "name one --gate");
     refused(&with(&["--family", "interior,interior"]), "given twice");
     refused(&with(&["--format", "pdf"]), "unknown format 'pdf'");
@@ -186,7 +318,15 @@ fn bad_arguments_are_refused_with_a_reason() {
 #[test]
 fn subnormal_epsilons_warn_about_flush_to_zero() {
     let run = |flags: &[&str]| {
-        let all = ["epsilon", "--kernel", "moller-trumbore", "-n", "100", "--scalar", "f32"];
+        let all = [
+            "epsilon",
+            "--kernel",
+            "moller-trumbore",
+            "-n",
+            "100",
+            "--scalar",
+            "f32",
+        ];
         let output = hairline(Path::new("."), &[&all[..], flags].concat());
         assert!(output.status.success(), "{output:?}");
         String::from_utf8(output.stderr).unwrap()

@@ -10,13 +10,22 @@ use std::process::Command;
 const HERE: &str = env!("CARGO_MANIFEST_DIR");
 
 /// No mercy for what a stranger's compiler may say; undefined behaviour ends the process, which is a finding.
-const STRICT: [&str; 5] =
-    ["-Wall", "-Wextra", "-Werror", "-fsanitize=undefined", "-fsanitize-undefined-trap-on-error"];
+const STRICT: [&str; 5] = [
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-fsanitize=undefined",
+    "-fsanitize-undefined-trap-on-error",
+];
 
 fn exact(name: &str, edges: &str, flags: &[&str]) -> Option<String> {
     let edges = format!("-DHAIRLINE_EDGES=HAIRLINE_{edges}");
     let source = PathBuf::from(HERE).join("examples/c/exact.c");
-    library(&source, name, &[&STRICT[..], &[edges.as_str()], flags].concat())
+    library(
+        &source,
+        name,
+        &[&STRICT[..], &[edges.as_str()], flags].concat(),
+    )
 }
 
 /// The kinds of findings of a record, but for t beyond the largest number, and values in double, which are those of a
@@ -25,13 +34,19 @@ fn wrong(record: &Value) -> Vec<String> {
     let results = record["result"]["results"].as_array().unwrap();
     let found = results.iter().flat_map(|part| {
         let findings = part["findings"].as_array().unwrap();
-        findings.iter().map(move |found| (part["scalar"].as_str().unwrap(), found))
+        findings
+            .iter()
+            .map(move |found| (part["scalar"].as_str().unwrap(), found))
     });
     let is_of_value = |(scalar, found): &(&str, &Value)| {
         let command = found["worst"]["command"].as_str().unwrap();
-        let is_known = ["range-ends", "mixed-scale"].iter().any(|name| command.contains(name));
+        let is_known = ["range-ends", "mixed-scale"]
+            .iter()
+            .any(|name| command.contains(name));
         // The point is right to 2^-32 of the longest edge all the same, unless t is beyond all numbers.
-        let off = found["worst"]["severity"]["value_off"].as_f64().unwrap_or(0.0);
+        let off = found["worst"]["severity"]["value_off"]
+            .as_f64()
+            .unwrap_or(0.0);
         let is_near = off < 2f64.powi(-31) || command.contains("range-ends");
         found["finding"] == "wrong-value" && is_near && (*scalar == "f64" || is_known)
     };
@@ -44,30 +59,51 @@ fn wrong(record: &Value) -> Vec<String> {
 #[test]
 fn it_is_right_on_every_family_in_c_and_in_cpp_contracted_or_not() {
     let c = ["-std=c99", "-pedantic", "-O2"];
-    let cpp = ["-xc++", "-std=c++17", "-O3", "-march=native", "-ffp-contract=fast"];
+    let cpp = [
+        "-xc++",
+        "-std=c++17",
+        "-O3",
+        "-march=native",
+        "-ffp-contract=fast",
+    ];
     for (name, edges, flags) in [
         ("exact-closed", "CLOSED", &c[..]),
         ("exact-fast", "CLOSED", &cpp),
         ("exact-open", "OPEN", &c),
     ] {
-        let Some(library) = exact(name, edges, flags) else { return };
+        let Some(library) = exact(name, edges, flags) else {
+            return;
+        };
         let (record, _) = record(&["-n", "3000", "--kernel-lib", &library]);
         assert_eq!(wrong(&record), [""; 0], "{name}");
     }
     // It is not that nothing was asked: a plain kernel is wrong there, by the same contract.
-    let plain = ["-n", "3000", "--kernel", "moller-trumbore", "--contract", "closed-interval"];
+    let plain = [
+        "-n",
+        "3000",
+        "--kernel",
+        "moller-trumbore",
+        "--contract",
+        "closed-interval",
+    ];
     assert!(10 < wrong(&record(&plain).0).len());
 }
 
 #[test]
 fn exactly_one_triangle_is_hit_at_shared_edges_and_vertices() {
-    let Some(library) = exact("exact-once", "ONCE", &["-std=c99", "-pedantic"]) else { return };
+    let Some(library) = exact("exact-once", "ONCE", &["-std=c99", "-pedantic"]) else {
+        return;
+    };
     let mut crossings = 0;
     for cases in [&["-n", "3000"][..], &["-n", "2000", "--scene", "unit"]] {
         let (of_families, _) = record(&[cases, &["--kernel-lib", &library]].concat());
         assert_eq!(wrong(&of_families), [""; 0]);
         let results = of_families["result"]["results"].as_array().unwrap();
-        for across in results.iter().map(|part| &part["across"]).filter(|it| !it.is_null()) {
+        for across in results
+            .iter()
+            .map(|part| &part["across"])
+            .filter(|it| !it.is_null())
+        {
             for kind in ["cracks", "doubles", "odd_folds"] {
                 assert_eq!(across[kind]["count"], 0, "{kind}: {across}");
             }
@@ -79,8 +115,15 @@ fn exactly_one_triangle_is_hit_at_shared_edges_and_vertices() {
     let mut crossings = 0;
     for mesh in ["far.obj", "icosphere.obj", "torus.obj"] {
         let path = Path::new(HERE).join("corpora/meshes").join(mesh);
-        let all =
-            ["mesh", path.to_str().unwrap(), "--kernel-lib", &library, "--format", "json", "-q"];
+        let all = [
+            "mesh",
+            path.to_str().unwrap(),
+            "--kernel-lib",
+            &library,
+            "--format",
+            "json",
+            "-q",
+        ];
         let told: Value = serde_json::from_str(&ends(&folder, &all, 0).0).unwrap();
         for result in told["result"]["results"].as_array().unwrap() {
             let across = &result["across"];
@@ -100,50 +143,90 @@ fn stack(flags: &[&str]) -> Option<u64> {
     let include = format!("-I{HERE}/include");
     let usage = ["-O2", "-fstack-usage", "-c", "-o", "exact.o", &include];
     let mut compiler = Command::new("gcc");
-    let built = compiler.args(usage).args(flags).arg(&source).current_dir(&folder).output();
+    let built = compiler
+        .args(usage)
+        .args(flags)
+        .arg(&source)
+        .current_dir(&folder)
+        .output();
     let Ok(built) = built else {
         not_tested("there is no 'gcc' on this machine");
         return None;
     };
-    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    assert!(
+        built.status.success(),
+        "{}",
+        String::from_utf8_lossy(&built.stderr)
+    );
     let lines = std::fs::read_to_string(folder.join("exact.su")).unwrap();
-    let sizes = lines.lines().filter_map(|line| line.split('\t').nth(1)?.parse().ok());
+    let sizes = lines
+        .lines()
+        .filter_map(|line| line.split('\t').nth(1)?.parse().ok());
     sizes.max()
 }
 
 #[test]
 fn the_form_for_floats_alone_is_right_and_takes_little_stack() {
     for (name, edges) in [("exact-floats", "CLOSED"), ("exact-floats-once", "ONCE")] {
-        let flags = ["-std=c99", "-pedantic", "-fsanitize=bounds", "-DHAIRLINE_ONLY_F32"];
-        let Some(library) = exact(name, edges, &flags) else { return };
+        let flags = [
+            "-std=c99",
+            "-pedantic",
+            "-fsanitize=bounds",
+            "-DHAIRLINE_ONLY_F32",
+        ];
+        let Some(library) = exact(name, edges, &flags) else {
+            return;
+        };
         let all = ["-n", "3000", "--scalar", "f32", "--kernel-lib", &library];
         let (record, _) = record(&all);
         assert_eq!(wrong(&record), [""; 0], "{name}");
         let results = record["result"]["results"].as_array().unwrap();
-        let across = results.iter().map(|part| &part["across"]).filter(|it| !it.is_null());
+        let across = results
+            .iter()
+            .map(|part| &part["across"])
+            .filter(|it| !it.is_null());
         let cracks = across.map(|across| across["cracks"]["count"].as_u64().unwrap());
         assert_eq!(cracks.sum::<u64>(), 0, "{name}");
     }
-    let [Some(both), Some(floats)] = [stack(&[]), stack(&["-DHAIRLINE_ONLY_F32"])] else { return };
+    let [Some(both), Some(floats)] = [stack(&[]), stack(&["-DHAIRLINE_ONLY_F32"])] else {
+        return;
+    };
     assert!(floats < 4096 && 4 * floats < both, "{floats} of {both}");
 }
 
 /// The number for t underflows in double: integers have it.
 #[test]
 fn a_t_below_the_range_of_its_products_is_right() {
-    let Some(library) = exact("exact-tiny", "CLOSED", &["-std=c99"]) else { return };
+    let Some(library) = exact("exact-tiny", "CLOSED", &["-std=c99"]) else {
+        return;
+    };
     let [s, quarter, most] = [2f64.powi(-400), 2f64.powi(-402), 2f64.powi(290)];
     let case = format!(
         "{{\"scalar\":\"f64\",\"origin\":[{quarter:e},{quarter:e},{:e}],\"direction\":[0,0,{most:e}],\"a\":[0,0,0],\
          \"b\":[{s:e},0,0],\"c\":[0,{s:e},0],\"t_min\":-1,\"t_max\":1.7976931348623157e308}}",
         -s
     );
-    let all = ["explain", &case, "--kernel-lib", &library, "--format", "json", "-q"];
+    let all = [
+        "explain",
+        &case,
+        "--kernel-lib",
+        &library,
+        "--format",
+        "json",
+        "-q",
+    ];
     let told: Value = serde_json::from_str(&ends(&scratch("exact-tiny"), &all, 0).0).unwrap();
     let row = &told["triangles"][0]["rows"][0];
-    assert_eq!((&row["said"], &row["finding"]), (&Value::from("hit"), &Value::Null), "{row}");
+    assert_eq!(
+        (&row["said"], &row["finding"]),
+        (&Value::from("hit"), &Value::Null),
+        "{row}"
+    );
     let t = format!("{:e}", 2f64.powi(-690));
-    assert!(row["values"].to_string().contains(&format!("t = {t}")), "{row}");
+    assert!(
+        row["values"].to_string().contains(&format!("t = {t}")),
+        "{row}"
+    );
 }
 
 #[test]
@@ -151,21 +234,35 @@ fn a_compiler_that_changes_results_is_refused() {
     let include = format!("-I{HERE}/include");
     let source = PathBuf::from(HERE).join("examples/c/exact.c");
     let build = |flag: &str| {
-        Command::new("cc").args(["-c", "-o", "/dev/null", flag, &include]).arg(&source).output()
+        Command::new("cc")
+            .args(["-c", "-o", "/dev/null", flag, &include])
+            .arg(&source)
+            .output()
     };
     if !has("cc") {
         return;
     }
     let refused = build("-ffast-math").unwrap();
     let told = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(!refused.status.success() && told.contains("-ffast-math changes results"), "{told}");
+    assert!(
+        !refused.status.success() && told.contains("-ffast-math changes results"),
+        "{told}"
+    );
     assert!(build("-O2").unwrap().status.success());
 }
 
 /// The header supposes at most eight roundings of its numbers at the edges; the prover counts those of the same formula.
 #[test]
 fn its_margin_is_wider_than_what_is_proved_of_its_formula() {
-    let all = ["prove", "--kernel", "scalar-triple", "--scalar", "f64", "--details", "-q"];
+    let all = [
+        "prove",
+        "--kernel",
+        "scalar-triple",
+        "--scalar",
+        "f64",
+        "--details",
+        "-q",
+    ];
     let (text, _) = ends(&scratch("exact-proof"), &all, 0);
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let (before, _) = text.split_once(" u times its permanent").unwrap();

@@ -30,7 +30,9 @@ fn written(name: &str) -> PathBuf {
         "500",
     ];
     let outputs = |prefix: &str| -> Vec<String> {
-        let names = formats.split(',').map(|format| format!("{prefix}.{format}"));
+        let names = formats
+            .split(',')
+            .map(|format| format!("{prefix}.{format}"));
         names.flat_map(|name| ["-o".to_owned(), name]).collect()
     };
     let run = |command: &[&str], prefix: &str, code: i32| {
@@ -40,10 +42,17 @@ fn written(name: &str) -> PathBuf {
         ends(&folder, &all, code);
     };
     run(&["audit"], "audit", 0);
-    run(&["check", "--expectations", "a <&> \"b\".toml", "--bless"], "blessed", 0);
+    run(
+        &["check", "--expectations", "a <&> \"b\".toml", "--bless"],
+        "blessed",
+        0,
+    );
     let file = folder.join("a <&> \"b\".toml");
     let text = fs::read_to_string(&file).unwrap();
-    let first = text.lines().find(|line| line.contains("scalar = ")).unwrap();
+    let first = text
+        .lines()
+        .find(|line| line.contains("scalar = "))
+        .unwrap();
     let (head, families) = first.split_once("counts = { ").unwrap();
     let (family, rest) = families.split_once(" = ").unwrap();
     let digits = rest.find(|c: char| !c.is_ascii_digit()).unwrap();
@@ -78,8 +87,12 @@ fn sarif_obeys_its_public_schema_and_its_results_their_rules() {
         let log = read_json(folder.join(name));
         assert_eq!(json_schema::errors(&schema, &log), [""; 0], "{name}");
         let run = &log["runs"][0];
-        let rules: Vec<&Value> =
-            run["tool"]["driver"]["rules"].as_array().unwrap().iter().map(|r| &r["id"]).collect();
+        let rules: Vec<&Value> = run["tool"]["driver"]["rules"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|r| &r["id"])
+            .collect();
         let results = run["results"].as_array().unwrap();
         assert!(!results.is_empty() && results.iter().all(|r| rules.contains(&&r["ruleId"])));
         let mut prints: Vec<String> = results
@@ -88,7 +101,11 @@ fn sarif_obeys_its_public_schema_and_its_results_their_rules() {
             .collect();
         prints.sort();
         prints.dedup();
-        assert_eq!(prints.len(), results.len(), "one result a class of disagreement");
+        assert_eq!(
+            prints.len(),
+            results.len(),
+            "one result a class of disagreement"
+        );
         let mut wrong = log.clone();
         wrong["runs"][0]["results"][0]["level"] = Value::from("fatal");
         assert_ne!(json_schema::errors(&schema, &wrong), [""; 0]);
@@ -96,13 +113,22 @@ fn sarif_obeys_its_public_schema_and_its_results_their_rules() {
     let check = read_json(folder.join("check.sarif"));
     let results = check["runs"][0]["results"].as_array().unwrap();
     assert_eq!(results[0]["level"], "error");
-    let stale = results.iter().find(|r| r["ruleId"] == "stale-expectation").unwrap();
+    let stale = results
+        .iter()
+        .find(|r| r["ruleId"] == "stale-expectation")
+        .unwrap();
     let place = &stale["locations"][0]["physicalLocation"];
-    assert_eq!(place["artifactLocation"]["uri"], "a%20%3C%26%3E%20%22b%22.toml");
+    assert_eq!(
+        place["artifactLocation"]["uri"],
+        "a%20%3C%26%3E%20%22b%22.toml"
+    );
     assert!(1 < place["region"]["startLine"].as_u64().unwrap());
     // The known disagreements are the cases that were blessed.
     assert!(!check.to_string().contains("other cases"), "{check}");
-    let known = results.iter().filter(|r| r["suppressions"].is_array()).count();
+    let known = results
+        .iter()
+        .filter(|r| r["suppressions"].is_array())
+        .count();
     assert_eq!(known, results.len() - 2);
 }
 
@@ -118,8 +144,14 @@ fn junit_obeys_its_public_schema_and_counts_its_failures() {
         assert_eq!(schema.validate(&document), []);
         let top = document.document_element().unwrap();
         let count = |wanted: &str| document.get_elements_by_tag_name(wanted).len().to_string();
-        assert_eq!(document.get_attribute(top, "tests"), Some(&*count("testcase")));
-        assert_eq!(document.get_attribute(top, "failures"), Some(&*count("failure")));
+        assert_eq!(
+            document.get_attribute(top, "tests"),
+            Some(&*count("testcase"))
+        );
+        assert_eq!(
+            document.get_attribute(top, "failures"),
+            Some(&*count("failure"))
+        );
         let names = attributes(&document, "testsuite", "name");
         assert_eq!(names, ["moller-trumbore (source)", "plucker (source)"]);
         let classes = attributes(&document, "testcase", "classname");
@@ -130,7 +162,10 @@ fn junit_obeys_its_public_schema_and_counts_its_failures() {
             .collect();
         assert!(cases.contains(&"moller-trumbore (source).f32.tiny false-miss".to_owned()));
         assert!(cases.contains(&"plucker (source).f64.fan crack".to_owned()));
-        assert!((1..cases.len()).all(|i| !cases[..i].contains(&cases[i])), "each case once");
+        assert!(
+            (1..cases.len()).all(|i| !cases[..i].contains(&cases[i])),
+            "each case once"
+        );
         for (right, wrong) in [
             ("<testsuite name=", "<testsuite title="),
             (" failures=", " failures=\"0\" failed="),
@@ -141,15 +176,29 @@ fn junit_obeys_its_public_schema_and_counts_its_failures() {
         }
     }
     let check = fs::read_to_string(folder.join("check.junit")).unwrap();
-    assert!(check.contains("known: ") && !check.contains("other cases"), "{check}");
-    assert_eq!(check.matches("<failure ").count(), 2, "one unexpected, one stale: {check}");
+    assert!(
+        check.contains("known: ") && !check.contains("other cases"),
+        "{check}"
+    );
+    assert_eq!(
+        check.matches("<failure ").count(),
+        2,
+        "one unexpected, one stale: {check}"
+    );
 }
 
 #[test]
 fn a_run_that_fails_says_so_where_a_ci_would_read_an_older_one() {
     let folder = scratch("formats-failure");
     fs::write(folder.join("bad <&>.jsonl"), "{\n").unwrap();
-    let flags = ["--kernel", "cramer", "--corpus", "bad <&>.jsonl", "--format", "junit,sarif,json"];
+    let flags = [
+        "--kernel",
+        "cramer",
+        "--corpus",
+        "bad <&>.jsonl",
+        "--format",
+        "junit,sarif,json",
+    ];
     let outputs = ["-o", "a.xml", "-o", "a.sarif", "-o", "a.json"];
     let xsd = fs::read_to_string(root().join("tests/schemas/junit-10.xsd")).unwrap();
     let xsd = XsdValidator::from_schema(&uppsala::parse(&xsd).unwrap()).unwrap();
@@ -158,7 +207,11 @@ fn a_run_that_fails_says_so_where_a_ci_would_read_an_older_one() {
         for file in ["a.xml", "a.sarif", "a.json"] {
             fs::write(folder.join(file), "of an older run").unwrap();
         }
-        let (_, error) = ends(&folder, &[&[command, "-q"], &flags[..], &outputs].concat(), 65);
+        let (_, error) = ends(
+            &folder,
+            &[&[command, "-q"], &flags[..], &outputs].concat(),
+            65,
+        );
         let message = error.trim().strip_prefix("hairline: ").unwrap();
         assert!(message.starts_with("bad <&>.jsonl:1: "), "{message}");
         let text = fs::read_to_string(folder.join("a.xml")).unwrap();
@@ -170,16 +223,24 @@ fn a_run_that_fails_says_so_where_a_ci_would_read_an_older_one() {
         assert_eq!(json_schema::errors(&schema, &log), [""; 0]);
         let invocation = &log["runs"][0]["invocations"][0];
         assert_eq!(invocation["executionSuccessful"], false);
-        assert_eq!(invocation["toolExecutionNotifications"][0]["message"]["text"], message);
+        assert_eq!(
+            invocation["toolExecutionNotifications"][0]["message"]["text"],
+            message
+        );
         // There is no record.
-        assert_eq!(fs::read_to_string(folder.join("a.json")).unwrap(), "of an older run");
+        assert_eq!(
+            fs::read_to_string(folder.join("a.json")).unwrap(),
+            "of an older run"
+        );
     }
 }
 
 /// An attribute of each element of a name, in their order.
 fn attributes<'a>(document: &'a Document, element: &str, attribute: &str) -> Vec<&'a str> {
     let elements = document.get_elements_by_tag_name(element).into_iter();
-    elements.map(|id| document.get_attribute(id, attribute).unwrap()).collect()
+    elements
+        .map(|id| document.get_attribute(id, attribute).unwrap())
+        .collect()
 }
 
 #[test]

@@ -9,18 +9,25 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 fn stored(folder: &Path) -> Vec<StoredCase> {
-    let mut files: Vec<PathBuf> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut files: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
     files.sort();
     let read = |path: &PathBuf| {
         let text = fs::read(path).unwrap();
-        lines::read(&text[..], &path.display().to_string()).map(Result::unwrap).collect::<Vec<_>>()
+        lines::read(&text[..], &path.display().to_string())
+            .map(Result::unwrap)
+            .collect::<Vec<_>>()
     };
     files.iter().flat_map(read).collect()
 }
 
 fn hairline(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_hairline")).args(arguments).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_hairline"))
+        .args(arguments)
+        .output()
+        .unwrap()
 }
 
 fn fresh(name: &str) -> PathBuf {
@@ -62,13 +69,19 @@ fn every_stored_find_shows_its_signature() {
 #[test]
 fn a_stored_find_that_is_changed_does_not_replay() {
     let text = fs::read_to_string("corpora/found/moller-trumbore.jsonl").unwrap();
-    let line = text.lines().find(|line| line.contains("false-miss/interior")).unwrap();
+    let line = text
+        .lines()
+        .find(|line| line.contains("false-miss/interior"))
+        .unwrap();
     let read = |line: &str| lines::read(line.as_bytes(), "x").next().unwrap().unwrap();
     assert!(Find::of_stored(&read(line)).is_ok());
     for (old, new) in [
         ("refused by", "let through by"),
         ("\"finding\":\"false-miss\"", "\"finding\":\"false-hit\""),
-        ("\"kernel\":\"moller-trumbore\"", "\"kernel\":\"half-space\""),
+        (
+            "\"kernel\":\"moller-trumbore\"",
+            "\"kernel\":\"half-space\"",
+        ),
         ("\"contract\":\"own\"", "\"contract\":\"sworn\""),
     ] {
         let changed = line.replacen(old, new, 1);
@@ -82,7 +95,11 @@ fn triage_keeps_one_small_find_of_each_kind() {
     let folder = fresh("triage");
     let [campaign, output] = ["campaign", "output"].map(|name| folder.join(name));
     let [campaign, output] = [&campaign, &output].map(|path| path.to_str().unwrap());
-    expect(&hairline(&["fuzz", campaign, "--kernel", "half-space", "-n", "3000"]), 0, "");
+    expect(
+        &hairline(&["fuzz", campaign, "--kernel", "half-space", "-n", "3000"]),
+        0,
+        "",
+    );
     // The campaign, one of its lines as an artifact of a fuzz target, and plain cases.
     let finds = fs::read_to_string(folder.join("campaign/finds.jsonl")).unwrap();
     let artifacts = folder.join("artifacts/case_lines");
@@ -91,8 +108,11 @@ fn triage_keeps_one_small_find_of_each_kind() {
     fs::write(artifacts.join("crash-1"), broken).unwrap();
     let artifacts = artifacts.to_str().unwrap();
     let paths = [campaign, artifacts, "corpora/curated.jsonl"];
-    let arguments =
-        [&["fuzz", "triage", "-o", output, "--kernel", "half-space"][..], &paths].concat();
+    let arguments = [
+        &["fuzz", "triage", "-o", output, "--kernel", "half-space"][..],
+        &paths,
+    ]
+    .concat();
     let report = expect(&hairline(&arguments), 0, "crash-1:2: ");
     let found = stored(Path::new(output));
     let names: BTreeSet<_> = found.iter().map(|case| case.name.clone()).collect();
@@ -102,22 +122,58 @@ fn triage_keeps_one_small_find_of_each_kind() {
             .lines()
             .all(|line| { names.contains(&Some(line.split('"').nth(3).unwrap().to_owned())) })
     );
-    let sources: BTreeSet<_> = found.iter().filter_map(|case| case.found.clone()?.from).collect();
-    assert!(sources.iter().any(|from| from.contains("campaign/finds.jsonl")), "{sources:?}");
+    let sources: BTreeSet<_> = found
+        .iter()
+        .filter_map(|case| case.found.clone()?.from)
+        .collect();
+    assert!(
+        sources
+            .iter()
+            .any(|from| from.contains("campaign/finds.jsonl")),
+        "{sources:?}"
+    );
     // Again: nothing new. Its own output is a corpus for the other commands.
     let before = fs::read(folder.join("output/half-space.jsonl")).unwrap();
     let again = expect(&hairline(&arguments), 0, "");
     assert!(again.contains(", 0 of them new or simpler"), "{again}");
-    assert_eq!(fs::read(folder.join("output/half-space.jsonl")).unwrap(), before);
-    let shown = report.lines().find(|line| line.contains("hairline explain")).unwrap();
+    assert_eq!(
+        fs::read(folder.join("output/half-space.jsonl")).unwrap(),
+        before
+    );
+    let shown = report
+        .lines()
+        .find(|line| line.contains("hairline explain"))
+        .unwrap();
     let name = shown.split('\'').nth(1).unwrap();
-    let explained = hairline(&["explain", name, "--corpus", output, "--kernel", "half-space"]);
+    let explained = hairline(&[
+        "explain",
+        name,
+        "--corpus",
+        output,
+        "--kernel",
+        "half-space",
+    ]);
     let explained = expect(&explained, 0, "").to_lowercase();
-    assert!(explained.contains("false-") || explained.contains("bad-value"), "{explained}");
-    expect(&hairline(&["audit", "--corpus", output, "--kernel", "half-space"]), 0, "");
+    assert!(
+        explained.contains("false-") || explained.contains("bad-value"),
+        "{explained}"
+    );
+    expect(
+        &hairline(&["audit", "--corpus", output, "--kernel", "half-space"]),
+        0,
+        "",
+    );
     let coarse = folder.join("coarse");
     let coarse = coarse.to_str().unwrap();
-    let arguments = ["fuzz", "triage", "-o", coarse, "--one-each", "cause", output];
+    let arguments = [
+        "fuzz",
+        "triage",
+        "-o",
+        coarse,
+        "--one-each",
+        "cause",
+        output,
+    ];
     expect(&hairline(&arguments), 0, "");
     assert!(stored(Path::new(coarse)).len() < found.len());
 }
@@ -132,26 +188,54 @@ fn what_cannot_be_triaged_is_said() {
     fs::write(folder.join("notes.txt"), "hello").unwrap();
     expect(&triage(&path("notes.txt")), 65, "notes.txt: ");
     fs::write(folder.join("broken.jsonl"), "{\"scalar\":\"f32\"}\n").unwrap();
-    expect(&triage(&path("broken.jsonl")), 65, "broken.jsonl:1: missing field 'origin'");
+    expect(
+        &triage(&path("broken.jsonl")),
+        65,
+        "broken.jsonl:1: missing field 'origin'",
+    );
     let good = fs::read_to_string("corpora/found/cramer.jsonl").unwrap();
     let stale = good.replacen("\"kernel\":\"cramer\"", "\"kernel\":\"kramer\"", 1);
     fs::write(folder.join("stale.jsonl"), stale).unwrap();
-    expect(&triage(&path("stale.jsonl")), 65, "stale.jsonl:1: found: unknown kernel 'kramer'");
+    expect(
+        &triage(&path("stale.jsonl")),
+        65,
+        "stale.jsonl:1: found: unknown kernel 'kramer'",
+    );
     fs::create_dir(folder.join("old")).unwrap();
     fs::write(folder.join("old/campaign.json"), "{\"format\":0}").unwrap();
     fs::write(folder.join("old/finds.jsonl"), "").unwrap();
     expect(&triage(&path("old")), 65, "is of format 0");
     fs::write(folder.join("right.jsonl"), "{\"scalar\":\"f32\",\"origin\":[1,1,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[4,0,0],\"c\":[0,4,0]}\n").unwrap();
-    expect(&triage(&path("right.jsonl")), 4, "nothing in it on which a chosen kernel is wrong");
+    expect(
+        &triage(&path("right.jsonl")),
+        4,
+        "nothing in it on which a chosen kernel is wrong",
+    );
     // An input of a target that reads no case is no error.
     fs::create_dir(folder.join("settings")).unwrap();
     fs::write(folder.join("settings/crash"), "kernel = 1").unwrap();
-    expect(&triage(&path("settings/crash")), 4, "the target settings holds no case; left out");
+    expect(
+        &triage(&path("settings/crash")),
+        4,
+        "the target settings holds no case; left out",
+    );
     let with = |more: &[&str]| {
         let right = path("right.jsonl");
-        hairline(&[&["fuzz", "triage", "-o", &output, "--kernel", "cramer", &right], more].concat())
+        hairline(
+            &[
+                &[
+                    "fuzz", "triage", "-o", &output, "--kernel", "cramer", &right,
+                ],
+                more,
+            ]
+            .concat(),
+        )
     };
-    expect(&with(&["--epsilon", "t=1e39"]), 2, "1e39 is beyond the range of f32");
+    expect(
+        &with(&["--epsilon", "t=1e39"]),
+        2,
+        "1e39 is beyond the range of f32",
+    );
     expect(&with(&["--band", "1e-3"]), 2, "run again without one");
     assert!(!Path::new(&output).exists());
 }

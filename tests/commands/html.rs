@@ -33,19 +33,69 @@ fn the_pictures_are_the_same_whatever_the_threads_and_the_shards() {
         ends(&folder, &[&["audit"], PLAN, more].concat(), 0);
     };
     let both = ["--format", "html,json"];
-    audit(&[&both[..], &["-o", "1.html", "-o", "1.json", "--threads", "1"]].concat());
-    audit(&[&both[..], &["-o", "2.html", "-o", "2.json", "--threads", "2"]].concat());
+    audit(
+        &[
+            &both[..],
+            &["-o", "1.html", "-o", "1.json", "--threads", "1"],
+        ]
+        .concat(),
+    );
+    audit(
+        &[
+            &both[..],
+            &["-o", "2.html", "-o", "2.json", "--threads", "2"],
+        ]
+        .concat(),
+    );
     audit(&["--format", "json", "-o", "plain.json"]);
-    audit(&["--format", "json", "-o", "always.json", "--illustrate", "always"]);
-    audit(&["--format", "html", "-o", "never.html", "--illustrate", "never"]);
+    audit(&[
+        "--format",
+        "json",
+        "-o",
+        "always.json",
+        "--illustrate",
+        "always",
+    ]);
+    audit(&[
+        "--format",
+        "html",
+        "-o",
+        "never.html",
+        "--illustrate",
+        "never",
+    ]);
     for shard in ["0/2", "1/2"] {
         let file = format!("shard-{}.json", &shard[..1]);
-        let more = ["--format", "html,json", "-o", "part.html", "-o", &file, "--shard", shard];
+        let more = [
+            "--format",
+            "html,json",
+            "-o",
+            "part.html",
+            "-o",
+            &file,
+            "--shard",
+            shard,
+        ];
         audit(&more);
-        assert!(read_json(&folder.join(&file)).get("illustrations").is_none());
+        assert!(
+            read_json(&folder.join(&file))
+                .get("illustrations")
+                .is_none()
+        );
     }
-    let merge = ["merge", "-q", "shard-0.json", "shard-1.json", "--format", "html,json"];
-    ends(&folder, &[&merge[..], &["-o", "merged.html", "-o", "merged.json"]].concat(), 0);
+    let merge = [
+        "merge",
+        "-q",
+        "shard-0.json",
+        "shard-1.json",
+        "--format",
+        "html,json",
+    ];
+    ends(
+        &folder,
+        &[&merge[..], &["-o", "merged.html", "-o", "merged.json"]].concat(),
+        0,
+    );
 
     let first = read_json(&folder.join("1.json"));
     let pictures = &first["illustrations"];
@@ -58,7 +108,10 @@ fn the_pictures_are_the_same_whatever_the_threads_and_the_shards() {
     }
     let plain = read_json(&folder.join("plain.json"));
     assert!(plain.get("illustrations").is_none());
-    assert_eq!(plain["result"], first["result"], "the result does not depend on the pictures");
+    assert_eq!(
+        plain["result"], first["result"],
+        "the result does not depend on the pictures"
+    );
 
     let page = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
     // All but times and threads.
@@ -67,8 +120,9 @@ fn the_pictures_are_the_same_whatever_the_threads_and_the_shards() {
         let end = text.find("<h2>About this run").unwrap();
         let start = text.find("<h2>Every question").unwrap();
         let times = text[start..end].split("ns a ray</th>");
-        let kept: String =
-            times.map(|part| part.split_once("</tr>").map_or(part, |pair| pair.1)).collect();
+        let kept: String = times
+            .map(|part| part.split_once("</tr>").map_or(part, |pair| pair.1))
+            .collect();
         // The last cell of a row of the table of every row.
         let (every, rest) = kept.split_once("<h2>moller-trumbore").unwrap();
         let rows = every.split("</tr>");
@@ -92,7 +146,12 @@ fn the_page_holds_the_numbers_and_the_commands_of_the_record() {
     ends(&folder, &[&["audit"], PLAN, &outputs[..]].concat(), 0);
     let page = fs::read_to_string(folder.join("r.html")).unwrap();
     let record = read_json(&folder.join("r.json"));
-    let escaped = |text: &Value| text.as_str().unwrap().replace('&', "&amp;").replace('<', "&lt;");
+    let escaped = |text: &Value| {
+        text.as_str()
+            .unwrap()
+            .replace('&', "&amp;")
+            .replace('<', "&lt;")
+    };
     let mut shown: BTreeMap<_, bool> = BTreeMap::new();
     for result in record["result"]["results"].as_array().unwrap() {
         for kind in ["false_misses", "false_hits"] {
@@ -110,11 +169,18 @@ fn the_page_holds_the_numbers_and_the_commands_of_the_record() {
             *shown.entry((row, class)).or_default() |= page.contains(&command);
         }
     }
-    assert!(10 < shown.len() && shown.values().all(|shown| *shown), "{shown:?}");
+    assert!(
+        10 < shown.len() && shown.values().all(|shown| *shown),
+        "{shown:?}"
+    );
     // What is proved of each gate, as `prove` has it: in the gate's row of the kernel's section, f32 before f64.
     let mut bounds = 0;
     for kernel in ["moller-trumbore", "havel-herout"] {
-        let (proofs, _) = ends(&folder, &["prove", "--format", "json", "--kernel", kernel], 0);
+        let (proofs, _) = ends(
+            &folder,
+            &["prove", "--format", "json", "--kernel", kernel],
+            0,
+        );
         let proofs: Value = json_schema::result(&proofs);
         let section = page.split_once(&format!("<h2>{kernel} ")).unwrap().1;
         let mut cells: BTreeMap<&str, String> = BTreeMap::new();
@@ -131,28 +197,45 @@ fn the_page_holds_the_numbers_and_the_commands_of_the_record() {
             bounds += 1;
         }
         for (gate, cells) in cells {
-            let row = section.split_once(&format!("<th scope=\"row\">{gate}</th>")).unwrap().1;
+            let row = section
+                .split_once(&format!("<th scope=\"row\">{gate}</th>"))
+                .unwrap()
+                .1;
             let row = row.split_once("</tr>").unwrap().0;
             // Without the cells' attributes.
-            let cut = row.split("<td").map(|cell| cell.split_once('>').map_or(cell, |pair| pair.1));
+            let cut = row
+                .split("<td")
+                .map(|cell| cell.split_once('>').map_or(cell, |pair| pair.1));
             let row = cut.map(|cell| format!(">{cell}")).collect::<String>();
             assert!(row.ends_with(&cells), "{kernel} {gate}: {row}");
         }
     }
     assert_eq!(bounds, 10);
     // The verdict of a check.
-    let (out, _) = ends(&folder, &["check", "--record", "r.json", "--format", "html", "-q"], 1);
+    let (out, _) = ends(
+        &folder,
+        &["check", "--record", "r.json", "--format", "html", "-q"],
+        1,
+    );
     assert!(out.contains("<h1>✕ Does not conform: "), "{}", &out[..6000]);
 }
 
 #[test]
 fn records_from_before_and_from_anybody_are_shown() {
     let folder = scratch("html-records");
-    ends(&folder, &[&["audit"], PLAN, &["--format", "json", "-o", "r.json"]].concat(), 0);
+    ends(
+        &folder,
+        &[&["audit"], PLAN, &["--format", "json", "-o", "r.json"]].concat(),
+        0,
+    );
     let text = fs::read_to_string(folder.join("r.json")).unwrap();
     let show = |name: &str, text: &str, code: i32| {
         fs::write(folder.join(name), resealed(text)).unwrap();
-        ends(&folder, &["check", "--record", name, "--format", "html", "-q"], code)
+        ends(
+            &folder,
+            &["check", "--record", name, "--format", "html", "-q"],
+            code,
+        )
     };
     let (old, _) = show("old.json", &text, 1);
     assert!(old.contains("moller-trumbore") && !old.contains("Float by float"));
@@ -160,8 +243,10 @@ fn records_from_before_and_from_anybody_are_shown() {
     let (_, error) = show("hostile.json", &hostile, 65);
     assert!(error.contains("is no name for a kernel"), "{error}");
     let family = "\"family\": \"";
-    let hostile_family =
-        text.replace(&format!("{family}edge-near"), &format!("{family}\\\"><img src=x>"));
+    let hostile_family = text.replace(
+        &format!("{family}edge-near"),
+        &format!("{family}\\\"><img src=x>"),
+    );
     let (page, _) = show("family.json", &hostile_family, 1);
     assert!(page.contains("&lt;img src=x&gt;") && !page.contains("<img"));
 }
@@ -180,7 +265,10 @@ fn a_page_that_cannot_be_written_is_an_error_and_leaves_nothing() {
         assert_eq!(out, "");
         assert!(error.contains(target), "{error}");
     }
-    let left: Vec<_> = fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
+    let left: Vec<_> = fs::read_dir(&folder)
+        .unwrap()
+        .map(|e| e.unwrap().file_name())
+        .collect();
     assert_eq!(left, ["taken"]);
     let error = ends(&folder, &["audit", "--illustrate", "sometimes"], 2).1;
     assert!(error.contains("sometimes"), "{error}");

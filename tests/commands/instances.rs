@@ -15,7 +15,16 @@ const TURNED: &str = "0.36 0.48 -0.8 0  -0.8 0.6 0 0  0.48 0.64 0.6 0";
 const FAR: &str = "0.36 0.48 -0.8 1e6  -0.8 0.6 0 0  0.48 0.64 0.6 0";
 
 fn audited(folder: &Path, more: &[&str]) -> Value {
-    let common = ["audit", "-q", "-n", "1000", "--attribute", "20", "--format", "json"];
+    let common = [
+        "audit",
+        "-q",
+        "-n",
+        "1000",
+        "--attribute",
+        "20",
+        "--format",
+        "json",
+    ];
     serde_json::from_str(&ends(folder, &[&common, more].concat(), 0).0).unwrap()
 }
 
@@ -23,7 +32,9 @@ fn audited(folder: &Path, more: &[&str]) -> Value {
 fn sum(record: &Value, kernel: &str, pointer: &str) -> u64 {
     let results = record["result"]["results"].as_array().unwrap();
     let of_kernel = results.iter().filter(|result| result["kernel"] == kernel);
-    of_kernel.filter_map(|result| result.pointer(pointer)?.as_u64()).sum()
+    of_kernel
+        .filter_map(|result| result.pointer(pointer)?.as_u64())
+        .sum()
 }
 
 #[test]
@@ -32,7 +43,12 @@ fn the_identity_changes_no_verdict_and_no_truth() {
     // NaN and infinity do not survive a matrix: `invalid` is left out.
     let families = "interior,edge-exact,edge-near,vertex-near,coplanar,parallel-off,grazing,origin-on,secondary-ray,\
                     interval-ends,mixed-scale,range-ends,degenerate,shared-edge,fan,polygon";
-    let flags = ["-k", "moller-trumbore,woop-watertight,convex-polygon", "-f", families];
+    let flags = [
+        "-k",
+        "moller-trumbore,woop-watertight,convex-polygon",
+        "-f",
+        families,
+    ];
     let plain = audited(&folder, &flags);
     let placed = audited(&folder, &[&flags[..], &["--instance", IDENTITY]].concat());
     let counts = |record: &Value| -> Vec<Value> {
@@ -40,15 +56,31 @@ fn the_identity_changes_no_verdict_and_no_truth() {
         let of_classes = |result: &Value| -> Vec<Value> {
             let classes = result["classes"].as_object().unwrap().values();
             let names = ["cases", "free", "hits", "false_misses", "false_hits"];
-            classes.flat_map(|class| names.map(|name| class[name].clone())).collect()
+            classes
+                .flat_map(|class| names.map(|name| class[name].clone()))
+                .collect()
         };
         let of_groups = |result: &Value| -> Vec<Value> {
-            let names = ["cracks", "doubles", "odd_folds", "crack_digest", "double_digest"];
-            let polygons = [&result["polygons"]["false_misses"], &result["polygons"]["false_hits"]];
+            let names = [
+                "cracks",
+                "doubles",
+                "odd_folds",
+                "crack_digest",
+                "double_digest",
+            ];
+            let polygons = [
+                &result["polygons"]["false_misses"],
+                &result["polygons"]["false_hits"],
+            ];
             let groups = names.map(|name| result["across"][name].clone());
-            groups.into_iter().chain(polygons.map(Value::clone)).collect()
+            groups
+                .into_iter()
+                .chain(polygons.map(Value::clone))
+                .collect()
         };
-        results.flat_map(|result| [of_classes(result), of_groups(result)].concat()).collect()
+        results
+            .flat_map(|result| [of_classes(result), of_groups(result)].concat())
+            .collect()
     };
     assert_eq!(counts(&plain), counts(&placed));
     // Values are not judged there, and so none is right.
@@ -56,15 +88,26 @@ fn the_identity_changes_no_verdict_and_no_truth() {
     assert!(0 < values[0] && values[1] == 0, "{values:?}");
     assert!(0 < sum(&plain, "moller-trumbore", "/across/cracks/count"));
     assert!(0 < sum(&plain, "convex-polygon", "/polygons/false_misses/of"));
-    assert_ne!(plain["result"]["plan"]["hash"], placed["result"]["plan"]["hash"]);
+    assert_ne!(
+        plain["result"]["plan"]["hash"],
+        placed["result"]["plan"]["hash"]
+    );
 }
 
 #[test]
 fn a_turned_instance_costs_hits_and_a_far_one_cracks() {
     let folder = scratch("instances-cost");
     let at = |matrix: &str| {
-        let kernels = ["-k", "moller-trumbore,woop-watertight", "-f", "edge-near,shared-edge"];
-        audited(&folder, &[&kernels[..], &["--scalar", "f32", "--instance", matrix]].concat())
+        let kernels = [
+            "-k",
+            "moller-trumbore,woop-watertight",
+            "-f",
+            "edge-near,shared-edge",
+        ];
+        audited(
+            &folder,
+            &[&kernels[..], &["--scalar", "f32", "--instance", matrix]].concat(),
+        )
     };
     let [plain, turned, far] = [IDENTITY, TURNED, FAR].map(at);
     for kernel in ["moller-trumbore", "woop-watertight"] {
@@ -85,11 +128,18 @@ fn a_turned_instance_costs_hits_and_a_far_one_cracks() {
 fn every_printed_command_shows_what_was_found() {
     let folder = scratch("instances-replay");
     let case = r#"{"scalar":"f32","origin":[999500.06,0.3,70],"direction":[7,1,-3],"a":[0,0,0],"b":[600,0,0],"c":[0,900,0]}"#;
-    let cases: String =
-        (0..40).map(|i| case.replace("0.3", &format!("{}.3", 9 * i)) + "\n").collect();
+    let cases: String = (0..40)
+        .map(|i| case.replace("0.3", &format!("{}.3", 9 * i)) + "\n")
+        .collect();
     fs::write(folder.join("c.jsonl"), cases).unwrap();
-    let flags =
-        ["-k", "woop-watertight", "-f", "edge-near,shared-edge,secondary-ray", "--instance", FAR];
+    let flags = [
+        "-k",
+        "woop-watertight",
+        "-f",
+        "edge-near,shared-edge,secondary-ray",
+        "--instance",
+        FAR,
+    ];
     let record = audited(&folder, &[&flags[..], &["--corpus", "c.jsonl"]].concat());
     let (mut shown, mut sources) = (0, Vec::new());
     for result in record["result"]["results"].as_array().unwrap() {
@@ -108,7 +158,11 @@ fn every_printed_command_shows_what_was_found() {
                 );
                 // The bits are those that the kernel got, which the screen has too if there is room.
                 let bits = example["bits"].as_str().unwrap();
-                let origin = bits.split_whitespace().next().unwrap().trim_start_matches("o=");
+                let origin = bits
+                    .split_whitespace()
+                    .next()
+                    .unwrap()
+                    .trim_start_matches("o=");
                 let is_shown = screen.contains(&origin.replace(',', " "));
                 assert!(is_shown || result["scalar"] == "f64", "{bits}\n{screen}");
                 shown += 1;
@@ -124,7 +178,10 @@ fn every_printed_command_shows_what_was_found() {
     let ids: Vec<&str> = groups.flatten().filter_map(Value::as_str).collect();
     for id in &ids {
         let screen = ends(&folder, &["explain", id, "-k", "woop-watertight"], 0).0;
-        assert!(flat(&screen).contains("one hit is right: CRACK"), "{screen}");
+        assert!(
+            flat(&screen).contains("one hit is right: CRACK"),
+            "{screen}"
+        );
     }
     assert!(!ids.is_empty());
 }
@@ -145,8 +202,11 @@ fn shell_words(line: &str) -> Vec<String> {
 #[test]
 fn shards_of_an_instance_merge_to_the_whole_and_a_check_is_held_to_it() {
     let folder = scratch("instances-shards");
-    fs::write(folder.join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nf 1 2 3\nf 2 4 3\n")
-        .unwrap();
+    fs::write(
+        folder.join("m.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nf 1 2 3\nf 2 4 3\n",
+    )
+    .unwrap();
     let case = r#"{"scalar":"f64","origin":[1,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":[2,0,0],"c":[0,2,0]}"#;
     fs::write(folder.join("c.jsonl"), case).unwrap();
     let plan = [
@@ -165,26 +225,54 @@ fn shards_of_an_instance_merge_to_the_whole_and_a_check_is_held_to_it() {
         FAR,
     ];
     let audit = |more: &[&str]| {
-        ends(&folder, &[&["audit", "--format", "json"], &plan[..], more].concat(), 0);
+        ends(
+            &folder,
+            &[&["audit", "--format", "json"], &plan[..], more].concat(),
+            0,
+        );
     };
     audit(&["-o", "whole.json"]);
     for k in ["0", "1"] {
         audit(&["--shard", &format!("{k}/2"), "-o", &format!("{k}.json")]);
     }
-    ends(&folder, &["merge", "0.json", "1.json", "--format", "json", "-o", "merged.json"], 0);
+    ends(
+        &folder,
+        &[
+            "merge",
+            "0.json",
+            "1.json",
+            "--format",
+            "json",
+            "-o",
+            "merged.json",
+        ],
+        0,
+    );
     let whole = result_bytes(&folder.join("whole.json"));
     assert_eq!(whole, result_bytes(&folder.join("merged.json")));
     // A part of another instance is no part of it.
-    let other =
-        [&["audit", "--format", "json"], &plan[..12], &[TURNED, "--shard", "1/2", "-o", "1.json"]]
-            .concat();
+    let other = [
+        &["audit", "--format", "json"],
+        &plan[..12],
+        &[TURNED, "--shard", "1/2", "-o", "1.json"],
+    ]
+    .concat();
     ends(&folder, &other, 0);
-    ends(&folder, &["merge", "0.json", "1.json", "--format", "json"], 65);
+    ends(
+        &folder,
+        &["merge", "0.json", "1.json", "--format", "json"],
+        65,
+    );
     // The flags of the record make it again.
     let text = fs::read_to_string(folder.join("whole.json")).unwrap();
     let record: Value = serde_json::from_str(&text).unwrap();
-    let sources = record["provenance"]["plan_flags"]["sources"].as_str().unwrap();
-    assert!(sources.ends_with(&format!("--instance '{FAR}'")), "{sources}");
+    let sources = record["provenance"]["plan_flags"]["sources"]
+        .as_str()
+        .unwrap();
+    assert!(
+        sources.ends_with(&format!("--instance '{FAR}'")),
+        "{sources}"
+    );
     // A baseline is of its instance.
     let toml = format!(
         "kernel = [\"woop-watertight\"]\nfamily = [\"edge-near\"]\ncount = 300\ninstance = \"{FAR}\"\n"
@@ -199,9 +287,21 @@ fn shards_of_an_instance_merge_to_the_whole_and_a_check_is_held_to_it() {
 #[test]
 fn an_audit_says_that_it_is_of_an_instance() {
     let folder = scratch("instances-said");
-    let placed = ["audit", "-q", "-n", "50", "-k", "cramer,plucker", "--instance", FAR];
+    let placed = [
+        "audit",
+        "-q",
+        "-n",
+        "50",
+        "-k",
+        "cramer,plucker",
+        "--instance",
+        FAR,
+    ];
     let stored = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpora/curated.jsonl");
-    for cases in [["-f", "interior,fan"], ["--corpus", stored.to_str().unwrap()]] {
+    for cases in [
+        ["-f", "interior,fan"],
+        ["--corpus", stored.to_str().unwrap()],
+    ] {
         let text = flat(&ends(&folder, &[&placed[..], &cases].concat(), 0).0);
         assert!(text.contains(" in an instance, "), "{text}");
         let text = flat(&ends(&folder, &[&placed[..6], &cases].concat(), 0).0);
@@ -212,9 +312,20 @@ fn an_audit_says_that_it_is_of_an_instance() {
 #[test]
 fn a_mesh_leaks_far_off_and_says_that_it_is_an_instance() {
     let folder = scratch("instances-mesh");
-    let file = format!("{}/corpora/meshes/icosphere.obj", env!("CARGO_MANIFEST_DIR"));
+    let file = format!(
+        "{}/corpora/meshes/icosphere.obj",
+        env!("CARGO_MANIFEST_DIR")
+    );
     let matrix = |more: &[&str]| {
-        let flags = ["mesh", &file, "-q", "-k", "woop-watertight", "--format", "json"];
+        let flags = [
+            "mesh",
+            &file,
+            "-q",
+            "-k",
+            "woop-watertight",
+            "--format",
+            "json",
+        ];
         let out = ends(&folder, &[&flags[..], more].concat(), 0).0;
         let record: Value = serde_json::from_str(&out).unwrap();
         record["result"]["plan"]["sources"][0]["set"].to_string()
@@ -222,11 +333,22 @@ fn a_mesh_leaks_far_off_and_says_that_it_is_an_instance() {
     assert!(!matrix(&[]).contains("instance"));
     assert!(matrix(&["--instance", IDENTITY]).contains(",instance=1e0:0e0:0e0:0e0:"));
     let screen = |matrix| {
-        let flags = ["mesh", &file, "-q", "-k", "woop-watertight", "--instance", matrix];
+        let flags = [
+            "mesh",
+            &file,
+            "-q",
+            "-k",
+            "woop-watertight",
+            "--instance",
+            matrix,
+        ];
         flat(&ends(&folder, &flags, 0).0)
     };
     let (near, far) = (screen(TURNED), screen(FAR));
-    assert!(near.contains("at each edge and vertex of an instance, seed 1"), "{near}");
+    assert!(
+        near.contains("at each edge and vertex of an instance, seed 1"),
+        "{near}"
+    );
     assert!(near.contains("where a ray crosses: kept"), "{near}");
     assert!(far.contains("where a ray crosses: BROKEN"), "{far}");
 }
@@ -235,9 +357,11 @@ fn a_mesh_leaks_far_off_and_says_that_it_is_an_instance() {
 fn what_takes_no_instance_says_so() {
     let folder = scratch("instances-refused");
     let singular = "1 2 3 0  4 5 6 0  7 8 9 0";
-    for command in
-        [&["audit", "-f", "interior"][..], &["check", "-f", "interior"], &["mesh", "m.obj"]]
-    {
+    for command in [
+        &["audit", "-f", "interior"][..],
+        &["check", "-f", "interior"],
+        &["mesh", "m.obj"],
+    ] {
         let error = ends(&folder, &[command, &["--instance", singular]].concat(), 2).1;
         let scalar = "f32";
         let expected = format!(
@@ -246,17 +370,32 @@ fn what_takes_no_instance_says_so() {
         assert_eq!(error, expected, "{command:?}");
     }
     let error = ends(&folder, &["epsilon", "--instance", IDENTITY], 2).1;
-    assert!(error.contains("unexpected argument '--instance' found"), "{error}");
+    assert!(
+        error.contains("unexpected argument '--instance' found"),
+        "{error}"
+    );
     let id = "edge-near@2/f32/instance=1e0:0e0:0e0:0e0:0e0:1e0:0e0:0e0:0e0:0e0:1e0:0e0/1/5";
-    for command in [&["fuzz", "shrink", id][..], &["map", "--kernel", "plucker", id]] {
+    for command in [
+        &["fuzz", "shrink", id][..],
+        &["map", "--kernel", "plucker", id],
+    ] {
         let error = ends(&folder, command, 2).1;
-        assert!(error.ends_with("is a case of an instance: only `explain` takes it\n"), "{error}");
+        assert!(
+            error.ends_with("is a case of an instance: only `explain` takes it\n"),
+            "{error}"
+        );
     }
     let error = ends(&folder, &["explain", id, "--instance", IDENTITY], 2).1;
-    assert!(error.contains("the case's id has an instance of its own"), "{error}");
+    assert!(
+        error.contains("the case's id has an instance of its own"),
+        "{error}"
+    );
     let bad = id.replace("1e0:0e0/1/5", "1e0/1/5");
     let error = ends(&folder, &["explain", &bad], 2).1;
-    assert!(error.contains("is no instance: write 12 numbers"), "{error}");
+    assert!(
+        error.contains("is no instance: write 12 numbers"),
+        "{error}"
+    );
     let bad = id.replace("1e0:0e0/1/5", "0e0:0e0/1/5");
     let error = ends(&folder, &["explain", &bad], 2).1;
     assert!(error.contains("the matrix is singular in f32"), "{error}");
@@ -265,7 +404,12 @@ fn what_takes_no_instance_says_so() {
 #[test]
 fn new_rays_leave_the_exact_plane_of_an_instance() {
     let folder = scratch("instances-spawn");
-    let schemes = ["--scene", "unit,plane=generic", "--scheme", "normal=1e-6,normal=1e-4,pbrt-v4"];
+    let schemes = [
+        "--scene",
+        "unit,plane=generic",
+        "--scheme",
+        "normal=1e-6,normal=1e-4,pbrt-v4",
+    ];
     let spawned = |more: &[&str]| -> Value {
         let flags = ["spawn", "-q", "-n", "2000", "--format", "json"];
         json_schema::result(&ends(&folder, &[&flags[..], &schemes, more].concat(), 0).0)
@@ -273,19 +417,41 @@ fn new_rays_leave_the_exact_plane_of_an_instance() {
     let plain = spawned(&[]);
     let counts = |record: &Value| {
         let of_scheme = |scheme: &Value| {
-            let names = ["wrong", "self_hits", "height_in_edges", "height_in_ulps", "over_least"];
+            let names = [
+                "wrong",
+                "self_hits",
+                "height_in_edges",
+                "height_in_ulps",
+                "over_least",
+            ];
             names.map(|name| scheme[name].clone())
         };
         let of_points = |points: &Value| -> Vec<Value> {
-            let schemes = points["schemes"].as_array().unwrap().iter().flat_map(of_scheme);
-            schemes.chain([points["least"].clone(), points["hits"].clone()]).collect()
+            let schemes = points["schemes"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .flat_map(of_scheme);
+            schemes
+                .chain([points["least"].clone(), points["hits"].clone()])
+                .collect()
         };
-        record["points"].as_array().unwrap().iter().flat_map(of_points).collect::<Vec<_>>()
+        record["points"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .flat_map(of_points)
+            .collect::<Vec<_>>()
     };
     assert_eq!(counts(&plain), counts(&spawned(&["--instance", IDENTITY])));
     // Turned inside out without rounding, every start is as high over the front or the back as before.
     let mirrored = spawned(&["--instance", "-1 0 0 0  0 1 0 0  0 0 1 0"]);
-    for (i, scheme) in plain["points"][1]["schemes"].as_array().unwrap().iter().enumerate() {
+    for (i, scheme) in plain["points"][1]["schemes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .enumerate()
+    {
         let other = &mirrored["points"][1]["schemes"][i];
         assert_eq!(scheme["wrong"], other["wrong"]);
         assert_eq!(scheme["height_in_edges"], other["height_in_edges"]);
@@ -294,7 +460,9 @@ fn new_rays_leave_the_exact_plane_of_an_instance() {
     let turned = "0.36 0.48 -0.8 1000  -0.8 0.6 0 0  0.48 0.64 0.6 0";
     let far = spawned(&["--instance", turned]);
     let of = |record: &Value, i: usize, name: &str| {
-        record["points"][0]["schemes"][i][name]["count"].as_u64().unwrap()
+        record["points"][0]["schemes"][i][name]["count"]
+            .as_u64()
+            .unwrap()
     };
     assert!(of(&plain, 0, "wrong") < 10 && 400 < of(&far, 0, "wrong"));
     assert!(of(&far, 2, "wrong") == 0 && 10 < of(&far, 2, "self_hits"));
@@ -308,6 +476,14 @@ fn new_rays_leave_the_exact_plane_of_an_instance() {
     assert!(!world.contains("t before"), "{world}");
     let id = wrong["first_ray"].as_str().unwrap();
     assert!(flat(&ends(&folder, &["explain", id, "-k", "plucker"], 0).0).contains(" world "));
-    let error = ends(&folder, &["spawn", "--instance", "0 0 0 0 0 0 0 0 0 0 0 0"], 2).1;
-    assert!(error.starts_with("hairline: --instance: the matrix is singular in f32"), "{error}");
+    let error = ends(
+        &folder,
+        &["spawn", "--instance", "0 0 0 0 0 0 0 0 0 0 0 0"],
+        2,
+    )
+    .1;
+    assert!(
+        error.starts_with("hairline: --instance: the matrix is singular in f32"),
+        "{error}"
+    );
 }

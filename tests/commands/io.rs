@@ -41,7 +41,11 @@ fn shell(folder: &Path, line: &str) -> (i32, String, String) {
         .output()
         .unwrap();
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    (output.status.code().unwrap(), text(&output.stdout), text(&output.stderr))
+    (
+        output.status.code().unwrap(),
+        text(&output.stdout),
+        text(&output.stderr),
+    )
 }
 
 /// Runs in a folder with a file as standard input. Whoever still runs after half a minute is killed.
@@ -70,7 +74,11 @@ fn a_line_that_is_too_long_is_refused_at_once_whatever_it_holds() {
     let folder = scratch("io-long");
     let blanks = " ".repeat(2 << 20);
     for (name, text, line) in [
-        ("blanks", format!("{}{blanks}{}", case("x", "f32"), case("y", "f32")), 2),
+        (
+            "blanks",
+            format!("{}{blanks}{}", case("x", "f32"), case("y", "f32")),
+            2,
+        ),
         ("only", format!("\n\n{blanks}\n{}", case("y", "f32")), 3),
     ] {
         let file = format!("{name}.jsonl");
@@ -85,7 +93,10 @@ fn a_line_that_is_too_long_is_refused_at_once_whatever_it_holds() {
     let output = in_time(Path::new("."), &["truth", "-"], Path::new("/dev/zero"));
     let error = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(65), "{error}");
-    assert!(error.starts_with("hairline: -:1: a line of more than "), "{error}");
+    assert!(
+        error.starts_with("hairline: -:1: a line of more than "),
+        "{error}"
+    );
 }
 
 #[test]
@@ -93,13 +104,22 @@ fn two_cases_of_a_file_cannot_have_one_name() {
     let folder = scratch("io-twice");
     let (x, same) = (case("x", "f32"), case("x", "f64"));
     for (text, message) in [
-        (format!("{x}{x}"), "a.jsonl:2: a second case called 'x', as that of line 1 is: "),
-        (format!("{x}\n{same}"), "a.jsonl:3: a second case called 'x', as that of line 1 is: "),
+        (
+            format!("{x}{x}"),
+            "a.jsonl:2: a second case called 'x', as that of line 1 is: ",
+        ),
+        (
+            format!("{x}\n{same}"),
+            "a.jsonl:3: a second case called 'x', as that of line 1 is: ",
+        ),
         (
             format!("{}\n{}", case("line-3", "f32"), unnamed()),
             "a.jsonl:3: a second case called 'line-3', as that of line 1 is (a case without a name",
         ),
-        (format!("{}{}", unnamed(), case("line-1", "f64")), "a.jsonl:2: a second case called"),
+        (
+            format!("{}{}", unnamed(), case("line-1", "f64")),
+            "a.jsonl:2: a second case called",
+        ),
     ] {
         fs::write(folder.join("a.jsonl"), text).unwrap();
         for command in [
@@ -120,8 +140,15 @@ fn two_cases_of_a_file_cannot_have_one_name() {
     let (_, error) = ends(&folder, &["explain", "x", "--corpus", "."], 2);
     let message = "2 cases are called 'x': ./a.jsonl:1, ./b.jsonl:2; name the file with --corpus";
     assert!(error.contains(message), "{error}");
-    let (_, error) = ends(&folder, &["audit", "--corpus", ".", "--corpus", "a.jsonl"], 2);
-    assert!(error.contains("--corpus: 'a.jsonl' is given twice"), "{error}");
+    let (_, error) = ends(
+        &folder,
+        &["audit", "--corpus", ".", "--corpus", "a.jsonl"],
+        2,
+    );
+    assert!(
+        error.contains("--corpus: 'a.jsonl' is given twice"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -129,11 +156,23 @@ fn a_name_that_no_command_could_repeat_is_refused() {
     let folder = scratch("io-names");
     for (name, message) in [
         ("", "'' cannot name a case: it is empty"),
-        ("-x", "'-x' cannot name a case: it begins with '-', as a flag does"),
-        ("{x", "'{x' cannot name a case: it begins with '{', as a case that is written as JSON"),
-        ("a\nb", "'a\\nb' cannot name a case: it has a control character"),
+        (
+            "-x",
+            "'-x' cannot name a case: it begins with '-', as a flag does",
+        ),
+        (
+            "{x",
+            "'{x' cannot name a case: it begins with '{', as a case that is written as JSON",
+        ),
+        (
+            "a\nb",
+            "'a\\nb' cannot name a case: it has a control character",
+        ),
         ("a\0", "cannot name a case: it has a control character"),
-        ("x".repeat(1001).as_str(), "cannot name a case: it has more than 1000 bytes"),
+        (
+            "x".repeat(1001).as_str(),
+            "cannot name a case: it has more than 1000 bytes",
+        ),
     ] {
         fs::write(folder.join("a.jsonl"), unnamed() + &case(name, "f32")).unwrap();
         let (_, error) = ends(&folder, &["audit", "--corpus", "a.jsonl"], 65);
@@ -145,16 +184,45 @@ fn a_name_that_no_command_could_repeat_is_refused() {
 #[test]
 fn the_printed_command_shows_the_very_case() {
     let folder = scratch("io-replay");
-    let names = ["a b", "it's", " x", "x=1,y", "orient2d:near@1/f64/1/17", "$HOME", "é|`'\"", "#"];
+    let names = [
+        "a b",
+        "it's",
+        " x",
+        "x=1,y",
+        "orient2d:near@1/f64/1/17",
+        "$HOME",
+        "é|`'\"",
+        "#",
+    ];
     // Each with a wrong truth of its own to tell: the ray starts at another height.
     let lines = names
         .iter()
         .enumerate()
         .map(|(i, name)| case(name, "f32").replacen("[1,1,1]", &format!("[1,1,{}]", i + 2), 1));
     fs::write(folder.join("-a b.jsonl"), lines.collect::<String>()).unwrap();
-    let never = ["--kernel", "moller-trumbore", "--epsilon", "parallel=1e9", "--scalar", "f32"];
-    let plan = [&["audit", "--corpus=-a b.jsonl", "--examples", "99", "--quiet"], &never[..]];
-    let (json, _) = ends(&folder, &[&plan.concat()[..], &["--format", "json"]].concat(), 0);
+    let never = [
+        "--kernel",
+        "moller-trumbore",
+        "--epsilon",
+        "parallel=1e9",
+        "--scalar",
+        "f32",
+    ];
+    let plan = [
+        &[
+            "audit",
+            "--corpus=-a b.jsonl",
+            "--examples",
+            "99",
+            "--quiet",
+        ],
+        &never[..],
+    ];
+    let (json, _) = ends(
+        &folder,
+        &[&plan.concat()[..], &["--format", "json"]].concat(),
+        0,
+    );
     let record: serde_json::Value = serde_json::from_str(&json).unwrap();
     let finding = &record["result"]["results"][0]["findings"][0];
     let first = finding["first"].as_array().unwrap();
@@ -165,7 +233,10 @@ fn the_printed_command_shows_the_very_case() {
         let (code, out, error) = shell(&folder, command);
         assert_eq!(code, 0, "{command}: {error}");
         let height = format!("; t = {}, ", i + 2);
-        assert!(out.contains(&height) && out.contains("FALSE-MISS"), "{command}: {out}");
+        assert!(
+            out.contains(&height) && out.contains("FALSE-MISS"),
+            "{command}: {out}"
+        );
         let map = command.replacen("explain", "map --drawing --format text", 1);
         assert_eq!(shell(&folder, &map).0, 0, "{map}");
     }
@@ -177,13 +248,30 @@ fn a_name_breaks_no_column() {
     let long = format!("{}.jsonl", "long".repeat(20));
     for file in ["a\tb\nc.jsonl", long.as_str()] {
         fs::write(folder.join(file), case("x", "f32")).unwrap();
-        let plan = ["audit", "--corpus", file, "--kernel", "moller-trumbore", "--scalar", "f32"];
-        let (table, _) =
-            ends(&folder, &[&plan[..], &["--epsilon", "parallel=1e9", "--details"]].concat(), 0);
+        let plan = [
+            "audit",
+            "--corpus",
+            file,
+            "--kernel",
+            "moller-trumbore",
+            "--scalar",
+            "f32",
+        ];
+        let (table, _) = ends(
+            &folder,
+            &[&plan[..], &["--epsilon", "parallel=1e9", "--details"]].concat(),
+            0,
+        );
         let lines: Vec<&str> = table.lines().collect();
-        let head = lines.iter().position(|line| line.starts_with("family ")).unwrap();
+        let head = lines
+            .iter()
+            .position(|line| line.starts_with("family "))
+            .unwrap();
         // A long label stands on a line of its own.
-        let row = lines[head + 1..].iter().find(|line| line.contains(" of ")).unwrap();
+        let row = lines[head + 1..]
+            .iter()
+            .find(|line| line.contains(" of "))
+            .unwrap();
         assert_eq!(row.chars().count(), lines[head].chars().count(), "{table}");
         assert!(!row.contains('\t'), "{table}");
     }
@@ -198,15 +286,29 @@ fn links_lead_to_no_case_twice() {
     symlink("..", folder.join("c/sub/up")).unwrap();
     symlink("sub", folder.join("c/alias")).unwrap();
     symlink("sub/a.jsonl", folder.join("c/0.jsonl")).unwrap();
-    let plan = ["audit", "--corpus", "c", "--kernel", "cramer", "--format", "json", "--quiet"];
+    let plan = [
+        "audit", "--corpus", "c", "--kernel", "cramer", "--format", "json", "--quiet",
+    ];
     let (json, _) = ends(&folder, &plan, 0);
     let record: serde_json::Value = serde_json::from_str(&json).unwrap();
     let sources = record["result"]["plan"]["sources"].as_array().unwrap();
     assert_eq!(sources.len(), 1, "{sources:?}");
     assert_eq!(sources[0]["family"], "corpus:c/sub/a.jsonl");
     // Nor does triage go round and round.
-    let plan = ["fuzz", "triage", "c", "-o", "found", "--kernel", "moller-trumbore"];
-    let (out, _) = ends(&folder, &[&plan[..], &["--epsilon", "parallel=1e9"]].concat(), 0);
+    let plan = [
+        "fuzz",
+        "triage",
+        "c",
+        "-o",
+        "found",
+        "--kernel",
+        "moller-trumbore",
+    ];
+    let (out, _) = ends(
+        &folder,
+        &[&plan[..], &["--epsilon", "parallel=1e9"]].concat(),
+        0,
+    );
     assert!(out.starts_with("1 findings read; "), "{out}");
     // A link that leads nowhere is a file that cannot be read.
     symlink("nowhere", folder.join("c/b.jsonl")).unwrap();
@@ -231,7 +333,10 @@ fn what_cannot_be_read_ends_with_74_and_what_is_wrong_with_65() {
         let output = in_time(&folder, arguments, &folder);
         let error = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(74), "{arguments:?}: {error}");
-        assert!(error.contains("hairline: -") && error.contains("directory"), "{error}");
+        assert!(
+            error.contains("hairline: -") && error.contains("directory"),
+            "{error}"
+        );
     }
     // A mesh that the manifest names and that is not there.
     fs::create_dir(folder.join("made")).unwrap();
@@ -278,7 +383,11 @@ fn no_failure_touches_an_output() {
     write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let audit = |family: &str, file: &str| {
         let plan = ["audit", "-n", "9", "--kernel", "cramer", "--family", family];
-        ends(&folder, &[&plan[..], &["--format", "json", "-o", file]].concat(), 0);
+        ends(
+            &folder,
+            &[&plan[..], &["--format", "json", "-o", file]].concat(),
+            0,
+        );
     };
     audit("tiny", "tiny.json");
     audit("far", "far.json");
@@ -291,10 +400,34 @@ fn no_failure_touches_an_output() {
         (&["truth", "half.jsonl", "-o", "old"], 65),
         (&["mesh", "open.obj", "--quiet", "-o", "old"], 4),
         (&["diff", "tiny.json", "far.json", "-o", "old"], 4),
-        (&["corpus", "generate", "--family", "tiny", "--scalar", "f16", "-o", "old"], 2),
-        (&[&quick[..], &["--format", "text,json", "-o", "old", "-o", "no/where"]].concat(), 74),
-        (&[&quick[..], &["--format", "text,json", "-o", "old", "-o", "/dev/full"]].concat(), 74),
-        (&["map", "--kernel", "cramer", "--size", "4", "-o", "old", "-o", "new.svg"], 2),
+        (
+            &[
+                "corpus", "generate", "--family", "tiny", "--scalar", "f16", "-o", "old",
+            ],
+            2,
+        ),
+        (
+            &[
+                &quick[..],
+                &["--format", "text,json", "-o", "old", "-o", "no/where"],
+            ]
+            .concat(),
+            74,
+        ),
+        (
+            &[
+                &quick[..],
+                &["--format", "text,json", "-o", "old", "-o", "/dev/full"],
+            ]
+            .concat(),
+            74,
+        ),
+        (
+            &[
+                "map", "--kernel", "cramer", "--size", "4", "-o", "old", "-o", "new.svg",
+            ],
+            2,
+        ),
         (
             &[
                 "map", "--kernel", "cramer", "--size", "4", "--format", "text,svg", "-o", "old",
@@ -302,11 +435,30 @@ fn no_failure_touches_an_output() {
             ],
             74,
         ),
-        (&["fuzz", "worst", "--update", "finds.jsonl", "--kernel", "cramer", "-n", "9"], 65),
+        (
+            &[
+                "fuzz",
+                "worst",
+                "--update",
+                "finds.jsonl",
+                "--kernel",
+                "cramer",
+                "-n",
+                "9",
+            ],
+            65,
+        ),
         (&["fuzz", "triage", "half.jsonl", "-o", "."], 65),
         (&[&quick[..], &["-o", "."]].concat(), 74),
         // What cannot be written is refused before a kernel starts.
-        (&[&quick[..], &["--kernel-cmd", "sh -c 'touch ran'", "-o", "no/where"]].concat(), 74),
+        (
+            &[
+                &quick[..],
+                &["--kernel-cmd", "sh -c 'touch ran'", "-o", "no/where"],
+            ]
+            .concat(),
+            74,
+        ),
     ] {
         // /dev/full is Linux's.
         if !cfg!(target_os = "linux") && arguments.contains(&"/dev/full") {
@@ -332,7 +484,15 @@ fn what_a_kernel_spoilt_that_is_given_up_replaces_nothing() {
     let folder = scratch("io-given-up");
     fs::write(folder.join("old.svg"), "old").unwrap();
     let kernel = never(5);
-    let plan = ["map", "--kernel-cmd", &kernel, "--size", "8", "-o", "old.svg"];
+    let plan = [
+        "map",
+        "--kernel-cmd",
+        &kernel,
+        "--size",
+        "8",
+        "-o",
+        "old.svg",
+    ];
     let (_, error) = ends(&folder, &plan, 65);
     assert!(error.contains("kernel 'never'"), "{error}");
     assert_eq!(fs::read_to_string(folder.join("old.svg")).unwrap(), "old");
@@ -342,15 +502,24 @@ fn what_a_kernel_spoilt_that_is_given_up_replaces_nothing() {
 #[test]
 fn the_rust_snippet_is_of_built_in_kernels() {
     let given = unnamed().replace(char::is_whitespace, "");
-    let shrink =
-        |flags: &[&str]| ends(Path::new("."), &[&["fuzz", "shrink", &given], flags].concat(), 0).0;
+    let shrink = |flags: &[&str]| {
+        ends(
+            Path::new("."),
+            &[&["fuzz", "shrink", &given], flags].concat(),
+            0,
+        )
+        .0
+    };
     let fails = ["--epsilon", "parallel=1e9", "--kernel"];
     for kernel in ["moller-trumbore", "moller-trumbore+fma"] {
         let text = shrink(&[&fails[..], &[kernel]].concat());
         assert!(text.contains(&format!("find(\"{kernel}\")")), "{text}");
     }
     let text = shrink(&["--kernel-cmd", &never(9_999_999)]);
-    assert!(text.contains("JSON, a line") && text.contains("\nC\n"), "{text}");
+    assert!(
+        text.contains("JSON, a line") && text.contains("\nC\n"),
+        "{text}"
+    );
     assert!(!text.contains("Rust") && !text.contains("find("), "{text}");
 }
 
@@ -358,8 +527,16 @@ fn the_rust_snippet_is_of_built_in_kernels() {
 fn a_missing_newline_loses_no_find() {
     let folder = scratch("io-newline");
     fs::write(folder.join("a.jsonl"), case("x", "f32")).unwrap();
-    let plan =
-        ["fuzz", "triage", "a.jsonl", "-o", "found", "--kernel", "moller-trumbore", "--epsilon"];
+    let plan = [
+        "fuzz",
+        "triage",
+        "a.jsonl",
+        "-o",
+        "found",
+        "--kernel",
+        "moller-trumbore",
+        "--epsilon",
+    ];
     ends(&folder, &[&plan[..], &["parallel=1e9"]].concat(), 0);
     let file = folder.join("found/moller-trumbore.jsonl");
     let whole = fs::read_to_string(&file).unwrap();
@@ -368,7 +545,10 @@ fn a_missing_newline_loses_no_find() {
     fs::write(folder.join("a.jsonl"), other).unwrap();
     ends(&folder, &[&plan[..], &["parallel=1e9"]].concat(), 0);
     let found = fs::read_to_string(&file).unwrap();
-    assert!(found.contains(whole.trim_end()) && found.lines().count() == 2, "{found}");
+    assert!(
+        found.contains(whole.trim_end()) && found.lines().count() == 2,
+        "{found}"
+    );
 }
 
 #[test]
@@ -380,25 +560,44 @@ fn a_file_is_replaced_where_it_is_and_as_it_is() {
     symlink("far/real", folder.join("link")).unwrap();
     symlink("far/new", folder.join("hanging")).unwrap();
     let long = "x".repeat(250);
-    for (output, file) in
-        [("link", "far/real"), ("hanging", "far/new"), (long.as_str(), long.as_str())]
-    {
-        let plan = ["corpus", "generate", "--family", "tiny", "-n", "3", "-o", output];
+    for (output, file) in [
+        ("link", "far/real"),
+        ("hanging", "far/new"),
+        (long.as_str(), long.as_str()),
+    ] {
+        let plan = [
+            "corpus", "generate", "--family", "tiny", "-n", "3", "-o", output,
+        ];
         ends(&folder, &plan, 0);
-        assert_eq!(fs::read_to_string(folder.join(file)).unwrap().lines().count(), 3);
+        assert_eq!(
+            fs::read_to_string(folder.join(file))
+                .unwrap()
+                .lines()
+                .count(),
+            3
+        );
     }
     assert!(folder.join("link").is_symlink() && folder.join("hanging").is_symlink());
-    let mode = fs::metadata(folder.join("far/real")).unwrap().permissions().mode();
+    let mode = fs::metadata(folder.join("far/real"))
+        .unwrap()
+        .permissions()
+        .mode();
     assert_eq!(mode & 0o777, 0o640);
     // What may not be written may not be replaced; root may write all.
     let locked = folder.join("far/real");
     fs::set_permissions(&locked, fs::Permissions::from_mode(0o440)).unwrap();
     if File::options().write(true).open(&locked).is_err() {
-        let plan = ["corpus", "generate", "--family", "tiny", "-n", "4", "-o", "link"];
+        let plan = [
+            "corpus", "generate", "--family", "tiny", "-n", "4", "-o", "link",
+        ];
         ends(&folder, &plan, 74);
         assert_eq!(fs::read_to_string(&locked).unwrap().lines().count(), 3);
     }
-    assert_eq!(contents(&folder.join("far")).len(), 2, "nothing is left beside them");
+    assert_eq!(
+        contents(&folder.join("far")).len(),
+        2,
+        "nothing is left beside them"
+    );
 }
 
 #[test]
@@ -444,11 +643,17 @@ fn closed_streams_are_errors_and_readers_who_leave_are_not() {
         for redirection in [">&-", "1</dev/null"] {
             let (code, _, error) = shell(&folder, &format!("hairline {line} {redirection}"));
             assert_eq!(code, 74, "{line} {redirection}: {error}");
-            assert!(error.contains("hairline: standard output: closed, or not open"), "{error}");
+            assert!(
+                error.contains("hairline: standard output: closed, or not open"),
+                "{error}"
+            );
         }
         assert_eq!(shell(&folder, &format!("hairline {line} >/dev/null")).0, 0);
     }
-    assert_eq!(shell(&folder, "hairline truth a.jsonl -o b >&-; exit $?").0, 0);
+    assert_eq!(
+        shell(&folder, "hairline truth a.jsonl -o b >&-; exit $?").0,
+        0
+    );
     let (code, _, error) = shell(&folder, "hairline truth - <&-");
     assert_eq!(code, 74, "{error}");
     // Nobody reads the messages.
@@ -466,7 +671,10 @@ fn closed_streams_are_errors_and_readers_who_leave_are_not() {
     );
     assert_eq!(code, 1);
     let mut whole = String::new();
-    File::open(folder.join("whole.json")).unwrap().read_to_string(&mut whole).unwrap();
+    File::open(folder.join("whole.json"))
+        .unwrap()
+        .read_to_string(&mut whole)
+        .unwrap();
     assert!(whole.ends_with("}\n"), "the other output is whole");
 }
 
@@ -480,39 +688,79 @@ fn a_thousand_files_are_read_one_after_the_other() {
     let (code, out, error) = shell(&folder, line);
     assert_eq!(code, 0, "{error}");
     assert!(out.contains("1,500 sources of cases"), "{out}");
-    assert_eq!(hairline(&folder, &["explain", "x", "--corpus", "."]).status.code(), Some(2));
+    assert_eq!(
+        hairline(&folder, &["explain", "x", "--corpus", "."])
+            .status
+            .code(),
+        Some(2)
+    );
 }
 
 #[test]
 fn one_place_is_not_written_twice_and_one_name_is_not_two_meshes() {
     let folder = scratch("io-twice");
-    let twice = ["audit", "-n", "1", "--format", "json,markdown", "-o", "a", "-o", "./a"];
+    let twice = [
+        "audit",
+        "-n",
+        "1",
+        "--format",
+        "json,markdown",
+        "-o",
+        "a",
+        "-o",
+        "./a",
+    ];
     let (_, error) = ends(&folder, &twice, 2);
     assert!(error.contains("'./a' is given twice"), "{error}");
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("a", folder.join("link")).unwrap();
         for [one, other] in [["a", "link"], ["-", "/dev/stdout"]] {
-            let twice = ["audit", "-n", "1", "--format", "json,markdown", "-o", one, "-o", other];
+            let twice = [
+                "audit",
+                "-n",
+                "1",
+                "--format",
+                "json,markdown",
+                "-o",
+                one,
+                "-o",
+                other,
+            ];
             let (_, error) = ends(&folder, &twice, 2);
-            assert!(error.contains(&format!("'{other}' is given twice")), "{error}");
+            assert!(
+                error.contains(&format!("'{other}' is given twice")),
+                "{error}"
+            );
         }
     }
     assert!(!folder.join("a").exists());
     for part in ["d1", "d2"] {
         fs::create_dir(folder.join(part)).unwrap();
-        fs::write(folder.join(part).join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+        fs::write(
+            folder.join(part).join("m.obj"),
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        )
+        .unwrap();
     }
-    let meshes = ["audit", "--mesh", "d1/m.obj", "--mesh", "d2/m.obj", "-n", "5"];
+    let meshes = [
+        "audit", "--mesh", "d1/m.obj", "--mesh", "d2/m.obj", "-n", "5",
+    ];
     let (_, error) = ends(&folder, &meshes, 2);
-    assert!(error.contains("two files of the name of 'd2/m.obj'"), "{error}");
+    assert!(
+        error.contains("two files of the name of 'd2/m.obj'"),
+        "{error}"
+    );
 }
 
 #[test]
 fn a_path_that_is_not_utf_8_is_named_with_what_to_do() {
     let folder = scratch("io-not-utf-8");
-    fs::write(folder.join(OsStr::from_bytes(b"a\xff.obj")), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-        .unwrap();
+    fs::write(
+        folder.join(OsStr::from_bytes(b"a\xff.obj")),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    )
+    .unwrap();
     let path = "$(printf 'a\\377.obj')";
     for command in ["mesh", "audit --mesh", "truth", "epsilon -k plucker --mesh"] {
         let (code, out, error) = shell(&folder, &format!("hairline {command} \"{path}\""));
@@ -521,8 +769,10 @@ fn a_path_that_is_not_utf_8_is_named_with_what_to_do() {
             "hairline: 'a\u{fffd}.obj' is not UTF-8: rename the file, or hand it in as - < FILE\n";
         assert_eq!(error, expected);
     }
-    let (code, ..) =
-        shell(&folder, &format!("hairline audit -q -n 10 --mesh - -k plucker < \"{path}\""));
+    let (code, ..) = shell(
+        &folder,
+        &format!("hairline audit -q -n 10 --mesh - -k plucker < \"{path}\""),
+    );
     assert_eq!(code, 0);
     // In a folder it is found by the way.
     fs::write(folder.join(OsStr::from_bytes(b"a\xff.jsonl")), unnamed()).unwrap();
@@ -541,8 +791,9 @@ fn what_a_killed_run_left_is_removed_by_the_next_that_writes_there() {
     for path in [&left, &others] {
         fs::write(path, "a part").unwrap();
     }
-    let audit =
-        ["audit", "-q", "--family", "interior", "-n", "10", "--format", "json", "-o", "a.json"];
+    let audit = [
+        "audit", "-q", "--family", "interior", "-n", "10", "--format", "json", "-o", "a.json",
+    ];
     // Whoever writes holds its lock.
     let held = File::open(&left).unwrap();
     held.lock().unwrap();

@@ -14,7 +14,10 @@ pub fn result<T: DeserializeOwned>(record: &str) -> T {
 
 /// Everything in a document that its schema does not allow.
 pub fn errors(schema: &Value, document: &Value) -> Vec<String> {
-    let mut checker = Checker { root: schema, errors: Vec::new() };
+    let mut checker = Checker {
+        root: schema,
+        errors: Vec::new(),
+    };
     checker.check(schema, document, "");
     checker.errors
 }
@@ -44,14 +47,18 @@ impl Checker<'_> {
                 "type" => is_of_type(value, document),
                 "enum" => value.as_array().unwrap().contains(document),
                 "const" => value == document,
-                "minimum" => document.as_f64().is_none_or(|x| value.as_f64().unwrap() <= x),
-                "maximum" => document.as_f64().is_none_or(|x| x <= value.as_f64().unwrap()),
-                "minItems" => {
-                    document.as_array().is_none_or(|a| value.as_u64().unwrap() as usize <= a.len())
-                }
-                "maxItems" => {
-                    document.as_array().is_none_or(|a| a.len() <= value.as_u64().unwrap() as usize)
-                }
+                "minimum" => document
+                    .as_f64()
+                    .is_none_or(|x| value.as_f64().unwrap() <= x),
+                "maximum" => document
+                    .as_f64()
+                    .is_none_or(|x| x <= value.as_f64().unwrap()),
+                "minItems" => document
+                    .as_array()
+                    .is_none_or(|a| value.as_u64().unwrap() as usize <= a.len()),
+                "maxItems" => document
+                    .as_array()
+                    .is_none_or(|a| a.len() <= value.as_u64().unwrap() as usize),
                 "uniqueItems" => document
                     .as_array()
                     .is_none_or(|a| (1..a.len()).all(|i| !a[..i].contains(&a[i]))),
@@ -98,7 +105,10 @@ impl Checker<'_> {
                 "anyOf" => 0 < self.matching(value, document),
                 "oneOf" => self.matching(value, document) == 1,
                 "pattern" => {
-                    assert!(!document.is_string(), "{path}: a pattern that nothing here checks");
+                    assert!(
+                        !document.is_string(),
+                        "{path}: a pattern that nothing here checks"
+                    );
                     true
                 }
                 // They say nothing about a document that could be wrong here.
@@ -107,14 +117,18 @@ impl Checker<'_> {
                 other => panic!("{path}: the keyword '{other}' is not known here"),
             };
             if !holds && self.errors.len() == before {
-                self.errors.push(format!("{path}: {keyword} {value} does not hold"));
+                self.errors
+                    .push(format!("{path}: {keyword} {value} does not hold"));
             }
         }
     }
 
     fn matching(&self, schemas: &Value, document: &Value) -> usize {
         let matches = |schema: &&Value| {
-            let mut checker = Checker { root: self.root, errors: Vec::new() };
+            let mut checker = Checker {
+                root: self.root,
+                errors: Vec::new(),
+            };
             checker.check(schema, document, "");
             checker.errors.is_empty()
         };
@@ -135,6 +149,10 @@ fn is_of_type(types: &Value, document: &Value) -> bool {
     };
     match types {
         Value::String(name) => is(name),
-        names => names.as_array().unwrap().iter().any(|name| is(name.as_str().unwrap())),
+        names => names
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|name| is(name.as_str().unwrap())),
     }
 }

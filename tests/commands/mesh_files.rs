@@ -30,11 +30,18 @@ const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endia
 
 /// The solid in every format, with names that tell it.
 fn files(solid: &Solid) -> Vec<(String, Vec<u8>)> {
-    let ply =
-        |encoding: &str| (format!("{encoding}.ply"), solid.ply(encoding, "float", "uchar", "int"));
+    let ply = |encoding: &str| {
+        (
+            format!("{encoding}.ply"),
+            solid.ply(encoding, "float", "uchar", "int"),
+        )
+    };
     let mut files = vec![("a.obj".to_owned(), solid.obj())];
     files.extend(ENCODINGS.map(ply));
-    files.extend([("a.gltf".to_owned(), solid.gltf()), ("a.glb".to_owned(), solid.glb())]);
+    files.extend([
+        ("a.gltf".to_owned(), solid.gltf()),
+        ("a.glb".to_owned(), solid.glb()),
+    ]);
     files
 }
 
@@ -57,9 +64,15 @@ fn a_mesh_is_the_same_in_every_format() {
     }
     let [ply, obj] = [solid.ply("ascii", "float", "uchar", "int"), solid.obj()];
     // Faces begin after 16 lines of header, 8 vertices and a material; 8 vertices in the OBJ file.
-    assert_eq!(mesh_of("a.ply", &ply).places, (26..34).collect::<Vec<u32>>());
+    assert_eq!(
+        mesh_of("a.ply", &ply).places,
+        (26..34).collect::<Vec<u32>>()
+    );
     assert_eq!(mesh_of("a.obj", &obj).places, (9..17).collect::<Vec<u32>>());
-    assert_eq!(mesh_of("a.glb", &solid.glb()).places, (1..9).collect::<Vec<u32>>());
+    assert_eq!(
+        mesh_of("a.glb", &solid.glb()).places,
+        (1..9).collect::<Vec<u32>>()
+    );
     assert!(mesh_of("a.ply", &ply).has_lines && !mesh_of("a.glb", &solid.glb()).has_lines);
     assert!(refusal("a.ply", obj).contains("ply"));
 }
@@ -82,30 +95,53 @@ fn an_stl_file_is_the_mesh_whose_equal_corners_are_one() {
     for (name, bytes) in files {
         let mesh = mesh_of(name, &bytes);
         // Six of the eight vertices: one is used by no face, and two are one.
-        assert_eq!((mesh.positions_f64.len(), mesh.triangles.len()), (6, 8), "{name}");
+        assert_eq!(
+            (mesh.positions_f64.len(), mesh.triangles.len()),
+            (6, 8),
+            "{name}"
+        );
         for (face, corners) in solid.faces.iter().enumerate() {
             let expected = corners.map(|corner| solid.vertices[corner as usize]);
             assert_eq!(mesh.vertices::<f32>(face), expected, "{name}");
         }
         let joined =
             "corners that equal an earlier one in every bit, joined with it: 18 (first at ";
-        assert!(mesh.notes[0].to_string().starts_with(joined), "{}", mesh.notes[0]);
+        assert!(
+            mesh.notes[0].to_string().starts_with(joined),
+            "{}",
+            mesh.notes[0]
+        );
     }
     // Decimals keep the digits that f32 has not.
     let wide = mesh_of("a.stl", &solid.stl_text()).positions_f64;
     assert_eq!(wide[0], [0.9, 0.1, 0.0]);
     let zeros = "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nfacet\nvertex -0 0 0\n\
                  vertex 0 1 0\nvertex 0 0 1\nendfacet\nendsolid\n";
-    assert_eq!(mesh_of("a.stl", zeros.as_bytes()).positions_f64.len(), 4, "both zeros are one");
+    assert_eq!(
+        mesh_of("a.stl", zeros.as_bytes()).positions_f64.len(),
+        4,
+        "both zeros are one"
+    );
 
     let folder = scratch("mesh-stl");
     fs::write(folder.join("a.stl"), solid.stl_binary(b"")).unwrap();
     fs::write(folder.join("a.obj"), solid.obj()).unwrap();
     let screen = |file: &str| {
-        let flags = ["--kernel", "plucker", "--directions", "8", "--details", "-q"];
+        let flags = [
+            "--kernel",
+            "plucker",
+            "--directions",
+            "8",
+            "--details",
+            "-q",
+        ];
         ends(&folder, &[&["mesh", file][..], &flags].concat(), 0).0
     };
-    assert!(screen("a.stl").contains("edges     12 between two faces"), "{}", screen("a.stl"));
+    assert!(
+        screen("a.stl").contains("edges     12 between two faces"),
+        "{}",
+        screen("a.stl")
+    );
     assert!(screen("a.obj").contains("edges     12 between two faces"));
 }
 
@@ -122,20 +158,38 @@ fn what_is_wrong_with_an_stl_file_is_said_with_its_place() {
     let mut infinite = solid().stl_binary(b"");
     infinite[84 + 12..84 + 16].copy_from_slice(&f32::INFINITY.to_le_bytes());
     let cases: [(Vec<u8>, &str); 9] = [
-        (b"solid x\nendsolid\n".to_vec(), "a.stl: the file has no facets"),
-        (format!("{head}vertex 0 0\n").into(), "a.stl:4: vertex has 2 of 3 coordinates"),
-        (format!("{head}vertex 0 0 0 0\n").into(), "a.stl:4: vertex has 4 of 3 coordinates"),
-        (format!("{head}vertex 0 x 0\n").into(), "a.stl:4: vertex has 'x', which is not a number"),
+        (
+            b"solid x\nendsolid\n".to_vec(),
+            "a.stl: the file has no facets",
+        ),
+        (
+            format!("{head}vertex 0 0\n").into(),
+            "a.stl:4: vertex has 2 of 3 coordinates",
+        ),
+        (
+            format!("{head}vertex 0 0 0 0\n").into(),
+            "a.stl:4: vertex has 4 of 3 coordinates",
+        ),
+        (
+            format!("{head}vertex 0 x 0\n").into(),
+            "a.stl:4: vertex has 'x', which is not a number",
+        ),
         (
             format!("{head}vertex 0 nan 0\n").into(),
             "a.stl:4: vertex has 'nan', which is not finite",
         ),
-        (format!("{head}{corner}{corner}endfacet\n").into(), "a.stl:6: facet has 2 of 3 vertices"),
+        (
+            format!("{head}{corner}{corner}endfacet\n").into(),
+            "a.stl:6: facet has 2 of 3 vertices",
+        ),
         (
             format!("{head}v 1 2 3\n").into(),
             "a.stl:4: expected a line of an STL file, such as 'vertex 0 1 0', found 'v'",
         ),
-        (binary(2, 60), "a.stl: the file ends in triangle 2 of the 2 that its header says"),
+        (
+            binary(2, 60),
+            "a.stl: the file ends in triangle 2 of the 2 that its header says",
+        ),
         (infinite, "a.stl: triangle 1 has inf, which is not finite"),
     ];
     for (bytes, expected) in cases {
@@ -156,11 +210,20 @@ fn what_is_wrong_with_an_stl_file_is_said_with_its_place() {
 fn a_buffer_that_is_a_pipe_is_refused_and_not_waited_for() {
     let folder = scratch("mesh-fifo");
     let pipe = folder.join("pipe.bin");
-    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    assert!(
+        std::process::Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
     let document = serde_json::to_vec(&solid().document(Some("pipe.bin".to_owned()))).unwrap();
     fs::write(folder.join("a.gltf"), document).unwrap();
     let (_, error) = ends(&folder, &["mesh", "a.gltf", "-q"], 74);
-    assert!(error.contains("pipe.bin") && error.contains("no ordinary file"), "{error}");
+    assert!(
+        error.contains("pipe.bin") && error.contains("no ordinary file"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -206,8 +269,16 @@ fn without_places(record: &mut Value) {
 fn every_command_that_takes_a_mesh_takes_every_format() {
     let folder = scratch("mesh-files");
     let files = files(&solid());
-    files.iter().for_each(|(name, bytes)| fs::write(folder.join(name), bytes).unwrap());
-    let flags = ["--kernel", "moller-trumbore", "--scalar", "f32,f64", "--quiet"];
+    files
+        .iter()
+        .for_each(|(name, bytes)| fs::write(folder.join(name), bytes).unwrap());
+    let flags = [
+        "--kernel",
+        "moller-trumbore",
+        "--scalar",
+        "f32,f64",
+        "--quiet",
+    ];
     let mut records = files.iter().map(|(name, _)| {
         let run = ["mesh", name, "--format", "json", "--directions", "64"];
         let mut record: Value =
@@ -216,8 +287,16 @@ fn every_command_that_takes_a_mesh_takes_every_format() {
         record["result"].take()
     });
     let first = records.next().unwrap();
-    assert_eq!(first["mesh"]["scalars"][0]["topology"]["closed_manifold"], true);
-    assert!(first["results"][0]["across"]["leaking"]["count"].as_u64().unwrap() > 0);
+    assert_eq!(
+        first["mesh"]["scalars"][0]["topology"]["closed_manifold"],
+        true
+    );
+    assert!(
+        first["results"][0]["across"]["leaking"]["count"]
+            .as_u64()
+            .unwrap()
+            > 0
+    );
     records.for_each(|record| assert_eq!(record, first));
 
     // Ids hold the digest, so that one made from a file is shown with another.
@@ -225,12 +304,23 @@ fn every_command_that_takes_a_mesh_takes_every_format() {
     let (text, _) = ends(&folder, &[&run[..], &flags].concat(), 0);
     assert!(text.contains(", faces 1, "), "{text}");
     let page = |file: &str| {
-        ends(&folder, &[&["mesh", file, "--format", "html"][..], &flags].concat(), 0).0
+        ends(
+            &folder,
+            &[&["mesh", file, "--format", "html"][..], &flags].concat(),
+            0,
+        )
+        .0
     };
     assert!(page("a.glb").contains("data-faces=\"faces\""));
     assert!(page("a.obj").contains("data-faces=\"faces at lines\""));
-    let command = text.lines().find(|line| line.trim_start().starts_with("hairline explain"));
-    let words = command.unwrap().split_whitespace().skip(1).map(|word| word.trim_matches('\''));
+    let command = text
+        .lines()
+        .find(|line| line.trim_start().starts_with("hairline explain"));
+    let words = command
+        .unwrap()
+        .split_whitespace()
+        .skip(1)
+        .map(|word| word.trim_matches('\''));
     let words: Vec<&str> = words.collect();
     let shown = ends(&folder, &words, 0).0;
     let of_obj: Vec<&str> = words
@@ -242,7 +332,12 @@ fn every_command_that_takes_a_mesh_takes_every_format() {
     assert_eq!(ends(&folder, &of_obj, 0).0.replace("a.obj", "a.glb"), shown);
 
     let counts = |command: &[&str], file: &str| {
-        let out = ends(&folder, &[command, &["--mesh", file, "--quiet"]].concat(), 0).0;
+        let out = ends(
+            &folder,
+            &[command, &["--mesh", file, "--quiet"]].concat(),
+            0,
+        )
+        .0;
         let record = serde_json::from_str(&out).unwrap_or(Value::Null);
         let counts = match [&record["result"]["results"], &record["result"]["kernels"]] {
             [Value::Null, Value::Null] => out,
@@ -252,10 +347,30 @@ fn every_command_that_takes_a_mesh_takes_every_format() {
         counts.replace(file, "FILE")
     };
     for command in [
-        &["epsilon", "--kernel", "moller-trumbore", "-n", "1000", "--format", "json"][..],
-        &["audit", "--kernel", "cramer", "-n", "100", "--format", "json"],
-        &["audit", "--kernel", "cramer", "-n", "100", "--scene", "mesh", "--format", "json"],
-        &["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "--distance", "20"],
+        &[
+            "epsilon",
+            "--kernel",
+            "moller-trumbore",
+            "-n",
+            "1000",
+            "--format",
+            "json",
+        ][..],
+        &[
+            "audit", "--kernel", "cramer", "-n", "100", "--format", "json",
+        ],
+        &[
+            "audit", "--kernel", "cramer", "-n", "100", "--scene", "mesh", "--format", "json",
+        ],
+        &[
+            "prove",
+            "--kernel",
+            "moller-trumbore",
+            "--scalar",
+            "f32",
+            "--distance",
+            "20",
+        ],
     ] {
         let expected = counts(command, "a.obj");
         for file in ["binary_big_endian.ply", "a.gltf"] {
@@ -280,8 +395,14 @@ fn concave_polygons_are_cut_and_what_cannot_be_cut_is_counted_in_every_report() 
         ends(&folder, &[&flags[..], more].concat(), 0).0
     };
     let screen = mesh("a.obj", caps, &[]);
-    assert!(screen.contains("20 triangles") && screen.contains("faces     20 sound\n"), "{screen}");
-    assert!(screen.contains("a closed surface, wound consistently"), "{screen}");
+    assert!(
+        screen.contains("20 triangles") && screen.contains("faces     20 sound\n"),
+        "{screen}"
+    );
+    assert!(
+        screen.contains("a closed surface, wound consistently"),
+        "{screen}"
+    );
     // A cap that crosses itself.
     let crossed = caps.replace("8 9 10 11", "8 11 10 9");
     let screen = mesh("b.obj", &crossed, &[]);
@@ -292,8 +413,13 @@ fn concave_polygons_are_cut_and_what_cannot_be_cut_is_counted_in_every_report() 
     let record: Value =
         serde_json::from_str(&mesh("b.obj", &crossed, &["--format", "json"])).unwrap();
     let left_out = &record["result"]["mesh"]["scalars"][0]["topology"]["faces"]["left_out"];
-    assert_eq!((&left_out["count"], &left_out["first_line"]), (&json!(1), &json!(19)));
-    let audit = ["audit", "--mesh", "b.obj", "--kernel", "plucker", "-n", "100", "-q"];
+    assert_eq!(
+        (&left_out["count"], &left_out["first_line"]),
+        (&json!(1), &json!(19))
+    );
+    let audit = [
+        "audit", "--mesh", "b.obj", "--kernel", "plucker", "-n", "100", "-q",
+    ];
     let (screen, _) = ends(&folder, &audit, 0);
     let expected = "b.obj: 1 polygon left out, because they cross themselves or fold over";
     assert!(program::flat(&screen).contains(expected), "{screen}");
@@ -302,7 +428,9 @@ fn concave_polygons_are_cut_and_what_cannot_be_cut_is_counted_in_every_report() 
     assert_eq!(record["result"]["sources"][0]["left_out"], json!(1));
     let (record, _) = ends(
         &folder,
-        &["audit", "--mesh", "a.obj", "-k", "plucker", "-n", "9", "-q", "--format", "json"],
+        &[
+            "audit", "--mesh", "a.obj", "-k", "plucker", "-n", "9", "-q", "--format", "json",
+        ],
         0,
     );
     assert!(!record.contains("left_out"));
@@ -316,7 +444,10 @@ fn cut_or_altered_files_are_an_error_or_the_same_mesh_and_never_a_panic() {
         for length in 0..bytes.len() {
             if let Ok(mesh) = read_as(&name, &bytes[..length]) {
                 assert_eq!(mesh.digest, whole, "{name} {length}");
-                assert!(name != "a.glb" && length + 12 > bytes.len(), "{name} {length}");
+                assert!(
+                    name != "a.glb" && length + 12 > bytes.len(),
+                    "{name} {length}"
+                );
             }
         }
         for at in 0..bytes.len() {
@@ -325,8 +456,18 @@ fn cut_or_altered_files_are_an_error_or_the_same_mesh_and_never_a_panic() {
                 altered[at] = other;
                 if let Ok(mesh) = read_as(&name, &altered) {
                     let count = mesh.positions_f64.len() as u32;
-                    assert!(mesh.triangles.as_flattened().iter().all(|vertex| *vertex < count));
-                    assert!(mesh.positions_f64.as_flattened().iter().all(|x| x.is_finite()));
+                    assert!(
+                        mesh.triangles
+                            .as_flattened()
+                            .iter()
+                            .all(|vertex| *vertex < count)
+                    );
+                    assert!(
+                        mesh.positions_f64
+                            .as_flattened()
+                            .iter()
+                            .all(|x| x.is_finite())
+                    );
                 }
             }
         }

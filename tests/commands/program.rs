@@ -36,7 +36,11 @@ pub fn ends(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
     let output = hairline(folder, arguments);
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
     let (out, error) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(code), "{arguments:?}\n{out}\n{error}");
+    assert_eq!(
+        output.status.code(),
+        Some(code),
+        "{arguments:?}\n{out}\n{error}"
+    );
     (out, error)
 }
 
@@ -135,5 +139,8 @@ pub fn at_mesh<'a>(record: &'a Value, scalar: &str, kernel: &str, part: &str) ->
             && family.starts_with(&format!("mesh-{part}:"))
     };
     let results = record["result"]["results"].as_array().unwrap();
-    &results.iter().find(is_part).unwrap_or_else(|| panic!("{kernel} at {part}"))["across"]
+    &results
+        .iter()
+        .find(is_part)
+        .unwrap_or_else(|| panic!("{kernel} at {part}"))["across"]
 }

@@ -31,7 +31,11 @@ pub fn everything() -> &'static serde_json::Value {
 /// Everything that is said.
 pub fn text(arguments: &[&str]) -> String {
     let output = hairline(&[arguments, &["--details"]].concat());
-    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{arguments:?}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     String::from_utf8(output.stdout).unwrap()
 }
 
@@ -54,7 +58,10 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
     let all = text(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"]);
     let out = words(&all);
     // 17 u to first order by hand: see tests/library/prove.rs.
-    assert!(out.contains("never wrong by more than 1.02e-6 (17.00 u)"), "{out}");
+    assert!(
+        out.contains("never wrong by more than 1.02e-6 (17.00 u)"),
+        "{out}"
+    );
     assert!(
         out.contains("An epsilon above 1.02e-6 refuses every ray that is exactly parallel."),
         "{out}"
@@ -63,7 +70,10 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
         out.contains("e = 1e-6 (source, truck) is proved to refuse every parallel ray"),
         "{out}"
     );
-    assert!(out.contains("edges: Not watertight: at an edge epsilon of 0"), "{out}");
+    assert!(
+        out.contains("edges: Not watertight: at an edge epsilon of 0"),
+        "{out}"
+    );
     // What underflow adds is of the domain: see crates/prove/src/tests/permanent.rs.
     let relative = "Where nothing overflows and no product underflows, it is wrong by at most 7.01 u times its permanent";
     assert!(
@@ -71,7 +81,9 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
         "{out}"
     );
     // Commands are not broken.
-    let mut lines = all.lines().filter(|line| !line.contains("hairline explain "));
+    let mut lines = all
+        .lines()
+        .filter(|line| !line.contains("hairline explain "));
     assert!(lines.all(|line| line.chars().count() <= 160), "{all}");
     // The three sentences that people ask for stand on the first screen.
     let first = hairline(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"]);
@@ -87,20 +99,34 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
     ] {
         assert!(first.contains(part), "{part}: {first}");
     }
-    let sentences = shown.lines().filter(|line| !line.contains("hairline explain"));
+    let sentences = shown
+        .lines()
+        .filter(|line| !line.contains("hairline explain"));
     let length: usize = sentences.map(str::len).sum();
-    assert!(!first.contains("at any exponents") && length < out.len() / 2, "{first}");
+    assert!(
+        !first.contains("at any exponents") && length < out.len() / 2,
+        "{first}"
+    );
 }
 
 #[test]
 fn the_readme_says_what_is_proved_and_known() {
-    let out = words(&text(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"]));
+    let out = words(&text(&[
+        "prove",
+        "--kernel",
+        "moller-trumbore",
+        "--scalar",
+        "f32",
+    ]));
     let (_, bound) = out.split_once("never wrong by more than ").unwrap();
     let number = |text: &str| text.split(' ').next().unwrap().to_owned();
     let (_, known) = bound.split_once("; ").unwrap();
     let readme = words(include_str!("../../README.md"));
-    let sentence =
-        format!("never wrong by more than {}, and {} is known", number(bound), number(known));
+    let sentence = format!(
+        "never wrong by more than {}, and {} is known",
+        number(bound),
+        number(known)
+    );
     assert!(readme.contains(&sentence), "{sentence}");
     let record = result(&hairline(&[
         "prove",
@@ -113,7 +139,11 @@ fn the_readme_says_what_is_proved_and_known() {
     ]));
     let number = |side: &str, known: bool| {
         let part = &record["kernels"][0]["verdicts"][side];
-        let number = if known { &part["known"]["share"] } else { &part["share"] };
+        let number = if known {
+            &part["known"]["share"]
+        } else {
+            &part["share"]
+        };
         three_digits(number.as_f64().unwrap(), !known)
     };
     let verdicts = format!(
@@ -126,12 +156,33 @@ fn the_readme_says_what_is_proved_and_known() {
     );
     assert!(readme.contains(&verdicts), "{verdicts}");
     // A bound of more than is there to be wrong says nothing of hits.
-    let far = ["--coordinates", "1000", "--edge", "0.01..10", "--distance", "2000"];
+    let far = [
+        "--coordinates",
+        "1000",
+        "--edge",
+        "0.01..10",
+        "--distance",
+        "2000",
+    ];
     let out = words(&text(
-        &[&["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "0"], &far[..]]
-            .concat(),
+        &[
+            &[
+                "prove",
+                "--kernel",
+                "moller-trumbore",
+                "--scalar",
+                "f32",
+                "-n",
+                "0",
+            ],
+            &far[..],
+        ]
+        .concat(),
     ));
-    assert!(out.contains("Nothing useful follows for false misses"), "{out}");
+    assert!(
+        out.contains("Nothing useful follows for false misses"),
+        "{out}"
+    );
     let next = "next: hairline epsilon --kernel moller-trumbore --scene \
                 extent=1000,edge=0.01..10,distance=0..2000 ";
     assert!(out.contains(next), "{out}");
@@ -140,7 +191,9 @@ fn the_readme_says_what_is_proved_and_known() {
 #[test]
 fn watertight_is_proved_of_woop_and_not_when_its_products_are_fused() {
     let kernel = |name: &str| {
-        let out = hairline(&["prove", "--kernel", name, "--scalar", "f32", "--format", "json"]);
+        let out = hairline(&[
+            "prove", "--kernel", name, "--scalar", "f32", "--format", "json",
+        ]);
         let record = result(&out);
         record["kernels"][0]["watertight"].as_bool().unwrap()
     };
@@ -151,7 +204,10 @@ fn watertight_is_proved_of_woop_and_not_when_its_products_are_fused() {
     for name in ["plucker", "plucker+fma"] {
         assert!(!kernel(name));
         let out = text(&["prove", "--kernel", name, "--scalar", "f64"]);
-        assert!(words(&out).contains("their values are opposite, or 0"), "{out}");
+        assert!(
+            words(&out).contains("their values are opposite, or 0"),
+            "{out}"
+        );
     }
 }
 
@@ -186,9 +242,11 @@ fn is_met(case: &serde_json::Value) -> bool {
 
 #[test]
 fn beside_a_kernel_that_leaks_stands_a_ray_that_does() {
-    for (kernel, scalar) in
-        [("moller-trumbore", "f32"), ("moller-trumbore", "f64"), ("woop-watertight+fma", "f32")]
-    {
+    for (kernel, scalar) in [
+        ("moller-trumbore", "f32"),
+        ("moller-trumbore", "f64"),
+        ("woop-watertight+fma", "f32"),
+    ] {
         let prove = ["prove", "-k", kernel, "--scalar", scalar];
         let record = result(&hairline(&[&prove[..], &["--format", "json"]].concat()));
         let [case, command] =
@@ -197,17 +255,39 @@ fn beside_a_kernel_that_leaks_stands_a_ray_that_does() {
         let said = format!(
             "Not watertight: at an edge epsilon of 0 both triangles of an edge refuse the ray of {case}, which crosses it."
         );
-        assert!(words(&out).contains(&said) && out.contains(command), "{out}");
+        assert!(
+            words(&out).contains(&said) && out.contains(command),
+            "{out}"
+        );
         let (start, epsilons) = command.split_once(" --epsilon ").unwrap();
-        assert_eq!(start, format!("hairline explain '{case}' --kernel {kernel}"));
+        assert_eq!(
+            start,
+            format!("hairline explain '{case}' --kernel {kernel}")
+        );
         let epsilons = epsilons.trim_matches('\'');
-        let explain = ["explain", case, "-k", kernel, "--epsilon", epsilons, "--format", "json"];
+        let explain = [
+            "explain",
+            case,
+            "-k",
+            kernel,
+            "--epsilon",
+            epsilons,
+            "--format",
+            "json",
+        ];
         let explained = json(&hairline(&explain));
         let triangles = explained["triangles"].as_array().unwrap();
         assert_eq!(triangles.len(), 2);
-        assert!(triangles.iter().all(|triangle| triangle["rows"][0]["said"] == "miss"));
+        assert!(
+            triangles
+                .iter()
+                .all(|triangle| triangle["rows"][0]["said"] == "miss")
+        );
         // By rationals the line meets one of them, or both at their edge.
-        assert!(triangles.iter().any(|triangle| is_met(&triangle["case"])), "{explained}");
+        assert!(
+            triangles.iter().any(|triangle| is_met(&triangle["case"])),
+            "{explained}"
+        );
     }
     // Where a kernel is watertight, or its values are opposite, there is nothing to show.
     for kernel in ["woop-watertight", "plucker"] {
@@ -244,9 +324,14 @@ fn depth(case: &serde_json::Value) -> f64 {
     let at = [0, 1, 2].map(|i| &o[i] + &t * &d[i]);
     let length = |v: &[BigRational; 3]| dot(v, v).to_f64().unwrap().sqrt();
     let edges = [(&a, &b), (&b, &c), (&c, &a)].map(|(p, q)| (minus(q, p), p));
-    let longest = edges.iter().map(|(edge, _)| length(edge)).fold(0.0, f64::max);
+    let longest = edges
+        .iter()
+        .map(|(edge, _)| length(edge))
+        .fold(0.0, f64::max);
     let inside = edges.iter().map(|(edge, from)| {
-        let side = dot(&cross(edge, &minus(&at, from)), &normal).to_f64().unwrap();
+        let side = dot(&cross(edge, &minus(&at, from)), &normal)
+            .to_f64()
+            .unwrap();
         side / (length(&normal) * length(edge))
     });
     inside.fold(f64::INFINITY, f64::min) / longest
@@ -254,7 +339,11 @@ fn depth(case: &serde_json::Value) -> f64 {
 
 /// The case of a command that explains it, and the flags behind it.
 pub fn explained(command: &str) -> (&str, &str) {
-    command.strip_prefix("hairline explain '").unwrap().split_once("' ").unwrap()
+    command
+        .strip_prefix("hairline explain '")
+        .unwrap()
+        .split_once("' ")
+        .unwrap()
 }
 
 /// A case as `explain` takes it.
@@ -289,7 +378,9 @@ fn known_verdicts_are_as_wrong_as_is_said_and_no_worse_than_proved() {
                 continue;
             }
             let share = part["share"].as_f64().unwrap();
-            let known = part["known"]["share"].as_f64().unwrap_or_else(|| panic!("{text}"));
+            let known = part["known"]["share"]
+                .as_f64()
+                .unwrap_or_else(|| panic!("{text}"));
             assert!(0.0 < known && known <= share, "{text}");
             near += usize::from(share <= 4.0 * known);
             let command = part["known"]["command"].as_str().unwrap();
@@ -319,9 +410,15 @@ fn every_witness_is_below_its_bound_and_near_it() {
             assert!(gate["why"].is_string(), "{name}");
             continue;
         };
-        let witness = gate["witness"]["units"].as_f64().unwrap_or_else(|| panic!("{name}"));
+        let witness = gate["witness"]["units"]
+            .as_f64()
+            .unwrap_or_else(|| panic!("{name}"));
         assert!(witness <= bound, "{name}: {witness} {bound}");
-        let divides = gate["supposes"].as_array().unwrap().iter().any(|s| s == "divisors");
+        let divides = gate["supposes"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|s| s == "divisors");
         let is_role = |role: &str| gate["gate"] == role;
         if !divides && (is_role("parallel") || is_role("edge")) {
             assert!(bound / witness <= 2.0, "{name}: {bound} / {witness}");
@@ -332,15 +429,32 @@ fn every_witness_is_below_its_bound_and_near_it() {
 #[test]
 fn where_nothing_follows_for_edges_the_least_change_is_named_with_which_something_does() {
     let follows = |scene: &str, scalar: &str| {
-        let flags = ["prove", "--kernel", "moller-trumbore", "-n", "0", "--scene", scene];
+        let flags = [
+            "prove",
+            "--kernel",
+            "moller-trumbore",
+            "-n",
+            "0",
+            "--scene",
+            scene,
+        ];
         let out = words(&text(&[&flags[..], &["--scalar", scalar]].concat()));
-        let (_, nothing) = out.split_once("Nothing useful follows for false misses").unzip();
+        let (_, nothing) = out
+            .split_once("Nothing useful follows for false misses")
+            .unzip();
         nothing.map(str::to_owned)
     };
     let nothing = follows("room", "f32").unwrap();
-    let (_, scenes) =
-        nothing.split_once("It is proved to be less in f64, or with edges from ").unwrap();
-    let edge: f64 = scenes.split(' ').next().unwrap().trim_end_matches('.').parse().unwrap();
+    let (_, scenes) = nothing
+        .split_once("It is proved to be less in f64, or with edges from ")
+        .unwrap();
+    let edge: f64 = scenes
+        .split(' ')
+        .next()
+        .unwrap()
+        .trim_end_matches('.')
+        .parse()
+        .unwrap();
     // As the prover says of these; half of the change is not enough.
     let room = |edge: f64| format!("room,edge={edge}..3");
     assert_eq!(follows(&room(edge), "f32"), None);
@@ -350,9 +464,24 @@ fn where_nothing_follows_for_edges_the_least_change_is_named_with_which_somethin
 
 #[test]
 fn a_scene_has_the_words_that_it_has_for_samples() {
-    let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "100"];
+    let kernel = [
+        "prove",
+        "--kernel",
+        "moller-trumbore",
+        "--scalar",
+        "f32",
+        "-n",
+        "100",
+    ];
     let with = |scene: &[&str]| text(&[&kernel[..], scene].concat());
-    let numbers = ["--coordinates", "15", "--edge", "0.01..3", "--distance", "13"];
+    let numbers = [
+        "--coordinates",
+        "15",
+        "--edge",
+        "0.01..3",
+        "--distance",
+        "13",
+    ];
     // A scene for samples says the longest edge of its triangles; of equilateral ones every edge is.
     let room = words(&with(&["--scene", "room", "--min-angle", "60deg"]));
     let all = words(&with(&[&numbers[..], &["--min-angle", "60deg"]].concat()));
@@ -369,13 +498,22 @@ fn a_scene_has_the_words_that_it_has_for_samples() {
     assert!(words(&with(&["--scene", "room"])).contains(mends));
     let [longest, all] = [divisor(&["--scene", "room"]), divisor(&numbers)];
     assert!((3.9..4.1).contains(&(all / longest)), "{longest} {all}");
-    let far = with(&["--scene", "extent=5,center=-1e3,edge=0.01..3,distance=0..10"]);
-    assert!(words(&far).contains("1015, each triangle's longest edge from 0.01 to 3"), "{far}");
+    let far = with(&[
+        "--scene",
+        "extent=5,center=-1e3,edge=0.01..3,distance=0..10",
+    ]);
+    assert!(
+        words(&far).contains("1015, each triangle's longest edge from 0.01 to 3"),
+        "{far}"
+    );
     let wrong = |scene: &str, message: &str| {
         refused(&[&kernel[..], &["--scene", scene]].concat(), 2, message);
     };
     wrong("rom", "--scene: 'rom' is no scene");
-    wrong("room,direction=target", "--scene: proofs suppose |d| <= 1: write direction=unit");
+    wrong(
+        "room,direction=target",
+        "--scene: proofs suppose |d| <= 1: write direction=unit",
+    );
 }
 
 #[test]
@@ -396,9 +534,15 @@ fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
     let out = words("edge=1e-5");
     let none =
         "No false miss is farther inside an edge than 1.40e-5 of the triangle's longest edge";
-    assert!(out.contains(none) && out.contains("No false hit at an edge."), "{out}");
+    assert!(
+        out.contains(none) && out.contains("No false hit at an edge."),
+        "{out}"
+    );
     let out = words("edge=2e-6");
-    let both = ["inside an edge than 5.94e-6 of", "outside an edge than 1.94e-6 of"];
+    let both = [
+        "inside an edge than 5.94e-6 of",
+        "outside an edge than 1.94e-6 of",
+    ];
     assert!(both.iter().all(|part| out.contains(part)), "{out}");
     let wrong = |epsilon: &str, message: &str| {
         refused(&[&kernel[..], &["--epsilon", epsilon]].concat(), 2, message);
@@ -409,10 +553,22 @@ fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
     let two = ["prove", "--kernel", "cramer,plucker", "--epsilon", "edge=0"];
     refused(&two, 2, "--epsilon is of one --kernel");
     // What is proved whatever the size of triangles is said in any scene.
-    let room =
-        ["prove", "--kernel", "scalar-triple", "--scalar", "f32", "--scene", "room", "-n", "0"];
+    let room = [
+        "prove",
+        "--kernel",
+        "scalar-triple",
+        "--scalar",
+        "f32",
+        "--scene",
+        "room",
+        "-n",
+        "0",
+    ];
     let out = text(&[&room[..], &["--epsilon", "edge=-1e-3"]].concat());
-    assert!(crate::prove::words(&out).contains("No false miss at an edge."), "{out}");
+    assert!(
+        crate::prove::words(&out).contains("No false miss at an edge."),
+        "{out}"
+    );
 }
 
 #[test]
@@ -446,12 +602,24 @@ fn certificates_are_checked_and_a_changed_number_is_refused() {
     let last = good.rfind("\nprogram\n").unwrap();
     fs::write(file, &good[..=last]).unwrap();
     assert!(text(&["prove", "--check", file]).contains("(without all of edge)\n  for every"));
-    let line = good.lines().position(|line| line.starts_with("first ")).unwrap();
+    let line = good
+        .lines()
+        .position(|line| line.starts_with("first "))
+        .unwrap();
     let first = good.lines().nth(line).unwrap();
-    let mantissa: i64 = first["first ".len()..].split('*').next().unwrap().parse().unwrap();
+    let mantissa: i64 = first["first ".len()..]
+        .split('*')
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap();
     let smaller = first.replacen(&mantissa.to_string(), &(mantissa - 2).to_string(), 1);
     fs::write(file, good.replacen(first, &smaller, 1)).unwrap();
-    refused(&["prove", "--check", file], 65, &format!("{file}:{}: ", line + 1));
+    refused(
+        &["prove", "--check", file],
+        65,
+        &format!("{file}:{}: ", line + 1),
+    );
     refused(&["prove", "--check", "/dev/null"], 65, "/dev/null:");
     refused(&["prove", "--check", "no-such-file"], 74, "no-such-file");
     let two = ["prove", "--kernel", "cramer,plucker", "--certificate", file];
@@ -465,18 +633,41 @@ fn certificates_claim_what_the_paths_of_hits_compute_and_name_their_mirror_image
     let file = scratch("prove-names").join("a.proof");
     let file = file.to_str().unwrap();
     let certificate = |kernel: &str| {
-        let output = hairline(&["prove", "-k", kernel, "--scalar", "f32", "--certificate", file]);
+        let output = hairline(&[
+            "prove",
+            "-k",
+            kernel,
+            "--scalar",
+            "f32",
+            "--certificate",
+            file,
+        ]);
         let said = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.success() && output.stdout.is_empty(), "{said}");
+        assert!(
+            output.status.success() && output.stdout.is_empty(),
+            "{said}"
+        );
         (fs::read_to_string(file).unwrap(), said)
     };
     let (proof, said) = certificate("moller-trumbore");
     let check = format!("check it: hairline prove --check {file}\n");
-    assert_eq!(said, format!("{file}: 5 bounds of what moller-trumbore compares; {check}"));
+    assert_eq!(
+        said,
+        format!("{file}: 5 bounds of what moller-trumbore compares; {check}")
+    );
     let is_decision =
         |line: &&str| ["decision", "order"].contains(&line.split(' ').next().unwrap());
     assert_eq!(proof.lines().filter(is_decision).count(), 0);
-    let quiet = ["prove", "-k", "plucker", "--scalar", "f32", "-q", "--certificate", file];
+    let quiet = [
+        "prove",
+        "-k",
+        "plucker",
+        "--scalar",
+        "f32",
+        "-q",
+        "--certificate",
+        file,
+    ];
     assert!(hairline(&quiet).stderr.is_empty());
     // Woop's depends on the largest coordinate of the direction, and on nothing else.
     let (proof, _) = certificate("woop-watertight");
@@ -495,8 +686,9 @@ fn certificates_claim_what_the_paths_of_hits_compute_and_name_their_mirror_image
     assert!(without.contains("(without all of edge)"), "{without}");
     let program = proof.split_inclusive("end\n").next().unwrap();
     let also = program.lines().filter(|line| line.starts_with("also "));
-    let one =
-        also.clone().fold(program.to_owned(), |text, line| text.replace(&format!("{line}\n"), ""));
+    let one = also.clone().fold(program.to_owned(), |text, line| {
+        text.replace(&format!("{line}\n"), "")
+    });
     assert!(checked(&one).contains("1 bound proved of woop-watertight f32"));
     // y in place of x, z of y, x of z: every input, variable and order.
     let axis = |i: usize| (i + 1) % 3;
@@ -532,11 +724,22 @@ fn a_certificate_of_a_scene_has_its_limits_of_divisors_and_quotients() {
     let file = folder.join("scene.proof");
     let kernel = ["--kernel", "plane-unit-normal", "--scalar", "f64"];
     let scene = ["--coordinates", "4", "--edge", "0.5..4", "--distance", "8"];
-    text(&[&["prove"], &kernel[..], &scene, &["--certificate", file.to_str().unwrap()]].concat());
+    text(
+        &[
+            &["prove"],
+            &kernel[..],
+            &scene,
+            &["--certificate", file.to_str().unwrap()],
+        ]
+        .concat(),
+    );
     let proof = fs::read_to_string(&file).unwrap();
     // Each size of triangles has a domain of its own.
     let lines = |word: &str| proof.lines().filter(|line| line.starts_with(word)).count();
-    assert!(lines("domain ") > 5 && lines("at-least ") > 10 && lines("at-most ") > 10, "{proof}");
+    assert!(
+        lines("domain ") > 5 && lines("at-least ") > 10 && lines("at-most ") > 10,
+        "{proof}"
+    );
     let shown = text(&[&["prove", "-n", "0"], &kernel[..], &scene].concat());
     let out = text(&["prove", "--check", file.to_str().unwrap()]);
     // The largest bound of a gate is that of the scene.
@@ -555,30 +758,57 @@ fn a_certificate_of_a_scene_has_its_limits_of_divisors_and_quotients() {
     assert!(last.contains("\nat-least "), "{last}");
     fs::write(&file, format!("{start}\n")).unwrap();
     let out = text(&["prove", "--check", file.to_str().unwrap()]);
-    assert_eq!(out.matches("; programs of other sizes are missing here\n").count(), 1, "{out}");
+    assert_eq!(
+        out.matches("; programs of other sizes are missing here\n")
+            .count(),
+        1,
+        "{out}"
+    );
     assert!(out.ends_with("missing here\n"), "{out}");
     // The same limits are in the record, of the size whose bound is largest.
     let record = result(&hairline(
-        &[&["prove", "-n", "0", "--format", "json"], &kernel[..], &scene].concat(),
+        &[
+            &["prove", "-n", "0", "--format", "json"],
+            &kernel[..],
+            &scene,
+        ]
+        .concat(),
     ));
     let gates = record["gates"].as_array().unwrap();
     let limits = |gate: &str| {
         let gate = gates.iter().find(|part| part["gate"] == gate).unwrap();
         gate["limits"].as_array().unwrap().clone()
     };
-    let [divisor] = &limits("parallel")[..] else { panic!("{gates:?}") };
-    assert!(divisor["number"] == "|N|" && divisor.get("at_most").is_none(), "{divisor}");
-    let least = divisor["at_least"].as_f64().unwrap();
-    assert!(words(&shown).contains(&format!("|N| at least {least:.2e}")), "{least} {shown}");
+    let [divisor] = &limits("parallel")[..] else {
+        panic!("{gates:?}")
+    };
     assert!(
-        limits("t").iter().any(|limit| limit["number"] == "|t|" && limit["at_most"] == 8.015625)
+        divisor["number"] == "|N|" && divisor.get("at_most").is_none(),
+        "{divisor}"
+    );
+    let least = divisor["at_least"].as_f64().unwrap();
+    assert!(
+        words(&shown).contains(&format!("|N| at least {least:.2e}")),
+        "{least} {shown}"
+    );
+    assert!(
+        limits("t")
+            .iter()
+            .any(|limit| limit["number"] == "|t|" && limit["at_most"] == 8.015625)
     );
     // Less is supposed of one divisor: then the numbers after it are wrong.
-    let line = proof.lines().find(|line| line.starts_with("at-least ")).unwrap();
+    let line = proof
+        .lines()
+        .find(|line| line.starts_with("at-least "))
+        .unwrap();
     let (start, exponent) = line.split_once("*2^-").unwrap();
     let less = format!("{start}*2^-{}", exponent.parse::<i32>().unwrap() + 1);
     fs::write(&file, proof.replacen(line, &less, 1)).unwrap();
-    refused(&["prove", "--check", file.to_str().unwrap()], 65, "expected");
+    refused(
+        &["prove", "--check", file.to_str().unwrap()],
+        65,
+        "expected",
+    );
     let twice = format!("{line}\n{line}");
     fs::write(&file, proof.replacen(line, &twice, 1)).unwrap();
     refused(
@@ -603,11 +833,18 @@ fn stored_certificates_are_those_of_the_kernels() {
         .filter(|path| path.ends_with(".proof"))
         .collect();
     files.sort();
-    assert_eq!(files.len(), 68, "17 kernels, two scalars, with and without fused products");
+    assert_eq!(
+        files.len(),
+        68,
+        "17 kernels, two scalars, with and without fused products"
+    );
     let names: Vec<&str> = files.iter().map(String::as_str).collect();
     let out = text(&[&["prove", "--check"], &names[..]].concat());
     assert_eq!(out.matches(" proved of ").count(), files.len());
-    assert_eq!(out.matches("\n  for every float with ").count(), files.len());
+    assert_eq!(
+        out.matches("\n  for every float with ").count(),
+        files.len()
+    );
     // Some of every kind are written again.
     let again = scratch("prove-again").join("a.proof");
     let again = again.to_str().unwrap();
@@ -620,9 +857,20 @@ fn stored_certificates_are_those_of_the_kernels() {
         ("moller-trumbore", "f32"),
         ("plucker", "f32"),
     ] {
-        text(&["prove", "--kernel", kernel, "--scalar", scalar, "--certificate", again]);
+        text(&[
+            "prove",
+            "--kernel",
+            kernel,
+            "--scalar",
+            scalar,
+            "--certificate",
+            again,
+        ]);
         let stored = fs::read_to_string(format!("{folder}/{kernel}-{scalar}.proof")).unwrap();
-        assert!(fs::read_to_string(again).unwrap() == stored, "{kernel} {scalar}");
+        assert!(
+            fs::read_to_string(again).unwrap() == stored,
+            "{kernel} {scalar}"
+        );
     }
 }
 
@@ -640,22 +888,59 @@ fn what_flushes_subnormal_numbers_has_no_proof() {
 
 #[test]
 fn a_scene_gives_its_own_bounds_and_a_bad_one_a_sentence() {
-    let scene = ["--coordinates", "1000", "--edge", "0.01..10", "--distance", "2000"];
-    let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "1000"];
+    let scene = [
+        "--coordinates",
+        "1000",
+        "--edge",
+        "0.01..10",
+        "--distance",
+        "2000",
+    ];
+    let kernel = [
+        "prove",
+        "--kernel",
+        "moller-trumbore",
+        "--scalar",
+        "f32",
+        "-n",
+        "1000",
+    ];
     let out = text(&[&kernel[..], &scene[..]].concat());
     assert!(out.contains("Scene: coordinates up to 1000"), "{out}");
-    assert!(words(&out).contains("for no angle is it proved that every hit is kept"), "{out}");
+    assert!(
+        words(&out).contains("for no angle is it proved that every hit is kept"),
+        "{out}"
+    );
     // In f64 the same gate costs little.
     let out = text(
-        &[&["prove", "--kernel", "moller-trumbore", "--scalar", "f64", "-n", "1000"], &scene[..]]
-            .concat(),
+        &[
+            &[
+                "prove",
+                "--kernel",
+                "moller-trumbore",
+                "--scalar",
+                "f64",
+                "-n",
+                "1000",
+            ],
+            &scene[..],
+        ]
+        .concat(),
     );
     assert!(
         words(&out).contains("that epsilon refuses every parallel ray; it keeps every hit at"),
         "{out}"
     );
     // What divides has a bound too, and what it supposes.
-    let divides = ["prove", "--kernel", "baldwin-weber", "--scalar", "f64", "-n", "0"];
+    let divides = [
+        "prove",
+        "--kernel",
+        "baldwin-weber",
+        "--scalar",
+        "f64",
+        "-n",
+        "0",
+    ];
     let out = text(&[&divides[..], &scene[..]].concat());
     assert!(!out.contains("No bound"), "{out}");
     let supposed = "It supposes of the exact numbers, and more of larger triangles: |N_k| at least 1.99e-6, \
@@ -665,13 +950,33 @@ fn a_scene_gives_its_own_bounds_and_a_bad_one_a_sentence() {
         let scene = ["prove", "--coordinates", coordinates, "--edge", edge];
         refused(&scene, 2, message);
     };
-    bad("1", "2..1", "the shortest edge, 2, is longer than the longest, 1");
-    bad("1", "0..1", "shortest edge: expected a positive number, found 0");
-    bad("nan", "0.1..1", "coordinates: expected a positive number, found NaN");
+    bad(
+        "1",
+        "2..1",
+        "the shortest edge, 2, is longer than the longest, 1",
+    );
+    bad(
+        "1",
+        "0..1",
+        "shortest edge: expected a positive number, found 0",
+    );
+    bad(
+        "nan",
+        "0.1..1",
+        "coordinates: expected a positive number, found NaN",
+    );
     bad("1", "1..10", "does not fit into coordinates up to 1");
     refused(&["prove", "--distance", "5"], 2, "--distance needs");
-    refused(&["prove", "--edge", "1..2"], 2, "--edge needs --coordinates");
-    refused(&["prove", "--kernel", "moller"], 2, "unknown kernel 'moller'");
+    refused(
+        &["prove", "--edge", "1..2"],
+        2,
+        "--edge needs --coordinates",
+    );
+    refused(
+        &["prove", "--kernel", "moller"],
+        2,
+        "unknown kernel 'moller'",
+    );
     let empty = scratch("prove-mesh").join("empty.obj");
     fs::write(&empty, "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").unwrap();
     let empty = empty.to_str().unwrap();
@@ -704,14 +1009,29 @@ fn a_meshs_triangles_have_bounds_of_their_own() {
         all.contains("e = 1e-6 (source, truck) refuses every parallel ray; it keeps every hit at"),
         "{out}"
     );
-    assert!(all.contains("e = 1e-12 (jolt) is not proved to refuse parallel rays"), "{out}");
+    assert!(
+        all.contains("e = 1e-12 (jolt) is not proved to refuse parallel rays"),
+        "{out}"
+    );
     // A triangle without an area is not hit, and still lets parallel rays pass.
     let folder = scratch("prove-areas");
     let larger = folder.join("larger.obj");
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    fs::write(&larger, format!("{triangle}v 50 60 70\nv 100 120 140\nf 1 4 5\n")).unwrap();
+    fs::write(
+        &larger,
+        format!("{triangle}v 50 60 70\nv 100 120 140\nf 1 4 5\n"),
+    )
+    .unwrap();
     let larger = larger.to_str().unwrap();
-    let arguments = ["--mesh", larger, "--distance", "200", "-n", "100", "--quiet"];
+    let arguments = [
+        "--mesh",
+        larger,
+        "--distance",
+        "200",
+        "-n",
+        "100",
+        "--quiet",
+    ];
     let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32"];
     let out = text(&[&kernel[..], &arguments[..]].concat());
     assert!(
@@ -735,19 +1055,27 @@ fn check_holds_what_is_proved() {
     };
     let good = "[proved]\nwoop-watertight.f32 = { edge = 21.99, watertight = true }\n";
     let output = check(good);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let output = check(
         "[proved]\n\"woop-watertight+fma\".f32.watertight = true\nwoop-watertight.f32.edge = 21.5\n",
     );
     let text = words(&String::from_utf8_lossy(&output.stdout));
     assert_eq!(output.status.code(), Some(1), "{text}");
-    assert!(text.contains("Does not conform: 2 proofs missing, 0 unexpected"), "{text}");
+    assert!(
+        text.contains("Does not conform: 2 proofs missing, 0 unexpected"),
+        "{text}"
+    );
     let not_watertight = "woop-watertight+fma f32 must be proved watertight: no longer proved";
     let bound = "woop-watertight f32 edge must be proved to at most 21.5 u: the bound is 21.97";
     // Every format says it.
     let formats = ["text", "json", "junit", "sarif", "markdown", "html"];
-    let files: Vec<String> =
-        formats.map(|format| folder.join(format).to_str().unwrap().to_owned()).into();
+    let files: Vec<String> = formats
+        .map(|format| folder.join(format).to_str().unwrap().to_owned())
+        .into();
     let mut words = vec!["check", "--config", config, "-q", "--format"];
     let all = formats.join(",");
     words.push(&all);
@@ -760,12 +1088,19 @@ fn check_holds_what_is_proved() {
             true => ["\"gate\":\"watertight\"", "\"demanded\":\"21.5\""],
             false => [not_watertight, bound],
         };
-        let text = if is_data { text.replace(": \"", ":\"") } else { text };
+        let text = if is_data {
+            text.replace(": \"", ":\"")
+        } else {
+            text
+        };
         assert!(text.contains(one) && text.contains(other), "{file}: {text}");
     }
     for (demands, message) in [
         ("[proved]\nwoop.f32.edge = 1\n", "unknown kernel 'woop'"),
-        ("[proved]\nwoop-watertight.f32.edges = 1\n", "unknown gate 'edges'"),
+        (
+            "[proved]\nwoop-watertight.f32.edges = 1\n",
+            "unknown gate 'edges'",
+        ),
         ("[proved]\nwoop-watertight.f16.edge = 1\n", "is no demand"),
         (
             "[proved]\nwoop-watertight = 1\n",
@@ -782,13 +1117,21 @@ fn check_holds_what_is_proved() {
 /// A number in three digits, not below it, or not above it.
 fn three_digits(x: f64, up: bool) -> String {
     let scale = 10f64.powi(2 - x.log10().floor() as i32);
-    let digits = if up { (x * scale - 1e-9).ceil() } else { (x * scale + 1e-9).floor() };
+    let digits = if up {
+        (x * scale - 1e-9).ceil()
+    } else {
+        (x * scale + 1e-9).floor()
+    };
     format!("{:.2e}", digits / scale)
 }
 
 /// A number in two decimals, not below it, or not above it.
 fn hundredths(x: f64, up: bool) -> String {
-    let hundreds = if up { (x * 100.0 - 1e-9).ceil() } else { (x * 100.0 + 1e-9).floor() };
+    let hundreds = if up {
+        (x * 100.0 - 1e-9).ceil()
+    } else {
+        (x * 100.0 + 1e-9).floor()
+    };
     format!("{:.2}", hundreds / 100.0)
 }
 
@@ -801,25 +1144,42 @@ fn the_guides_table_is_what_is_proved_and_known() {
         Some(bound) => {
             let witness = gate["witness"]["units"].as_f64().unwrap();
             let factor = gate["factor"].as_f64().unwrap();
-            format!("{} | {} | {factor:.2} |", hundredths(bound, true), hundredths(witness, false))
+            format!(
+                "{} | {} | {factor:.2} |",
+                hundredths(bound, true),
+                hundredths(witness, false)
+            )
         }
     };
     let mut table = String::new();
     for single in gates.iter().filter(|gate| gate["scalar"] == "f32") {
         let is_double = |gate: &&serde_json::Value| {
-            gate["scalar"] == "f64" && ["kernel", "gate"].iter().all(|key| gate[key] == single[key])
+            gate["scalar"] == "f64"
+                && ["kernel", "gate"]
+                    .iter()
+                    .all(|key| gate[key] == single[key])
         };
         let double = gates.iter().find(is_double).unwrap();
-        let supposes: Vec<&str> =
-            single["supposes"].as_array().unwrap().iter().map(|x| x.as_str().unwrap()).collect();
+        let supposes: Vec<&str> = single["supposes"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|x| x.as_str().unwrap())
+            .collect();
         let [kernel, gate] = ["kernel", "gate"].map(|key| single[key].as_str().unwrap());
         let (single, double) = (cells(single), cells(double));
         let end = format!("{} |", supposes.join(", "));
-        table += &format!("| {kernel} | {gate} | {single} {double} {}\n", end.trim_start());
+        table += &format!(
+            "| {kernel} | {gate} | {single} {double} {}\n",
+            end.trim_start()
+        );
     }
     let guide = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/proof.md");
     let guide = fs::read_to_string(guide).unwrap();
-    assert!(guide.contains(&table), "the table of docs/guide/proof.md should be\n{table}");
+    assert!(
+        guide.contains(&table),
+        "the table of docs/guide/proof.md should be\n{table}"
+    );
     // And the table of verdicts.
     let kernels = record["kernels"].as_array().unwrap();
     let mut table = String::new();
@@ -833,9 +1193,12 @@ fn the_guides_table_is_what_is_proved_and_known() {
             for side in ["misses", "hits"] {
                 let part = &kernel["verdicts"][side];
                 let number = |part: &serde_json::Value, up: bool| {
-                    part.as_f64().map_or("-".to_owned(), |x| three_digits(x, up))
+                    part.as_f64()
+                        .map_or("-".to_owned(), |x| three_digits(x, up))
                 };
-                let factor = part["factor"].as_f64().map_or("-".to_owned(), |x| format!("{x:.1}"));
+                let factor = part["factor"]
+                    .as_f64()
+                    .map_or("-".to_owned(), |x| format!("{x:.1}"));
                 table += &format!(
                     " {} | {} | {factor} |",
                     number(&part["share"], true),
@@ -853,7 +1216,15 @@ fn the_guides_table_is_what_is_proved_and_known() {
 
 #[test]
 fn the_worst_known_in_a_scene_is_as_bad_as_a_sample_finds() {
-    let flags = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "--format", "json"];
+    let flags = [
+        "prove",
+        "--kernel",
+        "moller-trumbore",
+        "--scalar",
+        "f32",
+        "--format",
+        "json",
+    ];
     let record = result(&hairline(&[&flags[..], &["--scene", "room"]].concat()));
     let gates = record["gates"].as_array().unwrap();
     let edge = gates.iter().find(|gate| gate["gate"] == "edge").unwrap();

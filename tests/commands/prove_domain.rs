@@ -28,7 +28,10 @@ impl Ray {
         };
         let vector = |name: &str| [0, 1, 2].map(|axis| exact(&case[name][axis]));
         let vectors = ["origin", "direction", "a", "b", "c"].map(vector);
-        Ray { vectors, end: exact(&case["t_max"]) }
+        Ray {
+            vectors,
+            end: exact(&case["t_max"]),
+        }
     }
 
     /// From each of some points to another one.
@@ -67,7 +70,12 @@ fn length(v: &Point) -> f64 {
 }
 
 fn largest<'a>(vectors: impl IntoIterator<Item = &'a Point>) -> BigRational {
-    vectors.into_iter().flatten().map(Signed::abs).max().unwrap()
+    vectors
+        .into_iter()
+        .flatten()
+        .map(Signed::abs)
+        .max()
+        .unwrap()
 }
 
 /// The commands of the known rays of a record, with what they are of.
@@ -96,22 +104,43 @@ fn every_known_ray_lies_in_the_unit_domain_that_is_printed() {
         let [origin, direction, a, b, c] = &ray.vectors;
         assert!(largest(&ray.edges()) <= bound("edge"), "{of}: {command}");
         assert!(largest(&ray.reach()) <= bound("reach"), "{of}: {command}");
-        assert!(largest([origin, a, b, c]) <= bound("world"), "{of}: {command}");
-        assert!(largest([direction]) <= bound("direction"), "{of}: {command}");
-        assert!(bound("divisor_at_least") <= ray.volume().abs(), "{of}: {command}");
-        assert!(ray.end <= bound("extent") && ray.time() <= ray.end, "{of}: {command}");
+        assert!(
+            largest([origin, a, b, c]) <= bound("world"),
+            "{of}: {command}"
+        );
+        assert!(
+            largest([direction]) <= bound("direction"),
+            "{of}: {command}"
+        );
+        assert!(
+            bound("divisor_at_least") <= ray.volume().abs(),
+            "{of}: {command}"
+        );
+        assert!(
+            ray.end <= bound("extent") && ray.time() <= ray.end,
+            "{of}: {command}"
+        );
         assert!(BigRational::zero() <= ray.time(), "{of}: {command}");
     }
 }
 
 #[test]
 fn every_known_ray_of_a_scene_has_the_sizes_that_the_scene_says() {
-    let far = ["--coordinates", "1000", "--edge", "0.01..10", "--distance", "2000"];
+    let far = [
+        "--coordinates",
+        "1000",
+        "--edge",
+        "0.01..10",
+        "--distance",
+        "2000",
+    ];
     let kernel = "moller-trumbore";
     let flags = ["prove", "--kernel", kernel, "-q", "--format", "json"];
     // In a room the longest edges of triangles are from 0.01 to 3.
-    let [edges, longest] =
-        [(&far[..], 1000.0, 10.0, 2000.0), (&["--scene", "room"], 15.0, 3.0, 13.0)];
+    let [edges, longest] = [
+        (&far[..], 1000.0, 10.0, 2000.0),
+        (&["--scene", "room"], 15.0, 3.0, 13.0),
+    ];
     for ((scene, coordinates, most, distance), is_of_longest) in [(edges, false), (longest, true)] {
         let all = known(&result(&hairline(&[&flags[..], scene].concat())));
         assert!(3 <= all.len(), "{all:?}");
@@ -121,16 +150,28 @@ fn every_known_ray_of_a_scene_has_the_sizes_that_the_scene_says() {
             // A float of 24 digits is no nearer to the end of a range.
             let slack = 1.0 + 1e-6;
             let text = format!("{of}: {command}");
-            assert!(largest([origin, a, b, c]).to_f64().unwrap() <= coordinates, "{text}");
+            assert!(
+                largest([origin, a, b, c]).to_f64().unwrap() <= coordinates,
+                "{text}"
+            );
             let lengths = ray.edges().map(|edge| length(&edge));
             let long = lengths.into_iter().fold(0.0, f64::max);
             let short = lengths.into_iter().fold(long, f64::min);
             let least = if is_of_longest { long } else { short };
-            assert!(0.01 <= least * slack && long <= most * slack, "{text}: {lengths:?}");
+            assert!(
+                0.01 <= least * slack && long <= most * slack,
+                "{text}: {lengths:?}"
+            );
             let reach = ray.reach().map(|it| length(&it));
-            assert!(reach.into_iter().all(|it| it <= distance * slack), "{text}: {reach:?}");
+            assert!(
+                reach.into_iter().all(|it| it <= distance * slack),
+                "{text}: {reach:?}"
+            );
             assert!((length(direction) - 1.0).abs() < 1e-6, "{text}");
-            assert!(ray.time() <= ray.end && ray.end.to_f64().unwrap() <= distance, "{text}");
+            assert!(
+                ray.time() <= ray.end && ray.end.to_f64().unwrap() <= distance,
+                "{text}"
+            );
             let area = length(&ray.normal());
             let sine = ray.volume().abs().to_f64().unwrap() / area;
             assert!(1f64.to_radians().sin() <= sine * slack, "{text}: {sine}");
@@ -144,19 +185,40 @@ fn every_known_ray_of_a_scene_has_the_sizes_that_the_scene_says() {
 #[test]
 fn what_is_known_is_known_at_the_epsilons_that_were_asked_about() {
     let at = |epsilon: &str| {
-        let flags = ["prove", "-k", "moller-trumbore", "--scalar", "f32", "--format", "json", "-q"];
+        let flags = [
+            "prove",
+            "-k",
+            "moller-trumbore",
+            "--scalar",
+            "f32",
+            "--format",
+            "json",
+            "-q",
+        ];
         let record = result(&hairline(&[&flags[..], &["--epsilon", epsilon]].concat()));
         record["kernels"][0]["verdicts"]["hits"].clone()
     };
     let hits = at("edge=-1e-5");
     let share = hits["known"]["share"].as_f64().unwrap();
     // A triangle's height may be as long as its longest edge, so a plain search finds a hit 9.8e-6 outside.
-    assert!(9.8e-6 < share && share <= hits["share"].as_f64().unwrap(), "{hits}");
+    assert!(
+        9.8e-6 < share && share <= hits["share"].as_f64().unwrap(),
+        "{hits}"
+    );
     let command = hits["known"]["command"].as_str().unwrap();
-    assert!(command.ends_with(" --epsilon 'parallel=1e-6,edge=-1e-5'"), "{command}");
+    assert!(
+        command.ends_with(" --epsilon 'parallel=1e-6,edge=-1e-5'"),
+        "{command}"
+    );
     let (case, rest) = explained(command);
     let flags = rest.replace('\'', "");
-    let shown = hairline(&[&["explain", case], &flags.split(' ').collect::<Vec<_>>()[..]].concat());
+    let shown = hairline(
+        &[
+            &["explain", case],
+            &flags.split(' ').collect::<Vec<_>>()[..],
+        ]
+        .concat(),
+    );
     let shown = String::from_utf8(shown.stdout).unwrap();
     assert!(shown.to_lowercase().contains("false-hit"), "{shown}");
     // Far more is known where more is let through.
@@ -165,26 +227,49 @@ fn what_is_known_is_known_at_the_epsilons_that_were_asked_about() {
 
 #[test]
 fn a_ci_may_demand_how_large_the_domain_of_a_certificate_is() {
-    let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/proofs/moller-trumbore-f32.proof");
+    let stored = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/corpora/proofs/moller-trumbore-f32.proof"
+    );
     let with =
         |file: &str, demand: &str| hairline(&["prove", "--check", file, "--demand-domain", demand]);
-    for met in ["edge=0.999", "edge=0.5,reach=0.5,direction=1,floor=0.5,quotient=1", "floor=0.75"] {
+    for met in [
+        "edge=0.999",
+        "edge=0.5,reach=0.5,direction=1,floor=0.5,quotient=1",
+        "floor=0.75",
+    ] {
         assert_eq!(with(stored, met).status.code(), Some(0), "{met}");
     }
     for (demand, found) in [
-        ("edge=1", "its domain has edge up to 0.9990234375, demanded edge=1"),
-        ("edge=0.1,world=1000", "its domain has world up to 0.9990234375, demanded world=1000"),
-        ("floor=0.1", "its domain has floor from 0.5, demanded floor=0.1"),
+        (
+            "edge=1",
+            "its domain has edge up to 0.9990234375, demanded edge=1",
+        ),
+        (
+            "edge=0.1,world=1000",
+            "its domain has world up to 0.9990234375, demanded world=1000",
+        ),
+        (
+            "floor=0.1",
+            "its domain has floor from 0.5, demanded floor=0.1",
+        ),
         (
             "direction-floor=0.1",
             "its domain has direction-floor from 0.5, demanded direction-floor=0.1",
         ),
     ] {
         let demanded = format!("not all of gate 'edge' is proved for {demand}: {found}");
-        refused(&["prove", "--check", stored, "--demand-domain", demand], 1, &demanded);
+        refused(
+            &["prove", "--check", stored, "--demand-domain", demand],
+            1,
+            &demanded,
+        );
     }
     for (wrong, message) in [
-        ("edges=1", "expected NAME=SIZE, where NAME is one of edge, reach, world,"),
+        (
+            "edges=1",
+            "expected NAME=SIZE, where NAME is one of edge, reach, world,",
+        ),
         ("edge", "expected NAME=SIZE"),
         ("edge=large", "'large' is no size"),
         ("edge=nan", "'nan' is no size"),
@@ -192,7 +277,10 @@ fn a_ci_may_demand_how_large_the_domain_of_a_certificate_is() {
     ] {
         let output = with(stored, wrong);
         let error = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.code() == Some(2) && error.contains(message), "{wrong}: {error}");
+        assert!(
+            output.status.code() == Some(2) && error.contains(message),
+            "{wrong}: {error}"
+        );
     }
     let alone = hairline(&["prove", "--demand-domain", "edge=1"]);
     assert_eq!(alone.status.code(), Some(2));
@@ -202,16 +290,31 @@ fn a_ci_may_demand_how_large_the_domain_of_a_certificate_is() {
     let scene = ["--coordinates", "4", "--edge", "0.5..4", "--distance", "8"];
     let kernel = ["prove", "--kernel", "plane-unit-normal", "--scalar", "f64"];
     text(&[&kernel[..], &scene, &["--certificate", file]].concat());
-    assert_eq!(with(file, "edge=4,reach=8,world=4,extent=8").status.code(), Some(0));
-    refused(&["prove", "--check", file, "--demand-domain", "edge=5"], 1, "demanded edge=5");
-    refused(&["prove", "--check", file, "--demand-domain", "floor=0"], 1, "demanded floor=0");
+    assert_eq!(
+        with(file, "edge=4,reach=8,world=4,extent=8").status.code(),
+        Some(0)
+    );
+    refused(
+        &["prove", "--check", file, "--demand-domain", "edge=5"],
+        1,
+        "demanded edge=5",
+    );
+    refused(
+        &["prove", "--check", file, "--demand-domain", "floor=0"],
+        1,
+        "demanded floor=0",
+    );
     // Nothing is proved of what a certificate leaves out.
     let whole = fs::read_to_string(stored).unwrap();
     let last = whole.rfind("\nprogram\n").unwrap();
     fs::write(file, &whole[..=last]).unwrap();
     assert_eq!(hairline(&["prove", "--check", file]).status.code(), Some(0));
     let missing = "is proved for edge=0.5: the certificate is without some of its numbers";
-    refused(&["prove", "--check", file, "--demand-domain", "edge=0.5"], 1, missing);
+    refused(
+        &["prove", "--check", file, "--demand-domain", "edge=0.5"],
+        1,
+        missing,
+    );
 }
 
 #[test]

@@ -28,17 +28,27 @@ const MISTAKES: [(&str, Option<&str>); 24] = [
     ("OF_AB", Some("u and v are the weights of a and b on all ")),
     ("OF_CA", Some("u and v are the weights of c and a on all ")),
     ("IN_F32", Some("t, u and v are computed in f32 on all ")),
-    ("PREVIOUS", Some("t, u and v are those of the previous answer on all ")),
+    (
+        "PREVIOUS",
+        Some("t, u and v are those of the previous answer on all "),
+    ),
     ("ABSOLUTE", Some("it takes |t| for t on all ")),
     ("NO_T_MIN", Some("it ignores t_min on all ")),
     ("ZERO_T_MIN", Some("it takes 0 for t_min on all ")),
-    ("CLAMPED_T_MIN", Some("it takes 0 for a t_min below 0 on all ")),
+    (
+        "CLAMPED_T_MIN",
+        Some("it takes 0 for a t_min below 0 on all "),
+    ),
     ("NO_T_MAX", Some("it ignores t_max on all ")),
 ];
 
 fn related(mistake: &str) -> Option<String> {
     let source = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/kernels/related.c");
-    library(&source, &format!("related-{mistake}"), &[&format!("-DMISTAKE={mistake}")])
+    library(
+        &source,
+        &format!("related-{mistake}"),
+        &[&format!("-DMISTAKE={mistake}")],
+    )
 }
 
 /// Numbers from -1 to 1 in a row without a pattern.
@@ -46,8 +56,10 @@ struct Numbers(u64);
 
 impl Numbers {
     fn next(&mut self) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
@@ -92,7 +104,9 @@ fn each_simple_mistake_is_named_in_the_first_line_and_others_are_not() {
     let folder = scratch("relations");
     corpus(&folder.join("intervals.jsonl"));
     for (mistake, sentence) in MISTAKES {
-        let Some(library) = related(mistake) else { return };
+        let Some(library) = related(mistake) else {
+            return;
+        };
         let plan = ["--kernel-lib", &library, "--corpus", "intervals.jsonl"];
         let run = |command: &str, code: i32| {
             flat(&ends(&folder, &[&[command, "-q"], &plan[..]].concat(), code).0)
@@ -108,9 +122,14 @@ fn each_simple_mistake_is_named_in_the_first_line_and_others_are_not() {
             }
             None => {
                 let names = |text: &str| {
-                    MISTAKES.iter().any(|(_, it)| it.is_some_and(|it| text.contains(it)))
+                    MISTAKES
+                        .iter()
+                        .any(|(_, it)| it.is_some_and(|it| text.contains(it)))
                 };
-                assert!(!names(&screen) && !names(&check), "{mistake}: {screen} {check}");
+                assert!(
+                    !names(&screen) && !names(&check),
+                    "{mistake}: {screen} {check}"
+                );
             }
         }
     }
@@ -123,11 +142,25 @@ fn an_interval_that_is_not_read_is_named_in_families_and_scenes() {
     let families = &["--family", "behind,interior,vertex-fan,interval-ends"][..];
     // Rays of a room meet nothing behind their start but by rounding, so |t| shows in families alone.
     for (mistake, sentence, plans) in [
-        ("NO_T_MIN", "related (own): it ignores t_min on ", &[families, &["--scene", "room"]][..]),
-        ("NO_T_MAX", "related (own): it ignores t_max on ", &[families, &["--scene", "room"]]),
-        ("ABSOLUTE", "related (own): it takes |t| for t on ", &[families]),
+        (
+            "NO_T_MIN",
+            "related (own): it ignores t_min on ",
+            &[families, &["--scene", "room"]][..],
+        ),
+        (
+            "NO_T_MAX",
+            "related (own): it ignores t_max on ",
+            &[families, &["--scene", "room"]],
+        ),
+        (
+            "ABSOLUTE",
+            "related (own): it takes |t| for t on ",
+            &[families],
+        ),
     ] {
-        let Some(library) = related(mistake) else { return };
+        let Some(library) = related(mistake) else {
+            return;
+        };
         for plan in plans {
             assert_check_starts(&folder, &library, plan, sentence);
         }
@@ -138,7 +171,9 @@ fn an_interval_that_is_not_read_is_named_in_families_and_scenes() {
 fn the_count_of_a_relation_is_that_of_the_record_also_from_shards() {
     let folder = scratch("relations-record");
     corpus(&folder.join("intervals.jsonl"));
-    let Some(library) = related("TWICE") else { return };
+    let Some(library) = related("TWICE") else {
+        return;
+    };
     let file = folder.join("intervals.jsonl");
     let flags = ["--kernel-lib", &library, "--corpus", file.to_str().unwrap()];
     let (whole, _) = record(&flags);
@@ -148,11 +183,23 @@ fn the_count_of_a_relation_is_that_of_the_record_also_from_shards() {
     assert_eq!((&relation["count"], &relation["of"]), (wrong, wrong));
     for shard in ["0/2", "1/2"] {
         let part = format!("{}.json", &shard[..1]);
-        let flags =
-            [&["audit", "-q", "--shard", shard, "--format", "json", "-o", &part], &flags[..]];
+        let flags = [
+            &[
+                "audit", "-q", "--shard", shard, "--format", "json", "-o", &part,
+            ],
+            &flags[..],
+        ];
         ends(&folder, &flags.concat(), 0);
     }
-    let merge = ["merge", "0.json", "1.json", "--kernel-lib", &library, "--format", "json"];
+    let merge = [
+        "merge",
+        "0.json",
+        "1.json",
+        "--kernel-lib",
+        &library,
+        "--format",
+        "json",
+    ];
     let merged: serde_json::Value = serde_json::from_str(&ends(&folder, &merge, 0).0).unwrap();
     assert_eq!(
         merged["result"]["totals"][0]["relations"],
@@ -164,12 +211,23 @@ fn the_count_of_a_relation_is_that_of_the_record_also_from_shards() {
 fn explain_names_the_relation_on_cases_like_the_one_asked() {
     let folder = scratch("relations-explain");
     for (mistake, expected) in [
-        ("TWICE", "why the wrong-value: t is twice the exact t on all "),
-        ("EXCHANGED", "why the wrong-value: u and v are exchanged on all "),
-        ("IN_F32", "why the wrong-value: t, u and v are computed in f32 on all "),
+        (
+            "TWICE",
+            "why the wrong-value: t is twice the exact t on all ",
+        ),
+        (
+            "EXCHANGED",
+            "why the wrong-value: u and v are exchanged on all ",
+        ),
+        (
+            "IN_F32",
+            "why the wrong-value: t, u and v are computed in f32 on all ",
+        ),
         ("AFFINE", "why the wrong-value: cannot be told"),
     ] {
-        let Some(library) = related(mistake) else { return };
+        let Some(library) = related(mistake) else {
+            return;
+        };
         let case = "{\"scalar\":\"f64\",\"origin\":[0.2,0.3,2],\"direction\":[0.1,0.2,-0.7],\"a\":[-1,-2,0],\"b\":[3,-1,0.5],\
                     \"c\":[0,4,0.25]}";
         let said = flat(&ends(&folder, &["explain", case, "--kernel-lib", &library], 0).0);
@@ -187,16 +245,25 @@ fn fused_products_and_another_epsilon_are_found_by_value() {
     let other = text.replace("ABS(det) < epsilon", "(void)epsilon, ABS(det) < (REAL)3e-3");
     assert_ne!(other, text);
     fs::write(&source, other).unwrap();
-    let Some(library) = library(&source, "other-epsilon", &[]) else { return };
+    let Some(library) = library(&source, "other-epsilon", &[]) else {
+        return;
+    };
     let case = "{\"scalar\":\"f32\",\"origin\":[0.01,0.01,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[0.05,0,0],\
                 \"c\":[0,0.05,0]}";
     let said = flat(&ends(&folder, &["explain", case, "--kernel-lib", &library], 0).0);
     assert!(said.contains("FALSE-MISS"), "{said}");
-    assert!(said.contains("it answers as moller-trumbore does"), "{said}");
+    assert!(
+        said.contains("it answers as moller-trumbore does"),
+        "{said}"
+    );
     assert_range_holds(&said, "it would on all with parallel between ", 3e-3);
     for plan in [&["--family", "edge-near,tiny"][..], &["--scene", "room"]] {
         let start = "c-moller-trumbore (own): it computes moller-trumbore with parallel between ";
-        assert_range_holds(&assert_check_starts(&folder, &library, plan, start), start, 3e-3);
+        assert_range_holds(
+            &assert_check_starts(&folder, &library, plan, start),
+            start,
+            3e-3,
+        );
     }
     // A published epsilon that it does not declare, and an interval that it reads, are no mistakes.
     let hit = "verdict->hit = 1;";
@@ -237,11 +304,16 @@ fn fused_products_and_another_epsilon_are_found_by_value() {
 #[cfg(target_arch = "x86_64")]
 fn fused_products_are_found(folder: &Path, source: &Path) {
     let flags = ["-O2", "-mfma", "-ffp-contract=fast"];
-    let Some(library) = library(source, "fused-epsilon", &flags) else { return };
+    let Some(library) = library(source, "fused-epsilon", &flags) else {
+        return;
+    };
     let case = "{\"scalar\":\"f32\",\"origin\":[0.011,0.013,1],\"direction\":[0.001,0.002,-1],\"a\":[0,0,0],\
                 \"b\":[0.05,0.01,0.02],\"c\":[0,0.05,0.003]}";
     let said = flat(&ends(folder, &["explain", case, "--kernel-lib", &library], 0).0);
-    assert!(said.contains("it answers as moller-trumbore with fused products does"), "{said}");
+    assert!(
+        said.contains("it answers as moller-trumbore with fused products does"),
+        "{said}"
+    );
     let start = "c-moller-trumbore (own): it computes moller-trumbore with fused products";
     assert_check_starts(folder, &library, &["--family", "edge-near,tiny"], start);
 }
@@ -252,7 +324,10 @@ fn assert_range_holds(said: &str, before: &str, epsilon: f64) {
     let (range, _) = range.split_once(" in place of 1e-6").expect(said);
     let (low, high) = range.split_once(" and ").expect(said);
     let [low, high]: [f64; 2] = [low, high].map(|end| end.parse().unwrap());
-    assert!(low < epsilon && epsilon <= high && high <= 2.0 * low, "{said}");
+    assert!(
+        low < epsilon && epsilon <= high && high <= 2.0 * low,
+        "{said}"
+    );
 }
 
 /// The screen of a check that fails, which starts so.

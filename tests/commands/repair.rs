@@ -61,7 +61,11 @@ pub fn compile_by(compiler: &str, source: &Path, output: &Path, flags: &[&str]) 
         .arg("-lm")
         .output()
         .unwrap();
-    assert!(built.status.success(), "{flags:?}: {}", String::from_utf8_lossy(&built.stderr));
+    assert!(
+        built.status.success(),
+        "{flags:?}: {}",
+        String::from_utf8_lossy(&built.stderr)
+    );
 }
 
 /// The adversarial rays against what a file has: hits, misses, asks and wrong answers.
@@ -77,10 +81,16 @@ pub fn tried(folder: &Path, file: &Path, promise: [&str; 2], flags: &[&str]) -> 
         &program,
         &[&include, &defines[..], flags].concat(),
     );
-    let run = Command::new(&program).args(["2", "100000", "7"]).output().unwrap();
+    let run = Command::new(&program)
+        .args(["2", "100000", "7"])
+        .output()
+        .unwrap();
     let text = String::from_utf8(run.stdout).unwrap();
     let all = text.lines().last().unwrap().strip_prefix("all").unwrap();
-    let counts: Vec<u64> = all.split_whitespace().map(|word| word.parse().unwrap()).collect();
+    let counts: Vec<u64> = all
+        .split_whitespace()
+        .map(|word| word.parse().unwrap())
+        .collect();
     assert_eq!(run.status.success(), counts[3] == 0, "{text}");
     counts.try_into().unwrap()
 }
@@ -95,15 +105,20 @@ fn no_answer_is_wrong_however_it_is_compiled_and_without_margins_many_are() {
     }
     let folder = scratch("repair-check");
     let fast = ["-O3", "-march=native", "-ffp-contract=fast"];
-    for (kernel, promise) in
-        [("moller-trumbore", LINE), ("woop-watertight", INTERVAL), ("havel-herout", INTERVAL)]
-    {
+    for (kernel, promise) in [
+        ("moller-trumbore", LINE),
+        ("woop-watertight", INTERVAL),
+        ("havel-herout", INTERVAL),
+    ] {
         for scalar in ["f32", "f64"] {
             let file = emitted(&folder, kernel, scalar);
             for flags in [&["-O1"][..], &fast] {
                 let [hits, misses, asks, wrong] = tried(&folder, &file, promise, flags);
                 assert_eq!(wrong, 0, "{kernel} {scalar} {flags:?}");
-                assert!(5_000 < hits && 30_000 < misses && 10_000 < asks, "{hits} {misses} {asks}");
+                assert!(
+                    5_000 < hits && 30_000 < misses && 10_000 < asks,
+                    "{hits} {misses} {asks}"
+                );
             }
         }
     }
@@ -160,33 +175,64 @@ fn is_alike<F: Scalar + Searched>(
         folder.join("answers"),
     );
     fs::write(&source, ANSWERS).unwrap();
-    let defines =
-        [format!("-DKERNEL={name}"), format!("-DHIT={name}_hit"), format!("-DREAL={real}")];
+    let defines = [
+        format!("-DKERNEL={name}"),
+        format!("-DHIT={name}_hit"),
+        format!("-DREAL={real}"),
+    ];
     // The exact test that decides where it asks is compiled too.
     let include = format!("-I{HERE}/include");
     let exact = ["-DHAIRLINE_ASK_EXACT", include.as_str()];
     let defines: Vec<&str> = defines.iter().map(String::as_str).chain(exact).collect();
-    let c =
-        ["-std=c99", "-pedantic", "-O2", "-ffp-contract=off", "-include", file.to_str().unwrap()];
+    let c = [
+        "-std=c99",
+        "-pedantic",
+        "-O2",
+        "-ffp-contract=off",
+        "-include",
+        file.to_str().unwrap(),
+    ];
     compile(&source, &program, &[&STRICT[..], &c, &defines].concat());
     // C++17 as well.
-    let cpp = ["-xc++", "-std=c++17", "-O2", "-include", file.to_str().unwrap()];
-    compile(&source, &folder.join("answers-cpp"), &[&STRICT[..5], &cpp, &defines].concat());
+    let cpp = [
+        "-xc++",
+        "-std=c++17",
+        "-O2",
+        "-include",
+        file.to_str().unwrap(),
+    ];
+    compile(
+        &source,
+        &folder.join("answers-cpp"),
+        &[&STRICT[..5], &cpp, &defines].concat(),
+    );
     let each: u64 =
         std::env::var("HAIRLINE_REPAIR_CASES").map_or(300, |count| count.parse().unwrap());
     let cases: Vec<Case<F>> = FAMILIES
         .iter()
         .flat_map(|family| {
-            (0..each).flat_map(|i| family.make::<F>(&Parameters::default(), 5, i).cases().to_vec())
+            (0..each).flat_map(|i| {
+                family
+                    .make::<F>(&Parameters::default(), 5, i)
+                    .cases()
+                    .to_vec()
+            })
         })
         .collect();
     let mut input = Vec::new();
     for case in &cases {
         let ends = [case.ray.t_min, case.ray.t_max];
-        case.vectors().iter().flatten().chain(&ends).for_each(|x| input.extend(bytes(*x)));
+        case.vectors()
+            .iter()
+            .flatten()
+            .chain(&ends)
+            .for_each(|x| input.extend(bytes(*x)));
     }
-    let mut child =
-        Command::new(&program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut child = Command::new(&program)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
     let mut pipe = child.stdin.take().unwrap();
     let writer = std::thread::spawn(move || pipe.write_all(&input).unwrap());
     let output = child.wait_with_output().unwrap();
@@ -221,13 +267,21 @@ fn the_c_answers_bit_for_bit_what_the_recorded_program_does() {
             kernel,
             |x| x.to_ne_bytes().to_vec(),
             |bytes| {
-                bytes.chunks(4).map(|x| f32::from_ne_bytes(x.try_into().unwrap()).into()).collect()
+                bytes
+                    .chunks(4)
+                    .map(|x| f32::from_ne_bytes(x.try_into().unwrap()).into())
+                    .collect()
             },
         );
         is_alike::<f64>(
             kernel,
             |x| x.to_ne_bytes().to_vec(),
-            |bytes| bytes.chunks(8).map(|x| f64::from_ne_bytes(x.try_into().unwrap())).collect(),
+            |bytes| {
+                bytes
+                    .chunks(8)
+                    .map(|x| f64::from_ne_bytes(x.try_into().unwrap()))
+                    .collect()
+            },
         );
     }
 }
@@ -235,7 +289,13 @@ fn the_c_answers_bit_for_bit_what_the_recorded_program_does() {
 #[test]
 fn a_certificate_is_checked_and_a_changed_one_is_refused() {
     let folder = scratch("repair-proof");
-    let all = ["repair", "--kernel", "plucker", "--certificate", "proof.txt"];
+    let all = [
+        "repair",
+        "--kernel",
+        "plucker",
+        "--certificate",
+        "proof.txt",
+    ];
     ends(&folder, &all, 0);
     let check = ["prove", "--check", "proof.txt"];
     let (said, _) = ends(&folder, &check, 0);
@@ -250,19 +310,36 @@ fn a_certificate_is_checked_and_a_changed_one_is_refused() {
         assert!(error.contains(words), "{words}: {error}");
     };
     // One rounding less, another sign, a gate that is left out, another promise.
-    let margin =
-        text.lines().find(|line| line.starts_with("margin ") && !line.ends_with(" 0 0")).unwrap();
+    let margin = text
+        .lines()
+        .find(|line| line.starts_with("margin ") && !line.ends_with(" 0 0"))
+        .unwrap();
     let fewer = format!("{}1", margin);
     refused(margin, &fewer, "expected `");
     let hit = text.lines().find(|line| line.starts_with("hit +")).unwrap();
-    refused(hit, &hit.replacen('+', "-", 1), "its gates accept rays that");
+    refused(
+        hit,
+        &hit.replacen('+', "-", 1),
+        "its gates accept rays that",
+    );
     let miss = text.lines().find(|line| line.starts_with("miss ")).unwrap();
-    refused(miss, &miss[..miss.rfind(' ').unwrap()], "gate 'edge' rejects rays that may hit");
-    refused("guarded interval both", "guarded interval front", "hit the back");
+    refused(
+        miss,
+        &miss[..miss.rfind(' ').unwrap()],
+        "gate 'edge' rejects rays that may hit",
+    );
+    refused(
+        "guarded interval both",
+        "guarded interval front",
+        "hit the back",
+    );
     // The proof of another program is right, and not about this kernel.
     fs::write(&path, text.replacen("gate edge", "gate side", 1)).unwrap();
     let (_, error) = ends(&folder, &check, 1);
-    assert!(error.contains("plucker is repaired in another way here"), "{error}");
+    assert!(
+        error.contains("plucker is repaired in another way here"),
+        "{error}"
+    );
 }
 
 /// The checker knows a number by its values modulo 2^61 - 1. So what is added is a multiple of that: nothing there, and much
@@ -270,12 +347,26 @@ fn a_certificate_is_checked_and_a_changed_one_is_refused() {
 #[test]
 fn a_number_that_is_another_only_modulo_the_prime_is_refused() {
     let folder = scratch("repair-forged");
-    ends(&folder, &["repair", "--kernel", "moller-trumbore-t", "--certificate", "proof.txt"], 0);
+    ends(
+        &folder,
+        &[
+            "repair",
+            "--kernel",
+            "moller-trumbore-t",
+            "--certificate",
+            "proof.txt",
+        ],
+        0,
+    );
     let path = folder.join("proof.txt");
     let text = fs::read_to_string(&path).unwrap();
     let (head, margins) = text.split_once("margin ").unwrap();
     let last = head.lines().filter(|line| line.starts_with("op ")).count();
-    let weight = text.split_once("hit +").and_then(|(_, rest)| rest.split_once("hit +")).unwrap().1;
+    let weight = text
+        .split_once("hit +")
+        .and_then(|(_, rest)| rest.split_once("hit +"))
+        .unwrap()
+        .1;
     let (determinant, weight) = weight.lines().next().unwrap().split_once('*').unwrap();
     let place = |i: usize| last + i;
     let operations = [
@@ -289,8 +380,9 @@ fn a_number_that_is_another_only_modulo_the_prime_is_refused() {
         format!("add {weight} {}", place(6)),
     ];
     let operations = operations.iter().enumerate();
-    let operations: String =
-        operations.map(|(i, words)| format!("op {} {words}\n", place(i))).collect();
+    let operations: String = operations
+        .map(|(i, words)| format!("op {} {words}\n", place(i)))
+        .collect();
     let (sum, old) = (place(7), format!("{determinant}*{weight}\n"));
     let forged = |margin: &str| {
         let margins = margins.replace(&old, &format!("{determinant}*{sum}\n"));
@@ -301,9 +393,15 @@ fn a_number_that_is_another_only_modulo_the_prime_is_refused() {
         ends(&folder, &["prove", "--check", "proof.txt"], 65).1
     };
     let error = forged("0 0");
-    let right = error.split_once("expected `").unwrap_or_else(|| panic!("{error}")).1;
+    let right = error
+        .split_once("expected `")
+        .unwrap_or_else(|| panic!("{error}"))
+        .1;
     let error = forged(right.split('`').next().unwrap());
-    assert!(error.contains("gate 'edge' rejects rays that may hit"), "{error}");
+    assert!(
+        error.contains("gate 'edge' rejects rays that may hit"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -329,7 +427,11 @@ fn what_cannot_be_repaired_is_refused_with_the_reason() {
         2,
         "two scalars are two files",
     );
-    refused(&["--kernel", "plucker", "--scalar", "f64", "--emit", "wgsl"], 2, "WGSL has no f64");
+    refused(
+        &["--kernel", "plucker", "--scalar", "f64", "--emit", "wgsl"],
+        2,
+        "WGSL has no f64",
+    );
     refused(&["--kernel", "pluckre"], 2, "unknown kernel 'pluckre'");
     refused(&["--kernel", "plucker", "--emit", "java"], 2, "java");
 }
@@ -337,7 +439,11 @@ fn what_cannot_be_repaired_is_refused_with_the_reason() {
 #[test]
 fn the_kernel_of_the_bench_is_the_one_that_is_written() {
     let folder = scratch("repair-bench");
-    let (text, _) = ends(&folder, &["repair", "--kernel", "moller-trumbore", "--emit", "rust"], 0);
+    let (text, _) = ends(
+        &folder,
+        &["repair", "--kernel", "moller-trumbore", "--emit", "rust"],
+        0,
+    );
     assert_eq!(
         text,
         fs::read_to_string(Path::new(HERE).join("benches/audit/repaired.rs")).unwrap()
@@ -347,14 +453,28 @@ fn the_kernel_of_the_bench_is_the_one_that_is_written() {
 #[test]
 fn plain_rays_of_a_room_seldom_ask() {
     let folder = scratch("repair-asks");
-    let all = ["repair", "--kernel", "moller-trumbore", "--scene", "room", "-n", "2000"];
+    let all = [
+        "repair",
+        "--kernel",
+        "moller-trumbore",
+        "--scene",
+        "room",
+        "-n",
+        "2000",
+    ];
     let (text, _) = ends(&folder, &all, 0);
     let (_, text) = text.split_once("How often the guarded").unwrap();
     let share = |kind: &str| -> f64 {
-        let line = text.lines().find(|line| line.trim_start().starts_with(kind)).expect(kind);
+        let line = text
+            .lines()
+            .find(|line| line.trim_start().starts_with(kind))
+            .expect(kind);
         let mut numbers = line.split_whitespace().filter_map(|word| word.parse().ok());
         numbers.next_back().unwrap()
     };
-    assert!(share("interior") <= 1.0 && share("outside") <= 1.0, "{text}");
+    assert!(
+        share("interior") <= 1.0 && share("outside") <= 1.0,
+        "{text}"
+    );
     assert!(20.0 < share("edges"), "{text}");
 }

@@ -49,9 +49,18 @@ fn validates(language: &str, file: &Path) -> Option<bool> {
 #[test]
 fn shading_languages_and_rust_take_what_is_written() {
     let folder = scratch("repair-languages");
-    for kernel in ["moller-trumbore", "woop-watertight", "baldwin-weber", "plane-unit-normal"] {
+    for kernel in [
+        "moller-trumbore",
+        "woop-watertight",
+        "baldwin-weber",
+        "plane-unit-normal",
+    ] {
         for language in ["glsl", "wgsl", "hlsl", "rust"] {
-            let (text, _) = ends(&folder, &["repair", "--kernel", kernel, "--emit", language], 0);
+            let (text, _) = ends(
+                &folder,
+                &["repair", "--kernel", kernel, "--emit", language],
+                0,
+            );
             let file = folder.join(format!("kernel.{language}"));
             let (head, tail) = match language {
                 "glsl" => ("#version 450\n", "void main() {}\n"),
@@ -63,15 +72,27 @@ fn shading_languages_and_rust_take_what_is_written() {
                 validates(language, &file);
                 continue;
             }
-            let strict =
-                ["--edition", "2021", "--crate-type", "lib", "-D", "warnings", "-o", "kernel.rlib"];
+            let strict = [
+                "--edition",
+                "2021",
+                "--crate-type",
+                "lib",
+                "-D",
+                "warnings",
+                "-o",
+                "kernel.rlib",
+            ];
             let built = Command::new("rustc")
                 .args(strict)
                 .arg(&file)
                 .current_dir(&folder)
                 .output()
                 .unwrap();
-            assert!(built.status.success(), "{kernel}: {}", String::from_utf8_lossy(&built.stderr));
+            assert!(
+                built.status.success(),
+                "{kernel}: {}",
+                String::from_utf8_lossy(&built.stderr)
+            );
         }
     }
 }
@@ -80,7 +101,19 @@ fn shading_languages_and_rust_take_what_is_written() {
 fn rust_for_c(folder: &Path, kernel: &str, has_ends: bool) -> [std::path::PathBuf; 2] {
     let name = format!("{}_f32", kernel.replace('-', "_"));
     let file = folder.join("kernel.rs");
-    ends(folder, &["repair", "--kernel", kernel, "--emit", "rust", "-o", "kernel.rs"], 0);
+    ends(
+        folder,
+        &[
+            "repair",
+            "--kernel",
+            kernel,
+            "--emit",
+            "rust",
+            "-o",
+            "kernel.rs",
+        ],
+        0,
+    );
     assert!(file.exists());
     let ends = if has_ends { ", t_min, t_max" } else { "" };
     let shim = format!(
@@ -103,8 +136,17 @@ pub unsafe extern "C" fn {name}(o: *const f32, d: *const f32, a: *const f32, b: 
     fs::write(&source, shim).unwrap();
     let object = folder.join(format!("lib{name}.so"));
     let flags = ["--edition", "2021", "--crate-type", "cdylib", "-O", "-o"];
-    let built = Command::new("rustc").args(flags).arg(&object).arg(&source).output().unwrap();
-    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    let built = Command::new("rustc")
+        .args(flags)
+        .arg(&object)
+        .arg(&source)
+        .output()
+        .unwrap();
+    assert!(
+        built.status.success(),
+        "{}",
+        String::from_utf8_lossy(&built.stderr)
+    );
     let header = folder.join(format!("{name}.h"));
     let text = format!(
         "enum {{ HAIRLINE_MISS, HAIRLINE_HIT, HAIRLINE_ASK }};\ntypedef struct {{ float t, u, v; }} {name}_hit;\n\
@@ -126,7 +168,10 @@ fn no_answer_of_the_rust_is_wrong_by_integers_of_any_length() {
         let flags = ["-O1", "-Wl,--no-as-needed", &path, object.to_str().unwrap()];
         let [hits, misses, asks, wrong] = tried(&folder, &header, promise, &flags);
         assert_eq!(wrong, 0, "{kernel}");
-        assert!(5_000 < hits && 30_000 < misses && 10_000 < asks, "{hits} {misses} {asks}");
+        assert!(
+            5_000 < hits && 30_000 < misses && 10_000 < asks,
+            "{hits} {misses} {asks}"
+        );
     }
 }
 
@@ -136,8 +181,15 @@ struct Mine;
 impl Kernel for Mine {
     const INFO: KernelInfo = KernelInfo {
         gates: &[Gate::signed(Role::Edge, "u < e, v < e, w < e", 2, 1)],
-        epsilon_sets: &[EpsilonSet { name: "own", values: &["0"] }],
-        gives: Gives { t: false, uv: true, facing: false },
+        epsilon_sets: &[EpsilonSet {
+            name: "own",
+            values: &["0"],
+        }],
+        gives: Gives {
+            t: false,
+            uv: true,
+            facing: false,
+        },
         ..KernelInfo::own(
             "repaired-mine",
             Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Closed)
@@ -153,7 +205,9 @@ impl Kernel for Mine {
 
     fn test<V: Vector, S: Sink<V::Real>>(
         Triangle { a, b, c }: &Triangle<V>,
-        Ray { origin, direction, .. }: &Ray<V>,
+        Ray {
+            origin, direction, ..
+        }: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let [a, b, c] = [a, b, c].map(|vertex| vertex.minus(origin));
@@ -163,7 +217,11 @@ impl Kernel for Mine {
             sink.one(0, Refuse::Below, volume)?;
         }
         let sum = u + &v + &w;
-        Some(Hit { t: None, uv: Some((v / &sum, w / &sum)), facing: None })
+        Some(Hit {
+            t: None,
+            uv: Some((v / &sum, w / &sum)),
+            facing: None,
+        })
     }
 }
 
@@ -173,9 +231,24 @@ fn a_kernel_of_ones_own_is_guarded_in_the_same_way() {
     register(Entry::of::<Mine>()).unwrap();
     let file = folder.join("repaired_mine_f32.h");
     let proof = folder.join("proof.txt");
-    let words = ["hairline", "repair", "--kernel", "repaired-mine", "--emit", "c", "-o"];
-    let files = [file.to_str().unwrap(), "--certificate", proof.to_str().unwrap()];
-    assert_eq!(hairline::cli::run(words.into_iter().chain(files).map(Into::into)), 0);
+    let words = [
+        "hairline",
+        "repair",
+        "--kernel",
+        "repaired-mine",
+        "--emit",
+        "c",
+        "-o",
+    ];
+    let files = [
+        file.to_str().unwrap(),
+        "--certificate",
+        proof.to_str().unwrap(),
+    ];
+    assert_eq!(
+        hairline::cli::run(words.into_iter().chain(files).map(Into::into)),
+        0
+    );
     // The checker accepts the proof; the program, which does not know the kernel, says so too.
     let check = ["hairline", "prove", "--check", proof.to_str().unwrap()];
     assert_eq!(hairline::cli::run(check.map(Into::into)), 0);
@@ -185,7 +258,10 @@ fn a_kernel_of_ones_own_is_guarded_in_the_same_way() {
     let promise = ["-DEXTENT=0", "-DFRONT=1"];
     let [hits, misses, asks, wrong] = tried(&folder, &file, promise, &["-O1"]);
     assert_eq!(wrong, 0);
-    assert!(1_000 < hits && 30_000 < misses && 10_000 < asks, "{hits} {misses} {asks}");
+    assert!(
+        1_000 < hits && 30_000 < misses && 10_000 < asks,
+        "{hits} {misses} {asks}"
+    );
 }
 
 /// Wrong hits where an ask is a miss, and wrong misses where it is a hit, of a shader on a driver of this machine; none without
@@ -200,13 +276,25 @@ fn wrong_on_a_device(folder: &Path, file: &Path) -> Option<[u64; 2]> {
         return None;
     }
     let mut wrong = [0; 2];
-    for (count, [ask, finding]) in
-        wrong.iter_mut().zip([["miss", "false_hits"], ["hit", "false_misses"]])
+    for (count, [ask, finding]) in wrong
+        .iter_mut()
+        .zip([["miss", "false_hits"], ["hit", "false_misses"]])
     {
         let command = format!("{} {} {ask}", program.display(), file.display());
-        let all =
-            ["audit", "--kernel-cmd", &command, "--scalar", "f32", "-n", "1000", "--attribute"];
-        let output = hairline(folder, &[&all[..], &["0", "--format", "json", "-q"]].concat());
+        let all = [
+            "audit",
+            "--kernel-cmd",
+            &command,
+            "--scalar",
+            "f32",
+            "-n",
+            "1000",
+            "--attribute",
+        ];
+        let output = hairline(
+            folder,
+            &[&all[..], &["0", "--format", "json", "-q"]].concat(),
+        );
         let error = String::from_utf8_lossy(&output.stderr);
         if error.contains("no GPU adapter") || error.contains("glslangValidator: No such file") {
             not_tested(
@@ -218,11 +306,20 @@ fn wrong_on_a_device(folder: &Path, file: &Path) -> Option<[u64; 2]> {
         let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         let results = record["result"]["results"].as_array().unwrap();
         let sum = |of: &dyn Fn(&serde_json::Value) -> Option<u64>| -> u64 {
-            results.iter().map(|result| of(&result["total"]).unwrap()).sum()
+            results
+                .iter()
+                .map(|result| of(&result["total"]).unwrap())
+                .sum()
         };
         // It does hit, and it does miss.
-        let (hits, cases) = (sum(&|it| it["hits"].as_u64()), sum(&|it| it["cases"].as_u64()));
-        assert!(cases / 20 < hits && hits < cases * 9 / 10, "{hits} of {cases}");
+        let (hits, cases) = (
+            sum(&|it| it["hits"].as_u64()),
+            sum(&|it| it["cases"].as_u64()),
+        );
+        assert!(
+            cases / 20 < hits && hits < cases * 9 / 10,
+            "{hits} of {cases}"
+        );
         *count = sum(&|it| it[finding]["count"].as_u64());
     }
     Some(wrong)
@@ -234,14 +331,26 @@ fn shaders_on_a_driver_are_right_and_without_margins_they_are_not() {
     for kernel in ["moller-trumbore", "woop-watertight"] {
         for language in ["wgsl", "glsl"] {
             let name = format!("{kernel}.{language}");
-            ends(&folder, &["repair", "--kernel", kernel, "--emit", language, "-o", &name], 0);
+            ends(
+                &folder,
+                &[
+                    "repair", "--kernel", kernel, "--emit", language, "-o", &name,
+                ],
+                0,
+            );
             let file = folder.join(&name);
-            let Some(wrong) = wrong_on_a_device(&folder, &file) else { return };
+            let Some(wrong) = wrong_on_a_device(&folder, &file) else {
+                return;
+            };
             assert_eq!(wrong, [0, 0], "{name}");
             let text = fs::read_to_string(&file).unwrap();
             let margin = "margin = factor * size + ";
             assert!(text.contains(margin), "{text}");
-            fs::write(&file, text.replace(margin, "margin = 0.0 * factor * size + ")).unwrap();
+            fs::write(
+                &file,
+                text.replace(margin, "margin = 0.0 * factor * size + "),
+            )
+            .unwrap();
             let [hits, misses] = wrong_on_a_device(&folder, &file).unwrap();
             assert!(0 < hits && 0 < misses, "{name}: {hits} {misses}");
         }

@@ -26,18 +26,29 @@ fn built(compiler: &str, file: &Path, promise: [&str; 2], flags: &[&str]) -> std
     let include = ["-include", file.to_str().unwrap()];
     let program = file.with_extension("products");
     let source = Path::new(HERE).join("tests/repair/products.c");
-    compile_by(compiler, &source, &program, &[flags, &include, &defines].concat());
+    compile_by(
+        compiler,
+        &source,
+        &program,
+        &[flags, &include, &defines].concat(),
+    );
     program
 }
 
 /// What the program counts; nothing without the device that it needs.
 fn run(program: &Path) -> Option<[u64; 2]> {
-    let output = Command::new(program).args(["200000", "3"]).output().unwrap();
+    let output = Command::new(program)
+        .args(["200000", "3"])
+        .output()
+        .unwrap();
     if output.status.code() == Some(77) {
         return None;
     }
     let text = String::from_utf8(output.stdout).unwrap();
-    let numbers: Vec<u64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    let numbers: Vec<u64> = text
+        .split_whitespace()
+        .filter_map(|word| word.parse().ok())
+        .collect();
     let [hits, misses, asks, wrong_hits, wrong_misses] = numbers[..] else {
         panic!("{text}{}", String::from_utf8_lossy(&output.stderr))
     };
@@ -67,23 +78,37 @@ fn no_product_of_a_caller_is_fused_into_a_kernel_in_c_and_cpp() {
     let files = [(&single, LINE), (&double, LINE), (&plucker, INTERVAL)];
     // Clang fuses within an expression only, unless it is told to.
     let gcc = [&["-O2", "-mfma"][..], &["-O3", "-march=native"]];
-    let clang = [&["-O2", "-mfma"][..], &["-O3", "-march=native", "-ffp-contract=fast"]];
+    let clang = [
+        &["-O2", "-mfma"][..],
+        &["-O3", "-march=native", "-ffp-contract=fast"],
+    ];
     for (compiler, all) in [("gcc", gcc), ("clang", clang)] {
         if !has(compiler) {
             continue;
         }
         for flags in all {
             for (file, promise) in files {
-                assert_eq!(wrong(compiler, file, promise, flags), [0; 2], "{file:?} {flags:?}");
+                assert_eq!(
+                    wrong(compiler, file, promise, flags),
+                    [0; 2],
+                    "{file:?} {flags:?}"
+                );
             }
             let cpp = [flags, &["-xc++", "-std=c++17"]].concat();
-            assert_eq!(wrong(compiler, &single, LINE, &cpp), [0; 2], "{compiler} {cpp:?}");
+            assert_eq!(
+                wrong(compiler, &single, LINE, &cpp),
+                [0; 2],
+                "{compiler} {cpp:?}"
+            );
         }
         // Without the barrier such a product is fused, and hundreds of answers are wrong.
         for (file, promise) in files {
             let flags = [all[1], &[OPEN]].concat();
             let [hits, misses] = wrong(compiler, file, promise, &flags);
-            assert!(100 < hits && 100 < misses, "{compiler} {file:?}: {hits} {misses}");
+            assert!(
+                100 < hits && 100 < misses,
+                "{compiler} {file:?}: {hits} {misses}"
+            );
         }
     }
     if has("gcc") {
@@ -113,7 +138,9 @@ fn inputs_in_sums(text: &str) -> Vec<String> {
         };
         (is_left && is_input(left)) || (is_right && is_input(right))
     };
-    sums.filter(has_input).map(|i| words[i - 1..i + 2].join(" ")).collect()
+    sums.filter(has_input)
+        .map(|i| words[i - 1..i + 2].join(" "))
+        .collect()
 }
 
 /// How many brackets more close than open.
@@ -123,7 +150,9 @@ fn brackets(word: &str) -> i32 {
 }
 
 fn is_input(word: &str) -> bool {
-    let word = word.trim_start_matches(['(', '-']).trim_end_matches([')', ',', ';']);
+    let word = word
+        .trim_start_matches(['(', '-'])
+        .trim_end_matches([')', ',', ';']);
     let word = word.strip_prefix("fabsf(").unwrap_or(word);
     let is_coordinate = word.len() == 4 && word.ends_with(']') && word[1..].starts_with('[');
     is_coordinate || ["t_from", "t_to", "t_min", "t_max"].contains(&word)
@@ -132,7 +161,12 @@ fn is_input(word: &str) -> bool {
 #[test]
 fn every_sum_of_an_input_is_a_function() {
     let folder = scratch("repair-sums");
-    for kernel in ["moller-trumbore", "woop-watertight", "baldwin-weber", "plane-unit-normal"] {
+    for kernel in [
+        "moller-trumbore",
+        "woop-watertight",
+        "baldwin-weber",
+        "plane-unit-normal",
+    ] {
         let text = fs::read_to_string(emitted(&folder, kernel, "f32")).unwrap();
         let (_, code) = text.split_once("*answer) {").unwrap();
         assert!(code.contains("hairline_difference_f32("), "{code}");
@@ -145,7 +179,10 @@ fn every_sum_of_an_input_is_a_function() {
     let exact = fs::read_to_string(Path::new(HERE).join("include/hairline_exact.h")).unwrap();
     assert!(exact.contains(functions.trim_end()), "{functions}");
     let differences = exact.matches("hairline_difference_f64(points[").count();
-    assert!(differences == 4 && !exact.contains("] - points["), "{differences}");
+    assert!(
+        differences == 4 && !exact.contains("] - points["),
+        "{differences}"
+    );
     let plain =
         "x = b[0] - a[0]; y = fabsf(d[2]) + SLACK, z = (n - t_from) * q; w = p - -(a[0] * q) + r;";
     let found = ["b[0] - a[0];", "fabsf(d[2]) + SLACK,", "(n - t_from)"];
@@ -178,19 +215,44 @@ fn rust_fuses_no_product_unless_its_back_end_is_told_to() {
     }
     let folder = scratch("repair-products-rust");
     let header = emitted(&folder, "moller-trumbore", "f32");
-    let all = ["repair", "--kernel", "moller-trumbore", "--emit", "rust", "-o", "kernel.rs"];
+    let all = [
+        "repair",
+        "--kernel",
+        "moller-trumbore",
+        "--emit",
+        "rust",
+        "-o",
+        "kernel.rs",
+    ];
     ends(&folder, &all, 0);
     let (source, object) = (folder.join("caller.rs"), folder.join("libcaller.so"));
     fs::write(&source, CALLER).unwrap();
     let answers = |flags: &[&str]| {
         let crate_type = ["--edition", "2021", "--crate-type", "cdylib", "-O"];
         let mut rustc = Command::new("rustc");
-        rustc.args(crate_type).args(["-C", "target-cpu=native"]).args(flags);
+        rustc
+            .args(crate_type)
+            .args(["-C", "target-cpu=native"])
+            .args(flags);
         let built = rustc.arg("-o").args([&object, &source]).output().unwrap();
-        assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+        assert!(
+            built.status.success(),
+            "{}",
+            String::from_utf8_lossy(&built.stderr)
+        );
         let path = format!("-Wl,-rpath,{}", folder.display());
-        let flags = ["-O1", "-DSCALED_KERNEL=scaled_in_rust", "-Wl,--no-as-needed", &path];
-        wrong("cc", &header, LINE, &[&flags[..], &[object.to_str().unwrap()]].concat())
+        let flags = [
+            "-O1",
+            "-DSCALED_KERNEL=scaled_in_rust",
+            "-Wl,--no-as-needed",
+            &path,
+        ];
+        wrong(
+            "cc",
+            &header,
+            LINE,
+            &[&flags[..], &[object.to_str().unwrap()]].concat(),
+        )
     };
     assert_eq!(answers(&[]), [0; 2]);
     let [hits, misses] = answers(&["-C", "llvm-args=-fp-contract=fast"]);
@@ -237,17 +299,42 @@ fn cuda_calls_the_functions_on_both_sides() {
         );
     }
     // A folder takes it under the name that CUDA's includes have.
-    ends(&folder, &["repair", "--kernel", "moller-trumbore", "--emit", "cuda", "-o", "all/"], 0);
+    ends(
+        &folder,
+        &[
+            "repair",
+            "--kernel",
+            "moller-trumbore",
+            "--emit",
+            "cuda",
+            "-o",
+            "all/",
+        ],
+        0,
+    );
     let source = folder.join("caller.cpp");
     fs::write(&source, CUDA).unwrap();
-    let header = format!("-DHEADER=\"{}\"", folder.join("all/moller_trumbore_f32.cuh").display());
+    let header = format!(
+        "-DHEADER=\"{}\"",
+        folder.join("all/moller_trumbore_f32.cuh").display()
+    );
     let include = format!("-I{HERE}/include");
-    let words = ["-D__CUDACC__", "-D__host__=", "-D__device__=", "-Wall", "-Wextra", "-Werror"];
+    let words = [
+        "-D__CUDACC__",
+        "-D__host__=",
+        "-D__device__=",
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+    ];
     let flags = [&words[..], &["-xc++", "-std=c++17", &header, &include]].concat();
     for more in [&[][..], &["-D__CUDA_ARCH__=900"]] {
         let program = folder.join("caller");
         compile_by("cc", &source, &program, &[&flags[..], more].concat());
-        assert!(Command::new(&program).status().unwrap().success(), "{more:?}");
+        assert!(
+            Command::new(&program).status().unwrap().success(),
+            "{more:?}"
+        );
     }
 }
 
@@ -282,16 +369,28 @@ fn no_product_of_a_caller_is_fused_on_a_device() {
 #[test]
 fn a_shader_in_wgsl_combines_its_inputs_with_a_zero_of_the_run() {
     let folder = scratch("repair-zero");
-    for (kernel, inputs) in
-        [("moller-trumbore", &["o", "d", "a", "b", "c"][..]), ("plucker", &["t_min", "t_max"])]
-    {
-        let (text, _) = ends(&folder, &["repair", "--kernel", kernel, "--emit", "wgsl"], 0);
+    for (kernel, inputs) in [
+        ("moller-trumbore", &["o", "d", "a", "b", "c"][..]),
+        ("plucker", &["t_min", "t_max"]),
+    ] {
+        let (text, _) = ends(
+            &folder,
+            &["repair", "--kernel", kernel, "--emit", "wgsl"],
+            0,
+        );
         let (head, body) = text.split_once("let SLACK").unwrap();
-        assert!(head.contains("zero: u32, answer: ptr<function, vec3f>"), "{head}");
+        assert!(
+            head.contains("zero: u32, answer: ptr<function, vec3f>"),
+            "{head}"
+        );
         for input in inputs {
             let bits = format!("let {input} = bitcast<");
             assert_eq!(body.matches(&bits).count(), 1, "{input}: {body}");
-            assert_eq!(text.matches(&format!("{input}_in")).count(), 2, "{input}: {body}");
+            assert_eq!(
+                text.matches(&format!("{input}_in")).count(),
+                2,
+                "{input}: {body}"
+            );
         }
     }
 }

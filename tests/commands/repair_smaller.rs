@@ -9,7 +9,9 @@ const PUBLISHED: [f32; 2] = [1e-6, 0.0];
 
 fn verdict<F: Scalar>(kernel: &str, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {
     let mut verdict = [Verdict::miss(None)];
-    F::subject(find(kernel).unwrap()).unwrap().run(&[*case], epsilons, &mut verdict);
+    F::subject(find(kernel).unwrap())
+        .unwrap()
+        .run(&[*case], epsilons, &mut verdict);
     verdict[0]
 }
 
@@ -17,12 +19,19 @@ fn cases(parameters: &Parameters) -> Vec<Case<f32>> {
     let of = |family: &'static hairline::internals::family::Family| {
         (0..40).flat_map(move |i| family.make::<f32>(parameters, 3, i).cases().to_vec())
     };
-    FAMILIES.iter().filter(|it| it.question.is_ordinary()).flat_map(of).collect()
+    FAMILIES
+        .iter()
+        .filter(|it| it.question.is_ordinary())
+        .flat_map(of)
+        .collect()
 }
 
 #[test]
 fn an_epsilon_by_size_decides_alike_at_every_scale() {
-    let small = Parameters { scale: -13, ..Parameters::default() };
+    let small = Parameters {
+        scale: -13,
+        ..Parameters::default()
+    };
     let (mut changed, mut published) = (0, 0);
     for (case, small) in cases(&Parameters::default()).iter().zip(cases(&small)) {
         // Where the epsilon itself does not underflow.
@@ -58,7 +67,10 @@ fn a_kernel_in_double_answers_for_floats_as_it_does_for_doubles() {
     for case in cases(&Parameters::default()) {
         let wide = verdict("cramer", &case.widen(), &[0.0; 3]);
         let found = verdict("cramer+double", &case, &[0.0; 3]);
-        assert_eq!((found.hit, found.t.to_bits()), (wide.hit, (wide.t as f32).to_bits()));
+        assert_eq!(
+            (found.hit, found.t.to_bits()),
+            (wide.hit, (wide.t as f32).to_bits())
+        );
         others += usize::from(verdict("cramer", &case, &[0.0; 3]).hit != found.hit);
     }
     assert!(20 < others, "{others}");
@@ -69,7 +81,11 @@ fn by_hand<F: Scalar>(case: &Case<F>) -> (bool, F) {
     let minus = |p: [F; 3], q: [F; 3]| [0, 1, 2].map(|i| p[i] - q[i]);
     let dot = |p: [F; 3], q: [F; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     let cross = |p: [F; 3], q: [F; 3]| {
-        [p[1] * q[2] - q[1] * p[2], p[2] * q[0] - q[2] * p[0], p[0] * q[1] - q[0] * p[1]]
+        [
+            p[1] * q[2] - q[1] * p[2],
+            p[2] * q[0] - q[2] * p[0],
+            p[0] * q[1] - q[0] * p[1],
+        ]
     };
     let [o, d, a, b, c] = case.vectors();
     let (ab, ac, ao) = (minus(b, a), minus(c, a), minus(o, a));
@@ -78,7 +94,10 @@ fn by_hand<F: Scalar>(case: &Case<F>) -> (bool, F) {
     let q = cross(ao, ab);
     let [u, v] = [dot(ao, p), dot(d, q)].map(|x| x * (F::one() / det));
     let edges = [u, F::one() - u, v, F::one() - (u + v)];
-    let least = edges.into_iter().reduce(|x, y| if y < x { y } else { x }).unwrap();
+    let least = edges
+        .into_iter()
+        .reduce(|x, y| if y < x { y } else { x })
+        .unwrap();
     let epsilon = F::from_f64(f64::from(PUBLISHED[0]));
     let is_parallel = det < epsilon && -epsilon < det;
     (!is_parallel && !edges.iter().any(|x| *x < F::zero()), least)
@@ -93,7 +112,12 @@ fn a_fallback_answers_in_double_where_an_edge_number_is_zero() {
             continue;
         }
         let found = verdict("moller-trumbore+fallback", &case, &PUBLISHED);
-        assert_eq!(found.hit, if least == 0.0 { wide } else { plain }, "{}", case.hex());
+        assert_eq!(
+            found.hit,
+            if least == 0.0 { wide } else { plain },
+            "{}",
+            case.hex()
+        );
         zeros += usize::from(least == 0.0);
         others += usize::from(least == 0.0 && wide != plain);
     }
@@ -107,13 +131,28 @@ fn sorted_vertices_keep_their_weights_and_the_side() {
         let found = verdict("moller-trumbore+sorted", &case, &PUBLISHED);
         // All six orders are one triangle, of which half are seen from behind.
         let [a, b, c] = case.triangle.vertices();
-        let places = [[a, b, c], [b, c, a], [c, a, b], [b, a, c], [a, c, b], [c, b, a]];
+        let places = [
+            [a, b, c],
+            [b, c, a],
+            [c, a, b],
+            [b, a, c],
+            [a, c, b],
+            [c, b, a],
+        ];
         for (i, [x, y, z]) in places.into_iter().enumerate() {
             let triangle = Triangle { a: x, b: y, c: z };
-            let again = verdict("moller-trumbore+sorted", &Case { triangle, ..case }, &PUBLISHED);
+            let again = verdict(
+                "moller-trumbore+sorted",
+                &Case { triangle, ..case },
+                &PUBLISHED,
+            );
             assert_eq!(again.hit, found.hit);
             let is_behind = again.facing != found.facing;
-            assert!(!found.hit || found.facing.is_none() || is_behind == (2 < i), "{}", case.hex());
+            assert!(
+                !found.hit || found.facing.is_none() || is_behind == (2 < i),
+                "{}",
+                case.hex()
+            );
         }
     }
     let mut hits = 0;
@@ -125,7 +164,11 @@ fn sorted_vertices_keep_their_weights_and_the_side() {
         if found.hit && plain.hit {
             hits += 1;
             assert_eq!(found.facing, plain.facing);
-            assert!((found.u - plain.u).abs() + (found.v - plain.v).abs() < 1e-3, "{}", case.hex());
+            assert!(
+                (found.u - plain.u).abs() + (found.v - plain.v).abs() < 1e-3,
+                "{}",
+                case.hex()
+            );
         }
     }
     assert!(100 < hits, "{hits}");
@@ -145,31 +188,43 @@ fn what_is_behind_is_no_hit_ahead() {
     // It tests t already.
     assert!(find("woop-watertight+ahead").is_none());
     // One change at a time.
-    for name in
-        ["moller-trumbore+ahead+ahead", "moller-trumbore+by-size+double", "cramer+fma+sorted"]
-    {
+    for name in [
+        "moller-trumbore+ahead+ahead",
+        "moller-trumbore+by-size+double",
+        "cramer+fma+sorted",
+    ] {
         assert!(find(name).is_none(), "{name}");
     }
 }
 
 /// Runs a command line that the program printed.
 fn again(folder: &std::path::Path, line: &str) -> (String, i32) {
-    let words: Vec<String> = line.split('\'').enumerate().fold(Vec::new(), |mut all, (i, part)| {
-        match i % 2 {
-            0 => all.extend(part.split_whitespace().map(str::to_owned)),
-            _ => all.push(part.to_owned()),
-        }
-        all
-    });
+    let words: Vec<String> = line
+        .split('\'')
+        .enumerate()
+        .fold(Vec::new(), |mut all, (i, part)| {
+            match i % 2 {
+                0 => all.extend(part.split_whitespace().map(str::to_owned)),
+                _ => all.push(part.to_owned()),
+            }
+            all
+        });
     let words: Vec<&str> = words[1..].iter().map(String::as_str).collect();
     let output = hairline(folder, &words);
-    (String::from_utf8(output.stdout).unwrap(), output.status.code().unwrap())
+    (
+        String::from_utf8(output.stdout).unwrap(),
+        output.status.code().unwrap(),
+    )
 }
 
 #[test]
 fn a_form_that_is_not_there_is_answered_with_those_that_are() {
     let folder = scratch("repair-forms");
-    let (_, said) = ends(&folder, &["repair", "--kernel", "moller-trumbore+nonsense"], 2);
+    let (_, said) = ends(
+        &folder,
+        &["repair", "--kernel", "moller-trumbore+nonsense"],
+        2,
+    );
     let (listed, _) = ends(&folder, &["list", "kernels"], 0);
     for change in Change::ALL {
         let (name, about) = (change.name(), change.about());
@@ -180,13 +235,21 @@ fn a_form_that_is_not_there_is_answered_with_those_that_are() {
     }
     // It tests t already, and so do its forms.
     let (_, said) = ends(&folder, &["audit", "--kernel", "woop-watertight+ahead"], 2);
-    assert!(said.contains("+sorted (") && !said.contains("+ahead ("), "{said}");
+    assert!(
+        said.contains("+sorted (") && !said.contains("+ahead ("),
+        "{said}"
+    );
 }
 
 #[test]
 fn a_gate_of_an_epsilon_by_size_says_so() {
     let folder = scratch("repair-by-size");
-    let explain = ["explain", "tiny@3/f32/-/1/15467", "--kernel", "moller-trumbore+by-size"];
+    let explain = [
+        "explain",
+        "tiny@3/f32/-/1/15467",
+        "--kernel",
+        "moller-trumbore+by-size",
+    ];
     let (said, _) = ends(&folder, &explain, 0);
     assert!(said.contains("abs(det) < max(e*L*L*D, TINY)"), "{said}");
 }
@@ -194,13 +257,24 @@ fn a_gate_of_an_epsilon_by_size_says_so() {
 #[test]
 fn where_nothing_mends_the_worst_the_sums_come_first() {
     let folder = scratch("repair-room");
-    let room = ["repair", "--kernel", "moller-trumbore", "--scene", "room", "-n", "2000", "-q"];
+    let room = [
+        "repair",
+        "--kernel",
+        "moller-trumbore",
+        "--scene",
+        "room",
+        "-n",
+        "2000",
+        "-q",
+    ];
     let (text, _) = ends(&folder, &room, 0);
     // The first two numbers of a row of the table.
     let wrong = |name: &str| -> u64 {
         let rows = text.lines().filter_map(|line| line.strip_prefix(name));
-        let numbers =
-            rows.map(|row| row.split_whitespace().map(|it| it.replace(',', "").parse::<u64>()));
+        let numbers = rows.map(|row| {
+            row.split_whitespace()
+                .map(|it| it.replace(',', "").parse::<u64>())
+        });
         let mut sums = numbers.filter_map(|it| it.take(2).sum::<Result<u64, _>>().ok());
         sums.find(|sum| 0 < *sum).unwrap()
     };
@@ -218,7 +292,10 @@ fn where_nothing_mends_the_worst_the_sums_come_first() {
     ] {
         assert!(text.contains(&command), "{command}: {text}");
     }
-    let row = text.lines().find(|line| line.starts_with("as published ")).unwrap();
+    let row = text
+        .lines()
+        .find(|line| line.starts_with("as published "))
+        .unwrap();
     assert!(row.ends_with("wrong       -        -     1"), "{row}");
 }
 
@@ -227,8 +304,14 @@ fn flags_that_would_do_nothing_are_refused() {
     let folder = scratch("repair-flags");
     let repair = ["repair", "--kernel", "moller-trumbore"];
     for (words, part) in [
-        (&["--emit", "c", "--epsilon", "parallel=1e-9"][..], "--epsilon is of the kernel as it is"),
-        (&["--emit", "c", "--certificate", "-"], "cannot both go to standard output"),
+        (
+            &["--emit", "c", "--epsilon", "parallel=1e-9"][..],
+            "--epsilon is of the kernel as it is",
+        ),
+        (
+            &["--emit", "c", "--certificate", "-"],
+            "cannot both go to standard output",
+        ),
         (&["-o", "screen.txt"], "-o takes what --emit writes"),
         (&["-o", "folder/"], "-o takes what --emit writes"),
     ] {
@@ -240,11 +323,18 @@ fn flags_that_would_do_nothing_are_refused() {
 #[test]
 fn the_smallest_change_mends_the_worst_and_the_refuted_ones_do_not() {
     let folder = scratch("repair-smaller");
-    let (text, _) =
-        ends(&folder, &["repair", "--kernel", "moller-trumbore", "-n", "4000", "-q"], 0);
-    let commands: Vec<&str> =
-        text.lines().filter_map(|line| line.find("hairline ").map(|at| &line[at..])).collect();
-    let explain = commands.iter().filter(|line| line.starts_with("hairline explain"));
+    let (text, _) = ends(
+        &folder,
+        &["repair", "--kernel", "moller-trumbore", "-n", "4000", "-q"],
+        0,
+    );
+    let commands: Vec<&str> = text
+        .lines()
+        .filter_map(|line| line.find("hairline ").map(|at| &line[at..]))
+        .collect();
+    let explain = commands
+        .iter()
+        .filter(|line| line.starts_with("hairline explain"));
     let explain: Vec<&&str> = explain.collect();
     assert!(2 < explain.len(), "{text}");
     let is_wrong = |text: &str| text.contains("FALSE-HIT") || text.contains("FALSE-MISS");
@@ -253,30 +343,79 @@ fn the_smallest_change_mends_the_worst_and_the_refuted_ones_do_not() {
         assert!(is_wrong(&said), "{line}: {said}");
     }
     // A rounded t may refuse what is far inside, so of a gate on t nothing is proved.
-    let ahead = text.lines().find(|line| line.starts_with("+ahead ")).unwrap();
-    assert_eq!(ahead.split_whitespace().skip(5).take(3).collect::<Vec<_>>(), ["-"; 3], "{text}");
+    let ahead = text
+        .lines()
+        .find(|line| line.starts_with("+ahead "))
+        .unwrap();
+    assert_eq!(
+        ahead.split_whitespace().skip(5).take(3).collect::<Vec<_>>(),
+        ["-"; 3],
+        "{text}"
+    );
     // The same case under the change of the patch.
-    let name = text.lines().find_map(|line| line.strip_prefix("+++ ")).unwrap();
-    let audit = commands.iter().find(|line| line.contains("hairline audit")).unwrap();
-    assert!(audit.ends_with(&format!("{name} --scalar f32 -n 4000")), "{audit}: {name}");
-    let case = commands.iter().rfind(|line| line.starts_with("hairline explain")).unwrap();
-    let flags = audit.replacen("hairline audit ", "", 1).replace(" --scalar f32 -n 4000", "");
-    let (said, _) =
-        again(&folder, &format!("{} {flags}", &case[..case.find(" --kernel").unwrap()]));
+    let name = text
+        .lines()
+        .find_map(|line| line.strip_prefix("+++ "))
+        .unwrap();
+    let audit = commands
+        .iter()
+        .find(|line| line.contains("hairline audit"))
+        .unwrap();
+    assert!(
+        audit.ends_with(&format!("{name} --scalar f32 -n 4000")),
+        "{audit}: {name}"
+    );
+    let case = commands
+        .iter()
+        .rfind(|line| line.starts_with("hairline explain"))
+        .unwrap();
+    let flags = audit
+        .replacen("hairline audit ", "", 1)
+        .replace(" --scalar f32 -n 4000", "");
+    let (said, _) = again(
+        &folder,
+        &format!("{} {flags}", &case[..case.find(" --kernel").unwrap()]),
+    );
     assert!(!is_wrong(&said), "{said}");
     // The counts are those of an audit.
     let number = |line: &str, i: usize| -> u64 {
-        line.split_whitespace().nth(i).unwrap().replace(',', "").parse().unwrap()
+        line.split_whitespace()
+            .nth(i)
+            .unwrap()
+            .replace(',', "")
+            .parse()
+            .unwrap()
     };
-    let row = text.lines().find(|line| line.starts_with("as published")).unwrap();
-    let families = FAMILIES.iter().filter(|it| it.question.is_ordinary()).map(|it| it.name);
+    let row = text
+        .lines()
+        .find(|line| line.starts_with("as published"))
+        .unwrap();
+    let families = FAMILIES
+        .iter()
+        .filter(|it| it.question.is_ordinary())
+        .map(|it| it.name);
     let families = families.collect::<Vec<_>>().join(",");
-    let all = ["audit", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "4000", "--family"];
-    let (json, _) = ends(&folder, &[&all[..], &[&families, "--format", "json"]].concat(), 0);
+    let all = [
+        "audit",
+        "--kernel",
+        "moller-trumbore",
+        "--scalar",
+        "f32",
+        "-n",
+        "4000",
+        "--family",
+    ];
+    let (json, _) = ends(
+        &folder,
+        &[&all[..], &[&families, "--format", "json"]].concat(),
+        0,
+    );
     let record: serde_json::Value = serde_json::from_str(&json).unwrap();
     let results = record["result"]["results"].as_array().unwrap();
     for (column, finding) in [(2, "false_misses"), (3, "false_hits")] {
-        let sum = results.iter().map(|it| it["total"][finding]["count"].as_u64().unwrap());
+        let sum = results
+            .iter()
+            .map(|it| it["total"][finding]["count"].as_u64().unwrap());
         assert_eq!(number(row, column), sum.sum::<u64>(), "{finding}");
     }
 }
@@ -286,9 +425,10 @@ fn a_kernel_with_epsilons_of_its_own_is_not_called_published() {
     let folder = scratch("repair-given");
     let kernel = ["repair", "--kernel", "moller-trumbore", "-n", "200", "-q"];
     let given = ["--epsilon", "parallel=1e-9"];
-    for (flags, name, other) in
-        [(&[][..], "as published", "as given"), (&given, "as given", "as published")]
-    {
+    for (flags, name, other) in [
+        (&[][..], "as published", "as given"),
+        (&given, "as given", "as published"),
+    ] {
         let (text, _) = ends(&folder, &[&kernel[..], flags].concat(), 0);
         let is_row = |name: &str| text.lines().any(|line| line.starts_with(name));
         assert!(is_row(name) && !text.contains(other), "{text}");

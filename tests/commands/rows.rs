@@ -9,7 +9,11 @@ use std::process::Command;
 fn paste(folder: &Path, command: &str) -> String {
     let words = command.strip_prefix("hairline ").unwrap();
     let line = format!("'{}' {words}", env!("CARGO_BIN_EXE_hairline"));
-    let output = Command::new("sh").args(["-c", &line]).current_dir(folder).output().unwrap();
+    let output = Command::new("sh")
+        .args(["-c", &line])
+        .current_dir(folder)
+        .output()
+        .unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{command}\n{text}");
     text
@@ -18,7 +22,9 @@ fn paste(folder: &Path, command: &str) -> String {
 /// The commands in a text, with what stands on the line before.
 fn commands(text: &str) -> Vec<&str> {
     let trimmed = text.lines().map(str::trim);
-    trimmed.filter(|line| line.starts_with("hairline explain ")).collect()
+    trimmed
+        .filter(|line| line.starts_with("hairline explain "))
+        .collect()
 }
 
 #[test]
@@ -28,12 +34,17 @@ fn commands_carry_the_contract_and_the_band_of_the_run() {
                --scalar f32 -n 3000 --quiet --details --band 1e-9";
     let (out, _) = ends(&folder, &run.split_whitespace().collect::<Vec<_>>(), 0);
     let commands = commands(&out);
-    let mut lines = out.lines().skip_while(|line| !line.contains("f32 crack in shared-edge: "));
+    let mut lines = out
+        .lines()
+        .skip_while(|line| !line.contains("f32 crack in shared-edge: "));
     let crack = lines.find(|line| line.trim().starts_with("hairline explain "));
     let crack = crack.expect("a crack").trim();
     assert!(commands.contains(&crack), "{out}");
     for command in &commands {
-        assert!(command.ends_with(" --contract closed-ray --band 1e-9"), "{command}");
+        assert!(
+            command.ends_with(" --contract closed-ray --band 1e-9"),
+            "{command}"
+        );
     }
     // Under the kernel's own contract, which counts the front only, nothing would be asked here.
     let shown = paste(&folder, crack);
@@ -89,9 +100,15 @@ fn the_command_of_a_report_runs_the_same_plan_again() {
     let command = format!("hairline audit {} {}", words("kernels"), words("sources"));
     let html = fs::read_to_string(folder.join("first.html")).unwrap();
     assert!(html.contains(&command), "{command}");
-    paste(&folder, &format!("{command} --quiet --format json -o again.json"));
+    paste(
+        &folder,
+        &format!("{command} --quiet --format json -o again.json"),
+    );
     let again = record("again.json");
-    assert_eq!(old["result"]["plan"]["hash"], again["result"]["plan"]["hash"]);
+    assert_eq!(
+        old["result"]["plan"]["hash"],
+        again["result"]["plan"]["hash"]
+    );
     assert_eq!(old["result"]["results"], again["result"]["results"]);
     // A kernel's own command is its row of the plan.
     let row = "hairline audit --kernel cramer+fma --epsilon &#39;";
@@ -103,9 +120,15 @@ fn the_command_of_a_report_runs_the_same_plan_again() {
 fn a_contract_that_is_none_is_refused_with_what_there_is() {
     let folder = scratch("rows-bad");
     for (contract, expected) in [
-        ("closed-rai", "'closed-rai' is no contract; did you mean 'closed-ray'?"),
+        (
+            "closed-rai",
+            "'closed-rai' is no contract; did you mean 'closed-ray'?",
+        ),
         ("strict", "'strict' is no contract: write closed-line, "),
-        ("own,coplanar=perhaps", "'coplanar=perhaps': there are miss, hit, free"),
+        (
+            "own,coplanar=perhaps",
+            "'coplanar=perhaps': there are miss, hit, free",
+        ),
         ("extent=ray", "'extent=ray' does not say sides=…"),
     ] {
         let (_, error) = ends(&folder, &["audit", "--contract", contract, "-n", "1"], 2);

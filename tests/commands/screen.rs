@@ -11,26 +11,62 @@ use std::path::Path;
 /// The columns, each with its families. A family that is missing here has no column.
 const COLUMNS: [(&str, &[&str]); 8] = [
     ("inside", &["interior", "outside", "mixed-batch"]),
-    ("edges", &["edge-exact", "edge-near", "shared-edge", "polygon"]),
-    ("vertex", &["vertex-exact", "vertex-near", "fan", "vertex-fan"]),
-    ("flat", &["parallel-off", "coplanar", "grazing", "degenerate"]),
-    ("ends", &["origin-on", "origin-near", "secondary-ray", "behind", "interval-ends"]),
+    (
+        "edges",
+        &["edge-exact", "edge-near", "shared-edge", "polygon"],
+    ),
+    (
+        "vertex",
+        &["vertex-exact", "vertex-near", "fan", "vertex-fan"],
+    ),
+    (
+        "flat",
+        &["parallel-off", "coplanar", "grazing", "degenerate"],
+    ),
+    (
+        "ends",
+        &[
+            "origin-on",
+            "origin-near",
+            "secondary-ray",
+            "behind",
+            "interval-ends",
+        ],
+    ),
     ("grid", &["axis-aligned", "lattice"]),
-    ("sizes", &["sliver", "tiny", "huge", "far", "direction-length"]),
+    (
+        "sizes",
+        &["sliver", "tiny", "huge", "far", "direction-length"],
+    ),
     ("range", &["mixed-scale", "range-ends", "noise"]),
 ];
 
 /// The families of ordinary sizes: those of all columns but the last.
 fn ordinary() -> Vec<&'static str> {
-    COLUMNS[..7].iter().flat_map(|(_, families)| *families).copied().collect()
+    COLUMNS[..7]
+        .iter()
+        .flat_map(|(_, families)| *families)
+        .copied()
+        .collect()
 }
 
 /// Runs an audit, and returns what it prints and its record.
 fn audit(folder: &Path, arguments: &[&str]) -> (String, Value) {
-    let outputs = ["--quiet", "--format", "text,json", "-o", "screen.txt", "-o", "record.json"];
+    let outputs = [
+        "--quiet",
+        "--format",
+        "text,json",
+        "-o",
+        "screen.txt",
+        "-o",
+        "record.json",
+    ];
     ends(folder, &[&["audit"], arguments, &outputs].concat(), 0);
     let record = serde_json::from_slice(&fs::read(folder.join("record.json")).unwrap()).unwrap();
-    (fs::read_to_string(folder.join("screen.txt")).unwrap(), record)
+    (
+        fs::read_to_string(folder.join("screen.txt")).unwrap(),
+        record,
+    )
 }
 
 /// A row's results of some families in a scalar.
@@ -48,7 +84,10 @@ fn results<'a>(record: &'a Value, row: &Value, scalar: &str, families: &[&str]) 
 
 fn sum(results: &[&Value], paths: &[&str]) -> u64 {
     let of = |result: &&Value| {
-        paths.iter().filter_map(|path| result.pointer(path)?.as_u64()).sum::<u64>()
+        paths
+            .iter()
+            .filter_map(|path| result.pointer(path)?.as_u64())
+            .sum::<u64>()
     };
     results.iter().map(of).sum()
 }
@@ -76,7 +115,10 @@ fn worse(shares: impl Iterator<Item = (u64, u64)>) -> String {
 
 /// A row's name on the screen.
 fn short_label(row: &Value) -> String {
-    match (row["kernel"].as_str().unwrap(), row["set"].as_str().unwrap()) {
+    match (
+        row["kernel"].as_str().unwrap(),
+        row["set"].as_str().unwrap(),
+    ) {
         (kernel, "source" | "own") => kernel.to_owned(),
         (kernel, "zero") => format!("{kernel} e=0"),
         (kernel, set) => format!("{kernel} e={set}"),
@@ -92,14 +134,22 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
     let words = lines.iter().filter(|line| !line.contains("hairline "));
     let longest = words.max_by_key(|line| line.chars().count()).unwrap();
     assert!(longest.chars().count() <= 80, "{longest}");
-    let head = lines.iter().position(|line| line.starts_with("kernel  ")).unwrap();
-    assert!(lines[head].contains("leaks  visible  values  sizes  flat"), "{screen}");
+    let head = lines
+        .iter()
+        .position(|line| line.starts_with("kernel  "))
+        .unwrap();
+    assert!(
+        lines[head].contains("leaks  visible  values  sizes  flat"),
+        "{screen}"
+    );
     let rows = record["result"]["plan"]["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 21);
     let (mut shown, mut order) = (0, Vec::new());
     for row in rows {
         let label = short_label(row);
-        let line = lines[head..].iter().find(|line| line.starts_with(&format!("{label}  ")));
+        let line = lines[head..]
+            .iter()
+            .find(|line| line.starts_with(&format!("{label}  ")));
         let Some(line) = line else {
             // Like a row above it, or one of those for which there is no room.
             if flat(&screen).contains(" more rows: --details") {
@@ -123,7 +173,11 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
         let ordinary = ordinary();
         let leaks = scalars.map(|scalar| of(scalar, &ordinary, "/across/cracks"));
         // A `!` says that the kernel's documentation rules leaks out.
-        assert_eq!(cells[0].trim_end_matches('!'), worse(leaks.into_iter()), "{label}");
+        assert_eq!(
+            cells[0].trim_end_matches('!'),
+            worse(leaks.into_iter()),
+            "{label}"
+        );
         let values = scalars.map(|scalar| of(scalar, &ordinary, "/total/wrong_values"));
         assert_eq!(cells[2], worse(values.into_iter()), "{label}");
         for (cell, name) in cells[3..5].iter().zip(["sizes", "flat"]) {
@@ -141,7 +195,13 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
     }
     assert!(12 < shown, "{screen}");
     order.sort();
-    assert!(order.iter().map(|(_, leaks, visible)| (leaks, visible)).is_sorted(), "{screen}");
+    assert!(
+        order
+            .iter()
+            .map(|(_, leaks, visible)| (leaks, visible))
+            .is_sorted(),
+        "{screen}"
+    );
     // Each question has a column behind the flag.
     let details = ["audit", "-q", "-n", "150", "--details"];
     let everything = ends(&folder, &details, 0).0;
@@ -150,7 +210,10 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
         let is_head = |line: &&str| line.starts_with(&format!("{scalar} kernel  "));
         let head = lines.iter().position(is_head).unwrap();
         let heads: Vec<&str> = lines[head].split_whitespace().skip(2).collect();
-        assert!(COLUMNS.iter().all(|(name, _)| heads.contains(name)), "{heads:?}");
+        assert!(
+            COLUMNS.iter().all(|(name, _)| heads.contains(name)),
+            "{heads:?}"
+        );
         for row in rows {
             let label = format!("{}  ", short_label(row));
             let is_own = |line: &&&str| line.starts_with(&label);
@@ -158,7 +221,10 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
             let Some(line) = table.clone().find(is_own) else {
                 let alike = format!(" {}", label.trim());
                 let mut names = table.flat_map(|line| line.split(','));
-                assert!(names.any(|name| name.ends_with(&alike)), "{label} {everything}");
+                assert!(
+                    names.any(|name| name.ends_with(&alike)),
+                    "{label} {everything}"
+                );
                 continue;
             };
             let cells: Vec<&str> = line[label.len()..].split_whitespace().collect();
@@ -175,7 +241,11 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
             let [cracks, of] =
                 ["count", "of"].map(|n| sum(&all, &[&format!("/across/cracks/{n}")]));
             let leaks = shown("leaks");
-            assert_eq!(leaks.trim_end_matches('!'), percent(cracks, of), "{label} {scalar}");
+            assert_eq!(
+                leaks.trim_end_matches('!'),
+                percent(cracks, of),
+                "{label} {scalar}"
+            );
         }
     }
     for expected in [
@@ -195,28 +265,45 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
 fn the_worst_findings_are_of_ordinary_sizes_and_their_commands_show_them() {
     let folder = scratch("screen-worst");
     let (screen, record) = audit(&folder, &["-n", "300"]);
-    let commands: Vec<&str> =
-        screen.lines().filter_map(|line| line.strip_prefix("    hairline explain ")).collect();
+    let commands: Vec<&str> = screen
+        .lines()
+        .filter_map(|line| line.strip_prefix("    hairline explain "))
+        .collect();
     assert_eq!(commands.len(), 1, "{screen}");
     for command in commands {
         for family in ["range-ends", "mixed-scale", "invalid", "degenerate"] {
             assert!(!command.contains(&format!("'{family}@")), "{command}");
         }
-        let words: Vec<&str> =
-            command.split_whitespace().map(|word| word.trim_matches('\'')).collect();
+        let words: Vec<&str> = command
+            .split_whitespace()
+            .map(|word| word.trim_matches('\''))
+            .collect();
         let (shown, _) = ends(&folder, &[&["explain"], &words[..]].concat(), 0);
-        assert!(shown.contains("FALSE-") || shown.contains("CRACK"), "{command}: {shown}");
+        assert!(
+            shown.contains("FALSE-") || shown.contains("CRACK"),
+            "{command}: {shown}"
+        );
     }
     // No false verdict in an ordinary family is farther off than the first, of those that can be measured.
-    let ordinary: Vec<&str> =
-        COLUMNS[..7].iter().flat_map(|(_, families)| *families).copied().collect();
+    let ordinary: Vec<&str> = COLUMNS[..7]
+        .iter()
+        .flat_map(|(_, families)| *families)
+        .copied()
+        .collect();
     let mut farthest = 0.0_f64;
     for result in record["result"]["results"].as_array().unwrap() {
         let is_ordinary = ordinary.contains(&result["family"].as_str().unwrap());
-        for finding in result["findings"].as_array().unwrap().iter().filter(|_| is_ordinary) {
+        for finding in result["findings"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|_| is_ordinary)
+        {
             let [kind, class] = ["finding", "class"].map(|key| finding[key].as_str().unwrap());
             let severity = &finding["worst"]["severity"];
-            let Some(in_space) = severity["in_space"].as_f64() else { continue };
+            let Some(in_space) = severity["in_space"].as_f64() else {
+                continue;
+            };
             let along = severity["along"].as_f64();
             let off_end = class.ends_with("/before") || class.ends_with("/beyond");
             let distance = match (kind, along) {
@@ -237,7 +324,10 @@ fn the_worst_findings_are_of_ordinary_sizes_and_their_commands_show_them() {
     let first = screen.lines().find(|line| line.starts_with("1. ")).unwrap();
     // A broken promise comes before all of them.
     let is_first = first.contains(&format!(" {farthest:.2} edges "));
-    assert!(is_first || first.contains("broken promise"), "{farthest}: {screen}");
+    assert!(
+        is_first || first.contains("broken promise"),
+        "{farthest}: {screen}"
+    );
 }
 
 #[cfg(unix)]
@@ -247,21 +337,43 @@ fn cracks_under_a_promise_are_marked_and_shown_first() {
     let misses = "printf 'hairline-kernel 1\\nname holes\\nscalars f64\\ncontract closed-ray,across=at-least-one\\nready\\n'; \
         while read -r word id rest; do case $word in case) echo $id miss;; end) echo end $id;; esac; done";
     fs::write(folder.join("holes.sh"), misses).unwrap();
-    let family = ["--family", "shared-edge,interior", "-n", "60", "--scalar", "f64"];
+    let family = [
+        "--family",
+        "shared-edge,interior",
+        "-n",
+        "60",
+        "--scalar",
+        "f64",
+    ];
     let command = ["--kernel-cmd", "sh holes.sh"];
     // Alone, and among others.
     let (alone, record) = audit(&folder, &[&family[..], &command].concat());
-    let cracks = sum(&[&record["result"]["results"][1]], &["/across/cracks/count"])
-        + sum(&[&record["result"]["results"][0]], &["/across/cracks/count"]);
+    let cracks = sum(
+        &[&record["result"]["results"][1]],
+        &["/across/cracks/count"],
+    ) + sum(
+        &[&record["result"]["results"][0]],
+        &["/across/cracks/count"],
+    );
     assert!(0 < cracks);
     let counted = format!("cracks: {cracks} of {cracks} (100.0% [");
     assert!(flat(&alone).contains(&counted), "{alone}");
-    assert!(flat(&alone).contains("promised across triangles: >= 1: BROKEN"), "{alone}");
-    let others = ["--kernel", "holes,cramer,half-space,woop-watertight,plucker"];
+    assert!(
+        flat(&alone).contains("promised across triangles: >= 1: BROKEN"),
+        "{alone}"
+    );
+    let others = [
+        "--kernel",
+        "holes,cramer,half-space,woop-watertight,plucker",
+    ];
     let (table, _) = audit(&folder, &[&family[..], &command, &others].concat());
     let row = |name: &str| table.lines().find(|line| line.starts_with(name)).unwrap();
     let leaks = |name: &str| row(name).split_whitespace().nth(1).unwrap().to_owned();
-    assert_eq!(["holes  ", "woop-watertight"].map(leaks), ["100!", "0"], "{table}");
+    assert_eq!(
+        ["holes  ", "woop-watertight"].map(leaks),
+        ["100!", "0"],
+        "{table}"
+    );
     let promise = "Breaks what its documentation promises there: holes.";
     assert!(flat(&table).contains(promise), "{table}");
     for screen in [alone, table] {
@@ -275,9 +387,18 @@ fn cracks_under_a_promise_are_marked_and_shown_first() {
 #[test]
 fn leaks_next_to_noise_are_counted_by_themselves() {
     let folder = scratch("screen-noise");
-    let kernels = ["-n", "300", "--scalar", "f32", "--kernel", "woop-watertight,plucker"];
-    let (screen, record) =
-        audit(&folder, &[&kernels[..], &["--family", "noise,vertex-fan"]].concat());
+    let kernels = [
+        "-n",
+        "300",
+        "--scalar",
+        "f32",
+        "--kernel",
+        "woop-watertight,plucker",
+    ];
+    let (screen, record) = audit(
+        &folder,
+        &[&kernels[..], &["--family", "noise,vertex-fan"]].concat(),
+    );
     let woop = serde_json::json!({"kernel": "woop-watertight", "set": "source"});
     let of = |family: &str| {
         let all = results(&record, &woop, "f32", &[family]);
@@ -299,12 +420,22 @@ fn stored_cases_are_counted_apart_and_have_no_interval() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = scratch("screen-stored");
     let corpus = root.join("corpora/curated.jsonl");
-    let plan = ["--kernel", "cramer", "--scalar", "f32", "--corpus", corpus.to_str().unwrap()];
+    let plan = [
+        "--kernel",
+        "cramer",
+        "--scalar",
+        "f32",
+        "--corpus",
+        corpus.to_str().unwrap(),
+    ];
     let plan = [&plan[..], &["--family", "edge-near", "-n", "500"]].concat();
     let (screen, record) = audit(&folder, &plan);
     let results = record["result"]["results"].as_array().unwrap();
     let [sample, stored] = ["edge-near", "corpus:"].map(|name| {
-        results.iter().find(|result| result["family"].as_str().unwrap().starts_with(name)).unwrap()
+        results
+            .iter()
+            .find(|result| result["family"].as_str().unwrap().starts_with(name))
+            .unwrap()
     });
     let misses = |result: &Value| {
         let rate = &result["total"]["false_misses"];
@@ -321,32 +452,55 @@ fn stored_cases_are_counted_apart_and_have_no_interval() {
             .unwrap_or_else(|| panic!("{text}"))
             .to_owned()
     };
-    assert!(line(&screen, "edges ").contains(&format!("[{low}, {high}]")), "{screen}");
+    assert!(
+        line(&screen, "edges ").contains(&format!("[{low}, {high}]")),
+        "{screen}"
+    );
     let stored_line = line(&screen, "stored ");
-    assert!(stored_line.contains(&format!(" {count} of {of} ")), "{stored_line}");
+    assert!(
+        stored_line.contains(&format!(" {count} of {of} ")),
+        "{stored_line}"
+    );
     assert!(!stored_line.contains('['), "{stored_line}");
     let all = [&["audit", "-q"], &plan[..]].concat();
     let print = |more: &[&str]| ends(&folder, &[&all[..], more].concat(), 0).0;
     let details = print(&["--details"]);
     let misses = line(&details, "false misses ");
-    assert!(misses.contains(&format!("; stored cases {count} of {of}")), "{misses}");
+    assert!(
+        misses.contains(&format!("; stored cases {count} of {of}")),
+        "{misses}"
+    );
     assert!(misses.contains(&format!("[{low}%, {high}%]")), "{misses}");
     let html = print(&["--format", "html", "--illustrate", "never"]);
     assert!(html.contains(&format!("; stored cases {count} of {of}")));
     let markdown = print(&["--format", "markdown"]);
-    assert!(markdown.contains(&format!("| {count} of {of} |")), "{markdown}");
+    assert!(
+        markdown.contains(&format!("| {count} of {of} |")),
+        "{markdown}"
+    );
 }
 
 #[test]
 fn bad_values_are_counted_of_hits_whose_values_are_judged_and_keep_a_kernel_from_being_right() {
     let folder = scratch("screen-bad-values");
     // Scaled out of the range: invalid cases, on which a hit is false but has no value to judge, among valid ones.
-    let plan = ["-n", "300", "--scalar", "f32", "--family", "range-ends", "--scale", "2^10"];
+    let plan = [
+        "-n",
+        "300",
+        "--scalar",
+        "f32",
+        "--family",
+        "range-ends",
+        "--scale",
+        "2^10",
+    ];
     let kernel = ["--kernel", "moller-trumbore", "--contract", "closed-ray"];
     let (screen, record) = audit(&folder, &[&plan[..], &kernel].concat());
     let result = &record["result"]["results"][0];
     let classes = result["classes"].as_object().unwrap().values();
-    let of = classes.map(|class| class["bad_values"]["of"].as_u64().unwrap()).sum::<u64>();
+    let of = classes
+        .map(|class| class["bad_values"]["of"].as_u64().unwrap())
+        .sum::<u64>();
     let total = &result["total"]["bad_values"];
     assert!(0 < total["count"].as_u64().unwrap());
     assert_eq!(total["of"].as_u64().unwrap(), of);

@@ -27,8 +27,11 @@ const PLAN: &[&str] = &[
 
 fn folder(name: &str) -> PathBuf {
     let folder = scratch(name);
-    fs::write(folder.join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nf 1 2 3\nf 2 4 3\n")
-        .unwrap();
+    fs::write(
+        folder.join("m.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nf 1 2 3\nf 2 4 3\n",
+    )
+    .unwrap();
     let line = |x: f64| {
         format!(
             "{{\"scalar\":\"f32\",\"origin\":[{x},0,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[2,0,0],\"c\":[0,2,0]}}\n"
@@ -53,7 +56,12 @@ fn shards(folder: &Path, of: u64) -> Vec<String> {
 }
 
 fn merge(folder: &Path, files: &[&str], more: &[&str], code: i32) -> String {
-    ends(folder, &[&["merge", "--format", "json"], more, files].concat(), code).1
+    ends(
+        folder,
+        &[&["merge", "--format", "json"], more, files].concat(),
+        code,
+    )
+    .1
 }
 
 #[test]
@@ -69,7 +77,11 @@ fn the_merged_result_is_byte_for_byte_that_of_one_run() {
         let mut files: Vec<&str> = files.iter().map(String::as_str).collect();
         files.rotate_left(1);
         merge(&folder, &files, &["-o", "merged.json"], 0);
-        assert_eq!(result_bytes(&folder.join("merged.json")), whole, "{of} shards");
+        assert_eq!(
+            result_bytes(&folder.join("merged.json")),
+            whole,
+            "{of} shards"
+        );
         let merged = fs::read_to_string(folder.join("merged.json")).unwrap();
         let merged: serde_json::Value = serde_json::from_str(&merged).unwrap();
         let parts = merged["provenance"]["parts"].as_array().unwrap();
@@ -88,20 +100,51 @@ fn gaps_are_refused_or_said_and_can_be_filled_later() {
         error,
         "hairline: merge: shards 1 of 3 are missing (--allow-partial goes without)\n"
     );
-    merge(&folder, &[files[0], files[2]], &["--allow-partial", "-o", "partial.json"], 0);
+    merge(
+        &folder,
+        &[files[0], files[2]],
+        &["--allow-partial", "-o", "partial.json"],
+        0,
+    );
     let partial = result_bytes(&folder.join("partial.json"));
     let value: serde_json::Value = serde_json::from_str(&partial).unwrap();
-    assert_eq!(value["partial"], serde_json::json!({ "of": 3, "present": [0, 2] }));
-    let both = ["merge", files[0], files[2], "--allow-partial", "--format", "text,markdown"];
-    ends(&folder, &[&both[..], &["-o", "p.txt", "-o", "p.md"]].concat(), 0);
+    assert_eq!(
+        value["partial"],
+        serde_json::json!({ "of": 3, "present": [0, 2] })
+    );
+    let both = [
+        "merge",
+        files[0],
+        files[2],
+        "--allow-partial",
+        "--format",
+        "text,markdown",
+    ];
+    ends(
+        &folder,
+        &[&both[..], &["-o", "p.txt", "-o", "p.md"]].concat(),
+        0,
+    );
     for file in ["p.txt", "p.md"] {
         let text = fs::read_to_string(folder.join(file)).unwrap();
         assert!(text.contains("shards 0, 2 of 3 only"), "{text}");
     }
-    merge(&folder, &["partial.json", files[1]], &["-o", "merged.json"], 0);
+    merge(
+        &folder,
+        &["partial.json", files[1]],
+        &["-o", "merged.json"],
+        0,
+    );
     audit(&folder, &["-o", "whole.json"]);
-    assert_eq!(result_bytes(&folder.join("merged.json")), result_bytes(&folder.join("whole.json")));
-    let (whole, _) = ends(&folder, &[&["merge", "partial.json"], &[files[1]][..]].concat(), 0);
+    assert_eq!(
+        result_bytes(&folder.join("merged.json")),
+        result_bytes(&folder.join("whole.json"))
+    );
+    let (whole, _) = ends(
+        &folder,
+        &[&["merge", "partial.json"], &[files[1]][..]].concat(),
+        0,
+    );
     assert!(!whole.contains("a part of a run"), "{whole}");
 }
 
@@ -111,9 +154,15 @@ fn what_is_no_part_of_the_same_run_is_refused_by_name() {
     let files = shards(&folder, 2);
     let files: Vec<&str> = files.iter().map(String::as_str).collect();
     audit(&folder, &["-o", "whole.json"]);
-    audit(&folder, &["--shard", "1/2", "--seed", "9", "-o", "seed.json"]);
+    audit(
+        &folder,
+        &["--shard", "1/2", "--seed", "9", "-o", "seed.json"],
+    );
     audit(&folder, &["--shard", "1/3", "-o", "third.json"]);
-    audit(&folder, &["--shard", "1/2", "--examples", "1", "-o", "examples.json"]);
+    audit(
+        &folder,
+        &["--shard", "1/2", "--examples", "1", "-o", "examples.json"],
+    );
     let text = fs::read_to_string(folder.join(files[1])).unwrap();
     let count = text.find("must_hit").unwrap() + 13;
     let spoiled = text.replacen(&text[count - 13..count + 1], "must_hit\\\":77", 1);
@@ -130,7 +179,10 @@ fn what_is_no_part_of_the_same_run_is_refused_by_name() {
         ("truncated.json", "truncated.json:"),
     ] {
         let error = merge(&folder, &[files[0], second], &["-o", "no.json"], 65);
-        assert!(error.starts_with(&format!("hairline: {expected}")), "{expected}: {error}");
+        assert!(
+            error.starts_with(&format!("hairline: {expected}")),
+            "{expected}: {error}"
+        );
         assert!(!folder.join("no.json").exists());
     }
     // The mesh is another by now.
@@ -156,16 +208,25 @@ fn parts_of_one_kind_of_machine_become_a_record_of_it() {
         fs::write(folder.join(&name), record.to_string()).unwrap();
         name
     };
-    let there = [moved(&files[0], "pdp11-unix"), moved(&files[1], "pdp11-unix")];
+    let there = [
+        moved(&files[0], "pdp11-unix"),
+        moved(&files[1], "pdp11-unix"),
+    ];
     let error = merge(&folder, &[&files[0], &there[1]], &[], 65);
-    assert!(error.contains("made on pdp11-unix, the first on "), "{error}");
+    assert!(
+        error.contains("made on pdp11-unix, the first on "),
+        "{error}"
+    );
     merge(&folder, &[&there[0], &there[1]], &["-o", "there.json"], 0);
     let text = fs::read_to_string(folder.join("there.json")).unwrap();
     let record: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(record["provenance"]["target"], "pdp11-unix");
     let bad = moved(&files[0], "a]\nb");
     let error = ends(&folder, &["check", "-q", "--record", &bad], 65).1;
-    assert!(error.contains("provenance.target: \"a]\\nb\" is none"), "{error}");
+    assert!(
+        error.contains("provenance.target: \"a]\\nb\" is none"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -183,11 +244,20 @@ fn parts_of_another_version_are_refused() {
         "hairline: older.json: made by hairline 0.0.9, and this is {this}: merge parts with the version that made them\n"
     );
     older(&files[1]);
-    assert_eq!(merge(&folder, &[&files[0], "older.json"], &[], 65), expected);
+    assert_eq!(
+        merge(&folder, &[&files[0], "older.json"], &[], 65),
+        expected
+    );
     // The first one too, and all of them.
     older(&files[0]);
-    assert_eq!(merge(&folder, &["older.json", &files[1]], &[], 65), expected);
-    assert_eq!(merge(&folder, &["older.json"], &["--allow-partial"], 65), expected);
+    assert_eq!(
+        merge(&folder, &["older.json", &files[1]], &[], 65),
+        expected
+    );
+    assert_eq!(
+        merge(&folder, &["older.json"], &["--allow-partial"], 65),
+        expected
+    );
 }
 
 #[test]
@@ -204,13 +274,23 @@ fn lost_parts_run_again_alone_on_slurm() {
         let output = std::process::Command::new("bash")
             .args([script, folder.join("out").to_str().unwrap()])
             .env("PATH", path)
-            .envs([("SLURM_ARRAY_TASK_ID", task), ("SLURM_ARRAY_TASK_COUNT", count)])
+            .envs([
+                ("SLURM_ARRAY_TASK_ID", task),
+                ("SLURM_ARRAY_TASK_COUNT", count),
+            ])
             .envs([("SLURM_ARRAY_TASK_MIN", min), ("SLURM_ARRAY_TASK_MAX", max)])
             .output()
             .unwrap();
-        (output.status.code(), String::from_utf8_lossy(&output.stdout).trim().to_owned())
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&output.stdout).trim().to_owned(),
+        )
     };
-    std::process::Command::new("chmod").arg("+x").arg(bin.join("hairline")).status().unwrap();
+    std::process::Command::new("chmod")
+        .arg("+x")
+        .arg(bin.join("hairline"))
+        .status()
+        .unwrap();
     assert_eq!(task("17", "1", ["17", "17"]).0, Some(2));
     assert_eq!(task("0", "64", ["0", "63"]), (Some(0), "0/64".to_owned()));
     assert_eq!(task("17", "1", ["17", "17"]), (Some(0), "17/64".to_owned()));
@@ -229,7 +309,13 @@ fn a_check_in_parts_is_judged_when_they_are_merged() {
     ends(&folder, &["check", "-q", "--bless"], 0);
     for shard in ["0/2", "1/2"] {
         let file = format!("{}.json", &shard[..1]);
-        ends(&folder, &["check", "-q", "--shard", shard, "--format", "json", "-o", &file], 0);
+        ends(
+            &folder,
+            &[
+                "check", "-q", "--shard", shard, "--format", "json", "-o", &file,
+            ],
+            0,
+        );
     }
     let error = ends(&folder, &["check", "-q", "--record", "0.json"], 65).1;
     assert!(error.contains("0.json: holds 1 of 2 shards"), "{error}");
@@ -242,8 +328,14 @@ fn a_check_in_parts_is_judged_when_they_are_merged() {
 #[test]
 fn a_run_is_cut_in_as_many_parts_as_may_be_and_at_least_in_one() {
     let folder = scratch("shards-count");
-    let words = ["--kernel", "cramer", "--family", "tiny", "-n", "10", "-q", "--format", "json"];
-    ends(&folder, &[&["audit", "--shard", "0/2", "-o", "part.json"], &words[..]].concat(), 0);
+    let words = [
+        "--kernel", "cramer", "--family", "tiny", "-n", "10", "-q", "--format", "json",
+    ];
+    ends(
+        &folder,
+        &[&["audit", "--shard", "0/2", "-o", "part.json"], &words[..]].concat(),
+        0,
+    );
     let text = fs::read_to_string(folder.join("part.json")).unwrap();
     let cut_in = |of: u64| {
         let cut = with_value(&text, &["partial", "of"], &of.to_string());
@@ -260,11 +352,19 @@ fn a_run_is_cut_in_as_many_parts_as_may_be_and_at_least_in_one() {
     }
     assert!(cut_in(100_000).contains("99999 of 100000 are missing"));
     // The first part is missed as well as the last.
-    ends(&folder, &[&["audit", "--shard", "1/2", "-o", "last.json"], &words[..]].concat(), 0);
+    ends(
+        &folder,
+        &[&["audit", "--shard", "1/2", "-o", "last.json"], &words[..]].concat(),
+        0,
+    );
     let error = merge(&folder, &["last.json"], &["-q"], 65);
     assert!(error.contains(": shards 0 of 2 are missing "), "{error}");
     // One part of one is all of it.
-    ends(&folder, &[&["audit", "--shard", "0/1", "-o", "part.json"], &words[..]].concat(), 0);
+    ends(
+        &folder,
+        &[&["audit", "--shard", "0/1", "-o", "part.json"], &words[..]].concat(),
+        0,
+    );
     merge(&folder, &["part.json"], &["-q"], 0);
 }
 
@@ -282,7 +382,15 @@ while read -r word id rest; do case $word in case) echo $id miss;; end) echo end
         fs::write(folder.join("never.sh"), script).unwrap();
     };
     let shard = |part: &str, file: &str| {
-        let flags = ["--kernel-cmd", "sh never.sh", "--family", "interior", "-n", "60", "-q"];
+        let flags = [
+            "--kernel-cmd",
+            "sh never.sh",
+            "--family",
+            "interior",
+            "-n",
+            "60",
+            "-q",
+        ];
         let to = ["--shard", part, "--format", "json", "-o", file];
         ends(&folder, &[&["audit"], &flags[..], &to].concat(), 0);
     };
@@ -302,5 +410,8 @@ while read -r word id rest; do case $word in case) echo $id miss;; end) echo end
     );
     shard("1/2", "1.json");
     let error = merge(&folder, &["0.json", "1.json"], &with, 65);
-    assert!(error.contains("1.json: of another build of never.sh ("), "{error}");
+    assert!(
+        error.contains("1.json: of another build of never.sh ("),
+        "{error}"
+    );
 }

@@ -18,7 +18,12 @@ fn on_terminal(folder: &Path, columns: u16, arguments: &[&str]) -> String {
     grantpt(&terminal).unwrap();
     unlockpt(&terminal).unwrap();
     let name = ptsname(&terminal, Vec::new()).unwrap();
-    let size = Winsize { ws_row: 50, ws_col: columns, ws_xpixel: 0, ws_ypixel: 0 };
+    let size = Winsize {
+        ws_row: 50,
+        ws_col: columns,
+        ws_xpixel: 0,
+        ws_ypixel: 0,
+    };
     tcsetwinsize(&terminal, size).unwrap();
     let output = open(&name, OFlags::RDWR | OFlags::NOCTTY, Mode::empty()).unwrap();
     let mut child = Command::new(env!("CARGO_BIN_EXE_hairline"))
@@ -36,8 +41,13 @@ fn on_terminal(folder: &Path, columns: u16, arguments: &[&str]) -> String {
         text
     });
     let code = child.wait().unwrap().code();
-    assert!(code == Some(0) || code == Some(1), "{arguments:?}: {code:?}");
-    let text = String::from_utf8(reader.join().unwrap()).unwrap().replace("\r\n", "\n");
+    assert!(
+        code == Some(0) || code == Some(1),
+        "{arguments:?}: {code:?}"
+    );
+    let text = String::from_utf8(reader.join().unwrap())
+        .unwrap()
+        .replace("\r\n", "\n");
     without_colours(&text)
 }
 
@@ -45,7 +55,9 @@ fn on_terminal(folder: &Path, columns: u16, arguments: &[&str]) -> String {
 fn without_colours(text: &str) -> String {
     let mut parts = text.split('\x1b');
     let first = parts.next().unwrap_or_default().to_owned();
-    parts.fold(first, |all, part| all + part.split_once('m').map_or("", |(_, rest)| rest))
+    parts.fold(first, |all, part| {
+        all + part.split_once('m').map_or("", |(_, rest)| rest)
+    })
 }
 
 /// Commands whose screens take seconds.
@@ -56,34 +68,78 @@ fn every_screen_fits_a_terminal() {
     let folder = scratch("terminal");
     let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpora/meshes/icosphere.obj");
     for (file, seed) in [("old.json", "1"), ("new.json", "2")] {
-        let run = ["audit", "-q", "-n", "150", "--seed", seed, "--format", "json", "-o", file];
+        let run = [
+            "audit", "-q", "-n", "150", "--seed", seed, "--format", "json", "-o", file,
+        ];
         ends(&folder, &run, 0);
     }
     let screens: [(&[&str], usize); 11] = [
         (&["audit", "-n", "150"], 42),
         (&["audit", "-n", "150", "--kernel", "moller-trumbore"], 50),
-        (&["epsilon", "--scene", "room", "--scalar", "f32", "-n", "1000"], 30),
-        (&["epsilon", "--scene", "room", "--kernel", "moller-trumbore", "-n", "10000"], 52),
+        (
+            &[
+                "epsilon", "--scene", "room", "--scalar", "f32", "-n", "1000",
+            ],
+            30,
+        ),
+        (
+            &[
+                "epsilon",
+                "--scene",
+                "room",
+                "--kernel",
+                "moller-trumbore",
+                "-n",
+                "10000",
+            ],
+            52,
+        ),
         (&["spawn", "-n", "300", "--scalar", "f32"], 64),
-        (&["explain", "edge-near@2/f32/-/1/41", "--kernel", "cramer"], 40),
+        (
+            &["explain", "edge-near@2/f32/-/1/41", "--kernel", "cramer"],
+            40,
+        ),
         (&["explain", "edge-near@2/f32/-/1/41"], 40),
-        (&["check", "--kernel", "moller-trumbore", "--family", "edge-near", "-n", "300"], 50),
+        (
+            &[
+                "check",
+                "--kernel",
+                "moller-trumbore",
+                "--family",
+                "edge-near",
+                "-n",
+                "300",
+            ],
+            50,
+        ),
         (&["diff", "old.json", "new.json"], 40),
-        (&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"], 40),
+        (
+            &["prove", "--kernel", "moller-trumbore", "--scalar", "f32"],
+            40,
+        ),
         (&["mesh", mesh.to_str().unwrap(), "--scalar", "f32"], 40),
     ];
     let mut wrong = Vec::new();
     for (arguments, most) in screens {
         // What takes long is tried on the narrow one alone.
-        let widths: &[u16] = if SLOW.contains(&arguments[0]) { &[80] } else { &[80, 100] };
+        let widths: &[u16] = if SLOW.contains(&arguments[0]) {
+            &[80]
+        } else {
+            &[80, 100]
+        };
         for &columns in widths {
             let text = on_terminal(&folder, columns, arguments);
             let lines: Vec<&str> = text.lines().collect();
             if lines.len() < 3 || most < lines.len() {
-                wrong.push(format!("{arguments:?} at {columns}: {} lines\n{text}", lines.len()));
+                wrong.push(format!(
+                    "{arguments:?} at {columns}: {} lines\n{text}",
+                    lines.len()
+                ));
             }
             let is_pasted = |line: &&&str| {
-                ["hairline ", "--details", "  use  "].iter().any(|part| line.contains(part))
+                ["hairline ", "--details", "  use  "]
+                    .iter()
+                    .any(|part| line.contains(part))
             };
             let words = lines.iter().filter(|line| !is_pasted(line));
             let wide = words.filter(|line| usize::from(columns) < line.chars().count());
@@ -97,7 +153,9 @@ fn every_screen_fits_a_terminal() {
 fn colours_are_escapes_that_can_be_taken_out() {
     assert_eq!(without_colours("a\x1b[1mb\x1b[0m\nc"), "ab\nc");
     let folder = scratch("terminal-colours");
-    let run = ["audit", "-q", "-n", "50", "--kernel", "cramer", "--color", "always"];
+    let run = [
+        "audit", "-q", "-n", "50", "--kernel", "cramer", "--color", "always",
+    ];
     let (coloured, _) = ends(&folder, &run, 0);
     assert!(coloured.contains("\x1b[1m") && !without_colours(&coloured).contains('\x1b'));
 }

@@ -17,7 +17,9 @@ pub fn has(program: &str) -> bool {
 /// the file that `NOT_TESTED` names: `.ci/run` prints it at its end.
 pub fn not_tested(why: &str) {
     eprintln!("NOT TESTED: {why}");
-    let Some(name) = std::env::var_os("NOT_TESTED") else { return };
+    let Some(name) = std::env::var_os("NOT_TESTED") else {
+        return;
+    };
     let file = OpenOptions::new().create(true).append(true).open(name);
     writeln!(file.unwrap(), "{why}").unwrap();
 }

@@ -37,7 +37,9 @@ fn one_row_an_arithmetic_side_by_side_each_with_its_own_name() {
         "-n500",
     ]);
     let names = |kernel: &str| {
-        ["", "+fma", "+ftz", "+fma-ftz"].map(|suffix| format!("{kernel}{suffix}")).to_vec()
+        ["", "+fma", "+ftz", "+fma-ftz"]
+            .map(|suffix| format!("{kernel}{suffix}"))
+            .to_vec()
     };
     let rows: Vec<&str> = result["plan"]["rows"]
         .as_array()
@@ -47,15 +49,28 @@ fn one_row_an_arithmetic_side_by_side_each_with_its_own_name() {
         .collect();
     assert_eq!(rows, [names("moller-trumbore"), names("cramer")].concat());
     // The built-in arithmetic is what it was, and what a name says alone.
-    let alone =
-        |name: &str| audit(&["--kernel", name, "--scalar=f32", "--family=edge-near", "-n500"]);
+    let alone = |name: &str| {
+        audit(&[
+            "--kernel",
+            name,
+            "--scalar=f32",
+            "--family=edge-near",
+            "-n500",
+        ])
+    };
     for name in ["moller-trumbore", "moller-trumbore+fma", "cramer+fma-ftz"] {
         assert_eq!(of(&alone(name), name), of(&result, name));
     }
     let plain = of(&result, "moller-trumbore")[0];
-    assert_ne!(plain["total"], of(&result, "moller-trumbore+fma")[0]["total"]);
+    assert_ne!(
+        plain["total"],
+        of(&result, "moller-trumbore+fma")[0]["total"]
+    );
     // Nothing near the boundary of moderate triangles is subnormal.
-    assert_eq!(plain["total"], of(&result, "moller-trumbore+ftz")[0]["total"]);
+    assert_eq!(
+        plain["total"],
+        of(&result, "moller-trumbore+ftz")[0]["total"]
+    );
 }
 
 #[test]
@@ -94,7 +109,12 @@ fn findings_of_a_variant_are_shown_again_and_attributed_in_its_arithmetic() {
     assert!(text.contains("--kernel plane-inside-out+ftz"), "{text}");
     let folder = scratch("variant-explain");
     let explain = |kernel: &str| {
-        ends(&folder, &["explain", "shared-edge@3/f32/-/1/5", "--kernel", kernel], 0).0
+        ends(
+            &folder,
+            &["explain", "shared-edge@3/f32/-/1/5", "--kernel", kernel],
+            0,
+        )
+        .0
     };
     assert!(explain("woop-watertight").contains("1 of 2 triangles hit"));
     assert!(
@@ -105,11 +125,28 @@ fn findings_of_a_variant_are_shown_again_and_attributed_in_its_arithmetic() {
     let tiny = r#"{"scalar":"f32","origin":[1,1,4],"direction":[0,0,-1],"a":[0,0,0],"b":["0x1p-40",0,0],"c":[0,"0x1p-40",0]}"#;
     let tiny = tiny.replace("[1,1,4]", r#"["0x1p-42","0x1p-42",4]"#);
     let shown = |kernel: &str| {
-        ends(&folder, &["explain", &tiny, "--kernel", kernel, "--epsilon=parallel=1e-30"], 0).0
+        ends(
+            &folder,
+            &[
+                "explain",
+                &tiny,
+                "--kernel",
+                kernel,
+                "--epsilon=parallel=1e-30",
+            ],
+            0,
+        )
+        .0
     };
     let (plain, flushed) = (shown("plane-inside-out"), shown("plane-inside-out+ftz"));
-    assert!(plain.contains("plane-inside-out (parallel=1e-30): hit"), "{plain}");
-    assert!(flushed.contains("plane-inside-out+ftz (parallel=1e-30): hit"), "{flushed}");
+    assert!(
+        plain.contains("plane-inside-out (parallel=1e-30): hit"),
+        "{plain}"
+    );
+    assert!(
+        flushed.contains("plane-inside-out+ftz (parallel=1e-30): hit"),
+        "{flushed}"
+    );
 }
 
 #[test]
@@ -117,7 +154,14 @@ fn the_other_commands_take_a_variant_by_its_name() {
     let folder = scratch("variant-commands");
     let (out, _) = ends(
         &folder,
-        &["epsilon", "--kernel=cramer+ftz", "--gate=parallel", "--scalar=f32", "-n200", "--quiet"],
+        &[
+            "epsilon",
+            "--kernel=cramer+ftz",
+            "--gate=parallel",
+            "--scalar=f32",
+            "-n200",
+            "--quiet",
+        ],
         0,
     );
     // Where subnormal numbers are zero, so is an epsilon below the normal ones.
@@ -143,7 +187,10 @@ fn the_other_commands_take_a_variant_by_its_name() {
     // A plan that leaves a row out is no news; a row that nothing is known about is.
     ends(&folder, &["check", "--quiet", "--arithmetic=ieee"], 0);
     let (out, _) = ends(&folder, &["check", "--quiet", "--arithmetic=ftz"], 1);
-    assert!(out.contains("cramer+ftz (source) f32 edge-near: false-hit"), "{out}");
+    assert!(
+        out.contains("cramer+ftz (source) f32 edge-near: false-hit"),
+        "{out}"
+    );
     let (out, _) = ends(&folder, &["list", "arithmetics"], 0);
     assert_eq!(out.lines().count(), 4);
 }
@@ -166,7 +213,10 @@ fn unknown_and_impossible_arithmetics_are_refused_in_one_line() {
     let error = refused(&["--kernel=cramer", "--arithmetic=fma,fma"]);
     assert!(error.contains("'fma' is given twice"), "{error}");
     let error = refused(&["--kernel=cramer+fma", "--arithmetic=ftz"]);
-    assert!(error.contains("cramer+fma has one arithmetic only"), "{error}");
+    assert!(
+        error.contains("cramer+fma has one arithmetic only"),
+        "{error}"
+    );
     let error = refused(&["--kernel=cramer+fma+ftz"]);
     assert!(error.contains("unknown kernel 'cramer+fma+ftz'"), "{error}");
     let error = refused(&["--kernel=cramer+ieee"]);
@@ -188,13 +238,23 @@ fn built(name: &str, flags: &[&str], flush: bool) -> Option<String> {
     }
     let path = scratch(&format!("variant-{name}")).join("libmt.so");
     let mut command = Command::new("cc");
-    command.args(["-O2", "-shared", "-fPIC"]).arg(format!("-I{HERE}/include")).args(flags);
-    command.arg("-o").arg(&path).arg(format!("{HERE}/examples/c/moller_trumbore.c"));
+    command
+        .args(["-O2", "-shared", "-fPIC"])
+        .arg(format!("-I{HERE}/include"))
+        .args(flags);
+    command
+        .arg("-o")
+        .arg(&path)
+        .arg(format!("{HERE}/examples/c/moller_trumbore.c"));
     if flush {
         command.arg(format!("{HERE}/tests/kernels/flush.c"));
     }
     let output = command.arg("-lm").output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     Some(path.to_str().unwrap().to_owned())
 }
 
@@ -205,10 +265,15 @@ fn built(name: &str, flags: &[&str], flush: bool) -> Option<String> {
 fn an_emulated_kernel_is_the_compiled_one() {
     let fast: [&str; 2] = ["-ffp-contract=fast", "-mfma"];
     let off: [&str; 2] = ["-ffp-contract=off", "-mno-fma"];
-    for (arithmetic, flags, flush) in
-        [("ieee", off, false), ("fma", fast, false), ("ftz", off, true), ("fma-ftz", fast, true)]
-    {
-        let Some(library) = built(arithmetic, &flags, flush) else { return };
+    for (arithmetic, flags, flush) in [
+        ("ieee", off, false),
+        ("fma", fast, false),
+        ("ftz", off, true),
+        ("fma-ftz", fast, true),
+    ] {
+        let Some(library) = built(arithmetic, &flags, flush) else {
+            return;
+        };
         let result = audit(&[
             "--kernel-lib",
             &library,
@@ -226,9 +291,15 @@ fn an_emulated_kernel_is_the_compiled_one() {
             };
             let emulated = of(&result, &name);
             let same = compiled.iter().zip(&emulated).all(|(x, y)| {
-                ["total", "classes", "across", "accuracy"].iter().all(|part| x[*part] == y[*part])
+                ["total", "classes", "across", "accuracy"]
+                    .iter()
+                    .all(|part| x[*part] == y[*part])
             });
-            assert_eq!(same, other == arithmetic, "compiled {arithmetic}, emulated {other}");
+            assert_eq!(
+                same,
+                other == arithmetic,
+                "compiled {arithmetic}, emulated {other}"
+            );
         }
     }
 }

@@ -16,10 +16,12 @@ fn repository() -> &'static Path {
 
 /// The files of the core set's topics.
 fn topic_files() -> Vec<PathBuf> {
-    let entries =
-        fs::read_dir(repository().join("vectors")).unwrap().map(|entry| entry.unwrap().path());
-    let mut files: Vec<PathBuf> =
-        entries.filter(|path| path.extension().is_some_and(|e| e == "json")).collect();
+    let entries = fs::read_dir(repository().join("vectors"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let mut files: Vec<PathBuf> = entries
+        .filter(|path| path.extension().is_some_and(|e| e == "json"))
+        .collect();
     files.sort();
     files
 }
@@ -30,7 +32,10 @@ fn parse(file: &Path) -> Value {
 
 /// The tests of all topics.
 fn tests() -> Vec<Value> {
-    topic_files().iter().flat_map(|file| parse(file)["tests"].as_array().unwrap().clone()).collect()
+    topic_files()
+        .iter()
+        .flat_map(|file| parse(file)["tests"].as_array().unwrap().clone())
+        .collect()
 }
 
 #[test]
@@ -47,9 +52,16 @@ fn the_committed_vectors_are_what_the_command_writes_small_and_with_ids_of_their
         names.push(name);
     }
     assert_eq!(names.len(), topic_files().len() + 2, "{names:?}");
-    let size: u64 = topic_files().iter().map(|file| fs::metadata(file).unwrap().len()).sum();
+    let size: u64 = topic_files()
+        .iter()
+        .map(|file| fs::metadata(file).unwrap().len())
+        .sum();
     let tests = tests();
-    assert!((1000..=2000).contains(&tests.len()) && size <= 1_020_000, "{} {size}", tests.len());
+    assert!(
+        (1000..=2000).contains(&tests.len()) && size <= 1_020_000,
+        "{} {size}",
+        tests.len()
+    );
     assert!(
         error.contains(&format!("{} tests in {}", tests.len(), topic_files().len())),
         "{error}"
@@ -57,14 +69,25 @@ fn the_committed_vectors_are_what_the_command_writes_small_and_with_ids_of_their
     for test in &tests {
         let [id, scalar, bits] = ["id", "scalar", "bits"].map(|key| test[key].as_str().unwrap());
         let digest = Hash::hash(format!("{scalar} {bits}").as_bytes());
-        let digits: String = digest[..8].iter().map(|byte| format!("{byte:02x}")).collect();
-        assert!(id.ends_with(&format!("-{digits}")), "{id} has other numbers than its digest says");
+        let digits: String = digest[..8]
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
+        assert!(
+            id.ends_with(&format!("-{digits}")),
+            "{id} has other numbers than its digest says"
+        );
     }
-    let ids: HashSet<&str> = tests.iter().map(|test| test["id"].as_str().unwrap()).collect();
+    let ids: HashSet<&str> = tests
+        .iter()
+        .map(|test| test["id"].as_str().unwrap())
+        .collect();
     assert_eq!(ids.len(), tests.len(), "each test has an id of its own");
     let published = parse(&repository().join("vectors/published.json"));
     let reports = published["tests"].as_array().unwrap().iter();
-    let reports: HashSet<&str> = reports.map(|test| test["source"].as_str().unwrap()).collect();
+    let reports: HashSet<&str> = reports
+        .map(|test| test["source"].as_str().unwrap())
+        .collect();
     assert!(40 <= reports.len(), "{} reports", reports.len());
 }
 
@@ -75,10 +98,16 @@ fn every_file_is_as_its_schema_says_and_explains_its_flags() {
         let document = parse(&file);
         let errors = json_schema::errors(&schema, &document);
         assert_eq!(errors, Vec::<String>::new(), "{}", file.display());
-        assert_eq!(file.file_stem().unwrap().to_str(), document["topic"].as_str());
+        assert_eq!(
+            file.file_stem().unwrap().to_str(),
+            document["topic"].as_str()
+        );
         for test in document["tests"].as_array().unwrap() {
             for flag in test["flags"].as_array().unwrap() {
-                assert!(document["flags"][flag.as_str().unwrap()].is_string(), "{flag}");
+                assert!(
+                    document["flags"][flag.as_str().unwrap()].is_string(),
+                    "{flag}"
+                );
             }
         }
     }
@@ -93,14 +122,37 @@ fn the_checker_in_python_agrees_with_every_test_and_notices_what_is_wrong() {
     let run = |check: &Path| Command::new("python3").arg(check).output().unwrap();
     let output = run(&check);
     let text = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success() && text.ends_with("tests, 0 disagreements\n"), "{text}");
+    assert!(
+        output.status.success() && text.ends_with("tests, 0 disagreements\n"),
+        "{text}"
+    );
     // The full set as well, its first numbers.
     let folder = scratch("vectors-python");
-    ends(&folder, &["vectors", "--format", "json", "-n", "2000", "-o", "full.jsonl"], 0);
+    ends(
+        &folder,
+        &[
+            "vectors",
+            "--format",
+            "json",
+            "-n",
+            "2000",
+            "-o",
+            "full.jsonl",
+        ],
+        0,
+    );
     let lines = fs::File::open(folder.join("full.jsonl")).unwrap();
-    let output = Command::new("python3").arg(&check).arg("-").stdin(lines).output().unwrap();
+    let output = Command::new("python3")
+        .arg(&check)
+        .arg("-")
+        .stdin(lines)
+        .output()
+        .unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success() && text.ends_with("tests, 0 disagreements\n"), "{text}");
+    assert!(
+        output.status.success() && text.ends_with("tests, 0 disagreements\n"),
+        "{text}"
+    );
     // One change at a time to one file.
     for (old, new) in [
         ("\"result\":\"hit\"", "\"result\":\"miss\""),
@@ -130,19 +182,37 @@ fn the_checker_in_python_agrees_with_every_test_and_notices_what_is_wrong() {
 fn the_formats_hold_the_same_tests() {
     let folder = scratch("vectors-formats");
     for format in ["csv", "json"] {
-        ends(&folder, &["vectors", "--format", format, "-n", "108", "-o", format], 0);
+        ends(
+            &folder,
+            &["vectors", "--format", format, "-n", "108", "-o", format],
+            0,
+        );
     }
     let csv = fs::read_to_string(folder.join("csv")).unwrap();
-    let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let rows: Vec<Vec<&str>> = csv
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').collect())
+        .collect();
     assert!(rows.iter().all(|row| row.len() == 35));
     let json = fs::read_to_string(folder.join("json")).unwrap();
-    let tests: Vec<Value> = json.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let tests: Vec<Value> = json
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
     assert!(100 < tests.len() && tests.len() < rows.len());
     let mut firsts = rows.iter().filter(|row| row[1] == "0");
     for test in &tests {
         let row = firsts.next().unwrap();
         assert_eq!(test["id"], row[0]);
-        assert!(test["bits"].as_str().unwrap().starts_with(&row[18..35].join(" ")), "{}", row[0]);
+        assert!(
+            test["bits"]
+                .as_str()
+                .unwrap()
+                .starts_with(&row[18..35].join(" ")),
+            "{}",
+            row[0]
+        );
     }
     assert!(firsts.next().is_none());
     // The same bytes, however many threads there are.
@@ -155,9 +225,11 @@ fn the_formats_hold_the_same_tests() {
 #[test]
 fn a_format_is_needed_to_write_one_file() {
     let folder = scratch("vectors-usage");
-    for arguments in
-        [&["vectors", "-n", "5"][..], &["vectors", "-o", "x"], &["vectors", "--format", "xml"]]
-    {
+    for arguments in [
+        &["vectors", "-n", "5"][..],
+        &["vectors", "-o", "x"],
+        &["vectors", "--format", "xml"],
+    ] {
         let (_, error) = ends(&folder, arguments, 2);
         assert!(error.contains("--format"), "{error}");
     }
@@ -169,8 +241,10 @@ fn a_format_is_needed_to_write_one_file() {
 /// A results file of these answers, in the order of the tests.
 fn results(answers: &[(String, Value)]) -> String {
     let digest = fs::read_to_string(repository().join("vectors/sha256.txt")).unwrap();
-    let answers: Vec<String> =
-        answers.iter().map(|(id, answer)| format!("\n\"{id}\":{answer}")).collect();
+    let answers: Vec<String> = answers
+        .iter()
+        .map(|(id, answer)| format!("\n\"{id}\":{answer}"))
+        .collect();
     format!(
         "{{\"vectors\":\"{}\",\n\"product\":\"mine\",\n\"results\":{{{}}}}}\n",
         digest.trim(),
@@ -179,9 +253,16 @@ fn results(answers: &[(String, Value)]) -> String {
 }
 
 fn verify(results: &str, arguments: &[&str], code: i32) -> (String, String) {
-    let folder = scratch(&format!("verify-{:x}", results.len() + 7 * arguments.concat().len()));
+    let folder = scratch(&format!(
+        "verify-{:x}",
+        results.len() + 7 * arguments.concat().len()
+    ));
     fs::write(folder.join("results.json"), results).unwrap();
-    ends(&folder, &[&["verify", "results.json"], arguments].concat(), code)
+    ends(
+        &folder,
+        &[&["verify", "results.json"], arguments].concat(),
+        code,
+    )
 }
 
 /// What a profile's file demands of a test, worked out as the guide tells readers to.
@@ -206,8 +287,9 @@ fn demanded(test: &Value, profile: Option<&Value>) -> String {
         .to_owned();
     }
     let reasons = test["free_because"].as_array().into_iter().flatten();
-    let answers: Vec<&str> =
-        reasons.filter_map(|reason| answer(reason.as_str().unwrap())).collect();
+    let answers: Vec<&str> = reasons
+        .filter_map(|reason| answer(reason.as_str().unwrap()))
+        .collect();
     match answers {
         answers if answers.is_empty() => result,
         answers if answers.contains(&"miss") => "miss",
@@ -220,7 +302,11 @@ fn demanded(test: &Value, profile: Option<&Value>) -> String {
 /// An answer that is right, or one that is wrong where one can be.
 fn answer(test: &Value, demanded: &str, right: bool) -> Value {
     match (demanded, right) {
-        ("hit" | "miss", _) => json!(if (demanded == "hit") == right { "hit" } else { "miss" }),
+        ("hit" | "miss", _) => json!(if (demanded == "hit") == right {
+            "hit"
+        } else {
+            "miss"
+        }),
         ("exactly-one" | "odd", true) => json!(1),
         ("at-least-one" | "even", true) => json!(2),
         ("exactly-one" | "odd", false) => json!(2),
@@ -237,13 +323,18 @@ fn right_results_end_with_0_and_wrong_ones_with_1_under_every_profile() {
     for name in ["", "dxr", "parity", "picking", "vulkan"] {
         let profile = repository().join(format!("vectors/profiles/{name}.json"));
         let profile = (!name.is_empty()).then(|| parse(&profile));
-        let demands: Vec<String> =
-            tests.iter().map(|test| demanded(test, profile.as_ref())).collect();
+        let demands: Vec<String> = tests
+            .iter()
+            .map(|test| demanded(test, profile.as_ref()))
+            .collect();
         let free = demands.iter().filter(|demand| *demand == "free").count();
         let of = |right: bool| {
             let pairs = tests.iter().zip(&demands);
             let answers = pairs.map(|(test, demand)| {
-                (test["id"].as_str().unwrap().to_owned(), answer(test, demand, right))
+                (
+                    test["id"].as_str().unwrap().to_owned(),
+                    answer(test, demand, right),
+                )
             });
             results(&answers.collect::<Vec<_>>())
         };
@@ -260,9 +351,17 @@ fn right_results_end_with_0_and_wrong_ones_with_1_under_every_profile() {
             assert_eq!(report["total"], total, "{name}");
             assert_eq!(report["wrong"].as_array().unwrap().len(), wrong);
             // The page counts the same.
-            let page = arguments.iter().map(|word| if *word == "json" { "html" } else { word });
+            let page = arguments
+                .iter()
+                .map(|word| if *word == "json" { "html" } else { word });
             let (page, _) = verify(&of(wrong == 0), &page.collect::<Vec<_>>(), code);
-            let title = page.split_once("<h1>").unwrap().1.split_once("</h1>").unwrap().0;
+            let title = page
+                .split_once("<h1>")
+                .unwrap()
+                .1
+                .split_once("</h1>")
+                .unwrap()
+                .0;
             let answers = format!("mine: {wrong} wrong answers, {right} right");
             assert!(title.contains(&answers), "{name}: {title}");
             assert_eq!(page.contains("Wrong answers"), wrong != 0, "{name}");
@@ -282,21 +381,37 @@ fn what_a_specification_only_advises_is_said_and_not_wrong() {
         results(&crossings.iter().map(answer).collect::<Vec<_>>())
     };
     let by = |hits: u64, profile: &str, code: i32| -> Value {
-        let (report, _) = verify(&answers(hits), &["--format", "json", "--profile", profile], code);
+        let (report, _) = verify(
+            &answers(hits),
+            &["--format", "json", "--profile", profile],
+            code,
+        );
         json_schema::result(&report)
     };
     // "Should" in the one, "must" in the other.
     for (hits, against) in [(0, crossings.len()), (1, 0), (2, crossings.len())] {
         let report = by(hits, "vulkan", 0);
         let told = report["unadvised"].as_array().map_or(0, Vec::len);
-        assert_eq!((told, report["total"]["wrong"].as_u64()), (against, Some(0)));
-        assert_eq!(report["sayings"].as_array().unwrap().len(), usize::from(0 < against));
+        assert_eq!(
+            (told, report["total"]["wrong"].as_u64()),
+            (against, Some(0))
+        );
+        assert_eq!(
+            report["sayings"].as_array().unwrap().len(),
+            usize::from(0 < against)
+        );
     }
     let report = by(2, "dxr", 1);
-    assert_eq!(report["total"]["wrong"].as_u64(), Some(crossings.len() as u64));
+    assert_eq!(
+        report["total"]["wrong"].as_u64(),
+        Some(crossings.len() as u64)
+    );
     let (text, _) = verify(&answers(2), &["--profile", "vulkan"], 0);
     let text = unwrapped(&text);
-    assert!(text.contains("Against what the specification advises (a \"should\")"), "{text}");
+    assert!(
+        text.contains("Against what the specification advises (a \"should\")"),
+        "{text}"
+    );
     assert!(text.contains("should not double-hit or miss"), "{text}");
 }
 
@@ -309,19 +424,34 @@ fn unwrapped(text: &str) -> String {
 fn every_report_of_an_audit_is_one_of_results_and_each_case_in_it_is_explained() {
     let tests = tests();
     let find = |wanted: fn(&Value) -> bool| {
-        tests.iter().find(|test| wanted(test)).unwrap()["id"].as_str().unwrap().to_owned()
+        tests.iter().find(|test| wanted(test)).unwrap()["id"]
+            .as_str()
+            .unwrap()
+            .to_owned()
     };
     let single = find(|test| test["result"] == "hit");
     let group = find(|test| test["result"] == "at-least-one");
     let end = find(|test| test["free_because"] == json!(["ends"]) && test["where"] == "interior");
-    let answers =
-        [(single.clone(), json!("miss")), (group.clone(), json!(2)), (end.clone(), json!("hit"))];
+    let answers = [
+        (single.clone(), json!("miss")),
+        (group.clone(), json!(2)),
+        (end.clone(), json!("hit")),
+    ];
     let of = |arguments: &[&str]| verify(&results(&answers), arguments, 1).0;
     let sentence = "Ray-triangle intersection can only occur if the intersection t-value satisfies";
     let text = unwrapped(&of(&["--profile", "dxr"]));
-    assert!(text.contains(&format!("{end}: hit, expected miss by 'ends'")), "{text}");
-    assert!(text.contains(&format!("{group}: 2, expected exactly-one by 'groups'")), "{text}");
-    assert!(text.contains("'ends' (Ray extents): ") && text.contains(sentence), "{text}");
+    assert!(
+        text.contains(&format!("{end}: hit, expected miss by 'ends'")),
+        "{text}"
+    );
+    assert!(
+        text.contains(&format!("{group}: 2, expected exactly-one by 'groups'")),
+        "{text}"
+    );
+    assert!(
+        text.contains("'ends' (Ray extents): ") && text.contains(sentence),
+        "{text}"
+    );
     for format in ["junit", "json", "markdown", "html"] {
         let report = of(&["--profile", "dxr", "--format", format]);
         for id in [&single, &group, &end] {
@@ -332,24 +462,49 @@ fn every_report_of_an_audit_is_one_of_results_and_each_case_in_it_is_explained()
     let alone = results(&[(group.clone(), json!(2))]);
     for format in ["text", "markdown", "html"] {
         let (page, _) = verify(&alone, &["--profile", "dxr", "--format", format], 1);
-        assert!(page.contains("1 wrong answer, 0 right by profile dxr"), "{page}");
+        assert!(
+            page.contains("1 wrong answer, 0 right by profile dxr"),
+            "{page}"
+        );
         let (page, _) = verify(&alone, &["--format", format], 0);
         assert!(page.contains("0 wrong answers, 1 right"), "{page}");
     }
     // No hit at all is wrong by every reading: no profile is to blame.
     let none = results(&[(group.clone(), json!(0))]);
     let text = unwrapped(&verify(&none, &["--profile", "dxr"], 1).0);
-    assert!(text.contains(&format!("{group}: 0, expected exactly-one (")), "{text}");
-    let (_, error) = ends(&scratch("verify-unknown"), &["explain", "edges-0000000000000000"], 2);
-    assert!(error.contains("no test of the core set of vectors"), "{error}");
-    for (id, line) in [(single, "truth  transversal"), (group, "together"), (end, ", t at_m")] {
-        let (explained, _) = ends(&scratch("verify-explain"), &["explain", &id, "--details"], 0);
+    assert!(
+        text.contains(&format!("{group}: 0, expected exactly-one (")),
+        "{text}"
+    );
+    let (_, error) = ends(
+        &scratch("verify-unknown"),
+        &["explain", "edges-0000000000000000"],
+        2,
+    );
+    assert!(
+        error.contains("no test of the core set of vectors"),
+        "{error}"
+    );
+    for (id, line) in [
+        (single, "truth  transversal"),
+        (group, "together"),
+        (end, ", t at_m"),
+    ] {
+        let (explained, _) = ends(
+            &scratch("verify-explain"),
+            &["explain", &id, "--details"],
+            0,
+        );
         assert!(explained.contains(line), "{explained}");
     }
     // One wrong answer less: better, and nothing worse.
     let folder = scratch("verify-diff");
     let before = of(&["--format", "json"]);
-    let mended = [vec![(answers[0].0.clone(), json!("hit"))], answers[1..].to_vec()].concat();
+    let mended = [
+        vec![(answers[0].0.clone(), json!("hit"))],
+        answers[1..].to_vec(),
+    ]
+    .concat();
     let after = verify(&results(&mended), &["--format", "json"], 0).0;
     fs::write(folder.join("before.json"), before).unwrap();
     fs::write(folder.join("after.json"), after).unwrap();
@@ -363,17 +518,24 @@ fn the_text_counts_by_topic_and_shows_wrong_and_missing_answers() {
     let hit = tests.iter().find(|test| test["result"] == "hit").unwrap();
     let id = hit["id"].as_str().unwrap().to_owned();
     let report = unwrapped(&verify(&results(&[(id.clone(), json!("miss"))]), &[], 1).0);
-    assert!(report.starts_with("mine: 1 wrong answer, 0 right; 0 free to be either, "), "{report}");
+    assert!(
+        report.starts_with("mine: 1 wrong answer, 0 right; 0 free to be either, "),
+        "{report}"
+    );
     assert!(report.contains(&format!(
         "{} of {} tests without a result",
         tests.len() - 1,
         tests.len()
     )));
-    assert!(
-        report.contains(&format!("{id}: miss, expected hit ({}", hit["comment"].as_str().unwrap()))
-    );
+    assert!(report.contains(&format!(
+        "{id}: miss, expected hit ({}",
+        hit["comment"].as_str().unwrap()
+    )));
     let (report, _) = verify(&results(&[(id, json!("hit"))]), &[], 0);
-    assert!(report.starts_with("mine: 0 wrong answers, 1 right; "), "{report}");
+    assert!(
+        report.starts_with("mine: 0 wrong answers, 1 right; "),
+        "{report}"
+    );
 }
 
 #[test]
@@ -398,7 +560,10 @@ fn a_test_that_was_not_asked_is_not_missing() {
 #[test]
 fn values_are_judged_where_they_are_given() {
     let tests = tests();
-    let hit = tests.iter().find(|test| test["result"] == "hit" && test["t"] == 3).unwrap();
+    let hit = tests
+        .iter()
+        .find(|test| test["result"] == "hit" && test["t"] == 3)
+        .unwrap();
     let id = hit["id"].as_str().unwrap().to_owned();
     let (t, u, v) = (&hit["t"], &hit["u"], &hit["v"]);
     for right in [
@@ -408,27 +573,47 @@ fn values_are_judged_where_they_are_given() {
         json!({"hit": true, "t": null, "u": u, "v": v}),
     ] {
         let report = unwrapped(&verify(&results(&[(id.clone(), right)]), &[], 0).0);
-        assert!(report.starts_with("mine: 0 wrong answers, 1 right; "), "{report}");
+        assert!(
+            report.starts_with("mine: 0 wrong answers, 1 right; "),
+            "{report}"
+        );
     }
     let wrong = json!({"hit": true, "t": 7.0, "u": u, "v": v});
     let report = unwrapped(&verify(&results(&[(id.clone(), wrong)]), &[], 1).0);
-    assert!(report.contains(&format!("{id}: hit with t = 7.0, exactly 3.0")), "{report}");
-    let (_, error) = verify(&results(&[(id.clone(), json!({"hit": true, "u": 1}))]), &[], 65);
-    assert!(error.contains("u and v: expected both or neither"), "{error}");
+    assert!(
+        report.contains(&format!("{id}: hit with t = 7.0, exactly 3.0")),
+        "{report}"
+    );
+    let (_, error) = verify(
+        &results(&[(id.clone(), json!({"hit": true, "u": 1}))]),
+        &[],
+        65,
+    );
+    assert!(
+        error.contains("u and v: expected both or neither"),
+        "{error}"
+    );
     let (_, error) = verify(&results(&[(id, json!({"hit": false, "t": 1}))]), &[], 65);
-    assert!(error.contains("t, u and v: expected none with a miss"), "{error}");
+    assert!(
+        error.contains("t, u and v: expected none with a miss"),
+        "{error}"
+    );
 }
 
 #[test]
 fn bad_results_are_refused_in_one_line_with_file_and_line() {
     let tests = tests();
     let id = |group: bool| {
-        let found = tests.iter().find(|test| test["triangles"].is_array() == group);
+        let found = tests
+            .iter()
+            .find(|test| test["triangles"].is_array() == group);
         found.unwrap()["id"].as_str().unwrap().to_owned()
     };
     let (single, group) = (id(false), id(true));
     // What is free has answers of its kind all the same.
-    let free = tests.iter().find(|test| test["result"] == "free" && test["triangles"].is_array());
+    let free = tests
+        .iter()
+        .find(|test| test["result"] == "free" && test["triangles"].is_array());
     let free = free.unwrap()["id"].as_str().unwrap();
     let (_, error) = verify(&results(&[(free.to_owned(), json!("hit"))]), &[], 65);
     assert!(error.contains("because the test is a group"), "{error}");
@@ -437,10 +622,25 @@ fn bad_results_are_refused_in_one_line_with_file_and_line() {
     let cases: BTreeMap<&str, (String, String)> = BTreeMap::from([
         (
             "cut",
-            (good[..good.len() - 4].to_owned(), "results.json:5: EOF while parsing".to_owned()),
+            (
+                good[..good.len() - 4].to_owned(),
+                "results.json:5: EOF while parsing".to_owned(),
+            ),
         ),
-        ("empty", (String::new(), "results.json:1: EOF while parsing a value".to_owned())),
-        ("array", ("[]".to_owned(), "results.json: expected an object, found []".to_owned())),
+        (
+            "empty",
+            (
+                String::new(),
+                "results.json:1: EOF while parsing a value".to_owned(),
+            ),
+        ),
+        (
+            "array",
+            (
+                "[]".to_owned(),
+                "results.json: expected an object, found []".to_owned(),
+            ),
+        ),
         (
             "twice",
             (
@@ -448,7 +648,13 @@ fn bad_results_are_refused_in_one_line_with_file_and_line() {
                 format!("results.json:5: a second result of '{single}'"),
             ),
         ),
-        ("nan", (replaced("\"hit\"", "NaN"), "results.json:4: expected value".to_owned())),
+        (
+            "nan",
+            (
+                replaced("\"hit\"", "NaN"),
+                "results.json:4: expected value".to_owned(),
+            ),
+        ),
         (
             "word",
             (
@@ -501,7 +707,10 @@ fn bad_results_are_refused_in_one_line_with_file_and_line() {
         ),
         (
             "field",
-            (replaced("product", "produkt"), "results.json: unknown field 'produkt'".to_owned()),
+            (
+                replaced("product", "produkt"),
+                "results.json: unknown field 'produkt'".to_owned(),
+            ),
         ),
         (
             "no product",
@@ -523,13 +732,22 @@ fn bad_results_are_refused_in_one_line_with_file_and_line() {
     ]);
     for (what, (text, message)) in cases {
         let (out, error) = verify(&text, &[], 65);
-        assert!(out.is_empty() && error.contains(&message), "{what}: {error}");
+        assert!(
+            out.is_empty() && error.contains(&message),
+            "{what}: {error}"
+        );
         assert_eq!(error.lines().count(), 1, "{what}: {error}");
     }
     let (_, error) = verify(&results(&[]), &[], 4);
-    assert!(error.contains("results.json: it answers no test"), "{error}");
+    assert!(
+        error.contains("results.json: it answers no test"),
+        "{error}"
+    );
     let (_, error) = verify(&good, &["--profile", "vulcan"], 2);
-    assert!(error.contains("unknown profile 'vulcan'; did you mean 'vulkan'?"), "{error}");
+    assert!(
+        error.contains("unknown profile 'vulcan'; did you mean 'vulkan'?"),
+        "{error}"
+    );
     let (_, error) = ends(&scratch("verify-none"), &["verify", "none.json"], 74);
     assert!(error.contains("none.json"), "{error}");
 }
@@ -547,6 +765,10 @@ fn the_readers_have_at_most_fifty_lines() {
     ];
     for file in files {
         let text = fs::read_to_string(repository().join("examples/vectors").join(file)).unwrap();
-        assert!(text.lines().count() <= 50, "{file}: {}", text.lines().count());
+        assert!(
+            text.lines().count() <= 50,
+            "{file}: {}",
+            text.lines().count()
+        );
     }
 }

@@ -21,7 +21,10 @@ use std::process::{Command, Output};
 const TABLE: &str = include_str!("../../corpora/worst.jsonl");
 
 fn row(kernel: &str) -> Row {
-    EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap().swap_remove(0)
+    EpsilonChoice::Source
+        .rows(&[find(kernel).unwrap()], None)
+        .unwrap()
+        .swap_remove(0)
 }
 
 fn goal(kernel: &str, target: &str, domain: SearchDomain) -> WorstGoal {
@@ -42,13 +45,25 @@ fn every_witness_replays_and_no_kernel_is_missing() {
         let stored = stored.unwrap();
         assert_eq!(replay(&stored), Ok(true), "{:?}", stored.name);
         let name = stored.name.unwrap();
-        let kernel = name.trim_start_matches("worst:").split('/').next().unwrap().to_owned();
-        let scalar = if matches!(stored.case, AnyCase::F32(_)) { "f32" } else { "f64" };
+        let kernel = name
+            .trim_start_matches("worst:")
+            .split('/')
+            .next()
+            .unwrap()
+            .to_owned();
+        let scalar = if matches!(stored.case, AnyCase::F32(_)) {
+            "f32"
+        } else {
+            "f64"
+        };
         *rows.entry((kernel, scalar)).or_default() += 1;
     }
     for entry in KERNELS {
         for scalar in ["f32", "f64"] {
-            let count = rows.get(&(entry.info.name.to_owned(), scalar)).copied().unwrap_or(0);
+            let count = rows
+                .get(&(entry.info.name.to_owned(), scalar))
+                .copied()
+                .unwrap_or(0);
             assert!(count >= 5, "{} {scalar}: {count} rows", entry.info.name);
         }
     }
@@ -56,14 +71,25 @@ fn every_witness_replays_and_no_kernel_is_missing() {
 
 #[test]
 fn a_witness_changed_by_one_bit_or_one_digit_does_not_replay() {
-    let line = TABLE.lines().find(|line| line.contains("moller-trumbore/f32")).unwrap();
+    let line = TABLE
+        .lines()
+        .find(|line| line.contains("moller-trumbore/f32"))
+        .unwrap();
     let read = |line: &str| lines::read(line.as_bytes(), "x").next().unwrap().unwrap();
     assert_eq!(replay(&read(line)), Ok(true));
-    let score = line.split_once("score=").unwrap().1.split_once(' ').unwrap().0;
+    let score = line
+        .split_once("score=")
+        .unwrap()
+        .1
+        .split_once(' ')
+        .unwrap()
+        .0;
     let wrong = line.replacen(&format!("score={score}"), "score=1.5e-3", 1);
     assert!(replay(&read(&wrong)).unwrap_err().contains(score));
     let mut moved = read(line);
-    let AnyCase::F32(case) = &mut moved.case else { panic!() };
+    let AnyCase::F32(case) = &mut moved.case else {
+        panic!()
+    };
     case.triangle.a.x = case.triangle.a.x.offset_ulps(1);
     assert!(replay(&moved).is_err());
     let mut other = read(line);
@@ -122,7 +148,11 @@ fn scores_are_what_the_documentation_says() {
                 let times = (0..3).filter(|i| given[*i]).map(|i| {
                     let length: BigRational = rows[i].iter().map(Signed::abs).sum();
                     let unit = &roundoff * &size * length / determinant.abs();
-                    let unit = if i == 0 { unit } else { unit.max(roundoff.clone()) };
+                    let unit = if i == 0 {
+                        unit
+                    } else {
+                        unit.max(roundoff.clone())
+                    };
                     (&reported[i] - &values[i]).abs() / unit
                 });
                 times.max()?.to_f64()
@@ -136,8 +166,13 @@ fn scores_are_what_the_documentation_says() {
                 let [o, d, a, b, c] = case.vectors().map(|v| v.map(rational));
                 let points = [o, a, b, c];
                 let mut extent = BigRational::zero();
-                for (p, q) in points.iter().flat_map(|p| points.iter().map(move |q| (p, q))) {
-                    extent = (0..3).map(|i| (&p[i] - &q[i]).abs()).fold(extent, BigRational::max);
+                for (p, q) in points
+                    .iter()
+                    .flat_map(|p| points.iter().map(move |q| (p, q)))
+                {
+                    extent = (0..3)
+                        .map(|i| (&p[i] - &q[i]).abs())
+                        .fold(extent, BigRational::max);
                 }
                 let length = d.iter().map(|x| x.abs()).max()?;
                 let dimension = row.entry.info.gates[gate].dimension;
@@ -150,7 +185,11 @@ fn scores_are_what_the_documentation_says() {
                 let feature = exact.truth.crossing()?.feature;
                 assert!(!verdict.hit && feature != hairline::internals::truth::Feature::Outside);
                 let severity = exact_severity(case, row.contract.extent)?;
-                Some(severity.along.map_or(severity.in_space, |t| t.min(severity.in_space)))
+                Some(
+                    severity
+                        .along
+                        .map_or(severity.in_space, |t| t.min(severity.in_space)),
+                )
             }
             Objective::FalseHit => {
                 assert!(verdict.hit);
@@ -167,9 +206,15 @@ fn scores_are_what_the_documentation_says() {
             AnyCase::F32(case) => independent(entry, case),
             AnyCase::F64(case) => independent(entry, case),
         };
-        let Some(score) = score.filter(|score| score.is_finite()) else { continue };
+        let Some(score) = score.filter(|score| score.is_finite()) else {
+            continue;
+        };
         let stored = entry.score.to_f64();
-        assert!((score - stored).abs() <= 1e-14 * stored, "{}: {score} {stored}", entry.name());
+        assert!(
+            (score - stored).abs() <= 1e-14 * stored,
+            "{}: {score} {stored}",
+            entry.name()
+        );
         compared += 1;
     }
     assert!(compared > 400, "{compared}");
@@ -190,12 +235,20 @@ fn a_determinant_that_is_zero_exactly_has_no_error_where_zero_is_refused() {
 #[test]
 fn the_result_does_not_depend_on_threads_nor_on_the_other_goals() {
     fn check<F: Scalar>(names: &[(&str, &str)]) {
-        let goals: Vec<WorstGoal> =
-            names.iter().map(|(k, target)| goal(k, target, SearchDomain::Moderate)).collect();
+        let goals: Vec<WorstGoal> = names
+            .iter()
+            .map(|(k, target)| goal(k, target, SearchDomain::Moderate))
+            .collect();
         let run = |threads: usize, goals: &[WorstGoal]| -> Vec<_> {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
             let found = pool.install(|| search::<F>(goals, 900, 7));
-            found.into_iter().map(|found| found.map(|f| (f.case.bits(), f.score))).collect()
+            found
+                .into_iter()
+                .map(|found| found.map(|f| (f.case.bits(), f.score)))
+                .collect()
         };
         let one = run(1, &goals);
         assert!(one.iter().all(Option::is_some));
@@ -204,7 +257,11 @@ fn the_result_does_not_depend_on_threads_nor_on_the_other_goals() {
             assert_eq!(run(2, std::slice::from_ref(goal))[0], *found, "alone");
         }
     }
-    let names = [("moller-trumbore", "margin:edge"), ("woop-watertight", "t"), ("cramer", "uv")];
+    let names = [
+        ("moller-trumbore", "margin:edge"),
+        ("woop-watertight", "t"),
+        ("cramer", "uv"),
+    ];
     check::<f32>(&names);
     check::<f64>(&names);
 }
@@ -221,7 +278,9 @@ fn the_quick_score_of_f32_is_near_the_exact_one() {
                     let made = family.make::<f32>(&Parameters::default(), 3, index);
                     let case = &made.cases()[0];
                     let quick = scorer.quick(case);
-                    let Some(exact) = scorer.exact(case) else { continue };
+                    let Some(exact) = scorer.exact(case) else {
+                        continue;
+                    };
                     if quick == f64::NEG_INFINITY {
                         // The quick domain is a little smaller.
                         continue;
@@ -246,16 +305,32 @@ fn the_search_finds_what_is_known_and_nothing_where_there_is_nothing() {
         search::<f32>(&[goal(kernel, target, domain)], evaluations, 1)[0].map(|f| f.score.to_f64())
     };
     // 1e-6 refuses small triangles through the middle: at most 0.2887 of an edge inside.
-    let middle =
-        found("moller-trumbore", "false-miss:parallel", SearchDomain::Moderate, 8000).unwrap();
+    let middle = found(
+        "moller-trumbore",
+        "false-miss:parallel",
+        SearchDomain::Moderate,
+        8000,
+    )
+    .unwrap();
     assert!((0.15..0.2887).contains(&middle), "{middle}");
     // A healthy crossing has no determinant of zero.
     assert_eq!(
-        found("plane-inside-out", "false-miss:parallel", SearchDomain::Moderate, 4000),
+        found(
+            "plane-inside-out",
+            "false-miss:parallel",
+            SearchDomain::Moderate,
+            4000
+        ),
         None
     );
     // Differences first and nothing divided: a few ulps. Absolute coordinates: thousands.
-    let woop = found("woop-watertight", "margin:edge", SearchDomain::Moderate, 8000).unwrap();
+    let woop = found(
+        "woop-watertight",
+        "margin:edge",
+        SearchDomain::Moderate,
+        8000,
+    )
+    .unwrap();
     let plane = found("plane-inside-out", "margin:t", SearchDomain::Moderate, 8000).unwrap();
     assert!(woop < 20.0 && plane > 1000.0, "{woop} {plane}");
 }
@@ -263,7 +338,10 @@ fn the_search_finds_what_is_known_and_nothing_where_there_is_nothing() {
 #[test]
 fn climbing_finds_worse_than_the_same_number_of_cases_of_the_families() {
     let goal = goal("scalar-triple", "uv", SearchDomain::Moderate);
-    let climbed = search::<f32>(std::slice::from_ref(&goal), 8000, 1)[0].unwrap().score.to_f64();
+    let climbed = search::<f32>(std::slice::from_ref(&goal), 8000, 1)[0]
+        .unwrap()
+        .score
+        .to_f64();
     let scorer = goal.scorer::<f32>();
     let sampled = (0..8000)
         .map(|i| {
@@ -278,19 +356,27 @@ fn climbing_finds_worse_than_the_same_number_of_cases_of_the_families() {
 fn the_table_only_grows() {
     let goal = goal("cramer", "margin:parallel", SearchDomain::Moderate);
     let entry = |seed, evaluations| {
-        find_worst::<f32>(std::slice::from_ref(&goal), evaluations, seed).remove(0).unwrap()
+        find_worst::<f32>(std::slice::from_ref(&goal), evaluations, seed)
+            .remove(0)
+            .unwrap()
     };
     let (little, much) = (entry(1, 100), entry(2, 5000));
     assert!(little.score < much.score);
     for entry in [&little, &much] {
         // The simplified witness keeps nine tenths of what was found.
         assert!(entry.score.to_f64() >= 0.9 * entry.found.to_f64() * (1.0 - 1e-15));
-        let AnyCase::F32(case) = &entry.case else { panic!() };
+        let AnyCase::F32(case) = &entry.case else {
+            panic!()
+        };
         assert_eq!(exact_score(&goal, case), Some(entry.score));
     }
     let mut table = WorstTable::default();
     assert_eq!(table.merge(little.clone()), Update::Added);
-    assert_eq!(table.merge(little.clone()), Update::Kept, "as bad and no simpler");
+    assert_eq!(
+        table.merge(little.clone()),
+        Update::Kept,
+        "as bad and no simpler"
+    );
     assert_eq!(table.merge(much.clone()), Update::Raised);
     assert_eq!(table.merge(little), Update::Kept);
     assert_eq!(table.entries().next().unwrap().score, much.score);
@@ -299,7 +385,13 @@ fn the_table_only_grows() {
     let again = WorstTable::read(&text[..], "x").unwrap();
     assert_eq!(again.entries().next().unwrap().name(), much.name());
     let twice = [&text[..], &text[..]].concat();
-    assert!(WorstTable::read(&twice[..], "x").err().unwrap().to_string().contains("x:2: a second"));
+    assert!(
+        WorstTable::read(&twice[..], "x")
+            .err()
+            .unwrap()
+            .to_string()
+            .contains("x:2: a second")
+    );
 }
 
 #[test]
@@ -307,7 +399,11 @@ fn scores_beyond_f64_are_kept() {
     let huge = Exact::from_f64(1e300);
     let product = huge.clone() * &huge;
     assert_eq!(Decimal::of(&product).unwrap().brief(), "1.000e600");
-    assert!(table().entries().any(|entry| entry.score.to_f64() == f64::INFINITY));
+    assert!(
+        table()
+            .entries()
+            .any(|entry| entry.score.to_f64() == f64::INFINITY)
+    );
 }
 
 fn scratch(name: &str) -> std::path::PathBuf {
@@ -319,7 +415,11 @@ fn scratch(name: &str) -> std::path::PathBuf {
 
 fn hairline_in(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hairline"));
-    command.args(arguments).current_dir(folder).output().unwrap()
+    command
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -329,18 +429,44 @@ fn text(bytes: &[u8]) -> String {
 #[test]
 fn the_command_searches_updates_its_table_and_lists_it() {
     let folder = scratch("worst");
-    let arguments = ["fuzz", "worst", "--kernel", "woop-watertight", "--gate", "edge", "-n", "400"];
+    let arguments = [
+        "fuzz",
+        "worst",
+        "--kernel",
+        "woop-watertight",
+        "--gate",
+        "edge",
+        "-n",
+        "400",
+    ];
     let searched = hairline_in(&folder, &arguments);
-    assert_eq!(searched.status.code(), Some(0), "{}", text(&searched.stderr));
+    assert_eq!(
+        searched.status.code(),
+        Some(0),
+        "{}",
+        text(&searched.stderr)
+    );
     assert!(text(&searched.stderr).contains("evaluations/s"));
     let printed = text(&searched.stdout);
     assert!(printed.contains("f32 moderate  margin:edge"), "{printed}");
     // The command that it prints works.
-    let command = printed.lines().find(|line| line.contains("hairline explain '")).unwrap();
-    let (case, rest) = command.split_once('\'').unwrap().1.split_once('\'').unwrap();
+    let command = printed
+        .lines()
+        .find(|line| line.contains("hairline explain '"))
+        .unwrap();
+    let (case, rest) = command
+        .split_once('\'')
+        .unwrap()
+        .1
+        .split_once('\'')
+        .unwrap();
     let words = rest.split_whitespace().map(|word| word.trim_matches('\''));
     let words: Vec<&str> = ["explain", case].into_iter().chain(words).collect();
-    assert_eq!(hairline_in(&folder, &words).status.code(), Some(0), "{words:?}");
+    assert_eq!(
+        hairline_in(&folder, &words).status.code(),
+        Some(0),
+        "{words:?}"
+    );
 
     let update = [&arguments[..], &["--update", "known.jsonl"]].concat();
     let first = hairline_in(&folder, &update);
@@ -348,27 +474,70 @@ fn the_command_searches_updates_its_table_and_lists_it() {
     let known = fs::read_to_string(folder.join("known.jsonl")).unwrap();
     assert!(known.lines().count() >= 8, "{known}");
     let second = hairline_in(&folder, &update);
-    assert!(text(&second.stderr).contains("0 added, 0 raised"), "{}", text(&second.stderr));
-    assert_eq!(fs::read_to_string(folder.join("known.jsonl")).unwrap(), known);
-    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "nothing left beside it");
+    assert!(
+        text(&second.stderr).contains("0 added, 0 raised"),
+        "{}",
+        text(&second.stderr)
+    );
+    assert_eq!(
+        fs::read_to_string(folder.join("known.jsonl")).unwrap(),
+        known
+    );
+    assert_eq!(
+        fs::read_dir(&folder).unwrap().count(),
+        1,
+        "nothing left beside it"
+    );
 
-    let listed = hairline_in(&folder, &["fuzz", "worst", "--list", "--table", "known.jsonl"]);
+    let listed = hairline_in(
+        &folder,
+        &["fuzz", "worst", "--list", "--table", "known.jsonl"],
+    );
     let listed = text(&listed.stdout);
-    assert_eq!(listed.matches("hairline explain 'worst:").count(), known.lines().count());
-    let command = listed.lines().find(|line| line.contains("hairline explain")).unwrap();
-    let words: Vec<&str> =
-        command.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
-    assert_eq!(hairline_in(&folder, &words).status.code(), Some(0), "{words:?}");
+    assert_eq!(
+        listed.matches("hairline explain 'worst:").count(),
+        known.lines().count()
+    );
+    let command = listed
+        .lines()
+        .find(|line| line.contains("hairline explain"))
+        .unwrap();
+    let words: Vec<&str> = command
+        .split_whitespace()
+        .skip(1)
+        .map(|word| word.trim_matches('\''))
+        .collect();
+    assert_eq!(
+        hairline_in(&folder, &words).status.code(),
+        Some(0),
+        "{words:?}"
+    );
     // Without a table, what the program knows, by numbers that need no file.
     let known = hairline_in(&folder, &["fuzz", "worst", "--list", "--kernel", "cramer"]);
     let known = text(&known.stdout);
-    let command = known.lines().find(|line| line.contains("hairline explain '{")).unwrap();
-    let (case, rest) = command.split_once('\'').unwrap().1.split_once('\'').unwrap();
+    let command = known
+        .lines()
+        .find(|line| line.contains("hairline explain '{"))
+        .unwrap();
+    let (case, rest) = command
+        .split_once('\'')
+        .unwrap()
+        .1
+        .split_once('\'')
+        .unwrap();
     let words = rest.split_whitespace().map(|word| word.trim_matches('\''));
     let words: Vec<&str> = ["explain", case].into_iter().chain(words).collect();
-    assert_eq!(hairline_in(&folder, &words).status.code(), Some(0), "{words:?}");
+    assert_eq!(
+        hairline_in(&folder, &words).status.code(),
+        Some(0),
+        "{words:?}"
+    );
     let verified = hairline_in(&folder, &["corpus", "verify", "known.jsonl"]);
-    assert!(text(&verified.stdout).contains("stored scores right"), "{}", text(&verified.stderr));
+    assert!(
+        text(&verified.stdout).contains("stored scores right"),
+        "{}",
+        text(&verified.stderr)
+    );
 }
 
 /// The scores come from exact runs of kernels that a search found, the bounds from proofs for the extents of each case.
@@ -393,16 +562,40 @@ fn no_known_error_of_a_margin_passes_what_is_proved_at_its_extents() {
 fn wrong_tables_and_flags_are_refused_before_any_search() {
     let folder = scratch("worst-refused");
     let line = TABLE.lines().next().unwrap();
-    let score = line.split_once("score=").unwrap().1.split_once(' ').unwrap().0;
-    let name = line.split_once("worst:").unwrap().1.split_once('"').unwrap().0;
-    let curated = include_str!("../../corpora/curated.jsonl").lines().next().unwrap();
+    let score = line
+        .split_once("score=")
+        .unwrap()
+        .1
+        .split_once(' ')
+        .unwrap()
+        .0;
+    let name = line
+        .split_once("worst:")
+        .unwrap()
+        .1
+        .split_once('"')
+        .unwrap()
+        .0;
+    let curated = include_str!("../../corpora/curated.jsonl")
+        .lines()
+        .next()
+        .unwrap();
     let wrong_score = line.replace(&format!("score={score}"), "score=1.25e-9");
     for (table, message) in [
         (format!("{line}\n{curated}\n"), "t.jsonl:2: no entry"),
         (format!("\n{wrong_score}\n"), "t.jsonl:2: its score is"),
-        (line.replace("score=", "sore="), "t.jsonl:1: why: expected score="),
-        (line.replace(name, "woop/f32/-/t/any"), "t.jsonl:1: unknown kernel 'woop'"),
-        (line.replace(name, "cramer/f32/t/any"), "t.jsonl:1: 'cramer/f32/t/any' is not kernel/"),
+        (
+            line.replace("score=", "sore="),
+            "t.jsonl:1: why: expected score=",
+        ),
+        (
+            line.replace(name, "woop/f32/-/t/any"),
+            "t.jsonl:1: unknown kernel 'woop'",
+        ),
+        (
+            line.replace(name, "cramer/f32/t/any"),
+            "t.jsonl:1: 'cramer/f32/t/any' is not kernel/",
+        ),
         (line[..line.len() / 2].to_owned(), "t.jsonl:1: "),
     ] {
         fs::write(folder.join("t.jsonl"), &table).unwrap();
@@ -410,7 +603,11 @@ fn wrong_tables_and_flags_are_refused_before_any_search() {
         let error = text(&output.stderr);
         assert_eq!(output.status.code(), Some(65), "{error}");
         assert!(error.contains(message), "{message}: {error}");
-        assert_eq!(fs::read_to_string(folder.join("t.jsonl")).unwrap(), table, "left as it was");
+        assert_eq!(
+            fs::read_to_string(folder.join("t.jsonl")).unwrap(),
+            table,
+            "left as it was"
+        );
     }
     for (arguments, code) in [
         (&["fuzz", "worst", "--gate", "edgy"][..], 2),
@@ -419,15 +616,33 @@ fn wrong_tables_and_flags_are_refused_before_any_search() {
         (&["fuzz", "worst", "--scalar", "f16"], 2),
         (&["fuzz", "worst", "-n", "0"], 2),
         (&["fuzz", "worst", "--list", "--update", "x"], 2),
-        (&["fuzz", "worst", "--update", "x", "--contract", "closed-ray"], 2),
+        (
+            &["fuzz", "worst", "--update", "x", "--contract", "closed-ray"],
+            2,
+        ),
         (&["fuzz", "worst", "--contract", "own,band=4ulps"], 2),
         // The old name of the command.
         (&["worst", "--band", "4ulps"], 2),
-        (&["fuzz", "worst", "--kernel", "havel-herout", "--objective", "margin"], 4),
+        (
+            &[
+                "fuzz",
+                "worst",
+                "--kernel",
+                "havel-herout",
+                "--objective",
+                "margin",
+            ],
+            4,
+        ),
         (&["fuzz", "worst", "--list", "--table", "missing.jsonl"], 74),
     ] {
         let output = hairline_in(&folder, arguments);
-        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", text(&output.stderr));
+        assert_eq!(
+            output.status.code(),
+            Some(code),
+            "{arguments:?}: {}",
+            text(&output.stderr)
+        );
         assert!(output.stdout.is_empty());
     }
 }

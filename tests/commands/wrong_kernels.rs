@@ -26,7 +26,10 @@ fn faults() -> Vec<String> {
         std::fs::read_to_string(format!("{HERE}/tests/kernels/wrong_kernels.cpp")).unwrap();
     let (_, table) = source.split_once("const Fault FAULTS[] = {").unwrap();
     let (table, _) = table.split_once("\n};").unwrap();
-    let names = table.split("{\"").skip(1).map(|row| row.split('"').next().unwrap().to_owned());
+    let names = table
+        .split("{\"")
+        .skip(1)
+        .map(|row| row.split('"').next().unwrap().to_owned());
     names.collect()
 }
 
@@ -43,7 +46,10 @@ fn check(library: &str, fault: &str, plan: &[&str]) -> (Option<i32>, String) {
         .output()
         .unwrap();
     let screen = String::from_utf8_lossy(&output.stdout).into_owned();
-    (output.status.code(), screen + &String::from_utf8_lossy(&output.stderr))
+    (
+        output.status.code(),
+        screen + &String::from_utf8_lossy(&output.stderr),
+    )
 }
 
 /// The plan that own-kernel.md recommends: all families, and a scene.
@@ -53,7 +59,9 @@ const RECOMMENDED: [&str; 6] = ["-n", FEW, "--scene", "room", "--family", "all"]
 fn every_wrong_kernel_fails_the_default_plan() {
     let source = PathBuf::from(HERE).join("tests/kernels/wrong_kernels.cpp");
     let flags = ["-xc++", "-std=c++17", "-O2", "-Wall", "-Wextra", "-Werror"];
-    let Some(library) = library(&source, "wrong-kernels", &flags) else { return };
+    let Some(library) = library(&source, "wrong-kernels", &flags) else {
+        return;
+    };
     let faults = faults();
     assert!(80 < faults.len(), "{}", faults.len());
     let few = ["-n", FEW];

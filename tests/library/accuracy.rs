@@ -20,8 +20,14 @@ fn ulps<F: Float>(found: F, exact: &Rational, unit: f64) -> f64 {
         return f64::INFINITY;
     }
     let nearest = F::from_f64(exact.to_f64().unwrap());
-    let ulp = if exact.is_zero() { unit } else { nearest.ulp().to_f64() };
-    ((rational(found.to_f64()) - exact).abs() / rational(ulp)).to_f64().unwrap()
+    let ulp = if exact.is_zero() {
+        unit
+    } else {
+        nearest.ulp().to_f64()
+    };
+    ((rational(found.to_f64()) - exact).abs() / rational(ulp))
+        .to_f64()
+        .unwrap()
 }
 
 fn errors_are_those_of_rationals<F: Scalar>() {
@@ -30,7 +36,9 @@ fn errors_are_those_of_rationals<F: Scalar>() {
         for index in 0..25 {
             for case in family.make::<F>(&Parameters::default(), 1, index).cases() {
                 let definition = define(case);
-                let Truth::Transversal(crossing) = definition.truth else { continue };
+                let Truth::Transversal(crossing) = definition.truth else {
+                    continue;
+                };
                 if crossing.feature == Feature::Outside {
                     continue;
                 }
@@ -44,7 +52,9 @@ fn errors_are_those_of_rationals<F: Scalar>() {
                     let gives = entry.info.gives;
                     let zero = vec![F::zero(); entry.info.gates.len()];
                     let mut verdict = [Verdict::miss(None)];
-                    F::subject(entry).unwrap().run(std::slice::from_ref(case), &zero, &mut verdict);
+                    F::subject(entry)
+                        .unwrap()
+                        .run(std::slice::from_ref(case), &zero, &mut verdict);
                     let [verdict] = verdict;
                     if !verdict.hit {
                         continue;
@@ -78,7 +88,10 @@ fn errors_are_those_of_rationals<F: Scalar>() {
                     }
                     if gives.uv {
                         let unit = F::EPSILON.to_f64();
-                        near(found.uv, ulps(verdict.u, &u, unit).max(ulps(verdict.v, &v, unit)));
+                        near(
+                            found.uv,
+                            ulps(verdict.u, &u, unit).max(ulps(verdict.v, &v, unit)),
+                        );
                     }
                     measured += 1;
                     zeros += usize::from(u.is_zero());
@@ -101,10 +114,23 @@ fn errors_worked_out_by_hand() {
     // -2^-23 is half an ulp of the largest coordinate of the case, 2.
     let triangle = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
     let case = Case::<f32>::new([0.5, 0.5, 1.0], [0.0, 0.0, -1.0], triangle);
-    let Truth::Transversal(crossing) = define(&case).truth else { panic!() };
+    let Truth::Transversal(crossing) = define(&case).truth else {
+        panic!()
+    };
     let gives = find("cramer").unwrap().info.gives;
     let [t, u, v] = [1.0 + f32::EPSILON, 0.25, 0.25 + 2.0 * f32::EPSILON / 4.0];
-    let verdict = Verdict { hit: true, refused_by: None, facing: None, t, u, v, failure: None };
+    let verdict = Verdict {
+        hit: true,
+        refused_by: None,
+        facing: None,
+        t,
+        u,
+        v,
+        failure: None,
+    };
     let errors = Errors::of(&case, &crossing, gives, &verdict);
-    assert_eq!((errors.t, errors.uv, errors.point), (Some(1.0), Some(2.0), Some(0.5)));
+    assert_eq!(
+        (errors.t, errors.uv, errors.point),
+        (Some(1.0), Some(2.0), Some(0.5))
+    );
 }

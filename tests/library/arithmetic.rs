@@ -32,10 +32,18 @@ fn nearest<F: Float>(exact: &BigInt) -> F {
     let (mut low, mut high) = (0, most + 1);
     while high - low > 1 {
         let middle = low.midpoint(high);
-        if at(middle) <= size { low = middle } else { high = middle }
+        if at(middle) <= size {
+            low = middle
+        } else {
+            high = middle
+        }
     }
     // The largest number is as far from the next power of two as from its neighbour below.
-    let step = if low == most { at(low) - at(low - 1) } else { at(low + 1) - at(low) };
+    let step = if low == most {
+        at(low) - at(low - 1)
+    } else {
+        at(low + 1) - at(low)
+    };
     let twice_above = (&size - at(low)) << 1;
     let up = twice_above > step || twice_above == step && low % 2 == 1;
     let found = F::from_place(low + i64::from(up));
@@ -53,7 +61,10 @@ fn number<F: Float>(draw: &mut Draw) -> F {
     };
     match draw.below(8) {
         0 => F::zero(),
-        1..=2 => F::from_f64(scale_by_power_of_two(draw.integer(-5, 5) as f64, exponent as i32)),
+        1..=2 => F::from_f64(scale_by_power_of_two(
+            draw.integer(-5, 5) as f64,
+            exponent as i32,
+        )),
         _ => draw.with_exponent(exponent as i32),
     }
 }
@@ -84,7 +95,12 @@ fn fused_products_are_correctly_rounded<F: Float>() {
         let new = || numbers([a, b, c, d], Arithmetic::FMA);
         let check = |found: Emulated<F>, exact: BigInt, what: &str| {
             let (found, expected) = (found.value(), nearest::<F>(&exact));
-            assert_eq!(found, expected, "{} {what}: {a:e} {b:e} {c:e} {d:e}", F::NAME);
+            assert_eq!(
+                found,
+                expected,
+                "{} {what}: {a:e} {b:e} {c:e} {d:e}",
+                F::NAME
+            );
         };
         let [x, y, z, _] = new();
         let fused = x * y + z;
@@ -134,7 +150,10 @@ fn the_oracle_of_rounding_knows_ties_and_ends() {
     let half_up = wide(1.0f32) + (wide(f32::EPSILON) >> 1);
     assert_eq!(nearest::<f32>(&half_up), 1.0);
     assert_eq!(nearest::<f32>(&(&half_up + 1)), 1.0 + f32::EPSILON);
-    assert_eq!(nearest::<f32>(&(half_up + wide(f32::EPSILON))), 1.0 + 2.0 * f32::EPSILON);
+    assert_eq!(
+        nearest::<f32>(&(half_up + wide(f32::EPSILON))),
+        1.0 + 2.0 * f32::EPSILON
+    );
     let limit = wide(f32::MAX) + (wide(f32::MAX - f32::MAX.next_down()) >> 1);
     assert_eq!(nearest::<f32>(&limit), f32::INFINITY);
     assert_eq!(nearest::<f32>(&(BigInt::from(1) - limit)), f32::MIN);
@@ -178,7 +197,11 @@ macro_rules! subnormal {
     ($scalar:ident) => {
         impl Subnormal for $scalar {
             fn flushed(self) -> Self {
-                if self.is_subnormal() { 0.0f64.copysign(self.into()) as $scalar } else { self }
+                if self.is_subnormal() {
+                    0.0f64.copysign(self.into()) as $scalar
+                } else {
+                    self
+                }
             }
         }
     };
@@ -197,7 +220,11 @@ fn subnormal_numbers_are_zeros<F: Subnormal>() {
             let mut check = |found: Emulated<F>, ieee: F, what: &str| {
                 let (found, expected) = (found.value(), ieee.flushed());
                 let same = found.to_bits() == expected.to_bits() || found.is_nan() && ieee.is_nan();
-                assert!(same, "{arithmetic} {} {what}: {a:e} {b:e} {c:e}: {found:e}", F::NAME);
+                assert!(
+                    same,
+                    "{arithmetic} {} {what}: {a:e} {b:e} {c:e}: {found:e}",
+                    F::NAME
+                );
                 flushed += usize::from(ieee.to_bits() != expected.to_bits());
             };
             let [x, y, z] = new();
@@ -218,7 +245,11 @@ fn subnormal_numbers_are_zeros<F: Subnormal>() {
             check(x * y + z, sum, "a*b + c");
             let [x, y, z] = new();
             let wide = F::difference_of_products(&p, &q, &r, &p);
-            check(Real::difference_of_products(&x, &y, &z, &x), wide, "a*b - c*a");
+            check(
+                Real::difference_of_products(&x, &y, &z, &x),
+                wide,
+                "a*b - c*a",
+            );
         }
         let [x, y] = numbers([a, b], Arithmetic::FTZ);
         assert_eq!(x.is_zero(), p.is_zero());
@@ -240,7 +271,10 @@ fn epsilons_below_the_normal_numbers_are_zero_where_subnormal_numbers_are() {
     assert_eq!(ftz.largest_epsilon(f32::MIN_POSITIVE), f32::MIN_POSITIVE);
     assert_eq!(Arithmetic::FMA.largest_epsilon(0.0f32), 0.0);
     let below = |x: f32| Emulated::new(x, ftz).just_below().value();
-    assert_eq!([below(f32::MIN_POSITIVE), below(0.0)], [0.0, -f32::MIN_POSITIVE]);
+    assert_eq!(
+        [below(f32::MIN_POSITIVE), below(0.0)],
+        [0.0, -f32::MIN_POSITIVE]
+    );
     assert_eq!(
         [below(1.0), below(-f32::MIN_POSITIVE)],
         [1f32.next_down(), (-f32::MIN_POSITIVE).next_down()]

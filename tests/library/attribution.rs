@@ -23,7 +23,12 @@ fn bits<F: Float>(verdict: &Verdict<F>) -> (bool, Option<u8>, String, [Option<u6
     // A NaN's payload and sign are no result.
     let number = |x: F| (!x.is_nan()).then(|| x.to_bits());
     let values = [verdict.t, verdict.u, verdict.v].map(number);
-    (verdict.hit, verdict.refused_by, format!("{:?}", verdict.facing), values)
+    (
+        verdict.hit,
+        verdict.refused_by,
+        format!("{:?}", verdict.facing),
+        values,
+    )
 }
 
 fn a_tracked_run_is_the_run<F: Scalar>() {
@@ -39,15 +44,23 @@ fn a_tracked_run_is_the_run<F: Scalar>() {
             let tracked = kernel.gated().unwrap().run_tracked(case, &epsilons).verdict;
             let plain = run(kernel, case, &epsilons);
             let name = entry.info.name;
-            assert_eq!(bits(&tracked), bits(&plain), "{name} {epsilons:?} {}", case.hex());
+            assert_eq!(
+                bits(&tracked),
+                bits(&plain),
+                "{name} {epsilons:?} {}",
+                case.hex()
+            );
         }
     };
     for family in FAMILIES {
         for index in 0..200 {
             let mut draw = Draw::new("tracked-run", 1, index);
             let scale = draw.pick(&[0, 0, -60, 60, -250, 250]);
-            let parameters =
-                Parameters { scale, scale_direction: draw.coin(), ..Parameters::default() };
+            let parameters = Parameters {
+                scale,
+                scale_direction: draw.coin(),
+                ..Parameters::default()
+            };
             for case in family.make::<F>(&parameters, 1, index).cases() {
                 check(case, &mut draw);
             }
@@ -58,7 +71,10 @@ fn a_tracked_run_is_the_run<F: Scalar>() {
         let [o, d, a, b, c] =
             std::array::from_fn(|_| std::array::from_fn(|_| F::from_bits(draw.bits())));
         let case = Case::new(o, d, [a, b, c]);
-        check(&case.on(F::from_bits(draw.bits()), F::infinity()), &mut draw);
+        check(
+            &case.on(F::from_bits(draw.bits()), F::infinity()),
+            &mut draw,
+        );
         check(&case, &mut draw);
     }
 }
@@ -79,7 +95,10 @@ fn a_run_that_never_rounds_is_exact<F: Scalar>() {
                     continue;
                 }
                 // Havel and Herout decide on signs of zeros.
-                for entry in KERNELS.iter().filter(|entry| entry.info.name != "havel-herout") {
+                for entry in KERNELS
+                    .iter()
+                    .filter(|entry| entry.info.name != "havel-herout")
+                {
                     let kernel = F::subject(entry).unwrap();
                     let zeros = vec![F::zero(); entry.info.gates.len()];
                     let tracked = kernel.gated().unwrap().run_tracked(case, &zeros);
@@ -117,14 +136,23 @@ fn attributions<F: Scalar>(
     let contract = contract.unwrap_or(entry.info.contract);
     let mut counts = BTreeMap::new();
     for index in 0..4_000 {
-        for case in find(family).unwrap().make::<F>(&Parameters::default(), 1, index).cases() {
+        for case in find(family)
+            .unwrap()
+            .make::<F>(&Parameters::default(), 1, index)
+            .cases()
+        {
             let truth = truth(case);
             if !keep(&Class::of(&truth)) {
                 continue;
             }
             let asked = obligation(&truth, &contract, false);
             let verdict = run(subject, case, &epsilons);
-            let finding = judge((&contract, asked), (case, &truth), entry.info.gives, &verdict);
+            let finding = judge(
+                (&contract, asked),
+                (case, &truth),
+                entry.info.gives,
+                &verdict,
+            );
             let why = attribute(subject, case, &epsilons, &truth, (&contract, asked));
             assert_eq!(finding.is_some(), why.is_some());
             if let (Some(finding), Some(why)) = (finding, why) {
@@ -136,11 +164,18 @@ fn attributions<F: Scalar>(
 }
 
 fn only(counts: &BTreeMap<(Finding, Attribution), usize>, finding: Finding) -> Vec<Attribution> {
-    counts.keys().filter(|(found, _)| *found == finding).map(|(_, why)| *why).collect()
+    counts
+        .keys()
+        .filter(|(found, _)| *found == finding)
+        .map(|(_, why)| *why)
+        .collect()
 }
 
 fn named(name: &str) -> Option<Contract> {
-    NAMED.iter().find(|named| named.name == name).map(|named| named.contract)
+    NAMED
+        .iter()
+        .find(|named| named.name == name)
+        .map(|named| named.contract)
 }
 
 #[test]
@@ -171,13 +206,27 @@ fn where_nothing_rounds_a_hidden_formula_is_wrong_for_the_reason_that_the_shown_
     let entry = kernel::find("scalar-triple-two-sided").unwrap();
     let (info, shown) = (entry.info, f64::subject(entry).unwrap());
     let contract = named("closed-line").unwrap();
-    let fixed: Vec<Gate> =
-        info.gates.iter().map(|gate| Gate { epsilon: Tunable::Fixed, ..*gate }).collect();
-    let without_epsilons = KernelInfo { gates: Box::leak(fixed.into()), ..*info };
+    let fixed: Vec<Gate> = info
+        .gates
+        .iter()
+        .map(|gate| Gate {
+            epsilon: Tunable::Fixed,
+            ..*gate
+        })
+        .collect();
+    let without_epsilons = KernelInfo {
+        gates: Box::leak(fixed.into()),
+        ..*info
+    };
     let mut counts = BTreeMap::new();
     for index in 0..4_000 {
-        let made = find("lattice").unwrap().make::<f64>(&Parameters::default(), 1, index);
-        for (case, epsilons) in made.cases().iter().flat_map(|case| [(case, [1.5]), (case, [0.0])])
+        let made = find("lattice")
+            .unwrap()
+            .make::<f64>(&Parameters::default(), 1, index);
+        for (case, epsilons) in made
+            .cases()
+            .iter()
+            .flat_map(|case| [(case, [1.5]), (case, [0.0])])
         {
             let truth = truth(case);
             let asked = obligation(&truth, &contract, false);
@@ -231,7 +280,11 @@ fn woops_misses_and_cramers_on_the_lattice_are_rounding() {
     let any = |_: &Class| true;
     for family in ["edge-near", "shared-edge"] {
         let counts = attributions::<f32>("woop-watertight", &[0.0; 3], None, family, any);
-        assert_eq!(only(&counts, Finding::FalseMiss), [Attribution::Rounding], "{family}");
+        assert_eq!(
+            only(&counts, Finding::FalseMiss),
+            [Attribution::Rounding],
+            "{family}"
+        );
     }
     let counts = attributions::<f32>("cramer", &[0.0; 3], None, "lattice", any);
     assert_eq!(only(&counts, Finding::FalseMiss), [Attribution::Rounding]);
@@ -266,7 +319,11 @@ fn what_is_wrong_at_zero_too_is_no_epsilons_fault() {
             "lattice",
             behind,
         );
-        assert_eq!(only(&counts, Finding::FalseMiss), [Attribution::Convention], "{epsilons:?}");
+        assert_eq!(
+            only(&counts, Finding::FalseMiss),
+            [Attribution::Convention],
+            "{epsilons:?}"
+        );
     }
 }
 
@@ -287,7 +344,13 @@ fn a_hit_whose_values_alone_overflow_is_out_of_range() {
         &run(subject, &case, &[0.0; 2]),
     );
     assert_eq!(found, Some(Finding::BadValue));
-    let why = attribute(subject, &case, &[0.0; 2], &truth, (&entry.info.contract, asked));
+    let why = attribute(
+        subject,
+        &case,
+        &[0.0; 2],
+        &truth,
+        (&entry.info.contract, asked),
+    );
     assert_eq!(why, Some(Attribution::Range));
 }
 

@@ -54,7 +54,10 @@ fn constructions_show_false_misses_and_false_hits_of_many_kernels() {
         kernels.extend(signature.iter().map(|signature| signature.kernel));
         findings.extend(signature.iter().map(|signature| signature.finding));
     });
-    assert!(kernels.len() >= 10 && findings.len() >= 2, "{kernels:?} {findings:?}");
+    assert!(
+        kernels.len() >= 10 && findings.len() >= 2,
+        "{kernels:?} {findings:?}"
+    );
 }
 
 #[test]
@@ -63,5 +66,8 @@ fn a_disagreement_is_the_known_one() {
     let case = Case::<f32>::new([0.0, 0.0, 2.3841858e-7], [1.0, 0.0, 0.0], triangle);
     let input = Input::of_source(find("moller-trumbore").unwrap(), case);
     let signature = disagreement(&input).expect("the printed epsilon misses it");
-    assert_eq!((signature.finding.name(), signature.gate), ("false-miss", Some("parallel")));
+    assert_eq!(
+        (signature.finding.name(), signature.gate),
+        ("false-miss", Some("parallel"))
+    );
 }

@@ -10,7 +10,10 @@ use hairline::internals::truth::Place;
 
 fn row(kernel: &str, epsilon: &str) -> Row {
     let choice = EpsilonChoice::parse(epsilon).unwrap();
-    choice.rows(&[find(kernel).unwrap()], None).unwrap().remove(0)
+    choice
+        .rows(&[find(kernel).unwrap()], None)
+        .unwrap()
+        .remove(0)
 }
 
 /// A ray at a point of a triangle's plane whose weights reach from -reach to 1 + 2 reach.
@@ -32,7 +35,9 @@ fn wrong(trials: &SpawnTrials<f32>, distance: f64) -> usize {
     let is_wrong = |trial: &&hairline::internals::spawn::SpawnTrial<f32>| {
         let start = offset.start(&trial.hit);
         let truth = oracle::truth(&trial.case(start.origin, start.t_min));
-        truth.crossing().is_none_or(|crossing| crossing.place != Place::Before)
+        truth
+            .crossing()
+            .is_none_or(|crossing| crossing.place != Place::Before)
     };
     trials.trials.iter().filter(is_wrong).count()
 }
@@ -79,8 +84,9 @@ fn weights_are_known_from_gates_that_compare_them_alone() {
         ("moller-trumbore-culling", "edge=-1e-30", None),
         ("scalar-triple", "edge=-1e-30", None),
     ] {
-        if let Ok(rows) =
-            EpsilonChoice::parse(epsilon).unwrap().rows(&[find(kernel).unwrap()], None)
+        if let Ok(rows) = EpsilonChoice::parse(epsilon)
+            .unwrap()
+            .rows(&[find(kernel).unwrap()], None)
         {
             assert_eq!(least_weight(&rows[0]), least, "{kernel} {epsilon}");
         } else {

@@ -14,13 +14,19 @@ fn drawn<F: Scalar>(case: &Case<F>, kernel: &str) -> String {
 /// The values of an attribute, in order.
 fn attributes<'a>(svg: &'a str, name: &str) -> Vec<&'a str> {
     let start = format!(" {name}=\"");
-    svg.split(start.as_str()).skip(1).map(|rest| rest.split_once('"').unwrap().0).collect()
+    svg.split(start.as_str())
+        .skip(1)
+        .map(|rest| rest.split_once('"').unwrap().0)
+        .collect()
 }
 
 /// The numbers of some text.
 fn numbers(text: &str) -> Vec<f64> {
     let is_part = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
-    text.split(|c| !is_part(c)).filter(|n| !n.is_empty()).map(|n| n.parse().unwrap()).collect()
+    text.split(|c| !is_part(c))
+        .filter(|n| !n.is_empty())
+        .map(|n| n.parse().unwrap())
+        .collect()
 }
 
 /// The strokes of two points from M to L, as x1, y1, x2, y2.
@@ -50,9 +56,14 @@ fn distance([x1, y1, x2, y2]: [f64; 4], [x, y]: [f64; 2]) -> f64 {
 fn the_triangle_and_the_point_have_their_shape() {
     // Legs 4 and 3; onto (1, 1), which is at 1 from all three edges.
     let triangle = [[0.0, 0.0, 7.0], [4.0, 0.0, 7.0], [0.0, 3.0, 7.0]];
-    let svg = drawn(&Case::<f64>::new([1.0, 1.0, 9.0], [0.0, 0.0, -1.0], triangle), "cramer");
+    let svg = drawn(
+        &Case::<f64>::new([1.0, 1.0, 9.0], [0.0, 0.0, -1.0], triangle),
+        "cramer",
+    );
     let edges = strokes(&svg, "stroke-width=\"2\"");
-    let [ab, bc, ca] = edges[..] else { panic!("one panel: {edges:?}") };
+    let [ab, bc, ca] = edges[..] else {
+        panic!("one panel: {edges:?}")
+    };
     let length = |[x1, y1, x2, y2]: [f64; 4]| (x2 - x1).hypot(y2 - y1);
     let unit = length(bc) / 5.0;
     assert!((length(ab) - 4.0 * unit).abs() < 0.03 && (length(ca) - 3.0 * unit).abs() < 0.03);
@@ -80,10 +91,19 @@ fn an_inset_keeps_its_digits_however_near_the_edge_is() {
         assert_eq!((edges.len(), marks.len()), (4, 3), "2^{power}");
         // The inset shows 2.5 times the distance on each side of its middle, 149 dots.
         assert_eq!(marks[1], [640.0 - 14.0 - 149.0, 52.0 + 149.0], "2^{power}");
-        assert!((distance(inset, marks[1]) - 149.0 / 2.5).abs() < 0.02, "2^{power}");
+        assert!(
+            (distance(inset, marks[1]) - 149.0 / 2.5).abs() < 0.02,
+            "2^{power}"
+        );
         // The inside is the upper part.
         assert!(inset[1] > marks[1][1], "2^{power}");
-        let zoom = svg.split("the point, ").nth(1).unwrap().split_once(" times").unwrap().0;
+        let zoom = svg
+            .split("the point, ")
+            .nth(1)
+            .unwrap()
+            .split_once(" times")
+            .unwrap()
+            .0;
         // The overview's half is 0.64 longest edges; those are 8.
         let expected = 0.64 * 8.0 / (2.5 * gap);
         assert!(
@@ -107,7 +127,10 @@ fn a_wrong_t_is_drawn_where_it_points() {
         let [x1, y1, x2, y2] = strokes(&svg, "stroke-width=\"2\"")[0];
         (x2 - x1).hypot(y2 - y1) / 8.0
     };
-    let cross = svg.lines().find(|line| line.contains("l11 11m0 -11l-11 11")).unwrap();
+    let cross = svg
+        .lines()
+        .find(|line| line.contains("l11 11m0 -11l-11 11"))
+        .unwrap();
     let corner = numbers(attributes(cross, "d")[0]);
     let cross = [corner[0] + 5.5, corner[1] + 5.5];
     let exact = exact_marks(&svg)[0];
@@ -123,15 +146,27 @@ fn a_wrong_t_is_drawn_where_it_points() {
 fn is_sound(svg: &str, what: &str) {
     let height = numbers(attributes(svg, "viewBox")[0])[3];
     for name in ["x", "y", "cx", "cy", "width", "height"] {
-        for value in attributes(svg, name).into_iter().filter(|value| *value != "100%") {
+        for value in attributes(svg, name)
+            .into_iter()
+            .filter(|value| *value != "100%")
+        {
             let number: f64 = value.parse().unwrap_or(f64::NAN);
-            assert!((0.0..=height.max(640.0)).contains(&number), "{what}: {name}={value}");
+            assert!(
+                (0.0..=height.max(640.0)).contains(&number),
+                "{what}: {name}={value}"
+            );
         }
     }
     for data in attributes(svg, "d") {
-        assert!(!data.contains("NaN") && !data.contains("inf"), "{what}: {data}");
+        assert!(
+            !data.contains("NaN") && !data.contains("inf"),
+            "{what}: {data}"
+        );
         for number in numbers(data) {
-            assert!((-20.0..=height.max(640.0)).contains(&number), "{what}: {data}");
+            assert!(
+                (-20.0..=height.max(640.0)).contains(&number),
+                "{what}: {data}"
+            );
         }
     }
     assert!(!svg.contains(" id=") && !svg.contains("<style"), "{what}");
@@ -142,12 +177,18 @@ fn is_sound(svg: &str, what: &str) {
 fn draws_every_family<F: Scalar>(kernels: &[&str]) {
     for family in FAMILIES {
         for index in 0..12 {
-            for (k, case) in
-                family.make::<F>(&Parameters::default(), 3, index).cases().iter().enumerate()
+            for (k, case) in family
+                .make::<F>(&Parameters::default(), 3, index)
+                .cases()
+                .iter()
+                .enumerate()
             {
                 for kernel in kernels {
                     let svg = drawn(case, kernel);
-                    is_sound(&svg, &format!("{} {} {index}.{k} {kernel}", family.name, F::NAME));
+                    is_sound(
+                        &svg,
+                        &format!("{} {} {index}.{k} {kernel}", family.name, F::NAME),
+                    );
                 }
             }
         }
@@ -164,7 +205,10 @@ fn every_family_is_drawn_with_sound_numbers() {
 fn what_has_no_place_is_said_and_not_drawn() {
     let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let of = |origin, direction, triangle| {
-        let svg = drawn(&Case::<f64>::new(origin, direction, triangle), "moller-trumbore");
+        let svg = drawn(
+            &Case::<f64>::new(origin, direction, triangle),
+            "moller-trumbore",
+        );
         is_sound(&svg, "");
         svg
     };
@@ -178,7 +222,11 @@ fn what_has_no_place_is_said_and_not_drawn() {
             && point.contains("a = b = c")
     );
     // The line is seen as a point, and only the segment as a line.
-    let aslant = of([3.0, 0.0, 1.0], [1.0, 2.0, -1.0], [[0.0; 3], [1.0; 3], [2.0; 3]]);
+    let aslant = of(
+        [3.0, 0.0, 1.0],
+        [1.0, 2.0, -1.0],
+        [[0.0; 3], [1.0; 3], [2.0; 3]],
+    );
     assert!(aslant.contains("seen along the ray") && strokes(&aslant, "dasharray").is_empty());
     let along = of([-1.0; 3], [1.0; 3], [[0.0; 3], [1.0; 3], [2.0; 3]]);
     assert!(along.contains("seen from aside") && along.contains("thick: in the triangle"));

@@ -15,8 +15,17 @@ use num_traits::{One, ToPrimitive};
 
 fn made<F: Scalar>(stratum: Stratum, words: &str, count: u64) -> Vec<Vec<Case<F>>> {
     let (scene, _) = Scene::parse(words).unwrap();
-    let parameters = Parameters { scene: Some(scene), ..Parameters::default() };
-    let cases = |index| stratum.family().make::<F>(&parameters, 1, index).cases().to_vec();
+    let parameters = Parameters {
+        scene: Some(scene),
+        ..Parameters::default()
+    };
+    let cases = |index| {
+        stratum
+            .family()
+            .make::<F>(&parameters, 1, index)
+            .cases()
+            .to_vec()
+    };
     (0..count).map(cases).collect()
 }
 
@@ -53,7 +62,11 @@ fn almost_parallel_rays_have_the_angle_that_the_scene_asks_for() {
     let place = "extent=1000,center=500000,edge=1..50,distance=0..2000";
     for (words, low, high) in [
         (format!("{place},sine=1e-6..1e-5"), 1e-6, 1e-5),
-        (format!("{place},sine=1e-3..1e-2,direction=target"), 1e-3, 1e-2),
+        (
+            format!("{place},sine=1e-3..1e-2,direction=target"),
+            1e-3,
+            1e-2,
+        ),
         ("room,sine=1e-6..1e-5".to_owned(), 1e-6, 1e-5),
         ("room,sine=1e-6..1e-5,plane=axis-0".to_owned(), 1e-6, 1e-5),
     ] {
@@ -69,11 +82,18 @@ fn check_sines<F: Scalar>(words: &str, low: f64, high: f64) {
     let cases = made::<F>(Stratum::Grazing, words, 1000);
     let sines = cases.iter().map(|made| sine_squared(&made[0]));
     let sines: Vec<Rational> = sines.collect();
-    let outside = sines.iter().filter(|sine| **sine < least || most < **sine).count();
+    let outside = sines
+        .iter()
+        .filter(|sine| **sine < least || most < **sine)
+        .count();
     assert!(outside <= 3, "{words} {}: {outside} of 1000", F::NAME);
     // Each halving is equally likely.
     let below = sines.iter().filter(|sine| **sine < middle).count();
-    assert!((440..560).contains(&below), "{words} {}: {below} below the middle", F::NAME);
+    assert!(
+        (440..560).contains(&below),
+        "{words} {}: {below} below the middle",
+        F::NAME
+    );
 }
 
 #[test]
@@ -88,7 +108,11 @@ fn half_of_the_triangles_are_smaller_than_the_median_edge() {
     };
     let below = |sizes: &[f64], most: f64| sizes.iter().filter(|size| **size < most).count();
     let lengths = sizes("extent=100,edge=0.05..0.1..20,distance=0..200");
-    assert!((1880..2120).contains(&below(&lengths, 0.1)), "{}", below(&lengths, 0.1));
+    assert!(
+        (1880..2120).contains(&below(&lengths, 0.1)),
+        "{}",
+        below(&lengths, 0.1)
+    );
     // On either side each doubling is equally likely: sqrt(0.1 · 20) halves the upper half.
     assert!(
         (2880..3120).contains(&below(&lengths, 2f64.sqrt())),
@@ -117,7 +141,9 @@ fn a_generated_ray_misses_its_target_by_the_rounding_of_its_origin() {
 /// The axis along which all vertices have one coordinate, if there is one, and that coordinate.
 fn level<F: Float>(case: &Case<F>) -> Option<(usize, F)> {
     let [.., a, b, c] = case.vectors();
-    (0..3).find(|i| a[*i] == b[*i] && b[*i] == c[*i]).map(|i| (i, a[i]))
+    (0..3)
+        .find(|i| a[*i] == b[*i] && b[*i] == c[*i])
+        .map(|i| (i, a[i]))
 }
 
 fn check_planes<F: Scalar>(kind: PlaneKind, words: &str) {
@@ -149,16 +175,27 @@ fn check_planes<F: Scalar>(kind: PlaneKind, words: &str) {
                         let upright = normal.iter().map(|x| x * x / &squares).max().unwrap();
                         let sine = (Rational::one() - upright).to_f64().unwrap().sqrt();
                         assert!(sine < 0.25, "{}: {sine}", name());
-                        assert!(stratum != Stratum::Interior || sine < 0.11, "{}: {sine}", name());
+                        assert!(
+                            stratum != Stratum::Interior || sine < 0.11,
+                            "{}: {sine}",
+                            name()
+                        );
                     }
                 }
             }
             if let (PlaneKind::Box, Stratum::Edges, [one, other]) = (kind, stratum, &made[..]) {
-                assert_ne!(level(one).unwrap().0, level(other).unwrap().0, "at right angles");
+                assert_ne!(
+                    level(one).unwrap().0,
+                    level(other).unwrap().0,
+                    "at right angles"
+                );
             }
         }
         let is_level = !matches!(kind, PlaneKind::Generic | PlaneKind::Terrain);
-        assert!(!is_level || axes.iter().all(|count| 80 < *count), "{words} {stratum:?} {axes:?}");
+        assert!(
+            !is_level || axes.iter().all(|count| 80 < *count),
+            "{words} {stratum:?} {axes:?}"
+        );
     }
 }
 
@@ -171,28 +208,45 @@ fn still<F: Float>(case: &Case<F>) -> usize {
 fn check_rays<F: Scalar>(words: &str, zeros: usize) {
     for stratum in Stratum::ALL {
         let made = made::<F>(stratum, words, 400);
-        let truths = made.iter().map(|made| made.iter().map(oracle::truth).collect::<Vec<_>>());
+        let truths = made
+            .iter()
+            .map(|made| made.iter().map(oracle::truth).collect::<Vec<_>>());
         let truths: Vec<Vec<Truth>> = truths.collect();
         let is_flat = [Stratum::Grazing, Stratum::Parallel].contains(&stratum);
         if is_flat {
             // Such rays go where their angle needs.
             continue;
         }
-        assert!(made.iter().flatten().all(|case| still(case) == zeros), "{words} {stratum:?}");
+        assert!(
+            made.iter().flatten().all(|case| still(case) == zeros),
+            "{words} {stratum:?}"
+        );
         // Rays meet what they are aimed at, and are not parallel to it.
         let crosses = |truth: &Truth| truth.crossing().is_some();
         let met = truths.iter().filter(|all| all.iter().any(crosses)).count();
         assert!(395 <= met, "{words} {stratum:?}: {met}");
         if stratum == Stratum::Interior {
-            let hits = truths.iter().filter(|all| all[0].hits_closed() == Some(true)).count();
+            let hits = truths
+                .iter()
+                .filter(|all| all[0].hits_closed() == Some(true))
+                .count();
             assert!(390 <= hits, "{words}: {hits}");
         }
         if (stratum, zeros) == (Stratum::Vertices, 2) {
             let vertices = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
-            let at_vertex =
-                |truth: &Truth| truth.crossing().is_some_and(|it| vertices.contains(&it.feature));
-            let all = truths.iter().filter(|all| all.iter().any(at_vertex)).count();
-            assert!(390 <= all, "{words}: an axis ray at a vertex meets it exactly: {all}");
+            let at_vertex = |truth: &Truth| {
+                truth
+                    .crossing()
+                    .is_some_and(|it| vertices.contains(&it.feature))
+            };
+            let all = truths
+                .iter()
+                .filter(|all| all.iter().any(at_vertex))
+                .count();
+            assert!(
+                390 <= all,
+                "{words}: an axis ray at a vertex meets it exactly: {all}"
+            );
         }
     }
 }
@@ -200,7 +254,12 @@ fn check_rays<F: Scalar>(words: &str, zeros: usize) {
 #[test]
 fn rays_go_along_axes_where_the_scene_says_so() {
     for (toward, zeros) in [("axis", 2), ("axis-plane", 1)] {
-        for scene in ["room", "city,plane=axis", "room,plane=box", "city,direction=target"] {
+        for scene in [
+            "room",
+            "city,plane=axis",
+            "room,plane=box",
+            "city,direction=target",
+        ] {
             check_rays::<f32>(&format!("{scene},toward={toward}"), zeros);
             check_rays::<f64>(&format!("{scene},toward={toward}"), zeros);
         }
@@ -221,23 +280,48 @@ fn planes_are_of_the_kind_that_the_scene_names() {
 
 #[test]
 fn waechter_binder_fails_at_points_o_plus_t_d_on_a_floor_at_height_0() {
-    let [a, b, c] = [[-1000.0, 0.0, -1000.0], [0.0, 0.0, 1000.0], [1000.0, 0.0, -1000.0]];
-    let direction = [-0.32852643728256226, -0.7071420550346375, -0.626_115_317_781_672];
-    let first = Case::new([265.0f32, 480.0, 370.0], direction.map(|x: f64| x as f32), [a, b, c]);
-    let row =
-        EpsilonChoice::Source.rows(&[find("moller-trumbore").unwrap()], None).unwrap().remove(0);
+    let [a, b, c] = [
+        [-1000.0, 0.0, -1000.0],
+        [0.0, 0.0, 1000.0],
+        [1000.0, 0.0, -1000.0],
+    ];
+    let direction = [
+        -0.32852643728256226,
+        -0.7071420550346375,
+        -0.626_115_317_781_672,
+    ];
+    let first = Case::new(
+        [265.0f32, 480.0, 370.0],
+        direction.map(|x: f64| x as f32),
+        [a, b, c],
+    );
+    let row = EpsilonChoice::Source
+        .rows(&[find("moller-trumbore").unwrap()], None)
+        .unwrap()
+        .remove(0);
     let (kind, epsilons) = (PointKind::Ray, row.epsilons::<f32>());
     let of = SpawnTrials::of((row.entry, &epsilons), kind, 1, &[(0, first)], None);
-    let [trial] = of.trials.as_slice() else { panic!("{of:?}") };
-    let start = parse("waechter-binder").unwrap().offset::<f32>().unwrap().start(&trial.hit);
+    let [trial] = of.trials.as_slice() else {
+        panic!("{of:?}")
+    };
+    let start = parse("waechter-binder")
+        .unwrap()
+        .offset::<f32>()
+        .unwrap()
+        .start(&trial.hit);
     // The ray came from above, and the start is below.
-    assert!(trial.hit.normal[1] > 0.0 && start.origin[1] < 0.0, "{start:?}");
+    assert!(
+        trial.hit.normal[1] > 0.0 && start.origin[1] < 0.0,
+        "{start:?}"
+    );
 }
 
 #[test]
 fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does() {
-    let row =
-        EpsilonChoice::Source.rows(&[find("moller-trumbore").unwrap()], None).unwrap().remove(0);
+    let row = EpsilonChoice::Source
+        .rows(&[find("moller-trumbore").unwrap()], None)
+        .unwrap()
+        .remove(0);
     let schemes = [parse("waechter-binder").unwrap()];
     let run = |scene: &Scene, kind: PointKind, schemes: &[Scheme]| {
         let (mesh, instance, wall, fold) = (None, None, 0.01, 45.0);
@@ -272,7 +356,10 @@ fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does()
             let derived = derived_normal::<f32>(&scene, 0.0).unwrap();
             let schemes = [parse(&format!("normal={derived}")).unwrap()];
             let sums = run(&scene, PointKind::Weights, &schemes);
-            assert!(0 < sums.schemes[0].rays && sums.schemes[0].wrong == 0, "{scene}");
+            assert!(
+                0 < sums.schemes[0].rays && sums.schemes[0].wrong == 0,
+                "{scene}"
+            );
         }
     }
 }

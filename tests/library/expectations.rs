@@ -22,11 +22,16 @@ fn moller_trumbore(case: &Case<f32>, epsilon: f32) -> Option<Hit<f32>> {
 #[test]
 fn users_own() {
     const MINE: KernelInfo = KernelInfo::own("mine", Contract::CLOSED_RAY);
-    let Ok(file) = env::var("USERS_FILE") else { return };
+    let Ok(file) = env::var("USERS_FILE") else {
+        return;
+    };
     let epsilon: f32 = env::var("USERS_EPSILON").unwrap().parse().unwrap();
     let test = move |case: &Case<f32>, _: &[f32]| moller_trumbore(case, epsilon);
     let kernel = Entry::new(&MINE).f32(test);
-    audit(&kernel).families(["interior"]).expectations(file).assert_conforms();
+    audit(&kernel)
+        .families(["interior"])
+        .expectations(file)
+        .assert_conforms();
 }
 
 /// Runs it; none if it passes, else what it panics with.
@@ -52,8 +57,10 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn files(folder: &Path) -> Vec<(PathBuf, String)> {
-    let mut paths: Vec<PathBuf> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
     paths.sort();
     let text = |path: PathBuf| (path.clone(), fs::read_to_string(path).unwrap());
     paths.into_iter().map(text).collect()
@@ -71,30 +78,65 @@ fn a_test_passes_as_long_as_what_is_found_is_what_its_file_says() {
         said
     };
     // Nothing is written unless it is asked for.
-    fails("0.05", "", &["there is no such file. `HAIRLINE_BLESS=1 cargo test` writes it and "]);
-    fails("0.05", "yes", &["HAIRLINE_BLESS: expected 1 or worse, not 'yes'"]);
+    fails(
+        "0.05",
+        "",
+        &["there is no such file. `HAIRLINE_BLESS=1 cargo test` writes it and "],
+    );
+    fails(
+        "0.05",
+        "yes",
+        &["HAIRLINE_BLESS: expected 1 or worse, not 'yes'"],
+    );
     assert!(files(&folder).is_empty());
     assert_eq!(panic_of(&file, "0.05", "1"), None);
     let blessed = files(&folder);
     let names: Vec<&Path> = blessed.iter().map(|(path, _)| path.as_path()).collect();
     assert_eq!(names, [&file, &folder.join("mine.toml.lock")]);
-    assert!(blessed[0].1.contains("finding = \"false-miss\""), "{}", blessed[0].1);
+    assert!(
+        blessed[0].1.contains("finding = \"false-miss\""),
+        "{}",
+        blessed[0].1
+    );
     assert_eq!(panic_of(&file, "0.05", ""), None);
     assert_eq!(panic_of(&file, "0.05", "1"), None);
     assert_eq!(files(&folder), blessed);
 
     // Worse: a case that was right before, as a command, in Rust and in bits.
-    let worse =
-        ["does not conform: ", " worse", "the case shown is new", "::new([", "HAIRLINE_CASE='"];
+    let worse = [
+        "does not conform: ",
+        " worse",
+        "the case shown is new",
+        "::new([",
+        "HAIRLINE_CASE='",
+    ];
     let said = fails("0.1", "", &worse);
-    assert!(said.contains("mine.toml:") && !said.contains("HAIRLINE_BLESS"), "{said}");
-    fails("0.1", "1", &["stays as it is: ", "HAIRLINE_BLESS=worse writes it all the same"]);
+    assert!(
+        said.contains("mine.toml:") && !said.contains("HAIRLINE_BLESS"),
+        "{said}"
+    );
+    fails(
+        "0.1",
+        "1",
+        &[
+            "stays as it is: ",
+            "HAIRLINE_BLESS=worse writes it all the same",
+        ],
+    );
     assert_eq!(files(&folder), blessed);
     assert_eq!(panic_of(&file, "0.1", "worse"), None);
     assert_ne!(files(&folder), blessed);
 
     // Better: stale.
-    fails("0.05", "", &["better than expected", "stale: ", "HAIRLINE_BLESS=1 cargo test writes"]);
+    fails(
+        "0.05",
+        "",
+        &[
+            "better than expected",
+            "stale: ",
+            "HAIRLINE_BLESS=1 cargo test writes",
+        ],
+    );
     assert_eq!(panic_of(&file, "0.05", "1"), None);
     assert_eq!(files(&folder), blessed);
 
@@ -104,20 +146,42 @@ fn a_test_passes_as_long_as_what_is_found_is_what_its_file_says() {
         fails(
             "0.05",
             bless,
-            &["mine.toml.lock: ", "whose cases these are, is missing: restore it"],
+            &[
+                "mine.toml.lock: ",
+                "whose cases these are, is missing: restore it",
+            ],
         );
     }
-    fs::write(&file, blessed[0].1.replacen("\nschema = ", "\nschema = = ", 1)).unwrap();
+    fs::write(
+        &file,
+        blessed[0].1.replacen("\nschema = ", "\nschema = = ", 1),
+    )
+    .unwrap();
     fails("0.05", "", &["mine.toml:"]);
     let count = blessed[0].1.rfind("counts = { ").unwrap() + "counts = { ".len();
     let at = count + blessed[0].1[count..].find("= ").unwrap() + 2;
-    fs::write(&file, format!("{}9{}", &blessed[0].1[..at], &blessed[0].1[at..])).unwrap();
-    fails("0.05", "", &["mine.toml:", "mine.toml.lock: put back what was there"]);
+    fs::write(
+        &file,
+        format!("{}9{}", &blessed[0].1[..at], &blessed[0].1[at..]),
+    )
+    .unwrap();
+    fails(
+        "0.05",
+        "",
+        &["mine.toml:", "mine.toml.lock: put back what was there"],
+    );
 }
 
 #[test]
 fn a_file_says_alone_what_may_be_wrong() {
     let request = audit(find("cramer").unwrap()).count(10).allow("crack", 0.1);
-    let error = request.expectations("any.toml").run().unwrap_err().to_string();
-    assert!(error.starts_with("allow: the file of expectations says"), "{error}");
+    let error = request
+        .expectations("any.toml")
+        .run()
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.starts_with("allow: the file of expectations says"),
+        "{error}"
+    );
 }

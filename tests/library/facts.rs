@@ -20,14 +20,20 @@ impl Observer for Quiet {
 }
 
 fn rows(kernels: &[&str], contract: Option<&str>) -> Vec<Row> {
-    let entries: Vec<_> = kernels.iter().map(|name| kernel::find(name).unwrap()).collect();
+    let entries: Vec<_> = kernels
+        .iter()
+        .map(|name| kernel::find(name).unwrap())
+        .collect();
     EpsilonChoice::Source.rows(&entries, contract).unwrap()
 }
 
 /// Runs kernels, with the epsilons of their sources, on a family.
 fn audit(kernels: &[&str], name: &str, count: u64) -> (Plan, Audit) {
     let family = family::find(name).unwrap();
-    audit_of(rows(kernels, None), Source::of(family, Parameters::default(), 1, count))
+    audit_of(
+        rows(kernels, None),
+        Source::of(family, Parameters::default(), 1, count),
+    )
 }
 
 fn audit_of(rows: Vec<Row>, source: Source) -> (Plan, Audit) {
@@ -49,7 +55,12 @@ static LATTICE: LazyLock<(Plan, Audit)> = LazyLock::new(|| {
     ];
     let two_sided = rows(&["scalar-triple-two-sided"], Some("closed-line"));
     let stock = Stock::Whole(family::find("lattice").unwrap());
-    let source = Source { stock, parameters: Parameters::default(), seed: 1, count: 0 };
+    let source = Source {
+        stock,
+        parameters: Parameters::default(),
+        seed: 1,
+        count: 0,
+    };
     audit_of([rows(&kernels, None), two_sided].concat(), source)
 });
 
@@ -62,7 +73,10 @@ fn tally<'a>((plan, audit): &'a (Plan, Audit), scalar: &str, label: &str) -> &'a
 }
 
 fn of_class(tally: &Tally, name: &str) -> hairline::internals::audit::ClassCount {
-    tally.classes[Class::all().find(|class| class.name() == name).unwrap().number()]
+    tally.classes[Class::all()
+        .find(|class| class.name() == name)
+        .unwrap()
+        .number()]
 }
 
 fn false_misses(tally: &Tally) -> u64 {
@@ -81,8 +95,16 @@ fn false_misses_over_the_whole_lattice_are_those_known() {
         ("woop-watertight (source)", 0, 0),
         ("plucker (source)", 0, 0),
     ] {
-        assert_eq!(false_misses(tally(run, "f32", label)), in_f32, "{label} in f32");
-        assert_eq!(false_misses(tally(run, "f64", label)), in_f64, "{label} in f64");
+        assert_eq!(
+            false_misses(tally(run, "f32", label)),
+            in_f32,
+            "{label} in f32"
+        );
+        assert_eq!(
+            false_misses(tally(run, "f64", label)),
+            in_f64,
+            "{label} in f64"
+        );
     }
     // All three products are zero on a coplanar line, so scalar-triple hits with NaN coordinates.
     for scalar in ["f32", "f64"] {
@@ -99,7 +121,11 @@ fn scalar_triple_two_sided_misses_every_exact_edge_of_the_lattice() {
         for class in ["edge/front/within", "edge/back/within", "edge/front/before"] {
             let edges = of_class(found, class);
             assert!(edges.must_hit > 100_000);
-            assert_eq!(edges.of(Finding::FalseMiss), edges.must_hit, "{scalar} {class}");
+            assert_eq!(
+                edges.of(Finding::FalseMiss),
+                edges.must_hit,
+                "{scalar} {class}"
+            );
         }
     }
 }
@@ -112,8 +138,16 @@ fn havel_herout_treats_lattice_edges_differently_by_side() {
         count.hits as f64 / count.cases as f64
     };
     // An independent run saw 93 % with D > 0 and 6.5 % with D < 0.
-    assert!((0.92..0.95).contains(&share("edge/back/within")), "{}", share("edge/back/within"));
-    assert!((0.06..0.07).contains(&share("edge/front/within")), "{}", share("edge/front/within"));
+    assert!(
+        (0.92..0.95).contains(&share("edge/back/within")),
+        "{}",
+        share("edge/back/within")
+    );
+    assert!(
+        (0.06..0.07).contains(&share("edge/front/within")),
+        "{}",
+        share("edge/front/within")
+    );
 }
 
 #[test]
@@ -123,8 +157,14 @@ fn a_positive_edge_epsilon_loses_exact_edges() {
     for scalar in ["f32", "f64"] {
         let zero = tally(&run, scalar, "plane-unit-normal (zero)").total();
         let positive = tally(&run, scalar, "plane-unit-normal (1e-6)").total();
-        assert!(positive.of(Finding::FalseMiss) > 2 * zero.of(Finding::FalseMiss), "{scalar}");
-        assert!(positive.of(Finding::FalseMiss) * 2 > positive.must_hit, "{scalar}");
+        assert!(
+            positive.of(Finding::FalseMiss) > 2 * zero.of(Finding::FalseMiss),
+            "{scalar}"
+        );
+        assert!(
+            positive.of(Finding::FalseMiss) * 2 > positive.must_hit,
+            "{scalar}"
+        );
     }
 }
 
@@ -134,7 +174,11 @@ fn an_absolute_determinant_epsilon_loses_tiny_triangles() {
     for scalar in ["f32", "f64"] {
         let zero = tally(&run, scalar, "plane-inside-out (zero)").total();
         let positive = tally(&run, scalar, "plane-inside-out (1e-6)").total();
-        assert_eq!(positive.of(Finding::FalseMiss), positive.must_hit, "{scalar}");
+        assert_eq!(
+            positive.of(Finding::FalseMiss),
+            positive.must_hit,
+            "{scalar}"
+        );
         assert!(zero.of(Finding::FalseMiss) * 4 < zero.must_hit, "{scalar}");
     }
 }
@@ -160,11 +204,14 @@ fn nan_input_hits_or_misses_as_each_source_is_coded() {
     fn hits<F: Scalar>(entry: &kernel::Entry) -> Vec<bool> {
         let nan = F::from_f64(f64::NAN);
         let case = Case::new([nan; 3], [nan; 3], [[nan; 3]; 3]);
-        let all =
-            EpsilonChoice::Source.rows(&[kernel::find(entry.info.name).unwrap()], None).unwrap();
+        let all = EpsilonChoice::Source
+            .rows(&[kernel::find(entry.info.name).unwrap()], None)
+            .unwrap();
         let run = |epsilons: Vec<F>| {
             let mut verdict = [Verdict::miss(None)];
-            F::subject(entry).unwrap().run(&[case], &epsilons, &mut verdict);
+            F::subject(entry)
+                .unwrap()
+                .run(&[case], &epsilons, &mut verdict);
             verdict[0].hit
         };
         all.iter().map(|row| run(row.epsilons())).collect()
@@ -206,7 +253,9 @@ fn convex_polygon_is_plane_inside_out_on_triangles_and_right_on_lattice_polygons
     fn verdicts<F: Scalar>(name: &str, cases: &[Case<F>]) -> Vec<Verdict<F>> {
         let mut verdicts = vec![Verdict::miss(None); cases.len()];
         let zero = vec![F::zero(); 3];
-        F::subject(kernel::find(name).unwrap()).unwrap().run(cases, &zero, &mut verdicts);
+        F::subject(kernel::find(name).unwrap())
+            .unwrap()
+            .run(cases, &zero, &mut verdicts);
         verdicts
     }
     for family in family::FAMILIES {
@@ -219,7 +268,12 @@ fn convex_polygon_is_plane_inside_out_on_triangles_and_right_on_lattice_polygons
                 .map(|v| (v.hit, v.refused_by, Float::to_bits(v.t)))
                 .collect()
         };
-        assert_eq!(bits("convex-polygon"), bits("plane-inside-out"), "{}", family.name);
+        assert_eq!(
+            bits("convex-polygon"),
+            bits("plane-inside-out"),
+            "{}",
+            family.name
+        );
     }
     let run = audit(&["convex-polygon"], "polygon", 5000);
     let polygons = &tally(&run, "f64", "convex-polygon (zero)").polygons;
@@ -239,8 +293,12 @@ fn plucker_multiplies_an_end_of_zero_as_its_source_does() {
         let entry = kernel::find(name).unwrap();
         let mut verdict = [Verdict::miss(None)];
         let epsilons = vec![0.0; entry.info.gates.len()];
-        f32::subject(entry).unwrap().run(&[case], &epsilons, &mut verdict);
-        verdict[0].refused_by.map(|gate| entry.info.gates[usize::from(gate)].name)
+        f32::subject(entry)
+            .unwrap()
+            .run(&[case], &epsilons, &mut verdict);
+        verdict[0]
+            .refused_by
+            .map(|gate| entry.info.gates[usize::from(gate)].name)
     };
     assert_eq!(gate("plucker"), Some("t"));
     assert_ne!(gate("woop-watertight"), Some("t"));

@@ -12,7 +12,10 @@ fn check<F: Scalar>(family: &Family, count: u64) {
         let made = family.make::<F>(&Parameters::default(), 1, index);
         let truths: Vec<Truth> = made.cases().iter().map(oracle::truth).collect();
         let id = family.id::<F>(&Parameters::default(), 1, index);
-        assert!(family.keeps(&truths), "{id} breaks its promise: {truths:?} {made:?}");
+        assert!(
+            family.keeps(&truths),
+            "{id} breaks its promise: {truths:?} {made:?}"
+        );
         if index < count / 10 {
             for (case, truth) in made.cases().iter().zip(&truths) {
                 assert_eq!(*truth, oracle::define(case).truth, "{id}: {case:?}");
@@ -23,12 +26,16 @@ fn check<F: Scalar>(family: &Family, count: u64) {
 
 #[test]
 fn every_family_keeps_its_promise_in_f32() {
-    FAMILIES.iter().for_each(|family| check::<f32>(family, 3000));
+    FAMILIES
+        .iter()
+        .for_each(|family| check::<f32>(family, 3000));
 }
 
 #[test]
 fn every_family_keeps_its_promise_in_f64() {
-    FAMILIES.iter().for_each(|family| check::<f64>(family, 3000));
+    FAMILIES
+        .iter()
+        .for_each(|family| check::<f64>(family, 3000));
 }
 
 /// The weights of a, b and c where a line meets the plane of a triangle, rounded in `f64`.
@@ -45,7 +52,10 @@ fn weights(case: &Case<f32>) -> Option<[f64; 3]> {
     let weights = [triple(c, b), triple(a, c), triple(b, a)];
     let sum: f64 = weights.iter().sum();
     let weights = weights.map(|weight| weight / sum);
-    weights.iter().all(|weight| weight.is_finite()).then_some(weights)
+    weights
+        .iter()
+        .all(|weight| weight.is_finite())
+        .then_some(weights)
 }
 
 /// The place of the one smallest number, if it is clearly the smallest.
@@ -61,7 +71,14 @@ fn least(numbers: [f64; 3]) -> Option<usize> {
 fn no_family_prefers_a_corner_or_an_edge() {
     // Of these the polygon's triangles are the fan of its first vertex, which is what it is; the lattice is everything
     // there is; the others have no weights.
-    let left_out = ["polygon", "lattice", "parallel-off", "coplanar", "degenerate", "invalid"];
+    let left_out = [
+        "polygon",
+        "lattice",
+        "parallel-off",
+        "coplanar",
+        "degenerate",
+        "invalid",
+    ];
     let has_weights =
         |family: &&Family| !left_out.contains(&family.name) && family.name != "scene-parallel";
     for family in FAMILIES.iter().chain(STRATA).filter(has_weights) {
@@ -69,7 +86,9 @@ fn no_family_prefers_a_corner_or_an_edge() {
         for index in 0..4000 {
             let made = family.make::<f32>(&Parameters::default(), 1, index);
             for (counts, case) in counts.iter_mut().zip(made.cases()) {
-                let Some(weights) = weights(case) else { continue };
+                let Some(weights) = weights(case) else {
+                    continue;
+                };
                 let nearest = [weights.map(|weight| -weight), weights.map(f64::abs)].map(least);
                 for (counts, place) in counts.iter_mut().zip(nearest) {
                     place.into_iter().for_each(|place| counts[place] += 1);
@@ -81,7 +100,11 @@ fn no_family_prefers_a_corner_or_an_edge() {
             let is_even =
                 |count: &u32| (0.29..0.38).contains(&(f64::from(*count) / f64::from(all)));
             // A vertex is as near to both of its edges.
-            assert!(all < 400 || counts.iter().all(is_even), "{}: {counts:?}", family.name);
+            assert!(
+                all < 400 || counts.iter().all(is_even),
+                "{}: {counts:?}",
+                family.name
+            );
         }
     }
 }
@@ -103,10 +126,15 @@ impl Intervals {
         let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
         self.whole += u32::from(t_min == 0.0 && t_max == f32::INFINITY);
         let direction: [f32; 3] = case.ray.direction.into();
-        let square: f64 = direction.iter().map(|x| f64::from(*x) * f64::from(*x)).sum();
+        let square: f64 = direction
+            .iter()
+            .map(|x| f64::from(*x) * f64::from(*x))
+            .sum();
         self.not_unit += u32::from((square - 1.0).abs() > 1e-3);
         let truth = oracle::truth(case);
-        let Some(crossing) = truth.crossing() else { return };
+        let Some(crossing) = truth.crossing() else {
+            return;
+        };
         let place = crossing.place;
         self.before_positive_start += u32::from(place == Place::Before && 0.0 < t_min);
         self.within_finite += u32::from(place == Place::Within && t_max.is_finite());
@@ -119,27 +147,59 @@ impl Intervals {
 #[test]
 fn every_family_and_every_stratum_draws_intervals_of_all_kinds() {
     // Without crossings at t > 0, or with an interval of their own: the lattice is all of [0, inf].
-    let left_out = ["parallel-off", "coplanar", "degenerate", "invalid", "lattice", "origin-on"];
-    let at_an_end = ["secondary-ray", "scene-parallel", "scene-shadow", "scene-segment", "behind"];
+    let left_out = [
+        "parallel-off",
+        "coplanar",
+        "degenerate",
+        "invalid",
+        "lattice",
+        "origin-on",
+    ];
+    let at_an_end = [
+        "secondary-ray",
+        "scene-parallel",
+        "scene-shadow",
+        "scene-segment",
+        "behind",
+    ];
     let has_all =
         |family: &&Family| !left_out.contains(&family.name) && !at_an_end.contains(&family.name);
     let (room, _) = Scene::parse("room").unwrap();
-    let scene = Parameters { scene: Some(room.to_try_kernels("room")), ..Parameters::default() };
+    let scene = Parameters {
+        scene: Some(room.to_try_kernels("room")),
+        ..Parameters::default()
+    };
     let is_stratum = |family: &Family| STRATA.iter().any(|other| other.name == family.name);
     for family in FAMILIES.iter().chain(STRATA).filter(has_all) {
-        let parameters = if is_stratum(family) { scene.clone() } else { Parameters::default() };
+        let parameters = if is_stratum(family) {
+            scene.clone()
+        } else {
+            Parameters::default()
+        };
         let mut seen = Intervals::default();
         for index in 0..4000 {
             seen.add(&family.make::<f32>(&parameters, 1, index).cases()[0]);
         }
         // One in 32, and half of that where t is beyond the range or the family has an interval of its own.
         let enough = 60;
-        assert!(enough < seen.before_positive_start, "{}: {seen:?}", family.name);
+        assert!(
+            enough < seen.before_positive_start,
+            "{}: {seen:?}",
+            family.name
+        );
         assert!(enough < seen.within_finite, "{}: {seen:?}", family.name);
-        assert!(enough < seen.within_from_negative, "{}: {seen:?}", family.name);
+        assert!(
+            enough < seen.within_from_negative,
+            "{}: {seen:?}",
+            family.name
+        );
         assert!(enough < seen.beyond_end, "{}: {seen:?}", family.name);
         assert!(1000 < seen.not_unit, "{}: {seen:?}", family.name);
-        assert!(1600 < seen.whole || family.name == "interval-ends", "{}: {seen:?}", family.name);
+        assert!(
+            1600 < seen.whole || family.name == "interval-ends",
+            "{}: {seen:?}",
+            family.name
+        );
     }
 }
 
@@ -147,7 +207,10 @@ fn every_family_and_every_stratum_draws_intervals_of_all_kinds() {
 #[test]
 fn a_scene_has_whole_rays_unless_kernels_are_tried_in_it() {
     let (room, _) = Scene::parse("room").unwrap();
-    let parameters = Parameters { scene: Some(room), ..Parameters::default() };
+    let parameters = Parameters {
+        scene: Some(room),
+        ..Parameters::default()
+    };
     let mut seen = Intervals::default();
     for index in 0..1000 {
         let family = find("scene-interior").unwrap();
@@ -162,16 +225,25 @@ fn a_scene_has_whole_rays_unless_kernels_are_tried_in_it() {
 /// The end of a segment is where its target is, to rounding: on one side of it about as often as on the other.
 #[test]
 fn segments_end_at_their_target() {
-    for words in ["room", "room,direction=target", "room,direction=mixed,interval=drawn"] {
+    for words in [
+        "room",
+        "room,direction=target",
+        "room,direction=mixed,interval=drawn",
+    ] {
         let (room, _) = Scene::parse(words).unwrap();
-        let parameters = Parameters { scene: Some(room), ..Parameters::default() };
+        let parameters = Parameters {
+            scene: Some(room),
+            ..Parameters::default()
+        };
         let family = find("scene-segment").unwrap();
         let [mut before, mut beyond] = [0u32; 2];
         for index in 0..2000 {
             let made = family.make::<f32>(&parameters, 1, index);
             let case = &made.cases()[0];
             let truth = oracle::truth(case);
-            let exact = oracle::exact_values(case, &truth).t.and_then(|t| t.to_f64());
+            let exact = oracle::exact_values(case, &truth)
+                .t
+                .and_then(|t| t.to_f64());
             let Some(t) = exact else { continue };
             let end = f64::from(case.ray.t_max);
             assert!((t - end).abs() < 0.05 * end, "{words} {index}: {t} {end}");

@@ -26,8 +26,13 @@ fn neighbour<F: Float>(x: F, ulps: i64) -> F {
 fn agrees_with_direct_evaluation<F: Scalar>(kernel: &str, spot: Spot) {
     let row = row(kernel, None, "closed-line");
     let (case, [width, height]) = (spot.case::<F>(), [23, 14]);
-    let grid =
-        grid_of_case(&case, CaseVector::Origin, Some([0, 1]), Some(PixelStep::Ulps(3)), [23, 14]);
+    let grid = grid_of_case(
+        &case,
+        CaseVector::Origin,
+        Some([0, 1]),
+        Some(PixelStep::Ulps(3)),
+        [23, 14],
+    );
     let map = of_kernel(&case, &row, &grid.unwrap(), &Unobserved).unwrap();
     let pixels = &map.pixels;
     assert_eq!(pixels.len(), width * height);
@@ -38,9 +43,13 @@ fn agrees_with_direct_evaluation<F: Scalar>(kernel: &str, spot: Spot) {
         origin[1] = neighbour(origin[1], 3 * (y as i64 - 7));
         let case = Case::<F>::new(origin, direction, [a, b, c]);
         let mut verdict = [Verdict::miss(None)];
-        F::subject(row.entry).unwrap().run(&[case], &row.epsilons::<F>(), &mut verdict);
+        F::subject(row.entry)
+            .unwrap()
+            .run(&[case], &row.epsilons::<F>(), &mut verdict);
         let truth = oracle::define(&case).truth;
-        let Truth::Transversal(crossing) = truth else { panic!("{truth}") };
+        let Truth::Transversal(crossing) = truth else {
+            panic!("{truth}")
+        };
         let right = crossing.feature != Feature::Outside;
         let finding = match (right, verdict[0].hit) {
             (true, false) => Some(Finding::FalseMiss),
@@ -57,7 +66,12 @@ fn agrees_with_direct_evaluation<F: Scalar>(kernel: &str, spot: Spot) {
 #[test]
 fn every_pixel_is_the_case_of_its_floats() {
     for spot in Spot::ALL {
-        for kernel in ["moller-trumbore", "woop-watertight", "plane-inside-out", "cramer"] {
+        for kernel in [
+            "moller-trumbore",
+            "woop-watertight",
+            "plane-inside-out",
+            "cramer",
+        ] {
             agrees_with_direct_evaluation::<f32>(kernel, spot);
             agrees_with_direct_evaluation::<f64>(kernel, spot);
         }
@@ -67,14 +81,21 @@ fn every_pixel_is_the_case_of_its_floats() {
 #[test]
 fn standard_cases_lie_on_what_they_are_called_by_in_both_scalars() {
     fn feature<F: Float>(spot: Spot) -> Feature {
-        oracle::define(&spot.case::<F>()).truth.crossing().unwrap().feature
+        oracle::define(&spot.case::<F>())
+            .truth
+            .crossing()
+            .unwrap()
+            .feature
     }
     for (spot, expected) in [
         (Spot::Edge, Feature::EdgeAb),
         (Spot::Vertex, Feature::VertexC),
         (Spot::Grazing, Feature::EdgeAb),
     ] {
-        assert_eq!((feature::<f32>(spot), feature::<f64>(spot)), (expected, expected));
+        assert_eq!(
+            (feature::<f32>(spot), feature::<f64>(spot)),
+            (expected, expected)
+        );
     }
 }
 
@@ -86,9 +107,16 @@ fn standard_maps_show_every_kernel_beside_both_truths() {
             let map = map.unwrap();
             let count = |ink: Ink| {
                 let legend = map.exact_legend();
-                legend.iter().find(|(other, ..)| *other == ink).map_or(0, |(_, _, count)| *count)
+                legend
+                    .iter()
+                    .find(|(other, ..)| *other == ink)
+                    .map_or(0, |(_, _, count)| *count)
             };
-            assert!(count(Ink::Yes) > 400 && count(Ink::No) > 400, "{} {spot:?}", map.subject);
+            assert!(
+                count(Ink::Yes) > 400 && count(Ink::No) > 400,
+                "{} {spot:?}",
+                map.subject
+            );
             assert!(count(Ink::Boundary) > 0, "{} {spot:?}", map.subject);
         }
     }
@@ -115,7 +143,10 @@ fn a_kernel_that_rounds_nowhere_has_no_wrong_pixel() {
 
 #[test]
 fn exchanged_axes_transpose_the_map() {
-    let (case, row) = (Spot::Edge.case::<f32>(), row("moller-trumbore", None, "own"));
+    let (case, row) = (
+        Spot::Edge.case::<f32>(),
+        row("moller-trumbore", None, "own"),
+    );
     let of = |coordinates, size| {
         let grid = grid_of_case(&case, CaseVector::B, Some(coordinates), None, size).unwrap();
         of_kernel(&case, &row, &grid, &Unobserved).unwrap()
@@ -135,8 +166,10 @@ fn exchanged_axes_transpose_the_map() {
 fn a_power_of_two_on_everything_leaves_the_map_alone() {
     let row = row("woop-watertight", None, "own");
     let map = |scale: f32| {
-        let [o, d, a, b, c] =
-            Spot::Edge.case::<f32>().vectors().map(|vector| vector.map(|x| x * scale));
+        let [o, d, a, b, c] = Spot::Edge
+            .case::<f32>()
+            .vectors()
+            .map(|vector| vector.map(|x| x * scale));
         let case = Case::new(o, d, [a, b, c]);
         let grid = grid_of_case(&case, CaseVector::Origin, None, None, [40, 40]).unwrap();
         of_kernel(&case, &row, &grid, &Unobserved).unwrap()
@@ -149,7 +182,10 @@ fn a_power_of_two_on_everything_leaves_the_map_alone() {
 fn the_map_does_not_depend_on_the_number_of_threads() {
     let row = row("baldwin-weber", None, "own");
     let on = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| map::standard::<f32>(&row, Spot::Vertex, [50, 70]).unwrap())
     };
     assert_eq!(on(1), on(5));
@@ -161,8 +197,13 @@ fn axes_lie_in_the_triangle_s_plane_and_a_zero_takes_larger_steps() {
     let case = Case::<f64>::new([1.0, 0.0, 1.5], [-1.0, 0.0, 0.0], triangle);
     let grid = grid_of_case(&case, CaseVector::Origin, None, None, [3, 3]).unwrap();
     assert_eq!(grid.axes.map(|axis| axis.coordinate), [1, 2]);
-    assert_eq!(grid.axes.map(|axis| axis.step), [PixelStep::PowerOfTwo(-52), PixelStep::Ulps(1)]);
-    let values = grid.axes.map(|axis| [0, 1, 2].map(|pixel| axis.value(pixel)));
+    assert_eq!(
+        grid.axes.map(|axis| axis.step),
+        [PixelStep::PowerOfTwo(-52), PixelStep::Ulps(1)]
+    );
+    let values = grid
+        .axes
+        .map(|axis| [0, 1, 2].map(|pixel| axis.value(pixel)));
     let ulp = f64::EPSILON;
     assert_eq!(values, [[-ulp, 0.0, ulp], [1.5 - ulp, 1.5, 1.5 + ulp]]);
     // A point that is zero takes the steps of the largest coordinate; the centre stays as it is.
@@ -181,19 +222,38 @@ fn the_ends_of_the_range_are_free_and_no_panic() {
         [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
     );
     let grid = grid_of_case(&case, CaseVector::Origin, Some([0, 1]), None, [9, 5]).unwrap();
-    let map = of_kernel(&case, &row("moller-trumbore", None, "own"), &grid, &Unobserved).unwrap();
+    let map = of_kernel(
+        &case,
+        &row("moller-trumbore", None, "own"),
+        &grid,
+        &Unobserved,
+    )
+    .unwrap();
     assert_eq!(map.exact_legend(), [(Ink::Free, "nothing is asked", 45)]);
     assert!(!map::svg(&map).contains("NaN,"));
-    let grid =
-        grid_of_case(&case, CaseVector::Direction, None, Some(PixelStep::PowerOfTwo(1100)), [9, 5]);
-    of_kernel(&case, &row("cramer", None, "own"), &grid.unwrap(), &Unobserved).unwrap();
+    let grid = grid_of_case(
+        &case,
+        CaseVector::Direction,
+        None,
+        Some(PixelStep::PowerOfTwo(1100)),
+        [9, 5],
+    );
+    of_kernel(
+        &case,
+        &row("cramer", None, "own"),
+        &grid.unwrap(),
+        &Unobserved,
+    )
+    .unwrap();
 }
 
 #[test]
 fn impossible_grids_are_refused() {
     let case = Spot::Edge.case::<f32>();
     let refused = |coordinates, step, size| {
-        grid_of_case(&case, CaseVector::A, coordinates, step, size).unwrap_err().0
+        grid_of_case(&case, CaseVector::A, coordinates, step, size)
+            .unwrap_err()
+            .0
     };
     assert!(refused(Some([1, 1]), None, [8, 8]).contains("two different"));
     assert!(refused(Some([1, 3]), None, [8, 8]).contains("3 coordinates"));
@@ -234,7 +294,10 @@ fn a_png_has_the_colours_of_both_panels() {
         }
     }
     for scale in [0, 1 << 13, usize::MAX] {
-        assert!(map::png(&map, scale).unwrap_err().0.contains("2^26"), "{scale}");
+        assert!(
+            map::png(&map, scale).unwrap_err().0.contains("2^26"),
+            "{scale}"
+        );
     }
 }
 
@@ -243,13 +306,21 @@ fn painted(panel: &str, [width, height]: [usize; 2]) -> Vec<String> {
     let mut cells = vec![String::new(); width * height];
     for path in panel.split("<path fill=\"").skip(1) {
         let (fill, rest) = path.split_once('"').unwrap();
-        let data = rest.split_once("d=\"").unwrap().1.split_once('"').unwrap().0;
+        let data = rest
+            .split_once("d=\"")
+            .unwrap()
+            .1
+            .split_once('"')
+            .unwrap()
+            .0;
         for run in data.split_terminator('z') {
             let numbers: Vec<usize> = run
                 .split(['M', ' ', 'h', 'v', '-'])
                 .filter_map(|number| number.parse().ok())
                 .collect();
-            let [x, y, w, h, _] = numbers[..] else { panic!("{run}") };
+            let [x, y, w, h, _] = numbers[..] else {
+                panic!("{run}")
+            };
             for y in y..y + h {
                 cells[y * width + x..][..w].fill(fill.to_owned());
             }
@@ -262,11 +333,17 @@ fn painted(panel: &str, [width, height]: [usize; 2]) -> Vec<String> {
 fn an_svg_paints_every_pixel_and_may_stand_beside_others_in_a_page() {
     let map = vertex_map();
     let svg = map::svg(&map);
-    let panels: Vec<&str> = svg.split("shape-rendering=\"crispEdges\">").skip(1).collect();
-    let [computed, exact] = panels[..] else { panic!("two panels") };
-    for (panel, ink) in
-        [(computed, &(|i| map.computed(i)) as &dyn Fn(usize) -> Ink), (exact, &|i| map.exact(i))]
-    {
+    let panels: Vec<&str> = svg
+        .split("shape-rendering=\"crispEdges\">")
+        .skip(1)
+        .collect();
+    let [computed, exact] = panels[..] else {
+        panic!("two panels")
+    };
+    for (panel, ink) in [
+        (computed, &(|i| map.computed(i)) as &dyn Fn(usize) -> Ink),
+        (exact, &|i| map.exact(i)),
+    ] {
         let cells = painted(panel.split_once("</g>").unwrap().0, map.size());
         for (i, cell) in cells.iter().enumerate() {
             assert_eq!(*cell, ink(i).name(), "{i}");
@@ -284,14 +361,22 @@ fn right_inks_are_pale_and_wrong_ones_dark() {
     let luminance = |ink: Ink| {
         let linear = ink.rgb().map(|c| {
             let c = f64::from(c) / 255.0;
-            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+            if c <= 0.04045 {
+                c / 12.92
+            } else {
+                ((c + 0.055) / 1.055).powf(2.4)
+            }
         });
         0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
     };
     let contrast = |a: Ink, b: Ink| (luminance(a) + 0.05) / (luminance(b) + 0.05);
     for right in [Ink::Yes, Ink::No, Ink::Boundary, Ink::Free] {
         for wrong in [Ink::FalseYes, Ink::FalseNo, Ink::Bad, Ink::Failed] {
-            let least = if right == Ink::Yes && wrong == Ink::FalseYes { 2.0 } else { 3.0 };
+            let least = if right == Ink::Yes && wrong == Ink::FalseYes {
+                2.0
+            } else {
+                3.0
+            };
             assert!(contrast(right, wrong) > least, "{right:?} {wrong:?}");
         }
     }

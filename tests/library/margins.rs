@@ -22,10 +22,20 @@ fn run<F: Scalar>(kernel: &dyn Subject<F>, case: &Case<F>, epsilons: &[F]) -> Ve
 /// Every kernel in every arithmetic, and what part of the cases it gets: the built-in arithmetic all.
 fn every_kernel() -> Vec<(&'static Entry, u64)> {
     let variant = |entry: &'static Entry, arithmetic| {
-        let part = if arithmetic == Arithmetic::IEEE { 1 } else { 10 };
-        (in_arithmetic(entry, arithmetic).expect("written for every arithmetic"), part)
+        let part = if arithmetic == Arithmetic::IEEE {
+            1
+        } else {
+            10
+        };
+        (
+            in_arithmetic(entry, arithmetic).expect("written for every arithmetic"),
+            part,
+        )
     };
-    KERNELS.iter().flat_map(|entry| Arithmetic::ALL.map(|a| variant(entry, a))).collect()
+    KERNELS
+        .iter()
+        .flat_map(|entry| Arithmetic::ALL.map(|a| variant(entry, a)))
+        .collect()
 }
 
 /// Cases of all families at many scales, and cases of arbitrary bits and of small integers; of each
@@ -35,8 +45,11 @@ fn for_all_cases<F: Scalar>(part: u64, mut check: impl FnMut(&mut Draw, &Case<F>
         for index in 0..INDICES / part {
             let mut draw = Draw::new("margins", 1, index);
             let scale = draw.pick(&[0, 0, -60, 60, -250, 250]);
-            let parameters =
-                Parameters { scale, scale_direction: draw.coin(), ..Parameters::default() };
+            let parameters = Parameters {
+                scale,
+                scale_direction: draw.coin(),
+                ..Parameters::default()
+            };
             for case in family.make::<F>(&parameters, 1, index).cases() {
                 check(&mut draw, case);
             }
@@ -51,7 +64,18 @@ fn for_all_cases<F: Scalar>(part: u64, mut check: impl FnMut(&mut Draw, &Case<F>
 
 /// Any bits at all, or few values of which many coincide.
 fn wild_case<F: Float>(draw: &mut Draw) -> Case<F> {
-    let few = [0.0, -0.0, 1.0, -1.0, 2.0, 1e30, -1e-30, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+    let few = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        2.0,
+        1e30,
+        -1e-30,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::NAN,
+    ];
     let choices = draw.pick(&[3, 5, 7, 9, few.len()]);
     let any_bits = draw.below(3) == 0;
     let number = |draw: &mut Draw| match any_bits {
@@ -75,7 +99,10 @@ fn epsilon<F: Float>(draw: &mut Draw, margin: F) -> F {
         4 => draw.pick(&[most, -most]),
         5 => F::zero().offset_ulps(draw.pick(&[-1, 1])),
         6 => F::from_place(draw.integer(-1, 1) << draw.integer(0, i64::from(F::DIGITS) - 1)),
-        7 => F::from_f64(scale_by_power_of_two(1.0 + draw.unit(), draw.integer(-60, 60) as i32)),
+        7 => F::from_f64(scale_by_power_of_two(
+            1.0 + draw.unit(),
+            draw.integer(-60, 60) as i32,
+        )),
         _ => F::from_bits(draw.bits()),
     };
     match chosen {
@@ -92,8 +119,10 @@ fn margins_decide_as_the_run_does<F: Scalar>() {
         for_all_cases::<F>(part, |draw, case| {
             let margins = kernel.gated().unwrap().measure(case).margins;
             for _ in 0..EPSILON_SETS {
-                let epsilons: Vec<F> =
-                    margins.iter().map(|margin| epsilon(draw, *margin)).collect();
+                let epsilons: Vec<F> = margins
+                    .iter()
+                    .map(|margin| epsilon(draw, *margin))
+                    .collect();
                 let verdict = run(kernel, case, &epsilons);
                 let told = || format!("{name} {}: {case:?} {epsilons:?} {margins:?}", F::NAME);
                 let refuses = refused_by(&margins, &epsilons);
@@ -110,17 +139,29 @@ fn a_margin_is_the_last_epsilon_that_accepts<F: Scalar>() {
         let (kernel, name) = (F::subject(entry).unwrap(), entry.info.name);
         for_all_cases::<F>(part, |_, case| {
             let margins = kernel.gated().unwrap().measure(case).margins;
-            assert!(margins.iter().all(|margin| !margin.is_nan()), "{name}: {case:?} {margins:?}");
+            assert!(
+                margins.iter().all(|margin| !margin.is_nan()),
+                "{name}: {case:?} {margins:?}"
+            );
             if margins.iter().any(|margin| *margin < -most) {
                 return;
             }
-            let mut epsilons: Vec<F> =
-                margins.iter().map(|m| if most < *m { most } else { *m }).collect();
-            assert!(run(kernel, case, &epsilons).hit, "{name}: {case:?} {margins:?}");
+            let mut epsilons: Vec<F> = margins
+                .iter()
+                .map(|m| if most < *m { most } else { *m })
+                .collect();
+            assert!(
+                run(kernel, case, &epsilons).hit,
+                "{name}: {case:?} {margins:?}"
+            );
             for (gate, margin) in margins.iter().enumerate().filter(|(_, m)| **m < most) {
                 let at = std::mem::replace(&mut epsilons[gate], margin.offset_ulps(1));
                 let verdict = run(kernel, case, &epsilons);
-                assert_eq!(verdict.refused_by, Some(gate as u8), "{name}: {case:?} {margins:?}");
+                assert_eq!(
+                    verdict.refused_by,
+                    Some(gate as u8),
+                    "{name}: {case:?} {margins:?}"
+                );
                 epsilons[gate] = at;
             }
         });
@@ -136,7 +177,12 @@ fn a_measured_hit_reports_the_values_of_the_run<F: Scalar>() {
             if !verdict.hit {
                 return;
             }
-            let values = kernel.gated().unwrap().measure(case).values.expect("a hit has values");
+            let values = kernel
+                .gated()
+                .unwrap()
+                .measure(case)
+                .values
+                .expect("a hit has values");
             let (u, v) = values.uv.unwrap_or((verdict.u, verdict.v));
             let same = |x: F, y: F| x == y || x.is_nan() && y.is_nan();
             assert!(
@@ -158,7 +204,13 @@ fn kernels_treat_a_nan_as_declared<F: Scalar>() {
         let case = Case::new(nan, nan, [nan; 3]);
         for case in [case, case.on(nan[0], nan[0])] {
             let hit = run(F::subject(entry).unwrap(), &case, &zeros).hit;
-            assert_eq!(hit, hits_nan(entry.info.name), "{} {}", entry.info.name, F::NAME);
+            assert_eq!(
+                hit,
+                hits_nan(entry.info.name),
+                "{} {}",
+                entry.info.name,
+                F::NAME
+            );
         }
     }
 }
@@ -176,7 +228,10 @@ fn runs_find_the_margins_that_the_gates_show<F: Scalar>() {
     for entry in KERNELS {
         let (shown, info) = (F::subject(entry).unwrap(), entry.info);
         let (open, width) = (open_epsilons::<F>(info), info.gates.len());
-        for (family, index) in FAMILIES.iter().flat_map(|family| [0, 1, 2].map(|i| (family, i))) {
+        for (family, index) in FAMILIES
+            .iter()
+            .flat_map(|family| [0, 1, 2].map(|i| (family, i)))
+        {
             let made = family.make::<F>(&Parameters::default(), 5, index);
             let cases = made.cases();
             let mut by_gates = vec![F::zero(); cases.len() * width];
@@ -187,13 +242,17 @@ fn runs_find_the_margins_that_the_gates_show<F: Scalar>() {
             let rows = by_gates.chunks(width).zip(by_runs.chunks(width)).zip(cases);
             for (((by_gates, by_runs), case), values) in rows.zip(values) {
                 let is_hit = by_gates.iter().zip(&open).all(|(margin, e)| e <= margin);
-                let of_gates = by_gates.iter().map(|m| if is_hit { *m } else { -F::infinity() });
-                let expected = of_gates.zip(info.gates).map(|(m, gate)| match gate.epsilon {
-                    Tunable::Fixed if is_hit => F::infinity(),
-                    // The largest number is the largest epsilon there is.
-                    _ if m.place() == F::infinity().place() - 1 => F::infinity(),
-                    _ => m,
-                });
+                let of_gates = by_gates
+                    .iter()
+                    .map(|m| if is_hit { *m } else { -F::infinity() });
+                let expected = of_gates
+                    .zip(info.gates)
+                    .map(|(m, gate)| match gate.epsilon {
+                        Tunable::Fixed if is_hit => F::infinity(),
+                        // The largest number is the largest epsilon there is.
+                        _ if m.place() == F::infinity().place() - 1 => F::infinity(),
+                        _ => m,
+                    });
                 let expected: Vec<F> = expected.collect();
                 let about = format!("{} {}: {case:?}", info.name, family.name);
                 assert!(by_runs == expected, "{about}: {by_runs:?}, {expected:?}");

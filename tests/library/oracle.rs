@@ -64,7 +64,10 @@ fn exact_values_are_those_of_the_definition() {
         });
         values.count()
     }
-    let crossings: usize = FAMILIES.iter().map(|row| check::<f32>(row) + check::<f64>(row)).sum();
+    let crossings: usize = FAMILIES
+        .iter()
+        .map(|row| check::<f32>(row) + check::<f64>(row))
+        .sum();
     assert!(crossings > 3000, "{crossings}");
 }
 
@@ -102,7 +105,9 @@ fn family_case() -> impl Strategy<Value = Case<f64>> {
 
 /// A crossing with its features renamed by a permutation of the vertices.
 fn renamed(truth: Truth, order: [usize; 3]) -> Truth {
-    let Truth::Transversal(crossing) = truth else { return truth };
+    let Truth::Transversal(crossing) = truth else {
+        return truth;
+    };
     let vertices = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
     // The edge opposite to each vertex.
     let edges = [Feature::EdgeBc, Feature::EdgeCa, Feature::EdgeAb];
@@ -120,7 +125,11 @@ fn renamed(truth: Truth, order: [usize; 3]) -> Truth {
         (Facing::Back, true) => Facing::Front,
         (facing, false) => facing,
     };
-    Truth::Transversal(Crossing { facing, feature: rename(crossing.feature), ..crossing })
+    Truth::Transversal(Crossing {
+        facing,
+        feature: rename(crossing.feature),
+        ..crossing
+    })
 }
 
 proptest! {

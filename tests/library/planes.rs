@@ -32,12 +32,17 @@ fn normal<F: Float>(case: &Case<F>) -> Point {
 fn sine<F: Float>(case: &Case<F>) -> f64 {
     let (n, d) = (normal(case), exact(case.vectors()[1]));
     let along = dot(&n, &d);
-    ((&along * &along) / (dot(&n, &n) * dot(&d, &d))).to_f64().unwrap().sqrt()
+    ((&along * &along) / (dot(&n, &n) * dot(&d, &d)))
+        .to_f64()
+        .unwrap()
+        .sqrt()
 }
 
 fn cases<F: Scalar>(name: &str, seed: u64, count: u64) -> Vec<Case<F>> {
     let family = family::find(name).unwrap();
-    (0..count).map(|i| family.make::<F>(&Parameters::default(), seed, i).cases()[0]).collect()
+    (0..count)
+        .map(|i| family.make::<F>(&Parameters::default(), seed, i).cases()[0])
+        .collect()
 }
 
 /// Whether no component of the normal is zero, and the vertices are on no lattice of integers.
@@ -70,13 +75,22 @@ fn half_of_the_grazing_rays_and_slivers_and_all_tiny_triangles_are_on_generic_pl
 fn secondary_rays_leave_at_every_angle() {
     // Directions are uniform on the sphere, so the share of sines below s is s.
     for sines in [
-        cases::<f32>("secondary-ray", 3, 20_000).iter().map(sine).collect::<Vec<_>>(),
-        cases::<f64>("secondary-ray", 3, 20_000).iter().map(sine).collect(),
+        cases::<f32>("secondary-ray", 3, 20_000)
+            .iter()
+            .map(sine)
+            .collect::<Vec<_>>(),
+        cases::<f64>("secondary-ray", 3, 20_000)
+            .iter()
+            .map(sine)
+            .collect(),
     ] {
         for s in [0.001, 0.01, 0.125, 0.5, 0.9] {
             let below = sines.iter().filter(|sine| **sine < s).count() as f64 / 20_000.0;
             let noise = 4.0 * (s * (1.0 - s) / 20_000.0).sqrt();
-            assert!((below - s).abs() < noise, "{below} of the sines are below {s}");
+            assert!(
+                (below - s).abs() < noise,
+                "{below} of the sines are below {s}"
+            );
         }
     }
 }
@@ -86,16 +100,29 @@ fn secondary_rays_leave_at_every_angle() {
 fn sines_of_grazing_rays<F: Scalar>() {
     let digits = F::DIGITS as i32;
     let all = cases::<F>("grazing", 5, 20_000);
-    let sines: Vec<f64> = all.iter().filter(|case| is_generic(case)).map(sine).collect();
-    let halvings: Vec<i32> = sines.iter().map(|sine| -sine.log2().floor() as i32).collect();
+    let sines: Vec<f64> = all
+        .iter()
+        .filter(|case| is_generic(case))
+        .map(sine)
+        .collect();
+    let halvings: Vec<i32> = sines
+        .iter()
+        .map(|sine| -sine.log2().floor() as i32)
+        .collect();
     let expected = sines.len() as f64 / f64::from(digits - 1);
     for k in 5..=digits - 4 {
         let count = halvings.iter().filter(|halving| **halving == k).count() as f64;
-        assert!((count - expected).abs() < 5.0 * expected.sqrt(), "2^-{k}: {count} of {expected}");
+        assert!(
+            (count - expected).abs() < 5.0 * expected.sqrt(),
+            "2^-{k}: {count} of {expected}"
+        );
     }
     assert!(sines.iter().all(|sine| *sine <= 0.126));
     let smallest_aim = 0.5f64.powi(digits + 2);
-    let below = sines.iter().filter(|sine| **sine < smallest_aim / 4.0).count();
+    let below = sines
+        .iter()
+        .filter(|sine| **sine < smallest_aim / 4.0)
+        .count();
     assert!(below > 10, "{below} below a quarter of the smallest aim");
 }
 
@@ -114,14 +141,17 @@ fn on_generic_planes_a_larger_epsilon_of_moller_trumbore_trades_false_hits_for_h
         cases.retain(|case| {
             is_generic(case) && case.ray.t_min == 0.0 && case.ray.t_max.is_infinite()
         });
-        let truths: Vec<bool> =
-            cases.iter().map(|case| oracle::truth(case).hits_closed().unwrap()).collect();
+        let truths: Vec<bool> = cases
+            .iter()
+            .map(|case| oracle::truth(case).hits_closed().unwrap())
+            .collect();
         let [zero, ulp, published] = [0.0, 1.1920929e-7, 1e-6].map(|epsilon| {
             let mut verdicts = vec![Verdict::miss(None); cases.len()];
             kernel.run(&cases, &[epsilon, 0.0], &mut verdicts);
             let both = |truth: bool, hit: bool| {
                 let all = truths.iter().zip(&verdicts);
-                all.filter(|(is, verdict)| (**is, verdict.hit) == (truth, hit)).count() as f64
+                all.filter(|(is, verdict)| (**is, verdict.hit) == (truth, hit))
+                    .count() as f64
             };
             let [hits, misses] = [true, false].map(|is| both(is, true) + both(is, false));
             println!(
@@ -132,9 +162,15 @@ fn on_generic_planes_a_larger_epsilon_of_moller_trumbore_trades_false_hits_for_h
             [both(false, true) / misses, both(true, false) / hits]
         });
         // False hits: plain to see at 0, and fewer from epsilon to epsilon.
-        assert!(zero[0] > 0.03 && zero[0] > 10.0 * ulp[0] && ulp[0] > 3.0 * published[0], "{seed}");
+        assert!(
+            zero[0] > 0.03 && zero[0] > 10.0 * ulp[0] && ulp[0] > 3.0 * published[0],
+            "{seed}"
+        );
         // Hits are lost for it.
-        assert!(zero[1] + 0.1 < ulp[1] && ulp[1] + 0.1 < published[1], "{seed}");
+        assert!(
+            zero[1] + 0.1 < ulp[1] && ulp[1] + 0.1 < published[1],
+            "{seed}"
+        );
     }
 }
 
@@ -152,5 +188,8 @@ fn secondary_rays_start_at_hit_points_and_not_in_the_middle() {
         let height = ((&along * &along) / dot(&n, &n)).to_f64().unwrap().sqrt();
         near += usize::from(height < 16.0 * f64::from(f32::EPSILON));
     }
-    assert!(at_middle < 40 && near > 3960, "{at_middle} in the middle, {near} near the plane");
+    assert!(
+        at_middle < 40 && near > 3960,
+        "{at_middle} in the middle, {near} near the plane"
+    );
 }

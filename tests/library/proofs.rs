@@ -17,12 +17,22 @@ fn path<F: Scalar>(kernel: &str) -> Path {
 
 /// A certificate of bounds of some numbers.
 fn certificate_of(path: &Path, scalar: &str, domain: Domain, places: &[u32]) -> String {
-    let format = if scalar == "f32" { Format::F32 } else { Format::F64 };
+    let format = if scalar == "f32" {
+        Format::F32
+    } else {
+        Format::F64
+    };
     let program = |place: &u32| {
         let mut prover = Prover::new(path, domain, format);
         prover.bound(*place).unwrap();
         let (symmetry, orders) = (Symmetry::None, prover.orders(*place));
-        let claim = Claim { gate: "gate", place: *place, symmetry, orders: &orders, also: &[] };
+        let claim = Claim {
+            gate: "gate",
+            place: *place,
+            symmetry,
+            orders: &orders,
+            also: &[],
+        };
         certificate::program(path, &prover.lemmas_of(*place), &claim)
     };
     certificate::heading("kernel", scalar, format)
@@ -32,7 +42,9 @@ fn certificate_of(path: &Path, scalar: &str, domain: Domain, places: &[u32]) -> 
 
 /// The first operations of a kind.
 fn first(path: &Path, count: usize, is_kind: impl Fn(&Operation) -> bool) -> Vec<u32> {
-    let all = (0..).zip(&path.operations).filter(|(_, operation)| is_kind(operation));
+    let all = (0..)
+        .zip(&path.operations)
+        .filter(|(_, operation)| is_kind(operation));
     all.take(count).map(|(place, _)| place).collect()
 }
 
@@ -43,9 +55,16 @@ fn is_quotient(operation: &Operation) -> bool {
 /// Everything that the gates of a kernel compare and that has a bound.
 fn quantities<F: Scalar>(kernel: &str, scalar: &str) -> String {
     let path = path::<F>(kernel);
-    let format = if scalar == "f32" { Format::F32 } else { Format::F64 };
+    let format = if scalar == "f32" {
+        Format::F32
+    } else {
+        Format::F64
+    };
     let mut prover = Prover::new(&path, Domain::UNIT, format);
-    let all = path.compared.iter().flat_map(|compared| compared.quantities.clone());
+    let all = path
+        .compared
+        .iter()
+        .flat_map(|compared| compared.quantities.clone());
     let places: Vec<u32> = all.filter(|place| prover.bound(*place).is_ok()).collect();
     certificate_of(&path, scalar, Domain::UNIT, &places)
 }
@@ -73,14 +92,27 @@ fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
     let weights = path::<f32>("moller-trumbore");
     let is_sum = |place: &u32| weights.operations[*place as usize];
     let last = *weights.compared.last().unwrap().quantities.last().unwrap();
-    let Operation::Sub(_, both) = is_sum(&last) else { panic!("1 - (u + v)") };
+    let Operation::Sub(_, both) = is_sum(&last) else {
+        panic!("1 - (u + v)")
+    };
     // So low that the order of the direction's coordinates is needed.
-    let low = Domain { floor: Dyadic::power(-8), quotient: Dyadic::power(2), ..Domain::UNIT };
+    let low = Domain {
+        floor: Dyadic::power(-8),
+        quotient: Dyadic::power(2),
+        ..Domain::UNIT
+    };
     vec![
         (
             "triple",
             certificate_of(&triple, "f64", Domain::UNIT, triple_places),
-            &["edge", "world", "extent", "direction-floor", "floor", "quotient"],
+            &[
+                "edge",
+                "world",
+                "extent",
+                "direction-floor",
+                "floor",
+                "quotient",
+            ],
         ),
         (
             "plane",
@@ -125,7 +157,11 @@ fn mutants(text: &str) -> Vec<(usize, usize, String)> {
         }
         let value: i128 = text[start..i].parse().unwrap();
         for changed in [value - 1, value + 1] {
-            mutants.push((line, column, format!("{}{changed}{}", &text[..start], &text[i..])));
+            mutants.push((
+                line,
+                column,
+                format!("{}{changed}{}", &text[..start], &text[i..]),
+            ));
         }
     }
     mutants
@@ -133,10 +169,17 @@ fn mutants(text: &str) -> Vec<(usize, usize, String)> {
 
 #[test]
 fn what_the_prover_writes_is_accepted() {
-    for kernel in
-        ["scalar-triple-two-sided", "moller-trumbore", "plucker", "baldwin-weber", "cramer"]
-    {
-        for text in [quantities::<f32>(kernel, "f32"), quantities::<f64>(kernel, "f64")] {
+    for kernel in [
+        "scalar-triple-two-sided",
+        "moller-trumbore",
+        "plucker",
+        "baldwin-weber",
+        "cramer",
+    ] {
+        for text in [
+            quantities::<f32>(kernel, "f32"),
+            quantities::<f64>(kernel, "f64"),
+        ] {
             let proved = check(&text).unwrap_or_else(|refusal| panic!("{kernel}: {refusal}"));
             assert_eq!(proved.len(), text.matches("\nclaim ").count());
         }
@@ -147,9 +190,15 @@ fn what_the_prover_writes_is_accepted() {
     // A rest may be large, and its sum far below 0.
     let cramer = path::<f32>("cramer");
     let rest = *cramer.compared.last().unwrap().quantities.last().unwrap();
-    let domain = Domain { quotient: Dyadic::power(3), ..Domain::UNIT };
+    let domain = Domain {
+        quotient: Dyadic::power(3),
+        ..Domain::UNIT
+    };
     let text = certificate_of(&cramer, "f32", domain, &[rest]);
-    assert!(text.contains("rest-of-quotients") && text.contains("\ndown-to "), "{text}");
+    assert!(
+        text.contains("rest-of-quotients") && text.contains("\ndown-to "),
+        "{text}"
+    );
     check(&text).unwrap();
 }
 
@@ -161,7 +210,10 @@ fn wide_difference<F: Scalar>(scalar: &str) -> String {
         let is_wide = |operation: &Operation| matches!(operation, Operation::Minor(..));
         path.operations.iter().position(is_wide)
     };
-    let path = paths.iter().find(|path| !is_impossible(path) && place(path).is_some()).unwrap();
+    let path = paths
+        .iter()
+        .find(|path| !is_impossible(path) && place(path).is_some())
+        .unwrap();
     certificate_of(path, scalar, Domain::UNIT, &[place(path).unwrap() as u32])
 }
 
@@ -174,7 +226,12 @@ fn a_difference_of_products_is_rounded_twice_in_f64() {
     assert!(double * Number::from_integer((1i64 << 29).into()) > single);
     // A result below 2 that is wrong by nearly 2u, twice what one rounding may cost.
     let exact = |x: f64| Number::from_float(x).unwrap();
-    let digits = [0x13411b4d2cd965u64, 0x1f2bee19622db6, 0x1fba5f0d32f012, 0x16f08d216d65ac];
+    let digits = [
+        0x13411b4d2cd965u64,
+        0x1f2bee19622db6,
+        0x1fba5f0d32f012,
+        0x16f08d216d65ac,
+    ];
     let [a, b, c, d] = digits.map(|digits| digits as f64 / (1u64 << 53) as f64);
     let computed = f64::difference_of_products(&a, &b, &-c, &d);
     let error = exact(computed) - (exact(a) * exact(b) + exact(c) * exact(d));
@@ -190,11 +247,16 @@ fn a_number_that_is_off_by_one_is_refused() {
         assert!(400 < mutants.len());
         if name == "weights" {
             // What stands before is of rules that the others have.
-            let own = lines.iter().position(|line| line.last() == Some(&OF_BOTH)).unwrap();
+            let own = lines
+                .iter()
+                .position(|line| line.last() == Some(&OF_BOTH))
+                .unwrap();
             mutants.retain(|(line, ..)| own <= *line || lines[*line][0] == "down-to");
             assert!(200 < mutants.len());
         }
-        for (line, column, mutant) in mutants.iter().filter(|(_, _, mutant)| check(mutant).is_ok())
+        for (line, column, mutant) in mutants
+            .iter()
+            .filter(|(_, _, mutant)| check(mutant).is_ok())
         {
             let words = &lines[*line];
             // What remains is the true certificate of another statement: a bound of the domain that no lemma uses.
@@ -221,13 +283,20 @@ fn a_sign_of_the_corner_or_a_line_less_is_refused() {
                     let mut changed: Vec<String> =
                         lines.iter().map(|line| line.to_string()).collect();
                     changed[i] = format!("corner {}", String::from_utf8(flipped).unwrap());
-                    assert!(check(&changed.join("\n")).is_err(), "{name}: {}", changed[i]);
+                    assert!(
+                        check(&changed.join("\n")).is_err(),
+                        "{name}: {}",
+                        changed[i]
+                    );
                 }
             }
             let rest: Vec<&str> = [&lines[..i], &lines[i + 1..]].concat();
             // Without an order less may be supposed. The test below drops those that matter.
             let is_free = line.starts_with("order ");
-            assert!(is_free || check(&rest.join("\n")).is_err(), "{name}: without {line}");
+            assert!(
+                is_free || check(&rest.join("\n")).is_err(),
+                "{name}: without {line}"
+            );
             // Cut off here: what is left is whole only before another program.
             let is_whole = *line == "program" && lines[i - 1] == "end";
             let is_refused = check(&lines[..i].join("\n")).is_err();
@@ -241,8 +310,10 @@ fn a_lemma_less_is_refused() {
     for (name, text, _) in samples() {
         let starts: Vec<usize> = text.match_indices("\nlemma ").map(|(at, _)| at).collect();
         for at in starts {
-            let end =
-                ["\nlemma ", "\nclaim "].iter().filter_map(|word| text[at + 1..].find(word)).min();
+            let end = ["\nlemma ", "\nclaim "]
+                .iter()
+                .filter_map(|word| text[at + 1..].find(word))
+                .min();
             let rest = text[..at].to_owned() + &text[at + 1 + end.unwrap()..];
             assert!(check(&rest).is_err(), "{name}: {}", &text[at..at + 20]);
         }
@@ -250,7 +321,11 @@ fn a_lemma_less_is_refused() {
 }
 
 fn sample(name: &str) -> String {
-    samples().into_iter().find(|(known, _, _)| *known == name).unwrap().1
+    samples()
+        .into_iter()
+        .find(|(known, _, _)| *known == name)
+        .unwrap()
+        .1
 }
 
 fn refusal(text: &str) -> String {
@@ -260,14 +335,27 @@ fn refusal(text: &str) -> String {
 #[test]
 fn an_order_that_is_not_stated_or_not_used_is_refused() {
     let text = sample("woop");
-    let orders: Vec<&str> = text.lines().filter(|line| line.starts_with("order ")).collect();
-    assert!(orders.contains(&"order 5 3") && orders.contains(&"order 4 3"), "{orders:?}");
+    let orders: Vec<&str> = text
+        .lines()
+        .filter(|line| line.starts_with("order "))
+        .collect();
+    assert!(
+        orders.contains(&"order 5 3") && orders.contains(&"order 4 3"),
+        "{orders:?}"
+    );
     let without = text.replace("order 5 3\n", "");
     assert!(check(&without).is_err());
     let opposite = text.replace("order 5 3\n", "order 3 5\n");
     assert!(check(&opposite).is_err());
-    for more in ["order 5 3\norder 5 3\n", "order 5 3\norder 4 5\n", "order 5 3\norder 6 7\n"] {
-        assert!(check(&text.replacen("order 5 3\n", more, 1)).is_err(), "{more}");
+    for more in [
+        "order 5 3\norder 5 3\n",
+        "order 5 3\norder 4 5\n",
+        "order 5 3\norder 6 7\n",
+    ] {
+        assert!(
+            check(&text.replacen("order 5 3\n", more, 1)).is_err(),
+            "{more}"
+        );
     }
 }
 
@@ -275,7 +363,12 @@ fn an_order_that_is_not_stated_or_not_used_is_refused() {
 fn a_bound_whose_way_overflows_is_refused() {
     // A reciprocal overflows, though the product with it does not.
     let tiny = Dyadic::power(-130);
-    let domain = Domain { direction: tiny, direction_floor: tiny, reach: tiny, ..Domain::UNIT };
+    let domain = Domain {
+        direction: tiny,
+        direction_floor: tiny,
+        reach: tiny,
+        ..Domain::UNIT
+    };
     let path = path::<f32>("woop-watertight");
     let is_reciprocal = |place: u32| matches!(path.operations[place as usize], Operation::Div(one, _) if path.operations[one as usize] == Operation::Number(1));
     let is_product = |op: &Operation| matches!(op, Operation::Mul(a, _) if is_reciprocal(*a));
@@ -283,7 +376,11 @@ fn a_bound_whose_way_overflows_is_refused() {
     // The prover may refuse it too.
     if Prover::new(&path, domain, Format::F32).bound(place).is_ok() {
         let text = certificate_of(&path, "f32", domain, &[place]);
-        assert!(refusal(&text).ends_with("which may overflow"), "{}", refusal(&text));
+        assert!(
+            refusal(&text).ends_with("which may overflow"),
+            "{}",
+            refusal(&text)
+        );
     }
 }
 
@@ -303,14 +400,21 @@ fn a_unit_vector_whose_way_overflows_is_refused() {
     let root = path.operations.iter().position(is_root).unwrap() as u32;
     // The root, its reciprocal, and the first coordinate.
     let place = root + 2;
-    let small = Domain { edge: Dyadic::power(-3), floor: Dyadic::power(-6), ..Domain::UNIT };
+    let small = Domain {
+        edge: Dyadic::power(-3),
+        floor: Dyadic::power(-6),
+        ..Domain::UNIT
+    };
     // The squares of the normal are at most 12, of the small one much less; but its reciprocal may be above 64.
     for (domain, largest) in [(Domain::UNIT, 4), (small, 7)] {
         let text = certificate_of(&path, "f32", domain, &[place]);
         let accepted = check(&with_largest(&text, largest));
         assert!(accepted.is_ok(), "{accepted:?}");
         let message = refusal(&with_largest(&text, largest - 1));
-        let line = 1 + text.lines().position(|line| line.ends_with(" unit")).unwrap();
+        let line = 1 + text
+            .lines()
+            .position(|line| line.ends_with(" unit"))
+            .unwrap();
         assert!(message.starts_with(&format!("line {line}: ")), "{message}");
         assert!(message.ends_with("which may overflow"), "{message}");
     }
@@ -319,16 +423,31 @@ fn a_unit_vector_whose_way_overflows_is_refused() {
 #[test]
 fn what_is_wrong_is_named_with_its_line() {
     let text = sample("triple");
-    let line = |word: &str| 1 + text.lines().position(|line| line.starts_with(word)).unwrap();
-    assert_eq!(refusal(""), "line 1: found the end of the file, expected `hairline proof 3`");
+    let line = |word: &str| {
+        1 + text
+            .lines()
+            .position(|line| line.starts_with(word))
+            .unwrap()
+    };
+    assert_eq!(
+        refusal(""),
+        "line 1: found the end of the file, expected `hairline proof 3`"
+    );
     let domain = line("domain");
     let cyclic = text.replacen(
         "\nvariable ",
         "\nvariable difference 1 0 0\nvariable difference 0 1 0\nvariable ",
         1,
     );
-    assert!(refusal(&cyclic).contains("expected an independent one"), "{}", refusal(&cyclic));
-    let first = text.lines().find(|line| line.starts_with("first ")).unwrap();
+    assert!(
+        refusal(&cyclic).contains("expected an independent one"),
+        "{}",
+        refusal(&cyclic)
+    );
+    let first = text
+        .lines()
+        .find(|line| line.starts_with("first "))
+        .unwrap();
     let message = refusal(&text.replacen(first, "first 1*2^-60", 1));
     assert!(
         message.starts_with(&format!("line {}: found `first 1*2^-60`", line("first "))),
@@ -336,7 +455,10 @@ fn what_is_wrong_is_named_with_its_line() {
     );
     let negative = text.replacen("edge 1", "edge -1", 1);
     assert!(refusal(&negative).starts_with(&format!("line {domain}: ")));
-    let (program, claim) = (text.find("\nlemma ").unwrap(), text.find("\nclaim ").unwrap());
+    let (program, claim) = (
+        text.find("\nlemma ").unwrap(),
+        text.find("\nclaim ").unwrap(),
+    );
     let claimed = format!("{}{}", &text[..program], &text[claim..]);
     assert!(refusal(&claimed).contains("expected one with a lemma above"));
     // A product of a number with itself is not affine in it.
@@ -347,7 +469,9 @@ fn what_is_wrong_is_named_with_its_line() {
         refusal(square),
         "line 11: found `step 1 mul 0 0`, expected factors without a variable in common"
     );
-    let other = square.replace("mul 0 0\n", "add 0 0\n").replace("op 1 add", "op 1 mul");
+    let other = square
+        .replace("mul 0 0\n", "add 0 0\n")
+        .replace("op 1 add", "op 1 mul");
     assert_eq!(
         refusal(&other),
         "line 11: found `step 1 add 0 0`, expected the operation of the program with its operands"
@@ -370,7 +494,10 @@ fn a_direction_is_no_point() {
         extent 1 direction-floor 1 floor 1 quotient 1\nprogram\nop 0 input 3\nop 1 input 0\nop 2 sub 0 1\n\
         lemma 2 sum\nvariable direction 0\nvariable point 0 0\nstep 2 variables +0 -1\n";
     let message = refusal(text);
-    assert!(message.starts_with("line 12: found `step 2 variables +0 -1`"), "{message}");
+    assert!(
+        message.starts_with("line 12: found `step 2 variables +0 -1`"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -395,12 +522,17 @@ fn hostile_text_is_refused_at_once() {
     }
     let many = "variable quotient\n".repeat(40);
     let message = refusal(&sample("woop").replacen("variable quotient\n", &many, 1));
-    assert!(message.contains("found more than 32 variables"), "{message}");
+    assert!(
+        message.contains("found more than 32 variables"),
+        "{message}"
+    );
     assert!(check(&"\n".repeat(1 << 23)).is_err());
     // Any byte may change to any other, and any piece may be missing: never a panic.
     let mut state = 1u64;
     let mut random = |end: usize| {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
         (state >> 33) as usize % end
     };
     for _ in 0..400 {
@@ -417,8 +549,9 @@ fn hostile_text_is_refused_at_once() {
 
 #[test]
 fn the_stored_certificates_in_f32_are_accepted() {
-    let folder =
-        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join("corpora/proofs");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .join("corpora/proofs");
     let (mut accepted, mut numbers) = (0, 0);
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -432,19 +565,28 @@ fn the_stored_certificates_in_f32_are_accepted() {
         }
     }
     // The samples above have no step that is a number.
-    assert!(5 < accepted && 5 < numbers, "{accepted} with {numbers} numbers");
+    assert!(
+        5 < accepted && 5 < numbers,
+        "{accepted} with {numbers} numbers"
+    );
 }
 
 #[test]
 fn a_length_that_may_be_rounded_to_zero_is_refused() {
     let text = sample("plane");
-    let domain = text.lines().find(|line| line.starts_with("domain ")).unwrap();
+    let domain = text
+        .lines()
+        .find(|line| line.starts_with("domain "))
+        .unwrap();
     let mut words: Vec<&str> = domain.split(' ').collect();
     let floor = words.iter().position(|word| *word == "floor").unwrap() + 1;
     // Less than the length's own error, which is about 2^-22.
     words[floor] = "1*2^-60";
     let error = refusal(&text.replacen(domain, &words.join(" "), 1));
-    assert!(error.contains("found a length that may be rounded to zero"), "{error}");
+    assert!(
+        error.contains("found a length that may be rounded to zero"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -453,7 +595,11 @@ fn a_root_of_more_or_less_than_three_squares_is_no_length() {
     let program = ["op 14 mul 12 12", "op 23 mul 22 22", "op 29 add 24 28"];
     for changed in [
         // Of three squares and the number 1; of four; of two.
-        ["op 14 fma 12 12 13", "op 23 fma 22 22 14", "op 29 fma 27 27 23"],
+        [
+            "op 14 fma 12 12 13",
+            "op 23 fma 22 22 14",
+            "op 29 fma 27 27 23",
+        ],
         ["op 14 mul 12 12", "op 23 fma 22 22 14", "op 29 add 23 24"],
         ["op 14 mul 12 12", "op 23 mul 22 22", "op 29 add 14 23"],
     ] {
@@ -463,7 +609,10 @@ fn a_root_of_more_or_less_than_three_squares_is_no_length() {
             other = other.replacen(from, to, 1);
         }
         let message = refusal(&other);
-        assert!(message.contains("expected a part of a vector by its length"), "{message}");
+        assert!(
+            message.contains("expected a part of a vector by its length"),
+            "{message}"
+        );
     }
 }
 
@@ -485,16 +634,25 @@ fn parts_are_coordinates_of_one_unit_vector_in_which_the_formula_is_linear() {
     // A sum of a term with a part and one without, a product of two, and a result without any.
     let linear = "expected terms that are all linear in parts, or all without one";
     refused(
-        &[("op 38 add 34 37", "op 38 add 34 36"), ("step 38 add 2 5", "step 38 add 2 4")],
+        &[
+            ("op 38 add 34 37", "op 38 add 34 36"),
+            ("step 38 add 2 5", "step 38 add 2 4"),
+        ],
         linear,
     );
     refused(
-        &[("op 37 mul 35 36", "op 37 mul 35 32"), ("step 37 mul 3 4", "step 37 mul 3 0")],
+        &[
+            ("op 37 mul 35 36", "op 37 mul 35 32"),
+            ("step 37 mul 3 4", "step 37 mul 3 0"),
+        ],
         linear,
     );
     let without =
         "lemma 17 sum\nvariable difference 3 1 0\nvariable part 32\nstep 17 variables +0\n";
-    refused(&[("claim ", &format!("{without}claim "))], "found a last step without a part");
+    refused(
+        &[("claim ", &format!("{without}claim "))],
+        "found a last step without a part",
+    );
 }
 
 /// The rule of u + v.
@@ -511,23 +669,43 @@ fn the_rules_of_two_quotients_and_of_points_in_a_box_keep_their_conditions() {
     // A point where it is, beside points that were moved; and a step that is one of these.
     let mixed = "found points in a box and points as they are";
     refused("variable boxed 0 0\n", "variable point 0 0\n", mixed);
-    let of_point = text.lines().find(|line| line.starts_with("op 0 input ")).unwrap();
+    let of_point = text
+        .lines()
+        .find(|line| line.starts_with("op 0 input "))
+        .unwrap();
     assert_eq!(of_point, "op 0 input 0");
     let moved = "lemma 0 sum\nvariable boxed 0 0\nstep 0 variables +0\n";
-    refused("lemma ", &format!("{moved}lemma "), "expected a difference of points in a box");
-    refused("variable boxed 1 0\n", "variable boxed 1 0\nvariable boxed 1 0\n", "independent");
+    refused(
+        "lemma ",
+        &format!("{moved}lemma "),
+        "expected a difference of points in a box",
+    );
+    refused(
+        "variable boxed 1 0\n",
+        "variable boxed 1 0\nvariable boxed 1 0\n",
+        "independent",
+    );
     // Another rule, other divisors, one quotient twice.
     let unfit = "found a rule that does not fit its operation";
     refused(OF_BOTH, "rest-of-quotients-by-reciprocal", unfit);
     refused(OF_BOTH, "sum-of-quotients", unfit);
     refused(OF_BOTH, "quotient-by-reciprocal", unfit);
     let last = text.lines().rfind(|line| line.starts_with("op ")).unwrap();
-    let [.., u, v] = last.split(' ').collect::<Vec<_>>()[..] else { panic!("{last}") };
-    refused(last, &last.replacen(&format!(" {v}"), &format!(" {u}"), 1), unfit);
+    let [.., u, v] = last.split(' ').collect::<Vec<_>>()[..] else {
+        panic!("{last}")
+    };
+    refused(
+        last,
+        &last.replacen(&format!(" {v}"), &format!(" {u}"), 1),
+        unfit,
+    );
     // Nothing but a size is supposed of one of them.
     for down_to in text.lines().filter(|line| line.starts_with("down-to ")) {
         let message = refusal(&text.replacen(&format!("{down_to}\n"), "", 1));
-        assert!(message.contains("found `corner") || message.contains("found `first"), "{message}");
+        assert!(
+            message.contains("found `corner") || message.contains("found `first"),
+            "{message}"
+        );
     }
 }
 
@@ -539,7 +717,13 @@ fn stored(kernel: &str) -> String {
 
 #[test]
 fn values_of_an_edge_that_are_no_exact_negatives_or_have_other_signs_are_refused() {
-    let signs = |text: &str| check(text).unwrap().iter().filter(|claim| claim.has_signs).count();
+    let signs = |text: &str| {
+        check(text)
+            .unwrap()
+            .iter()
+            .filter(|claim| claim.has_signs)
+            .count()
+    };
     let (woop, plucker) = (stored("woop-watertight"), stored("plucker"));
     assert_eq!((signs(&woop), signs(&plucker)), (2, 0));
     // Plücker's signs need not be those of one picture, and the t of both is no edge's value.
@@ -548,21 +732,37 @@ fn values_of_an_edge_that_are_no_exact_negatives_or_have_other_signs_are_refused
         assert!(text.contains(from), "{from}");
         refusal(&text.replacen(from, to, 1))
     };
-    let opposite = plucker.lines().find(|line| line.ends_with(" opposite")).unwrap();
+    let opposite = plucker
+        .lines()
+        .find(|line| line.ends_with(" opposite"))
+        .unwrap();
     let claim = opposite.strip_suffix(" opposite").unwrap();
     let refused = claimed(&plucker, opposite, &format!("{claim} signs"));
     assert!(
         refused.contains(message) && refused.ends_with("x(p)*y(q) - x(q)*y(p) of two vertices")
     );
     // Less may be said than is true.
-    assert_eq!(check(&plucker.replacen(opposite, claim, 1)).map(|all| all.len()).ok(), Some(6));
+    assert_eq!(
+        check(&plucker.replacen(opposite, claim, 1))
+            .map(|all| all.len())
+            .ok(),
+        Some(6)
+    );
     // Numbers of three vertices, quotients and fused products are no exact negatives.
-    for text in [&woop, &plucker, &stored("moller-trumbore"), &stored("woop-watertight+fma")] {
+    for text in [
+        &woop,
+        &plucker,
+        &stored("moller-trumbore"),
+        &stored("woop-watertight+fma"),
+    ] {
         for (at, end) in text.match_indices("\nend\n") {
             let (start, claim) = text[..at].rsplit_once('\n').unwrap();
             if claim.split(' ').count() == 2 {
                 let refused = refusal(&format!("{start}\n{claim} opposite{end}"));
-                assert!(refused.contains("found `opposite` of operation"), "{claim}: {refused}");
+                assert!(
+                    refused.contains("found `opposite` of operation"),
+                    "{claim}: {refused}"
+                );
             }
         }
     }
@@ -581,7 +781,10 @@ fn values_of_an_edge_that_are_no_exact_negatives_or_have_other_signs_are_refused
 /// A certificate of a_x·d_x - b_x·d_x, or of |a_x|·d_x - b_x·d_x.
 fn difference(is_size: bool, word: &str) -> String {
     let (operations, cut) = match is_size {
-        true => ("op 3 abs 0\nop 4 mul 3 2\nop 5 mul 1 2\nop 6 sub 4 5\n", "cut 3"),
+        true => (
+            "op 3 abs 0\nop 4 mul 3 2\nop 5 mul 1 2\nop 6 sub 4 5\n",
+            "cut 3",
+        ),
         false => ("op 3 mul 0 2\nop 4 mul 1 2\nop 5 sub 3 4\n", "point 1 0"),
     };
     let [first, product, other, last] = if is_size { [3, 4, 5, 6] } else { [0, 3, 4, 5] };
@@ -626,17 +829,22 @@ fn other_names_are_permutations_of_the_axes_and_of_the_vertices() {
     let text = sample("triple");
     let with = |also: &str| check(&text.replacen("\nlemma ", &format!("\n{also}\nlemma "), 1));
     let proved = with("also yzx cab").unwrap().remove(0);
-    let [here, there] = &proved.programs[..] else { panic!("{proved:?}") };
+    let [here, there] = &proved.programs[..] else {
+        panic!("{proved:?}")
+    };
     // y in place of x, and c in place of a; the origin and the direction keep theirs.
     let input = |i: usize| -> usize {
         let axis = (i % 3 + 1) % 3;
         let point = [0, 1, 4, 2, 3][i / 3];
         3 * point + axis
     };
-    let renamed = here.operations.lines().map(|line| match line.split_once(" input ") {
-        Some((op, i)) => format!("{op} input {}\n", input(i.parse().unwrap())),
-        None => format!("{line}\n"),
-    });
+    let renamed = here
+        .operations
+        .lines()
+        .map(|line| match line.split_once(" input ") {
+            Some((op, i)) => format!("{op} input {}\n", input(i.parse().unwrap())),
+            None => format!("{line}\n"),
+        });
     assert_eq!(there.operations, renamed.collect::<String>());
     for wrong in [
         "also xyz abc",

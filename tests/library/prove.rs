@@ -13,7 +13,10 @@ fn no_error_is_above_its_bound<F: Searched + Scalar>(evaluations: u64) {
     for kernel in KERNELS {
         for arithmetic in [Arithmetic::IEEE, Arithmetic::FMA] {
             let entry = in_arithmetic(kernel, arithmetic).unwrap();
-            let effort = Effort { evaluations, seed: 7 };
+            let effort = Effort {
+                evaluations,
+                seed: 7,
+            };
             let summary = Summary::<F>::new(entry, Domain::UNIT, &[], &[], effort).unwrap();
             assert_eq!(summary.contradiction, None, "{}", entry.info.name);
             let bounded = summary.gates.iter().filter(|gate| gate.bound.is_ok());
@@ -22,7 +25,12 @@ fn no_error_is_above_its_bound<F: Searched + Scalar>(evaluations: u64) {
                 // The search finds something of the bound's order at once, so a bound that is too small by much
                 // would be noticed.
                 let factor = gate.factor().unwrap();
-                assert!(factor < 12.0, "{} {}: {factor}", entry.info.name, gate.gate.name);
+                assert!(
+                    factor < 12.0,
+                    "{} {}: {factor}",
+                    entry.info.name,
+                    gate.gate.name
+                );
             }
         }
     }
@@ -43,12 +51,23 @@ fn no_error_is_above_its_bound_in_f64() {
 #[test]
 fn the_determinant_of_moller_trumbore_is_bounded_as_by_hand() {
     let kernel = find("moller-trumbore").unwrap();
-    let summary =
-        Summary::<f32>::new(kernel, Domain::UNIT, &[], &[], Effort { evaluations: 0, seed: 1 })
-            .unwrap();
+    let summary = Summary::<f32>::new(
+        kernel,
+        Domain::UNIT,
+        &[],
+        &[],
+        Effort {
+            evaluations: 0,
+            seed: 1,
+        },
+    )
+    .unwrap();
     let units = summary.gates[0].bound.as_ref().unwrap().to_f64() * 2f64.powi(24);
     let below_one = 1.0 - 2f64.powi(-10);
-    assert!(units <= 17.0 && units >= 17.0 * below_one * below_one, "{units}");
+    assert!(
+        units <= 17.0 && units >= 17.0 * below_one * below_one,
+        "{units}"
+    );
 }
 
 /// Numbers that overflow, underflow or need too many digits have no bound, or a true one.
@@ -77,7 +96,12 @@ fn no_size_of_the_inputs_makes_a_proof_panic() {
 #[test]
 fn a_search_is_reproducible_and_stays_in_its_domain() {
     let kernel = find("moller-trumbore-culling").unwrap();
-    let paths = <f32 as Scalar>::subject(kernel).unwrap().gated().unwrap().paths().unwrap();
+    let paths = <f32 as Scalar>::subject(kernel)
+        .unwrap()
+        .gated()
+        .unwrap()
+        .paths()
+        .unwrap();
     let proof = Proof::new(paths, None, Domain::UNIT, Format::F32);
     for quantity in &proof.quantities {
         let mut search = Search::<f32>::new(&proof, quantity, None);
@@ -88,7 +112,12 @@ fn a_search_is_reproducible_and_stays_in_its_domain() {
         let operations = &proof.paths[quantity.path].operations;
         let (mut computed, mut exact) = (Vec::new(), Vec::new());
         run(operations, quantity.place, &inputs, &mut computed);
-        run(operations, quantity.place, &inputs.map(f64::from), &mut exact);
+        run(
+            operations,
+            quantity.place,
+            &inputs.map(f64::from),
+            &mut exact,
+        );
         let last = quantity.place as usize;
         let error = (f64::from(computed[last]) - exact[last]).abs();
         assert!((error - score).abs() <= 1e-12, "{error} {score}");
@@ -105,7 +134,11 @@ fn a_search_is_reproducible_and_stays_in_its_domain() {
 
 /// The numbers of a stored witness in a scalar.
 fn numbers<F: Float>(witness: &serde_json::Value) -> [F; 17] {
-    let words = witness["inputs"].as_array().unwrap().iter().map(|word| word.as_str().unwrap());
+    let words = witness["inputs"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|word| word.as_str().unwrap());
     let bits = words.map(|word| F::from_bits(u64::from_str_radix(word, 16).unwrap()));
     bits.collect::<Vec<F>>().try_into().unwrap()
 }
@@ -114,7 +147,12 @@ fn numbers<F: Float>(witness: &serde_json::Value) -> [F; 17] {
 fn taken<F: Searched + Scalar>(paths: &[Path], inputs: &[F; 17]) -> (usize, Vec<f64>) {
     let is_taken = |path: &&Path| {
         let mut values = Vec::new();
-        run(&path.operations, path.operations.len() as u32 - 1, inputs, &mut values);
+        run(
+            &path.operations,
+            path.operations.len() as u32 - 1,
+            inputs,
+            &mut values,
+        );
         let of = |place: u32| values[place as usize];
         path.decisions.iter().all(|(comparison, answer)| {
             *answer
@@ -130,7 +168,12 @@ fn taken<F: Searched + Scalar>(paths: &[Path], inputs: &[F; 17]) -> (usize, Vec<
     let path = &paths[index];
     let mut values = Vec::new();
     let floats = inputs.map(|x| x.to_f64());
-    run(&path.operations, path.operations.len() as u32 - 1, &floats, &mut values);
+    run(
+        &path.operations,
+        path.operations.len() as u32 - 1,
+        &floats,
+        &mut values,
+    );
     (index, values)
 }
 
@@ -143,17 +186,25 @@ fn divides_as_the_unit_domain_says<F: Searched + Scalar>(witness: &serde_json::V
     let sample = Sample::of(&inputs.map(|x| x.to_f64()));
     let is_weight = |x: f64| {
         let weights = [0, 1, 2].map(|vertex| sample.weight(vertex));
-        weights.into_iter().any(|w| (x - w).abs() < 1e-9 || (x - (1.0 - w)).abs() < 1e-9)
+        weights
+            .into_iter()
+            .any(|w| (x - w).abs() < 1e-9 || (x - (1.0 - w)).abs() < 1e-9)
     };
     let mut divisions = 0;
     for (operation, value) in paths[index].operations.iter().zip(&values) {
         match *operation {
             Operation::Div(n, d) => {
                 let (numerator, divisor) = (values[n as usize], values[d as usize]);
-                assert!(0.5 - 1e-12 <= divisor.abs(), "{witness}: divides by {divisor}");
+                assert!(
+                    0.5 - 1e-12 <= divisor.abs(),
+                    "{witness}: divides by {divisor}"
+                );
                 let is_within = value.abs() <= 1.0 + 1e-12;
                 let is_near = is_weight(*value) && (-1e-3..1.001).contains(value);
-                assert!(is_within || is_near || numerator == 1.0, "{witness}: a quotient {value}");
+                assert!(
+                    is_within || is_near || numerator == 1.0,
+                    "{witness}: a quotient {value}"
+                );
                 divisions += 1;
             }
             Operation::Sqrt(_) => assert!(0.5 - 1e-12 <= *value, "{witness}: a root {value}"),
@@ -165,7 +216,10 @@ fn divides_as_the_unit_domain_says<F: Searched + Scalar>(witness: &serde_json::V
 
 #[test]
 fn stored_rays_divide_as_the_unit_domain_says() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../corpora/proofs/witnesses.ndjson");
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../corpora/proofs/witnesses.ndjson"
+    );
     let text = std::fs::read_to_string(file).unwrap();
     let (mut rays, mut divisions) = (0, 0);
     for line in text.lines() {
@@ -201,12 +255,23 @@ fn edge_values_are_exact_negatives_where_it_is_said() {
         ("moller-trumbore", Symmetry::None),
     ] {
         let kernel = find(name).unwrap();
-        let effort = Effort { evaluations: 0, seed: 1 };
+        let effort = Effort {
+            evaluations: 0,
+            seed: 1,
+        };
         let summary = Summary::<f32>::new(kernel, Domain::UNIT, &[], &[], effort).unwrap();
         assert_eq!(summary.symmetry, symmetry, "{name}");
-        let gate = summary.gates.iter().find(|gate| gate.gate.name == "edge").unwrap();
+        let gate = summary
+            .gates
+            .iter()
+            .find(|gate| gate.gate.name == "edge")
+            .unwrap();
         // The value of edge bc where the kernel has one: b and c exchanged.
-        let of_edge = summary.proof.quantities.iter().filter(|q| q.gate == gate.index);
+        let of_edge = summary
+            .proof
+            .quantities
+            .iter()
+            .filter(|q| q.gate == gate.index);
         let mut differ = 0;
         for quantity in of_edge {
             let operations = &summary.proof.paths[quantity.path].operations;

@@ -36,12 +36,19 @@ const FAMILIES: [&str; 12] = [
 ];
 
 fn source(name: &str, count: u64) -> Source {
-    Source::of(find(name).expect("a family"), Parameters::default(), 1, count)
+    Source::of(
+        find(name).expect("a family"),
+        Parameters::default(),
+        1,
+        count,
+    )
 }
 
 fn base_rows() -> Vec<Row> {
     let entries: Vec<_> = KERNELS.iter().collect();
-    let mut rows = EpsilonChoice::Source.rows(&entries, None).expect("the default plan");
+    let mut rows = EpsilonChoice::Source
+        .rows(&entries, None)
+        .expect("the default plan");
     rows.dedup_by(|second, first| second.entry.info.name == first.entry.info.name);
     rows
 }
@@ -62,16 +69,32 @@ fn setting<'a, F: Scalar>(
     let subject = F::subject(row.entry).unwrap();
     let (scene, mesh, store) = (None, None, None);
     let (relative, fine_curves) = (false, false);
-    Setting { row, subject, knobs, counts, scene, sources, mesh, relative, fine_curves, store }
+    Setting {
+        row,
+        subject,
+        knobs,
+        counts,
+        scene,
+        sources,
+        mesh,
+        relative,
+        fine_curves,
+        store,
+    }
 }
 
 /// What the audit counts on one source.
 fn audited<F: Scalar>(row: &Row, source: &Source, knobs: &[Knob], epsilons: &[F]) -> Tally {
     let mut row = row.clone();
     for (knob, epsilon) in knobs.iter().zip(epsilons) {
-        let Knob::Gate(gate) = *knob else { unreachable!("gates only") };
+        let Knob::Gate(gate) = *knob else {
+            unreachable!("gates only")
+        };
         row.epsilons[gate] = EpsilonText::Decimal(format!("{epsilon:e}"));
-        assert!(row.epsilons::<F>()[gate] == *epsilon, "the text is the number");
+        assert!(
+            row.epsilons::<F>()[gate] == *epsilon,
+            "the text is the number"
+        );
     }
     let scalars = [F::NAME == "f32", F::NAME == "f64"];
     let plan = Plan::new(vec![row], vec![source.clone()], scalars, 0);
@@ -138,7 +161,10 @@ fn counts_do_not_depend_on_the_number_of_threads() {
     let setting = setting::<f32>(row, &knobs, &counts, &sources);
     let attempt = [Attempt::new(vec![1e-6; knobs.len()])];
     let with = |threads: usize| {
-        let stock = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let stock = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("threads");
         stock.install(|| count_at(&setting, &attempt, Pass::new(1, 5000, &Silent)))
     };
     let one = with(1);

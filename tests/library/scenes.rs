@@ -30,7 +30,9 @@ fn scenes() -> Vec<Scene> {
         "extent=10,center=-1000,edge=0.5..1,distance=0..20",
         "city,direction=target,edge=0.01",
     ];
-    presets.chain(further.map(|text| Scene::parse(text).unwrap().0)).collect()
+    presets
+        .chain(further.map(|text| Scene::parse(text).unwrap().0))
+        .collect()
 }
 
 fn length(v: [f64; 3]) -> f64 {
@@ -45,7 +47,10 @@ fn check<F: Scalar>(stratum: Stratum, scene: &Scene) {
     if scene.check_in::<F>().is_err() {
         return;
     }
-    let parameters = Parameters { scene: Some(scene.clone()), ..Parameters::default() };
+    let parameters = Parameters {
+        scene: Some(scene.clone()),
+        ..Parameters::default()
+    };
     let family = stratum.family();
     let spacing = F::from_f64(scene.largest()).ulp().to_f64();
     let (mut hits, mut misses) = (0, 0);
@@ -58,7 +63,11 @@ fn check<F: Scalar>(stratum: Stratum, scene: &Scene) {
             if index < 40 {
                 assert_eq!(*truth, oracle::define(case).truth, "{id}");
             }
-            *(if truth.hits_closed() == Some(true) { &mut hits } else { &mut misses }) += 1;
+            *(if truth.hits_closed() == Some(true) {
+                &mut hits
+            } else {
+                &mut misses
+            }) += 1;
             sizes::<F>(stratum, scene, case, spacing, &id);
         }
     }
@@ -77,14 +86,21 @@ fn check<F: Scalar>(stratum: Stratum, scene: &Scene) {
         Stratum::Outside => 0.0..=0.2,
     };
     println!("{:?} {} {scene}: {share}", stratum, F::NAME);
-    assert!(expected.contains(&share), "{stratum:?} {scene} {}: {share}", F::NAME);
+    assert!(
+        expected.contains(&share),
+        "{stratum:?} {scene} {}: {share}",
+        F::NAME
+    );
 }
 
 fn sizes<F: Float>(stratum: Stratum, scene: &Scene, case: &Case<F>, spacing: f64, id: &str) {
     let [_, d, a, b, c] = case.widen().vectors();
     let corners = [a, b, c].into_iter().flatten();
     let most = corners.fold(0.0f64, |most, x| most.max(x.abs()));
-    assert!(most <= scene.largest() + 4.0 * scene.edge[1].min(scene.extent), "{id}: {most}");
+    assert!(
+        most <= scene.largest() + 4.0 * scene.edge[1].min(scene.extent),
+        "{id}: {most}"
+    );
     let edges = [minus(a, b), minus(b, c), minus(c, a)];
     let longest = edges.map(length).into_iter().fold(0.0, f64::max);
     // Where the direction is a sum of edges, both are made on a grid of 8 spacings; fans have edges of
@@ -97,12 +113,22 @@ fn sizes<F: Float>(stratum: Stratum, scene: &Scene, case: &Case<F>, spacing: f64
         _ => (scene.edge[0], scene.edge[1]),
     };
     let slack = 4.0 * spacing;
-    assert!((low - slack..=high + slack).contains(&longest), "{id}: an edge of {longest}");
+    assert!(
+        (low - slack..=high + slack).contains(&longest),
+        "{id}: an edge of {longest}"
+    );
     if !target {
         let [[x, y, z], [p, q, r], _] = edges;
         let area = length([y * r - z * q, z * p - x * r, x * q - y * p]);
-        assert!(0.1 * longest * longest - slack * longest <= area, "{id}: twice an area of {area}");
-        assert!((length(d) - 1.0).abs() < 2.0 * F::EPSILON.to_f64(), "{id}: |d| = {}", length(d));
+        assert!(
+            0.1 * longest * longest - slack * longest <= area,
+            "{id}: twice an area of {area}"
+        );
+        assert!(
+            (length(d) - 1.0).abs() < 2.0 * F::EPSILON.to_f64(),
+            "{id}: |d| = {}",
+            length(d)
+        );
     }
 }
 
@@ -119,20 +145,39 @@ fn strata_keep_their_promises_in_every_scene() {
 #[test]
 fn shadow_rays_start_at_the_hit_points_of_the_kernel_that_is_named() {
     let of = |kernel: Option<&str>| {
-        let parameters = Parameters { kernel: kernel.map(str::to_owned), ..Parameters::default() };
-        let made = |i| Stratum::Shadow.family().make::<f32>(&parameters, 1, i).cases()[0].hex();
+        let parameters = Parameters {
+            kernel: kernel.map(str::to_owned),
+            ..Parameters::default()
+        };
+        let made = |i| {
+            Stratum::Shadow
+                .family()
+                .make::<f32>(&parameters, 1, i)
+                .cases()[0]
+                .hex()
+        };
         (0..200).map(made).collect::<Vec<String>>()
     };
     assert_eq!(of(None), of(Some("moller-trumbore")));
-    let same = of(None).iter().zip(of(Some("woop-watertight"))).filter(|(a, b)| *a == b).count();
+    let same = of(None)
+        .iter()
+        .zip(of(Some("woop-watertight")))
+        .filter(|(a, b)| *a == b)
+        .count();
     assert!((10..190).contains(&same), "{same} of 200");
 }
 
 /// A kernel's row in a scene, its knobs and what is counted.
 fn tuned(kernel: &str) -> (Row, Vec<Knob>, Vec<RayCount>) {
-    let row = EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap().remove(0);
+    let row = EpsilonChoice::Source
+        .rows(&[find(kernel).unwrap()], None)
+        .unwrap()
+        .remove(0);
     let knobs = Knob::all(&row);
-    let row = Row { contract: contract_with(&knobs, &row.contract), ..row };
+    let row = Row {
+        contract: contract_with(&knobs, &row.contract),
+        ..row
+    };
     let counts = counts(&knobs, &row.contract);
     (row, knobs, counts)
 }
@@ -171,7 +216,9 @@ fn all_counted(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Counte
     let contract = &setting.row.contract;
     let mut all = Vec::new();
     for (count, RayCount { rays, kind }) in setting.counts.iter().enumerate() {
-        let Rays::Stratum(stratum) = *rays else { panic!("{rays:?} in a scene") };
+        let Rays::Stratum(stratum) = *rays else {
+            panic!("{rays:?} in a scene")
+        };
         let family = stratum.family();
         let source = setting.source(stratum, seed, number);
         for index in 0..source.count::<f32>() {
@@ -196,7 +243,11 @@ fn all_counted(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Counte
                 if *kind == WrongKind::Crack {
                     assert!(source.add_neighbours(index, &cases, &mut around));
                 }
-                all.push(Counted { count, cases, around });
+                all.push(Counted {
+                    count,
+                    cases,
+                    around,
+                });
             }
         }
     }
@@ -218,14 +269,21 @@ fn shares(setting: &Setting<'_, f32>, all: &[Counted], epsilons: &[f32]) -> Vec<
     let mut verdicts = [Verdict::miss(None); 8];
     let has_least_t = least_t != f32::NEG_INFINITY;
     let is_kept = |v: &Verdict<f32>| v.hit && (!has_least_t || least_t <= v.t);
-    for Counted { count, cases, around } in all {
+    for Counted {
+        count,
+        cases,
+        around,
+    } in all
+    {
         let verdicts = &mut verdicts[..cases.len()];
         kernel.run(cases, &of_gates, verdicts);
         let mut hit = verdicts.iter().any(is_kept);
         if !hit && !around.is_empty() {
             let mut verdicts = vec![Verdict::miss(None); around.len()];
             kernel.run(around, &of_gates, &mut verdicts);
-            verdicts.iter_mut().for_each(|verdict| verdict.hit = is_kept(verdict));
+            verdicts
+                .iter_mut()
+                .for_each(|verdict| verdict.hit = is_kept(verdict));
             let truths: Vec<Truth> = around.iter().map(oracle::truth).collect();
             let first = oracle::truth(&cases[0]);
             let facing = first.crossing().unwrap().facing;
@@ -234,10 +292,17 @@ fn shares(setting: &Setting<'_, f32>, all: &[Counted], epsilons: &[f32]) -> Vec<
         }
         of[*count] += 1;
         wrong[*count] += u64::from(
-            hit != matches!(setting.counts[*count].kind, WrongKind::Crack | WrongKind::Miss),
+            hit != matches!(
+                setting.counts[*count].kind,
+                WrongKind::Crack | WrongKind::Miss
+            ),
         );
     }
-    wrong.iter().zip(of).map(|(wrong, of)| *wrong as f64 / f64::from(of.max(1))).collect()
+    wrong
+        .iter()
+        .zip(of)
+        .map(|(wrong, of)| *wrong as f64 / f64::from(of.max(1)))
+        .collect()
 }
 
 #[test]
@@ -249,7 +314,12 @@ fn no_point_of_a_small_grid_is_cheaper_than_the_recommended_one() {
         &[-1e-2, -1e-3, -1e-5, -1e-7, 0.0, 1e-6],
         &[0.0, 1e-5, 1e-4, 1e-3, 1e-2],
     ];
-    for kernel in ["moller-trumbore", "plane-unit-normal", "woop-watertight", "plucker"] {
+    for kernel in [
+        "moller-trumbore",
+        "plane-unit-normal",
+        "woop-watertight",
+        "plucker",
+    ] {
         let (row, knobs, counts) = tuned(kernel);
         let setting = setting(&row, &knobs, &counts, &scene);
         let all = all_counted(&setting, seed, number);
@@ -315,8 +385,11 @@ fn check_limits(kernel: &str, scene: &str, epsilons: &[f32; 3], many: u64) {
     let found: Vec<_> = (1..=runs)
         .map(|seed| limits(&setting, epsilons, Pass::new(seed, number, &Unobserved)))
         .collect();
-    let attempts: Vec<Attempt<f32>> =
-        found.iter().flatten().filter_map(|l| Attempt::at_limit(l, epsilons)).collect();
+    let attempts: Vec<Attempt<f32>> = found
+        .iter()
+        .flatten()
+        .filter_map(|l| Attempt::at_limit(l, epsilons))
+        .collect();
     let mut wrong =
         count_at(&setting, &attempts, Pass::new(1 << 40, many, &Unobserved)).into_iter();
     let mut violated = std::collections::BTreeMap::<(usize, usize), u32>::new();
@@ -329,13 +402,18 @@ fn check_limits(kernel: &str, scene: &str, epsilons: &[f32; 3], many: u64) {
             u32::from(stated + noise < share);
     }
     // Of 100 seeds, 5 are expected at most; 12 or more happen once in 250 times then.
-    assert!(violated.len() >= 5 && violated.values().all(|n| *n < 12), "{kernel} {violated:?}");
+    assert!(
+        violated.len() >= 5 && violated.values().all(|n| *n < 12),
+        "{kernel} {violated:?}"
+    );
 }
 
 /// t of a hit of a kernel on a case, and how far it is off: in `f64`, of which `f32` needs half the digits.
 fn error_of_t(kernel: &str, epsilons: &[f32], case: &Case<f32>) -> Option<f64> {
     let mut verdicts = [Verdict::miss(None)];
-    f32::subject(find(kernel).unwrap()).unwrap().run(&[*case], epsilons, &mut verdicts);
+    f32::subject(find(kernel).unwrap())
+        .unwrap()
+        .run(&[*case], epsilons, &mut verdicts);
     let [o, d, a, b, c] = case.widen().vectors();
     let (e, f) = (minus(b, a), minus(c, a));
     let n = [0, 1, 2].map(|i| {
@@ -344,7 +422,9 @@ fn error_of_t(kernel: &str, epsilons: &[f32], case: &Case<f32>) -> Option<f64> {
     });
     let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
     let exact = dot(n, minus(a, o)) / dot(n, d);
-    verdicts[0].hit.then(|| (f64::from(verdicts[0].t) - exact).abs() / exact.abs())
+    verdicts[0]
+        .hit
+        .then(|| (f64::from(verdicts[0].t) - exact).abs() / exact.abs())
 }
 
 #[test]
@@ -353,8 +433,10 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
     let kernel = "moller-trumbore";
     let (row, _, _) = tuned(kernel);
     let knobs = [Knob::Gate(0)];
-    let counts = [WrongKind::Miss, WrongKind::Hit]
-        .map(|kind| RayCount { rays: Rays::Stratum(Stratum::Grazing), kind });
+    let counts = [WrongKind::Miss, WrongKind::Hit].map(|kind| RayCount {
+        rays: Rays::Stratum(Stratum::Grazing),
+        kind,
+    });
     let setting = setting(&row, &knobs, &counts, &scene);
     let most = 0.02;
     let max_error = MaxError::parse(&format!("t={most}")).unwrap();
@@ -372,15 +454,23 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
     let costs = Costs::default();
     let (mut violated, mut claims) = (0, 0);
     for seed in 1..=runs {
-        let best =
-            cheapest(&setting, &costs, Some(&max_error), Pass::new(seed, number, &Unobserved));
+        let best = cheapest(
+            &setting,
+            &costs,
+            Some(&max_error),
+            Pass::new(seed, number, &Unobserved),
+        );
         // A sample may be too small to show it anywhere; then nothing is claimed.
-        let Some(epsilon) = best.map(|best| best[0]) else { continue };
+        let Some(epsilon) = best.map(|best| best[0]) else {
+            continue;
+        };
         claims += 1;
         let share = *known.entry(epsilon.to_bits()).or_insert_with(|| {
             gates[0] = epsilon;
-            let errors: Vec<f64> =
-                cases.iter().filter_map(|case| error_of_t(kernel, &gates, case)).collect();
+            let errors: Vec<f64> = cases
+                .iter()
+                .filter_map(|case| error_of_t(kernel, &gates, case))
+                .collect();
             let larger = errors.iter().filter(|error| most < **error).count();
             // The share itself is a sample.
             let share = larger as f64 / errors.len() as f64;
@@ -390,13 +480,27 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
     }
     // The cheapest epsilon without a limit is another one, with larger errors.
     gates[0] = cheapest(&setting, &costs, None, Pass::new(1, number, &Unobserved)).unwrap()[0];
-    let free: Vec<f64> = cases.iter().filter_map(|case| error_of_t(kernel, &gates, case)).collect();
+    let free: Vec<f64> = cases
+        .iter()
+        .filter_map(|case| error_of_t(kernel, &gates, case))
+        .collect();
     let larger = free.iter().filter(|error| most < **error).count();
     assert!(free.len() < 50 * larger, "{larger} of {}", free.len());
     // Of 100 seeds, 5 are expected at most; 12 or more happen once in 250 times then.
-    assert!(violated < 12 && 95 < claims, "{violated} of {claims}: {known:?}");
+    assert!(
+        violated < 12 && 95 < claims,
+        "{violated} of {claims}: {known:?}"
+    );
     let none = MaxError::parse("t=1e-12").unwrap();
-    assert_eq!(cheapest(&setting, &costs, Some(&none), Pass::new(1, number, &Unobserved)), None);
+    assert_eq!(
+        cheapest(
+            &setting,
+            &costs,
+            Some(&none),
+            Pass::new(1, number, &Unobserved)
+        ),
+        None
+    );
 }
 
 #[test]
@@ -413,11 +517,26 @@ fn proved_values_are_beyond_the_limits_that_rays_show_and_no_ray_contradicts_the
             } else {
                 limits(&setting, &zero, Pass::new(7, 2000, &Unobserved))
             };
-            for ProvedValue { knob, count, is_lower, value } in proved {
-                let name =
-                    format!("{} {} {:?} {value:e}", preset.name, entry.info.name, counts[count]);
+            for ProvedValue {
+                knob,
+                count,
+                is_lower,
+                value,
+            } in proved
+            {
+                let name = format!(
+                    "{} {} {:?} {value:e}",
+                    preset.name, entry.info.name, counts[count]
+                );
                 let at = Some(value);
-                let limit = KnobLimit { knob, count, is_lower, value: at, far: None, one_in: 1 };
+                let limit = KnobLimit {
+                    knob,
+                    count,
+                    is_lower,
+                    value: at,
+                    far: None,
+                    one_in: 1,
+                };
                 let attempt = [Attempt::at_limit(&limit, &zero).unwrap()];
                 let wrong =
                     count_at(&setting, &attempt, Pass::new(11, 4000, &Unobserved)).remove(0)[count];
@@ -426,7 +545,11 @@ fn proved_values_are_beyond_the_limits_that_rays_show_and_no_ray_contradicts_the
                 let same = |other: &&KnobLimit<f32>| other.knob == knob && other.count == count;
                 if let Some(seen) = seen.iter().find(same).and_then(|limit| limit.value) {
                     assert!(
-                        if is_lower { seen <= value } else { value <= seen },
+                        if is_lower {
+                            seen <= value
+                        } else {
+                            value <= seen
+                        },
                         "{name}: {seen:e}"
                     );
                 }
@@ -440,10 +563,17 @@ fn proved_values_are_beyond_the_limits_that_rays_show_and_no_ray_contradicts_the
 /// FNV-1a over the bits of a stratum's first cases in the scene `city`.
 fn digest<F: Scalar>(stratum: Stratum) -> u64 {
     let (city, _) = Scene::parse("city").unwrap();
-    let parameters = Parameters { scene: Some(city), ..Parameters::default() };
+    let parameters = Parameters {
+        scene: Some(city),
+        ..Parameters::default()
+    };
     let cases = (0..300).map(|i| stratum.family().make::<F>(&parameters, 1, i));
-    let bits = cases.flat_map(|made| made.cases().to_vec()).flat_map(|case| case.bits());
-    bits.fold(0xcbf2_9ce4_8422_2325, |hash, bits| (hash ^ bits).wrapping_mul(0x0000_0100_0000_01b3))
+    let bits = cases
+        .flat_map(|made| made.cases().to_vec())
+        .flat_map(|case| case.bits());
+    bits.fold(0xcbf2_9ce4_8422_2325, |hash, bits| {
+        (hash ^ bits).wrapping_mul(0x0000_0100_0000_01b3)
+    })
 }
 
 /// Case ids must make the same cases everywhere: a change here needs a new version of the stratum.
@@ -477,14 +607,18 @@ fn bits<F: Float>(corners: [[F; 3]; 3]) -> [[u64; 3]; 3] {
 fn check_mesh<F: Scalar>(direction: &str) {
     let mut beside = |_: &str, _| Err(std::io::ErrorKind::NotFound.into());
     let mesh = mesh::read(MESH.as_bytes(), "box.obj", &mut beside, &mut |_| {}).unwrap();
-    let faces: BTreeSet<_> =
-        (0..mesh.triangles.len()).map(|face| bits(mesh.vertices::<F>(face))).collect();
+    let faces: BTreeSet<_> = (0..mesh.triangles.len())
+        .map(|face| bits(mesh.vertices::<F>(face)))
+        .collect();
     let surface = Surface::new(Arc::new(MeshFamily::new(mesh, "box.obj")), [true, true]);
     let mesh = SceneMesh::new(surface);
     // The last face has no area.
     assert_eq!((mesh.face_count::<F>(), faces.len()), (16, 17));
     let scene = mesh.scene().of_mesh(direction).unwrap();
-    let parameters = Parameters { scene: Some(scene.clone()), ..Parameters::default() };
+    let parameters = Parameters {
+        scene: Some(scene.clone()),
+        ..Parameters::default()
+    };
     for stratum in Stratum::ALL {
         let family = stratum.family();
         let (mut seen, mut kept, mut hits, mut owed_something) = (BTreeSet::new(), 0, 0, 0);
@@ -496,13 +630,18 @@ fn check_mesh<F: Scalar>(direction: &str) {
             for case in made.cases() {
                 let [o, _, a, b, c] = case.vectors();
                 let corners = bits([a, b, c]);
-                assert!(faces.contains(&corners), "{stratum:?} {index}: not as in the file");
+                assert!(
+                    faces.contains(&corners),
+                    "{stratum:?} {index}: not as in the file"
+                );
                 seen.insert(corners);
                 let reach = length(minus(o.map(F::to_f64), a.map(F::to_f64)));
                 assert!(reach <= scene.distance[1] + 4.0 * scene.edge[1], "{reach}");
             }
             if stratum == Stratum::Edges {
-                let [one, other] = made.cases() else { panic!("two triangles") };
+                let [one, other] = made.cases() else {
+                    panic!("two triangles")
+                };
                 let ends = |case: &Case<F>| -> BTreeSet<_> {
                     let [.., a, b, c] = case.vectors();
                     [a, b, c].map(|corner| corner.map(F::to_bits)).into()
@@ -515,13 +654,26 @@ fn check_mesh<F: Scalar>(direction: &str) {
         }
         let is_parallel = stratum == Stratum::Parallel;
         // Of the tetrahedron no face holds an axis.
-        assert!(kept == 600 || is_parallel && direction != "mesh", "{stratum:?}: {kept}");
+        assert!(
+            kept == 600 || is_parallel && direction != "mesh",
+            "{stratum:?}: {kept}"
+        );
         assert!(500 < kept, "{stratum:?}: {kept}");
-        assert!(400 < owed_something || stratum != Stratum::Edges, "{owed_something}");
-        let all = if is_parallel && direction == "mesh" { 12 } else { 16 };
+        assert!(
+            400 < owed_something || stratum != Stratum::Edges,
+            "{owed_something}"
+        );
+        let all = if is_parallel && direction == "mesh" {
+            12
+        } else {
+            16
+        };
         assert_eq!(seen.len(), all, "{stratum:?}");
         let aimed = [Stratum::Interior, Stratum::Edges, Stratum::Vertices];
-        assert!(!aimed.contains(&stratum) || 200 < hits, "{stratum:?}: {hits}");
+        assert!(
+            !aimed.contains(&stratum) || 200 < hits,
+            "{stratum:?}: {hits}"
+        );
     }
 }
 

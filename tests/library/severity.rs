@@ -39,7 +39,11 @@ fn line_to_segment(o: &Point, d: &Point, p: &Point, q: &Point) -> Rational {
         return ends;
     }
     let s = -&linear / &square;
-    if s.is_negative() || s > rational(1.0) { ends } else { at(&s).min(ends) }
+    if s.is_negative() || s > rational(1.0) {
+        ends
+    } else {
+        at(&s).min(ends)
+    }
 }
 
 /// Squares of the distance to change, of the longest edge and of the ulp.
@@ -50,16 +54,25 @@ fn squares<F: Float>(case: &Case<F>, contract: &Contract) -> [Rational; 3] {
     let in_space = to_edges.into_iter().min().unwrap();
     let lengths = edges.map(|(p, q)| dot(&minus(q, p), &minus(q, p)));
     let longest = lengths.into_iter().max().unwrap();
-    let longest = if longest.is_zero() { rational(1.0) } else { longest };
+    let longest = if longest.is_zero() {
+        rational(1.0)
+    } else {
+        longest
+    };
     let [o, _, a, b, c] = case.vectors();
-    let largest = [o, a, b, c].concat().into_iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+    let largest = [o, a, b, c]
+        .concat()
+        .into_iter()
+        .map(|x| x.to_f64().abs())
+        .fold(0.0, f64::max);
     let ulp = rational(F::from_f64(largest).ulp().to_f64());
     let definition = define(case);
     let change = match definition.truth {
         Truth::Transversal(crossing) => {
             let t = definition.exact.t.unwrap();
             let to = |end: f64| {
-                end.is_finite().then(|| (&t - rational(end)) * (&t - rational(end)) * dot(&d, &d))
+                end.is_finite()
+                    .then(|| (&t - rational(end)) * (&t - rational(end)) * dot(&d, &d))
             };
             let (t_min, t_max) = (case.ray.t_min.to_f64(), case.ray.t_max.to_f64());
             let (along, off) = match contract.extent {
@@ -89,9 +102,19 @@ fn contracts() -> [Contract; 4] {
     let ray = Contract::CLOSED_RAY;
     [
         ray,
-        Contract { extent: Extent::Line, boundary: Boundary::Open, ..ray },
-        Contract { extent: Extent::Interval, ..ray },
-        Contract { sides: Sides::Front, ..ray },
+        Contract {
+            extent: Extent::Line,
+            boundary: Boundary::Open,
+            ..ray
+        },
+        Contract {
+            extent: Extent::Interval,
+            ..ray
+        },
+        Contract {
+            sides: Sides::Front,
+            ..ray
+        },
     ]
 }
 
@@ -100,7 +123,10 @@ fn for_valid_cases<F: Scalar>(indices: u64, mut check: impl FnMut(&Case<F>, &Tru
         for index in 0..indices {
             let mut draw = Draw::new("severity", 1, index);
             let scale = draw.pick(&[0, 0, 0, -40, 30]);
-            let parameters = Parameters { scale, ..Parameters::default() };
+            let parameters = Parameters {
+                scale,
+                ..Parameters::default()
+            };
             for case in family.make::<F>(&parameters, 1, index).cases() {
                 let truth = truth(case);
                 if truth != Truth::Invalid {
@@ -162,7 +188,12 @@ fn a_band_frees_exactly_what_is_nearer<F: Scalar>() {
                 let band = Some(Band { size, unit });
                 let expected = change < rational(size) * rational(size) * square;
                 let found = asked(case, truth, &Contract { band, ..contract }, false);
-                assert_eq!(found == Obligation::Free, expected, "{size} {unit:?} {}", case.hex());
+                assert_eq!(
+                    found == Obligation::Free,
+                    expected,
+                    "{size} {unit:?} {}",
+                    case.hex()
+                );
                 freed += usize::from(expected);
                 asked_still += usize::from(!expected);
             }
@@ -182,8 +213,14 @@ fn what_lies_on_the_boundary_is_in_every_band_and_a_band_needs_a_size() {
     let triangle = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
     let case = Case::<f32>::new([1.0, 0.0, 1.0], [0.0, 0.0, -1.0], triangle);
     let band = Some("1e-300".parse().unwrap());
-    let contract = Contract { band, ..Contract::CLOSED_RAY };
-    assert_eq!(asked(&case, &truth(&case), &contract, false), Obligation::Free);
+    let contract = Contract {
+        band,
+        ..Contract::CLOSED_RAY
+    };
+    assert_eq!(
+        asked(&case, &truth(&case), &contract, false),
+        Obligation::Free
+    );
     for bad in ["0", "-1", "ulps", "inf", "4 miles"] {
         assert!(bad.parse::<Band>().is_err(), "{bad}");
     }

@@ -16,7 +16,10 @@ use proptest::test_runner::{Config, TestCaseResult, TestError, TestRunner};
 use std::cmp::Ordering;
 
 fn is_vertex(feature: Feature) -> bool {
-    matches!(feature, Feature::VertexA | Feature::VertexB | Feature::VertexC)
+    matches!(
+        feature,
+        Feature::VertexA | Feature::VertexB | Feature::VertexC
+    )
 }
 
 fn is_edge(feature: Feature) -> bool {
@@ -42,7 +45,10 @@ fn keeps<F: Float>(name: &str, case: &Case<F>) -> bool {
     let (u, v) = (definition.exact.u.unwrap(), definition.exact.v.unwrap());
     let w = BigRational::from_integer(1.into()) - &u - &v;
     let near = BigRational::from_float(1e4 * F::EPSILON.to_f64()).unwrap();
-    let near = [u, v, w].iter().filter(|weight| weight.abs() < near).count();
+    let near = [u, v, w]
+        .iter()
+        .filter(|weight| weight.abs() < near)
+        .count();
     let t = definition.exact.t.unwrap();
     match name {
         "interior" => ahead && feature == Feature::Interior,
@@ -69,7 +75,11 @@ fn keeps<F: Float>(name: &str, case: &Case<F>) -> bool {
         "tiny" => (2f64.powi(-43)..2f64.powi(-37)).contains(&size),
         "huge" => (2f64.powi(37)..2f64.powi(43)).contains(&size),
         "far" => {
-            let largest = [a, b, c].as_flattened().iter().map(|x| x.abs()).fold(0.0, f64::max);
+            let largest = [a, b, c]
+                .as_flattened()
+                .iter()
+                .map(|x| x.abs())
+                .fold(0.0, f64::max);
             7.0 * size <= largest
         }
         "axis-aligned" => d.iter().filter(|x| **x == 0.0).count() == 2,
@@ -80,19 +90,35 @@ fn keeps<F: Float>(name: &str, case: &Case<F>) -> bool {
 
 fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let [p, q]: [[f64; 3]; 2] = [b, c].map(|v| std::array::from_fn(|i| v[i] - a[i]));
-    [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+    [
+        p[1] * q[2] - p[2] * q[1],
+        p[2] * q[0] - p[0] * q[2],
+        p[0] * q[1] - p[1] * q[0],
+    ]
 }
 
 fn norm(v: [f64; 3]) -> f64 {
     let largest = v.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
-    largest * v.iter().map(|x| (x / largest) * (x / largest)).sum::<f64>().sqrt()
+    largest
+        * v.iter()
+            .map(|x| (x / largest) * (x / largest))
+            .sum::<f64>()
+            .sqrt()
 }
 
 fn share_an_edge<F: Float>(cases: &[Case<F>]) -> bool {
     let vertices = |i: usize| cases[i].triangle.vertices().map(|v| -> [F; 3] { v.into() });
-    let ray =
-        |i: usize| ([0, 1].map(|k| cases[i].vectors()[k]), cases[i].ray.t_min, cases[i].ray.t_max);
-    let same = vertices(0).iter().filter(|v| vertices(1).contains(v)).count();
+    let ray = |i: usize| {
+        (
+            [0, 1].map(|k| cases[i].vectors()[k]),
+            cases[i].ray.t_min,
+            cases[i].ray.t_max,
+        )
+    };
+    let same = vertices(0)
+        .iter()
+        .filter(|v| vertices(1).contains(v))
+        .count();
     cases.len() == 2 && same == 2 && ray(0) == ray(1)
 }
 
@@ -107,12 +133,26 @@ fn every_step_keeps_the_promise<F: Scalar>(draws: usize) {
     for promise in STRATEGIES {
         let mut all_steps = 0;
         for draw in 0..draws {
-            let mut tree = named::<F>(promise.name()).unwrap().new_tree(&mut runner).unwrap();
+            let mut tree = named::<F>(promise.name())
+                .unwrap()
+                .new_tree(&mut runner)
+                .unwrap();
             let mut fails = true;
             let mut steps = 0;
-            while steps < 60 && if fails { tree.simplify() } else { tree.complicate() } {
+            while steps < 60
+                && if fails {
+                    tree.simplify()
+                } else {
+                    tree.complicate()
+                }
+            {
                 let cases = tree.current();
-                assert!(promised(promise, &cases), "{} {}: {cases:?}", promise.name(), F::NAME);
+                assert!(
+                    promised(promise, &cases),
+                    "{} {}: {cases:?}",
+                    promise.name(),
+                    F::NAME
+                );
                 fails = (draw + steps) % 3 != 0;
                 steps += 1;
             }
@@ -137,8 +177,11 @@ fn drawn_cases_keep_the_promise() {
     let mut runner = TestRunner::deterministic();
     for promise in STRATEGIES {
         for _ in 0..100 {
-            let cases =
-                named::<f32>(promise.name()).unwrap().new_tree(&mut runner).unwrap().current();
+            let cases = named::<f32>(promise.name())
+                .unwrap()
+                .new_tree(&mut runner)
+                .unwrap()
+                .current();
             assert!(promised(promise, &cases), "{}: {cases:?}", promise.name());
         }
     }
@@ -148,22 +191,45 @@ fn drawn_cases_keep_the_promise() {
 fn what_always_fails_shrinks_to_a_few_bits_and_stays_failing() {
     let mut runner = TestRunner::deterministic();
     for promise in STRATEGIES {
-        let mut tree = named::<f64>(promise.name()).unwrap().new_tree(&mut runner).unwrap();
+        let mut tree = named::<f64>(promise.name())
+            .unwrap()
+            .new_tree(&mut runner)
+            .unwrap();
         let drawn = Size::of(&tree.current()[0]).bits;
         while tree.simplify() {}
-        let bits: Vec<u32> = tree.current().iter().map(|case| Size::of(case).bits).collect();
-        assert!(bits[0] <= 100 && bits[0] <= drawn, "{}: {drawn} to {bits:?}", promise.name());
+        let bits: Vec<u32> = tree
+            .current()
+            .iter()
+            .map(|case| Size::of(case).bits)
+            .collect();
+        assert!(
+            bits[0] <= 100 && bits[0] <= drawn,
+            "{}: {drawn} to {bits:?}",
+            promise.name()
+        );
     }
-    let mut tree = named::<f64>("edge-exact").unwrap().new_tree(&mut runner).unwrap();
+    let mut tree = named::<f64>("edge-exact")
+        .unwrap()
+        .new_tree(&mut runner)
+        .unwrap();
     while tree.simplify() {}
     let simple = tree.current()[0].vectors();
-    assert!(simple.as_flattened().iter().all(|x| x.abs() <= 3.0 && x.fract() == 0.0), "{simple:?}");
+    assert!(
+        simple
+            .as_flattened()
+            .iter()
+            .all(|x| x.abs() <= 3.0 && x.fract() == 0.0),
+        "{simple:?}"
+    );
 }
 
 #[test]
 fn passing_steps_lead_back_to_the_last_failure() {
     let mut runner = TestRunner::deterministic();
-    let mut tree = named::<f32>("interior").unwrap().new_tree(&mut runner).unwrap();
+    let mut tree = named::<f32>("interior")
+        .unwrap()
+        .new_tree(&mut runner)
+        .unwrap();
     let drawn = tree.current();
     assert!(tree.simplify() && tree.current() != drawn);
     while tree.complicate() {}
@@ -172,11 +238,16 @@ fn passing_steps_lead_back_to_the_last_failure() {
 
 fn builtin(name: &str) -> impl Fn(&Case<f32>) -> Option<f32> + use<> {
     let entry = find(name).unwrap();
-    let epsilons: Vec<f32> =
-        entry.info.epsilon_sets[0].values.iter().map(|text| text.parse().unwrap()).collect();
+    let epsilons: Vec<f32> = entry.info.epsilon_sets[0]
+        .values
+        .iter()
+        .map(|text| text.parse().unwrap())
+        .collect();
     move |case| {
         let mut verdict = [Verdict::miss(None)];
-        f32::subject(entry).unwrap().run(std::slice::from_ref(case), &epsilons, &mut verdict);
+        f32::subject(entry)
+            .unwrap()
+            .run(std::slice::from_ref(case), &epsilons, &mut verdict);
         verdict[0].hit.then_some(verdict[0].t)
     }
 }
@@ -250,7 +321,10 @@ fn a_kernel_that_misses_edges_cracks_and_one_that_hits_them_twice_doubles() {
             (inside && crossing.t_sign != Ordering::Less).then_some(t)
         }
     };
-    let contract = Contract { boundary: Boundary::Free, ..Contract::CLOSED_RAY };
+    let contract = Contract {
+        boundary: Boundary::Free,
+        ..Contract::CLOSED_RAY
+    };
     let contract = contract.with_across(Across::ExactlyOne);
     for (hits, finding) in [(false, "crack"), (true, "double")] {
         let (pair, reason) = failure(strategy::shared_edge::<f32>(), |pair| {
@@ -259,6 +333,11 @@ fn a_kernel_that_misses_edges_cracks_and_one_that_hits_them_twice_doubles() {
         });
         assert!(reason.starts_with(finding), "{reason}");
         assert!(share_an_edge(&pair));
-        assert_eq!(conforms_together(on(hits), &contract, &pair).unwrap_err().finding, finding);
+        assert_eq!(
+            conforms_together(on(hits), &contract, &pair)
+                .unwrap_err()
+                .finding,
+            finding
+        );
     }
 }

@@ -13,7 +13,15 @@ use std::collections::BTreeMap;
 
 fn source(family: &'static Family, scene: Option<&str>, count: u64) -> Source {
     let scene = scene.map(|text| Scene::parse(text).unwrap().0);
-    Source::of(family, Parameters { scene, ..Parameters::default() }, 1, count)
+    Source::of(
+        family,
+        Parameters {
+            scene,
+            ..Parameters::default()
+        },
+        1,
+        count,
+    )
 }
 
 /// The groups of a source, each with its ring.
@@ -28,7 +36,9 @@ fn surrounded(source: &Source) -> Vec<[Vec<Case<f32>>; 2]> {
 
 fn corners(case: &Case<f32>) -> [[u32; 3]; 3] {
     // -0 and 0 are one number.
-    case.triangle.vertices().map(|vertex| <[f32; 3]>::from(vertex).map(|x| (x + 0.0).to_bits()))
+    case.triangle
+        .vertices()
+        .map(|vertex| <[f32; 3]>::from(vertex).map(|x| (x + 0.0).to_bits()))
 }
 
 /// How often triangles run through each edge in its direction.
@@ -57,13 +67,24 @@ fn no_edge_of_a_group_is_open_within_its_ring() {
     for (name, scene) in FAMILIES {
         for [group, ring] in surrounded(&source(find(name).unwrap(), scene, 300)) {
             let all = edges(group.iter().chain(&ring));
-            assert!(all.values().all(|count| *count == 1), "{name}: {}", group[0].hex());
+            assert!(
+                all.values().all(|count| *count == 1),
+                "{name}: {}",
+                group[0].hex()
+            );
             let open = |edge: &[[u32; 3]; 2]| !all.contains_key(&[edge[1], edge[0]]);
-            let outer: Vec<[u32; 3]> =
-                all.keys().filter(|edge| open(edge)).flatten().copied().collect();
+            let outer: Vec<[u32; 3]> = all
+                .keys()
+                .filter(|edge| open(edge))
+                .flatten()
+                .copied()
+                .collect();
             assert!(!outer.is_empty());
             let inner = group.iter().flat_map(corners);
-            assert!(inner.into_iter().all(|corner| !outer.contains(&corner)), "{name}");
+            assert!(
+                inner.into_iter().all(|corner| !outer.contains(&corner)),
+                "{name}"
+            );
         }
     }
 }
@@ -80,7 +101,10 @@ fn a_line_that_crosses_a_group_passes_within_its_ring() {
             if !vectors.into_iter().all(|x| is_integer(&x)) {
                 continue;
             }
-            let truths: Vec<Truth> = group.iter().map(|case| oracle::define(case).truth).collect();
+            let truths: Vec<Truth> = group
+                .iter()
+                .map(|case| oracle::define(case).truth)
+                .collect();
             let grouping = find(name).unwrap().grouping;
             if group_obligation(&group, &truths, &Contract::CLOSED_RAY, grouping)
                 != GroupTruth::Crossing
@@ -106,7 +130,9 @@ fn a_line_that_crosses_a_group_passes_within_its_ring() {
 
 /// The counts of a kernel on a source in `f32`.
 fn counts(name: &str, epsilons: Option<&str>, source: Source) -> GroupCount {
-    let choice = epsilons.map_or(EpsilonChoice::Source, |text| EpsilonChoice::parse(text).unwrap());
+    let choice = epsilons.map_or(EpsilonChoice::Source, |text| {
+        EpsilonChoice::parse(text).unwrap()
+    });
     let rows: Vec<Row> = choice.rows(&[kernel::find(name).unwrap()], None).unwrap();
     let plan = Plan::new(rows[..1].to_vec(), vec![source], [true, false], 0);
     run(&plan, &Unobserved).cells[0].tally.groups.clone()
@@ -133,8 +159,15 @@ fn a_kernel_that_refuses_everything_leaks_everywhere() {
             source(find(name).unwrap(), scene, 500),
         );
         // Next to noise the ring is folded as the group is: what is lost from both sides may be a silhouette.
-        let least = if name == "noise" { found.crossings / 2 } else { found.crossings };
-        assert!(0 < found.crossings && least <= found.cracks, "{name}: {found:?}");
+        let least = if name == "noise" {
+            found.crossings / 2
+        } else {
+            found.crossings
+        };
+        assert!(
+            0 < found.crossings && least <= found.cracks,
+            "{name}: {found:?}"
+        );
     }
 }
 
@@ -143,7 +176,10 @@ fn plucker_leaks_at_vertices_of_any_coordinates_and_woop_next_to_noise() {
     let cracks = |kernel: &str, family: &str| {
         counts(kernel, None, source(find(family).unwrap(), None, 5000)).cracks
     };
-    assert_eq!(["fan", "vertex-fan"].map(|family| 0 < cracks("plucker", family)), [false, true]);
+    assert_eq!(
+        ["fan", "vertex-fan"].map(|family| 0 < cracks("plucker", family)),
+        [false, true]
+    );
     assert_eq!(
         ["vertex-fan", "noise"].map(|family| 0 < cracks("woop-watertight", family)),
         [false, true]

@@ -13,7 +13,14 @@ fn samples(kernel: &str, epsilons: &[(&str, &str)], family: &str) -> [Vec<Trials
     let entry = kernel::find(kernel).unwrap();
     let owned = |(gate, value): &(&str, &str)| ((*gate).to_owned(), (*value).to_owned());
     let choice = EpsilonChoice::Given(epsilons.iter().map(owned).collect());
-    let source = |seed| Source::of(family::find(family).unwrap(), Parameters::default(), seed, 400);
+    let source = |seed| {
+        Source::of(
+            family::find(family).unwrap(),
+            Parameters::default(),
+            seed,
+            400,
+        )
+    };
     let plan = Plan::new(
         choice.rows(&[entry], None).unwrap(),
         (1..=SEEDS).map(source).collect(),
@@ -21,8 +28,13 @@ fn samples(kernel: &str, epsilons: &[(&str, &str)], family: &str) -> [Vec<Trials
         0,
     );
     let audit = run(&plan, &Unobserved);
-    [Finding::FalseMiss, Finding::FalseHit]
-        .map(|finding| audit.cells.iter().map(|cell| cell.tally.trials(None, finding)).collect())
+    [Finding::FalseMiss, Finding::FalseHit].map(|finding| {
+        audit
+            .cells
+            .iter()
+            .map(|cell| cell.tally.trials(None, finding))
+            .collect()
+    })
 }
 
 /// The share of the samples whose interval holds the rate of all.

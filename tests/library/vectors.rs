@@ -62,7 +62,11 @@ fn hit(n: &[f64], mistake: Mistake) -> Option<[f64; 3]> {
         let length = dot(d, d).sqrt();
         d = d.map(|x| x / length);
     }
-    let f = if is(Mistake::WrongEdge) { minus(c, b) } else { minus(c, a) };
+    let f = if is(Mistake::WrongEdge) {
+        minus(c, b)
+    } else {
+        minus(c, a)
+    };
     let (e, s) = (minus(b, a), minus(o, a));
     let (p, q) = (cross(d, f), cross(s, e));
     let det = dot(e, p);
@@ -76,7 +80,11 @@ fn hit(n: &[f64], mistake: Mistake) -> Option<[f64; 3]> {
     if is(Mistake::ExchangedUAndV) {
         (u, v) = (v, u);
     }
-    let rim = if is(Mistake::ToleranceOfTheWrongSign) { 1e-3 } else { 0.0 };
+    let rim = if is(Mistake::ToleranceOfTheWrongSign) {
+        1e-3
+    } else {
+        0.0
+    };
     let outside = u < rim || v < rim || u + v > 1.0 - rim && !is(Mistake::NoSum);
     let before = t < n[6] && !is(Mistake::NoMinimumOfT);
     let beyond = t > n[7] && !is(Mistake::NoMaximumOfT);
@@ -94,12 +102,23 @@ fn failed(mistake: Mistake) -> Vec<String> {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../vectors/core.csv");
     let text = fs::read_to_string(file).unwrap();
     let is_wrong = |row: &[&str]| {
-        let bits = row[18..].iter().map(|word| u64::from_str_radix(word, 16).unwrap());
+        let bits = row[18..]
+            .iter()
+            .map(|word| u64::from_str_radix(word, 16).unwrap());
         let narrow = row[3] == "f32";
-        let number =
-            |bits| if narrow { f32::from_bits(bits as u32).into() } else { f64::from_bits(bits) };
+        let number = |bits| {
+            if narrow {
+                f32::from_bits(bits as u32).into()
+            } else {
+                f64::from_bits(bits)
+            }
+        };
         let numbers: Vec<f64> = bits.map(number).collect();
-        let right = if row[10] == "coplanar" || row[10] == "degenerate" { "miss" } else { row[7] };
+        let right = if row[10] == "coplanar" || row[10] == "degenerate" {
+            "miss"
+        } else {
+            row[7]
+        };
         match hit(&numbers, mistake) {
             None => right == "hit",
             // Whatever the input, a hit has a place.
@@ -111,16 +130,23 @@ fn failed(mistake: Mistake) -> Vec<String> {
             }),
         }
     };
-    let rows = text.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
-    rows.filter(|row| is_wrong(row)).map(|row| format!("{}.{}", row[0], row[1])).collect()
+    let rows = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').collect::<Vec<_>>());
+    rows.filter(|row| is_wrong(row))
+        .map(|row| format!("{}.{}", row[0], row[1]))
+        .collect()
 }
 
 #[test]
 fn the_core_set_catches_twelve_classic_mistakes() {
     let plain = failed(Mistake::None);
     for mistake in MISTAKES {
-        let caught: Vec<String> =
-            failed(mistake).into_iter().filter(|id| !plain.contains(id)).collect();
+        let caught: Vec<String> = failed(mistake)
+            .into_iter()
+            .filter(|id| !plain.contains(id))
+            .collect();
         println!("{mistake:?}: caught by {} tests", caught.len());
         assert!(!caught.is_empty(), "{mistake:?}");
     }
@@ -131,7 +157,11 @@ fn hit_in_f32(n: &[f32], inverse: bool) -> bool {
     let minus = |i: usize, j: usize| -> [f32; 3] { std::array::from_fn(|k| n[i + k] - n[j + k]) };
     let dot = |p: [f32; 3], q: [f32; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     let cross = |p: [f32; 3], q: [f32; 3]| {
-        [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+        [
+            p[1] * q[2] - p[2] * q[1],
+            p[2] * q[0] - p[0] * q[2],
+            p[0] * q[1] - p[1] * q[0],
+        ]
     };
     let (d, e, f, s) = ([n[3], n[4], n[5]], minus(11, 8), minus(14, 8), minus(0, 8));
     let (p, q) = (cross(d, f), cross(s, e));
@@ -159,7 +189,9 @@ fn the_guide_has_the_number_of_tests_that_a_plain_test_in_floats_fails() {
         let asked: Vec<_> = of_f32.iter().filter(|rows| is_asked(&rows[0])).collect();
         let failed = [false, true].map(|inverse| {
             let is_hit = |row: &&Vec<&str>| {
-                let bits = row[18..35].iter().map(|word| u32::from_str_radix(word, 16).unwrap());
+                let bits = row[18..35]
+                    .iter()
+                    .map(|word| u32::from_str_radix(word, 16).unwrap());
                 hit_in_f32(&bits.map(f32::from_bits).collect::<Vec<_>>(), inverse)
             };
             let is_wrong = |rows: &&&&[Vec<&str>]| {
@@ -190,5 +222,8 @@ fn the_guide_has_the_number_of_tests_that_a_plain_test_in_floats_fails() {
     assert!(guide.contains(&expected), "{expected}");
     let (_, ordinary) = counts(|row| is_in_code(row) && !row[17].contains("range-ends"));
     let expected = format!("`range-ends` {} either way", ordinary[0]);
-    assert!(guide.contains(&expected) && ordinary[0] == ordinary[1], "{ordinary:?}");
+    assert!(
+        guide.contains(&expected) && ordinary[0] == ordinary[1],
+        "{ordinary:?}"
+    );
 }

@@ -81,7 +81,10 @@ fn counts(topology: &Topology) -> ([u64; 5], [u64; 5], [u64; 4]) {
 fn a_cube_is_a_closed_manifold_of_18_edges() {
     let (points, faces) = cube();
     let topology = Topology::of::<f32>(&mesh(&points, &faces));
-    assert_eq!(counts(&topology), ([12, 0, 0, 0, 0], [18, 0, 0, 0, 0], [8, 0, 0, 0]));
+    assert_eq!(
+        counts(&topology),
+        ([12, 0, 0, 0, 0], [18, 0, 0, 0, 0], [8, 0, 0, 0])
+    );
     assert!(topology.is_closed_manifold());
     // Around each corner the faces follow each other over shared edges.
     let degrees: usize = (0..8).map(|fan| topology.fans.get(fan).1.len()).sum();
@@ -108,13 +111,19 @@ fn vertices_are_one_point_where_their_coordinates_are_equal() {
     let topology = Topology::of::<f64>(&mesh(&own, &faces));
     assert_eq!(topology.points.len(), 36);
     assert_eq!(topology.used_points, 8);
-    assert_eq!(counts(&topology), ([12, 0, 0, 0, 0], [18, 0, 0, 0, 0], [8, 0, 0, 0]));
+    assert_eq!(
+        counts(&topology),
+        ([12, 0, 0, 0, 0], [18, 0, 0, 0, 0], [8, 0, 0, 0])
+    );
     // A thousandth of an ulp of f32 apart: two points in f64, one in f32.
     own[0][0] += 1e-10;
     own[1][1] += 1e-10;
     let apart = mesh(&own, &faces);
     assert!(Topology::of::<f64>(&apart).edges[EdgeKind::Open as usize].count > 0);
-    assert!(!Topology::of::<f32>(&apart).is_closed_manifold(), "1e-10 is not 0");
+    assert!(
+        !Topology::of::<f32>(&apart).is_closed_manifold(),
+        "1e-10 is not 0"
+    );
     let mut near_one = cube().0;
     near_one[1][0] = 1.0 + 1e-10;
     near_one.push(corner(1));
@@ -122,19 +131,27 @@ fn vertices_are_one_point_where_their_coordinates_are_equal() {
     faces[0][2] = 8;
     let nearly = mesh(&near_one, &faces);
     assert!(Topology::of::<f32>(&nearly).is_closed_manifold());
-    assert_eq!(Topology::of::<f64>(&nearly).edges[EdgeKind::Open as usize].count, 4);
+    assert_eq!(
+        Topology::of::<f64>(&nearly).edges[EdgeKind::Open as usize].count,
+        4
+    );
 }
 
 #[test]
 fn an_open_sheet_has_a_boundary() {
-    let points: Vec<[f64; 3]> = (0..9).map(|i| [(i % 3) as f64, (i / 3) as f64, 0.0]).collect();
+    let points: Vec<[f64; 3]> = (0..9)
+        .map(|i| [(i % 3) as f64, (i / 3) as f64, 0.0])
+        .collect();
     let mut faces = Vec::new();
     for [x, y] in [[0, 0], [1, 0], [0, 1], [1, 1]] {
         let at = 3 * y + x;
         faces.extend([[at, at + 1, at + 4], [at, at + 4, at + 3]]);
     }
     let topology = Topology::of::<f32>(&mesh(&points, &faces));
-    assert_eq!(counts(&topology), ([8, 0, 0, 0, 0], [8, 8, 0, 0, 0], [1, 8, 0, 0]));
+    assert_eq!(
+        counts(&topology),
+        ([8, 0, 0, 0, 0], [8, 8, 0, 0, 0], [1, 8, 0, 0])
+    );
     assert!(!topology.is_closed_manifold());
 }
 
@@ -143,7 +160,15 @@ fn a_moebius_strip_is_wound_inconsistently_somewhere() {
     // Seven quads; the last is closed with a half twist.
     let mut points = Vec::new();
     for i in 0..7 {
-        let (x, y) = [(3, 0), (2, 2), (-1, 3), (-3, 1), (-3, -1), (-1, -3), (2, -2)][i];
+        let (x, y) = [
+            (3, 0),
+            (2, 2),
+            (-1, 3),
+            (-3, 1),
+            (-3, -1),
+            (-1, -3),
+            (2, -2),
+        ][i];
         points.push([f64::from(x), f64::from(y), i as f64]);
         points.push([f64::from(x) * 1.5, f64::from(y) * 1.5, 7.0 - i as f64]);
     }
@@ -154,14 +179,26 @@ fn a_moebius_strip_is_wound_inconsistently_somewhere() {
         faces.extend([[a, b, c], [a, c, d]]);
     }
     let topology = Topology::of::<f32>(&mesh(&points, &faces));
-    assert_eq!(counts(&topology), ([14, 0, 0, 0, 0], [13, 14, 1, 0, 0], [0, 12, 0, 2]));
+    assert_eq!(
+        counts(&topology),
+        ([14, 0, 0, 0, 0], [13, 14, 1, 0, 0], [0, 12, 0, 2])
+    );
 }
 
 #[test]
 fn three_faces_on_one_edge_are_not_manifold() {
-    let points = [[0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, -1.0, 0.0]];
+    let points = [
+        [0.0; 3],
+        [0.0, 0.0, 1.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [-1.0, -1.0, 0.0],
+    ];
     let topology = Topology::of::<f64>(&mesh(&points, &[[0, 1, 2], [1, 0, 3], [0, 1, 4]]));
-    assert_eq!(counts(&topology), ([3, 0, 0, 0, 0], [0, 6, 0, 1, 0], [0, 3, 0, 2]));
+    assert_eq!(
+        counts(&topology),
+        ([3, 0, 0, 0, 0], [0, 6, 0, 1, 0], [0, 3, 0, 2])
+    );
     let noted = &topology.edges[EdgeKind::NonManifold as usize];
     assert_eq!(noted.first, Some((0, vec![0, 1])));
 }
@@ -173,7 +210,10 @@ fn two_solids_at_one_vertex_make_it_several_fans() {
     let solid = |a, b, c| [[0, b, a], [0, c, b], [0, a, c], [a, b, c]];
     let faces: Vec<[usize; 3]> = solid(1, 2, 3).into_iter().chain(solid(4, 6, 5)).collect();
     let topology = Topology::of::<f32>(&mesh(&points, &faces));
-    assert_eq!(counts(&topology), ([8, 0, 0, 0, 0], [12, 0, 0, 0, 0], [6, 0, 1, 0]));
+    assert_eq!(
+        counts(&topology),
+        ([8, 0, 0, 0, 0], [12, 0, 0, 0, 0], [6, 0, 1, 0])
+    );
 }
 
 #[test]
@@ -198,16 +238,28 @@ fn faces_without_area_are_told_from_thin_ones_exactly() {
         counts(&topology).0
     };
     assert_eq!(kinds(on_line([1.0, 2.0, 3.0])), [0, 0, 1, 0, 0]);
-    assert_eq!(kinds([[0.0; 3], [0.1, 0.3, 0.0], [0.2, 0.6, 0.0]]), [0, 0, 1, 0, 0]);
-    assert_eq!(kinds([[0.0; 3], [0.1, 0.3, 0.0], [0.3, 0.9, 0.0]]), [1, 0, 0, 0, 0]);
+    assert_eq!(
+        kinds([[0.0; 3], [0.1, 0.3, 0.0], [0.2, 0.6, 0.0]]),
+        [0, 0, 1, 0, 0]
+    );
+    assert_eq!(
+        kinds([[0.0; 3], [0.1, 0.3, 0.0], [0.3, 0.9, 0.0]]),
+        [1, 0, 0, 0, 0]
+    );
     assert_eq!(kinds(on_line([1.0, 1.0, 3.0])), [0, 1, 0, 0, 0]);
     // The pole of a sphere of quads: a collapsed face leaves its neighbours neighbours.
     let (mut points, mut faces) = cube();
     points.push([0.0, 0.0, 0.0]);
     faces.push([0, 8, 1]);
     let topology = Topology::of::<f32>(&mesh(&points, &faces));
-    assert_eq!(counts(&topology), ([12, 1, 0, 0, 0], [18, 0, 0, 0, 0], [8, 0, 0, 0]));
-    assert!(!topology.is_closed_manifold(), "it has a face that is not sound");
+    assert_eq!(
+        counts(&topology),
+        ([12, 1, 0, 0, 0], [18, 0, 0, 0, 0], [8, 0, 0, 0])
+    );
+    assert!(
+        !topology.is_closed_manifold(),
+        "it has a face that is not sound"
+    );
 }
 
 #[test]
@@ -245,23 +297,34 @@ fn random_meshes_are_sorted_as_by_brute_force() {
                 FaceKind::Collapsed
             } else if has_no_area(*face) {
                 FaceKind::WithoutArea
-            } else if corners.iter().filter(|other| set(other) == set(face)).count() > 1 {
+            } else if corners
+                .iter()
+                .filter(|other| set(other) == set(face))
+                .count()
+                > 1
+            {
                 FaceKind::Duplicated
             } else {
                 FaceKind::Sound
             }
         };
         let mut expected = ([0; 5], [0; 5], [0; 4]);
-        corners.iter().for_each(|face| expected.0[kind(face) as usize] += 1);
-        let real: Vec<&[[i64; 3]; 3]> =
-            corners.iter().filter(|face| kind(face) != FaceKind::Collapsed).collect();
+        corners
+            .iter()
+            .for_each(|face| expected.0[kind(face) as usize] += 1);
+        let real: Vec<&[[i64; 3]; 3]> = corners
+            .iter()
+            .filter(|face| kind(face) != FaceKind::Collapsed)
+            .collect();
         let runs = |face: &[[i64; 3]; 3], from: [i64; 3], to: [i64; 3]| {
             (0..3).any(|i| face[i] == from && face[(i + 1) % 3] == to)
         };
         let different: BTreeSet<[i64; 3]> = real.iter().copied().flatten().copied().collect();
         let edge_kind = |p: [i64; 3], q: [i64; 3]| {
-            let on: Vec<_> =
-                real.iter().filter(|f| set(f).contains(&p) && set(f).contains(&q)).collect();
+            let on: Vec<_> = real
+                .iter()
+                .filter(|f| set(f).contains(&p) && set(f).contains(&q))
+                .collect();
             let forward = on.iter().filter(|face| runs(face, p, q)).count();
             match on.len() {
                 0 => None,
@@ -280,8 +343,11 @@ fn random_meshes_are_sorted_as_by_brute_force() {
             }
             // Around the vertex, by joining faces over the edges that they share there.
             let around: Vec<_> = real.iter().filter(|face| face.contains(p)).collect();
-            let spokes: BTreeSet<[i64; 3]> =
-                around.iter().flat_map(|face| face.iter().copied()).filter(|q| q != p).collect();
+            let spokes: BTreeSet<[i64; 3]> = around
+                .iter()
+                .flat_map(|face| face.iter().copied())
+                .filter(|q| q != p)
+                .collect();
             let kinds: Vec<_> = spokes.iter().filter_map(|q| edge_kind(*p, *q)).collect();
             let regular = kinds.iter().all(|kind| *kind <= EdgeKind::Open)
                 && around.iter().all(|face| kind(face) == FaceKind::Sound);
@@ -290,7 +356,10 @@ fn random_meshes_are_sorted_as_by_brute_force() {
                 for (j, other) in around.iter().enumerate() {
                     if set(one).intersection(&set(other)).count() == 2 {
                         let (from, to) = (group[i], group[j]);
-                        group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
+                        group
+                            .iter_mut()
+                            .filter(|g| **g == from)
+                            .for_each(|g| *g = to);
                     }
                 }
             }
@@ -308,11 +377,16 @@ fn random_meshes_are_sorted_as_by_brute_force() {
         (0..4).for_each(|i| seen_vertices[i] += expected.2[i]);
     }
     assert!(seen_edges.iter().all(|count| *count > 10), "{seen_edges:?}");
-    assert!(seen_vertices.iter().filter(|count| **count > 10).count() >= 3, "{seen_vertices:?}");
+    assert!(
+        seen_vertices.iter().filter(|count| **count > 10).count() >= 3,
+        "{seen_vertices:?}"
+    );
 }
 
 fn row(kernel: &str) -> Vec<Row> {
-    EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap()
+    EpsilonChoice::Source
+        .rows(&[find(kernel).unwrap()], None)
+        .unwrap()
 }
 
 fn surface(mesh: &Mesh) -> Arc<Surface> {
@@ -324,13 +398,18 @@ fn surface(mesh: &Mesh) -> Arc<Surface> {
 fn found<F: Scalar>(mesh: &Mesh, rows: &[Row], directions: u64) -> Vec<[Aimed; 2]> {
     let sources = Source::parts_of(&surface(mesh), &Parameters::default(), 1, directions).into();
     let scalars = [f32::NAME, f64::NAME].map(|name| name == F::NAME);
-    let plan = Plan { places: 9, ..Plan::new(rows.to_vec(), sources, scalars, 5) };
+    let plan = Plan {
+        places: 9,
+        ..Plan::new(rows.to_vec(), sources, scalars, 5)
+    };
     let cells = run(&plan, &Unobserved).cells;
     let at = |row, part: AimedPart| {
         let is_at = |cell: &&SourceCell| (cell.row, cell.source) == (row, part as usize);
         cells.iter().find(is_at).unwrap().tally.aimed.clone()
     };
-    (0..rows.len()).map(|row| AimedPart::ALL.map(|part| at(row, part))).collect()
+    (0..rows.len())
+        .map(|row| AimedPart::ALL.map(|part| at(row, part)))
+        .collect()
 }
 
 /// Cracks and doubles of crossings, wrong folds, in all classes: of one part.
@@ -339,8 +418,13 @@ fn sums(found: &[[Aimed; 2]], row: usize, part: AimedPart) -> [u64; 5] {
     let mut sums = [0; 5];
     for class in classes {
         let groups = class;
-        let counts =
-            [groups.crossings, groups.cracks, groups.doubles, groups.folds, groups.odd_folds];
+        let counts = [
+            groups.crossings,
+            groups.cracks,
+            groups.doubles,
+            groups.folds,
+            groups.odd_folds,
+        ];
         sums = std::array::from_fn(|i| sums[i] + counts[i]);
     }
     sums
@@ -356,7 +440,10 @@ fn woop_leaves_no_crack_and_others_do() {
         let found = found::<f32>(&mesh, &rows, 8);
         for part in AimedPart::ALL {
             let [crossings, cracks, ..] = sums(&found, 0, part);
-            assert!(crossings > 0 && cracks == 0, "{name}: {cracks} of {crossings}");
+            assert!(
+                crossings > 0 && cracks == 0,
+                "{name}: {cracks} of {crossings}"
+            );
         }
         assert_eq!(found[0].each_ref().map(Aimed::leaking), [0, 0]);
         assert!(sums(&found, 1, AimedPart::Edges)[1] > 0, "{name}");
@@ -414,7 +501,9 @@ fn nobody_is_accused_where_the_neighbours_are_too_many_to_ask() {
             let turn = std::f64::consts::TAU * i as f64 / edges as f64;
             [turn.cos(), turn.sin(), 0.0]
         }));
-        let faces: Vec<[usize; 3]> = (0..edges).map(|i| [0, 1 + i, 1 + (i + 1) % edges]).collect();
+        let faces: Vec<[usize; 3]> = (0..edges)
+            .map(|i| [0, 1 + i, 1 + (i + 1) % edges])
+            .collect();
         let mut rows = row("moller-trumbore");
         rows[0] = EpsilonChoice::Given(vec![("parallel".to_owned(), "1e30".to_owned())])
             .rows(&[find("moller-trumbore").unwrap()], None)
@@ -423,7 +512,11 @@ fn nobody_is_accused_where_the_neighbours_are_too_many_to_ask() {
         let found = found::<f64>(&mesh(&points, &faces), &rows, 1);
         let [crossings, cracks, ..] = sums(&found, 0, AimedPart::Edges);
         let classes = &found[0][AimedPart::Edges as usize].classes;
-        (crossings, cracks, classes.iter().map(|class| class.elsewhere).sum::<u64>())
+        (
+            crossings,
+            cracks,
+            classes.iter().map(|class| class.elsewhere).sum::<u64>(),
+        )
     };
     let (crossings, cracks, elsewhere) = cone(MOST_AROUND / 2);
     assert!(crossings > 0 && cracks > 0 && cracks + elsewhere == crossings);
@@ -451,8 +544,16 @@ fn nearly_all_rays_that_should_be_exact_are_so() {
             class.crossings + class.folds
         };
         // Grazing rays are often over folds, which ask nothing of fans.
-        assert!(of("exact") * 10 > of("near") * 9, "{part:?}: {}, {}", of("exact"), of("near"));
-        assert!(of("exact-grazing") * 10 > of("near-grazing") * 6, "{part:?}");
+        assert!(
+            of("exact") * 10 > of("near") * 9,
+            "{part:?}: {}, {}",
+            of("exact"),
+            of("near")
+        );
+        assert!(
+            of("exact-grazing") * 10 > of("near-grazing") * 6,
+            "{part:?}"
+        );
     }
 }
 
@@ -494,8 +595,10 @@ fn signs<F: Float>(case: &Case<F>) -> Option<(bool, bool, [i32; 3])> {
 fn asked<F: Float>(cases: &[Case<F>], part: AimedPart) -> Option<(bool, bool)> {
     let signs: Option<Vec<_>> = cases.iter().map(signs).collect();
     let signs = signs?;
-    let met: Vec<_> =
-        signs.iter().filter(|(_, _, weights)| weights.iter().all(|w| *w >= 0)).collect();
+    let met: Vec<_> = signs
+        .iter()
+        .filter(|(_, _, weights)| weights.iter().all(|w| *w >= 0))
+        .collect();
     let zeros = |weights: &[i32; 3]| weights.iter().filter(|w| **w == 0).count();
     let on = |count: usize| met.iter().filter(|met| zeros(&met.2) == count).count();
     if met.is_empty() || met.iter().any(|met| !met.1) {
@@ -541,9 +644,13 @@ fn nothing_was_moved<F: Scalar>(
         let [origin, direction, ..] = case.vectors();
         let other = Case::new(origin, direction, points);
         let mut verdict = [Verdict::miss(None)];
-        F::subject(entry).unwrap().run(&[other], &row.epsilons::<F>(), &mut verdict);
+        F::subject(entry)
+            .unwrap()
+            .run(&[other], &row.epsilons::<F>(), &mut verdict);
         let hit = verdict[0].hit;
-        let weights = signs(&other).filter(|(_, ahead, _)| *ahead).map(|(.., weights)| weights);
+        let weights = signs(&other)
+            .filter(|(_, ahead, _)| *ahead)
+            .map(|(.., weights)| weights);
         let Some(weights) = weights.filter(|weights| weights.iter().all(|w| *w >= 0)) else {
             if hit {
                 return false;
@@ -553,11 +660,17 @@ fn nothing_was_moved<F: Scalar>(
         if exact_severity(&other, Extent::Ray).unwrap().in_space >= 1.0 / 1024.0 {
             continue;
         }
-        let met = points.into_iter().zip(weights).filter(|(_, weight)| *weight > 0);
+        let met = points
+            .into_iter()
+            .zip(weights)
+            .filter(|(_, weight)| *weight > 0);
         let mut met: Vec<[F; 3]> = met.map(|(point, _)| point).collect();
         met.sort_by(|p, q| p.partial_cmp(q).unwrap());
         let from_behind = turned(&other) != turned(case);
-        match crossings.iter_mut().find(|known| known.0 == met && known.1 == from_behind) {
+        match crossings
+            .iter_mut()
+            .find(|known| known.0 == met && known.1 == from_behind)
+        {
             Some(known) => known.2 |= hit,
             None => crossings.push((met, from_behind, hit)),
         }
@@ -571,7 +684,10 @@ fn counts_are_those_of_the_definition<F: Scalar>(name: &str, kernels: &[&str], d
     let mesh = shape(name);
     for kernel in kernels {
         let entry = find(kernel).unwrap();
-        let rows = EpsilonChoice::Source.rows(&[entry], Some("closed-ray")).unwrap()[..1].to_vec();
+        let rows = EpsilonChoice::Source
+            .rows(&[entry], Some("closed-ray"))
+            .unwrap()[..1]
+            .to_vec();
         let found = found::<F>(&mesh, &rows, directions);
         let topology = Topology::of::<F>(&mesh);
         let parameters = Parameters::default();
@@ -582,10 +698,14 @@ fn counts_are_those_of_the_definition<F: Scalar>(name: &str, kernels: &[&str], d
             for index in 0..targets.count(part) * directions {
                 let mut cases = Vec::new();
                 targets.make::<F>(part, index, &mut cases);
-                let Some((crossing, odd)) = asked(&cases, part) else { continue };
+                let Some((crossing, odd)) = asked(&cases, part) else {
+                    continue;
+                };
                 let mut verdicts = vec![Verdict::miss(None); cases.len()];
                 let epsilons = rows[0].epsilons::<F>();
-                F::subject(entry).unwrap().run(&cases, &epsilons, &mut verdicts);
+                F::subject(entry)
+                    .unwrap()
+                    .run(&cases, &epsilons, &mut verdicts);
                 let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
                 if crossing {
                     expected[0] += 1;
@@ -621,7 +741,10 @@ fn threads_do_not_change_anything() {
     let mut rows = row("moller-trumbore");
     rows.extend(row("plucker"));
     let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| found::<f32>(&mesh, &rows, 5))
     };
     let one = with(1);
@@ -636,22 +759,30 @@ fn rays_of_fewer_directions_are_the_first_of_more() {
         found[0][0].classes[0].first_cracks.clone()
     };
     assert_eq!(first(4), first(8));
-    let aims: BTreeMap<(bool, bool), u64> =
-        (0..4).map(|number| ((Aim::of(number).exact, Aim::of(number).grazing), number)).collect();
+    let aims: BTreeMap<(bool, bool), u64> = (0..4)
+        .map(|number| ((Aim::of(number).exact, Aim::of(number).grazing), number))
+        .collect();
     assert_eq!(aims.len(), 4);
 }
 
 /// A fan around the origin whose ring goes around so many times, as seen along z.
 fn fan_around(times: usize) -> Mesh {
-    let ring = [[3.0, 0.0], [1.0, 3.0], [-2.0, 2.0], [-2.0, -2.0], [1.0, -3.0]];
+    let ring = [
+        [3.0, 0.0],
+        [1.0, 3.0],
+        [-2.0, 2.0],
+        [-2.0, -2.0],
+        [1.0, -3.0],
+    ];
     let mut points = vec![[0.0; 3]];
     for i in 0..5 * times {
         // Farther out with each time around, so that no two points are one.
         let [x, y] = ring[i % 5].map(|x| x * (1.0 + (i / 5) as f64));
         points.push([x, y, 0.25 * (i % 2) as f64]);
     }
-    let faces: Vec<[usize; 3]> =
-        (0..5 * times).map(|i| [0, 1 + i, 1 + (i + 1) % (5 * times)]).collect();
+    let faces: Vec<[usize; 3]> = (0..5 * times)
+        .map(|i| [0, 1 + i, 1 + (i + 1) % (5 * times)])
+        .collect();
     mesh(&points, &faces)
 }
 
@@ -660,7 +791,10 @@ fn nothing_is_asked_at_the_centre_of_a_fan_that_goes_around_twice() {
     let at_centre = |times| {
         let mesh = fan_around(times);
         let found = found::<f32>(&mesh, &row("woop-watertight"), 400);
-        assert_eq!(Topology::of::<f32>(&mesh).vertices[VertexKind::Closed as usize].count, 1);
+        assert_eq!(
+            Topology::of::<f32>(&mesh).vertices[VertexKind::Closed as usize].count,
+            1
+        );
         let tally = &found[0][AimedPart::Vertices as usize];
         tally.classes[0].crossings
     };
@@ -669,8 +803,17 @@ fn nothing_is_asked_at_the_centre_of_a_fan_that_goes_around_twice() {
 }
 
 fn at(feature: Feature, t_sign: Ordering, facing: Facing) -> Truth {
-    let place = if t_sign == Ordering::Less { Place::Before } else { Place::Within };
-    Truth::Transversal(Crossing { facing, place, t_sign, feature })
+    let place = if t_sign == Ordering::Less {
+        Place::Before
+    } else {
+        Place::Within
+    };
+    Truth::Transversal(Crossing {
+        facing,
+        place,
+        t_sign,
+        feature,
+    })
 }
 
 /// Of a group that faces front, with neighbours whose boundary is so far from the line.
@@ -679,11 +822,22 @@ fn is_elsewhere(neighbours: &[(Truth, bool)], distance: f32) -> bool {
 }
 
 fn is_elsewhere_under(contract: &str, neighbours: &[(Truth, bool)], distance: f32) -> bool {
-    let contract = NAMED.iter().find(|named| named.name == contract).unwrap().contract;
-    let corners = [[-1.0, -distance, 0.0], [1.0, -distance, 0.0], [0.0, 2.0, 0.0]];
+    let contract = NAMED
+        .iter()
+        .find(|named| named.name == contract)
+        .unwrap()
+        .contract;
+    let corners = [
+        [-1.0, -distance, 0.0],
+        [1.0, -distance, 0.0],
+        [0.0, 2.0, 0.0],
+    ];
     let cases = vec![Case::<f32>::new([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], corners); 9];
     let truths: Vec<Truth> = neighbours.iter().map(|(truth, _)| *truth).collect();
-    let verdict = |(_, hit): &(Truth, bool)| Verdict { hit: *hit, ..Verdict::miss(None) };
+    let verdict = |(_, hit): &(Truth, bool)| Verdict {
+        hit: *hit,
+        ..Verdict::miss(None)
+    };
     let verdicts: Vec<_> = neighbours.iter().map(verdict).collect();
     may_be_elsewhere(Facing::Front, &cases, &truths, &verdicts, &contract)
 }
@@ -697,7 +851,10 @@ fn a_hit_is_elsewhere_where_a_neighbour_has_one_that_is_not_its_own() {
     assert!(!is_elsewhere(&[], 0.0));
     assert!(!is_elsewhere(&misses, 0.0));
     for passed in [outside, before, Truth::Parallel, Truth::Invalid] {
-        assert!(is_elsewhere(&[(outside, false), (passed, true)], 0.5), "{passed:?}");
+        assert!(
+            is_elsewhere(&[(outside, false), (passed, true)], 0.5),
+            "{passed:?}"
+        );
     }
     // What is met itself has a hit of its own.
     assert!(!is_elsewhere(&[(inside, true), (outside, false)], 0.0));
@@ -709,22 +866,37 @@ fn a_ray_may_pass_beside_a_silhouette() {
     let [inside, rim] = [Feature::Interior, Feature::EdgeAb]
         .map(|feature| at(feature, Ordering::Greater, Facing::Back));
     assert!(is_elsewhere(&[(inside, false)], 1e-4));
-    assert!(!is_elsewhere(&[(inside, false)], 0.25), "the far side of a small mesh");
-    assert!(!is_elsewhere(&[(inside, true)], 1e-4), "the parity is wrong");
+    assert!(
+        !is_elsewhere(&[(inside, false)], 0.25),
+        "the far side of a small mesh"
+    );
+    assert!(
+        !is_elsewhere(&[(inside, true)], 1e-4),
+        "the parity is wrong"
+    );
     assert!(is_elsewhere(&[(rim, false), (rim, false)], 0.0));
     assert!(!is_elsewhere(&[(rim, false), (rim, true)], 0.0));
     // Beside several folds: what counts is whether as many hits are lost from either side.
     let front = at(Feature::Interior, Ordering::Greater, Facing::Front);
     assert!(is_elsewhere(&[(inside, false), (inside, true)], 1e-4));
     assert!(!is_elsewhere(&[(inside, false), (front, false)], 1e-4));
-    assert!(is_elsewhere(&[(inside, false), (front, false), (inside, false)], 1e-4));
+    assert!(is_elsewhere(
+        &[(inside, false), (front, false), (inside, false)],
+        1e-4
+    ));
     assert!(!is_elsewhere(&[(front, false)], 1e-4), "no silhouette");
     // What one of the faces at an edge reports is not lost.
-    assert!(!is_elsewhere(&[(rim, false), (rim, true), (front, false)], 1e-4));
+    assert!(!is_elsewhere(
+        &[(rim, false), (rim, true), (front, false)],
+        1e-4
+    ));
     // Two edges are two crossings.
     let other_rim = at(Feature::EdgeBc, Ordering::Greater, Facing::Back);
     assert!(!is_elsewhere(&[(rim, false), (other_rim, false)], 0.0));
-    assert!(is_elsewhere(&[(rim, false), (other_rim, false), (front, false)], 0.0));
+    assert!(is_elsewhere(
+        &[(rim, false), (other_rim, false), (front, false)],
+        0.0
+    ));
     // Who culls reports none from behind.
     let culling =
         |neighbours: &[(Truth, bool)]| is_elsewhere_under("front-closed-ray", neighbours, 1e-4);
@@ -744,7 +916,11 @@ fn what_lies_around_a_line_is_told_apart_by_distance_and_by_edge() {
         let cases: Vec<Case<f32>> = neighbours.iter().map(case).collect();
         let truths: Vec<Truth> = neighbours.iter().map(|(_, truth, _)| *truth).collect();
         let verdicts: Vec<_> = neighbours.iter().map(|(.., verdict)| *verdict).collect();
-        let closed = NAMED.iter().find(|named| named.name == "closed-ray").unwrap().contract;
+        let closed = NAMED
+            .iter()
+            .find(|named| named.name == "closed-ray")
+            .unwrap()
+            .contract;
         may_be_elsewhere(Facing::Front, &cases, &truths, &verdicts, &closed)
     };
     let miss = Verdict::miss(None);
@@ -754,8 +930,10 @@ fn what_lies_around_a_line_is_told_apart_by_distance_and_by_edge() {
     assert!(ask(&[(wide(1.0f32.next_down()), inside, miss)]));
     assert!(!ask(&[(wide(1.0), inside, miss)]));
     // Two faces have one crossing on their edge, which either may report; they go along it in two ways.
-    let (one, other) =
-        ([[-1.0, 0.0], [1.0, 0.0], [0.0, 2.0]], [[1.0, 0.0], [-1.0, 0.0], [0.0, -2.0]]);
+    let (one, other) = (
+        [[-1.0, 0.0], [1.0, 0.0], [0.0, 2.0]],
+        [[1.0, 0.0], [-1.0, 0.0], [0.0, -2.0]],
+    );
     let rim = back(Feature::EdgeAb);
     let hit = Verdict { hit: true, ..miss };
     assert!(ask(&[(one, rim, miss), (other, rim, miss)]));
@@ -763,7 +941,11 @@ fn what_lies_around_a_line_is_told_apart_by_distance_and_by_edge() {
     assert!(!ask(&[(other, rim, hit), (one, rim, miss)]));
     // Lost inside, on an edge, and a third to make the number odd.
     let front = at(Feature::Interior, Ordering::Greater, Facing::Front);
-    assert!(ask(&[(wide(0.5), inside, miss), (one, rim, miss), (wide(0.5), front, miss)]));
+    assert!(ask(&[
+        (wide(0.5), inside, miss),
+        (one, rim, miss),
+        (wide(0.5), front, miss)
+    ]));
     // Of a neighbour on which the kernel failed nothing is known.
     let outside = back(Feature::Outside);
     assert!(!ask(&[(wide(1.0), outside, miss)]));
@@ -771,5 +953,9 @@ fn what_lies_around_a_line_is_told_apart_by_distance_and_by_edge() {
         (wide(1.0), outside, miss),
         (wide(1.0), outside, Verdict::failed(Failure::Panic))
     ]));
-    assert!(ask(&[(wide(1.0), inside, Verdict::failed(Failure::Timeout))]));
+    assert!(ask(&[(
+        wide(1.0),
+        inside,
+        Verdict::failed(Failure::Timeout)
+    )]));
 }

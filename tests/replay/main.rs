@@ -8,7 +8,10 @@ use std::process::Command;
 fn replay(program: &str, files: &[&str]) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut command = Command::new(program);
-    command.args(files).current_dir(root).env("HAIRLINE_KERNEL", "woop-watertight");
+    command
+        .args(files)
+        .current_dir(root)
+        .env("HAIRLINE_KERNEL", "woop-watertight");
     let output = command.output().expect("it runs");
     let [out, error] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
     assert!(output.status.success(), "{program} {files:?}: {out}{error}");
@@ -40,15 +43,22 @@ targets! {
 fn cargo_run_is_hairline() {
     let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../../Cargo.toml");
     let text = std::fs::read_to_string(manifest).unwrap();
-    assert!(text.lines().any(|line| line == "default-run = \"hairline\""));
+    assert!(
+        text.lines()
+            .any(|line| line == "default-run = \"hairline\"")
+    );
 }
 
 #[test]
 fn cargo_fuzz_knows_the_same_targets() {
     let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fuzz/Cargo.toml");
     let text = std::fs::read_to_string(manifest).unwrap();
-    let paths = text.lines().filter_map(|line| line.strip_prefix("path = \"fuzz_targets/"));
-    let mut known: Vec<&str> = paths.filter_map(|path| path.strip_suffix(".rs\"")).collect();
+    let paths = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("path = \"fuzz_targets/"));
+    let mut known: Vec<&str> = paths
+        .filter_map(|path| path.strip_suffix(".rs\""))
+        .collect();
     known.sort_unstable();
     assert_eq!(known, TARGETS);
 }

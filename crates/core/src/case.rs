@@ -83,7 +83,10 @@ impl<F: Float> Case<F> {
             t_min: F::zero(),
             t_max: F::infinity(),
         };
-        Case { ray, triangle: Triangle::new(a.into(), b.into(), c.into()) }
+        Case {
+            ray,
+            triangle: Triangle::new(a.into(), b.into(), c.into()),
+        }
     }
 
     /// The same case on another interval.
@@ -96,7 +99,13 @@ impl<F: Float> Case<F> {
     #[inline(always)]
     pub fn vectors(&self) -> [[F; 3]; 5] {
         let Triangle { a, b, c } = self.triangle;
-        [self.ray.origin.into(), self.ray.direction.into(), a.into(), b.into(), c.into()]
+        [
+            self.ray.origin.into(),
+            self.ray.direction.into(),
+            a.into(),
+            b.into(),
+            c.into(),
+        ]
     }
 
     /// The case in `f64`, which holds every `f32` exactly.
@@ -104,7 +113,10 @@ impl<F: Float> Case<F> {
     pub fn widen(&self) -> Case<f64> {
         // A plain loop: arrays of arrays do not go through `map` without calls.
         let mut wide = [[0.0; 3]; 5];
-        for (wide, narrow) in wide.as_flattened_mut().iter_mut().zip(self.vectors().as_flattened())
+        for (wide, narrow) in wide
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(self.vectors().as_flattened())
         {
             *wide = narrow.to_f64();
         }
@@ -127,8 +139,20 @@ impl<F: Float> Case<F> {
 /// A ray and a triangle whose numbers are made from their places among the seventeen of a case.
 pub fn lifted<R: Real>(number: impl Fn(usize) -> R) -> (Ray<Triple<R>>, Triangle<Triple<R>>) {
     let triple = |i: usize| Triple::from([number(i), number(i + 1), number(i + 2)]);
-    let ray = Ray { origin: triple(0), direction: triple(3), t_min: number(15), t_max: number(16) };
-    (ray, Triangle { a: triple(6), b: triple(9), c: triple(12) })
+    let ray = Ray {
+        origin: triple(0),
+        direction: triple(3),
+        t_min: number(15),
+        t_max: number(16),
+    };
+    (
+        ray,
+        Triangle {
+            a: triple(6),
+            b: triple(9),
+            c: triple(12),
+        },
+    )
 }
 
 /// How a family's cases are transformed after they are generated.
@@ -184,9 +208,18 @@ impl fmt::Display for Parameters {
         words.extend(self.scene.iter().map(Scene::to_string));
         words.extend(self.kernel.iter().map(|kernel| format!("kernel={kernel}")));
         words.extend(
-            self.instance.iter().map(|matrix| format!("instance={}", instance::text(matrix))),
+            self.instance
+                .iter()
+                .map(|matrix| format!("instance={}", instance::text(matrix))),
         );
-        f.write_str(if words.is_empty() { "-".to_owned() } else { words.join(",") }.as_str())
+        f.write_str(
+            if words.is_empty() {
+                "-".to_owned()
+            } else {
+                words.join(",")
+            }
+            .as_str(),
+        )
     }
 }
 
@@ -213,7 +246,9 @@ impl FromStr for Parameters {
                 _ => {
                     let known = "scale=2^k, scale-direction, offset=x:y:z, unit, mesh=digest, \
                                  the words of a scene, kernel=name, instance=12 numbers";
-                    return Err(Error(format!("unknown parameter '{key}'; there are {known}")));
+                    return Err(Error(format!(
+                        "unknown parameter '{key}'; there are {known}"
+                    )));
                 }
             }
         }
@@ -234,8 +269,11 @@ impl FromStr for Parameters {
 
 /// The exponent k of `2^k`; `1` is `2^0`.
 pub fn parse_power_of_two(text: &str) -> Result<i32, String> {
-    let exponent =
-        if text == "1" { Some(0) } else { text.strip_prefix("2^").and_then(|k| k.parse().ok()) };
+    let exponent = if text == "1" {
+        Some(0)
+    } else {
+        text.strip_prefix("2^").and_then(|k| k.parse().ok())
+    };
     exponent
         .filter(|k: &i32| (-1100..=1100).contains(k))
         .ok_or_else(|| format!("'{text}' is not a scale: write 2^k with |k| <= 1100, as 2^-10"))
@@ -250,7 +288,11 @@ pub fn parse_offset(text: &str) -> Result<[f64; 3], String> {
 /// This many finite numbers between colons.
 fn between_colons<const N: usize>(text: &str) -> Option<[f64; N]> {
     let number = |n: &str| n.parse().ok().filter(|x: &f64| x.is_finite());
-    text.split(':').map(number).collect::<Option<Vec<f64>>>()?.try_into().ok()
+    text.split(':')
+        .map(number)
+        .collect::<Option<Vec<f64>>>()?
+        .try_into()
+        .ok()
 }
 
 /// A generated case in one string: `family@version/scalar/parameters/seed/index`, and `.k` for
@@ -275,7 +317,15 @@ pub struct CaseId {
 
 impl fmt::Display for CaseId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let CaseId { family, version, scalar, parameters, seed, index, triangle } = self;
+        let CaseId {
+            family,
+            version,
+            scalar,
+            parameters,
+            seed,
+            index,
+            triangle,
+        } = self;
         write!(f, "{family}@{version}/{scalar}/{parameters}/{seed}/{index}")?;
         triangle.map_or(Ok(()), |k| write!(f, ".{k}"))
     }
@@ -290,8 +340,11 @@ impl FromStr for CaseId {
                 "'{text}' is not a case id: family@version/scalar/parameters/seed/index, as tiny@2/f32/-/1/135"
             ))
         };
-        let [family, scalar, parameters, seed, index] =
-            text.split('/').collect::<Vec<_>>().try_into().map_err(|_| shape())?;
+        let [family, scalar, parameters, seed, index] = text
+            .split('/')
+            .collect::<Vec<_>>()
+            .try_into()
+            .map_err(|_| shape())?;
         let (family, version) = family.split_once('@').ok_or_else(shape)?;
         let (index, triangle) = match index.split_once('.') {
             Some((index, k)) => (index, Some(k.parse().map_err(|_| shape())?)),
@@ -322,10 +375,14 @@ impl Draw {
     /// The stream of case `index` of a family's set.
     pub fn new(family: &str, seed: u64, index: u64) -> Draw {
         // FNV-1a of the name keeps the families' streams apart.
-        let name = family.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-        });
-        Draw { state: mix(name ^ mix(seed.wrapping_add(mix(index)))) }
+        let name = family
+            .bytes()
+            .fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+                (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+            });
+        Draw {
+            state: mix(name ^ mix(seed.wrapping_add(mix(index)))),
+        }
     }
 
     /// 64 random bits.
@@ -422,7 +479,11 @@ mod tests {
     fn draws_depend_on_family_seed_and_index_only() {
         let first = Draw::new("edge-near", 1, 2).bits();
         assert_eq!(first, Draw::new("edge-near", 1, 2).bits());
-        for other in [("edge-exact", 1, 2), ("edge-near", 2, 2), ("edge-near", 1, 3)] {
+        for other in [
+            ("edge-exact", 1, 2),
+            ("edge-near", 2, 2),
+            ("edge-near", 1, 3),
+        ] {
             assert_ne!(first, Draw::new(other.0, other.1, other.2).bits());
         }
     }

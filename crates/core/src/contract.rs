@@ -76,7 +76,11 @@ impl FromStr for Band {
             Some(number) => (number, BandUnit::Ulps),
             None => (text, BandUnit::Edges),
         };
-        let size = number.trim().parse().ok().filter(|size: &f64| *size > 0.0 && size.is_finite());
+        let size = number
+            .trim()
+            .parse()
+            .ok()
+            .filter(|size: &f64| *size > 0.0 && size.is_finite());
         size.map(|size| Band { size, unit }).ok_or_else(|| {
             Error(format!("'{text}' is not a band: write a distance above 0, in longest edges as 1e-6 or in ulps as 4ulps"))
         })
@@ -184,12 +188,22 @@ impl Contract {
 
     /// A kernel's own contract starts here: as [`Contract::CLOSED_RAY`], invalid input free.
     pub const fn of_kernel(extent: Extent, sides: Sides, boundary: Boundary) -> Contract {
-        Contract { extent, sides, boundary, invalid: Demand::Free, ..Contract::CLOSED_RAY }
+        Contract {
+            extent,
+            sides,
+            boundary,
+            invalid: Demand::Free,
+            ..Contract::CLOSED_RAY
+        }
     }
 
     /// The same with other demands on coplanar lines and triangles without area.
     pub const fn with_flat(self, coplanar: Demand, degenerate: Demand) -> Contract {
-        Contract { coplanar, degenerate, ..self }
+        Contract {
+            coplanar,
+            degenerate,
+            ..self
+        }
     }
 
     /// The same with a promise across triangles.
@@ -218,7 +232,14 @@ impl Contract {
             Boundary::Open => ", ends open",
             Boundary::Free => ", ends free",
         };
-        let Contract { extent, coplanar, degenerate, invalid, across, .. } = self;
+        let Contract {
+            extent,
+            coplanar,
+            degenerate,
+            invalid,
+            across,
+            ..
+        } = self;
         let mut text = format!(
             "{extent}, {sides}, {boundary}{ends}, coplanar {coplanar}, degenerate {degenerate}, invalid {invalid}"
         );
@@ -232,11 +253,18 @@ impl Contract {
             text.push_str(", no self-hit");
         }
         if let Some(band) = self.band {
-            let unit = if band.unit == BandUnit::Ulps { "" } else { " longest edges" };
+            let unit = if band.unit == BandUnit::Ulps {
+                ""
+            } else {
+                " longest edges"
+            };
             text.push_str(&format!(", free within {band}{unit} of the boundary"));
         }
         if self.least_determinant > 0.0 {
-            text.push_str(&format!(", no hit owed at |det| < {:e}", self.least_determinant));
+            text.push_str(&format!(
+                ", no hit owed at |det| < {:e}",
+                self.least_determinant
+            ));
         }
         match self.value_tolerance {
             0.0 => {}
@@ -261,7 +289,10 @@ pub struct NamedContract {
 pub const NAMED: &[NamedContract] = &[
     NamedContract {
         name: "closed-line",
-        contract: Contract { extent: Extent::Line, ..Contract::CLOSED_RAY },
+        contract: Contract {
+            extent: Extent::Line,
+            ..Contract::CLOSED_RAY
+        },
         about: "the closed triangle, any t",
     },
     NamedContract {
@@ -271,22 +302,34 @@ pub const NAMED: &[NamedContract] = &[
     },
     NamedContract {
         name: "closed-interval",
-        contract: Contract { extent: Extent::Interval, ..Contract::CLOSED_RAY },
+        contract: Contract {
+            extent: Extent::Interval,
+            ..Contract::CLOSED_RAY
+        },
         about: "the closed triangle, t in [t_min, t_max]",
     },
     NamedContract {
         name: "open-ray",
-        contract: Contract { boundary: Boundary::Open, ..Contract::CLOSED_RAY },
+        contract: Contract {
+            boundary: Boundary::Open,
+            ..Contract::CLOSED_RAY
+        },
         about: "the open triangle (edges and vertices are misses), t >= 0",
     },
     NamedContract {
         name: "front-closed-ray",
-        contract: Contract { sides: Sides::Front, ..Contract::CLOSED_RAY },
+        contract: Contract {
+            sides: Sides::Front,
+            ..Contract::CLOSED_RAY
+        },
         about: "the closed triangle from its front, t >= 0",
     },
     NamedContract {
         name: "no-self-hit",
-        contract: Contract { no_self_hit: true, ..Contract::CLOSED_RAY },
+        contract: Contract {
+            no_self_hit: true,
+            ..Contract::CLOSED_RAY
+        },
         about: "closed-ray, and no second hit on the triangle that the ray starts on (family secondary-ray)",
     },
 ];

@@ -69,14 +69,22 @@ const MOST_CHUNKS: u64 = 4096;
 pub fn map<T: Sync, U: Send>(items: &[T], become_of: impl Fn(&T) -> U + Sync) -> Vec<U> {
     let results: Vec<Mutex<Option<U>>> = items.iter().map(|_| Mutex::new(None)).collect();
     let count = items.len() as u64;
-    on_threads(0..count, (count / MOST_CHUNKS).max(1), &Unobserved, &|chunks| {
-        for index in chunks.flatten() {
-            let index = index as usize;
-            *locked(&results[index]) = Some(become_of(&items[index]));
-        }
-    });
+    on_threads(
+        0..count,
+        (count / MOST_CHUNKS).max(1),
+        &Unobserved,
+        &|chunks| {
+            for index in chunks.flatten() {
+                let index = index as usize;
+                *locked(&results[index]) = Some(become_of(&items[index]));
+            }
+        },
+    );
     let result = |of_item: Mutex<Option<U>>| of_item.into_inner().ok().flatten();
-    results.into_iter().map(|of_item| result(of_item).expect("every item has its turn")).collect()
+    results
+        .into_iter()
+        .map(|of_item| result(of_item).expect("every item has its turn"))
+        .collect()
 }
 
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -117,7 +125,10 @@ fn on_threads(indices: Range<u64>, chunk: u64, observer: &dyn Observer, run: OfT
         return of_thread();
     }
     #[cfg(feature = "rayon")]
-    (0..threads).into_par_iter().with_max_len(1).for_each(|_| of_thread());
+    (0..threads)
+        .into_par_iter()
+        .with_max_len(1)
+        .for_each(|_| of_thread());
     #[cfg(not(feature = "rayon"))]
     on_new_threads(threads, &of_thread);
 }
@@ -162,7 +173,10 @@ mod tests {
     #[test]
     fn every_index_goes_through_once_on_any_number_of_threads() {
         for threads in [1, 2, 5] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
             for range in [0..0, 7..8, 3..1027, 0..10_000, u64::MAX - 70..u64::MAX] {
                 let counter = Counter(AtomicU64::new(0));
                 let add = |seen: &mut Seen, indices: Range<u64>| {

@@ -34,9 +34,15 @@ mod tests {
     #[test]
     fn a_typing_error_finds_its_name() {
         let names = || ["moller-trumbore", "woop-watertight", "havel-herout"];
-        assert_eq!(nearest_name("moler-trumbore", names()), Some("moller-trumbore"));
+        assert_eq!(
+            nearest_name("moler-trumbore", names()),
+            Some("moller-trumbore")
+        );
         assert_eq!(nearest_name("woop", names()), None);
         assert_eq!(nearest_name("havel-heruot", names()), Some("havel-herout"));
-        assert_eq!(did_you_mean("woop", names(), "hairline list"), "; see `hairline list`");
+        assert_eq!(
+            did_you_mean("woop", names(), "hairline list"),
+            "; see `hairline list`"
+        );
     }
 }

@@ -156,8 +156,16 @@ impl Feature {
         // above zero. All three weights cannot be zero: their sum is not.
         const FEATURES: [[[Feature; 3]; 3]; 3] = [
             [NONE, NONE, NONE],
-            [NONE, [Outside, Outside, VertexC], [Outside, VertexB, EdgeBc]],
-            [NONE, [Outside, VertexA, EdgeCa], [Outside, EdgeAb, Interior]],
+            [
+                NONE,
+                [Outside, Outside, VertexC],
+                [Outside, VertexB, EdgeBc],
+            ],
+            [
+                NONE,
+                [Outside, VertexA, EdgeCa],
+                [Outside, EdgeAb, Interior],
+            ],
         ];
         let [a, b, c] = signs.map(|sign| (sign as i8 + 1) as usize);
         FEATURES[a][b][c]
@@ -179,8 +187,19 @@ impl fmt::Display for Truth {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.class_name())?;
         match self {
-            Truth::Transversal(Crossing { facing, place, feature, .. }) => {
-                write!(f, ", {}, t {}, {}", facing.name(), place.name(), feature.name())
+            Truth::Transversal(Crossing {
+                facing,
+                place,
+                feature,
+                ..
+            }) => {
+                write!(
+                    f,
+                    ", {}, t {}, {}",
+                    facing.name(),
+                    place.name(),
+                    feature.name()
+                )
             }
             Truth::Coplanar(contact) | Truth::Degenerate(contact) => match contact.kind {
                 ContactKind::None => f.write_str(", no contact"),

@@ -64,7 +64,10 @@ pub(super) fn write_batch<F: Float>(
     let start = bytes.len();
     let size = size_of::<F>();
     bytes.resize(start + cases.len() * CASE_NUMBERS * size, 0);
-    for (record, case) in bytes[start..].chunks_exact_mut(CASE_NUMBERS * size).zip(cases) {
+    for (record, case) in bytes[start..]
+        .chunks_exact_mut(CASE_NUMBERS * size)
+        .zip(cases)
+    {
         for (place, number) in record.chunks_exact_mut(size).zip(case.numbers()) {
             place.copy_from_slice(&number.to_bits().to_le_bytes()[..size]);
         }
@@ -125,10 +128,21 @@ pub(super) fn verdict<F: Float>(bytes: &[u8]) -> Result<Verdict<F>, String> {
         0 => None,
         1 => Some(Facing::Front),
         2 => Some(Facing::Back),
-        other => return Err(format!("facing is {other}, expected 0, 1 (front) or 2 (back)")),
+        other => {
+            return Err(format!(
+                "facing is {other}, expected 0, 1 (front) or 2 (back)"
+            ));
+        }
     };
     let [t, u, v] = [0, 1, 2].map(number);
-    Ok(Verdict { hit: true, facing, t, u, v, ..Verdict::miss(None) })
+    Ok(Verdict {
+        hit: true,
+        facing,
+        t,
+        u,
+        v,
+        ..Verdict::miss(None)
+    })
 }
 
 #[cfg(test)]
@@ -141,20 +155,29 @@ mod tests {
         let mut bytes = b"what was in it".to_vec();
         write_batch(BATCH, &[case], &[0.5], &mut bytes);
         assert_eq!(bytes.len(), 16 + 4 + 68);
-        assert_eq!(bytes[..20], *b"HLB1\x20\0\0\0\x01\0\0\0\x01\0\0\0\0\0\0\x3f");
+        assert_eq!(
+            bytes[..20],
+            *b"HLB1\x20\0\0\0\x01\0\0\0\x01\0\0\0\0\0\0\x3f"
+        );
         assert_eq!(bytes[20..24], 1f32.to_le_bytes());
         assert_eq!(bytes[80..], *b"\0\0\x80\xbf\0\0\0\x40");
         assert_eq!((verdict_bytes::<f32>(), verdict_bytes::<f64>()), (20, 32));
         let mut wide = Vec::new();
         write_batch(MARGINS, &[case.widen()], &[], &mut wide);
-        assert_eq!((wide.len(), wide[..5].to_vec()), (16 + 136, b"HLM1\x40".to_vec()));
+        assert_eq!(
+            (wide.len(), wide[..5].to_vec()),
+            (16 + 136, b"HLM1\x40".to_vec())
+        );
         assert_eq!(wide[16..24], 1f64.to_le_bytes());
     }
 
     #[test]
     fn what_comes_before_an_answer_is_read_back() {
         for (before, head) in [
-            (Before::Floats(FloatEnvironment::from_bits(3).unwrap()), b"HLE1\x03\0\0\0"),
+            (
+                Before::Floats(FloatEnvironment::from_bits(3).unwrap()),
+                b"HLE1\x03\0\0\0",
+            ),
             (Before::Took(0x0201), b"HLT1\x01\x02\0\0"),
             (Before::Took(u32::MAX.into()), b"HLT1\xff\xff\xff\xff"),
             (Before::Failure(Failure::Overrun), b"HLX1\0\0\0\0"),
@@ -171,14 +194,27 @@ mod tests {
     fn verdicts_are_read_and_what_is_none_is_refused() {
         let record = |hit: i32, facing: i32| {
             let mut bytes = [hit.to_le_bytes(), facing.to_le_bytes()].concat();
-            [0.5f64, 0.25, f64::NAN].iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+            [0.5f64, 0.25, f64::NAN]
+                .iter()
+                .for_each(|x| bytes.extend(x.to_le_bytes()));
             bytes
         };
         let read = verdict::<f64>(&record(1, 2)).unwrap();
-        assert_eq!((read.hit, read.facing, read.t, read.u), (true, Some(Facing::Back), 0.5, 0.25));
+        assert_eq!(
+            (read.hit, read.facing, read.t, read.u),
+            (true, Some(Facing::Back), 0.5, 0.25)
+        );
         assert!(read.v.is_nan());
         assert!(!verdict::<f64>(&record(0, 77)).unwrap().hit);
-        assert!(verdict::<f64>(&record(2, 0)).unwrap_err().contains("hit is 2"));
-        assert!(verdict::<f64>(&record(1, -1)).unwrap_err().contains("facing is -1"));
+        assert!(
+            verdict::<f64>(&record(2, 0))
+                .unwrap_err()
+                .contains("hit is 2")
+        );
+        assert!(
+            verdict::<f64>(&record(1, -1))
+                .unwrap_err()
+                .contains("facing is -1")
+        );
     }
 }

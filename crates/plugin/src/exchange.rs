@@ -68,7 +68,11 @@ pub(super) fn in_binary<F: Float>(
     verdicts: &mut [Verdict<F>],
     margins: &mut [F],
 ) -> Result<Said, Lost> {
-    let kind = if margins.is_empty() { binary::BATCH } else { binary::MARGINS };
+    let kind = if margins.is_empty() {
+        binary::BATCH
+    } else {
+        binary::MARGINS
+    };
     let mut bytes = running.spare();
     binary::write_batch(kind, cases, epsilons, &mut bytes);
     running.send(bytes);
@@ -88,8 +92,11 @@ pub(super) fn in_binary<F: Float>(
         // A verdict in text, or the end of a batch.
         let is_text = head.iter().all(|byte| matches!(byte, b' '..=b'~' | b'\n'));
         let [head, expected] = [head, &expected].map(|bytes| bytes.escape_ascii());
-        let why =
-            if is_text { "its hello says 'encoding binary', and it answers in text: " } else { "" };
+        let why = if is_text {
+            "its hello says 'encoding binary', and it answers in text: "
+        } else {
+            ""
+        };
         let message = format!("{why}its answer begins with '{head}', expected '{expected}'");
         return Err(Lost::Garbled(message));
     }

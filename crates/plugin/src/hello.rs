@@ -60,14 +60,20 @@ impl Default for HelloLines {
             margins: false,
             processes: u32::MAX,
         };
-        HelloLines { said: Vec::new(), hello }
+        HelloLines {
+            said: Vec::new(),
+            hello,
+        }
     }
 }
 
 impl HelloLines {
     /// Takes a line; the hello, if it was the last. An error says what was expected.
     pub fn take(&mut self, line: &str) -> Result<Option<Hello>, String> {
-        let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
+        let (word, rest) = line
+            .trim()
+            .split_once(char::is_whitespace)
+            .unwrap_or((line.trim(), ""));
         let (rest, hello) = (rest.trim(), &mut self.hello);
         match word {
             "error" => return Err(rest.to_owned()),
@@ -133,7 +139,11 @@ impl HelloLines {
         if hello.margins && !hello.binary {
             return Err("margins: they are asked for in 'encoding binary' only".to_owned());
         }
-        let names: Vec<&str> = hello.epsilons.iter().map(|epsilon| &*epsilon.name).collect();
+        let names: Vec<&str> = hello
+            .epsilons
+            .iter()
+            .map(|epsilon| &*epsilon.name)
+            .collect();
         if let Some(i) = (1..names.len()).find(|&i| names[..i].contains(&names[i])) {
             return Err(format!("epsilon '{}' is announced twice", names[i]));
         }
@@ -155,7 +165,10 @@ impl Hello {
 
     /// Notes on the announcement, each in one line.
     pub fn notes(&self) -> Vec<String> {
-        let unknown = self.epsilons.iter().filter(|epsilon| epsilon.role.is_none());
+        let unknown = self
+            .epsilons
+            .iter()
+            .filter(|epsilon| epsilon.role.is_none());
         let note = |epsilon: &HelloEpsilon| {
             format!(
                 "what its epsilon '{}' is there to refuse is not known, so advice about it is poor; begin its \
@@ -183,7 +196,10 @@ impl Hello {
             epsilon: epsilon.tunable,
         };
         let values: Vec<&'static str> = self.epsilons.iter().map(|e| leak(&e.value)).collect();
-        let sets = vec![EpsilonSet { name: "own", values: values.leak() }];
+        let sets = vec![EpsilonSet {
+            name: "own",
+            values: values.leak(),
+        }];
         Box::leak(Box::new(KernelInfo {
             source: leak(&self.source),
             gates: self.epsilons.iter().map(gate).collect::<Vec<_>>().leak(),
@@ -201,11 +217,15 @@ fn leak(text: &str) -> &'static str {
 fn first_line(line: &str, word: &str, rest: &str) -> Result<(), String> {
     if word != "hairline-kernel" {
         let line = shown(line);
-        return Err(format!("its first line is '{line}', expected 'hairline-kernel {PROTOCOL}'"));
+        return Err(format!(
+            "its first line is '{line}', expected 'hairline-kernel {PROTOCOL}'"
+        ));
     }
     if rest.parse() != Ok(PROTOCOL) {
         let rest = shown(rest);
-        return Err(format!("it speaks protocol '{rest}', this program speaks {PROTOCOL}"));
+        return Err(format!(
+            "it speaks protocol '{rest}', this program speaks {PROTOCOL}"
+        ));
     }
     Ok(())
 }
@@ -243,10 +263,13 @@ fn epsilon(text: &str) -> Result<HelloEpsilon, String> {
     };
     if name == "t_min" {
         return Err(
-            "epsilon t_min: the name is taken: it is the start of each ray's interval".to_owned()
+            "epsilon t_min: the name is taken: it is the start of each ray's interval".to_owned(),
         );
     }
-    let finite = [number::parse::<f32>(value).map(f64::from), number::parse::<f64>(value)];
+    let finite = [
+        number::parse::<f32>(value).map(f64::from),
+        number::parse::<f64>(value),
+    ];
     let fits = |x: &f64| x.is_finite() && (tunable == Tunable::Signed || *x >= 0.0);
     if !finite.iter().all(|x| x.as_ref().is_ok_and(fits)) || value.contains(['x', 'X']) {
         let plain = value.trim_end_matches(|c: char| c.is_ascii_alphabetic());
@@ -255,7 +278,9 @@ fn epsilon(text: &str) -> Result<HelloEpsilon, String> {
             false => String::new(),
         };
         let value = shown(value);
-        return Err(format!("epsilon {name}: '{value}' is no epsilon that it can take{advice}"));
+        return Err(format!(
+            "epsilon {name}: '{value}' is no epsilon that it can take{advice}"
+        ));
     }
     let mut words = words.peekable();
     let role = match words.next_if(|word| word.starts_with("role=")) {
@@ -266,16 +291,31 @@ fn epsilon(text: &str) -> Result<HelloEpsilon, String> {
         })?),
     };
     let meaning = words.collect::<Vec<_>>().join(" ");
-    let refuses = if meaning.is_empty() { "not told".to_owned() } else { meaning };
+    let refuses = if meaning.is_empty() {
+        "not told".to_owned()
+    } else {
+        meaning
+    };
     let (name, value) = (name.to_owned(), value.to_owned());
-    Ok(HelloEpsilon { name, role, value, dimension, tunable, refuses })
+    Ok(HelloEpsilon {
+        name,
+        role,
+        value,
+        dimension,
+        tunable,
+        refuses,
+    })
 }
 
 /// The beginning of what a process wrote, on one line.
 pub fn shown(text: &str) -> String {
     let start: String = text.chars().take(60).collect();
     let dots = if start.len() < text.len() { "…" } else { "" };
-    start.chars().flat_map(char::escape_debug).collect::<String>() + dots
+    start
+        .chars()
+        .flat_map(char::escape_debug)
+        .collect::<String>()
+        + dots
 }
 
 #[cfg(test)]
@@ -302,12 +342,18 @@ mod tests {
         let info = hello.info();
         assert_eq!((info.name, info.source), ("mine", "here and there"));
         assert_eq!((hello.scalars, hello.binary), ([false, true], true));
-        assert_eq!((info.gives.t, info.gives.uv, info.gives.facing), (true, false, true));
+        assert_eq!(
+            (info.gives.t, info.gives.uv, info.gives.facing),
+            (true, false, true)
+        );
         assert_eq!(info.contract, "closed-ray,invalid=free".parse().unwrap());
         assert_eq!(info.epsilon_sets[0].values, ["1e-6", "-1e-3"]);
         assert_eq!(info.gates[0].refuses, "abs(det) < e");
         assert_eq!(info.gates[0].dimension, Dimension::new(2, 1));
-        assert_eq!((info.gates[1].epsilon, info.gates[1].refuses), (Tunable::Signed, "not told"));
+        assert_eq!(
+            (info.gates[1].epsilon, info.gates[1].refuses),
+            (Tunable::Signed, "not told")
+        );
     }
 
     #[test]
@@ -315,13 +361,25 @@ mod tests {
         let hello = WHOLE
             .replace("epsilon parallel", "epsilon det")
             .replace("epsilon edge", "epsilon eps")
-            .replace("signed\nready", "signed\nepsilon u 0 3 0 signed role=t s t >= e\nready");
+            .replace(
+                "signed\nready",
+                "signed\nepsilon u 0 3 0 signed role=t s t >= e\nready",
+            );
         let hello = read(&hello).unwrap();
         let gates = hello.info().gates;
         let roles: Vec<_> = gates.iter().map(|gate| (gate.name, gate.role)).collect();
-        assert_eq!(roles, [("det", Role::Parallel), ("eps", Role::Other), ("u", Role::T)]);
+        assert_eq!(
+            roles,
+            [
+                ("det", Role::Parallel),
+                ("eps", Role::Other),
+                ("u", Role::T)
+            ]
+        );
         assert_eq!(gates[2].refuses, "s t >= e");
-        let [note] = &hello.notes()[..] else { panic!("{:?}", hello.notes()) };
+        let [note] = &hello.notes()[..] else {
+            panic!("{:?}", hello.notes())
+        };
         assert!(
             note.starts_with("what its epsilon 'eps' is there to refuse is not known"),
             "{note}"
@@ -337,30 +395,98 @@ mod tests {
                 "hello",
                 "its first line is 'hello', expected 'hairline-kernel 1'",
             ),
-            ("kernel 1", "kernel 2", "it speaks protocol '2', this program speaks 1"),
-            ("name mine\n", "", "its hello has no line 'name …' before 'ready'"),
-            ("scalars f64\n", "", "its hello has no line 'scalars …' before 'ready'"),
-            ("contract closed-ray,invalid=free\n", "", "its hello has no line 'contract …'"),
-            ("scalars f64", "scalars f16", "scalars: 'f16' is none of f32, f64"),
+            (
+                "kernel 1",
+                "kernel 2",
+                "it speaks protocol '2', this program speaks 1",
+            ),
+            (
+                "name mine\n",
+                "",
+                "its hello has no line 'name …' before 'ready'",
+            ),
+            (
+                "scalars f64\n",
+                "",
+                "its hello has no line 'scalars …' before 'ready'",
+            ),
+            (
+                "contract closed-ray,invalid=free\n",
+                "",
+                "its hello has no line 'contract …'",
+            ),
+            (
+                "scalars f64",
+                "scalars f16",
+                "scalars: 'f16' is none of f32, f64",
+            ),
             ("scalars f64", "scalars", "scalars: none is named"),
             ("name mine", "name mine\nname yours", "'name' is said twice"),
-            ("gives t facing", "gives everything", "gives: 'everything' is none of t, uv, facing"),
-            ("encoding binary", "encoding morse", "encoding: 'morse' is none of text, binary"),
-            ("closed-ray,invalid=free", "closed-rai", "contract: 'closed-rai' is no contract"),
-            ("epsilon edge -1e-3", "epsilon parallel 1", "epsilon 'parallel' is announced twice"),
-            ("epsilon edge -1e-3 0 0 signed", "epsilon edge 0", "epsilon: 'edge 0' is not NAME"),
+            (
+                "gives t facing",
+                "gives everything",
+                "gives: 'everything' is none of t, uv, facing",
+            ),
+            (
+                "encoding binary",
+                "encoding morse",
+                "encoding: 'morse' is none of text, binary",
+            ),
+            (
+                "closed-ray,invalid=free",
+                "closed-rai",
+                "contract: 'closed-rai' is no contract",
+            ),
+            (
+                "epsilon edge -1e-3",
+                "epsilon parallel 1",
+                "epsilon 'parallel' is announced twice",
+            ),
+            (
+                "epsilon edge -1e-3 0 0 signed",
+                "epsilon edge 0",
+                "epsilon: 'edge 0' is not NAME",
+            ),
             (
                 "1e-6 2 1 non",
                 "1e-6x 2 1 non",
                 "epsilon parallel: '1e-6x' is no epsilon that it can take; write 1e-6, without a suffix",
             ),
-            ("1e-6 2 1 non", "-1e-6 2 1 non", "epsilon parallel: '-1e-6' is no epsilon"),
-            ("signed\nready", "signed role=side\nready", "epsilon edge: 'role=side' is none of"),
-            ("1e-6 2 1 non", "1e-6 two 1 non", "epsilon: 'parallel 1e-6 two"),
-            ("source here", "floats 16\nsource", "floats: '16' is not 0 to 15"),
-            ("source here", "processes 0\nsource", "processes: '0' is not 1 or more"),
-            ("source here", "sauce here", "'sauce here and there' is none of name, source,"),
-            ("source here", "error three is not installed\nsource", "three is not installed"),
+            (
+                "1e-6 2 1 non",
+                "-1e-6 2 1 non",
+                "epsilon parallel: '-1e-6' is no epsilon",
+            ),
+            (
+                "signed\nready",
+                "signed role=side\nready",
+                "epsilon edge: 'role=side' is none of",
+            ),
+            (
+                "1e-6 2 1 non",
+                "1e-6 two 1 non",
+                "epsilon: 'parallel 1e-6 two",
+            ),
+            (
+                "source here",
+                "floats 16\nsource",
+                "floats: '16' is not 0 to 15",
+            ),
+            (
+                "source here",
+                "processes 0\nsource",
+                "processes: '0' is not 1 or more",
+            ),
+            (
+                "source here",
+                "sauce here",
+                "'sauce here and there' is none of name, source,",
+            ),
+            (
+                "source here",
+                "error three is not installed\nsource",
+                "three is not installed",
+            ),
         ] {
             let error = read(&WHOLE.replacen(old, new, 1)).unwrap_err();
             assert!(error.starts_with(message), "{old} -> {new}: {error}");

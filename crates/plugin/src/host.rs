@@ -34,7 +34,11 @@ use std::time::{Duration, Instant};
 /// A library that is asked more than once may be wrong after many calls. So for `long_run`, if it is not 0, the first whole
 /// batch is asked again and again before its answer counts.
 pub fn serve(path: &Path, long_run: Duration) -> u8 {
-    let mut job = LibraryJob { path, long_run, code: 1 };
+    let mut job = LibraryJob {
+        path,
+        long_run,
+        code: 1,
+    };
     // A thread, but none of Rust's: at the end of such a one stands a handler for all exceptions, and a C++
     // runtime that finds a handler does not say what was thrown. For the same reason `on_thread` may unwind;
     // nothing ever does that far.
@@ -48,7 +52,10 @@ pub fn serve(path: &Path, long_run: Duration) -> u8 {
             && libc::pthread_join(thread, std::ptr::null_mut()) == 0
     };
     if !is_done {
-        eprintln!("hairline: no thread for the library: {}", io::Error::last_os_error());
+        eprintln!(
+            "hairline: no thread for the library: {}",
+            io::Error::last_os_error()
+        );
     }
     job.code
 }
@@ -102,7 +109,11 @@ impl Protocol {
         let nothing = File::open("/dev/null")?;
         // SAFETY: dup2 of descriptors that are open; nothing in this process owns 0 and 1.
         let moved = unsafe { libc::dup2(nothing.as_raw_fd(), 0) >= 0 && libc::dup2(2, 1) >= 0 };
-        if moved { Ok(Protocol { input, output }) } else { Err(io::Error::last_os_error()) }
+        if moved {
+            Ok(Protocol { input, output })
+        } else {
+            Err(io::Error::last_os_error())
+        }
     }
 
     fn serve(&mut self, path: &Path, long_run: Duration) -> Result<(), String> {
@@ -112,7 +123,9 @@ impl Protocol {
         let mut floats = FloatEnvironment::now();
         let announced = format!("{hello}floats {}\nmargins\n", floats.bits());
         let failed = |error: io::Error| error.to_string();
-        self.output.write_all(announced.as_bytes()).map_err(failed)?;
+        self.output
+            .write_all(announced.as_bytes())
+            .map_err(failed)?;
         watch(self.output.as_raw_fd(), library.current_exception());
         let mut room = Room::new().map_err(failed)?;
         first_call::<f32>(&library, &hello, &mut room).map_err(failed)?;
@@ -125,7 +138,8 @@ impl Protocol {
             if let Some(limit) = long_run.take_if(|_| batch.is_whole()) {
                 batch.ask_often(&mut room, limit).map_err(failed)?;
             }
-            self.answer(&batch, &mut room, &mut floats).map_err(failed)?;
+            self.answer(&batch, &mut room, &mut floats)
+                .map_err(failed)?;
         }
         Ok(())
     }
@@ -136,7 +150,12 @@ impl Protocol {
         room: &mut Room,
         floats: &mut FloatEnvironment,
     ) -> io::Result<()> {
-        let &HostBatch { size, count, with_margins, .. } = batch;
+        let &HostBatch {
+            size,
+            count,
+            with_margins,
+            ..
+        } = batch;
         batch.make_room(room)?;
         let start = Instant::now();
         batch.call(room);
@@ -151,7 +170,8 @@ impl Protocol {
             self.output.write_all(&Before::Floats(*floats).head())?;
         }
         let Some(margins) = margins.filter(|_| room.verdicts.is_untouched_before()) else {
-            self.output.write_all(&Before::Failure(Failure::Overrun).head())?;
+            self.output
+                .write_all(&Before::Failure(Failure::Overrun).head())?;
             return Err(io::Error::other("wrote before its output"));
         };
         let mut answer = Vec::with_capacity(16 + room.verdicts.as_bytes().len() + margins.len());
@@ -177,7 +197,13 @@ struct Room {
 impl Room {
     fn new() -> io::Result<Room> {
         let [cases, epsilons, verdicts, one_epsilons, one_verdict] = Buffer::all()?;
-        Ok(Room { cases, epsilons, verdicts, one_epsilons, one_verdict })
+        Ok(Room {
+            cases,
+            epsilons,
+            verdicts,
+            one_epsilons,
+            one_verdict,
+        })
     }
 }
 
@@ -194,7 +220,11 @@ struct HostBatch {
 /// Answers a plain case, a hit in the middle of its triangle, and forgets the verdict: a library may take long for its
 /// first call, and that is no case's fault.
 fn first_call<F: Float>(library: &Library, hello: &str, room: &mut Room) -> io::Result<()> {
-    let is_there = if size_of::<F>() == 4 { library.f32 } else { library.f64 };
+    let is_there = if size_of::<F>() == 4 {
+        library.f32
+    } else {
+        library.f64
+    };
     if is_there.is_none() {
         return Ok(());
     }
@@ -204,7 +234,9 @@ fn first_call<F: Float>(library: &Library, hello: &str, room: &mut Room) -> io::
     // An invalid value is refused by who reads the hello.
     let value = |line: &str| number::parse(line.split(' ').nth(2)?).ok();
     let epsilons = hello.lines().filter(|line| line.starts_with("epsilon "));
-    let epsilons: Vec<F> = epsilons.map(|line| value(line).unwrap_or(F::zero())).collect();
+    let epsilons: Vec<F> = epsilons
+        .map(|line| value(line).unwrap_or(F::zero()))
+        .collect();
     let mut bytes = Vec::new();
     write_batch(BATCH, &[plain], &epsilons, &mut bytes);
     if let Some(batch) = HostBatch::read(&mut &bytes[..], library, room)? {
@@ -238,24 +270,40 @@ impl HostBatch {
         let word = |at: usize| {
             u32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]) as usize
         };
-        let test = if word(4) == 32 { library.f32 } else { library.f64 };
+        let test = if word(4) == 32 {
+            library.f32
+        } else {
+            library.f64
+        };
         let with_margins = head[..4] == MARGINS;
         let (Some(test), true) = (test, with_margins || head[..4] == BATCH) else {
             return Err(io::Error::other("not a batch"));
         };
         let (size, count) = (word(4) / 8, word(8));
         let lengths = [word(12) * size, count * CASE_NUMBERS * size];
-        for (buffer, length) in [&mut room.epsilons, &mut room.cases].into_iter().zip(lengths) {
+        for (buffer, length) in [&mut room.epsilons, &mut room.cases]
+            .into_iter()
+            .zip(lengths)
+        {
             buffer.fit(length)?;
             input.read_exact(buffer.bytes())?;
             buffer.make_read_only()?;
         }
-        Ok(Some(HostBatch { test, size, count, with_margins }))
+        Ok(Some(HostBatch {
+            test,
+            size,
+            count,
+            with_margins,
+        }))
     }
 
     /// Makes room for its verdicts. No verdict has a hit of -1: what stays so was not answered.
     fn make_room(&self, room: &mut Room) -> io::Result<()> {
-        let record = if self.size == 4 { verdict_bytes::<f32>() } else { verdict_bytes::<f64>() };
+        let record = if self.size == 4 {
+            verdict_bytes::<f32>()
+        } else {
+            verdict_bytes::<f64>()
+        };
         room.verdicts.fit(self.count * record)?;
         room.verdicts.bytes().fill(0xff);
         Ok(())
@@ -293,14 +341,22 @@ impl HostBatch {
     /// epsilons, becomes the case's verdict, which this program's parent refuses; none if it wrote before its
     /// output.
     fn margins<F: Float>(&self, room: &mut Room) -> io::Result<Option<Vec<u8>>> {
-        let open: Vec<F> =
-            room.epsilons.as_bytes().chunks_exact(size_of::<F>()).map(float).collect();
+        let open: Vec<F> = room
+            .epsilons
+            .as_bytes()
+            .chunks_exact(size_of::<F>())
+            .map(float)
+            .collect();
         room.one_epsilons.fit(size_of_val(&open[..]))?;
         room.one_verdict.fit(verdict_bytes::<F>())?;
         let (cases, verdicts) = (&room.cases, &mut room.verdicts);
         let one = RefCell::new([&mut room.one_epsilons, &mut room.one_verdict]);
         let mut bytes = Vec::with_capacity(self.count * size_of_val(&open[..]));
-        for (i, verdict) in verdicts.bytes().chunks_exact_mut(verdict_bytes::<F>()).enumerate() {
+        for (i, verdict) in verdicts
+            .bytes()
+            .chunks_exact_mut(verdict_bytes::<F>())
+            .enumerate()
+        {
             let is_wrong = Cell::new(false);
             let is_hit = |epsilons: &[F]| {
                 let hit = self.ask_one(i, cases, epsilons, &mut one.borrow_mut());
@@ -312,7 +368,9 @@ impl HostBatch {
             if is_wrong.get() {
                 verdict[..4].copy_from_slice(&WRONG);
             }
-            margins.into_iter().for_each(|margin| push(&mut bytes, margin));
+            margins
+                .into_iter()
+                .for_each(|margin| push(&mut bytes, margin));
         }
         Ok(room.one_verdict.is_untouched_before().then_some(bytes))
     }
@@ -327,7 +385,9 @@ impl HostBatch {
         [room, verdict]: &mut [&mut Buffer; 2],
     ) -> [u8; 4] {
         let mut bytes = Vec::with_capacity(size_of_val(epsilons));
-        epsilons.iter().for_each(|epsilon| push(&mut bytes, *epsilon));
+        epsilons
+            .iter()
+            .for_each(|epsilon| push(&mut bytes, *epsilon));
         room.bytes().copy_from_slice(&bytes);
         verdict.bytes().fill(0xff);
         // SAFETY: the i-th case is one of the batch, and all pointers are as include/hairline.h promises.
@@ -350,7 +410,10 @@ const HIT: [u8; 4] = 1i32.to_ne_bytes();
 /// No core files, and no life without the program that started this one: a kernel that hangs does not
 /// see its input end.
 fn limit_damage() {
-    let none = libc::rlimit { rlim_cur: 0, rlim_max: 0 };
+    let none = libc::rlimit {
+        rlim_cur: 0,
+        rlim_max: 0,
+    };
     // SAFETY: a plain system call on this process.
     unsafe { libc::setrlimit(libc::RLIMIT_CORE, &none) };
     let parent = parent_id();

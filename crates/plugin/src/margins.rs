@@ -21,7 +21,9 @@ impl MarginFailures {
     /// Adds one.
     pub fn add<F: Float>(&mut self, failure: Failure, case: &Case<F>) {
         self.count += 1;
-        let first = self.first.get_or_insert_with(|| format!("{failure} on {}", case.hex()));
+        let first = self
+            .first
+            .get_or_insert_with(|| format!("{failure} on {}", case.hex()));
         if MOST_MARGIN_FAILURES < self.count {
             self.gave_up = Some(format!(
                 "it fails at some epsilons, from the smallest to the largest number, on more than \

@@ -33,7 +33,10 @@ struct OffsetState {
 impl OffsetCommand {
     /// The command of a program, which is not started yet.
     pub fn new(program: KernelProgram) -> OffsetCommand {
-        OffsetCommand { program, state: Arc::default() }
+        OffsetCommand {
+            program,
+            state: Arc::default(),
+        }
     }
 
     /// Starts one process, so that what cannot be started shows before the run.
@@ -59,7 +62,9 @@ impl OffsetCommand {
     }
 
     fn ask<F: Float>(&self, hits: &[HitPoint<F>]) -> Result<Vec<Start<F>>, String> {
-        let mut running = self.running().map_err(|e| format!("it cannot be started: {e}"))?;
+        let mut running = self
+            .running()
+            .map_err(|e| format!("it cannot be started: {e}"))?;
         let mut lines: String = hits.iter().map(hit_line).collect();
         lines += &end_line(hits.len() as u64);
         running.send(lines.into_bytes());
@@ -69,7 +74,11 @@ impl OffsetCommand {
         }
         let (last, expected) = (line(&mut running)?, end_line(hits.len() as u64));
         if last.trim_end() != expected.trim_end() {
-            return Err(format!("expected '{}', found '{}'", expected.trim_end(), shown(&last)));
+            return Err(format!(
+                "expected '{}', found '{}'",
+                expected.trim_end(),
+                shown(&last)
+            ));
         }
         self.state().idle.push(running);
         Ok(starts)
@@ -93,7 +102,12 @@ fn hit_line<F: Float>(hit: &HitPoint<F>) -> String {
     let [_, u, v] = hit.weights.unwrap_or([nan; 3]);
     let mut line = format!("hit {}", F::NAME);
     let vectors = [hit.point, hit.normal, a, b, c];
-    for value in vectors.as_flattened().iter().chain(&[u, v, hit.t]).chain(&hit.direction) {
+    for value in vectors
+        .as_flattened()
+        .iter()
+        .chain(&[u, v, hit.t])
+        .chain(&hit.direction)
+    {
         let _ = write!(line, " {}", number(*value));
     }
     line.push('\n');
@@ -106,7 +120,10 @@ fn start_of<F: Float>(line: &str) -> Result<Start<F>, String> {
     let numbers: Option<Vec<F>> = line.split_ascii_whitespace().map(number).collect();
     match numbers.as_deref() {
         Some(&[x, y, z]) => Ok(Start::at([x, y, z])),
-        Some(&[x, y, z, t_min]) => Ok(Start { origin: [x, y, z], t_min }),
+        Some(&[x, y, z, t_min]) => Ok(Start {
+            origin: [x, y, z],
+            t_min,
+        }),
         _ => Err(format!(
             "expected finite numbers 'X Y Z' or 'X Y Z T_MIN' for each hit, found '{}'",
             shown(line)

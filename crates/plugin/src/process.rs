@@ -136,7 +136,9 @@ impl Process {
     fn has_changed_to(&self, floats: FloatEnvironment) -> Result<(), Lost> {
         let note = format!("its process computes with {floats}, set by the kernel while it ran");
         if self.limits.require_ieee && !floats.is_default() {
-            return Err(Lost::Garbled(format!("{note}, which --require-ieee refuses")));
+            return Err(Lost::Garbled(format!(
+                "{note}, which --require-ieee refuses"
+            )));
         }
         self.note(note);
         Ok(())
@@ -197,7 +199,10 @@ impl Process {
             ));
         }
         let first = state.first.get_or_insert_with(|| {
-            format!("{failure} on '{}', as `hairline explain` takes it", bare_case(*case))
+            format!(
+                "{failure} on '{}', as `hairline explain` takes it",
+                bare_case(*case)
+            )
         });
         let first = first.clone();
         if failure == Failure::Timeout && state.timeouts >= patience {
@@ -268,10 +273,11 @@ impl<F: Float> Subject<F> for Process {
         if has_given_up {
             return None;
         }
-        self.try_run(cases, epsilons, verdicts).unwrap_or_else(|message| {
-            self.state().gave_up.get_or_insert(message);
-            None
-        })
+        self.try_run(cases, epsilons, verdicts)
+            .unwrap_or_else(|message| {
+                self.state().gave_up.get_or_insert(message);
+                None
+            })
     }
 
     fn tells_margins(&self) -> bool {
@@ -294,7 +300,9 @@ impl<F: Float> Subject<F> for Process {
             };
             let failed = |failure, case: &Case<F>| self.state().margins.add(failure, case);
             let margins = margins.chunks_mut(MARGINS_AT_ONCE * width);
-            let parts = cases.chunks(MARGINS_AT_ONCE).zip(verdicts.chunks_mut(MARGINS_AT_ONCE));
+            let parts = cases
+                .chunks(MARGINS_AT_ONCE)
+                .zip(verdicts.chunks_mut(MARGINS_AT_ONCE));
             for ((cases, verdicts), margins) in parts.zip(margins) {
                 if self.state().asks_no_margins() {
                     margins.fill(F::from_f64(f64::NAN));

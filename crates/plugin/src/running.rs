@@ -27,7 +27,11 @@ pub struct KernelProgram {
 impl KernelProgram {
     /// This program as the host of a library: its words, the program first.
     pub fn host(words: Vec<String>) -> KernelProgram {
-        KernelProgram { words, is_host: true, said: StderrLines::default() }
+        KernelProgram {
+            words,
+            is_host: true,
+            said: StderrLines::default(),
+        }
     }
 
     /// From a line, split as a shell splits it. No shell runs it: variables, pipes and && need
@@ -38,7 +42,11 @@ impl KernelProgram {
         if words.is_empty() {
             Err("it is empty".to_owned())
         } else {
-            Ok(KernelProgram { words, is_host: false, said: StderrLines::default() })
+            Ok(KernelProgram {
+                words,
+                is_host: false,
+                said: StderrLines::default(),
+            })
         }
     }
 
@@ -56,7 +64,14 @@ impl KernelProgram {
         };
         let (inbox, spare) = (Inbox::default(), Vec::new());
         let words = child.stderr.take().map(|stderr| self.said.pass_on(stderr));
-        Ok(Running { child, link: Some(link), silence, inbox, spare, words })
+        Ok(Running {
+            child,
+            link: Some(link),
+            silence,
+            inbox,
+            spare,
+            words,
+        })
     }
 }
 
@@ -67,7 +82,10 @@ fn socket(mut command: Command, silence: Duration) -> io::Result<(Child, Link)> 
     set_timeouts(&ours, silence)?;
     let ends = [its.try_clone()?, its].map(|end| Stdio::from(std::os::fd::OwnedFd::from(end)));
     let [input, output] = ends;
-    Ok((command.stdin(input).stdout(output).spawn()?, Link::Socket(ours)))
+    Ok((
+        command.stdin(input).stdout(output).spawn()?,
+        Link::Socket(ours),
+    ))
 }
 
 #[cfg(unix)]
@@ -78,7 +96,10 @@ fn set_timeouts(socket: &UnixStream, silence: Duration) -> io::Result<()> {
 
 /// Starts a process with a pipe each way.
 fn pipes(mut command: Command) -> io::Result<(Child, Link)> {
-    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
+    let mut child = command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()?;
     let (input, output) = (child.stdin.take(), child.stdout.take());
     let (to, outgoing) = channel::<Vec<u8>>();
     let (arrived, from) = sync_channel::<Vec<u8>>(16);
@@ -87,7 +108,11 @@ fn pipes(mut command: Command) -> io::Result<(Child, Link)> {
     // Both end when the process does, or when this side is dropped; nobody waits for them.
     thread::spawn(move || {
         while let Ok(bytes) = outgoing.recv() {
-            if input.write_all(&bytes).and_then(|()| input.flush()).is_err() {
+            if input
+                .write_all(&bytes)
+                .and_then(|()| input.flush())
+                .is_err()
+            {
                 break;
             }
         }
@@ -214,7 +239,9 @@ impl Running {
             #[cfg(unix)]
             Some(Link::Socket(socket)) => {
                 // An answer that is asked for comes later, so nothing more than one read is needed.
-                let _ = socket.set_nonblocking(true).and_then(|()| self.inbox.read(socket));
+                let _ = socket
+                    .set_nonblocking(true)
+                    .and_then(|()| self.inbox.read(socket));
                 let _ = socket.set_nonblocking(false);
             }
             None => {}
@@ -246,7 +273,8 @@ impl Running {
     /// How a process ended whose output is closed.
     fn end(&mut self) -> Failure {
         self.link = None;
-        self.status(Instant::now()).map_or(Failure::Timeout, failure_of)
+        self.status(Instant::now())
+            .map_or(Failure::Timeout, failure_of)
     }
 
     /// How it ended, if it does in its last words' time from the start.
@@ -277,7 +305,10 @@ impl Drop for Running {
         let _ = self.child.kill();
         let _ = self.child.wait();
         // A process that left the group may hold the other end.
-        let _ = self.words.take().map(|words| words.recv_timeout(LAST_WORDS));
+        let _ = self
+            .words
+            .take()
+            .map(|words| words.recv_timeout(LAST_WORDS));
     }
 }
 

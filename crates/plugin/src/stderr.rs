@@ -23,7 +23,11 @@ pub(super) struct StderrLines(Arc<Mutex<HashSet<Vec<u8>>>>);
 impl StderrLines {
     /// True if there were some.
     pub fn are_some(&self) -> bool {
-        !self.0.lock().unwrap_or_else(PoisonError::into_inner).is_empty()
+        !self
+            .0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .is_empty()
     }
 
     /// True if some lines were left out.

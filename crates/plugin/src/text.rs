@@ -64,12 +64,17 @@ pub(super) fn answer<F: Float>(line: &str) -> Result<AnswerLine<'_, F>, String> 
         )
     };
     let mut words = line.split_ascii_whitespace();
-    let (first, second) = (words.next().ok_or_else(shape)?, words.next().ok_or_else(shape)?);
+    let (first, second) = (
+        words.next().ok_or_else(shape)?,
+        words.next().ok_or_else(shape)?,
+    );
     let verdict = match (first, second) {
         ("end", cases) => {
             let cases = cases.parse().map_err(|_| shape())?;
             let took = words.next().map(|word| {
-                let time = word.strip_prefix("took=").and_then(|time| time.parse().ok());
+                let time = word
+                    .strip_prefix("took=")
+                    .and_then(|time| time.parse().ok());
                 time.ok_or_else(shape)
             });
             let took = took.transpose()?;
@@ -80,11 +85,16 @@ pub(super) fn answer<F: Float>(line: &str) -> Result<AnswerLine<'_, F>, String> 
             };
         }
         (_, "miss") => Verdict::miss(None),
-        (_, "hit") => Verdict { hit: true, ..Verdict::miss(None) },
+        (_, "hit") => Verdict {
+            hit: true,
+            ..Verdict::miss(None)
+        },
         _ => return Err(shape()),
     };
     words
-        .try_fold(verdict, |verdict, word| with_value(verdict, word, line)?.ok_or_else(shape))
+        .try_fold(verdict, |verdict, word| {
+            with_value(verdict, word, line)?.ok_or_else(shape)
+        })
         .map(|verdict| AnswerLine::Verdict(first, verdict))
 }
 
@@ -94,7 +104,9 @@ fn with_value<F: Float>(
     word: &str,
     line: &str,
 ) -> Result<Option<Verdict<F>>, String> {
-    let Some((key, text)) = word.split_once('=').filter(|_| verdict.hit) else { return Ok(None) };
+    let Some((key, text)) = word.split_once('=').filter(|_| verdict.hit) else {
+        return Ok(None);
+    };
     let own = match (key, text) {
         ("facing", "front" | "back" | "unknown") => {
             verdict.facing = match text {
@@ -128,7 +140,11 @@ mod tests {
         let case = Case::<f32>::new(
             [0.1, -0.0, f32::NAN],
             [0.0, 0.0, -1.0],
-            [[1e-45, 3e38, 0.5], [4.0, 0.0, f32::NEG_INFINITY], [0.0, 4.0, 0.0]],
+            [
+                [1e-45, 3e38, 0.5],
+                [4.0, 0.0, f32::NEG_INFINITY],
+                [0.0, 4.0, 0.0],
+            ],
         );
         assert_eq!(
             case_line("fan@1/f32/-/1/5.2", &case),
@@ -148,19 +164,36 @@ mod tests {
     #[test]
     fn verdicts_are_read_in_any_order_of_their_values() {
         let (id, read) = verdict("17 hit facing=back v=0x1p-2 t=1e300 u=NaN ").unwrap();
-        assert_eq!((id.as_str(), read.hit, read.facing), ("17", true, Some(Facing::Back)));
+        assert_eq!(
+            (id.as_str(), read.hit, read.facing),
+            ("17", true, Some(Facing::Back))
+        );
         assert_eq!((read.t, read.v), (f32::INFINITY, 0.25));
         assert!(read.u.is_nan());
         let (_, read) = verdict("a hit t=-Infinity").unwrap();
         assert!(read.t == f32::NEG_INFINITY && read.u.is_nan() && read.facing.is_none());
         let (id, read) = verdict("fan@1/f32/-/1/5.2 miss\r").unwrap();
         assert_eq!((id.as_str(), read.hit), ("fan@1/f32/-/1/5.2", false));
-        assert_eq!(answer::<f64>("end 12"), Ok(AnswerLine::End { cases: 12, took: None }));
+        assert_eq!(
+            answer::<f64>("end 12"),
+            Ok(AnswerLine::End {
+                cases: 12,
+                took: None
+            })
+        );
         assert_eq!(
             answer::<f64>("end 12 took=5"),
-            Ok(AnswerLine::End { cases: 12, took: Some(5) })
+            Ok(AnswerLine::End {
+                cases: 12,
+                took: Some(5)
+            })
         );
-        for line in ["end 12 5", "end 12 took=", "end 12 took=-1", "end 12 took=5 6"] {
+        for line in [
+            "end 12 5",
+            "end 12 took=",
+            "end 12 took=-1",
+            "end 12 took=5 6",
+        ] {
             assert!(answer::<f64>(line).is_err(), "{line}");
         }
     }
@@ -187,7 +220,10 @@ mod tests {
         for (line, expected) in [
             ("17 hit t=", "t= in '17 hit t=': '' is not a number"),
             ("17 hit u=x", "u=x in '17 hit u=x': 'x' is not a number"),
-            ("17 hit t=1e400", "t=1e400 in '17 hit t=1e400': '1e400' overflows f64"),
+            (
+                "17 hit t=1e400",
+                "t=1e400 in '17 hit t=1e400': '1e400' overflows f64",
+            ),
             ("17 hit t=1 t=2", "it gives t twice in '17 hit t=1 t=2'"),
         ] {
             let error = verdict(line).unwrap_err();

@@ -33,7 +33,12 @@ impl Turns {
     /// Those of a kernel that wants so many processes at most, each of which takes so long to start.
     pub fn new(most: u32, start: Duration) -> Turns {
         let worth = WORK_A_START * start.max(Duration::from_millis(1));
-        Turns { most, worth, state: Mutex::default(), ended: Condvar::new() }
+        Turns {
+            most,
+            worth,
+            state: Mutex::default(),
+            ended: Condvar::new(),
+        }
     }
 
     /// Waits for a turn.
@@ -52,7 +57,10 @@ impl Turns {
     /// The number of turns that there are.
     fn number(&self, state: &TurnsState) -> u32 {
         let more = state.worked.as_nanos() / self.worth.as_nanos();
-        u32::try_from(more).unwrap_or(u32::MAX).saturating_add(1).min(self.most)
+        u32::try_from(more)
+            .unwrap_or(u32::MAX)
+            .saturating_add(1)
+            .min(self.most)
     }
 
     fn state(&self) -> MutexGuard<'_, TurnsState> {

@@ -46,7 +46,11 @@ fn bound_of_sum(formula: &Formula, maximum: &Maximum) -> Bound {
     let Bound { size, computed, .. } = formula.bounds[formula.bounds.len() - 1];
     let size = size.round_up(SIZE_DIGITS);
     let error = round_up(&maximum.error(), DIGITS);
-    Bound { size, computed: computed.min(size.plus_up(error)), error }
+    Bound {
+        size,
+        computed: computed.min(size.plus_up(error)),
+        error,
+    }
 }
 
 /// A number made of quotients by one divisor.
@@ -109,7 +113,14 @@ impl<'a> Prover<'a> {
     /// Nothing is proved yet.
     pub fn new(path: &'a Path, domain: Domain, format: Format) -> Prover<'a> {
         let (bounds, samples) = (HashMap::new(), OnceCell::new());
-        Prover { path, domain, format, bounds, samples, lemmas: Vec::new() }
+        Prover {
+            path,
+            domain,
+            format,
+            bounds,
+            samples,
+            lemmas: Vec::new(),
+        }
     }
 
     pub(super) fn samples(&self) -> &Samples<'a> {
@@ -137,9 +148,16 @@ impl<'a> Prover<'a> {
         let (rule, formula, maximum, bound);
         if let Some((vector, length)) = self.unit(place) {
             let floor = self.floor(length);
-            rule = Rule::Unit { vector, length, floor };
-            (formula, maximum, bound) =
-                (Formula::default(), Maximum::default(), self.bound_of_unit(vector, floor.size())?);
+            rule = Rule::Unit {
+                vector,
+                length,
+                floor,
+            };
+            (formula, maximum, bound) = (
+                Formula::default(),
+                Maximum::default(),
+                self.bound_of_unit(vector, floor.size())?,
+            );
         } else if let Some((numerator, divisor, twice)) = self.quotient(place) {
             let floor = self.floor(divisor);
             // A reciprocal is known by its divisor.
@@ -149,13 +167,27 @@ impl<'a> Prover<'a> {
             let limits = (floor, most, below);
             (formula, maximum, bound) = self.divide(numerator, divisor, twice, limits)?;
             let most = most.unwrap_or(Limit::Own(bound.size));
-            rule = Rule::Quotient { ratio: Ratio::One, twice, divisor, floor, most, below };
+            rule = Rule::Quotient {
+                ratio: Ratio::One,
+                twice,
+                divisor,
+                floor,
+                most,
+                below,
+            };
         } else if let Some(both) = self.quotients(place) {
             let (ratio, divisor, twice) = (both.ratio, both.divisor, both.twice);
             let (floor, most, below) = (self.floor(divisor), self.most(place), self.below(place));
             (formula, maximum, bound) = self.divide_both(place, (floor, most, below))?;
             let most = most.unwrap_or(Limit::Own(bound.size));
-            rule = Rule::Quotient { ratio, twice, divisor, floor, most, below };
+            rule = Rule::Quotient {
+                ratio,
+                twice,
+                divisor,
+                floor,
+                most,
+                below,
+            };
         } else if let Operation::Sqrt(_) = self.operation(place) {
             return Err("its root is used otherwise than to divide a vector by its length".into());
         } else {
@@ -163,10 +195,19 @@ impl<'a> Prover<'a> {
             (formula, maximum) = self.formula(place)?;
             bound = bound_of_sum(&formula, &maximum);
         }
-        if [bound.error, bound.size, bound.computed].iter().any(|x| !x.is_number()) {
+        if [bound.error, bound.size, bound.computed]
+            .iter()
+            .any(|x| !x.is_number())
+        {
             return Err("its bound needs more digits than there are".to_owned());
         }
-        self.lemmas.push(Lemma { place, rule, formula, maximum, bound: bound.clone() });
+        self.lemmas.push(Lemma {
+            place,
+            rule,
+            formula,
+            maximum,
+            bound: bound.clone(),
+        });
         Ok(bound)
     }
 
@@ -181,7 +222,9 @@ impl<'a> Prover<'a> {
 
     /// True if a number is the coordinate of the direction that is largest in size.
     pub(super) fn is_largest_of_direction(&self, place: Place) -> bool {
-        let Operation::Input(i @ 3..=5) = self.operation(place) else { return false };
+        let Operation::Input(i @ 3..=5) = self.operation(place) else {
+            return false;
+        };
         (3..=5).all(|other| is_at_most(self.path, other, i))
     }
 
@@ -210,7 +253,9 @@ impl<'a> Prover<'a> {
             Rule::Sum => {}
             Rule::Unit { vector, .. } => needs.extend(vector),
             Rule::Quotient { divisor, .. } => {
-                let numerator = self.quotient(lemma.place).and_then(|(numerator, ..)| numerator);
+                let numerator = self
+                    .quotient(lemma.place)
+                    .and_then(|(numerator, ..)| numerator);
                 needs.extend(numerator);
                 if let Some(both) = self.quotients(lemma.place) {
                     needs.extend(both.parts.into_iter().chain(both.rest));
@@ -218,7 +263,10 @@ impl<'a> Prover<'a> {
                 needs.push(divisor);
             }
         }
-        needs.into_iter().map(|place| unsigned(self.path, place)).collect()
+        needs
+            .into_iter()
+            .map(|place| unsigned(self.path, place))
+            .collect()
     }
 
     /// The pairs of inputs that what a number is made of divides, or compares to find the direction's largest
@@ -228,7 +276,9 @@ impl<'a> Prover<'a> {
         let places = parts(&self.path.operations, place);
         let mut orders = BTreeSet::new();
         for (numerator, divisor, _) in places.filter_map(|place| self.quotient(place)) {
-            let Operation::Input(d) = self.operation(divisor) else { continue };
+            let Operation::Input(d) = self.operation(divisor) else {
+                continue;
+            };
             if let Some(Operation::Input(n)) = numerator.map(|n| self.operation(n)) {
                 orders.insert((n, d));
             }

@@ -28,7 +28,10 @@ impl Prover<'_> {
         let is_boxed = size.1.is_some() && edge == reach;
         let boxed = is_boxed.then(|| self.formula_of_fraction(true, numerators, divisor, size));
         let boxed = boxed.and_then(Result::ok);
-        boxed.map_or_else(|| self.formula_of_fraction(false, numerators, divisor, size), Ok)
+        boxed.map_or_else(
+            || self.formula_of_fraction(false, numerators, divisor, size),
+            Ok,
+        )
     }
 
     fn formula_of_fraction(
@@ -55,9 +58,15 @@ impl Prover<'_> {
         builder.formula.below = below.map(|below| (v, below));
         let product = builder.push(Step::Of(Operation::Mul(q, d)), None);
         builder.push(Step::Of(Operation::Sub(n, product)), None);
-        let of = if all.is_empty() { vec![n, d] } else { all.into_iter().chain([d]).collect() };
+        let of = if all.is_empty() {
+            vec![n, d]
+        } else {
+            all.into_iter().chain([d]).collect()
+        };
         let left_out = of.into_iter().map(|step| builder.leave_out(step)).collect();
-        builder.finish().map(|(formula, maximum)| (formula, maximum, left_out))
+        builder
+            .finish()
+            .map(|(formula, maximum)| (formula, maximum, left_out))
     }
 }
 
@@ -96,8 +105,19 @@ impl<'p, 'a> Builder<'p, 'a> {
 
     /// Leaves out the rounding of a step, or of the step that it is the negative of, if they are used once; whether it did.
     fn leave_out(&mut self, step: usize) -> bool {
-        let Formula { steps, given, rounds, .. } = &mut self.formula;
-        if steps.iter().flat_map(Step::operands).filter(|operand| *operand == step).count() != 1 {
+        let Formula {
+            steps,
+            given,
+            rounds,
+            ..
+        } = &mut self.formula;
+        if steps
+            .iter()
+            .flat_map(Step::operands)
+            .filter(|operand| *operand == step)
+            .count()
+            != 1
+        {
             return false;
         }
         if let Step::Of(Operation::Neg(inner)) = steps[step] {
@@ -118,12 +138,19 @@ impl<'p, 'a> Builder<'p, 'a> {
             _ => None,
         };
         // One arithmetic for all coordinates: a product by a reciprocal has an error of the length in common.
-        let lengths = sources.iter().filter_map(part).map(|(_, length, twice)| (length, twice));
-        let coordinates = sources.iter().filter_map(part).map(|(coordinate, ..)| coordinate);
+        let lengths = sources
+            .iter()
+            .filter_map(part)
+            .map(|(_, length, twice)| (length, twice));
+        let coordinates = sources
+            .iter()
+            .filter_map(part)
+            .map(|(coordinate, ..)| coordinate);
         let is_one = lengths.collect::<HashSet<(Place, bool)>>().len() == 1
             && coordinates.clone().collect::<HashSet<_>>().len() == coordinates.count();
-        self.formula.unit =
-            (0..sources.len()).filter(|v| matches!(sources[*v], Source::Part(_))).collect();
+        self.formula.unit = (0..sources.len())
+            .filter(|v| matches!(sources[*v], Source::Part(_)))
+            .collect();
         if !is_one || self.formula.linear_steps().is_none() {
             for v in std::mem::take(&mut self.formula.unit) {
                 if let Source::Part(place) = self.formula.sources[v] {
@@ -136,7 +163,14 @@ impl<'p, 'a> Builder<'p, 'a> {
     /// A step that does not round; it is given if something is known of it.
     fn push(&mut self, step: Step, given: Option<Bound>) -> usize {
         self.supports.push(step.support(&self.supports));
-        let Formula { steps, places, given: all_given, relative, rounds, .. } = &mut self.formula;
+        let Formula {
+            steps,
+            places,
+            given: all_given,
+            relative,
+            rounds,
+            ..
+        } = &mut self.formula;
         steps.push(step);
         places.push(None);
         all_given.push(given);
@@ -168,7 +202,11 @@ impl<'p, 'a> Builder<'p, 'a> {
     fn cut(&mut self, place: Place) -> Result<usize, String> {
         let bound = self.prover.bound(place)?;
         let is_part = self.prover.unit(place).is_some();
-        let source = if is_part { Source::Part(place) } else { Source::Cut(place) };
+        let source = if is_part {
+            Source::Part(place)
+        } else {
+            Source::Cut(place)
+        };
         let step = self.variable(source, bound);
         self.formula.places[step] = Some(place);
         Ok(step)
@@ -206,7 +244,11 @@ impl<'p, 'a> Builder<'p, 'a> {
         let format = self.prover.format;
         let given = if leaf.is_difference() {
             let computed = size.round_up(format.digits);
-            Bound { size, computed, error: format.half_ulp_of(&size.into()) }
+            Bound {
+                size,
+                computed,
+                error: format.half_ulp_of(&size.into()),
+            }
         } else {
             exactly(size)
         };
@@ -275,5 +317,9 @@ impl<'p, 'a> Builder<'p, 'a> {
 
 /// A number of this size without an error.
 fn exactly(size: Dyadic) -> Bound {
-    Bound { size, computed: size, error: Dyadic::ZERO }
+    Bound {
+        size,
+        computed: size,
+        error: Dyadic::ZERO,
+    }
 }

@@ -39,19 +39,36 @@ pub struct Claim<'a> {
 
 /// The symmetry that is claimed of a number of this gate.
 pub fn symmetry_at(gate: &Gate, path: &Path, place: Place) -> Symmetry {
-    if gate.role == Role::Edge { symmetry_of(path, place) } else { Symmetry::None }
+    if gate.role == Role::Edge {
+        symmetry_of(path, place)
+    } else {
+        Symmetry::None
+    }
 }
 
 /// The first lines: the kernel's name, its arithmetic included, `f32` or `f64`, and the format of the floats.
 pub fn heading(kernel: &str, scalar: &str, format: Format) -> String {
-    let Format { digits, smallest, largest } = format;
+    let Format {
+        digits,
+        smallest,
+        largest,
+    } = format;
     format!("hairline proof 3\nkernel {kernel} {scalar}\nformat {digits} {smallest} {largest}\n")
 }
 
 /// The domain of the programs that follow.
 pub fn domain(domain: &Domain) -> String {
-    let Domain { edge, reach, world, direction, extent, direction_floor, floor, quotient, .. } =
-        domain;
+    let Domain {
+        edge,
+        reach,
+        world,
+        direction,
+        extent,
+        direction_floor,
+        floor,
+        quotient,
+        ..
+    } = domain;
     format!(
         "domain edge {edge} reach {reach} world {world} direction {direction} extent {extent} \
          direction-floor {direction_floor} floor {floor} quotient {quotient}\n"
@@ -138,7 +155,13 @@ impl Writer<'_> {
         let of_lemma = |lemma: &Lemma| match lemma.rule {
             Rule::Sum => [None, None, None],
             Rule::Unit { length, floor, .. } => [line("at-least", length, floor), None, None],
-            Rule::Quotient { divisor, floor, most, below, .. } => [
+            Rule::Quotient {
+                divisor,
+                floor,
+                most,
+                below,
+                ..
+            } => [
                 line("at-least", divisor, floor),
                 line("at-most", lemma.place, most),
                 below.map(|x| down_to(lemma.place, x)),
@@ -163,8 +186,12 @@ impl Writer<'_> {
         let mut text = format!("lemma {} {rule}\n", self.at(lemma.place));
         text.push_str(&self.formula(&lemma.formula, &lemma.maximum));
         let bound = &lemma.bound;
-        writeln!(text, "size {}\ncomputed {}\nerror {}", bound.size, bound.computed, bound.error)
-            .expect("a string");
+        writeln!(
+            text,
+            "size {}\ncomputed {}\nerror {}",
+            bound.size, bound.computed, bound.error
+        )
+        .expect("a string");
         text
     }
 
@@ -192,7 +219,10 @@ impl Writer<'_> {
             writeln!(text, "relative {}", relative.join(" ")).expect("a string");
         }
         if !formula.steps.is_empty() {
-            let corner = maximum.corner.iter().map(|minus| if *minus { '-' } else { '+' });
+            let corner = maximum
+                .corner
+                .iter()
+                .map(|minus| if *minus { '-' } else { '+' });
             writeln!(text, "corner {}", corner.collect::<String>()).expect("a string");
             writeln!(text, "first {}", maximum.first).expect("a string");
             writeln!(text, "rest {}", maximum.rest).expect("a string");
@@ -206,7 +236,10 @@ impl Writer<'_> {
             Step::Variables(ref sum) => {
                 let term =
                     |(v, sign): &(usize, i8)| format!("{}{v}", if *sign < 0 { '-' } else { '+' });
-                format!("variables {}", sum.iter().map(term).collect::<Vec<_>>().join(" "))
+                format!(
+                    "variables {}",
+                    sum.iter().map(term).collect::<Vec<_>>().join(" ")
+                )
             }
             Step::Of(ref operation) => operation_text(operation),
         };

@@ -40,12 +40,19 @@ impl<F: Searched> Search<'_, F> {
             left -= 1;
             // Starts again where nothing better came for long; sometimes from a known case.
             if current.is_none() || stale > patience {
-                let starts = if self.domain.measures.is_some() { left.min(STARTS) } else { 0 };
+                let starts = if self.domain.measures.is_some() {
+                    left.min(STARTS)
+                } else {
+                    0
+                };
                 left -= starts;
                 let started = (0..=starts).filter_map(|_| {
                     let is_known = !known.is_empty() && draw.below(4) == 0;
-                    let mut inputs =
-                        if is_known { draw.pick(known) } else { self.start(goal, draw) };
+                    let mut inputs = if is_known {
+                        draw.pick(known)
+                    } else {
+                        self.start(goal, draw)
+                    };
                     // A known one of this scalar is where it should be; one of the other scalar is not.
                     if let Some(judge) = self.judge
                         && !(is_known && draw.coin())
@@ -53,7 +60,8 @@ impl<F: Searched> Search<'_, F> {
                         judge.move_to_boundary(&mut inputs, draw);
                         inputs[15..].copy_from_slice(&self.domain.interval());
                     }
-                    self.score(&inputs, goal, &mut near).map(|score| (inputs, score))
+                    self.score(&inputs, goal, &mut near)
+                        .map(|score| (inputs, score))
                 });
                 current = started.max_by(|(_, a), (_, b)| a.total_cmp(b));
                 if let Some((inputs, score)) = &mut current
@@ -66,12 +74,17 @@ impl<F: Searched> Search<'_, F> {
                     *score = self.score(inputs, goal, &mut near).unwrap_or(*score);
                 }
                 let started = current.filter(|_| self.judge.is_none());
-                best = best.into_iter().chain(started).max_by(|(_, a), (_, b)| a.total_cmp(b));
+                best = best
+                    .into_iter()
+                    .chain(started)
+                    .max_by(|(_, a), (_, b)| a.total_cmp(b));
                 stale = 0;
                 highest = current.map_or(f64::INFINITY, |(_, score)| score);
                 continue;
             }
-            let Some((inputs, score)) = current else { continue };
+            let Some((inputs, score)) = current else {
+                continue;
+            };
             let mut tried = inputs;
             for _ in 0..1 + draw.below(3) {
                 self.change(&mut tried, draw);
@@ -86,9 +99,15 @@ impl<F: Searched> Search<'_, F> {
                 judge.move_to_boundary(&mut tried, draw);
             }
             stale += 1;
-            let Some(found) = self.score(&tried, goal, &mut near) else { continue };
+            let Some(found) = self.score(&tried, goal, &mut near) else {
+                continue;
+            };
             // A little worse is allowed now and then.
-            let slack = if draw.below(64) == 0 { 0.02 * score.abs() } else { 0.0 };
+            let slack = if draw.below(64) == 0 {
+                0.02 * score.abs()
+            } else {
+                0.0
+            };
             if found >= score - slack {
                 if found > score && self.judge.is_none() {
                     stale = stale.min(STALE / 2);
@@ -236,7 +255,12 @@ mod tests {
     /// Each rounded number is moved by a hair, and the program run again from there.
     #[test]
     fn an_amplitude_is_the_sum_of_what_each_half_ulp_does() {
-        for name in ["moller-trumbore", "plane-unit-normal", "woop-watertight", "cramer+fma"] {
+        for name in [
+            "moller-trumbore",
+            "plane-unit-normal",
+            "woop-watertight",
+            "cramer+fma",
+        ] {
             let entry = kernel::find(name).unwrap();
             let paths = paths_of::<f64>(entry).unwrap();
             let proof = Proof::new(paths, None, Domain::UNIT, format_of::<f64>());
@@ -246,7 +270,12 @@ mod tests {
                 let mut draw = Draw::new("amplitude", 1, 0);
                 for _ in 0..5 {
                     let inputs = search.start(Goal::Error, &mut draw);
-                    run(&search.operations, search.last(), &inputs, &mut search.computed);
+                    run(
+                        &search.operations,
+                        search.last(),
+                        &inputs,
+                        &mut search.computed,
+                    );
                     let expected = by_differences(&search, &inputs);
                     let found = search.amplitude();
                     let apart = (found - expected).abs();

@@ -34,7 +34,9 @@ impl Formula {
     pub fn maximum(&mut self, format: Format) -> Result<Maximum, String> {
         let count = self.variables.len();
         if count > MOST_VARIABLES {
-            return Err(format!("its formula has more than {MOST_VARIABLES} variables"));
+            return Err(format!(
+                "its formula has more than {MOST_VARIABLES} variables"
+            ));
         }
         let tried = self.signs_to_try().count_ones();
         if tried > MOST_SIGNS {
@@ -56,7 +58,11 @@ impl Formula {
         let corner = (0..count).map(|v| at >> v & 1 == 1).collect();
         let rest = self.higher_order(format, None).0;
         if first.is_number() && rest.is_number() {
-            Ok(Maximum { first, rest, corner })
+            Ok(Maximum {
+                first,
+                rest,
+                corner,
+            })
         } else {
             Err(too_long())
         }
@@ -66,7 +72,11 @@ impl Formula {
     fn first_in_box(&mut self, format: Format, may_choose: bool) -> (Dyadic, u64) {
         let mut walk = Walk::new(self);
         let rounds: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
-        let choices = if may_choose && 1 < rounds.len() { rounds } else { vec![] };
+        let choices = if may_choose && 1 < rounds.len() {
+            rounds
+        } else {
+            vec![]
+        };
         // By corner, what the steps that round contribute either way; and what the others contribute.
         let mut effects: Vec<Vec<[Dyadic; 2]>> = Vec::new();
         let mut others = Vec::new();
@@ -76,7 +86,10 @@ impl Formula {
             walk.differentiate();
             let effect = |i: usize| {
                 let slope = walk.slopes[i].abs();
-                [slope * self.bounds[i].error, slope * walk.values[i].abs() * format.unit()]
+                [
+                    slope * self.bounds[i].error,
+                    slope * walk.values[i].abs() * format.unit(),
+                ]
             };
             effects.push(choices.iter().map(|i| effect(*i)).collect());
             let is_other = |i: &usize| choices.is_empty() || !self.rounds[*i];
@@ -91,14 +104,18 @@ impl Formula {
         let largest = |chosen: &[usize]| {
             let sums = (0..corners.len()).map(|at| (sum(at, chosen), at));
             // The first corner of the largest sum.
-            sums.reduce(|a, b| if a.0 < b.0 { b } else { a }).expect("one corner")
+            sums.reduce(|a, b| if a.0 < b.0 { b } else { a })
+                .expect("one corner")
         };
         let (mut first, mut at) = largest(&chosen);
         for k in (0..choices.len()).rev() {
             chosen[k] = 1;
             // Where that is no less at the corner that counts, it is no less.
             let tried = Some(&chosen).filter(|chosen| sum(at, chosen) < first);
-            match tried.map(|chosen| largest(chosen)).filter(|tried| tried.0 < first) {
+            match tried
+                .map(|chosen| largest(chosen))
+                .filter(|tried| tried.0 < first)
+            {
                 Some(less) => {
                     (first, at) = less;
                     self.relative[choices[k]] = true;
@@ -120,8 +137,11 @@ impl Formula {
                 let effect = |(axis, pairs): (usize, &Vec<(Dyadic, Dyadic)>)| {
                     let (value, slope) = pairs[i];
                     let is_counted = !linear[i] || axis == 0;
-                    let by_size =
-                        if is_counted { slope * self.bounds[i].error } else { Dyadic::ZERO };
+                    let by_size = if is_counted {
+                        slope * self.bounds[i].error
+                    } else {
+                        Dyadic::ZERO
+                    };
                     [by_size, slope * value * format.unit()].map(|x| x.to_f64().powi(2))
                 };
                 let squares = at_axes.iter().enumerate().map(effect);
@@ -198,7 +218,10 @@ impl Formula {
     pub(super) fn signs_to_try(&self) -> u64 {
         let unit = self.unit.iter().fold(0u64, |bits, v| bits | 1 << v);
         let mut signs: Vec<Option<u64>> = Vec::with_capacity(self.steps.len());
-        let mut equations = Equations { unit, by_lowest: [0; 64] };
+        let mut equations = Equations {
+            unit,
+            by_lowest: [0; 64],
+        };
         // Its two ends are no mirror images.
         let fixed = self.below.map_or(0, |(v, _)| 1 << v);
         for step in &self.steps {
@@ -252,11 +275,19 @@ impl Formula {
                 }
             }
             for (i, size) in sizes.iter_mut().enumerate() {
-                *size = (*size).max(if linear[i] { squares[i] } else { walk.values[i].abs() });
+                *size = (*size).max(if linear[i] {
+                    squares[i]
+                } else {
+                    walk.values[i].abs()
+                });
             }
         }
         let root = |(size, linear): (Dyadic, bool)| {
-            if linear && size.is_number() { root_up(&Big::from(size), SIZE_DIGITS) } else { size }
+            if linear && size.is_number() {
+                root_up(&Big::from(size), SIZE_DIGITS)
+            } else {
+                size
+            }
         };
         sizes.into_iter().zip(linear).map(root).collect()
     }
@@ -277,16 +308,40 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     fn new(formula: &Formula) -> Walk<'_> {
-        let terms = formula.steps.iter().map(|step| step.terms().collect()).collect();
+        let terms = formula
+            .steps
+            .iter()
+            .map(|step| step.terms().collect())
+            .collect();
         let zeros = vec![Dyadic::ZERO; formula.steps.len()];
         let (supports, values) = (formula.supports(), zeros.clone());
-        Walk { formula, terms, supports, values, slopes: zeros, at: None }
+        Walk {
+            formula,
+            terms,
+            supports,
+            values,
+            slopes: zeros,
+            at: None,
+        }
     }
 
     /// The values at a corner, the unit vector being an axis.
     fn evaluate(&mut self, corner: u64, axis: usize) {
-        let Walk { formula, terms, supports, values, at, .. } = self;
-        let Formula { steps, unit, variables, below, .. } = formula;
+        let Walk {
+            formula,
+            terms,
+            supports,
+            values,
+            at,
+            ..
+        } = self;
+        let Formula {
+            steps,
+            unit,
+            variables,
+            below,
+            ..
+        } = formula;
         let variable = |v: usize| {
             if unit.contains(&v) && unit[axis] != v {
                 return Dyadic::ZERO;
@@ -311,14 +366,23 @@ impl Walk<'_> {
                     total + negative_if(*sign < 0, variable(*v))
                 }),
                 Step::Of(Operation::Number(value)) => Dyadic::new((*value).into(), 0),
-                _ => terms[i].iter().map(term).reduce(|a, b| a + b).expect("a term"),
+                _ => terms[i]
+                    .iter()
+                    .map(term)
+                    .reduce(|a, b| a + b)
+                    .expect("a term"),
             };
         }
     }
 
     /// The derivatives at the corner of the values.
     fn differentiate(&mut self) {
-        let Walk { terms, values, slopes, .. } = self;
+        let Walk {
+            terms,
+            values,
+            slopes,
+            ..
+        } = self;
         slopes.fill(Dyadic::ZERO);
         *slopes.last_mut().expect("a step") = Dyadic::ONE;
         for (i, terms) in terms.iter().enumerate().rev() {
@@ -359,7 +423,11 @@ impl Equations {
 
     fn insert(&mut self, mut equation: u64) {
         while equation != 0 {
-            let first = if equation & self.unit == 0 { equation } else { equation & self.unit };
+            let first = if equation & self.unit == 0 {
+                equation
+            } else {
+                equation & self.unit
+            };
             let known = &mut self.by_lowest[first.trailing_zeros() as usize];
             if *known == 0 {
                 *known = equation;

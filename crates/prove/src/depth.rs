@@ -55,17 +55,27 @@ impl<F: Float> Judge<'_, F> {
         }
         let is_edge = |gate: &usize| gates[*gate].role == Role::Edge;
         let slack = |gate: usize| margins[gate].to_f64() - self.epsilons[gate].to_f64();
-        let slack = (0..gates.len()).filter(is_edge).map(slack).fold(f64::INFINITY, f64::min);
+        let slack = (0..gates.len())
+            .filter(is_edge)
+            .map(slack)
+            .fold(f64::INFINITY, f64::min);
         let scale = self.scale(&floats);
         let depth = depth(sample, float)?;
         let score = if is_hit { -depth } else { depth };
         let is_wanted = refused.is_none() == is_hit;
-        Some(if is_wanted { (score, true) } else { (score - 2.0 * slack.abs() / scale, false) })
+        Some(if is_wanted {
+            (score, true)
+        } else {
+            (score - 2.0 * slack.abs() / scale, false)
+        })
     }
 
     /// The least size of the numbers that the edge gates multiply barycentric coordinates by.
     pub(super) fn scale(&self, sample: &Sample<f64>) -> f64 {
-        self.scales.iter().map(|scale| scale.of(sample).abs()).fold(f64::INFINITY, f64::min)
+        self.scales
+            .iter()
+            .map(|scale| scale.of(sample).abs())
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// How far from the nearest edge, as a share of the longest one, a number's error moves what it decides there; 0 if it
@@ -78,14 +88,17 @@ impl<F: Float> Judge<'_, F> {
         });
         let is_near = value.abs() < NEAR * scale;
         let heights = heights(sample, |x| Some(*x)).unwrap_or_default();
-        near.filter(|_| is_near).map_or(0.0, |vertex| heights[vertex] / scale)
+        near.filter(|_| is_near)
+            .map_or(0.0, |vertex| heights[vertex] / scale)
     }
 
     /// The barycentric coordinate at which the gates at edges begin to refuse.
     fn threshold(&self, sample: &Sample<f64>) -> f64 {
         let gates = self.gated.info().gates.iter().zip(self.epsilons);
         let mut edges = gates.filter(|(gate, _)| gate.role == Role::Edge);
-        edges.next().map_or(0.0, |(_, epsilon)| epsilon.to_f64() / self.scale(sample))
+        edges
+            .next()
+            .map_or(0.0, |(_, epsilon)| epsilon.to_f64() / self.scale(sample))
     }
 
     /// Moves a ray so that it passes near where an edge's gate decides, or near a vertex.
@@ -96,7 +109,11 @@ impl<F: Float> Judge<'_, F> {
         // Often the nearest edge, so that the ray's origin stays near where it is.
         let edge = nearest.filter(|_| draw.coin()).unwrap_or(draw.below(3));
         let others = [(edge + 1) % 3, (edge + 2) % 3];
-        let [to, other] = if draw.coin() { others } else { [others[1], others[0]] };
+        let [to, other] = if draw.coin() {
+            others
+        } else {
+            [others[1], others[0]]
+        };
         let is_vertex = draw.below(4) == 0;
         let threshold = self.threshold(&sample);
         for vertex in [edge, other] {
@@ -118,7 +135,13 @@ impl<F: Float> Judge<'_, F> {
         sample: &Sample<R>,
         float: &impl Fn(&R) -> Option<f64>,
     ) -> Option<bool> {
-        let Sample { origin, direction, vertices, edges, .. } = sample;
+        let Sample {
+            origin,
+            direction,
+            vertices,
+            edges,
+            ..
+        } = sample;
         let reach = vertices.each_ref().map(|vertex| vertex.minus(origin));
         let boxes: [(&[Triple<R>], _); 5] = [
             (edges, domain.edge),
@@ -160,9 +183,16 @@ fn depth<R: Real>(sample: &Sample<R>, float: impl Fn(&R) -> Option<f64>) -> Opti
 
 /// The triangle's heights over its longest edge.
 fn heights<R: Real>(sample: &Sample<R>, float: impl Fn(&R) -> Option<f64>) -> Option<[f64; 3]> {
-    let length = |v: &Triple<R>| Some(v.dot(v)).and_then(|square| float(&square)).map(f64::sqrt);
+    let length = |v: &Triple<R>| {
+        Some(v.dot(v))
+            .and_then(|square| float(&square))
+            .map(f64::sqrt)
+    };
     let [ab, ac, bc] = &sample.edges;
-    let (edges, normal) = ([length(bc)?, length(ac)?, length(ab)?], length(&sample.normal)?);
+    let (edges, normal) = (
+        [length(bc)?, length(ac)?, length(ab)?],
+        length(&sample.normal)?,
+    );
     let longest = edges.into_iter().fold(0.0, f64::max);
     Some(edges.map(|edge| normal / edge / longest))
 }

@@ -20,9 +20,17 @@ pub struct Format {
 
 impl Format {
     /// IEEE 754's binary32.
-    pub const F32: Format = Format { digits: 24, smallest: -149, largest: 127 };
+    pub const F32: Format = Format {
+        digits: 24,
+        smallest: -149,
+        largest: 127,
+    };
     /// IEEE 754's binary64.
-    pub const F64: Format = Format { digits: 53, smallest: -1074, largest: 1023 };
+    pub const F64: Format = Format {
+        digits: 53,
+        smallest: -1074,
+        largest: 1023,
+    };
 
     /// The error of rounding a number of at most this size: half the distance of the floats just below the
     /// power of two at or above it. It covers subnormal results too.
@@ -88,7 +96,9 @@ impl Domain {
     };
     /// The longest interval of a ray that begins at its origin; in a scene it is as long as the scene says.
     pub(super) fn interval<F: Float>(&self) -> [F; 2] {
-        let end = self.measures.map_or(self.extent.to_f64(), |measures| measures.scene.distance);
+        let end = self
+            .measures
+            .map_or(self.extent.to_f64(), |measures| measures.scene.distance);
         [F::zero(), F::from_f64(end)]
     }
 

@@ -19,17 +19,35 @@ pub struct Dyadic {
 
 impl Dyadic {
     /// Zero.
-    pub const ZERO: Dyadic = Dyadic { mantissa: 0, exponent: 0 };
+    pub const ZERO: Dyadic = Dyadic {
+        mantissa: 0,
+        exponent: 0,
+    };
     /// One.
-    pub const ONE: Dyadic = Dyadic { mantissa: 1, exponent: 0 };
+    pub const ONE: Dyadic = Dyadic {
+        mantissa: 1,
+        exponent: 0,
+    };
     /// 1 - 2^-10.
-    pub const BELOW_ONE: Dyadic = Dyadic { mantissa: 1023, exponent: -10 };
+    pub const BELOW_ONE: Dyadic = Dyadic {
+        mantissa: 1023,
+        exponent: -10,
+    };
     /// 1 + 2^-9.
-    pub const ABOVE_ONE: Dyadic = Dyadic { mantissa: 513, exponent: -9 };
+    pub const ABOVE_ONE: Dyadic = Dyadic {
+        mantissa: 513,
+        exponent: -9,
+    };
     /// A half.
-    pub const HALF: Dyadic = Dyadic { mantissa: 1, exponent: -1 };
+    pub const HALF: Dyadic = Dyadic {
+        mantissa: 1,
+        exponent: -1,
+    };
     /// A result that needed more than 128 bits.
-    pub const OVERFLOW: Dyadic = Dyadic { mantissa: i128::MAX, exponent: i32::MAX };
+    pub const OVERFLOW: Dyadic = Dyadic {
+        mantissa: i128::MAX,
+        exponent: i32::MAX,
+    };
 
     /// `mantissa * 2^exponent`.
     pub fn new(mantissa: i128, exponent: i32) -> Dyadic {
@@ -37,12 +55,18 @@ impl Dyadic {
             return Dyadic::ZERO;
         }
         let zeros = mantissa.trailing_zeros();
-        Dyadic { mantissa: mantissa >> zeros, exponent: exponent + zeros as i32 }
+        Dyadic {
+            mantissa: mantissa >> zeros,
+            exponent: exponent + zeros as i32,
+        }
     }
 
     /// 2^exponent.
     pub fn power(exponent: i32) -> Dyadic {
-        Dyadic { mantissa: 1, exponent }
+        Dyadic {
+            mantissa: 1,
+            exponent,
+        }
     }
 
     /// The exact value of a finite float; none of others.
@@ -173,7 +197,14 @@ impl Add for Dyadic {
 impl Neg for Dyadic {
     type Output = Dyadic;
     fn neg(self) -> Dyadic {
-        if self.is_number() { Dyadic { mantissa: -self.mantissa, ..self } } else { self }
+        if self.is_number() {
+            Dyadic {
+                mantissa: -self.mantissa,
+                ..self
+            }
+        } else {
+            self
+        }
     }
 }
 
@@ -199,7 +230,10 @@ impl Mul for Dyadic {
         };
         match product {
             // The product of odd numbers is odd.
-            Some(mantissa) => Dyadic { mantissa, exponent: self.exponent + other.exponent },
+            Some(mantissa) => Dyadic {
+                mantissa,
+                exponent: self.exponent + other.exponent,
+            },
             None => Dyadic::OVERFLOW,
         }
     }
@@ -232,7 +266,11 @@ impl Ord for Dyadic {
         } else {
             top(self).cmp(&top(other))
         };
-        if self.mantissa < 0 { sizes.reverse() } else { sizes }
+        if self.mantissa < 0 {
+            sizes.reverse()
+        } else {
+            sizes
+        }
     }
 }
 
@@ -246,7 +284,11 @@ impl From<Dyadic> for Big {
         let power = BigInt::one() << x.exponent.unsigned_abs();
         let mantissa = BigInt::from(x.mantissa);
         // An odd number over a power of two has no common factor.
-        if x.exponent < 0 { Big::new_raw(mantissa, power) } else { Big::from(mantissa * power) }
+        if x.exponent < 0 {
+            Big::new_raw(mantissa, power)
+        } else {
+            Big::from(mantissa * power)
+        }
     }
 }
 
@@ -255,7 +297,9 @@ pub fn ceil_log2(x: &Big) -> i32 {
     let bits = |n: &BigInt| n.bits() as i32;
     let exponent = bits(x.numer()) - bits(x.denom());
     // One less or one more than the difference of the lengths.
-    (exponent - 1..exponent + 1).find(|e| above(x, *e).is_one()).unwrap_or(exponent + 1)
+    (exponent - 1..exponent + 1)
+        .find(|e| above(x, *e).is_one())
+        .unwrap_or(exponent + 1)
 }
 
 /// The smallest whole number that is at least x / 2^exponent, for a positive x. It is no fraction on the way, so that no

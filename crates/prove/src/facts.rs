@@ -43,18 +43,25 @@ impl Reader<'_, '_> {
             Acceptance::Clauses(refuse, clauses) => {
                 let is_strict = matches!(refuse, Refuse::AtMost | Refuse::UnlessAbove);
                 let clause = |places: &Vec<Place>| {
-                    let facts = places.iter().map(|place| self.fact(gate, *place, is_strict));
+                    let facts = places
+                        .iter()
+                        .map(|place| self.fact(gate, *place, is_strict));
                     facts.collect::<Option<Vec<Fact>>>()
                 };
                 let ways = clauses.iter().map(clause).collect::<Option<Vec<_>>>()?;
                 let refuses = [true, false].map(|side| {
-                    ways.iter().find(|way| way.iter().all(|fact| fact.is_side(side))).cloned()
+                    ways.iter()
+                        .find(|way| way.iter().all(|fact| fact.is_side(side)))
+                        .cloned()
                 });
                 (ways, refuses)
             }
             Acceptance::Rounded(outcomes) => {
                 let facts = |outcome: &Outcome| {
-                    let facts = outcome.answers.iter().map(|answer| self.facts(gate, *answer));
+                    let facts = outcome
+                        .answers
+                        .iter()
+                        .map(|answer| self.facts(gate, *answer));
                     Some((outcome.accepts, facts.collect::<Option<Vec<_>>>()?.concat()))
                 };
                 let all = outcomes.iter().map(facts).collect::<Option<Vec<_>>>()?;
@@ -71,16 +78,30 @@ impl Reader<'_, '_> {
                 (ways(true).collect(), refuses)
             }
         };
-        Some(Form { gate, ways, refuses })
+        Some(Form {
+            gate,
+            ways,
+            refuses,
+        })
     }
 
     /// A number that is large enough.
     fn fact(&mut self, gate: usize, place: Place, is_strict: bool) -> Option<Fact> {
         let (minus, place) = signed(self.path, place);
         let program = *self.proof.programs.get(&(gate, self.index, place))?;
-        let Meaning { what, scale, is_minus } = self.meanings.of(self.index, place)?;
+        let Meaning {
+            what,
+            scale,
+            is_minus,
+        } = self.meanings.of(self.index, place)?;
         let is_weight = matches!(what, What::Weight(_) | What::Rest(_));
-        is_weight.then_some(Fact { program, what, scale, is_plus: minus == is_minus, is_strict })
+        is_weight.then_some(Fact {
+            program,
+            what,
+            scale,
+            is_plus: minus == is_minus,
+            is_strict,
+        })
     }
 
     /// The facts that an answer to a comparison with 0 is.
@@ -111,7 +132,10 @@ impl Reader<'_, '_> {
 
 impl Fact {
     fn negative(self) -> Fact {
-        Fact { is_plus: !self.is_plus, ..self }
+        Fact {
+            is_plus: !self.is_plus,
+            ..self
+        }
     }
 
     /// True if it says that λ is large, where the scale is positive, or negative.

@@ -86,7 +86,11 @@ impl Forms {
     /// Without any input yet.
     pub fn new() -> Forms {
         let positions = [(); 3].map(|()| [None, None, None, None, Some((0, Vec::new()))]);
-        Forms { positions, components: 0, others: Vec::new() }
+        Forms {
+            positions,
+            components: 0,
+            others: Vec::new(),
+        }
     }
 
     /// The sum that a leaf is, and whether it is a new variable, numbered `next`.

@@ -93,7 +93,9 @@ impl Step {
             Step::Variables(_) => None,
             Step::Of(operation) => Some(*operation),
         };
-        operation.into_iter().flat_map(|operation| operation.terms())
+        operation
+            .into_iter()
+            .flat_map(|operation| operation.terms())
     }
 
     /// The earlier steps in it.
@@ -166,7 +168,9 @@ impl Formula {
             terms.push([size, first, rest]);
             bounds.push(bound);
         }
-        let rest = terms.last().map_or(Dyadic::ZERO, |[_, _, rest]| round_up(rest, DIGITS));
+        let rest = terms
+            .last()
+            .map_or(Dyadic::ZERO, |[_, _, rest]| round_up(rest, DIGITS));
         (rest, bounds)
     }
 
@@ -181,12 +185,19 @@ impl Formula {
         format: Format,
     ) -> Bound {
         let term = |(_, a, b): Term<usize>| match (&bounds[a], b.map(|b| &bounds[b])) {
-            (a, Some(b)) => (a.size * b.size, Big::from(a.computed) * Big::from(b.computed)),
+            (a, Some(b)) => (
+                a.size * b.size,
+                Big::from(a.computed) * Big::from(b.computed),
+            ),
             (a, None) => (a.size, Big::from(a.computed)),
         };
         let (sizes, all): (Vec<Dyadic>, Vec<Big>) = self.steps[i].terms().map(term).unzip();
         // A number of the corners, even where the products and sums need more digits than there are.
-        let size = sizes.into_iter().reduce(|a, b| a + b).expect("what is given").min(corner);
+        let size = sizes
+            .into_iter()
+            .reduce(|a, b| a + b)
+            .expect("what is given")
+            .min(corner);
         let is_minor = matches!(self.steps[i], Step::Of(Operation::Minor(..)));
         if is_minor && format == Format::F64 {
             return minor_in_f64(size, &all);
@@ -200,7 +211,11 @@ impl Formula {
                 error = error.plus_up(Format::F64.half_ulp_of(&computed));
             }
         }
-        Bound { size, computed: round_up(&computed, format.digits), error }
+        Bound {
+            size,
+            computed: round_up(&computed, format.digits),
+            error,
+        }
     }
 }
 
@@ -215,5 +230,9 @@ fn minor_in_f64(size: Dyadic, products: &[Big]) -> Bound {
     let remainders = products.iter().map(half_ulp).sum::<Big>() + &twice_tiny;
     let error = half_ulp(&rounded) + up(&remainders) + half_ulp(&remainders) + twice_tiny;
     let computed = up(&rounded) + up(&remainders);
-    Bound { size, computed: round_up(&computed, format.digits), error: round_up(&error, DIGITS) }
+    Bound {
+        size,
+        computed: round_up(&computed, format.digits),
+        error: round_up(&error, DIGITS),
+    }
 }

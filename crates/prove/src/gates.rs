@@ -88,7 +88,11 @@ impl Quantity {
                 Limit::Domain(size) if is_most => ("any quotient", size),
                 Limit::Domain(size) => ("any other divisor", size),
             };
-            Some(Supposed { is_most, name, limit })
+            Some(Supposed {
+                is_most,
+                name,
+                limit,
+            })
         };
         let of_lemma = |lemma: &Lemma| match lemma.rule {
             Rule::Sum => [None, None],
@@ -96,7 +100,10 @@ impl Quantity {
             Rule::Quotient { floor, most, .. } => {
                 // Else the largest numerator over the least divisor is smaller.
                 let most = Some(most).filter(|most| most.size() <= lemma.bound.size);
-                [supposed(false, floor), most.and_then(|most| supposed(true, most))]
+                [
+                    supposed(false, floor),
+                    most.and_then(|most| supposed(true, most)),
+                ]
             }
         };
         self.lemmas.iter().flat_map(of_lemma).flatten().collect()
@@ -111,7 +118,10 @@ impl Quantity {
 impl Uses {
     /// True if it supposes nothing but a bound of the edges, and of the direction.
     pub fn is_of_edges_alone(self) -> bool {
-        self == Uses { edge: true, ..Uses::default() }
+        self == Uses {
+            edge: true,
+            ..Uses::default()
+        }
     }
 
     /// The suppositions of some lemmas.
@@ -140,7 +150,10 @@ impl Uses {
 impl Proof {
     /// Proves what can be proved of recorded paths, of all gates or of one.
     pub fn new(paths: Vec<Path>, gate: Option<usize>, domain: Domain, format: Format) -> Proof {
-        let paths: Vec<Path> = paths.into_iter().filter(|path| !is_impossible(path)).collect();
+        let paths: Vec<Path> = paths
+            .into_iter()
+            .filter(|path| !is_impossible(path))
+            .collect();
         let mut quantities: Vec<Quantity> = Vec::new();
         let mut known: HashMap<Key, (usize, Names)> = HashMap::new();
         let mut programs = HashMap::new();
@@ -150,7 +163,9 @@ impl Proof {
                 |(compared, _): &(&Compared, Place)| gate.is_none_or(|gate| compared.gate == gate);
             for (compared, place) in compared(path).filter(is_wanted) {
                 let (key, names) = key(&prover, compared.gate, place);
-                let program = known.get(&key).map_or(quantities.len(), |(known, _)| *known);
+                let program = known
+                    .get(&key)
+                    .map_or(quantities.len(), |(known, _)| *known);
                 programs.insert((compared.gate, index, place), program);
                 if let Some((known, from)) = known.get(&key) {
                     let Quantity { also, .. } = &mut quantities[*known];
@@ -177,13 +192,19 @@ impl Proof {
             }
         }
         quantities.sort_by_key(|quantity| quantity.gate);
-        Proof { paths, quantities, programs }
+        Proof {
+            paths,
+            quantities,
+            programs,
+        }
     }
 
     /// The same where the inputs lie in one of several domains, each a part of this one: what divides is proved in
     /// each of them.
     pub fn split(mut self, domains: &[Domain], format: Format) -> Proof {
-        let Proof { paths, quantities, .. } = &mut self;
+        let Proof {
+            paths, quantities, ..
+        } = &mut self;
         let divides = |quantity: &Quantity| quantity.bound.is_err() || quantity.uses().floor;
         let prove = |quantity: &Quantity| {
             let path = &paths[quantity.path];
@@ -191,10 +212,19 @@ impl Proof {
                 let mut prover = Prover::new(path, *domain, format);
                 let bound = prover.bound(quantity.place);
                 let lemmas = prover.lemmas_of(quantity.place);
-                Quantity { domain: *domain, bound, lemmas, ..quantity.clone() }
+                Quantity {
+                    domain: *domain,
+                    bound,
+                    lemmas,
+                    ..quantity.clone()
+                }
             });
             let found: Vec<Quantity> = tries.collect();
-            if found.is_empty() { vec![quantity.clone()] } else { found }
+            if found.is_empty() {
+                vec![quantity.clone()]
+            } else {
+                found
+            }
         };
         *quantities = quantities.iter().flat_map(prove).collect();
         self
@@ -203,27 +233,43 @@ impl Proof {
     /// The numbers that the gates at edges compare.
     pub(super) fn of_edges(&self, entry: &Entry) -> impl Iterator<Item = &Quantity> {
         let gates = entry.info.gates;
-        self.quantities.iter().filter(|quantity| gates[quantity.gate].role == Role::Edge)
+        self.quantities
+            .iter()
+            .filter(|quantity| gates[quantity.gate].role == Role::Edge)
     }
 
     /// The quantity of a gate with the largest error; an error in one sentence if one has no bound.
     pub fn gate(&self, gate: usize) -> Option<Result<&Quantity, String>> {
-        let of_gate = || self.quantities.iter().filter(|quantity| quantity.gate == gate);
-        if let Some(Err(why)) = of_gate().map(|quantity| &quantity.bound).find(|b| b.is_err()) {
+        let of_gate = || {
+            self.quantities
+                .iter()
+                .filter(|quantity| quantity.gate == gate)
+        };
+        if let Some(Err(why)) = of_gate()
+            .map(|quantity| &quantity.bound)
+            .find(|b| b.is_err())
+        {
             return Some(Err(why.clone()));
         }
-        of_gate().max_by_key(|q| q.bound.as_ref().map(|bound| bound.error).ok()).map(Ok)
+        of_gate()
+            .max_by_key(|q| q.bound.as_ref().map(|bound| bound.error).ok())
+            .map(Ok)
     }
 }
 
 /// The numbers that a path's gates compare and that are computed, without the signs around them.
 pub fn compared(path: &Path) -> impl Iterator<Item = (&Compared, Place)> {
     let all = path.compared.iter().flat_map(move |compared| {
-        compared.quantities.iter().map(move |place| (compared, unsigned(path, *place)))
+        compared
+            .quantities
+            .iter()
+            .map(move |place| (compared, unsigned(path, *place)))
     });
     all.filter(move |(_, place)| {
         let (program, _) = cone(&path.operations, *place);
-        program.iter().any(|operation| 1 < operation.operands().len())
+        program
+            .iter()
+            .any(|operation| 1 < operation.operands().len())
     })
 }
 
@@ -236,11 +282,18 @@ fn key(prover: &Prover, gate: usize, place: Place) -> (Key, Names) {
     let operations = &prover.path.operations;
     let (program, places) = cone(operations, place);
     let names = Names::of(&program);
-    let program = program.into_iter().map(|operation| names.operation(operation)).collect();
+    let program = program
+        .into_iter()
+        .map(|operation| names.operation(operation))
+        .collect();
     let orders = prover.orders(place).into_iter();
-    let orders = orders.map(|(a, b)| (names.input(a), names.input(b))).collect();
-    let mut quotients: Vec<(Place, Place)> =
-        (0..).zip(places).filter_map(|(old, new)| Some((new?, old))).collect();
+    let orders = orders
+        .map(|(a, b)| (names.input(a), names.input(b)))
+        .collect();
+    let mut quotients: Vec<(Place, Place)> = (0..)
+        .zip(places)
+        .filter_map(|(old, new)| Some((new?, old)))
+        .collect();
     quotients.sort_unstable();
     let limits = quotients.into_iter().flat_map(|(_, place)| {
         let divisor = prover.quotient(place).map(|(_, divisor, _)| divisor);

@@ -38,12 +38,20 @@ impl<F: Searched + Scalar> Judged<F> {
         // Near the triangle, and anywhere.
         let wide = is_wide.then(|| {
             [Dyadic::ABOVE_ONE - Dyadic::ONE, Dyadic::ABOVE_ONE].map(|below| {
-                let domain = Domain { quotient: Dyadic::ABOVE_ONE, below, ..domain };
+                let domain = Domain {
+                    quotient: Dyadic::ABOVE_ONE,
+                    below,
+                    ..domain
+                };
                 Proof::of::<F>(entry, None, domain).ok()
             })
         });
         let [near, far] = wide.unwrap_or_default();
-        let proofs = [proof, near.as_ref().unwrap_or(proof), far.as_ref().unwrap_or(proof)];
+        let proofs = [
+            proof,
+            near.as_ref().unwrap_or(proof),
+            far.as_ref().unwrap_or(proof),
+        ];
         let floats: Vec<f64> = epsilons.iter().map(|x| x.to_f64()).collect();
         let verdicts = verdicts(entry, proofs, &floats, parts);
         let of_edges = || proof.of_edges(entry);
@@ -53,22 +61,40 @@ impl<F: Searched + Scalar> Judged<F> {
             scales: verdicts.scales.iter().map(|(scale, _)| *scale).collect(),
         };
         let known = VERDICTS.map(|goal| {
-            let bound = if goal == Goal::Missed { &verdicts.misses } else { &verdicts.hits };
+            let bound = if goal == Goal::Missed {
+                &verdicts.misses
+            } else {
+                &verdicts.hits
+            };
             let found = of_edges().filter(|_| bound.is_ok()).filter_map(|quantity| {
                 let effort = effort.shared(proof, quantity);
                 worst::<F>((proof, quantity), goal, Some(&judge), known, effort)
             });
-            found.filter(|found| 0.0 < found.score).max_by(|a, b| a.score.total_cmp(&b.score))
+            found
+                .filter(|found| 0.0 < found.score)
+                .max_by(|a, b| a.score.total_cmp(&b.score))
         });
-        let bounds = [("false miss", &verdicts.misses), ("false hit", &verdicts.hits)];
-        let contradiction = bounds.into_iter().zip(&known).find_map(|((what, bound), known)| {
-            let (share, score) = (bound.as_ref().ok()?.share, known.as_ref()?.score);
-            let message = || {
-                format!("a {what} is known {score:e} of an edge away, and {share:e} is its bound")
-            };
-            (share * (1.0 + 1e-12) < score).then(message)
-        });
-        Some(Judged { verdicts, known, contradiction })
+        let bounds = [
+            ("false miss", &verdicts.misses),
+            ("false hit", &verdicts.hits),
+        ];
+        let contradiction = bounds
+            .into_iter()
+            .zip(&known)
+            .find_map(|((what, bound), known)| {
+                let (share, score) = (bound.as_ref().ok()?.share, known.as_ref()?.score);
+                let message = || {
+                    format!(
+                        "a {what} is known {score:e} of an edge away, and {share:e} is its bound"
+                    )
+                };
+                (share * (1.0 + 1e-12) < score).then(message)
+            });
+        Some(Judged {
+            verdicts,
+            known,
+            contradiction,
+        })
     }
 }
 
@@ -77,8 +103,14 @@ fn is_useful<F: Searched + Scalar>(entry: &Entry, scene: &Scene, epsilons: &[f64
     let share = || {
         let (domain, format) = (scene.domain().ok()?, format_of::<F>());
         let parts = scene.parts(&scene.shapes());
-        let edge = entry.info.gates.iter().position(|gate| gate.role == Role::Edge)?;
-        let proof = Proof::of::<F>(entry, Some(edge), domain).ok()?.split(&parts, format);
+        let edge = entry
+            .info
+            .gates
+            .iter()
+            .position(|gate| gate.role == Role::Edge)?;
+        let proof = Proof::of::<F>(entry, Some(edge), domain)
+            .ok()?
+            .split(&parts, format);
         verdicts(entry, [&proof; 3], epsilons, &parts).misses.ok()
     };
     share().is_some_and(|it| it.share < USELESS)
@@ -100,24 +132,45 @@ pub fn useful_scenes<F: Searched + Scalar>(
         let found = factors.last().is_some_and(useful);
         found.then(|| factors[factors.partition_point(|x| !useful(x))])
     };
-    let Scene { edge: [shortest, longest], coordinates, distance, grazing, shape, .. } = *scene;
+    let Scene {
+        edge: [shortest, longest],
+        coordinates,
+        distance,
+        grazing,
+        shape,
+        ..
+    } = *scene;
     let mut all = Vec::new();
     if F::DIGITS == 24 && entry.scalars()[1] && is_useful::<f64>(entry, scene, &epsilons) {
         all.push("in f64".to_owned());
     }
-    let larger = |x: f64| Scene { edge: [x * shortest, longest], ..*scene };
+    let larger = |x: f64| Scene {
+        edge: [x * shortest, longest],
+        ..*scene
+    };
     // The triangles of a mesh are what they are.
-    let most = if shape.is_none() { longest / shortest } else { 1.0 };
+    let most = if shape.is_none() {
+        longest / shortest
+    } else {
+        1.0
+    };
     let edges = first(most, &larger);
     all.extend(edges.map(|x| format!("with edges from {}", (x * shortest) as f32)));
-    let nearer = |x: f64| Scene { coordinates: coordinates / x, distance: distance / x, ..*scene };
+    let nearer = |x: f64| Scene {
+        coordinates: coordinates / x,
+        distance: distance / x,
+        ..*scene
+    };
     all.extend(first(coordinates / longest, &nearer).map(|x| {
         let [coordinates, distance] = [coordinates, distance].map(|it| (it / x) as f32);
         format!(
             "with coordinates up to {coordinates} and origins up to {distance} from the vertices"
         )
     }));
-    let steeper = |x: f64| Scene { grazing: x * grazing, ..*scene };
+    let steeper = |x: f64| Scene {
+        grazing: x * grazing,
+        ..*scene
+    };
     let angle = first(90.0 / grazing, &steeper);
     all.extend(angle.map(|x| format!("for rays at {} degrees to the plane and more", x * grazing)));
     (!all.is_empty()).then(|| format!(" It is proved to be less {}.", all.join(", or ")))

@@ -56,12 +56,33 @@ pub(super) struct Meaning {
 const WHATS: [What; 10] = {
     use What::*;
     let [a, b, c] = [Weight(0), Weight(1), Weight(2)];
-    [One, a, b, c, Rest(0), Rest(1), Rest(2), Time, AfterMin, BeforeMax]
+    [
+        One,
+        a,
+        b,
+        c,
+        Rest(0),
+        Rest(1),
+        Rest(2),
+        Time,
+        AfterMin,
+        BeforeMax,
+    ]
 };
 
 const SCALES: [Scale; 9] = {
     use Scale::*;
-    [One, Volume, Twice, Over(0), Over(1), Over(2), Length, Square, Sine]
+    [
+        One,
+        Volume,
+        Twice,
+        Over(0),
+        Over(1),
+        Over(2),
+        Length,
+        Square,
+        Sine,
+    ]
 };
 
 impl What {
@@ -101,7 +122,11 @@ impl Scale {
         // |d| is at most √3 times its largest coordinate.
         let [floor, direction] = [domain.floor, domain.direction].map(|x| x.to_f64());
         let (length, sine, volume) = match &domain.measures {
-            Some(of) => (of.area.to_f64(), of.sine.to_f64(), (of.area * of.sine).to_f64()),
+            Some(of) => (
+                of.area.to_f64(),
+                of.sine.to_f64(),
+                (of.area * of.sine).to_f64(),
+            ),
             None => (floor / (direction * 1.732_050_81), floor, floor),
         };
         match self {
@@ -145,7 +170,11 @@ pub(super) struct Meanings<'a> {
 impl<'a> Meanings<'a> {
     pub fn new(proof: &'a Proof) -> Meanings<'a> {
         let samples = proof.paths.iter().map(|_| OnceCell::new()).collect();
-        Meanings { proof, samples, known: HashMap::new() }
+        Meanings {
+            proof,
+            samples,
+            known: HashMap::new(),
+        }
     }
 
     /// The meaning of a number, if it has one.
@@ -155,7 +184,9 @@ impl<'a> Meanings<'a> {
             return *known;
         }
         let samples = self.samples[path].get_or_init(|| Samples::new(&self.proof.paths[path]));
-        let all = SCALES.into_iter().flat_map(|scale| WHATS.map(|what| (what, scale)));
+        let all = SCALES
+            .into_iter()
+            .flat_map(|scale| WHATS.map(|what| (what, scale)));
         let found = all.into_iter().find(|(what, scale)| {
             samples.may_be(place, |i| product(*what, *scale, &samples.values[i].1))
                 && samples.is_exactly(place, |sample| product(*what, *scale, sample))
@@ -163,7 +194,11 @@ impl<'a> Meanings<'a> {
         let meaning = found.map(|(what, scale)| {
             let (values, sample) = &samples.values[0];
             let is_minus = values[place as usize] * product(what, scale, sample) < 0.0;
-            Meaning { what, scale, is_minus }
+            Meaning {
+                what,
+                scale,
+                is_minus,
+            }
         });
         self.known.insert(program, meaning);
         meaning

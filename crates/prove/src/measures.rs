@@ -98,13 +98,24 @@ fn inputs(path: &Path, i: u64) -> [f64; 17] {
     (9..12).for_each(|i| turned.swap(i, i + 3));
     let has_signs = |inputs: &[f64; 17]| {
         let mut values = Vec::new();
-        run(&path.operations, path.operations.len() as Place - 1, inputs, &mut values);
-        path.decisions.iter().all(|(comparison, answer)| match *comparison {
-            Comparison::Negative(place) => (values[place as usize] < 0.0) == *answer,
-            _ => true,
-        })
+        run(
+            &path.operations,
+            path.operations.len() as Place - 1,
+            inputs,
+            &mut values,
+        );
+        path.decisions
+            .iter()
+            .all(|(comparison, answer)| match *comparison {
+                Comparison::Negative(place) => (values[place as usize] < 0.0) == *answer,
+                _ => true,
+            })
     };
-    if !has_signs(&drawn) && has_signs(&turned) { turned } else { drawn }
+    if !has_signs(&drawn) && has_signs(&turned) {
+        turned
+    } else {
+        drawn
+    }
 }
 
 impl<'a> Samples<'a> {
@@ -112,13 +123,24 @@ impl<'a> Samples<'a> {
         let sample = |i: u64| {
             let mut values = Vec::new();
             let inputs = inputs(path, i);
-            run(&path.operations, path.operations.len() as Place - 1, &inputs, &mut values);
+            run(
+                &path.operations,
+                path.operations.len() as Place - 1,
+                &inputs,
+                &mut values,
+            );
             (values, Sample::of(&inputs))
         };
         let values = (0..SAMPLES).map(sample).collect();
-        let mut samples = Samples { path, values, exact: OnceCell::new(), axes: vec![] };
-        samples.axes =
-            largest_axes(path, |place| (0..3).find(|axis| samples.is_of_normal(place, *axis)));
+        let mut samples = Samples {
+            path,
+            values,
+            exact: OnceCell::new(),
+            axes: vec![],
+        };
+        samples.axes = largest_axes(path, |place| {
+            (0..3).find(|axis| samples.is_of_normal(place, *axis))
+        });
         samples
     }
 
@@ -145,7 +167,12 @@ impl<'a> Samples<'a> {
         });
         let (operations, _) = cone(&self.path.operations, place);
         let mut values = Vec::new();
-        run(&operations, operations.len() as Place - 1, inputs, &mut values);
+        run(
+            &operations,
+            operations.len() as Place - 1,
+            inputs,
+            &mut values,
+        );
         let value = values.pop().expect("its own value");
         (value.abs() - other(sample).abs()).is_zero()
     }
@@ -167,7 +194,10 @@ impl<'a> Samples<'a> {
         let mut lists: Vec<Vec<Known<f64>>> = self.values.iter().map(of).collect();
         let is_same = |at: &usize| {
             let exact = |sample: &Sample<Exact>| {
-                measures.known(kind, sample, &self.axes).swap_remove(*at).value
+                measures
+                    .known(kind, sample, &self.axes)
+                    .swap_remove(*at)
+                    .value
             };
             self.may_be(place, |i| lists[i][*at].value) && self.is_exactly(place, exact)
         };
@@ -198,7 +228,14 @@ impl<R: Real> Sample<R> {
         let edges = [b.minus(&a), c.minus(&a), c.minus(&b)];
         let normal = edges[0].cross(&edges[1]);
         let ends = [inputs[15].clone(), inputs[16].clone()];
-        Sample { origin, direction, vertices: [a, b, c], edges, normal, ends }
+        Sample {
+            origin,
+            direction,
+            vertices: [a, b, c],
+            edges,
+            normal,
+            ends,
+        }
     }
 
     /// N·d.
@@ -259,8 +296,11 @@ impl Measures {
         let normal = &sample.normal;
         let square = normal.dot(normal);
         let (volume, length) = (sample.volume(), square.sqrt());
-        let known =
-            |name, limit: Dyadic, value| Known { name, limit: limit.round_down(DIGITS), value };
+        let known = |name, limit: Dyadic, value| Known {
+            name,
+            limit: limit.round_down(DIGITS),
+            value,
+        };
         let largest = area * below(0.573);
         let mut all = vec![
             known("|N·d|", area * sine, volume.clone()),
@@ -276,11 +316,24 @@ impl Measures {
     }
 
     fn quotients<R: Real>(&self, sample: &Sample<R>, axes: &[usize]) -> Vec<Known<R>> {
-        let Measures { slope, world, distance, .. } = *self;
-        let Sample { vertices, edges, normal, .. } = sample;
+        let Measures {
+            slope,
+            world,
+            distance,
+            ..
+        } = *self;
+        let Sample {
+            vertices,
+            edges,
+            normal,
+            ..
+        } = sample;
         let [a, b, c] = vertices;
-        let known =
-            |name, limit: Dyadic, value| Known { name, limit: limit.round_up(DIGITS), value };
+        let known = |name, limit: Dyadic, value| Known {
+            name,
+            limit: limit.round_up(DIGITS),
+            value,
+        };
         let square = normal.dot(normal);
         let mut all = vec![known("|t|", distance, sample.time())];
         // Slightly more, for the points next to a vertex.
@@ -294,14 +347,22 @@ impl Measures {
                 let name = "|N_i/N_k|";
                 all.push(over(name, above(LARGER), normal.at(i)));
                 let name = "|e_i/N_k|";
-                all.extend(edges.each_ref().map(|e| over(name, slope * above(ROOT), e.at(i))));
+                all.extend(
+                    edges
+                        .each_ref()
+                        .map(|e| over(name, slope * above(ROOT), e.at(i))),
+                );
             }
             let name = "|N·a/N_k|";
             all.push(over(name, world * above(3.03), a.dot(normal)));
             // p×q = p×(q-p).
             let name = "|(p×q)_k/N_k|";
             for (p, q) in [(a, b), (a, c), (b, c)] {
-                all.push(over(name, world * slope * above(2.0 * ROOT), p.cross(q).at(k)));
+                all.push(over(
+                    name,
+                    world * slope * above(2.0 * ROOT),
+                    p.cross(q).at(k),
+                ));
             }
         }
         let name = "|(e×N)_i/N·N|";

@@ -23,7 +23,10 @@ impl Names {
                 vertices.extend((i / 3).checked_sub(2));
             }
         }
-        Names { axes: in_order(&axes), vertices: in_order(&vertices) }
+        Names {
+            axes: in_order(&axes),
+            vertices: in_order(&vertices),
+        }
     }
 
     /// The input under these names.
@@ -48,9 +51,17 @@ impl Names {
     /// From these names to others.
     pub fn to(self, other: Names) -> Names {
         let from = |one: [u8; 3], other: [u8; 3]| {
-            one.map(|name| other.iter().position(|known| *known == name).expect("all names") as u8)
+            one.map(|name| {
+                other
+                    .iter()
+                    .position(|known| *known == name)
+                    .expect("all names") as u8
+            })
         };
-        Names { axes: from(self.axes, other.axes), vertices: from(self.vertices, other.vertices) }
+        Names {
+            axes: from(self.axes, other.axes),
+            vertices: from(self.vertices, other.vertices),
+        }
     }
 }
 
@@ -59,7 +70,12 @@ impl Display for Names {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let letters = |first: u8, names: [u8; 3]| names.map(|name| char::from(first + name));
         let text = [letters(b'x', self.axes), letters(b'a', self.vertices)];
-        write!(f, "{} {}", String::from_iter(text[0]), String::from_iter(text[1]))
+        write!(
+            f,
+            "{} {}",
+            String::from_iter(text[0]),
+            String::from_iter(text[1])
+        )
     }
 }
 
@@ -71,5 +87,10 @@ fn in_order(seen: &[u8]) -> [u8; 3] {
             order.push(name);
         }
     }
-    from_fn(|i| order.iter().position(|name| usize::from(*name) == i).expect("all three") as u8)
+    from_fn(|i| {
+        order
+            .iter()
+            .position(|name| usize::from(*name) == i)
+            .expect("all three") as u8
+    })
 }

@@ -25,7 +25,11 @@ fn facts<T: Copy>(path: &Path, name: impl Fn(Place) -> Option<T>) -> Vec<(T, T, 
         _ => None,
     };
     let named = |(a, b, strict): (Place, Place, bool)| Some((of_size(a)?, of_size(b)?, strict));
-    path.decisions.iter().filter_map(fact).filter_map(named).collect()
+    path.decisions
+        .iter()
+        .filter_map(fact)
+        .filter_map(named)
+        .collect()
 }
 
 /// The facts about inputs. Nothing follows about computed numbers: one of them may be NaN, and the path compares them,
@@ -46,7 +50,9 @@ pub fn is_at_most(path: &Path, a: u8, b: u8) -> bool {
 /// not say it, and all if no vector takes the path. Given which numbers are coordinates of that vector.
 pub fn largest_axes(path: &Path, axis: impl Fn(Place) -> Option<usize>) -> Vec<usize> {
     let facts = facts(path, axis);
-    (0..3).filter(|k| (0..3).all(|other| follows(&facts, other, *k))).collect()
+    (0..3)
+        .filter(|k| (0..3).all(|other| follows(&facts, other, *k)))
+        .collect()
 }
 
 /// True if a <= b follows from facts.
@@ -62,5 +68,7 @@ fn follows<T: Copy + PartialEq>(facts: &[(T, T, bool)], a: T, b: T) -> bool {
 /// True if the decisions of a path contradict each other, so that no input takes it.
 pub fn is_impossible(path: &Path) -> bool {
     let facts = facts_of_inputs(path);
-    facts.iter().any(|(a, b, strict)| *strict && follows(&facts, *b, *a))
+    facts
+        .iter()
+        .any(|(a, b, strict)| *strict && follows(&facts, *b, *a))
 }

@@ -51,17 +51,26 @@ pub struct Roundings {
 }
 
 impl Roundings {
-    const ONE: Roundings = Roundings { of_format: 1, wider: 0 };
+    const ONE: Roundings = Roundings {
+        of_format: 1,
+        wider: 0,
+    };
 
     fn and(self, other: Roundings) -> Roundings {
         let Roundings { of_format, wider } = other;
-        Roundings { of_format: self.of_format + of_format, wider: self.wider + wider }
+        Roundings {
+            of_format: self.of_format + of_format,
+            wider: self.wider + wider,
+        }
     }
 
     /// At least both.
     fn or(self, other: Roundings) -> Roundings {
         let Roundings { of_format, wider } = other;
-        Roundings { of_format: self.of_format.max(of_format), wider: self.wider.max(wider) }
+        Roundings {
+            of_format: self.of_format.max(of_format),
+            wider: self.wider.max(wider),
+        }
     }
 
     /// (1+u)^K, exactly.
@@ -88,7 +97,10 @@ impl Relative {
     /// it is computed, in the same order. It covers the rounding of the last sum of both, and that of the
     /// product of the factor and the permanent. It holds for sums and products, without underflow.
     pub fn filter(&self, format: Format) -> Big {
-        let three = Roundings { of_format: 3, wider: 0 };
+        let three = Roundings {
+            of_format: 3,
+            wider: 0,
+        };
         (self.for_sign.power(format) - Big::one()) * three.power(format)
     }
 }
@@ -111,7 +123,13 @@ impl Node {
     /// A number of this size that is not rounded.
     fn exact(size: Dyadic) -> Node {
         let (roundings, permanent) = (Roundings::default(), Big::from(size));
-        Node { roundings, before: None, sharp: true, permanent, underflow: Big::zero() }
+        Node {
+            roundings,
+            before: None,
+            sharp: true,
+            permanent,
+            underflow: Big::zero(),
+        }
     }
 }
 
@@ -124,14 +142,23 @@ pub fn relative(
     domain: Domain,
     format: Format,
 ) -> Result<Relative, String> {
-    let mut forms =
-        Forms { path, format, prover: Prover::new(path, domain, format), nodes: Vec::new() };
+    let mut forms = Forms {
+        path,
+        format,
+        prover: Prover::new(path, domain, format),
+        nodes: Vec::new(),
+    };
     forms.nodes.resize(path.operations.len(), None);
     let node = forms.node(place)?;
     let roundings = node.roundings;
     let factor = round_up(&(roundings.power(format) - Big::one()), DIGITS);
     let underflow = round_up(&node.underflow, DIGITS);
-    Ok(Relative { roundings, for_sign: node.before.unwrap_or(roundings), factor, underflow })
+    Ok(Relative {
+        roundings,
+        for_sign: node.before.unwrap_or(roundings),
+        factor,
+        underflow,
+    })
 }
 
 struct Forms<'a> {
@@ -154,11 +181,18 @@ impl Forms<'_> {
     fn made(&mut self, place: Place) -> Result<Node, String> {
         let operation = self.path.operations[place as usize];
         if let Some(leaf) = Leaf::of(operation, &self.path.operations) {
-            let roundings =
-                if leaf.is_difference() { Roundings::ONE } else { Roundings::default() };
+            let roundings = if leaf.is_difference() {
+                Roundings::ONE
+            } else {
+                Roundings::default()
+            };
             let before = leaf.is_difference().then(Roundings::default);
             let exact = Node::exact(leaf.bound(&self.prover.domain));
-            return Ok(Node { roundings, before, ..exact });
+            return Ok(Node {
+                roundings,
+                before,
+                ..exact
+            });
         }
         match operation {
             Operation::Input(_) => unreachable!("inputs are leaves"),
@@ -169,24 +203,43 @@ impl Forms<'_> {
                     Some(b) => self.product(a, b),
                     None => self.node(a),
                 };
-                let terms = operation.terms().map(term).collect::<Result<Vec<Node>, String>>()?;
-                let sharp = terms.iter().all(|x| x.sharp && x.roundings == Roundings::default());
+                let terms = operation
+                    .terms()
+                    .map(term)
+                    .collect::<Result<Vec<Node>, String>>()?;
+                let sharp = terms
+                    .iter()
+                    .all(|x| x.sharp && x.roundings == Roundings::default());
                 let has_product = operation.terms().any(|(_, _, b)| b.is_some());
                 let is_sum = 1 < terms.len();
-                let exact = terms.into_iter().reduce(|a, b| sum(&a, &b)).expect("a term");
+                let exact = terms
+                    .into_iter()
+                    .reduce(|a, b| sum(&a, &b))
+                    .expect("a term");
                 let rounded = self.rounded(exact, i128::from(has_product));
-                Ok(Node { sharp, before: rounded.before.filter(|_| is_sum), ..rounded })
+                Ok(Node {
+                    sharp,
+                    before: rounded.before.filter(|_| is_sum),
+                    ..rounded
+                })
             }
             Operation::Minor(a, b, c, d) => {
                 let (p, q) = (self.product(a, b)?, self.product(c, d)?);
                 let (sum, before) = (sum(&p, &q), p.roundings.or(q.roundings));
-                let wider = Roundings { of_format: 0, wider: 1 };
+                let wider = Roundings {
+                    of_format: 0,
+                    wider: 1,
+                };
                 if self.format == Format::F32 {
                     // First to f64, where no product of two f32 underflows. Two roundings in a row do not
                     // change a sign.
                     let twice = self.rounded(self.rounded(sum, 0), 1);
                     let roundings = before.and(Roundings::ONE).and(wider);
-                    return Ok(Node { roundings, before: Some(before), ..twice });
+                    return Ok(Node {
+                        roundings,
+                        before: Some(before),
+                        ..twice
+                    });
                 }
                 // x = (p - q) + (e - f), where p and q are rounded products and e and f their
                 // remainders. Each difference is rounded, and then their sum. |p - q| is at most |x| and u
@@ -194,7 +247,11 @@ impl Forms<'_> {
                 // before the last sum. The remainders may underflow.
                 let before = before.and(Roundings::ONE).and(wider);
                 let thrice = self.rounded(self.rounded(self.rounded(sum, 2), 0), 0);
-                Ok(Node { roundings: before.and(Roundings::ONE), before: Some(before), ..thrice })
+                Ok(Node {
+                    roundings: before.and(Roundings::ONE),
+                    before: Some(before),
+                    ..thrice
+                })
             }
             Operation::Div(n, d) => {
                 let (n, d) = (self.node(n)?, self.node(d)?);
@@ -205,8 +262,15 @@ impl Forms<'_> {
                 }
                 let exact = Node::exact(self.prover.bound(place)?.size);
                 let roundings = n.roundings.and(d.roundings);
-                let quotient = Node { roundings, sharp: false, ..exact };
-                Ok(Node { before: None, ..self.rounded(quotient, 1) })
+                let quotient = Node {
+                    roundings,
+                    sharp: false,
+                    ..exact
+                };
+                Ok(Node {
+                    before: None,
+                    ..self.rounded(quotient, 1)
+                })
             }
             Operation::Sqrt(_) => Err("it has a root".to_owned()),
         }

@@ -24,7 +24,12 @@ pub(super) struct Quotients {
 impl Prover<'_> {
     /// The least size of a divisor.
     pub(super) fn floor(&self, divisor: Place) -> Limit {
-        let Domain { direction_floor, floor, measures, .. } = self.domain;
+        let Domain {
+            direction_floor,
+            floor,
+            measures,
+            ..
+        } = self.domain;
         if self.is_largest_of_direction(divisor) {
             return match measures {
                 None => Limit::Domain(direction_floor),
@@ -81,12 +86,23 @@ impl Prover<'_> {
         };
         let is_fit = (divisor, twice) == (other, also) && parts[0] != parts[1] && is_known();
         let numerators = [first?, second?];
-        is_fit.then_some(Quotients { ratio, parts, numerators, divisor, twice, rest })
+        is_fit.then_some(Quotients {
+            ratio,
+            parts,
+            numerators,
+            divisor,
+            twice,
+            rest,
+        })
     }
 
     /// How far below zero a quotient may be, if that is supposed and less than its size.
     pub(super) fn below(&self, quotient: Place) -> Option<Dyadic> {
-        let Domain { below, quotient: most, .. } = self.domain;
+        let Domain {
+            below,
+            quotient: most,
+            ..
+        } = self.domain;
         (below < most && self.samples().is_share(quotient)).then_some(below)
     }
 
@@ -97,13 +113,13 @@ impl Prover<'_> {
         let least = error * Dyadic::new(200, 0);
         if matches!(floor, Limit::Scene(LARGEST, size) if size < least) {
             return Err(
-                "rounding may hide which coordinate of (b-a)×(c-a) is the largest".to_owned()
+                "rounding may hide which coordinate of (b-a)×(c-a) is the largest".to_owned(),
             );
         }
         let least = Big::from(floor.size()) - Big::from(error);
         if least <= Big::from(self.format.tiny() * Dyadic::new(2, 0)) {
             return Err(
-                "divisors may be so small in this domain that rounding makes one zero".to_owned()
+                "divisors may be so small in this domain that rounding makes one zero".to_owned(),
             );
         }
         Ok(least)
@@ -115,8 +131,14 @@ impl Prover<'_> {
         place: Place,
         (floor, most, below): (Limit, Option<Limit>, Option<Dyadic>),
     ) -> Result<(Formula, Maximum, Bound), String> {
-        let Quotients { parts, numerators, divisor, twice, rest, .. } =
-            self.quotients(place).expect("it is made of two");
+        let Quotients {
+            parts,
+            numerators,
+            divisor,
+            twice,
+            rest,
+            ..
+        } = self.quotients(place).expect("it is made of two");
         let least = self.least(divisor, floor)?;
         let floor = floor.size();
         let bounds = [self.bound(parts[0])?, self.bound(parts[1])?];
@@ -124,14 +146,20 @@ impl Prover<'_> {
         let both = Big::from(bounds[0].size) + Big::from(bounds[1].size);
         let most = most.map(Limit::size);
         let limited = |x: &Big, most: Option<Dyadic>| {
-            round_up(&most.map_or(x.clone(), |most| x.clone().min(most.into())), SIZE_DIGITS)
+            round_up(
+                &most.map_or(x.clone(), |most| x.clone().min(most.into())),
+                SIZE_DIGITS,
+            )
         };
         // The number's size, and that of the sum of both, which it may be 1 less.
         let (size, sum) = if rest.is_some() {
             let lower = most.zip(below).map(|(most, _)| most - Dyadic::ONE);
             let upper = most.map(|most| below.unwrap_or(most) + Dyadic::ONE);
             let upper = upper.map(|upper| lower.map_or(upper, |lower| upper.max(lower)));
-            (limited(&(&both + Big::from(Dyadic::ONE)), most), (limited(&both, upper), lower))
+            (
+                limited(&(&both + Big::from(Dyadic::ONE)), most),
+                (limited(&both, upper), lower),
+            )
         } else {
             let size = limited(&both, most);
             (size, (size, below))
@@ -167,7 +195,8 @@ impl Prover<'_> {
             error += Big::from(self.format.half_ulp_of(&largest));
         }
         let rounded = Big::from(size) + &error;
-        self.bound_of_rounded(size, error, &rounded).map(|bound| (formula, maximum, bound))
+        self.bound_of_rounded(size, error, &rounded)
+            .map(|bound| (formula, maximum, bound))
     }
 
     /// The bound of a quotient, and the formula that it follows from. Given the least size of the divisor, the
@@ -183,7 +212,11 @@ impl Prover<'_> {
         let (below, floor) = (self.bound(divisor)?, floor.size());
         let above = match numerator {
             Some(numerator) => self.bound(numerator)?,
-            None => Bound { size: Dyadic::ONE, computed: Dyadic::ONE, error: Dyadic::ZERO },
+            None => Bound {
+                size: Dyadic::ONE,
+                computed: Dyadic::ONE,
+                error: Dyadic::ZERO,
+            },
         };
         let limit = Big::from(above.size) / Big::from(floor);
         // The path compares computed numbers, which says nothing of the exact ones unless they are equal.
@@ -228,28 +261,38 @@ impl Prover<'_> {
         let largest = Big::from(Dyadic::power(self.format.largest));
         if twice && largest * least <= Big::from(Dyadic::ONE) {
             return Err(
-                "divisors may be so small in this domain that a reciprocal overflows".to_owned()
+                "divisors may be so small in this domain that a reciprocal overflows".to_owned(),
             );
         }
         if at_most_one && !twice {
             // The quotient of two floats that is at most one is rounded to at most one.
             rounded = Big::from(Dyadic::ONE);
         }
-        self.bound_of_rounded(size, error, &rounded).map(|bound| (formula, maximum, bound))
+        self.bound_of_rounded(size, error, &rounded)
+            .map(|bound| (formula, maximum, bound))
     }
 
     /// One more rounding of a number of the given size before it.
     fn bound_of_rounded(&self, size: Dyadic, error: Big, rounded: &Big) -> Result<Bound, String> {
-        let error = round_up(&(error + Big::from(self.format.half_ulp_of(rounded))), DIGITS);
+        let error = round_up(
+            &(error + Big::from(self.format.half_ulp_of(rounded))),
+            DIGITS,
+        );
         let computed = round_up(rounded, self.format.digits);
         self.check_range(computed)?;
-        Ok(Bound { size, computed, error })
+        Ok(Bound {
+            size,
+            computed,
+            error,
+        })
     }
 
     /// The vector and its length, if the number is a coordinate of the vector divided by it.
     pub(super) fn unit(&self, place: Place) -> Option<([Place; 3], Place)> {
         let (numerator, length, _) = self.quotient(place)?;
-        let Operation::Sqrt(inner) = self.operation(length) else { return None };
+        let Operation::Sqrt(inner) = self.operation(length) else {
+            return None;
+        };
         let vector = self.squares(inner)?;
         vector.contains(&numerator?).then_some((vector, length))
     }
@@ -277,7 +320,7 @@ impl Prover<'_> {
         let least = &floor - &shift;
         if !least.is_positive() || whole(6) * &tiny > &unit * &unit * &least * &least {
             return Err(
-                "lengths may be so small in this domain that rounding makes one zero".to_owned()
+                "lengths may be so small in this domain that rounding makes one zero".to_owned(),
             );
         }
         // The squares, their sum, and the reciprocal of the root.
@@ -295,14 +338,22 @@ impl Prover<'_> {
         let error = before + unit * &rounded + two * tiny;
         let computed = round_up(&rounded, self.format.digits);
         self.check_range(computed)?;
-        Ok(Bound { size: Dyadic::ONE, computed, error: round_up(&error, DIGITS) })
+        Ok(Bound {
+            size: Dyadic::ONE,
+            computed,
+            error: round_up(&error, DIGITS),
+        })
     }
 
     /// The error of a number before its last operation rounds, where that is known to be smaller.
     pub(super) fn error_before_rounding(&mut self, place: Place) -> Result<Big, String> {
         let error = Big::from(self.bound(place)?.error);
         let place = unsigned(self.path, place);
-        let lemma = self.lemmas.iter().find(|lemma| lemma.place == place).expect("it has a bound");
+        let lemma = self
+            .lemmas
+            .iter()
+            .find(|lemma| lemma.place == place)
+            .expect("it has a bound");
         let formula = &lemma.formula;
         let last = match lemma.rule {
             Rule::Sum => formula.steps.len() - 1,

@@ -83,5 +83,7 @@ pub fn cone(operations: &[Operation], last: Place) -> (Vec<Operation>, Vec<Optio
 /// The numbers that a number is made of, and itself.
 pub fn parts(operations: &[Operation], place: Place) -> impl Iterator<Item = Place> + use<> {
     let (_, places) = cone(operations, place);
-    (0..).zip(places).filter_map(|(place, needed)| needed.map(|_| place))
+    (0..)
+        .zip(places)
+        .filter_map(|(place, needed)| needed.map(|_| place))
 }

@@ -51,8 +51,14 @@ impl Scene {
 
     /// The domain; an error in one sentence if there is none.
     pub fn domain(&self) -> Result<Domain, String> {
-        let Scene { coordinates, edge: [shortest, longest], distance, min_angle, grazing, .. } =
-            *self;
+        let Scene {
+            coordinates,
+            edge: [shortest, longest],
+            distance,
+            min_angle,
+            grazing,
+            ..
+        } = *self;
         let lengths = [
             ("coordinates", coordinates),
             ("shortest edge", shortest),
@@ -63,7 +69,9 @@ impl Scene {
             return Err(format!("{name}: expected a positive number, found {value}"));
         }
         if let Some((name, value)) = lengths.iter().find(|(_, x)| !(1e-30..=1e30).contains(x)) {
-            return Err(format!("{name}: expected a length from 1e-30 to 1e30, found {value:e}"));
+            return Err(format!(
+                "{name}: expected a length from 1e-30 to 1e30, found {value:e}"
+            ));
         }
         if shortest > longest {
             return Err(format!(
@@ -81,7 +89,10 @@ impl Scene {
                 "no origin is within {distance} of all vertices of a triangle with an edge of {longest}"
             ));
         }
-        let angles = [("smallest angle", min_angle, 60.0), ("grazing angle", grazing, 90.0)];
+        let angles = [
+            ("smallest angle", min_angle, 60.0),
+            ("grazing angle", grazing, 90.0),
+        ];
         let outside = |(_, x, most): &&(&str, f64, f64)| !(*x > 0.0 && x <= most);
         if let Some((name, value, most)) = angles.iter().find(outside) {
             return Err(format!(
@@ -93,14 +104,30 @@ impl Scene {
 
     /// The domain of triangles with such edges: the largest coordinate, and the length.
     fn domain_of(&self, size: f64, longest: f64) -> Domain {
-        let Scene { coordinates, edge: [shortest, _], distance, min_angle, grazing, .. } = *self;
+        let Scene {
+            coordinates,
+            edge: [shortest, _],
+            distance,
+            min_angle,
+            grazing,
+            ..
+        } = *self;
         // Slightly more, for what rounding took from the numbers themselves.
-        let up = |x: f64| Dyadic::from_f64(x * (1.0 + 1e-9)).expect("finite").round_up(DIGITS);
+        let up = |x: f64| {
+            Dyadic::from_f64(x * (1.0 + 1e-9))
+                .expect("finite")
+                .round_up(DIGITS)
+        };
         // A difference of coordinates is at most twice the largest of them.
         let reach = distance.min(2.0 * coordinates);
         // Divisors are det = N·d, N·N, |N|, the largest coordinate of N, and N·d over it or over |N|.
         let shape = self.least_shape();
-        let divisors = [shape * sine(grazing), shape * shape, shape * 0.577, sine(grazing)];
+        let divisors = [
+            shape * sine(grazing),
+            shape * shape,
+            shape * 0.577,
+            sine(grazing),
+        ];
         let floor = divisors.into_iter().fold(f64::INFINITY, f64::min);
         // Edges over twice the area. An edge of length 1 has a height above it of at least tan(α)/2.
         let slope = if self.is_of_longest {
@@ -109,7 +136,11 @@ impl Scene {
             1.0 / (shortest * sine(min_angle))
         };
         let slope = slope.min(longest / shape);
-        let down = |x: f64| Dyadic::from_f64(x * 0.999_999).expect("finite").round_down(DIGITS);
+        let down = |x: f64| {
+            Dyadic::from_f64(x * 0.999_999)
+                .expect("finite")
+                .round_down(DIGITS)
+        };
         let measures = Measures {
             area: down(shape),
             sine: down(sine(grazing)),
@@ -137,8 +168,9 @@ impl Scene {
     pub fn parts(&self, shapes: &[Shape]) -> Vec<Domain> {
         let mut sizes: BTreeMap<i32, Shape> = BTreeMap::new();
         for (size, shape) in shapes.iter().filter(|(_, shape)| shape.is_finite()) {
-            let (largest, least) =
-                sizes.entry((2.0 * size.log2()).ceil() as i32).or_insert((*size, *shape));
+            let (largest, least) = sizes
+                .entry((2.0 * size.log2()).ceil() as i32)
+                .or_insert((*size, *shape));
             *largest = largest.max(*size);
             *least = least.min(*shape);
         }
@@ -146,7 +178,11 @@ impl Scene {
             // A mesh's sizes are coordinates: an edge is no longer than √3 times the largest.
             let factor = if self.shape.is_some() { 1.733 } else { 1.0 };
             let longest = (factor * size).min(self.edge[1]);
-            Scene { shape: Some(*least), ..*self }.domain_of(*size, longest)
+            Scene {
+                shape: Some(*least),
+                ..*self
+            }
+            .domain_of(*size, longest)
         };
         sizes.values().map(part).collect()
     }
@@ -166,17 +202,29 @@ impl Scene {
         let minor = |i: usize, j: usize| {
             (&b[i] - &a[i]) * (&c[j] - &a[j]) - (&b[j] - &a[j]) * (&c[i] - &a[i])
         };
-        let square: Big = [minor(1, 2), minor(2, 0), minor(0, 1)].iter().map(|x| x * x).sum();
+        let square: Big = [minor(1, 2), minor(2, 0), minor(0, 1)]
+            .iter()
+            .map(|x| x * x)
+            .sum();
         root_up(&square, 53).to_f64()
     }
 
     /// True of a triangle and a ray as the words of the scene have them. Lengths and angles of floats are what they are to a
     /// few epsilons of their scalar: no direction of floats is exactly 1 long.
     pub(super) fn holds(&self, sample: &Sample<f64>, angle: Angle, epsilon: f64) -> bool {
-        let Sample { origin, direction, vertices, edges, normal, .. } = sample;
+        let Sample {
+            origin,
+            direction,
+            vertices,
+            edges,
+            normal,
+            ..
+        } = sample;
         let slack = 4.0 * epsilon;
-        let coordinates =
-            vertices.iter().chain([origin]).flat_map(|point| [0, 1, 2].map(|axis| point.at(axis)));
+        let coordinates = vertices
+            .iter()
+            .chain([origin])
+            .flat_map(|point| [0, 1, 2].map(|axis| point.at(axis)));
         if coordinates.map(f64::abs).any(|x| self.coordinates < x) {
             return false;
         }
@@ -187,7 +235,11 @@ impl Scene {
         let lengths = edges.each_ref().map(length);
         let longest = lengths.into_iter().fold(0.0, f64::max);
         let shortest = lengths.into_iter().fold(longest, f64::min);
-        let least = if self.is_of_longest { longest } else { shortest };
+        let least = if self.is_of_longest {
+            longest
+        } else {
+            shortest
+        };
         if least < self.edge[0] * (1.0 - slack) || self.edge[1] * (1.0 + slack) < longest {
             return false;
         }

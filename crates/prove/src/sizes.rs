@@ -25,7 +25,12 @@ impl BySize {
     /// For a gate in a scalar; none of a kernel without a program.
     pub fn new<F: Scalar>(entry: &Entry, gate: usize) -> Option<BySize> {
         let paths = paths_of::<F>(entry).ok()?;
-        Some(BySize { paths, gate, known: HashMap::new(), format: format_of::<F>() })
+        Some(BySize {
+            paths,
+            gate,
+            known: HashMap::new(),
+            format: format_of::<F>(),
+        })
     }
 
     /// The bound where coordinates of edges and of vectors from the origin are at most a size, rounded up to the
@@ -54,7 +59,11 @@ impl BySize {
         }
         while high - low > 1 {
             let middle = (low + high).div_euclid(2);
-            if holds(middle) { low = middle } else { high = middle }
+            if holds(middle) {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         Some(size_of(low))
     }
@@ -64,7 +73,12 @@ impl BySize {
             return *known;
         }
         let size = size_of(place);
-        let domain = Domain { edge: size, reach: size, world: size, ..Domain::UNIT };
+        let domain = Domain {
+            edge: size,
+            reach: size,
+            world: size,
+            ..Domain::UNIT
+        };
         let proof = Proof::new(self.paths.clone(), Some(self.gate), domain, self.format);
         let quantity = proof.gate(self.gate).and_then(Result::ok);
         let bound = quantity.and_then(|q| q.bound.as_ref().ok().map(|bound| bound.error));
@@ -76,5 +90,8 @@ impl BySize {
 /// The size of a step: (513..=1023)/1024 times a power of two; the bits of a domain stay few.
 fn size_of(place: i32) -> Dyadic {
     let step = place.rem_euclid(STEPS);
-    Dyadic::new(i128::from(1023 - 8 * (STEPS - 1 - step)), place.div_euclid(STEPS) - 9)
+    Dyadic::new(
+        i128::from(1023 - 8 * (STEPS - 1 - step)),
+        place.div_euclid(STEPS) - 9,
+    )
 }

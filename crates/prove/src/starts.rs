@@ -35,7 +35,11 @@ impl<F: Searched> Search<'_, F> {
         let [at_a, at_b] = [angle(draw), angle(draw)].map(|x| 1.0 / libm::tan(x));
         let height = size / (at_a + at_b);
         let (e1, e2) = (size * along, height * at_a * along + height * across);
-        let sine = if draw.below(4) == 0 { draw.unit() } else { more(draw, sine).min(1.0) };
+        let sine = if draw.below(4) == 0 {
+            draw.unit()
+        } else {
+            more(draw, sine).min(1.0)
+        };
         let in_plane = (along * draw.symmetric::<f64>() + across * draw.symmetric::<f64>())
             .normalize_or_zero();
         let direction = in_plane * (1.0 - sine * sine).sqrt() + normal * sine;
@@ -49,7 +53,12 @@ impl<F: Searched> Search<'_, F> {
     /// A ray that meets an edge of a triangle, both in one box as large as all sizes of the domain allow, and often near its
     /// sides: there |N·d| is large.
     fn aimed_in_a_box(&self, draw: &mut Draw) -> Inputs<F> {
-        let side = self.domain.edge.min(self.domain.reach).min(self.domain.world).to_f64();
+        let side = self
+            .domain
+            .edge
+            .min(self.domain.reach)
+            .min(self.domain.world)
+            .to_f64();
         let near_a_side = |draw: &mut Draw| {
             let inside = 0.5 * draw.unit() * 2f64.powi(-(draw.below(12) as i32));
             if draw.coin() { inside } else { 1.0 - inside }
@@ -77,7 +86,10 @@ impl<F: Searched> Search<'_, F> {
 
     fn inputs_of(&self, vectors: [DVec3; 5]) -> Inputs<F> {
         let mut inputs = [F::zero(); 17];
-        for (input, x) in inputs.iter_mut().zip(vectors.map(|v| v.to_array()).as_flattened()) {
+        for (input, x) in inputs
+            .iter_mut()
+            .zip(vectors.map(|v| v.to_array()).as_flattened())
+        {
             *input = F::from_f64(*x);
         }
         inputs[15..].copy_from_slice(&self.domain.interval());
@@ -86,7 +98,11 @@ impl<F: Searched> Search<'_, F> {
 
     /// Inputs in the boxes, often near the corner of the bound.
     pub(super) fn start(&self, goal: Goal, draw: &mut Draw) -> Inputs<F> {
-        if let Some(measures) = self.domain.measures.filter(|_| goal != Goal::Zero && draw.coin()) {
+        if let Some(measures) = self
+            .domain
+            .measures
+            .filter(|_| goal != Goal::Zero && draw.coin())
+        {
             return self.aimed(measures, draw);
         }
         if self.judge.is_some() && self.domain.measures.is_none() {
@@ -109,7 +125,11 @@ impl<F: Searched> Search<'_, F> {
         let lemma = self.quantity.lemmas.last();
         let sign = |wanted: Leaf| {
             let lemma = lemma.filter(|_| at_corner)?;
-            let at = lemma.formula.sources.iter().position(|s| *s == Source::Leaf(wanted))?;
+            let at = lemma
+                .formula
+                .sources
+                .iter()
+                .position(|s| *s == Source::Leaf(wanted))?;
             Some(*lemma.maximum.corner.get(at)?)
         };
         let signed = |x: f64, minus: Option<bool>| match minus {
@@ -124,7 +144,11 @@ impl<F: Searched> Search<'_, F> {
                 let x = size(draw, bound);
                 let minus = sign(Leaf::Difference(point, 1, axis))
                     .or(sign(Leaf::Difference(1, point, axis)).map(|minus| !minus));
-                let at = if point == 0 { axis } else { 3 + 3 * point + axis };
+                let at = if point == 0 {
+                    axis
+                } else {
+                    3 + 3 * point + axis
+                };
                 inputs[at] = F::from_f64(a + signed(x, minus));
             }
             // Where only vectors from the origin count, they are drawn around it.

@@ -35,8 +35,14 @@ pub fn statements<F: Searched + Scalar>(
     let unit = summary.format.unit().to_f64();
     let in_units = |x: f64| format!("{} ({} u)", above(x), units(x / unit, true));
     let where_ = if scene.is_none() && gate.uses.floor {
-        let Domain { floor, quotient, .. } = summary.domain;
-        let inside = if gate.uses.inside { ", barycentric ones at least 0" } else { "" };
+        let Domain {
+            floor, quotient, ..
+        } = summary.domain;
+        let inside = if gate.uses.inside {
+            ", barycentric ones at least 0"
+        } else {
+            ""
+        };
         format!(
             ", where divisors are at least {} and quotients at most {}{inside}",
             below(floor.to_f64()),
@@ -45,15 +51,24 @@ pub fn statements<F: Searched + Scalar>(
     } else {
         String::new()
     };
-    let known = gate.witnesses[0].as_ref().map_or(String::new(), |Witness { score, .. }| {
-        format!("; {} ({} u) is known", below(*score), units(score / unit, false))
-    });
+    let known = gate.witnesses[0]
+        .as_ref()
+        .map_or(String::new(), |Witness { score, .. }| {
+            format!(
+                "; {} ({} u) is known",
+                below(*score),
+                units(score / unit, false)
+            )
+        });
     let what = "What it compares is never wrong by more than";
     let mut lines = vec![format!("{what} {}{where_}{known}.", in_units(beta))];
     if scene.is_some() && !gate.limits.is_empty() {
         lines.push(supposed(&gate.limits));
     }
-    if let Some(Relative { factor, underflow, .. }) = &gate.relative {
+    if let Some(Relative {
+        factor, underflow, ..
+    }) = &gate.relative
+    {
         lines.push(format!(
             "Where nothing overflows and no product underflows, it is wrong by at most {} u times its permanent (the \
              sum of the sizes of its terms), at any exponents. In {} it is, underflow or not, wrong by at most that \
@@ -106,10 +121,16 @@ pub fn statements<F: Searched + Scalar>(
 
 /// The limits that a bound in a scene supposes, and what the letters in them mean.
 fn supposed(limits: &[Supposed]) -> String {
-    let texts = limits.iter().map(|Supposed { is_most, name, limit }| match is_most {
-        true => format!("{name} at most {}", above(limit.to_f64())),
-        false => format!("{name} at least {}", below(limit.to_f64())),
-    });
+    let texts = limits.iter().map(
+        |Supposed {
+             is_most,
+             name,
+             limit,
+         }| match is_most {
+            true => format!("{name} at most {}", above(limit.to_f64())),
+            false => format!("{name} at least {}", below(limit.to_f64())),
+        },
+    );
     let texts: Vec<String> = texts.collect();
     let has = |letter: &str| limits.iter().any(|limit| limit.name.contains(letter));
     let letters = [
@@ -120,10 +141,16 @@ fn supposed(limits: &[Supposed]) -> String {
         ("p×q", "p and q vertices"),
         ("|u|", "u any barycentric coordinate, or 1 less it"),
     ];
-    let letters: Vec<&str> =
-        letters.into_iter().filter(|(letter, _)| has(letter)).map(|(_, text)| text).collect();
-    let letters =
-        if letters.is_empty() { String::new() } else { format!(" ({})", letters.join(", ")) };
+    let letters: Vec<&str> = letters
+        .into_iter()
+        .filter(|(letter, _)| has(letter))
+        .map(|(_, text)| text)
+        .collect();
+    let letters = if letters.is_empty() {
+        String::new()
+    } else {
+        format!(" ({})", letters.join(", "))
+    };
     format!(
         "It supposes of the exact numbers, and more of larger triangles: {}{letters}.",
         texts.join(", ")
@@ -138,9 +165,14 @@ fn parallel<F: Searched + Scalar>(
     published: &[Published],
     lines: &mut Vec<String>,
 ) {
-    let passes = gate.witnesses[1].as_ref().filter(|witness| witness.score > 0.0);
+    let passes = gate.witnesses[1]
+        .as_ref()
+        .filter(|witness| witness.score > 0.0);
     let known = passes.map_or(String::new(), |witness| {
-        format!(" A parallel ray is known that reaches {}.", below(witness.score))
+        format!(
+            " A parallel ray is known that reaches {}.",
+            below(witness.score)
+        )
     });
     lines.push(format!(
         "An epsilon above {} refuses every ray that is exactly parallel.{known}",
@@ -157,7 +189,9 @@ fn parallel<F: Searched + Scalar>(
     let mut errors = vec![beta; shapes.len()];
     if let Some(sizes) = own {
         for (error, (size, _)) in errors.iter_mut().zip(shapes) {
-            *error = sizes.bound(*size).map_or(beta, |bound| bound.to_f64().min(beta));
+            *error = sizes
+                .bound(*size)
+                .map_or(beta, |bound| bound.to_f64().min(beta));
         }
     }
     let is_angle = gate.gate.dimension.length == 0;
@@ -171,7 +205,10 @@ fn parallel<F: Searched + Scalar>(
         let sine = sine.fold(0.0, f64::max);
         let cost = if sine < 1.0 {
             let angle = libm::asin(sine).to_degrees();
-            format!("it keeps every hit at {} to the plane and more", degrees(angle))
+            format!(
+                "it keeps every hit at {} to the plane and more",
+                degrees(angle)
+            )
         } else {
             "for no angle is it proved that every hit is kept".to_owned()
         };
@@ -190,7 +227,9 @@ fn parallel<F: Searched + Scalar>(
                 below(shapes[proved - 1].0)
             ),
         };
-        lines.push(format!("In this scene, for |d| = 1, {name} {refuses}; {cost}."));
+        lines.push(format!(
+            "In this scene, for |d| = 1, {name} {refuses}; {cost}."
+        ));
     };
     say("that epsilon", beta * (1.0 + 1e-9));
     for (name, value) in published.iter().filter(|(_, e)| *e > 0.0) {
@@ -205,7 +244,11 @@ fn about_epsilon<F: Searched + Scalar>(
     sizes: &mut BySize,
     (name, value): &Published,
 ) -> String {
-    let what = if gate.uses.edge { "edges" } else { "vectors from the origin to the vertices" };
+    let what = if gate.uses.edge {
+        "edges"
+    } else {
+        "vectors from the origin to the vertices"
+    };
     let proved = sizes.largest(F::from_f64(*value).to_f64()).map_or_else(
         || format!("e = {name} is proved for no size of {what}."),
         |size| {
@@ -216,13 +259,23 @@ fn about_epsilon<F: Searched + Scalar>(
         },
     );
     // A power of two changes no rounding, so the known case passes e at every larger power of two.
-    let passes = gate.witnesses[1].as_ref().map(|witness| witness.score).filter(|x| *x > 0.0);
+    let passes = gate.witnesses[1]
+        .as_ref()
+        .map(|witness| witness.score)
+        .filter(|x| *x > 0.0);
     let length = gate.gate.dimension.length;
     let fails = passes.filter(|_| length > 0).map(|score| {
-        let bound = if gate.uses.edge { summary.domain.edge } else { summary.domain.reach };
+        let bound = if gate.uses.edge {
+            summary.domain.edge
+        } else {
+            summary.domain.reach
+        };
         let exponent = ((value / score).log2() / f64::from(length)).floor() as i32 + 1;
         let size = bound.to_f64() * 2f64.powi(exponent);
-        format!(" A known parallel ray passes it where they are up to {}.", above(size))
+        format!(
+            " A known parallel ray passes it where they are up to {}.",
+            above(size)
+        )
     });
     format!("{proved}{}", fails.unwrap_or_default())
 }
@@ -264,7 +317,11 @@ pub fn below(x: f64) -> String {
 
 /// A number of either sign in three digits, not below it, or not above it.
 fn signed(x: f64, up: bool) -> String {
-    if x < 0.0 { format!("-{}", short(-x, !up)) } else { short(x, up) }
+    if x < 0.0 {
+        format!("-{}", short(-x, !up))
+    } else {
+        short(x, up)
+    }
 }
 
 fn short(x: f64, up: bool) -> String {
@@ -273,9 +330,16 @@ fn short(x: f64, up: bool) -> String {
     }
     let exponent = x.log10().floor() as i32;
     let scale = 10f64.powi(2 - exponent);
-    let digits = if up { (x * scale - 1e-9).ceil() } else { (x * scale + 1e-9).floor() };
-    let (digits, exponent) =
-        if digits >= 1000.0 { (100.0, exponent + 1) } else { (digits, exponent) };
+    let digits = if up {
+        (x * scale - 1e-9).ceil()
+    } else {
+        (x * scale + 1e-9).floor()
+    };
+    let (digits, exponent) = if digits >= 1000.0 {
+        (100.0, exponent + 1)
+    } else {
+        (digits, exponent)
+    };
     if (-2..4).contains(&exponent) {
         let decimals = (2 - exponent).max(0) as usize;
         let text = format!("{:.decimals$}", digits / 10f64.powi(2 - exponent));
@@ -293,7 +357,11 @@ fn short(x: f64, up: bool) -> String {
 /// A number of units in two decimals, not below it, or not above it.
 pub fn units(x: f64, up: bool) -> String {
     if (0.01..1e4).contains(&x) {
-        let hundreds = if up { (x * 100.0 - 1e-9).ceil() } else { (x * 100.0 + 1e-9).floor() };
+        let hundreds = if up {
+            (x * 100.0 - 1e-9).ceil()
+        } else {
+            (x * 100.0 + 1e-9).floor()
+        };
         format!("{:.2}", hundreds / 100.0)
     } else {
         short(x, up)

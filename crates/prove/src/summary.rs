@@ -72,13 +72,20 @@ impl<F> GateSummary<F> {
 
 /// The format of a scalar.
 pub fn format_of<F: Float>() -> Format {
-    if F::DIGITS == 24 { Format::F32 } else { Format::F64 }
+    if F::DIGITS == 24 {
+        Format::F32
+    } else {
+        Format::F64
+    }
 }
 
 /// The recorded paths of a kernel; an error in one sentence if it has no program.
 pub fn paths_of<F: Scalar>(entry: &Entry) -> Result<Vec<Path>, String> {
     let subject = F::subject(entry).ok_or("it does not run in this scalar")?;
-    subject.gated().ok_or("it is not written for every arithmetic")?.paths()
+    subject
+        .gated()
+        .ok_or("it is not written for every arithmetic")?
+        .paths()
 }
 
 impl Proof {
@@ -88,7 +95,12 @@ impl Proof {
         gate: Option<usize>,
         domain: Domain,
     ) -> Result<Proof, String> {
-        Ok(Proof::new(paths_of::<F>(entry)?, gate, domain, format_of::<F>()))
+        Ok(Proof::new(
+            paths_of::<F>(entry)?,
+            gate,
+            domain,
+            format_of::<F>(),
+        ))
     }
 }
 
@@ -112,21 +124,32 @@ pub struct Effort {
 
 impl Effort {
     /// No search.
-    pub const NONE: Effort = Effort { evaluations: 0, seed: 1 };
+    pub const NONE: Effort = Effort {
+        evaluations: 0,
+        seed: 1,
+    };
 
     /// The parts of a domain share the evaluations: most of them where most may be wrong.
     pub(super) fn shared(self, proof: &Proof, quantity: &Quantity) -> Effort {
-        let parts = proof.quantities.iter().filter(|it| it.program == quantity.program);
+        let parts = proof
+            .quantities
+            .iter()
+            .filter(|it| it.program == quantity.program);
         let bound = quantity.error();
         let share = bound / parts.map(Quantity::error).sum::<f64>().max(bound);
-        Effort { evaluations: (self.evaluations as f64 * share) as u64, ..self }
+        Effort {
+            evaluations: (self.evaluations as f64 * share) as u64,
+            ..self
+        }
     }
 }
 
 impl Quantity {
     /// Its bound, or 0.
     fn error(&self) -> f64 {
-        self.bound.as_ref().map_or(0.0, |bound| bound.error.to_f64())
+        self.bound
+            .as_ref()
+            .map_or(0.0, |bound| bound.error.to_f64())
     }
 }
 
@@ -143,33 +166,40 @@ impl<F: Searched + Scalar> Summary<F> {
         let format = format_of::<F>();
         let proof = Proof::of::<F>(entry, None, domain)?.split(parts, format);
         let mut contradiction = None;
-        let gates = entry.info.gates.iter().enumerate().filter_map(|(index, gate)| {
-            let bound = proof.gate(index)?;
-            let of_gate = || proof.quantities.iter().filter(move |q| q.gate == index);
-            let uses = Uses::of(of_gate().flat_map(|quantity| &quantity.lemmas));
-            let mut limits: Vec<Supposed> = of_gate().flat_map(Quantity::limits).collect();
-            // The weakest of each.
-            limits.sort_unstable();
-            limits.dedup_by(|later, kept| {
-                let is_same = (kept.is_most, kept.name) == (later.is_most, later.name);
-                if is_same && kept.is_most {
-                    kept.limit = later.limit;
-                }
-                is_same
-            });
-            let mut seen = HashSet::new();
-            let once = of_gate().filter(|quantity| seen.insert((quantity.path, quantity.place)));
-            let forms = once.map(|quantity| {
-                let path = &proof.paths[quantity.path];
-                relative(path, quantity.place, domain, format).ok()
-            });
-            let forms: Option<Vec<Relative>> = forms.collect();
-            let relative = forms.and_then(|forms| forms.into_iter().max_by_key(|form| form.factor));
-            let is_margin = of_gate().all(|quantity| quantity.is_margin);
-            let witnesses = GOALS.map(|goal| {
-                let wanted = goal == Goal::Error || gate.role == Role::Parallel;
-                let quantities = of_gate().filter(|q| wanted && q.bound.is_ok());
-                let found = quantities.filter_map(|quantity| {
+        let gates = entry
+            .info
+            .gates
+            .iter()
+            .enumerate()
+            .filter_map(|(index, gate)| {
+                let bound = proof.gate(index)?;
+                let of_gate = || proof.quantities.iter().filter(move |q| q.gate == index);
+                let uses = Uses::of(of_gate().flat_map(|quantity| &quantity.lemmas));
+                let mut limits: Vec<Supposed> = of_gate().flat_map(Quantity::limits).collect();
+                // The weakest of each.
+                limits.sort_unstable();
+                limits.dedup_by(|later, kept| {
+                    let is_same = (kept.is_most, kept.name) == (later.is_most, later.name);
+                    if is_same && kept.is_most {
+                        kept.limit = later.limit;
+                    }
+                    is_same
+                });
+                let mut seen = HashSet::new();
+                let once =
+                    of_gate().filter(|quantity| seen.insert((quantity.path, quantity.place)));
+                let forms = once.map(|quantity| {
+                    let path = &proof.paths[quantity.path];
+                    relative(path, quantity.place, domain, format).ok()
+                });
+                let forms: Option<Vec<Relative>> = forms.collect();
+                let relative =
+                    forms.and_then(|forms| forms.into_iter().max_by_key(|form| form.factor));
+                let is_margin = of_gate().all(|quantity| quantity.is_margin);
+                let witnesses = GOALS.map(|goal| {
+                    let wanted = goal == Goal::Error || gate.role == Role::Parallel;
+                    let quantities = of_gate().filter(|q| wanted && q.bound.is_ok());
+                    let found = quantities.filter_map(|quantity| {
                     let effort = effort.shared(&proof, quantity);
                     let found = worst::<F>((&proof, quantity), goal, None, known, effort)?;
                     let bound = quantity.error();
@@ -183,24 +213,31 @@ impl<F: Searched + Scalar> Summary<F> {
                     }
                     Some(found)
                 });
-                found.max_by(|a, b| a.score.total_cmp(&b.score))
+                    found.max_by(|a, b| a.score.total_cmp(&b.score))
+                });
+                let bound = bound.map(|q| q.bound.as_ref().expect("it has one").error);
+                Some(GateSummary {
+                    index,
+                    gate: *gate,
+                    bound,
+                    relative,
+                    uses,
+                    limits,
+                    is_margin,
+                    witnesses,
+                })
             });
-            let bound = bound.map(|q| q.bound.as_ref().expect("it has one").error);
-            Some(GateSummary {
-                index,
-                gate: *gate,
-                bound,
-                relative,
-                uses,
-                limits,
-                is_margin,
-                witnesses,
-            })
-        });
         let gates: Vec<GateSummary<F>> = gates.collect();
         let is_edge = |gate: usize| entry.info.gates[gate].role == Role::Edge;
         let symmetry = symmetry(&proof.paths, is_edge);
-        Ok(Summary { domain, format, gates, symmetry, contradiction, proof })
+        Ok(Summary {
+            domain,
+            format,
+            gates,
+            symmetry,
+            contradiction,
+            proof,
+        })
     }
 }
 
@@ -215,9 +252,11 @@ pub(super) fn worst<F: Searched>(
     let mut search = Search::<F>::new(proof, quantity, judge);
     let known = scaled(known, &quantity.domain, judge.is_some());
     let witness = |inputs: Inputs<F>, score: f64| Witness { inputs, score };
-    let from_known = known
-        .iter()
-        .filter_map(|inputs| search.exact(inputs, goal).map(|score| witness(*inputs, score)));
+    let from_known = known.iter().filter_map(|inputs| {
+        search
+            .exact(inputs, goal)
+            .map(|score| witness(*inputs, score))
+    });
     let mut known: Vec<Witness<F>> = from_known.collect();
     known.sort_by(|a, b| b.score.total_cmp(&a.score));
     let best = known.first().copied();
@@ -228,7 +267,9 @@ pub(super) fn worst<F: Searched>(
     let known: Vec<Inputs<F>> = known.iter().map(|witness| witness.inputs).collect();
     let found = search.climb(goal, effort.evaluations, &mut draw, &known);
     let found = found.map(|(inputs, score)| witness(inputs, score));
-    best.into_iter().chain(found).max_by(|a, b| a.score.total_cmp(&b.score))
+    best.into_iter()
+        .chain(found)
+        .max_by(|a, b| a.score.total_cmp(&b.score))
 }
 
 /// Known inputs of the unit domain, moved into another one by a power of two, which changes no rounding. Rays whose verdicts

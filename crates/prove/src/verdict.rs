@@ -79,20 +79,35 @@ pub fn verdicts(
     let is_edge = |gate: usize| entry.info.gates[gate].role == Role::Edge;
     let mut forms: HashSet<Forms> = HashSet::new();
     for (index, path) in proof.paths.iter().enumerate() {
-        let gates = path.compared.iter().filter(|compared| is_edge(compared.gate));
+        let gates = path
+            .compared
+            .iter()
+            .filter(|compared| is_edge(compared.gate));
         let forms_of = |compared: &Compared| {
             let name = entry.info.gates[compared.gate].name;
             if !compared.is_margin() && epsilons[compared.gate] != 0.0 {
                 return Err(format!("gate '{name}' rounds with its epsilon"));
             }
-            let mut reader = Reader { proof, index, path, meanings: &mut meanings };
-            reader.form(compared).ok_or(format!("what gate '{name}' compares is not read"))
+            let mut reader = Reader {
+                proof,
+                index,
+                path,
+                meanings: &mut meanings,
+            };
+            reader
+                .form(compared)
+                .ok_or(format!("what gate '{name}' compares is not read"))
         };
         match gates.map(forms_of).collect::<Result<Vec<Form>, String>>() {
             Ok(found) => forms.insert((found, path.hits)),
             Err(why) => {
                 let (misses, hits) = (Err(why.clone()), Err(why));
-                return Verdicts { misses, hits, others, scales: Vec::new() };
+                return Verdicts {
+                    misses,
+                    hits,
+                    others,
+                    scales: Vec::new(),
+                };
             }
         };
     }
@@ -108,7 +123,12 @@ pub fn verdicts(
     };
     let sides = entry.info.contract.sides;
     let misses = farthest(&|domain| {
-        let bounds = Bounds { proof, far: None, domain, epsilons };
+        let bounds = Bounds {
+            proof,
+            far: None,
+            domain,
+            epsilons,
+        };
         let mut shares = forms.iter().map(|forms| bounds.inside(forms, sides));
         shares.try_fold([0.0; 2], |most, share| Ok(larger(most, [share?; 2])))
     });
@@ -119,17 +139,30 @@ pub fn verdicts(
         if !is_linear {
             return Err("barycentric coordinates are multiplied with each other".to_owned());
         }
-        let bounds = Bounds { proof: near, far: is_wide.then_some(far), domain, epsilons };
+        let bounds = Bounds {
+            proof: near,
+            far: is_wide.then_some(far),
+            domain,
+            epsilons,
+        };
         let mut shares = forms.iter().map(|forms| bounds.outside(&forms.0));
         shares.try_fold([0.0; 2], |most, share| Ok(larger(most, share?)))
     });
-    let facts = forms.iter().flat_map(|(forms, _)| forms).flat_map(|form| form.ways.concat());
+    let facts = forms
+        .iter()
+        .flat_map(|(forms, _)| forms)
+        .flat_map(|form| form.ways.concat());
     let scales: BTreeSet<Scale> = facts.map(|fact| fact.scale).collect();
     let least = |scale: Scale| {
         let least = parts.iter().map(|domain| scale.least(domain));
         (scale, least.fold(f64::INFINITY, f64::min))
     };
-    Verdicts { misses, hits, others, scales: scales.into_iter().map(least).collect() }
+    Verdicts {
+        misses,
+        hits,
+        others,
+        scales: scales.into_iter().map(least).collect(),
+    }
 }
 
 /// True if no step of a lemma multiplies two numbers that depend on quotients: then its error grows no faster than they do.
@@ -166,7 +199,9 @@ pub fn supposes_weights(entry: &Entry, proof: &Proof) -> bool {
             meaning.is_some_and(|it| matches!(it.what, What::Weight(_) | What::Rest(_)))
         };
         let lemmas = quantity.lemmas.iter();
-        lemmas.filter(|lemma| matches!(lemma.rule, Rule::Quotient { .. })).any(is_weight)
+        lemmas
+            .filter(|lemma| matches!(lemma.rule, Rule::Quotient { .. }))
+            .any(is_weight)
     })
 }
 
@@ -224,13 +259,17 @@ impl Bounds<'_> {
 
     /// The farthest outside an edge, and from the triangle, that a path's gates let through.
     fn outside(&self, forms: &[Form]) -> Result<[f64; 2], String> {
-        let ways = forms.iter().fold(vec![Vec::new()], |all: Vec<Vec<(usize, Fact)>>, form| {
-            let more = |way: &Vec<(usize, Fact)>, facts: &Vec<Fact>| {
-                let facts = facts.iter().map(|fact| (form.gate, *fact));
-                way.iter().copied().chain(facts).collect()
-            };
-            all.iter().flat_map(|way| form.ways.iter().map(move |facts| more(way, facts))).collect()
-        });
+        let ways = forms
+            .iter()
+            .fold(vec![Vec::new()], |all: Vec<Vec<(usize, Fact)>>, form| {
+                let more = |way: &Vec<(usize, Fact)>, facts: &Vec<Fact>| {
+                    let facts = facts.iter().map(|fact| (form.gate, *fact));
+                    way.iter().copied().chain(facts).collect()
+                };
+                all.iter()
+                    .flat_map(|way| form.ways.iter().map(move |facts| more(way, facts)))
+                    .collect()
+            });
         let mut most = [0.0; 2];
         for way in &ways {
             for side in [true, false] {
@@ -263,7 +302,9 @@ impl Bounds<'_> {
                     all[vertex] = Some((self.epsilon(*gate, fact), error));
                 }
             }
-            let [Some(a), Some(b), Some(c)] = all else { return Ok(None) };
+            let [Some(a), Some(b), Some(c)] = all else {
+                return Ok(None);
+            };
             Ok(Some([a, b, c]))
         };
         let at = |weights: &[(f64, f64); 3], times: f64| {
@@ -307,10 +348,18 @@ impl Bounds<'_> {
 
 /// The bound of a program's error in a domain.
 fn error(proof: &Proof, program: usize, domain: &Domain) -> Result<f64, String> {
-    let mut of_program = proof.quantities.iter().filter(|it| it.program == program).peekable();
+    let mut of_program = proof
+        .quantities
+        .iter()
+        .filter(|it| it.program == program)
+        .peekable();
     let first = of_program.peek().expect("it has one").bound.as_ref();
-    let own = of_program.find(|it| it.domain == *domain).map(|it| it.bound.as_ref());
-    own.unwrap_or(first).map(|bound| bound.error.to_f64()).map_err(|why| format!("no bound: {why}"))
+    let own = of_program
+        .find(|it| it.domain == *domain)
+        .map(|it| it.bound.as_ref());
+    own.unwrap_or(first)
+        .map(|bound| bound.error.to_f64())
+        .map_err(|why| format!("no bound: {why}"))
 }
 
 /// The wrong decisions of gates that are not about edges.
@@ -328,10 +377,19 @@ fn others(
         let mut may = None;
         let is_fixed =
             |it: &Compared| it.gate == gate && matches!(it.accepts, Acceptance::Fixed(..));
-        if proof.paths.iter().flat_map(|path| &path.compared).any(is_fixed) {
+        if proof
+            .paths
+            .iter()
+            .flat_map(|path| &path.compared)
+            .any(is_fixed)
+        {
             return None;
         }
-        for quantity in proof.quantities.iter().filter(|quantity| quantity.gate == gate) {
+        for quantity in proof
+            .quantities
+            .iter()
+            .filter(|quantity| quantity.gate == gate)
+        {
             let Meaning { what, scale, .. } = meanings.of(quantity.path, quantity.place)?;
             for domain in parts {
                 let error = error(proof, quantity.program, domain).ok()?;
@@ -353,5 +411,10 @@ fn others(
         }
         may
     };
-    others.map(|(gate, _)| Other { gate, may: may(gate).unwrap_or(May::Unknown) }).collect()
+    others
+        .map(|(gate, _)| Other {
+            gate,
+            may: may(gate).unwrap_or(May::Unknown),
+        })
+        .collect()
 }

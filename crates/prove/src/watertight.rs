@@ -37,20 +37,34 @@ pub fn symmetry(paths: &[Path], is_edge: impl Fn(usize) -> bool) -> Symmetry {
     let mut forms = Forms::default();
     let mut met: HashMap<Vec<Decision>, Met> = HashMap::new();
     for path in paths {
-        let gates: Vec<&Compared> =
-            path.compared.iter().filter(|compared| is_edge(compared.gate)).collect();
+        let gates: Vec<&Compared> = path
+            .compared
+            .iter()
+            .filter(|compared| is_edge(compared.gate))
+            .collect();
         let edges = three_edges(path, &gates).filter(|edges| {
-            path.hits && [1, -1].iter().all(|side| accept_all(path, &gates, edges, *side))
+            path.hits
+                && [1, -1]
+                    .iter()
+                    .all(|side| accept_all(path, &gates, edges, *side))
         });
-        let Some(edges) = edges else { return Symmetry::None };
+        let Some(edges) = edges else {
+            return Symmetry::None;
+        };
         let of_ray = of_the_ray(&mut forms, path);
         for place in edges {
             let form = Some(of_edge(&mut forms, path, place)).filter(|_| is_opposite(path, place));
-            let of_edge = Met { form, images: images(&mut forms, path, place) };
+            let of_edge = Met {
+                form,
+                images: images(&mut forms, path, place),
+            };
             met.entry(of_ray.clone()).or_insert(of_edge).join(of_edge);
         }
     }
-    met.values().map(Met::symmetry).min().unwrap_or(Symmetry::None)
+    met.values()
+        .map(Met::symmetry)
+        .min()
+        .unwrap_or(Symmetry::None)
 }
 
 /// The common formula or images of all edges that one ray may meet.
@@ -71,7 +85,9 @@ impl Met {
 
     fn symmetry(&self) -> Symmetry {
         match self {
-            Met { images: Some(_), .. } => Symmetry::ExactSigns,
+            Met {
+                images: Some(_), ..
+            } => Symmetry::ExactSigns,
             Met { form: Some(_), .. } => Symmetry::Negatives,
             _ => Symmetry::None,
         }
@@ -93,7 +109,9 @@ fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
             return None;
         }
     }
-    let [Some(ab), Some(bc), Some(ca)] = edges else { return None };
+    let [Some(ab), Some(bc), Some(ca)] = edges else {
+        return None;
+    };
     Some([ab, bc, ca])
 }
 
@@ -101,7 +119,9 @@ fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
 /// vertex is in a divisor, where 0 divided by 0 would be refused on both sides of an edge, or under a root.
 fn is_sound(path: &Path, place: Place) -> bool {
     let depends = |place: Place, on: Range<u8>| {
-        inputs(path, place).into_iter().any(|input| on.contains(&input))
+        inputs(path, place)
+            .into_iter()
+            .any(|input| on.contains(&input))
     };
     let is_critical = |place: Place| match path.operations[place as usize] {
         Operation::Div(_, part) | Operation::Sqrt(part) => depends(part, VERTICES),
@@ -119,7 +139,9 @@ fn accept_all(path: &Path, gates: &[&Compared], edges: &[Place; 3], side: i8) ->
             let sign = edge.map_or(0, |edge| if which >> edge & 1 == 1 { side } else { 0 });
             (edge.is_some(), if minus { -sign } else { sign })
         };
-        gates.iter().all(|compared| accepts_surely(&compared.accepts, value))
+        gates
+            .iter()
+            .all(|compared| accepts_surely(&compared.accepts, value))
     })
 }
 
@@ -143,14 +165,19 @@ fn accepts_surely(acceptance: &Acceptance, value: impl Fn(Place) -> (bool, i8)) 
                 Refuse::Below | Refuse::UnlessAtLeast => 0,
                 Refuse::AtMost | Refuse::UnlessAbove => 1,
             };
-            clauses.iter().any(|clause| clause.iter().all(|place| least <= sign(*place)))
+            clauses
+                .iter()
+                .any(|clause| clause.iter().all(|place| least <= sign(*place)))
         }
         Acceptance::Rounded(outcomes) => {
             let may_happen = |outcome: &&Outcome| {
                 let mut answers = outcome.answers.iter();
                 answers.all(|(comparison, given)| answer(comparison).is_none_or(|it| it == *given))
             };
-            outcomes.iter().filter(may_happen).all(|outcome| outcome.accepts)
+            outcomes
+                .iter()
+                .filter(may_happen)
+                .all(|outcome| outcome.accepts)
         }
     }
 }
@@ -168,7 +195,9 @@ pub(super) fn signed(path: &Path, place: Place) -> (bool, Place) {
 
 /// The two vertices that an edge's value is made of, the second one after the first in the order a, b, c, a.
 fn ends(path: &Path, place: Place) -> Option<(usize, usize)> {
-    let [p, q] = vertices(path, place)[..] else { return None };
+    let [p, q] = vertices(path, place)[..] else {
+        return None;
+    };
     Some(if q == p + 1 { (p, q) } else { (q, p) })
 }
 
@@ -185,7 +214,9 @@ pub fn symmetry_of(path: &Path, place: Place) -> Symmetry {
 
 /// True if a number of two vertices becomes its negative, bit for bit, when these are exchanged.
 fn is_opposite(path: &Path, place: Place) -> bool {
-    let Some((p, q)) = ends(path, place) else { return false };
+    let Some((p, q)) = ends(path, place) else {
+        return false;
+    };
     let mut forms = Forms::default();
     let (sign, form) = forms.of(path, place, &|i| i);
     let (other_sign, other) = forms.of(path, place, &|i| exchanged(i, p, q));
@@ -247,7 +278,9 @@ const ENDS: Range<u8> = 15..17;
 /// The vertices that a number is made of: a, b and c as 2, 3 and 4.
 fn vertices(path: &Path, place: Place) -> Vec<usize> {
     let inputs = inputs(path, place).into_iter();
-    let found = inputs.filter(|i| VERTICES.contains(i)).map(|i| usize::from(i) / 3);
+    let found = inputs
+        .filter(|i| VERTICES.contains(i))
+        .map(|i| usize::from(i) / 3);
     found.collect::<BTreeSet<_>>().into_iter().collect()
 }
 
@@ -279,9 +312,17 @@ fn of_the_ray(forms: &mut Forms, path: &Path) -> Vec<Decision> {
     // t_max is no part of it: it shrinks from triangle to triangle as hits are found.
     let depends = |i: u8| 6 <= i;
     let is_of_ray = |(comparison, _): &&(Comparison, bool)| {
-        comparison.places().iter().all(|place| !inputs(path, *place).into_iter().any(depends))
+        comparison
+            .places()
+            .iter()
+            .all(|place| !inputs(path, *place).into_iter().any(depends))
     };
-    let of_ray: Vec<_> = path.decisions.iter().take_while(is_of_ray).copied().collect();
+    let of_ray: Vec<_> = path
+        .decisions
+        .iter()
+        .take_while(is_of_ray)
+        .copied()
+        .collect();
     let decision = |(comparison, answer): (Comparison, bool)| {
         let places = comparison.places().into_iter();
         let forms = places.map(|place| forms.of(path, place, &|i| i)).collect();

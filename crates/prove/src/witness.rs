@@ -105,9 +105,16 @@ impl<'a, F: Searched> Search<'a, F> {
         let path = &proof.paths[quantity.path];
         // A verdict in the unit domain is held to what is printed of all that the kernel divides.
         let is_whole = judge.is_some() && domain.measures.is_none();
-        let (mut cone, renamed) =
-            if is_whole { whole(path) } else { cone(&path.operations, quantity.place) };
-        let mut conditions = if is_whole { divisions(path, &domain) } else { Vec::new() };
+        let (mut cone, renamed) = if is_whole {
+            whole(path)
+        } else {
+            cone(&path.operations, quantity.place)
+        };
+        let mut conditions = if is_whole {
+            divisions(path, &domain)
+        } else {
+            Vec::new()
+        };
         for (old, new) in renamed.iter().enumerate() {
             let (Some(new), Some(leaf)) = (new, Leaf::of(path.operations[old], &path.operations))
             else {
@@ -126,7 +133,12 @@ impl<'a, F: Searched> Search<'a, F> {
                     let floor = floor.size().to_f64();
                     conditions.extend(at(length).map(|p| Condition::AtLeast(p, floor)));
                 }
-                Rule::Quotient { divisor, floor, below, .. } => {
+                Rule::Quotient {
+                    divisor,
+                    floor,
+                    below,
+                    ..
+                } => {
                     let floor = floor.size().to_f64();
                     let size = lemma.bound.size.to_f64();
                     let condition = |place: Place| match below {
@@ -143,7 +155,9 @@ impl<'a, F: Searched> Search<'a, F> {
             let is_point =
                 |it: &Operation, point| Leaf::of(*it, &cone) == Some(Leaf::Point(point, axis));
             let at = |point: usize| cone.iter().position(|it| is_point(it, point));
-            let (Some(p), Some(q)) = (at(p), at(q)) else { continue };
+            let (Some(p), Some(q)) = (at(p), at(q)) else {
+                continue;
+            };
             conditions.push(Condition::AtMost(cone.len() as Place, bound));
             cone.push(Operation::Sub(p as Place, q as Place));
         }
@@ -187,9 +201,17 @@ impl<'a, F: Searched> Search<'a, F> {
         if !self.decisions.iter().all(holds) {
             return None;
         }
-        let angle = if goal == Goal::Zero { Angle::Zero } else { Angle::OfScene };
+        let angle = if goal == Goal::Zero {
+            Angle::Zero
+        } else {
+            Angle::OfScene
+        };
         let is_of_scene = |measures: Measures| {
-            measures.hold(&Sample::of(&inputs.map(F::to_f64)), angle, F::EPSILON.to_f64())
+            measures.hold(
+                &Sample::of(&inputs.map(F::to_f64)),
+                angle,
+                F::EPSILON.to_f64(),
+            )
         };
         if !self.domain.measures.is_none_or(is_of_scene) {
             return None;
@@ -204,7 +226,10 @@ impl<'a, F: Searched> Search<'a, F> {
     /// The exact score of inputs, in the domain by exact arithmetic; none if they are outside.
     pub fn exact(&mut self, inputs: &Inputs<F>, goal: Goal) -> Option<f64> {
         self.score(inputs, goal, &mut Vec::new())?;
-        let has_root = self.operations.iter().any(|it| matches!(it, Operation::Sqrt(_)));
+        let has_root = self
+            .operations
+            .iter()
+            .any(|it| matches!(it, Operation::Sqrt(_)));
         let (score, counts) = if has_root {
             // Exact numbers with roots grow too long; these know their own errors.
             let number = |x: F| Bounded::new(x.to_f64());
@@ -270,10 +295,15 @@ impl<'a, F: Searched> Search<'a, F> {
             let value = values[place as usize].clone();
             if sign < 0.0 { -value } else { value }
         };
-        if !self.holds(is_verdict, |place, sign, bound| compare(&signed(place, sign), bound)) {
+        if !self.holds(is_verdict, |place, sign, bound| {
+            compare(&signed(place, sign), bound)
+        }) {
             return None;
         }
-        let (exact, computed) = (&values[self.place as usize], self.computed[self.place as usize]);
+        let (exact, computed) = (
+            &values[self.place as usize],
+            self.computed[self.place as usize],
+        );
         match goal {
             Goal::Error => Some((float(&(exact.clone() - &number(computed)).abs())?, true)),
             Goal::Zero => {
@@ -281,7 +311,8 @@ impl<'a, F: Searched> Search<'a, F> {
             }
             Goal::Missed | Goal::Hit => {
                 let sample = Sample::of(&numbers);
-                self.judge?.score(inputs, goal == Goal::Hit, &self.domain, &sample, float)
+                self.judge?
+                    .score(inputs, goal == Goal::Hit, &self.domain, &sample, float)
             }
         }
     }
@@ -306,7 +337,11 @@ fn divisions(path: &Path, domain: &Domain) -> Vec<Condition> {
             Operation::Div(numerator, divisor) => {
                 let leaf = Leaf::of(path.operations[divisor as usize], &path.operations);
                 let is_of_direction = matches!(leaf, Some(Leaf::Direction(_)));
-                let least = if is_of_direction { direction_floor } else { floor };
+                let least = if is_of_direction {
+                    direction_floor
+                } else {
+                    floor
+                };
                 conditions.push(Condition::AtLeast(divisor, least));
                 let is_reciprocal = path.operations[numerator as usize] == Operation::Number(1);
                 // A false hit is where a barycentric coordinate is not between 0 and 1.
@@ -323,7 +358,10 @@ fn divisions(path: &Path, domain: &Domain) -> Vec<Condition> {
 /// The pairs of all points, and the axes, that are in one box in a quantity's proof.
 fn boxed(quantity: &Quantity) -> impl Iterator<Item = (usize, usize, usize)> {
     let is_boxed = |point: usize, axis: usize| {
-        let mut sources = quantity.lemmas.iter().flat_map(|lemma| &lemma.formula.sources);
+        let mut sources = quantity
+            .lemmas
+            .iter()
+            .flat_map(|lemma| &lemma.formula.sources);
         sources.any(|source| *source == Source::Boxed(point, axis))
     };
     let pairs = (0..4).flat_map(|p| (p + 1..4).map(move |q| (p, q)));
@@ -336,6 +374,9 @@ fn is_used_alone(path: &Path, renamed: &[Option<Place>], place: usize) -> bool {
     path.operations.iter().enumerate().any(|(user, operation)| {
         renamed[user].is_some()
             && operation.operands().contains(&(place as Place))
-            && !matches!(Leaf::of(*operation, &path.operations), Some(Leaf::Difference(..)))
+            && !matches!(
+                Leaf::of(*operation, &path.operations),
+                Some(Leaf::Difference(..))
+            )
     })
 }

@@ -6,7 +6,12 @@ use hairline::{Batch, Float, Layers};
 use std::time::Instant;
 
 fn serve<F: Float, const BYTES: usize>(data: &[u8], number: fn([u8; BYTES]) -> F) {
-    let numbers: Vec<F> = data.as_chunks().0.iter().map(|bytes| number(*bytes)).collect();
+    let numbers: Vec<F> = data
+        .as_chunks()
+        .0
+        .iter()
+        .map(|bytes| number(*bytes))
+        .collect();
     let count = numbers.len() / 15;
     let [o, d, a, b, c] = [0, 1, 2, 3, 4].map(|k| {
         let rows = numbers[3 * k * count..][..3 * count].as_chunks::<3>().0;

@@ -49,14 +49,22 @@ pub fn audit(py: Python<'_>, answers: Py<PyAny>, asked: Asked) -> PyResult<Audit
     check_floats()?;
     // An entry lives as long as the process; the function itself does not.
     let function: &'static Function = Box::leak(Box::default());
-    let flags = PlanFlags { kernels: asked.selector.clone(), sources: asked.sources.clone() };
+    let flags = PlanFlags {
+        kernels: asked.selector.clone(),
+        sources: asked.sources.clone(),
+    };
     let request = request(asked, function).map_err(PyValueError::new_err)?;
     let mut outcome = running(py, function, &answers, || request.run())?;
     if !flags.kernels.is_empty() {
         outcome.record.provenance.plan_flags = Some(flags);
     }
     outcome.record = outcome.record.sealed();
-    Ok(Audited { request, function, answers, outcome })
+    Ok(Audited {
+        request,
+        function,
+        answers,
+        outcome,
+    })
 }
 
 fn request(asked: Asked, function: &'static Function) -> Result<Request, String> {
@@ -65,13 +73,24 @@ fn request(asked: Asked, function: &'static Function) -> Result<Request, String>
     let (t, uv) = asked.gives;
     let info: &'static KernelInfo = Box::leak(Box::new(KernelInfo {
         source: "a function in Python",
-        gives: Gives { t, uv, facing: false },
+        gives: Gives {
+            t,
+            uv,
+            facing: false,
+        },
         ..KernelInfo::own(asked.name.leak(), contract)
     }));
     let subject: &'static &'static Function = Box::leak(Box::new(function));
     let entry = Entry::new(info).chosen_by(asked.selector.leak());
-    let entry = if asked.in_f32 { entry.with_f32(subject) } else { entry.with_f64(subject) };
-    let mut request = hairline::audit(&entry).count(asked.count).seed(asked.seed).attribute(100);
+    let entry = if asked.in_f32 {
+        entry.with_f32(subject)
+    } else {
+        entry.with_f64(subject)
+    };
+    let mut request = hairline::audit(&entry)
+        .count(asked.count)
+        .seed(asked.seed)
+        .attribute(100);
     if let Some(scene) = &asked.scene {
         request = request.scene(scene);
         // As the program: a scene that names its kind is run in that one.
@@ -85,7 +104,12 @@ fn request(asked: Asked, function: &'static Function) -> Result<Request, String>
     if let Some(band) = &asked.band {
         request = request.band(band);
     }
-    Ok(asked.allow.iter().fold(request, |request, (finding, share)| request.allow(finding, *share)))
+    Ok(asked
+        .allow
+        .iter()
+        .fold(request, |request, (finding, share)| {
+            request.allow(finding, *share)
+        }))
 }
 
 /// Does something with the function on another thread, while this one waits for Ctrl-C.
@@ -121,7 +145,13 @@ fn running<T: Send>(
 impl Audited {
     /// The screen of `hairline audit`.
     fn text(&self, details: bool) -> PyResult<String> {
-        self.written(Format::TEXT, Style { details, ..Style::default() })
+        self.written(
+            Format::TEXT,
+            Style {
+                details,
+                ..Style::default()
+            },
+        )
     }
 
     /// The page of `hairline audit --format html`, without maps.
@@ -156,7 +186,9 @@ impl Audited {
 
     /// A case and the function's answer to it, as `hairline explain` shows them.
     fn explain(&self, py: Python<'_>, case: &str) -> PyResult<String> {
-        running(py, self.function, &self.answers, || self.request.explain(case))
+        running(py, self.function, &self.answers, || {
+            self.request.explain(case)
+        })
     }
 
     /// The function's verdicts around a case, as SVG.

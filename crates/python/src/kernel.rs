@@ -43,8 +43,12 @@ impl Function {
         cases: &[Case<F>],
         verdicts: &mut [Verdict<F>],
     ) -> PyResult<()> {
-        let answers = lock(&self.answers).as_ref().map(|answers| answers.clone_ref(py));
-        let Some(answers) = answers else { return Ok(()) };
+        let answers = lock(&self.answers)
+            .as_ref()
+            .map(|answers| answers.clone_ref(py));
+        let Some(answers) = answers else {
+            return Ok(());
+        };
         let arguments = PyTuple::new(py, arguments(py, cases)?)?;
         let answered = answers.bind(py).call1(arguments)?;
         let (hit, t, u, v) = answered.extract::<(
@@ -60,7 +64,13 @@ impl Function {
         let (hit, [t, u, v]) = (hit.as_array(), [t.as_array(), u.as_array(), v.as_array()]);
         for (i, verdict) in verdicts.iter_mut().enumerate() {
             if hit[i] {
-                *verdict = Verdict { hit: true, t: t[i], u: u[i], v: v[i], ..*verdict };
+                *verdict = Verdict {
+                    hit: true,
+                    t: t[i],
+                    u: u[i],
+                    v: v[i],
+                    ..*verdict
+                };
             }
         }
         Ok(())
@@ -74,18 +84,24 @@ pub fn arguments<'py, F: Scalar + Element>(
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let vectors = (0..5).map(|k| {
         let flat: Vec<F> = cases.iter().flat_map(|case| case.vectors()[k]).collect();
-        Ok(PyArray1::from_vec(py, flat).reshape([cases.len(), 3])?.into_any())
+        Ok(PyArray1::from_vec(py, flat)
+            .reshape([cases.len(), 3])?
+            .into_any())
     });
-    let ends = [|case: &Case<F>| case.ray.t_min, |case: &Case<F>| case.ray.t_max].map(|end| {
-        Ok(PyArray1::from_vec(py, cases.iter().map(end).collect::<Vec<F>>()).into_any())
-    });
+    let ends = [
+        |case: &Case<F>| case.ray.t_min,
+        |case: &Case<F>| case.ray.t_max,
+    ]
+    .map(|end| Ok(PyArray1::from_vec(py, cases.iter().map(end).collect::<Vec<F>>()).into_any()));
     vectors.chain(ends).collect()
 }
 
 /// The arguments of a case, by its id: a row for each of its triangles.
 #[pyfunction]
 pub fn case<'py>(py: Python<'py>, id: &str) -> PyResult<Vec<Bound<'py, PyAny>>> {
-    let id: CaseId = id.parse().map_err(|hairline::Error(line)| PyValueError::new_err(line))?;
+    let id: CaseId = id
+        .parse()
+        .map_err(|hairline::Error(line)| PyValueError::new_err(line))?;
     if id.parameters.mesh.is_some() || id.parameters.instance.is_some() {
         let words = "is a case of a mesh or an instance: `hairline explain` takes it";
         return Err(PyValueError::new_err(format!("'{id}' {words}")));
@@ -93,7 +109,9 @@ pub fn case<'py>(py: Python<'py>, id: &str) -> PyResult<Vec<Bound<'py, PyAny>>> 
     match id.scalar.as_str() {
         "f32" => arguments(py, &cases_of::<f32>(&id).map_err(PyValueError::new_err)?.0),
         "f64" => arguments(py, &cases_of::<f64>(&id).map_err(PyValueError::new_err)?.0),
-        other => Err(PyValueError::new_err(format!("'{id}': unknown scalar '{other}'"))),
+        other => Err(PyValueError::new_err(format!(
+            "'{id}': unknown scalar '{other}'"
+        ))),
     }
 }
 
@@ -101,7 +119,8 @@ impl<F: Float + Scalar + Element> Subject<F> for &'static Function {
     fn run(&self, cases: &[Case<F>], _: &[F], verdicts: &mut [Verdict<F>]) {
         verdicts.fill(Verdict::miss(None));
         Python::attach(|py| {
-            self.call(py, cases, verdicts).unwrap_or_else(|error| self.fail(error));
+            self.call(py, cases, verdicts)
+                .unwrap_or_else(|error| self.fail(error));
         });
     }
 

@@ -20,12 +20,21 @@ const NONE: u8 = 255;
 /// A contact along a segment, after all features.
 const SEGMENT: u8 = Feature::ALL.len() as u8;
 
-const CLASSES: [&str; 5] = ["transversal", "parallel", "coplanar", "degenerate", "invalid"];
+const CLASSES: [&str; 5] = [
+    "transversal",
+    "parallel",
+    "coplanar",
+    "degenerate",
+    "invalid",
+];
 
 /// The names of the numbers in each field.
 #[pyfunction]
 pub fn names() -> BTreeMap<&'static str, Vec<&'static str>> {
-    let features = Feature::ALL.map(Feature::name).into_iter().chain(["segment"]);
+    let features = Feature::ALL
+        .map(Feature::name)
+        .into_iter()
+        .chain(["segment"]);
     BTreeMap::from([
         ("class", CLASSES.to_vec()),
         ("facing", Facing::ALL.map(Facing::name).to_vec()),
@@ -55,12 +64,17 @@ fn truth_in<'py, F: Float + Element>(
     columns: [Bound<'py, PyAny>; 7],
     count: usize,
 ) -> PyResult<Bound<'py, PyArray1<u8>>> {
-    let arrays = columns.each_ref().map(|column| column.extract::<PyReadonlyArrayDyn<'py, F>>());
+    let arrays = columns
+        .each_ref()
+        .map(|column| column.extract::<PyReadonlyArrayDyn<'py, F>>());
     let arrays = arrays.into_iter().collect::<Result<Vec<_>, _>>()?;
     let numbers = |k: usize| Ok::<_, PyErr>(arrays[k].as_slice()?);
     let vector = |k| Column::new(numbers(k)?.as_chunks().0, count);
     let [o, d, a, b, c] = [vector(0)?, vector(1)?, vector(2)?, vector(3)?, vector(4)?];
-    let ends = [Column::new(numbers(5)?, count)?, Column::new(numbers(6)?, count)?];
+    let ends = [
+        Column::new(numbers(5)?, count)?,
+        Column::new(numbers(6)?, count)?,
+    ];
     let bytes = PyArray1::<u8>::zeros(py, count * FIELDS, false);
     {
         let mut bytes = bytes.try_readwrite()?;
@@ -118,7 +132,11 @@ fn code(truth: &Truth) -> [u8; FIELDS] {
     let (class, [facing, place, feature], t_sign) = match truth {
         Truth::Transversal(crossing) => {
             let feature = feature(crossing.feature);
-            (0, [crossing.facing as u8, crossing.place as u8, feature], crossing.t_sign as i8)
+            (
+                0,
+                [crossing.facing as u8, crossing.place as u8, feature],
+                crossing.t_sign as i8,
+            )
         }
         Truth::Parallel => (1, [NONE; 3], 0),
         Truth::Coplanar(contact) => (2, [NONE, NONE, touched(contact.kind)], 0),

@@ -107,7 +107,11 @@ pub fn asked<F: Float>(
     }
     let within = |band| change::is_within(band, case, truth, contract);
     let is_small = asked == Obligation::MustHit && change::has_small_determinant(case, contract);
-    if is_small || contract.band.is_some_and(within) { Obligation::Free } else { asked }
+    if is_small || contract.band.is_some_and(within) {
+        Obligation::Free
+    } else {
+        asked
+    }
 }
 
 fn demanded(demand: Demand, contact: bool) -> Obligation {
@@ -173,7 +177,9 @@ pub fn is_in_extent(crossing: &Crossing, extent: Extent) -> bool {
 
 /// True if the contract promises anything for a direction.
 pub fn promises_direction<F: Float>(direction: Direction, d: [F; 3]) -> bool {
-    let Direction::Unit { ulps } = direction else { return true };
+    let Direction::Unit { ulps } = direction else {
+        return true;
+    };
     if !d.iter().all(F::is_finite) {
         return false;
     }
@@ -212,7 +218,12 @@ impl Answer {
             && (!gives.uv || (verdict.u.is_finite() && verdict.v.is_finite()));
         let compares = verdict.hit && finite && values::has_values(truth);
         let near = !compares || values::are_near(case, gives, verdict, contract.value_tolerance);
-        Answer { hit: verdict.hit, finite, near, facing: verdict.facing }
+        Answer {
+            hit: verdict.hit,
+            finite,
+            near,
+            facing: verdict.facing,
+        }
     }
 }
 
@@ -272,6 +283,8 @@ fn failed(failure: Failure) -> Finding {
 
 fn has_bad_value(truth: &Truth, gives: Gives, answer: Answer) -> bool {
     let wrong_facing = gives.facing
-        && truth.crossing().is_some_and(|crossing| answer.facing != Some(crossing.facing));
+        && truth
+            .crossing()
+            .is_some_and(|crossing| answer.facing != Some(crossing.facing));
     !answer.finite || wrong_facing
 }

@@ -10,7 +10,9 @@ pub type Decades = (i32, i32);
 pub fn decades_around(sizes: impl Iterator<Item = f64>) -> Option<Decades> {
     let (low, high) = sizes
         .map(|size| size.abs().log10())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
     (low <= high).then(|| {
         let low = low.floor() as i32 - 1;
         (low, (high.ceil() as i32 + 1).max(low + 2))
@@ -36,7 +38,12 @@ impl EpsilonAxis {
         let [negative, positive] =
             decades.map(|span| f64::from(span.map_or(0, |(low, high)| high - low)));
         let start = left + (right - left - zero) * negative / (negative + positive).max(1.0);
-        EpsilonAxis { left, right, zero: (start, start + zero), decades }
+        EpsilonAxis {
+            left,
+            right,
+            zero: (start, start + zero),
+            decades,
+        }
     }
 
     /// The place of an epsilon; one beyond the axis is at its end.
@@ -88,13 +95,21 @@ impl ShareAxis {
     /// Down to one of so many, or at most so many decades.
     pub fn new(top: f64, bottom: f64, of: u64, most: i32) -> ShareAxis {
         let lowest = -((of.max(1) as f64).log10().ceil() as i32);
-        ShareAxis { top, bottom, lowest: lowest.clamp(-most, -1) }
+        ShareAxis {
+            top,
+            bottom,
+            lowest: lowest.clamp(-most, -1),
+        }
     }
 
     /// The place of a share.
     pub fn y(&self, share: f64) -> f64 {
         let zero = f64::from(self.lowest) - NONE;
-        let log = if 0.0 < share { share.log10().clamp(zero, 0.0) } else { zero };
+        let log = if 0.0 < share {
+            share.log10().clamp(zero, 0.0)
+        } else {
+            zero
+        };
         self.top + (self.bottom - self.top) * (log / zero)
     }
 
@@ -104,7 +119,9 @@ impl ShareAxis {
             let digits = (-2 - exponent).max(0) as usize;
             format!("{:.digits$} %", 10f64.powi(exponent + 2))
         };
-        (self.lowest..=0).map(|e| (self.y(10f64.powi(e)), label(e))).collect()
+        (self.lowest..=0)
+            .map(|e| (self.y(10f64.powi(e)), label(e)))
+            .collect()
     }
 
     /// A share that changes at some places, from each place on to the next and at last to the right
@@ -132,7 +149,9 @@ impl ShareAxis {
             last = Some(share);
         }
         path.push_str(&format!("H{right:.1}"));
-        let Some((_, low)) = lower.last() else { return (path, String::new()) };
+        let Some((_, low)) = lower.last() else {
+            return (path, String::new());
+        };
         // Back along the lower ends.
         let mut band = format!("{upper}H{right:.1}V{low:.1}");
         for pair in lower.windows(2).rev() {
@@ -152,7 +171,10 @@ pub fn pixel_ticks(count: usize, unit: u64) -> Ticks {
     let tick = |pixel: usize| {
         let distance = group_digits(pixel.abs_diff(centre) as u64 * unit);
         let sign = ["−", "", "+"][(pixel.cmp(&centre) as i8 + 1) as usize];
-        ((pixel as f64 + 0.5) / count as f64, format!("{sign}{distance}"))
+        (
+            (pixel as f64 + 0.5) / count as f64,
+            format!("{sign}{distance}"),
+        )
     };
     pixels.into_iter().map(tick).collect()
 }
@@ -161,12 +183,19 @@ pub fn pixel_ticks(count: usize, unit: u64) -> Ticks {
 pub fn group_digits(number: u64) -> String {
     let digits = number.to_string();
     let groups = digits.as_bytes().rchunks(3).rev();
-    groups.map(String::from_utf8_lossy).collect::<Vec<_>>().join(",")
+    groups
+        .map(String::from_utf8_lossy)
+        .collect::<Vec<_>>()
+        .join(",")
 }
 
 /// `3 findings`, `1 finding`.
 pub fn number_of(count: u64, one: &str, many: &str) -> String {
-    format!("{} {}", group_digits(count), if count == 1 { one } else { many })
+    format!(
+        "{} {}",
+        group_digits(count),
+        if count == 1 { one } else { many }
+    )
 }
 
 /// An exponent in raised digits.
@@ -210,9 +239,15 @@ mod tests {
         );
         assert_eq!([axis.x(f64::MIN), axis.x(f64::MAX)], [0.0, 220.0]);
         // Two decades take 40: every second one has a label, and none leaves the picture.
-        assert_eq!(labels(axis.ticks(40.0, 220.0)), ["0", "−10⁻²", "10⁻⁴", "10⁻²", "10⁰"]);
+        assert_eq!(
+            labels(axis.ticks(40.0, 220.0)),
+            ["0", "−10⁻²", "10⁻⁴", "10⁻²", "10⁰"]
+        );
         let positive = EpsilonAxis::new(0.0, 100.0, 20.0, [None, None]);
-        assert_eq!([-1.0, 0.0, 1e-8, 1.0].map(|e| positive.x(e)), [0.0, 10.0, 20.0, 100.0]);
+        assert_eq!(
+            [-1.0, 0.0, 1e-8, 1.0].map(|e| positive.x(e)),
+            [0.0, 10.0, 20.0, 100.0]
+        );
         assert_eq!(decades_around([3e-7, -2e-3].into_iter()), Some((-8, -1)));
         assert_eq!(decades_around([1.0].into_iter()), Some((-1, 1)));
         assert_eq!(decades_around([].into_iter()), None);
@@ -221,11 +256,20 @@ mod tests {
     #[test]
     fn a_share_steps_where_it_changes() {
         let axis = ShareAxis::new(0.0, 27.0, 100, 5);
-        assert_eq!([1.0, 0.1, 0.01, 1e-9, 0.0].map(|s| axis.y(s)), [0.0, 10.0, 20.0, 27.0, 27.0]);
+        assert_eq!(
+            [1.0, 0.1, 0.01, 1e-9, 0.0].map(|s| axis.y(s)),
+            [0.0, 10.0, 20.0, 27.0, 27.0]
+        );
         assert_eq!(labels(axis.ticks()), ["1 %", "10 %", "100 %"]);
-        assert_eq!(labels(ShareAxis::new(0.0, 1.0, 1 << 40, 5).ticks())[0], "0.001 %");
-        let points =
-            [(0.0, 0.1, Some([0.01, 1.0])), (5.0, 0.1, None), (7.0, 1.0, Some([0.1, 1.0]))];
+        assert_eq!(
+            labels(ShareAxis::new(0.0, 1.0, 1 << 40, 5).ticks())[0],
+            "0.001 %"
+        );
+        let points = [
+            (0.0, 0.1, Some([0.01, 1.0])),
+            (5.0, 0.1, None),
+            (7.0, 1.0, Some([0.1, 1.0])),
+        ];
         let (path, band) = axis.steps(points.into_iter(), 9.0);
         assert_eq!(path, "M0.0 10.0H7.0V0.0H9.0");
         assert_eq!(band, "M0.0 0.0H7.0V0.0H9.0V10.0H7.0V20.0H0.0Z");
@@ -241,6 +285,9 @@ mod tests {
 
     #[test]
     fn nothing_in_a_text_is_markup() {
-        assert_eq!(escaped("a<b> & \"c\"\u{1}\n"), "a&lt;b&gt; &amp; &quot;c&quot;\u{fffd}\n");
+        assert_eq!(
+            escaped("a<b> & \"c\"\u{1}\n"),
+            "a&lt;b&gt; &amp; &quot;c&quot;\u{fffd}\n"
+        );
     }
 }

@@ -137,7 +137,11 @@ pub fn family<F: Scalar>(
                 let scale = towards + draw.integer(-spread, spread) as i32;
                 let scale_direction = draw.coin();
                 let mut scaled = *case;
-                let parameters = Parameters { scale, scale_direction, ..Parameters::default() };
+                let parameters = Parameters {
+                    scale,
+                    scale_direction,
+                    ..Parameters::default()
+                };
                 apply(&parameters, &mut scaled);
                 expected.push((index, scaled, reference.truth(&scaled).0));
             }
@@ -285,7 +289,10 @@ mod tests {
     fn a_wrong_truth_is_counted_and_the_first_is_kept() {
         let case = Case::<f32>::new([0.0; 3], [1.0, 0.0, 0.0], [[0.0; 3]; 3]);
         let (mut left, mut right) = (Check::default(), Check::default());
-        right.compare(&vec![(9, case, Truth::Parallel), (4, case, Truth::Parallel)]);
+        right.compare(&vec![
+            (9, case, Truth::Parallel),
+            (4, case, Truth::Parallel),
+        ]);
         left.compare(&vec![(5, case, crate::oracle::truth(&case))]);
         left.merge(right);
         let sum = left;

@@ -32,7 +32,15 @@ pub fn run(cases: &[[f64; 17]], epsilons: &[f64], verdicts: &mut [[f64; 4]]) {
     assert_eq!(cases.len(), verdicts.len());
     let (input, output) = (cases.as_ptr().cast(), verdicts.as_mut_ptr().cast());
     // SAFETY: the pointers are those of slices of the lengths that go with them, and JavaScript keeps none.
-    unsafe { kernel(input, cases.len(), epsilons.as_ptr(), epsilons.len(), output) }
+    unsafe {
+        kernel(
+            input,
+            cases.len(),
+            epsilons.as_ptr(),
+            epsilons.len(),
+            output,
+        )
+    }
 }
 
 /// Room for so many bytes, and where it is.
@@ -82,6 +90,10 @@ fn put(bytes: Vec<u8>) -> usize {
 
 fn input_bytes(count: usize) -> Vec<u8> {
     INPUT.with_borrow(|input| {
-        input.iter().flat_map(|number| number.to_ne_bytes()).take(count).collect()
+        input
+            .iter()
+            .flat_map(|number| number.to_ne_bytes())
+            .take(count)
+            .collect()
     })
 }

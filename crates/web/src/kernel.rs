@@ -45,7 +45,8 @@ impl Chosen {
     pub fn row(&self) -> Result<Row, String> {
         let mut rows = self.rows(self.epsilons.as_deref())?;
         rows.truncate(1);
-        rows.pop().ok_or_else(|| "the kernel has no epsilons".to_owned())
+        rows.pop()
+            .ok_or_else(|| "the kernel has no epsilons".to_owned())
     }
 
     /// The same at other epsilons.
@@ -55,7 +56,9 @@ impl Chosen {
             Some(text) => EpsilonChoice::parse(text).map_err(|error| error.0)?,
             None => EpsilonChoice::Source,
         };
-        choice.rows(&[entry], self.contract.as_deref()).map_err(|error| error.0)
+        choice
+            .rows(&[entry], self.contract.as_deref())
+            .map_err(|error| error.0)
     }
 
     fn entry(&self) -> Result<&'static Entry, String> {
@@ -94,12 +97,22 @@ impl Own {
         let [t, uv] = self.gives;
         let info: &'static KernelInfo = Box::leak(Box::new(KernelInfo {
             gates: gates.leak(),
-            epsilon_sets: vec![EpsilonSet { name: "own", values: values.leak() }].leak(),
-            gives: Gives { t, uv, facing: false },
+            epsilon_sets: vec![EpsilonSet {
+                name: "own",
+                values: values.leak(),
+            }]
+            .leak(),
+            gives: Gives {
+                t,
+                uv,
+                facing: false,
+            },
             ..KernelInfo::own("yours", contract)
         }));
-        let entry =
-            Entry::new(info).with_f32(&Page).with_f64(&Page).chosen_by(leak(&self.selector));
+        let entry = Entry::new(info)
+            .with_f32(&Page)
+            .with_f64(&Page)
+            .chosen_by(leak(&self.selector));
         let entry: &'static Entry = Box::leak(Box::new(entry));
         entries.insert(key, entry);
         Ok(entry)
@@ -118,7 +131,13 @@ impl<F: Scalar> Subject<F> for Page {
         for (verdict, [what, t, u, v]) in verdicts.iter_mut().zip(answers) {
             let [t, u, v] = [t, u, v].map(F::from_f64);
             *verdict = match what {
-                1.0 => Verdict { hit: true, t, u, v, ..Verdict::miss(None) },
+                1.0 => Verdict {
+                    hit: true,
+                    t,
+                    u,
+                    v,
+                    ..Verdict::miss(None)
+                },
                 2.0 => Verdict::failed(Failure::Panic),
                 _ => Verdict::miss(None),
             };

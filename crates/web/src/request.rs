@@ -49,8 +49,16 @@ pub struct Cases {
 impl Cases {
     /// The flags that choose them on a command line.
     pub fn flags(&self) -> String {
-        let Cases { scalar, scene, families, count, seed } = self;
-        let scene = scene.as_ref().map(|words| format!(" --scene {}", shell_word(words)));
+        let Cases {
+            scalar,
+            scene,
+            families,
+            count,
+            seed,
+        } = self;
+        let scene = scene
+            .as_ref()
+            .map(|words| format!(" --scene {}", shell_word(words)));
         let chosen = (!families.is_empty()).then(|| format!(" --family {}", families.join(",")));
         let seed = (*seed != first()).then(|| format!(" --seed {seed}"));
         let [scene, chosen, seed] = [scene, chosen, seed].map(Option::unwrap_or_default);

@@ -32,7 +32,10 @@ fn case_of<F: Float>(row: &[f64]) -> Case<F> {
 /// sign of t; of a contact 2 of the kind, 4 of the feature, and whether ray and line meet the triangle.
 fn code(truth: &Truth) -> u32 {
     let feature = |feature: Feature| {
-        Feature::ALL.iter().position(|other| *other == feature).unwrap_or(0) as u32
+        Feature::ALL
+            .iter()
+            .position(|other| *other == feature)
+            .unwrap_or(0) as u32
     };
     let contact = |class: u32, contact: &Contact| {
         let (kind, at) = match contact.kind {

@@ -55,8 +55,10 @@ impl Gpu {
             Code::Wgsl(text) => wgpu::ShaderSource::Wgsl(text.into()),
             Code::SpirV(words) => wgpu::ShaderSource::SpirV(words.into()),
         };
-        let module = device
-            .create_shader_module(wgpu::ShaderModuleDescriptor { label: Some("kernel"), source });
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("kernel"),
+            source,
+        });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("kernel"),
             layout: None,
@@ -65,12 +67,24 @@ impl Gpu {
             compilation_options: Default::default(),
             cache: None,
         });
-        Ok(Gpu { info: adapter.get_info(), device, queue, pipeline, buffers: None })
+        Ok(Gpu {
+            info: adapter.get_info(),
+            device,
+            queue,
+            pipeline,
+            buffers: None,
+        })
     }
 
     /// The adapter and its driver.
     pub fn device(&self) -> String {
-        let wgpu::AdapterInfo { name, driver, driver_info, backend, .. } = &self.info;
+        let wgpu::AdapterInfo {
+            name,
+            driver,
+            driver_info,
+            backend,
+            ..
+        } = &self.info;
         format!("{name}, {driver} {driver_info} ({backend})").replace('\n', " ")
     }
 
@@ -79,7 +93,11 @@ impl Gpu {
         if batch.count == 0 {
             return Ok(Vec::new());
         }
-        if self.buffers.as_ref().is_none_or(|buffers| buffers.room < batch.count) {
+        if self
+            .buffers
+            .as_ref()
+            .is_none_or(|buffers| buffers.room < batch.count)
+        {
             self.buffers = Some(self.room_for(batch.count));
         }
         let buffers = self.buffers.as_ref().expect("made above");
@@ -116,8 +134,13 @@ impl Gpu {
 
         let slice = buffers.read.slice(..size);
         slice.map_async(wgpu::MapMode::Read, |_| {});
-        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| error.to_string())?;
-        let bytes = slice.get_mapped_range().map_err(|error| error.to_string())?.to_vec();
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| error.to_string())?;
+        let bytes = slice
+            .get_mapped_range()
+            .map_err(|error| error.to_string())?
+            .to_vec();
         buffers.read.unmap();
         Ok(bytes)
     }
@@ -131,8 +154,10 @@ impl Gpu {
                 mapped_at_creation: false,
             })
         };
-        let (cases, verdicts) =
-            (u64::from(count) * CASE_BYTES as u64, u64::from(count) * VERDICT_BYTES as u64);
+        let (cases, verdicts) = (
+            u64::from(count) * CASE_BYTES as u64,
+            u64::from(count) * VERDICT_BYTES as u64,
+        );
         let (input, output) = (BufferUsages::COPY_DST, BufferUsages::COPY_SRC);
         Buffers {
             room: count,
@@ -147,9 +172,21 @@ impl Gpu {
 /// The adapter whose name contains some text.
 fn named(instance: &wgpu::Instance, name: &str) -> Result<wgpu::Adapter, String> {
     let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
-    let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    let names: Vec<String> = adapters
+        .iter()
+        .map(|adapter| adapter.get_info().name)
+        .collect();
     let wanted = name.to_lowercase();
-    let place = names.iter().position(|found| found.to_lowercase().contains(&wanted));
-    let none = || format!("no GPU adapter is called '{name}'; there are: {}", names.join(", "));
-    place.and_then(|place| adapters.into_iter().nth(place)).ok_or_else(none)
+    let place = names
+        .iter()
+        .position(|found| found.to_lowercase().contains(&wanted));
+    let none = || {
+        format!(
+            "no GPU adapter is called '{name}'; there are: {}",
+            names.join(", ")
+        )
+    };
+    place
+        .and_then(|place| adapters.into_iter().nth(place))
+        .ok_or_else(none)
 }

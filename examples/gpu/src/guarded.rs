@@ -28,10 +28,17 @@ fn compiled(text: &str) -> Result<Vec<u32>, String> {
         .stdout(Stdio::piped())
         .spawn()
         .map_err(failed)?;
-    child.stdin.take().expect("a pipe").write_all(text.as_bytes()).map_err(failed)?;
+    child
+        .stdin
+        .take()
+        .expect("a pipe")
+        .write_all(text.as_bytes())
+        .map_err(failed)?;
     let output = child.wait_with_output().map_err(failed)?;
     if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stdout).trim().replace('\n', "; "));
+        return Err(String::from_utf8_lossy(&output.stdout)
+            .trim()
+            .replace('\n', "; "));
     }
     let bytes = std::fs::read(&file).map_err(failed)?;
     let _ = std::fs::remove_file(&file);
@@ -77,7 +84,9 @@ impl Shader {
     /// From a file; `ask` says what an answer `ask` counts as, hit or miss. An error in one line.
     pub fn read(file: &str, ask: &str) -> Result<Shader, String> {
         let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
-        let is_glsl = Path::new(file).extension().is_some_and(|extension| extension == "glsl");
+        let is_glsl = Path::new(file)
+            .extension()
+            .is_some_and(|extension| extension == "glsl");
         let counted = match ask {
             "hit" => "HAIRLINE_ASK",
             "miss" => "HAIRLINE_HIT",
@@ -87,13 +96,21 @@ impl Shader {
         let words = promise.and_then(|(_, words)| words.split_once(", "));
         let (extent, sides) = words.ok_or(format!("{file}: no line with its promise"))?;
         let start = if is_glsl { "int " } else { "fn " };
-        let mut head = text.lines().filter_map(|line| line.strip_prefix(start)?.split_once('('));
+        let mut head = text
+            .lines()
+            .filter_map(|line| line.strip_prefix(start)?.split_once('('));
         // The last function is the kernel.
         let (name, inputs) = head.next_back().ok_or(format!("{file}: no function"))?;
-        let ends = if inputs.contains("t_min") { ", cases[at + 15u], cases[at + 16u]" } else { "" };
+        let ends = if inputs.contains("t_min") {
+            ", cases[at + 15u], cases[at + 16u]"
+        } else {
+            ""
+        };
         let wrapped = if is_glsl { GLSL } else { WGSL };
-        let wrapped =
-            wrapped.replace("KERNEL", name).replace("ENDS", ends).replace("COUNTED", counted);
+        let wrapped = wrapped
+            .replace("KERNEL", name)
+            .replace("ENDS", ends)
+            .replace("COUNTED", counted);
         let code = match is_glsl {
             true => Code::SpirV(compiled(&format!("#version 450\n{text}{wrapped}"))?),
             false => Code::Wgsl(format!("{text}{wrapped}")),
@@ -119,6 +136,9 @@ impl Shader {
                      gives t uv facing\n\
                      epsilon parallel 1e-6 2 1 non-negative abs(det) < e\n";
         let text = include_str!("moller_trumbore.wgsl").to_owned();
-        Shader { code: Code::Wgsl(text), hello: hello.to_owned() }
+        Shader {
+            code: Code::Wgsl(text),
+            hello: hello.to_owned(),
+        }
     }
 }

@@ -36,8 +36,10 @@ fn answer() -> io::Result<()> {
     let shader = match &words[..] {
         [] => Ok(Shader::published()),
         [file, ask] => Shader::read(file, ask),
-        _ => Err("expected nothing, or FILE.wgsl|FILE.glsl and what an ask counts as: hit or miss"
-            .to_owned()),
+        _ => Err(
+            "expected nothing, or FILE.wgsl|FILE.glsl and what an ask counts as: hit or miss"
+                .to_owned(),
+        ),
     };
     let (mut gpu, hello) = match shader.and_then(|shader| Ok((Gpu::new(&shader)?, shader.hello))) {
         Ok(gpu) => gpu,
@@ -49,7 +51,11 @@ fn answer() -> io::Result<()> {
     };
     let on = format!("; on {}; {ROUNDING}", gpu.device());
     for line in hello.lines() {
-        writeln!(output, "{line}{}", if line.starts_with("source ") { &on } else { "" })?;
+        writeln!(
+            output,
+            "{line}{}",
+            if line.starts_with("source ") { &on } else { "" }
+        )?;
     }
     writeln!(output, "processes 1\nencoding binary\nready")?;
     output.flush()?;

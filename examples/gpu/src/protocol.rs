@@ -36,7 +36,11 @@ impl Batch {
         input.read_exact(&mut epsilon[..4 * epsilons as usize])?;
         let mut cases = vec![0; count as usize * CASE_BYTES];
         input.read_exact(&mut cases)?;
-        Ok(Some(Batch { count, parallel: f32::from_le_bytes(epsilon), cases }))
+        Ok(Some(Batch {
+            count,
+            parallel: f32::from_le_bytes(epsilon),
+            cases,
+        }))
     }
 }
 

@@ -86,9 +86,15 @@ fn the_shrunk_counterexample_is_a_triangle_a_millionth_of_a_millionth_wide() {
     };
     println!("{reason}");
     let [a, b, c] = case.triangle.vertices();
-    let longest = [b - a, c - b, a - c].map(|edge| edge.length()).into_iter().fold(0.0, f32::max);
+    let longest = [b - a, c - b, a - c]
+        .map(|edge| edge.length())
+        .into_iter()
+        .fold(0.0, f32::max);
     assert!(longest < 1e-11, "{case:?}");
     // Every number is zero or a power of two.
     let bits = |x: f32| (x.to_bits() & 0x7f_ffff).count_ones();
-    assert!(case.vectors().as_flattened().iter().all(|x| bits(*x) <= 1), "{case:?}");
+    assert!(
+        case.vectors().as_flattened().iter().all(|x| bits(*x) <= 1),
+        "{case:?}"
+    );
 }

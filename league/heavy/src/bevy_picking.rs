@@ -14,8 +14,18 @@ use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo};
 
 const INFO: KernelInfo = KernelInfo {
     source: "bevy_picking 0.20.1, ray_mesh_intersection, Backfaces::Include",
-    gives: Gives { t: true, uv: true, facing: false },
-    ..KernelInfo::own("bevy_picking", Contract { direction: UNIT, ..PROMISE })
+    gives: Gives {
+        t: true,
+        uv: true,
+        facing: false,
+    },
+    ..KernelInfo::own(
+        "bevy_picking",
+        Contract {
+            direction: UNIT,
+            ..PROMISE
+        },
+    )
 };
 
 pub fn entry() -> Entry {
@@ -40,5 +50,8 @@ fn test(case: &Case<f32>, _: &[f32]) -> Option<Hit<f32>> {
         Backfaces::Include,
     )?;
     let uv = Some((hit.barycentric_coords.y, hit.barycentric_coords.z));
-    Some(Hit { uv, ..Hit::at(hit.distance) })
+    Some(Hit {
+        uv,
+        ..Hit::at(hit.distance)
+    })
 }

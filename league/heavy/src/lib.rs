@@ -13,7 +13,11 @@ use entrant::{PROMISE, UNIT};
 
 /// What the program `league-heavy` knows.
 pub fn kernels() -> Vec<hairline::internals::kernel::Entry> {
-    vec![bevy_picking::entry(), truck_meshalgo::entry(), oxiphysics_geometry::entry()]
+    vec![
+        bevy_picking::entry(),
+        truck_meshalgo::entry(),
+        oxiphysics_geometry::entry(),
+    ]
 }
 
 /// The code of the pages about them, which `cargo test --release` runs.

@@ -8,7 +8,13 @@ use oxiphysics_geometry::boolean_ops::ray_triangle_intersect;
 
 const INFO: KernelInfo = KernelInfo {
     source: "oxiphysics-geometry 0.1.2, boolean_ops::ray_triangle_intersect",
-    ..KernelInfo::own("oxiphysics-geometry", Contract { sides: Sides::Front, ..PROMISE })
+    ..KernelInfo::own(
+        "oxiphysics-geometry",
+        Contract {
+            sides: Sides::Front,
+            ..PROMISE
+        },
+    )
 };
 
 pub fn entry() -> Entry {

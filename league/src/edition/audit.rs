@@ -71,7 +71,10 @@ pub struct Share {
 
 impl Share {
     fn add(&mut self, count: u64, of: u64) {
-        *self = Share { count: self.count + count, of: self.of + of };
+        *self = Share {
+            count: self.count + count,
+            of: self.of + of,
+        };
     }
 }
 
@@ -113,11 +116,23 @@ impl Depth {
 /// Families that ask alike. The last group, at the ends of the exponent range, counts for no verdict: what
 /// is right there can be disputed.
 pub const GROUPS: &[(&str, &[&str])] = &[
-    ("plain", &["interior", "outside", "behind", "axis-aligned", "lattice"]),
-    ("edges", &["edge-exact", "edge-near", "shared-edge", "polygon"]),
-    ("vertices", &["vertex-exact", "vertex-near", "fan", "vertex-fan"]),
+    (
+        "plain",
+        &["interior", "outside", "behind", "axis-aligned", "lattice"],
+    ),
+    (
+        "edges",
+        &["edge-exact", "edge-near", "shared-edge", "polygon"],
+    ),
+    (
+        "vertices",
+        &["vertex-exact", "vertex-near", "fan", "vertex-fan"],
+    ),
     ("parallel", &["grazing", "sliver", "parallel-off"]),
-    ("start", &["origin-on", "origin-near", "secondary-ray", "interval-ends"]),
+    (
+        "start",
+        &["origin-on", "origin-near", "secondary-ray", "interval-ends"],
+    ),
     ("size", &["tiny", "huge", "far", "direction-length"]),
     ("range", &["mixed-scale", "range-ends", NOISE]),
 ];
@@ -129,14 +144,23 @@ impl EntrantResult {
     /// From the record of an entrant's audit.
     pub fn of(entrant: &Entrant, record: &Record, day: &str) -> Result<EntrantResult, String> {
         let wrong = |message: &str| format!("{}: {message}", entrant.name);
-        let [plan] = &record.result.plan.rows[..] else { return Err(wrong("not one row")) };
+        let [plan] = &record.result.plan.rows[..] else {
+            return Err(wrong("not one row"));
+        };
         if plan.kernel != entrant.name {
             return Err(wrong(&format!("its kernel calls itself '{}'", plan.kernel)));
         }
         let results = |scalar: &str| -> Vec<&KernelResult> {
-            record.result.results.iter().filter(|result| result.scalar == scalar).collect()
+            record
+                .result
+                .results
+                .iter()
+                .filter(|result| result.scalar == scalar)
+                .collect()
         };
-        let scalars = ["f32", "f64"].into_iter().filter(|scalar| !results(scalar).is_empty());
+        let scalars = ["f32", "f64"]
+            .into_iter()
+            .filter(|scalar| !results(scalar).is_empty());
         let words = |list: &[&str]| list.iter().map(|word| (*word).to_owned()).collect();
         let provenance = &record.provenance;
         Ok(EntrantResult {
@@ -149,13 +173,22 @@ impl EntrantResult {
             note: entrant.note.to_owned(),
             contract: plan.contract.clone(),
             findings: words(entrant.findings),
-            cases: record.result.sources.iter().map(|source| source.indices).max().unwrap_or(0),
+            cases: record
+                .result
+                .sources
+                .iter()
+                .map(|source| source.indices)
+                .max()
+                .unwrap_or(0),
             audited: format!("{day}, {}, {}", provenance.target, provenance.tool),
             scalars: scalars
                 .map(|scalar| {
                     let times = provenance.kernel_nanoseconds.get(scalar);
                     let time = times.and_then(|times| times.values().next()).copied();
-                    (scalar.to_owned(), scalar_result(entrant, scalar, &results(scalar), time))
+                    (
+                        scalar.to_owned(),
+                        scalar_result(entrant, scalar, &results(scalar), time),
+                    )
                 })
                 .collect(),
         })
@@ -169,13 +202,22 @@ fn scalar_result(
     nanoseconds: Option<f64>,
 ) -> ScalarResult {
     let of_group = |group: &str| {
-        let (_, families) = GROUPS.iter().find(|(name, _)| *name == group).expect("a group");
-        results.iter().copied().filter(|result| families.contains(&result.family.as_str()))
+        let (_, families) = GROUPS
+            .iter()
+            .find(|(name, _)| *name == group)
+            .expect("a group");
+        results
+            .iter()
+            .copied()
+            .filter(|result| families.contains(&result.family.as_str()))
     };
     let shares = |group: &str| {
         let mut shares = [Share::default(); 2];
         for result in of_group(group) {
-            shares[0].add(result.total.false_misses.count, result.total.false_misses.of);
+            shares[0].add(
+                result.total.false_misses.count,
+                result.total.false_misses.of,
+            );
             shares[1].add(result.total.false_hits.count, result.total.false_hits.of);
         }
         shares
@@ -186,7 +228,10 @@ fn scalar_result(
     let deepest = |finding: FindingKind, groups: &[&str]| {
         let results = groups.iter().flat_map(|group| of_group(group));
         let depths = results.flat_map(|result| {
-            let parts = result.findings.iter().filter(|part| part.finding == finding);
+            let parts = result
+                .findings
+                .iter()
+                .filter(|part| part.finding == finding);
             parts.filter_map(|part| depth(entrant, &result.family, part))
         });
         depths.max_by(|a, b| a.ulps.total_cmp(&b.ulps))
@@ -194,7 +239,9 @@ fn scalar_result(
     const ORDINARY: &[&str] = &["plain", "edges", "vertices", "parallel", "start"];
     let findings = [FindingKind::FalseMiss, FindingKind::FalseHit];
     let [ordinary, sized] = [ORDINARY, &["size"]].map(|groups| {
-        let depths = findings.into_iter().filter_map(|finding| deepest(finding, groups));
+        let depths = findings
+            .into_iter()
+            .filter_map(|finding| deepest(finding, groups));
         depths.map(|depth| depth.ulps).fold(0.0, f64::max)
     });
     let half = half_of_digits(scalar);
@@ -210,14 +257,20 @@ fn scalar_result(
     };
     let mut wrong_values = Share::default();
     for result in ORDINARY.iter().flat_map(|group| of_group(group)) {
-        wrong_values.add(result.total.wrong_values.count, result.total.wrong_values.of);
+        wrong_values.add(
+            result.total.wrong_values.count,
+            result.total.wrong_values.of,
+        );
     }
     let all = &[ORDINARY, &["size"]].concat();
     let interior = results.iter().find(|result| result.family == "interior");
     let t = interior.and_then(|result| result.accuracy.get("t"));
     ScalarResult {
         verdict: verdict.to_owned(),
-        groups: GROUPS.iter().map(|(name, _)| ((*name).to_owned(), shares(name))).collect(),
+        groups: GROUPS
+            .iter()
+            .map(|(name, _)| ((*name).to_owned(), shares(name)))
+            .collect(),
         cracks: ordinary_sizes.cracks,
         doubles: ordinary_sizes.doubles,
         cracks_beside_noise: (0 < noise.cracks.of).then_some(noise.cracks),
@@ -265,7 +318,11 @@ impl Across {
 
 /// The ulps beyond which half of the digits of a scalar are right, or fewer.
 pub fn half_of_digits(scalar: &str) -> f64 {
-    if scalar == "f32" { 2f64.powi(12) } else { 2f64.powf(26.5) }
+    if scalar == "f32" {
+        2f64.powi(12)
+    } else {
+        2f64.powf(26.5)
+    }
 }
 
 /// Of the worst case of a finding: how far it is from where the verdict would be right.

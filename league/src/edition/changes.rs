@@ -7,8 +7,13 @@ use std::path::Path;
 /// The changes of an edition against the one before it in the same folder, as a list in Markdown.
 pub fn changes(editions: &Path, name: &str) -> Result<String, String> {
     let names = names(editions)?;
-    let place = names.iter().position(|other| other == name).ok_or(format!("no edition {name}"))?;
-    let Some(before) = place.checked_sub(1).map(|i| &names[i]) else { return Ok(String::new()) };
+    let place = names
+        .iter()
+        .position(|other| other == name)
+        .ok_or(format!("no edition {name}"))?;
+    let Some(before) = place.checked_sub(1).map(|i| &names[i]) else {
+        return Ok(String::new());
+    };
     let old = results(&editions.join(before))?;
     let new = results(&editions.join(name))?;
     let of = |results: &[EntrantResult], name: &str| -> Option<EntrantResult> {
@@ -16,30 +21,44 @@ pub fn changes(editions: &Path, name: &str) -> Result<String, String> {
     };
     let mut lines: Vec<String> = Vec::new();
     for entrant in &new {
-        let EntrantResult { kernel, version, contract, .. } = entrant;
+        let EntrantResult {
+            kernel,
+            version,
+            contract,
+            ..
+        } = entrant;
         let Some(old) = of(&old, kernel) else {
             lines.push(format!("{kernel} {version} is new."));
             continue;
         };
         if old.version != *version {
-            lines.push(format!("{kernel}: version {} became {version}.", old.version));
+            lines.push(format!(
+                "{kernel}: version {} became {version}.",
+                old.version
+            ));
         }
         let [added, dropped] =
             [(contract, &old.contract), (&old.contract, contract)].map(|(one, other)| {
-                let words =
-                    one.split(", ").filter(|word| other.split(", ").all(|also| also != *word));
+                let words = one
+                    .split(", ")
+                    .filter(|word| other.split(", ").all(|also| also != *word));
                 words.collect::<Vec<_>>().join(", ")
             });
         let has_another_contract = *contract != old.contract;
         if has_another_contract {
-            let dropped =
-                if dropped.is_empty() { dropped } else { format!(" in place of \"{dropped}\"") };
+            let dropped = if dropped.is_empty() {
+                dropped
+            } else {
+                format!(" in place of \"{dropped}\"")
+            };
             lines.push(format!(
                 "{kernel} is judged by \"{added}\"{dropped}, as its documentation says."
             ));
         }
         for (scalar, result) in &entrant.scalars {
-            let Some(was) = old.scalars.get(scalar) else { continue };
+            let Some(was) = old.scalars.get(scalar) else {
+                continue;
+            };
             if claim(was) != claim(result) {
                 lines.push(format!(
                     "{kernel} in {scalar}: {} became {}.",

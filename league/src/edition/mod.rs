@@ -27,18 +27,31 @@ pub struct Manifest {
 impl Manifest {
     /// Of the files that are there now.
     pub fn of(folder: &Path) -> Result<Manifest, String> {
-        let edition = folder.file_name().ok_or("an edition is a folder")?.to_string_lossy();
+        let edition = folder
+            .file_name()
+            .ok_or("an edition is a folder")?
+            .to_string_lossy();
         let mut sha256 = BTreeMap::new();
         for path in files(folder)? {
-            let name = path.strip_prefix(folder).expect("below it").to_string_lossy().into_owned();
+            let name = path
+                .strip_prefix(folder)
+                .expect("below it")
+                .to_string_lossy()
+                .into_owned();
             if name != MANIFEST {
                 let bytes =
                     fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-                let hash = Hash::hash(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+                let hash = Hash::hash(&bytes)
+                    .iter()
+                    .map(|byte| format!("{byte:02x}"))
+                    .collect();
                 sha256.insert(name, hash);
             }
         }
-        Ok(Manifest { edition: edition.into_owned(), sha256 })
+        Ok(Manifest {
+            edition: edition.into_owned(),
+            sha256,
+        })
     }
 
     /// The one that was written when the edition was frozen; none if it is not.
@@ -59,7 +72,13 @@ pub fn names(folder: &Path) -> Result<Vec<String>, String> {
     let wrong = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(wrong)? {
-        names.push(entry.map_err(wrong)?.file_name().to_string_lossy().into_owned());
+        names.push(
+            entry
+                .map_err(wrong)?
+                .file_name()
+                .to_string_lossy()
+                .into_owned(),
+        );
     }
     names.sort_by_key(|name| (name.len(), name.clone()));
     Ok(names)
@@ -67,8 +86,10 @@ pub fn names(folder: &Path) -> Result<Vec<String>, String> {
 
 /// The results of an edition, in the order of the entrants.
 pub fn results(folder: &Path) -> Result<Vec<EntrantResult>, String> {
-    let mut results: Vec<EntrantResult> =
-        files(&folder.join("entrants"))?.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
+    let mut results: Vec<EntrantResult> = files(&folder.join("entrants"))?
+        .iter()
+        .map(|path| read(path))
+        .collect::<Result<_, _>>()?;
     let entrants = crate::entrants();
     results.sort_by_key(|result| entrants.iter().position(|e| e.name == result.kernel));
     Ok(results)

@@ -49,9 +49,14 @@ fn by_promises(a: &ScalarResult, b: &ScalarResult) -> Ordering {
     let deepest = |result: &ScalarResult| match result.verdict.as_str() {
         // A false verdict breaks no promise here.
         "none" => 0.0,
-        _ => [&result.deepest_miss, &result.deepest_hit].map(edges).into_iter().fold(0.0, f64::max),
+        _ => [&result.deepest_miss, &result.deepest_hit]
+            .map(edges)
+            .into_iter()
+            .fold(0.0, f64::max),
     };
-    rank(a).cmp(&rank(b)).then(deepest(a).total_cmp(&deepest(b)))
+    rank(a)
+        .cmp(&rank(b))
+        .then(deepest(a).total_cmp(&deepest(b)))
 }
 
 /// 0 without a false verdict.
@@ -94,7 +99,9 @@ fn time(entrant: &EntrantResult, result: &ScalarResult) -> String {
         other.name == entrant.kernel && !matches!(other.run, crate::Run::Process { .. })
     });
     let mark = if by_itself { "" } else { "*" };
-    result.nanoseconds.map_or(String::new(), |time| format!("{time:.0}{mark}"))
+    result
+        .nanoseconds
+        .map_or(String::new(), |time| format!("{time:.0}{mark}"))
 }
 
 /// With as many digits as it takes to tell it from 0.
@@ -122,19 +129,33 @@ fn short(x: f64) -> String {
 pub fn markdown(results: &[EntrantResult]) -> String {
     let mut text = format!("| {} |\n|{}\n", HEAD.join(" | "), "---|".repeat(HEAD.len()));
     for (_, _, row) in rows(results) {
-        writeln!(text, "| {} |", row.map(|cell| cell.replace('*', "\\*")).join(" | ")).unwrap();
+        writeln!(
+            text,
+            "| {} |",
+            row.map(|cell| cell.replace('*', "\\*")).join(" | ")
+        )
+        .unwrap();
     }
     text
 }
 
 /// A page by itself.
 pub fn html(edition: &str, results: &[EntrantResult]) -> String {
-    let escape = |cell: &str| cell.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let escape = |cell: &str| {
+        cell.replace('&', "&amp;")
+            .replace('<', "&lt;")
+            .replace('>', "&gt;")
+    };
     let line = |tag: &str, cells: &[String]| {
-        let cells = cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escape(cell)));
+        let cells = cells
+            .iter()
+            .map(|cell| format!("<{tag}>{}</{tag}>", escape(cell)));
         format!("<tr>{}</tr>\n", cells.collect::<String>())
     };
-    let body: String = rows(results).iter().map(|(_, _, row)| line("td", row)).collect();
+    let body: String = rows(results)
+        .iter()
+        .map(|(_, _, row)| line("td", row))
+        .collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{edition}</title>\n<style>\n\
         body {{ font: 14px/1.4 system-ui, sans-serif; margin: 2em auto; max-width: 80em; padding: 0 1em }}\n\
@@ -149,7 +170,11 @@ pub fn html(edition: &str, results: &[EntrantResult]) -> String {
 
 /// A table for a paper: needs the packages booktabs and longtable.
 pub fn latex(edition: &str, results: &[EntrantResult]) -> String {
-    let escape = |cell: &str| cell.replace('%', "\\%").replace('_', "\\_").replace('&', "\\&");
+    let escape = |cell: &str| {
+        cell.replace('%', "\\%")
+            .replace('_', "\\_")
+            .replace('&', "\\&")
+    };
     let line = |cells: &[String]| {
         let cells: Vec<String> = cells.iter().map(|cell| escape(cell)).collect();
         format!("{} \\\\\n", cells.join(" & "))

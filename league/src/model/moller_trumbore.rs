@@ -72,7 +72,12 @@ impl<Y: Style> Kernel for MollerTrumbore<Y> {
 
     fn test<V: Vector, S: Sink<V::Real>>(
         Triangle { a, b, c }: &Triangle<V>,
-        Ray { origin, direction, t_min, t_max }: &Ray<V>,
+        Ray {
+            origin,
+            direction,
+            t_min,
+            t_max,
+        }: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let one = V::Real::one;
@@ -102,11 +107,19 @@ impl<Y: Style> Kernel for MollerTrumbore<Y> {
                 sink.one(TIME, Refuse::UnlessAtLeast, &gap(t_max, &t))?;
             }
         }
-        Some(Hit { t: Some(t), uv: Some((u, v)), facing: None })
+        Some(Hit {
+            t: Some(t),
+            uv: Some((u, v)),
+            facing: None,
+        })
     }
 }
 
 /// `a - b`, and zero where a = b even if both are infinite: its sign is that of the comparison.
 fn gap<R: Real>(a: &R, b: &R) -> R {
-    if a.is_at_most(b) && b.is_at_most(a) { R::zero() } else { a.clone() - b }
+    if a.is_at_most(b) && b.is_at_most(a) {
+        R::zero()
+    } else {
+        a.clone() - b
+    }
 }

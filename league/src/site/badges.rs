@@ -24,7 +24,12 @@ pub fn of<'a>(edition: &'a str, entrant: &'a EntrantResult) -> impl Iterator<Ite
             _ => ("nothing promised", "lightgrey"),
         };
         let file = format!("badge/{}-{scalar}.json", slug(&entrant.kernel));
-        Badge { label: format!("{edition} {scalar}"), message, color, file }
+        Badge {
+            label: format!("{edition} {scalar}"),
+            message,
+            color,
+            file,
+        }
     })
 }
 
@@ -37,7 +42,10 @@ impl Badge {
     /// For a README, if the site is published at a URL.
     pub fn markdown(&self, url: &str) -> String {
         let url = url.trim_end_matches('/');
-        format!("![{}](https://img.shields.io/endpoint?url={url}/{})", self.label, self.file)
+        format!(
+            "![{}](https://img.shields.io/endpoint?url={url}/{})",
+            self.label, self.file
+        )
     }
 }
 
@@ -45,7 +53,12 @@ impl Badge {
 pub fn write(pages: &mut Pages, results: &[EntrantResult]) -> Result<(), String> {
     let edition = pages.edition.clone();
     for badge in results.iter().flat_map(|entrant| of(&edition, entrant)) {
-        let Badge { label, message, color, file } = badge;
+        let Badge {
+            label,
+            message,
+            color,
+            file,
+        } = badge;
         let text = json!({"schemaVersion": 1, "label": label, "message": message, "color": color});
         pages.file(&file, &format!("{text}\n"))?;
     }

@@ -33,9 +33,10 @@ pub fn of(results: &[EntrantResult]) -> BTreeMap<String, SiteCase> {
     let mut cases: BTreeMap<String, SiteCase> = BTreeMap::new();
     for entrant in results {
         for (scalar, result) in &entrant.scalars {
-            for (what, depth) in
-                [("false miss", &result.deepest_miss), ("false hit", &result.deepest_hit)]
-            {
+            for (what, depth) in [
+                ("false miss", &result.deepest_miss),
+                ("false hit", &result.deepest_hit),
+            ] {
                 let Some(depth) = depth else { continue };
                 let case = cases.entry(slug_of(depth)).or_insert_with(|| SiteCase {
                     id: depth.case.clone(),
@@ -43,7 +44,8 @@ pub fn of(results: &[EntrantResult]) -> BTreeMap<String, SiteCase> {
                     case: depth.case(scalar),
                     deepest: Vec::new(),
                 });
-                case.deepest.push((entrant.kernel.clone(), what, depth.clone()));
+                case.deepest
+                    .push((entrant.kernel.clone(), what, depth.clone()));
             }
         }
     }
@@ -57,7 +59,11 @@ pub fn write(pages: &mut Pages, cases: &BTreeMap<String, SiteCase>) -> Result<()
             AnyCase::F32(numbers) => page(case, &numbers),
             AnyCase::F64(numbers) => page(case, &numbers),
         };
-        pages.page(&format!("case/{slug}.html"), &format!("Case {}", case.id), &body)?;
+        pages.page(
+            &format!("case/{slug}.html"),
+            &format!("Case {}", case.id),
+            &body,
+        )?;
     }
     Ok(())
 }
@@ -102,7 +108,12 @@ fn input<F: Scalar>(case: &Case<F>) -> Markup {
     let vectors = case.vectors();
     let names = ["origin", "direction", "a", "b", "c"];
     let ends = [case.ray.t_min, case.ray.t_max];
-    let numbers = |list: &[F]| list.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(", ");
+    let numbers = |list: &[F]| {
+        list.iter()
+            .map(|x| format!("{x:?}"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     let width = size_of::<F>() * 2;
     let bits = |list: &[F]| {
         let words = list.iter().map(|x| format!("{:0width$x}", x.to_bits()));
@@ -171,6 +182,15 @@ fn answer<F: Scalar>(entry: &'static Entry, case: &Case<F>) -> Option<[String; 3
         (true, false) => "hit".to_owned(),
         (false, _) => "miss".to_owned(),
     };
-    let finding = judge((&row.contract, asked), (case, &truth), entry.info.gives, &verdict);
-    Some([answer, demand.to_owned(), finding.map_or(String::new(), |f| f.name().to_owned())])
+    let finding = judge(
+        (&row.contract, asked),
+        (case, &truth),
+        entry.info.gives,
+        &verdict,
+    );
+    Some([
+        answer,
+        demand.to_owned(),
+        finding.map_or(String::new(), |f| f.name().to_owned()),
+    ])
 }

@@ -54,10 +54,15 @@ fn in_plane<F: Float>(case: &Case<F>) -> Option<[[f64; 2]; 3]> {
     let [_, _, a, b, c] = case.vectors().map(|vector| vector.map(|x| x.to_f64()));
     let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     let edges = [minus(b, a), minus(c, a), minus(c, b)];
-    let largest = edges.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let largest = edges
+        .iter()
+        .flatten()
+        .fold(0.0, |most: f64, x| most.max(x.abs()));
     let [e, f, g] = edges.map(|edge| edge.map(|x| x / largest));
     let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    let longest = [e, f, g].iter().fold(0.0, |most: f64, edge| most.max(dot(*edge, *edge).sqrt()));
+    let longest = [e, f, g]
+        .iter()
+        .fold(0.0, |most: f64, edge| most.max(dot(*edge, *edge).sqrt()));
     let length = dot(e, e).sqrt();
     let along = dot(e, f) / length;
     let across = (dot(f, f) - along * along).max(0.0).sqrt();
@@ -68,11 +73,20 @@ fn in_plane<F: Float>(case: &Case<F>) -> Option<[[f64; 2]; 3]> {
 /// Where points go on the picture, so that all these are on it; up is up.
 fn view(points: [[f64; 2]; 4]) -> impl Fn([f64; 2]) -> [f64; 2] {
     let end = |axis: usize, pick: fn(f64, f64) -> f64| {
-        points.iter().map(|point| point[axis]).reduce(pick).expect("points")
+        points
+            .iter()
+            .map(|point| point[axis])
+            .reduce(pick)
+            .expect("points")
     };
     let low = [end(0, f64::min), end(1, f64::min)];
     let high = [end(0, f64::max), end(1, f64::max)];
     let scale = ((WIDTH - 2.0 * MARGIN) / (high[0] - low[0]))
         .min((HEIGHT - 2.0 * MARGIN) / (high[1] - low[1]));
-    move |[x, y]| [MARGIN + (x - low[0]) * scale, HEIGHT - MARGIN - (y - low[1]) * scale]
+    move |[x, y]| {
+        [
+            MARGIN + (x - low[0]) * scale,
+            HEIGHT - MARGIN - (y - low[1]) * scale,
+        ]
+    }
 }

@@ -10,8 +10,9 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// Round numbers that people ask about, at the gate for parallel rays.
-const ROUND: [&str; 10] =
-    ["1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-12", "1e-15"];
+const ROUND: [&str; 10] = [
+    "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-12", "1e-15",
+];
 const SCENES: [&str; 4] = ["unit", "room", "city", "cad-mm"];
 /// Rays of each family of a scene; the environment's COUNT if it is set.
 fn rays() -> String {
@@ -38,8 +39,15 @@ struct User {
 impl Epsilon {
     /// The name of its page.
     pub fn slug(&self) -> String {
-        let sign = if self.text.starts_with('-') { "minus-" } else { "" };
-        format!("{sign}{}", slug(&self.text.replace('*', "-times-").replace("e-", "e-minus-")))
+        let sign = if self.text.starts_with('-') {
+            "minus-"
+        } else {
+            ""
+        };
+        format!(
+            "{sign}{}",
+            slug(&self.text.replace('*', "-times-").replace("e-", "e-minus-"))
+        )
     }
 }
 
@@ -50,7 +58,11 @@ pub fn in_use(results: &[EntrantResult]) -> Vec<Epsilon> {
         found.insert(text.to_owned(), Vec::new());
     }
     for entry in all() {
-        let values = entry.info.epsilon_sets.first().map_or(&[][..], |set| set.values);
+        let values = entry
+            .info
+            .epsilon_sets
+            .first()
+            .map_or(&[][..], |set| set.values);
         for (gate, value) in entry.info.gates.iter().zip(values) {
             if gate.epsilon != Tunable::Fixed && !is_zero(value) {
                 let who = entry.info.name;
@@ -78,7 +90,9 @@ pub fn in_use(results: &[EntrantResult]) -> Vec<Epsilon> {
             if users.iter().any(is_same) {
                 continue;
             }
-            let page = results.iter().find(|result| result.kernel.starts_with(preset.name));
+            let page = results
+                .iter()
+                .find(|result| result.kernel.starts_with(preset.name));
             users.push(User {
                 who: page.map_or(preset.name, |page| &page.kernel).to_owned(),
                 gate: entry.gate,
@@ -88,8 +102,10 @@ pub fn in_use(results: &[EntrantResult]) -> Vec<Epsilon> {
             });
         }
     }
-    let mut all: Vec<Epsilon> =
-        found.into_iter().map(|(text, users)| Epsilon { text, users }).collect();
+    let mut all: Vec<Epsilon> = found
+        .into_iter()
+        .map(|(text, users)| Epsilon { text, users })
+        .collect();
     all.sort_by(|a, b| size(&b.text).total_cmp(&size(&a.text)));
     all
 }
@@ -100,7 +116,8 @@ fn is_zero(text: &str) -> bool {
 
 /// `1e-6` for 0.000001.
 fn canonical(text: &str) -> String {
-    text.parse::<f64>().map_or(text.to_owned(), |value| format!("{value:e}"))
+    text.parse::<f64>()
+        .map_or(text.to_owned(), |value| format!("{value:e}"))
 }
 
 /// To sort by; multiples of the scalar's own distance from 1 as in f32.
@@ -160,12 +177,18 @@ fn words(dimension: Dimension) -> String {
         1 => Some(name.to_owned()),
         exponent => Some(format!("{name}^{exponent}")),
     };
-    let parts: Vec<String> =
-        [power("length", dimension.length), power("direction", dimension.direction)]
-            .into_iter()
-            .flatten()
-            .collect();
-    if parts.is_empty() { "none: the same at every size".to_owned() } else { parts.join(" ") }
+    let parts: Vec<String> = [
+        power("length", dimension.length),
+        power("direction", dimension.direction),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    if parts.is_empty() {
+        "none: the same at every size".to_owned()
+    } else {
+        parts.join(" ")
+    }
 }
 
 /// What becomes of an epsilon where everything is ten times as large.
@@ -215,10 +238,15 @@ fn stand_in(epsilon: &Epsilon, gate: &str, dimension: Dimension) -> Option<&'sta
     };
     let is_user = |entry: &&Entry| epsilon.users.iter().any(|user| user.who == entry.info.name);
     let is_known = |entry: &&Entry| entry.info.name == "moller-trumbore";
-    let fitting: Vec<&Entry> =
-        KERNELS.iter().filter(|entry| entry.info.gates.iter().any(fits)).collect();
+    let fitting: Vec<&Entry> = KERNELS
+        .iter()
+        .filter(|entry| entry.info.gates.iter().any(fits))
+        .collect();
     let mut wanted = fitting.iter().copied().filter(is_user);
-    wanted.next().or(fitting.iter().copied().find(is_known)).or(fitting.first().copied())
+    wanted
+        .next()
+        .or(fitting.iter().copied().find(is_known))
+        .or(fitting.first().copied())
 }
 
 fn section(
@@ -238,7 +266,10 @@ fn section(
     let (with, without) = (set(entry, gate, value), set(entry, gate, "0"));
     let mut rows = Vec::new();
     for scene in SCENES {
-        let [with, without] = [costs.of(kernel, &with, scene)?, costs.of(kernel, &without, scene)?];
+        let [with, without] = [
+            costs.of(kernel, &with, scene)?,
+            costs.of(kernel, &without, scene)?,
+        ];
         rows.extend(with.into_iter().zip(without));
     }
     let head =
@@ -276,16 +307,34 @@ fn section(
 
 /// `parallel=1e-6,t=0`: all epsilons of a kernel, one of them at a value.
 fn set(entry: &Entry, gate: &str, value: &str) -> String {
-    let tunable = entry.info.gates.iter().filter(|gate| gate.epsilon != Tunable::Fixed);
-    let words = tunable
-        .map(|other| format!("{}={}", other.name, if other.name == gate { value } else { "0" }));
+    let tunable = entry
+        .info
+        .gates
+        .iter()
+        .filter(|gate| gate.epsilon != Tunable::Fixed);
+    let words = tunable.map(|other| {
+        format!(
+            "{}={}",
+            other.name,
+            if other.name == gate { value } else { "0" }
+        )
+    });
     words.collect::<Vec<_>>().join(",")
 }
 
 /// What `prove` says of the gate at this epsilon.
 fn proved(kernel: &str, gate: &str, set: &str, scalar: &str) -> Result<Markup, String> {
-    let arguments =
-        ["prove", "--kernel", kernel, "--gate", gate, "--epsilon", set, "--scalar", scalar];
+    let arguments = [
+        "prove",
+        "--kernel",
+        kernel,
+        "--gate",
+        gate,
+        "--epsilon",
+        set,
+        "--scalar",
+        scalar,
+    ];
     let record: Value = program::json(&arguments)?;
     let result = &record["result"];
     let part = &result["gates"][0];
@@ -308,21 +357,53 @@ struct Column {
 }
 
 const COLUMNS: [Column; 7] = [
-    Column { head: "hits lost", family: "scene-interior", count: misses },
-    Column { head: "grazing hits lost", family: "scene-grazing", count: misses },
-    Column { head: "grazing misses hit", family: "scene-grazing", count: hits },
-    Column { head: "cracks at edges", family: "scene-edges", count: cracks },
-    Column { head: "parallel rays hit", family: "scene-parallel", count: hits },
-    Column { head: "hits beside it", family: "scene-outside", count: hits },
-    Column { head: "self-hits", family: "scene-shadow", count: self_hits },
+    Column {
+        head: "hits lost",
+        family: "scene-interior",
+        count: misses,
+    },
+    Column {
+        head: "grazing hits lost",
+        family: "scene-grazing",
+        count: misses,
+    },
+    Column {
+        head: "grazing misses hit",
+        family: "scene-grazing",
+        count: hits,
+    },
+    Column {
+        head: "cracks at edges",
+        family: "scene-edges",
+        count: cracks,
+    },
+    Column {
+        head: "parallel rays hit",
+        family: "scene-parallel",
+        count: hits,
+    },
+    Column {
+        head: "hits beside it",
+        family: "scene-outside",
+        count: hits,
+    },
+    Column {
+        head: "self-hits",
+        family: "scene-shadow",
+        count: self_hits,
+    },
 ];
 
 fn cracks(part: &KernelResult) -> [u64; 2] {
-    part.across.as_ref().map_or([0, 0], |across| [across.cracks.count, across.cracks.of])
+    part.across
+        .as_ref()
+        .map_or([0, 0], |across| [across.cracks.count, across.cracks.of])
 }
 
 fn self_hits(part: &KernelResult) -> [u64; 2] {
-    part.self_hits.as_ref().map_or([0, 0], |rate| [rate.count, rate.of])
+    part.self_hits
+        .as_ref()
+        .map_or([0, 0], |rate| [rate.count, rate.of])
 }
 
 fn misses(part: &KernelResult) -> [u64; 2] {
@@ -354,8 +435,17 @@ impl Costs {
     ) -> Result<Vec<Cost>, String> {
         let key = (kernel, set.to_owned(), scene);
         if !self.0.contains_key(&key) {
-            let arguments =
-                ["audit", "--kernel", kernel, "--epsilon", set, "--scene", scene, "-n", &rays()];
+            let arguments = [
+                "audit",
+                "--kernel",
+                kernel,
+                "--epsilon",
+                set,
+                "--scene",
+                scene,
+                "-n",
+                &rays(),
+            ];
             let record: Record = program::json(&arguments)?;
             let cost = |scalar: &str| Cost {
                 scene,
@@ -363,7 +453,12 @@ impl Costs {
                 shares: COLUMNS.map(|Column { family, count, .. }| {
                     let is_of =
                         |part: &&KernelResult| part.scalar == scalar && part.family == family;
-                    record.result.results.iter().find(is_of).map_or([0, 0], count)
+                    record
+                        .result
+                        .results
+                        .iter()
+                        .find(is_of)
+                        .map_or([0, 0], count)
                 }),
             };
             self.0.insert(key.clone(), ["f32", "f64"].map(cost).into());

@@ -24,13 +24,22 @@ pub fn read(folder: &Path) -> Result<Vec<Finding>, String> {
         let path = entry.map_err(wrong)?.path();
         let text =
             fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let file = path.file_name().expect("a file").to_string_lossy().into_owned();
+        let file = path
+            .file_name()
+            .expect("a file")
+            .to_string_lossy()
+            .into_owned();
         let (title, text) = text
             .strip_prefix("# ")
             .and_then(|text| text.split_once('\n'))
             .ok_or(format!("{}: expected a title, '# …'", path.display()))?;
         let slug = slug(file.trim_end_matches(".md"));
-        findings.push(Finding { slug, title: title.to_owned(), text: text.to_owned(), file });
+        findings.push(Finding {
+            slug,
+            title: title.to_owned(),
+            text: text.to_owned(),
+            file,
+        });
     }
     findings.sort_by(|a, b| a.file.cmp(&b.file));
     Ok(findings)

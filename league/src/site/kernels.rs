@@ -18,7 +18,9 @@ pub fn write(
 ) -> Result<(), String> {
     let entrants = entrants();
     for entrant in results {
-        let about = findings.iter().filter(|finding| entrant.findings.contains(&finding.file));
+        let about = findings
+            .iter()
+            .filter(|finding| entrant.findings.contains(&finding.file));
         let body = html! {
             p { "Package " b { (entrant.package) } ", version " (entrant.version) ". What is called: " code { (entrant.function) } "." }
             h2 { "What is promised" }
@@ -44,7 +46,11 @@ pub fn write(
             }
         };
         let path = format!("kernel/{}.html", slug(&entrant.kernel));
-        pages.page(&path, &format!("{} {}", entrant.kernel, entrant.version), &body)?;
+        pages.page(
+            &path,
+            &format!("{} {}", entrant.kernel, entrant.version),
+            &body,
+        )?;
     }
     Ok(())
 }
@@ -112,10 +118,15 @@ fn section(
 /// about, or what slips through shared edges.
 fn refuting(facts: Option<&Entrant>, scalar: &str, result: &ScalarResult) -> Markup {
     let depths = [("miss", &result.deepest_miss), ("hit", &result.deepest_hit)];
-    let depths = depths.into_iter().filter_map(|(what, depth)| Some((what, depth.as_ref()?)));
+    let depths = depths
+        .into_iter()
+        .filter_map(|(what, depth)| Some((what, depth.as_ref()?)));
     let deepest = depths.max_by(|(_, a), (_, b)| a.ulps.total_cmp(&b.ulps));
     let deepest = deepest.filter(|(_, depth)| half_of_digits(scalar) < depth.ulps);
-    let sized = GROUPS.iter().find(|(group, _)| *group == "size").map_or(&[][..], |(_, all)| all);
+    let sized = GROUPS
+        .iter()
+        .find(|(group, _)| *group == "size")
+        .map_or(&[][..], |(_, all)| all);
     let only_shared = facts.is_some_and(|facts| facts.only_shared);
     html! {
         @match (result.verdict.as_str(), deepest) {
@@ -147,8 +158,17 @@ fn families(group: &str) -> String {
 
 /// Counts the same again; with `--details` by family.
 fn command(entrant: &EntrantResult, facts: &Entrant, scalar: &str) -> String {
-    let selector = facts.selector().into_iter().map(shell_word).collect::<Vec<_>>().join(" ");
-    let direction = if facts.takes_unit_directions() { " --direction unit" } else { "" };
+    let selector = facts
+        .selector()
+        .into_iter()
+        .map(shell_word)
+        .collect::<Vec<_>>()
+        .join(" ");
+    let direction = if facts.takes_unit_directions() {
+        " --direction unit"
+    } else {
+        ""
+    };
     let (program, cases) = (facts.program(), entrant.cases);
     let families: Vec<String> = GROUPS.iter().map(|(group, _)| families(group)).collect();
     let families = families.join(",");

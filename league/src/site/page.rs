@@ -20,7 +20,12 @@ pub struct Pages {
 impl Pages {
     /// In a folder, of an edition.
     pub fn new(folder: &str, edition: &str) -> Pages {
-        Pages { folder: folder.into(), edition: edition.to_owned(), files: 0, bytes: 0 }
+        Pages {
+            folder: folder.into(),
+            edition: edition.to_owned(),
+            files: 0,
+            bytes: 0,
+        }
     }
 
     /// Writes a file beside its place and renames it.
@@ -45,7 +50,10 @@ impl Pages {
     pub fn said(&self) -> String {
         let folder = self.folder.display();
         let megabytes = self.bytes as f64 / 1e6;
-        format!("{folder}: {} files, {megabytes:.1} MB; open index.html", self.files)
+        format!(
+            "{folder}: {} files, {megabytes:.1} MB; open index.html",
+            self.files
+        )
     }
 }
 
@@ -88,7 +96,11 @@ pub fn table(label: &str, head: &Markup, body: &Markup) -> Markup {
 /// A name as part of a file's name.
 pub fn slug(name: &str) -> String {
     let words = name.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '.');
-    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-").to_lowercase()
+    words
+        .filter(|word| !word.is_empty())
+        .collect::<Vec<_>>()
+        .join("-")
+        .to_lowercase()
 }
 
 /// The table, the findings and the epsilons.

@@ -48,17 +48,26 @@ fn open(name: &str) -> Result<(), String> {
 fn audit(name: &str, kernels: &[&str]) -> Result<(), String> {
     open(name)?;
     let entrants = hairline_league::entrants();
-    if let Some(unknown) = kernels.iter().find(|k| entrants.iter().all(|e| e.name != **k)) {
+    if let Some(unknown) = kernels
+        .iter()
+        .find(|k| entrants.iter().all(|e| e.name != **k))
+    {
         return Err(format!("'{unknown}' is no entrant"));
     }
     let folder = folder(name);
     fs::create_dir_all(format!("{folder}/entrants"))
         .map_err(|error| format!("{folder}: {error}"))?;
-    for entrant in entrants.iter().filter(|e| kernels.is_empty() || kernels.contains(&e.name)) {
+    for entrant in entrants
+        .iter()
+        .filter(|e| kernels.is_empty() || kernels.contains(&e.name))
+    {
         match run::audit(entrant) {
             Ok(Some(result)) => {
                 let text = serde_json::to_string_pretty(&result).expect("numbers and strings");
-                write(&format!("{folder}/entrants/{}.json", entrant.name), &format!("{text}\n"))?;
+                write(
+                    &format!("{folder}/entrants/{}.json", entrant.name),
+                    &format!("{text}\n"),
+                )?;
             }
             Ok(None) => eprintln!("left out: {}: it is not installed", entrant.name),
             Err(message) => eprintln!("left out: {}: {message}", entrant.name),
@@ -72,14 +81,27 @@ fn write_tables(name: &str) -> Result<(), String> {
     let folder = folder(name);
     let results = edition::results(Path::new(&folder))?;
     let table = edition::markdown(&results);
-    write(&format!("{folder}/table.md"), &format!("# {name}\n\n{CAPTION}\n\n{table}"))?;
+    write(
+        &format!("{folder}/table.md"),
+        &format!("# {name}\n\n{CAPTION}\n\n{table}"),
+    )?;
     let changes = edition::changes(Path::new("league/editions"), name)?;
     write(&format!("{folder}/changes.md"), &changes)?;
-    write(&format!("{folder}/table.html"), &edition::html(name, &results))?;
-    write(&format!("{folder}/table.tex"), &edition::latex(name, &results))?;
+    write(
+        &format!("{folder}/table.html"),
+        &edition::html(name, &results),
+    )?;
+    write(
+        &format!("{folder}/table.tex"),
+        &edition::latex(name, &results),
+    )?;
     let text = fs::read_to_string(DOCUMENT).map_err(|error| format!("{DOCUMENT}: {error}"))?;
-    let (before, rest) = text.split_once(START).ok_or(format!("{DOCUMENT}: no '{START}'"))?;
-    let (_, after) = rest.split_once(END).ok_or(format!("{DOCUMENT}: no '{END}'"))?;
+    let (before, rest) = text
+        .split_once(START)
+        .ok_or(format!("{DOCUMENT}: no '{START}'"))?;
+    let (_, after) = rest
+        .split_once(END)
+        .ok_or(format!("{DOCUMENT}: no '{END}'"))?;
     write(
         DOCUMENT,
         &format!(

@@ -49,22 +49,36 @@ pub fn audit(entrant: &Entrant) -> Result<Option<EntrantResult>, String> {
         Run::Here(_) | Run::Process { .. } => league,
     };
     // Rays through a pipe, or with a scene each, take a thousand times as long.
-    let count = if matches!(entrant.run, Run::Process { .. }) { "4000" } else { "20000" };
+    let count = if matches!(entrant.run, Run::Process { .. }) {
+        "4000"
+    } else {
+        "20000"
+    };
     let count = std::env::var("COUNT").unwrap_or(count.to_owned());
-    let families: Vec<&str> =
-        FAMILIES.iter().copied().filter(|family| !entrant.skip.contains(family)).collect();
+    let families: Vec<&str> = FAMILIES
+        .iter()
+        .copied()
+        .filter(|family| !entrant.skip.contains(family))
+        .collect();
     let file = std::env::temp_dir().join(format!("league-{}.json", std::process::id()));
     let mut command = Command::new(program);
     command
         .arg("audit")
         .args(entrant.selector())
         .args(["--quiet", "--format", "json", "-n", &count]);
-    command.arg("--family").arg(families.join(",")).arg("-o").arg(&file);
+    command
+        .arg("--family")
+        .arg(families.join(","))
+        .arg("-o")
+        .arg(&file);
     if entrant.takes_unit_directions() {
         command.args(["--direction", "unit"]);
     }
     eprintln!("{}", entrant.name);
-    let output = command.stderr(Stdio::piped()).output().map_err(|error| error.to_string())?;
+    let output = command
+        .stderr(Stdio::piped())
+        .output()
+        .map_err(|error| error.to_string())?;
     if !output.status.success() {
         let text = String::from_utf8_lossy(&output.stderr);
         return Err(text.trim().lines().last().unwrap_or("it failed").to_owned());

@@ -12,10 +12,16 @@ use std::fs;
 /// the edition does not have stay.
 pub fn write(folder: &str, results: &[EntrantResult]) -> Result<(), String> {
     register()?;
-    for entrant in results.iter().filter(|entrant| find(&entrant.kernel).is_some()) {
+    for entrant in results
+        .iter()
+        .filter(|entrant| find(&entrant.kernel).is_some())
+    {
         let mut text = String::new();
         for (scalar, result) in &entrant.scalars {
-            for depth in [&result.deepest_miss, &result.deepest_hit].into_iter().flatten() {
+            for depth in [&result.deepest_miss, &result.deepest_hit]
+                .into_iter()
+                .flatten()
+            {
                 text.push_str(&line(&entrant.kernel, scalar, depth)?);
                 text.push('\n');
             }

@@ -72,7 +72,12 @@ impl Directory {
         let finds_path = path.join(FINDS);
         let finds = File::options().create(true).append(true).open(&finds_path);
         let finds = finds.map_err(|error| Failure::of_path(&finds_path, &error))?;
-        Ok(Directory { path, finds, length: 0, _lock: lock })
+        Ok(Directory {
+            path,
+            finds,
+            length: 0,
+            _lock: lock,
+        })
     }
 
     /// The plan that the campaign was begun with; none for a new one.
@@ -97,12 +102,17 @@ impl Directory {
         let path = self.path.join(FINDS);
         let bytes = named_file::read(&path, SizeLimit::CASES)
             .map_err(|error| Failure::of_path(&path, &error))?;
-        let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+        let whole = bytes
+            .iter()
+            .rposition(|byte| *byte == b'\n')
+            .map_or(0, |end| end + 1);
         let name = path.display().to_string();
         // First read, then cut: a file that is no finds file is left alone.
         let finds = read_finds(&bytes[..whole], &name)?;
         if whole < bytes.len() {
-            self.finds.set_len(whole as u64).map_err(|error| Failure::of_path(&path, &error))?;
+            self.finds
+                .set_len(whole as u64)
+                .map_err(|error| Failure::of_path(&path, &error))?;
             let cut = bytes.len() - whole;
             eprintln!(
                 "{name}: the last line was cut short, as by a kill; its {cut} bytes are removed (that find was not reported)"
@@ -128,7 +138,13 @@ impl Directory {
         let line = write_case(&find.stored()) + "\n";
         let short = || io::Error::new(ErrorKind::StorageFull, "the disk took half a line");
         let written = self.finds.write(line.as_bytes());
-        let whole = written.and_then(|n| if n == line.len() { Ok(()) } else { Err(short()) });
+        let whole = written.and_then(|n| {
+            if n == line.len() {
+                Ok(())
+            } else {
+                Err(short())
+            }
+        });
         match whole {
             Ok(()) => self.length += line.len() as u64,
             Err(_) => self.finds.set_len(self.length)?,
@@ -163,7 +179,9 @@ impl Directory {
 /// An error if a file of a campaign leads elsewhere, or is none: a directory that was handed on must not choose what is
 /// written to.
 fn refuse_link(path: &Path) -> Result<(), Failure> {
-    let Ok(metadata) = fs::symlink_metadata(path) else { return Ok(()) };
+    let Ok(metadata) = fs::symlink_metadata(path) else {
+        return Ok(());
+    };
     match metadata.is_file() {
         true => Ok(()),
         false => {
@@ -178,7 +196,9 @@ fn refuse_link(path: &Path) -> Result<(), Failure> {
 pub fn read_begun(directory: &Path) -> Result<Option<Begun>, Failure> {
     let path = directory.join(CAMPAIGN);
     // The version first: of another one the other fields may be others.
-    let Some(any) = read_json::<serde_json::Value>(&path, "")? else { return Ok(None) };
+    let Some(any) = read_json::<serde_json::Value>(&path, "")? else {
+        return Ok(None);
+    };
     let format = any.get("format").and_then(serde_json::Value::as_u64);
     if let Some(other) = format.filter(|format| *format != u64::from(FORMAT)) {
         let message = format!("is of format {other}; this program reads format {FORMAT}");
@@ -203,7 +223,11 @@ fn read_json<T: DeserializeOwned>(path: &Path, advice: &str) -> Result<Option<T>
     };
     let read = serde_json::from_slice(&text);
     let damaged = |error: serde_json::Error| {
-        InputError::at(&path.display().to_string(), error.line(), format!("{error}{advice}"))
+        InputError::at(
+            &path.display().to_string(),
+            error.line(),
+            format!("{error}{advice}"),
+        )
     };
     Ok(Some(read.map_err(damaged)?))
 }
@@ -221,7 +245,11 @@ impl FolderLock {
     fn take(folder: &Path) -> Result<FolderLock, Failure> {
         let path = folder.join(LOCK);
         let failed = |error: io::Error| Failure::of_path(&path, &error);
-        let file = File::options().create(true).truncate(false).write(true).open(&path);
+        let file = File::options()
+            .create(true)
+            .truncate(false)
+            .write(true)
+            .open(&path);
         let mut file = file.map_err(failed)?;
         let holder = || fs::read_to_string(&path).unwrap_or_default();
         match file.try_lock() {
@@ -229,16 +257,23 @@ impl FolderLock {
             Err(TryLockError::Error(error)) => return Err(failed(error)),
             Err(TryLockError::WouldBlock) => {
                 let (folder, holder) = (folder.display(), holder());
-                let message =
-                    format!("{folder}: another campaign writes here: {}", holder.trim_end());
+                let message = format!(
+                    "{folder}: another campaign writes here: {}",
+                    holder.trim_end()
+                );
                 return Err(Failure::Message(Status::InputOutput, message));
             }
         }
         if !holder().is_empty() {
-            eprintln!("{}: its process is gone; the campaign goes on here", path.display());
+            eprintln!(
+                "{}: its process is gone; the campaign goes on here",
+                path.display()
+            );
         }
         let owner = format!("process {} on {}\n", std::process::id(), host());
-        let written = file.set_len(0).and_then(|()| file.write_all(owner.as_bytes()));
+        let written = file
+            .set_len(0)
+            .and_then(|()| file.write_all(owner.as_bytes()));
         written.map_err(failed)?;
         Ok(FolderLock { file })
     }
@@ -254,5 +289,9 @@ impl Drop for FolderLock {
 fn host() -> String {
     let name = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
     let name = name.trim();
-    if name.is_empty() { "this machine".to_owned() } else { name.to_owned() }
+    if name.is_empty() {
+        "this machine".to_owned()
+    } else {
+        name.to_owned()
+    }
 }

@@ -29,7 +29,8 @@ pub struct ShrinkArguments {
 pub fn run(arguments: &ShrinkArguments) -> Result<Status, Failure> {
     let rows = arguments.kernels.rows()?;
     let cases = arguments.case.cases()?;
-    rows.iter().try_for_each(|row| row.check_in(cases.scalars()))?;
+    rows.iter()
+        .try_for_each(|row| row.check_in(cases.scalars()))?;
     either_scalar!(&cases, group => shrink(&rows, arguments.case.one(group)?))
 }
 
@@ -42,7 +43,10 @@ fn shrink<F: Scalar>(rows: &[Row], case: &Case<F>) -> Result<Status, Failure> {
 
 /// The one row that shows a finding on the case.
 fn row_with_finding<'a, F: Scalar>(rows: &'a [Row], case: &Case<F>) -> Result<&'a Row, Failure> {
-    let found: Vec<&Row> = rows.iter().filter(|row| Signature::of(row, case).is_some()).collect();
+    let found: Vec<&Row> = rows
+        .iter()
+        .filter(|row| Signature::of(row, case).is_some())
+        .collect();
     match found[..] {
         [] => Err(no_finding(rows)),
         [row] => Ok(row),
@@ -61,7 +65,11 @@ fn no_finding(rows: &[Row]) -> Failure {
     let rows: Vec<String> = rows.iter().map(Row::label).collect();
     let message = format!(
         "nothing to shrink: on this case {} does as its contract asks",
-        if let [row] = &rows[..] { row } else { "every chosen kernel" }
+        if let [row] = &rows[..] {
+            row
+        } else {
+            "every chosen kernel"
+        }
     );
     Failure::nothing(message)
 }
@@ -95,12 +103,19 @@ fn write<F: Scalar>(
         out,
         "minimum  local: no single simplification keeps the finding, of {SIMPLIFICATIONS}"
     )?;
-    let stored = StoredCase { why: Some(signature.to_string()), ..StoredCase::of(shrunk.case) };
+    let stored = StoredCase {
+        why: Some(signature.to_string()),
+        ..StoredCase::of(shrunk.case)
+    };
     let line = write_case(&stored.with_truth());
     writeln!(out, "\nJSON, a line of a corpus file\n\n{line}")?;
     // The snippet finds its kernel in the library, where only built-in ones are.
     if row.entry.is_built_in() {
-        write!(out, "\nRust\n\n{}", rust_snippet(row, &shrunk.case, signature))?;
+        write!(
+            out,
+            "\nRust\n\n{}",
+            rust_snippet(row, &shrunk.case, signature)
+        )?;
     }
     write!(out, "\nC\n\n{}", c_snippet(row, &shrunk.case, signature))
 }

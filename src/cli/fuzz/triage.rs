@@ -102,10 +102,15 @@ pub fn run(arguments: &TriageArguments) -> Result<Status, Failure> {
     for find in kept.values() {
         replay(find)?;
     }
-    let new: Vec<&Find> = kept.values().filter(|find| !stored.contains(&line_of(find))).collect();
+    let new: Vec<&Find> = kept
+        .values()
+        .filter(|find| !stored.contains(&line_of(find)))
+        .collect();
     write_finds(&arguments.output, kept.values())?;
     if !arguments.quiet {
-        write_result("-", |out| write_report(out, &arguments.output, count, kept.len(), &new))?;
+        write_result("-", |out| {
+            write_report(out, &arguments.output, count, kept.len(), &new)
+        })?;
     }
     Ok(Status::Success)
 }
@@ -115,7 +120,10 @@ fn simplest(finds: impl IntoIterator<Item = Find>, one_each: OneEach) -> BTreeMa
     let mut kept: BTreeMap<FindKey, Find> = BTreeMap::new();
     for find in finds {
         let key = one_each.key(&find);
-        if kept.get(&key).is_none_or(|known| find.size() < known.size()) {
+        if kept
+            .get(&key)
+            .is_none_or(|known| find.size() < known.size())
+        {
             kept.insert(key, find);
         }
     }
@@ -127,7 +135,10 @@ fn minimised(find: Find) -> Find {
     let case = either_scalar!(&find.case, case => {
         shrink_finding(&find.row, case).map(|(_, shrunk)| shrunk.case.into())
     });
-    Find { case: case.unwrap_or(find.case), ..find }
+    Find {
+        case: case.unwrap_or(find.case),
+        ..find
+    }
 }
 
 fn line_of(find: &Find) -> String {
@@ -138,10 +149,14 @@ fn line_of(find: &Find) -> String {
 fn replay(find: &Find) -> Result<(), Failure> {
     let line = line_of(find);
     let stored = lines::read(line.as_bytes(), "find").next();
-    let again = stored.and_then(Result::ok).map(|stored| Find::of_stored(&stored));
+    let again = stored
+        .and_then(Result::ok)
+        .map(|stored| Find::of_stored(&stored));
     match again {
         Some(Ok(again)) if again.signature == find.signature => Ok(()),
-        _ => Err(Failure::self_check(format!("this find does not replay: {line}"))),
+        _ => Err(Failure::self_check(format!(
+            "this find does not replay: {line}"
+        ))),
     }
 }
 
@@ -171,7 +186,9 @@ fn write_finds<'a>(folder: &str, finds: impl Iterator<Item = &'a Find>) -> Resul
         finds.sort_by_cached_key(|find| (find.name(), line_of(find)));
         let path = format!("{folder}/{kernel}.jsonl");
         write_result(path, |out| {
-            finds.iter().try_for_each(|find| writeln!(out, "{}", line_of(find)))
+            finds
+                .iter()
+                .try_for_each(|find| writeln!(out, "{}", line_of(find)))
         })?;
     }
     Ok(())

@@ -29,7 +29,12 @@ pub struct WorstArguments {
     kernels: KernelArguments,
 
     /// f32, f64, or both separated by a comma
-    #[arg(long, value_delimiter = ',', default_value = "f32,f64", value_name = "SCALAR")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "f32,f64",
+        value_name = "SCALAR"
+    )]
     scalar: Vec<String>,
 
     /// Only this gate [default: every gate, and values]
@@ -41,7 +46,12 @@ pub struct WorstArguments {
     objective: Vec<String>,
 
     /// moderate (ordinary sizes and shapes), any, or both separated by a comma
-    #[arg(long, value_delimiter = ',', default_value = "moderate,any", value_name = "NAME")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "moderate,any",
+        value_name = "NAME"
+    )]
     domain: Vec<String>,
 
     /// Evaluations for each kernel, epsilons, scalar, objective, gate and domain
@@ -84,7 +94,9 @@ const KNOWN: &[u8] = include_bytes!("../../../corpora/worst.jsonl");
 pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
     let goals = arguments.goals()?;
     if goals.iter().all(Vec::is_empty) {
-        return Err(Failure::nothing("no chosen kernel has such an objective at such a gate"));
+        return Err(Failure::nothing(
+            "no chosen kernel has such an objective at such a gate",
+        ));
     }
     if arguments.list {
         return list(arguments, &goals);
@@ -102,11 +114,22 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
         write_result("-", |out| write_entries(out, found.entries(), None))?;
         return Ok(Status::Success);
     };
-    let updates: Vec<(Update, &WorstEntry)> =
-        found.entries().map(|entry| (known.merge(entry.clone()), entry)).collect();
+    let updates: Vec<(Update, &WorstEntry)> = found
+        .entries()
+        .map(|entry| (known.merge(entry.clone()), entry))
+        .collect();
     write_result(path, |out| known.write(out))?;
-    let count = |wanted| updates.iter().filter(|(update, _)| *update == wanted).count();
-    let (added, raised, kept) = (count(Update::Added), count(Update::Raised), count(Update::Kept));
+    let count = |wanted| {
+        updates
+            .iter()
+            .filter(|(update, _)| *update == wanted)
+            .count()
+    };
+    let (added, raised, kept) = (
+        count(Update::Added),
+        count(Update::Raised),
+        count(Update::Kept),
+    );
     eprintln!("{path}: {added} added, {raised} raised, {kept} stay as they were");
     let changed = updates.iter().filter(|(update, _)| *update != Update::Kept);
     let changed = changed.map(|(_, entry)| *entry);
@@ -119,14 +142,27 @@ impl WorstArguments {
     fn goals(&self) -> Result<[Vec<WorstGoal>; 2], Failure> {
         let no_band = "the worst case is as far as possible from where the verdict would be right";
         let rows = self.kernels.rows_without_band(no_band)?;
-        let gates = || rows.iter().flat_map(|row| row.entry.info.gates).map(|gate| gate.name);
-        if let Some(gate) = self.gate.as_deref().filter(|gate| !gates().any(|name| name == *gate)) {
+        let gates = || {
+            rows.iter()
+                .flat_map(|row| row.entry.info.gates)
+                .map(|gate| gate.name)
+        };
+        if let Some(gate) = self
+            .gate
+            .as_deref()
+            .filter(|gate| !gates().any(|name| name == *gate))
+        {
             return Err(unknown("gate", gate, gates(), "hairline list kernels"));
         }
         let names = || Objective::ALL.map(Objective::name).into_iter();
         for name in &self.objective {
             if !names().any(|known| known == name) {
-                return Err(unknown("objective", name, names(), "hairline fuzz worst --help"));
+                return Err(unknown(
+                    "objective",
+                    name,
+                    names(),
+                    "hairline fuzz worst --help",
+                ));
             }
         }
         let domains = self.domain.iter().map(|name| {
@@ -135,7 +171,9 @@ impl WorstArguments {
                 .ok_or_else(|| unknown("domain", name, names, "hairline fuzz worst --help"))
         });
         let domains: Vec<SearchDomain> = domains.collect::<Result<_, _>>()?;
-        let pairs = rows.iter().flat_map(|row| domains.iter().map(move |domain| (row, *domain)));
+        let pairs = rows
+            .iter()
+            .flat_map(|row| domains.iter().map(move |domain| (row, *domain)));
         let goals: Vec<WorstGoal> = pairs
             .flat_map(|(row, domain)| WorstGoal::of_row(row, domain))
             .filter(|goal| self.wants(goal))
@@ -200,7 +238,10 @@ fn list(arguments: &WorstArguments, goals: &[Vec<WorstGoal>; 2]) -> Result<Statu
         None => WorstTable::read(KNOWN, "the known table")?,
     };
     let key = |goal: &WorstGoal| {
-        let epsilons = arguments.kernels.chooses_epsilons().then(|| goal.row.epsilon_argument());
+        let epsilons = arguments
+            .kernels
+            .chooses_epsilons()
+            .then(|| goal.row.epsilon_argument());
         (goal.row.entry.info.name, goal.target, goal.domain, epsilons)
     };
     let wanted = |entry: &&WorstEntry| {
@@ -213,7 +254,9 @@ fn list(arguments: &WorstArguments, goals: &[Vec<WorstGoal>; 2]) -> Result<Statu
                        this command searches, which takes minutes)";
         return Err(Failure::nothing(message));
     }
-    write_result("-", |out| write_entries(out, entries.into_iter(), arguments.table.as_deref()))?;
+    write_result("-", |out| {
+        write_entries(out, entries.into_iter(), arguments.table.as_deref())
+    })?;
     Ok(Status::Success)
 }
 
@@ -230,12 +273,26 @@ fn write_entries<'a>(
     let mut entries: Vec<&WorstEntry> = entries.collect();
     let is_f64 = |entry: &WorstEntry| matches!(entry.case, AnyCase::F64(_));
     entries.sort_by_key(|entry| {
-        let WorstGoal { row, target, domain } = &entry.goal;
-        (row.entry.info.name, row.epsilon_argument(), is_f64(entry), *domain, *target)
+        let WorstGoal {
+            row,
+            target,
+            domain,
+        } = &entry.goal;
+        (
+            row.entry.info.name,
+            row.epsilon_argument(),
+            is_f64(entry),
+            *domain,
+            *target,
+        )
     });
     let mut kernel = String::new();
     for entry in entries {
-        let WorstGoal { row, target, domain } = &entry.goal;
+        let WorstGoal {
+            row,
+            target,
+            domain,
+        } = &entry.goal;
         let info = row.entry.info;
         let epsilons = row.epsilon_argument();
         let scalar = if is_f64(entry) { "f64" } else { "f32" };
@@ -259,7 +316,11 @@ fn write_entries<'a>(
             write!(out, " ({relative:.1e} of t)")?;
         }
         if let Some(most) = most_at_its_extents(entry) {
-            write!(out, " (at most {} at these extents, as proved)", prove::units(most, true))?;
+            write!(
+                out,
+                " (at most {} at these extents, as proved)",
+                prove::units(most, true)
+            )?;
         }
         writeln!(out)?;
         let case = match table {
@@ -283,7 +344,11 @@ fn relative_error(entry: &WorstEntry) -> Option<f64> {
 /// by anything but the direction's largest coordinate. Of ordinary sizes only: where numbers overflow or underflow a
 /// bound says nothing.
 fn most_at_its_extents(entry: &WorstEntry) -> Option<f64> {
-    let WorstGoal { row, target, domain } = &entry.goal;
+    let WorstGoal {
+        row,
+        target,
+        domain,
+    } = &entry.goal;
     let is_ordinary = target.objective == Objective::Margin && *domain == SearchDomain::Moderate;
     let gate = target.gate.filter(|_| is_ordinary)?;
     either_scalar!(&entry.case, case => {

@@ -30,14 +30,20 @@ pub fn of_map<F: Float>(map: &Map, grid: &Grid<F>, again: &dyn Fn([usize; 2]) ->
             axis.bits
         );
     }
-    for (side, legend) in [("computed", map.computed_legend()), ("exact", map.exact_legend())] {
+    for (side, legend) in [
+        ("computed", map.computed_legend()),
+        ("exact", map.exact_legend()),
+    ] {
         let _ = writeln!(out, "{side}");
         for (ink, words, count) in legend {
             let _ = writeln!(out, "    {count:>8}  {words}");
             if let (true, Some(pixel)) = (side == "computed" && is_wrong(ink), nearest(map, ink)) {
                 let [x, y] = [0, 1].map(|i| grid.axes[i].offset(pixel[i]));
-                let _ =
-                    writeln!(out, "              nearest, {x:+},{y:+} steps off: {}", again(pixel));
+                let _ = writeln!(
+                    out,
+                    "              nearest, {x:+},{y:+} steps off: {}",
+                    again(pixel)
+                );
             }
         }
     }
@@ -70,7 +76,12 @@ pub fn explain<F: Scalar>(case: &Case<F>, row: &Row) -> String {
 /// A drawing in words, and the command that says all about its case.
 pub fn of_drawing<F: Scalar>(case: &Case<F>, row: &Row) -> String {
     let definition = oracle::define(case);
-    let mut out = format!("{} in {}\n    truth {}", row.label(), F::NAME, definition.truth);
+    let mut out = format!(
+        "{} in {}\n    truth {}",
+        row.label(),
+        F::NAME,
+        definition.truth
+    );
     if let Some(t) = &definition.exact.t {
         let _ = write!(out, ", t = {}", Exact::from_rational(t).approximate());
     }

@@ -22,15 +22,23 @@ pub fn check(arguments: &ProveArguments) -> Result<Status, Failure> {
     // Some take ten times as long as others.
     let files = arguments.check.par_iter().with_max_len(1);
     let demands = &arguments.demand_domain;
-    let lines: Vec<String> = files.map(|file| checked(file, demands)).collect::<Result<_, _>>()?;
+    let lines: Vec<String> = files
+        .map(|file| checked(file, demands))
+        .collect::<Result<_, _>>()?;
     let path = arguments.output.output.first().map_or("-", String::as_str);
-    write_result(path, |out| lines.iter().try_for_each(|line| writeln!(out, "{line}")))?;
+    write_result(path, |out| {
+        lines.iter().try_for_each(|line| writeln!(out, "{line}"))
+    })?;
     Ok(Status::Success)
 }
 
 fn checked(file: &str, demands: &[DemandedSize]) -> Result<String, Failure> {
     let text = read_text(file, SizeLimit::CERTIFICATE)?;
-    if text.lines().nth(3).is_some_and(|line| line.starts_with("guarded ")) {
+    if text
+        .lines()
+        .nth(3)
+        .is_some_and(|line| line.starts_with("guarded "))
+    {
         return guarded(file, &text);
     }
     let proved = checker::check(&text)
@@ -41,8 +49,11 @@ fn checked(file: &str, demands: &[DemandedSize]) -> Result<String, Failure> {
     let (kernel, name, scalar, entry) = kernel_of(&text);
     let recorded = entry.map(|entry| in_named_scalar!(scalar, F => Recorded::new::<F>(entry)));
     let mut is_whole = false;
-    let within: Vec<Proved> =
-        proved.iter().filter(|claim| is_within(demands, claim)).cloned().collect();
+    let within: Vec<Proved> = proved
+        .iter()
+        .filter(|claim| is_within(demands, claim))
+        .cloned()
+        .collect();
     let mut outside = gates_without(&proved, &within);
     let whose = match recorded {
         None => "no kernel of that name is here to compare".to_owned(),
@@ -76,34 +87,51 @@ fn checked(file: &str, demands: &[DemandedSize]) -> Result<String, Failure> {
     };
     let mut of_edges = proved.iter().filter(is_edge).peekable();
     let has_signs = of_edges.peek().is_some() && of_edges.all(|claim| claim.has_signs);
-    let signs = if is_whole && has_signs { ", signs of every edge" } else { "" };
+    let signs = if is_whole && has_signs {
+        ", signs of every edge"
+    } else {
+        ""
+    };
     let mut said = format!(
         "{file}: {bounds} proved of {kernel}: what it compares is wrong by at most {gates}{signs} ({whose})"
     );
     let mut sections: Vec<(&[Number; 8], Vec<&Proved>)> = Vec::new();
     for claim in &proved {
-        match sections.iter_mut().find(|(domain, _)| **domain == claim.domain) {
+        match sections
+            .iter_mut()
+            .find(|(domain, _)| **domain == claim.domain)
+        {
             Some((_, claims)) => claims.push(claim),
             None => sections.push((&claim.domain, vec![claim])),
         }
     }
     // What divides must be there for each size of triangles for which anything is, and so must what does not.
     let of_kind = |claims: &[&Proved], is_limited: bool| -> BTreeSet<String> {
-        let of_kind = claims.iter().filter(|claim| has_limits(claim) == is_limited);
-        of_kind.map(|claim| claim.programs[0].operations.clone()).collect()
+        let of_kind = claims
+            .iter()
+            .filter(|claim| has_limits(claim) == is_limited);
+        of_kind
+            .map(|claim| claim.programs[0].operations.clone())
+            .collect()
     };
     // A claim without its domain is none.
     for (domain, claims) in &sections {
         let is_limited = claims.iter().any(|claim| has_limits(claim));
         let here = of_kind(claims, is_limited);
         let is_whole = here == of_kind(&all, is_limited);
-        let missing = if is_whole { "" } else { "; programs of other sizes are missing here" };
+        let missing = if is_whole {
+            ""
+        } else {
+            "; programs of other sizes are missing here"
+        };
         let errors = match sections.len() {
             1 => String::new(),
             _ => format!(": {}", largest_errors(claims)),
         };
         let inputs = inputs(domain, claims);
-        said.push_str(&format!("\n  for every float with {inputs}{errors}{missing}"));
+        said.push_str(&format!(
+            "\n  for every float with {inputs}{errors}{missing}"
+        ));
     }
     Ok(said)
 }
@@ -114,16 +142,27 @@ fn gates_without(all: &[Proved], claims: &[Proved]) -> BTreeSet<String> {
         let is_same = claim.programs[0].operations == wanted.programs[0].operations;
         is_same && claim.gate == wanted.gate
     };
-    let without = all.iter().filter(|wanted| !claims.iter().any(|claim| has(claim, wanted)));
+    let without = all
+        .iter()
+        .filter(|wanted| !claims.iter().any(|claim| has(claim, wanted)));
     without.map(|claim| claim.gate.clone()).collect()
 }
 
 /// The kernel of a certificate that the checker has read, with its scalar: both, its name, its scalar, and itself.
 fn kernel_of(text: &str) -> (&str, &str, &str, Option<&'static Entry>) {
-    let kernel = text.lines().nth(1).unwrap_or_default().trim_start_matches("kernel ");
+    let kernel = text
+        .lines()
+        .nth(1)
+        .unwrap_or_default()
+        .trim_start_matches("kernel ");
     let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
     // Another format is no kernel's.
-    (kernel, name, scalar, kernel::find(name).filter(|_| scalar != "float"))
+    (
+        kernel,
+        name,
+        scalar,
+        kernel::find(name).filter(|_| scalar != "float"),
+    )
 }
 
 /// The same of the certificate of a guarded kernel.
@@ -162,7 +201,9 @@ fn largest_errors(proved: &[&Proved]) -> String {
         let most = gates.entry(&claim.gate).or_default();
         *most = most.max(float(&claim.bound.error));
     }
-    let gates = gates.iter().map(|(gate, x)| format!("{gate} {}", above(*x)));
+    let gates = gates
+        .iter()
+        .map(|(gate, x)| format!("{gate} {}", above(*x)));
     gates.collect::<Vec<_>>().join(", ")
 }
 
@@ -172,14 +213,28 @@ fn has_limits(claim: &Proved) -> bool {
 
 /// The inputs that some claims of one domain are about, in words.
 fn inputs(domain: &[Number; 8], claims: &[&Proved]) -> String {
-    let [edge, reach, world, direction, extent, direction_floor, floor, quotient] =
-        domain.each_ref().map(float);
+    let [
+        edge,
+        reach,
+        world,
+        direction,
+        extent,
+        direction_floor,
+        floor,
+        quotient,
+    ] = domain.each_ref().map(float);
     let mut text = format!(
         "coordinates of edges up to {edge:.3e}, of vertices from the origin of the ray up to {reach:.3e}, of points \
          up to {world:.3e}, of directions up to {direction}, t_min and t_max up to {extent:.3e}"
     );
-    for (kind, name) in ["divisors at least", "quotients at most"].into_iter().enumerate() {
-        let sizes = claims.iter().flat_map(|claim| &claim.limits[kind]).map(float);
+    for (kind, name) in ["divisors at least", "quotients at most"]
+        .into_iter()
+        .enumerate()
+    {
+        let sizes = claims
+            .iter()
+            .flat_map(|claim| &claim.limits[kind])
+            .map(float);
         let mut sizes: Vec<f64> = sizes.collect();
         sizes.sort_by(f64::total_cmp);
         let ends = [sizes.first(), sizes.last()].into_iter().flatten();
@@ -189,14 +244,21 @@ fn inputs(domain: &[Number; 8], claims: &[&Proved]) -> String {
             text.push_str(&format!(", {name} {}", sizes.join("..")));
         }
     }
-    let other = if claims.iter().any(|claim| has_limits(claim)) { "other " } else { "" };
+    let other = if claims.iter().any(|claim| has_limits(claim)) {
+        "other "
+    } else {
+        ""
+    };
     text.push_str(&format!(
         ", {other}divisors at least {floor:.3e} (the direction's largest coordinate {direction_floor}), \
          {other}quotients at most {quotient:.3e}"
     ));
     let down_to = claims.iter().flat_map(|claim| &claim.limits[2]).map(float);
     if let Some(down_to) = down_to.reduce(f64::min) {
-        text.push_str(&format!(" (at least {} where a line down-to says so)", 0.0 - down_to));
+        text.push_str(&format!(
+            " (at least {} where a line down-to says so)",
+            0.0 - down_to
+        ));
     }
     text
 }
@@ -215,7 +277,10 @@ impl Recorded {
         for (index, path) in paths.iter().enumerate() {
             for (compared, place) in compared(path) {
                 let gate = entry.info.gates[compared.gate].name.to_owned();
-                numbers.entry((gate, operations(path, place))).or_default().push(index);
+                numbers
+                    .entry((gate, operations(path, place)))
+                    .or_default()
+                    .push(index);
             }
         }
         Ok(Recorded { paths, numbers })
@@ -223,7 +288,9 @@ impl Recorded {
 
     /// True if the orders of inputs follow from the decisions of a path.
     fn follow(&self, orders: &BTreeSet<(usize, usize)>, path: usize) -> bool {
-        orders.iter().all(|(a, b)| is_at_most(&self.paths[path], *a as u8, *b as u8))
+        orders
+            .iter()
+            .all(|(a, b)| is_at_most(&self.paths[path], *a as u8, *b as u8))
     }
 
     /// True if a gate compares each of the programs of a claim, on a path with its orders.
@@ -252,10 +319,15 @@ impl Recorded {
 
     /// The comparison in words, where nothing is missing.
     fn all(&self, proved: &[Proved]) -> String {
-        let programs: BTreeSet<&str> =
-            proved.iter().map(|claim| &claim.programs[0].operations[..]).collect();
-        let all: BTreeSet<&str> =
-            proved.iter().flat_map(|claim| &claim.programs).map(|x| &x.operations[..]).collect();
+        let programs: BTreeSet<&str> = proved
+            .iter()
+            .map(|claim| &claim.programs[0].operations[..])
+            .collect();
+        let all: BTreeSet<&str> = proved
+            .iter()
+            .flat_map(|claim| &claim.programs)
+            .map(|x| &x.operations[..])
+            .collect();
         let paths = number_of(self.paths.len() as u64, "path", "paths");
         let programs_ = number_of(programs.len() as u64, "program", "programs");
         let names = match all.len() - programs.len() {

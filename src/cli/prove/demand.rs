@@ -48,8 +48,11 @@ impl Demand<'_> {
             ))
         };
         let (what, value) = text.rsplit_once('=').ok_or_else(wrong)?;
-        let [name, scalar, gate] =
-            what.split('/').collect::<Vec<_>>().try_into().map_err(|_| wrong())?;
+        let [name, scalar, gate] = what
+            .split('/')
+            .collect::<Vec<_>>()
+            .try_into()
+            .map_err(|_| wrong())?;
         let entry = find_kernel(name)?;
         is_f32(scalar, "").map_err(|_| wrong())?;
         let most = match (gate, value) {
@@ -60,23 +63,39 @@ impl Demand<'_> {
         if gate != WATERTIGHT {
             ensure_gate(entry, gate)?;
         }
-        Ok(Demand { text, entry, scalar, gate, value, most })
+        Ok(Demand {
+            text,
+            entry,
+            scalar,
+            gate,
+            value,
+            most,
+        })
     }
 
     /// Why the proof says nothing about a plan that runs the kernel, if it does not.
     fn run_otherwise(&self, rows: &[Row]) -> Option<String> {
         let name = self.entry.info.name;
-        let mut own = rows.iter().filter(|row| row.entry.info.name == name).peekable();
+        let mut own = rows
+            .iter()
+            .filter(|row| row.entry.info.name == name)
+            .peekable();
         if own.peek().is_none() {
             let is_variant = |row: &&Row| {
-                row.entry.info.name.strip_prefix(name).is_some_and(|rest| rest.starts_with('+'))
+                row.entry
+                    .info
+                    .name
+                    .strip_prefix(name)
+                    .is_some_and(|rest| rest.starts_with('+'))
             };
             let variant = rows.iter().find(is_variant)?.entry.info.name;
             return Some(format!("the plan runs {variant} in its place"));
         }
         let is_refusing = |row: &&Row| {
             let gates = self.entry.info.gates.iter().zip(row.epsilons::<f64>());
-            gates.into_iter().any(|(gate, e)| gate.role == Role::Edge && 0.0 < e)
+            gates
+                .into_iter()
+                .any(|(gate, e)| gate.role == Role::Edge && 0.0 < e)
         };
         let row = own.find(|row| self.gate == WATERTIGHT && is_refusing(row))?;
         Some(format!("the plan runs it at {}, above 0", row.set))
@@ -92,8 +111,15 @@ impl Demand<'_> {
             let proved = summary.symmetry == Symmetry::ExactSigns;
             return Ok((!proved).then(|| "no longer proved watertight".to_owned()));
         }
-        let Some(gate) = summary.gates.iter().find(|gate| gate.gate.name == self.gate) else {
-            return Err(Failure::usage(format!("'{}': this gate compares no number", self.text)));
+        let Some(gate) = summary
+            .gates
+            .iter()
+            .find(|gate| gate.gate.name == self.gate)
+        else {
+            return Err(Failure::usage(format!(
+                "'{}': this gate compares no number",
+                self.text
+            )));
         };
         Ok(match &gate.bound {
             Err(why) => Some(format!("no bound: {why}")),

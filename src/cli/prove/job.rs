@@ -59,7 +59,9 @@ impl Epsilons {
             Epsilons::Given(all) => {
                 let of_gate = all.iter().filter(|(name, _)| name == gate.gate.name);
                 let value = |text: &str| EpsilonText::of(text)?.value::<F>().map(F::to_f64);
-                of_gate.filter_map(|(_, text)| Some((text.clone(), value(text)?))).collect()
+                of_gate
+                    .filter_map(|(_, text)| Some((text.clone(), value(text)?)))
+                    .collect()
             }
         }
     }
@@ -79,12 +81,28 @@ pub struct Parts {
 impl Parts {
     /// As a report shows it beside the gates; none without a program.
     pub fn in_short(self) -> Option<ProofPart> {
-        let KernelPart { kernel, scalar, edges, .. } = self.kernel?;
+        let KernelPart {
+            kernel,
+            scalar,
+            edges,
+            ..
+        } = self.kernel?;
         let gates = self.gates.into_iter().map(|gate| {
             let known = gate.witness.map(|witness| witness.units);
-            (gate.gate, ProvedGate { bound: gate.bound_units, known })
+            (
+                gate.gate,
+                ProvedGate {
+                    bound: gate.bound_units,
+                    known,
+                },
+            )
         });
-        Some(ProofPart { kernel, scalar, edges, gates: gates.collect() })
+        Some(ProofPart {
+            kernel,
+            scalar,
+            edges,
+            gates: gates.collect(),
+        })
     }
 }
 
@@ -118,32 +136,51 @@ impl Job<'_> {
         // A search begins at the witnesses of the other scalar too.
         let is_scalar = |w: &StoredWitness| w.scalar == F::NAME || 0 < self.effort.evaluations;
         let is_of = |w: &&StoredWitness| is_scalar(w) && (self.shared || w.kernel == name);
-        let known: Vec<[F; 17]> =
-            self.stored.iter().filter(is_of).filter_map(StoredWitness::nearest).collect();
+        let known: Vec<[F; 17]> = self
+            .stored
+            .iter()
+            .filter(is_of)
+            .filter_map(StoredWitness::nearest)
+            .collect();
         let summary = match Summary::<F>::new(entry, self.domain, &self.parts, &known, self.effort)
         {
             Ok(summary) => summary,
             Err(why) => {
                 let note = Some(format!("{name}, {}: no proof: {why}", F::NAME));
-                return Parts { note, ..Parts::default() };
+                return Parts {
+                    note,
+                    ..Parts::default()
+                };
             }
         };
         let row = self.epsilons.row(entry);
         let judged = row.as_ref().and_then(|row| {
             let whole = [self.domain];
-            let parts = if self.parts.is_empty() { &whole[..] } else { &self.parts };
+            let parts = if self.parts.is_empty() {
+                &whole[..]
+            } else {
+                &self.parts
+            };
             let effort = (&known[..], self.effort);
             Judged::<F>::new(entry, &summary, &row.epsilons::<F>(), parts, effort)
         });
-        let of_verdicts = judged.as_ref().and_then(|judged| judged.contradiction.as_ref());
+        let of_verdicts = judged
+            .as_ref()
+            .and_then(|judged| judged.contradiction.as_ref());
         if let Some(contradiction) = summary.contradiction.as_ref().or(of_verdicts) {
             let contradiction = Some(format!("self-check: {name}, {}: {contradiction}", F::NAME));
-            return Parts { contradiction, ..Parts::default() };
+            return Parts {
+                contradiction,
+                ..Parts::default()
+            };
         }
         let verdicts = judged.as_ref().zip(row.as_ref()).map(|(judged, row)| {
             let useful = || useful_scenes::<F>(entry, self.scene.as_ref()?, &row.epsilons::<F>());
             let misses = judged.verdicts.misses.as_ref();
-            let useful = misses.ok().filter(|it| USELESS <= it.share).and_then(|_| useful());
+            let useful = misses
+                .ok()
+                .filter(|it| USELESS <= it.share)
+                .and_then(|_| useful());
             VerdictPart::new(judged, row, useful.unwrap_or_default())
         });
         let unit = summary.format.unit().to_f64();
@@ -151,11 +188,13 @@ impl Job<'_> {
         let triangles = self.scene.as_ref().map(|scene| Triangles { scene, shapes });
         let part = |gate: &GateSummary<F>| {
             let witness = |i: usize| {
-                gate.witnesses[i].filter(|w| w.score > 0.0).map(|w| WitnessPart {
-                    value: w.score,
-                    units: w.score / unit,
-                    inputs: w.inputs.iter().map(|x| x.hex()).collect(),
-                })
+                gate.witnesses[i]
+                    .filter(|w| w.score > 0.0)
+                    .map(|w| WitnessPart {
+                        value: w.score,
+                        units: w.score / unit,
+                        inputs: w.inputs.iter().map(|x| x.hex()).collect(),
+                    })
             };
             let published = self.epsilons.of::<F>(entry, gate);
             GatePart {
@@ -178,19 +217,23 @@ impl Job<'_> {
             let witnesses = gate.witnesses.iter().zip(GOALS);
             witnesses.map(move |(witness, goal)| (gate.gate.name, witness, goal))
         });
-        let of_verdicts = judged.iter().flat_map(|judged| judged.known.iter().zip(VERDICTS));
+        let of_verdicts = judged
+            .iter()
+            .flat_map(|judged| judged.known.iter().zip(VERDICTS));
         let of_verdicts = of_verdicts.map(|(witness, goal)| ("edge", witness, goal));
-        let witnesses = of_gates.chain(of_verdicts).filter_map(|(gate, witness, goal)| {
-            let witness = witness.filter(|witness| witness.score > 0.0)?;
-            Some(StoredWitness {
-                kernel: name.to_owned(),
-                scalar: F::NAME.to_owned(),
-                gate: gate.to_owned(),
-                goal: goal.name().to_owned(),
-                inputs: witness.inputs.iter().map(|x| x.hex()).collect(),
-                units: witness.score / unit,
-            })
-        });
+        let witnesses = of_gates
+            .chain(of_verdicts)
+            .filter_map(|(gate, witness, goal)| {
+                let witness = witness.filter(|witness| witness.score > 0.0)?;
+                Some(StoredWitness {
+                    kernel: name.to_owned(),
+                    scalar: F::NAME.to_owned(),
+                    gate: gate.to_owned(),
+                    goal: goal.name().to_owned(),
+                    inputs: witness.inputs.iter().map(|x| x.hex()).collect(),
+                    units: witness.score / unit,
+                })
+            });
         Parts {
             witnesses: witnesses.collect(),
             kernel: Some(KernelPart {
@@ -219,20 +262,31 @@ fn supposes<F>(gate: &GateSummary<F>) -> Vec<String> {
         (uses.floor, "divisors"),
         (uses.inside, "u and v"),
     ];
-    all.into_iter().filter(|(is_used, _)| *is_used).map(|(_, name)| name.to_owned()).collect()
+    all.into_iter()
+        .filter(|(is_used, _)| *is_used)
+        .map(|(_, name)| name.to_owned())
+        .collect()
 }
 
 /// The epsilons of the kernel's own sets and of the presets that fit a gate.
 fn published<F: Float>(entry: &Entry, gate: &GateSummary<F>) -> Vec<Published> {
-    let own = entry.info.epsilon_sets.iter().map(|set| (set.name, set.values[gate.index]));
+    let own = entry
+        .info
+        .epsilon_sets
+        .iter()
+        .map(|set| (set.name, set.values[gate.index]));
     let presets = PRESETS.iter().flat_map(|preset| {
         let fitting = preset.entries.iter().filter(|entry| entry.fits(&gate.gate));
         fitting.map(|entry| (preset.name, entry.value))
     });
     let mut found: Vec<Published> = Vec::new();
     for (name, text) in own.chain(presets) {
-        let Some(text) = EpsilonText::of(text) else { continue };
-        let Some(value) = text.value::<F>().map(F::to_f64) else { continue };
+        let Some(text) = EpsilonText::of(text) else {
+            continue;
+        };
+        let Some(value) = text.value::<F>().map(F::to_f64) else {
+            continue;
+        };
         match found.iter_mut().find(|(_, known)| *known == value) {
             Some((names, _)) => names.insert_str(names.len() - 1, &format!(", {name}")),
             None => found.push((format!("{text} ({name})"), value)),

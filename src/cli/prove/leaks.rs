@@ -23,8 +23,13 @@ pub struct Leak {
 pub fn leak<F: Scalar>(entry: &'static Entry) -> Option<Leak> {
     let gates = entry.info.gates;
     let is_zero = |role: Role| matches!(role, Role::Edge | Role::Parallel);
-    let zeros = gates.iter().filter(|gate| is_zero(gate.role) && gate.epsilon != Tunable::Fixed);
-    let zeros = zeros.map(|gate| format!("{}=0", gate.name)).collect::<Vec<_>>().join(",");
+    let zeros = gates
+        .iter()
+        .filter(|gate| is_zero(gate.role) && gate.epsilon != Tunable::Fixed);
+    let zeros = zeros
+        .map(|gate| format!("{}=0", gate.name))
+        .collect::<Vec<_>>()
+        .join(",");
     let choice = match &zeros[..] {
         "" => EpsilonChoice::Source,
         _ => EpsilonChoice::parse(&zeros).ok()?,
@@ -32,7 +37,10 @@ pub fn leak<F: Scalar>(entry: &'static Entry) -> Option<Leak> {
     let row: Row = choice.rows(&[entry], None).ok()?.into_iter().next()?;
     let family = family::find("shared-edge").expect("a family");
     let unit_direction = row.contract.direction != Direction::Any;
-    let parameters = Parameters { unit_direction, ..Parameters::default() };
+    let parameters = Parameters {
+        unit_direction,
+        ..Parameters::default()
+    };
     let seed = 1;
     let source = Source::of(family, parameters.clone(), seed, TRIES);
     let scalars = [F::NAME == "f32", F::NAME == "f64"];
@@ -44,11 +52,20 @@ pub fn leak<F: Scalar>(entry: &'static Entry) -> Option<Leak> {
         let made = family.make::<F>(&parameters, seed, **index);
         made.cases().iter().all(|case| {
             let margins = kernel.thresholds(case);
-            let mut edges = gates.iter().zip(&margins).filter(|(gate, _)| gate.role == Role::Edge);
+            let mut edges = gates
+                .iter()
+                .zip(&margins)
+                .filter(|(gate, _)| gate.role == Role::Edge);
             edges.any(|(_, margin)| *margin < F::zero())
         })
     };
-    let index = cells.first()?.tally.groups.first_cracks.iter().find(is_of_edges)?;
+    let index = cells
+        .first()?
+        .tally
+        .groups
+        .first_cracks
+        .iter()
+        .find(is_of_edges)?;
     let case = family.id::<F>(&parameters, seed, *index).to_string();
     let command = row.explain_command(&audit::shell_word(&case));
     Some(Leak { case, command })

@@ -6,7 +6,11 @@ use crate::report::page::{Block, Command, Head, Item, Items, Page, Paged, Row, T
 
 impl Paged for Report {
     fn page(&self) -> Page {
-        if self.is_of_one { of_one(self) } else { of_all(self) }
+        if self.is_of_one {
+            of_one(self)
+        } else {
+            of_all(self)
+        }
     }
 }
 
@@ -16,64 +20,122 @@ fn of_all(report: &Report) -> Page {
     let mut blocks = vec![Block::Text(domain(report))];
     let mut details = Vec::new();
     for scalar in ["f32", "f64"] {
-        let kernels = record.kernels.iter().filter(|kernel| kernel.scalar == scalar);
+        let kernels = record
+            .kernels
+            .iter()
+            .filter(|kernel| kernel.scalar == scalar);
         let verdicts: Vec<Row> = kernels
             .filter_map(|kernel| Some(kernel.verdicts.as_ref()?.row(&kernel.kernel)))
             .collect();
         if !verdicts.is_empty() {
-            let heads =
-                [scalar, "miss inside", "known", "factor", "hit outside", "known", "factor"];
-            blocks.push(Block::Table(Table::new(heads.map(Head::of).to_vec(), verdicts)));
+            let heads = [
+                scalar,
+                "miss inside",
+                "known",
+                "factor",
+                "hit outside",
+                "known",
+                "factor",
+            ];
+            blocks.push(Block::Table(Table::new(
+                heads.map(Head::of).to_vec(),
+                verdicts,
+            )));
         }
-        let gates: Vec<&GatePart> =
-            record.gates.iter().filter(|gate| gate.scalar == scalar).collect();
+        let gates: Vec<&GatePart> = record
+            .gates
+            .iter()
+            .filter(|gate| gate.scalar == scalar)
+            .collect();
         if gates.is_empty() {
             continue;
         }
-        let mut heads =
-            vec![Head::of(format!("{scalar}, u = {}", unit(scalar))), Head::text("gate")];
+        let mut heads = vec![
+            Head::of(format!("{scalar}, u = {}", unit(scalar))),
+            Head::text("gate"),
+        ];
         heads.extend(numbers());
         heads.push(Head::text("supposes a bound of").optional());
         let row = |gate: &&GatePart| {
             let [bound, known, factor] = cells(gate);
-            let cells = [gate.gate.clone(), bound, known, factor, gate.supposes.join(", ")];
+            let cells = [
+                gate.gate.clone(),
+                bound,
+                known,
+                factor,
+                gate.supposes.join(", "),
+            ];
             let why = gate.why.as_ref().map(|why| format!("no bound: {why}"));
-            Row { below: why.into_iter().collect(), ..Row::new(&gate.kernel, cells) }
+            Row {
+                below: why.into_iter().collect(),
+                ..Row::new(&gate.kernel, cells)
+            }
         };
-        details.push(Block::Table(Table::new(heads, gates.iter().map(row).collect())));
+        details.push(Block::Table(Table::new(
+            heads,
+            gates.iter().map(row).collect(),
+        )));
     }
-    blocks.push(Block::text("In longest edges of the triangle; e as the sources have it."));
-    blocks.push(Block::Details("How wrong each gate's numbers can be".to_owned(), details));
+    blocks.push(Block::text(
+        "In longest edges of the triangle; e as the sources have it.",
+    ));
+    blocks.push(Block::Details(
+        "How wrong each gate's numbers can be".to_owned(),
+        details,
+    ));
     let watertight = record.kernels.iter().filter(|kernel| kernel.watertight);
-    let watertight: Vec<String> =
-        watertight.map(|kernel| format!("{} ({})", kernel.kernel, kernel.scalar)).collect();
+    let watertight: Vec<String> = watertight
+        .map(|kernel| format!("{} ({})", kernel.kernel, kernel.scalar))
+        .collect();
     if !watertight.is_empty() {
         let names = watertight.join(", ");
         blocks.push(Block::Text(String::new()));
-        blocks
-            .push(Block::Text(format!("Watertight at edges, at an epsilon of 0, proved: {names}")));
+        blocks.push(Block::Text(format!(
+            "Watertight at edges, at an epsilon of 0, proved: {names}"
+        )));
     }
     let line = "hairline prove --kernel NAME".to_owned();
-    blocks.push(Block::Commands("next", vec![Command { line, what: "what follows for epsilons" }]));
+    blocks.push(Block::Commands(
+        "next",
+        vec![Command {
+            line,
+            what: "what follows for epsilons",
+        }],
+    ));
     let title = "No float of the domain makes a verdict wrong farther from the edges than this";
-    Page { command: "prove", title: title.to_owned(), tone: Tone::Plain, blocks }
+    Page {
+        command: "prove",
+        title: title.to_owned(),
+        tone: Tone::Plain,
+        blocks,
+    }
 }
 
 /// One kernel: its sentences.
 fn of_one(report: &Report) -> Page {
     let record = &report.record.result;
     let name = record.kernels.first().map_or("K", |kernel| &kernel.kernel);
-    let mut blocks: Vec<Block> =
-        record.kernels.iter().filter_map(conclusion).map(Block::Text).collect();
+    let mut blocks: Vec<Block> = record
+        .kernels
+        .iter()
+        .filter_map(conclusion)
+        .map(Block::Text)
+        .collect();
     blocks.push(Block::Text(domain(report)));
     if report.scene.is_none() {
         let text = "That is not your scene: --scene room, or --mesh FILE --distance LENGTH, says the same in lengths.";
         blocks.push(Block::Text(text.to_owned()));
     }
     for kernel in &record.kernels {
-        let gates: Vec<&GatePart> =
-            record.gates.iter().filter(|gate| gate.scalar == kernel.scalar).collect();
-        blocks.push(Block::Heading(format!("{} in {}", kernel.kernel, kernel.scalar)));
+        let gates: Vec<&GatePart> = record
+            .gates
+            .iter()
+            .filter(|gate| gate.scalar == kernel.scalar)
+            .collect();
+        blocks.push(Block::Heading(format!(
+            "{} in {}",
+            kernel.kernel, kernel.scalar
+        )));
         let sentences = kernel.verdicts.iter().flat_map(|it| &it.sentences);
         let mut notes: Vec<String> = sentences.cloned().collect();
         notes.push(match &kernel.leak {
@@ -88,12 +150,19 @@ fn of_one(report: &Report) -> Page {
         let all = gates.iter().flat_map(|gate| {
             let texts = gate.statements.iter().cloned();
             let title = format!("{}: {}", gate.gate, gate.compares);
-            [Block::Text(String::new()), Block::Text(title), Block::Notes(texts.collect())]
+            [
+                Block::Text(String::new()),
+                Block::Text(title),
+                Block::Notes(texts.collect()),
+            ]
         });
         let title = format!("Everything about {} in {}", kernel.kernel, kernel.scalar);
         blocks.push(Block::Details(title, all.collect()));
     }
-    blocks.push(Block::Details("What is supposed".to_owned(), vec![Block::text(SUPPOSED)]));
+    blocks.push(Block::Details(
+        "What is supposed".to_owned(),
+        vec![Block::text(SUPPOSED)],
+    ));
     let scalar = match &record.kernels[..] {
         [only] => format!(" --scalar {}", only.scalar),
         _ => String::new(),
@@ -110,8 +179,9 @@ fn of_one(report: &Report) -> Page {
                 (&verdicts.misses, "the deepest known false miss"),
                 (&verdicts.hits, "the farthest known false hit"),
             ];
-            let known =
-                known.into_iter().filter_map(|(depth, what)| Some((what, depth.known.as_ref()?)));
+            let known = known
+                .into_iter()
+                .filter_map(|(depth, what)| Some((what, depth.known.as_ref()?)));
             known.for_each(|(what, known)| shown(kernel, what, &known.command));
         }
         if let Some(leak) = &kernel.leak {
@@ -120,24 +190,44 @@ fn of_one(report: &Report) -> Page {
     }
     if !items.is_empty() {
         blocks.push(Block::Text(String::new()));
-        blocks.push(Block::Items(Items { most: items.len(), items }));
+        blocks.push(Block::Items(Items {
+            most: items.len(),
+            items,
+        }));
     }
     // Without a scene `repair` takes the families.
-    let rays = report.scene.as_ref().map_or(String::new(), |_| format!(" {}", report.rays));
+    let rays = report
+        .scene
+        .as_ref()
+        .map_or(String::new(), |_| format!(" {}", report.rays));
     let repair = format!("hairline repair --kernel {name}{rays}{scalar}");
     let commands = vec![
-        Command { line, what: "which epsilons cost least" },
-        Command { line: repair, what: "what mends it" },
+        Command {
+            line,
+            what: "which epsilons cost least",
+        },
+        Command {
+            line: repair,
+            what: "what mends it",
+        },
     ];
     blocks.push(Block::Commands("next", commands));
     let title = format!("{name}: what holds for every float");
-    Page { command: "prove", title, tone: Tone::Plain, blocks }
+    Page {
+        command: "prove",
+        title,
+        tone: Tone::Plain,
+        blocks,
+    }
 }
 
 /// The conclusion of a kernel, in a sentence.
 fn conclusion(kernel: &KernelPart) -> Option<String> {
     let verdicts = kernel.verdicts.as_ref()?;
-    let all = [verdicts.misses.share?, verdicts.hits.apart.or(verdicts.hits.share)?];
+    let all = [
+        verdicts.misses.share?,
+        verdicts.hits.apart.or(verdicts.hits.share)?,
+    ];
     let most = all.into_iter().fold(0.0, f64::max);
     let others = match verdicts.others.iter().any(|other| !other.is_never) {
         true => ", but where another gate decides (below)",

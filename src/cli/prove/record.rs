@@ -100,7 +100,10 @@ impl Comparable for ProofResult {
     const STUDY: Study = Study::Prove;
 
     fn question(&self) -> String {
-        format!("domain {}", serde_json::to_string(&self.domain).unwrap_or_default())
+        format!(
+            "domain {}",
+            serde_json::to_string(&self.domain).unwrap_or_default()
+        )
     }
 
     fn cases(&self) -> String {
@@ -118,17 +121,31 @@ impl Comparable for ProofResult {
             value: format!("{:e}", value.unwrap_or(f64::INFINITY)),
             is_bound: true,
         };
-        let gates =
-            self.gates.iter().map(|GatePart { kernel, scalar, gate, bound: of, .. }| {
-                bound(format!("{kernel} {scalar}: bound of gate {gate}"), *of)
-            });
+        let gates = self.gates.iter().map(
+            |GatePart {
+                 kernel,
+                 scalar,
+                 gate,
+                 bound: of,
+                 ..
+             }| { bound(format!("{kernel} {scalar}: bound of gate {gate}"), *of) },
+        );
         let kernels = self.kernels.iter().flat_map(
-            |KernelPart { kernel, scalar, verdicts, watertight, .. }| {
+            |KernelPart {
+                 kernel,
+                 scalar,
+                 verdicts,
+                 watertight,
+                 ..
+             }| {
                 let depths = verdicts
                     .iter()
                     .flat_map(|it| [("misses inside", &it.misses), ("hits outside", &it.hits)]);
                 let depths = depths.map(move |(what, depth)| {
-                    bound(format!("{kernel} {scalar}: false {what}, in longest edges"), depth.share)
+                    bound(
+                        format!("{kernel} {scalar}: false {what}, in longest edges"),
+                        depth.share,
+                    )
                 });
                 let leaks = bound(
                     format!("{kernel} {scalar}: leaks at edges (0: none, proved)"),
@@ -143,10 +160,24 @@ impl Comparable for ProofResult {
 
 impl LimitPart {
     /// In floats.
-    pub fn new(&Supposed { is_most, name, limit }: &Supposed) -> LimitPart {
+    pub fn new(
+        &Supposed {
+            is_most,
+            name,
+            limit,
+        }: &Supposed,
+    ) -> LimitPart {
         let limit = Some(limit.to_f64());
-        let (at_least, at_most) = if is_most { (None, limit) } else { (limit, None) };
-        LimitPart { number: name.to_owned(), at_least, at_most }
+        let (at_least, at_most) = if is_most {
+            (None, limit)
+        } else {
+            (limit, None)
+        };
+        LimitPart {
+            number: name.to_owned(),
+            at_least,
+            at_most,
+        }
     }
 }
 

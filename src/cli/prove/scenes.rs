@@ -8,14 +8,20 @@ use crate::prove::{Scene, Shape};
 /// `0.01..10`, or one number for both.
 pub fn range(text: &str) -> Result<[f64; 2], String> {
     let (low, high) = text.split_once("..").unwrap_or((text, text));
-    let number = |text: &str| text.trim().parse().map_err(|_| format!("'{text}' is no number"));
+    let number = |text: &str| {
+        text.trim()
+            .parse()
+            .map_err(|_| format!("'{text}' is no number"))
+    };
     Ok([number(low)?, number(high)?])
 }
 
 /// `1`, or `1deg`.
 pub fn degrees(text: &str) -> Result<f64, String> {
     let number = text.trim_end_matches("deg").trim();
-    number.parse().map_err(|_| format!("'{text}' is no angle in degrees"))
+    number
+        .parse()
+        .map_err(|_| format!("'{text}' is no angle in degrees"))
 }
 
 /// The scene that a mesh is, and of each triangle the largest coordinate of its edges and twice its area
@@ -33,7 +39,9 @@ pub fn mesh_scene(
     for triangle in 0..mesh.triangles.len() {
         let (mut size, mut shape) = (0.0f64, f64::INFINITY);
         // As the mesh is in either scalar.
-        let of_f32 = mesh.vertices::<f32>(triangle).map(|vertex| vertex.map(f64::from));
+        let of_f32 = mesh
+            .vertices::<f32>(triangle)
+            .map(|vertex| vertex.map(f64::from));
         for vertices in [mesh.vertices::<f64>(triangle), of_f32] {
             let side = |i: usize| {
                 let (p, q) = (vertices[i], vertices[(i + 1) % 3]);
@@ -42,8 +50,14 @@ pub fn mesh_scene(
             let sides = [side(0), side(1), side(2)];
             let lengths = sides.map(|side| side.iter().map(|x| x * x).sum::<f64>().sqrt());
             let area = Scene::twice_area(&vertices);
-            size = sides.iter().flatten().fold(size, |most, x| most.max(x.abs()));
-            coordinates = vertices.iter().flatten().fold(coordinates, |most, x| most.max(x.abs()));
+            size = sides
+                .iter()
+                .flatten()
+                .fold(size, |most, x| most.max(x.abs()));
+            coordinates = vertices
+                .iter()
+                .flatten()
+                .fold(coordinates, |most, x| most.max(x.abs()));
             let longest = lengths.into_iter().fold(0.0, f64::max);
             edge[1] = edge[1].max(longest);
             if area > 0.0 {
@@ -56,7 +70,10 @@ pub fn mesh_scene(
         }
         shapes.push((size, shape));
     }
-    let shape = shapes.iter().map(|(_, shape)| *shape).fold(f64::INFINITY, f64::min);
+    let shape = shapes
+        .iter()
+        .map(|(_, shape)| *shape)
+        .fold(f64::INFINITY, f64::min);
     if !shape.is_finite() {
         return Err(InputError::of(path, "no triangle with an area").into());
     }
@@ -64,19 +81,49 @@ pub fn mesh_scene(
     let coordinates = coordinates + distance;
     // As `epsilon --mesh` has them.
     let (is_of_longest, shape) = (true, Some(shape));
-    let scene = Scene { coordinates, edge, is_of_longest, distance, min_angle, grazing, shape };
+    let scene = Scene {
+        coordinates,
+        edge,
+        is_of_longest,
+        distance,
+        min_angle,
+        grazing,
+        shape,
+    };
     Ok((scene, shapes))
 }
 
 /// A scene's words.
 pub fn scene_text(scene: &Scene) -> String {
-    let short = |x: f64| format!("{x:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
+    let short = |x: f64| {
+        format!("{x:.4}")
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+            .to_owned()
+    };
     let is_plain = |x: f64| (0.001..1e7).contains(&x);
-    let digits = |x: f64| if is_plain(x) { short(x) } else { format!("{x:.2e}") };
-    let Scene { coordinates, edge: [low, high], distance, min_angle, grazing, .. } = *scene;
+    let digits = |x: f64| {
+        if is_plain(x) {
+            short(x)
+        } else {
+            format!("{x:.2e}")
+        }
+    };
+    let Scene {
+        coordinates,
+        edge: [low, high],
+        distance,
+        min_angle,
+        grazing,
+        ..
+    } = *scene;
     let [coordinates, low, high, distance, min_angle, grazing] =
         [coordinates, low, high, distance, min_angle, grazing].map(digits);
-    let edges = if scene.is_of_longest { "each triangle's longest edge" } else { "every edge" };
+    let edges = if scene.is_of_longest {
+        "each triangle's longest edge"
+    } else {
+        "every edge"
+    };
     format!(
         "coordinates up to {coordinates}, {edges} from {low} to {high}, origins up to {distance} from the \
          vertices, angles from {min_angle}°, rays at {grazing}° to the plane and more with |d| = 1, t_min and t_max \

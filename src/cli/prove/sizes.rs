@@ -32,11 +32,18 @@ impl DemandedSize {
         let names = BOUNDS.map(|(name, _)| name).join(", ");
         let expected = || format!("expected NAME=SIZE, where NAME is one of {names}");
         let (name, number) = text.split_once('=').ok_or_else(expected)?;
-        let at = BOUNDS.iter().position(|(known, _)| *known == name).ok_or_else(expected)?;
+        let at = BOUNDS
+            .iter()
+            .position(|(known, _)| *known == name)
+            .ok_or_else(expected)?;
         let size = number.parse().ok().and_then(Number::from_float::<f64>);
         let size = size.filter(|size| !size.is_negative());
         let size = size.ok_or_else(|| format!("'{number}' is no size: expected 0 or more"))?;
-        Ok(DemandedSize { text: text.to_owned(), at, size })
+        Ok(DemandedSize {
+            text: text.to_owned(),
+            at,
+            size,
+        })
     }
 
     /// The bounds of a claim that this one is compared with: those of its domain, and of single divisors and quotients.
@@ -52,7 +59,11 @@ impl DemandedSize {
     fn is_met(&self, claim: &Proved) -> bool {
         let (_, is_wider) = BOUNDS[self.at];
         let mut found = self.found(claim).into_iter();
-        if is_wider { found.all(|x| self.size <= *x) } else { found.all(|x| *x <= self.size) }
+        if is_wider {
+            found.all(|x| self.size <= *x)
+        } else {
+            found.all(|x| *x <= self.size)
+        }
     }
 
     /// The bound of a claim that is nearest to meeting the demand, or farthest from it.
@@ -74,7 +85,9 @@ pub fn why_not(demands: &[DemandedSize], proved: &[Proved], gate: &str) -> Strin
     let claims: Vec<&Proved> = proved.iter().filter(|claim| claim.gate == gate).collect();
     let all: Vec<&str> = demands.iter().map(|demand| &demand.text[..]).collect();
     let nothing = format!("not all of gate '{gate}' is proved for {}", all.join(","));
-    let unmet = demands.iter().find(|demand| !claims.iter().all(|claim| demand.is_met(claim)));
+    let unmet = demands
+        .iter()
+        .find(|demand| !claims.iter().all(|claim| demand.is_met(claim)));
     let Some(demand) = unmet.filter(|_| !claims.is_empty()) else {
         return format!("{nothing}: the certificate is without some of its numbers");
     };
@@ -82,9 +95,16 @@ pub fn why_not(demands: &[DemandedSize], proved: &[Proved], gate: &str) -> Strin
     let mut found: Vec<&Number> = claims.iter().map(|claim| demand.narrowest(claim)).collect();
     found.sort_unstable();
     let [first, last] = [found.first(), found.last()].map(|x| x.map_or(0.0, |x| float(x)));
-    let sizes = if first == last { format!("{last}") } else { format!("{first:.3e}..{last:.3e}") };
+    let sizes = if first == last {
+        format!("{last}")
+    } else {
+        format!("{first:.3e}..{last:.3e}")
+    };
     let side = if is_wider { "up to" } else { "from" };
-    format!("{nothing}: its domain has {name} {side} {sizes}, demanded {}", demand.text)
+    format!(
+        "{nothing}: its domain has {name} {side} {sizes}, demanded {}",
+        demand.text
+    )
 }
 
 fn float(x: &Number) -> f64 {

@@ -78,7 +78,9 @@ impl VerdictPart {
                     share: known.score,
                     command: row.explain_command(&shell_word(&text_of(&case_of(&known.inputs)))),
                 }),
-                factor: found.zip(known.as_ref()).map(|(it, known)| it.share / known.score),
+                factor: found
+                    .zip(known.as_ref())
+                    .map(|(it, known)| it.share / known.score),
                 useful: useful.clone(),
             }
         };
@@ -114,11 +116,19 @@ impl VerdictPart {
                 number(depth.factor.map(|x| format!("{x:.2}"))),
             ]
         });
-        let mut whys: Vec<&String> =
-            [&self.misses.why, &self.hits.why].into_iter().flatten().collect();
+        let mut whys: Vec<&String> = [&self.misses.why, &self.hits.why]
+            .into_iter()
+            .flatten()
+            .collect();
         whys.dedup();
-        let below = whys.into_iter().map(|why| format!("nothing is proved: {why}")).collect();
-        Row { below, ..Row::new(kernel, cells.concat()) }
+        let below = whys
+            .into_iter()
+            .map(|why| format!("nothing is proved: {why}"))
+            .collect();
+        Row {
+            below,
+            ..Row::new(kernel, cells.concat())
+        }
     }
 
     fn in_words(&self) -> Vec<String> {
@@ -144,10 +154,9 @@ impl VerdictPart {
 
 impl DepthPart {
     fn sentence(&self, what: &str, side: &str) -> String {
-        let known = self
-            .known
-            .as_ref()
-            .map_or(String::new(), |known| format!("; one {} {side} is known", below(known.share)));
+        let known = self.known.as_ref().map_or(String::new(), |known| {
+            format!("; one {} {side} is known", below(known.share))
+        });
         match (self.share, &self.why) {
             (Some(share), _) if USELESS <= share => {
                 format!(
@@ -183,7 +192,10 @@ fn may(may: &May) -> String {
     match may {
         May::Never => "never refuses a hit here.".to_owned(),
         May::Refuse(name, most) => {
-            format!("may also refuse hits where {name} is below {}.", above(*most))
+            format!(
+                "may also refuse hits where {name} is below {}.",
+                above(*most)
+            )
         }
         May::Ends(early, late) => format!(
             "may also refuse hits whose t is nearer to an end than {}, and let through what is {} beyond.",

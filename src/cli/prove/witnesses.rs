@@ -40,15 +40,22 @@ impl StoredWitness {
     /// The nearest numbers of either scalar: a place to search from.
     pub fn nearest<F: Float>(&self) -> Option<[F; 17]> {
         match self.scalar == f32::NAME {
-            true => self.numbers::<f32>().map(|numbers| numbers.map(|x| F::from_f64(x.into()))),
-            false => self.numbers::<f64>().map(|numbers| numbers.map(F::from_f64)),
+            true => self
+                .numbers::<f32>()
+                .map(|numbers| numbers.map(|x| F::from_f64(x.into()))),
+            false => self
+                .numbers::<f64>()
+                .map(|numbers| numbers.map(F::from_f64)),
         }
     }
 }
 
 /// The witnesses of a file's text, one a line.
 pub fn read_witnesses(text: &str, path: &str) -> Result<Vec<StoredWitness>, Failure> {
-    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let lines = text
+        .lines()
+        .enumerate()
+        .filter(|(_, line)| !line.trim().is_empty());
     lines
         .map(|(i, line)| {
             let witness: StoredWitness = serde_json::from_str(line)
@@ -64,9 +71,14 @@ pub fn read_witnesses(text: &str, path: &str) -> Result<Vec<StoredWitness>, Fail
 /// Puts found witnesses in the place of those of the same kernels and scalars; how many are others than before. A stored one that is
 /// still a witness was found again: it was tried.
 pub fn merge(stored: &mut Vec<StoredWitness>, found: Vec<StoredWitness>) -> usize {
-    let run: BTreeSet<(String, String)> =
-        found.iter().map(|it| (it.kernel.clone(), it.scalar.clone())).collect();
-    let changed = found.iter().filter(|witness| !stored.contains(witness)).count();
+    let run: BTreeSet<(String, String)> = found
+        .iter()
+        .map(|it| (it.kernel.clone(), it.scalar.clone()))
+        .collect();
+    let changed = found
+        .iter()
+        .filter(|witness| !stored.contains(witness))
+        .count();
     stored.retain(|it| !run.contains(&(it.kernel.clone(), it.scalar.clone())));
     stored.extend(found);
     stored.sort_by(|a, b| a.key().cmp(&b.key()));

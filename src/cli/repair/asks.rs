@@ -14,7 +14,10 @@ struct Answers([u64; 3]);
 
 impl Merge for Answers {
     fn merge(&mut self, other: Answers) {
-        self.0.iter_mut().zip(other.0).for_each(|(sum, more)| *sum += more);
+        self.0
+            .iter_mut()
+            .zip(other.0)
+            .for_each(|(sum, more)| *sum += more);
     }
 }
 
@@ -31,8 +34,12 @@ impl Asks {
         sources: &[(&'static Family, Source)],
     ) -> Asks {
         let count = |(family, source): &(&'static Family, Source)| {
-            let answers =
-                sum(0..source.count::<F>(), 1024, &Unobserved, Answers::default, |sum, indices| {
+            let answers = sum(
+                0..source.count::<F>(),
+                1024,
+                &Unobserved,
+                Answers::default,
+                |sum, indices| {
                     for index in indices {
                         for case in source.make::<F>(index).cases() {
                             let place = match guarded.answer::<F>(case) {
@@ -43,24 +50,36 @@ impl Asks {
                             sum.0[place] += 1;
                         }
                     }
-                });
-            (family.name.trim_start_matches("scene-").to_owned(), family.promise, answers)
+                },
+            );
+            (
+                family.name.trim_start_matches("scene-").to_owned(),
+                family.promise,
+                answers,
+            )
         };
         let kernel = format!("{} in {}", guarded.info.name, guarded.scalar);
-        Asks { kernel, kinds: sources.iter().map(count).collect() }
+        Asks {
+            kernel,
+            kinds: sources.iter().map(count).collect(),
+        }
     }
 
     /// In one line.
     pub fn line(&self) -> String {
-        let kinds =
-            self.kinds.iter().map(|(name, _, answers)| format!("{name} {}", share(answers, 2)));
+        let kinds = self
+            .kinds
+            .iter()
+            .map(|(name, _, answers)| format!("{name} {}", share(answers, 2)));
         kinds.collect::<Vec<_>>().join(", ")
     }
 
     /// The share of all rays.
     pub fn whole(&self) -> String {
         let mut all = Answers::default();
-        self.kinds.iter().for_each(|(.., answers)| all.merge(*answers));
+        self.kinds
+            .iter()
+            .for_each(|(.., answers)| all.merge(*answers));
         share(&all, 2)
     }
 
@@ -71,10 +90,16 @@ impl Asks {
             Row::new(name.clone(), [0, 1, 2].map(|place| share(answers, place)))
         };
         let table = Table::new(heads, self.kinds.iter().map(row).collect());
-        let terms =
-            self.kinds.iter().map(|(name, promise, _)| (name.clone(), (*promise).to_owned()));
+        let terms = self
+            .kinds
+            .iter()
+            .map(|(name, promise, _)| (name.clone(), (*promise).to_owned()));
         let title = format!("How often the guarded {} asks", self.kernel);
-        vec![Block::Heading(title), Block::Table(table), Block::Terms(terms.collect())]
+        vec![
+            Block::Heading(title),
+            Block::Table(table),
+            Block::Terms(terms.collect()),
+        ]
     }
 }
 

@@ -42,10 +42,17 @@ pub struct ProvedDepths {
 /// The statements without a search, at these epsilons; and the bound of the edge gate's numbers.
 pub fn proved<F: Searched + Scalar>(row: &Row, epsilons: &[F]) -> (ProvedDepths, Option<f64>) {
     let summary = Summary::<F>::new(row.entry, Domain::UNIT, &[], &[], Effort::NONE);
-    let Ok(summary) = summary else { return (ProvedDepths::default(), None) };
-    let edges = summary.gates.iter().filter(|gate| gate.gate.role == Role::Edge && gate.is_margin);
+    let Ok(summary) = summary else {
+        return (ProvedDepths::default(), None);
+    };
+    let edges = summary
+        .gates
+        .iter()
+        .filter(|gate| gate.gate.role == Role::Edge && gate.is_margin);
     let bounds = edges.map(|gate| Some(gate.bound.as_ref().ok()?.to_f64()));
-    let most = bounds.reduce(|most, bound| Some(most?.max(bound?))).flatten();
+    let most = bounds
+        .reduce(|most, bound| Some(most?.max(bound?)))
+        .flatten();
     let effort = (&[][..], Effort::NONE);
     let judged = Judged::new(row.entry, &summary, epsilons, &[Domain::UNIT], effort);
     let depths = judged.and_then(|judged| {
@@ -72,12 +79,22 @@ pub fn candidates<F: Scalar>(row: &Row, bound: Option<f64>) -> Vec<Candidate> {
             }
         }
         if !words.is_empty() {
-            let row = Row { epsilons, ..row.clone() };
-            all.push(Candidate { row, name: words.join(","), what: what.to_owned() });
+            let row = Row {
+                epsilons,
+                ..row.clone()
+            };
+            all.push(Candidate {
+                row,
+                name: words.join(","),
+                what: what.to_owned(),
+            });
         }
     };
     let value = |i: usize| row.epsilons[i].value::<F>().map_or(0.0, F::to_f64);
-    of_epsilons(&|i| (value(i) != 0.0).then(|| "0".to_owned()), "Without epsilons");
+    of_epsilons(
+        &|i| (value(i) != 0.0).then(|| "0".to_owned()),
+        "Without epsilons",
+    );
     let is_edge = |i: usize| gates[i].role == Role::Edge && gates[i].epsilon == Tunable::Signed;
     if row.entry.info.contract.boundary == Boundary::Open {
         let least = if F::DIGITS == 24 { "-1e-45" } else { "-5e-324" };
@@ -98,9 +115,17 @@ pub fn candidates<F: Scalar>(row: &Row, bound: Option<f64>) -> Vec<Candidate> {
     });
     for (entry, what) in fused.into_iter().chain(changes) {
         let contract = entry.info.contract;
-        let contract = if contract == row.entry.info.contract { row.contract } else { contract };
+        let contract = if contract == row.entry.info.contract {
+            row.contract
+        } else {
+            contract
+        };
         all.push(Candidate {
-            row: Row { entry, contract, ..row.clone() },
+            row: Row {
+                entry,
+                contract,
+                ..row.clone()
+            },
             name: entry.info.name.replacen(row.entry.info.name, "", 1),
             what: what.to_owned(),
         });
@@ -117,25 +142,42 @@ fn listing(row: &Row, plain: &[Gate], change: Option<Change>, is_fused: bool) ->
             &["sort(a, b, c);  // by x, then y, then z; u and v go with b and c"]
         }
         Some(Change::Double) => &["double o, d, a, b, c;  // from the floats; so is all below"],
-        Some(Change::BySize) => {
-            &["L = largest |coordinate| of b-a and c-a;", "D = largest |coordinate| of d;"]
-        }
+        Some(Change::BySize) => &[
+            "L = largest |coordinate| of b-a and c-a;",
+            "D = largest |coordinate| of d;",
+        ],
         _ => &[],
     };
     let mut lines: Vec<String> = head.iter().map(|line| (*line).to_owned()).collect();
-    if row.entry.info.gates.iter().any(|gate| gate.refuses.contains("TINY")) {
+    if row
+        .entry
+        .info
+        .gates
+        .iter()
+        .any(|gate| gate.refuses.contains("TINY"))
+    {
         lines.push("TINY = the least positive float;".to_owned());
     }
     for ((gate, plain), epsilon) in row.entry.info.gates.iter().zip(plain).zip(&row.epsilons) {
         let epsilon = epsilon.to_string();
         // Nothing times a size is nothing.
-        let refuses = if epsilon == "0" { plain.refuses } else { gate.refuses };
+        let refuses = if epsilon == "0" {
+            plain.refuses
+        } else {
+            gate.refuses
+        };
         let refuses = refuses.split(" (printed").next().unwrap_or_default();
         if change == Some(Change::Fallback) && gate.role == Role::Edge {
             let what = "the least number below == 0";
-            lines.push(format!("if ({what}) return the_same_in_double(o, d, a, b, c);"));
+            lines.push(format!(
+                "if ({what}) return the_same_in_double(o, d, a, b, c);"
+            ));
         }
-        lines.push(format!("if ({}) miss;  // {}", refuses_at(refuses, &epsilon), gate.name));
+        lines.push(format!(
+            "if ({}) miss;  // {}",
+            refuses_at(refuses, &epsilon),
+            gate.name
+        ));
     }
     lines.extend((change == Some(Change::Ahead)).then(|| "if (t < 0) miss;".to_owned()));
     lines.push("hit;".to_owned());

@@ -19,9 +19,18 @@ impl<'a> Code<'a> {
     /// The lines of a guarded kernel's body.
     pub fn body(guarded: &'a Guarded, dialect: Dialect) -> Vec<String> {
         let steps = guarded.steps.all();
-        let roots = steps.iter().flat_map(|step| roots_of(step, guarded)).collect();
+        let roots = steps
+            .iter()
+            .flat_map(|step| roots_of(step, guarded))
+            .collect();
         let nodes = Nodes::new(guarded, dialect, roots);
-        let mut code = Code { nodes, guarded, dialect, lines: Vec::new(), depth: 1 };
+        let mut code = Code {
+            nodes,
+            guarded,
+            dialect,
+            lines: Vec::new(),
+            depth: 1,
+        };
         // Some gate may stay open.
         if steps.iter().any(|step| matches!(step, Step::Gate(..))) {
             code.line(dialect.open());
@@ -31,7 +40,8 @@ impl<'a> Code<'a> {
     }
 
     fn line(&mut self, text: impl AsRef<str>) {
-        self.lines.push(format!("{}{}", "    ".repeat(self.depth), text.as_ref()));
+        self.lines
+            .push(format!("{}{}", "    ".repeat(self.depth), text.as_ref()));
     }
 
     fn define(&mut self, nodes: &[Node], scope: &mut Scope) {
@@ -41,8 +51,10 @@ impl<'a> Code<'a> {
     }
 
     fn signs(&mut self, literals: &[&Literal], scope: &mut Scope) {
-        let places: BTreeSet<Place> =
-            literals.iter().flat_map(|literal| literal.places()).collect();
+        let places: BTreeSet<Place> = literals
+            .iter()
+            .flat_map(|literal| literal.places())
+            .collect();
         for place in places {
             if !scope.signs.insert(place) {
                 continue;
@@ -70,24 +82,45 @@ impl<'a> Code<'a> {
     }
 
     /// A condition that a literal surely holds.
-    fn literal(&self, Literal { is_negative, signs, nonzero }: &Literal) -> Vec<String> {
+    fn literal(
+        &self,
+        Literal {
+            is_negative,
+            signs,
+            nonzero,
+        }: &Literal,
+    ) -> Vec<String> {
         let signs: Vec<String> = signs.iter().map(|place| self.sign_name(*place)).collect();
-        let mut parts: Vec<String> =
-            nonzero.iter().map(|place| format!("{} != 0", self.sign_name(*place))).collect();
+        let mut parts: Vec<String> = nonzero
+            .iter()
+            .map(|place| format!("{} != 0", self.sign_name(*place)))
+            .collect();
         if !signs.is_empty() {
-            parts.push(format!("{} {} 0", signs.join(" * "), if *is_negative { "<" } else { ">" }));
+            parts.push(format!(
+                "{} {} 0",
+                signs.join(" * "),
+                if *is_negative { "<" } else { ">" }
+            ));
         }
         parts
     }
 
     fn patterns(&self, patterns: &[Pattern]) -> String {
-        let text =
-            |pattern: &Pattern| pattern.iter().flat_map(|it| self.literal(it)).collect::<Vec<_>>();
+        let text = |pattern: &Pattern| {
+            pattern
+                .iter()
+                .flat_map(|it| self.literal(it))
+                .collect::<Vec<_>>()
+        };
         let all: Vec<Vec<String>> = patterns.iter().map(text).collect();
         let is_single = all.len() == 1;
         let one = |parts: &Vec<String>| {
             let text = parts.join(" && ");
-            if is_single || parts.len() == 1 { text } else { format!("({text})") }
+            if is_single || parts.len() == 1 {
+                text
+            } else {
+                format!("({text})")
+            }
         };
         all.iter().map(one).collect::<Vec<_>>().join(" || ")
     }
@@ -196,8 +229,9 @@ impl<'a> Code<'a> {
     fn axes(&mut self, axes: &Axes, scope: &mut Scope) {
         match axes {
             Axes::Are(axes) => {
-                let set: Vec<String> =
-                    (0..3).map(|i| format!("{} = {};", AXES[i], axes[i])).collect();
+                let set: Vec<String> = (0..3)
+                    .map(|i| format!("{} = {};", AXES[i], axes[i]))
+                    .collect();
                 self.line(set.join(" "));
             }
             Axes::If(comparison, yes, no) => {
@@ -211,13 +245,22 @@ impl<'a> Code<'a> {
 
 /// The nodes that a step names.
 fn roots_of(step: &Step, guarded: &Guarded) -> Vec<Node> {
-    let signs: Vec<Place> = step.literals().into_iter().flat_map(Literal::places).collect();
+    let signs: Vec<Place> = step
+        .literals()
+        .into_iter()
+        .flat_map(Literal::places)
+        .collect();
     let has_size = |place: &&Place| !guarded.margins[*place].factor.is_zero();
-    let sizes = signs.iter().filter(has_size).map(|place| Node::Size(*place, false));
+    let sizes = signs
+        .iter()
+        .filter(has_size)
+        .map(|place| Node::Size(*place, false));
     let values = match step {
         Step::Choice(comparison, ..) => comparison.places(),
         Step::Hit(values) => values.iter().flatten().copied().collect(),
         _ => vec![],
     };
-    sizes.chain(signs.iter().chain(&values).copied().map(Node::Value)).collect()
+    sizes
+        .chain(signs.iter().chain(&values).copied().map(Node::Value))
+        .collect()
 }

@@ -9,24 +9,47 @@ use crate::prove::repair::{Guarded, Margin, Scale};
 
 /// The source of a guarded kernel; the shares of rays on which it asks, if they were counted.
 pub fn source(guarded: &Guarded, language: Language, shares: Option<&str>) -> String {
-    let dialect = Dialect { language, is_f32: guarded.scalar == "f32" };
-    let Scale { slack, tiny, far, .. } = guarded.scale;
+    let dialect = Dialect {
+        language,
+        is_f32: guarded.scalar == "f32",
+    };
+    let Scale {
+        slack, tiny, far, ..
+    } = guarded.scale;
     let [slack, tiny, far] = [slack, tiny, far].map(|x| dialect.number(x.to_f64()));
     let (real, name) = (dialect.scalar(), function_name(guarded));
-    let frame = Frame { guarded, dialect, name, real, slack, tiny, far };
+    let frame = Frame {
+        guarded,
+        dialect,
+        name,
+        real,
+        slack,
+        tiny,
+        far,
+    };
     let shares = shares.map(|shares| format!("\n\nHow often it asks: {shares}"));
     let comment = frame.comment() + &shares.unwrap_or_default();
     let body = Code::body(guarded, dialect).join("\n");
-    let marked =
-        |mark: &str| comment.lines().map(|line| format!("{mark} {line}\n")).collect::<String>();
+    let marked = |mark: &str| {
+        comment
+            .lines()
+            .map(|line| format!("{mark} {line}\n"))
+            .collect::<String>()
+    };
     let text = match language {
         Language::C | Language::Cuda => {
-            format!("/* {}\n */\n{}", comment.replace('\n', "\n * "), frame.c(&body))
+            format!(
+                "/* {}\n */\n{}",
+                comment.replace('\n', "\n * "),
+                frame.c(&body)
+            )
         }
         Language::Rust => marked("//!") + &frame.rust(&body),
         _ => marked("//") + &frame.shader(&body),
     };
-    text.lines().map(|line| format!("{}\n", line.trim_end())).collect()
+    text.lines()
+        .map(|line| format!("{}\n", line.trim_end()))
+        .collect()
 }
 
 struct Frame<'a> {
@@ -42,13 +65,21 @@ struct Frame<'a> {
 
 /// `moller_trumbore_f32`.
 pub fn function_name(guarded: &Guarded) -> String {
-    let name = guarded.info.name.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+    let name = guarded
+        .info
+        .name
+        .replace(|c: char| !c.is_ascii_alphanumeric(), "_");
     format!("{name}_{}", guarded.scalar)
 }
 
 impl Frame<'_> {
     fn comment(&self) -> String {
-        let Guarded { info, scalar, scale, .. } = self.guarded;
+        let Guarded {
+            info,
+            scalar,
+            scale,
+            ..
+        } = self.guarded;
         let (extent, is_front) = self.guarded.promise();
         let language = format!("{:?}", self.dialect.language).to_lowercase();
         let command = format!("hairline repair --kernel {} --scalar {scalar}", info.name);
@@ -70,9 +101,15 @@ The language does not promise rounding to nearest; graphics devices that are kno
         let fusing = self.dialect.about_fusing();
         let names = names(self.guarded);
         let margin = |(place, margin): (&Place, &Margin)| {
-            let is_input = matches!(self.guarded.operations[*place as usize], Operation::Input(_));
+            let is_input = matches!(
+                self.guarded.operations[*place as usize],
+                Operation::Input(_)
+            );
             let (name, factor) = (&names[*place as usize], margin.factor.to_f64());
-            let line = format!("    {name}: K = {}, factor {factor:.3e}\n", margin.roundings);
+            let line = format!(
+                "    {name}: K = {}, factor {factor:.3e}\n",
+                margin.roundings
+            );
             (!is_input).then_some(line)
         };
         let margins: String = self.guarded.margins.iter().filter_map(margin).collect();
@@ -109,7 +146,10 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
             (0..self.guarded.operations.len())
                 .all(|place| self.magnitude(place as Place, size) < most)
         };
-        let exponent = (0..self.guarded.scale.far.ceil_log2()).rev().find(holds).unwrap_or(0);
+        let exponent = (0..self.guarded.scale.far.ceil_log2())
+            .rev()
+            .find(holds)
+            .unwrap_or(0);
         self.dialect.number(2f64.powi(exponent))
     }
 
@@ -135,11 +175,20 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
         let either = |condition: String, far: String, end: &str| match self.dialect.language {
             Language::C | Language::Cuda => format!("{condition} ? {far} : {end}"),
             Language::Rust => format!("if {condition} {{ {far} }} else {{ {end} }}"),
-            _ => format!("{}({end}, {far})", if end == "t_min" { "max" } else { "min" }),
+            _ => format!(
+                "{}({end}, {far})",
+                if end == "t_min" { "max" } else { "min" }
+            ),
         };
         let ends = [
-            ("t_from", either(format!("t_min < -{far}"), format!("-{far}"), "t_min")),
-            ("t_to", either(format!("t_max > {far}"), far.clone(), "t_max")),
+            (
+                "t_from",
+                either(format!("t_min < -{far}"), format!("-{far}"), "t_min"),
+            ),
+            (
+                "t_to",
+                either(format!("t_max > {far}"), far.clone(), "t_max"),
+            ),
         ];
         let is_bad = format!("!(t_min <= t_max && t_min <= {far} && t_max >= -{far})");
         let ask = match self.dialect.language {
@@ -160,22 +209,38 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
     fn given(&self) -> Vec<&'static str> {
         let gives = self.guarded.info.gives;
         let all = [("t", gives.t), ("u", gives.uv), ("v", gives.uv)].into_iter();
-        all.filter_map(|(name, is_given)| is_given.then_some(name)).collect()
+        all.filter_map(|(name, is_given)| is_given.then_some(name))
+            .collect()
     }
 
     fn c(&self, body: &str) -> String {
-        let Frame { name, real, slack, tiny, .. } = self;
+        let Frame {
+            name,
+            real,
+            slack,
+            tiny,
+            ..
+        } = self;
         let scalar = self.guarded.scalar;
         let upper = scalar.to_uppercase();
         let guard = format!("HAIRLINE_{}_H", name.to_uppercase());
-        let (most, infinity) =
-            if self.dialect.is_f32 { ("FLT_MAX", "HUGE_VALF") } else { ("DBL_MAX", "HUGE_VAL") };
+        let (most, infinity) = if self.dialect.is_f32 {
+            ("FLT_MAX", "HUGE_VALF")
+        } else {
+            ("DBL_MAX", "HUGE_VAL")
+        };
         let (extent, is_front) = self.guarded.promise();
         let given = self.given();
         let unused = "    (void)t_min, (void)t_max;\n";
         let head = self.head().unwrap_or(unused.to_owned());
-        let body = body.replacen("    int open = 0;\n", &format!("    int open = 0;\n{head}"), 1);
-        let copied = given.iter().map(|it| format!("    answer->{it} = ({real})exact.{it};\n"));
+        let body = body.replacen(
+            "    int open = 0;\n",
+            &format!("    int open = 0;\n{head}"),
+            1,
+        );
+        let copied = given
+            .iter()
+            .map(|it| format!("    answer->{it} = ({real})exact.{it};\n"));
         let copied: String = copied.collect();
         let (ends, unused) = match extent {
             Extent::Line => (format!("-{infinity}, {infinity}"), unused),
@@ -217,13 +282,23 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
     }
 
     fn rust(&self, body: &str) -> String {
-        let Frame { name, real, slack, tiny, .. } = self;
+        let Frame {
+            name,
+            real,
+            slack,
+            tiny,
+            ..
+        } = self;
         let head = self.head();
-        let ends =
-            head.as_ref().map_or(String::new(), |_| format!(", t_min: {real}, t_max: {real}"));
+        let ends = head
+            .as_ref()
+            .map_or(String::new(), |_| format!(", t_min: {real}, t_max: {real}"));
         let head = head.unwrap_or_default();
-        let fields: Vec<String> =
-            self.given().iter().map(|name| format!("{name}: {real}")).collect();
+        let fields: Vec<String> = self
+            .given()
+            .iter()
+            .map(|name| format!("{name}: {real}"))
+            .collect();
         format!(
             include_str!("frame.rust"),
             body = body,
@@ -238,14 +313,23 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
     }
 
     fn shader(&self, body: &str) -> String {
-        let Frame { name, real, slack, tiny, .. } = self;
+        let Frame {
+            name,
+            real,
+            slack,
+            tiny,
+            ..
+        } = self;
         let scalar = self.guarded.scalar;
         let (most, zero) = (self.largest(), self.dialect.number(0.0));
         let is_wgsl = self.dialect.language == Language::Wgsl;
         let (vector, constant) = match self.dialect.language {
             Language::Wgsl => ("vec3f", "const HAIRLINE_$: i32"),
             Language::Hlsl => ("float3", "static const int HAIRLINE_$"),
-            _ => (if self.dialect.is_f32 { "vec3" } else { "dvec3" }, "const int HAIRLINE_$"),
+            _ => (
+                if self.dialect.is_f32 { "vec3" } else { "dvec3" },
+                "const int HAIRLINE_$",
+            ),
         };
         let constants = [("MISS", 0), ("HIT", 1), ("ASK", 2)]
             .map(|(name, value)| format!("{} = {value};\n", constant.replace('$', name)));
@@ -271,12 +355,18 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
             &format!("hairline_sure_sign_{scalar}"),
             typed(real, &["x", "size", "factor"].map(str::to_owned)),
         );
-        let exact =
-            function(&format!("hairline_exact_sign_{scalar}"), typed(real, &["x".to_owned()]));
+        let exact = function(
+            &format!("hairline_exact_sign_{scalar}"),
+            typed(real, &["x".to_owned()]),
+        );
         let (of_margin, of_zero) = (sign("margin", "-margin"), sign(&zero, &zero));
         let vectors = ["o", "d", "a", "b", "c"];
         let head = self.head();
-        let ends: &[&str] = if head.is_some() { &["t_min", "t_max"] } else { &[] };
+        let ends: &[&str] = if head.is_some() {
+            &["t_min", "t_max"]
+        } else {
+            &[]
+        };
         let passed = |names: &[&str]| -> Vec<String> {
             let suffix = if is_wgsl { "_in" } else { "" };
             names.iter().map(|name| format!("{name}{suffix}")).collect()

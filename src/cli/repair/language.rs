@@ -58,7 +58,11 @@ impl Dialect {
 
     /// A number, so that it is read as the same one.
     pub fn number(self, x: f64) -> String {
-        let text = if self.is_f32 { format!("{:?}", x as f32) } else { format!("{x:?}") };
+        let text = if self.is_f32 {
+            format!("{:?}", x as f32)
+        } else {
+            format!("{x:?}")
+        };
         match (self.language, self.is_f32) {
             (C | Cuda | Hlsl, true) => format!("{text}f"),
             (Wgsl, _) => format!("{text}f"),
@@ -122,7 +126,10 @@ and an override are known to the compiler."
     /// Definitions of numbers, on one line.
     pub fn definitions(self, all: &[(String, String)]) -> String {
         let scalar = self.scalar();
-        let all: Vec<String> = all.iter().map(|(name, text)| format!("{name} = {text}")).collect();
+        let all: Vec<String> = all
+            .iter()
+            .map(|(name, text)| format!("{name} = {text}"))
+            .collect();
         match self.language {
             C | Cuda => format!("const {scalar} {};", all.join(", ")),
             Glsl | Hlsl => format!("precise {scalar} {};", all.join(", ")),
@@ -186,7 +193,9 @@ and an override are known to the compiler."
     pub fn hit(self, values: &[Option<String>]) -> Vec<String> {
         // Shaders have the three in a vector.
         let names = [("t", "x"), ("u", "y"), ("v", "z")].into_iter();
-        let given = names.zip(values).filter_map(|(names, text)| Some((names, text.as_ref()?)));
+        let given = names
+            .zip(values)
+            .filter_map(|(names, text)| Some((names, text.as_ref()?)));
         if self.language == Rust {
             let field = |((name, _), text): ((&str, _), &String)| match name == text {
                 true => name.to_owned(),
@@ -218,7 +227,10 @@ and an override are known to the compiler."
     pub fn function(self, name: &str) -> String {
         match self.language {
             Rust => name.to_owned(),
-            _ => format!("hairline_{name}_{}", if self.is_f32 { "f32" } else { "f64" }),
+            _ => format!(
+                "hairline_{name}_{}",
+                if self.is_f32 { "f32" } else { "f64" }
+            ),
         }
     }
 

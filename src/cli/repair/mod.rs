@@ -36,7 +36,12 @@ pub struct RepairArguments {
     kernel: Option<String>,
 
     /// f32, f64, or both separated by a comma
-    #[arg(long, value_delimiter = ',', default_value = "f32", value_name = "SCALAR")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "f32",
+        value_name = "SCALAR"
+    )]
     scalar: Vec<String>,
 
     /// Write the kernel that says hit, miss or ask in this language, instead of small changes
@@ -84,7 +89,11 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
     let entries: Vec<&Entry> = match &arguments.kernel {
         Some(name) => vec![find_kernel(name)?],
         None if is_folder => kernel::all(),
-        None => return Err(Failure::usage("repair is of one --kernel, or of all with -o FOLDER/")),
+        None => {
+            return Err(Failure::usage(
+                "repair is of one --kernel, or of all with -o FOLDER/",
+            ));
+        }
     };
     let is_single = entries.len() == 1 && scalars[0] != scalars[1];
     let is_written = arguments.emit.is_some() || arguments.certificate.is_some();
@@ -107,7 +116,9 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
         return arguments.smaller(entries[0], scalars, sources);
     }
     if !is_folder && !is_single {
-        return Err(Failure::usage("two scalars are two files: name one, or -o FOLDER/"));
+        return Err(Failure::usage(
+            "two scalars are two files: name one, or -o FOLDER/",
+        ));
     }
     if is_folder {
         std::fs::create_dir_all(&arguments.output)
@@ -154,7 +165,10 @@ impl RepairArguments {
                 (scene, None)
             }
         };
-        let parameters = Parameters { scene: Some(scene), ..Parameters::default() };
+        let parameters = Parameters {
+            scene: Some(scene),
+            ..Parameters::default()
+        };
         let of = |stratum| {
             let parameters = parameters.clone();
             let source =
@@ -167,8 +181,12 @@ impl RepairArguments {
     /// The flags of `audit` for the same rays.
     fn flags_of_rays(&self) -> String {
         let given = [
-            self.mesh.as_ref().map(|mesh| format!(" --mesh {}", shell_word(mesh))),
-            self.scene.as_ref().map(|scene| format!(" --scene {}", shell_word(scene))),
+            self.mesh
+                .as_ref()
+                .map(|mesh| format!(" --mesh {}", shell_word(mesh))),
+            self.scene
+                .as_ref()
+                .map(|scene| format!(" --scene {}", shell_word(scene))),
             (self.seed != 1).then(|| format!(" --seed {}", self.seed)),
             (self.count != 20_000).then(|| format!(" -n {}", self.count)),
         ];
@@ -189,10 +207,18 @@ impl RepairArguments {
         };
         let row = choice.rows(&[entry], None).map_err(wrong)?.remove(0);
         let scalars = scalars_in_use(std::slice::from_ref(&row), scalars)?;
-        let of =
-            |family| (family, Source::of(family, Parameters::default(), self.seed, self.count));
+        let of = |family| {
+            (
+                family,
+                Source::of(family, Parameters::default(), self.seed, self.count),
+            )
+        };
         let sources = if scene.is_empty() {
-            FAMILIES.iter().filter(|it| it.question.is_ordinary()).map(of).collect()
+            FAMILIES
+                .iter()
+                .filter(|it| it.question.is_ordinary())
+                .map(of)
+                .collect()
         } else {
             scene
         };
@@ -229,7 +255,12 @@ impl RepairArguments {
             blocks.extend(asks.filter(|_| is_scene).iter().flat_map(Asks::blocks));
         }
         let title = format!("{}: small changes, and what they mend", entry.info.name);
-        write_page(Page { command: "repair", title, blocks, ..Page::default() })?;
+        write_page(Page {
+            command: "repair",
+            title,
+            blocks,
+            ..Page::default()
+        })?;
         Ok(Status::Success)
     }
 
@@ -243,17 +274,25 @@ impl RepairArguments {
         }
         let asks = (!sources.is_empty())
             .then(|| in_named_scalar!(guarded.scalar, F => Asks::count::<F>(guarded, sources)));
-        let Some(language) = self.emit else { return Ok(()) };
+        let Some(language) = self.emit else {
+            return Ok(());
+        };
         if guarded.scalar == "f64" && matches!(language, Language::Wgsl | Language::Hlsl) {
             return Err(Failure::usage(
                 "WGSL has no f64, and HLSL no functions of it: --scalar f32",
             ));
         }
         let where_ = self.mesh.as_ref().or(self.scene.as_ref());
-        let shares = asks.zip(where_).map(|(asks, place)| format!("{place}: {}", asks.line()));
+        let shares = asks
+            .zip(where_)
+            .map(|(asks, place)| format!("{place}: {}", asks.line()));
         let text = source(guarded, language, shares.as_deref());
         let path = match self.output.strip_suffix('/') {
-            Some(folder) => format!("{folder}/{}.{}", function_name(guarded), language.extension()),
+            Some(folder) => format!(
+                "{folder}/{}.{}",
+                function_name(guarded),
+                language.extension()
+            ),
             None => self.output.clone(),
         };
         write_result(&path, |out| out.write_all(text.as_bytes()))

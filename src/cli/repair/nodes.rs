@@ -36,7 +36,13 @@ impl<'a> Nodes<'a> {
     /// The nodes that some of them need.
     pub fn new(guarded: &'a Guarded, dialect: Dialect, mut roots: Vec<Node>) -> Nodes<'a> {
         let (names, uses) = (names(guarded), HashMap::new());
-        let mut nodes = Nodes { guarded, dialect, names, uses, is_renamed: false };
+        let mut nodes = Nodes {
+            guarded,
+            dialect,
+            names,
+            uses,
+            is_renamed: false,
+        };
         roots.sort();
         roots.dedup();
         let mut seen = HashSet::new();
@@ -51,7 +57,11 @@ impl<'a> Nodes<'a> {
 
     /// A node as it stands in an expression: its name, or the expression that it is.
     pub fn text(&self, node: Node) -> String {
-        if self.is_inline(node) { self.expression(node).0 } else { self.name(node) }
+        if self.is_inline(node) {
+            self.expression(node).0
+        } else {
+            self.name(node)
+        }
     }
 
     /// The name of a number, inputs included.
@@ -113,13 +123,21 @@ impl<'a> Nodes<'a> {
 
     /// A node's name or its expression, and how tightly that binds.
     fn whole(&self, node: Node) -> (String, u8) {
-        if self.is_inline(node) { self.expression(node) } else { (self.name(node), 2) }
+        if self.is_inline(node) {
+            self.expression(node)
+        } else {
+            (self.name(node), 2)
+        }
     }
 
     /// The same as an operand, in brackets if it binds less tightly than the operation.
     fn operand(&self, node: Node, least: u8) -> String {
         let (text, binds) = self.whole(node);
-        if binds < least { format!("({text})") } else { text }
+        if binds < least {
+            format!("({text})")
+        } else {
+            text
+        }
     }
 
     /// A sum or a difference.
@@ -136,8 +154,12 @@ impl<'a> Nodes<'a> {
 
     /// The expression of a node, and how tightly it binds: 0 a sum, 1 a product, 2 a name.
     fn expression(&self, node: Node) -> (String, u8) {
-        let product =
-            |a, sign: &str, b| (format!("{} {sign} {}", self.operand(a, 1), self.operand(b, 2)), 1);
+        let product = |a, sign: &str, b| {
+            (
+                format!("{} {sign} {}", self.operand(a, 1), self.operand(b, 2)),
+                1,
+            )
+        };
         let (Node::Value(place) | Node::Size(place, _)) = node;
         let operation = self.guarded.operations[place as usize];
         let is_leaf = self.guarded.is_leaf(place);
@@ -232,7 +254,10 @@ impl<'a> Nodes<'a> {
             }
             let (name, (expression, _)) = (self.name(node), self.expression(node));
             let stem = |name: &str| name.rsplit_once('_').map(|(stem, _)| stem.to_owned());
-            let length: usize = group.iter().map(|(name, text)| name.len() + text.len() + 16).sum();
+            let length: usize = group
+                .iter()
+                .map(|(name, text)| name.len() + text.len() + 16)
+                .sum();
             let fits = group
                 .last()
                 .is_none_or(|(last, _)| stem(last).is_some() && stem(last) == stem(&name));
@@ -259,7 +284,12 @@ const SAMPLE: [f64; 17] = [
 pub fn names(guarded: &Guarded) -> Vec<String> {
     let operations = &guarded.operations;
     let mut values = Vec::new();
-    run(operations, operations.len() as Place - 1, &SAMPLE, &mut values);
+    run(
+        operations,
+        operations.len() as Place - 1,
+        &SAMPLE,
+        &mut values,
+    );
     let known = known();
     let (mut taken, mut names) = (HashSet::new(), Vec::new());
     for (place, operation) in operations.iter().enumerate() {
@@ -271,14 +301,20 @@ pub fn names(guarded: &Guarded) -> Vec<String> {
                 Some(format!("{}{}_{}", POINTS[q], POINTS[p], AXES[axis]))
             }
             Some(leaf) => Some(format!("{leaf:?}")),
-            None => cross(operations, operation, &names)
-                .or_else(|| known.iter().find(is_known).map(|(name, _)| (*name).to_owned())),
+            None => cross(operations, operation, &names).or_else(|| {
+                known
+                    .iter()
+                    .find(is_known)
+                    .map(|(name, _)| (*name).to_owned())
+            }),
         };
         let stem = found.unwrap_or_else(|| "n".to_owned());
         let numbered = (1..).map(|i| format!("{stem}{i}"));
         let first = (stem != "n").then(|| stem.clone());
         let mut all = first.into_iter().chain(numbered);
-        let name = all.find(|name| !taken.contains(name)).expect("names do not end");
+        let name = all
+            .find(|name| !taken.contains(name))
+            .expect("names do not end");
         taken.insert(name.clone());
         names.push(name);
     }
@@ -292,7 +328,9 @@ pub const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// The name of a coordinate of a cross product, of vectors with names.
 fn cross(operations: &[Operation], operation: &Operation, names: &[String]) -> Option<String> {
-    let Operation::Sub(p, q) = *operation else { return None };
+    let Operation::Sub(p, q) = *operation else {
+        return None;
+    };
     let factors = |place: Place| match operations[place as usize] {
         Operation::Mul(a, b) => Some([a, b].map(|place| vector(operations, place, names))),
         _ => None,

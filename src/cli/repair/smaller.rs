@@ -35,7 +35,11 @@ struct ChangeCounts {
 impl ChangeCounts {
     fn of(audit: &Audit, row: usize) -> ChangeCounts {
         let mut counts = ChangeCounts::default();
-        audit.cells.iter().filter(|cell| cell.row == row).for_each(|cell| counts.add(cell));
+        audit
+            .cells
+            .iter()
+            .filter(|cell| cell.row == row)
+            .for_each(|cell| counts.add(cell));
         counts
     }
 
@@ -49,12 +53,18 @@ impl ChangeCounts {
         self.times.push(cell.nanoseconds as f64);
         for finding in [Finding::FalseMiss, Finding::FalseHit] {
             let octaves = tally.severities.get(&finding).map(|it| it.edges.octaves());
-            let far =
-                octaves.into_iter().flatten().filter(|(octave, _)| Octave::From(-10) <= *octave);
+            let far = octaves
+                .into_iter()
+                .flatten()
+                .filter(|(octave, _)| Octave::From(-10) <= *octave);
             self.visible += far.map(|(_, count)| count).sum::<u64>();
             for class in Class::all() {
-                let Some(examples) = tally.examples.get(class, finding) else { continue };
-                let Some((severity, place)) = examples.worst else { continue };
+                let Some(examples) = tally.examples.get(class, finding) else {
+                    continue;
+                };
+                let Some((severity, place)) = examples.worst else {
+                    continue;
+                };
                 if self.worst.is_none_or(|(worst, ..)| worst < severity) {
                     self.worst = Some((severity, finding, cell.source, place));
                 }
@@ -94,7 +104,10 @@ impl<F: Searched + Scalar> TriedChanges<F> {
             Some(Change::Sorted) => before,
             // A rounded t may refuse what is far inside.
             Some(Change::Ahead) => ProvedDepths::default(),
-            Some(Change::BySize) => ProvedDepths { depths: None, ..before },
+            Some(Change::BySize) => ProvedDepths {
+                depths: None,
+                ..before
+            },
             // Every float is a double, and the domain's; its epsilons are those floats.
             Some(Change::Double) => in_double(),
             // Either the kernel's answer, or that in double.
@@ -107,21 +120,35 @@ impl<F: Searched + Scalar> TriedChanges<F> {
             },
             None => proved(&it.row, &it.row.epsilons::<F>()).0,
         };
-        let mut proved: Vec<ProvedDepths> =
-            std::iter::once(before).chain(candidates.iter().map(of)).collect();
+        let mut proved: Vec<ProvedDepths> = std::iter::once(before)
+            .chain(candidates.iter().map(of))
+            .collect();
         if rays.is_scene {
             proved.iter_mut().for_each(|it| it.depths = None);
         }
         let mut rows = vec![row.clone()];
         rows.extend(candidates.iter().map(|candidate| candidate.row.clone()));
         // The first row waits for the cases, so the kernel is timed as the last.
-        let as_ray = rows.iter().find(|it| it.contract.extent != row.contract.extent);
-        rows.push(Row { contract: as_ray.unwrap_or(row).contract, ..row.clone() });
+        let as_ray = rows
+            .iter()
+            .find(|it| it.contract.extent != row.contract.extent);
+        rows.push(Row {
+            contract: as_ray.unwrap_or(row).contract,
+            ..row.clone()
+        });
         let scalars = [F::DIGITS == 24, F::DIGITS != 24];
         let plan = Plan::new(rows, rays.sources.clone(), scalars, 1);
         let audit = audit::sum(&plan, Shard::WHOLE, observer);
-        let counts = (0..plan.rows.len()).map(|row| ChangeCounts::of(&audit, row)).collect();
-        TriedChanges { plan, candidates, counts, proved, scalar: PhantomData }
+        let counts = (0..plan.rows.len())
+            .map(|row| ChangeCounts::of(&audit, row))
+            .collect();
+        TriedChanges {
+            plan,
+            candidates,
+            counts,
+            proved,
+            scalar: PhantomData,
+        }
     }
 
     /// True if a row is right where another is wrong.
@@ -129,8 +156,15 @@ impl<F: Searched + Scalar> TriedChanges<F> {
         let made = self.plan.sources[source].make::<F>(place.index);
         let case = &made.cases()[place.triangle as usize];
         let mut verdict = [Verdict::miss(None)];
-        let Some(subject) = F::subject(row.entry) else { return false };
-        verdicts_of(subject, std::slice::from_ref(case), &row.epsilons::<F>(), &mut verdict);
+        let Some(subject) = F::subject(row.entry) else {
+            return false;
+        };
+        verdicts_of(
+            subject,
+            std::slice::from_ref(case),
+            &row.epsilons::<F>(),
+            &mut verdict,
+        );
         verdict[0].hit == (finding == Finding::FalseMiss)
     }
 
@@ -148,7 +182,11 @@ impl<F: Searched + Scalar> TriedChanges<F> {
 
     /// The kernel as it is, in a row of the table.
     fn unchanged(&self) -> &'static str {
-        if self.plan.rows[0].set.contains('=') { "as given" } else { "as published" }
+        if self.plan.rows[0].set.contains('=') {
+            "as given"
+        } else {
+            "as published"
+        }
     }
 
     /// The candidates that are judged as the kernel was.
@@ -204,7 +242,16 @@ impl<F: Searched + Scalar> TriedChanges<F> {
             };
             let [misses, hits, visible] =
                 [counts.misses, counts.hits, counts.visible].map(group_digits);
-            let cells = [misses, hits, leaks, visible, worst.to_owned(), inside, outside, cost];
+            let cells = [
+                misses,
+                hits,
+                leaks,
+                visible,
+                worst.to_owned(),
+                inside,
+                outside,
+                cost,
+            ];
             TableRow::new(name, cells)
         };
         let mut rows = vec![row(0, self.unchanged())];
@@ -271,7 +318,9 @@ impl<F: Searched + Scalar> TriedChanges<F> {
     /// The change that takes away the most wrong answers, if one takes away some.
     fn most(&self) -> Option<usize> {
         let wrong = |i: &usize| self.counts[*i].wrong();
-        self.comparable().min_by_key(wrong).filter(|i| wrong(i) < wrong(&0))
+        self.comparable()
+            .min_by_key(wrong)
+            .filter(|i| wrong(i) < wrong(&0))
     }
 }
 
@@ -302,13 +351,19 @@ pub fn blocks<F: Searched + Scalar>(
         blocks.push(Block::Text(text.to_owned()));
     }
     if let (Some(worst), None) = (before.worst, chosen) {
-        blocks.push(Block::Text("No change here takes away wrong answers.".to_owned()));
+        blocks.push(Block::Text(
+            "No change here takes away wrong answers.".to_owned(),
+        ));
         next(tried.command(row, worst), "the worst");
     }
     if let (Some(worst), Some(i)) = (before.worst, chosen) {
         let candidate = &tried.candidates[i - 1];
         let name = &candidate.name;
-        let what = if worst.1 == Finding::FalseMiss { "miss" } else { "hit" };
+        let what = if worst.1 == Finding::FalseMiss {
+            "miss"
+        } else {
+            "hit"
+        };
         let worst_ray = format!("a false {what} {} of an edge off", above(worst.0));
         let counts: [Count; 6] = [
             |it| it.visible,
@@ -319,7 +374,11 @@ pub fn blocks<F: Searched + Scalar>(
             |it| it.cracks,
         ];
         let [visible, wrong, misses, hits, bad, leaks] = counts.map(|of| {
-            format!("{} to {}", group_digits(of(before)), group_digits(of(&tried.counts[i])))
+            format!(
+                "{} to {}",
+                group_digits(of(before)),
+                group_digits(of(&tried.counts[i]))
+            )
         });
         let bad = match before.bad + tried.counts[i].bad {
             0 => String::new(),
@@ -328,7 +387,11 @@ pub fn blocks<F: Searched + Scalar>(
         let sums = format!(
             "false misses go from {misses}, false hits from {hits}{bad}, leaks from {leaks}"
         );
-        let fate = if tried.mends(i) { "becomes right" } else { "stays wrong" };
+        let fate = if tried.mends(i) {
+            "becomes right"
+        } else {
+            "stays wrong"
+        };
         blocks.push(Block::Text(match smallest {
             Some(_) => format!(
                 "{name} is the smallest change here that mends the worst, {worst_ray}, halves the visible errors \
@@ -341,19 +404,35 @@ pub fn blocks<F: Searched + Scalar>(
             ),
         }));
         blocks.push(Block::Listing(patch(row, candidate)));
-        next(tried.command(row, worst), "the worst of the kernel as it is");
-        let audit =
-            format!("hairline audit {} --scalar {}{}", candidate.row.flags(), F::NAME, rays.flags);
+        next(
+            tried.command(row, worst),
+            "the worst of the kernel as it is",
+        );
+        let audit = format!(
+            "hairline audit {} --scalar {}{}",
+            candidate.row.flags(),
+            F::NAME,
+            rays.flags
+        );
         next(audit, "everything about the changed kernel");
     }
     if rays.is_scene {
-        let line =
-            format!("hairline epsilon {} --scalar {}{}", row.entry.selector(), F::NAME, rays.flags);
+        let line = format!(
+            "hairline epsilon {} --scalar {}{}",
+            row.entry.selector(),
+            F::NAME,
+            rays.flags
+        );
         next(line, "which epsilons cost least here");
     }
     blocks.push(Block::Table(tried.table()));
-    blocks.push(Block::Notes(tried.sentences().into_iter().chain([guarded]).collect()));
-    let terms = tried.candidates.iter().map(|it| (it.name.clone(), it.what.clone()));
+    blocks.push(Block::Notes(
+        tried.sentences().into_iter().chain([guarded]).collect(),
+    ));
+    let terms = tried
+        .candidates
+        .iter()
+        .map(|it| (it.name.clone(), it.what.clone()));
     blocks.push(Block::Terms(terms.collect()));
     let refuted = tried.comparable().filter(|i| !tried.mends(*i));
     let item = |i: usize| {
@@ -361,10 +440,16 @@ pub fn blocks<F: Searched + Scalar>(
             "{} is refuted for the worst ray, which stays wrong:",
             tried.candidates[i - 1].name
         );
-        Some(Item::shown_by(text, tried.command(&tried.plan.rows[i], before.worst?)))
+        Some(Item::shown_by(
+            text,
+            tried.command(&tried.plan.rows[i], before.worst?),
+        ))
     };
     let items: Vec<Item> = refuted.filter_map(item).collect();
-    blocks.push(Block::Items(Items { most: items.len(), items }));
+    blocks.push(Block::Items(Items {
+        most: items.len(),
+        items,
+    }));
     next(
         format!("hairline repair {} --emit c", row.entry.selector()),
         "the kernel that asks where it cannot know",

@@ -12,10 +12,15 @@ const DOUBLINGS: u32 = 10;
 /// kind of plane.
 pub fn made_for(pilots: &[SpawnSums], derived: Option<f64>) -> [Vec<Scheme>; 2] {
     let largest = |of: fn(&SpawnSums) -> &Lengths| {
-        pilots.iter().map(|pilot| of(pilot).largest()).fold(0.0, f64::max)
+        pilots
+            .iter()
+            .map(|pilot| of(pilot).largest())
+            .fold(0.0, f64::max)
     };
     let made = |name: &str, needed: f64| -> Vec<Scheme> {
-        let times = (1..=DOUBLINGS).filter(|_| 0.0 < needed).map(|k| f64::from(1u32 << k));
+        let times = (1..=DOUBLINGS)
+            .filter(|_| 0.0 < needed)
+            .map(|k| f64::from(1u32 << k));
         let scheme = |times| parse(&format!("{name}={}", rounded_up(times * needed)));
         times.filter_map(|times| scheme(times).ok()).collect()
     };
@@ -23,7 +28,10 @@ pub fn made_for(pilots: &[SpawnSums], derived: Option<f64>) -> [Vec<Scheme>; 2] 
         Some(derived) => parse(&derived_name(derived)).into_iter().collect(),
         None => made("normal", largest(|pilot| &pilot.least)),
     };
-    [along_normal, made("ulps", largest(|pilot| &pilot.least_in_ulps))]
+    [
+        along_normal,
+        made("ulps", largest(|pilot| &pilot.least_in_ulps)),
+    ]
 }
 
 /// The scheme of a derived distance along the normal.
@@ -37,10 +45,17 @@ pub fn least_without_failure(made: [Vec<Scheme>; 2], tried: &[SpawnSums]) -> Vec
     let mut chosen = Vec::new();
     for schemes in made {
         let fails = |place: usize| tried.iter().any(|sums| 0 < sums.schemes[place].failed);
-        let failed: Vec<bool> =
-            schemes.iter().zip(&mut places).map(|(_, place)| fails(place)).collect();
+        let failed: Vec<bool> = schemes
+            .iter()
+            .zip(&mut places)
+            .map(|(_, place)| fails(place))
+            .collect();
         let first = failed.iter().position(|failed| !failed);
-        chosen.extend(schemes.into_iter().nth(first.unwrap_or(failed.len().saturating_sub(1))));
+        chosen.extend(
+            schemes
+                .into_iter()
+                .nth(first.unwrap_or(failed.len().saturating_sub(1))),
+        );
     }
     chosen
 }
@@ -62,10 +77,17 @@ pub fn best(
     derived: Option<usize>,
 ) -> Option<usize> {
     let sums = runs.first()?;
-    let median =
-        |place: &usize| sums.schemes[*place].in_edges.quantile(0.5).unwrap_or(f64::INFINITY);
+    let median = |place: &usize| {
+        sums.schemes[*place]
+            .in_edges
+            .quantile(0.5)
+            .unwrap_or(f64::INFINITY)
+    };
     let never = |place: &usize| {
-        let in_runs = pilots.iter().chain(runs).filter_map(|sums| sums.schemes.get(*place));
+        let in_runs = pilots
+            .iter()
+            .chain(runs)
+            .filter_map(|sums| sums.schemes.get(*place));
         0 < sums.schemes[*place].rays && in_runs.into_iter().all(|of| of.failed == 0)
     };
     let all = (0..sums.schemes.len()).filter(never);
@@ -74,13 +96,25 @@ pub fn best(
         let is_low = derived == Some(**place) || median(place) <= AS_LOW * median(&lowest);
         never(place) && is_low && !is_too_high(&sums.schemes[**place])
     };
-    Some(derived.iter().chain(preferred).find(is_as_good).copied().unwrap_or(lowest))
+    Some(
+        derived
+            .iter()
+            .chain(preferred)
+            .find(is_as_good)
+            .copied()
+            .unwrap_or(lowest),
+    )
 }
 
 /// True if half of a scheme's starts are more than a tenth of their triangle's longest edge above it, or one in a
 /// hundred more than the whole.
 pub fn is_too_high(scheme: &OfScheme) -> bool {
-    let is_above = |share, most| scheme.in_edges.quantile(share).is_some_and(|edges| most < edges);
+    let is_above = |share, most| {
+        scheme
+            .in_edges
+            .quantile(share)
+            .is_some_and(|edges| most < edges)
+    };
     is_above(0.5, 0.1) || is_above(0.99, 1.0)
 }
 

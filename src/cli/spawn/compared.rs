@@ -7,14 +7,28 @@ impl Comparable for SpawnResult {
     const STUDY: Study = Study::Spawn;
 
     fn question(&self) -> String {
-        let SpawnResult { scene, mesh, wall, fold, instance, .. } = self;
-        let mesh = mesh.as_ref().map_or(String::new(), |path| format!("mesh {path} "));
+        let SpawnResult {
+            scene,
+            mesh,
+            wall,
+            fold,
+            instance,
+            ..
+        } = self;
+        let mesh = mesh
+            .as_ref()
+            .map_or(String::new(), |path| format!("mesh {path} "));
         let place = instance.map_or(String::new(), |matrix| format!(" at {matrix:?}"));
         format!("{mesh}{scene}{place}, wall {wall}, fold {fold}")
     }
 
     fn cases(&self) -> String {
-        let SpawnResult { seed, pilot_seed, count, .. } = self;
+        let SpawnResult {
+            seed,
+            pilot_seed,
+            count,
+            ..
+        } = self;
         format!("{seed} {pilot_seed} {count}")
     }
 
@@ -24,14 +38,24 @@ impl Comparable for SpawnResult {
             .iter()
             .flat_map(|part| part.schemes.iter().map(move |scheme| (part.name(), scheme)));
         let segments = self.segments.iter().flat_map(SegmentsPart::counted);
-        schemes.flat_map(|(of, scheme)| scheme.counted(&of)).chain(segments).collect()
+        schemes
+            .flat_map(|(of, scheme)| scheme.counted(&of))
+            .chain(segments)
+            .collect()
     }
 
     fn chosen(&self) -> Vec<NamedValue> {
         let derived = self.points.iter().filter_map(|part| {
             let value = part.derived.as_ref()?.normal.to_string();
-            let what = format!("{}: derived bound of the distance along the normal", part.name());
-            Some(NamedValue { what, value, is_bound: true })
+            let what = format!(
+                "{}: derived bound of the distance along the normal",
+                part.name()
+            );
+            Some(NamedValue {
+                what,
+                value,
+                is_bound: true,
+            })
         });
         let best = self.points.iter().filter_map(|part| {
             let what = format!("{}: offset to use", part.name());
@@ -44,7 +68,10 @@ impl Comparable for SpawnResult {
 impl PointsPart {
     /// The kernel, the scalar and the kind of hit point in words.
     fn name(&self) -> String {
-        format!("{} ({}) {} {}", self.kernel, self.set, self.scalar, self.point)
+        format!(
+            "{} ({}) {} {}",
+            self.kernel, self.set, self.scalar, self.point
+        )
     }
 }
 

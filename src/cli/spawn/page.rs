@@ -23,8 +23,14 @@ impl Paged for SpawnResult {
                 expression("ray")
             )));
         }
-        self.points.iter().for_each(|part| blocks.extend(of_points(self, part)));
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        self.points
+            .iter()
+            .for_each(|part| blocks.extend(of_points(self, part)));
+        let unit = if self.unit.is_empty() {
+            String::new()
+        } else {
+            format!(" {}", self.unit)
+        };
         for part in &self.segments {
             blocks.extend(part.blocks(&self.planes, &unit));
         }
@@ -32,20 +38,35 @@ impl Paged for SpawnResult {
         blocks.push(Block::Details("How to read".to_owned(), how_to_read(self)));
         let several = self.points.iter().filter(|part| 1 < part.schemes.len());
         let commands = several.filter_map(|part| part.best.as_ref()).take(1);
-        let command =
-            |best: &BestPart| Command { line: best.command.clone(), what: "this one alone" };
+        let command = |best: &BestPart| Command {
+            line: best.command.clone(),
+            what: "this one alone",
+        };
         let commands: Vec<Command> = commands.map(command).collect();
         if !commands.is_empty() {
             blocks.push(Block::Commands("next", commands));
         }
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
+        let unit = if self.unit.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", self.unit)
+        };
         let scene = match &self.mesh {
             Some(path) => format!("{} ({})", path.escape_debug(), self.scene),
             None => self.scene.clone(),
         };
-        let placed = if self.instance.is_some() { ", in an instance" } else { "" };
+        let placed = if self.instance.is_some() {
+            ", in an instance"
+        } else {
+            ""
+        };
         let title = format!("Where new rays must start in {scene}{unit}{placed}");
-        Page { command: "spawn", title, blocks, ..Page::default() }
+        Page {
+            command: "spawn",
+            title,
+            blocks,
+            ..Page::default()
+        }
     }
 }
 
@@ -59,14 +80,27 @@ fn expression(point: &str) -> &'static str {
 
 /// One kind of hit point of one kernel in one scalar.
 fn of_points(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
-    let set = if part.set == "source" { String::new() } else { format!(" ({})", part.set) };
-    let heading = format!("{}{set} {}, {}", part.kernel, part.scalar, expression(&part.point));
+    let set = if part.set == "source" {
+        String::new()
+    } else {
+        format!(" ({})", part.set)
+    };
+    let heading = format!(
+        "{}{set} {}, {}",
+        part.kernel,
+        part.scalar,
+        expression(&part.point)
+    );
     let mut blocks = vec![Block::Heading(heading)];
     blocks.extend(answer(record, part));
     if 0 < part.hits {
         blocks.push(Block::Table(table(record, arguing(part), false)));
         let title = format!("Every offset, {}", expression(&part.point));
-        let mut all = vec![Block::Table(table(record, part.schemes.iter().collect(), true))];
+        let mut all = vec![Block::Table(table(
+            record,
+            part.schemes.iter().collect(),
+            true,
+        ))];
         all.extend(of_elsewhere(record, part));
         all.push(Block::Notes(least(record, part)));
         blocks.push(Block::Details(title, all));
@@ -90,8 +124,15 @@ fn answer(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
             _ => format!("Every offset here fails for some of the {hits} new rays: use a larger one, or f64."),
         })];
     };
-    let scheme = part.schemes.iter().find(|scheme| scheme.name == best.scheme);
-    let median = size(scheme.and_then(|scheme| scheme.height_in_edges.median).unwrap_or(0.0));
+    let scheme = part
+        .schemes
+        .iter()
+        .find(|scheme| scheme.name == best.scheme);
+    let median = size(
+        scheme
+            .and_then(|scheme| scheme.height_in_edges.median)
+            .unwrap_or(0.0),
+    );
     if best.is_too_high {
         return vec![Block::text(format!(
             "None of these: the lowest that never fails, {}, is too high. Half of its new rays start {median} of their \
@@ -120,14 +161,24 @@ fn answer(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
         "no wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {one_in} (95 % sure){kinds}"
     ));
     let text = format!("{}{}", best.scheme, describe(&best.scheme));
-    vec![Block::Use(Use { lead: "use".to_owned(), text, notes })]
+    vec![Block::Use(Use {
+        lead: "use".to_owned(),
+        text,
+        notes,
+    })]
 }
 
 /// True if the squared length of the normal of the scene's largest triangles, the fourth power of an edge, is beyond the
 /// range of the scalar.
 fn has_endless_normals(record: &SpawnResult, part: &PointsPart) -> bool {
-    let largest = if part.scalar == f32::NAME { f64::from(f32::MAX) } else { f64::MAX };
-    let scene = Scene::parse(&record.scene).ok().filter(|_| record.mesh.is_none());
+    let largest = if part.scalar == f32::NAME {
+        f64::from(f32::MAX)
+    } else {
+        f64::MAX
+    };
+    let scene = Scene::parse(&record.scene)
+        .ok()
+        .filter(|_| record.mesh.is_none());
     scene.is_some_and(|(scene, _)| largest < scene.edge[1].powi(4))
 }
 
@@ -138,19 +189,24 @@ fn arguing(part: &PointsPart) -> Vec<&SchemePart> {
         return part.schemes.iter().collect();
     }
     let is_best = |scheme: &&SchemePart| {
-        part.best.as_ref().is_some_and(|BestPart { scheme: best, .. }| *best == scheme.name)
+        part.best
+            .as_ref()
+            .is_some_and(|BestPart { scheme: best, .. }| *best == scheme.name)
     };
     let is_published = |scheme: &&SchemePart| scheme.name != "none" && !scheme.name.contains('=');
     let failed = |scheme: &SchemePart| scheme.wrong.count.max(scheme.self_hits.count);
     let height = |scheme: &SchemePart| scheme.height_in_edges.median.unwrap_or(f64::INFINITY);
-    let published = part
-        .schemes
-        .iter()
-        .filter(is_published)
-        .min_by(|a, b| failed(a).cmp(&failed(b)).then(height(a).total_cmp(&height(b))));
+    let published = part.schemes.iter().filter(is_published).min_by(|a, b| {
+        failed(a)
+            .cmp(&failed(b))
+            .then(height(a).total_cmp(&height(b)))
+    });
     let none = part.schemes.iter().find(|scheme| scheme.name == "none");
     // A scheme that is not described is the user's own.
-    let own = part.schemes.iter().filter(|scheme| describe(&scheme.name).is_empty());
+    let own = part
+        .schemes
+        .iter()
+        .filter(|scheme| describe(&scheme.name).is_empty());
     let mut rows: Vec<&SchemePart> = part.schemes.iter().filter(is_best).collect();
     for scheme in own.chain(none).chain(published) {
         if !rows.iter().any(|row| row.name == scheme.name) {
@@ -162,7 +218,11 @@ fn arguing(part: &PointsPart) -> Vec<&SchemePart> {
 
 /// The hypothesis of a derived bound.
 fn weights(derived: &DerivedPart) -> String {
-    let DerivedPart { least_weight, largest_weight, .. } = derived;
+    let DerivedPart {
+        least_weight,
+        largest_weight,
+        ..
+    } = derived;
     format!(
         "u, v and 1-u-v from {} to {}",
         ShortNumber(*least_weight),
@@ -188,20 +248,43 @@ fn height(height: Option<f64>) -> String {
 fn table(record: &SpawnResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Table {
     type Shown = Box<dyn Fn(&SchemePart) -> String>;
     let mut columns: Vec<(Head, Shown)> = vec![
-        (Head::of("wrong side"), Box::new(|scheme| share(&scheme.wrong))),
-        (Head::of("self-hits"), Box::new(|scheme| share(&scheme.self_hits))),
-        (Head::of("height: median"), Box::new(|scheme| height(scheme.height_in_edges.median))),
+        (
+            Head::of("wrong side"),
+            Box::new(|scheme| share(&scheme.wrong)),
+        ),
+        (
+            Head::of("self-hits"),
+            Box::new(|scheme| share(&scheme.self_hits)),
+        ),
+        (
+            Head::of("height: median"),
+            Box::new(|scheme| height(scheme.height_in_edges.median)),
+        ),
     ];
     if is_whole {
         let interval = |scheme: &SchemePart| {
-            interval_of(&scheme.wrong).trim_matches([' ', '(', ')']).to_owned()
+            interval_of(&scheme.wrong)
+                .trim_matches([' ', '(', ')'])
+                .to_owned()
         };
         columns[0] = (Head::of("wrong side [95 %]"), Box::new(interval));
         let mut more = |head: &str, shown: Shown| columns.push((Head::of(head).optional(), shown));
-        more("99 %", Box::new(|scheme| height(scheme.height_in_edges.p99)));
-        more("top seen", Box::new(|scheme| size(scheme.height_in_edges.highest)));
-        more("in ulps", Box::new(|scheme| height(scheme.height_in_ulps.median)));
-        more("times least", Box::new(|scheme| scheme.over_least.map_or("-".to_owned(), size)));
+        more(
+            "99 %",
+            Box::new(|scheme| height(scheme.height_in_edges.p99)),
+        );
+        more(
+            "top seen",
+            Box::new(|scheme| size(scheme.height_in_edges.highest)),
+        );
+        more(
+            "in ulps",
+            Box::new(|scheme| height(scheme.height_in_ulps.median)),
+        );
+        more(
+            "times least",
+            Box::new(|scheme| scheme.over_least.map_or("-".to_owned(), size)),
+        );
     }
     if !is_whole && 1 < record.planes.len() {
         columns.insert(1, (Head::of("on its worst kind"), Box::new(on_worst_kind)));
@@ -215,18 +298,28 @@ fn table(record: &SpawnResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Tab
         Box::new(|scheme| share(&scheme.past_neighbour)),
     ));
     let row = |scheme: &&SchemePart| {
-        Row::new(&scheme.name, columns.iter().map(|(_, shown)| shown(scheme)).collect::<Vec<_>>())
+        Row::new(
+            &scheme.name,
+            columns
+                .iter()
+                .map(|(_, shown)| shown(scheme))
+                .collect::<Vec<_>>(),
+        )
     };
     let rows = schemes.iter().map(row).collect();
-    let heads = [Head::of("offset")].into_iter().chain(columns.into_iter().map(|(head, _)| head));
+    let heads = [Head::of("offset")]
+        .into_iter()
+        .chain(columns.into_iter().map(|(head, _)| head));
     Table::new(heads.collect(), rows)
 }
 
 /// The largest share of wrong sides on any kind of planes, and that kind; nothing if it is the first.
 fn on_worst_kind(scheme: &SchemePart) -> String {
     let of_rate = |rate: &Rate| rate.rate.unwrap_or(0.0);
-    let worst =
-        scheme.elsewhere.iter().max_by(|a, b| of_rate(&a.wrong).total_cmp(&of_rate(&b.wrong)));
+    let worst = scheme
+        .elsewhere
+        .iter()
+        .max_by(|a, b| of_rate(&a.wrong).total_cmp(&of_rate(&b.wrong)));
     match worst {
         Some(worst) if of_rate(&scheme.wrong) < of_rate(&worst.wrong) => {
             format!("{} {}", share(&worst.wrong), worst.plane)
@@ -245,13 +338,22 @@ fn of_elsewhere(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
             .cloned()
             .collect(),
     });
-    elsewhere::blocks("more wrong sides", &record.planes, &rows.collect::<Vec<_>>(), share)
+    elsewhere::blocks(
+        "more wrong sides",
+        &record.planes,
+        &rows.collect::<Vec<_>>(),
+        share,
+    )
 }
 
 /// How far off the hit points themselves are, the derived bound, and what is left out.
 fn least(record: &SpawnResult, part: &PointsPart) -> Vec<String> {
     let least = &part.least;
-    let unit = if record.unit.is_empty() { String::new() } else { format!(" {}", record.unit) };
+    let unit = if record.unit.is_empty() {
+        String::new()
+    } else {
+        format!(" {}", record.unit)
+    };
     let mut notes = Vec::new();
     if 0 < least.needed.count {
         let (lengths, ulps) = (&least.lengths, &least.ulps);
@@ -283,13 +385,20 @@ fn least(record: &SpawnResult, part: &PointsPart) -> Vec<String> {
     }
     let left_out = [
         (part.missed, "first rays that the kernel missed"),
-        (part.without_side, "hits of triangles without area or along their plane"),
+        (
+            part.without_side,
+            "hits of triangles without area or along their plane",
+        ),
         (part.not_finite, "hit points that are not finite"),
-        (least.none, "hit points that no offset along the normal helps"),
+        (
+            least.none,
+            "hit points that no offset along the normal helps",
+        ),
     ];
     let left_out = left_out.into_iter().filter(|(count, _)| 0 < *count);
-    let words: Vec<String> =
-        left_out.map(|(count, what)| format!("{} {what}", group_digits(count))).collect();
+    let words: Vec<String> = left_out
+        .map(|(count, what)| format!("{} {what}", group_digits(count)))
+        .collect();
     notes.extend((!words.is_empty()).then(|| format!("left out: {}", words.join(", "))));
     notes
 }
@@ -348,7 +457,12 @@ fn how_to_read(record: &SpawnResult) -> Vec<Block> {
 
 /// The kinds of planes and rays in words, where there are several.
 fn kinds(record: &SpawnResult) -> Option<(&'static str, String)> {
-    let kinds = record.planes.iter().filter_map(|name| SceneKind::named(name));
-    let words: Vec<_> = kinds.map(|kind| format!("{kind}: {}", kind.in_words())).collect();
+    let kinds = record
+        .planes
+        .iter()
+        .filter_map(|name| SceneKind::named(name));
+    let words: Vec<_> = kinds
+        .map(|kind| format!("{kind}: {}", kind.in_words()))
+        .collect();
     (1 < words.len()).then(|| ("kinds", words.join("; ")))
 }

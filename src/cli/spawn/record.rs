@@ -212,7 +212,9 @@ impl PointsPart {
         let needed = sums.least.count() + sums.without_least;
         let derived = derived.filter(|derived| derived.covers(runs));
         let is_derived = |scheme: &Scheme| {
-            derived.as_ref().is_some_and(|derived| scheme.name == derived_name(derived.normal))
+            derived
+                .as_ref()
+                .is_some_and(|derived| scheme.name == derived_name(derived.normal))
         };
         let at_derived = plan.schemes.iter().position(is_derived);
         // A single wrong start refutes a bound, whatever it assumes.
@@ -275,14 +277,18 @@ impl DerivedPart {
         let of_weights = is_covered.then(|| least_weight(plan.row))?;
         let least_weight = of_weights?;
         let normal = three_digits(derived_normal::<F>(plan.scene, least_weight)?, true);
-        let derived =
-            DerivedPart { normal, least_weight, largest_weight: 1.0 - 2.0 * least_weight };
+        let derived = DerivedPart {
+            normal,
+            least_weight,
+            largest_weight: 1.0 - 2.0 * least_weight,
+        };
         Some(derived).filter(|derived| derived.covers(pilots))
     }
 
     /// True if every hit point of these runs has such weights, but for rounding.
     fn covers(&self, runs: &[SpawnSums]) -> bool {
-        runs.iter().all(|sums| self.least_weight - ROOM <= sums.least_weight)
+        runs.iter()
+            .all(|sums| self.least_weight - ROOM <= sums.least_weight)
     }
 }
 
@@ -298,7 +304,11 @@ fn one_in(scheme: &OfScheme) -> u64 {
 impl LengthsPart {
     fn new(lengths: &Lengths) -> LengthsPart {
         let [median, p99] = [0.5, 0.99].map(|share| lengths.quantile(share));
-        LengthsPart { median, p99, largest: lengths.largest() }
+        LengthsPart {
+            median,
+            p99,
+            largest: lengths.largest(),
+        }
     }
 }
 
@@ -306,7 +316,12 @@ impl HeightsPart {
     fn new(heights: &Heights) -> HeightsPart {
         let [median, p99] = [0.5, 0.99].map(|share| heights.quantile(share));
         let (highest, deepest) = (heights.above.largest(), heights.behind.largest());
-        HeightsPart { median, p99, highest, deepest }
+        HeightsPart {
+            median,
+            p99,
+            highest,
+            deepest,
+        }
     }
 }
 
@@ -345,7 +360,11 @@ impl SchemePlanePart {
         SchemePlanePart {
             plane: plan.scene.kind().to_string(),
             wrong: rate(sums.wrong),
-            self_hits: if plan.tells_self_hits() { rate(sums.self_hits) } else { Rate::default() },
+            self_hits: if plan.tells_self_hits() {
+                rate(sums.self_hits)
+            } else {
+                Rate::default()
+            },
             first_wrong: sums.first_wrong.and_then(wrong_at),
         }
     }
@@ -354,13 +373,18 @@ impl SchemePlanePart {
 impl WrongPart {
     fn new<F: Scalar>(plan: &SpawnPlan<'_>, scheme: &Scheme, index: u64) -> Option<WrongPart> {
         let case = new_ray::<F>(plan, scheme, index)?;
-        let line = write_case(&StoredCase { is_secondary: true, ..StoredCase::of(case) });
+        let line = write_case(&StoredCase {
+            is_secondary: true,
+            ..StoredCase::of(case)
+        });
         Some(WrongPart {
             first_ray: plan.source().id::<F>(index, None),
             explain: {
-                let words =
-                    plan.instance.map(|matrix| format!(" --instance {}", quoted(&words(&matrix))));
-                plan.row.explain_command(&(quoted(&line) + &words.unwrap_or_default()))
+                let words = plan
+                    .instance
+                    .map(|matrix| format!(" --instance {}", quoted(&words(&matrix))));
+                plan.row
+                    .explain_command(&(quoted(&line) + &words.unwrap_or_default()))
             },
         })
     }

@@ -16,7 +16,10 @@ const SHOWN: usize = 5;
 pub const FORMATS: &[Format<Record<VerifyResult>>] = &[
     Format::TEXT,
     Format::JSON,
-    Format { name: "junit", write: |record, _, out| write_junit(&record.result.suites(), out) },
+    Format {
+        name: "junit",
+        write: |record, _, out| write_junit(&record.result.suites(), out),
+    },
     Format::MARKDOWN,
     Format::HTML,
 ];
@@ -124,7 +127,10 @@ impl Comparable for VerifyResult {
     const STUDY: Study = Study::Verify;
 
     fn question(&self) -> String {
-        let profile = self.profile.as_ref().map_or(String::new(), |name| format!(" by {name}"));
+        let profile = self
+            .profile
+            .as_ref()
+            .map_or(String::new(), |name| format!(" by {name}"));
         format!("vectors {}{profile}", self.vectors)
     }
 
@@ -136,7 +142,11 @@ impl Comparable for VerifyResult {
         let counted = |(topic, counts): &(String, VerifyCounts)| NamedRate {
             what: format!("{topic}: wrong answers"),
             rate: Rate::new(Trials::independent(counts.wrong, counts.answered()), false),
-            command: self.wrong.iter().find(|it| it.topic == *topic).map(|it| explain(&it.id)),
+            command: self
+                .wrong
+                .iter()
+                .find(|it| it.topic == *topic)
+                .map(|it| explain(&it.id)),
         };
         self.topics.iter().map(counted).collect()
     }
@@ -162,7 +172,13 @@ impl VerifyResult {
             ..VerifyResult::default()
         };
         let mut wrong = Vec::new();
-        for JudgedTest { topic, test, demanded, answer } in tests {
+        for JudgedTest {
+            topic,
+            test,
+            demanded,
+            answer,
+        } in tests
+        {
             report.count(topic, |counts| match answer {
                 TestAnswer::Missing => &mut counts.missing,
                 TestAnswer::NotAsked => &mut counts.not_asked,
@@ -170,7 +186,11 @@ impl VerifyResult {
                 TestAnswer::Given(_) if *demanded == "free" => &mut counts.free,
                 TestAnswer::Given(_) => &mut counts.right,
             });
-            let JudgedAnswer { answered, right, wrong_values } = match answer {
+            let JudgedAnswer {
+                answered,
+                right,
+                wrong_values,
+            } = match answer {
                 TestAnswer::Given(answer) => answer,
                 TestAnswer::Missing => {
                     report.missing.push(test.id.clone());
@@ -216,7 +236,8 @@ impl VerifyResult {
     /// Counts a test of a topic, and of all.
     fn count(&mut self, topic: &str, of: impl Fn(&mut VerifyCounts) -> &mut u64) {
         if self.topics.last().is_none_or(|(name, _)| name != topic) {
-            self.topics.push((topic.to_owned(), VerifyCounts::default()));
+            self.topics
+                .push((topic.to_owned(), VerifyCounts::default()));
         }
         let topic = self.topics.last_mut().map(|(_, counts)| counts);
         for counts in [&mut self.total].into_iter().chain(topic) {
@@ -238,9 +259,17 @@ impl VerifyResult {
     fn suites(&self) -> BTreeMap<String, BTreeMap<(String, String), JunitCase>> {
         let case = |(topic, _): &(String, VerifyCounts)| {
             let wrong = self.wrong.iter().filter(|wrong| wrong.topic == *topic);
-            let failures = wrong.map(|wrong| (wrong.text(), explain(&wrong.id))).collect();
+            let failures = wrong
+                .map(|wrong| (wrong.text(), explain(&wrong.id)))
+                .collect();
             let name = (topic.clone(), "wrong-answer".to_owned());
-            (name, JunitCase { failures, notes: Vec::new() })
+            (
+                name,
+                JunitCase {
+                    failures,
+                    notes: Vec::new(),
+                },
+            )
         };
         [(self.product.clone(), self.topics.iter().map(case).collect())].into()
     }
@@ -248,10 +277,28 @@ impl VerifyResult {
 
 impl Paged for VerifyResult {
     fn page(&self) -> Page {
-        let VerifyResult { product, profile, total, topics, wrong, unadvised, sayings, .. } = self;
-        let VerifyCounts { tests, right, wrong: count, free, missing, not_asked } = total;
+        let VerifyResult {
+            product,
+            profile,
+            total,
+            topics,
+            wrong,
+            unadvised,
+            sayings,
+            ..
+        } = self;
+        let VerifyCounts {
+            tests,
+            right,
+            wrong: count,
+            free,
+            missing,
+            not_asked,
+        } = total;
         let answers = number_of(*count, "wrong answer", "wrong answers");
-        let by = profile.as_ref().map_or(String::new(), |name| format!(" by profile {name}"));
+        let by = profile
+            .as_ref()
+            .map_or(String::new(), |name| format!(" by profile {name}"));
         let asked = match not_asked {
             0 => String::new(),
             count => format!(", {count} not asked"),
@@ -261,17 +308,36 @@ impl Paged for VerifyResult {
             product.escape_debug()
         );
         let row = |(name, counts): &(String, VerifyCounts)| {
-            let VerifyCounts { tests, right, wrong, free, missing, not_asked } = *counts;
+            let VerifyCounts {
+                tests,
+                right,
+                wrong,
+                free,
+                missing,
+                not_asked,
+            } = *counts;
             let numbers = [tests, wrong, right, free, missing, not_asked];
             let mut row = Row::new(name, numbers.map(|n| n.to_string()));
             row.cells[1].is_broken = 0 < wrong;
             row
         };
-        let heads =
-            ["topic", "tests", "wrong", "right", "free", "missing", "not asked"].map(Head::of);
-        let mut blocks =
-            vec![Block::Table(Table::new(heads.into(), topics.iter().map(row).collect()))];
-        let wrong = wrong.iter().map(|it| Item::shown_by(it.text(), explain(&it.id)));
+        let heads = [
+            "topic",
+            "tests",
+            "wrong",
+            "right",
+            "free",
+            "missing",
+            "not asked",
+        ]
+        .map(Head::of);
+        let mut blocks = vec![Block::Table(Table::new(
+            heads.into(),
+            topics.iter().map(row).collect(),
+        ))];
+        let wrong = wrong
+            .iter()
+            .map(|it| Item::shown_by(it.text(), explain(&it.id)));
         blocks.extend(Block::items("Wrong answers", SHOWN, wrong.collect()));
         let advised = unadvised.iter();
         let advised = advised.map(|id| Item::shown_by(id.clone(), explain(id)));
@@ -280,8 +346,14 @@ impl Paged for VerifyResult {
             SHOWN,
             advised.collect(),
         ));
-        let saying = |Saying { word, section, sentence }: &Saying| {
-            let section = section.as_ref().map_or(String::new(), |section| format!(" ({section})"));
+        let saying = |Saying {
+                          word,
+                          section,
+                          sentence,
+                      }: &Saying| {
+            let section = section
+                .as_ref()
+                .map_or(String::new(), |section| format!(" ({section})"));
             format!("'{word}'{section}: {sentence}")
         };
         if !sayings.is_empty() {
@@ -292,13 +364,25 @@ impl Paged for VerifyResult {
             blocks.push(Block::Notes(sayings.iter().map(saying).collect()));
         }
         let tone = if *count == 0 { Tone::Good } else { Tone::Bad };
-        Page { command: "verify", title, tone, blocks }
+        Page {
+            command: "verify",
+            title,
+            tone,
+            blocks,
+        }
     }
 }
 
 impl WrongTest {
     fn text(&self) -> String {
-        let WrongTest { id, demanded, answered, comment, demanded_by, .. } = self;
+        let WrongTest {
+            id,
+            demanded,
+            answered,
+            comment,
+            demanded_by,
+            ..
+        } = self;
         let by = match demanded_by.is_empty() {
             true => String::new(),
             false => format!(" by '{}'", demanded_by.join("' and '")),

@@ -20,7 +20,12 @@ pub struct GivenAnswer<'a> {
 impl<'a> GivenAnswer<'a> {
     /// Reads `"hit"`, `"miss"`, a number of hits, or `{"hit": true, "t": 1.5, "u": 0.25, "v": 0.5}`.
     pub fn parse(text: &'a str) -> Result<GivenAnswer<'a>, String> {
-        let alone = |answered| Ok(GivenAnswer { answered, values: [None; 3] });
+        let alone = |answered| {
+            Ok(GivenAnswer {
+                answered,
+                values: [None; 3],
+            })
+        };
         match text {
             "\"hit\"" => alone(Answered::Single(true)),
             "\"miss\"" => alone(Answered::Single(false)),
@@ -82,12 +87,25 @@ impl<'a> GivenAnswer<'a> {
         if !t_given && !uv_given {
             return Ok(None);
         }
-        let gives = Gives { t: t_given, uv: uv_given, facing: false };
-        let verdict = Verdict { hit: true, t, u, v, ..Verdict::miss(None) };
+        let gives = Gives {
+            t: t_given,
+            uv: uv_given,
+            facing: false,
+        };
+        let verdict = Verdict {
+            hit: true,
+            t,
+            u,
+            v,
+            ..Verdict::miss(None)
+        };
         let truth = &test.triangles[0].truth;
-        let Some(finding) =
-            judge((&Contract::CLOSED_RAY, Obligation::Free), (case, truth), gives, &verdict)
-        else {
+        let Some(finding) = judge(
+            (&Contract::CLOSED_RAY, Obligation::Free),
+            (case, truth),
+            gives,
+            &verdict,
+        ) else {
             return Ok(None);
         };
         if finding != Finding::WrongValue {
@@ -96,7 +114,10 @@ impl<'a> GivenAnswer<'a> {
         let errors = ValueErrors::of(case, truth, gives, &verdict);
         let parts = (0..3).filter(|&i| errors.is_wrong(i, 0.0)).map(|i| {
             let (name, exact) = (["t", "u", "v"][i], errors.exact[i]);
-            format!("{name} = {}, exactly {exact:.9e}", self.values[i].unwrap_or_default())
+            format!(
+                "{name} = {}, exactly {exact:.9e}",
+                self.values[i].unwrap_or_default()
+            )
         });
         Ok(Some(parts.collect::<Vec<_>>().join("; ")))
     }

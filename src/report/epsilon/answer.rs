@@ -33,9 +33,17 @@ pub(super) struct LimitRow<'a> {
 /// The kernel, the scalar, and in short the scene.
 pub(super) fn title(record: &SceneResult, part: &SceneKernelPart) -> String {
     let kernel = format!("{} {}", part.kernel, part.scalar);
-    let Some(MeshScenePart { path, triangles, .. }) = &record.mesh else { return kernel };
+    let Some(MeshScenePart {
+        path, triangles, ..
+    }) = &record.mesh
+    else {
+        return kernel;
+    };
     let file = path.rsplit('/').next().unwrap_or(path);
-    format!("{kernel} in {file} ({})", number_of(*triangles, "triangle", "triangles"))
+    format!(
+        "{kernel} in {file} ({})",
+        number_of(*triangles, "triangle", "triangles")
+    )
 }
 
 /// The scene's words.
@@ -48,13 +56,23 @@ pub(super) fn scene(record: &SceneResult) -> String {
 
 /// The name of the numbers that cost least.
 pub(super) fn name(record: &SceneResult, part: &SceneKernelPart) -> &'static str {
-    if lead(record, part, &part.tried[0]) == USE { RECOMMENDED } else { "least bad" }
+    if lead(record, part, &part.tried[0]) == USE {
+        RECOMMENDED
+    } else {
+        "least bad"
+    }
 }
 
 /// The names of what was tried.
 pub(super) fn column_names(record: &SceneResult, part: &SceneKernelPart) -> Vec<String> {
     let names = columns(part).map(|tried| column(part, &tried.name));
-    let own = |column| if column == RECOMMENDED { name(record, part).to_owned() } else { column };
+    let own = |column| {
+        if column == RECOMMENDED {
+            name(record, part).to_owned()
+        } else {
+            column
+        }
+    };
     names.map(own).collect()
 }
 
@@ -74,7 +92,9 @@ pub(super) fn used(record: &SceneResult, part: &SceneKernelPart) -> Vec<Use> {
         text: fixed(record, part),
         notes: notes(record, part),
     };
-    let Some(relative) = &part.relative else { return vec![fixed] };
+    let Some(relative) = &part.relative else {
+        return vec![fixed];
+    };
     let followed = scale_free(record, part, relative);
     let mut all = [fixed, followed];
     if is_scale_free_better(record, part) {
@@ -93,7 +113,11 @@ const LEAST_BAD: &str = "least bad:";
 
 /// The words before epsilons: that they are to be used, unless the notes say that no numbers are good.
 fn lead(record: &SceneResult, part: &SceneKernelPart, tried: &TriedPart) -> &'static str {
-    if is_no_good(record, part, tried) { LEAST_BAD } else { USE }
+    if is_no_good(record, part, tried) {
+        LEAST_BAD
+    } else {
+        USE
+    }
 }
 
 /// True if epsilons that follow each triangle's size come first.
@@ -166,7 +190,10 @@ pub(super) fn rows(part: &SceneKernelPart) -> Vec<Row> {
         if !matches!(count.rays, Rays::Stratum(_)) && part.tried[0].wrong[i].of == 0 {
             continue;
         }
-        rows.push(Row::new(label(count), columns(part).map(|tried| share(&tried.wrong[i]))));
+        rows.push(Row::new(
+            label(count),
+            columns(part).map(|tried| share(&tried.wrong[i])),
+        ));
         if count.rays == Rays::Stratum(Stratum::Edges) {
             let holes: Option<Vec<String>> = columns(part).map(holes_text).collect();
             rows.extend(holes.map(|holes| Row::new(PICTURE, holes)));
@@ -177,14 +204,23 @@ pub(super) fn rows(part: &SceneKernelPart) -> Vec<Row> {
             (rays, WrongKind::Crack) => format!("{}: several hit", rays.name()),
             _ => continue,
         };
-        rows.push(Row::new(several, columns(part).map(|tried| share(&tried.doubles[i]))));
+        rows.push(Row::new(
+            several,
+            columns(part).map(|tried| share(&tried.doubles[i])),
+        ));
     }
     for (i, count) in part.counts.iter().enumerate() {
-        let found: Vec<Option<&Rate>> =
-            columns(part).map(|tried| tried.exceeded.get(i).filter(|rate| 0 < rate.of)).collect();
+        let found: Vec<Option<&Rate>> = columns(part)
+            .map(|tried| tried.exceeded.get(i).filter(|rate| 0 < rate.of))
+            .collect();
         if found.iter().any(Option::is_some) {
-            let cells = found.into_iter().map(|rate| rate.map_or("-".to_owned(), share));
-            rows.push(Row::new(format!("too far off, {}", where_of(count.rays)), cells));
+            let cells = found
+                .into_iter()
+                .map(|rate| rate.map_or("-".to_owned(), share));
+            rows.push(Row::new(
+                format!("too far off, {}", where_of(count.rays)),
+                cells,
+            ));
         }
     }
     let costs = columns(part).map(|tried| format!("{:.3}", tried.cost));
@@ -196,14 +232,21 @@ pub(super) fn rows(part: &SceneKernelPart) -> Vec<Row> {
 pub(super) fn error_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<Row> {
     let mut rows = Vec::new();
     for value in ["t", "point"] {
-        let unit = if value == "t" { String::new() } else { of_unit(&record.unit) };
+        let unit = if value == "t" {
+            String::new()
+        } else {
+            of_unit(&record.unit)
+        };
         for (place, count) in part.counts.iter().enumerate() {
             let is_of = |error: &&ErrorPart| error.count == place && error.value == value;
             let of = |tried: &TriedPart| tried.errors.iter().find(is_of).map(errors);
             let found: Vec<Option<String>> = columns(part).map(of).collect();
             if found.iter().any(Option::is_some) {
                 let cells = found.into_iter().map(|cell| cell.unwrap_or("-".to_owned()));
-                rows.push(Row::new(format!("of {value}{unit}, {}", where_of(count.rays)), cells));
+                rows.push(Row::new(
+                    format!("of {value}{unit}, {}", where_of(count.rays)),
+                    cells,
+                ));
             }
         }
     }
@@ -212,23 +255,31 @@ pub(super) fn error_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<Ro
 
 /// Half of the errors, 99 % of them, and the worst.
 fn errors(error: &ErrorPart) -> String {
-    [error.median, error.most, error.worst].map(short_error).join(" ")
+    [error.median, error.most, error.worst]
+        .map(short_error)
+        .join(" ")
 }
 
 /// True if a value is the least that no machine flushes to zero: then every value above zero will do.
 fn is_least(value: &str, scalar: &str) -> bool {
     let least = least_normal(scalar);
-    value.parse::<f64>().is_ok_and(|value| 0.0 < value && value <= least * 1.1)
+    value
+        .parse::<f64>()
+        .is_ok_and(|value| 0.0 < value && value <= least * 1.1)
 }
 
 /// Comparisons that follow each triangle's size.
 fn scale_free(record: &SceneResult, part: &SceneKernelPart, relative: &TriedPart) -> Use {
-    let forms = part.knobs.iter().zip(&relative.epsilons).map(|(knob, e)| match &knob.form {
-        Some(form) if e.parse() != Ok(0.0) => {
-            format!("{} = {}", knob.name, form.replacen('e', e, 1))
-        }
-        _ => format!("{} = {e}", knob.name),
-    });
+    let forms = part
+        .knobs
+        .iter()
+        .zip(&relative.epsilons)
+        .map(|(knob, e)| match &knob.form {
+            Some(form) if e.parse() != Ok(0.0) => {
+                format!("{} = {}", knob.name, form.replacen('e', e, 1))
+            }
+            _ => format!("{} = {e}", knob.name),
+        });
     let (least, most) = (relative.cost, part.tried[0].cost);
     let mut notes = no_good(record, part, relative);
     notes.extend([
@@ -261,10 +312,13 @@ pub(super) fn limit_rows<'a>(
                 _ => interval(limit, &unit_of(record, knob)),
             },
             most: format!("1 in {}", group_digits(limit.one_in)),
-            fresh: limit.fresh.as_ref().map_or("-".to_owned(), |fresh| match fresh.count {
-                0 => "0".to_owned(),
-                _ => share(fresh),
-            }),
+            fresh: limit
+                .fresh
+                .as_ref()
+                .map_or("-".to_owned(), |fresh| match fresh.count {
+                    0 => "0".to_owned(),
+                    _ => share(fresh),
+                }),
             is_of_scene: limit.set_by.is_some(),
             price: dear(part, limit.price.as_ref().filter(|_| !limit.is_unsure)),
         }
@@ -314,7 +368,10 @@ pub(super) fn conflict(
         _ => "these numbers cost least; to meet both takes wider numbers (f64) or another kernel"
             .to_owned(),
     };
-    format!("no value of {} is within all of its limits: {instead}", knob.name)
+    format!(
+        "no value of {} is within all of its limits: {instead}",
+        knob.name
+    )
 }
 
 /// From this share on, a limit's price is said.

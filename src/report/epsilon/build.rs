@@ -28,10 +28,20 @@ pub fn scene_record(
 ) -> SceneRecord {
     let mut provenance = provenance_of(context);
     for (part, nanoseconds) in &kernels {
-        let times = provenance.kernel_nanoseconds.entry(part.scalar.clone()).or_default();
+        let times = provenance
+            .kernel_nanoseconds
+            .entry(part.scalar.clone())
+            .or_default();
         times.insert(part.kernel.clone(), *nanoseconds);
     }
-    let StudiedRays { scene: of_scene, sources, flags, unit, mesh, .. } = studied;
+    let StudiedRays {
+        scene: of_scene,
+        sources,
+        flags,
+        unit,
+        mesh,
+        ..
+    } = studied;
     let scene = of_scene.clone().unwrap_or_default();
     let result = SceneResult {
         scene: of_scene.as_ref().map_or(String::new(), Scene::to_string),
@@ -40,11 +50,14 @@ pub fn scene_record(
         unit: (*unit).to_owned(),
         left_out: None,
         reach: reach(&scene),
-        mesh: mesh.as_ref().map(|mesh| mesh.surface()).map(|surface| MeshScenePart {
-            path: surface.family().path().to_owned(),
-            digest: surface.mesh().digest.clone(),
-            triangles: surface.mesh().triangles.len() as u64,
-        }),
+        mesh: mesh
+            .as_ref()
+            .map(|mesh| mesh.surface())
+            .map(|surface| MeshScenePart {
+                path: surface.family().path().to_owned(),
+                digest: surface.mesh().digest.clone(),
+                triangles: surface.mesh().triangles.len() as u64,
+            }),
         unit_directions: scene.direction == DirectionLength::Unit,
         edge: scene.edge,
         sine: scene.sine,
@@ -52,7 +65,9 @@ pub fn scene_record(
         seed,
         fresh_seed: fresh_seed(seed),
         count,
-        costs: WrongKind::ALL.map(|kind| named(kind.name(), costs.of(kind))).into(),
+        costs: WrongKind::ALL
+            .map(|kind| named(kind.name(), costs.of(kind)))
+            .into(),
         max_error: Value::ALL
             .into_iter()
             .filter_map(|value| Some(named(value.name(), max_error?.of(value)?)))
@@ -68,7 +83,10 @@ fn reach(scene: &Scene) -> f64 {
 }
 
 fn named(name: &str, number: f64) -> NamedNumber {
-    NamedNumber { name: name.to_owned(), number }
+    NamedNumber {
+        name: name.to_owned(),
+        number,
+    }
 }
 
 /// The record of a study of one kernel in one scalar, which the user asked to judge by a contract.
@@ -95,22 +113,28 @@ pub fn kernel_part<F: Scalar>(
     };
     let tried_part = |tried| tried_part(tried, max_error.is_some());
     let tried = study.tried.iter().map(tried_part).collect();
-    let limits = study.limits.iter().map(|OnFresh { bound: limit, wrong, price }| {
-        let knob = setting.knobs[limit.knob];
-        KnobLimitPart {
-            knob: limit.knob,
-            count: limit.count,
-            is_lower: limit.is_lower,
-            value: limit.value.map(shortest),
-            far: limit.far.map(shortest),
-            is_unsure: limit.is_unsure(),
-            one_in: limit.one_in,
-            fresh: limit.value.map(|_| Rate::new(*wrong, true)),
-            set_by: set_by(knob.gate(info.gates).role, setting.counts[limit.count])
-                .map(str::to_owned),
-            price: price_part(*price),
-        }
-    });
+    let limits = study.limits.iter().map(
+        |OnFresh {
+             bound: limit,
+             wrong,
+             price,
+         }| {
+            let knob = setting.knobs[limit.knob];
+            KnobLimitPart {
+                knob: limit.knob,
+                count: limit.count,
+                is_lower: limit.is_lower,
+                value: limit.value.map(shortest),
+                far: limit.far.map(shortest),
+                is_unsure: limit.is_unsure(),
+                one_in: limit.one_in,
+                fresh: limit.value.map(|_| Rate::new(*wrong, true)),
+                set_by: set_by(knob.gate(info.gates).role, setting.counts[limit.count])
+                    .map(str::to_owned),
+                price: price_part(*price),
+            }
+        },
+    );
     SceneKernelPart {
         kernel: info.name.to_owned(),
         selector: setting.row.entry.selector(),
@@ -129,7 +153,10 @@ pub fn kernel_part<F: Scalar>(
             .row
             .tuned()
             .filter(|(gate, _)| {
-                !setting.knobs.iter().any(|knob| knob.gate(info.gates).name == gate.name)
+                !setting
+                    .knobs
+                    .iter()
+                    .any(|knob| knob.gate(info.gates).name == gate.name)
             })
             .map(|(gate, text)| (gate.name.to_owned(), text.to_string()))
             .collect(),
@@ -147,11 +174,17 @@ pub fn kernel_part<F: Scalar>(
 }
 
 fn rates(trials: &[Trials]) -> Vec<Rate> {
-    trials.iter().map(|trials| Rate::new(*trials, true)).collect()
+    trials
+        .iter()
+        .map(|trials| Rate::new(*trials, true))
+        .collect()
 }
 
 fn plane_part(found: &Elsewhere) -> PlanePart {
-    PlanePart { plane: found.kind.to_string(), wrong: rates(&found.wrong) }
+    PlanePart {
+        plane: found.kind.to_string(),
+        wrong: rates(&found.wrong),
+    }
 }
 
 /// For each knob the highest limit from below and the lowest from above, where they do not meet.
@@ -176,24 +209,39 @@ fn conflicts<F: Scalar>(study: &SceneStudy<F>) -> Vec<ConflictPart> {
         };
         let same = |limit: &&KnobLimit<F>| {
             let found = study.relative_limits.iter();
-            found.clone().find(|other| other.knob == knob && other.count == limit.count)
+            found
+                .clone()
+                .find(|other| other.knob == knob && other.count == limit.count)
         };
         if meet(low, high).is_some() {
             return None;
         }
-        let scale_free = same(low).zip(same(high)).and_then(|(low, high)| meet(low, high));
+        let scale_free = same(low)
+            .zip(same(high))
+            .and_then(|(low, high)| meet(low, high));
         let scale_free = scale_free.map(|(low, high)| [shortest(low), shortest(high)]);
-        Some(ConflictPart { lower, upper, scale_free })
+        Some(ConflictPart {
+            lower,
+            upper,
+            scale_free,
+        })
     };
     (0..study.best.len()).filter_map(conflict).collect()
 }
 
 fn price_part(price: Option<(usize, Trials)>) -> Option<PricePart> {
-    price.map(|(count, trials)| PricePart { count, wrong: Rate::new(trials, true) })
+    price.map(|(count, trials)| PricePart {
+        count,
+        wrong: Rate::new(trials, true),
+    })
 }
 
 fn proved_part<F: Float>(found: &OnFresh<ProvedValue<F>>) -> ProvedPart {
-    let OnFresh { bound: proved, wrong, price } = found;
+    let OnFresh {
+        bound: proved,
+        wrong,
+        price,
+    } = found;
     ProvedPart {
         knob: proved.knob,
         count: proved.count,
@@ -240,13 +288,21 @@ fn tried_part<F: Float>(tried: &Tried<F>, is_limited: bool) -> TriedPart {
     let interval = tried.holes.and_then(|holes| holes.interval);
     TriedPart {
         name: tried.name.clone(),
-        epsilons: tried.epsilons.iter().map(|epsilon| shortest(*epsilon)).collect(),
+        epsilons: tried
+            .epsilons
+            .iter()
+            .map(|epsilon| shortest(*epsilon))
+            .collect(),
         wrong: rates(&tried.wrong),
         cost: tried.cost,
         holes_per_million: tried.holes.map(|holes| in_a_million(holes.share)),
         holes_interval: interval.map(|ends| [ends.low, ends.high].map(in_a_million)),
         doubles: rates(&tried.doubles),
         errors: error_parts(&tried.errors),
-        exceeded: if is_limited { rates(&tried.exceeded) } else { Vec::new() },
+        exceeded: if is_limited {
+            rates(&tried.exceeded)
+        } else {
+            Vec::new()
+        },
     }
 }

@@ -11,16 +11,27 @@ pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<Stri
     let best = &part.tried[0].epsilons;
     let of_audit = of_scene(record);
     let chosen = part.knobs.iter().zip(best).filter(|(knob, _)| knob.is_gate);
-    let chosen = chosen.map(|(knob, value)| (&knob.name, value)).chain(&part.others);
-    let all: Vec<String> = chosen.map(|(gate, value)| format!("{gate}={value}")).collect();
-    let with = if all.is_empty() { String::new() } else { format!(" --epsilon {}", all.join(",")) };
+    let chosen = chosen
+        .map(|(knob, value)| (&knob.name, value))
+        .chain(&part.others);
+    let all: Vec<String> = chosen
+        .map(|(gate, value)| format!("{gate}={value}"))
+        .collect();
+    let with = if all.is_empty() {
+        String::new()
+    } else {
+        format!(" --epsilon {}", all.join(","))
+    };
     let seed = record.fresh_seed;
     let command = |name: &str, more: &str| {
         let (kernel, scalar) = (&part.selector, &part.scalar);
         format!("hairline {name} {kernel}{with} {of_audit} --scalar {scalar} --seed {seed}{more}")
     };
     // A t that keeps rays from their own surface is right where the exact answer for the rounded start is a hit.
-    let guards_start = part.knobs.iter().any(|knob| knob.is_gate && knob.role == "t");
+    let guards_start = part
+        .knobs
+        .iter()
+        .any(|knob| knob.is_gate && knob.role == "t");
     let own = part.contract_flag.as_deref();
     let contract = match (own, guards_start) {
         (None, false) => String::new(),
@@ -34,13 +45,21 @@ pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<Stri
         && part.knobs.iter().any(|knob| knob.role == "t")
         && !is_coarse(record, part);
     let spawn = has_t.then(|| command("spawn", ""));
-    [command("audit", &same_rays)].into_iter().chain(spawn).collect()
+    [command("audit", &same_rays)]
+        .into_iter()
+        .chain(spawn)
+        .collect()
 }
 
 /// The scene as `--scene` takes it.
 pub(super) fn scene_words(record: &SceneResult) -> String {
-    let preset = SCENES.iter().find(|preset| preset.scene.to_string() == record.scene);
-    preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned())
+    let preset = SCENES
+        .iter()
+        .find(|preset| preset.scene.to_string() == record.scene);
+    preset.map_or_else(
+        || shell_word(&record.scene),
+        |preset| preset.name.to_owned(),
+    )
 }
 
 /// The flags that name the scene of a study, or its mesh and how rays meet it.
@@ -48,26 +67,43 @@ fn of_scene(record: &SceneResult) -> String {
     if !record.has_scene() {
         return record.flags.clone();
     }
-    let Some(mesh) = &record.mesh else { return format!("--scene {}", scene_words(record)) };
+    let Some(mesh) = &record.mesh else {
+        return format!("--scene {}", scene_words(record));
+    };
     // A mesh has its own extent and edges.
-    let is_of_rays =
-        |word: &&str| !["extent=", "center=", "edge="].iter().any(|key| word.starts_with(key));
+    let is_of_rays = |word: &&str| {
+        !["extent=", "center=", "edge="]
+            .iter()
+            .any(|key| word.starts_with(key))
+    };
     // Standard input was read once.
     let path = if mesh.path == "-" { "FILE" } else { &mesh.path };
-    let words: Vec<&str> =
-        ["mesh"].into_iter().chain(record.scene.split(',').filter(is_of_rays)).collect();
-    format!("--mesh {} --scene {}", shell_word(path), shell_word(&words.join(",")))
+    let words: Vec<&str> = ["mesh"]
+        .into_iter()
+        .chain(record.scene.split(',').filter(is_of_rays))
+        .collect();
+    format!(
+        "--mesh {} --scene {}",
+        shell_word(path),
+        shell_word(&words.join(","))
+    )
 }
 
 /// The command that studies one kernel as this record does.
 pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> String {
     let numbers = |flag: &str, numbers: &[NamedNumber]| {
-        let words: Vec<String> =
-            numbers.iter().map(|it| format!("{}={}", it.name, ShortNumber(it.number))).collect();
+        let words: Vec<String> = numbers
+            .iter()
+            .map(|it| format!("{}={}", it.name, ShortNumber(it.number)))
+            .collect();
         format!(" {flag} {}", words.join(","))
     };
-    let mut command =
-        format!("hairline epsilon {} {} --scalar {}", part.selector, of_scene(record), part.scalar);
+    let mut command = format!(
+        "hairline epsilon {} {} --scalar {}",
+        part.selector,
+        of_scene(record),
+        part.scalar
+    );
     if !has_default_costs(record) {
         command += &numbers("--cost", &record.costs);
     }

@@ -24,7 +24,12 @@ pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> Vec<Blo
     let mut blocks = vec![Block::text(standing(record, part).1)];
     blocks.extend(coarse(record, part).map(Block::Text));
     blocks.extend(used(record, part).into_iter().map(Block::Use));
-    blocks.extend(part.segments.as_ref().and_then(SegmentsPart::sentence).map(Block::Text));
+    blocks.extend(
+        part.segments
+            .as_ref()
+            .and_then(SegmentsPart::sentence)
+            .map(Block::Text),
+    );
     blocks.extend(of_given(record, part).map(Block::Text));
     let title = match record.has_scene() {
         true => format!("wrong on fresh rays (seed {})", record.fresh_seed),
@@ -32,7 +37,9 @@ pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> Vec<Blo
     };
     let columns = column_names(record, part);
     let table = |title: &str, rows: Vec<Row>| {
-        let heads = [title].into_iter().chain(columns.iter().map(String::as_str));
+        let heads = [title]
+            .into_iter()
+            .chain(columns.iter().map(String::as_str));
         Block::Table(Table::new(heads.map(Head::of).collect(), rows))
     };
     let is_edges = |place: &usize| part.counts[*place].rays == Rays::Stratum(Stratum::Edges);
@@ -40,10 +47,16 @@ pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> Vec<Blo
     if places.iter().any(is_edges) {
         places = telling(record, part, MOST_ROWS - 1);
     }
-    let mut told: Vec<String> = places.iter().map(|place| label(&part.counts[*place])).collect();
+    let mut told: Vec<String> = places
+        .iter()
+        .map(|place| label(&part.counts[*place]))
+        .collect();
     told.extend(places.iter().any(is_edges).then(|| PICTURE.to_owned()));
     let all_rows = rows(part);
-    let telling = all_rows.iter().filter(|row| told.contains(&row.label)).cloned();
+    let telling = all_rows
+        .iter()
+        .filter(|row| told.contains(&row.label))
+        .cloned();
     blocks.push(table(&title, telling.collect()));
     blocks.extend(panels(record, part).into_iter().map(Block::Picture));
     let mut all = vec![table(&title, all_rows)];
@@ -54,7 +67,10 @@ pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> Vec<Blo
     all.extend(of_elsewhere(record, part));
     all.extend(limits(record, part));
     all.push(Block::Notes(footer(record, part).into()));
-    blocks.push(Block::Details(format!("Everything about {} {}", part.kernel, part.scalar), all));
+    blocks.push(Block::Details(
+        format!("Everything about {} {}", part.kernel, part.scalar),
+        all,
+    ));
     // No command runs a form that is no number.
     let next = match is_scale_free_better(record, part) {
         true => Vec::new(),
@@ -62,10 +78,17 @@ pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> Vec<Blo
     };
     let command = |line: String| {
         let is_spawn = line.starts_with("hairline spawn");
-        let what = if is_spawn { "an offset in place of t_min" } else { "" };
+        let what = if is_spawn {
+            "an offset in place of t_min"
+        } else {
+            ""
+        };
         Command { line, what }
     };
-    blocks.push(Block::Commands("next", next.into_iter().map(command).collect()));
+    blocks.push(Block::Commands(
+        "next",
+        next.into_iter().map(command).collect(),
+    ));
     blocks
 }
 
@@ -81,14 +104,27 @@ fn of_elsewhere(record: &SceneResult, part: &SceneKernelPart) -> Vec<Block> {
             rates: [own].into_iter().chain(others(place)).cloned().collect(),
         })
         .collect();
-    elsewhere::blocks(&format!("{}: more often wrong", name(record, part)), &kinds, &rows, share)
+    elsewhere::blocks(
+        &format!("{}: more often wrong", name(record, part)),
+        &kinds,
+        &rows,
+        share,
+    )
 }
 
 fn limits(record: &SceneResult, part: &SceneKernelPart) -> Vec<Block> {
     let row = |row: LimitRow| {
         let star = if row.is_of_scene { " *" } else { "" };
-        let cells = [row.bound, format!("{}{star}", label(row.count)), row.most, row.fresh];
-        Row { below: row.price.into_iter().collect(), ..Row::new(&row.knob.name, cells) }
+        let cells = [
+            row.bound,
+            format!("{}{star}", label(row.count)),
+            row.most,
+            row.fresh,
+        ];
+        Row {
+            below: row.price.into_iter().collect(),
+            ..Row::new(&row.knob.name, cells)
+        }
     };
     let rows: Vec<Row> = limit_rows(record, part).map(row).collect();
     if rows.is_empty() {
@@ -101,6 +137,12 @@ fn limits(record: &SceneResult, part: &SceneKernelPart) -> Vec<Block> {
         Head::of("at most"),
         Head::of("fresh rays").optional(),
     ];
-    let conflicts = part.conflicts.iter().map(|it| Block::Text(conflict(record, part, it)));
-    [Block::Table(Table::new(heads, rows))].into_iter().chain(conflicts).collect()
+    let conflicts = part
+        .conflicts
+        .iter()
+        .map(|it| Block::Text(conflict(record, part, it)));
+    [Block::Table(Table::new(heads, rows))]
+        .into_iter()
+        .chain(conflicts)
+        .collect()
 }

@@ -27,7 +27,12 @@ impl Grain<'_> {
 
     /// A sentence that says so, or that they are not; `place` is `scene` or `mesh`.
     pub fn sentence(&self, place: &str) -> String {
-        let Grain { scalar, spacing, smallest, unit } = *self;
+        let Grain {
+            scalar,
+            spacing,
+            smallest,
+            unit,
+        } = *self;
         let apart = format!("{}{}", human(&format!("{spacing:.1e}")), spaced(unit));
         let numbers = format!("its numbers are {apart} apart at the far end");
         if self.is_fine() {
@@ -44,8 +49,15 @@ impl Grain<'_> {
 }
 
 fn grain<'a>(record: &'a SceneResult, part: &'a SceneKernelPart) -> Grain<'a> {
-    let SceneKernelPart { scalar, spacing, .. } = part;
-    Grain { scalar, spacing: *spacing, smallest: record.edge[0], unit: &record.unit }
+    let SceneKernelPart {
+        scalar, spacing, ..
+    } = part;
+    Grain {
+        scalar,
+        spacing: *spacing,
+        smallest: record.edge[0],
+        unit: &record.unit,
+    }
 }
 
 /// True if the scalar's numbers are fine enough for the scene's smallest triangles.

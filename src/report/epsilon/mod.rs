@@ -27,7 +27,10 @@ pub const SCENE_FORMATS: &[Format<SceneRecord>] = &[
     Format::TEXT,
     Format::JSON,
     Format::MARKDOWN,
-    Format { name: "svg", write: |record, _, out| plot::write(&record.result, out) },
+    Format {
+        name: "svg",
+        write: |record, _, out| plot::write(&record.result, out),
+    },
     Format {
         name: "c",
         write: |record, _, out| snippet::write(&record.result, SnippetLanguage::C, out),

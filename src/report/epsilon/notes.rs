@@ -28,7 +28,11 @@ pub(super) fn notes(record: &SceneResult, part: &SceneKernelPart) -> Vec<String>
     }
     notes.extend(few_rays(record));
     for (gate, e) in &part.others {
-        let instead = if gate == "t" { ": the least t is chosen in its place" } else { "" };
+        let instead = if gate == "t" {
+            ": the least t is chosen in its place"
+        } else {
+            ""
+        };
         notes.push(format!("{gate}={e} is kept{instead}"));
     }
     notes.extend(overweighed(record, part));
@@ -61,17 +65,22 @@ pub(super) fn price(
 
 /// The numbers beyond the recommended ones that are proved to refuse every parallel ray, with their price.
 fn proofs(part: &SceneKernelPart) -> impl Iterator<Item = String> {
-    part.proved.iter().filter(|proved| proved.is_lower).filter_map(|proved| {
-        let (name, value) = (&part.knobs[proved.knob].name, &proved.value);
-        let is_beyond =
-            part.tried[0].epsilons[proved.knob].parse::<f64>().ok()? < value.parse().ok()?;
-        let (more, _) = price(part, proved.price.as_ref().filter(|_| is_beyond))?;
-        let price = match more {
-            ..0.0005 => "no hits lost".to_owned(),
-            _ => format!("{:.1}% of hits lost", 100.0 * more),
-        };
-        Some(format!("proved for all parallel rays: {name} >= {value}, {price}"))
-    })
+    part.proved
+        .iter()
+        .filter(|proved| proved.is_lower)
+        .filter_map(|proved| {
+            let (name, value) = (&part.knobs[proved.knob].name, &proved.value);
+            let is_beyond =
+                part.tried[0].epsilons[proved.knob].parse::<f64>().ok()? < value.parse().ok()?;
+            let (more, _) = price(part, proved.price.as_ref().filter(|_| is_beyond))?;
+            let price = match more {
+                ..0.0005 => "no hits lost".to_owned(),
+                _ => format!("{:.1}% of hits lost", 100.0 * more),
+            };
+            Some(format!(
+                "proved for all parallel rays: {name} >= {value}, {price}"
+            ))
+        })
 }
 
 /// A note if there were too few rays to choose epsilons by.
@@ -91,7 +100,9 @@ pub(super) fn few_rays(record: &SceneResult) -> Option<String> {
 /// The share of wrong answers from which on no scene can live with them, by what is counted; none where a scene may
 /// have to.
 fn too_many(part: &SceneKernelPart, count: &RayCount) -> Option<f64> {
-    let Rays::Stratum(stratum) = count.rays else { return None };
+    let Rays::Stratum(stratum) = count.rays else {
+        return None;
+    };
     match (stratum, count.kind) {
         (Stratum::Interior, WrongKind::Miss) | (_, WrongKind::SelfHit) => Some(0.01),
         // Without an epsilon at the edges, cracks are the kernel's, whatever the numbers are.
@@ -153,12 +164,17 @@ pub(super) fn no_good(
     if followed.is_some_and(|followed| no_good(record, part, followed).is_empty()) {
         return vec![format!("no fixed numbers are good here: even these {what}")];
     }
-    vec![format!("no numbers are good here: even these {what}"), instead(record, part, count.kind)]
+    vec![
+        format!("no numbers are good here: even these {what}"),
+        instead(record, part, count.kind),
+    ]
 }
 
 pub(super) fn has_default_costs(record: &SceneResult) -> bool {
     let default = Costs::default();
-    WrongKind::ALL.into_iter().all(|kind| default.of(kind) == record.cost(kind))
+    WrongKind::ALL
+        .into_iter()
+        .all(|kind| default.of(kind) == record.cost(kind))
 }
 
 /// True if nobody should use these epsilons. With other weights, or a limit of errors, the user may have asked for what
@@ -176,7 +192,11 @@ fn overweighed(record: &SceneResult, part: &SceneKernelPart) -> Option<String> {
     let of_count = |(count, rate): (&RayCount, &Rate)| {
         (0 < rate.of).then(|| (record.cost(count.kind) / rate.of as f64, count.kind))
     };
-    let all = part.counts.iter().zip(&part.tried[0].wrong).filter_map(of_count);
+    let all = part
+        .counts
+        .iter()
+        .zip(&part.tried[0].wrong)
+        .filter_map(of_count);
     let (cost, kind) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let is_heavy = HEAVY < cost && TOO_FEW <= record.count;
     is_heavy.then(|| {
@@ -193,7 +213,11 @@ pub(super) fn is_coarse(record: &SceneResult, part: &SceneKernelPart) -> bool {
 
 /// True if products of three of the smallest triangle's lengths lose digits, because the scalar has none so small.
 fn is_tiny(record: &SceneResult, part: &SceneKernelPart) -> bool {
-    let epsilon = if part.scalar == f32::NAME { f32::EPSILON.into() } else { f64::EPSILON };
+    let epsilon = if part.scalar == f32::NAME {
+        f32::EPSILON.into()
+    } else {
+        f64::EPSILON
+    };
     record.edge[0].powi(3) * epsilon < least_normal(&part.scalar)
 }
 
@@ -221,16 +245,26 @@ fn instead(record: &SceneResult, part: &SceneKernelPart, kind: WrongKind) -> Str
     if kind == WrongKind::SelfHit {
         return "start shadow rays off the surface (`hairline spawn` finds how far)".to_owned();
     }
-    (if is_narrow { "use f64 or another kernel" } else { "use another kernel" }).to_owned()
+    (if is_narrow {
+        "use f64 or another kernel"
+    } else {
+        "use another kernel"
+    })
+    .to_owned()
 }
 
 /// A note if cracks that no number closes are most of a kernel's cost, with advice.
 fn cracks_of_its_own(record: &SceneResult, part: &SceneKernelPart) -> Option<String> {
     let best = &part.tried[0];
-    let cracks =
-        part.counts.iter().zip(&best.wrong).filter(|(count, _)| count.kind == WrongKind::Crack);
+    let cracks = part
+        .counts
+        .iter()
+        .zip(&best.wrong)
+        .filter(|(count, _)| count.kind == WrongKind::Crack);
     let weight = record.cost(WrongKind::Crack);
-    let cost: f64 = cracks.map(|(_, rate)| weight * rate.rate.unwrap_or(0.0)).sum();
+    let cost: f64 = cracks
+        .map(|(_, rate)| weight * rate.rate.unwrap_or(0.0))
+        .sum();
     (!part.has_edge_epsilon && 0.5 * best.cost < cost).then(|| {
         format!(
             "{cost:.2} of its cost of {:.2} are cracks, which no number here closes: give its edge test an epsilon, or use a \

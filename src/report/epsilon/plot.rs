@@ -31,7 +31,9 @@ pub fn write(record: &SceneResult, out: &mut dyn Write) -> io::Result<()> {
             drawing += &text_at(12.0, y, class, &text);
         }
         for panel in panels(record, part) {
-            let Drawing::Chart(panel, [_, height]) = panel.drawing else { continue };
+            let Drawing::Chart(panel, [_, height]) = panel.drawing else {
+                continue;
+            };
             let _ = write!(drawing, "<g transform=\"translate(0 {y:.0})\">{panel}</g>");
             y += height;
         }
@@ -58,7 +60,9 @@ pub(super) fn footer(record: &SceneResult, part: &SceneKernelPart) -> [String; 2
 
 /// One panel a number.
 pub(super) fn panels(record: &SceneResult, part: &SceneKernelPart) -> Vec<Picture> {
-    (0..part.curves.len()).map(|knob| Draft::new(record, part, knob).panel()).collect()
+    (0..part.curves.len())
+        .map(|knob| Draft::new(record, part, knob).panel())
+        .collect()
 }
 
 /// A count as a line: the wrong answers at each value that this number is to blame for.
@@ -107,13 +111,25 @@ fn number(text: &str) -> f64 {
 impl<'a> Draft<'a> {
     fn new(record: &'a SceneResult, part: &'a SceneKernelPart, place: usize) -> Draft<'a> {
         let (curve, knob) = (&part.curves[place], &part.knobs[place]);
-        let lines = part.counts.iter().zip(&curve.counts).map(|(count, points)| {
-            let is_lost = matches!(count.kind, WrongKind::Crack | WrongKind::Miss);
-            let left = points.of - points.refused_by_others;
-            let wrong = points.hits.iter().map(|hits| if is_lost { left - hits } else { *hits });
-            let by_others = if is_lost { points.refused_by_others } else { 0 };
-            CountLine { count, of: points.of, by_others, wrong: wrong.collect() }
-        });
+        let lines = part
+            .counts
+            .iter()
+            .zip(&curve.counts)
+            .map(|(count, points)| {
+                let is_lost = matches!(count.kind, WrongKind::Crack | WrongKind::Miss);
+                let left = points.of - points.refused_by_others;
+                let wrong = points
+                    .hits
+                    .iter()
+                    .map(|hits| if is_lost { left - hits } else { *hits });
+                let by_others = if is_lost { points.refused_by_others } else { 0 };
+                CountLine {
+                    count,
+                    of: points.of,
+                    by_others,
+                    wrong: wrong.collect(),
+                }
+            });
         let moves = |line: &CountLine<'_>| {
             let (least, most) = (line.wrong.iter().min(), line.wrong.iter().max());
             let span = most.unwrap_or(&0) - least.unwrap_or(&0);
@@ -138,7 +154,9 @@ impl<'a> Draft<'a> {
             values: curve.values.iter().map(|value| number(value)).collect(),
             lines: lines.filter(moves).collect(),
             tried,
-            limits: limit_rows(record, part).filter(|row| ptr::eq(row.knob, knob)).collect(),
+            limits: limit_rows(record, part)
+                .filter(|row| ptr::eq(row.knob, knob))
+                .collect(),
         }
     }
 
@@ -151,14 +169,28 @@ impl<'a> Draft<'a> {
             };
             (pair[0] * sign > 0.0 && self.lines.iter().any(moves)).then_some(pair[0])
         };
-        let moving = self.values.windows(2).enumerate().filter_map(|(i, pair)| moved(pair, i));
-        let limits = self.limits.iter().filter_map(|row| Some(number(row.value?)));
+        let moving = self
+            .values
+            .windows(2)
+            .enumerate()
+            .filter_map(|(i, pair)| moved(pair, i));
+        let limits = self
+            .limits
+            .iter()
+            .filter_map(|row| Some(number(row.value?)));
         let special = self.tried.iter().map(|(value, _)| *value).chain(limits);
         // What is next to zero needs no decades of its own.
-        let least = if self.part.scalar == "f32" { 1e-30 } else { 1e-200 };
+        let least = if self.part.scalar == "f32" {
+            1e-30
+        } else {
+            1e-200
+        };
         let all = moving.chain(special).filter(|value| least < value * sign);
         // Nothing is known beyond the values.
-        let end = self.values.iter().fold(least, |end, value| end.max(value * sign));
+        let end = self
+            .values
+            .iter()
+            .fold(least, |end, value| end.max(value * sign));
         let end = end.log10().ceil() as i32;
         decades_around(all).map(|(low, high)| (low, high.min(end).max(low + 1)))
     }
@@ -183,8 +215,17 @@ impl<'a> Draft<'a> {
             true => format!("{}: epsilon of this gate", self.knob.name),
             false => format!("{}: least t that counts", self.knob.name),
         };
-        let title = if unit.is_empty() { name } else { format!("{name} ({})", unit.trim()) };
-        let others = self.part.knobs.iter().zip(&self.part.tried[0].epsilons).enumerate();
+        let title = if unit.is_empty() {
+            name
+        } else {
+            format!("{name} ({})", unit.trim())
+        };
+        let others = self
+            .part
+            .knobs
+            .iter()
+            .zip(&self.part.tried[0].epsilons)
+            .enumerate();
         let others = others.filter(|(place, _)| *place != self.place);
         let others: Vec<String> = others
             .map(|(_, (knob, epsilon))| format!("{}={}", knob.name, human(epsilon)))
@@ -199,7 +240,14 @@ impl<'a> Draft<'a> {
             chart.drawing += &text_at(12.0, 42.0, "soft", &with);
         }
         if let Some(ends) = self.within() {
-            chart.shade(if is_open(ends) { "within open" } else { "within" }, ends);
+            chart.shade(
+                if is_open(ends) {
+                    "within open"
+                } else {
+                    "within"
+                },
+                ends,
+            );
         }
         for line in &self.lines {
             let point = |(value, wrong): (&f64, &u64)| {
@@ -207,7 +255,10 @@ impl<'a> Draft<'a> {
                 let share = *wrong as f64 / line.of as f64;
                 (*value, share, Some([interval.low, interval.high]))
             };
-            chart.line(&class_of(line.count), self.values.iter().zip(&line.wrong).map(point));
+            chart.line(
+                &class_of(line.count),
+                self.values.iter().zip(&line.wrong).map(point),
+            );
         }
         for row in &self.limits {
             if let Some(value) = row.value {
@@ -216,9 +267,15 @@ impl<'a> Draft<'a> {
         }
         let legend = self.legend();
         chart.legend(&legend);
-        let about = legend.iter().fold(title, |about, (_, text)| format!("{about}; {text}"));
+        let about = legend
+            .iter()
+            .fold(title, |about, (_, text)| format!("{about}; {text}"));
         let drawing = Drawing::Chart(chart.drawing, [WIDTH, chart.height]);
-        Picture { about, caption: String::new(), drawing }
+        Picture {
+            about,
+            caption: String::new(),
+            drawing,
+        }
     }
 
     /// Marks with their texts: the lines, then the limits.
@@ -230,28 +287,41 @@ impl<'a> Draft<'a> {
                 0.0 => String::new(),
                 share => format!(", {} by others", percent(share)),
             };
-            let mark = format!("<path class=\"line {}\" d=\"M0 0h30\"/>", class_of(line.count));
+            let mark = format!(
+                "<path class=\"line {}\" d=\"M0 0h30\"/>",
+                class_of(line.count)
+            );
             (mark, format!("{what} (n = {n}{others})"))
         });
         let limits = self.limits.iter().map(|row| {
             let most = if row.is_proved { "proved" } else { &row.most };
-            (marker([15.0, 0.0], row), format!("{} {}: {most}", row.bound, label(row.count)))
+            (
+                marker([15.0, 0.0], row),
+                format!("{} {}: {most}", row.bound, label(row.count)),
+            )
         });
         let mut all: Vec<(String, String)> = lines.chain(limits).collect();
         if let Some(line) = self.lines.last() {
-            let mark =
-                format!("<path class=\"band {}\" d=\"M0 -6h30v12h-30z\"/>", class_of(line.count));
-            all.push((mark, "around a line: its 95 % interval (Clopper and Pearson)".to_owned()));
+            let mark = format!(
+                "<path class=\"band {}\" d=\"M0 -6h30v12h-30z\"/>",
+                class_of(line.count)
+            );
+            all.push((
+                mark,
+                "around a line: its 95 % interval (Clopper and Pearson)".to_owned(),
+            ));
         }
         if let Some(ends) = self.within() {
             let [class, text] = match (is_open(ends), ends[0] == f64::NEG_INFINITY) {
                 (false, _) => ["within", "within every limit, 95 % sure of each"],
-                (true, true) => {
-                    ["within open", "below its limits, 95 % sure of each; none from below"]
-                }
-                (true, false) => {
-                    ["within open", "above its limits, 95 % sure of each; none from above"]
-                }
+                (true, true) => [
+                    "within open",
+                    "below its limits, 95 % sure of each; none from below",
+                ],
+                (true, false) => [
+                    "within open",
+                    "above its limits, 95 % sure of each; none from above",
+                ],
             };
             let mark = format!("<rect class=\"{class}\" y=\"-6\" width=\"30\" height=\"12\"/>");
             all.push((mark, text.to_owned()));
@@ -264,9 +334,17 @@ impl<'a> Draft<'a> {
 
 /// A value that was tried.
 fn mark((value, names): &(f64, String)) -> ChartMark {
-    let text = if *value == 0.0 { "0".to_owned() } else { human(&format!("{value:e}")) };
+    let text = if *value == 0.0 {
+        "0".to_owned()
+    } else {
+        human(&format!("{value:e}"))
+    };
     let is_this = names.split(", ").any(|name| name == RECOMMENDED);
-    ChartMark { value: *value, text: format!("{names}: {text}"), is_this }
+    ChartMark {
+        value: *value,
+        text: format!("{names}: {text}"),
+        is_this,
+    }
 }
 
 /// True if limits are on one side only.
@@ -277,7 +355,11 @@ fn is_open(ends: [f64; 2]) -> bool {
 /// A triangle on the axis that points to the side that a limit allows.
 fn marker([x, y]: [f64; 2], row: &LimitRow) -> String {
     let ahead = if row.is_lower { 9.0 } else { -9.0 };
-    let class = if row.is_proved { "limit proved" } else { "limit" };
+    let class = if row.is_proved {
+        "limit proved"
+    } else {
+        "limit"
+    };
     let stratum = color_of(row.count);
     format!(
         "<path class=\"{class} {stratum}\" d=\"M{x:.1} {:.1}l{ahead} 5l{} 5z\"/>\n",

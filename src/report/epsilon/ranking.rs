@@ -18,7 +18,11 @@ type Best<'a> = (&'a SceneKernelPart, &'a TriedPart);
 
 /// True if a record has too many kernels for a screen of each.
 pub(super) fn is_needed(record: &SceneResult) -> bool {
-    let mut names: Vec<&str> = record.kernels.iter().map(|part| part.kernel.as_str()).collect();
+    let mut names: Vec<&str> = record
+        .kernels
+        .iter()
+        .map(|part| part.kernel.as_str())
+        .collect();
     names.dedup();
     2 < names.len()
 }
@@ -38,35 +42,62 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
     let most = if scalars == 1 { 6 } else { 3 };
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
-        blocks.extend(record.has_scene().then(|| Block::text(fitness(record, best.0.0))));
-        let heads = [*scalar, "cost", "leaks", "lost inside", "self-hits", "ns a ray"];
+        blocks.extend(
+            record
+                .has_scene()
+                .then(|| Block::text(fitness(record, best.0.0))),
+        );
+        let heads = [
+            *scalar,
+            "cost",
+            "leaks",
+            "lost inside",
+            "self-hits",
+            "ns a ray",
+        ];
         let heads = heads.map(Head::of).into();
         let all = rows.iter().map(|one| row(whole, one)).collect();
         blocks.push(Block::Table(Table::new(heads, all).at_most(most)));
     }
-    let shown =
-        || all.iter().flat_map(|(_, rows)| rows.iter().take(most).map(|((part, _), _)| *part));
+    let shown = || {
+        all.iter()
+            .flat_map(|(_, rows)| rows.iter().take(most).map(|((part, _), _)| *part))
+    };
     let forms = match shown().any(|part| is_scale_free_better(record, part)) {
         true => " L: the triangle's longest edge; M: the largest coordinate.",
         false => "",
     };
     let has_no_t =
         |part: &SceneKernelPart| part.counts.iter().all(|it| it.kind != WrongKind::SelfHit);
-    let no_t = if shown().any(has_no_t) { " (-: the kernel has no t)" } else { "" };
+    let no_t = if shown().any(has_no_t) {
+        " (-: the kernel has no t)"
+    } else {
+        ""
+    };
     blocks.push(Block::text(format!(
         "leaks: at shared edges or vertices; self-hits: of shadow rays{no_t}. Shares are of rays aimed there, not of your \
          pixels. cost: each share times its weight, false hits and almost parallel rays too.{forms}"
     )));
     let details = |part| Block::Details(title(record, part), evidence::of_kernel(record, part));
     blocks.extend(record.kernels.iter().map(details));
-    blocks.push(Block::Details("How to read".to_owned(), how_to_read(record)));
-    let best = shown().find(|part| is_fine(record, part)).or(shown().next());
-    let next = best
-        .map(|best| Command { line: of_kernel(record, best), what: "may I use these numbers?" });
+    blocks.push(Block::Details(
+        "How to read".to_owned(),
+        how_to_read(record),
+    ));
+    let best = shown()
+        .find(|part| is_fine(record, part))
+        .or(shown().next());
+    let next = best.map(|best| Command {
+        line: of_kernel(record, best),
+        what: "may I use these numbers?",
+    });
     blocks.extend(next.map(|next| Block::Commands("next", vec![next])));
     Page {
         command: "epsilon",
-        title: format!("Kernels with their best epsilons in {scene}{}", of_unit(&record.unit)),
+        title: format!(
+            "Kernels with their best epsilons in {scene}{}",
+            of_unit(&record.unit)
+        ),
         blocks,
         ..Page::default()
     }
@@ -82,7 +113,11 @@ fn ranked<'a>(record: &'a SceneResult, scalar: &str) -> Vec<(Best<'a>, Vec<Best<
     let mut parts: Vec<Best> = parts.map(|part| (part, best(part))).collect();
     parts.sort_by(|(_, a), (_, b)| a.cost.total_cmp(&b.cost));
     let wrong = |tried: &TriedPart| -> Vec<[u64; 2]> {
-        tried.wrong.iter().map(|rate| [rate.count, rate.of]).collect()
+        tried
+            .wrong
+            .iter()
+            .map(|rate| [rate.count, rate.of])
+            .collect()
     };
     alike(parts, |(one, best), (other, its)| {
         let is_same_numbers = one.counts == other.counts && best.epsilons == its.epsilons;
@@ -95,24 +130,36 @@ fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
         let counts = part.counts.iter().zip(&best.wrong);
         let rates = counts.filter(|(count, _)| is_of(count));
         let worst = |a: &&Rate, b: &&Rate| a.rate.unwrap_or(0.0).total_cmp(&b.rate.unwrap_or(0.0));
-        rates.map(|(_, rate)| rate).max_by(worst).map_or("-".to_owned(), share)
+        rates
+            .map(|(_, rate)| rate)
+            .max_by(worst)
+            .map_or("-".to_owned(), share)
     };
     let cells = [
         format!("{:.3}", best.cost),
         cell(|count| count.kind == WrongKind::Crack),
         cell(is_lost),
         cell(|count| count.kind == WrongKind::SelfHit),
-        whole.nanoseconds(part).map_or("-".to_owned(), |time| format!("{time:.0}")),
+        whole
+            .nanoseconds(part)
+            .map_or("-".to_owned(), |time| format!("{time:.0}")),
     ];
     let used = used(&whole.result, part).into_iter().next();
     let used = used.map(|used| {
-        let lead = if used.lead == USE { "use" } else { "no numbers are good; least bad:" };
+        let lead = if used.lead == USE {
+            "use"
+        } else {
+            "no numbers are good; least bad:"
+        };
         format!("{lead} {}", used.text)
     });
     let names: Vec<&str> = like.iter().map(|(part, _)| part.kernel.as_str()).collect();
     let alike = format!("as often wrong with the same numbers: {}", names.join(", "));
     let alike = (!names.is_empty()).then_some(alike);
-    Row { below: used.into_iter().chain(alike).collect(), ..Row::new(&part.kernel, cells) }
+    Row {
+        below: used.into_iter().chain(alike).collect(),
+        ..Row::new(&part.kernel, cells)
+    }
 }
 
 /// True if a count is of hits inside triangles that are lost; of other sources of all hits that are.

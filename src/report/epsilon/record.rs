@@ -60,14 +60,21 @@ impl SceneResult {
 
     /// The cost of a wrong answer of a kind.
     pub(super) fn cost(&self, kind: WrongKind) -> f64 {
-        self.costs.iter().find(|cost| cost.name == kind.name()).map_or(0.0, |cost| cost.number)
+        self.costs
+            .iter()
+            .find(|cost| cost.name == kind.name())
+            .map_or(0.0, |cost| cost.number)
     }
 }
 
 impl SceneRecord {
     /// The nanoseconds that a ray took in a kernel.
     pub fn nanoseconds(&self, part: &SceneKernelPart) -> Option<f64> {
-        self.provenance.kernel_nanoseconds.get(&part.scalar)?.get(&part.kernel).copied()
+        self.provenance
+            .kernel_nanoseconds
+            .get(&part.scalar)?
+            .get(&part.kernel)
+            .copied()
     }
 }
 

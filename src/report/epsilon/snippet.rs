@@ -33,15 +33,28 @@ pub(super) fn write(
             of_unit(&record.unit)
         )?;
         writeln!(out, "// {}", standing(record, part).1)?;
-        let relative = part.relative.as_ref().filter(|_| is_scale_free_better(record, part));
+        let relative = part
+            .relative
+            .as_ref()
+            .filter(|_| is_scale_free_better(record, part));
         let follows = relative.is_some();
         let tried = relative.unwrap_or(&part.tried[0]);
         for (knob, value) in part.knobs.iter().zip(&tried.epsilons) {
-            let form = knob.form.as_ref().filter(|_| follows && value.parse() != Ok(0.0));
-            writeln!(out, "{}", constant(language, &part.scalar, knob, value, form))?;
+            let form = knob
+                .form
+                .as_ref()
+                .filter(|_| follows && value.parse() != Ok(0.0));
+            writeln!(
+                out,
+                "{}",
+                constant(language, &part.scalar, knob, value, form)
+            )?;
         }
         if follows {
-            writeln!(out, "// L: the triangle's longest edge; M: the largest coordinate")?;
+            writeln!(
+                out,
+                "// L: the triangle's longest edge; M: the largest coordinate"
+            )?;
         }
     }
     Ok(())
@@ -49,7 +62,11 @@ pub(super) fn write(
 
 fn name(knob: &KnobPart) -> String {
     let name = knob.name.to_uppercase().replace('-', "_");
-    if knob.is_gate { format!("{name}_EPSILON") } else { name }
+    if knob.is_gate {
+        format!("{name}_EPSILON")
+    } else {
+        name
+    }
 }
 
 /// One number with its comparison, as the kernel's listing has it; with what it is multiplied by, if its form says.
@@ -67,14 +84,20 @@ fn constant(
         Some(refuses) => {
             let printed = refuses
                 .split_once("(printed ")
-                .map_or(refuses.as_str(), |(_, printed)| printed.trim_end_matches(')'));
+                .map_or(refuses.as_str(), |(_, printed)| {
+                    printed.trim_end_matches(')')
+                });
             format!("refuse where {}", with_name(printed, &compared))
         }
         None => format!("count a hit only where t >= {compared}"),
     };
     // C, GLSL and Rust all want a point or an exponent in a float.
     let is_float = value.contains(['.', 'e', 'E']);
-    let number = if is_float { value.to_owned() } else { format!("{value}.0") };
+    let number = if is_float {
+        value.to_owned()
+    } else {
+        format!("{value}.0")
+    };
     let constant = match (language, scalar) {
         (SnippetLanguage::C, "f32") => format!("static const float {name} = {number}f;"),
         (SnippetLanguage::C, _) => format!("static const double {name} = {number};"),
@@ -131,9 +154,16 @@ mod tests {
         let form = "e * L^4".to_owned();
         let text = constant(SnippetLanguage::C, "f32", &knob, "-2e-3", Some(&form));
         assert!(text.ends_with("det < PARALLEL_EPSILON * L^4"), "{text}");
-        let least =
-            KnobPart { name: "t_min".to_owned(), is_gate: false, refuses: None, ..knob.clone() };
+        let least = KnobPart {
+            name: "t_min".to_owned(),
+            is_gate: false,
+            refuses: None,
+            ..knob.clone()
+        };
         let text = constant(SnippetLanguage::Glsl, "f32", &least, "0", None);
-        assert_eq!(text, "const float T_MIN = 0.0;  // count a hit only where t >= T_MIN");
+        assert_eq!(
+            text,
+            "const float T_MIN = 0.0;  // count a hit only where t >= T_MIN"
+        );
     }
 }

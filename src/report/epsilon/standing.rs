@@ -17,7 +17,9 @@ pub(super) fn standing(record: &SceneResult, part: &SceneKernelPart) -> (Tone, S
     if !flaws.is_empty() {
         return (Tone::Bad, sentences(&flaws));
     }
-    let trades: Vec<String> = (0..part.knobs.len()).filter_map(|knob| trade(part, knob)).collect();
+    let trades: Vec<String> = (0..part.knobs.len())
+        .filter_map(|knob| trade(part, knob))
+        .collect();
     match (&trades[..], remains(record, part, &part.tried[0], None, 2)) {
         ([], None) => {
             let within = "Good: every number is within all of its limits.";
@@ -28,9 +30,10 @@ pub(super) fn standing(record: &SceneResult, part: &SceneKernelPart) -> (Tone, S
             (Tone::Plain, format!("{within}: {rest}."))
         }
         (trades, None) => (Tone::Plain, format!("A trade: {}.", trades.join("; "))),
-        (trades, Some(rest)) => {
-            (Tone::Plain, format!("A trade: {}. What is left: {rest}.", trades.join("; ")))
-        }
+        (trades, Some(rest)) => (
+            Tone::Plain,
+            format!("A trade: {}. What is left: {rest}.", trades.join("; ")),
+        ),
     }
 }
 
@@ -52,7 +55,9 @@ pub(super) fn of_given(record: &SceneResult, part: &SceneKernelPart) -> Option<S
             own - best <= (AS_GOOD * best).clamp(TELLING, 10.0 * TELLING)
         };
         let holes = holes_text(tried);
-        let holes = holes.map_or(String::new(), |it| format!(", {it} holes in a million pixels"));
+        let holes = holes.map_or(String::new(), |it| {
+            format!(", {it} holes in a million pixels")
+        });
         let costs = format!("cost {:.3} against {:.3}{holes}", tried.cost, best.cost);
         let rest = remains(record, part, tried, Some(best), 1);
         let rest = rest.map_or(String::new(), |rest| format!(": {rest}"));
@@ -72,7 +77,10 @@ pub(super) fn of_given(record: &SceneResult, part: &SceneKernelPart) -> Option<S
         }
     };
     // The last ones are those of `--at`.
-    let given = part.tried[1..].iter().rev().filter(|tried| tried.name != "zero");
+    let given = part.tried[1..]
+        .iter()
+        .rev()
+        .filter(|tried| tried.name != "zero");
     let mut sentences: Vec<String> = given.take(MOST_GIVEN).map(sentence).collect();
     sentences.reverse();
     (!sentences.is_empty()).then(|| sentences.join(" "))
@@ -82,17 +90,26 @@ pub(super) fn of_given(record: &SceneResult, part: &SceneKernelPart) -> Option<S
 fn cost_without_self_hits(record: &SceneResult, part: &SceneKernelPart, tried: &TriedPart) -> f64 {
     let counts = part.counts.iter().zip(&tried.wrong);
     let others = counts.filter(|(count, _)| count.kind != WrongKind::SelfHit);
-    others.map(|(count, rate)| record.cost(count.kind) * rate.rate.unwrap_or(0.0)).sum()
+    others
+        .map(|(count, rate)| record.cost(count.kind) * rate.rate.unwrap_or(0.0))
+        .sum()
 }
 
 /// The knobs that some rays limit on one side and no rays on the other.
 fn one_sided(part: &SceneKernelPart) -> String {
     let side = |(i, knob): (usize, &KnobPart)| {
-        let mut lower = part.limits.iter().filter(|limit| limit.knob == i).map(|it| it.is_lower);
+        let mut lower = part
+            .limits
+            .iter()
+            .filter(|limit| limit.knob == i)
+            .map(|it| it.is_lower);
         let first = lower.next()?;
         let other = if first { "larger" } else { "smaller" };
         lower.all(|it| it == first).then(|| {
-            format!(" No ray here argues against a {other} {}: other --family may.", knob.name)
+            format!(
+                " No ray here argues against a {other} {}: other --family may.",
+                knob.name
+            )
         })
     };
     part.knobs.iter().enumerate().filter_map(side).collect()
@@ -102,7 +119,10 @@ fn one_sided(part: &SceneKernelPart) -> String {
 fn sentences(lines: &[String]) -> String {
     let sentence = |line: &String| {
         let mut letters = line.chars();
-        let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+        let first = letters
+            .next()
+            .map(|c| c.to_uppercase().to_string())
+            .unwrap_or_default();
         format!("{first}{}.", letters.as_str())
     };
     lines.iter().map(sentence).collect::<Vec<_>>().join(" ")
@@ -111,7 +131,10 @@ fn sentences(lines: &[String]) -> String {
 /// The limits that no value of a knob keeps at once, or a note that its value is outside them; none if all are kept.
 fn trade(part: &SceneKernelPart, knob: usize) -> Option<String> {
     let name = &part.knobs[knob].name;
-    let conflict = part.conflicts.iter().find(|conflict| part.limits[conflict.lower].knob == knob);
+    let conflict = part
+        .conflicts
+        .iter()
+        .find(|conflict| part.limits[conflict.lower].knob == knob);
     if let Some(ConflictPart { lower, upper, .. }) = conflict {
         let [lower, upper] = [lower, upper].map(|place| &part.limits[*place]);
         let noun = |limit: &KnobLimitPart| noun(&part.counts[limit.count]);
@@ -132,9 +155,19 @@ fn beyond_limits(part: &SceneKernelPart, knob: usize) -> Option<&str> {
     let chosen: f64 = epsilon.parse().ok()?;
     let is_beyond = |limit: &KnobLimitPart| {
         // Past the far end of an unsure limit it is outside all the same.
-        let end = if limit.is_unsure { &limit.far } else { &limit.value };
+        let end = if limit.is_unsure {
+            &limit.far
+        } else {
+            &limit.value
+        };
         let bound: Option<f64> = end.as_ref().and_then(|value| value.parse().ok());
-        let is_wrong = |bound| if limit.is_lower { chosen < bound } else { bound < chosen };
+        let is_wrong = |bound| {
+            if limit.is_lower {
+                chosen < bound
+            } else {
+                bound < chosen
+            }
+        };
         limit.knob == knob && bound.is_some_and(is_wrong)
     };
     part.limits.iter().any(is_beyond).then_some(epsilon)
@@ -151,8 +184,10 @@ fn remains(
 ) -> Option<String> {
     let of_count = |(place, (count, rate)): (usize, (&RayCount, &Rate))| {
         let share_of = |rate: &Rate| rate.rate.filter(|_| 0 < rate.count);
-        let more =
-            share_of(rate)? - beside.and_then(|it| share_of(&it.wrong[place])).unwrap_or(0.0);
+        let more = share_of(rate)?
+            - beside
+                .and_then(|it| share_of(&it.wrong[place]))
+                .unwrap_or(0.0);
         Some((record.cost(count.kind) * more, phrase(count, &share(rate))))
     };
     let counts = part.counts.iter().zip(&tried.wrong).enumerate();
@@ -170,15 +205,23 @@ pub(super) fn telling(record: &SceneResult, part: &SceneKernelPart, most: usize)
     let extremes = |place: &usize| {
         let tried = part.tried.iter().chain(&part.relative);
         let shares = tried.map(|tried| tried.wrong[*place].rate.unwrap_or(0.0));
-        shares.fold([f64::INFINITY, 0.0], |[low, high], share| [share.min(low), share.max(high)])
+        shares.fold([f64::INFINITY, 0.0], |[low, high], share| {
+            [share.min(low), share.max(high)]
+        })
     };
     let told = |place: &usize| {
         let [low, high] = extremes(place);
         let cost = record.cost(part.counts[*place].kind);
         // Less than a tenth of the share is the same.
-        if high < 1.1 * low { 1e-6 * cost * high } else { cost * (high - low) }
+        if high < 1.1 * low {
+            1e-6 * cost * high
+        } else {
+            cost * (high - low)
+        }
     };
-    let mut places: Vec<usize> = (0..part.counts.len()).filter(|place| 0.0 < told(place)).collect();
+    let mut places: Vec<usize> = (0..part.counts.len())
+        .filter(|place| 0.0 < told(place))
+        .collect();
     places.sort_by(|a, b| told(b).total_cmp(&told(a)));
     places.truncate(most);
     places.sort_unstable();

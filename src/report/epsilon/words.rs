@@ -21,34 +21,61 @@ pub(super) fn of_kind(kind: WrongKind) -> [&'static str; 4] {
 /// The words for a count of a stratum: its place in a table and in a sentence, of what it is a share, and what these do.
 pub(super) fn of_stratum(stratum: Stratum, kind: WrongKind) -> [&'static str; 4] {
     match (stratum, kind) {
-        (Stratum::Interior, WrongKind::Miss) => {
-            ["at a triangle", "inside triangles", "hits inside a triangle", "are lost"]
-        }
+        (Stratum::Interior, WrongKind::Miss) => [
+            "at a triangle",
+            "inside triangles",
+            "hits inside a triangle",
+            "are lost",
+        ],
         (Stratum::Interior, _) => ["at its back", "at the back", "rays at its back", "hit"],
-        (Stratum::Edges, _) => {
-            ["at a shared edge", "at shared edges", "rays at a shared edge", "leak"]
-        }
-        (Stratum::Vertices, _) => {
-            ["at a shared vertex", "at shared vertices", "rays at a shared vertex", "leak"]
-        }
-        (Stratum::Grazing, WrongKind::Miss) => {
-            ["almost parallel", "of almost parallel rays", "almost parallel hits", "are lost"]
-        }
-        (Stratum::Grazing, _) => {
-            ["almost parallel", "of almost parallel rays", "almost parallel rays", "hit falsely"]
-        }
-        (Stratum::Parallel, _) => {
-            ["exactly parallel", "of parallel rays", "parallel rays", "hit falsely"]
-        }
-        (Stratum::Shadow, _) => {
-            ["shadow rays", "of shadow rays", "shadow rays", "hit their own start"]
-        }
-        (Stratum::Outside, _) => {
-            ["beside a triangle", "beside triangles", "rays beside a triangle", "hit it"]
-        }
-        (Stratum::Segment, _) => {
-            ["segments", "of segments", "segments", "hit the surface at their end"]
-        }
+        (Stratum::Edges, _) => [
+            "at a shared edge",
+            "at shared edges",
+            "rays at a shared edge",
+            "leak",
+        ],
+        (Stratum::Vertices, _) => [
+            "at a shared vertex",
+            "at shared vertices",
+            "rays at a shared vertex",
+            "leak",
+        ],
+        (Stratum::Grazing, WrongKind::Miss) => [
+            "almost parallel",
+            "of almost parallel rays",
+            "almost parallel hits",
+            "are lost",
+        ],
+        (Stratum::Grazing, _) => [
+            "almost parallel",
+            "of almost parallel rays",
+            "almost parallel rays",
+            "hit falsely",
+        ],
+        (Stratum::Parallel, _) => [
+            "exactly parallel",
+            "of parallel rays",
+            "parallel rays",
+            "hit falsely",
+        ],
+        (Stratum::Shadow, _) => [
+            "shadow rays",
+            "of shadow rays",
+            "shadow rays",
+            "hit their own start",
+        ],
+        (Stratum::Outside, _) => [
+            "beside a triangle",
+            "beside triangles",
+            "rays beside a triangle",
+            "hit it",
+        ],
+        (Stratum::Segment, _) => [
+            "segments",
+            "of segments",
+            "segments",
+            "hit the surface at their end",
+        ],
     }
 }
 
@@ -72,7 +99,9 @@ pub(super) fn where_of(rays: Rays) -> &'static str {
 
 /// The property of the scene, not of the kernel, that sets a limit.
 pub(super) fn set_by(role: Role, count: RayCount) -> Option<&'static str> {
-    let Rays::Stratum(stratum) = count.rays else { return None };
+    let Rays::Stratum(stratum) = count.rays else {
+        return None;
+    };
     match (role, stratum, count.kind) {
         (Role::T, Stratum::Interior, WrongKind::Miss) => Some("the scene's distances"),
         (Role::Parallel, Stratum::Interior, WrongKind::Miss) => {
@@ -85,7 +114,11 @@ pub(super) fn set_by(role: Role, count: RayCount) -> Option<&'static str> {
 
 /// ` m`; nothing without a unit.
 pub(super) fn spaced(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+    if unit.is_empty() {
+        String::new()
+    } else {
+        format!(" {unit}")
+    }
 }
 
 /// The unit of t.
@@ -98,20 +131,33 @@ pub(super) fn unit_of_t(record: &SceneResult) -> String {
 
 /// The `--epsilon` flag of some epsilons; none if no gate takes one.
 pub(super) fn flag(part: &SceneKernelPart, epsilons: &[String]) -> Option<String> {
-    let gates = part.knobs.iter().zip(epsilons).filter(|(knob, _)| knob.is_gate);
-    let words: Vec<String> = gates.map(|(knob, e)| format!("{}={e}", knob.name)).collect();
+    let gates = part
+        .knobs
+        .iter()
+        .zip(epsilons)
+        .filter(|(knob, _)| knob.is_gate);
+    let words: Vec<String> = gates
+        .map(|(knob, e)| format!("{}={e}", knob.name))
+        .collect();
     (!words.is_empty()).then(|| format!("--epsilon {}", words.join(",")))
 }
 
 /// The least t among some epsilons, if the kernel has no gate for it.
 pub(super) fn least_t<'a>(part: &SceneKernelPart, epsilons: &'a [String]) -> Option<&'a String> {
     let knobs = part.knobs.iter().zip(epsilons);
-    knobs.filter(|(knob, _)| !knob.is_gate).map(|(_, epsilon)| epsilon).next()
+    knobs
+        .filter(|(knob, _)| !knob.is_gate)
+        .map(|(_, epsilon)| epsilon)
+        .next()
 }
 
 /// ` (m)`; nothing without a unit.
 pub(super) fn of_unit(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" ({unit})") }
+    if unit.is_empty() {
+        String::new()
+    } else {
+        format!(" ({unit})")
+    }
 }
 
 /// The meaning of an epsilon for the scene's triangles.
@@ -164,7 +210,10 @@ pub(super) fn meaning(
             })
         }
         ("parallel", [0, 1]) if record.unit_directions && 0.0 < value && value < 1.0 => {
-            Some(format!("every triangle is missed at angles below {}", degrees(value)))
+            Some(format!(
+                "every triangle is missed at angles below {}",
+                degrees(value)
+            ))
         }
         ("edge", [0, 0]) => {
             let size = human(&format!("{:e}", value.abs()));
@@ -184,8 +233,10 @@ pub(super) fn meaning(
         ("edge", [length, _]) if 0 < length => {
             let share = value.abs() / record.edge[0].powi(i32::from(length));
             let size = human(&format!("{share:.0e}"));
-            let whose =
-                format!("the smallest triangles (edge {}{unit})", ShortNumber(record.edge[0]));
+            let whose = format!(
+                "the smallest triangles (edge {}{unit})",
+                ShortNumber(record.edge[0])
+            );
             Some(match (value < 0.0, 0.1 < share) {
                 (true, false) => {
                     format!("rays up to about {size} of their size beside {whose} hit them")
@@ -205,7 +256,11 @@ pub(super) fn meaning(
 
 fn degrees(sine: f64) -> String {
     let angle = libm::asin(sine.min(1.0)).to_degrees();
-    if angle < 0.01 { format!("{angle:.0e}\u{b0}") } else { format!("{angle:.2}\u{b0}") }
+    if angle < 0.01 {
+        format!("{angle:.0e}\u{b0}")
+    } else {
+        format!("{angle:.2}\u{b0}")
+    }
 }
 
 /// A shortest decimal as people write it.
@@ -233,7 +288,10 @@ pub(super) fn share(rate: &Rate) -> String {
         Some(share) if share < 0.01 => {
             let one_in = 1.0 / share;
             let unit = 10f64.powi((one_in.log10().floor() as i32 - 1).max(0));
-            format!("1 in {}", group_digits(((one_in / unit).round() * unit) as u64))
+            format!(
+                "1 in {}",
+                group_digits(((one_in / unit).round() * unit) as u64)
+            )
         }
         Some(share) => format!("{:.1}%", share * 100.0),
     }
@@ -242,7 +300,11 @@ pub(super) fn share(rate: &Rate) -> String {
 /// `>= 1.2e-6`, or that no value keeps the limit.
 pub(super) fn bound(value: Option<&str>, is_lower: bool, unit: &str) -> String {
     match value {
-        Some(value) => format!("{} {}{unit}", if is_lower { ">=" } else { "<=" }, human(value)),
+        Some(value) => format!(
+            "{} {}{unit}",
+            if is_lower { ">=" } else { "<=" },
+            human(value)
+        ),
         None => "no value".to_owned(),
     }
 }
@@ -250,13 +312,19 @@ pub(super) fn bound(value: Option<&str>, is_lower: bool, unit: &str) -> String {
 /// A limit from its safe end to its far one, or that it is unsure.
 pub(super) fn interval(limit: &KnobLimitPart, unit: &str) -> String {
     let safe = bound(limit.value.as_deref(), limit.is_lower, "");
-    let Some(value) = &limit.value else { return safe };
+    let Some(value) = &limit.value else {
+        return safe;
+    };
     match (&limit.far, limit.is_unsure) {
         (Some(far), false) if far == value => format!("{safe}{unit}"),
         (Some(far), false) => format!("{safe} ({}){unit}", human(far)),
         (Some(far), true) => {
             let mut ends = [value, far];
-            ends.sort_by(|a, b| number(Some(a)).partial_cmp(&number(Some(b))).expect("numbers"));
+            ends.sort_by(|a, b| {
+                number(Some(a))
+                    .partial_cmp(&number(Some(b)))
+                    .expect("numbers")
+            });
             format!("unsure: {} to {}{unit}", human(ends[0]), human(ends[1]))
         }
         (None, _) => format!("unsure: from {}{unit} on", human(value)),
@@ -281,24 +349,38 @@ fn flatness(record: &SceneResult) -> String {
     match record.sine {
         None => "from 7 degrees down to below rounding".to_owned(),
         Some([low, high]) => {
-            format!("whose sines go from {} to {}", ShortNumber(low), ShortNumber(high))
+            format!(
+                "whose sines go from {} to {}",
+                ShortNumber(low),
+                ShortNumber(high)
+            )
         }
     }
 }
 
 /// The shortest decimal of an epsilon.
 pub(crate) fn shortest<F: Float>(epsilon: F) -> String {
-    if epsilon.is_zero() { "0".to_owned() } else { format!("{epsilon:e}") }
+    if epsilon.is_zero() {
+        "0".to_owned()
+    } else {
+        format!("{epsilon:e}")
+    }
 }
 
 /// True if an epsilon is below the normal numbers of its scalar.
 fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
-    epsilon.parse().is_ok_and(|e: f64| e != 0.0 && e.abs() < least_normal(scalar))
+    epsilon
+        .parse()
+        .is_ok_and(|e: f64| e != 0.0 && e.abs() < least_normal(scalar))
 }
 
 /// The smallest normal number of the scalar of a name.
 pub(super) fn least_normal(scalar: &str) -> f64 {
-    if scalar == f32::NAME { smallest_normal::<f32>() } else { smallest_normal::<f64>() }
+    if scalar == f32::NAME {
+        smallest_normal::<f32>()
+    } else {
+        smallest_normal::<f64>()
+    }
 }
 
 /// From where rays are aimed.
@@ -306,13 +388,23 @@ const RAYS: &str = "rays: aimed from their rounded origin; ray=generated in --sc
 
 /// The meaning of the words in the tables, a line each.
 pub(super) fn how_to_read(record: &SceneResult) -> Vec<Block> {
-    let costs = record.costs.iter().map(|cost| format!("{} {}", cost.name, cost.number));
+    let costs = record
+        .costs
+        .iter()
+        .map(|cost| format!("{} {}", cost.name, cost.number));
     let costs = costs.collect::<Vec<_>>().join(", ");
-    let aim = if record.aims_inside { "; all aimed inside" } else { "" };
+    let aim = if record.aims_inside {
+        "; all aimed inside"
+    } else {
+        ""
+    };
     let mut lines = vec![
         RAYS.to_owned(),
         format!("cost: each share, of its own row, times its weight ({costs})"),
-        format!("almost parallel: angles {}, each halving equally often{aim}", flatness(record)),
+        format!(
+            "almost parallel: angles {}, each halving equally often{aim}",
+            flatness(record)
+        ),
     ];
     let always = [
         "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen",
@@ -335,13 +427,21 @@ pub(super) fn how_to_read(record: &SceneResult) -> Vec<Block> {
             let line =
                 |refuses| format!("{} of {} refuses where {refuses}", knob.name, part.kernel);
             // The same in both scalars.
-            let line = knob.refuses.as_ref().map(line).filter(|line| !lines.contains(line));
+            let line = knob
+                .refuses
+                .as_ref()
+                .map(line)
+                .filter(|line| !lines.contains(line));
             lines.extend(line);
         }
         let values = part.limits.iter().filter_map(|limit| limit.value.as_ref());
-        let subnormal = values.filter(|value| is_subnormal(&part.scalar, value)).map(|value| {
-            format!("{value} is a subnormal number, which machines that flush to zero take for 0")
-        });
+        let subnormal = values
+            .filter(|value| is_subnormal(&part.scalar, value))
+            .map(|value| {
+                format!(
+                    "{value} is a subnormal number, which machines that flush to zero take for 0"
+                )
+            });
         lines.extend(subnormal);
     }
     vec![Block::Notes(lines)]

@@ -27,7 +27,11 @@ pub(super) fn advice<F: Scalar>(
 ) -> Vec<String> {
     let mut all = Vec::new();
     if cause == Some(Attribution::Convention) && is_off_the_ray(case, row, verdict) {
-        let end = if verdict.t < case.ray.t_min { "t >= t_min" } else { "t <= t_max" };
+        let end = if verdict.t < case.ray.t_min {
+            "t >= t_min"
+        } else {
+            "t <= t_max"
+        };
         all.push(format!("counting a hit only if {end}: it has no gate on t"));
     } else if cause == Some(Attribution::Convention) {
         let promised = row.entry.info.contract;
@@ -51,7 +55,13 @@ pub(super) fn advice<F: Scalar>(
         }
     }
     let is_right_of = |other: &Row| {
-        is_right(case, is_secondary, other, F::subject(other.entry), &other.epsilons::<F>())
+        is_right(
+            case,
+            is_secondary,
+            other,
+            F::subject(other.entry),
+            &other.epsilons::<F>(),
+        )
     };
     all.extend(others(row, is_right_of).map(|names| format!("other kernels: {names}")));
     all
@@ -71,11 +81,16 @@ fn others(row: &Row, is_right: impl Fn(&Row) -> bool) -> Option<String> {
     let contract = row.contract.words(None);
     let other = |entry: &&Entry| {
         let name = entry.info.name;
-        let other = Row::named(name, None, &contract).ok().filter(|_| name != row.entry.info.name);
+        let other = Row::named(name, None, &contract)
+            .ok()
+            .filter(|_| name != row.entry.info.name);
         other.is_some_and(|other| is_right(&other))
     };
-    let names: Vec<&str> =
-        kernel::KERNELS.iter().filter(other).map(|entry| entry.info.name).collect();
+    let names: Vec<&str> = kernel::KERNELS
+        .iter()
+        .filter(other)
+        .map(|entry| entry.info.name)
+        .collect();
     (!names.is_empty()).then(|| listed(&names, MOST_NAMES))
 }
 
@@ -91,7 +106,13 @@ fn is_right<F: Scalar>(
     let truth = oracle::truth(case);
     let owed = asked(case, &truth, &row.contract, is_secondary);
     let verdict = verdict_of(subject, case, epsilons);
-    judge((&row.contract, owed), (case, &truth), row.entry.info.gives, &verdict).is_none()
+    judge(
+        (&row.contract, owed),
+        (case, &truth),
+        row.entry.info.gives,
+        &verdict,
+    )
+    .is_none()
 }
 
 /// True of a hit whose t, as computed, is not on the ray, by a kernel that never looks.
@@ -169,9 +190,9 @@ fn other_epsilons<F: Scalar>(
     let is_to_blame = |i: usize| match finding {
         Finding::FalseMiss => margins[i] < old[i],
         Finding::FalseHit if cause == Some(Attribution::Convention) => true,
-        Finding::FalseHit => {
-            exact.as_ref().is_some_and(|exact| exact[i].approximate() < old[i].to_f64())
-        }
+        Finding::FalseHit => exact
+            .as_ref()
+            .is_some_and(|exact| exact[i].approximate() < old[i].to_f64()),
         _ => false,
     };
     let tuned: Vec<usize> = (0..info.gates.len())
@@ -191,7 +212,13 @@ fn other_epsilons<F: Scalar>(
     let nearest = |gates: &[usize]| {
         let rounded = with(gates, &|margin| in_two_digits(margin, is_lower));
         rounded.or_else(|| {
-            with(gates, &|margin| if is_lower { margin } else { margin.offset_ulps(1) })
+            with(gates, &|margin| {
+                if is_lower {
+                    margin
+                } else {
+                    margin.offset_ulps(1)
+                }
+            })
         })
     };
     // All that refuse must let it pass, and one of those that should refuse it is enough: the smallest.
@@ -224,5 +251,9 @@ fn in_two_digits<F: Float>(x: F, down: bool) -> F {
     let is_beyond = |y: f64| if down { x < y } else { y <= x };
     let step = 0.06 * x.abs() * if down { -1.0 } else { 1.0 };
     let first = rounded(x);
-    F::from_f64(if is_beyond(first) { rounded(x + step) } else { first })
+    F::from_f64(if is_beyond(first) {
+        rounded(x + step)
+    } else {
+        first
+    })
 }

@@ -30,8 +30,13 @@ pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Expla
     let is_secondary = group.grouping == Grouping::SecondaryRay;
     let (cases, _) = group.asked(group.cases);
     let triangle = |(case, in_world): (&Case<F>, &Case<F>)| TrianglePart {
-        rows: rows.iter().map(|row| row_part(case, is_secondary, row)).collect(),
-        instance: group.instance.map(|it| instance_part(it, [in_world, case], is_secondary, rows)),
+        rows: rows
+            .iter()
+            .map(|row| row_part(case, is_secondary, row))
+            .collect(),
+        instance: group
+            .instance
+            .map(|it| instance_part(it, [in_world, case], is_secondary, rows)),
         ..of_case(case, is_secondary)
     };
     let triangles = cases.iter().zip(group.cases).map(triangle).collect();
@@ -47,7 +52,13 @@ pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Expla
     let is_json = name.trim_start().starts_with(['{', '[', '\u{feff}']);
     let case = if is_json { "this case" } else { name };
     let schema = "hairline-explanation/1";
-    Explanation { schema, case: case.to_owned(), scalar: F::NAME, triangles, together }
+    Explanation {
+        schema,
+        case: case.to_owned(),
+        scalar: F::NAME,
+        triangles,
+        together,
+    }
 }
 
 /// The inputs and the truth.
@@ -58,7 +69,10 @@ fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
         [label.to_owned(), x, y, z, vector.map(F::hex).join(" ")]
     };
     let inputs = labels.into_iter().zip(case.vectors()).map(vector).collect();
-    let stored = StoredCase { is_secondary, ..StoredCase::of(*case) };
+    let stored = StoredCase {
+        is_secondary,
+        ..StoredCase::of(*case)
+    };
     let line = lines::write_case(&stored);
     let truth = oracle::define(case).truth;
     // In the plane of the triangle there is no such distance.
@@ -87,13 +101,21 @@ fn instance_part<F: Scalar>(
     is_secondary: bool,
     rows: &[Row],
 ) -> InstancePart {
-    let (exact, seen) = (oracle::define_instance(in_world, instance), oracle::define(in_object));
+    let (exact, seen) = (
+        oracle::define_instance(in_world, instance),
+        oracle::define(in_object),
+    );
     let values = |definition: &Definition| {
         let ExactValues { t, u, v, .. } = &definition.exact;
         Some([t.clone()?, u.clone()?, v.clone()?])
     };
     let moved = values(&exact).zip(values(&seen)).map(|(exact, seen)| {
-        [0, 1, 2].map(|i| (&seen[i] - &exact[i]).to_f64().unwrap_or(f64::INFINITY).abs())
+        [0, 1, 2].map(|i| {
+            (&seen[i] - &exact[i])
+                .to_f64()
+                .unwrap_or(f64::INFINITY)
+                .abs()
+        })
     });
     let finding = |row: &Row| {
         let subject = F::subject(row.entry)?;
@@ -101,11 +123,18 @@ fn instance_part<F: Scalar>(
         let owed = asked(in_object, &exact.truth, &row.contract, is_secondary);
         // Values belong to the ray that the kernel got.
         let gives = Gives::NOTHING;
-        let finding = judge((&row.contract, owed), (in_object, &exact.truth), gives, &verdict)?;
+        let finding = judge(
+            (&row.contract, owed),
+            (in_object, &exact.truth),
+            gives,
+            &verdict,
+        )?;
         Some((row.label(), finding.name()))
     };
     InstancePart {
-        matrix: instance.matrix().map(|row| row.map(|number| number.to_f64())),
+        matrix: instance
+            .matrix()
+            .map(|row| row.map(|number| number.to_f64())),
         truth: exact.truth.to_string(),
         moved,
         wrong: rows.iter().filter_map(finding).collect(),
@@ -123,7 +152,10 @@ fn why_invalid<F: Scalar>(case: &Case<F>) -> Option<&'static str> {
         (t_min.is_nan() || t_max.is_nan(), "t_min or t_max is NaN"),
         (t_min > t_max, "t_min is greater than t_max"),
     ];
-    reasons.into_iter().find(|(holds, _)| *holds).map(|(_, reason)| reason)
+    reasons
+        .into_iter()
+        .find(|(holds, _)| *holds)
+        .map(|(_, reason)| reason)
 }
 
 /// The contract's demand on the triangles together, and the kernel's answer.
@@ -134,7 +166,11 @@ fn group_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart> 
         row: label.clone(),
         said,
         judged: judged.to_owned(),
-        advice: if is_wrong { group_advice(group, row) } else { String::new() },
+        advice: if is_wrong {
+            group_advice(group, row)
+        } else {
+            String::new()
+        },
         is_wrong,
     };
     Some(match group_verdict(group, row, subject) {
@@ -152,13 +188,18 @@ fn polygon_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart
     let owed = polygon_obligation(cases, truths, &row.contract);
     let verdict = polygon_verdict(subject, cases, &row.epsilons());
     let (asked, union) = ((&row.contract, owed), (&cases[0], &polygon_truth(truths)));
-    let gives = group.instance.map_or(row.entry.info.gives, |_| Gives::NOTHING);
+    let gives = group
+        .instance
+        .map_or(row.entry.info.gives, |_| Gives::NOTHING);
     let finding = judge(asked, union, gives, &verdict);
     let judged = answered(owed, &verdict, finding).judged();
     let (said, judged) = judged.split_once("; ").unwrap_or(("", &judged));
     Some(TogetherPart {
         row: row.label(),
-        said: format!("the polygon of {} corners as a whole: {said}", cases.len() + 2),
+        said: format!(
+            "the polygon of {} corners as a whole: {said}",
+            cases.len() + 2
+        ),
         judged: judged.to_owned(),
         advice: String::new(),
         is_wrong: finding.is_some(),
@@ -176,7 +217,12 @@ fn answered<F>(owed: Obligation, verdict: &Verdict<F>, finding: Option<Finding>)
         Obligation::MustMiss => "a miss",
         Obligation::Free => "nothing",
     };
-    ExplainedRow { said, asked, finding: finding.map(Finding::name), ..ExplainedRow::default() }
+    ExplainedRow {
+        said,
+        asked,
+        finding: finding.map(Finding::name),
+        ..ExplainedRow::default()
+    }
 }
 
 /// The answer of a row, and all that explains it.
@@ -188,7 +234,13 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
         let others = others.filter(|(_, runs)| *runs).map(|(scalar, _)| scalar);
         let others = others.collect::<Vec<_>>().join(", ");
         let said = format!("does not run in {} (it does in {others})", F::NAME);
-        return ExplainedRow { kernel, set, contract, said, ..ExplainedRow::default() };
+        return ExplainedRow {
+            kernel,
+            set,
+            contract,
+            said,
+            ..ExplainedRow::default()
+        };
     };
     let truth = oracle::define(case).truth;
     let epsilons: Vec<F> = row.epsilons();
@@ -196,7 +248,12 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
     let owed = asked(case, &truth, &row.contract, is_secondary);
     let gives = row.entry.info.gives;
     let finding = judge((&row.contract, owed), (case, &truth), gives, &verdict);
-    let mut part = ExplainedRow { kernel, set, contract, ..answered(owed, &verdict, finding) };
+    let mut part = ExplainedRow {
+        kernel,
+        set,
+        contract,
+        ..answered(owed, &verdict, finding)
+    };
     if verdict.failure.is_some() {
         return part;
     }
@@ -217,7 +274,8 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
             && let Some(nearby) = Nearby::of(case, row)
         {
             add_relations(&mut part, nearby.relations(row), cause);
-            part.notes.extend(nearest(case, is_secondary, row, &verdict, &nearby));
+            part.notes
+                .extend(nearest(case, is_secondary, row, &verdict, &nearby));
         }
     }
     part.notes.extend(of_line(case, row, &verdict));
@@ -225,7 +283,8 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
     if verdict.hit {
         part.values.push(values(gives, &verdict));
         let tolerance = row.contract.value_tolerance;
-        part.values.extend(errors(case, &truth, finding, (gives, tolerance), &verdict));
+        part.values
+            .extend(errors(case, &truth, finding, (gives, tolerance), &verdict));
     }
     part
 }
@@ -262,7 +321,12 @@ fn add_epsilons<F: Scalar>(
         let note = "a miss whatever its epsilons are: none of its gates explains it";
         part.notes.push(note.to_owned());
     }
-    for (i, gate) in info.gates.iter().enumerate().filter(|(_, g)| g.epsilon != Tunable::Fixed) {
+    for (i, gate) in info
+        .gates
+        .iter()
+        .enumerate()
+        .filter(|(_, g)| g.epsilon != Tunable::Fixed)
+    {
         let (margin, e) = (margins[i], epsilons[i]);
         let accepted = if margin == F::infinity() {
             Some("at every e".to_owned())
@@ -333,7 +397,10 @@ fn values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> String {
         values.push(format!("u = {u}, v = {v}"));
     }
     if gives.facing {
-        values.push(format!("facing {}", verdict.facing.map_or("unknown", |facing| facing.name())));
+        values.push(format!(
+            "facing {}",
+            verdict.facing.map_or("unknown", |facing| facing.name())
+        ));
     }
     if values.is_empty() {
         values.push("the hit alone".to_owned());
@@ -349,7 +416,9 @@ fn errors<F: Scalar>(
     (gives, tolerance): (Gives, f64),
     verdict: &Verdict<F>,
 ) -> Vec<String> {
-    let Some(crossing) = truth.crossing() else { return Vec::new() };
+    let Some(crossing) = truth.crossing() else {
+        return Vec::new();
+    };
     if crossing.feature == Feature::Outside || finding == Some(Finding::FalseHit) {
         return Vec::new();
     }

@@ -17,16 +17,26 @@ pub(super) fn margin_text<F: Float>(margin: &Exact, epsilon: F, refuses: bool) -
         return format!("{:e}", margin.approximate());
     };
     if side == Ordering::Equal {
-        return if refuses { format!("below {epsilon}") } else { epsilon };
+        return if refuses {
+            format!("below {epsilon}")
+        } else {
+            epsilon
+        };
     }
-    let epsilon_size = epsilon.trim_start_matches('-').parse().unwrap_or(Decimal::ZERO);
+    let epsilon_size = epsilon
+        .trim_start_matches('-')
+        .parse()
+        .unwrap_or(Decimal::ZERO);
     let shown_side = |digits: u32| match (sign == Ordering::Less, epsilon.starts_with('-')) {
         (false, false) => size.rounded(digits).cmp(&epsilon_size),
         (true, true) => epsilon_size.cmp(&size.rounded(digits)),
         (true, false) => Ordering::Less,
         (false, true) => Ordering::Greater,
     };
-    match [7, 9, 17].into_iter().find(|digits| shown_side(*digits) == side) {
+    match [7, 9, 17]
+        .into_iter()
+        .find(|digits| shown_side(*digits) == side)
+    {
         Some(digits) => {
             let minus = if sign == Ordering::Less { "-" } else { "" };
             format!("{minus}{}", size.with_digits(digits))

@@ -145,12 +145,17 @@ impl ExplainedRow {
 
     /// The verdict beside what is asked, in words.
     pub fn judged(&self) -> String {
-        let judged = self.finding.map_or("as it should".to_owned(), str::to_uppercase);
+        let judged = self
+            .finding
+            .map_or("as it should".to_owned(), str::to_uppercase);
         let of_hits = match self.finding {
             Some("wrong-value" | "bad-value") => ", and of a hit right values",
             _ => "",
         };
-        format!("{}; its contract asks {}{of_hits}: {judged}", self.said, self.asked)
+        format!(
+            "{}; its contract asks {}{of_hits}: {judged}",
+            self.said, self.asked
+        )
     }
 
     /// The gate that made the verdict.

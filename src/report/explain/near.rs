@@ -29,14 +29,20 @@ impl<F: Scalar> Nearby<F> {
     pub fn of(case: &Case<F>, row: &Row) -> Option<Nearby<F>> {
         let subject = F::subject(row.entry).filter(|subject| !subject.talks())?;
         let mut draw = Draw::new("nearest", 1, 0);
-        let drawn: Vec<Case<F>> =
-            (0..DRAWN).map(|i| near(case, [i % 2 == 1, i % 4 < 2], &mut draw)).collect();
-        let sizes: Vec<Case<F>> =
-            (-SCALED / 2..SCALED / 2).map(|step| scaled(case, f64::from(step) / STEPS)).collect();
+        let drawn: Vec<Case<F>> = (0..DRAWN)
+            .map(|i| near(case, [i % 2 == 1, i % 4 < 2], &mut draw))
+            .collect();
+        let sizes: Vec<Case<F>> = (-SCALED / 2..SCALED / 2)
+            .map(|step| scaled(case, f64::from(step) / STEPS))
+            .collect();
         let answers = run(subject, &drawn, row);
         let scaled_answers = run(subject, &sizes, row);
         let scaled = sizes.into_iter().zip(scaled_answers).collect();
-        Some(Nearby { drawn, answers, scaled })
+        Some(Nearby {
+            drawn,
+            answers,
+            scaled,
+        })
     }
 
     /// The simple relations that hold there between the wrong answers of a row and the exact values.
@@ -44,7 +50,9 @@ impl<F: Scalar> Nearby<F> {
         let gives = row.entry.info.gives;
         let relations = Relations::of(&self.drawn, &row.contract, gives, &self.answers);
         let known = relations.known().into_iter();
-        known.map(|related| format!("{related} like this one")).collect()
+        known
+            .map(|related| format!("{related} like this one"))
+            .collect()
     }
 }
 

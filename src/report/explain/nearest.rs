@@ -38,7 +38,9 @@ pub(super) fn nearest<F: Scalar>(
     nearby: &Nearby<F>,
 ) -> Option<String> {
     let nearest = nearest_formula(row, nearby)?;
-    let FormulaBeside { hits, same, agreed, .. } = nearest;
+    let FormulaBeside {
+        hits, same, agreed, ..
+    } = nearest;
     let text = format!(
         "{} of {} cases like this one it answers as {} does, and on {same} of {hits} hits of both with the same bits",
         group_digits(agreed as u64),
@@ -46,7 +48,9 @@ pub(super) fn nearest<F: Scalar>(
         in_words(nearest.row.entry.info.name),
     );
     let other = other_epsilon(row, &nearest.row, nearby);
-    let other = other.map_or(String::new(), |words| format!("; it would on all with {words}"));
+    let other = other.map_or(String::new(), |words| {
+        format!("; it would on all with {words}")
+    });
     let here = here(case, is_secondary, &nearest.row, verdict)?;
     Some(format!("compared, not proved: on {text}{other}; {here}"))
 }
@@ -62,8 +66,14 @@ pub fn misused_formula<F: Scalar>(case: &Case<F>, row: &Row) -> Option<String> {
         return None;
     }
     let how = other.map_or(String::new(), |other| format!(" with {other}"));
-    let (same, hits) = (group_digits(formula.same as u64), group_digits(formula.hits as u64));
-    Some(format!("it computes {}{how}: {same} of {hits} hits have its bits", in_words(name)))
+    let (same, hits) = (
+        group_digits(formula.same as u64),
+        group_digits(formula.hits as u64),
+    );
+    Some(format!(
+        "it computes {}{how}: {same} of {hits} hits have its bits",
+        in_words(name)
+    ))
 }
 
 /// The formula with the most hits of the same values, if they are enough to know it by: a kernel's own, or the same with fused
@@ -83,7 +93,13 @@ fn nearest_formula<F: Scalar>(row: &Row, nearby: &Nearby<F>) -> Option<FormulaBe
         let pairs = || nearby.answers.iter().zip(&others);
         let both = || pairs().filter(|(one, other)| one.hit && other.hit);
         let is_same = |(one, other): &(&Verdict<F>, &Verdict<F>)| {
-            let values = |it: &Verdict<F>| if gives_uv { [it.t, it.u, it.v] } else { [it.t; 3] };
+            let values = |it: &Verdict<F>| {
+                if gives_uv {
+                    [it.t, it.u, it.v]
+                } else {
+                    [it.t; 3]
+                }
+            };
             values(one).map(Float::to_bits) == values(other).map(Float::to_bits)
         };
         Some(FormulaBeside {
@@ -114,7 +130,9 @@ fn here<F: Scalar>(
 ) -> Option<String> {
     let (subject, epsilons) = (F::subject(row.entry)?, row.epsilons::<F>());
     let answer = verdict_of(subject, case, &epsilons);
-    let gate = answer.refused_by.map(|i| row.entry.info.gates[usize::from(i)]);
+    let gate = answer
+        .refused_by
+        .map(|i| row.entry.info.gates[usize::from(i)]);
     let does = match gate {
         None => "hits".to_owned(),
         Some(gate) => {
@@ -123,7 +141,9 @@ fn here<F: Scalar>(
         }
     };
     if answer.hit != verdict.hit {
-        return Some(format!("here they part: that formula {does}, so something else decides"));
+        return Some(format!(
+            "here they part: that formula {does}, so something else decides"
+        ));
     }
     let truth = oracle::truth(case);
     let owed = asked(case, &truth, &row.contract, is_secondary);

@@ -27,7 +27,12 @@ pub(super) fn other_epsilon<F: Scalar>(
     let mut epsilons: Vec<F> = formula.epsilons();
     let declared: Vec<(&str, F)> = tunable(row);
     for &(name, value) in &declared {
-        let place = formula.entry.info.gates.iter().position(|gate| gate.name == name);
+        let place = formula
+            .entry
+            .info
+            .gates
+            .iter()
+            .position(|gate| gate.name == name);
         if let Some(place) = place {
             epsilons[place] = value;
         }
@@ -48,7 +53,12 @@ pub(super) fn other_epsilon<F: Scalar>(
         if range.holds(old) || is_declared || published(gate.name).any(|it| range.holds(it)) {
             return None;
         }
-        Some(format!("{} {} in place of {}", gate.name, range.in_words(), shortest(old)))
+        Some(format!(
+            "{} {} in place of {}",
+            gate.name,
+            range.in_words(),
+            shortest(old)
+        ))
     });
     let found: Vec<String> = of_gate.collect();
     match &found[..] {
@@ -66,9 +76,12 @@ fn tunable<F: Scalar>(row: &Row) -> Vec<(&'static str, F)> {
 
 /// The epsilons that built-in formulas publish for a gate of this name.
 fn published<F: Scalar>(name: &str) -> impl Iterator<Item = F> {
-    let rows = KERNELS.iter().filter_map(|entry| Row::named(entry.info.name, None, "own").ok());
+    let rows = KERNELS
+        .iter()
+        .filter_map(|entry| Row::named(entry.info.name, None, "own").ok());
     let all = rows.flat_map(|row| tunable::<F>(&row));
-    all.filter(move |(gate, _)| *gate == name).map(|(_, value)| value)
+    all.filter(move |(gate, _)| *gate == name)
+        .map(|(_, value)| value)
 }
 
 /// The range of one gate's epsilon that explains all answers; none if no epsilon does, or if it has no end.
@@ -77,7 +90,10 @@ fn range<F: Float>(
     epsilons: &[F],
     place: usize,
 ) -> Option<EpsilonRange<F>> {
-    let mut range = EpsilonRange { low: -F::infinity(), high: F::infinity() };
+    let mut range = EpsilonRange {
+        low: -F::infinity(),
+        high: F::infinity(),
+    };
     for (margins, hit) in answers {
         let mut others = (0..margins.len()).filter(|other| *other != place);
         let others_pass = others.all(|other| epsilons[other] <= margins[other]);

@@ -23,15 +23,26 @@ impl Paged for Explanation {
         let several = 1 < self.triangles.len();
         for (i, triangle) in self.triangles.iter().enumerate() {
             if several {
-                blocks.push(Block::Heading(format!("triangle {i} of {}", self.triangles.len())));
+                blocks.push(Block::Heading(format!(
+                    "triangle {i} of {}",
+                    self.triangles.len()
+                )));
             }
             let is_in_title = !several && triangle.rows.len() == 1;
             blocks.extend(of_triangle(triangle, [i == 0, !several], is_in_title));
         }
         let input = |triangle: &TrianglePart| Block::Listing(format!("{}\n", triangle.case.get()));
         let inputs = self.triangles.iter().map(input);
-        blocks.push(Block::Details("The case as JSON".to_owned(), inputs.collect()));
-        Page { command: "explain", title, tone, blocks }
+        blocks.push(Block::Details(
+            "The case as JSON".to_owned(),
+            inputs.collect(),
+        ));
+        Page {
+            command: "explain",
+            title,
+            tone,
+            blocks,
+        }
     }
 }
 
@@ -57,15 +68,21 @@ impl Explanation {
             );
             return (text, 0 < wrong);
         }
-        let rows: Vec<&ExplainedRow> =
-            self.triangles.iter().flat_map(|triangle| &triangle.rows).collect();
+        let rows: Vec<&ExplainedRow> = self
+            .triangles
+            .iter()
+            .flat_map(|triangle| &triangle.rows)
+            .collect();
         if let [row] = rows[..] {
             let text = sentence(row);
             let Some(instance) = self.triangles.first().and_then(|it| it.instance.as_ref()) else {
                 return (text, row.finding.is_some());
             };
             // The verdict that counts is that of the world.
-            let in_world = instance.wrong.iter().find(|(label, _)| *label == row.label());
+            let in_world = instance
+                .wrong
+                .iter()
+                .find(|(label, _)| *label == row.label());
             let text = match (in_world, row.finding) {
                 (Some((label, finding)), None) => format!(
                     "{label}: {} of the exact instance in the world, by the rounded inverse (transform): on the ray that it got, it \
@@ -80,8 +97,11 @@ impl Explanation {
             };
             return (text, in_world.is_some());
         }
-        let wrong: Vec<String> =
-            rows.iter().filter(|row| row.finding.is_some()).map(|row| row.label()).collect();
+        let wrong: Vec<String> = rows
+            .iter()
+            .filter(|row| row.finding.is_some())
+            .map(|row| row.label())
+            .collect();
         let names = listed(&wrong, MOST_NAMES);
         let (case, scalar) = (&self.case, self.scalar);
         let hits = rows.iter().filter(|row| row.said == "hit").count();
@@ -93,9 +113,13 @@ impl Explanation {
                 );
                 (text, false)
             }
-            0 => {
-                (format!("All {} rows do as they should on {case} in {scalar}.", rows.len()), false)
-            }
+            0 => (
+                format!(
+                    "All {} rows do as they should on {case} in {scalar}.",
+                    rows.len()
+                ),
+                false,
+            ),
             count => {
                 let are = if count == 1 { "is" } else { "are" };
                 let text = format!(
@@ -131,8 +155,9 @@ impl Explanation {
                 };
                 let heads = ["kernel (epsilons)", "together", "is"].map(Head::text);
                 let rows = parts.iter().map(|part| row(part)).collect();
-                let mut blocks =
-                    vec![Block::Table(Table::new(heads.into(), rows).at_most(MOST_TOGETHER))];
+                let mut blocks = vec![Block::Table(
+                    Table::new(heads.into(), rows).at_most(MOST_TOGETHER),
+                )];
                 if let Some(part) = parts.iter().find(|part| !part.advice.is_empty()) {
                     blocks.push(Block::Text(format!("right here: {}", part.advice)));
                 }
@@ -211,14 +236,22 @@ fn in_world(instance: &InstancePart) -> String {
         .iter()
         .map(|(row, finding)| format!("{row} {}", finding.to_uppercase()))
         .collect();
-    let wrong = if wrong.is_empty() { "none".to_owned() } else { wrong.join(", ") };
+    let wrong = if wrong.is_empty() {
+        "none".to_owned()
+    } else {
+        wrong.join(", ")
+    };
     format!("{}{moved}; wrong there: {wrong}", instance.truth)
 }
 
 /// The exact values, where there are any: fractions are approximated.
 fn exact(triangle: &TrianglePart) -> String {
     let truth = &triangle.truth;
-    let values = [("t", &truth.t_exact), ("u", &truth.u_exact), ("v", &truth.v_exact)];
+    let values = [
+        ("t", &truth.t_exact),
+        ("u", &truth.u_exact),
+        ("v", &truth.v_exact),
+    ];
     let number = |text: &str| -> Option<f64> {
         let (p, q) = text.split_once('/')?;
         Some(p.parse::<f64>().ok()? / q.parse::<f64>().ok()?)
@@ -229,7 +262,11 @@ fn exact(triangle: &TrianglePart) -> String {
         Some(format!("{name} = {}", verdict::number(number)))
     });
     let values: Vec<String> = values.collect();
-    if values.is_empty() { String::new() } else { format!("; {}", values.join(", ")) }
+    if values.is_empty() {
+        String::new()
+    } else {
+        format!("; {}", values.join(", "))
+    }
 }
 
 fn sentence(row: &ExplainedRow) -> String {
@@ -243,7 +280,11 @@ fn sentence(row: &ExplainedRow) -> String {
 fn of_row(row: &ExplainedRow, is_first: bool) -> Vec<Block> {
     let mut blocks = Vec::new();
     let finding = row.finding.unwrap_or_default();
-    blocks.extend(row.why.iter().map(|why| Block::Text(format!("why the {finding}: {why}"))));
+    blocks.extend(
+        row.why
+            .iter()
+            .map(|why| Block::Text(format!("why the {finding}: {why}"))),
+    );
     if !row.advice.is_empty() {
         blocks.push(Block::text("right on this case (tried):"));
         blocks.push(Block::Notes(row.advice.clone()));
@@ -254,13 +295,19 @@ fn of_row(row: &ExplainedRow, is_first: bool) -> Vec<Block> {
         blocks.push(Block::Table(gates(row, is_first)));
     } else if !row.gates.is_empty() {
         let all = row.gates.iter().filter_map(|gate| {
-            gate.epsilon.as_ref().map(|epsilon| format!("{} = {epsilon}", gate.gate))
+            gate.epsilon
+                .as_ref()
+                .map(|epsilon| format!("{} = {epsilon}", gate.gate))
         });
         let all = all.collect::<Vec<_>>().join(", ");
-        blocks.push(Block::Text(format!("with {all}; it does not show what it compares")));
+        blocks.push(Block::Text(format!(
+            "with {all}; it does not show what it compares"
+        )));
     }
     if let Some(verdict) = row.without_rounding {
-        blocks.push(Block::Text(format!("the same formula without rounding: {verdict}")));
+        blocks.push(Block::Text(format!(
+            "the same formula without rounding: {verdict}"
+        )));
     }
     blocks.extend(row.values.iter().cloned().map(Block::Text));
     if is_first && !row.contract.is_empty() {
@@ -271,9 +318,16 @@ fn of_row(row: &ExplainedRow, is_first: bool) -> Vec<Block> {
 
 /// The gates in the order of the test; the comparison of each below it.
 fn gates(row: &ExplainedRow, is_first: bool) -> Table {
-    let runs = row.gates.iter().all(|gate| gate.exact.is_none() && gate.exactly.is_none());
+    let runs = row
+        .gates
+        .iter()
+        .all(|gate| gate.exact.is_none() && gate.exactly.is_none());
     let mut heads = vec![Head::of("gate")];
-    heads.push(Head::of(if runs { "accepts up to e =" } else { "compares" }));
+    heads.push(Head::of(if runs {
+        "accepts up to e ="
+    } else {
+        "compares"
+    }));
     if !runs {
         heads.push(Head::of("exactly"));
     }
@@ -282,7 +336,11 @@ fn gates(row: &ExplainedRow, is_first: bool) -> Table {
     let text = |value: &Option<String>| value.as_deref().map_or("-".to_owned(), plain);
     let table_row = |gate: &ExplainedGate| {
         let mut decision = gate.decision.unwrap_or("-").to_owned();
-        if gate.margin.as_deref().is_some_and(|margin| margin.ends_with("inf")) {
+        if gate
+            .margin
+            .as_deref()
+            .is_some_and(|margin| margin.ends_with("inf"))
+        {
             decision += " at every e";
         }
         let is_wrong = matches!((gate.decision, gate.exactly), (Some(a), Some(b)) if a != b);
@@ -296,14 +354,32 @@ fn gates(row: &ExplainedRow, is_first: bool) -> Table {
         if !runs {
             cells.push(text(&gate.exact).into());
         }
-        cells.push(gate.epsilon.clone().unwrap_or_else(|| "fixed".to_owned()).into());
-        cells.push(Cell { text: decision, is_broken: is_wrong, share: None });
-        let mut below =
-            if is_first { vec![format!("refuses where {}", gate.refuses)] } else { Vec::new() };
+        cells.push(
+            gate.epsilon
+                .clone()
+                .unwrap_or_else(|| "fixed".to_owned())
+                .into(),
+        );
+        cells.push(Cell {
+            text: decision,
+            is_broken: is_wrong,
+            share: None,
+        });
+        let mut below = if is_first {
+            vec![format!("refuses where {}", gate.refuses)]
+        } else {
+            Vec::new()
+        };
         if is_wrong {
-            below.push(format!("WRONG: without rounding it {}", gate.exactly.unwrap_or_default()));
+            below.push(format!(
+                "WRONG: without rounding it {}",
+                gate.exactly.unwrap_or_default()
+            ));
         }
-        Row { below, ..Row::new(gate.gate, cells) }
+        Row {
+            below,
+            ..Row::new(gate.gate, cells)
+        }
     };
     Table::new(heads, row.gates.iter().map(table_row).collect())
 }
@@ -323,12 +399,20 @@ fn all_rows(rows: &[ExplainedRow]) -> Table {
             (_, Some(finding)) => finding.to_uppercase(),
             _ => "right".to_owned(),
         };
-        let cause = row.why.as_ref().and_then(|why| why.split(" (").next()).unwrap_or_default();
+        let cause = row
+            .why
+            .as_ref()
+            .and_then(|why| why.split(" (").next())
+            .unwrap_or_default();
         let gate = row.decisive().map_or("", |gate| gate.gate);
         let is_broken = row.finding.is_some();
         let cells: [Cell; 4] = [
             row.said.clone().into(),
-            Cell { text: judged, is_broken, share: None },
+            Cell {
+                text: judged,
+                is_broken,
+                share: None,
+            },
             gate.to_owned().into(),
             cause.to_owned().into(),
         ];
@@ -343,10 +427,16 @@ fn all_rows(rows: &[ExplainedRow]) -> Table {
 /// The ray and the triangle, in numbers and in bits.
 fn inputs(triangle: &TrianglePart, is_first: bool) -> Table {
     let heads = ["vector", "x", "y", "z"].map(Head::of);
-    let heads = heads.into_iter().chain([Head::text("bits").optional()]).collect();
+    let heads = heads
+        .into_iter()
+        .chain([Head::text("bits").optional()])
+        .collect();
     let row =
         |[label, x, y, z, bits]: &[String; 5]| Row::new(label, [x, y, z, bits].map(String::clone));
     // The ray is that of the first triangle.
     let before = if is_first { 0 } else { 2 };
-    Table::new(heads, triangle.inputs.iter().skip(before).map(row).collect())
+    Table::new(
+        heads,
+        triangle.inputs.iter().skip(before).map(row).collect(),
+    )
 }

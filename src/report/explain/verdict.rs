@@ -33,7 +33,10 @@ impl<F: Scalar> Together<'_, F> {
             return (cases.to_vec(), truths);
         };
         oracle::truths_of_instance(cases, instance, &mut truths, layers);
-        (cases.iter().map(|case| instance.in_object(case)).collect(), truths)
+        (
+            cases.iter().map(|case| instance.in_object(case)).collect(),
+            truths,
+        )
     }
 }
 
@@ -45,15 +48,24 @@ pub(super) fn number<F: Float>(x: F) -> String {
 /// A size in three digits.
 pub(super) fn short(x: f64) -> String {
     let text = format!("{x:.2e}");
-    if (1e4..1e7).contains(&x.abs()) { text } else { plain(&text) }
+    if (1e4..1e7).contains(&x.abs()) {
+        text
+    } else {
+        plain(&text)
+    }
 }
 
 /// A number as `1.5e0` writes it, to the same digits: without an exponent where it is neither large nor small.
 pub(super) fn plain(text: &str) -> String {
-    let Some((mantissa, exponent)) = text.split_once('e') else { return text.to_owned() };
-    let Ok(exponent) = exponent.parse::<i32>() else { return text.to_owned() };
-    let (sign, mantissa) =
-        mantissa.strip_prefix('-').map_or(("", mantissa), |digits| ("-", digits));
+    let Some((mantissa, exponent)) = text.split_once('e') else {
+        return text.to_owned();
+    };
+    let Ok(exponent) = exponent.parse::<i32>() else {
+        return text.to_owned();
+    };
+    let (sign, mantissa) = mantissa
+        .strip_prefix('-')
+        .map_or(("", mantissa), |digits| ("-", digits));
     let digits = mantissa.replace('.', "");
     let (whole, rest) = match exponent {
         0..7 => {
@@ -61,12 +73,19 @@ pub(super) fn plain(text: &str) -> String {
             let (whole, rest) = digits.split_at(exponent as usize + 1);
             (whole.to_owned(), rest.to_owned())
         }
-        -4..0 => ("0".to_owned(), format!("{}{digits}", "0".repeat(-exponent as usize - 1))),
+        -4..0 => (
+            "0".to_owned(),
+            format!("{}{digits}", "0".repeat(-exponent as usize - 1)),
+        ),
         _ => (digits[..1].to_owned(), digits[1..].to_owned()),
     };
     let rest = rest.trim_end_matches('0');
     let point = if rest.is_empty() { "" } else { "." };
-    let end = if (-4..7).contains(&exponent) { String::new() } else { format!("e{exponent}") };
+    let end = if (-4..7).contains(&exponent) {
+        String::new()
+    } else {
+        format!("e{exponent}")
+    };
     format!("{sign}{whole}{point}{rest}{end}")
 }
 
@@ -98,9 +117,10 @@ pub(super) fn group_verdict<F: Scalar>(
     let asked = group_obligation(cases, truths, &row.contract, group.grouping);
     let (judged, is_wrong) = match (asked, hits) {
         (GroupTruth::Free, _) => ("nothing is asked of the group", false),
-        (GroupTruth::Crossing, 0) if is_elsewhere(&truths[0], group, row) => {
-            ("one hit is right, and rounding may have moved it to a neighbour: elsewhere", false)
-        }
+        (GroupTruth::Crossing, 0) if is_elsewhere(&truths[0], group, row) => (
+            "one hit is right, and rounding may have moved it to a neighbour: elsewhere",
+            false,
+        ),
         (GroupTruth::Crossing, 0) => ("one hit is right: CRACK", true),
         (GroupTruth::Crossing, 1) => ("one hit is right", false),
         (GroupTruth::Crossing, _) if row.contract.across == Across::ExactlyOne => {
@@ -117,13 +137,25 @@ pub(super) fn group_verdict<F: Scalar>(
 
 /// True if a hit that a group lacks may be among the triangles around it, or these are too many.
 fn is_elsewhere<F: Scalar>(truth: &Truth, group: Together<F>, row: &Row) -> bool {
-    let Some(crossing) = truth.crossing() else { return false };
-    let Some(neighbours) = group.neighbours else { return true };
-    let Some(subject) = F::subject(row.entry) else { return false };
+    let Some(crossing) = truth.crossing() else {
+        return false;
+    };
+    let Some(neighbours) = group.neighbours else {
+        return true;
+    };
+    let Some(subject) = F::subject(row.entry) else {
+        return false;
+    };
     let (neighbours, truths) = group.asked(neighbours);
     let mut verdicts = vec![Verdict::miss(None); neighbours.len()];
     verdicts_of(subject, &neighbours, &row.epsilons::<F>(), &mut verdicts);
-    may_be_elsewhere(crossing.facing, &neighbours, &truths, &verdicts, &row.contract)
+    may_be_elsewhere(
+        crossing.facing,
+        &neighbours,
+        &truths,
+        &verdicts,
+        &row.contract,
+    )
 }
 
 #[cfg(test)]

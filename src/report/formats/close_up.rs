@@ -18,10 +18,18 @@ use crate::report::page::{Block, Cell, Head, Row, Table};
 pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[RowLine]) -> Vec<Block> {
     let mut blocks = Vec::new();
     for part in &record.result.plan.rows {
-        let of_part = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
+        let of_part = lines
+            .iter()
+            .filter(|line| std::ptr::eq(line.row.part, part));
         let of_part: Vec<&RowLine> = of_part.collect();
-        let Some(first) = of_part.first() else { continue };
-        blocks.push(Block::Heading(format!("{}, contract: {}", first.label(), part.contract)));
+        let Some(first) = of_part.first() else {
+            continue;
+        };
+        blocks.push(Block::Heading(format!(
+            "{}, contract: {}",
+            first.label(),
+            part.contract
+        )));
         blocks.push(Block::Notes(gates(first)));
         blocks.push(Block::Table(table(columns, &of_part)));
         blocks.push(Block::Notes(others(record, columns, &of_part)));
@@ -34,9 +42,14 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[RowLine]) -> 
         "On cases chosen to be hard, % of those that must be hit, and missed{intervals}."
     )));
     let has_other_causes = |line: &RowLine| {
-        let mut shares =
-            WRONG.iter().filter_map(|(kind, _)| cause_shares(of_kind(&line.row.results, *kind)));
-        shares.any(|shares| shares.iter().any(|(cause, ..)| *cause == Attribution::NotEpsilon))
+        let mut shares = WRONG
+            .iter()
+            .filter_map(|(kind, _)| cause_shares(of_kind(&line.row.results, *kind)));
+        shares.any(|shares| {
+            shares
+                .iter()
+                .any(|(cause, ..)| *cause == Attribution::NotEpsilon)
+        })
     };
     if lines.iter().any(has_other_causes) {
         blocks.push(Block::text(
@@ -53,12 +66,16 @@ fn gates(line: &RowLine) -> Vec<String> {
     let gates = kernel::find(&part.kernel).map_or(&[][..], |entry| entry.info.gates);
     let gate = |(name, value): (&String, &String)| {
         let gate = gates.iter().find(|gate| gate.name == name);
-        let refuses =
-            gate.map_or(String::new(), |gate| format!(" refuses where {},", gate.refuses));
+        let refuses = gate.map_or(String::new(), |gate| {
+            format!(" refuses where {},", gate.refuses)
+        });
         let is_tolerant =
             gate.is_some_and(|gate| gate.role == Role::Edge) && value.starts_with('-');
-        let beside =
-            if is_tolerant { "; the hits beside it that this asks for count as false" } else { "" };
+        let beside = if is_tolerant {
+            "; the hits beside it that this asks for count as false"
+        } else {
+            ""
+        };
         format!("gate {name}{refuses} e = {value}{beside}")
     };
     part.epsilons.iter().map(gate).collect()
@@ -67,7 +84,11 @@ fn gates(line: &RowLine) -> Vec<String> {
 /// A row of the table for each question, and a column for each scalar.
 fn table(columns: &[Column], lines: &[&RowLine]) -> Table {
     let scalars = || lines.iter().map(|line| line.row.scalar);
-    let mut heads = vec![Head::of(if lines.len() == 1 { lines[0].row.scalar } else { "cases" })];
+    let mut heads = vec![Head::of(if lines.len() == 1 {
+        lines[0].row.scalar
+    } else {
+        "cases"
+    })];
     for what in ["false misses", "false hits"] {
         match lines.len() {
             1 => heads.push(Head::of(format!("{what}, %"))),
@@ -76,7 +97,10 @@ fn table(columns: &[Column], lines: &[&RowLine]) -> Table {
         heads.push(Head::text("cause of most").optional());
     }
     heads.push(Head::of("visible").about("answers off by over 1/1000 of an edge, values included"));
-    let rows = columns.iter().enumerate().filter_map(|(i, column)| row(column, i, lines));
+    let rows = columns
+        .iter()
+        .enumerate()
+        .filter_map(|(i, column)| row(column, i, lines));
     Table::new(heads, rows.collect())
 }
 
@@ -93,20 +117,33 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
     // There is no room for the intervals of several.
     let share = |rate: &Rate| match lines.len() {
         1 => share_cell(rate),
-        _ => share_cell(&Rate { interval: None, ..rate.clone() }),
+        _ => share_cell(&Rate {
+            interval: None,
+            ..rate.clone()
+        }),
     };
     // There a neighbour may take a ray that a triangle leaves, so only cracks are wrong.
-    if results.iter().flatten().all(|result| is_at_shared(&result.family)) {
+    if results
+        .iter()
+        .flatten()
+        .all(|result| is_at_shared(&result.family))
+    {
         let cracks = results.iter().map(|results| {
             let across = results.iter().filter_map(|result| result.across.as_ref());
             Pool::of(across.map(|across| &across.cracks))
         });
         let cracks: Vec<Pool> = cracks.collect();
         let has_cracks = cracks.iter().any(|pool| 0 < pool.rate().count);
-        row.cells.extend(cracks.iter().map(|pool| share(pool.rate())));
-        row.cells.push(if has_cracks { "cracks" } else { "no cracks" }.to_owned().into());
+        row.cells
+            .extend(cracks.iter().map(|pool| share(pool.rate())));
+        row.cells.push(
+            if has_cracks { "cracks" } else { "no cracks" }
+                .to_owned()
+                .into(),
+        );
         row.cells.resize_with(2 * lines.len() + 2, Cell::default);
-        row.cells.push(group_digits(visible(&results.concat())).into());
+        row.cells
+            .push(group_digits(visible(&results.concat())).into());
         return Some(row);
     }
     for (kind, rate) in WRONG {
@@ -119,7 +156,8 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
         }));
         row.cells.push(cause(&results.concat(), kind).into());
     }
-    row.cells.push(group_digits(visible(&results.concat())).into());
+    row.cells
+        .push(group_digits(visible(&results.concat())).into());
     Some(row)
 }
 
@@ -128,7 +166,11 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
 fn others(record: &Record, columns: &[Column], lines: &[&RowLine]) -> Vec<String> {
     let own = kinds(record)[0];
     let has_extremes = columns.iter().any(|column| !column.is_ordinary());
-    let scope = if has_extremes { ", extreme exponents included" } else { "" };
+    let scope = if has_extremes {
+        ", extreme exponents included"
+    } else {
+        ""
+    };
     let is_alone = lines.len() == 1;
     let mut all = Vec::new();
     if lines.iter().any(|line| is_untold(line)) {
@@ -139,16 +181,20 @@ fn others(record: &Record, columns: &[Column], lines: &[&RowLine]) -> Vec<String
     for (name, get) in COUNTED[2..].iter().filter(|(name, _)| *name != "self-hits") {
         let pools = lines.iter().map(|line| {
             let results = line.row.results.iter();
-            let own = results.copied().filter(|result| kind_of(&result.family) == own);
+            let own = results
+                .copied()
+                .filter(|result| kind_of(&result.family) == own);
             (line.row.scalar, Pool::of(own.filter_map(get)))
         });
-        let counts = pools.filter(|(_, pool)| 0 < pool.counts()[0]).map(|(scalar, pool)| {
-            if is_alone {
-                pool.to_string()
-            } else {
-                format!("{scalar} {}", count_of(pool.counts()))
-            }
-        });
+        let counts = pools
+            .filter(|(_, pool)| 0 < pool.counts()[0])
+            .map(|(scalar, pool)| {
+                if is_alone {
+                    pool.to_string()
+                } else {
+                    format!("{scalar} {}", count_of(pool.counts()))
+                }
+            });
         let counts: Vec<String> = counts.collect();
         let is_of_values = name.ends_with("values");
         let scope = if is_of_values { scope } else { "" };
@@ -157,7 +203,11 @@ fn others(record: &Record, columns: &[Column], lines: &[&RowLine]) -> Vec<String
         }
     }
     for line in lines {
-        let lead = if is_alone { String::new() } else { format!("{}: ", line.row.scalar) };
+        let lead = if is_alone {
+            String::new()
+        } else {
+            format!("{}: ", line.row.scalar)
+        };
         let promised = line.across.as_ref().and_then(AcrossColumn::promise);
         all.extend(promised.map(|words| format!("{lead}promised across triangles: {words}")));
     }
@@ -182,7 +232,9 @@ fn count_of(rate: [u64; 2]) -> String {
 fn cause(results: &[&KernelResult], kind: FindingKind) -> String {
     let shares = cause_shares(of_kind(results, kind)).unwrap_or_default();
     let most = shares.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
-    most.map_or(String::new(), |(cause, share, _)| format!("{} {}", cause.name(), percent(share)))
+    most.map_or(String::new(), |(cause, share, _)| {
+        format!("{} {}", cause.name(), percent(share))
+    })
 }
 
 /// A share and its interval in percent.
@@ -195,5 +247,9 @@ fn share_cell(rate: &Rate) -> Cell {
             format!("{} [{}, {}]", number(share), number(low), number(high))
         }
     };
-    Cell { text, is_broken: 0 < rate.count, share: rate.rate }
+    Cell {
+        text,
+        is_broken: 0 < rate.count,
+        share: rate.rate,
+    }
 }

@@ -44,7 +44,11 @@ impl Column {
             None if is_of_mesh(family) => ColumnTopic::Mesh,
             None => ColumnTopic::Stored,
         };
-        Column { kind: kind_of(family), topic, complete }
+        Column {
+            kind: kind_of(family),
+            topic,
+            complete,
+        }
     }
 
     /// The columns of a record in which some kernel must give a verdict, in order: of a scene those of the kind that its
@@ -62,7 +66,10 @@ impl Column {
         for result in &record.result.results {
             let total = &result.total;
             if 0 < total.false_misses.of + total.false_hits.of {
-                all.push(Column::of(&result.family, is_complete(&record.result.sources, result)));
+                all.push(Column::of(
+                    &result.family,
+                    is_complete(&record.result.sources, result),
+                ));
             }
         }
         all.sort();
@@ -116,7 +123,11 @@ impl Column {
     /// One row's results in it.
     pub(super) fn results<'a>(self, row: &RowView<'a>) -> Vec<&'a KernelResult> {
         let of = |part: &&KernelResult| Column::of(&part.family, is_complete(row.sources, part));
-        row.results.iter().copied().filter(|part| self == of(part)).collect()
+        row.results
+            .iter()
+            .copied()
+            .filter(|part| self == of(part))
+            .collect()
     }
 }
 
@@ -135,7 +146,11 @@ pub(super) fn kinds(record: &Record) -> Vec<SceneKind> {
         }
     }
     // A plan without sources has results of none.
-    if kinds.is_empty() { vec![SceneKind::ALL[0]] } else { kinds }
+    if kinds.is_empty() {
+        vec![SceneKind::ALL[0]]
+    } else {
+        kinds
+    }
 }
 
 /// True if a result's source is a whole set rather than a random sample.
@@ -187,7 +202,9 @@ impl ColumnCell {
 
 /// The answers that can be seen to be wrong: verdicts, and values of hits, that are off by [`FAR`] longest edges or more.
 pub(super) fn visible(results: &[&KernelResult]) -> u64 {
-    let values = results.iter().map(|result| far(result, FindingKind::WrongValue));
+    let values = results
+        .iter()
+        .map(|result| far(result, FindingKind::WrongValue));
     ColumnCell::sum(results).far + values.sum::<u64>()
 }
 
@@ -202,8 +219,15 @@ pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
 
 /// The findings of a kind that are off by [`FAR`] longest edges or more.
 fn far(result: &KernelResult, kind: FindingKind) -> u64 {
-    let Some(severity) = result.severity.get(&kind) else { return 0 };
-    severity.edges.octaves.range(Octave::From(FAR)..).map(|(_, n)| n).sum()
+    let Some(severity) = result.severity.get(&kind) else {
+        return 0;
+    };
+    severity
+        .edges
+        .octaves
+        .range(Octave::From(FAR)..)
+        .map(|(_, n)| n)
+        .sum()
 }
 
 /// The outcomes of groups of triangles, for one row.
@@ -223,11 +247,18 @@ pub(super) struct AcrossColumn {
 impl AcrossColumn {
     /// The sum of a row's results of a kind of planes; none without a crossing.
     pub(super) fn of(row: &RowView, kind: SceneKind) -> Option<AcrossColumn> {
-        let results = || row.results.iter().filter(|result| kind_of(&result.family) == kind);
+        let results = || {
+            row.results
+                .iter()
+                .filter(|result| kind_of(&result.family) == kind)
+        };
         let parts = || results().filter_map(|result| result.across.as_ref());
         let ordinary = results().filter(|result| is_of_ordinary_size(&result.family));
         let ordinary = ordinary.filter_map(|result| result.across.as_ref());
-        let [mut cracks, all] = [sum(ordinary, |it| &it.cracks), sum(parts(), |it| &it.cracks)];
+        let [mut cracks, all] = [
+            sum(ordinary, |it| &it.cracks),
+            sum(parts(), |it| &it.cracks),
+        ];
         if cracks[1] == 0 {
             cracks = all;
         }
@@ -235,7 +266,13 @@ impl AcrossColumn {
         let odd_folds = sum(parts(), |it| &it.odd_folds)[0];
         let extreme_cracks = [all[0] - cracks[0], all[1] - cracks[1]];
         let promised = parts().next()?.promised;
-        let across = AcrossColumn { promised, cracks, extreme_cracks, doubles, odd_folds };
+        let across = AcrossColumn {
+            promised,
+            cracks,
+            extreme_cracks,
+            doubles,
+            odd_folds,
+        };
         (0 < all[1]).then_some(across)
     }
 
@@ -247,8 +284,16 @@ impl AcrossColumn {
 
     /// True if something happened that the contract rules out, in any size.
     pub(super) fn is_broken(&self) -> bool {
-        let happened = [self.cracks[0] + self.extreme_cracks[0], self.doubles[0], self.odd_folds];
-        self.promised.rules_out().into_iter().zip(happened).any(|(ruled_out, n)| ruled_out && 0 < n)
+        let happened = [
+            self.cracks[0] + self.extreme_cracks[0],
+            self.doubles[0],
+            self.odd_folds,
+        ];
+        self.promised
+            .rules_out()
+            .into_iter()
+            .zip(happened)
+            .any(|(ruled_out, n)| ruled_out && 0 < n)
     }
 
     /// True if all that happened so are leaks in other than ordinary sizes.
@@ -262,7 +307,9 @@ impl AcrossColumn {
     /// The promise, and the word `kept` or `BROKEN`; none without a promise.
     pub(super) fn promise(&self) -> Option<String> {
         let kept = if self.is_broken() { "BROKEN" } else { "kept" };
-        self.promised.in_short().map(|promise| format!("{promise}: {kept}"))
+        self.promised
+            .in_short()
+            .map(|promise| format!("{promise}: {kept}"))
     }
 }
 
@@ -271,7 +318,9 @@ fn sum<'a>(
     parts: impl Iterator<Item = &'a AcrossPart>,
     rate: fn(&AcrossPart) -> &Rate,
 ) -> [u64; 2] {
-    parts.map(rate).fold([0, 0], |[n, of], rate| [n + rate.count, of + rate.of])
+    parts
+        .map(rate)
+        .fold([0, 0], |[n, of], rate| [n + rate.count, of + rate.of])
 }
 
 /// A share in percent in four characters: `0`, `<0.1`, `12.3`, `100`.

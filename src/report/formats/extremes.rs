@@ -19,20 +19,32 @@ struct Extreme<'a> {
 pub(super) fn blocks(columns: &[Column], lines: &[RowLine], most: usize) -> Vec<Block> {
     let broken = |extremes: bool| {
         let is_so = |line: &&RowLine| {
-            line.across.as_ref().is_some_and(|it| it.is_broken_by_extremes() == extremes)
+            line.across
+                .as_ref()
+                .is_some_and(|it| it.is_broken_by_extremes() == extremes)
         };
-        lines.iter().filter(is_so).find_map(|line| Some((line, broken_promise(line)?)))
+        lines
+            .iter()
+            .filter(is_so)
+            .find_map(|line| Some((line, broken_promise(line)?)))
     };
     let broken = broken(false).or_else(|| broken(true));
     let worst = chosen(all(columns, lines), most - usize::from(broken.is_some()));
     let is_all = columns.iter().all(|column| column.is_ordinary());
-    let place = if is_all { "" } else { " but for extreme exponents" };
+    let place = if is_all {
+        ""
+    } else {
+        " but for extreme exponents"
+    };
     let head = match most {
         1 => format!("Worst{place}, in longest edges of the triangle:"),
         _ => format!("Worst{place}, in longest edges, of different causes:"),
     };
     let commands = broken.into_iter().map(|(line, (text, command))| {
-        (format!("{}, {}: {text}", line.label(), line.row.scalar), command)
+        (
+            format!("{}, {}: {text}", line.label(), line.row.scalar),
+            command,
+        )
     });
     let worst = worst.iter().map(|Extreme { line, part }| {
         let text = format!("{}, {}: {}", line.label(), line.row.scalar, describe(part));
@@ -41,7 +53,11 @@ pub(super) fn blocks(columns: &[Column], lines: &[RowLine], most: usize) -> Vec<
     let item = |(number, (text, command)): (usize, (String, String))| {
         Item::shown_by(format!("{}. {text}", number + 1), command)
     };
-    Block::items(&head, most, commands.chain(worst).enumerate().map(item).collect())
+    Block::items(
+        &head,
+        most,
+        commands.chain(worst).enumerate().map(item).collect(),
+    )
 }
 
 /// The promise across triangles that a row broke, and the command that shows the first case.
@@ -59,11 +75,23 @@ fn broken_promise(line: &RowLine) -> Option<(String, String)> {
     let [no_crack, _] = across.rules_out();
     let (what, [count, of], (result, id)) = if by_extremes {
         let what = "next to noise or at extreme exponents no triangle reports";
-        (what, across.extreme_cracks, first(|part| &part.first_cracks)?)
+        (
+            what,
+            across.extreme_cracks,
+            first(|part| &part.first_cracks)?,
+        )
     } else if no_crack && 0 < across.cracks[0] {
-        ("no triangle reports", across.cracks, first(|part| &part.first_cracks)?)
+        (
+            "no triangle reports",
+            across.cracks,
+            first(|part| &part.first_cracks)?,
+        )
     } else {
-        ("two triangles report", across.doubles, first(|part| &part.first_doubles)?)
+        (
+            "two triangles report",
+            across.doubles,
+            first(|part| &part.first_doubles)?,
+        )
     };
     let (count, of) = (group_digits(count), group_digits(of));
     let text = format!("broken promise, {what} {count} of {of} crossings");
@@ -102,5 +130,11 @@ fn chosen(mut all: Vec<Extreme>, most: usize) -> Vec<Extreme> {
 
 /// Causes that are alike: rounding, overflow and underflow are all the arithmetic.
 fn group(part: &FindingPart) -> Option<Attribution> {
-    cause(part).map(|it| if it == Attribution::Range { Attribution::Rounding } else { it })
+    cause(part).map(|it| {
+        if it == Attribution::Range {
+            Attribution::Rounding
+        } else {
+            it
+        }
+    })
 }

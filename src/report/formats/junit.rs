@@ -82,8 +82,14 @@ fn suites(record: &Record) -> BTreeMap<String, Suite> {
         None => {
             for found in disagreements(&record.result) {
                 let (count, of) = (group_digits(found.rate.count), group_digits(found.rate.of));
-                let text = found.example.as_ref().map(|e| format!("{}\n{}", e.command, e.bits));
-                let failure = (format!("{}: {count} of {of}", found.key), text.unwrap_or_default());
+                let text = found
+                    .example
+                    .as_ref()
+                    .map(|e| format!("{}\n{}", e.command, e.bits));
+                let failure = (
+                    format!("{}: {count} of {of}", found.key),
+                    text.unwrap_or_default(),
+                );
                 case_of(&mut suites, &found.key).failures.push(failure);
             }
         }
@@ -113,12 +119,22 @@ fn suites(record: &Record) -> BTreeMap<String, Suite> {
 
 fn case_of<'a>(suites: &'a mut BTreeMap<String, Suite>, key: &Key) -> &'a mut JunitCase {
     let suite = suites.entry(key.row()).or_default();
-    suite.entry((format!("{}.{}", key.scalar, key.family), key.finding.to_string())).or_default()
+    suite
+        .entry((
+            format!("{}.{}", key.scalar, key.family),
+            key.finding.to_string(),
+        ))
+        .or_default()
 }
 
 fn lines(found: &Deviation) -> String {
     let lines = [&found.why, &found.command, &found.bits];
-    lines.into_iter().flatten().cloned().collect::<Vec<_>>().join("\n")
+    lines
+        .into_iter()
+        .flatten()
+        .cloned()
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 fn write_case(
@@ -129,21 +145,31 @@ fn write_case(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let (class_name, name) = (escaped(&format!("{suite}.{place}")), escaped(kind));
-    write!(out, "    <testcase classname=\"{class_name}\" name=\"{name}\"")?;
+    write!(
+        out,
+        "    <testcase classname=\"{class_name}\" name=\"{name}\""
+    )?;
     if case.failures.is_empty() && case.notes.is_empty() {
         return writeln!(out, "/>");
     }
     writeln!(out, ">")?;
     // Readers of the format expect one failure a case.
     if let Some((message, _)) = case.failures.first() {
-        let texts: Vec<String> =
-            case.failures.iter().map(|(message, text)| format!("{message}\n{text}")).collect();
+        let texts: Vec<String> = case
+            .failures
+            .iter()
+            .map(|(message, text)| format!("{message}\n{text}"))
+            .collect();
         let message = escaped(message);
         write!(out, "      <failure type=\"{name}\" message=\"{message}\">")?;
         writeln!(out, "{}</failure>", escaped(&texts.join("\n")))?;
     }
     if !case.notes.is_empty() {
-        writeln!(out, "      <system-out>{}</system-out>", escaped(&case.notes.join("\n")))?;
+        writeln!(
+            out,
+            "      <system-out>{}</system-out>",
+            escaped(&case.notes.join("\n"))
+        )?;
     }
     writeln!(out, "    </testcase>")
 }

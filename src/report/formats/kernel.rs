@@ -26,7 +26,10 @@ pub(super) fn blocks(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec
     blocks.extend(quantiles_of(views));
     blocks.extend(pictures(record, part, views));
     let families = Block::Table(by_family(record, views));
-    blocks.push(Block::Details("Family by family".to_owned(), vec![families]));
+    blocks.push(Block::Details(
+        "Family by family".to_owned(),
+        vec![families],
+    ));
     let items: Vec<_> = views.iter().flat_map(|view| findings(view)).collect();
     match items.is_empty() {
         true => blocks.push(Block::text("No findings.")),
@@ -40,7 +43,12 @@ fn facts(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<(&'static s
     let plan_flags = record.provenance.plan_flags.clone().unwrap_or_default();
     let mut facts = vec![("contract", part.contract.clone())];
     facts.extend(info(part).map(|info| ("source", info.source.to_owned())));
-    let notes = record.provenance.kernel_notes.get(&part.kernel).into_iter().flatten();
+    let notes = record
+        .provenance
+        .kernel_notes
+        .get(&part.kernel)
+        .into_iter()
+        .flatten();
     facts.extend(notes.map(|note| ("note", note.clone())));
     let proofs = proofs(record, part);
     for alike in proofs.chunk_by(|one, other| one.edges == other.edges) {
@@ -52,7 +60,10 @@ fn facts(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<(&'static s
         facts.push(("edges", format!("{of}{}", alike[0].edges)));
     }
     for view in views {
-        for (kind, what) in [(FindingKind::FalseMiss, "misses"), (FindingKind::FalseHit, "hits")] {
+        for (kind, what) in [
+            (FindingKind::FalseMiss, "misses"),
+            (FindingKind::FalseHit, "hits"),
+        ] {
             let causes = causes_text(of_kind(&view.results, kind));
             facts.extend(
                 causes.map(|causes| ("why", format!("{} false {what}: {causes}", view.scalar))),
@@ -62,8 +73,10 @@ fn facts(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<(&'static s
     if !part.selector.is_empty() {
         facts.push(("run again", plan_flags.command(&part.flags())));
         if part.is_tunable() {
-            let command =
-                format!("hairline epsilon {} --format html -o epsilon.html", part.selector);
+            let command = format!(
+                "hairline epsilon {} --format html -o epsilon.html",
+                part.selector
+            );
             facts.push(("every epsilon", command));
         }
     }
@@ -92,7 +105,9 @@ fn gates(record: &Record, part: &RowPart) -> Vec<Block> {
         Head::of("dimension").optional(),
     ];
     heads.extend(
-        proofs.iter().map(|proof| Head::of(format!("proved, {} (known)", proof.scalar)).optional()),
+        proofs
+            .iter()
+            .map(|proof| Head::of(format!("proved, {} (known)", proof.scalar)).optional()),
     );
     let row = |gate: &Gate| {
         let epsilon = match (gate.epsilon, part.epsilons.get(gate.name)) {
@@ -100,8 +115,10 @@ fn gates(record: &Record, part: &RowPart) -> Vec<Block> {
             (_, Some(value)) => value.clone(),
             (_, None) => "-".to_owned(),
         };
-        let dimension =
-            format!("length^{} |d|^{}", gate.dimension.length, gate.dimension.direction);
+        let dimension = format!(
+            "length^{} |d|^{}",
+            gate.dimension.length, gate.dimension.direction
+        );
         let mut cells = vec![gate.refuses.to_owned(), epsilon, dimension];
         cells.extend(proofs.iter().map(|proof| proved(proof, gate.name)));
         Row::new(gate.name, cells)
@@ -133,8 +150,14 @@ fn proved(proof: &ProofPart, gate: &str) -> String {
     match proof.gates.get(gate) {
         None => "-".to_owned(),
         Some(ProvedGate { bound: None, .. }) => "no bound".to_owned(),
-        Some(ProvedGate { bound: Some(bound), known: None }) => units(*bound, true),
-        Some(ProvedGate { bound: Some(bound), known: Some(known) }) => {
+        Some(ProvedGate {
+            bound: Some(bound),
+            known: None,
+        }) => units(*bound, true),
+        Some(ProvedGate {
+            bound: Some(bound),
+            known: Some(known),
+        }) => {
             format!("{} ({})", units(*bound, true), units(*known, false))
         }
     }
@@ -146,7 +169,9 @@ fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
         1 => "all families".to_owned(),
         several => format!("all families in {several} kinds of planes and rays"),
     };
-    let heads = [all].into_iter().chain(views.iter().map(|view| view.scalar.to_owned()));
+    let heads = [all]
+        .into_iter()
+        .chain(views.iter().map(|view| view.scalar.to_owned()));
     let mut rows = Vec::new();
     for (name, get) in COUNTED {
         let pools: Vec<Pool> = views.iter().map(|view| view.total(get)).collect();
@@ -155,7 +180,9 @@ fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
         }
     }
     if views.iter().any(|view| 0 < view.hits_on_invalid()) {
-        let hits = views.iter().map(|view| group_digits(view.hits_on_invalid()));
+        let hits = views
+            .iter()
+            .map(|view| group_digits(view.hits_on_invalid()));
         rows.push(Row::new("hits on NaN, infinities, …", hits));
     }
     let label = part.label();
@@ -164,15 +191,26 @@ fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
         times.get(&label).map(|time| format!("{time:.1}"))
     };
     let is_emulated = part.kernel.contains('+');
-    let name = if is_emulated { "ns a ray, emulated" } else { "ns a ray" };
-    rows.push(Row::new(name, views.iter().map(|view| time(view).unwrap_or("-".to_owned()))));
+    let name = if is_emulated {
+        "ns a ray, emulated"
+    } else {
+        "ns a ray"
+    };
+    rows.push(Row::new(
+        name,
+        views
+            .iter()
+            .map(|view| time(view).unwrap_or("-".to_owned())),
+    ));
     Table::new(heads.map(Head::of).collect(), rows)
 }
 
 /// How far off findings are, and the errors of right hits.
 fn quantiles_of(views: &[&RowView]) -> Vec<Block> {
     let heads = |first: &str| -> Vec<Head> {
-        [first, "half within", "90 %", "99 %", "all"].map(Head::of).into()
+        [first, "half within", "90 %", "99 %", "all"]
+            .map(Head::of)
+            .into()
     };
     let quantiles = |part: &Distribution| {
         [part.median, part.percent_90, part.percent_99, part.worst].map(short)
@@ -180,11 +218,14 @@ fn quantiles_of(views: &[&RowView]) -> Vec<Block> {
     let (mut severities, mut accuracies) = (Vec::new(), Vec::new());
     for view in views {
         let Some(total) = view.total else { continue };
-        for (kind, words) in
-            [(FindingKind::FalseMiss, "false misses"), (FindingKind::FalseHit, "false hits")]
-        {
+        for (kind, words) in [
+            (FindingKind::FalseMiss, "false misses"),
+            (FindingKind::FalseHit, "false hits"),
+        ] {
             if let Some(part) = total.severity.get(&kind) {
-                let pairs = quantiles(&part.edges).into_iter().zip(quantiles(&part.ulps));
+                let pairs = quantiles(&part.edges)
+                    .into_iter()
+                    .zip(quantiles(&part.ulps));
                 let cells = pairs.map(|(edges, ulps)| format!("{edges} ({ulps})"));
                 severities.push(Row::new(format!("{} {words}", view.scalar), cells));
             }
@@ -200,7 +241,9 @@ fn quantiles_of(views: &[&RowView]) -> Vec<Block> {
         ("errors of right hits, in ulps", accuracies),
     ];
     let tables = tables.into_iter().filter(|(_, rows)| !rows.is_empty());
-    tables.map(|(title, rows)| Block::Table(Table::new(heads(title), rows))).collect()
+    tables
+        .map(|(title, rows)| Block::Table(Table::new(heads(title), rows)))
+        .collect()
 }
 
 /// Every source with its counts and intervals.
@@ -213,14 +256,21 @@ fn by_family(record: &Record, views: &[&RowView]) -> Table {
     }
     let results: Vec<HashMap<&str, &KernelResult>> = views
         .iter()
-        .map(|view| view.results.iter().map(|result| (&*result.family, *result)).collect())
+        .map(|view| {
+            view.results
+                .iter()
+                .map(|result| (&*result.family, *result))
+                .collect()
+        })
         .collect();
     let row = |source: &PlannedSource| {
         let cells = results.iter().flat_map(|results| {
             let result = results.get(&*source.family);
             WRONG.map(|(kind, rate)| {
                 let alone = result.filter(|result| counts_alone(result, kind));
-                let rate = alone.map(|result| rate(&result.total)).filter(|rate| 0 < rate.of);
+                let rate = alone
+                    .map(|result| rate(&result.total))
+                    .filter(|rate| 0 < rate.of);
                 Cell {
                     text: rate.map_or("-".to_owned(), counted),
                     share: rate.and_then(|rate| rate.rate),
@@ -234,8 +284,14 @@ fn by_family(record: &Record, views: &[&RowView]) -> Table {
 }
 
 /// Families whose sizes span the scalar's range.
-const SPANNING: [&str; 6] =
-    ["tiny", "huge", "direction-length", "mixed-scale", "range-ends", "invalid"];
+const SPANNING: [&str; 6] = [
+    "tiny",
+    "huge",
+    "direction-length",
+    "mixed-scale",
+    "range-ends",
+    "invalid",
+];
 
 /// Where pictures were asked for: in each scalar the worst false miss and false hit that can be drawn, if the kernel is
 /// known here.
@@ -243,11 +299,15 @@ fn pictures(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<Block> {
     if record.illustrations.is_none() {
         return Vec::new();
     }
-    let Ok(run) = part.spec().row() else { return Vec::new() };
+    let Ok(run) = part.spec().row() else {
+        return Vec::new();
+    };
     let mut all = Vec::new();
     for view in views {
         for (kind, _) in WRONG {
-            let Some((family, part)) = worst(view, kind) else { continue };
+            let Some((family, part)) = worst(view, kind) else {
+                continue;
+            };
             // A drawing does not know that its ray starts at the kernel's own hit.
             let is_secondary = family == "secondary-ray" || family.starts_with("corpus-secondary:");
             if run.contract.no_self_hit && is_secondary {
@@ -273,18 +333,25 @@ fn pictures(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<Block> {
 /// moderate sizes if there is one.
 fn worst<'a>(scalar: &RowView<'a>, kind: FindingKind) -> Option<(&'a str, &'a FindingPart)> {
     let crossing = |class: &str| class.contains('/');
-    let all = scalar
-        .results
-        .iter()
-        .flat_map(|result| result.findings.iter().map(move |part| (result.family.as_str(), part)));
+    let all = scalar.results.iter().flat_map(|result| {
+        result
+            .findings
+            .iter()
+            .map(move |part| (result.family.as_str(), part))
+    });
     let all = all.filter(|(_, part)| part.finding == kind && crossing(&part.class));
     let moderate = |family: &str| !SPANNING.contains(&family);
-    all.filter(|(_, part)| severity(part).is_finite()).max_by(|(f, a), (g, b)| {
-        moderate(f).cmp(&moderate(g)).then(severity(a).total_cmp(&severity(b)))
-    })
+    all.filter(|(_, part)| severity(part).is_finite())
+        .max_by(|(f, a), (g, b)| {
+            moderate(f)
+                .cmp(&moderate(g))
+                .then(severity(a).total_cmp(&severity(b)))
+        })
 }
 
 fn drawn<F: Scalar>(row: &audit::Row, bits: &str) -> Option<String> {
     let case = Case::<F>::from_hex(bits)?;
-    catch_unwind(AssertUnwindSafe(|| map::drawing(&case, row).ok())).ok().flatten()
+    catch_unwind(AssertUnwindSafe(|| map::drawing(&case, row).ok()))
+        .ok()
+        .flatten()
 }

@@ -29,14 +29,20 @@ pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<RowLine<'
     let in_scalar = |scalar: &'a String| {
         let rows = RowView::all(record, scalar).into_iter();
         rows.map(move |row| RowLine {
-            cells: columns.iter().map(|column| ColumnCell::sum(&column.results(&row))).collect(),
+            cells: columns
+                .iter()
+                .map(|column| ColumnCell::sum(&column.results(&row)))
+                .collect(),
             values: ColumnCell::of_values(columns, &row),
             across: AcrossColumn::of(&row, own),
             row,
         })
     };
     let scalars = record.result.plan.scalars.iter();
-    scalars.filter(|scalar| 0 < cases_in(record, scalar)).flat_map(in_scalar).collect()
+    scalars
+        .filter(|scalar| 0 < cases_in(record, scalar))
+        .flat_map(in_scalar)
+        .collect()
 }
 
 /// The contents of the columns.

@@ -43,7 +43,11 @@ pub struct Style {
 
 impl Default for Style {
     fn default() -> Style {
-        Style { color: false, details: false, width: Style::WIDTH }
+        Style {
+            color: false,
+            details: false,
+            width: Style::WIDTH,
+        }
     }
 }
 
@@ -64,16 +68,20 @@ pub struct Format<R: 'static = Record> {
 
 impl<R: Serialize> Format<R> {
     /// One JSON value over several lines.
-    pub const JSON: Format<R> =
-        Format { name: "json", write: |record, _, out| write_json(record, out) };
+    pub const JSON: Format<R> = Format {
+        name: "json",
+        write: |record, _, out| write_json(record, out),
+    };
 }
 
 /// Writes that there is no record, with the exit code and the message.
 type WriteFailure = fn(u8, &str, &mut dyn Write) -> io::Result<()>;
 
 /// The formats that a CI reads after the run, by name: without them it would show an older run's.
-pub const ON_FAILURE: &[(&str, WriteFailure)] =
-    &[("junit", junit::write_failure), ("sarif", sarif::write_failure)];
+pub const ON_FAILURE: &[(&str, WriteFailure)] = &[
+    ("junit", junit::write_failure),
+    ("sarif", sarif::write_failure),
+];
 
 /// The format that shows pictures.
 pub const HTML: &str = "html";
@@ -82,8 +90,14 @@ pub const HTML: &str = "html";
 pub const FORMATS: &[Format] = &[
     Format::TEXT,
     Format::JSON,
-    Format { name: "junit", write: junit::write },
-    Format { name: "sarif", write: sarif::write },
+    Format {
+        name: "junit",
+        write: junit::write,
+    },
+    Format {
+        name: "sarif",
+        write: sarif::write,
+    },
     Format::MARKDOWN,
     #[cfg(feature = "pages")]
     Format::HTML,

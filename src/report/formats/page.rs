@@ -19,7 +19,11 @@ impl Paged for Record {
         let columns = Column::all(self);
         let lines = lines(self, &columns);
         let (title, on_screen) = screen::blocks(self, &columns, &lines);
-        let mut page = Page { command: "audit", title, ..Page::default() };
+        let mut page = Page {
+            command: "audit",
+            title,
+            ..Page::default()
+        };
         match &self.conformance {
             None => page.blocks = on_screen,
             Some(conformance) => {
@@ -32,36 +36,51 @@ impl Paged for Record {
                 };
                 page.command = "check";
                 page.blocks = verdict::blocks(self, conformance);
-                let run = [Block::Text(run_title)].into_iter().chain(on_screen).collect();
+                let run = [Block::Text(run_title)]
+                    .into_iter()
+                    .chain(on_screen)
+                    .collect();
                 page.blocks.push(Block::Details("The run".to_owned(), run));
             }
         }
-        page.blocks.extend(broken_families(self).into_iter().map(Block::Text));
-        page.blocks.extend(incomplete_meshes(self).into_iter().map(Block::Text));
+        page.blocks
+            .extend(broken_families(self).into_iter().map(Block::Text));
+        page.blocks
+            .extend(incomplete_meshes(self).into_iter().map(Block::Text));
         let of_scalars = lines.chunk_by(|one, other| one.row.scalar == other.row.scalar);
         let tables = of_scalars.map(|lines| ranking::of_scalar(self, &columns, lines));
         let tables: Vec<Block> = tables.collect();
         // That of one scalar is on the screen.
         if 1 < tables.len() {
-            page.blocks.push(Block::Details("Every question".to_owned(), tables));
+            page.blocks
+                .push(Block::Details("Every question".to_owned(), tables));
         }
         let rows = &self.result.plan.rows;
         for row in rows {
             let of_row = lines.iter().filter(|line| std::ptr::eq(line.row.part, row));
             let views: Vec<&RowView> = of_row.map(|line| &line.row).collect();
             if !views.is_empty() {
-                page.blocks.push(Block::Details(row.label(), kernel::blocks(self, row, &views)));
+                page.blocks.push(Block::Details(
+                    row.label(),
+                    kernel::blocks(self, row, &views),
+                ));
             }
         }
-        page.blocks.push(Block::Details("About this run".to_owned(), about(self)));
+        page.blocks
+            .push(Block::Details("About this run".to_owned(), about(self)));
         page
     }
 }
 
 /// The verdict of a check, after the mistakes that explain why a run does not conform.
 fn diagnosed(record: &Record, verdict: String) -> String {
-    let failed = record.conformance.as_ref().filter(|it| !it.unexpected.is_empty());
-    let Some(conformance) = failed else { return verdict };
+    let failed = record
+        .conformance
+        .as_ref()
+        .filter(|it| !it.unexpected.is_empty());
+    let Some(conformance) = failed else {
+        return verdict;
+    };
     let mut sentences = relations::sentences(record);
     sentences.extend(conformance.misused.iter().cloned());
     sentences.push(verdict);
@@ -94,7 +113,10 @@ fn broken_families(record: &Record) -> Vec<String> {
     let is_broken = |source: &&SourcePart| 0 < source.promise_broken && !record.result.is_placed();
     let broken = record.result.sources.iter().filter(is_broken);
     let sentence = |source: &SourcePart| {
-        let (n, of) = (group_digits(source.promise_broken), group_digits(source.indices));
+        let (n, of) = (
+            group_digits(source.promise_broken),
+            group_digits(source.indices),
+        );
         let first = source.first_broken.as_deref().unwrap_or("-");
         format!(
             "{} {}: {n} of {of} indices are not what the family's promise says, first {first}",
@@ -109,7 +131,9 @@ fn incomplete_meshes(record: &Record) -> BTreeSet<String> {
     let sentence = |source: &SourcePart| {
         let count = number_of(source.left_out?, "polygon", "polygons");
         let file = source.family.split_once(':').map_or("", |(_, file)| file);
-        Some(format!("{file}: {count} left out, because they cross themselves or fold over"))
+        Some(format!(
+            "{file}: {count} left out, because they cross themselves or fold over"
+        ))
     };
     record.result.sources.iter().filter_map(sentence).collect()
 }

@@ -16,17 +16,27 @@ impl Pool {
     /// The sums of rates. A rate without an interval is of a complete set.
     pub(super) fn of<'a>(rates: impl Iterator<Item = &'a Rate>) -> Pool {
         let (sample, complete): (Vec<_>, Vec<_>) = rates.partition(|rate| rate.interval.is_some());
-        Pool { sample: Rate::sum(sample), complete: Rate::sum(complete) }
+        Pool {
+            sample: Rate::sum(sample),
+            complete: Rate::sum(complete),
+        }
     }
 
     /// The rate over the samples; where there is none, over the complete sets.
     pub(super) fn rate(&self) -> &Rate {
-        if self.sample.of == 0 { &self.complete } else { &self.sample }
+        if self.sample.of == 0 {
+            &self.complete
+        } else {
+            &self.sample
+        }
     }
 
     /// The counts over both, without an interval.
     pub(super) fn counts(&self) -> [u64; 2] {
-        [self.sample.count + self.complete.count, self.sample.of + self.complete.of]
+        [
+            self.sample.count + self.complete.count,
+            self.sample.of + self.complete.of,
+        ]
     }
 }
 
@@ -61,7 +71,10 @@ mod tests {
         let pool = Pool::of([&sample, &stored].into_iter());
         assert_eq!((pool.rate().count, pool.rate().of), (10, 500));
         assert_eq!(pool.rate().interval, sample.interval);
-        assert!(pool.to_string().ends_with("%]); stored cases 3 of 57"), "{pool}");
+        assert!(
+            pool.to_string().ends_with("%]); stored cases 3 of 57"),
+            "{pool}"
+        );
         assert_eq!(pool.counts(), [13, 557]);
         let pool = Pool::of(std::iter::once(&stored));
         assert_eq!((pool.rate().count, pool.rate().of), (3, 57));

@@ -15,8 +15,9 @@ const MOST: usize = 13;
 const MOST_NAMES: usize = 4;
 
 /// The questions in the order in which they have room.
-const ORDER: [&str; 10] =
-    ["mesh", "stored", "sizes", "flat", "ends", "edges", "vertex", "inside", "grid", "lattice"];
+const ORDER: [&str; 10] = [
+    "mesh", "stored", "sizes", "flat", "ends", "edges", "vertex", "inside", "grid", "lattice",
+];
 
 /// A row's name: its author's epsilons have none.
 fn label(part: &RowPart) -> String {
@@ -38,7 +39,9 @@ fn ranked<'a>(standings: &'a [Standing<'a>]) -> Vec<(&'a Standing<'a>, Vec<&'a S
     sorted.sort_by(|a, b| {
         let by_leak = (0.0 < leaks(a)).cmp(&(0.0 < leaks(b)));
         let by_far = by_leak.then(a.all_far().cmp(&b.all_far()));
-        by_far.then(leaks(a).total_cmp(&leaks(b))).then(mean(a).total_cmp(&mean(b)))
+        by_far
+            .then(leaks(a).total_cmp(&leaks(b)))
+            .then(mean(a).total_cmp(&mean(b)))
     });
     alike(sorted, |one, other| one.is_like(other))
 }
@@ -78,10 +81,14 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
     }
     if standings.iter().any(|it| it.leaks().is_some()) {
         let is_tight = |it: &&Standing| it.leaks().is_some_and(|[count, _]| count == 0);
-        text.push(match counted(sorted().filter(is_tight), |it| [0, it.crossings()]) {
-            Some(counts) => format!("No leak seen at shared edges and vertices{place}: {counts}."),
-            None => format!("Every kernel leaks at shared edges or vertices{place}."),
-        });
+        text.push(
+            match counted(sorted().filter(is_tight), |it| [0, it.crossings()]) {
+                Some(counts) => {
+                    format!("No leak seen at shared edges and vertices{place}: {counts}.")
+                }
+                None => format!("Every kernel leaks at shared edges or vertices{place}."),
+            },
+        );
         let is_extreme = |it: &&Standing| is_tight(it) && 0 < it.extreme_leaks()[0];
         let extreme = counted(sorted().filter(is_extreme), Standing::extreme_leaks);
         text.extend(
@@ -89,13 +96,17 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
         );
     }
     if let Some(names) = names(sorted().filter(|it| it.breaks_promise())) {
-        text.push(format!("Breaks what its documentation promises there: {names}."));
+        text.push(format!(
+            "Breaks what its documentation promises there: {names}."
+        ));
     }
     let counts = |it: &Standing| (label(it.part), group_digits(it.all_far()));
     let best = sorted().min_by_key(|it| it.all_far());
     match (best, sorted().max_by_key(|it| it.all_far())) {
         (Some(_), Some(worst)) if worst.all_far() == 0 => {
-            text.push(format!("None is visibly wrong (by over 1/1000 of an edge){place}."));
+            text.push(format!(
+                "None is visibly wrong (by over 1/1000 of an edge){place}."
+            ));
         }
         (Some(best), Some(worst)) => {
             let ((best, least), (worst, most)) = (counts(best), counts(worst));
@@ -109,7 +120,11 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
     }
     let failing = standings.iter().filter_map(|it| {
         let (kind, count) = it.others.iter().find(|(kind, _)| kind.is_failure())?;
-        Some(format!("{}: {kind} {}", label(it.part), group_digits(*count)))
+        Some(format!(
+            "{}: {kind} {}",
+            label(it.part),
+            group_digits(*count)
+        ))
     });
     let failing: Vec<String> = failing.take(MOST_NAMES).collect();
     if !failing.is_empty() {
@@ -126,7 +141,13 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
 
 /// The table, and what its columns hold.
 pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]) -> Vec<Block> {
-    let scalars: Vec<&str> = record.result.plan.scalars.iter().map(String::as_str).collect();
+    let scalars: Vec<&str> = record
+        .result
+        .plan
+        .scalars
+        .iter()
+        .map(String::as_str)
+        .collect();
     let worse = match scalars.len() {
         1 => "",
         _ => " in the worse of the scalars",
@@ -143,7 +164,10 @@ pub(super) fn of_scalar(record: &Record, columns: &[Column], lines: &[RowLine]) 
     let standings = standings(record, columns, lines);
     let head = format!("{scalar} kernel");
     let mut table = table(record, &head, columns, &standings, &[scalar]);
-    table.heads.iter_mut().for_each(|head| head.is_optional = false);
+    table
+        .heads
+        .iter_mut()
+        .for_each(|head| head.is_optional = false);
     Block::Table(table)
 }
 
@@ -156,7 +180,12 @@ fn table(
 ) -> Table {
     let place = |column: &Column| ORDER.iter().position(|name| *name == column.label());
     let mut order: Vec<usize> = (0..columns.len()).collect();
-    order.sort_by_key(|i| (!columns[*i].is_ordinary(), place(&columns[*i]).unwrap_or(ORDER.len())));
+    order.sort_by_key(|i| {
+        (
+            !columns[*i].is_ordinary(),
+            place(&columns[*i]).unwrap_or(ORDER.len()),
+        )
+    });
     let has_leaks = standings.iter().any(|it| it.leaks().is_some());
     let mut table = Table::default();
     table.heads.push(Head::of(head));
@@ -166,11 +195,23 @@ fn table(
     }
     let leaks = Head::of("leaks").about(about);
     table.heads.extend(has_leaks.then_some(leaks));
-    table.heads.push(Head::of("visible").about("answers off by over 1/1000 of an edge"));
-    table.heads.push(Head::of("values").about("% of right hits with a wrong t, u or v"));
-    let question = |i: &usize| Head::of(columns[*i].label()).about(columns[*i].about()).optional();
+    table
+        .heads
+        .push(Head::of("visible").about("answers off by over 1/1000 of an edge"));
+    table
+        .heads
+        .push(Head::of("values").about("% of right hits with a wrong t, u or v"));
+    let question = |i: &usize| {
+        Head::of(columns[*i].label())
+            .about(columns[*i].about())
+            .optional()
+    };
     table.heads.extend(order.iter().map(question));
-    table.heads.extend(scalars.iter().map(|scalar| Head::of(format!("ns {scalar}"))));
+    table.heads.extend(
+        scalars
+            .iter()
+            .map(|scalar| Head::of(format!("ns {scalar}"))),
+    );
     let rows = ranked(standings);
     for (standing, alike) in rows {
         let mut cells: Vec<Cell> = Vec::new();
@@ -179,7 +220,11 @@ fn table(
             let is_broken = standing.breaks_promise();
             let mark = if is_broken { "!" } else { "" };
             let share = standing.leaks().map(share);
-            cells.push(Cell { text: format!("{text}{mark}"), is_broken, share });
+            cells.push(Cell {
+                text: format!("{text}{mark}"),
+                is_broken,
+                share,
+            });
         }
         cells.push(group_digits(standing.all_far()).into());
         let values = standing.worse(|line| line.values).wrong;
@@ -199,7 +244,10 @@ fn table(
         for scalar in scalars {
             let times = record.provenance.kernel_nanoseconds.get(*scalar);
             let time = times.and_then(|times| times.get(&standing.part.label()));
-            cells.push(time.map_or("-".to_owned(), |time| format!("{time:.0}")).into());
+            cells.push(
+                time.map_or("-".to_owned(), |time| format!("{time:.0}"))
+                    .into(),
+            );
         }
         let alike: Vec<String> = alike.iter().map(|other| label(other.part)).collect();
         let alike = (!alike.is_empty()).then(|| format!("same answers: {}", alike.join(", ")));

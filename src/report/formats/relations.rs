@@ -20,8 +20,17 @@ fn known(record: &Record, row: &RowPart) -> Vec<Related> {
     let totals = record.result.totals.iter();
     let of_row = totals.filter(|total| (&total.kernel, &total.set) == (&row.kernel, &row.set));
     let mut sums: BTreeMap<_, Related> = BTreeMap::new();
-    for RelationPart { relation, count, of } in of_row.flat_map(|total| &total.relations) {
-        let none = Related { relation: *relation, count: 0, of: 0 };
+    for RelationPart {
+        relation,
+        count,
+        of,
+    } in of_row.flat_map(|total| &total.relations)
+    {
+        let none = Related {
+            relation: *relation,
+            count: 0,
+            of: 0,
+        };
         let sum = sums.entry(*relation).or_insert(none);
         sum.count += count;
         sum.of += of;

@@ -12,16 +12,24 @@ type Get = fn(&KernelResult) -> Option<&Rate>;
 
 /// Everything that is counted of a row, by its name.
 pub(super) const COUNTED: [(&str, Get); 11] = [
-    ("false misses", |r| counts_alone(r, FindingKind::FalseMiss).then_some(&r.total.false_misses)),
-    ("false hits", |r| counts_alone(r, FindingKind::FalseHit).then_some(&r.total.false_hits)),
+    ("false misses", |r| {
+        counts_alone(r, FindingKind::FalseMiss).then_some(&r.total.false_misses)
+    }),
+    ("false hits", |r| {
+        counts_alone(r, FindingKind::FalseHit).then_some(&r.total.false_hits)
+    }),
     ("bad values", |r| Some(&r.total.bad_values)),
     ("wrong values", |r| Some(&r.total.wrong_values)),
     ("cracks", |r| Some(&r.across.as_ref()?.cracks)),
     ("doubles", |r| Some(&r.across.as_ref()?.doubles)),
     ("odd folds", |r| Some(&r.across.as_ref()?.odd_folds)),
     ("missed folds", |r| Some(&r.across.as_ref()?.missed_folds)),
-    ("polygon false misses", |r| Some(&r.polygons.as_ref()?.false_misses)),
-    ("polygon false hits", |r| Some(&r.polygons.as_ref()?.false_hits)),
+    ("polygon false misses", |r| {
+        Some(&r.polygons.as_ref()?.false_misses)
+    }),
+    ("polygon false hits", |r| {
+        Some(&r.polygons.as_ref()?.false_hits)
+    }),
     ("self-hits", |r| r.self_hits.as_ref()),
 ];
 
@@ -46,19 +54,35 @@ pub(super) struct RowView<'a> {
 impl<'a> RowView<'a> {
     /// Every row of a record in a scalar.
     pub(super) fn all(record: &'a Record, scalar: &'a str) -> Vec<RowView<'a>> {
-        let ResultPart { plan, sources, results, totals, .. } = &record.result;
+        let ResultPart {
+            plan,
+            sources,
+            results,
+            totals,
+            ..
+        } = &record.result;
         let mut by_row: HashMap<[&str; 2], Vec<&KernelResult>> = HashMap::new();
         for result in results.iter().filter(|result| result.scalar == scalar) {
-            by_row.entry([&result.kernel, &result.set]).or_default().push(result);
+            by_row
+                .entry([&result.kernel, &result.set])
+                .or_default()
+                .push(result);
         }
         let totals = totals.iter().filter(|total| total.scalar == scalar);
-        let totals: HashMap<[&str; 2], &RowTotal> =
-            totals.map(|total| ([&*total.kernel, &*total.set], total)).collect();
+        let totals: HashMap<[&str; 2], &RowTotal> = totals
+            .map(|total| ([&*total.kernel, &*total.set], total))
+            .collect();
         // A kernel of one scalar has nothing to say in the other.
         let view = |part: &'a RowPart| {
             let key = [&*part.kernel, &*part.set];
             let (total, results) = (totals.get(&key).copied(), by_row.get(&key)?.clone());
-            Some(RowView { part, scalar, total, results, sources })
+            Some(RowView {
+                part,
+                scalar,
+                total,
+                results,
+                sources,
+            })
         };
         plan.rows.iter().filter_map(view).collect()
     }
@@ -70,7 +94,11 @@ impl<'a> RowView<'a> {
 
     /// Hits on NaN, infinities, zero directions and impossible intervals.
     pub(super) fn hits_on_invalid(&self) -> u64 {
-        self.results.iter().filter_map(|result| result.classes.get("invalid")).map(|c| c.hits).sum()
+        self.results
+            .iter()
+            .filter_map(|result| result.classes.get("invalid"))
+            .map(|c| c.hits)
+            .sum()
     }
 }
 
@@ -89,7 +117,10 @@ pub(super) const ALL_INVALID: &str =
 /// True if all cases of rows are invalid.
 pub(super) fn is_all_invalid(rows: &[RowView], cases: u64) -> bool {
     rows.first().is_some_and(|row| {
-        let invalid = row.results.iter().filter_map(|result| result.classes.get("invalid"));
+        let invalid = row
+            .results
+            .iter()
+            .filter_map(|result| result.classes.get("invalid"));
         invalid.map(|counts| counts.cases).sum::<u64>() == cases
     })
 }
@@ -106,23 +137,37 @@ pub(super) fn failures(rows: &[&RowView]) -> Vec<String> {
             ("timeouts", sum(|counts| counts.timeouts)),
         ];
         let words = counts.iter().filter(|(_, count)| *count > 0);
-        let words: Vec<String> =
-            words.map(|(what, count)| format!("{} {what}", group_digits(*count))).collect();
+        let words: Vec<String> = words
+            .map(|(what, count)| format!("{} {what}", group_digits(*count)))
+            .collect();
         let cases = group_digits(sum(|counts| counts.cases));
-        (!words.is_empty())
-            .then(|| format!("{}: {} in {cases} cases", row.part.label(), words.join(", ")))
+        (!words.is_empty()).then(|| {
+            format!(
+                "{}: {} in {cases} cases",
+                row.part.label(),
+                words.join(", ")
+            )
+        })
     };
     rows.iter().filter_map(failures).collect()
 }
 
 /// The rays of a record in a scalar: a case is a ray and one of its triangles.
 pub(super) fn rays_in(record: &Record, scalar: &str) -> u64 {
-    let sources = record.result.sources.iter().filter(|source| source.scalar == scalar);
+    let sources = record
+        .result
+        .sources
+        .iter()
+        .filter(|source| source.scalar == scalar);
     sources.map(|source| source.indices).sum()
 }
 
 /// The cases of a record in a scalar.
 pub(super) fn cases_in(record: &Record, scalar: &str) -> u64 {
-    let sources = record.result.sources.iter().filter(|source| source.scalar == scalar);
+    let sources = record
+        .result
+        .sources
+        .iter()
+        .filter(|source| source.scalar == scalar);
     sources.map(|source| source.cases).sum()
 }

@@ -50,7 +50,13 @@ pub(super) fn write_failure(code: u8, message: &str, out: &mut dyn Write) -> io:
         "exitCode": code,
         "toolExecutionNotifications": [{ "level": "error", "message": { "text": message } }],
     });
-    write_log(env!("CARGO_PKG_VERSION"), invocation, Vec::new(), json!({}), out)
+    write_log(
+        env!("CARGO_PKG_VERSION"),
+        invocation,
+        Vec::new(),
+        json!({}),
+        out,
+    )
 }
 
 fn write_log(
@@ -80,7 +86,8 @@ fn rules() -> Vec<Value> {
     let rule = |kind: &FindingKind| (kind.name(), kind.about());
     let others = [stale, rule(&FindingKind::Unproved), unsteady];
     let all = FindingKind::FOUND.iter().map(rule).chain(others);
-    all.map(|(id, text)| json!({ "id": id, "shortDescription": { "text": text } })).collect()
+    all.map(|(id, text)| json!({ "id": id, "shortDescription": { "text": text } }))
+        .collect()
 }
 
 /// The results of a check: new findings come first, and known ones are suppressed.
@@ -88,14 +95,22 @@ fn of_check(conformance: &Conformance) -> Vec<Value> {
     let file = conformance.expectations.as_deref();
     let unproved = conformance.unproved.iter().map(|unproved| {
         let text = format!("{unproved}\n{}", unproved.command);
-        result(&unproved.key(), FindingKind::Unproved.name(), "error", &text, &Rate::default())
+        result(
+            &unproved.key(),
+            FindingKind::Unproved.name(),
+            "error",
+            &text,
+            &Rate::default(),
+        )
     });
     let unexpected = conformance
         .unexpected
         .iter()
         .map(|found| deviation(found, found.finding.name(), "error", file));
     let named = |list: &[Deviation], rule| -> Vec<Value> {
-        list.iter().map(|found| deviation(found, rule, "error", file)).collect()
+        list.iter()
+            .map(|found| deviation(found, rule, "error", file))
+            .collect()
     };
     let unsteady = named(&conformance.unsteady, UNSTEADY);
     let stale = named(&conformance.stale, STALE);
@@ -105,12 +120,20 @@ fn of_check(conformance: &Conformance) -> Vec<Value> {
         result["suppressions"] = json!([{ "kind": "external", "justification": why }]);
         result
     });
-    unproved.chain(unsteady).chain(unexpected).chain(stale).chain(known).collect()
+    unproved
+        .chain(unsteady)
+        .chain(unexpected)
+        .chain(stale)
+        .chain(known)
+        .collect()
 }
 
 fn deviation(found: &Deviation, rule: &str, level: &str, file: Option<&str>) -> Value {
     let mut text = found.describe();
-    for line in [&found.why, &found.command, &found.bits].into_iter().flatten() {
+    for line in [&found.why, &found.command, &found.bits]
+        .into_iter()
+        .flatten()
+    {
         text.push_str(&format!("\n{line}"));
     }
     let mut result = result(&found.key(), rule, level, &text, &found.found);
@@ -131,7 +154,13 @@ fn of_audit(record: &Record) -> Vec<Value> {
         if let Some(example) = &found.example {
             text.push_str(&format!("\n{}\n{}", example.command, example.bits));
         }
-        result(&found.key, found.key.finding.name(), "warning", &text, found.rate)
+        result(
+            &found.key,
+            found.key.finding.name(),
+            "warning",
+            &text,
+            found.rate,
+        )
     });
     of_found.collect()
 }

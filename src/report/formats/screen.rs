@@ -58,7 +58,10 @@ fn diagnosed(record: &Record, answer: (String, String)) -> (String, String) {
     let mistakes = relations::sentences(record);
     match mistakes.is_empty() {
         true => answer,
-        false => (format!("{}.", mistakes.join(". ")), format!("{} {}", answer.0, answer.1)),
+        false => (
+            format!("{}.", mistakes.join(". ")),
+            format!("{} {}", answer.0, answer.1),
+        ),
     }
 }
 
@@ -79,11 +82,17 @@ fn head(record: &Record) -> String {
             true => String::new(),
             false => format!(" of {}", number_of(*rays, "ray", "rays")),
         };
-        format!("{}{rays} in {}", number_of(*cases, "case", "cases"), names.join(" and in "))
+        format!(
+            "{}{rays} in {}",
+            number_of(*cases, "case", "cases"),
+            names.join(" and in ")
+        )
     });
     let sources = &result.plan.sources;
-    let families: BTreeSet<Option<&str>> =
-        sources.iter().map(|source| Some(family_of(&source.family)?.name)).collect();
+    let families: BTreeSet<Option<&str>> = sources
+        .iter()
+        .map(|source| Some(family_of(&source.family)?.name))
+        .collect();
     let sources = match families.contains(&None) {
         false => number_of(families.len() as u64, "family", "families"),
         true => number_of(sources.len() as u64, "source of cases", "sources of cases"),
@@ -92,7 +101,11 @@ fn head(record: &Record) -> String {
         1 => String::new(),
         several => format!(" in {several} kinds of planes and rays"),
     };
-    let placed = if result.is_placed() { " in an instance" } else { "" };
+    let placed = if result.is_placed() {
+        " in an instance"
+    } else {
+        ""
+    };
     let kernels: BTreeSet<&str> = result.plan.rows.iter().map(|row| &*row.kernel).collect();
     format!(
         "{}: {} ({}) on {sources}{kinds}{placed}, {}, {:.1} s, plan {}",
@@ -126,8 +139,15 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
         }
         _ => " but for extreme exponents".to_owned(),
     };
-    let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
-    let mean = if 1 < meant { ", the mean of the rows" } else { "" };
+    let meant = columns
+        .iter()
+        .filter(|column| column.is_ordinary() && !column.complete)
+        .count();
+    let mean = if 1 < meant {
+        ", the mean of the rows"
+    } else {
+        ""
+    };
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
     let text = match standings {
         _ if columns.is_empty() => {
@@ -155,12 +175,21 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
         _ => BTreeMap::new(),
     };
     let is_across = |kind: &FindingKind| {
-        matches!(kind, FindingKind::Crack | FindingKind::Double | FindingKind::OddFold)
+        matches!(
+            kind,
+            FindingKind::Crack | FindingKind::Double | FindingKind::OddFold
+        )
     };
     let told = |lead: &str, of_across: bool| {
-        let chosen = broken.iter().filter(|(kind, _)| is_across(kind) == of_across);
+        let chosen = broken
+            .iter()
+            .filter(|(kind, _)| is_across(kind) == of_across);
         let counts = chosen.map(|(finding, count)| {
-            let ending = if finding.name().ends_with(['s', 'h']) { "es" } else { "s" };
+            let ending = if finding.name().ends_with(['s', 'h']) {
+                "es"
+            } else {
+                "s"
+            };
             number_of(*count, finding.name(), &format!("{finding}{ending}"))
         });
         let counts: Vec<String> = counts.collect();
@@ -197,7 +226,10 @@ fn of_one(row: &Standing, columns: &[Column], cases: u64) -> String {
     });
     let seen = "by over 1/1000 of an edge, values included";
     let visible = match row.all_far() {
-        0 => format!("no visible error ({seen}) in {} answers", group_digits(cases)),
+        0 => format!(
+            "no visible error ({seen}) in {} answers",
+            group_digits(cases)
+        ),
         count => {
             let [count, cases] = [count, cases].map(group_digits);
             format!("visible errors ({seen}): {count} of {cases} answers")
@@ -212,7 +244,9 @@ fn of_one(row: &Standing, columns: &[Column], cases: u64) -> String {
         (ColumnSizes::Unusual, "at tiny, huge, far or thin triangles"),
         (ColumnSizes::Extreme, "at extreme exponents"),
     ];
-    let asked = sizes.iter().filter(|(sizes, _)| columns.iter().any(|it| it.sizes() == *sizes));
+    let asked = sizes
+        .iter()
+        .filter(|(sizes, _)| columns.iter().any(|it| it.sizes() == *sizes));
     let sizes = asked.map(|(sizes, words)| match row.visible_in(*sizes) {
         0 => format!("none {words}"),
         count => format!("{} {words}", group_digits(count)),
@@ -224,9 +258,17 @@ fn of_one(row: &Standing, columns: &[Column], cases: u64) -> String {
 /// The cases of a record in some columns but for those of extreme exponents, in all scalars.
 fn judged(record: &Record, columns: &[Column]) -> u64 {
     let is_judged = |source: &&SourcePart| {
-        columns.iter().any(|column| column.is_ordinary() && column.has(source))
+        columns
+            .iter()
+            .any(|column| column.is_ordinary() && column.has(source))
     };
-    record.result.sources.iter().filter(is_judged).map(|source| source.cases).sum()
+    record
+        .result
+        .sources
+        .iter()
+        .filter(is_judged)
+        .map(|source| source.cases)
+        .sum()
 }
 
 /// Which rows are more often wrong on planes, or with rays, of other kinds than the table's, and where most.
@@ -239,15 +281,26 @@ fn of_elsewhere(record: &Record, columns: &[Column], lines: &[RowLine]) -> Vec<B
             .map(|cell| Rate::new(cell.wrong, true))
             .collect(),
     };
-    let rows = lines.iter().flat_map(|line| columns.iter().map(|column| compared(line, column)));
+    let rows = lines
+        .iter()
+        .flat_map(|line| columns.iter().map(|column| compared(line, column)));
     let names: Vec<String> = kinds.iter().map(SceneKind::to_string).collect();
     let share = |rate: &Rate| rate.rate.map_or("-".to_owned(), percent);
-    let mut blocks =
-        elsewhere::blocks("Clearly more often wrong", &names, &rows.collect::<Vec<_>>(), share);
+    let mut blocks = elsewhere::blocks(
+        "Clearly more often wrong",
+        &names,
+        &rows.collect::<Vec<_>>(),
+        share,
+    );
     if !blocks.is_empty() {
-        let words = kinds[1..].iter().map(|kind| format!("{kind}: {}", kind.in_words()));
+        let words = kinds[1..]
+            .iter()
+            .map(|kind| format!("{kind}: {}", kind.in_words()));
         let of = "Shares are of all verdicts that are demanded, misses and hits together.";
-        blocks.push(Block::Text(format!("{}. {of}", words.collect::<Vec<_>>().join("; "))));
+        blocks.push(Block::Text(format!(
+            "{}. {of}",
+            words.collect::<Vec<_>>().join("; ")
+        )));
     }
     blocks
 }
@@ -255,7 +308,9 @@ fn of_elsewhere(record: &Record, columns: &[Column], lines: &[RowLine]) -> Vec<B
 /// The commands that lead on.
 fn next(record: &Record, best: Option<&RowPart>, lines: &[RowLine]) -> Vec<Command> {
     // The product of `verify` cannot be chosen by a flag.
-    let all = best.into_iter().chain(lines.iter().map(|line| line.row.part));
+    let all = best
+        .into_iter()
+        .chain(lines.iter().map(|line| line.row.part));
     let mut rows: Vec<&RowPart> = all.filter(|row| !row.selector.is_empty()).collect();
     // Those of one's own among others first.
     rows.sort_by_key(|row| kernel::find(&row.kernel).is_some_and(|entry| entry.is_built_in()));
@@ -263,31 +318,53 @@ fn next(record: &Record, best: Option<&RowPart>, lines: &[RowLine]) -> Vec<Comma
         return Vec::new();
     };
     let tuned = rows.iter().find(|row| row.is_tunable());
-    let spaced = |words: &str| if words.is_empty() { String::new() } else { format!(" {words}") };
+    let spaced = |words: &str| {
+        if words.is_empty() {
+            String::new()
+        } else {
+            format!(" {words}")
+        }
+    };
     let flags = record.provenance.plan_flags.clone().unwrap_or_default();
     let [kernels, all_sources] = [&flags.kernels, &flags.sources].map(|words| spaced(words));
     let is_alone = rows.iter().all(|row| row.selector == first.selector);
     let mut commands: Vec<Command> = Vec::new();
     if !is_alone {
         let is_own = kernel::find(&first.kernel).is_some_and(|entry| !entry.is_built_in());
-        let one = if is_own { first } else { tuned.unwrap_or(first) };
+        let one = if is_own {
+            first
+        } else {
+            tuned.unwrap_or(first)
+        };
         let line = format!("hairline audit {}{all_sources}", one.selector);
-        commands.push(Command { line, what: "one kernel" });
+        commands.push(Command {
+            line,
+            what: "one kernel",
+        });
     }
     // No epsilon is chosen in instances.
     if let Some(tuned) = tuned.filter(|_| !all_sources.contains(" --instance ")) {
         // `epsilon` knows no rays at a mesh's edges, and takes a scene whole.
-        let sources = all_sources.split(" --directions").next().unwrap_or_default();
+        let sources = all_sources
+            .split(" --directions")
+            .next()
+            .unwrap_or_default();
         let sources = if sources.contains(" --scene ") {
             without_families(sources)
         } else {
             sources.to_owned()
         };
         let line = format!("hairline epsilon {}{sources}", tuned.selector);
-        commands.push(Command { line, what: "choose an epsilon" });
+        commands.push(Command {
+            line,
+            what: "choose an epsilon",
+        });
     }
     let line = format!("hairline check{kernels}{all_sources} --bless");
-    commands.push(Command { line, what: "gate a CI; writes files" });
+    commands.push(Command {
+        line,
+        what: "gate a CI; writes files",
+    });
     commands
 }
 
@@ -295,6 +372,8 @@ fn next(record: &Record, best: Option<&RowPart>, lines: &[RowLine]) -> Vec<Comma
 fn without_families(flags: &str) -> String {
     let words: Vec<&str> = flags.split(' ').collect();
     let is_of_family = |i: &usize| words[*i] == "--family" || 0 < *i && words[i - 1] == "--family";
-    let kept = (0..words.len()).filter(|i| !is_of_family(i)).map(|i| words[i]);
+    let kept = (0..words.len())
+        .filter(|i| !is_of_family(i))
+        .map(|i| words[i]);
     kept.collect::<Vec<_>>().join(" ")
 }

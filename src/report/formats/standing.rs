@@ -37,7 +37,10 @@ impl Standing<'_> {
     /// The share of rays at shared edges and vertices that hit nothing, in the worse scalar; none if there are no such
     /// rays.
     pub fn leaks(&self) -> Option<[u64; 2]> {
-        let all = self.lines.iter().filter_map(|line| Some(line.across.as_ref()?.cracks));
+        let all = self
+            .lines
+            .iter()
+            .filter_map(|line| Some(line.across.as_ref()?.cracks));
         all.max_by(|a, b| share(*a).total_cmp(&share(*b)))
     }
 
@@ -49,7 +52,9 @@ impl Standing<'_> {
     /// The rays at shared edges and vertices of other than ordinary sizes that hit nothing, of how many, in all scalars.
     pub fn extreme_leaks(&self) -> [u64; 2] {
         let all = self.across().map(|across| across.extreme_cracks);
-        all.fold([0, 0], |[count, of], [more, of_more]| [count + more, of + of_more])
+        all.fold([0, 0], |[count, of], [more, of_more]| {
+            [count + more, of + of_more]
+        })
     }
 
     fn across(&self) -> impl Iterator<Item = &AcrossColumn> {
@@ -58,14 +63,17 @@ impl Standing<'_> {
 
     /// True if it broke what it promises across triangles, and not by leaks in other than ordinary sizes alone.
     pub fn breaks_promise(&self) -> bool {
-        self.across().any(|it| it.is_broken() && !it.is_broken_by_extremes())
+        self.across()
+            .any(|it| it.is_broken() && !it.is_broken_by_extremes())
     }
 
     /// The trials in the scalar in which more are wrong.
     pub fn worse(&self, of: impl Fn(&RowLine) -> ColumnCell) -> ColumnCell {
         let share = |cell: &ColumnCell| cell.wrong.share().unwrap_or(-1.0);
         let cells = self.lines.iter().map(|line| of(line));
-        cells.max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or_default()
+        cells
+            .max_by(|a, b| share(a).total_cmp(&share(b)))
+            .unwrap_or_default()
     }
 
     /// True if another row was wrong exactly as often, in every column and scalar.
@@ -84,7 +92,11 @@ impl Standing<'_> {
             (cells, cell(&line.values), across)
         };
         self.others == other.others
-            && self.lines.iter().map(numbers).eq(other.lines.iter().map(numbers))
+            && self
+                .lines
+                .iter()
+                .map(numbers)
+                .eq(other.lines.iter().map(numbers))
     }
 }
 
@@ -110,13 +122,22 @@ type Others = HashMap<[String; 2], BTreeMap<FindingKind, u64>>;
 fn other_findings(record: &Record) -> Others {
     let mut others = Others::new();
     for found in disagreements(&record.result) {
-        let Key { kernel, set, family, finding, .. } = found.key;
+        let Key {
+            kernel,
+            set,
+            family,
+            finding,
+            ..
+        } = found.key;
         // Cracks at the shared edges and vertices of a scene are in the shares, promised or not.
         let is_in_shares =
             finding.is_wrong_verdict() || finding == FindingKind::Crack && is_at_shared(&family);
         if !is_in_shares {
-            *others.entry([kernel, set]).or_default().entry(finding).or_default() +=
-                found.rate.count;
+            *others
+                .entry([kernel, set])
+                .or_default()
+                .entry(finding)
+                .or_default() += found.rate.count;
         }
     }
     others
@@ -131,19 +152,25 @@ pub(super) fn standings<'a>(
     let (everywhere, others) = (Column::in_all_kinds(record), other_findings(record));
     let wrong_in = |columns: &[Column], line: &RowLine| -> u64 {
         let columns = columns.iter().filter(|column| column.is_ordinary());
-        columns.map(|column| ColumnCell::sum(&column.results(&line.row)).wrong.count).sum()
+        columns
+            .map(|column| ColumnCell::sum(&column.results(&line.row)).wrong.count)
+            .sum()
     };
     // Stored cases stay out of the mean of samples.
     let all_complete = columns.iter().all(|column| column.complete);
     let of_row = |part: &'a RowPart| {
-        let of_part = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
+        let of_part = lines
+            .iter()
+            .filter(|line| std::ptr::eq(line.row.part, part));
         let lines: Vec<&RowLine> = of_part.collect();
         let cells: Vec<(&Column, &ColumnCell)> = lines
             .iter()
             .flat_map(|line| columns.iter().zip(&line.cells))
             .filter(|(column, cell)| column.is_ordinary() && 0 < cell.wrong.of)
             .collect();
-        let meant = cells.iter().filter(|(column, _)| column.complete == all_complete);
+        let meant = cells
+            .iter()
+            .filter(|(column, _)| column.complete == all_complete);
         let shares: Vec<f64> = meant.filter_map(|(_, cell)| cell.wrong.share()).collect();
         (!lines.is_empty()).then(|| Standing {
             part,

@@ -52,11 +52,26 @@ pub(super) fn blocks(record: &Record, conformance: &Conformance) -> Vec<Block> {
     let title = "Proofs that [proved] demands and that are missing";
     blocks.extend(Block::items(title, MOST_LISTED, unproved.collect()));
     let net = net_lines(conformance);
-    let net = net.into_iter().map(|text| Item { text, ..Item::default() }).collect();
+    let net = net
+        .into_iter()
+        .map(|text| Item {
+            text,
+            ..Item::default()
+        })
+        .collect();
     blocks.extend(Block::items("What changed, in cases", MOST_LISTED, net));
     let errors = conformance.errors.iter();
-    let errors = errors.map(|it| Item { text: it.to_string(), ..Item::default() }).collect();
-    blocks.extend(Block::items("Errors of right hits, of a sample", MOST_LISTED, errors));
+    let errors = errors
+        .map(|it| Item {
+            text: it.to_string(),
+            ..Item::default()
+        })
+        .collect();
+    blocks.extend(Block::items(
+        "Errors of right hits, of a sample",
+        MOST_LISTED,
+        errors,
+    ));
     let stale =
         "Stale expectations (what was wrong is less so, or gone; --bless writes what was found)";
     let unsteady = "Answers differ from run to run, so these kernels are not compared";
@@ -65,17 +80,26 @@ pub(super) fn blocks(record: &Record, conformance: &Conformance) -> Vec<Block> {
         ("Unexpected disagreements", &conformance.unexpected),
         (stale, &conformance.stale),
     ] {
-        let items = list.iter().map(|found| deviation(conformance, found)).collect();
+        let items = list
+            .iter()
+            .map(|found| deviation(conformance, found))
+            .collect();
         blocks.extend(Block::items(title, MOST_LISTED, items));
     }
     let mut all = conformance.unexpected.iter().chain(&conformance.stale);
     if all.any(|found| found.class.contains('/')) {
         blocks.push(Block::text(CLASSES));
     }
-    let told = conformance.known.iter().filter(|known| known.why.is_some() || known.url.is_some());
+    let told = conformance
+        .known
+        .iter()
+        .filter(|known| known.why.is_some() || known.url.is_some());
     let told: Vec<Item> = told.map(|found| deviation(conformance, found)).collect();
     if !told.is_empty() {
-        let items = vec![Block::Items(Items { items: told, most: usize::MAX })];
+        let items = vec![Block::Items(Items {
+            items: told,
+            most: usize::MAX,
+        })];
         blocks.push(Block::Details("Known, with a reason".to_owned(), items));
     }
     blocks
@@ -89,7 +113,12 @@ fn deviation(conformance: &Conformance, found: &Deviation) -> Item {
         notes: found.why.iter().cloned().collect(),
         url: found.url.clone(),
         lines: found.command.iter().cloned().collect(),
-        more: found.bits.iter().filter(|bits| !bits.is_empty()).cloned().collect(),
+        more: found
+            .bits
+            .iter()
+            .filter(|bits| !bits.is_empty())
+            .cloned()
+            .collect(),
     }
 }
 
@@ -106,19 +135,31 @@ fn net_lines(conformance: &Conformance) -> Vec<String> {
     }
     let mut rows: BTreeMap<String, NetFindings<'_>> = BTreeMap::new();
     for found in conformance.unexpected.iter().chain(&conformance.stale) {
-        let Some(more) = more_than_expected(found) else { continue };
+        let Some(more) = more_than_expected(found) else {
+            continue;
+        };
         let row = format!("{} {}", found.key().row(), found.scalar);
         let findings = rows.entry(row).or_default();
-        *findings.entry(found.finding).or_default().entry(&found.family).or_default() += more;
+        *findings
+            .entry(found.finding)
+            .or_default()
+            .entry(&found.family)
+            .or_default() += more;
     }
     let mut rows: Vec<(String, NetFindings<'_>)> = rows.into_iter().collect();
     for (_, findings) in &mut rows {
-        findings.values_mut().for_each(|families| families.retain(|_, more| *more != 0));
+        findings
+            .values_mut()
+            .for_each(|families| families.retain(|_, more| *more != 0));
         findings.retain(|_, families| !families.is_empty());
     }
     rows.retain(|(_, findings)| !findings.is_empty());
     let size = |findings: &NetFindings<'_>| {
-        findings.values().flat_map(BTreeMap::values).map(|more| more.unsigned_abs()).sum::<u64>()
+        findings
+            .values()
+            .flat_map(BTreeMap::values)
+            .map(|more| more.unsigned_abs())
+            .sum::<u64>()
     };
     rows.sort_by_cached_key(|(row, findings)| (u64::MAX - size(findings), row.clone()));
     let line = |(row, findings): &(String, NetFindings<'_>)| {
@@ -141,8 +182,9 @@ fn finding_words((finding, families): (&FindingKind, &BTreeMap<&str, i64>)) -> S
     let mut families: Vec<(&&str, &i64)> = families.iter().collect();
     families.sort_by_key(|(name, more)| (-more.abs(), **name));
     let named = families.iter().take(MOST_FAMILIES);
-    let mut words: Vec<String> =
-        named.map(|(name, more)| format!("{name} {}", signed(**more))).collect();
+    let mut words: Vec<String> = named
+        .map(|(name, more)| format!("{name} {}", signed(**more)))
+        .collect();
     if MOST_FAMILIES < families.len() {
         words.push(format!("{} more", families.len() - MOST_FAMILIES));
     }

@@ -10,7 +10,9 @@ pub(super) fn of_kind<'a>(
     results: &[&'a KernelResult],
     kind: FindingKind,
 ) -> impl Iterator<Item = &'a FindingPart> {
-    let alone = results.iter().filter(move |result| counts_alone(result, kind));
+    let alone = results
+        .iter()
+        .filter(move |result| counts_alone(result, kind));
     let findings = alone.flat_map(|result| &result.findings);
     findings.filter(move |part| part.finding == kind)
 }
@@ -25,7 +27,12 @@ pub(super) fn causes_text<'a>(findings: impl Iterator<Item = &'a FindingPart>) -
     let text = |(attribution, share, interval): &CauseShare| {
         let interval =
             interval.map(|[low, high]| format!(" [{}, {}]", percent(low), percent(high)));
-        format!("{} {}{}", attribution.name(), percent(*share), interval.unwrap_or_default())
+        format!(
+            "{} {}{}",
+            attribution.name(),
+            percent(*share),
+            interval.unwrap_or_default()
+        )
     };
     Some(shares.iter().map(text).collect::<Vec<_>>().join(", "))
 }
@@ -49,7 +56,9 @@ pub(super) fn cause_shares<'a>(
         let mut sums = [0.0; 3];
         let mut sampled = false;
         for (count, causes) in &chosen {
-            let Some(rate) = causes.by.get(&attribution) else { continue };
+            let Some(rate) = causes.by.get(&attribution) else {
+                continue;
+            };
             let share = rate.rate.unwrap_or(0.0);
             let [low, high] = rate.interval.unwrap_or([share; 2]);
             sampled |= rate.interval.is_some();

@@ -12,17 +12,32 @@ use std::collections::BTreeMap;
 pub(super) fn findings(row: &RowView) -> Vec<Item> {
     let mut parts: BTreeMap<(FindingKind, &str), Vec<&FindingPart>> = BTreeMap::new();
     for result in &row.results {
-        let alone = result.findings.iter().filter(|part| counts_alone(result, part.finding));
+        let alone = result
+            .findings
+            .iter()
+            .filter(|part| counts_alone(result, part.finding));
         for finding in alone {
-            parts.entry((finding.finding, &finding.class)).or_default().push(finding);
+            parts
+                .entry((finding.finding, &finding.class))
+                .or_default()
+                .push(finding);
         }
     }
     let item = |text, command| Item::shown_by(format!("{} {text}", row.scalar), command);
     let of_class = |((kind, class), parts): (&(FindingKind, &str), &Vec<&FindingPart>)| {
-        let worse = |worst, part| if severity(worst) < severity(part) { part } else { worst };
+        let worse = |worst, part| {
+            if severity(worst) < severity(part) {
+                part
+            } else {
+                worst
+            }
+        };
         let worst: &FindingPart = parts.iter().copied().reduce(worse)?;
         let (count, how) = (row.found(*kind, class), describe(worst));
-        Some(item(format!("{kind} of {class}: {count}; worst: {how}"), worst.worst.command.clone()))
+        Some(item(
+            format!("{kind} of {class}: {count}; worst: {how}"),
+            worst.worst.command.clone(),
+        ))
     };
     let mut items: Vec<Item> = parts.iter().filter_map(of_class).collect();
     for result in &row.results {
@@ -34,7 +49,10 @@ pub(super) fn findings(row: &RowView) -> Vec<Item> {
         groups.extend(polygons(result));
         items.extend(groups.into_iter().filter_map(|(kind, rate, _, first)| {
             let command = row.part.explain_group(result, first.first()?);
-            Some(item(format!("{kind} in {}: {}", result.family, counted(rate)), command))
+            Some(item(
+                format!("{kind} in {}: {}", result.family, counted(rate)),
+                command,
+            ))
         }));
     }
     items
@@ -43,7 +61,10 @@ pub(super) fn findings(row: &RowView) -> Vec<Item> {
 impl RowView<'_> {
     /// The findings of a kind and a class.
     fn found(&self, kind: FindingKind, class: &str) -> Pool {
-        let alone = self.results.iter().filter(|result| counts_alone(result, kind));
+        let alone = self
+            .results
+            .iter()
+            .filter(|result| counts_alone(result, kind));
         let counts = alone.filter_map(|result| result.classes.get(class));
         let rates: Vec<Rate> = counts.filter_map(|counts| counts.rate(kind)).collect();
         Pool::of(rates.iter())
@@ -53,7 +74,9 @@ impl RowView<'_> {
 /// By how far the verdict is wrong, and whether that is a distance along the ray: for a false hit
 /// before or beyond the extent it is.
 fn severity_of(finding: &FindingPart) -> (f64, bool) {
-    let Some(severity) = &finding.worst.severity else { return (0.0, false) };
+    let Some(severity) = &finding.worst.severity else {
+        return (0.0, false);
+    };
     if let Some(off) = severity.value_off {
         return (off, false);
     }
@@ -61,7 +84,11 @@ fn severity_of(finding: &FindingPart) -> (f64, bool) {
         Some(along) if finding.finding == FindingKind::FalseHit && severity.off_end.is_some() => {
             let outside = finding.class.starts_with("outside");
             let in_space = if outside { severity.in_space } else { 0.0 };
-            if along > in_space { (along, true) } else { (in_space, false) }
+            if along > in_space {
+                (along, true)
+            } else {
+                (in_space, false)
+            }
         }
         // A hit at an end that does not count.
         Some(along)
@@ -96,8 +123,14 @@ pub(super) fn describe(part: &FindingPart) -> String {
         d if (0.01..1000.0).contains(&d) => format!("{d:.2}"),
         d => format!("{d:.1e}"),
     };
-    let off_end = part.worst.severity.as_ref().and_then(|severity| severity.off_end.as_deref());
-    let touches = ["interior/", "edge/", "vertex/"].iter().any(|start| class.starts_with(start));
+    let off_end = part
+        .worst
+        .severity
+        .as_ref()
+        .and_then(|severity| severity.off_end.as_deref());
+    let touches = ["interior/", "edge/", "vertex/"]
+        .iter()
+        .any(|start| class.starts_with(start));
     let is_hit = part.finding == FindingKind::FalseHit;
     let hit = if is_hit { "a hit" } else { "a miss" };
     let what = match (part.finding, is_hit, along) {

@@ -24,12 +24,21 @@ pub(super) struct AtPart<'a> {
 impl<'a> AtPart<'a> {
     fn of(result: &'a KernelResult) -> Option<AtPart<'a>> {
         let across = result.across.as_ref()?;
-        Some(AtPart { result, across, leaking: across.leaking.as_ref()?.count })
+        Some(AtPart {
+            result,
+            across,
+            leaking: across.leaking.as_ref()?.count,
+        })
     }
 
     /// Cases on which the kernel gave no verdict.
     pub fn failures(&self) -> u64 {
-        let Counts { panics, crashes, timeouts, .. } = self.result.total;
+        let Counts {
+            panics,
+            crashes,
+            timeouts,
+            ..
+        } = self.result.total;
         panics + crashes + timeouts
     }
 }
@@ -38,20 +47,36 @@ impl<'a> AtPart<'a> {
 pub(super) fn rows<'a>(result: &'a ResultPart) -> Vec<MeshRow<'a>> {
     let row = |edges: &'a KernelResult| {
         let [kernel, set, scalar, _] = edges.place();
-        let mut of_row = result.results.iter().filter(|it| it.place()[..3] == edges.place()[..3]);
+        let mut of_row = result
+            .results
+            .iter()
+            .filter(|it| it.place()[..3] == edges.place()[..3]);
         let (edges, vertices) = (AtPart::of(of_row.next()?)?, AtPart::of(of_row.next()?)?);
         let is_part = |part: &&RowPart| (&*part.kernel, &*part.set) == (kernel, set);
         let part = result.plan.rows.iter().find(is_part)?;
-        Some(MeshRow { part, scalar, at: [edges, vertices] })
+        Some(MeshRow {
+            part,
+            scalar,
+            at: [edges, vertices],
+        })
     };
     let is_edges = |it: &&KernelResult| it.family.starts_with(AimedPart::Edges.name());
-    result.results.iter().filter(is_edges).filter_map(row).collect()
+    result
+        .results
+        .iter()
+        .filter(is_edges)
+        .filter_map(row)
+        .collect()
 }
 
 impl MeshRow<'_> {
     /// The same without published epsilons.
     pub fn short_label(&self) -> String {
-        if self.part.set == "source" { self.part.kernel.clone() } else { self.part.label() }
+        if self.part.set == "source" {
+            self.part.kernel.clone()
+        } else {
+            self.part.label()
+        }
     }
 
     /// The contract's promise.

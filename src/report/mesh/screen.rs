@@ -17,7 +17,10 @@ pub fn page(record: &Record, mesh: &MeshPart) -> Page {
     let result = &record.result;
     let rows = rows(result);
     let (tone, title) = verdict(result, mesh, &rows);
-    let unit = result.plan.parameters().any(|parameters| parameters.unit_direction);
+    let unit = result
+        .plan
+        .parameters()
+        .any(|parameters| parameters.unit_direction);
     let mut blocks = vec![Block::text(format!(
         "{}, {}, {}{}{}, seed {}, {:.1} s",
         number_of(mesh.triangles, "triangle", "triangles"),
@@ -27,12 +30,18 @@ pub fn page(record: &Record, mesh: &MeshPart) -> Page {
             true => " with unit directions at each edge and vertex",
             false => " at each edge and vertex",
         },
-        if result.is_placed() { " of an instance" } else { "" },
+        if result.is_placed() {
+            " of an instance"
+        } else {
+            ""
+        },
         mesh.seed,
         record.provenance.seconds
     ))];
     let of_scalar = |part: &MeshScalar| -> Vec<&MeshRow<'_>> {
-        rows.iter().filter(|row| row.scalar == part.scalar).collect()
+        rows.iter()
+            .filter(|row| row.scalar == part.scalar)
+            .collect()
     };
     for part in &mesh.scalars {
         let grain = part.grain();
@@ -42,7 +51,12 @@ pub fn page(record: &Record, mesh: &MeshPart) -> Page {
     }
     #[cfg(feature = "pages")]
     blocks.extend(super::stage::block(record, mesh, &rows));
-    blocks.extend(result.partial.as_ref().map(|part| Block::Text(part.sentence())));
+    blocks.extend(
+        result
+            .partial
+            .as_ref()
+            .map(|part| Block::Text(part.sentence())),
+    );
     let places = first_places(&rows);
     if !places.is_empty() {
         blocks.push(Block::Commands("shown by", places));
@@ -52,15 +66,33 @@ pub fn page(record: &Record, mesh: &MeshPart) -> Page {
     }
     for part in &mesh.scalars {
         let title = format!("Everything in {}", part.scalar);
-        blocks.push(Block::Details(title, everything(record, mesh, &of_scalar(part))));
+        blocks.push(Block::Details(
+            title,
+            everything(record, mesh, &of_scalar(part)),
+        ));
     }
-    Page { command: "mesh", title, tone, blocks }
+    Page {
+        command: "mesh",
+        title,
+        tone,
+        blocks,
+    }
 }
 
 impl MeshScalar {
     fn grain(&self) -> Grain<'_> {
-        let MeshScalar { scalar, spacing, smallest, .. } = self;
-        Grain { scalar, spacing: *spacing, smallest: *smallest, unit: "" }
+        let MeshScalar {
+            scalar,
+            spacing,
+            smallest,
+            ..
+        } = self;
+        Grain {
+            scalar,
+            spacing: *spacing,
+            smallest: *smallest,
+            unit: "",
+        }
     }
 }
 
@@ -74,7 +106,9 @@ fn verdict(result: &ResultPart, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> (Tone,
     let name = mesh.file.rsplit(['/', '\\']).next().unwrap_or(&mesh.file);
     let file: String = name.chars().take(120).collect();
     let leaking = rows.iter().filter(|row| 0 < row.leaks()).count();
-    let is_broken = rows.iter().any(|row| row.promise().is_some_and(|(_, kept)| !kept));
+    let is_broken = rows
+        .iter()
+        .any(|row| row.promise().is_some_and(|(_, kept)| !kept));
     let failed = rows.iter().any(|row| 0 < row.failures());
     let rays = all_rays(result);
     let tone = match (is_broken, leaking) {
@@ -83,7 +117,10 @@ fn verdict(result: &ResultPart, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> (Tone,
         _ => Tone::Plain,
     };
     let aimed = group_digits(rays);
-    let of = format!("of {aimed} aimed at its edges and vertices{}", not_asked(mesh));
+    let of = format!(
+        "of {aimed} aimed at its edges and vertices{}",
+        not_asked(mesh)
+    );
     let title = match (leaking, rows.len()) {
         _ if rays == 0 => format!("Nothing to ask of {file}"),
         (0, 1) => format!("No ray slips through {file}, {of}"),
@@ -99,20 +136,30 @@ fn not_asked(mesh: &MeshPart) -> String {
     // In the scalar in which they are most.
     let of_scalar = |part: &MeshScalar| {
         let count = |key: &str| part.topology.edges.get(key).map_or(0, |noted| noted.count);
-        (EDGE_WORDS[1..].iter().map(|(key, _)| count(key)).sum(), count("open"))
+        (
+            EDGE_WORDS[1..].iter().map(|(key, _)| count(key)).sum(),
+            count("open"),
+        )
     };
     match mesh.scalars.iter().map(of_scalar).max() {
         None | Some((0, _)) => String::new(),
         Some((others, open)) => {
             let edges = number_of(others, "edge is", "edges are");
-            format!("; {edges} not asked about, {} of them open", group_digits(open))
+            format!(
+                "; {edges} not asked about, {} of them open",
+                group_digits(open)
+            )
         }
     }
 }
 
 /// The mesh in one scalar, and the rows, those that leak least first; rows that answer alike stand together.
 fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) -> Vec<Block> {
-    let of_scalar = record.result.sources.iter().filter(|source| source.scalar == part.scalar);
+    let of_scalar = record
+        .result
+        .sources
+        .iter()
+        .filter(|source| source.scalar == part.scalar);
     let rays: Vec<u64> = of_scalar.map(|source| source.indices).collect();
     let mut blocks = vec![Block::terms(topology_terms(part, &rays))];
     if rays.iter().all(|rays| *rays == 0) {
@@ -124,9 +171,15 @@ fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) ->
         of(|across| &across.cracks).then(of(|across| &across.doubles))
     });
     let counts = |row: &MeshRow<'_>| {
-        let rates: [fn(&AcrossPart) -> &Rate; 3] =
-            [|across| &across.cracks, |across| &across.doubles, |across| &across.odd_folds];
-        (row.at.map(|at| at.leaking), rates.map(|rate| row.both(rate).count))
+        let rates: [fn(&AcrossPart) -> &Rate; 3] = [
+            |across| &across.cracks,
+            |across| &across.doubles,
+            |across| &across.odd_folds,
+        ];
+        (
+            row.at.map(|at| at.leaking),
+            rates.map(|rate| row.both(rate).count),
+        )
     };
     let shown = alike(rows, |one, other| counts(one) == counts(other));
     let heads = vec![
@@ -157,7 +210,8 @@ fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) ->
             share(&row.both(|across| &across.odd_folds), exactly),
             group_digits(edges.leaking).into(),
             group_digits(vertices.leaking).into(),
-            time.map_or("-".to_owned(), |time| format!("{time:.1}")).into(),
+            time.map_or("-".to_owned(), |time| format!("{time:.1}"))
+                .into(),
         ];
         let mut below = Vec::new();
         if !alike.is_empty() {
@@ -170,9 +224,14 @@ fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) ->
         }
         if 0 < row.failures() {
             let count = number_of(row.failures(), "case", "cases");
-            below.push(format!("no verdict on {count}, which are in no share (--details)"));
+            below.push(format!(
+                "no verdict on {count}, which are in no share (--details)"
+            ));
         }
-        Row { below, ..Row::new(row.short_label(), cells) }
+        Row {
+            below,
+            ..Row::new(row.short_label(), cells)
+        }
     };
     let rows = shown.iter().map(row).collect();
     blocks.push(Block::Table(Table::new(heads, rows).at_most(MOST_ROWS)));
@@ -202,14 +261,22 @@ fn first_places(rows: &[MeshRow<'_>]) -> Vec<Command> {
     rows.sort_by_key(|row| (row.promise().is_none_or(|(_, kept)| kept), row.leaks()));
     let first = |row: &&MeshRow<'_>| {
         let first = examples(row, 1, false).into_iter().next()?;
-        Some(Command { line: first.command, what: "" })
+        Some(Command {
+            line: first.command,
+            what: "",
+        })
     };
     rows.iter().filter_map(first).take(MOST_PLACES).collect()
 }
 
 /// Each row with its intervals, and the places that were kept.
 fn everything(record: &Record, mesh: &MeshPart, rows: &[&MeshRow<'_>]) -> Vec<Block> {
-    let heads = ["kernel (epsilons)", "edges [95 %]", "vertices [95 %]", "elsewhere"];
+    let heads = [
+        "kernel (epsilons)",
+        "edges [95 %]",
+        "vertices [95 %]",
+        "elsewhere",
+    ];
     let rate = |rate: &Rate| interval_of(rate).trim_matches([' ', '(', ')']).to_owned();
     let row = |row: &&MeshRow<'_>| {
         let elsewhere = row.at.iter().filter_map(|at| at.across.elsewhere.as_ref());
@@ -219,12 +286,18 @@ fn everything(record: &Record, mesh: &MeshPart, rows: &[&MeshRow<'_>]) -> Vec<Bl
     };
     let table = Table::new(heads.map(Head::of).into(), rows.iter().map(row).collect());
     let mut blocks = vec![Block::Table(table)];
-    blocks.push(Block::text(format!("{}, digest {}", record.provenance.tool, mesh.digest)));
+    blocks.push(Block::text(format!(
+        "{}, digest {}",
+        record.provenance.tool, mesh.digest
+    )));
     for row in rows {
         let count = row.failures();
         if 0 < count {
             let count = number_of(count, "case", "cases");
-            blocks.push(Block::Text(format!("{}: no verdict on {count}", row.part.label())));
+            blocks.push(Block::Text(format!(
+                "{}: no verdict on {count}",
+                row.part.label()
+            )));
         }
         let mut findings = row.at.iter().flat_map(|at| &at.result.findings);
         let failure = findings.find(|part| part.finding.is_failure());
@@ -240,7 +313,13 @@ fn everything(record: &Record, mesh: &MeshPart, rows: &[&MeshRow<'_>]) -> Vec<Bl
             let place = mesh.places.get(id).map(place).unwrap_or_default();
             format!("    {what}: {place}\n        {command}")
         };
-        blocks.push(Block::Listing(examples.into_iter().map(line).collect::<Vec<_>>().join("\n")));
+        blocks.push(Block::Listing(
+            examples
+                .into_iter()
+                .map(line)
+                .collect::<Vec<_>>()
+                .join("\n"),
+        ));
     }
     blocks
 }
@@ -267,7 +346,14 @@ fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, String)> {
             };
             parts.push(format!("{} {word}{first}", group_digits(noted.count)));
         }
-        lines.push((name, if parts.is_empty() { "none".to_owned() } else { parts.join(", ") }));
+        lines.push((
+            name,
+            if parts.is_empty() {
+                "none".to_owned()
+            } else {
+                parts.join(", ")
+            },
+        ));
     }
     if topology.duplicated_places > 0 {
         let places = number_of(topology.duplicated_places, "place", "places");
@@ -290,7 +376,10 @@ const FACE_WORDS: &[(&str, &str)] = &[
     ("without_area", "without area"),
     ("duplicated", "duplicated"),
     ("out_of_range", "out of range"),
-    ("left_out", "left out, polygons that cross themselves or fold over"),
+    (
+        "left_out",
+        "left out, polygons that cross themselves or fold over",
+    ),
 ];
 const EDGE_WORDS: &[(&str, &str)] = &[
     ("shared", "between two faces"),
@@ -341,8 +430,11 @@ fn examples<'a>(row: &MeshRow<'a>, limit: usize, elsewhere: bool) -> Vec<MeshExa
 
 /// The points, and the lines of the faces, or their numbers.
 fn place(example: &PlacePart) -> String {
-    let points: Vec<String> =
-        example.points.iter().map(|[x, y, z]| format!("({x}, {y}, {z})")).collect();
+    let points: Vec<String> = example
+        .points
+        .iter()
+        .map(|[x, y, z]| format!("({x}, {y}, {z})"))
+        .collect();
     let (at, places) = match example.lines.as_slice() {
         [] => ("", &example.faces),
         _ => ("at lines ", &example.lines),
@@ -351,5 +443,9 @@ fn place(example: &PlacePart) -> String {
     places.dedup();
     let more = if places.len() > 8 { ", …" } else { "" };
     places.truncate(8);
-    format!("{}, faces {at}{}{more}", points.join(" to "), places.join(", "))
+    format!(
+        "{}, faces {at}{}{more}",
+        points.join(" to "),
+        places.join(", ")
+    )
 }

@@ -30,21 +30,38 @@ pub(super) fn block(record: &Record, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> O
         @for (i, row) in rows.iter().enumerate() { (places(i, drawing, row)) }
     };
     let (style, script) = (include_str!("view.css"), include_str!("view.js"));
-    Some(Block::Stage(Stage { markup: markup.into_string(), style, script }))
+    Some(Block::Stage(Stage {
+        markup: markup.into_string(),
+        style,
+        script,
+    }))
 }
 
 /// The drawing: a canvas for the script.
 fn drawing(mesh: &MeshPart, drawing: &MeshDrawing, rows: &[ShownRow]) -> Markup {
     let numbers = |values: &mut dyn Iterator<Item = i64>| {
-        values.map(|value| value.to_string()).collect::<Vec<_>>().join(" ")
+        values
+            .map(|value| value.to_string())
+            .collect::<Vec<_>>()
+            .join(" ")
     };
     let points = numbers(&mut drawing.points.iter().flat_map(|(_, at)| at.map(i64::from)));
     let vertices = numbers(&mut drawing.points.iter().map(|(number, _)| i64::from(*number)));
-    let triangles = numbers(&mut drawing.triangles.iter().flat_map(|face| face.map(i64::from)));
-    let kinds: Vec<usize> = (0..WRONG.len()).filter(|kind| has_kind(rows, *kind)).collect();
+    let triangles = numbers(
+        &mut drawing
+            .triangles
+            .iter()
+            .flat_map(|face| face.map(i64::from)),
+    );
+    let kinds: Vec<usize> = (0..WRONG.len())
+        .filter(|kind| has_kind(rows, *kind))
+        .collect();
     // Drawn first: what breaks its promise, otherwise what leaks most.
     let badness = |row: &ShownRow| (row.row.promise().is_some_and(|(_, kept)| !kept), row.marked);
-    let worst = (0..rows.len()).rev().max_by_key(|i| badness(&rows[*i])).unwrap_or(0);
+    let worst = (0..rows.len())
+        .rev()
+        .max_by_key(|i| badness(&rows[*i]))
+        .unwrap_or(0);
     html! {
         h2 { "Where" }
         div {
@@ -173,20 +190,42 @@ fn shown<'a>(all: &'a [MeshRow<'a>], drawing: &'a MeshDrawing) -> Vec<ShownRow<'
             marked += 1;
         }
         left -= marks.len();
-        rows.push(ShownRow { row, drawn, marks, marked });
+        rows.push(ShownRow {
+            row,
+            drawn,
+            marks,
+            marked,
+        });
     }
     rows
 }
 
 /// `what a b rays index line,line;`
 fn mark_text(mark: &MeshMark) -> String {
-    let MeshMark { wrong, ends: [a, b], rays, index, .. } = mark;
-    format!("{} {a} {b} {rays} {index} {};", *wrong as usize, lines(mark, ","))
+    let MeshMark {
+        wrong,
+        ends: [a, b],
+        rays,
+        index,
+        ..
+    } = mark;
+    format!(
+        "{} {a} {b} {rays} {index} {};",
+        *wrong as usize,
+        lines(mark, ",")
+    )
 }
 
 /// The lines of the faces around, the first eight.
 fn lines(mark: &MeshMark, comma: &str) -> String {
-    let more = if mark.lines.len() > 8 { &["…".to_owned()][..] } else { &[] };
+    let more = if mark.lines.len() > 8 {
+        &["…".to_owned()][..]
+    } else {
+        &[]
+    };
     let first = mark.lines.iter().take(8).map(u32::to_string);
-    first.chain(more.iter().cloned()).collect::<Vec<_>>().join(comma)
+    first
+        .chain(more.iter().cloned())
+        .collect::<Vec<_>>()
+        .join(comma)
 }

@@ -17,14 +17,22 @@ pub(super) fn write(page: &Page, style: Style, out: &mut dyn Write) -> io::Resul
 
 /// The page in at most so many bytes, cut after a line, with a note of it.
 pub fn within(page: &Page, style: Style, limit: usize) -> String {
-    let mut writer = MarkdownWriter { text: String::new(), style };
+    let mut writer = MarkdownWriter {
+        text: String::new(),
+        style,
+    };
     writer.page(&page.clone().readable());
     let text = writer.text;
     if text.len() <= limit {
         return text;
     }
-    let Some(room) = limit.checked_sub(REST.len()) else { return String::new() };
-    let end = text.as_bytes()[..room].iter().rposition(|byte| *byte == b'\n').map_or(0, |i| i + 1);
+    let Some(room) = limit.checked_sub(REST.len()) else {
+        return String::new();
+    };
+    let end = text.as_bytes()[..room]
+        .iter()
+        .rposition(|byte| *byte == b'\n')
+        .map_or(0, |i| i + 1);
     format!("{}{REST}", &text[..end])
 }
 
@@ -53,12 +61,19 @@ impl MarkdownWriter {
             Block::Notes(notes) => list(notes),
             Block::Use(Use { lead, text, notes }) => {
                 let parts: Vec<String> = text.split("  and  ").map(code).collect();
-                format!("\n**{}** {}\n{}", words(lead), parts.join(" and "), list(notes))
+                format!(
+                    "\n**{}** {}\n{}",
+                    words(lead),
+                    parts.join(" and "),
+                    list(notes)
+                )
             }
             Block::Table(all) => table(all),
             Block::Commands(lead, commands) => {
-                let lines: Vec<&str> =
-                    commands.iter().map(|command| command.line.as_str()).collect();
+                let lines: Vec<&str> = commands
+                    .iter()
+                    .map(|command| command.line.as_str())
+                    .collect();
                 format!("\n{lead}:\n{}", listing(&lines.join("\n")))
             }
             Block::Terms(terms) => {
@@ -91,20 +106,39 @@ impl MarkdownWriter {
 }
 
 fn list(lines: &[String]) -> String {
-    let lines: String = lines.iter().map(|line| format!("- {}\n", words(line))).collect();
-    if lines.is_empty() { lines } else { format!("\n{lines}") }
+    let lines: String = lines
+        .iter()
+        .map(|line| format!("- {}\n", words(line)))
+        .collect();
+    if lines.is_empty() {
+        lines
+    } else {
+        format!("\n{lines}")
+    }
 }
 
 fn table(table: &Table) -> String {
     let line = |cells: &mut dyn Iterator<Item = String>| {
         format!("| {} |\n", cells.collect::<Vec<_>>().join(" | "))
     };
-    let rule = |(i, head): (usize, &Head)| if i == 0 || head.is_text { "---" } else { "---:" };
+    let rule = |(i, head): (usize, &Head)| {
+        if i == 0 || head.is_text {
+            "---"
+        } else {
+            "---:"
+        }
+    };
     let rules = table.heads.iter().enumerate().map(rule);
-    let mut text = format!("\n{}", line(&mut table.heads.iter().map(|head| words(&head.head))));
+    let mut text = format!(
+        "\n{}",
+        line(&mut table.heads.iter().map(|head| words(&head.head)))
+    );
     text += &line(&mut rules.map(str::to_owned));
     for row in &table.rows {
-        let below = row.below.iter().map(|below| format!("<br>{}", words(below)));
+        let below = row
+            .below
+            .iter()
+            .map(|below| format!("<br>{}", words(below)));
         let first = [words(&row.label) + &below.collect::<String>()];
         let cells = row.cells.iter().map(|cell| words(&cell.text));
         text += &line(&mut first.into_iter().chain(cells));
@@ -155,7 +189,10 @@ mod tests {
     fn nothing_in_a_text_is_markup() {
         let row = Row {
             below: vec!["as often: b|c".to_owned()],
-            ..Row::new("a<b>", vec![Cell::from("1 < 2".to_owned()), Cell::from("x".to_owned())])
+            ..Row::new(
+                "a<b>",
+                vec![Cell::from("1 < 2".to_owned()), Cell::from("x".to_owned())],
+            )
         };
         let heads = vec![Head::of("kernel"), Head::of("n"), Head::text("what")];
         let page = Page {
@@ -166,7 +203,14 @@ mod tests {
             ],
             ..Page::default()
         };
-        let text = within(&page, Style { details: true, ..Style::default() }, LIMIT);
+        let text = within(
+            &page,
+            Style {
+                details: true,
+                ..Style::default()
+            },
+            LIMIT,
+        );
         let expected = "## t\n\n| kernel | n | what |\n| --- | ---: | --- |\n| a&lt;b><br>as often: b\\|c | 1 &lt; 2 | x |\n\n\
                         <details><summary>all</summary>\n\nx\n\n</details>\n";
         assert_eq!(text, expected);

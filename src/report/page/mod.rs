@@ -197,7 +197,11 @@ impl<R: Paged + Serialize> Format<R> {
 impl Item {
     /// A finding, and the command that shows it.
     pub fn shown_by(text: String, command: String) -> Item {
-        Item { text, lines: vec![command], ..Item::default() }
+        Item {
+            text,
+            lines: vec![command],
+            ..Item::default()
+        }
     }
 }
 
@@ -209,14 +213,22 @@ impl Block {
 
     /// Terms with their meanings.
     pub fn terms<'a>(terms: impl IntoIterator<Item = (&'a str, String)>) -> Block {
-        Block::Terms(terms.into_iter().map(|(term, meaning)| (term.to_owned(), meaning)).collect())
+        Block::Terms(
+            terms
+                .into_iter()
+                .map(|(term, meaning)| (term.to_owned(), meaning))
+                .collect(),
+        )
     }
 
     /// A title, and things below it; nothing if there are none.
     pub fn items(title: &str, most: usize, items: Vec<Item>) -> Vec<Block> {
         match items.is_empty() {
             true => Vec::new(),
-            false => vec![Block::Heading(title.to_owned()), Block::Items(Items { items, most })],
+            false => vec![
+                Block::Heading(title.to_owned()),
+                Block::Items(Items { items, most }),
+            ],
         }
     }
 }

@@ -29,7 +29,9 @@ fn make_block_readable(block: &mut Block) {
         }
         Block::Table(table) => make_table_readable(table),
         Block::Commands(_, commands) => {
-            commands.iter_mut().for_each(|Command { line, .. }| make_pasteable(line));
+            commands
+                .iter_mut()
+                .for_each(|Command { line, .. }| make_pasteable(line));
         }
         Block::Terms(terms) => {
             for (term, meaning) in terms {
@@ -60,17 +62,35 @@ fn make_table_readable(table: &mut Table) {
         make_printable(&mut head.head);
         make_printable(&mut head.about);
     }
-    for Row { label, cells, below, about } in &mut table.rows {
+    for Row {
+        label,
+        cells,
+        below,
+        about,
+    } in &mut table.rows
+    {
         make_printable(label);
-        cells.iter_mut().for_each(|cell| make_printable(&mut cell.text));
+        cells
+            .iter_mut()
+            .for_each(|cell| make_printable(&mut cell.text));
         below.iter_mut().chain(about).for_each(make_printable);
     }
 }
 
 fn make_item_readable(item: &mut Item) {
-    let Item { text, notes, url, lines, more } = item;
+    let Item {
+        text,
+        notes,
+        url,
+        lines,
+        more,
+    } = item;
     make_printable(text);
-    notes.iter_mut().chain(url).chain(more).for_each(make_printable);
+    notes
+        .iter_mut()
+        .chain(url)
+        .chain(more)
+        .for_each(make_printable);
     lines.iter_mut().for_each(make_pasteable);
 }
 

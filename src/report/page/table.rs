@@ -26,7 +26,10 @@ pub struct Cell {
 
 impl From<String> for Cell {
     fn from(text: String) -> Cell {
-        Cell { text, ..Cell::default() }
+        Cell {
+            text,
+            ..Cell::default()
+        }
     }
 }
 
@@ -46,22 +49,34 @@ pub struct Head {
 impl Head {
     /// A column of numbers, or of labels.
     pub fn of(head: impl Into<String>) -> Head {
-        Head { head: head.into(), ..Head::default() }
+        Head {
+            head: head.into(),
+            ..Head::default()
+        }
     }
 
     /// A column of words.
     pub fn text(head: impl Into<String>) -> Head {
-        Head { is_text: true, ..Head::of(head) }
+        Head {
+            is_text: true,
+            ..Head::of(head)
+        }
     }
 
     /// The same, explained below the table.
     pub fn about(self, about: impl Into<String>) -> Head {
-        Head { about: about.into(), ..self }
+        Head {
+            about: about.into(),
+            ..self
+        }
     }
 
     /// The same, which a narrow terminal does without.
     pub fn optional(self) -> Head {
-        Head { is_optional: true, ..self }
+        Head {
+            is_optional: true,
+            ..self
+        }
     }
 }
 
@@ -82,7 +97,11 @@ impl Row {
     /// A row without lines below it.
     pub fn new<C: Into<Cell>>(label: impl Into<String>, cells: impl IntoIterator<Item = C>) -> Row {
         let cells = cells.into_iter().map(Into::into).collect();
-        Row { label: label.into(), cells, ..Row::default() }
+        Row {
+            label: label.into(),
+            cells,
+            ..Row::default()
+        }
     }
 }
 
@@ -100,7 +119,11 @@ pub struct Table {
 impl Table {
     /// A table of which all stands on a screen.
     pub fn new(heads: Vec<Head>, rows: Vec<Row>) -> Table {
-        Table { heads, rows, most: 0 }
+        Table {
+            heads,
+            rows,
+            most: 0,
+        }
     }
 
     /// The same, of which only so many rows stand there.
@@ -141,21 +164,38 @@ impl Table {
             }
         };
         let mut after = Vec::new();
-        let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
-        let lines = shown.iter().map(|i| heads[*i].len()).chain([1]).max().unwrap_or(1);
+        let (bold, plain) = if style.color {
+            ("\x1b[1m", "\x1b[0m")
+        } else {
+            ("", "")
+        };
+        let lines = shown
+            .iter()
+            .map(|i| heads[*i].len())
+            .chain([1])
+            .max()
+            .unwrap_or(1);
         for line in 0..lines {
             // The last lines of all heads stand beside each other.
             let of = |head: &[String]| {
-                (line + head.len()).checked_sub(lines).map_or(String::new(), |i| head[i].clone())
+                (line + head.len())
+                    .checked_sub(lines)
+                    .map_or(String::new(), |i| head[i].clone())
             };
             let mut text = format!("{:<first$}", of(&[self.heads[0].head.clone()]));
-            shown.iter().for_each(|i| text += &padded(*i, &of(&heads[*i])));
+            shown
+                .iter()
+                .for_each(|i| text += &padded(*i, &of(&heads[*i])));
             writeln!(out, "{bold}{}{plain}", text.trim_end())?;
         }
         if !hidden.is_empty() {
             after.push(format!("no room here for: {}", hidden.join("; ")));
         }
-        let most = if style.details || self.most == 0 { usize::MAX } else { self.most };
+        let most = if style.details || self.most == 0 {
+            usize::MAX
+        } else {
+            self.most
+        };
         if most < self.rows.len() {
             let more = number_of((self.rows.len() - most) as u64, "more row", "more rows");
             after.push(format!("{more}: --details"));
@@ -186,18 +226,29 @@ impl Table {
 
     fn label_width(&self) -> usize {
         let labels = self.rows.iter().map(|row| row.label.chars().count());
-        let longest = labels.filter(|width| *width <= LONGEST_LABEL).max().unwrap_or(0);
+        let longest = labels
+            .filter(|width| *width <= LONGEST_LABEL)
+            .max()
+            .unwrap_or(0);
         longest.max(self.heads[0].head.chars().count())
     }
 
     fn cells_width(&self, column: usize) -> usize {
-        self.rows.iter().map(|row| row.cells[column].text.chars().count()).max().unwrap_or(0)
+        self.rows
+            .iter()
+            .map(|row| row.cells[column].text.chars().count())
+            .max()
+            .unwrap_or(0)
     }
 
     /// By column but the first: the width that it needs if its head takes at most so many lines, and these.
     fn narrowed(&self, lines: usize) -> (Vec<usize>, Vec<Vec<String>>) {
         let column = |(i, head): (usize, &Head)| {
-            let word = head.head.split_whitespace().map(|word| word.chars().count()).max();
+            let word = head
+                .head
+                .split_whitespace()
+                .map(|word| word.chars().count())
+                .max();
             let least = self.cells_width(i).max(word.unwrap_or(0));
             let wide = |width: usize| (width, wrapped(&head.head, width));
             let fits = |(_, head): &(usize, Vec<String>)| head.len() <= lines;
@@ -233,7 +284,10 @@ mod tests {
             "kernel  leaks    ns\na           0  1234\n  as often: c\n{long}\n         12.5     7\n"
         );
         assert_eq!(text(&table, Style::default()), expected);
-        let style = Style { color: true, ..Style::default() };
+        let style = Style {
+            color: true,
+            ..Style::default()
+        };
         assert!(text(&table, style).contains("\x1b[31m   12.5\x1b[0m     7"));
         let fewer = text(&table.at_most(1), Style::default());
         let expected =
@@ -249,9 +303,19 @@ mod tests {
             Head::of("at most so many"),
             Head::of("seen").optional().about("the worst met"),
         ];
-        let table =
-            Table::new(heads, vec![Row::new("t", ["far", "1 in 10", "12"].map(str::to_owned))]);
-        let at = |width: usize| text(&table, Style { width, ..Style::default() });
+        let table = Table::new(
+            heads,
+            vec![Row::new("t", ["far", "1 in 10", "12"].map(str::to_owned))],
+        );
+        let at = |width: usize| {
+            text(
+                &table,
+                Style {
+                    width,
+                    ..Style::default()
+                },
+            )
+        };
         assert_eq!(
             at(40),
             "knob  rays  at most so many  seen\nt     far           1 in 10    12\nseen: the worst met\n"

@@ -10,18 +10,33 @@ pub(super) fn write(page: &Page, style: Style, out: &mut dyn Write) -> io::Resul
     if !page.title.is_empty() {
         write_wrapped(&page.title, style.width, out)?;
     }
-    let mut writer = TextWriter { style, is_first: page.title.is_empty(), out };
+    let mut writer = TextWriter {
+        style,
+        is_first: page.title.is_empty(),
+        out,
+    };
     writer.blocks(&page.blocks)?;
-    let has_more = page.blocks.iter().any(|block| matches!(block, Block::Details(..)));
+    let has_more = page
+        .blocks
+        .iter()
+        .any(|block| matches!(block, Block::Details(..)));
     if style.details || !has_more {
         return Ok(());
     }
-    let last = page.blocks.iter().rev().find(|block| !matches!(block, Block::Details(..)));
+    let last = page
+        .blocks
+        .iter()
+        .rev()
+        .find(|block| !matches!(block, Block::Details(..)));
     let lead = match last {
         Some(Block::Commands(lead, commands)) if !commands.is_empty() => " ".repeat(lead.len() + 1),
         _ => "\nnext:".to_owned(),
     };
-    writeln!(out, "{lead} the same with --details, or --format html -o {}.html", page.command)
+    writeln!(
+        out,
+        "{lead} the same with --details, or --format html -o {}.html",
+        page.command
+    )
 }
 
 struct TextWriter<'a> {
@@ -48,8 +63,10 @@ impl TextWriter<'_> {
             }
             after_heading = matches!(block, Block::Heading(_));
             self.block(block)?;
-            self.is_first &=
-                matches!(block, Block::Picture(_) | Block::Stage(_) | Block::Details(..));
+            self.is_first &= matches!(
+                block,
+                Block::Picture(_) | Block::Stage(_) | Block::Details(..)
+            );
         }
         Ok(())
     }
@@ -57,7 +74,11 @@ impl TextWriter<'_> {
     fn block(&mut self, block: &Block) -> io::Result<()> {
         let width = self.style.width;
         let out = &mut *self.out;
-        let (bold, plain) = if self.style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+        let (bold, plain) = if self.style.color {
+            ("\x1b[1m", "\x1b[0m")
+        } else {
+            ("", "")
+        };
         match block {
             Block::Heading(text) => {
                 write!(out, "{bold}")?;
@@ -65,19 +86,25 @@ impl TextWriter<'_> {
                 write!(out, "{plain}")
             }
             Block::Text(text) => write_wrapped(text, width, out),
-            Block::Notes(notes) => {
-                notes.iter().try_for_each(|note| indented(note, ["  ", "    "], width, out))
-            }
+            Block::Notes(notes) => notes
+                .iter()
+                .try_for_each(|note| indented(note, ["  ", "    "], width, out)),
             Block::Use(Use { lead, text, notes }) => {
                 writeln!(out, "  {bold}{lead:<3}{plain}  {text}")?;
                 let indent = "       ";
-                notes.iter().try_for_each(|note| indented(note, [indent, "         "], width, out))
+                notes
+                    .iter()
+                    .try_for_each(|note| indented(note, [indent, "         "], width, out))
             }
             Block::Table(table) => table.write(self.style, out),
             Block::Commands(lead, commands) => {
                 for (i, Command { line, what }) in commands.iter().enumerate() {
                     let space = " ".repeat(lead.len() + 1);
-                    let lead = if i == 0 { format!("{bold}{lead}:{plain}") } else { space.clone() };
+                    let lead = if i == 0 {
+                        format!("{bold}{lead}:{plain}")
+                    } else {
+                        space.clone()
+                    };
                     let is_short = space.len() + line.chars().count() + what.len() + 5 <= width;
                     match is_short && !what.is_empty() {
                         true => writeln!(out, "{lead} {line}  # {what}")?,
@@ -87,15 +114,28 @@ impl TextWriter<'_> {
                 Ok(())
             }
             Block::Terms(terms) => {
-                let longest = terms.iter().map(|(term, _)| term.chars().count()).max().unwrap_or(0);
+                let longest = terms
+                    .iter()
+                    .map(|(term, _)| term.chars().count())
+                    .max()
+                    .unwrap_or(0);
                 let after = " ".repeat(longest + 2);
                 terms.iter().try_for_each(|(term, meaning)| {
-                    indented(meaning, [&format!("{term:<longest$}  "), &after], width, out)
+                    indented(
+                        meaning,
+                        [&format!("{term:<longest$}  "), &after],
+                        width,
+                        out,
+                    )
                 })
             }
             Block::Listing(text) => writeln!(out, "{}", text.trim_end()),
             Block::Items(Items { items, most }) => {
-                let most = if self.style.details { items.len() } else { items.len().min(*most) };
+                let most = if self.style.details {
+                    items.len()
+                } else {
+                    items.len().min(*most)
+                };
                 for item in &items[..most] {
                     write_wrapped(&item.text, width, out)?;
                     for note in item.notes.iter().chain(&item.url) {
@@ -170,7 +210,10 @@ mod tests {
         let mut out = Vec::new();
         write_wrapped("one two  three fourteen", 8, &mut out).unwrap();
         write_wrapped("  ", 8, &mut out).unwrap();
-        assert_eq!(String::from_utf8(out).unwrap(), "one two\nthree\nfourteen\n");
+        assert_eq!(
+            String::from_utf8(out).unwrap(),
+            "one two\nthree\nfourteen\n"
+        );
     }
 
     #[test]
@@ -193,17 +236,35 @@ mod tests {
                 ),
                 Block::Commands(
                     "next",
-                    vec![Command { line: "hairline x".to_owned(), what: "y" }; 2],
+                    vec![
+                        Command {
+                            line: "hairline x".to_owned(),
+                            what: "y"
+                        };
+                        2
+                    ],
                 ),
             ],
             ..Page::default()
         };
-        let style = Style { width: 24, ..Style::default() };
+        let style = Style {
+            width: 24,
+            ..Style::default()
+        };
         let short = "a title of several words\n  use  --epsilon parallel=1e-12345678\n       what it means\n         to you\n\n\
                      kernel  leaks\na           0\n\nnext: hairline x  # y\n      hairline x  # y\n";
         let more = "      the same with --details, or --format html -o x.html\n";
         assert_eq!(text(&page, style), format!("{short}{more}"));
-        let whole = text(&page, Style { details: true, ..style });
-        assert_eq!(whole, short.replacen("0\n\nnext", "0\n\nmore\n  small print\n\nnext", 1));
+        let whole = text(
+            &page,
+            Style {
+                details: true,
+                ..style
+            },
+        );
+        assert_eq!(
+            whole,
+            short.replacen("0\n\nnext", "0\n\nmore\n  small print\n\nnext", 1)
+        );
     }
 }

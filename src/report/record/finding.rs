@@ -222,7 +222,11 @@ mod tests {
         };
         let text = serde_json::to_string(&part).unwrap();
         let again: SeverityPart = serde_json::from_str(&text).unwrap();
-        assert_eq!((again.in_space, again.edge_in_ulps), (f64::INFINITY, f64::INFINITY), "{text}");
+        assert_eq!(
+            (again.in_space, again.edge_in_ulps),
+            (f64::INFINITY, f64::INFINITY),
+            "{text}"
+        );
         assert_eq!(again.along, Some(1.5));
     }
 }

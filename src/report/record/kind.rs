@@ -49,7 +49,10 @@ impl FindingKind {
 
     /// True if the kernel gave no verdict at all.
     pub fn is_failure(self) -> bool {
-        matches!(self, FindingKind::Panic | FindingKind::Crash | FindingKind::Timeout)
+        matches!(
+            self,
+            FindingKind::Panic | FindingKind::Crash | FindingKind::Timeout
+        )
     }
 
     /// True of a false miss or a false hit of a single triangle.

@@ -25,7 +25,11 @@ impl PartialPart {
     /// A sentence that says which parts the numbers are of.
     pub(in crate::report) fn sentence(&self) -> String {
         let present: Vec<String> = self.present.iter().map(u64::to_string).collect();
-        let noun = if present.len() == 1 { "shard" } else { "shards" };
+        let noun = if present.len() == 1 {
+            "shard"
+        } else {
+            "shards"
+        };
         let present = present.join(", ");
         format!(
             "A part of a run: {noun} {present} of {} only; all numbers are of this part.",
@@ -36,6 +40,9 @@ impl PartialPart {
 
 impl From<Shard> for PartialPart {
     fn from(shard: Shard) -> PartialPart {
-        PartialPart { of: shard.of(), present: vec![shard.index()] }
+        PartialPart {
+            of: shard.of(),
+            present: vec![shard.index()],
+        }
     }
 }

@@ -59,25 +59,37 @@ impl RowPart {
     }
 
     fn epsilon_argument(&self) -> Option<String> {
-        let pairs = self.epsilons.iter().map(|(gate, value)| format!("{gate}={value}"));
+        let pairs = self
+            .epsilons
+            .iter()
+            .map(|(gate, value)| format!("{gate}={value}"));
         Some(pairs.collect::<Vec<_>>().join(",")).filter(|words| !words.is_empty())
     }
 
     /// The flags that make this row again.
     pub(crate) fn flags(&self) -> String {
-        flags(&self.selector, self.epsilon_argument().as_deref(), &self.contract_words)
+        flags(
+            &self.selector,
+            self.epsilon_argument().as_deref(),
+            &self.contract_words,
+        )
     }
 
     /// The command that shows a group of a result again by its id.
     pub(in crate::report) fn explain_group(&self, result: &KernelResult, id: &str) -> String {
-        let file = result.across.as_ref().and_then(|across| across.file.as_deref());
+        let file = result
+            .across
+            .as_ref()
+            .and_then(|across| across.file.as_deref());
         let command = self.explain_command(id);
         file.map_or(command.clone(), |flag| format!("{command} {flag}"))
     }
 
     /// The command that shows a case again by its id.
     pub(in crate::report) fn explain_command(&self, id: &str) -> String {
-        format!("hairline explain '{id}' {}", self.flags()).trim_end().to_owned()
+        format!("hairline explain '{id}' {}", self.flags())
+            .trim_end()
+            .to_owned()
     }
 }
 
@@ -147,7 +159,11 @@ impl PlanFlags {
     /// The command that runs some kernels on the plan's cases.
     pub fn command(&self, kernels: &str) -> String {
         let words = ["hairline audit", kernels, &self.sources];
-        words.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" ")
+        words
+            .into_iter()
+            .filter(|words| !words.is_empty())
+            .collect::<Vec<_>>()
+            .join(" ")
     }
 }
 
@@ -166,7 +182,10 @@ mod tests {
             contract_words: "own".to_owned(),
         };
         let command = "hairline explain 'x' --kernel-lib './libmine.so'";
-        assert_eq!(row.explain_command("x"), format!("{command} --epsilon 't=1e-6'"));
+        assert_eq!(
+            row.explain_command("x"),
+            format!("{command} --epsilon 't=1e-6'")
+        );
         row.epsilons.clear();
         assert_eq!(row.explain_command("x"), command);
         row.contract_words = "closed-ray,band=1e-3".to_owned();

@@ -89,7 +89,11 @@ pub struct NamedValue {
 impl NamedValue {
     /// One that is no bound.
     pub fn chosen(what: String, value: &str) -> NamedValue {
-        NamedValue { what, value: value.to_owned(), is_bound: false }
+        NamedValue {
+            what,
+            value: value.to_owned(),
+            is_bound: false,
+        }
     }
 }
 

@@ -9,6 +9,9 @@ pub fn assert_committed<T: JsonSchema>(name: &str) {
     if std::fs::read_to_string(&file).ok().as_ref() != Some(&derived) {
         let path = std::env::temp_dir().join(format!("hairline-{name}.json"));
         std::fs::write(&path, derived).unwrap();
-        panic!("the record has changed: cp {} docs/schema/{name}.json", path.display());
+        panic!(
+            "the record has changed: cp {} docs/schema/{name}.json",
+            path.display()
+        );
     }
 }

@@ -40,7 +40,10 @@ fn nodes_put_meshes_where_they_belong() {
             ]);
         }),
     );
-    assert_eq!((mesh.groups, mesh.triangles.len(), mesh.positions_f64.len()), (3, 24, 24));
+    assert_eq!(
+        (mesh.groups, mesh.triangles.len(), mesh.positions_f64.len()),
+        (3, 24, 24)
+    );
     for (vertex, [x, y, z]) in plain.positions_f64.iter().enumerate() {
         let turned = mesh.positions_f64[vertex];
         let expected = [8.0 - 2.0 * y, 2.0 * x, 2.0 * z + 1.0];
@@ -49,7 +52,10 @@ fn nodes_put_meshes_where_they_belong() {
         }
         assert_eq!(mesh.positions_f64[8 + vertex], [0.5 - x, *y, z + 1.0]);
         // Rounded once.
-        assert_eq!(mesh.positions_f32[8 + vertex], [0.5 - x, *y, z + 1.0].map(|x| x as f32));
+        assert_eq!(
+            mesh.positions_f32[8 + vertex],
+            [0.5 - x, *y, z + 1.0].map(|x| x as f32)
+        );
     }
     // A mirror image is wound the other way round, so that its outside stays outside.
     assert_eq!(mesh.triangles[8], [8, 8 + 4, 8 + 2]);
@@ -57,7 +63,10 @@ fn nodes_put_meshes_where_they_belong() {
     assert_eq!(mesh.positions_f32[16..], plain.positions_f32);
     // Without scenes every node counts that is nobody's child.
     let file = changed(|document| {
-        document.as_object_mut().unwrap().retain(|name, _| !name.starts_with("scene"));
+        document
+            .as_object_mut()
+            .unwrap()
+            .retain(|name, _| !name.starts_with("scene"));
         document["nodes"] = json!([{ "children": [1] }, { "mesh": 0 }, { "mesh": 0 }]);
     });
     assert_eq!(mesh_of("a.glb", &file).triangles.len(), 16);
@@ -68,7 +77,9 @@ fn strips_fans_plain_vertices_and_sparse_accessors_are_triangles() {
     let triangles = |file: Vec<u8>| mesh_of("a.glb", &file).triangles;
     let primitive = |mode: u32, indices: &[u32], width: usize| {
         let kind = [5121, 5123, 5125][width / 2];
-        let bytes = indices.iter().flat_map(|index| index.to_le_bytes()[..width].to_vec());
+        let bytes = indices
+            .iter()
+            .flat_map(|index| index.to_le_bytes()[..width].to_vec());
         extended(&bytes.collect::<Vec<u8>>(), |document| {
             document["meshes"][0]["primitives"][0]["mode"] = json!(mode);
             document["accessors"][1] = json!({
@@ -78,9 +89,18 @@ fn strips_fans_plain_vertices_and_sparse_accessors_are_triangles() {
     };
     for width in [1, 2, 4] {
         let list = [5, 0, 2, 1, 3, 4];
-        assert_eq!(triangles(primitive(4, &list, width)), [[5, 0, 2], [1, 3, 4]]);
-        assert_eq!(triangles(primitive(5, &list[..5], width)), [[5, 0, 2], [0, 1, 2], [2, 1, 3]]);
-        assert_eq!(triangles(primitive(6, &list[..5], width)), [[5, 0, 2], [5, 2, 1], [5, 1, 3]]);
+        assert_eq!(
+            triangles(primitive(4, &list, width)),
+            [[5, 0, 2], [1, 3, 4]]
+        );
+        assert_eq!(
+            triangles(primitive(5, &list[..5], width)),
+            [[5, 0, 2], [0, 1, 2], [2, 1, 3]]
+        );
+        assert_eq!(
+            triangles(primitive(6, &list[..5], width)),
+            [[5, 0, 2], [5, 2, 1], [5, 1, 3]]
+        );
     }
     let file = changed(|document| {
         let primitive = &mut document["meshes"][0]["primitives"][0];
@@ -95,8 +115,14 @@ fn strips_fans_plain_vertices_and_sparse_accessors_are_triangles() {
             json!([primitives[0], primitives[0], { "mode": 1, "attributes": { "POSITION": 0 } }]);
     });
     let mesh = mesh_of("a.glb", &file);
-    assert_eq!((mesh.triangles.len(), mesh.positions_f64.len(), mesh.groups), (16, 8, 1));
-    assert_eq!(mesh.notes[0].to_string(), "primitives of lines and points skipped: 1");
+    assert_eq!(
+        (mesh.triangles.len(), mesh.positions_f64.len(), mesh.groups),
+        (16, 8, 1)
+    );
+    assert_eq!(
+        mesh.notes[0].to_string(),
+        "primitives of lines and points skipped: 1"
+    );
     // Interleaved with 4 bytes of something else, and vertex 1 replaced.
     let solid = solid();
     let mut bytes: Vec<u8> = Vec::new();
@@ -105,7 +131,11 @@ fn strips_fans_plain_vertices_and_sparse_accessors_are_triangles() {
         bytes.extend([9; 4]);
     }
     bytes.extend([1, 0, 0, 0]);
-    bytes.extend([-9.0f32, 0.25, 0.5].iter().flat_map(|number| number.to_le_bytes()));
+    bytes.extend(
+        [-9.0f32, 0.25, 0.5]
+            .iter()
+            .flat_map(|number| number.to_le_bytes()),
+    );
     let file = |base: bool| {
         extended(&bytes, |document| {
             document["bufferViews"][2]["byteStride"] = json!(16);
@@ -118,7 +148,10 @@ fn strips_fans_plain_vertices_and_sparse_accessors_are_triangles() {
             });
             document["accessors"][0]["bufferView"] = json!(2);
             if !base {
-                document["accessors"][0].as_object_mut().unwrap().remove("bufferView");
+                document["accessors"][0]
+                    .as_object_mut()
+                    .unwrap()
+                    .remove("bufferView");
             }
         })
     };
@@ -126,22 +159,38 @@ fn strips_fans_plain_vertices_and_sparse_accessors_are_triangles() {
     vertices[1] = [-9.0, 0.25, 0.5];
     assert_eq!(mesh_of("a.glb", &file(true)).positions_f32, vertices);
     let zeros = mesh_of("a.glb", &file(false)).positions_f32;
-    assert_eq!((zeros[1], zeros[0], zeros[7]), ([-9.0, 0.25, 0.5], [0.0; 3], [0.0; 3]));
+    assert_eq!(
+        (zeros[1], zeros[0], zeros[7]),
+        ([-9.0, 0.25, 0.5], [0.0; 3], [0.0; 3])
+    );
 }
 
 #[test]
 fn vertices_doubled_at_seams_are_one_point() {
     // As exporters write it: three vertices a face.
     let whole = solid();
-    let vertices = whole.faces.iter().flatten().map(|v| whole.vertices[*v as usize]).collect();
-    let faces = (0..8).map(|face| [0, 1, 2].map(|corner| 3 * face + corner)).collect();
+    let vertices = whole
+        .faces
+        .iter()
+        .flatten()
+        .map(|v| whole.vertices[*v as usize])
+        .collect();
+    let faces = (0..8)
+        .map(|face| [0, 1, 2].map(|corner| 3 * face + corner))
+        .collect();
     let apart = Solid { vertices, faces };
     let folder = scratch("mesh-seams");
     fs::write(folder.join("a.glb"), apart.glb()).unwrap();
-    let (out, _) = ends(&folder, &["mesh", "a.glb", "--kernel", "woop-watertight"], 0);
-    for part in
-        ["in f32 (6 points)", "\nedges     12 between two faces\n", "\nvertices  6 inside a"]
-    {
+    let (out, _) = ends(
+        &folder,
+        &["mesh", "a.glb", "--kernel", "woop-watertight"],
+        0,
+    );
+    for part in [
+        "in f32 (6 points)",
+        "\nedges     12 between two faces\n",
+        "\nvertices  6 inside a",
+    ] {
         assert!(out.contains(part), "{part}\n{out}");
     }
 }
@@ -187,29 +236,56 @@ fn buffers_lie_in_the_text_or_beside_it_and_nowhere_else() {
     ] {
         refused(uri, 65, outside);
     }
-    refused("data/other.bin", 74, "models/a.gltf: buffers[0].uri: 'data/other.bin': cannot read: ");
+    refused(
+        "data/other.bin",
+        74,
+        "models/a.gltf: buffers[0].uri: 'data/other.bin': cannot read: ",
+    );
     fs::write(folder.join("models/short.bin"), &whole.buffer()[1..]).unwrap();
-    refused("short.bin", 65, "models/a.gltf: buffers[0] has 143 bytes, expected 144");
+    refused(
+        "short.bin",
+        65,
+        "models/a.gltf: buffers[0] has 143 bytes, expected 144",
+    );
     refused("data:text/plain,AAAA", 65, "a data URI that is not base64");
     refused("data:;base64,A*", 65, "buffers[0].uri: not base64: ");
     let unpadded = data_uri(&whole.buffer()[..143]);
-    refused(unpadded.trim_end_matches('='), 65, "has 143 bytes, expected 144");
+    refused(
+        unpadded.trim_end_matches('='),
+        65,
+        "has 143 bytes, expected 144",
+    );
 }
 
 #[test]
 fn gltf_files_that_are_wrong_say_where() {
     let set = |path: &str, value: Value| {
-        refusal("a.glb", changed(|document| *document.pointer_mut(path).unwrap() = value))
+        refusal(
+            "a.glb",
+            changed(|document| *document.pointer_mut(path).unwrap() = value),
+        )
     };
     let extension = |name: &str| {
-        refusal("a.glb", changed(|document| document["extensionsRequired"] = json!([name])))
+        refusal(
+            "a.glb",
+            changed(|document| document["extensionsRequired"] = json!([name])),
+        )
     };
     let huge = json!(1u64 << 53);
     for (said, message) in [
-        (refusal("a.gltf", "{\n\"asset\": 3\n}"), "a.gltf:2: not glTF: "),
+        (
+            refusal("a.gltf", "{\n\"asset\": 3\n}"),
+            "a.gltf:2: not glTF: ",
+        ),
         (refusal("a.gltf", "{\n\n"), "a.gltf:3: not glTF: EOF"),
-        (refusal("a.gltf", b"{\xff}"), "a.gltf: its JSON is not UTF-8"),
-        (refusal("a.glb", "glTF"), "a.glb: the file has 4 of the 12 bytes of a GLB header"),
+        (
+            refusal("a.gltf", b"{\xff}"),
+            "a.gltf: its JSON is not UTF-8",
+        ),
+        (
+            refusal("a.glb", "glTF"),
+            "a.glb: the file has 4 of the 12 bytes of a GLB header",
+        ),
         (
             refusal("a.glb", b"glTF\x02\0\0\0\0\0\0\0"),
             "a.glb: the file has 12 bytes, but its header says 0",
@@ -219,7 +295,10 @@ fn gltf_files_that_are_wrong_say_where() {
             "a.glb: not GLB: unsupported version",
         ),
         (
-            refusal("a.glb", [&b"glTF\x02\0\0\0\x0c\0\0\0"[..], &solid().glb()[12..]].concat()),
+            refusal(
+                "a.glb",
+                [&b"glTF\x02\0\0\0\x0c\0\0\0"[..], &solid().glb()[12..]].concat(),
+            ),
             &format!(
                 "a.glb: the file has {} bytes, but its header says 12 (headers alone have 20)",
                 solid().glb().len()
@@ -227,10 +306,16 @@ fn gltf_files_that_are_wrong_say_where() {
         ),
         // The buffer stands behind the end that the header says.
         (
-            refusal("a.glb", [&b"glTF\x02\0\0\0\x40\0\0\0"[..], &solid().glb()[12..]].concat()),
+            refusal(
+                "a.glb",
+                [&b"glTF\x02\0\0\0\x40\0\0\0"[..], &solid().glb()[12..]].concat(),
+            ),
             "a.glb: not GLB: ",
         ),
-        (set("/asset/version", json!("1.0")), "a.glb: glTF of version '1.0', expected 2.0"),
+        (
+            set("/asset/version", json!("1.0")),
+            "a.glb: glTF of version '1.0', expected 2.0",
+        ),
         (
             extension("KHR_draco_mesh_compression"),
             "a.glb: the file needs the extension 'KHR_draco_mesh_compression': compressed",
@@ -244,7 +329,10 @@ fn gltf_files_that_are_wrong_say_where() {
             "a.glb: the file needs the extension 'KHR_mesh_quantization': quantised",
         ),
         (
-            set("/meshes/0/primitives/0/attributes", json!({ "POSITION": 2 })),
+            set(
+                "/meshes/0/primitives/0/attributes",
+                json!({ "POSITION": 2 }),
+            ),
             "a.glb: a primitive has its positions in accessors[2], of 2",
         ),
         (
@@ -303,9 +391,15 @@ fn gltf_files_that_are_wrong_say_where() {
             set("/buffers/0/byteLength", huge),
             "a.glb: buffers[0] has 144 bytes, expected 9007199254740992",
         ),
-        (set("/nodes", json!([{ "mesh": 0, "children": [0] }])), "a.glb: nodes[0] has two parents"),
         (
-            set("/nodes/0", json!({ "mesh": 0, "translation": [1e39, 0, 0] })),
+            set("/nodes", json!([{ "mesh": 0, "children": [0] }])),
+            "a.glb: nodes[0] has two parents",
+        ),
+        (
+            set(
+                "/nodes/0",
+                json!({ "mesh": 0, "translation": [1e39, 0, 0] }),
+            ),
             "a.glb: not glTF: number out of range",
         ),
         (
@@ -315,7 +409,10 @@ fn gltf_files_that_are_wrong_say_where() {
             ),
             "a.glb: nodes[0].matrix: expected",
         ),
-        (set("/nodes/0", json!({})), "a.glb: the file has no triangles"),
+        (
+            set("/nodes/0", json!({})),
+            "a.glb: the file has no triangles",
+        ),
         (
             set(
                 "/meshes/0/primitives/0",
@@ -323,9 +420,15 @@ fn gltf_files_that_are_wrong_say_where() {
             ),
             "a.glb: the file has no triangles: primitives of lines and points skipped: 1",
         ),
-        (set("/scenes/0/nodes", json!([])), "a.glb: the file has no triangles"),
+        (
+            set("/scenes/0/nodes", json!([])),
+            "a.glb: the file has no triangles",
+        ),
     ] {
-        assert!(said.starts_with(message) && !said.contains('\n'), "{said}\n{message}");
+        assert!(
+            said.starts_with(message) && !said.contains('\n'),
+            "{said}\n{message}"
+        );
     }
     // A small file that asks for all zeros, many of them.
     let zeros = changed(|document| {
@@ -346,7 +449,10 @@ fn gltf_files_that_are_wrong_say_where() {
         document["nodes"] = vec![json!({ "mesh": 0 }); 3_000].into();
     });
     let said = refusal("a.glb", crowd);
-    assert!(said.contains(": more than 2000000 triangles, of "), "{said}");
+    assert!(
+        said.contains(": more than 2000000 triangles, of "),
+        "{said}"
+    );
     let mut not_finite = solid();
     not_finite.vertices[5][1] = f32::NAN;
     assert_eq!(

@@ -21,9 +21,20 @@ pub fn solid() -> Solid {
         [7.0, 7.0, 7.0],
         [0.9, 0.1, 0.0],
     ];
-    let faces =
-        [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 7, 5], [1, 2, 5], [3, 1, 5], [7, 3, 5]];
-    Solid { vertices: vertices.to_vec(), faces: faces.to_vec() }
+    let faces = [
+        [0, 2, 4],
+        [2, 1, 4],
+        [1, 3, 4],
+        [3, 0, 4],
+        [2, 7, 5],
+        [1, 2, 5],
+        [3, 1, 5],
+        [7, 3, 5],
+    ];
+    Solid {
+        vertices: vertices.to_vec(),
+        faces: faces.to_vec(),
+    }
 }
 
 impl Solid {
@@ -41,19 +52,27 @@ impl Solid {
     /// With elements and properties that are no one's business here.
     pub fn ply(&self, encoding: &str, coordinate: &str, count: &str, index: &str) -> Vec<u8> {
         let mut ply = Ply::new(encoding);
-        ply.header(&format!("comment a solid\nelement vertex {}", self.vertices.len()));
+        ply.header(&format!(
+            "comment a solid\nelement vertex {}",
+            self.vertices.len()
+        ));
         ply.header(&format!(
             "property uchar red\nproperty {coordinate} x\nproperty {coordinate} y"
         ));
         ply.header(&format!(
             "property {coordinate} z\nelement material 1\nproperty list int short id"
         ));
-        ply.header(&format!("element face {}\nproperty float32 quality", self.faces.len()));
+        ply.header(&format!(
+            "element face {}\nproperty float32 quality",
+            self.faces.len()
+        ));
         ply.header(&format!("property list {count} {index} vertex_indices"));
         ply.header("element edge 2\nproperty int vertex1\nend_header");
         for vertex in &self.vertices {
             ply.number("uchar", 255.0);
-            vertex.iter().for_each(|number| ply.number(coordinate, f64::from(*number)));
+            vertex
+                .iter()
+                .for_each(|number| ply.number(coordinate, f64::from(*number)));
             ply.end();
         }
         for (kind, number) in [("int", 2.0), ("short", -1.0), ("short", 5.0)] {
@@ -63,7 +82,8 @@ impl Solid {
         for face in &self.faces {
             ply.number("float32", 0.5);
             ply.number(count, 3.0);
-            face.iter().for_each(|corner| ply.number(index, f64::from(*corner)));
+            face.iter()
+                .for_each(|corner| ply.number(index, f64::from(*corner)));
             ply.end();
         }
         for number in [3.0, -4.0] {
@@ -94,7 +114,9 @@ impl Solid {
         for face in &self.faces {
             bytes.extend([0; 12]);
             for corner in face.map(|corner| self.vertices[corner as usize]) {
-                corner.iter().for_each(|number| bytes.extend(number.to_le_bytes()));
+                corner
+                    .iter()
+                    .for_each(|number| bytes.extend(number.to_le_bytes()));
             }
             bytes.extend([0; 2]);
         }
@@ -103,8 +125,16 @@ impl Solid {
 
     /// Positions, then indices of two bytes.
     pub fn buffer(&self) -> Vec<u8> {
-        let numbers = self.vertices.iter().flatten().flat_map(|number| number.to_le_bytes());
-        let indices = self.faces.iter().flatten().flat_map(|corner| (*corner as u16).to_le_bytes());
+        let numbers = self
+            .vertices
+            .iter()
+            .flatten()
+            .flat_map(|number| number.to_le_bytes());
+        let indices = self
+            .faces
+            .iter()
+            .flatten()
+            .flat_map(|corner| (*corner as u16).to_le_bytes());
         numbers.chain(indices).collect()
     }
 
@@ -181,7 +211,10 @@ pub struct Ply {
 impl Ply {
     pub fn new(encoding: &str) -> Ply {
         let bytes = format!("ply\nformat {encoding} 1.0\n").into_bytes();
-        Ply { encoding: encoding.to_owned(), bytes }
+        Ply {
+            encoding: encoding.to_owned(),
+            bytes,
+        }
     }
 
     pub fn header(&mut self, lines: &str) {

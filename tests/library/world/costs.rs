@@ -24,7 +24,9 @@ fn rays<F: Scalar>(
     count: usize,
 ) -> [Rays<F>; 7] {
     Aim::ALL.map(|aim| {
-        let all = by_plane::<F>(mesh, aim, tuned, seed, count).remove(plane).unwrap();
+        let all = by_plane::<F>(mesh, aim, tuned, seed, count)
+            .remove(plane)
+            .unwrap();
         let cases = all.iter().flat_map(Shot::cases::<F>).collect();
         Rays { aim, all, cases }
     })
@@ -32,7 +34,11 @@ fn rays<F: Scalar>(
 
 /// A crack costs ten, every other wrong answer one.
 fn price(aim: Aim) -> f64 {
-    if matches!(aim, Aim::Edge | Aim::Vertex) { 10.0 } else { 1.0 }
+    if matches!(aim, Aim::Edge | Aim::Vertex) {
+        10.0
+    } else {
+        1.0
+    }
 }
 
 /// What epsilons cost, and the variance of that.
@@ -44,7 +50,9 @@ fn cost<F: Scalar>(tuned: &Tuned, rays: &[Rays<F>], epsilons: &[F]) -> (f64, f64
         let variance = price * price * (share + 1.0 / rate.of as f64) / rate.of as f64;
         (price * share, variance)
     };
-    rays.iter().map(of).fold((0.0, 0.0), |sum, one| (sum.0 + one.0, sum.1 + one.1))
+    rays.iter()
+        .map(of)
+        .fold((0.0, 0.0), |sum, one| (sum.0 + one.0, sum.1 + one.1))
 }
 
 /// The cheapest epsilons: one knob after the other, in steps of about three, until nothing is cheaper.
@@ -57,7 +65,11 @@ fn cheapest<F: Scalar>(tuned: &Tuned, rays: &[Rays<F>]) -> Vec<F> {
     for _ in 0..3 {
         let before = least;
         for knob in (0..best.len()).rev() {
-            let sign = if tuned.knobs[knob].takes_negative(gates) { -1.0 } else { 1.0 };
+            let sign = if tuned.knobs[knob].takes_negative(gates) {
+                -1.0
+            } else {
+                1.0
+            };
             let mut tried = best.clone();
             for size in &sizes {
                 tried[knob] = F::from_f64(sign * size);
@@ -90,28 +102,51 @@ pub struct Recommended {
 pub fn recommended<F: Scalar>(mesh: &Mesh, plane: &str, kernel: &str, count: u64) -> Recommended {
     let tuned = Tuned::new(kernel);
     let drawn = count as usize;
-    let (known, fresh) =
-        (rays::<F>(mesh, plane, &tuned, 21, drawn), rays::<F>(mesh, plane, &tuned, 22, drawn));
+    let (known, fresh) = (
+        rays::<F>(mesh, plane, &tuned, 21, drawn),
+        rays::<F>(mesh, plane, &tuned, 22, drawn),
+    );
     let scene = scene_of(mesh, &known[0].all, plane);
     let setting = tuned.setting::<F>(&scene, &tuned.counts);
-    let study =
-        study_scene(&setting, &Costs::default(), None, &[], Pass::new(1, count, &Unobserved))
-            .unwrap();
+    let study = study_scene(
+        &setting,
+        &Costs::default(),
+        None,
+        &[],
+        Pass::new(1, count, &Unobserved),
+    )
+    .unwrap();
     let aims: Vec<_> = Aim::ALL.map(count_of).into();
-    let said = tuned.counts.iter().zip(&study.tried[0].wrong).map(|(count, wrong)| {
-        assert!(
-            count.rays == hairline::internals::epsilon::Rays::Stratum(Stratum::Parallel)
-                || aims.contains(count),
-            "{count:?}"
-        );
-        let price =
-            if count.kind == WrongKind::Crack { price(Aim::Edge) } else { price(Aim::Inside) };
-        let is_counted =
-            count.rays != hairline::internals::epsilon::Rays::Stratum(Stratum::Parallel);
-        if is_counted { price * wrong.share().unwrap_or(0.0) } else { 0.0 }
-    });
+    let said = tuned
+        .counts
+        .iter()
+        .zip(&study.tried[0].wrong)
+        .map(|(count, wrong)| {
+            assert!(
+                count.rays == hairline::internals::epsilon::Rays::Stratum(Stratum::Parallel)
+                    || aims.contains(count),
+                "{count:?}"
+            );
+            let price = if count.kind == WrongKind::Crack {
+                price(Aim::Edge)
+            } else {
+                price(Aim::Inside)
+            };
+            let is_counted =
+                count.rays != hairline::internals::epsilon::Rays::Stratum(Stratum::Parallel);
+            if is_counted {
+                price * wrong.share().unwrap_or(0.0)
+            } else {
+                0.0
+            }
+        });
     let best = cheapest::<F>(&tuned, &known);
     let (here, variance) = cost(&tuned, &fresh, &study.best);
     let (least, _) = cost(&tuned, &fresh, &best);
-    Recommended { said: said.sum(), here, least, chance: 4.0 * variance.sqrt() }
+    Recommended {
+        said: said.sum(),
+        here,
+        least,
+        chance: 4.0 * variance.sqrt(),
+    }
 }

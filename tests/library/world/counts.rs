@@ -46,7 +46,13 @@ impl Rate {
 
 impl fmt::Display for Rate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:.3} % ({} of {})", 100.0 * self.share(), self.count, self.of)
+        write!(
+            f,
+            "{:.3} % ({} of {})",
+            100.0 * self.share(),
+            self.count,
+            self.of
+        )
     }
 }
 
@@ -59,9 +65,15 @@ pub struct Tuned {
 
 impl Tuned {
     pub fn new(kernel: &str) -> Tuned {
-        let row = EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap().remove(0);
+        let row = EpsilonChoice::Source
+            .rows(&[find(kernel).unwrap()], None)
+            .unwrap()
+            .remove(0);
         let knobs = Knob::all(&row);
-        let row = Row { contract: contract_with(&knobs, &row.contract), ..row };
+        let row = Row {
+            contract: contract_with(&knobs, &row.contract),
+            ..row
+        };
         let counts = counts(&knobs, &row.contract);
         Tuned { row, knobs, counts }
     }
@@ -116,7 +128,9 @@ impl Tuned {
             }
         }
         let mut verdicts = vec![Verdict::miss(None); cases.len()];
-        F::subject(self.row.entry).unwrap().run(cases, &of_gates, &mut verdicts);
+        F::subject(self.row.entry)
+            .unwrap()
+            .run(cases, &of_gates, &mut verdicts);
         let mut rest = &verdicts[..];
         let is_wrong = |shot: &&Shot| {
             let (of_shot, others) = rest.split_at(shot.faces.len());
@@ -125,7 +139,10 @@ impl Tuned {
             let is_hit = of_shot.iter().any(|verdict| verdict.hit && counts(verdict));
             is_hit != aim.owes_a_hit()
         };
-        Rate { count: all.iter().filter(is_wrong).count() as u64, of: all.len() as u64 }
+        Rate {
+            count: all.iter().filter(is_wrong).count() as u64,
+            of: all.len() as u64,
+        }
     }
 }
 
@@ -140,7 +157,10 @@ pub fn count_of(aim: Aim) -> RayCount {
         Aim::Beside => (Stratum::Outside, WrongKind::Hit),
         Aim::Leave => (Stratum::Shadow, WrongKind::SelfHit),
     };
-    RayCount { rays: hairline::internals::epsilon::Rays::Stratum(stratum), kind }
+    RayCount {
+        rays: hairline::internals::epsilon::Rays::Stratum(stratum),
+        kind,
+    }
 }
 
 /// The rays of an aim by where their planes lie.
@@ -153,7 +173,10 @@ pub fn by_plane<F: Scalar>(
 ) -> BTreeMap<&'static str, Vec<Shot>> {
     let mut planes = BTreeMap::<_, Vec<Shot>>::new();
     for shot in shots::<F>(mesh, aim, tuned.row.entry, &mut Dice::new(seed), count) {
-        planes.entry(plane_of(mesh, &shot.faces)).or_default().push(shot);
+        planes
+            .entry(plane_of(mesh, &shot.faces))
+            .or_default()
+            .push(shot);
     }
     planes
 }
@@ -179,14 +202,18 @@ pub fn theirs<F: Scalar>(
     let attempts = [Attempt::new(epsilons.to_vec())];
     let setting = tuned.setting::<F>(scene, &counts);
     let trials = count_at(&setting, &attempts, Pass::new(1, count, &Unobserved))[0][0];
-    Rate { count: trials.count, of: trials.of }
+    Rate {
+        count: trials.count,
+        of: trials.of,
+    }
 }
 
 /// The same mesh as hairline reads it from a file, and its scene with the rays' distances.
 pub fn read(mesh: &Mesh, shots: &[Shot]) -> (Arc<SceneMesh>, Scene) {
     let mut text = String::new();
     for (i, face) in mesh.faces.iter().enumerate() {
-        face.iter().for_each(|[x, y, z]| text += &format!("v {x} {y} {z}\n"));
+        face.iter()
+            .for_each(|[x, y, z]| text += &format!("v {x} {y} {z}\n"));
         text += &format!("f {} {} {}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
     }
     let mut beside = |_: &str, _| Err(std::io::ErrorKind::NotFound.into());
@@ -209,7 +236,13 @@ pub fn theirs_at<F: Scalar>(
 ) -> Rate {
     let counts = [count_of(aim)];
     let attempts = [Attempt::new(epsilons.to_vec())];
-    let setting = Setting { mesh: Some(mesh), ..tuned.setting::<F>(scene, &counts) };
+    let setting = Setting {
+        mesh: Some(mesh),
+        ..tuned.setting::<F>(scene, &counts)
+    };
     let trials = count_at(&setting, &attempts, Pass::new(1, count, &Unobserved))[0][0];
-    Rate { count: trials.count, of: trials.of }
+    Rate {
+        count: trials.count,
+        of: trials.of,
+    }
 }

@@ -37,7 +37,10 @@ impl Dice {
 
     /// A unit vector, uniform on the sphere: its height is uniform.
     pub fn sphere(&mut self) -> [f64; 3] {
-        let (height, turn) = (self.between(-1.0, 1.0), self.between(0.0, std::f64::consts::TAU));
+        let (height, turn) = (
+            self.between(-1.0, 1.0),
+            self.between(0.0, std::f64::consts::TAU),
+        );
         let flat = (1.0 - height * height).sqrt();
         [flat * turn.cos(), height, flat * turn.sin()]
     }

@@ -11,7 +11,11 @@ pub fn minus(p: Point, q: Point) -> Point {
 }
 
 pub fn plus(p: Point, q: Point, times: f64) -> Point {
-    [p[0] + times * q[0], p[1] + times * q[1], p[2] + times * q[2]]
+    [
+        p[0] + times * q[0],
+        p[1] + times * q[1],
+        p[2] + times * q[2],
+    ]
 }
 
 pub fn dot(p: Point, q: Point) -> f64 {
@@ -19,7 +23,11 @@ pub fn dot(p: Point, q: Point) -> f64 {
 }
 
 pub fn cross(p: Point, q: Point) -> Point {
-    [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+    [
+        p[1] * q[2] - p[2] * q[1],
+        p[2] * q[0] - p[0] * q[2],
+        p[0] * q[1] - p[1] * q[0],
+    ]
 }
 
 pub fn length(p: Point) -> f64 {
@@ -35,7 +43,11 @@ pub fn unit(p: Point) -> Point {
 fn integers<const N: usize>(points: [Point; N]) -> ([[BigInt; 3]; N], u32) {
     let parts = points.map(|point| point.map(parts));
     let used = parts.iter().flatten().filter(|(digits, _)| *digits != 0);
-    let low = used.map(|(_, exponent)| *exponent).min().unwrap_or(0).min(0);
+    let low = used
+        .map(|(_, exponent)| *exponent)
+        .min()
+        .unwrap_or(0)
+        .min(0);
     let whole = |(digits, exponent): (i64, i32)| match digits {
         0 => BigInt::ZERO,
         _ => BigInt::from(digits) << (exponent - low) as u32,
@@ -75,9 +87,16 @@ fn sure(p: Point, q: Point, r: Point) -> Option<i32> {
         let [one, other] = [p[i] * (q[j] * r[k]), p[i] * (q[k] * r[j])];
         (one - other, one.abs() + other.abs())
     });
-    let [value, most] = [all[0].0 + all[1].0 + all[2].0, all[0].1 + all[1].1 + all[2].1];
+    let [value, most] = [
+        all[0].0 + all[1].0 + all[2].0,
+        all[0].1 + all[1].1 + all[2].1,
+    ];
     let is_sure = 1e-200 < most && 2e-15 * most < value.abs();
-    is_sure.then(|| value.partial_cmp(&0.0).map_or(0, |order: Ordering| order as i32))
+    is_sure.then(|| {
+        value
+            .partial_cmp(&0.0)
+            .map_or(0, |order: Ordering| order as i32)
+    })
 }
 
 /// How a line meets a triangle.
@@ -108,12 +127,22 @@ impl Meeting {
                 let ([o, d, a, b, c], _) = integers([origin, direction, a, b, c]);
                 let [p, q, r] = [&a, &b, &c].map(|corner| whole_minus(corner, &o));
                 let (e, f) = (whole_minus(&b, &a), whole_minus(&c, &a));
-                let all = [[&d, &e, &f], [&d, &q, &r], [&d, &r, &p], [&d, &p, &q], [&p, &e, &f]];
+                let all = [
+                    [&d, &e, &f],
+                    [&d, &q, &r],
+                    [&d, &r, &p],
+                    [&d, &p, &q],
+                    [&p, &e, &f],
+                ];
                 all.map(|[p, q, r]| sign(&whole_determinant(p, q, r)))
             }
         };
         let [facing, u, v, w, ahead] = signs;
-        Meeting { facing, weights: [u, v, w].map(|weight| weight * facing), ahead: ahead * facing }
+        Meeting {
+            facing,
+            weights: [u, v, w].map(|weight| weight * facing),
+            ahead: ahead * facing,
+        }
     }
 
     /// Whether the ray hits the triangle, its boundary included.
@@ -140,15 +169,30 @@ fn signs_are_right_where_floats_are_not_sure() {
     let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let down = [0.0, 0.0, -1.0];
     let meeting = |x: f64, y: f64| Meeting::of([x, y, 2.0], down, triangle);
-    assert_eq!(meeting(0.25, 0.25), Meeting { facing: -1, weights: [1, 1, 1], ahead: 1 });
+    assert_eq!(
+        meeting(0.25, 0.25),
+        Meeting {
+            facing: -1,
+            weights: [1, 1, 1],
+            ahead: 1
+        }
+    );
     assert_eq!(meeting(0.5, 0.5).weights, [0, 1, 1]);
     assert_eq!(meeting(0.5, 0.5f64.next_up()).weights, [-1, 1, 1]);
     assert_eq!(meeting(0.5, 0.5f64.next_down()).weights, [1, 1, 1]);
     assert_eq!(meeting(-1e-300, 0.5).weights, [1, -1, 1]);
     assert!(meeting(0.0, 0.0).is_hit() && !meeting(-1e-300, 0.0).is_hit());
     assert_eq!(Meeting::of([0.1, 0.1, -2.0], down, triangle).ahead, -1);
-    assert_eq!(Meeting::of([0.1, 0.1, 0.0], [1.0, 0.0, 0.0], triangle).facing, 0);
-    for (z, t, expected) in [(0.0, 0.0, 0), (1e-310, 0.0, 1), (0.5, 0.5, 0), (0.5, 0.75, -1)] {
+    assert_eq!(
+        Meeting::of([0.1, 0.1, 0.0], [1.0, 0.0, 0.0], triangle).facing,
+        0
+    );
+    for (z, t, expected) in [
+        (0.0, 0.0, 0),
+        (1e-310, 0.0, 1),
+        (0.5, 0.5, 0),
+        (0.5, 0.75, -1),
+    ] {
         assert_eq!(side([9.0, 7.0, z], t, down, triangle), expected, "{z} {t}");
     }
     let almost = 0.5f64.next_down();

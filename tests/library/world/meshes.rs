@@ -56,7 +56,11 @@ impl Mesh {
                 let (from, to) = (face[k], face[(k + 1) % 3]);
                 let mut ends = [bits(from), bits(to)];
                 ends.sort();
-                of_edges.entry(ends).or_insert(([from, to], Vec::new())).1.push(i);
+                of_edges
+                    .entry(ends)
+                    .or_insert(([from, to], Vec::new()))
+                    .1
+                    .push(i);
                 let of_vertex = of_vertices.entry(bits(from)).or_insert_with(|| {
                     order.push(bits(from));
                     (from, Vec::new())
@@ -72,12 +76,27 @@ impl Mesh {
             .collect();
         let fans = order.iter().filter(|vertex| !rims.contains(vertex));
         let fans = fans.map(|vertex| of_vertices[vertex].clone()).collect();
-        let edges = of_edges.into_values().filter(|(_, faces)| faces.len() == 2).collect();
+        let edges = of_edges
+            .into_values()
+            .filter(|(_, faces)| faces.len() == 2)
+            .collect();
         let all = || faces.iter().flatten().flatten().copied();
-        let (low, high) = (all().fold(f64::MAX, f64::min), all().fold(f64::MIN, f64::max));
+        let (low, high) = (
+            all().fold(f64::MAX, f64::min),
+            all().fold(f64::MIN, f64::max),
+        );
         let air = [[low; 3], [high; 3]];
         let extent = high.max(-low);
-        Mesh { name, faces, edges, fans, air, center: 0.0, extent, ground: "generic" }
+        Mesh {
+            name,
+            faces,
+            edges,
+            fans,
+            air,
+            center: 0.0,
+            extent,
+            ground: "generic",
+        }
     }
 }
 
@@ -99,12 +118,25 @@ fn field(round: fn(f64) -> f64) -> Mesh {
     };
     let squares = (0..50).flat_map(|i| (0..50).map(move |k| (i, k)));
     let faces = squares.flat_map(|(i, k)| {
-        let square = [corner(i, k), corner(i, k + 1), corner(i + 1, k + 1), corner(i + 1, k)];
+        let square = [
+            corner(i, k),
+            corner(i, k + 1),
+            corner(i + 1, k + 1),
+            corner(i + 1, k),
+        ];
         let [p, q, r, s] = square;
-        halves(if (i + k) % 2 == 0 { [p, q, r, s] } else { [q, r, s, p] })
+        halves(if (i + k) % 2 == 0 {
+            [p, q, r, s]
+        } else {
+            [q, r, s, p]
+        })
     });
     let mesh = Mesh::new("field", faces.collect(), round);
-    Mesh { air: [[-500.0, 0.5, -500.0], [500.0, 800.0, 500.0]], ground: "terrain", ..mesh }
+    Mesh {
+        air: [[-500.0, 0.5, -500.0], [500.0, 800.0, 500.0]],
+        ground: "terrain",
+        ..mesh
+    }
 }
 
 /// An octahedron, each of its faces cut into 24 by 24, blown up to a sphere of radius about 1 with dents; 0 is near
@@ -120,7 +152,11 @@ fn sphere(round: fn(f64) -> f64) -> Mesh {
     let mut faces = Vec::new();
     for octant in 0..8 {
         let side = |axis: i32| if octant >> axis & 1 == 0 { 1.0 } else { -1.0 };
-        let (x, y, z) = ([side(0), 0.0, 0.0], [0.0, side(1), 0.0], [0.0, 0.0, side(2)]);
+        let (x, y, z) = (
+            [side(0), 0.0, 0.0],
+            [0.0, side(1), 0.0],
+            [0.0, 0.0, side(2)],
+        );
         let corner = |i: i32, k: i32| {
             let [i, k, rest] = [i, k, CUTS - i - k].map(|n| f64::from(n) / f64::from(CUTS));
             blown(plus(plus(x.map(|c| c * rest), y, i), z, k))
@@ -139,14 +175,20 @@ fn sphere(round: fn(f64) -> f64) -> Mesh {
         }
     }
     let mesh = Mesh::new("sphere", faces, round);
-    Mesh { air: [[-2.0; 3], [2.0; 3]], ..mesh }
+    Mesh {
+        air: [[-2.0; 3], [2.0; 3]],
+        ..mesh
+    }
 }
 
 /// Cuts a box's faces along all planes of a list for each axis; faces point out of the box.
 fn add_box(faces: &mut Vec<[Point; 3]>, cuts: [&[f64]; 3], is_inside_out: bool) {
     for axis in 0..3 {
         let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-        for (at, is_far) in [(cuts[axis][0], false), (cuts[axis][cuts[axis].len() - 1], true)] {
+        for (at, is_far) in [
+            (cuts[axis][0], false),
+            (cuts[axis][cuts[axis].len() - 1], true),
+        ] {
             for of_j in cuts[j].windows(2) {
                 for of_k in cuts[k].windows(2) {
                     let corner = |x: f64, y: f64| {
@@ -174,15 +216,24 @@ fn add_box(faces: &mut Vec<[Point; 3]>, cuts: [&[f64]; 3], is_inside_out: bool) 
 fn room(round: fn(f64) -> f64) -> Mesh {
     let mut faces = Vec::new();
     let even = |low: f64, high: f64, parts: i32| -> Vec<f64> {
-        (0..=parts).map(|i| low + (high - low) * f64::from(i) / f64::from(parts)).collect()
+        (0..=parts)
+            .map(|i| low + (high - low) * f64::from(i) / f64::from(parts))
+            .collect()
     };
     // Its faces look into the room.
-    let (x, y, z) = (even(-400.0, 400.0, 9), even(0.0, 275.0, 4), even(-300.0, 300.0, 7));
+    let (x, y, z) = (
+        even(-400.0, 400.0, 9),
+        even(0.0, 275.0, 4),
+        even(-300.0, 300.0, 7),
+    );
     add_box(&mut faces, [&x, &y, &z], true);
     let mut dice = Dice::new(7);
     for _ in 0..24 {
-        let low =
-            [dice.between(-390.0, 300.0), dice.between(5.0, 200.0), dice.between(-290.0, 200.0)];
+        let low = [
+            dice.between(-390.0, 300.0),
+            dice.between(5.0, 200.0),
+            dice.between(-290.0, 200.0),
+        ];
         let of_axis =
             |i: usize, dice: &mut Dice| even(low[i], low[i] + dice.between(20.0, 70.0), 2);
         let [x, y, z] = [0, 1, 2].map(|i| of_axis(i, &mut dice));
@@ -194,12 +245,20 @@ fn room(round: fn(f64) -> f64) -> Mesh {
         for of_x in x.windows(2) {
             for of_z in z.windows(2) {
                 let corner = |i: usize, k: usize| [of_x[i], height, of_z[k]];
-                faces.extend(halves([corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0)]));
+                faces.extend(halves([
+                    corner(0, 0),
+                    corner(0, 1),
+                    corner(1, 1),
+                    corner(1, 0),
+                ]));
             }
         }
     }
     let mesh = Mesh::new("room", faces, round);
-    Mesh { air: [[-399.0, 1.0, -299.0], [399.0, 274.0, 299.0]], ..mesh }
+    Mesh {
+        air: [[-399.0, 1.0, -299.0], [399.0, 274.0, 299.0]],
+        ..mesh
+    }
 }
 
 /// The same room with uneven triangles: corners are moved along the planes on which all their faces lie.
@@ -211,8 +270,9 @@ fn loft(round: fn(f64) -> f64) -> Mesh {
         let all = || faces.iter().flat_map(|face| room.faces[*face]);
         let is_flat = |axis: usize| all().all(|corner| corner[axis] == vertex[axis]);
         if let Some(flat) = (0..3).find(|axis| is_flat(*axis)) {
-            let nearest =
-                all().map(|corner| length(minus(corner, *vertex))).filter(|way| 0.0 < *way);
+            let nearest = all()
+                .map(|corner| length(minus(corner, *vertex)))
+                .filter(|way| 0.0 < *way);
             let reach = 0.25 * nearest.fold(f64::MAX, f64::min);
             let mut to = *vertex;
             (0..3)
@@ -221,9 +281,15 @@ fn loft(round: fn(f64) -> f64) -> Mesh {
             moved.insert(bits(*vertex), to);
         }
     }
-    let faces = room.faces.iter().map(|face| face.map(|p| *moved.get(&bits(p)).unwrap_or(&p)));
+    let faces = room
+        .faces
+        .iter()
+        .map(|face| face.map(|p| *moved.get(&bits(p)).unwrap_or(&p)));
     let mesh = Mesh::new("loft", faces.collect(), round);
-    Mesh { air: room.air, ..mesh }
+    Mesh {
+        air: room.air,
+        ..mesh
+    }
 }
 
 /// A bust of 30 cm, a metre away from 0 along each axis, as a scanner sees it: rings of points that are moved at random,
@@ -237,10 +303,15 @@ fn scan(round: fn(f64) -> f64) -> Mesh {
         let (height, turn) = ((1.0 - 2.0 * along) * 0.15, turn * std::f64::consts::TAU);
         let bulge = 1.0 + 0.2 * (3.0 * turn).sin() * (20.0 * height).cos();
         let radius = 0.14 * (4.0 * along * (1.0 - along)).sqrt() * bulge;
-        [1.0 + radius * turn.cos(), 1.0 + height, 1.0 + radius * turn.sin()]
+        [
+            1.0 + radius * turn.cos(),
+            1.0 + height,
+            1.0 + radius * turn.sin(),
+        ]
     };
-    let points: Vec<Vec<Point>> =
-        (0..rings).map(|ring| (0..around).map(|place| point(ring, place)).collect()).collect();
+    let points: Vec<Vec<Point>> = (0..rings)
+        .map(|ring| (0..around).map(|place| point(ring, place)).collect())
+        .collect();
     let mut faces = Vec::new();
     for (upper, lower) in points.iter().zip(&points[1..]) {
         for place in 0..around as usize {
@@ -251,5 +322,10 @@ fn scan(round: fn(f64) -> f64) -> Mesh {
         }
     }
     let mesh = Mesh::new("scan", faces, round);
-    Mesh { air: [[0.5; 3], [1.5; 3]], center: 1.0, extent: 0.2, ..mesh }
+    Mesh {
+        air: [[0.5; 3], [1.5; 3]],
+        center: 1.0,
+        extent: 0.2,
+        ..mesh
+    }
 }

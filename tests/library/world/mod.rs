@@ -64,7 +64,12 @@ const RATES: &[Allowed] = &[
         1.6,
         "triangles have other shapes, and fans from 4 to 8 of them",
     ),
-    Allowed::new("Leave", 1.3, 1.2, "first rays come from a room's air, not from all sides"),
+    Allowed::new(
+        "Leave",
+        1.3,
+        1.2,
+        "first rays come from a room's air, not from all sides",
+    ),
     Allowed::new(
         "source Inside",
         1.5,
@@ -77,14 +82,24 @@ const RATES: &[Allowed] = &[
         3.5,
         "the field is flatter than most of hairline's terrain, so that heights are rounded by less",
     ),
-    Allowed::new("Along|AlongBeside", 1.6, 2.5, "the same triangles of half the area"),
+    Allowed::new(
+        "Along|AlongBeside",
+        1.6,
+        2.5,
+        "the same triangles of half the area",
+    ),
     Allowed::new("Inside|Beside", 2.0, 2.0, "both are rare"),
 ];
 
 #[test]
 fn wrong_answers_are_as_frequent_as_hairline_says() {
     let mut comparison = Comparison::new(RATES);
-    let kernels = ["moller-trumbore", "cramer", "plane-inside-out", "woop-watertight"];
+    let kernels = [
+        "moller-trumbore",
+        "cramer",
+        "plane-inside-out",
+        "woop-watertight",
+    ];
     compare_rates::<f32>(&mut comparison, &kernels);
     compare_rates::<f64>(&mut comparison, &kernels[..1]);
     assert!(80 < comparison.seen, "{}", comparison.seen);
@@ -95,7 +110,10 @@ fn compare_rates<F: Scalar>(comparison: &mut Comparison, kernels: &[&str]) {
     for mesh in meshes::<F>() {
         for kernel in kernels {
             let tuned = Tuned::new(kernel);
-            let all = [("zero", tuned.zeros::<F>()), ("source", tuned.published::<F>())];
+            let all = [
+                ("zero", tuned.zeros::<F>()),
+                ("source", tuned.published::<F>()),
+            ];
             // Where a source has no epsilons, both are the same.
             let different = 1 + usize::from(all[0].1 != all[1].1);
             for aim in Aim::ALL {
@@ -122,7 +140,12 @@ const AT_MESHES: &[Allowed] = &[
         3.5,
         "hairline chooses any face, small ones included; here a face is as likely as it is large",
     ),
-    Allowed::new("room|loft Edge|Vertex", 1.15, 1.5, "hairline's rays come through walls, too"),
+    Allowed::new(
+        "room|loft Edge|Vertex",
+        1.15,
+        1.5,
+        "hairline's rays come through walls, too",
+    ),
     Allowed::new("", 1.2, 1.2, "the mesh is the same"),
 ];
 
@@ -174,15 +197,23 @@ const STARTS: &[Allowed] = &[
         2.0,
         "how often depends on heights and on how steep rays are",
     ),
-    Allowed::new("", 1.35, 1.35, "nothing differs but the shapes of triangles"),
+    Allowed::new(
+        "",
+        1.35,
+        1.35,
+        "nothing differs but the shapes of triangles",
+    ),
 ];
 
 #[test]
 fn new_rays_start_wrong_as_often_as_spawn_says() {
     // Other tests of this binary may add schemes of their own.
     let name = |scheme: &Scheme| scheme.name.split('=').next().unwrap().to_owned();
-    let is_published =
-        |scheme: &Scheme| PUBLISHED.iter().any(|published| published.name == name(scheme));
+    let is_published = |scheme: &Scheme| {
+        PUBLISHED
+            .iter()
+            .any(|published| published.name == name(scheme))
+    };
     let schemes: Vec<Scheme> = default_schemes().into_iter().filter(is_published).collect();
     let tuned = Tuned::new("moller-trumbore");
     let mut comparison = Comparison::new(STARTS);
@@ -209,7 +240,11 @@ fn costly() -> impl Iterator<Item = (Mesh, &'static str)> {
     // In a room planes of several kinds meet.
     let all = meshes::<f32>().filter(move |mesh| mesh.name != "room" && is_costly(mesh));
     all.map(|mesh| {
-        let plane = if mesh.name == "loft" { "axis" } else { mesh.ground };
+        let plane = if mesh.name == "loft" {
+            "axis"
+        } else {
+            mesh.ground
+        };
         (mesh, plane)
     })
 }
@@ -220,7 +255,12 @@ fn recommended_epsilons_cost_what_hairline_says_and_little_more_than_the_best() 
     for (mesh, plane) in costly() {
         for kernel in ["moller-trumbore", "woop-watertight", "plane-unit-normal"] {
             let found = costs::recommended::<f32>(&mesh, plane, kernel, count);
-            let Recommended { said, here, least, chance } = found;
+            let Recommended {
+                said,
+                here,
+                least,
+                chance,
+            } = found;
             let name = format!("{} {kernel}: {found:?}", mesh.name);
             if std::env::var("HAIRLINE_WORLD").is_ok() {
                 println!("{name}");
@@ -228,7 +268,10 @@ fn recommended_epsilons_cost_what_hairline_says_and_little_more_than_the_best() 
             // Nothing that this world finds by itself may be much cheaper.
             assert!(here <= 1.1 * least + chance, "{name}");
             // Triangles of hairline's scenes have half the area of even ones.
-            assert!(here <= 1.5 * said + chance && said <= 3.0 * here + chance, "{name}");
+            assert!(
+                here <= 1.5 * said + chance && said <= 3.0 * here + chance,
+                "{name}"
+            );
         }
     }
 }

@@ -59,16 +59,25 @@ impl Shot {
     pub fn cases<F: Float>(&self) -> impl Iterator<Item = Case<F>> {
         let narrow = |p: Point| p.map(F::from_f64);
         self.faces.iter().map(move |face| {
-            Case::new(narrow(self.origin), narrow(self.direction), face.map(narrow))
+            Case::new(
+                narrow(self.origin),
+                narrow(self.direction),
+                face.map(narrow),
+            )
         })
     }
 
     /// Whether it is what its aim says.
     pub fn is_owed(&self, aim: Aim) -> bool {
-        let meets: Vec<Meeting> =
-            self.faces.iter().map(|face| Meeting::of(self.origin, self.direction, *face)).collect();
+        let meets: Vec<Meeting> = self
+            .faces
+            .iter()
+            .map(|face| Meeting::of(self.origin, self.direction, *face))
+            .collect();
         let facing = meets[0].facing;
-        let is_regular = meets.iter().all(|meets| meets.facing == facing && facing != 0);
+        let is_regular = meets
+            .iter()
+            .all(|meets| meets.facing == facing && facing != 0);
         let is_hit = meets.iter().any(Meeting::is_hit);
         match aim {
             Aim::Leave => true,
@@ -95,7 +104,10 @@ impl<'a> Surface<'a> {
             sum += length(corners_normal(*face));
             sum
         });
-        Surface { mesh, sums: areas.collect() }
+        Surface {
+            mesh,
+            sums: areas.collect(),
+        }
     }
 
     fn face(&self, dice: &mut Dice) -> [Point; 3] {
@@ -107,7 +119,11 @@ impl<'a> Surface<'a> {
 /// A point of a triangle, uniform: Osada and others, "Shape distributions", 2002, section 4.2.
 fn point_inside([a, b, c]: [Point; 3], dice: &mut Dice) -> Point {
     let (root, share) = (dice.share().sqrt(), dice.share());
-    plus(plus(a, minus(b, a), root * (1.0 - share)), minus(c, a), root * share)
+    plus(
+        plus(a, minus(b, a), root * (1.0 - share)),
+        minus(c, a),
+        root * share,
+    )
 }
 
 /// A point of the plane beside a triangle: on the other side of one of its edges, no farther than that is long.
@@ -125,7 +141,12 @@ fn rounded<F: Float>(p: Point) -> Point {
 fn shot<F: Float>(from: Point, to: Point, faces: Vec<[Point; 3]>) -> Shot {
     let origin = rounded::<F>(from);
     let way = minus(to, origin);
-    Shot { origin, direction: rounded::<F>(unit(way)), faces, distance: length(way) }
+    Shot {
+        origin,
+        direction: rounded::<F>(unit(way)),
+        faces,
+        distance: length(way),
+    }
 }
 
 /// Rays of one aim at a mesh, and how many were drawn for them; those that owe nothing are left out.
@@ -138,7 +159,12 @@ pub fn shots<F: Scalar>(
 ) -> Vec<Shot> {
     let surface = Surface::new(mesh);
     let mut all = Vec::with_capacity(count);
-    let of = |faces: &[usize]| faces.iter().map(|face| mesh.faces[*face]).collect::<Vec<_>>();
+    let of = |faces: &[usize]| {
+        faces
+            .iter()
+            .map(|face| mesh.faces[*face])
+            .collect::<Vec<_>>()
+    };
     for _ in 0..40 * count {
         if all.len() == count {
             break;
@@ -185,7 +211,11 @@ const SINES: [f64; 2] = [1e-5, 1e-2];
 fn along<F: Float>(face: [Point; 3], from: Point, aim: Aim, dice: &mut Dice) -> Option<Shot> {
     // Rays at the inside of a triangle may pass it too, because they are rounded.
     let is_inside = aim == Aim::Along || dice.coin();
-    let target = if is_inside { point_inside(face, dice) } else { point_beside(face, dice) };
+    let target = if is_inside {
+        point_inside(face, dice)
+    } else {
+        point_beside(face, dice)
+    };
     let normal = unit(corners_normal(face));
     let sine = SINES[0] * (SINES[1] / SINES[0]).powf(dice.share());
     let rise = if dice.coin() { sine } else { -sine };
@@ -196,14 +226,17 @@ fn along<F: Float>(face: [Point; 3], from: Point, aim: Aim, dice: &mut Dice) -> 
         shot::<F>(plus(target, way, -distance), target, vec![face])
     });
     let reached = |shot: &Shot| dot(normal, unit(shot.direction)).abs() / sine;
-    made.into_iter().find(|shot| (1.0 / 1.1..1.1).contains(&reached(shot)))
+    made.into_iter()
+        .find(|shot| (1.0 / 1.1..1.1).contains(&reached(shot)))
 }
 
 /// The verdict of a kernel without any epsilon.
 fn plain<F: Scalar>(kernel: &Entry, case: Case<F>) -> Verdict<F> {
     let mut verdict = [Verdict::miss(None)];
     let zeros = vec![F::zero(); kernel.info.gates.len()];
-    F::subject(kernel).unwrap().run(&[case], &zeros, &mut verdict);
+    F::subject(kernel)
+        .unwrap()
+        .run(&[case], &zeros, &mut verdict);
     verdict[0]
 }
 
@@ -212,7 +245,10 @@ pub fn hit_points<F: Float>(case: &Case<F>, verdict: &Verdict<F>) -> [[F; 3]; 2]
     let [o, d, a, b, c] = case.vectors();
     let Verdict { t, u, v, .. } = *verdict;
     let w = F::one() - u - v;
-    [[0, 1, 2].map(|i| w * a[i] + u * b[i] + v * c[i]), [0, 1, 2].map(|i| o[i] + t * d[i])]
+    [
+        [0, 1, 2].map(|i| w * a[i] + u * b[i] + v * c[i]),
+        [0, 1, 2].map(|i| o[i] + t * d[i]),
+    ]
 }
 
 /// A ray in any direction from the hit point of another one.
@@ -221,11 +257,19 @@ fn leaving<F: Scalar>(first: Shot, kernel: &Entry, dice: &mut Dice) -> Option<Sh
     let verdict = plain(kernel, case);
     let [by_weights, on_ray] = hit_points(&case, &verdict);
     let gives = kernel.info.gives;
-    let point = if gives.uv && (!gives.t || dice.coin()) { by_weights } else { on_ray };
+    let point = if gives.uv && (!gives.t || dice.coin()) {
+        by_weights
+    } else {
+        on_ray
+    };
     let origin = point.map(F::to_f64);
     let is_found = verdict.hit && origin.iter().all(|x| x.is_finite());
     let direction = rounded::<F>(dice.sphere());
-    is_found.then_some(Shot { origin, direction, ..first })
+    is_found.then_some(Shot {
+        origin,
+        direction,
+        ..first
+    })
 }
 
 /// Where the planes of faces lie, in the words of a scene.
@@ -234,7 +278,13 @@ pub fn plane_of(mesh: &Mesh, faces: &[[Point; 3]]) -> &'static str {
         let flat = (0..3).find(|i| face[0][*i] == face[1][*i] && face[1][*i] == face[2][*i]);
         flat.map(|axis| (axis, face[0][axis]))
     };
-    match (level(&faces[0]), faces.iter().map(level).all(|plane| plane == level(&faces[0]))) {
+    match (
+        level(&faces[0]),
+        faces
+            .iter()
+            .map(level)
+            .all(|plane| plane == level(&faces[0])),
+    ) {
         (Some((_, 0.0)), true) => "axis-0",
         (Some((_, at)), true) if at.abs() < 1e-3 * mesh.extent => "axis-near-0",
         (Some(_), true) => "axis",
@@ -253,14 +303,23 @@ pub fn words(mesh: &Mesh, shots: &[&Shot]) -> String {
 /// The words of the mesh, and those of the rays: distances of the same mean and spread.
 pub fn words_of_rays(mesh: &Mesh, shots: &[&Shot]) -> (String, String) {
     let size = |face: &[Point; 3]| {
-        (0..3).map(|i| length(minus(face[i], face[(i + 1) % 3]))).fold(0.0, f64::max)
+        (0..3)
+            .map(|i| length(minus(face[i], face[(i + 1) % 3])))
+            .fold(0.0, f64::max)
     };
-    let mut sizes: Vec<f64> = shots.iter().flat_map(|shot| shot.faces.iter().map(size)).collect();
+    let mut sizes: Vec<f64> = shots
+        .iter()
+        .flat_map(|shot| shot.faces.iter().map(size))
+        .collect();
     sizes.sort_by(f64::total_cmp);
     let [least, median, most] = [0, sizes.len() / 2, sizes.len() - 1].map(|i| sizes[i]);
     let count = shots.len() as f64;
     let mean = shots.iter().map(|shot| shot.distance).sum::<f64>() / count;
-    let spread = shots.iter().map(|shot| (shot.distance - mean).powi(2)).sum::<f64>() / count;
+    let spread = shots
+        .iter()
+        .map(|shot| (shot.distance - mean).powi(2))
+        .sum::<f64>()
+        / count;
     let reach = (3.0 * spread).sqrt();
     let (near, far) = ((mean - reach).max(0.0), mean + reach);
     let (extent, center, [low, high]) = (mesh.extent, mesh.center, SINES);

@@ -43,24 +43,38 @@ pub fn hits<F: Scalar>(
         let direction = dice.sphere().map(F::from_f64);
         let leaves = dot(corners_normal(face), direction.map(F::to_f64));
         let is_turned = (leaves < 0.0) != (side < 0);
-        let direction = if is_turned { direction.map(|x| -x) } else { direction };
+        let direction = if is_turned {
+            direction.map(|x| -x)
+        } else {
+            direction
+        };
         let [by_weights, on_ray] = hit_points(&case, &verdict);
         let point = HitPoint {
-            point: if kind == PointKind::Ray { on_ray } else { by_weights },
+            point: if kind == PointKind::Ray {
+                on_ray
+            } else {
+                by_weights
+            },
             normal: normal(case.vectors(), side),
             vertices: face.map(|corner| corner.map(F::from_f64)),
             weights: Some([F::one() - verdict.u - verdict.v, verdict.u, verdict.v]),
             t: verdict.t,
             direction,
         };
-        planes.entry(plane_of(mesh, &shot.faces)).or_default().push(Hit { shot, point, side });
+        planes
+            .entry(plane_of(mesh, &shot.faces))
+            .or_default()
+            .push(Hit { shot, point, side });
     }
     planes
 }
 
 /// The unit normal as a renderer computes it, on a side.
 fn normal<F: Float>([_, _, a, b, c]: [[F; 3]; 5], side: i32) -> [F; 3] {
-    let (e, f) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
+    let (e, f) = (
+        [0, 1, 2].map(|i| b[i] - a[i]),
+        [0, 1, 2].map(|i| c[i] - a[i]),
+    );
     let n = [0, 1, 2].map(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         e[j] * f[k] - e[k] * f[j]
@@ -75,10 +89,18 @@ pub fn wrong<F: Float>(scheme: &Scheme, hits: &[Hit<F>]) -> Rate {
     let is_wrong = |hit: &&Hit<F>| {
         let Start { origin, t_min } = offset.start(&hit.point);
         let direction = hit.point.direction.map(F::to_f64);
-        let start = side(origin.map(F::to_f64), t_min.to_f64(), direction, hit.shot.faces[0]);
+        let start = side(
+            origin.map(F::to_f64),
+            t_min.to_f64(),
+            direction,
+            hit.shot.faces[0],
+        );
         start != hit.side
     };
-    Rate { count: hits.iter().filter(is_wrong).count() as u64, of: hits.len() as u64 }
+    Rate {
+        count: hits.iter().filter(is_wrong).count() as u64,
+        of: hits.len() as u64,
+    }
 }
 
 /// The first rays of hit points.
@@ -109,5 +131,11 @@ pub fn theirs<F: Scalar>(
         count,
     };
     let sums = run::<F>(&plan, &Unobserved);
-    sums.schemes.iter().map(|of| Rate { count: of.wrong, of: of.rays }).collect()
+    sums.schemes
+        .iter()
+        .map(|of| Rate {
+            count: of.wrong,
+            of: of.rays,
+        })
+        .collect()
 }

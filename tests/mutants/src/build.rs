@@ -29,16 +29,31 @@ pub struct TestBinary {
 impl Tree {
     /// The copy of a package lies in a folder for work.
     pub fn new(root: &Path, work: &Path) -> Tree {
-        Tree { root: root.into(), copy: work.join("tree"), target: work.join("build") }
+        Tree {
+            root: root.into(),
+            copy: work.join("tree"),
+            target: work.join("build"),
+        }
     }
 
     /// What git tracks or would track of the package.
     fn files(&self, root: &Path) -> Result<Vec<String>, String> {
-        let arguments = ["ls-files", "-z", "--cached", "--others", "--exclude-standard"];
-        let listed = Command::new("git").args(arguments).current_dir(root).output();
+        let arguments = [
+            "ls-files",
+            "-z",
+            "--cached",
+            "--others",
+            "--exclude-standard",
+        ];
+        let listed = Command::new("git")
+            .args(arguments)
+            .current_dir(root)
+            .output();
         let listed = listed.map_err(|e| format!("git: {e}"))?.stdout;
         let names = String::from_utf8_lossy(&listed);
-        let files = names.split('\0').filter(|file| !file.is_empty() && root.join(file).is_file());
+        let files = names
+            .split('\0')
+            .filter(|file| !file.is_empty() && root.join(file).is_file());
         // Without the tool itself, whose changes change no result.
         let files = files.filter(|file| !file.starts_with("tests/mutants/"));
         // In an order that does not depend on what git tracks already.
@@ -69,7 +84,9 @@ impl Tree {
     fn digest_of(&self, root: &Path) -> Result<u64, String> {
         let mut files = self.files(&self.root)?;
         files.retain(|file| {
-            [".rs", ".toml", ".lock", ".jsonl", ".proof"].iter().any(|e| file.ends_with(e))
+            [".rs", ".toml", ".lock", ".jsonl", ".proof"]
+                .iter()
+                .any(|e| file.ends_with(e))
         });
         files.retain(|file| root.join(file).is_file());
         Ok(digest(&contents(root, files)?))
@@ -159,7 +176,10 @@ impl Tree {
             return Ok(tests
                 .filter_map(|m| {
                     let name = m["target"]["name"].as_str()?.to_owned();
-                    Some(TestBinary { name, path: m["executable"].as_str()?.into() })
+                    Some(TestBinary {
+                        name,
+                        path: m["executable"].as_str()?.into(),
+                    })
                 })
                 .collect());
         }
@@ -176,7 +196,10 @@ impl Tree {
             .output()
             .map_err(|e| format!("cargo: {e}"))?;
         let lines = String::from_utf8_lossy(&output.stdout).into_owned();
-        Ok(lines.lines().filter_map(|line| serde_json::from_str(line).ok()).collect())
+        Ok(lines
+            .lines()
+            .filter_map(|line| serde_json::from_str(line).ok())
+            .collect())
     }
 }
 
@@ -186,8 +209,9 @@ fn blame(error: &Value, rewritten: &HashMap<String, Rewritten>) -> Option<Blame>
     // A variable without a value: labels show what sets it, which cannot be left out.
     if error["code"]["code"] == "E0381" {
         let labels = spans.iter().filter(|span| span["is_primary"] == false);
-        let sites =
-            labels.filter_map(|span| blame_at(span, rewritten)).flat_map(|found| match found {
+        let sites = labels
+            .filter_map(|span| blame_at(span, rewritten))
+            .flat_map(|found| match found {
                 Blame::Mutant(_) => Vec::new(),
                 Blame::Sites(sites) => sites,
             });
@@ -195,11 +219,15 @@ fn blame(error: &Value, rewritten: &HashMap<String, Rewritten>) -> Option<Blame>
             .filter(|found| *found != Blame::Sites(Vec::new()));
     }
     let blames = |primary: bool| {
-        let spans = spans.iter().filter(move |span| span["is_primary"] == primary);
+        let spans = spans
+            .iter()
+            .filter(move |span| span["is_primary"] == primary);
         spans.filter_map(|span| blame_at(span, rewritten))
     };
     let all: Vec<Blame> = blames(true).chain(blames(false)).collect();
-    let mutant = all.iter().position(|found| matches!(found, Blame::Mutant(_)));
+    let mutant = all
+        .iter()
+        .position(|found| matches!(found, Blame::Mutant(_)));
     let found = all.into_iter().nth(mutant.unwrap_or(0))?;
     (found != Blame::Sites(Vec::new())).then_some(found)
 }

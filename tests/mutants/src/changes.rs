@@ -87,16 +87,21 @@ fn argument(found: &Type) -> Option<&Type> {
 /// The name of a type without its path and arguments.
 pub fn last_name(found: &Type) -> String {
     match found {
-        Type::Path(path) => {
-            path.path.segments.last().map(|s| s.ident.to_string()).unwrap_or_default()
-        }
+        Type::Path(path) => path
+            .path
+            .segments
+            .last()
+            .map(|s| s.ident.to_string())
+            .unwrap_or_default(),
         Type::Reference(reference) => last_name(&reference.elem),
         _ => String::new(),
     }
 }
 
 pub fn is_integer(name: &str) -> bool {
-    let Some(rest) = name.strip_prefix(['i', 'u']) else { return false };
+    let Some(rest) = name.strip_prefix(['i', 'u']) else {
+        return false;
+    };
     rest == "size" || rest.parse::<u32>().is_ok()
 }
 
@@ -108,7 +113,9 @@ pub fn other_literals(literal: &Lit) -> Vec<String> {
             let value: Option<u128> = was.base10_parse().ok();
             let others = value.map(|value| [value.checked_add(1), value.checked_sub(1)]);
             let others = others.into_iter().flatten().flatten();
-            others.map(|other| format!("{other}{}", was.suffix())).collect()
+            others
+                .map(|other| format!("{other}{}", was.suffix()))
+                .collect()
         }
         Lit::Float(was) => {
             let others = match was.base10_parse::<f64>() {
@@ -116,7 +123,10 @@ pub fn other_literals(literal: &Lit) -> Vec<String> {
                 Ok(value) => vec![2.0 * value, value / 1024.0],
                 Err(_) => vec![],
             };
-            others.into_iter().map(|other| format!("{other:?}{}", was.suffix())).collect()
+            others
+                .into_iter()
+                .map(|other| format!("{other:?}{}", was.suffix()))
+                .collect()
         }
         _ => vec![],
     }

@@ -40,7 +40,9 @@ pub struct Module {
 impl Module {
     /// Whether a file belongs to it.
     pub fn has(&self, file: &str) -> bool {
-        self.files.iter().any(|f| f == file || f.ends_with('/') && file.starts_with(f.as_str()))
+        self.files
+            .iter()
+            .any(|f| f == file || f.ends_with('/') && file.starts_with(f.as_str()))
     }
 }
 
@@ -87,8 +89,16 @@ impl Config {
         let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
         let config: Config =
             toml::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))?;
-        match config.equivalents.iter().find(|e| e.reason.trim().is_empty()) {
-            Some(entry) => Err(format!("{}: {}: a reason is needed", path.display(), entry.change)),
+        match config
+            .equivalents
+            .iter()
+            .find(|e| e.reason.trim().is_empty())
+        {
+            Some(entry) => Err(format!(
+                "{}: {}: a reason is needed",
+                path.display(),
+                entry.change
+            )),
             None => Ok(config),
         }
     }
@@ -107,13 +117,24 @@ impl Config {
                 files.contains(&entry.file) || !self.modules.iter().any(|m| m.has(&entry.file))
             })
             .filter(|entry| !mutants.iter().any(|mutant| entry.matches(mutant)))
-            .map(|Equivalent { file, function, change, source, .. }| {
-                format!("\n    {file}: {change} in {{{source}}} of {function}")
-            })
+            .map(
+                |Equivalent {
+                     file,
+                     function,
+                     change,
+                     source,
+                     ..
+                 }| {
+                    format!("\n    {file}: {change} in {{{source}}} of {function}")
+                },
+            )
             .collect();
         match unknown.is_empty() {
             true => Ok(()),
-            false => Err(format!("equivalents that match no mutant:{}", unknown.concat())),
+            false => Err(format!(
+                "equivalents that match no mutant:{}",
+                unknown.concat()
+            )),
         }
     }
 }

@@ -9,6 +9,16 @@ use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
 use syn::{Block, Expr, Stmt, Token, Type, UnOp};
 
+/// What breaking a line adds, and what stands there in one that is whole.
+const BROKEN: [(&str, &str); 6] = [
+    (" .", "."),
+    ("( ", "("),
+    (", )", ")"),
+    (" )", ")"),
+    (", }", " }"),
+    (", ]", "]"),
+];
+
 /// One change of one place.
 #[derive(Clone, Debug)]
 pub struct Mutant {
@@ -34,13 +44,28 @@ pub struct Mutant {
 impl Mutant {
     /// Names the mutant in results: it does not depend on lines, so edits elsewhere do not change it.
     pub fn key(&self) -> String {
-        let Mutant { file, function, change, source, nth, .. } = self;
+        let Mutant {
+            file,
+            function,
+            change,
+            source,
+            nth,
+            ..
+        } = self;
         format!("{file}|{function}|{change}|{source}|{nth}")
     }
 
     /// Where and what, as in a compiler's message.
     pub fn describe(&self) -> String {
-        let Mutant { file, line, column, function, change, source, .. } = self;
+        let Mutant {
+            file,
+            line,
+            column,
+            function,
+            change,
+            source,
+            ..
+        } = self;
         match source.is_empty() {
             true => format!("{file}:{line}:{column}: {change}"),
             false => format!("{file}:{line}:{column}: {change} in {{{source}}} of {function}"),
@@ -126,17 +151,23 @@ impl Finder {
 
     /// The mutants of a file.
     pub fn of_file(&self, file: &str) -> impl Iterator<Item = &Mutant> {
-        self.mutants.iter().filter(move |mutant| mutant.file == file)
+        self.mutants
+            .iter()
+            .filter(move |mutant| mutant.file == file)
     }
 
     fn text_of(&self, node: &impl Spanned) -> &str {
         &self.text[node.span().byte_range()]
     }
 
-    /// One line of at most 100 characters.
+    /// One line of at most 100 characters, the same however a formatter breaks it.
     fn source_of(&self, range: Range<usize>) -> String {
         let words: Vec<&str> = self.text[range].split_whitespace().collect();
-        words.join(" ").chars().take(100).collect()
+        let mut line = words.join(" ");
+        for (broken, whole) in BROKEN {
+            line = line.replace(broken, whole);
+        }
+        line.chars().take(100).collect()
     }
 
     fn add(
@@ -149,17 +180,34 @@ impl Finder {
     ) {
         let count = &mut self.site_count;
         let file_sites = self.sites.get_mut(&self.file).expect("of the file's");
-        let site = *self.places.entry((place.start, place.end, form)).or_insert_with(|| {
-            *count += 1;
-            file_sites.push(Site { range: place, form, number: *count });
-            *count
-        });
+        let site = *self
+            .places
+            .entry((place.start, place.end, form))
+            .or_insert_with(|| {
+                *count += 1;
+                file_sites.push(Site {
+                    range: place,
+                    form,
+                    number: *count,
+                });
+                *count
+            });
         let (line, column) = (at.start().line, at.start().column + 1);
         let (file, function) = (self.file.clone(), self.path.join("::"));
         let source = self.source_of(source);
         let id = self.mutants.len() as u32 + 1;
-        let mut mutant =
-            Mutant { id, site, file, line, column, function, change, source, nth: 0, text };
+        let mut mutant = Mutant {
+            id,
+            site,
+            file,
+            line,
+            column,
+            function,
+            change,
+            source,
+            nth: 0,
+            text,
+        };
         let equal = self.equal.entry(mutant.key()).or_default();
         mutant.nth = *equal;
         *equal += 1;
@@ -188,7 +236,13 @@ impl Finder {
         } else if word != "guard" {
             let range = condition.span().byte_range();
             let place = (range.clone(), Form::LetCondition);
-            self.add(place, condition.span(), format!("{word} -> false"), range, String::new());
+            self.add(
+                place,
+                condition.span(),
+                format!("{word} -> false"),
+                range,
+                String::new(),
+            );
         }
     }
 
@@ -210,7 +264,12 @@ impl Finder {
                 true => format!("{left} {now} {right}"),
                 false => format!("({left}) {now} ({right})"),
             };
-            self.replace(expr, binary.op.span(), format!("replace {was} with {now}"), text);
+            self.replace(
+                expr,
+                binary.op.span(),
+                format!("replace {was} with {now}"),
+                text,
+            );
         }
     }
 
@@ -229,7 +288,9 @@ impl Finder {
     }
 
     fn constant(&mut self, expr: &Expr, path: &syn::ExprPath) {
-        let Some(name) = path.path.get_ident().map(ToString::to_string) else { return };
+        let Some(name) = path.path.get_ident().map(ToString::to_string) else {
+            return;
+        };
         let changes: &[&str] = match self.constants.get(&name) {
             Some(Constant::Float) => &["* 1e12", "* 1e-12"],
             Some(Constant::Integer) => &["+ 1", "- 1"],
@@ -287,7 +348,11 @@ impl<'a> Visit<'a> for Finder {
     fn visit_item_impl(&mut self, item: &'a syn::ItemImpl) {
         if !is_test(&item.attrs) {
             let name = last_name(&item.self_ty);
-            let name = if name.is_empty() { self.text_of(&item.self_ty).to_owned() } else { name };
+            let name = if name.is_empty() {
+                self.text_of(&item.self_ty).to_owned()
+            } else {
+                name
+            };
             self.path.push(name);
             visit::visit_item_impl(self, item);
             self.path.pop();
@@ -329,11 +394,18 @@ impl<'a> Visit<'a> for Finder {
     }
 
     fn visit_macro(&mut self, found: &'a syn::Macro) {
-        let name = found.path.segments.last().map(|s| s.ident.to_string()).unwrap_or_default();
+        let name = found
+            .path
+            .segments
+            .last()
+            .map(|s| s.ident.to_string())
+            .unwrap_or_default();
         let takes_expressions = ["vec", "format", "write", "writeln"].contains(&name.as_str());
         let parse = Punctuated::<Expr, Token![,]>::parse_terminated;
         if takes_expressions && let Ok(arguments) = found.parse_body_with(parse) {
-            arguments.iter().for_each(|argument| self.visit_expr(argument));
+            arguments
+                .iter()
+                .for_each(|argument| self.visit_expr(argument));
         }
     }
 
@@ -389,7 +461,10 @@ impl<'a> Visit<'a> for Finder {
             Expr::Path(path) => self.constant(expr, path),
             Expr::MethodCall(call) if self.conditions => self.condition_of_method(call),
             Expr::Call(call) if self.conditions && self.text_of(&call.func) == "ensure" => {
-                call.args.first().iter().for_each(|holds| self.condition(holds, "ensure", &[true]));
+                call.args
+                    .first()
+                    .iter()
+                    .for_each(|holds| self.condition(holds, "ensure", &[true]));
             }
             _ => {}
         }
@@ -400,8 +475,15 @@ impl<'a> Visit<'a> for Finder {
 }
 
 /// Methods whose closure is a condition.
-const TAKES_CONDITION: [&str; 7] =
-    ["all", "any", "filter", "find", "is_none_or", "is_some_and", "take_while"];
+const TAKES_CONDITION: [&str; 7] = [
+    "all",
+    "any",
+    "filter",
+    "find",
+    "is_none_or",
+    "is_some_and",
+    "take_while",
+];
 
 fn is_call(expr: &Expr) -> bool {
     matches!(expr, Expr::Call(_) | Expr::MethodCall(_))

@@ -115,8 +115,11 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
     };
     let modules: Vec<_> = config.modules.iter().filter(of_group).collect();
     let files = tree.sources(|file| modules.iter().any(|module| module.has(file)))?;
-    let with_conditions =
-        |file: &str| modules.iter().any(|module| module.conditions && module.has(file));
+    let with_conditions = |file: &str| {
+        modules
+            .iter()
+            .any(|module| module.conditions && module.has(file))
+    };
     let finder = tree.find(&files, with_conditions)?;
     config.check_equivalents(&finder.mutants, &files)?;
     let chosen = choose(arguments, &finder.mutants);
@@ -124,17 +127,29 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
         return Err("no mutant is chosen".into());
     }
     if arguments.list {
-        chosen.iter().for_each(|mutant| println!("{}", mutant.describe()));
+        chosen
+            .iter()
+            .for_each(|mutant| println!("{}", mutant.describe()));
         return Ok(true);
     }
 
     let by = arguments.by.as_deref().unwrap_or("tests");
-    let mut results =
-        Results::open(&work.join("results.jsonl"), by, &format!("{:016x}", tree.digest()?))?;
-    let known = finder.mutants.iter().filter(|mutant| results.is_refused(mutant));
+    let mut results = Results::open(
+        &work.join("results.jsonl"),
+        by,
+        &format!("{:016x}", tree.digest()?),
+    )?;
+    let known = finder
+        .mutants
+        .iter()
+        .filter(|mutant| results.is_refused(mutant));
     let mut refused: HashSet<u32> = known.map(|mutant| mutant.id).collect();
     let binaries = tree.build(&finder, &mut refused, &config.tests)?;
-    for mutant in finder.mutants.iter().filter(|mutant| refused.contains(&mutant.id)) {
+    for mutant in finder
+        .mutants
+        .iter()
+        .filter(|mutant| refused.contains(&mutant.id))
+    {
         if !results.is_refused(mutant) {
             results.refuse(mutant)?;
         }
@@ -147,14 +162,20 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
         }
     };
     tests.keep(arguments.slow.unwrap_or(f64::INFINITY));
-    tests.left_out.iter().for_each(|line| eprintln!("left out: {line}"));
+    tests
+        .left_out
+        .iter()
+        .for_each(|line| eprintln!("left out: {line}"));
     let (count, seconds) = tests.count();
     eprintln!("{count} tests, {seconds:.0} s together");
     if count == 0 {
         return Err("no test passes without a mutant".into());
     }
 
-    let chosen: Vec<&Mutant> = chosen.into_iter().filter(|m| !refused.contains(&m.id)).collect();
+    let chosen: Vec<&Mutant> = chosen
+        .into_iter()
+        .filter(|m| !refused.contains(&m.id))
+        .collect();
     let waits = |mutant: &&&Mutant| {
         let is_known = match (arguments.lived, results.of(by, mutant, arguments.lived)) {
             (true, Some(line)) => line.outcome == "killed",
@@ -169,7 +190,12 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
             let outcome = tests.kill(&tree, mutant)?;
             let mut results = results.lock().expect("no panic");
             results.add(mutant, &outcome)?;
-            eprintln!("{}/{} {}: {outcome:?}", mutant.id, finder.mutants.len(), mutant.describe());
+            eprintln!(
+                "{}/{} {}: {outcome:?}",
+                mutant.id,
+                finder.mutants.len(),
+                mutant.describe()
+            );
             if let Some(path) = &arguments.survivors {
                 let text = table::survivors(&config, &results, by, &chosen).join("\n") + "\n";
                 std::fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))?;
@@ -179,10 +205,15 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
     };
     std::thread::scope(|scope| {
         let workers: Vec<_> = (0..arguments.jobs).map(|_| scope.spawn(work)).collect();
-        workers.into_iter().try_for_each(|worker| worker.join().expect("no panic"))
+        workers
+            .into_iter()
+            .try_for_each(|worker| worker.join().expect("no panic"))
     })?;
     let results = results.into_inner().expect("no panic");
-    println!("{}", table::table(&config, &results, &chosen, refused.len()));
+    println!(
+        "{}",
+        table::table(&config, &results, &chosen, refused.len())
+    );
     let survivors = table::survivors(&config, &results, by, &chosen);
     survivors.iter().for_each(|line| println!("{line}"));
     Ok(table::is_met(&config, &results, by, &chosen))
@@ -191,10 +222,15 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
 /// The mutants that the arguments choose, in the order of the files.
 fn choose<'m>(arguments: &Arguments, mutants: &'m [Mutant]) -> Vec<&'m Mutant> {
     let is_chosen = |mutant: &&Mutant| {
-        let Mutant { file, line, column, .. } = mutant;
+        let Mutant {
+            file, line, column, ..
+        } = mutant;
         let has = |f: &String| f == file || f.ends_with('/') && file.starts_with(f.as_str());
         (arguments.file.is_empty() || arguments.file.iter().any(has))
-            && arguments.mutant.as_ref().is_none_or(|at| *at == format!("{file}:{line}:{column}"))
+            && arguments
+                .mutant
+                .as_ref()
+                .is_none_or(|at| *at == format!("{file}:{line}:{column}"))
     };
     let mut chosen: Vec<&Mutant> = mutants.iter().filter(is_chosen).collect();
     if let Some(count) = arguments.sample {

@@ -36,11 +36,20 @@ impl Results {
     pub fn open(path: &Path, by: &str, digest: &str) -> Result<Results, String> {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         // A line that was cut off by the end of a run is left out.
-        let lines = text.lines().filter_map(|line| serde_json::from_str::<Line>(line).ok());
-        let last = lines.map(|line| ((line.by.clone(), line.key.clone()), line)).collect();
+        let lines = text
+            .lines()
+            .filter_map(|line| serde_json::from_str::<Line>(line).ok());
+        let last = lines
+            .map(|line| ((line.by.clone(), line.key.clone()), line))
+            .collect();
         let file = OpenOptions::new().create(true).append(true).open(path);
         let file = file.map_err(|e| format!("{}: {e}", path.display()))?;
-        Ok(Results { file, by: by.to_owned(), digest: digest.to_owned(), last })
+        Ok(Results {
+            file,
+            by: by.to_owned(),
+            digest: digest.to_owned(),
+            last,
+        })
     }
 
     /// What became of a mutant, in this tree or, if `earlier`, in any.
@@ -77,9 +86,17 @@ impl Results {
         test: String,
     ) -> Result<(), String> {
         let (digest, key, outcome) = (self.digest.clone(), mutant.key(), outcome.to_owned());
-        let line = Line { by, digest, key, outcome, test };
+        let line = Line {
+            by,
+            digest,
+            key,
+            outcome,
+            test,
+        };
         let text = serde_json::to_string(&line).map_err(|e| e.to_string())? + "\n";
-        self.file.write_all(text.as_bytes()).map_err(|e| e.to_string())?;
+        self.file
+            .write_all(text.as_bytes())
+            .map_err(|e| e.to_string())?;
         self.last.insert((line.by.clone(), line.key.clone()), line);
         Ok(())
     }

@@ -34,8 +34,18 @@ pub fn rewrite<'m>(
         .filter_map(|site| Some((site, by_site.get(&site.number)?.as_slice())))
         .collect();
     // The outer site first: what begins earlier, or ends later.
-    sites.sort_by_key(|(site, _)| (site.range.start, usize::MAX - site.range.end, site.form as u8));
-    let mut out = Rewritten { text: String::new(), mutants: Vec::new(), sites: Vec::new() };
+    sites.sort_by_key(|(site, _)| {
+        (
+            site.range.start,
+            usize::MAX - site.range.end,
+            site.form as u8,
+        )
+    });
+    let mut out = Rewritten {
+        text: String::new(),
+        mutants: Vec::new(),
+        sites: Vec::new(),
+    };
     let mut sites = sites.as_slice();
     out.copy(text, 0..text.len(), &mut sites);
     out
@@ -115,8 +125,12 @@ impl Rewritten {
         if let Some((_, id)) = mutants.min_by_key(|(range, _)| range.len()) {
             return Blame::Mutant(*id);
         }
-        let within: Vec<u32> =
-            self.sites.iter().filter(|(range, _)| inside(span, range)).map(|(_, n)| *n).collect();
+        let within: Vec<u32> = self
+            .sites
+            .iter()
+            .filter(|(range, _)| inside(span, range))
+            .map(|(_, n)| *n)
+            .collect();
         if !within.is_empty() {
             return Blame::Sites(within);
         }

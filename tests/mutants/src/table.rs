@@ -6,18 +6,38 @@ use crate::results::Results;
 
 /// A line a module, and all together.
 pub fn table(config: &Config, results: &Results, chosen: &[&Mutant], refused: usize) -> String {
-    let programs: Vec<&str> = config.programs.iter().map(|program| program.name.as_str()).collect();
-    let others = ["equivalent", "not reached", "lived", "left over", "may live"];
-    let titles = ["mutants", "killed"].into_iter().chain(programs.iter().copied()).chain(others);
+    let programs: Vec<&str> = config
+        .programs
+        .iter()
+        .map(|program| program.name.as_str())
+        .collect();
+    let others = [
+        "equivalent",
+        "not reached",
+        "lived",
+        "left over",
+        "may live",
+    ];
+    let titles = ["mutants", "killed"]
+        .into_iter()
+        .chain(programs.iter().copied())
+        .chain(others);
     let mut text = format!("{:<12}", "module");
     titles.for_each(|title| text += &format!("{title:>12}"));
-    let modules = config.modules.iter().map(|module| (module.name.as_str(), Some(module)));
+    let modules = config
+        .modules
+        .iter()
+        .map(|module| (module.name.as_str(), Some(module)));
     for (name, module) in modules.chain([("all", None)]) {
         let of_module = |mutant: &&&Mutant| module.is_none_or(|module| module.has(&mutant.file));
-        let (equivalent, others): (Vec<&Mutant>, Vec<&Mutant>) =
-            chosen.iter().filter(of_module).partition(|mutant| config.is_equivalent(mutant));
+        let (equivalent, others): (Vec<&Mutant>, Vec<&Mutant>) = chosen
+            .iter()
+            .filter(of_module)
+            .partition(|mutant| config.is_equivalent(mutant));
         let count = |by: &str, outcome: &str| {
-            let last = others.iter().filter_map(|mutant| results.of(by, mutant, true));
+            let last = others
+                .iter()
+                .filter_map(|mutant| results.of(by, mutant, true));
             last.filter(|line| line.outcome == outcome).count()
         };
         let all = equivalent.len() + others.len();
@@ -31,8 +51,10 @@ pub fn table(config: &Config, results: &Results, chosen: &[&Mutant], refused: us
             counts
                 .chain([equivalent.len(), not_reached, lived])
                 .for_each(|n| text += &format!("{n:>12}"));
-            text +=
-                &format!("{:>10.1} %", 100.0 * (not_reached + lived) as f64 / tried.max(1) as f64);
+            text += &format!(
+                "{:>10.1} %",
+                100.0 * (not_reached + lived) as f64 / tried.max(1) as f64
+            );
             let may_live = module.map(|m| format!("{:>10.1} %", 100.0 * m.may_live));
             text += &may_live.unwrap_or_default();
         }
@@ -47,7 +69,9 @@ pub fn is_met(config: &Config, results: &Results, by: &str, chosen: &[&Mutant]) 
         let of_module = chosen.iter().filter(|mutant| module.has(&mutant.file));
         let (mut tried, mut lived) = (0, 0);
         for mutant in of_module {
-            let outcome = results.of(by, mutant, true).map(|line| line.outcome == "killed");
+            let outcome = results
+                .of(by, mutant, true)
+                .map(|line| line.outcome == "killed");
             match (config.is_equivalent(mutant), outcome) {
                 (true, Some(true)) => return false,
                 (true, _) => tried += 1,

@@ -69,7 +69,10 @@ impl Tests {
             for test in list.lines().filter_map(|line| line.strip_suffix(": test")) {
                 let path = path.display().to_string();
                 let arguments = ["--exact", test, "--include-ignored", "--test-threads=1"];
-                let command = [path].into_iter().chain(arguments.map(str::to_owned)).collect();
+                let command = [path]
+                    .into_iter()
+                    .chain(arguments.map(str::to_owned))
+                    .collect();
                 commands.push((format!("{name}: {test}"), command));
             }
         }
@@ -84,7 +87,11 @@ impl Tests {
             tree.cargo(&program.build)?;
         }
         let target = tree.target.display().to_string();
-        let command = program.run.iter().map(|word| word.replace("{target}", &target)).collect();
+        let command = program
+            .run
+            .iter()
+            .map(|word| word.replace("{target}", &target))
+            .collect();
         Tests::reach(tree, vec![(program.name.clone(), command)], f64::INFINITY)
     }
 
@@ -94,26 +101,45 @@ impl Tests {
         commands: Vec<(String, Vec<String>)>,
         slow: f64,
     ) -> Result<Tests, String> {
-        let name =
-            format!("{:016x}.json", digest(&(tree.digest_of_copy()?, &commands, slow.to_bits())));
+        let name = format!(
+            "{:016x}.json",
+            digest(&(tree.digest_of_copy()?, &commands, slow.to_bits()))
+        );
         let (log, path) = (tree.target.join("reached"), tree.target.join(name));
-        if let Some(known) = fs::read(&path).ok().and_then(|b| serde_json::from_slice(&b).ok()) {
+        if let Some(known) = fs::read(&path)
+            .ok()
+            .and_then(|b| serde_json::from_slice(&b).ok())
+        {
             return Ok(known);
         }
         let mut tests = Tests::default();
         for (name, command) in commands {
             let _ = fs::remove_file(&log);
             let (begin, limit) = (Instant::now(), slow.min(3600.0));
-            let end = run(tree, &command, ("MUTANT_LOG", &log.display().to_string()), limit)?;
+            let end = run(
+                tree,
+                &command,
+                ("MUTANT_LOG", &log.display().to_string()),
+                limit,
+            )?;
             let seconds = begin.elapsed().as_secs_f64();
             match end {
                 End::Passed => {
                     let text = fs::read_to_string(&log).unwrap_or_default();
                     let sites = text.lines().filter_map(|line| line.parse().ok()).collect();
-                    tests.tests.push(Test { name, command, seconds, sites });
+                    tests.tests.push(Test {
+                        name,
+                        command,
+                        seconds,
+                        sites,
+                    });
                 }
-                End::Failed => tests.left_out.push(format!("{name}: fails without a mutant")),
-                End::TimedOut => tests.left_out.push(format!("{name}: takes more than {slow} s")),
+                End::Failed => tests
+                    .left_out
+                    .push(format!("{name}: fails without a mutant")),
+                End::TimedOut => tests
+                    .left_out
+                    .push(format!("{name}: takes more than {slow} s")),
             }
         }
         let text = serde_json::to_string(&tests).map_err(|e| e.to_string())?;
@@ -128,7 +154,10 @@ impl Tests {
 
     /// How many tests there are, and how long they take together in seconds.
     pub fn count(&self) -> (usize, f64) {
-        (self.tests.len(), self.tests.iter().map(|test| test.seconds).sum())
+        (
+            self.tests.len(),
+            self.tests.iter().map(|test| test.seconds).sum(),
+        )
     }
 
     /// Tries a mutant on the tests that reach it: the quick ones first, and those that killed others of its function.
@@ -136,20 +165,39 @@ impl Tests {
         let key = |test: &Test| (mutant.function.clone(), test.name.clone());
         let mut order: Vec<(f64, &Test)> = {
             let kills = self.kills.lock().expect("no panic");
-            let reaching = self.tests.iter().filter(|test| test.sites.contains(&mutant.site));
+            let reaching = self
+                .tests
+                .iter()
+                .filter(|test| test.sites.contains(&mutant.site));
             let weight = |test| 1.0 + 4.0 * kills.get(&key(test)).copied().unwrap_or(0.0);
-            reaching.map(|test| (test.seconds / weight(test), test)).collect()
+            reaching
+                .map(|test| (test.seconds / weight(test), test))
+                .collect()
         };
         order.sort_by(|one, other| one.0.total_cmp(&other.0));
         for (_, test) in &order {
             let limit = 5.0 + 5.0 * test.seconds;
-            let end = run(tree, &test.command, ("MUTANT", &mutant.id.to_string()), limit)?;
+            let end = run(
+                tree,
+                &test.command,
+                ("MUTANT", &mutant.id.to_string()),
+                limit,
+            )?;
             if end != End::Passed {
-                *self.kills.lock().expect("no panic").entry(key(test)).or_default() += 1.0;
+                *self
+                    .kills
+                    .lock()
+                    .expect("no panic")
+                    .entry(key(test))
+                    .or_default() += 1.0;
                 return Ok(Outcome::Killed(test.name.clone()));
             }
         }
-        Ok(if order.is_empty() { Outcome::NotReached } else { Outcome::Lived })
+        Ok(if order.is_empty() {
+            Outcome::NotReached
+        } else {
+            Outcome::Lived
+        })
     }
 }
 
@@ -176,8 +224,14 @@ fn run(tree: &Tree, command: &[String], variable: (&str, &str), limit: f64) -> R
         // With the programs that it started, which would run on.
         let group = format!("-{}", child.id());
         let kill = ["-c", "kill -s KILL -- \"$1\" 2>/dev/null", "sh", &group];
-        Command::new("sh").args(kill).status().map_err(|e| e.to_string())?;
-        child.kill().and_then(|()| child.wait()).map_err(|e| e.to_string())?;
+        Command::new("sh")
+            .args(kill)
+            .status()
+            .map_err(|e| e.to_string())?;
+        child
+            .kill()
+            .and_then(|()| child.wait())
+            .map_err(|e| e.to_string())?;
     }
     Ok(end)
 }
@@ -188,7 +242,11 @@ fn wait(child: &mut Child, limit: f64) -> io::Result<End> {
     let mut wait = Duration::from_micros(500);
     loop {
         if let Some(status) = child.try_wait()? {
-            return Ok(if status.success() { End::Passed } else { End::Failed });
+            return Ok(if status.success() {
+                End::Passed
+            } else {
+                End::Failed
+            });
         }
         if begin.elapsed().as_secs_f64() > limit {
             return Ok(End::TimedOut);

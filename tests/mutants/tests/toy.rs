@@ -101,7 +101,15 @@ fn toy(name: &str) -> PathBuf {
     fs::write(root.join("src/lib.rs"), LIBRARY).unwrap();
     fs::write(root.join(".gitignore"), "/target\n").unwrap();
     fs::write(root.join("mutants.toml"), CONFIG).unwrap();
-    assert!(Command::new("git").arg("init").arg("-q").arg(&root).status().unwrap().success());
+    assert!(
+        Command::new("git")
+            .arg("init")
+            .arg("-q")
+            .arg(&root)
+            .status()
+            .unwrap()
+            .success()
+    );
     root
 }
 
@@ -122,7 +130,10 @@ fn mutants_of_the_toy_live_and_die_as_they_should() {
     let root = toy("lives");
     let (code, out, err) = run(&root, &[]);
     assert_eq!(code, 1, "{out}{err}");
-    let survivors: Vec<&str> = out.lines().filter(|line| line.starts_with("src/")).collect();
+    let survivors: Vec<&str> = out
+        .lines()
+        .filter(|line| line.starts_with("src/"))
+        .collect();
     let expected = [
         "src/lib.rs:6:10: replace > with >= in {a > b} of larger",
         "src/lib.rs:10:13: replace < with <= in {x.abs() < BOUND} of is_small",
@@ -131,35 +142,60 @@ fn mutants_of_the_toy_live_and_die_as_they_should() {
     ];
     assert_eq!(survivors, expected, "{out}{err}");
     // A loop that never ends counts as killed; numbers of a constant slice do not compile.
-    assert!(err.contains("delete statement in {n -= 1} of count_down: Killed"), "{err}");
-    assert!(err.contains("const BOUND * 1e-12 in {x.abs() < BOUND} of is_small: Killed"), "{err}");
+    assert!(
+        err.contains("delete statement in {n -= 1} of count_down: Killed"),
+        "{err}"
+    );
+    assert!(
+        err.contains("const BOUND * 1e-12 in {x.abs() < BOUND} of is_small: Killed"),
+        "{err}"
+    );
     assert!(err.contains("if -> false in {let Some(first)"), "{err}");
-    assert!(err.contains("left out: toy: tests::that_fails: fails without a mutant"), "{err}");
+    assert!(
+        err.contains("left out: toy: tests::that_fails: fails without a mutant"),
+        "{err}"
+    );
     assert!(out.contains("not counted: 3 that do not compile"), "{out}");
 
     // What a test started ends with it.
-    let sleeping = Command::new("pgrep").args(["-fx", "sleep 86399"]).output().unwrap();
+    let sleeping = Command::new("pgrep")
+        .args(["-fx", "sleep 86399"])
+        .output()
+        .unwrap();
     assert_eq!(String::from_utf8_lossy(&sleeping.stdout), "");
 
     // A second run knows all; an equivalent is no survivor; a new test is tried on survivors only.
     let (_, again, err) = run(&root, &[]);
     assert!(again == out && !err.contains("Killed"), "{err}");
     fs::write(root.join("mutants.toml"), CONFIG.to_owned() + EQUIVALENT).unwrap();
-    let tested = LIBRARY.replace("fn steps() {", "fn steps() {\n        assert!(forgotten());");
+    let tested = LIBRARY.replace(
+        "fn steps() {",
+        "fn steps() {\n        assert!(forgotten());",
+    );
     fs::write(root.join("src/lib.rs"), tested).unwrap();
     let (code, out, err) = run(&root, &["--lived"]);
     assert_eq!(code, 1, "{out}{err}");
     assert_eq!(err.matches(": Killed").count(), 2, "{err}");
-    assert_eq!(out.lines().filter(|line| line.starts_with("src/")).count(), 1, "{out}");
+    assert_eq!(
+        out.lines().filter(|line| line.starts_with("src/")).count(),
+        1,
+        "{out}"
+    );
     assert_eq!(run(&root, &["--mutant", "src/lib.rs:6:10"]).0, 0);
     assert_eq!(run(&root, &["--mutant", "src/lib.rs:10:13"]).0, 1);
 
     // Tests without the word are not even run once.
     let (_, _, err) = run(&root, &["--test", "small", "--mutant", "src/lib.rs:10:13"]);
-    assert!(err.contains("1 tests,") && !err.contains("that_fails"), "{err}");
+    assert!(
+        err.contains("1 tests,") && !err.contains("that_fails"),
+        "{err}"
+    );
 
     // One of 35 is left: what a module says may live, or more.
-    assert!(out.contains(&format!("{:>10.1} %{:>10.1} %\n", 2.9, 0.0)), "{out}");
+    assert!(
+        out.contains(&format!("{:>10.1} %{:>10.1} %\n", 2.9, 0.0)),
+        "{out}"
+    );
     for (may_live, met) in [("0.03", 0), ("0.02", 1)] {
         let config = CONFIG.to_owned() + &format!("may_live = {may_live}\n") + EQUIVALENT;
         fs::write(root.join("mutants.toml"), config).unwrap();
@@ -189,7 +225,10 @@ fn both_orders() {
     fs::write(root.join("src/lib.rs"), library).unwrap();
     let (code, out, err) = run(&root, &[]);
     assert_eq!(code, 0, "{out}{err}");
-    assert!(out.contains("not counted: 2 that do not compile"), "{out}{err}");
+    assert!(
+        out.contains("not counted: 2 that do not compile"),
+        "{out}{err}"
+    );
     assert!(!err.contains("delete statement"), "{err}");
 }
 
@@ -220,11 +259,17 @@ fn ones() {
             let (_, described) = line.split_once(": ").unwrap();
             described.split_once(" in ").unwrap().0.to_owned()
         });
-        let changes: Vec<String> = changes.filter(|change| !change.contains("replace")).collect();
+        let changes: Vec<String> = changes
+            .filter(|change| !change.contains("replace"))
+            .collect();
         (changes, out + &err)
     };
     assert_eq!(lived().0, [""; 0]);
-    fs::write(root.join("mutants.toml"), CONFIG.to_owned() + "conditions = true\n").unwrap();
+    fs::write(
+        root.join("mutants.toml"),
+        CONFIG.to_owned() + "conditions = true\n",
+    )
+    .unwrap();
     let (changes, screen) = lived();
     // Each of both conditions refuses (2, 2), and every number is a 1.
     let expected = [
@@ -246,5 +291,8 @@ fn an_equivalent_that_matches_nothing_is_an_error() {
     fs::write(root.join("mutants.toml"), CONFIG.to_owned() + &unknown).unwrap();
     let (code, _, err) = run(&root, &["--list"]);
     assert_eq!(code, 2);
-    assert!(err.contains("src/lib.rs: replace > with >= in {a > c} of larger"), "{err}");
+    assert!(
+        err.contains("src/lib.rs: replace > with >= in {a > c} of larger"),
+        "{err}"
+    );
 }

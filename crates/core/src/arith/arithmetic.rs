@@ -20,17 +20,33 @@ pub struct Arithmetic {
 
 impl Arithmetic {
     /// IEEE 754, operation by operation.
-    pub const IEEE: Arithmetic = Arithmetic { fused: false, flushed: false };
+    pub const IEEE: Arithmetic = Arithmetic {
+        fused: false,
+        flushed: false,
+    };
     /// Products are fused into sums.
-    pub const FMA: Arithmetic = Arithmetic { fused: true, flushed: false };
+    pub const FMA: Arithmetic = Arithmetic {
+        fused: true,
+        flushed: false,
+    };
     /// Subnormal numbers are flushed to zero.
-    pub const FTZ: Arithmetic = Arithmetic { fused: false, flushed: true };
+    pub const FTZ: Arithmetic = Arithmetic {
+        fused: false,
+        flushed: true,
+    };
     /// Both.
-    pub const FMA_FTZ: Arithmetic = Arithmetic { fused: true, flushed: true };
+    pub const FMA_FTZ: Arithmetic = Arithmetic {
+        fused: true,
+        flushed: true,
+    };
 
     /// All of them, in the order of reports.
-    pub const ALL: [Arithmetic; 4] =
-        [Arithmetic::IEEE, Arithmetic::FMA, Arithmetic::FTZ, Arithmetic::FMA_FTZ];
+    pub const ALL: [Arithmetic; 4] = [
+        Arithmetic::IEEE,
+        Arithmetic::FMA,
+        Arithmetic::FTZ,
+        Arithmetic::FMA_FTZ,
+    ];
 
     /// The name on a command line and, after a `+`, in a kernel's name.
     pub const fn name(self) -> &'static str {
@@ -46,17 +62,24 @@ impl Arithmetic {
     const fn told(self) -> (&'static str, &'static str) {
         match (self.fused, self.flushed) {
             (false, false) => ("ieee", "IEEE 754, operation by operation (the default)"),
-            (true, false) => {
-                ("fma", "products that go straight into a sum are fused, the left one of two")
-            }
-            (false, true) => ("ftz", "subnormal numbers are zero, as operands and as results"),
+            (true, false) => (
+                "fma",
+                "products that go straight into a sum are fused, the left one of two",
+            ),
+            (false, true) => (
+                "ftz",
+                "subnormal numbers are zero, as operands and as results",
+            ),
             (true, true) => ("fma-ftz", "fused products, and subnormal numbers are zero"),
         }
     }
 
     /// The liberties of both.
     pub(super) fn and(self, other: Arithmetic) -> Arithmetic {
-        Arithmetic { fused: self.fused | other.fused, flushed: self.flushed | other.flushed }
+        Arithmetic {
+            fused: self.fused | other.fused,
+            flushed: self.flushed | other.flushed,
+        }
     }
 
     /// A number as this arithmetic's operations see and leave it.
@@ -142,8 +165,11 @@ impl FromStr for Arithmetic {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Arithmetic, String> {
-        Arithmetic::ALL.into_iter().find(|arithmetic| arithmetic.name() == text).ok_or_else(|| {
-            format!("unknown arithmetic '{text}': there are ieee, fma, ftz and fma-ftz")
-        })
+        Arithmetic::ALL
+            .into_iter()
+            .find(|arithmetic| arithmetic.name() == text)
+            .ok_or_else(|| {
+                format!("unknown arithmetic '{text}': there are ieee, fma, ftz and fma-ftz")
+            })
     }
 }

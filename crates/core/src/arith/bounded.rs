@@ -46,7 +46,11 @@ const fn power(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-const UNKNOWN: Bounded = Bounded { high: 0.0, low: 0.0, error: f64::INFINITY };
+const UNKNOWN: Bounded = Bounded {
+    high: 0.0,
+    low: 0.0,
+    error: f64::INFINITY,
+};
 
 /// The sum of two floats and its rounding error (Knuth).
 #[inline]
@@ -99,7 +103,11 @@ impl Bounded {
     /// The number as a float, if it is known to within a tolerance, or to a millionth of itself.
     #[inline]
     pub fn within(&self, tolerance: f64) -> Option<f64> {
-        if self.error <= tolerance { Some(self.high) } else { self.approximate() }
+        if self.error <= tolerance {
+            Some(self.high)
+        } else {
+            self.approximate()
+        }
     }
 
     /// The number as a float, if its error is known to be at most this; the float's own rounding is left out.
@@ -110,7 +118,11 @@ impl Bounded {
 
     #[inline]
     fn exact(high: f64) -> Bounded {
-        Bounded { high, low: 0.0, error: 0.0 }
+        Bounded {
+            high,
+            low: 0.0,
+            error: 0.0,
+        }
     }
 
     #[inline]
@@ -131,9 +143,17 @@ impl Bounded {
         if !(size <= LARGEST && error <= LARGEST) {
             return UNKNOWN;
         }
-        let error = if error > 0.0 { error * ROUND_UP + UNDERFLOW } else { 0.0 };
+        let error = if error > 0.0 {
+            error * ROUND_UP + UNDERFLOW
+        } else {
+            0.0
+        };
         // There is one zero, which reads positive.
-        Bounded { high: high + 0.0, low, error }
+        Bounded {
+            high: high + 0.0,
+            low,
+            error,
+        }
     }
 
     /// The sign, if it is certain; none of NaN either.
@@ -173,7 +193,11 @@ impl Bounded {
         if self.high == 0.0 && self.low == 0.0 {
             return *self;
         }
-        Bounded { high: -self.high, low: -self.low, ..*self }
+        Bounded {
+            high: -self.high,
+            low: -self.low,
+            ..*self
+        }
     }
 
     fn product(&self, other: &Bounded) -> Bounded {
@@ -200,7 +224,11 @@ impl Bounded {
         // The product of the low parts is left out (u²), those of high and low parts and their sums
         // round: below 8u²|xy|.
         let mixed = self.high * other.low + self.low * other.high;
-        Bounded::rounded(fast_two_sum(high, low + mixed), handed_on, power(-102) * high.abs())
+        Bounded::rounded(
+            fast_two_sum(high, low + mixed),
+            handed_on,
+            power(-102) * high.abs(),
+        )
     }
 
     fn quotient(&self, other: &Bounded) -> Bounded {
@@ -210,11 +238,17 @@ impl Bounded {
         if self.high.is_nan() || other.high.is_nan() {
             return Bounded::exact(f64::NAN);
         }
-        let Some(sign) = other.sign() else { return UNKNOWN };
+        let Some(sign) = other.sign() else {
+            return UNKNOWN;
+        };
         if self.is_special() || other.is_special() || sign == Ordering::Equal {
             // Dividing by the one zero, which reads positive, needs the sign of the dividend.
             let certain = self.sign().is_some() || other.is_special();
-            return if certain { Bounded::new(self.high / other.high) } else { UNKNOWN };
+            return if certain {
+                Bounded::new(self.high / other.high)
+            } else {
+                UNKNOWN
+            };
         }
         let divisor = other.high.abs();
         if divisor <= 2.0 * other.error {
@@ -227,7 +261,10 @@ impl Bounded {
             return UNKNOWN;
         }
         // One step of long division: what the first quotient leaves, divided again.
-        let rest = self.sum(&-Bounded::exact(first).product(&Bounded { error: 0.0, ..*other }));
+        let rest = self.sum(&-Bounded::exact(first).product(&Bounded {
+            error: 0.0,
+            ..*other
+        }));
         let both_floats = self.low == 0.0 && other.low == 0.0;
         let handed_on = (self.error + size * other.error) / (divisor - other.error);
         if both_floats && rest.high == 0.0 && rest.low == 0.0 {
@@ -271,7 +308,10 @@ fn either(a: Bounded, b: Bounded, wanted: Ordering) -> Bounded {
         Some(order) => chosen(order),
         None if a.is_known() && b.is_known() => {
             let order = b.high.total_cmp(&a.high).then(b.low.total_cmp(&a.low));
-            Bounded { error: a.error.max(b.error), ..chosen(Some(order)) }
+            Bounded {
+                error: a.error.max(b.error),
+                ..chosen(Some(order))
+            }
         }
         None => UNKNOWN,
     }
@@ -299,7 +339,11 @@ impl Real for Bounded {
         // One step of Newton's method from the root of the high part.
         let first = self.high.sqrt();
         let square = Bounded::exact(first).product(&Bounded::exact(first));
-        let rest = Bounded { error: 0.0, ..*self }.sum(&-square);
+        let rest = Bounded {
+            error: 0.0,
+            ..*self
+        }
+        .sum(&-square);
         let handed_on = self.error / first;
         if self.low == 0.0 && rest.high == 0.0 && rest.low == 0.0 {
             return Bounded::rounded((first, 0.0), handed_on, 0.0);

@@ -53,7 +53,10 @@ impl Notes for () {
 impl<F: Float, N: Notes> Clone for Rounded<F, N> {
     #[inline]
     fn clone(&self) -> Self {
-        Rounded { product: None, ..*self }
+        Rounded {
+            product: None,
+            ..*self
+        }
     }
 }
 
@@ -63,7 +66,12 @@ impl<F: Float, N: Notes> Rounded<F, N> {
     pub fn new(given: F, arithmetic: Arithmetic) -> Self {
         let value = arithmetic.flush(given);
         let notes = N::of_given(value.is_zero() && !given.is_zero());
-        Rounded { value, arithmetic, notes, product: None }
+        Rounded {
+            value,
+            arithmetic,
+            notes,
+            product: None,
+        }
     }
 
     /// A constant, which takes on the arithmetic of what it meets.
@@ -91,21 +99,29 @@ impl<F: Float, N: Notes> Rounded<F, N> {
         };
         let value = operation.run(arithmetic);
         let notes = before.and(N::of_operation(operation, value));
-        Rounded { value, arithmetic, notes, product }
+        Rounded {
+            value,
+            arithmetic,
+            notes,
+            product,
+        }
     }
 
     #[inline(never)]
     fn sum(&self, other: &Self) -> Self {
         let (operation, before) = match (self.product, other.product) {
-            (Some(([a, b], before)), _) => {
-                (RoundedOperation::Fused(a, b, other.value), before.and(other.notes))
-            }
-            (None, Some(([a, b], before))) => {
-                (RoundedOperation::Fused(a, b, self.value), self.notes.and(before))
-            }
-            (None, None) => {
-                (RoundedOperation::Sum(self.value, other.value), self.notes.and(other.notes))
-            }
+            (Some(([a, b], before)), _) => (
+                RoundedOperation::Fused(a, b, other.value),
+                before.and(other.notes),
+            ),
+            (None, Some(([a, b], before))) => (
+                RoundedOperation::Fused(a, b, self.value),
+                self.notes.and(before),
+            ),
+            (None, None) => (
+                RoundedOperation::Sum(self.value, other.value),
+                self.notes.and(other.notes),
+            ),
         };
         Rounded::made(operation, self.arithmetic.and(other.arithmetic), before)
     }
@@ -117,7 +133,11 @@ impl<F: Float, N: Notes> Rounded<F, N> {
     #[inline]
     fn negation(&self) -> Self {
         let product = self.product.map(|([a, b], notes)| ([-a, b], notes));
-        Rounded { value: -self.value, product, ..*self }
+        Rounded {
+            value: -self.value,
+            product,
+            ..*self
+        }
     }
 
     #[inline(never)]
@@ -152,10 +172,17 @@ impl<F: Float, N: Notes> Real for Rounded<F, N> {
         Rounded::constant(F::one())
     }
     fn abs(&self) -> Self {
-        Rounded { value: self.value.abs(), ..self.clone() }
+        Rounded {
+            value: self.value.abs(),
+            ..self.clone()
+        }
     }
     fn sqrt(&self) -> Self {
-        Rounded::made(RoundedOperation::Root(self.value), self.arithmetic, self.notes)
+        Rounded::made(
+            RoundedOperation::Root(self.value),
+            self.arithmetic,
+            self.notes,
+        )
     }
     fn is_sign_negative(&self) -> bool {
         self.compared().is_sign_negative()
@@ -179,18 +206,25 @@ impl<F: Float, N: Notes> Real for Rounded<F, N> {
         Rounded::constant(F::infinity())
     }
     fn just_below(&self) -> Self {
-        Rounded { value: self.arithmetic.just_below(self.value), ..self.clone() }
+        Rounded {
+            value: self.arithmetic.just_below(self.value),
+            ..self.clone()
+        }
     }
     /// Products in wider arithmetic are exact in every one of them; operands and result are flushed.
     fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
         let all = [a, b, c, d];
-        let arithmetic = all.iter().fold(Arithmetic::IEEE, |both, x| both.and(x.arithmetic));
+        let arithmetic = all
+            .iter()
+            .fold(Arithmetic::IEEE, |both, x| both.and(x.arithmetic));
         let before = all.iter().fold(N::default(), |both, x| both.and(x.notes));
         let operation = RoundedOperation::Minor(a.value, b.value, c.value, d.value);
         Rounded::made(operation, arithmetic, before)
     }
     fn largest_accepted(accepts: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self {
-        let Rounded { value, arithmetic, .. } = exact();
+        let Rounded {
+            value, arithmetic, ..
+        } = exact();
         let found = F::largest_accepted(|e| accepts(&Rounded::new(*e, arithmetic)), || value);
         Rounded::new(found, arithmetic)
     }

@@ -61,12 +61,24 @@ impl fmt::Display for FloatEnvironment {
     /// The differences from the default, in words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let words = [
-            if self.0 & FLUSHES_RESULTS != 0 { "flush-to-zero" } else { "" },
-            if self.0 & FLUSHES_INPUTS != 0 { "denormals-are-zero" } else { "" },
+            if self.0 & FLUSHES_RESULTS != 0 {
+                "flush-to-zero"
+            } else {
+                ""
+            },
+            if self.0 & FLUSHES_INPUTS != 0 {
+                "denormals-are-zero"
+            } else {
+                ""
+            },
             ROUNDING[(self.0 >> 2) as usize],
         ];
         let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
-        f.write_str(if words.is_empty() { "the default of IEEE 754" } else { "" })?;
+        f.write_str(if words.is_empty() {
+            "the default of IEEE 754"
+        } else {
+            ""
+        })?;
         f.write_str(&words.join(" and "))
     }
 }
@@ -79,9 +91,16 @@ mod tests {
     fn bits_name_each_environment_once() {
         let all: Vec<FloatEnvironment> = (0..16).filter_map(FloatEnvironment::from_bits).collect();
         assert_eq!(all.len(), 16);
-        assert!(all.iter().enumerate().all(|(bits, found)| found.bits() == bits as u32));
+        assert!(
+            all.iter()
+                .enumerate()
+                .all(|(bits, found)| found.bits() == bits as u32)
+        );
         assert_eq!(FloatEnvironment::from_bits(16), None);
-        assert_eq!(all[7].to_string(), "flush-to-zero and denormals-are-zero and rounding up");
+        assert_eq!(
+            all[7].to_string(),
+            "flush-to-zero and denormals-are-zero and rounding up"
+        );
         assert!(all[0].is_default() && FloatEnvironment::now().is_default());
     }
 }

@@ -46,7 +46,11 @@ impl Exact {
     pub fn sign(&self) -> Option<Ordering> {
         match self {
             Nan => None,
-            Infinite(negative) => Some(if *negative { Ordering::Less } else { Ordering::Greater }),
+            Infinite(negative) => Some(if *negative {
+                Ordering::Less
+            } else {
+                Ordering::Greater
+            }),
             Rational(p) => Some(p.sign()),
             Root { p, q, r } => {
                 let (sp, sq) = (p.sign(), q.sign());
@@ -55,7 +59,11 @@ impl Exact {
                 } else {
                     // Opposite signs: the larger square wins. p² - q²r has p's sign if p does.
                     let squares = p.mul(p).add(&q.mul(q).mul(r).negated());
-                    if sp == Ordering::Greater { squares.sign() } else { squares.sign().reverse() }
+                    if sp == Ordering::Greater {
+                        squares.sign()
+                    } else {
+                        squares.sign().reverse()
+                    }
                 })
             }
         }
@@ -103,7 +111,15 @@ impl Exact {
     }
 
     fn combine(p: Fraction, q: Fraction, r: &Arc<Fraction>) -> Exact {
-        if q.is_zero() { Rational(p) } else { Root { p, q, r: Arc::clone(r) } }
+        if q.is_zero() {
+            Rational(p)
+        } else {
+            Root {
+                p,
+                q,
+                r: Arc::clone(r),
+            }
+        }
     }
 
     fn sum(&self, other: &Exact) -> Exact {
@@ -118,10 +134,19 @@ impl Exact {
             }
             (Infinite(a), _) | (_, Infinite(a)) => Infinite(*a),
             (Rational(a), Rational(b)) => Rational(a.add(b)),
-            (Rational(a), Root { p, q, r }) | (Root { p, q, r }, Rational(a)) => {
-                Root { p: p.add(a), q: q.clone(), r: Arc::clone(r) }
-            }
-            (Root { p, q, r }, Root { p: p2, q: q2, r: r2 }) => match same_root(r, r2) {
+            (Rational(a), Root { p, q, r }) | (Root { p, q, r }, Rational(a)) => Root {
+                p: p.add(a),
+                q: q.clone(),
+                r: Arc::clone(r),
+            },
+            (
+                Root { p, q, r },
+                Root {
+                    p: p2,
+                    q: q2,
+                    r: r2,
+                },
+            ) => match same_root(r, r2) {
                 true => Exact::combine(p.add(p2), q.add(q2), r),
                 false => Nan,
             },
@@ -137,7 +162,11 @@ impl Exact {
             Nan => Nan,
             Infinite(negative) => Infinite(!negative),
             Rational(p) => Rational(p.negated()),
-            Root { p, q, r } => Root { p: p.negated(), q: q.negated(), r: Arc::clone(r) },
+            Root { p, q, r } => Root {
+                p: p.negated(),
+                q: q.negated(),
+                r: Arc::clone(r),
+            },
         }
     }
 
@@ -152,10 +181,19 @@ impl Exact {
             (Rational(a), Root { p, q, r }) | (Root { p, q, r }, Rational(a)) => {
                 Exact::combine(p.mul(a), q.mul(a), r)
             }
-            (Root { p, q, r }, Root { p: p2, q: q2, r: r2 }) => match same_root(r, r2) {
-                true => {
-                    Exact::combine(p.mul(p2).add(&q.mul(q2).mul(r)), p.mul(q2).add(&q.mul(p2)), r)
-                }
+            (
+                Root { p, q, r },
+                Root {
+                    p: p2,
+                    q: q2,
+                    r: r2,
+                },
+            ) => match same_root(r, r2) {
+                true => Exact::combine(
+                    p.mul(p2).add(&q.mul(q2).mul(r)),
+                    p.mul(q2).add(&q.mul(p2)),
+                    r,
+                ),
                 false => Nan,
             },
         }
@@ -205,7 +243,10 @@ fn sum_of_parts(p: &Fraction, q: &Fraction, r: &Fraction) -> (f64, i64) {
     }
     let (other_digits, other_exponent) = p.significand();
     let top = exponent.max(other_exponent);
-    (float((digits, exponent - top)) + float((other_digits, other_exponent - top)), top)
+    (
+        float((digits, exponent - top)) + float((other_digits, other_exponent - top)),
+        top,
+    )
 }
 
 fn same_root(a: &Arc<Fraction>, b: &Arc<Fraction>) -> bool {
@@ -222,15 +263,21 @@ impl Real for Exact {
         Exact::from_f64(1.0)
     }
     fn abs(&self) -> Self {
-        if self.sign() == Some(Ordering::Less) { self.negation() } else { self.clone() }
+        if self.sign() == Some(Ordering::Less) {
+            self.negation()
+        } else {
+            self.clone()
+        }
     }
     fn sqrt(&self) -> Self {
         match (self, self.sign()) {
             (_, None | Some(Ordering::Less)) => Nan,
             (_, Some(Ordering::Equal)) => Exact::zero(),
-            (Rational(r), _) => {
-                Root { p: Fraction::zero(), q: Fraction::from_f64(1.0), r: Arc::new(r.clone()) }
-            }
+            (Rational(r), _) => Root {
+                p: Fraction::zero(),
+                q: Fraction::from_f64(1.0),
+                r: Arc::new(r.clone()),
+            },
             (Infinite(_), _) => Infinite(false),
             // A root of a root: no kernel takes one.
             _ => Nan,

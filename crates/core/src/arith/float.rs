@@ -120,14 +120,20 @@ pub fn decompose(value: f64) -> (i64, i64) {
     let bits = value.to_bits();
     let field = (bits >> 52 & 0x7ff) as i64;
     let fraction = (bits & ((1 << 52) - 1)) as i64;
-    let (digits, exponent) =
-        if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
+    let (digits, exponent) = if field == 0 {
+        (fraction, -1074)
+    } else {
+        (fraction | 1 << 52, field - 1075)
+    };
     if digits == 0 {
         return (0, 0);
     }
     let zeros = digits.trailing_zeros();
     let odd = digits >> zeros;
-    (if value < 0.0 { -odd } else { odd }, exponent + i64::from(zeros))
+    (
+        if value < 0.0 { -odd } else { odd },
+        exponent + i64::from(zeros),
+    )
 }
 
 /// `a*b - c*d` through `f64`, where the products of two `f32` are exact: Woop's fallback.
@@ -195,7 +201,11 @@ macro_rules! float {
             }
             #[inline]
             fn just_below(&self) -> Self {
-                if *self == $scalar::INFINITY { *self } else { self.next_down() }
+                if *self == $scalar::INFINITY {
+                    *self
+                } else {
+                    self.next_down()
+                }
             }
             #[inline]
             fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
@@ -213,7 +223,11 @@ macro_rules! float {
                 }
                 let (mut low, mut high) = bracket(exact(), &accepts);
                 while let Some(middle) = ordered_midpoint(low, high) {
-                    if accepts(&middle) { low = middle } else { high = middle }
+                    if accepts(&middle) {
+                        low = middle
+                    } else {
+                        high = middle
+                    }
                 }
                 low
             }
@@ -248,7 +262,11 @@ macro_rules! float {
             fn place(self) -> i64 {
                 let magnitude =
                     i64::from(($scalar::to_bits(self) & !$scalar::to_bits(-0.0)) as $signed);
-                if self.is_sign_negative() { -magnitude } else { magnitude }
+                if self.is_sign_negative() {
+                    -magnitude
+                } else {
+                    magnitude
+                }
             }
             fn from_place(place: i64) -> Self {
                 let magnitude = $scalar::from_bits(place.unsigned_abs() as $bits);
@@ -269,7 +287,11 @@ macro_rules! float {
                 $scalar::mul_add(self, factor, term)
             }
             fn hex(self) -> String {
-                format!("{:0width$x}", $scalar::to_bits(self), width = size_of::<$scalar>() * 2)
+                format!(
+                    "{:0width$x}",
+                    $scalar::to_bits(self),
+                    width = size_of::<$scalar>() * 2
+                )
             }
         }
 
@@ -322,7 +344,10 @@ mod tests {
             f64::MAX * 2f64.powi(-1000) * 2f64.powi(-1000)
         );
         assert_eq!(scale_by_power_of_two(1.5, 1023), 1.5 * 2f64.powi(1023));
-        assert_eq!(scale_by_power_of_two(f64::from_bits(1), 1100), 2f64.powi(26));
+        assert_eq!(
+            scale_by_power_of_two(f64::from_bits(1), 1100),
+            2f64.powi(26)
+        );
         assert_eq!(scale_by_power_of_two(-3.0, 0), -3.0);
         assert_eq!(scale_by_power_of_two(1.0, -2100), 0.0);
         assert_eq!(scale_by_power_of_two(1e300, -4000), 0.0);
@@ -349,17 +374,40 @@ mod tests {
     #[test]
     fn bisection_finds_the_last_accepted_float() {
         // Wherever the search starts.
-        for start in [f64::NAN, f64::NEG_INFINITY, f64::MIN, -1.0, -0.0, 0.5, 0.6, f64::MAX] {
+        for start in [
+            f64::NAN,
+            f64::NEG_INFINITY,
+            f64::MIN,
+            -1.0,
+            -0.0,
+            0.5,
+            0.6,
+            f64::MAX,
+        ] {
             assert_eq!(Real::largest_accepted(|e: &f64| *e <= 0.5, || start), 0.5);
         }
-        for target in [f32::MIN, -1.5f32, -0.0, 1e-40, 1e-6, 3.0e38, f32::MAX.next_down()] {
+        for target in [
+            f32::MIN,
+            -1.5f32,
+            -0.0,
+            1e-40,
+            1e-6,
+            3.0e38,
+            f32::MAX.next_down(),
+        ] {
             for start in [f32::NAN, f32::MIN, 0.0, target, target.next_up(), f32::MAX] {
                 let found = Real::largest_accepted(|e: &f32| *e <= target, || start);
                 assert_eq!(found, target);
             }
         }
-        assert_eq!(<f64 as Real>::largest_accepted(|_| true, || 0.0), f64::INFINITY);
-        assert_eq!(<f64 as Real>::largest_accepted(|_| false, || 0.0), f64::NEG_INFINITY);
+        assert_eq!(
+            <f64 as Real>::largest_accepted(|_| true, || 0.0),
+            f64::INFINITY
+        );
+        assert_eq!(
+            <f64 as Real>::largest_accepted(|_| false, || 0.0),
+            f64::NEG_INFINITY
+        );
     }
 
     #[test]

@@ -20,13 +20,21 @@ impl Fraction {
     /// The exact value of a finite float.
     pub fn from_f64(value: f64) -> Fraction {
         let (digits, exponent) = decompose(value);
-        Fraction { numerator: BigInt::from(digits), denominator: BigInt::one(), exponent }
+        Fraction {
+            numerator: BigInt::from(digits),
+            denominator: BigInt::one(),
+            exponent,
+        }
     }
 
     /// The same value.
     pub fn from_rational(value: &BigRational) -> Fraction {
         let (numerator, denominator) = (value.numer().clone(), value.denom().clone());
-        Fraction { numerator, denominator, exponent: 0 }
+        Fraction {
+            numerator,
+            denominator,
+            exponent: 0,
+        }
     }
 
     /// As a reduced rational.
@@ -52,7 +60,11 @@ impl Fraction {
         let align = |f: &Fraction| &f.numerator << (f.exponent - exponent);
         if self.denominator == other.denominator {
             let numerator = align(self) + align(other);
-            return Fraction { numerator, denominator: self.denominator.clone(), exponent };
+            return Fraction {
+                numerator,
+                denominator: self.denominator.clone(),
+                exponent,
+            };
         }
         Fraction {
             numerator: align(self) * &other.denominator + align(other) * &self.denominator,
@@ -62,7 +74,10 @@ impl Fraction {
     }
 
     pub(super) fn negated(&self) -> Fraction {
-        Fraction { numerator: -&self.numerator, ..self.clone() }
+        Fraction {
+            numerator: -&self.numerator,
+            ..self.clone()
+        }
     }
 
     pub(super) fn mul(&self, other: &Fraction) -> Fraction {
@@ -88,7 +103,11 @@ impl Fraction {
     /// The square root, as a float and a power of two.
     pub(super) fn root_significand(&self) -> (f64, i64) {
         let (digits, exponent) = self.significand();
-        let rest = if exponent.rem_euclid(2) == 1 { 2.0 } else { 1.0 };
+        let rest = if exponent.rem_euclid(2) == 1 {
+            2.0
+        } else {
+            1.0
+        };
         ((digits * rest).sqrt(), exponent.div_euclid(2))
     }
 
@@ -99,7 +118,11 @@ impl Fraction {
         } else {
             self.denominator.clone()
         };
-        Fraction { numerator, denominator: self.numerator.abs(), exponent: -self.exponent }
+        Fraction {
+            numerator,
+            denominator: self.numerator.abs(),
+            exponent: -self.exponent,
+        }
     }
 
     pub(super) fn is_zero(&self) -> bool {

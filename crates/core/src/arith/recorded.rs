@@ -153,7 +153,10 @@ pub struct Decisions {
 
 impl Decisions {
     fn following(script: Vec<bool>) -> Decisions {
-        Decisions { script, ..Decisions::default() }
+        Decisions {
+            script,
+            ..Decisions::default()
+        }
     }
 
     fn answer(&mut self, comparison: Comparison) -> bool {
@@ -188,7 +191,11 @@ fn on_tape<T>(with: impl FnOnce(&mut Tape) -> T) -> T {
 /// the result and the tape.
 pub fn record<T>(script: &[bool], fused: bool, run: impl FnOnce() -> T) -> (T, Tape) {
     let decisions = Decisions::following(script.to_vec());
-    TAPE.set(Tape { decisions, fused, ..Tape::default() });
+    TAPE.set(Tape {
+        decisions,
+        fused,
+        ..Tape::default()
+    });
     let result = run();
     (result, TAPE.take())
 }
@@ -245,7 +252,10 @@ pub struct Recorded {
 
 impl Clone for Recorded {
     fn clone(&self) -> Self {
-        Recorded { place: self.place, factors: None }
+        Recorded {
+            place: self.place,
+            factors: None,
+        }
     }
 }
 
@@ -271,7 +281,10 @@ impl Recorded {
     }
 
     fn at(operation: Operation) -> Recorded {
-        Recorded { place: push(operation), factors: None }
+        Recorded {
+            place: push(operation),
+            factors: None,
+        }
     }
 
     fn number(&self) -> Option<i32> {
@@ -304,7 +317,10 @@ impl Recorded {
     fn product(&self, other: &Recorded) -> Recorded {
         let place = push(Operation::Mul(self.place, other.place));
         let fused = on_tape(|tape| tape.fused);
-        Recorded { place, factors: fused.then_some([self.place, other.place]) }
+        Recorded {
+            place,
+            factors: fused.then_some([self.place, other.place]),
+        }
     }
 
     fn quotient(&self, other: &Recorded) -> Recorded {

@@ -42,7 +42,11 @@ pub fn tracked<T>(run: impl FnOnce() -> T) -> (T, Exceptions) {
 
 impl Notes for Exceptions {
     fn of_given(is_flushed: bool) -> Exceptions {
-        Exceptions { inexact: is_flushed, overflow: false, underflow: is_flushed }
+        Exceptions {
+            inexact: is_flushed,
+            overflow: false,
+            underflow: is_flushed,
+        }
     }
 
     /// One on finite operands may raise exceptions; one on infinities and NaN, and a division by zero, is
@@ -53,7 +57,11 @@ impl Notes for Exceptions {
         }
         let overflow = !result.is_finite();
         let inexact = overflow || !operation.is_exact(result);
-        Exceptions { inexact, overflow, underflow: inexact && result.abs() < smallest_normal() }
+        Exceptions {
+            inexact,
+            overflow,
+            underflow: inexact && result.abs() < smallest_normal(),
+        }
     }
 
     fn and(self, other: Exceptions) -> Exceptions {
@@ -158,7 +166,10 @@ mod tests {
                 (x.clone() + &y, Some(&p + &q)),
                 (x.clone() - &y, Some(&p - &q)),
                 (product(), Some(&p * &q)),
-                (Real::difference_of_products(&x, &y, &z, &w), Some(&p * &q - &r * &s)),
+                (
+                    Real::difference_of_products(&x, &y, &z, &w),
+                    Some(&p * &q - &r * &s),
+                ),
             ];
             if !b.is_zero() {
                 results.push((x.clone() / &y, Some(&p / &q)));
@@ -185,7 +196,10 @@ mod tests {
                 inexact_ones += usize::from(inexact);
             }
         }
-        assert!(exact_ones > 3_000 && inexact_ones > 3_000, "{exact_ones} {inexact_ones}");
+        assert!(
+            exact_ones > 3_000 && inexact_ones > 3_000,
+            "{exact_ones} {inexact_ones}"
+        );
     }
 
     #[test]
@@ -211,9 +225,15 @@ mod tests {
         let least = f64::from_bits(1);
         assert!(Tracked::new(least, Arithmetic::FTZ).notes().underflow);
         for kept in [0.0, -0.0, 1.0, f64::MIN_POSITIVE, f64::INFINITY, f64::NAN] {
-            assert_eq!(Tracked::new(kept, Arithmetic::FTZ).notes(), Exceptions::default());
+            assert_eq!(
+                Tracked::new(kept, Arithmetic::FTZ).notes(),
+                Exceptions::default()
+            );
         }
-        assert_eq!(Tracked::new(least, Arithmetic::FMA).notes(), Exceptions::default());
+        assert_eq!(
+            Tracked::new(least, Arithmetic::FMA).notes(),
+            Exceptions::default()
+        );
     }
 
     #[test]

@@ -38,7 +38,9 @@ impl<F: Float> Case<F> {
     /// From what [`Case::hex`] writes; none of anything else, nor of the other scalar's.
     pub fn from_hex(text: &str) -> Option<Case<F>> {
         let words: Vec<&str> = text.split(' ').take(6).collect();
-        let lists = words.iter().filter_map(|word| Some(word.split_once('=')?.1));
+        let lists = words
+            .iter()
+            .filter_map(|word| Some(word.split_once('=')?.1));
         let bits: Vec<u64> = lists
             .flat_map(|list| list.split(','))
             .map(|number| u64::from_str_radix(number, 16))
@@ -95,7 +97,10 @@ pub fn rust_case<F: Float>(case: &Case<F>) -> String {
     } else {
         format!(".on({}, {})", rust_number(t_min), rust_number(t_max))
     };
-    format!("Case::<{}>::new({origin}, {direction}, [{a}, {b}, {c}]){interval}", F::NAME)
+    format!(
+        "Case::<{}>::new({origin}, {direction}, [{a}, {b}, {c}]){interval}",
+        F::NAME
+    )
 }
 
 /// Numbers as an array in Rust.
@@ -111,7 +116,11 @@ fn rust_number<F: Float>(x: F) -> String {
     } else if x.is_finite() {
         format!("{x:?}")
     } else {
-        format!("{}{}::INFINITY", if x.is_sign_negative() { "-" } else { "" }, F::NAME)
+        format!(
+            "{}{}::INFINITY",
+            if x.is_sign_negative() { "-" } else { "" },
+            F::NAME
+        )
     }
 }
 
@@ -121,13 +130,19 @@ mod tests {
 
     #[test]
     fn a_case_comes_back_from_its_bits_and_nothing_else_does() {
-        let case =
-            Case::<f32>::new([0.1, -0.0, f32::NAN], [1.0; 3], [[0.0; 3], [2.0; 3], [1e30; 3]]);
+        let case = Case::<f32>::new(
+            [0.1, -0.0, f32::NAN],
+            [1.0; 3],
+            [[0.0; 3], [2.0; 3], [1e30; 3]],
+        );
         let case = case.on(-1.0, f32::INFINITY);
         let again = Case::<f32>::from_hex(&case.hex()).unwrap();
         assert_eq!(again.hex(), case.hex());
         assert_eq!(Case::<f32>::from_bits(&case.bits()).hex(), case.hex());
-        assert!(Case::<f64>::from_hex(&case.hex()).is_none(), "of the other scalar");
+        assert!(
+            Case::<f64>::from_hex(&case.hex()).is_none(),
+            "of the other scalar"
+        );
         for bad in ["", "o=", "o=zz,00000000,00000000 d=", &case.hex()[..60]] {
             assert!(Case::<f32>::from_hex(bad).is_none(), "{bad}");
         }

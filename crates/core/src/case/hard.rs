@@ -6,7 +6,9 @@ use crate::arith::Float;
 /// As many cases as asked for: rays at vertices, edges, the inside and the plane of triangles on small grids, then
 /// triangles of many exponents with rays through points near their edges, then numbers of any exponent.
 pub fn hard_cases<F: Float>(seed: u64, count: u64) -> Vec<Case<F>> {
-    (0..count).map(|index| hard_case(&mut Draw::new("hard", seed, index), index)).collect()
+    (0..count)
+        .map(|index| hard_case(&mut Draw::new("hard", seed, index), index))
+        .collect()
 }
 
 fn hard_case<F: Float>(draw: &mut Draw, index: u64) -> Case<F> {
@@ -14,7 +16,14 @@ fn hard_case<F: Float>(draw: &mut Draw, index: u64) -> Case<F> {
     match index % 4 {
         0 => {
             let corners: [[i64; 3]; 3] = [(); 3].map(|()| draw.lattice_point(4));
-            let weights = [[2, 0, 0], [0, 2, 0], [1, 1, 0], [0, 1, 1], [1, 2, 1], [3, -1, 0]];
+            let weights = [
+                [2, 0, 0],
+                [0, 2, 0],
+                [1, 1, 0],
+                [0, 1, 1],
+                [1, 2, 1],
+                [3, -1, 0],
+            ];
             let weights = draw.pick(&weights);
             let direction = draw.lattice_point(3);
             let sum: i64 = weights.iter().sum();
@@ -24,7 +33,11 @@ fn hard_case<F: Float>(draw: &mut Draw, index: u64) -> Case<F> {
             Case::new(origin, direction.map(number), corners)
         }
         1 | 2 => {
-            let limit = if index % 8 == 1 { 8 } else { F::MAX_EXPONENT as i64 / 3 };
+            let limit = if index % 8 == 1 {
+                8
+            } else {
+                F::MAX_EXPONENT as i64 / 3
+            };
             let scale = draw.integer(-limit, limit) as i32;
             let corners: [[F; 3]; 3] =
                 [(); 3].map(|()| [(); 3].map(|()| draw.with_exponent(scale)));

@@ -27,15 +27,24 @@ impl<F: Float> Instance<F> {
             let [a, b, c] = row.map(|number| number * scale);
             [a, b, c, -dot([a, b, c], translation)]
         });
-        let is_finite = inverse.as_flattened().iter().all(|number| number.is_finite());
+        let is_finite = inverse
+            .as_flattened()
+            .iter()
+            .all(|number| number.is_finite());
         is_finite.then_some(Instance { matrix, inverse })
     }
 
     /// The instance of a matrix that has an inverse, exactly and as computed; else what is wrong with it.
     pub fn checked(matrix: Matrix<F>) -> Result<Instance<F>, String> {
-        let is_finite = matrix.as_flattened().iter().all(|number| number.is_finite());
+        let is_finite = matrix
+            .as_flattened()
+            .iter()
+            .all(|number| number.is_finite());
         if is_finite && exact_determinant(&matrix).is_zero() {
-            return Err(format!("the matrix is singular in {}: it has no inverse", F::NAME));
+            return Err(format!(
+                "the matrix is singular in {}: it has no inverse",
+                F::NAME
+            ));
         }
         Instance::new(matrix).ok_or_else(|| format!("its inverse is not finite in {}", F::NAME))
     }
@@ -54,7 +63,8 @@ impl<F: Float> Instance<F> {
 
     /// A point of the object in the world, rounded.
     pub fn point_in_world(&self, point: [F; 3]) -> [F; 3] {
-        self.matrix.map(|[i, j, k, moved]| dot([i, j, k], point) + moved)
+        self.matrix
+            .map(|[i, j, k, moved]| dot([i, j, k], point) + moved)
     }
 
     /// A normal of the object in the world, of any length, rounded: by the transposed inverse, which leaves it on its
@@ -66,8 +76,15 @@ impl<F: Float> Instance<F> {
     /// The case whose ray, which was in the object, is brought to the world and rounded there.
     pub fn in_world(&self, case: &Case<F>) -> Case<F> {
         let [origin, direction, ..] = case.vectors();
-        let direction = self.matrix.map(|[i, j, k, _]| dot([i, j, k], direction)).into();
-        let ray = Ray { origin: self.point_in_world(origin).into(), direction, ..case.ray };
+        let direction = self
+            .matrix
+            .map(|[i, j, k, _]| dot([i, j, k], direction))
+            .into();
+        let ray = Ray {
+            origin: self.point_in_world(origin).into(),
+            direction,
+            ..case.ray
+        };
         Case { ray, ..*case }
     }
 
@@ -103,7 +120,11 @@ impl<F: Float> Instance<F> {
         let origin = solved(&ray.origin.minus(&column(3)));
         let [a, b, c] = [a, b, c].map(|vertex| vertex.times(&determinant));
         (
-            Ray { origin, direction: solved(&ray.direction), ..ray },
+            Ray {
+                origin,
+                direction: solved(&ray.direction),
+                ..ray
+            },
             Triangle { a, b, c },
             determinant,
         )
@@ -112,7 +133,9 @@ impl<F: Float> Instance<F> {
     /// The case that a kernel gets for a ray of the world and a triangle of the object: the ray by the rounded inverse.
     pub fn in_object(&self, case: &Case<F>) -> Case<F> {
         let [origin, direction, a, b, c] = case.vectors();
-        let origin = self.inverse.map(|[i, j, k, moved]| dot([i, j, k], origin) + moved);
+        let origin = self
+            .inverse
+            .map(|[i, j, k, moved]| dot([i, j, k], origin) + moved);
         let direction = self.inverse.map(|[i, j, k, _]| dot([i, j, k], direction));
         Case::new(origin, direction, [a, b, c]).on(case.ray.t_min, case.ray.t_max)
     }
@@ -126,7 +149,12 @@ fn exact_determinant<F: Float>(matrix: &Matrix<F>) -> Exact {
 
 /// A matrix as case ids have it: twelve numbers, row by row.
 pub(super) fn text(matrix: &Matrix<f64>) -> String {
-    matrix.as_flattened().iter().map(|x| format!("{x:e}")).collect::<Vec<_>>().join(":")
+    matrix
+        .as_flattened()
+        .iter()
+        .map(|x| format!("{x:e}"))
+        .collect::<Vec<_>>()
+        .join(":")
 }
 
 /// A matrix of a case id.

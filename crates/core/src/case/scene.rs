@@ -130,20 +130,29 @@ impl Scene {
     fn grown(self, times: f64) -> Scene {
         let [edge, distance] = [self.edge, self.distance].map(|range| range.map(|x| x * times));
         let median_edge = self.median_edge.map(|x| x * times);
-        Scene { extent: self.extent * times, edge, median_edge, distance, ..self }
+        Scene {
+            extent: self.extent * times,
+            edge,
+            median_edge,
+            distance,
+            ..self
+        }
     }
 
     /// The lengths that the words of a scene leave out, as words; none where a preset's name has them.
     pub fn left_out(&self, text: &str) -> Option<String> {
-        let keys: Vec<&str> =
-            text.split(',').map(|word| word.split('=').next().unwrap_or("").trim()).collect();
+        let keys: Vec<&str> = text
+            .split(',')
+            .map(|word| word.split('=').next().unwrap_or("").trim())
+            .collect();
         if SCENES.iter().any(|preset| preset.name == keys[0]) {
             return None;
         }
         let lengths = [("edge", self.edge), ("distance", self.distance)];
         let left = lengths.into_iter().filter(|(key, _)| !keys.contains(key));
-        let left: Vec<String> =
-            left.map(|(key, range)| format!("{key}={}", Sizes(range, None))).collect();
+        let left: Vec<String> = left
+            .map(|(key, range)| format!("{key}={}", Sizes(range, None)))
+            .collect();
         (!left.is_empty()).then(|| left.join(" and "))
     }
 
@@ -185,13 +194,31 @@ impl Scene {
     /// The scene of a mesh with what words say of its rays: perhaps `mesh`, then words between commas.
     pub fn of_mesh(mut self, text: &str) -> Result<Scene, String> {
         let words = text.split(',').map(str::trim);
-        let words = words.enumerate().filter(|(i, word)| !(*i == 0 && *word == OF_MESH));
-        let own = (self.extent, self.center, self.edge, self.median_edge, self.plane);
+        let words = words
+            .enumerate()
+            .filter(|(i, word)| !(*i == 0 && *word == OF_MESH));
+        let own = (
+            self.extent,
+            self.center,
+            self.edge,
+            self.median_edge,
+            self.plane,
+        );
         let expected = "write mesh, or mesh,distance=0..20,direction=target";
         let wrong = |word: &str| format!("'{word}' is no word for the scene of a mesh: {expected}");
         self.set_all(words.map(|(_, word)| word), |word, _| wrong(word))?;
-        if own != (self.extent, self.center, self.edge, self.median_edge, self.plane) {
-            return Err(format!("a mesh has its own extent, edges and planes: {expected}"));
+        if own
+            != (
+                self.extent,
+                self.center,
+                self.edge,
+                self.median_edge,
+                self.plane,
+            )
+        {
+            return Err(format!(
+                "a mesh has its own extent, edges and planes: {expected}"
+            ));
         }
         self.check()?;
         Ok(self)
@@ -252,12 +279,20 @@ impl Scene {
 
     /// An error if the numbers make no scene.
     pub(super) fn check(&self) -> Result<(), String> {
-        let Scene { extent, edge: [shortest, _], distance: [nearest, farthest], .. } = *self;
+        let Scene {
+            extent,
+            edge: [shortest, _],
+            distance: [nearest, farthest],
+            ..
+        } = *self;
         if extent <= 0.0 {
             return Err(format!("extent={extent}: must be above 0"));
         }
         if shortest <= 0.0 {
-            return Err(format!("edge={}: must be above 0", Sizes(self.edge, self.median_edge)));
+            return Err(format!(
+                "edge={}: must be above 0",
+                Sizes(self.edge, self.median_edge)
+            ));
         }
         if nearest < 0.0 || farthest <= 0.0 {
             return Err(format!(
@@ -282,14 +317,25 @@ impl Scene {
 
     /// Its kind of planes and rays.
     pub fn kind(&self) -> SceneKind {
-        SceneKind { plane: self.plane, toward: self.toward }
+        SceneKind {
+            plane: self.plane,
+            toward: self.toward,
+        }
     }
 
     /// The same scene in each kind that it can have; the generic one first.
     pub fn of_all_kinds(&self) -> Vec<Scene> {
         let can_have = |kind: &SceneKind| !kind.plane.is_near_zero() || self.center == 0.0;
-        let of = |SceneKind { plane, toward }| Scene { plane, toward, ..self.clone() };
-        SceneKind::ALL.into_iter().filter(can_have).map(of).collect()
+        let of = |SceneKind { plane, toward }| Scene {
+            plane,
+            toward,
+            ..self.clone()
+        };
+        SceneKind::ALL
+            .into_iter()
+            .filter(can_have)
+            .map(of)
+            .collect()
     }
 
     /// True if the words of a scene name a kind of planes or rays.
@@ -370,8 +416,10 @@ impl Scene {
     pub fn held_in(&self, scalars: [bool; 2]) -> Result<([bool; 2], Option<String>), String> {
         let all = [self.check_in::<f32>().err(), self.check_in::<f64>().err()];
         let held = [0, 1].map(|i| scalars[i] && all[i].is_none());
-        let mut reasons =
-            all.into_iter().zip(scalars).filter_map(|(why, is_chosen)| why.filter(|_| is_chosen));
+        let mut reasons = all
+            .into_iter()
+            .zip(scalars)
+            .filter_map(|(why, is_chosen)| why.filter(|_| is_chosen));
         match reasons.next() {
             Some(why) if held == [false; 2] => Err(why),
             why => Ok((held, why)),
@@ -381,7 +429,9 @@ impl Scene {
 
 /// True if the words of a scene give a key.
 fn names(text: &str, key: &str) -> bool {
-    text.split(',').filter_map(|word| word.split('=').next()).any(|word| word.trim() == key)
+    text.split(',')
+        .filter_map(|word| word.split('=').next())
+        .any(|word| word.trim() == key)
 }
 
 mod kinds;

@@ -25,7 +25,10 @@ impl Contract {
         let words: Vec<&str> = text.split(',').map(str::trim).collect();
         let named = match own.filter(|_| words[0] == "own") {
             Some(own) => Some(*own),
-            None => NAMED.iter().find(|named| named.name == words[0]).map(|named| named.contract),
+            None => NAMED
+                .iter()
+                .find(|named| named.name == words[0])
+                .map(|named| named.contract),
         };
         let has = |key: &str| words.iter().any(|word| word.split('=').next() == Some(key));
         if named.is_none() {
@@ -40,12 +43,18 @@ impl Contract {
                 };
                 return Err(Error(format!("'{}' is no contract{advice}", words[0])));
             }
-            if let Some(key) = ["extent", "sides", "boundary"].into_iter().find(|key| !has(key)) {
+            if let Some(key) = ["extent", "sides", "boundary"]
+                .into_iter()
+                .find(|key| !has(key))
+            {
                 return Err(Error(format!("'{text}' does not say {key}=…")));
             }
         }
-        let mut contract =
-            named.unwrap_or(Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed));
+        let mut contract = named.unwrap_or(Contract::of_kernel(
+            Extent::Ray,
+            Sides::Both,
+            Boundary::Closed,
+        ));
         for word in &words[usize::from(named.is_some())..] {
             contract.change(word)?;
         }
@@ -58,7 +67,9 @@ impl Contract {
         let named = NAMED.iter().map(|named| (named.name, named.contract));
         let known = own.map(|own| ("own", *own)).into_iter().chain(named);
         let changes = |(name, base): (&str, Contract)| {
-            std::iter::once(name.to_owned()).chain(self.changes_from(&base)).collect::<Vec<_>>()
+            std::iter::once(name.to_owned())
+                .chain(self.changes_from(&base))
+                .collect::<Vec<_>>()
         };
         // What a base promises and this contract does not, no word takes back.
         let possible = known.filter(|(_, base)| {
@@ -78,10 +89,22 @@ impl Contract {
         };
         change(self.extent == base.extent, "extent", self.extent.name());
         change(self.sides == base.sides, "sides", self.sides.name());
-        change(self.boundary == base.boundary, "boundary", self.boundary.name());
+        change(
+            self.boundary == base.boundary,
+            "boundary",
+            self.boundary.name(),
+        );
         change(self.ends == base.ends, "ends", self.ends.name());
-        change(self.coplanar == base.coplanar, "coplanar", self.coplanar.name());
-        change(self.degenerate == base.degenerate, "degenerate", self.degenerate.name());
+        change(
+            self.coplanar == base.coplanar,
+            "coplanar",
+            self.coplanar.name(),
+        );
+        change(
+            self.degenerate == base.degenerate,
+            "degenerate",
+            self.degenerate.name(),
+        );
         change(self.invalid == base.invalid, "invalid", self.invalid.name());
         let direction = match self.direction {
             Direction::Any => "any".to_owned(),
@@ -93,12 +116,20 @@ impl Contract {
             change(self.band == base.band, "band", &band.to_string());
         }
         let determinant = format!("{:e}", self.least_determinant);
-        change(self.least_determinant == base.least_determinant, "determinant", &determinant);
+        change(
+            self.least_determinant == base.least_determinant,
+            "determinant",
+            &determinant,
+        );
         let values = match self.value_tolerance {
             f64::INFINITY => "free".to_owned(),
             edges => format!("{edges:e}"),
         };
-        change(self.value_tolerance == base.value_tolerance, "values", &values);
+        change(
+            self.value_tolerance == base.value_tolerance,
+            "values",
+            &values,
+        );
         if self.no_self_hit && !base.no_self_hit {
             words.push("no-self-hit".to_owned());
         }
@@ -109,7 +140,10 @@ impl Contract {
     fn change(&mut self, word: &str) -> Result<(), String> {
         let (key, value) = word.split_once('=').unwrap_or((word, ""));
         let shown = format!("'{word}'");
-        let number = value.parse().ok().filter(|number| (0.0..f64::INFINITY).contains(number));
+        let number = value
+            .parse()
+            .ok()
+            .filter(|number| (0.0..f64::INFINITY).contains(number));
         match key {
             "extent" => self.extent = Extent::chosen(&shown, value)?,
             "sides" => self.sides = Sides::chosen(&shown, value)?,
@@ -119,7 +153,9 @@ impl Contract {
             "degenerate" => self.degenerate = Demand::chosen(&shown, value)?,
             "invalid" => self.invalid = Demand::chosen(&shown, value)?,
             "direction" => {
-                let unit = value.strip_prefix("unit:").and_then(|ulps| ulps.parse().ok());
+                let unit = value
+                    .strip_prefix("unit:")
+                    .and_then(|ulps| ulps.parse().ok());
                 self.direction = match (value, unit) {
                     ("any", _) => Direction::Any,
                     (_, Some(ulps)) => Direction::Unit { ulps },
@@ -164,7 +200,10 @@ mod tests {
             assert_eq!(read(named.name), Ok(named.contract));
         }
         let own = read("extent=line, sides=front, boundary=open").unwrap();
-        assert_eq!(own, Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open));
+        assert_eq!(
+            own,
+            Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open)
+        );
         let all = "closed-interval,boundary=free,ends=open,coplanar=hit,degenerate=free,invalid=free,\
             direction=unit:4,across=exactly-one,no-self-hit,determinant=1e-8,values=1e-3";
         assert_eq!(
@@ -180,28 +219,60 @@ mod tests {
         for band in ["0", "0ulps", "-1", "inf", "NaN"] {
             assert!(band.parse::<crate::contract::Band>().is_err(), "{band}");
         }
-        let banded = |band: &str| Contract { band: band.parse().ok(), ..Contract::CLOSED_RAY };
-        let ends =
-            |band| banded(band).describe().split_once(", free within ").map(|x| x.1.to_owned());
+        let banded = |band: &str| Contract {
+            band: band.parse().ok(),
+            ..Contract::CLOSED_RAY
+        };
+        let ends = |band| {
+            banded(band)
+                .describe()
+                .split_once(", free within ")
+                .map(|x| x.1.to_owned())
+        };
         assert_eq!(ends("4ulps").as_deref(), Some("4ulps of the boundary"));
-        assert_eq!(ends("0.25").as_deref(), Some("2.5e-1 longest edges of the boundary"));
+        assert_eq!(
+            ends("0.25").as_deref(),
+            Some("2.5e-1 longest edges of the boundary")
+        );
         for named in NAMED {
             let own = Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open);
-            let banded = Contract { band: "4ulps".parse().ok(), ..named.contract };
-            let free = Contract { value_tolerance: f64::INFINITY, ..named.contract };
+            let banded = Contract {
+                band: "4ulps".parse().ok(),
+                ..named.contract
+            };
+            let free = Contract {
+                value_tolerance: f64::INFINITY,
+                ..named.contract
+            };
             for contract in [own, named.contract, banded, free, read(all).unwrap()] {
                 assert_eq!(read(&contract.words(None)), Ok(contract));
                 let words = contract.words(Some(&own));
-                assert_eq!(Contract::from_words(&words, Some(&own)), Ok(contract), "{words}");
+                assert_eq!(
+                    Contract::from_words(&words, Some(&own)),
+                    Ok(contract),
+                    "{words}"
+                );
             }
         }
-        assert_eq!(Contract::CLOSED_RAY.words(Some(&read(all).unwrap())), "closed-ray");
+        assert_eq!(
+            Contract::CLOSED_RAY.words(Some(&read(all).unwrap())),
+            "closed-ray"
+        );
         // What only the kernel's own contract promises keeps that from being the base, be it as near as can be.
         let near = read("closed-ray,ends=open").unwrap();
-        let banded = Contract { band: "4ulps".parse().ok(), ..near };
+        let banded = Contract {
+            band: "4ulps".parse().ok(),
+            ..near
+        };
         for (own, words) in [
             (near, "own"),
-            (Contract { no_self_hit: true, ..near }, "closed-ray,ends=open"),
+            (
+                Contract {
+                    no_self_hit: true,
+                    ..near
+                },
+                "closed-ray,ends=open",
+            ),
             (banded, "closed-ray,ends=open"),
         ] {
             assert_eq!(near.words(Some(&own)), words, "{own:?}");
@@ -212,14 +283,35 @@ mod tests {
             ("own", "'own' is no contract: write closed-line, "),
             ("", "'' is no contract: write closed-line, "),
             ("closed", "'closed' is no contract: write closed-line, "),
-            ("extent=ray,sides=both", "'extent=ray,sides=both' does not say boundary=…"),
-            ("closed-ray,sides=back", "'sides=back': there are both, front"),
+            (
+                "extent=ray,sides=both",
+                "'extent=ray,sides=both' does not say boundary=…",
+            ),
+            (
+                "closed-ray,sides=back",
+                "'sides=back': there are both, front",
+            ),
             ("closed-ray,side=both", "'side=both' is none of extent, "),
-            ("closed-ray,direction=unit", "'direction=unit': there are any, unit:ULPS"),
-            ("closed-ray,values=-1", "'values=-1': write free, or a distance"),
-            ("closed-ray,determinant=-1", "'determinant=-1': write a number from 0 up"),
-            ("closed-ray,values=inf", "'values=inf': write free, or a distance"),
-            ("closed-ray,no-self-hit=yes", "'no-self-hit=yes' is none of "),
+            (
+                "closed-ray,direction=unit",
+                "'direction=unit': there are any, unit:ULPS",
+            ),
+            (
+                "closed-ray,values=-1",
+                "'values=-1': write free, or a distance",
+            ),
+            (
+                "closed-ray,determinant=-1",
+                "'determinant=-1': write a number from 0 up",
+            ),
+            (
+                "closed-ray,values=inf",
+                "'values=inf': write free, or a distance",
+            ),
+            (
+                "closed-ray,no-self-hit=yes",
+                "'no-self-hit=yes' is none of ",
+            ),
         ] {
             let Error(error) = read(text).unwrap_err();
             assert!(error.starts_with(message), "{text}: {error}");

@@ -33,13 +33,23 @@ impl Kernel for BaldwinWeber {
                  nine coefficients, https://jcgt.org/published/0005/03/03/",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Closed),
         gates: &[
-            Gate::fixed(Role::Other, "no component of the normal is the largest: no fixed column")
-                .named("column"),
+            Gate::fixed(
+                Role::Other,
+                "no component of the normal is the largest: no fixed column",
+            )
+            .named("column"),
             Gate::signed(Role::T, "t - t_min <= e, t_max - t <= e", 1, -1),
             Gate::signed(Role::Edge, "!(x >= e), !(y >= e), !(1-(y+x) > e)", 0, 0),
         ],
-        epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
-        gives: Gives { t: true, uv: true, facing: false },
+        epsilon_sets: &[EpsilonSet {
+            name: "source",
+            values: &["0", "0", "0"],
+        }],
+        gives: Gives {
+            t: true,
+            uv: true,
+            facing: false,
+        },
         polygons: false,
     };
 
@@ -64,7 +74,11 @@ impl Kernel for BaldwinWeber {
         let row = |along_i: V::Real, along_j: V::Real, last: V::Real| {
             let (along_i, along_j, last) = (along_i / &n, along_j / &n, last / &n);
             // Stored in the order of the axes, as the test reads them.
-            if i < j { [along_i, along_j, last] } else { [along_j, along_i, last] }
+            if i < j {
+                [along_i, along_j, last]
+            } else {
+                [along_j, along_i, last]
+            }
         };
         Transformation {
             x: row(edge2.at(j), -edge2.at(i), minor(c)),
@@ -77,7 +91,12 @@ impl Kernel for BaldwinWeber {
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
         map: &Transformation<V::Real>,
-        Ray { origin, direction, t_min, t_max }: &Ray<V>,
+        Ray {
+            origin,
+            direction,
+            t_min,
+            t_max,
+        }: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         sink.fixed(COLUMN, map.fixed.is_some())?;
@@ -106,8 +125,16 @@ impl Kernel for BaldwinWeber {
         let (x, y) = (row(&map.x), row(&map.y));
         sink.one(EDGE, Refuse::UnlessAtLeast, &x)?;
         sink.one(EDGE, Refuse::UnlessAtLeast, &y)?;
-        sink.one(EDGE, Refuse::UnlessAbove, &(V::Real::one() - (y.clone() + &x)))?;
-        Some(Hit { t: Some(t), uv: Some((x, y)), facing: None })
+        sink.one(
+            EDGE,
+            Refuse::UnlessAbove,
+            &(V::Real::one() - (y.clone() + &x)),
+        )?;
+        Some(Hit {
+            t: Some(t),
+            uv: Some((x, y)),
+            facing: None,
+        })
     }
 }
 

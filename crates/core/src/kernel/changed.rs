@@ -35,7 +35,10 @@ pub(super) struct Changed<F: Float> {
 
 /// The largest size of some coordinates.
 fn largest<F: Float>(coordinates: impl IntoIterator<Item = F>) -> F {
-    coordinates.into_iter().fold(F::zero(), |most, x| if most < x.abs() { x.abs() } else { most })
+    coordinates.into_iter().fold(
+        F::zero(),
+        |most, x| if most < x.abs() { x.abs() } else { most },
+    )
 }
 
 /// True if [`Change::BySize`] changes the epsilon of a gate.
@@ -46,26 +49,31 @@ pub fn has_size(gate: &Gate) -> bool {
 /// The refusal of a gate, with an epsilon for its `e`.
 pub fn refuses_at(refuses: &str, epsilon: &str) -> String {
     let ends_word = |c: char| !c.is_alphanumeric() && c != '_';
-    refuses.split_inclusive(ends_word).fold(String::new(), |text, word| {
-        match (
-            word.strip_prefix('e').filter(|end| end.chars().all(ends_word)),
-            text.strip_suffix('-'),
-        ) {
-            // -(-1e-6), -0
-            (Some(end), Some(text)) if epsilon.starts_with('-') || epsilon == "0" => {
-                [text, epsilon.trim_start_matches('-'), end].concat()
+    refuses
+        .split_inclusive(ends_word)
+        .fold(String::new(), |text, word| {
+            match (
+                word.strip_prefix('e')
+                    .filter(|end| end.chars().all(ends_word)),
+                text.strip_suffix('-'),
+            ) {
+                // -(-1e-6), -0
+                (Some(end), Some(text)) if epsilon.starts_with('-') || epsilon == "0" => {
+                    [text, epsilon.trim_start_matches('-'), end].concat()
+                }
+                (Some(end), _) => [&text, epsilon, end].concat(),
+                (None, _) => [&text, word].concat(),
             }
-            (Some(end), _) => [&text, epsilon, end].concat(),
-            (None, _) => [&text, word].concat(),
-        }
-    })
+        })
 }
 
 /// The gates of [`Change::BySize`], whose texts have the sizes: `e*L*L*D`.
 pub(super) fn sized(gates: &[Gate]) -> &'static [Gate] {
     let power = |name: &str, times: i8| name.repeat(times.max(0) as usize);
     let sized = |gate: &Gate| {
-        let Gate { refuses, dimension, .. } = *gate;
+        let Gate {
+            refuses, dimension, ..
+        } = *gate;
         let sizes = power("*L", dimension.length) + &power("*D", dimension.direction);
         let refuses = match (has_size(gate), gate.role) {
             (false, _) => refuses,
@@ -87,7 +95,12 @@ impl<F: Float> Changed<F> {
         let [_, direction, a, b, c] = case.vectors();
         let length = largest((0..3).flat_map(|i| [b[i] - a[i], c[i] - a[i]]));
         let direction = largest(direction);
-        for (gate, epsilon) in self.gates.iter().zip(epsilons).filter(|(gate, _)| has_size(gate)) {
+        for (gate, epsilon) in self
+            .gates
+            .iter()
+            .zip(epsilons)
+            .filter(|(gate, _)| has_size(gate))
+        {
             let refuses_zero = gate.role == Role::Parallel && F::zero() < *epsilon;
             (0..gate.dimension.length).for_each(|_| *epsilon = *epsilon * length);
             (0..gate.dimension.direction).for_each(|_| *epsilon = *epsilon * direction);
@@ -101,7 +114,11 @@ impl<F: Float> Changed<F> {
 /// Which vertices stand first, second and third once they are in order.
 fn order<F: Float>(vertices: [[F; 3]; 3]) -> [usize; 3] {
     let mut order = [0, 1, 2];
-    order.sort_by(|i, j| vertices[*i].partial_cmp(&vertices[*j]).unwrap_or(Ordering::Equal));
+    order.sort_by(|i, j| {
+        vertices[*i]
+            .partial_cmp(&vertices[*j])
+            .unwrap_or(Ordering::Equal)
+    });
     order
 }
 
@@ -109,7 +126,10 @@ fn order<F: Float>(vertices: [[F; 3]; 3]) -> [usize; 3] {
 fn renamed<F: Float>(verdict: &mut Verdict<F>, order: [usize; 3]) {
     let mut weights = [F::zero(); 3];
     let of_first = F::one() - verdict.u - verdict.v;
-    order.iter().zip([of_first, verdict.u, verdict.v]).for_each(|(i, x)| weights[*i] = x);
+    order
+        .iter()
+        .zip([of_first, verdict.u, verdict.v])
+        .for_each(|(i, x)| weights[*i] = x);
     if order != [0, 1, 2] {
         (verdict.u, verdict.v) = (weights[1], weights[2]);
     }
@@ -136,7 +156,10 @@ impl<F: Float> Subject<F> for Changed<F> {
                     let vertices = case.triangle.vertices();
                     let order = order(vertices.map(Into::into));
                     let [a, b, c] = order.map(|i| vertices[i]);
-                    let case = Case { ray: case.ray, triangle: Triangle { a, b, c } };
+                    let case = Case {
+                        ray: case.ray,
+                        triangle: Triangle { a, b, c },
+                    };
                     self.kernel.run(&[case], epsilons, place);
                     renamed(verdict, order);
                 }
@@ -161,9 +184,27 @@ impl Subject<f32> for InDouble {
         for (case, verdict) in cases.iter().zip(verdicts) {
             let mut found = [Verdict::miss(None)];
             self.0.run(&[case.widen()], &epsilons, &mut found);
-            let [Verdict { hit, refused_by, facing, t, u, v, failure }] = found;
+            let [
+                Verdict {
+                    hit,
+                    refused_by,
+                    facing,
+                    t,
+                    u,
+                    v,
+                    failure,
+                },
+            ] = found;
             let [t, u, v] = [t, u, v].map(|x| x as f32);
-            *verdict = Verdict { hit, refused_by, facing, t, u, v, failure };
+            *verdict = Verdict {
+                hit,
+                refused_by,
+                facing,
+                t,
+                u,
+                v,
+                failure,
+            };
         }
     }
 }
@@ -181,9 +222,13 @@ impl Subject<f32> for WithFallback {
         let gates = self.gated.info().gates;
         for (case, verdict) in cases.iter().zip(verdicts) {
             let margins = self.gated.thresholds(case);
-            let mut edges = gates.iter().zip(margins).filter(|(gate, _)| gate.role == Role::Edge);
+            let mut edges = gates
+                .iter()
+                .zip(margins)
+                .filter(|(gate, _)| gate.role == Role::Edge);
             if edges.any(|(_, margin)| margin == 0.0) {
-                self.in_double.run(slice::from_ref(case), epsilons, slice::from_mut(verdict));
+                self.in_double
+                    .run(slice::from_ref(case), epsilons, slice::from_mut(verdict));
             }
         }
     }

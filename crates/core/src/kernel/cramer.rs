@@ -25,10 +25,22 @@ impl Kernel for Cramer {
         gates: &[
             Gate::signed(Role::Parallel, "abs(det) <= e", 2, 1),
             Gate::signed(Role::T, "t - t_min < e, t_max - t < e", 1, -1),
-            Gate::signed(Role::Edge, "gamma < e, 1-gamma < e, beta < e, (1-gamma)-beta < e", 0, 0),
+            Gate::signed(
+                Role::Edge,
+                "gamma < e, 1-gamma < e, beta < e, (1-gamma)-beta < e",
+                0,
+                0,
+            ),
         ],
-        epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
-        gives: Gives { t: true, uv: true, facing: false },
+        epsilon_sets: &[EpsilonSet {
+            name: "source",
+            values: &["0", "0", "0"],
+        }],
+        gives: Gives {
+            t: true,
+            uv: true,
+            facing: false,
+        },
         polygons: false,
     };
 
@@ -50,12 +62,18 @@ impl Kernel for Cramer {
         let minor =
             |x: &V::Real, y: &V::Real, z: &V::Real, w: &V::Real| x.clone() * y - z.clone() * w;
 
-        let (ei_hf, gf_di, dh_eg) =
-            (minor(&e, &i, &h, &f), minor(&g, &f, &d, &i), minor(&d, &h, &e, &g));
+        let (ei_hf, gf_di, dh_eg) = (
+            minor(&e, &i, &h, &f),
+            minor(&g, &f, &d, &i),
+            minor(&d, &h, &e, &g),
+        );
         let det = a.clone() * &ei_hf + b.clone() * &gf_di + c.clone() * &dh_eg;
         sink.one(PARALLEL, Refuse::AtMost, &det.abs())?;
-        let (ak_jb, jc_al, bl_kc) =
-            (minor(&a, &k, &j, &b), minor(&j, &c, &a, &l), minor(&b, &l, &k, &c));
+        let (ak_jb, jc_al, bl_kc) = (
+            minor(&a, &k, &j, &b),
+            minor(&j, &c, &a, &l),
+            minor(&b, &l, &k, &c),
+        );
 
         let t = (-f * &ak_jb - e * &jc_al - d * &bl_kc) / &det;
         sink.one(T, Refuse::Below, &gap(&t, &ray.t_min))?;
@@ -67,7 +85,11 @@ impl Kernel for Cramer {
         let beta = (j * &ei_hf + k * &gf_di + l * &dh_eg) / &det;
         sink.one(EDGE, Refuse::Below, &beta)?;
         sink.one(EDGE, Refuse::Below, &(one_minus_gamma - &beta))?;
-        Some(Hit { t: Some(t), uv: Some((beta, gamma)), facing: None })
+        Some(Hit {
+            t: Some(t),
+            uv: Some((beta, gamma)),
+            facing: None,
+        })
     }
 }
 

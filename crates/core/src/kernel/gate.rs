@@ -38,7 +38,9 @@ impl Refuse {
         clauses: [[&R; N]; M],
         epsilon: &R,
     ) -> bool {
-        clauses.iter().any(|clause| clause.iter().all(|&x| self.passes(x, epsilon)))
+        clauses
+            .iter()
+            .any(|clause| clause.iter().all(|&x| self.passes(x, epsilon)))
     }
 
     /// The largest epsilon under which `x` passes.
@@ -139,7 +141,13 @@ impl Gate {
     /// A gate that takes any epsilon, with the name of its role.
     pub const fn signed(role: Role, refuses: &'static str, length: i8, direction: i8) -> Gate {
         let dimension = Dimension::new(length, direction);
-        Gate { name: role.name(), role, refuses, dimension, epsilon: Tunable::Signed }
+        Gate {
+            name: role.name(),
+            role,
+            refuses,
+            dimension,
+            epsilon: Tunable::Signed,
+        }
     }
 
     /// A gate `abs(x) < e`.
@@ -150,12 +158,18 @@ impl Gate {
         direction: i8,
     ) -> Gate {
         let gate = Gate::signed(role, refuses, length, direction);
-        Gate { epsilon: Tunable::NonNegative, ..gate }
+        Gate {
+            epsilon: Tunable::NonNegative,
+            ..gate
+        }
     }
 
     /// A test that takes no epsilon.
     pub const fn fixed(role: Role, refuses: &'static str) -> Gate {
-        Gate { epsilon: Tunable::Fixed, ..Gate::signed(role, refuses, 0, 0) }
+        Gate {
+            epsilon: Tunable::Fixed,
+            ..Gate::signed(role, refuses, 0, 0)
+        }
     }
 
     /// The same gate under another name.
@@ -187,7 +201,13 @@ pub trait Sink<R: Real> {
     /// A test without an epsilon.
     #[inline(always)]
     fn fixed(&mut self, gate: usize, accepts: bool) -> Option<()> {
-        let margin = || if accepts { R::infinity() } else { -R::infinity() };
+        let margin = || {
+            if accepts {
+                R::infinity()
+            } else {
+                -R::infinity()
+            }
+        };
         self.rounded(gate, |_| accepts, margin)
     }
 
@@ -211,13 +231,20 @@ pub struct Deciding<'a, R> {
 impl<'a, R> Deciding<'a, R> {
     /// With one epsilon a gate.
     pub fn new(epsilons: &'a [R]) -> Self {
-        Deciding { epsilons, refused_by: None, passed: Vec::new() }
+        Deciding {
+            epsilons,
+            refused_by: None,
+            passed: Vec::new(),
+        }
     }
 
     /// The same, but it never stops.
     #[cfg(feature = "margins")]
     pub fn watching(epsilons: &'a [R]) -> Self {
-        Deciding { passed: vec![true; epsilons.len()], ..Deciding::new(epsilons) }
+        Deciding {
+            passed: vec![true; epsilons.len()],
+            ..Deciding::new(epsilons)
+        }
     }
 
     #[inline(always)]
@@ -269,7 +296,10 @@ impl<'a, R: Real> Measuring<'a, R> {
     /// below x and the threshold x, so that only its threshold compares with an exact number.
     pub fn new(margins: &'a mut [R], thresholds: bool) -> Self {
         margins.fill(R::infinity());
-        Measuring { margins, thresholds }
+        Measuring {
+            margins,
+            thresholds,
+        }
     }
 
     #[inline(always)]
@@ -295,10 +325,26 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
         clauses: [[&R; N]; M],
     ) -> Option<()> {
         let thresholds = self.thresholds;
-        let margin = |x: &R| if thresholds { refuse.threshold(x) } else { refuse.margin(x) };
-        let least =
-            |clause: [&R; N]| clause.map(margin).into_iter().fold(R::infinity(), R::smaller);
-        self.record(gate, clauses.map(least).into_iter().fold(-R::infinity(), R::larger))
+        let margin = |x: &R| {
+            if thresholds {
+                refuse.threshold(x)
+            } else {
+                refuse.margin(x)
+            }
+        };
+        let least = |clause: [&R; N]| {
+            clause
+                .map(margin)
+                .into_iter()
+                .fold(R::infinity(), R::smaller)
+        };
+        self.record(
+            gate,
+            clauses
+                .map(least)
+                .into_iter()
+                .fold(-R::infinity(), R::larger),
+        )
     }
 
     #[inline(always)]

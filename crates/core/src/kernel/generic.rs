@@ -18,8 +18,11 @@ pub struct Generic<K> {
 
 impl<K: Kernel> Generic<K> {
     /// In the machine's own arithmetic.
-    pub const SUBJECT: Generic<K> =
-        Generic { arithmetic: Arithmetic::IEEE, info: &const { K::INFO }, kernel: PhantomData };
+    pub const SUBJECT: Generic<K> = Generic {
+        arithmetic: Arithmetic::IEEE,
+        info: &const { K::INFO },
+        kernel: PhantomData,
+    };
 }
 
 impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
@@ -74,6 +77,10 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
         arithmetic: Arithmetic,
         info: &'static KernelInfo,
     ) -> Option<&'static dyn Subject<F>> {
-        Some(Box::leak(Box::new(Generic::<K> { arithmetic, info, kernel: PhantomData })))
+        Some(Box::leak(Box::new(Generic::<K> {
+            arithmetic,
+            info,
+            kernel: PhantomData,
+        })))
     }
 }

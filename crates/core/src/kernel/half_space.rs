@@ -28,8 +28,15 @@ impl Kernel for HalfSpace {
             4,
             0,
         )],
-        epsilon_sets: &[EpsilonSet { name: "source", values: &["0"] }],
-        gives: Gives { t: true, uv: false, facing: false },
+        epsilon_sets: &[EpsilonSet {
+            name: "source",
+            values: &["0"],
+        }],
+        gives: Gives {
+            t: true,
+            uv: false,
+            facing: false,
+        },
         polygons: false,
     };
 
@@ -38,7 +45,11 @@ impl Kernel for HalfSpace {
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
         Triangle { a, b, c }: &Triangle<V>,
-        Ray { origin: o, direction: d, .. }: &Ray<V>,
+        Ray {
+            origin: o,
+            direction: d,
+            ..
+        }: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let n = b.minus(a).cross(&c.minus(a));
@@ -48,6 +59,10 @@ impl Kernel for HalfSpace {
             let value = to.minus(from).cross(&x.minus(from)).dot(&n);
             sink.one(EDGE, Refuse::UnlessAtLeast, &value)?;
         }
-        Some(Hit { t: Some(t), uv: None, facing: None })
+        Some(Hit {
+            t: Some(t),
+            uv: None,
+            facing: None,
+        })
     }
 }

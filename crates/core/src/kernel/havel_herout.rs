@@ -36,12 +36,22 @@ impl Kernel for HavelHerout {
                  listing, doi:10.1109/TVCG.2009.73",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Free),
         gates: &[
-            Gate::fixed(Role::T, "sign bits of dett - t_min*det and t_max*det - dett differ"),
+            Gate::fixed(
+                Role::T,
+                "sign bits of dett - t_min*det and t_max*det - dett differ",
+            ),
             Gate::fixed(Role::Edge, "sign bits of detu and det-detu differ").named("u"),
             Gate::fixed(Role::Edge, "sign bits of detv and det-(detu+detv) differ").named("v"),
         ],
-        epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
-        gives: Gives { t: true, uv: true, facing: true },
+        epsilon_sets: &[EpsilonSet {
+            name: "source",
+            values: &["0", "0", "0"],
+        }],
+        gives: Gives {
+            t: true,
+            uv: true,
+            facing: true,
+        },
         polygons: false,
     };
 
@@ -54,12 +64,26 @@ impl Kernel for HavelHerout {
         let scale = V::Real::one() / n.dot(&n);
         let (n1, n2) = (ac.cross(&n).times(&scale), n.cross(&ab).times(&scale));
         let (d, d1, d2) = (n.dot(a), -n1.dot(a), -n2.dot(a));
-        Planes { n, d, n1, d1, n2, d2 }
+        Planes {
+            n,
+            d,
+            n1,
+            d1,
+            n2,
+            d2,
+        }
     }
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
-        Planes { n, d, n1, d1, n2, d2 }: &Planes<V>,
+        Planes {
+            n,
+            d,
+            n1,
+            d1,
+            n2,
+            d2,
+        }: &Planes<V>,
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
@@ -67,7 +91,11 @@ impl Kernel for HavelHerout {
         let det = dpps(n, &ray.direction, zero.clone());
         let minus_n = n.times(&-V::Real::one());
         let dett = dpps(&minus_n, &ray.origin, d.clone());
-        let far = if det.is_zero() { det.clone() } else { ray.t_max.clone() * &det };
+        let far = if det.is_zero() {
+            det.clone()
+        } else {
+            ray.t_max.clone() * &det
+        };
         let same_bits = |x: &V::Real, y: &V::Real| x.is_sign_negative() == y.is_sign_negative();
         let from_near = dett.clone() - end_times(&ray.t_min, &det);
         sink.fixed(T, same_bits(&from_near, &(far - &dett)))?;
@@ -76,7 +104,10 @@ impl Kernel for HavelHerout {
         let detu = dpps(&detp, n1, detp_w.clone() * d1);
         sink.fixed(U, same_bits(&detu, &(det.clone() - &detu)))?;
         let detv = dpps(&detp, n2, detp_w * d2);
-        sink.fixed(V_, same_bits(&detv, &(det.clone() - (detu.clone() + &detv))))?;
+        sink.fixed(
+            V_,
+            same_bits(&detv, &(det.clone() - (detu.clone() + &detv))),
+        )?;
         let inv_det = V::Real::one() / &det;
         Some(Hit {
             t: Some(dett * &inv_det),

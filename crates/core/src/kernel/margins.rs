@@ -8,7 +8,13 @@ use crate::case::Case;
 /// smallest number.
 pub fn open_epsilons<F: Float>(info: &KernelInfo) -> Vec<F> {
     let smallest = -F::infinity().offset_ulps(-1);
-    let open = |tunable| if tunable == Tunable::Signed { smallest } else { F::zero() };
+    let open = |tunable| {
+        if tunable == Tunable::Signed {
+            smallest
+        } else {
+            F::zero()
+        }
+    };
     info.gates.iter().map(|gate| open(gate.epsilon)).collect()
 }
 
@@ -33,7 +39,11 @@ pub fn by_running<F: Float>(
             epsilons[gate] = largest;
             is_hit(&epsilons)
         });
-        margins.fill(if is_hit_above { F::infinity() } else { -F::infinity() });
+        margins.fill(if is_hit_above {
+            F::infinity()
+        } else {
+            -F::infinity()
+        });
         return;
     }
     for (gate, margin) in margins.iter_mut().enumerate() {
@@ -47,7 +57,11 @@ pub fn by_running<F: Float>(
         } else {
             while accepted + 1 < refused {
                 let middle = accepted.midpoint(refused);
-                if hits_at(middle) { accepted = middle } else { refused = middle }
+                if hits_at(middle) {
+                    accepted = middle
+                } else {
+                    refused = middle
+                }
             }
             F::from_place(accepted)
         };
@@ -75,7 +89,14 @@ pub fn each_case<F: Float>(
 
 /// The values that a kernel would report of a hit.
 pub fn values_of<F: Float>(info: &KernelInfo, verdict: &Verdict<F>) -> Option<Hit<F>> {
-    let &Verdict { hit, facing, t, u, v, .. } = verdict;
+    let &Verdict {
+        hit,
+        facing,
+        t,
+        u,
+        v,
+        ..
+    } = verdict;
     let (t, uv) = (info.gives.t.then_some(t), info.gives.uv.then_some((u, v)));
     hit.then_some(Hit { t, uv, facing })
 }

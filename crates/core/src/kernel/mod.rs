@@ -107,18 +107,28 @@ pub struct Hit<R> {
 impl<R> Hit<R> {
     /// A hit that reports its t alone.
     pub fn at(t: R) -> Hit<R> {
-        Hit { t: Some(t), uv: None, facing: None }
+        Hit {
+            t: Some(t),
+            uv: None,
+            facing: None,
+        }
     }
 
     /// The numbers that it reports.
     fn numbers(&self) -> impl Iterator<Item = &R> {
-        self.t.iter().chain(self.uv.iter().flat_map(|(u, v)| [u, v]))
+        self.t
+            .iter()
+            .chain(self.uv.iter().flat_map(|(u, v)| [u, v]))
     }
 
     /// The same in another arithmetic, number by number.
     pub fn map<S>(self, number: impl Fn(R) -> S) -> Hit<S> {
         let Hit { t, uv, facing } = self;
-        Hit { t: t.map(&number), uv: uv.map(|(u, v)| (number(u), number(v))), facing }
+        Hit {
+            t: t.map(&number),
+            uv: uv.map(|(u, v)| (number(u), number(v))),
+            facing,
+        }
     }
 }
 
@@ -150,8 +160,15 @@ impl KernelInfo {
             source: "your own",
             contract,
             gates: &[],
-            epsilon_sets: &[EpsilonSet { name: "own", values: &[] }],
-            gives: Gives { t: true, uv: false, facing: false },
+            epsilon_sets: &[EpsilonSet {
+                name: "own",
+                values: &[],
+            }],
+            gives: Gives {
+                t: true,
+                uv: false,
+                facing: false,
+            },
             polygons: false,
         }
     }
@@ -180,7 +197,11 @@ pub struct Gives {
 
 impl Gives {
     /// No value.
-    pub const NOTHING: Gives = Gives { t: false, uv: false, facing: false };
+    pub const NOTHING: Gives = Gives {
+        t: false,
+        uv: false,
+        facing: false,
+    };
 }
 
 /// `facing` from a number that is positive when the ray comes from the front.
@@ -198,12 +219,20 @@ fn facing_of<R: Real>(front_if_positive: &R) -> Option<Facing> {
 /// where a source compares with 0.
 #[inline(always)]
 fn end_times<R: Real>(end: &R, determinant: &R) -> R {
-    if end.is_zero() { R::zero() } else { end.clone() * determinant }
+    if end.is_zero() {
+        R::zero()
+    } else {
+        end.clone() * determinant
+    }
 }
 
 /// `a - b`, and zero where a = b even if both are infinite: its sign is the outcome of the source's
 /// comparison of a and b.
 #[inline(always)]
 fn gap<R: Real>(a: &R, b: &R) -> R {
-    if a.is_at_most(b) && b.is_at_most(a) { R::zero() } else { a.clone() - b }
+    if a.is_at_most(b) && b.is_at_most(a) {
+        R::zero()
+    } else {
+        a.clone() - b
+    }
 }

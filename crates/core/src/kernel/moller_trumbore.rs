@@ -19,11 +19,23 @@ const PARALLEL: usize = 0;
 const EDGE: usize = 1;
 const T: usize = 2;
 
-const GIVES: Gives = Gives { t: true, uv: true, facing: true };
-const SETS: &[EpsilonSet] = &[EpsilonSet { name: "source", values: &["1e-6", "0"] }];
+const GIVES: Gives = Gives {
+    t: true,
+    uv: true,
+    facing: true,
+};
+const SETS: &[EpsilonSet] = &[EpsilonSet {
+    name: "source",
+    values: &["1e-6", "0"],
+}];
 
 const DIVIDED: [Gate; 2] = [
-    Gate::non_negative(Role::Parallel, "abs(det) < e (printed det > -e && det < e)", 2, 1),
+    Gate::non_negative(
+        Role::Parallel,
+        "abs(det) < e (printed det > -e && det < e)",
+        2,
+        1,
+    ),
     Gate::signed(Role::Edge, "u < e, 1-u < e, v < e, 1-(u+v) < e", 0, 0),
 ];
 
@@ -31,7 +43,9 @@ const DIVIDED: [Gate; 2] = [
 #[inline(always)]
 fn divided<V: Vector, S: Sink<V::Real>>(
     Triangle { a, b, c }: &Triangle<V>,
-    Ray { origin, direction, .. }: &Ray<V>,
+    Ray {
+        origin, direction, ..
+    }: &Ray<V>,
     tests_t: bool,
     sink: &mut S,
 ) -> Option<Hit<V::Real>> {
@@ -52,7 +66,11 @@ fn divided<V: Vector, S: Sink<V::Real>>(
     if tests_t {
         sink.one(T, Refuse::UnlessAbove, &t)?;
     }
-    Some(Hit { t: Some(t), uv: Some((u, v)), facing: facing_of(&det) })
+    Some(Hit {
+        t: Some(t),
+        uv: Some((u, v)),
+        facing: facing_of(&det),
+    })
 }
 
 impl Kernel for MollerTrumbore {
@@ -90,8 +108,15 @@ impl Kernel for MollerTrumboreT {
             ends: Boundary::Open,
             ..Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed)
         },
-        gates: &[DIVIDED[0], DIVIDED[1], Gate::signed(Role::T, "!(t > e)", 1, -1)],
-        epsilon_sets: &[EpsilonSet { name: "source", values: &["1e-7", "0", "1e-7"] }],
+        gates: &[
+            DIVIDED[0],
+            DIVIDED[1],
+            Gate::signed(Role::T, "!(t > e)", 1, -1),
+        ],
+        epsilon_sets: &[EpsilonSet {
+            name: "source",
+            values: &["1e-7", "0", "1e-7"],
+        }],
         gives: GIVES,
         polygons: false,
     };
@@ -116,7 +141,12 @@ impl Kernel for MollerTrumboreCulling {
         contract: Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Closed),
         gates: &[
             Gate::signed(Role::Parallel, "det < e", 2, 1),
-            Gate::signed(Role::Edge, "u < e, det-u < e, v < e, det-(u+v) < e, undivided", 2, 1),
+            Gate::signed(
+                Role::Edge,
+                "u < e, det-u < e, v < e, det-(u+v) < e, undivided",
+                2,
+                1,
+            ),
         ],
         epsilon_sets: SETS,
         gives: GIVES,
@@ -128,7 +158,9 @@ impl Kernel for MollerTrumboreCulling {
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
         Triangle { a, b, c }: &Triangle<V>,
-        Ray { origin, direction, .. }: &Ray<V>,
+        Ray {
+            origin, direction, ..
+        }: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let [edge1, edge2] = [b.minus(a), c.minus(a)];

@@ -28,8 +28,14 @@ const GATES: &[Gate] = &[
 ];
 
 const SETS: &[EpsilonSet] = &[
-    EpsilonSet { name: "zero", values: &["0", "0", "0"] },
-    EpsilonSet { name: "1e-6", values: &["1e-6", "0", "0"] },
+    EpsilonSet {
+        name: "zero",
+        values: &["0", "0", "0"],
+    },
+    EpsilonSet {
+        name: "1e-6",
+        values: &["1e-6", "0", "0"],
+    },
 ];
 
 /// The source, and which part of it.
@@ -50,7 +56,11 @@ const fn info(name: &'static str, source: &'static str) -> KernelInfo {
         contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed),
         gates: GATES,
         epsilon_sets: SETS,
-        gives: Gives { t: true, uv: false, facing: false },
+        gives: Gives {
+            t: true,
+            uv: false,
+            facing: false,
+        },
         polygons: false,
     }
 }
@@ -82,11 +92,19 @@ fn inside_out<V: Vector, S: Sink<V::Real>>(
     sink.one(T, Refuse::Below, &t)?;
     let p = ray.origin.clone().plus_scaled(&ray.direction, &t);
     for (i, from) in vertices.iter().enumerate() {
-        let to = if i + 1 < vertices.len() { &vertices[i + 1] } else { &vertices[0] };
+        let to = if i + 1 < vertices.len() {
+            &vertices[i + 1]
+        } else {
+            &vertices[0]
+        };
         let c = to.minus(from).cross(&p.minus(from));
         sink.one(EDGE, edge, &n.dot(&c))?;
     }
-    Some(Hit { t: Some(t), uv: None, facing: None })
+    Some(Hit {
+        t: Some(t),
+        uv: None,
+        facing: None,
+    })
 }
 
 impl Kernel for PlaneInsideOut {
@@ -123,7 +141,11 @@ impl Kernel for PlaneInsideOutPrecomputed {
     #[inline(always)]
     fn prepare<V: Vector>(triangle: &Triangle<V>) -> WithPlane<V> {
         let (n, d) = plane(&triangle.a, &triangle.b, &triangle.c);
-        WithPlane { vertices: triangle.clone().vertices(), n, d }
+        WithPlane {
+            vertices: triangle.clone().vertices(),
+            n,
+            d,
+        }
     }
 
     #[inline(always)]
@@ -144,8 +166,14 @@ impl Kernel for PlaneInsideOutStrict {
             Gate::signed(Role::T, "t < e", 1, -1),
             Gate::signed(Role::Edge, "!(N·((b-a)×(p-a)) > e), and cyclic", 4, 0),
         ],
-        epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
-        ..info("plane-inside-out-strict", scratchapixel!("pseudo-code with strict edges"))
+        epsilon_sets: &[EpsilonSet {
+            name: "source",
+            values: &["0", "0", "0"],
+        }],
+        ..info(
+            "plane-inside-out-strict",
+            scratchapixel!("pseudo-code with strict edges"),
+        )
     };
 
     stores_triangle!();
@@ -165,7 +193,10 @@ impl Kernel for PlaneInsideOutStrict {
 impl Kernel for ConvexPolygon {
     const INFO: KernelInfo = KernelInfo {
         polygons: true,
-        ..info("convex-polygon", scratchapixel!("last section: any convex polygon"))
+        ..info(
+            "convex-polygon",
+            scratchapixel!("last section: any convex polygon"),
+        )
     };
 
     stores_triangle!();

@@ -25,13 +25,28 @@ impl Kernel for PlaneUnitNormal {
         gates: &[
             Gate::non_negative(Role::Parallel, "abs(n·d) < e, n of unit length", 0, 1),
             Gate::signed(Role::T, "t < e", 1, -1),
-            Gate::signed(Role::Edge, "((b-a)×(q-a))·n < e, and cyclic, n of unit length", 2, 0),
+            Gate::signed(
+                Role::Edge,
+                "((b-a)×(q-a))·n < e, and cyclic, n of unit length",
+                2,
+                0,
+            ),
         ],
         epsilon_sets: &[
-            EpsilonSet { name: "zero", values: &["0", "0", "0"] },
-            EpsilonSet { name: "1e-6", values: &["1e-6", "1e-6", "1e-6"] },
+            EpsilonSet {
+                name: "zero",
+                values: &["0", "0", "0"],
+            },
+            EpsilonSet {
+                name: "1e-6",
+                values: &["1e-6", "1e-6", "1e-6"],
+            },
         ],
-        gives: Gives { t: true, uv: false, facing: false },
+        gives: Gives {
+            t: true,
+            uv: false,
+            facing: false,
+        },
         polygons: false,
     };
 
@@ -40,7 +55,11 @@ impl Kernel for PlaneUnitNormal {
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
         Triangle { a, b, c }: &Triangle<V>,
-        Ray { origin: p, direction: d, .. }: &Ray<V>,
+        Ray {
+            origin: p,
+            direction: d,
+            ..
+        }: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         use crate::arith::Real;
@@ -54,6 +73,10 @@ impl Kernel for PlaneUnitNormal {
             let value = to.minus(from).cross(&q.minus(from)).dot(&n);
             sink.one(EDGE, Refuse::Below, &value)?;
         }
-        Some(Hit { t: Some(t), uv: None, facing: None })
+        Some(Hit {
+            t: Some(t),
+            uv: None,
+            facing: None,
+        })
     }
 }

@@ -43,8 +43,15 @@ impl Kernel for Plucker {
             ),
             Gate::signed(Role::Parallel, "abs(den) <= e, den = 2*N·d", 2, 1),
         ],
-        epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
-        gives: Gives { t: true, uv: true, facing: true },
+        epsilon_sets: &[EpsilonSet {
+            name: "source",
+            values: &["0", "0", "0"],
+        }],
+        gives: Gives {
+            t: true,
+            uv: true,
+            facing: true,
+        },
         polygons: false,
     };
 
@@ -76,7 +83,11 @@ impl Kernel for Plucker {
         let twice_normal = normal.plus(&normal);
         let den = twice_normal.dot(direction);
         let t = v0.dot(&twice_normal);
-        let signed_t = if den.is_sign_negative() { -t.clone() } else { t.clone() };
+        let signed_t = if den.is_sign_negative() {
+            -t.clone()
+        } else {
+            t.clone()
+        };
         let abs_den = den.abs();
         // Multiplied whatever the ends are: `absDen*vfloat<M>(ray.tnear)`.
         let near = ray.t_min.clone() * &abs_den;

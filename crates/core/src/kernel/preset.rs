@@ -38,28 +38,51 @@ impl Preset {
         &'a self,
         gates: &'a [Gate],
     ) -> Result<impl Iterator<Item = Option<&'a PresetEntry>>, &'a PresetEntry> {
-        match self.entries.iter().find(|entry| !gates.iter().any(|gate| entry.fits(gate))) {
+        match self
+            .entries
+            .iter()
+            .find(|entry| !gates.iter().any(|gate| entry.fits(gate)))
+        {
             Some(left_over) => Err(left_over),
-            None => Ok(gates.iter().map(|gate| self.entries.iter().find(|entry| entry.fits(gate)))),
+            None => Ok(gates
+                .iter()
+                .map(|gate| self.entries.iter().find(|entry| entry.fits(gate)))),
         }
     }
 }
 
 const fn parallel(form: &'static str, value: &'static str) -> PresetEntry {
-    PresetEntry { gate: "parallel", dimension: Dimension::new(2, 1), form, value }
+    PresetEntry {
+        gate: "parallel",
+        dimension: Dimension::new(2, 1),
+        form,
+        value,
+    }
 }
 
 const fn t(form: &'static str, value: &'static str) -> PresetEntry {
-    PresetEntry { gate: "t", dimension: Dimension::new(1, -1), form, value }
+    PresetEntry {
+        gate: "t",
+        dimension: Dimension::new(1, -1),
+        form,
+        value,
+    }
 }
 
 /// One row per library.
 pub const PRESETS: &[Preset] = &[
-    Preset { name: "zero", source: "every gate at 0", entries: &[] },
+    Preset {
+        name: "zero",
+        source: "every gate at 0",
+        entries: &[],
+    },
     Preset {
         name: "bvh",
         source: "Rust crate bvh 0.13.0: det < EPSILON (absolute, culls), t <= EPSILON",
-        entries: &[parallel("det < EPSILON", "EPSILON"), t("t <= EPSILON", "EPSILON")],
+        entries: &[
+            parallel("det < EPSILON", "EPSILON"),
+            t("t <= EPSILON", "EPSILON"),
+        ],
     },
     Preset {
         name: "bevy",

@@ -77,7 +77,12 @@ impl Recording {
         quantities.sort_unstable();
         quantities.dedup();
         let decisions = decisions_so_far();
-        self.compared.push(Compared { gate, accepts, quantities, decisions });
+        self.compared.push(Compared {
+            gate,
+            accepts,
+            quantities,
+            decisions,
+        });
         (self.refused != Some(self.compared.len() - 1)).then_some(())
     }
 }
@@ -89,7 +94,9 @@ impl Sink<Recorded> for Recording {
         refuse: Refuse,
         clauses: [[&Recorded; N]; M],
     ) -> Option<()> {
-        let clauses = clauses.map(|clause| clause.map(Recorded::place).to_vec()).to_vec();
+        let clauses = clauses
+            .map(|clause| clause.map(Recorded::place).to_vec())
+            .to_vec();
         let quantities = clauses.concat();
         self.note(gate, Acceptance::Clauses(refuse, clauses), quantities)
     }
@@ -105,7 +112,9 @@ impl Sink<Recorded> for Recording {
         self.is_too_wide |= outcomes.is_none();
         let outcomes = outcomes.unwrap_or_default();
         let compared = outcomes.iter().flat_map(|outcome| &outcome.answers);
-        let quantities = compared.flat_map(|(comparison, _)| comparison.places()).collect();
+        let quantities = compared
+            .flat_map(|(comparison, _)| comparison.places())
+            .collect();
         self.note(gate, Acceptance::Rounded(outcomes), quantities)
     }
 
@@ -136,7 +145,15 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
         }
         let next = next_script(&decisions);
         let compared = sink.compared;
-        for (number, Compared { gate, decisions: before, .. }) in compared.iter().enumerate() {
+        for (
+            number,
+            Compared {
+                gate,
+                decisions: before,
+                ..
+            },
+        ) in compared.iter().enumerate()
+        {
             // Paths that begin alike come one after the other, and the gate refuses all of them alike.
             let decided = |path: &Path| path.decisions.get(..*before) == decisions.get(..*before);
             if paths.last().is_some_and(decided) {
@@ -171,7 +188,10 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
 /// Records a run: the gates' comparisons, of which one may refuse, and t, u and v if the run is a hit.
 fn run<K: Kernel>(refused: Option<usize>) -> (Recording, Option<[Option<Place>; 3]>) {
     let (ray, triangle) = lifted(|i| Recorded::input(i as u8));
-    let mut sink = Recording { refused, ..Recording::default() };
+    let mut sink = Recording {
+        refused,
+        ..Recording::default()
+    };
     let prepared = K::prepare(&triangle);
     sink.asked = asked_so_far();
     let hit = K::test(&prepared, &ray, &mut sink).map(|hit| {

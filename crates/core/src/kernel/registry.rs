@@ -22,7 +22,12 @@ pub struct Entry {
 impl Entry {
     /// A kernel that runs in no scalar yet: [`Entry::f32`] and [`Entry::f64`] give it its tests.
     pub const fn new(info: &'static KernelInfo) -> Entry {
-        Entry { info, flag: None, f32: None, f64: None }
+        Entry {
+            info,
+            flag: None,
+            f32: None,
+            f64: None,
+        }
     }
 
     /// A kernel written for every arithmetic: both scalars, margins and exact runs.
@@ -49,7 +54,11 @@ impl Entry {
     pub fn notes(&self) -> Vec<String> {
         let mut notes = self.f32.map_or(Vec::new(), |subject| subject.notes());
         let more = self.f64.map_or(Vec::new(), |subject| subject.notes());
-        notes.extend(more.into_iter().filter(|note| !notes.contains(note)).collect::<Vec<_>>());
+        notes.extend(
+            more.into_iter()
+                .filter(|note| !notes.contains(note))
+                .collect::<Vec<_>>(),
+        );
         notes
     }
 
@@ -61,17 +70,26 @@ impl Entry {
 
     /// The same with a subject in `f32`.
     pub const fn with_f32(self, subject: &'static dyn Subject<f32>) -> Entry {
-        Entry { f32: Some(subject), ..self }
+        Entry {
+            f32: Some(subject),
+            ..self
+        }
     }
 
     /// The same with a subject in `f64`.
     pub const fn with_f64(self, subject: &'static dyn Subject<f64>) -> Entry {
-        Entry { f64: Some(subject), ..self }
+        Entry {
+            f64: Some(subject),
+            ..self
+        }
     }
 
     /// The same, chosen on a command line by another flag than `--kernel` with its name.
     pub const fn chosen_by(self, flag: &'static str) -> Entry {
-        Entry { flag: Some(flag), ..self }
+        Entry {
+            flag: Some(flag),
+            ..self
+        }
     }
 
     /// True if it shows its gates: each one's margin on a case.
@@ -114,7 +132,8 @@ impl Entry {
 
     /// The flag that chooses it on a command line.
     pub fn selector(&self) -> String {
-        self.flag.map_or_else(|| format!("--kernel {}", self.info.name), str::to_owned)
+        self.flag
+            .map_or_else(|| format!("--kernel {}", self.info.name), str::to_owned)
     }
 }
 
@@ -172,29 +191,48 @@ pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'
         Some((Some(f32), Some(entry.f64?.in_arithmetic(arithmetic, info)?)))
     };
     let told = || Some((entry.info.contract, entry.info.gates));
-    variant(entry, (arithmetic.name(), arithmetic.describe()), told, subjects)
+    variant(
+        entry,
+        (arithmetic.name(), arithmetic.describe()),
+        told,
+        subjects,
+    )
 }
 
 /// The forms that a kernel has, as its name takes them after a `+`, each with its meaning.
 pub fn forms(entry: &'static Entry) -> Vec<(&'static str, &'static str)> {
     let arithmetics = Arithmetic::ALL.into_iter().skip(1);
     let arithmetics = arithmetics.filter(|it| in_arithmetic(entry, *it).is_some());
-    let changes = Change::ALL.into_iter().filter(|it| changed(entry, *it).is_some());
+    let changes = Change::ALL
+        .into_iter()
+        .filter(|it| changed(entry, *it).is_some());
     let changes = changes.map(|it| (it.name(), it.about()));
-    arithmetics.map(|it| (it.name(), it.describe())).chain(changes).collect()
+    arithmetics
+        .map(|it| (it.name(), it.describe()))
+        .chain(changes)
+        .collect()
 }
 
 /// A kernel with a change around it, called `NAME+CHANGE`; none if that would change nothing, or it is in
 /// another form already.
 pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> {
-    let KernelInfo { contract, gates, gives, .. } = *entry.info;
+    let KernelInfo {
+        contract,
+        gates,
+        gives,
+        ..
+    } = *entry.info;
     let told = || match change {
         Change::BySize if gates.iter().any(has_size) => Some((contract, sized(gates))),
         // A front-only kernel would see some triangles from behind.
         Change::Sorted if contract.sides == Sides::Both => Some((contract, gates)),
-        Change::Ahead if contract.extent == Extent::Line && gives.t => {
-            Some((Contract { extent: Extent::Ray, ..contract }, gates))
-        }
+        Change::Ahead if contract.extent == Extent::Line && gives.t => Some((
+            Contract {
+                extent: Extent::Ray,
+                ..contract
+            },
+            gates,
+        )),
         Change::Double if entry.f32.is_some() => Some((contract, gates)),
         Change::Fallback if gates.iter().any(|gate| gate.role == Role::Edge) => {
             Some((contract, gates))
@@ -206,7 +244,11 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
         gates: &'static [Gate],
         kernel: &'static dyn Subject<F>,
     ) -> &'static dyn Subject<F> {
-        Box::leak(Box::new(Changed { change, gates, kernel }))
+        Box::leak(Box::new(Changed {
+            change,
+            gates,
+            kernel,
+        }))
     }
     let subjects = |_| match change {
         Change::Double => {
@@ -215,7 +257,11 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
         }
         Change::Fallback => {
             let (kernel, in_double) = (entry.f32?, InDouble(entry.f64?));
-            let fallback = WithFallback { kernel, gated: kernel.gated()?, in_double };
+            let fallback = WithFallback {
+                kernel,
+                gated: kernel.gated()?,
+                in_double,
+            };
             let fallback: &'static dyn Subject<f32> = Box::leak(Box::new(fallback));
             Some((Some(fallback), None))
         }
@@ -228,7 +274,10 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
 }
 
 /// The same kernel in both scalars, in another form.
-type Subjects = (Option<&'static dyn Subject<f32>>, Option<&'static dyn Subject<f64>>);
+type Subjects = (
+    Option<&'static dyn Subject<f32>>,
+    Option<&'static dyn Subject<f64>>,
+);
 
 /// Another form of a kernel, made once; none of one that is in another form already.
 fn variant(
@@ -256,7 +305,12 @@ fn variant(
         ..*base
     }));
     let (f32, f64) = subjects(info)?;
-    let variant: &'static Entry = Box::leak(Box::new(Entry { info, flag: None, f32, f64 }));
+    let variant: &'static Entry = Box::leak(Box::new(Entry {
+        info,
+        flag: None,
+        f32,
+        f64,
+    }));
     variants.push(variant);
     Some(variant)
 }
@@ -282,7 +336,11 @@ static KEPT: Mutex<Vec<&'static Entry>> = Mutex::new(Vec::new());
 /// Keeps an entry for the rest of the process; the same entry is kept once.
 pub fn kept(entry: &Entry) -> &'static Entry {
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(known) = all().into_iter().chain(kept.iter().copied()).find(|e| e.is(entry)) {
+    if let Some(known) = all()
+        .into_iter()
+        .chain(kept.iter().copied())
+        .find(|e| e.is(entry))
+    {
         return known;
     }
     let entry = Box::leak(Box::new(*entry));
@@ -313,7 +371,9 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
             KernelForm::With(_) => "a changed kernel",
         };
         let form = &name[kernel.len()..];
-        return Err(format!("'{name}' is no name for a kernel: {form} names {form_of}"));
+        return Err(format!(
+            "'{name}' is no name for a kernel: {form} names {form_of}"
+        ));
     }
     if find(name).is_some() {
         return Err(format!(
@@ -322,7 +382,10 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
         ));
     }
     let entry: &'static Entry = Box::leak(Box::new(entry));
-    ADDED.write().unwrap_or_else(PoisonError::into_inner).push(entry);
+    ADDED
+        .write()
+        .unwrap_or_else(PoisonError::into_inner)
+        .push(entry);
     Ok(entry)
 }
 
@@ -337,8 +400,14 @@ pub fn find(name: &str) -> Option<&'static Entry> {
         };
     }
     let is_named = |entry: &&'static Entry| entry.info.name == name;
-    let added =
-        || ADDED.read().unwrap_or_else(PoisonError::into_inner).iter().copied().find(is_named);
+    let added = || {
+        ADDED
+            .read()
+            .unwrap_or_else(PoisonError::into_inner)
+            .iter()
+            .copied()
+            .find(is_named)
+    };
     KERNELS.iter().find(is_named).or_else(added)
 }
 
@@ -367,10 +436,19 @@ mod tests {
     #[test]
     fn names_are_unique_and_each_set_has_one_epsilon_a_gate() {
         for (i, entry) in KERNELS.iter().enumerate() {
-            assert!(KERNELS[..i].iter().all(|other| other.info.name != entry.info.name));
+            assert!(
+                KERNELS[..i]
+                    .iter()
+                    .all(|other| other.info.name != entry.info.name)
+            );
             assert!(!entry.info.epsilon_sets.is_empty());
             for set in entry.info.epsilon_sets {
-                assert_eq!(set.values.len(), entry.info.gates.len(), "{}", entry.info.name);
+                assert_eq!(
+                    set.values.len(),
+                    entry.info.gates.len(),
+                    "{}",
+                    entry.info.name
+                );
             }
         }
     }

@@ -37,8 +37,14 @@ impl ExactRun {
     }
 
     pub(super) fn of<R: Real>(passed: Vec<bool>, values: Option<Hit<R>>) -> ExactRun {
-        let finite = values.as_ref().is_some_and(|hit| hit.numbers().all(R::is_finite));
-        ExactRun { passed, finite, facing: values.and_then(|hit| hit.facing) }
+        let finite = values
+            .as_ref()
+            .is_some_and(|hit| hit.numbers().all(R::is_finite));
+        ExactRun {
+            passed,
+            finite,
+            facing: values.and_then(|hit| hit.facing),
+        }
     }
 }
 
@@ -68,6 +74,10 @@ impl<F: Float> TrackedRun<F> {
         let numbers = hit.iter().flat_map(Hit::numbers);
         let values = numbers.fold(Exceptions::default(), |all, x| all.and(x.notes()));
         let verdict = Verdict::of(hit.map(|hit| hit.map(|x| x.value())), sink.refused_by);
-        TrackedRun { verdict, decision, values }
+        TrackedRun {
+            verdict,
+            decision,
+            values,
+        }
     }
 }

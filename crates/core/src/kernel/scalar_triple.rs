@@ -31,18 +31,32 @@ macro_rules! lelievre {
 
 const fn info(name: &'static str, source: &'static str, two_sided: bool) -> KernelInfo {
     const ONE_SIDED: &[Gate] = &[Gate::signed(Role::Edge, "u < e, v < e, w < e", 2, 1)];
-    const TWO_SIDED: &[Gate] =
-        &[Gate::signed(Role::Edge, "!(both > e or both < -e) for (u, v) and (u, w)", 2, 1)];
-    let (sides, boundary) =
-        if two_sided { (Sides::Both, Boundary::Open) } else { (Sides::Front, Boundary::Closed) };
+    const TWO_SIDED: &[Gate] = &[Gate::signed(
+        Role::Edge,
+        "!(both > e or both < -e) for (u, v) and (u, w)",
+        2,
+        1,
+    )];
+    let (sides, boundary) = if two_sided {
+        (Sides::Both, Boundary::Open)
+    } else {
+        (Sides::Front, Boundary::Closed)
+    };
     KernelInfo {
         name,
         source,
         contract: Contract::of_kernel(Extent::Line, sides, boundary)
             .with_flat(Demand::Free, Demand::Free),
         gates: if two_sided { TWO_SIDED } else { ONE_SIDED },
-        epsilon_sets: &[EpsilonSet { name: "source", values: &["0"] }],
-        gives: Gives { t: false, uv: true, facing: false },
+        epsilon_sets: &[EpsilonSet {
+            name: "source",
+            values: &["0"],
+        }],
+        gives: Gives {
+            t: false,
+            uv: true,
+            facing: false,
+        },
         polygons: false,
     }
 }
@@ -57,7 +71,11 @@ fn scalar_triple<V: Vector>(a: &V, b: &V, c: &V) -> V::Real {
 #[inline(always)]
 fn weights<R: Real>(u: R, v: R, w: R) -> Option<Hit<R>> {
     let scale = R::one() / (u + &v + &w);
-    Some(Hit { t: None, uv: Some((v * &scale, w * &scale)), facing: None })
+    Some(Hit {
+        t: None,
+        uv: Some((v * &scale, w * &scale)),
+        facing: None,
+    })
 }
 
 impl Kernel for ScalarTriple {
@@ -68,7 +86,11 @@ impl Kernel for ScalarTriple {
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
         Triangle { a, b, c }: &Triangle<V>,
-        Ray { origin: p, direction: d, .. }: &Ray<V>,
+        Ray {
+            origin: p,
+            direction: d,
+            ..
+        }: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let [pa, pb, pc] = [a.minus(p), b.minus(p), c.minus(p)];
@@ -83,15 +105,22 @@ impl Kernel for ScalarTriple {
 }
 
 impl Kernel for ScalarTripleShared {
-    const INFO: KernelInfo =
-        info("scalar-triple-shared", lelievre!("second listing (one shared cross product)"), false);
+    const INFO: KernelInfo = info(
+        "scalar-triple-shared",
+        lelievre!("second listing (one shared cross product)"),
+        false,
+    );
 
     stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
         Triangle { a, b, c }: &Triangle<V>,
-        Ray { origin: p, direction: d, .. }: &Ray<V>,
+        Ray {
+            origin: p,
+            direction: d,
+            ..
+        }: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let [pa, pb, pc] = [a.minus(p), b.minus(p), c.minus(p)];
@@ -107,15 +136,22 @@ impl Kernel for ScalarTripleShared {
 }
 
 impl Kernel for ScalarTripleTwoSided {
-    const INFO: KernelInfo =
-        info("scalar-triple-two-sided", lelievre!("listing with SameSign"), true);
+    const INFO: KernelInfo = info(
+        "scalar-triple-two-sided",
+        lelievre!("listing with SameSign"),
+        true,
+    );
 
     stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
         Triangle { a, b, c }: &Triangle<V>,
-        Ray { origin: p, direction: d, .. }: &Ray<V>,
+        Ray {
+            origin: p,
+            direction: d,
+            ..
+        }: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let [pa, pb, pc] = [a.minus(p), b.minus(p), c.minus(p)];
@@ -123,9 +159,17 @@ impl Kernel for ScalarTripleTwoSided {
         let u = pb.dot(&m);
         let v = -pa.dot(&m);
         let minus_u = -u.clone();
-        sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &v], [&minus_u, &-v.clone()]])?;
+        sink.gate(
+            EDGE,
+            Refuse::UnlessAbove,
+            [[&u, &v], [&minus_u, &-v.clone()]],
+        )?;
         let w = scalar_triple(d, &pb, &pa);
-        sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &w], [&minus_u, &-w.clone()]])?;
+        sink.gate(
+            EDGE,
+            Refuse::UnlessAbove,
+            [[&u, &w], [&minus_u, &-w.clone()]],
+        )?;
         weights(u, v, w)
     }
 }

@@ -57,7 +57,10 @@ impl<K: Kernel> Generic<K> {
     }
 
     fn numbers<F: Float>(&self, values: &[F]) -> Vec<Emulated<F>> {
-        values.iter().map(|x| Emulated::new(*x, self.arithmetic)).collect()
+        values
+            .iter()
+            .map(|x| Emulated::new(*x, self.arithmetic))
+            .collect()
     }
 
     /// [`Subject::run`](super::Subject::run).
@@ -85,12 +88,18 @@ impl<K: Kernel> Generic<K> {
         // A case has room for a ray and three vertices.
         let lifted = |vertex: &F::Vector| {
             let triangle = Triangle::new(*vertex, *vertex, *vertex);
-            self.emulated(&Case { ray: *ray, triangle })
+            self.emulated(&Case {
+                ray: *ray,
+                triangle,
+            })
         };
         let Some(Lifted { ray, .. }) = vertices.first().map(lifted) else {
             return Verdict::miss(None);
         };
-        let vertices: Vec<_> = vertices.iter().map(|vertex| lifted(vertex).triangle.a).collect();
+        let vertices: Vec<_> = vertices
+            .iter()
+            .map(|vertex| lifted(vertex).triangle.a)
+            .collect();
         let epsilons = self.numbers(epsilons);
         let mut sink = Deciding::new(&epsilons);
         let hit = K::test_polygon(&vertices, &ray, &mut sink);
@@ -112,7 +121,11 @@ impl<K: Kernel> Generic<K> {
         let values = self.emulated(case).test::<K>(&mut Either::Other(&mut sink));
         for (place, number) in margins.iter_mut().zip(&emulated) {
             let margin = number.value();
-            *place = if thresholds { margin } else { self.arithmetic.largest_epsilon(margin) };
+            *place = if thresholds {
+                margin
+            } else {
+                self.arithmetic.largest_epsilon(margin)
+            };
         }
         values.map(|hit| hit.map(|x| x.value()))
     }

@@ -135,7 +135,9 @@ pub fn verdicts_of<F: Float>(
     verdicts: &mut [Verdict<F>],
 ) -> Option<u64> {
     let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
-        catch_unwind(AssertUnwindSafe(|| subject.run_timed(cases, epsilons, verdicts)))
+        catch_unwind(AssertUnwindSafe(|| {
+            subject.run_timed(cases, epsilons, verdicts)
+        }))
     };
     if let Ok(took) = run(cases, verdicts) {
         return took;
@@ -202,7 +204,10 @@ pub(super) struct Own<T> {
 
 impl<T> Own<T> {
     pub fn new(test: T) -> Own<T> {
-        Own { test, without_margins: AtomicU64::new(0) }
+        Own {
+            test,
+            without_margins: AtomicU64::new(0),
+        }
     }
 }
 
@@ -223,8 +228,11 @@ impl<F: Float, T: Test<F>> Subject<F> for Own<T> {
     ) {
         margins_by_running(self, info, cases, margins, values);
         let rows = margins.chunks(info.gates.len().max(1));
-        let panicked = rows.filter(|row| row.iter().any(|margin| margin.is_nan())).count();
-        self.without_margins.fetch_add(panicked as u64, Ordering::Relaxed);
+        let panicked = rows
+            .filter(|row| row.iter().any(|margin| margin.is_nan()))
+            .count();
+        self.without_margins
+            .fetch_add(panicked as u64, Ordering::Relaxed);
     }
 
     fn notes(&self) -> Vec<String> {
@@ -257,7 +265,10 @@ mod tests {
         }];
         const INFO: KernelInfo = KernelInfo {
             gates: GATES,
-            epsilon_sets: &[EpsilonSet { name: "own", values: &["0"] }],
+            epsilon_sets: &[EpsilonSet {
+                name: "own",
+                values: &["0"],
+            }],
             ..KernelInfo::own("panics", Contract::CLOSED_RAY)
         };
         let entry = Entry::new(&INFO).f32(|case: &Case<f32>, epsilons: &[f32]| {
@@ -267,7 +278,9 @@ mod tests {
         let cases: Vec<Case<f32>> = hard_cases(1, 50);
         assert_eq!(entry.notes(), [""; 0]);
         let mut margins = vec![0.0; cases.len()];
-        f32::subject(&entry).unwrap().margins(&INFO, &cases, &mut margins, &mut []);
+        f32::subject(&entry)
+            .unwrap()
+            .margins(&INFO, &cases, &mut margins, &mut []);
         let panicked = cases.iter().filter(|case| case.ray.origin.x <= 0.0).count();
         assert!(5 < panicked && panicked < 45);
         assert!(

@@ -76,12 +76,23 @@ impl<F: Float> Verdict<F> {
     /// A miss at a gate.
     pub fn miss(refused_by: Option<u8>) -> Self {
         let nan = F::from_f64(f64::NAN);
-        Verdict { hit: false, refused_by, facing: None, t: nan, u: nan, v: nan, failure: None }
+        Verdict {
+            hit: false,
+            refused_by,
+            facing: None,
+            t: nan,
+            u: nan,
+            v: nan,
+            failure: None,
+        }
     }
 
     /// No verdict: the kernel failed.
     pub fn failed(failure: Failure) -> Self {
-        Verdict { failure: Some(failure), ..Verdict::miss(None) }
+        Verdict {
+            failure: Some(failure),
+            ..Verdict::miss(None)
+        }
     }
 
     /// The verdict that follows from a kernel's result and the gate at which it stopped.
@@ -93,7 +104,15 @@ impl<F: Float> Verdict<F> {
                 let nan = F::from_f64(f64::NAN);
                 let (u, v) = uv.unwrap_or((nan, nan));
                 let t = t.unwrap_or(nan);
-                Verdict { hit: true, refused_by: None, facing, t, u, v, failure: None }
+                Verdict {
+                    hit: true,
+                    refused_by: None,
+                    facing,
+                    t,
+                    u,
+                    v,
+                    failure: None,
+                }
             }
         }
     }

@@ -42,8 +42,15 @@ impl Kernel for WoopWatertight {
                 -1,
             ),
         ],
-        epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
-        gives: Gives { t: true, uv: true, facing: false },
+        epsilon_sets: &[EpsilonSet {
+            name: "source",
+            values: &["0", "0", "0"],
+        }],
+        gives: Gives {
+            t: true,
+            uv: true,
+            facing: false,
+        },
         polygons: false,
     };
 
@@ -69,7 +76,12 @@ impl Kernel for WoopWatertight {
 
         let [a, b, c] =
             [&triangle.a, &triangle.b, &triangle.c].map(|vertex| vertex.minus(&ray.origin));
-        let sheared = |v: &V| (v.at(kx) - sx.clone() * v.at(kz), v.at(ky) - sy.clone() * v.at(kz));
+        let sheared = |v: &V| {
+            (
+                v.at(kx) - sx.clone() * v.at(kz),
+                v.at(ky) - sy.clone() * v.at(kz),
+            )
+        };
         let [(ax, ay), (bx, by), (cx, cy)] = [sheared(&a), sheared(&b), sheared(&c)];
 
         let mut u = cx.clone() * &by - cy.clone() * &bx;
@@ -95,10 +107,17 @@ impl Kernel for WoopWatertight {
         };
         // The appendix compares with 0 where t_min stands here, and multiplies hit.t. So an end of 0 is not
         // multiplied, and the comparison stays the appendix's.
-        let (near, far) = (end_times(&ray.t_min, &abs_det), ray.t_max.clone() * &abs_det);
+        let (near, far) = (
+            end_times(&ray.t_min, &abs_det),
+            ray.t_max.clone() * &abs_det,
+        );
         sink.one(T, Refuse::Below, &gap(&signed_t, &near))?;
         sink.one(T, Refuse::Below, &gap(&far, &signed_t))?;
         let rcp_det = V::Real::one() / &det;
-        Some(Hit { t: Some(t * &rcp_det), uv: Some((v * &rcp_det, w * &rcp_det)), facing: None })
+        Some(Hit {
+            t: Some(t * &rcp_det),
+            uv: Some((v * &rcp_det, w * &rcp_det)),
+            facing: None,
+        })
     }
 }

@@ -61,8 +61,16 @@ impl UnequalColumns {
     ) -> Result<(), UnequalColumns> {
         let mut lengths = lengths.peekable();
         let expected = lengths.peek().copied().unwrap_or(0);
-        match names.iter().zip(lengths).find(|(_, length)| *length != expected) {
-            Some((column, length)) => Err(UnequalColumns { column, length, expected }),
+        match names
+            .iter()
+            .zip(lengths)
+            .find(|(_, length)| *length != expected)
+        {
+            Some((column, length)) => Err(UnequalColumns {
+                column,
+                length,
+                expected,
+            }),
             None => Ok(()),
         }
     }
@@ -70,8 +78,15 @@ impl UnequalColumns {
 
 impl fmt::Display for UnequalColumns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let UnequalColumns { column, length, expected } = self;
-        write!(f, "column {column} has {length} cases, the first one {expected}")
+        let UnequalColumns {
+            column,
+            length,
+            expected,
+        } = self;
+        write!(
+            f,
+            "column {column} has {length} cases, the first one {expected}"
+        )
     }
 }
 
@@ -97,7 +112,11 @@ impl<F: Float> Batch<Vec<F>> {
 
     /// Forgets the cases and keeps the memory.
     pub fn clear(&mut self) {
-        self.vectors.as_flattened_mut().iter_mut().chain(&mut self.interval).for_each(Vec::clear);
+        self.vectors
+            .as_flattened_mut()
+            .iter_mut()
+            .chain(&mut self.interval)
+            .for_each(Vec::clear);
     }
 }
 
@@ -114,7 +133,10 @@ impl<F: Float, C: Deref<Target = [F]>> Batch<C> {
             "o.x", "o.y", "o.z", "d.x", "d.y", "d.z", "a.x", "a.y", "a.z", "b.x", "b.y", "b.z",
             "c.x", "c.y", "c.z", "t_min", "t_max",
         ];
-        let batch = Batch { vectors: [origin, direction, a, b, c], interval };
+        let batch = Batch {
+            vectors: [origin, direction, a, b, c],
+            interval,
+        };
         let columns = batch.vectors.as_flattened().iter().chain(&batch.interval);
         UnequalColumns::check(&NAMES, columns.map(|column| column.len()))?;
         Ok(batch)
@@ -132,8 +154,10 @@ impl<F: Float, C: Deref<Target = [F]>> Batch<C> {
 
     /// A case; panics if there are no more than `index`.
     pub fn case(&self, index: usize) -> Case<F> {
-        let [o, d, vertices @ ..] =
-            self.vectors.each_ref().map(|columns| columns.each_ref().map(|c| c[index]));
+        let [o, d, vertices @ ..] = self
+            .vectors
+            .each_ref()
+            .map(|columns| columns.each_ref().map(|c| c[index]));
         Case::new(o, d, vertices).on(self.interval[0][index], self.interval[1][index])
     }
 
@@ -230,11 +254,16 @@ impl<F: Float, C: Deref<Target = [F]>> StoredCases<F> for Batch<C> {
     }
     #[inline(always)]
     fn codes(&self, group: usize) -> [SignCode; GROUP] {
-        let [o, d, a, b, c] =
-            self.vectors.each_ref().map(|v| v.each_ref().map(|column| part(column, group)));
+        let [o, d, a, b, c] = self
+            .vectors
+            .each_ref()
+            .map(|v| v.each_ref().map(|column| part(column, group)));
         let at = |[x, y, z]: [&[F; GROUP]; 3], k: usize| [x[k], y[k], z[k]];
         let vectors = |k| [at(o, k), at(d, k), at(a, k), at(b, k), at(c, k)];
-        codes_of(vectors, self.interval.each_ref().map(|column| part(column, group)))
+        codes_of(
+            vectors,
+            self.interval.each_ref().map(|column| part(column, group)),
+        )
     }
 }
 
@@ -258,7 +287,10 @@ impl<F: Float> StoredCases<F> for RowBatch<'_, F> {
     fn codes(&self, group: usize) -> [SignCode; GROUP] {
         let [o, d, a, b, c] = self.vectors.each_ref().map(|rows| part(rows, group));
         let vectors = |k: usize| [o[k], d[k], a[k], b[k], c[k]];
-        codes_of(vectors, self.interval.each_ref().map(|column| part(column, group)))
+        codes_of(
+            vectors,
+            self.interval.each_ref().map(|column| part(column, group)),
+        )
     }
 }
 
@@ -306,7 +338,10 @@ fn decide_groups<F: Float>(
     let groups = count / GROUP;
     for group in 0..groups {
         let codes = cases.codes(group);
-        codes.into_iter().enumerate().for_each(|(k, code)| take(code, group * GROUP + k));
+        codes
+            .into_iter()
+            .enumerate()
+            .for_each(|(k, code)| take(code, group * GROUP + k));
     }
     for index in groups * GROUP..count {
         let (vectors, ends) = widened(&cases.get(index));

@@ -10,8 +10,11 @@ use crate::truth::{Contact, ContactKind, Feature};
 use std::cmp::Ordering;
 
 const VERTICES: [Feature; 3] = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
-const EDGES: [(Feature, usize, usize); 3] =
-    [(Feature::EdgeAb, 0, 1), (Feature::EdgeBc, 1, 2), (Feature::EdgeCa, 2, 0)];
+const EDGES: [(Feature, usize, usize); 3] = [
+    (Feature::EdgeAb, 0, 1),
+    (Feature::EdgeBc, 1, 2),
+    (Feature::EdgeCa, 2, 0),
+];
 
 /// A point of the line: its t (up to the common power of two) as a fraction with a positive
 /// denominator, and the feature it lies on.
@@ -24,9 +27,17 @@ struct Touch<I> {
 impl<I: Integer> Touch<I> {
     fn new(numerator: I, denominator: I, feature: Feature) -> Touch<I> {
         if denominator.sign() == Ordering::Less {
-            return Touch { numerator: -numerator, denominator: -denominator, feature };
+            return Touch {
+                numerator: -numerator,
+                denominator: -denominator,
+                feature,
+            };
         }
-        Touch { numerator, denominator, feature }
+        Touch {
+            numerator,
+            denominator,
+            feature,
+        }
     }
 
     fn compare(&self, other: &Touch<I>) -> Ordering {
@@ -50,7 +61,11 @@ pub(super) fn decide<I: Integer>(
     let offsets = r.map(|r| cross(d, r));
     let touches = touches(d, r, &offsets, n);
     let Some(mut first) = touches.iter().flatten().next() else {
-        return Contact { kind: ContactKind::None, meets_ray: false, meets_line: false };
+        return Contact {
+            kind: ContactKind::None,
+            meets_ray: false,
+            meets_line: false,
+        };
     };
     let mut last = first;
     for touch in touches.iter().flatten().skip(1) {
@@ -79,7 +94,11 @@ pub(super) fn decide<I: Integer>(
         _ => ContactKind::Segment,
     };
     let meets_ray = last.numerator.sign() != Ordering::Less;
-    Contact { kind, meets_ray, meets_line: true }
+    Contact {
+        kind,
+        meets_ray,
+        meets_line: true,
+    }
 }
 
 /// The feature of the line's point that touches are compared with: that of the first touch there
@@ -92,7 +111,10 @@ fn feature_at<I>(touches: &Touches<I>, compare: impl Fn(&Touch<I>) -> Ordering) 
     }
     let side = |vertex: usize| touches[vertex].as_ref().map(&compare);
     let holds = |(_, i, j): &&(Feature, usize, usize)| matches!((side(*i), side(*j)), (Some(x), Some(y)) if x != y);
-    EDGES.iter().find(holds).map_or(Feature::Interior, |(edge, ..)| *edge)
+    EDGES
+        .iter()
+        .find(holds)
+        .map_or(Feature::Interior, |(edge, ..)| *edge)
 }
 
 /// The vertices on the line, then the crossings of the line with open edges.
@@ -105,7 +127,9 @@ fn touches<I: Integer>(
     n: &IntegerVector<I>,
 ) -> Touches<I> {
     // t of a point of the line is r_m / d_m for any m with d_m ≠ 0.
-    let m = (0..3).find(|&m| !d[m].is_zero()).expect("a direction that is not zero");
+    let m = (0..3)
+        .find(|&m| !d[m].is_zero())
+        .expect("a direction that is not zero");
     let has_area = !n.iter().all(ExactInteger::is_zero);
     // In a plane one component of the offsets tells all; without one that differs, all vertices are
     // equally far from the line.
@@ -135,7 +159,14 @@ fn touches<I: Integer>(
             Touch::new(numerator, (y.clone() - x) * &d[m], edge)
         })
     };
-    [vertex(0), vertex(1), vertex(2), edge(EDGES[0]), edge(EDGES[1]), edge(EDGES[2])]
+    [
+        vertex(0),
+        vertex(1),
+        vertex(2),
+        edge(EDGES[0]),
+        edge(EDGES[1]),
+        edge(EDGES[2]),
+    ]
 }
 
 #[cfg(test)]

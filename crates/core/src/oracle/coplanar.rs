@@ -13,8 +13,12 @@ pub(super) fn coplanar_contact<W: Width>(
     vertices: [[i64; 3]; 3],
     n: [W::Minor; 3],
 ) -> Contact {
-    let k = (0..3).find(|&k| !n[k].is_zero()).expect("a triangle with area");
-    let m = (0..3).find(|&m| d[m] != 0).expect("a direction that is not zero");
+    let k = (0..3)
+        .find(|&k| !n[k].is_zero())
+        .expect("a triangle with area");
+    let m = (0..3)
+        .find(|&m| d[m] != 0)
+        .expect("a direction that is not zero");
     // The side of the line that each vertex is on: component k of d × vertex.
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
     let side = vertices.map(|v| W::product(d[i], v[j]) - W::product(d[j], v[i]));
@@ -47,8 +51,15 @@ struct MetBoundary {
 const MET: [MetBoundary; 27] = {
     const VERTICES: [Feature; 3] = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
     const EDGES: [Feature; 3] = [Feature::EdgeAb, Feature::EdgeBc, Feature::EdgeCa];
-    let none = Contact { kind: ContactKind::None, meets_ray: false, meets_line: false };
-    let mut all = [MetBoundary { between: [(0, 0); 2], contacts: [none; 9] }; 27];
+    let none = Contact {
+        kind: ContactKind::None,
+        meets_ray: false,
+        meets_line: false,
+    };
+    let mut all = [MetBoundary {
+        between: [(0, 0); 2],
+        contacts: [none; 9],
+    }; 27];
     let mut sides = 0;
     while sides < 27 {
         let side = [sides / 9, sides / 3 % 3, sides % 3];
@@ -77,7 +88,11 @@ const MET: [MetBoundary; 27] = {
                 point => ContactKind::Point(features[point - 1]),
             };
             let meets_ray = !matches!(kind, ContactKind::None);
-            met.contacts[t] = Contact { kind, meets_ray, meets_line: count > 0 };
+            met.contacts[t] = Contact {
+                kind,
+                meets_ray,
+                meets_line: count > 0,
+            };
             t += 1;
         }
         sides += 1;

@@ -36,14 +36,20 @@ struct Double {
 fn two_sum(a: f64, b: f64) -> Double {
     let high = a + b;
     let part = high - a;
-    Double { high, low: (a - (high - part)) + (b - part) }
+    Double {
+        high,
+        low: (a - (high - part)) + (b - part),
+    }
 }
 
 /// Exact where |a| ≥ |b| (Dekker).
 #[inline(always)]
 fn fast_two_sum(a: f64, b: f64) -> Double {
     let high = a + b;
-    Double { high, low: b - (high - a) }
+    Double {
+        high,
+        low: b - (high - a),
+    }
 }
 
 /// Exact without overflow and underflow (Veltkamp's splitting, Dekker's product).
@@ -74,7 +80,10 @@ impl Sub for Double {
     type Output = Double;
     #[inline(always)]
     fn sub(self, other: Double) -> Double {
-        self + Double { high: -other.high, low: -other.low }
+        self + Double {
+            high: -other.high,
+            low: -other.low,
+        }
     }
 }
 
@@ -102,7 +111,10 @@ const UNDERFLOW: f64 = f64::from_bits((1023 - 700) << 52);
 /// rounding.
 fn double_double(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
     let rows = rows(determinant, case.vectors());
-    let largest = rows.as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let largest = rows
+        .as_flattened()
+        .iter()
+        .fold(0.0, |m: f64, x| m.max(x.abs()));
     if largest > LARGEST {
         return None;
     }
@@ -113,7 +125,10 @@ fn double_double(determinant: Determinant, case: &Case<f64>) -> Option<Ordering>
         Determinant::T => difference(first),
         _ => first.map(|high| Double { high, low: 0.0 }),
     };
-    let mut value = Double { high: 0.0, low: 0.0 };
+    let mut value = Double {
+        high: 0.0,
+        low: 0.0,
+    };
     let mut permanent = 0.0;
     for (factor, (j, k)) in first.into_iter().zip([(1, 2), (2, 0), (0, 1)]) {
         let (x, y) = (p[j] * q[k], p[k] * q[j]);
@@ -137,7 +152,10 @@ const ROBUST_RANGE: u64 = 250;
 fn robust_holds(points: &[FloatPoint]) -> bool {
     const LOW: f64 = f64::from_bits((1023 - ROBUST_RANGE) << 52);
     const HIGH: f64 = f64::from_bits((1023 + ROBUST_RANGE) << 52);
-    points.as_flattened().iter().all(|x| *x == 0.0 || (LOW..=HIGH).contains(&x.abs()))
+    points
+        .as_flattened()
+        .iter()
+        .all(|x| *x == 0.0 || (LOW..=HIGH).contains(&x.abs()))
 }
 
 /// The sign by `robust::orient3d`, where it is exact. It takes points; for d·(P×Q) the differences P
@@ -150,7 +168,10 @@ fn by_robust(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
         let [first, p, q, base] = rows;
         let exact = |x: FloatPoint| -> Option<FloatPoint> {
             let differences = [0, 1, 2].map(|i| two_sum(x[i], -base[i]));
-            differences.iter().all(|x| x.low == 0.0).then(|| differences.map(|x| x.high))
+            differences
+                .iter()
+                .all(|x| x.low == 0.0)
+                .then(|| differences.map(|x| x.high))
         };
         [first, exact(p)?, exact(q)?, [0.0; 3]]
     };
@@ -176,12 +197,19 @@ mod tests {
         let by = |v: [f64; 3]| v.map(|x| scale_by_power_of_two(x, scale));
         let lattice = draw.coin();
         let mut point = || -> [f64; 3] {
-            if lattice { draw.lattice_point(2).map(|x| x as f64) } else { draw.point::<f64>() }
+            if lattice {
+                draw.lattice_point(2).map(|x| x as f64)
+            } else {
+                draw.point::<f64>()
+            }
         };
         let [o, d, a, b, c] = std::array::from_fn(|_| point());
         let s = draw.unit();
-        let d =
-            if draw.coin() { std::array::from_fn(|i| a[i] + s * (b[i] - a[i]) - o[i]) } else { d };
+        let d = if draw.coin() {
+            std::array::from_fn(|i| a[i] + s * (b[i] - a[i]) - o[i])
+        } else {
+            d
+        };
         Case::new(by(o), by(d), [by(a), by(b), by(c)])
     }
 
@@ -225,7 +253,11 @@ mod tests {
                 let [o, a, b, c] = points.map(|p| p.map(|x| scale_by_power_of_two(x, scale)));
                 let case = Case::<f64>::new(o, [1.0, 0.0, 0.0], [a, b, c]);
                 if let Some(sign) = by_robust(Determinant::T, &case) {
-                    assert_eq!(sign, Scaled::new(&case).sign(Determinant::T), "2^{scale} {index}");
+                    assert_eq!(
+                        sign,
+                        Scaled::new(&case).sign(Determinant::T),
+                        "2^{scale} {index}"
+                    );
                 }
             }
         }
@@ -237,16 +269,27 @@ mod tests {
         let points = [[h, 0.0, 0.0], [0.0, h, 0.0], [0.0, 0.0, h], [0.0; 3]];
         assert!(!robust_holds(&points));
         let [a, b, c, d] = points.map(|[x, y, z]| Coord3D { x, y, z });
-        assert_eq!(orient3d(a, b, c, d), 0.0, "which is wrong: the determinant is positive");
+        assert_eq!(
+            orient3d(a, b, c, d),
+            0.0,
+            "which is wrong: the determinant is positive"
+        );
         let case = Case::<f64>::new([0.0; 3], [1.0, 0.0, 0.0], [points[0], points[1], points[2]]);
-        assert_eq!(sign(Determinant::T, &case, &case), (Ordering::Greater, Layer::Monomials));
+        assert_eq!(
+            sign(Determinant::T, &case, &case),
+            (Ordering::Greater, Layer::Monomials)
+        );
     }
 
     #[test]
     fn double_doubles_decide_above_their_bound_and_not_at_it() {
         // Weight 0 is d·(c×b): here d·x of c = (0, p, r) and b = (0, s, q), that is d (pq - rs).
         let decides = |d: f64, [p, q, r, s]: [f64; 4]| {
-            let case = Case::new([0.0; 3], [d, 0.0, 0.0], [[0.0; 3], [0.0, s, q], [0.0, p, r]]);
+            let case = Case::new(
+                [0.0; 3],
+                [d, 0.0, 0.0],
+                [[0.0; 3], [0.0, s, q], [0.0, p, r]],
+            );
             double_double(Determinant::Weight(0), &case)
         };
         let unit = [1.0, 1.0, 0.0, 0.0];
@@ -259,8 +302,12 @@ mod tests {
         assert_eq!(decides(most, unit), Some(Ordering::Greater));
         assert_eq!(decides(most.next_up(), unit), None);
         // (1 + k·2^-52)(1 - k·2^-52) - 1 = -k²·2^-104 against 2^-100 of a permanent of 2.
-        let near_zero =
-            |k: f64| decides(1.0, [1.0 + k * f64::EPSILON, 1.0 - k * f64::EPSILON, 1.0, 1.0]);
+        let near_zero = |k: f64| {
+            decides(
+                1.0,
+                [1.0 + k * f64::EPSILON, 1.0 - k * f64::EPSILON, 1.0, 1.0],
+            )
+        };
         assert_eq!(near_zero(5.0), None);
         assert_eq!(near_zero(6.0), Some(Ordering::Less));
     }
@@ -281,7 +328,11 @@ mod tests {
         let far = Case::<f64>::new([scale_by_power_of_two(1.0, -60); 3], [1.0, 2.0, 4.0], unit);
         for determinant in ALL {
             let is_exact = matches!(determinant, Determinant::T | Determinant::D);
-            assert_eq!(by_robust(determinant, &far).is_some(), is_exact, "{determinant:?}");
+            assert_eq!(
+                by_robust(determinant, &far).is_some(),
+                is_exact,
+                "{determinant:?}"
+            );
         }
     }
 
@@ -295,10 +346,17 @@ mod tests {
         for index in 0..1000 {
             let mut draw = Draw::new("parts", 1, index);
             let exponent = draw.integer(-20, 20) as i32;
-            let (a, b) = (draw.with_exponent::<f64>(exponent), draw.with_exponent::<f64>(0));
+            let (a, b) = (
+                draw.with_exponent::<f64>(exponent),
+                draw.with_exponent::<f64>(0),
+            );
             let parts = |double: Double| whole(double.high) + whole(double.low);
             assert_eq!(parts(two_sum(a, b)), whole(a) + whole(b), "{a:e} {b:e}");
-            assert_eq!(parts(two_product(a, b)) << 200, whole(a) * whole(b), "{a:e} {b:e}");
+            assert_eq!(
+                parts(two_product(a, b)) << 200,
+                whole(a) * whole(b),
+                "{a:e} {b:e}"
+            );
         }
     }
 }

@@ -57,15 +57,33 @@ pub(super) fn compute([o, direction, a, b, c]: [Floats; 5]) -> Computed {
     let (ab, ab_permanent) = cross(&a, &b);
     let t = dot(&a, &bc);
     let t_error = 16.0 * U * dot(&abs_a, &bc_permanent) + a_underflow;
-    let weights = [dot(&direction, &bc), dot(&direction, &ca), dot(&direction, &ab)];
-    let permanents =
-        [dot(&abs_d, &bc_permanent), dot(&abs_d, &ca_permanent), dot(&abs_d, &ab_permanent)];
+    let weights = [
+        dot(&direction, &bc),
+        dot(&direction, &ca),
+        dot(&direction, &ab),
+    ];
+    let permanents = [
+        dot(&abs_d, &bc_permanent),
+        dot(&abs_d, &ca_permanent),
+        dot(&abs_d, &ab_permanent),
+    ];
     let bound = |p: f64| 8.0 * U * p + d_underflow;
-    let weight_errors = [bound(permanents[0]), bound(permanents[1]), bound(permanents[2])];
+    let weight_errors = [
+        bound(permanents[0]),
+        bound(permanents[1]),
+        bound(permanents[2]),
+    ];
     let d = weights[0] + weights[1] + weights[2];
     let all = permanents[0] + permanents[1] + permanents[2];
     let d_error = 16.0 * U * all + 4.0 * d_underflow;
-    Computed { weights, weight_errors, t, t_error, d, d_error }
+    Computed {
+        weights,
+        weight_errors,
+        t,
+        t_error,
+        d,
+        d_error,
+    }
 }
 
 /// The signs that are known of a case. The bits are that t > 0, that the line meets the triangle, that D < 0, that the
@@ -97,8 +115,11 @@ impl SignCode {
     /// The truth of a certain case.
     const fn on(self, past_min: bool, before_max: bool) -> Truth {
         let SignCode(code) = self;
-        let (front, inside, positive) =
-            (code & FRONT != 0, code & INSIDE != 0, code & POSITIVE_T != 0);
+        let (front, inside, positive) = (
+            code & FRONT != 0,
+            code & INSIDE != 0,
+            code & POSITIVE_T != 0,
+        );
         DecidingSigns::certain(front, inside, positive, past_min, before_max)
     }
 }
@@ -190,7 +211,14 @@ fn cross(a: &Floats, b: &Floats) -> (Floats, Floats) {
     let (p0, q0) = (a[1] * b[2], a[2] * b[1]);
     let (p1, q1) = (a[2] * b[0], a[0] * b[2]);
     let (p2, q2) = (a[0] * b[1], a[1] * b[0]);
-    ([p0 - q0, p1 - q1, p2 - q2], [p0.abs() + q0.abs(), p1.abs() + q1.abs(), p2.abs() + q2.abs()])
+    (
+        [p0 - q0, p1 - q1, p2 - q2],
+        [
+            p0.abs() + q0.abs(),
+            p1.abs() + q1.abs(),
+            p2.abs() + q2.abs(),
+        ],
+    )
 }
 
 #[cfg(test)]

@@ -25,7 +25,11 @@ pub(super) fn decide<W: Width>(case: &Case<f64>) -> Option<Truth> {
     let (positions, p) = on_grid::<W, 12>(flat_positions)?;
     let (d, q) = on_grid::<W, 3>(d)?;
     let at = |k: usize| [positions[3 * k], positions[3 * k + 1], positions[3 * k + 2]];
-    let [a, b, c] = [minus(at(1), at(0)), minus(at(2), at(0)), minus(at(3), at(0))];
+    let [a, b, c] = [
+        minus(at(1), at(0)),
+        minus(at(2), at(0)),
+        minus(at(3), at(0)),
+    ];
     let (bc, ca, ab) = (cross::<W>(b, c), cross::<W>(c, a), cross::<W>(a, b));
     // (b-a)×(c-a), which is the sum of all three; that of two is (B-A)×C, no larger.
     let normal = [0, 1, 2].map(|i| bc[i] + ca[i] + ab[i]);
@@ -66,7 +70,11 @@ fn flat<W: Width>(
     }
     let [d, a, b, c] = [d, vertices[0], vertices[1], vertices[2]].map(|v| v.map(W::Contact::from));
     let contact = contact::decide(interval, &d, [&a, &b, &c], &n.map(W::Contact::from));
-    if degenerate { Truth::Degenerate(contact) } else { Truth::Coplanar(contact) }
+    if degenerate {
+        Truth::Degenerate(contact)
+    } else {
+        Truth::Coplanar(contact)
+    }
 }
 
 /// Numbers, not all zero, as integers below 2^[`Width::BITS`] times a power of two, and its exponent.
@@ -149,7 +157,10 @@ mod tests {
             Some(([-(((1 << 53) - 1) << 8), 1], 0))
         );
         assert!(on_wide([1e300, 5e-324]).is_none(), "underflow is noticed");
-        assert_eq!(on_wide([0.0, 0.1]).unwrap().0, [0, (0.1f64 * 2f64.powi(64)) as i64]);
+        assert_eq!(
+            on_wide([0.0, 0.1]).unwrap().0,
+            [0, (0.1f64 * 2f64.powi(64)) as i64]
+        );
     }
 
     fn refuses_what_is_no_number<W: Width>() {
@@ -226,9 +237,16 @@ mod tests {
             };
             let (direction, step) = (of_edges(), of_edges());
             let from = draw.pick(&[a, c]);
-            let o = if draw.coin() { [0, 1, 2].map(|k| from[k] + step[k]) } else { any };
-            let direction =
-                if draw.coin() { direction } else { [0, 1, 2].map(|k| (a[k] + b[k]) / 2 - o[k]) };
+            let o = if draw.coin() {
+                [0, 1, 2].map(|k| from[k] + step[k])
+            } else {
+                any
+            };
+            let direction = if draw.coin() {
+                direction
+            } else {
+                [0, 1, 2].map(|k| (a[k] + b[k]) / 2 - o[k])
+            };
             let [o, d, a, b, c] = [o, direction, a, b, c].map(|v| v.map(|x| x as f64));
             let ends = [0.0, f64::INFINITY, 1.0, 0.5, -1.0, f64::NEG_INFINITY, 2.0];
             let case = Case::<f64>::new(o, d, [a, b, c]);
@@ -249,6 +267,9 @@ mod tests {
                 }
             }
         }
-        assert!(flat > 1000 && edges > 100 && others > 500, "{flat} {edges} {others}");
+        assert!(
+            flat > 1000 && edges > 100 && others > 500,
+            "{flat} {edges} {others}"
+        );
     }
 }

@@ -78,7 +78,11 @@ pub(super) struct RayInterval {
 impl RayInterval {
     /// With t = numerator / denominator * 2^exponent.
     pub fn new(case: &Case<f64>, exponent: i64) -> RayInterval {
-        RayInterval { t_min: case.ray.t_min, t_max: case.ray.t_max, exponent }
+        RayInterval {
+            t_min: case.ray.t_min,
+            t_max: case.ray.t_max,
+            exponent,
+        }
     }
 
     /// True if the interval is `[0, +inf]`.
@@ -109,7 +113,11 @@ impl RayInterval {
             return relative(numerator.sign());
         }
         if end.is_infinite() {
-            return if end > 0.0 { Ordering::Less } else { Ordering::Greater };
+            return if end > 0.0 {
+                Ordering::Less
+            } else {
+                Ordering::Greater
+            };
         }
         let (digits, exponent) = decompose(end);
         let (mut left, mut right) = (numerator.big(), denominator.big() * digits);
@@ -160,7 +168,10 @@ mod tests {
         // 3·2^exponent / -6 on [-4, -2].
         let order = |exponent: i64| {
             let interval = RayInterval::new(&case.on(-4.0, -2.0), exponent);
-            (interval.compare_start(&3i128, &-6), interval.compare_end(&3i128, &-6))
+            (
+                interval.compare_start(&3i128, &-6),
+                interval.compare_end(&3i128, &-6),
+            )
         };
         assert_eq!(order(1), (Ordering::Greater, Ordering::Greater));
         assert_eq!(order(2), (Ordering::Greater, Ordering::Equal));

@@ -126,7 +126,12 @@ pub fn exact_values<F: Float>(case: &Case<F>, truth: &Truth) -> ExactValues {
     match truth {
         Truth::Transversal(_) => {
             let [t, u, v] = Scaled::new(&case.widen()).crossing().map(Some);
-            ExactValues { t, u, v, contact_t: None }
+            ExactValues {
+                t,
+                u,
+                v,
+                contact_t: None,
+            }
         }
         Truth::Coplanar(_) | Truth::Degenerate(_) => define(case).exact,
         Truth::Parallel | Truth::Invalid => ExactValues::default(),
@@ -158,7 +163,10 @@ pub fn truths_of_rows<F: Float>(
     truths: &mut Vec<Truth>,
     layers: &mut Layers,
 ) -> Result<(), UnequalColumns> {
-    let lengths = vectors.map(<[_]>::len).into_iter().chain(interval.map(<[_]>::len));
+    let lengths = vectors
+        .map(<[_]>::len)
+        .into_iter()
+        .chain(interval.map(<[_]>::len));
     UnequalColumns::check(&["o", "d", "a", "b", "c", "t_min", "t_max"], lengths)?;
     batch::decide_all(&batch::RowBatch { vectors, interval }, truths, layers);
     Ok(())
@@ -177,8 +185,19 @@ pub fn truths_of_instance<F: Float>(
     truths.clear();
     truths.extend(cases.iter().map(Case::widen).map(|case| {
         let valid = is_finite && is_valid(&case);
-        let scaled = if valid { Scaled::of_instance(&case, matrix) } else { None };
-        layers.count(if scaled.is_some() { Layer::BigInteger } else { Layer::Invalid }, 1);
+        let scaled = if valid {
+            Scaled::of_instance(&case, matrix)
+        } else {
+            None
+        };
+        layers.count(
+            if scaled.is_some() {
+                Layer::BigInteger
+            } else {
+                Layer::Invalid
+            },
+            1,
+        );
         scaled.map_or(Truth::Invalid, |scaled| scaled.truth(&case))
     }));
 }

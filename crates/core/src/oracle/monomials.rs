@@ -57,8 +57,17 @@ fn multiplied_out<P: Copy, const N: usize>(
         let [by, minus] = [*by, -by].map(Extended::of);
         // (p-base)×(q-base) = p×q + q×base + base×p. Where base is subtracted from the first vector too,
         // base·(p×q) is subtracted: the other two are orthogonal to base.
-        let triples = [(first, p, q), (first, q, base), (first, base, p), (base, q, p)];
-        let triples = if *determinant == Determinant::T { &triples[..] } else { &triples[..3] };
+        let triples = [
+            (first, p, q),
+            (first, q, base),
+            (first, base, p),
+            (base, q, p),
+        ];
+        let triples = if *determinant == Determinant::T {
+            &triples[..]
+        } else {
+            &triples[..3]
+        };
         for (x, y, z) in triples {
             for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
                 products[count] = product([x[i], y[j], z[k], by]);
@@ -90,7 +99,10 @@ impl Extended {
     #[inline(always)]
     fn of(x: f64) -> Extended {
         if x == 0.0 {
-            return Extended { digits: 0.0, exponent: NO_EXPONENT };
+            return Extended {
+                digits: 0.0,
+                exponent: NO_EXPONENT,
+            };
         }
         let (normal, bias) = if x.abs() < f64::MIN_POSITIVE {
             (x * (1u64 << 60) as f64, 1023 + 60)
@@ -99,7 +111,10 @@ impl Extended {
         };
         let field = normal.to_bits() >> 52 & 0x7ff;
         let digits = f64::from_bits(normal.to_bits() & !(0x7ff << 52) | 1023 << 52);
-        Extended { digits, exponent: field as i32 - bias }
+        Extended {
+            digits,
+            exponent: field as i32 - bias,
+        }
     }
 
     #[inline(always)]
@@ -124,14 +139,20 @@ const ERROR: f64 = f64::from_bits((1023 - 47) << 52);
 /// off by at most ((1+u)^44 - 1)/(1-u)^44·P < 45u·P. Products left out add less than
 /// 42·16·2^-200, and P ≥ 1. The bound 64u·P = 2^-47·P covers all, its own rounding too.
 fn in_floats(products: &[Extended]) -> Option<Ordering> {
-    let largest = products.iter().fold(i32::MIN, |largest, x| largest.max(x.exponent));
+    let largest = products
+        .iter()
+        .fold(i32::MIN, |largest, x| largest.max(x.exponent));
     if largest < NO_EXPONENT / 2 {
         return Some(Ordering::Equal);
     }
     let (mut sum, mut permanent) = (0.0, 0.0);
     for &Extended { digits, exponent } in products {
         let below = largest - exponent;
-        let scale = if below > REACH { 0.0 } else { f64::from_bits(((1023 - below) as u64) << 52) };
+        let scale = if below > REACH {
+            0.0
+        } else {
+            f64::from_bits(((1023 - below) as u64) << 52)
+        };
         sum += digits * scale;
         permanent += (digits * scale).abs();
     }
@@ -193,7 +214,11 @@ mod tests {
             for determinant in ALL {
                 let expected = expected.sign(determinant);
                 let sum = [(determinant, 1.0)];
-                assert_eq!(exactly::<24>(&sum, &case), expected, "{determinant:?} {case:?}");
+                assert_eq!(
+                    exactly::<24>(&sum, &case),
+                    expected,
+                    "{determinant:?} {case:?}"
+                );
                 match floats::<24>(&sum, &case) {
                     Some(sign) => {
                         decided += 1;
@@ -203,7 +228,10 @@ mod tests {
                 }
             }
         }
-        assert!(decided > 60_000 && handed_on > 1000, "{decided} {handed_on}");
+        assert!(
+            decided > 60_000 && handed_on > 1000,
+            "{decided} {handed_on}"
+        );
     }
 
     #[test]
@@ -211,20 +239,32 @@ mod tests {
         let (mut signs, mut decided, mut handed_on) = ([0; 3], 0, 0);
         for index in 0..20_000 {
             let mut draw = Draw::new("ends", 1, index);
-            let case = if draw.coin() { case(&mut draw) } else { small_integers(&mut draw) };
+            let case = if draw.coin() {
+                case(&mut draw)
+            } else {
+                small_integers(&mut draw)
+            };
             let capital_d = Scaled::new(&case).sign(Determinant::D);
             if capital_d == Ordering::Equal {
                 continue;
             }
             let [t, ..] = Scaled::new(&case).crossing();
             let near = t.to_f64().expect("a fraction");
-            let end = if draw.below(8) == 0 { draw.symmetric() } else { near };
+            let end = if draw.below(8) == 0 {
+                draw.symmetric()
+            } else {
+                near
+            };
             let end = end.offset_ulps(draw.pick(&[0, 0, 0, 1, -1]));
             if !end.is_finite() || end == 0.0 {
                 continue;
             }
             let exact = t.cmp(&BigRational::from_float(end).expect("finite"));
-            let expected = if capital_d == Ordering::Less { exact.reverse() } else { exact };
+            let expected = if capital_d == Ordering::Less {
+                exact.reverse()
+            } else {
+                exact
+            };
             let sum = [(Determinant::T, 1.0), (Determinant::D, -end)];
             assert_eq!(compare_with_end(end, &case), expected, "{end:e} {case:?}");
             assert_eq!(exactly::<42>(&sum, &case), expected, "{end:e} {case:?}");
@@ -259,10 +299,19 @@ mod tests {
             floats::<24>(&[(Determinant::Weight(0), 1.0)], &case)
         };
         assert_eq!(sign_of(2f64.powi(-47)), None);
-        assert_eq!(sign_of(2f64.powi(-47) + f64::EPSILON), Some(Ordering::Greater));
+        assert_eq!(
+            sign_of(2f64.powi(-47) + f64::EPSILON),
+            Some(Ordering::Greater)
+        );
         // Every product has a factor of zero, however large the other two.
-        let zero =
-            Case::<f64>::new([0.0; 3], [1.0; 3], [[0.0; 3], [1e300; 3], [-1e300, 1e300, 1e300]]);
-        assert_eq!(floats::<24>(&[(Determinant::T, 1.0)], &zero), Some(Ordering::Equal));
+        let zero = Case::<f64>::new(
+            [0.0; 3],
+            [1.0; 3],
+            [[0.0; 3], [1e300; 3], [-1e300, 1e300, 1e300]],
+        );
+        assert_eq!(
+            floats::<24>(&[(Determinant::T, 1.0)], &zero),
+            Some(Ordering::Equal)
+        );
     }
 }

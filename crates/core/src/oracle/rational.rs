@@ -35,10 +35,17 @@ pub fn define<F: Float>(case: &Case<F>) -> Definition {
 /// The truth of a ray in the world and a triangle that a matrix puts there, by definition: that of the triangle and the
 /// ray by the exact inverse, which leaves t, u and v. Invalid if there is no inverse.
 pub fn define_instance<F: Float>(case: &Case<F>, instance: &Instance<F>) -> Definition {
-    let matrix = instance.matrix().map(|row| row.map(|x| Rational::from_float(x.to_f64())));
+    let matrix = instance
+        .matrix()
+        .map(|row| row.map(|x| Rational::from_float(x.to_f64())));
     define_with(case, |[origin, direction]| {
-        let column =
-            |i: usize| Some([matrix[0][i].clone()?, matrix[1][i].clone()?, matrix[2][i].clone()?]);
+        let column = |i: usize| {
+            Some([
+                matrix[0][i].clone()?,
+                matrix[1][i].clone()?,
+                matrix[2][i].clone()?,
+            ])
+        };
         let [x, y, z, moved] = [column(0)?, column(1)?, column(2)?, column(3)?];
         let rows = [cross(&y, &z), cross(&z, &x), cross(&x, &y)];
         let determinant = dot(&z, &rows[2]);
@@ -101,17 +108,32 @@ fn define_valid(
     let [u, v, w] =
         [triple(&rc, &rb), triple(&ra, &rc), triple(&rb, &ra)].map(|weight| -weight / &capital_d);
     let truth = Truth::Transversal(Crossing {
-        facing: if capital_d.is_negative() { Facing::Front } else { Facing::Back },
+        facing: if capital_d.is_negative() {
+            Facing::Front
+        } else {
+            Facing::Back
+        },
         place: place(at.cmp(&t_min), at.cmp(&t_max)),
         t_sign: t.cmp(&Rational::zero()),
         feature: Feature::from_weight_signs([&u, &v, &w].map(|x| x.cmp(&Rational::zero()))),
     });
-    let exact = ExactValues { t: Some(t), u: Some(v), v: Some(w), contact_t: None };
+    let exact = ExactValues {
+        t: Some(t),
+        u: Some(v),
+        v: Some(w),
+        contact_t: None,
+    };
     Some(Definition { truth, exact })
 }
 
 fn flat(truth: Truth, contact_t: Option<[Rational; 2]>) -> Definition {
-    Definition { truth, exact: ExactValues { contact_t, ..ExactValues::default() } }
+    Definition {
+        truth,
+        exact: ExactValues {
+            contact_t,
+            ..ExactValues::default()
+        },
+    }
 }
 
 /// The common points of a line in the triangle's plane and the triangle: the t at which the three
@@ -127,7 +149,10 @@ fn line_in_plane(
     // Constant and slope of N·((to - from) × (o + t d - from)).
     let edges = [(a, b), (b, c), (c, a)].map(|(from, to)| {
         let edge = minus(to, from);
-        (dot(n, &cross(&edge, &minus(o, from))), dot(n, &cross(&edge, d)))
+        (
+            dot(n, &cross(&edge, &minus(o, from))),
+            dot(n, &cross(&edge, d)),
+        )
     });
     let solve = |mut low: RationalEnd, mut high: RationalEnd| {
         for (constant, slope) in &edges {
@@ -192,7 +217,10 @@ fn line_and_segment(
 
     let cut = |low: &RationalEnd, high: &RationalEnd| {
         let [s, t] = whole.clone()?;
-        match (RationalEnd::At(s).max(low.clone()), RationalEnd::At(t).min(high.clone())) {
+        match (
+            RationalEnd::At(s).max(low.clone()),
+            RationalEnd::At(t).min(high.clone()),
+        ) {
             (RationalEnd::At(s), RationalEnd::At(t)) if s <= t => Some([s, t]),
             _ => None,
         }
@@ -215,7 +243,11 @@ fn line_and_segment(
     };
     contact(
         cut(t_min, t_max),
-        cut(&RationalEnd::At(Rational::zero()), &RationalEnd::PlusInfinity).is_some(),
+        cut(
+            &RationalEnd::At(Rational::zero()),
+            &RationalEnd::PlusInfinity,
+        )
+        .is_some(),
         whole.is_some(),
         feature,
     )
@@ -232,7 +264,14 @@ fn contact(
         Some([low, high]) if low == high => ContactKind::Point(feature(low)),
         Some(_) => ContactKind::Segment,
     };
-    (Contact { kind, meets_ray, meets_line }, range)
+    (
+        Contact {
+            kind,
+            meets_ray,
+            meets_line,
+        },
+        range,
+    )
 }
 
 fn minus(a: &RationalPoint, b: &RationalPoint) -> RationalPoint {
@@ -276,13 +315,20 @@ mod tests {
             (0.0, nan, false),
         ] {
             for case in [down(-1.0), down(-0.1)].map(|case| case.on(t_min, t_max)) {
-                assert_eq!(define(&case).truth != Truth::Invalid, valid, "{t_min} {t_max}");
+                assert_eq!(
+                    define(&case).truth != Truth::Invalid,
+                    valid,
+                    "{t_min} {t_max}"
+                );
                 assert_eq!(truth(&case), define(&case).truth, "{t_min} {t_max}");
             }
         }
         for zero in [0.0, -0.0] {
             let still = Case::new([0.1; 3], [zero; 3], triangle);
-            assert_eq!((define(&still).truth, truth(&still)), (Truth::Invalid, Truth::Invalid));
+            assert_eq!(
+                (define(&still).truth, truth(&still)),
+                (Truth::Invalid, Truth::Invalid)
+            );
         }
     }
 
@@ -303,7 +349,9 @@ mod tests {
                     false => number(&mut draw),
                 })
             });
-            let Some(instance) = Instance::new(rows) else { continue };
+            let Some(instance) = Instance::new(rows) else {
+                continue;
+            };
             let [o, d, a, b, mut c] = std::array::from_fn(|_| match coarse {
                 true => draw.lattice_point(2).map(|x| x as f64),
                 false => [(); 3].map(|()| number(&mut draw)),
@@ -313,7 +361,11 @@ mod tests {
             }
             let case = Case::<f64>::new(o, d, [a, b, c]);
             // Some lattice rays are aimed at the triangle where the matrix puts it.
-            let case = if draw.coin() { instance.in_world(&case) } else { case };
+            let case = if draw.coin() {
+                instance.in_world(&case)
+            } else {
+                case
+            };
             let (t_min, t_max) = draw.pick(&[
                 (0.0, f64::INFINITY),
                 (f64::NEG_INFINITY, 1.0),
@@ -330,7 +382,10 @@ mod tests {
                 Truth::Parallel => 1,
                 Truth::Coplanar(_) => 2,
                 Truth::Degenerate(_) => 3,
-                Truth::Transversal(Crossing { facing: Facing::Front, .. }) => 4,
+                Truth::Transversal(Crossing {
+                    facing: Facing::Front,
+                    ..
+                }) => 4,
                 Truth::Transversal(_) => 5,
             }] += 1;
         }
@@ -357,13 +412,17 @@ mod tests {
             ];
             let (t_min, t_max) = draw.pick(&ends);
             let case = Case::<f64>::new(o, d, [a, b, c]).on(t_min, t_max);
-            let Definition { truth: defined, exact } = define(&case);
+            let Definition {
+                truth: defined,
+                exact,
+            } = define(&case);
             assert_eq!(truth(&case), defined, "{}", case.hex());
             contacts += u32::from(matches!(defined, Truth::Coplanar(_) | Truth::Degenerate(_)));
             // o + t d = a + u (b-a) + v (c-a).
             if let (Some(t), Some(u), Some(v)) = (exact.t, exact.u, exact.v) {
-                let [o, d, a, b, c] =
-                    case.vectors().map(|x| x.map(|x| Rational::from_float(x).unwrap()));
+                let [o, d, a, b, c] = case
+                    .vectors()
+                    .map(|x| x.map(|x| Rational::from_float(x).unwrap()));
                 assert_eq!(
                     along(&o, &d, &t),
                     along(&along(&a, &minus(&b, &a), &u), &minus(&c, &a), &v)
@@ -371,6 +430,9 @@ mod tests {
                 crossings += 1;
             }
         }
-        assert!(crossings > 1000 && contacts > 1000, "{crossings} {contacts}");
+        assert!(
+            crossings > 1000 && contacts > 1000,
+            "{crossings} {contacts}"
+        );
     }
 }

@@ -14,7 +14,11 @@ use std::cmp::Ordering;
 /// The truth of a valid case, and the last layer that it needed.
 pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
     // Where nothing over- or underflows, scaling changes no relative error.
-    let near_one = if is_moderate(case) { *case } else { scaled_axes(case) };
+    let near_one = if is_moderate(case) {
+        *case
+    } else {
+        scaled_axes(case)
+    };
     let computed = filter::compute(near_one.vectors());
     let mut deepest = Layer::ScaledFilter;
     let mut sign = |wanted: Determinant| {
@@ -26,8 +30,10 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
     };
     let weights = [0, 1, 2].map(|k| sign(Determinant::Weight(k)));
     // U+V+W = -D: weights that agree need no D, and zero weights with them.
-    let (any_less, any_greater) =
-        (weights.contains(&Ordering::Less), weights.contains(&Ordering::Greater));
+    let (any_less, any_greater) = (
+        weights.contains(&Ordering::Less),
+        weights.contains(&Ordering::Greater),
+    );
     let d = match (any_less, any_greater) {
         (true, false) => Ordering::Greater,
         (false, true) => Ordering::Less,
@@ -42,7 +48,13 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
             _ => (Truth::Parallel, deepest),
         };
     }
-    let relative = |sign: Ordering| if d == Ordering::Less { sign.reverse() } else { sign };
+    let relative = |sign: Ordering| {
+        if d == Ordering::Less {
+            sign.reverse()
+        } else {
+            sign
+        }
+    };
     let unscaled = filter::compute(case.vectors());
     let mut from = |end: f64| {
         if end == 0.0 {
@@ -58,7 +70,17 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
         }
     };
     let (from_min, from_max) = (from(case.ray.t_min), from(case.ray.t_max));
-    (DecidingSigns { d, weights, t, from_min, from_max }.truth(), deepest)
+    (
+        DecidingSigns {
+            d,
+            weights,
+            t,
+            from_min,
+            from_max,
+        }
+        .truth(),
+        deepest,
+    )
 }
 
 /// True if scaling can be left out. Coordinates are zero or within 2^±150, so all differences are multiples of 2^-202,
@@ -82,12 +104,24 @@ fn is_moderate(case: &Case<f64>) -> bool {
 fn scaled_axes(case: &Case<f64>) -> Case<f64> {
     let [o, d, a, b, c] = case.vectors();
     let exponent = |x: f64| (x != 0.0).then(|| monomials::exponent_of(x));
-    let axis = [0, 1, 2].map(|i| [o[i], a[i], b[i], c[i]].into_iter().filter_map(exponent).max());
+    let axis = [0, 1, 2].map(|i| {
+        [o[i], a[i], b[i], c[i]]
+            .into_iter()
+            .filter_map(exponent)
+            .max()
+    });
     let shift = axis.map(|largest| -largest.unwrap_or(0));
-    let longest = (0..3).filter_map(|i| exponent(d[i]).map(|e| e + shift[i])).max().unwrap_or(0);
+    let longest = (0..3)
+        .filter_map(|i| exponent(d[i]).map(|e| e + shift[i]))
+        .max()
+        .unwrap_or(0);
     let position = |p: [f64; 3]| [0, 1, 2].map(|i| scale_by_power_of_two(p[i], shift[i]));
     let direction = [0, 1, 2].map(|i| scale_by_power_of_two(d[i], shift[i] - longest));
-    Case::new(position(o), direction, [position(a), position(b), position(c)])
+    Case::new(
+        position(o),
+        direction,
+        [position(a), position(b), position(c)],
+    )
 }
 
 #[cfg(test)]
@@ -140,7 +174,12 @@ mod tests {
                     continue;
                 };
                 of_axis[axis] = exponent;
-                assert_eq!(largest_exponent(&is), Some(0), "axis {axis} of {}", case.hex());
+                assert_eq!(
+                    largest_exponent(&is),
+                    Some(0),
+                    "axis {axis} of {}",
+                    case.hex()
+                );
                 let expected = was.map(|x| scale_by_power_of_two(x, -exponent as i32));
                 assert_eq!(is, expected, "axis {axis} of {}", case.hex());
             }

@@ -28,7 +28,12 @@ impl Scaled {
         let [o, d, a, b, c] = case.vectors();
         let ([origin, a, b, c], p) = align([o, a, b, c]);
         let ([direction], q) = align([d]);
-        Scaled { origin, direction, vertices: [a, b, c], t_exponent: p - q }
+        Scaled {
+            origin,
+            direction,
+            vertices: [a, b, c],
+            t_exponent: p - q,
+        }
     }
 
     /// The numbers of a ray of the world and the triangle that an instance puts there, as the object sees them and as
@@ -62,7 +67,9 @@ impl Scaled {
         vertices =
             vertices.map(|vertex| vertex.map(|x| (x * &determinant) << (of_vertices - common)));
         Some(Scaled {
-            origin: rows.each_ref().map(|row| times(row, &origin, of_origin - common)),
+            origin: rows
+                .each_ref()
+                .map(|row| times(row, &origin, of_origin - common)),
             direction: rows.each_ref().map(|row| times(row, &direction, 0)),
             vertices,
             t_exponent: common - q,
@@ -127,6 +134,10 @@ impl Scaled {
         let [a, b, c] = self.vertices.each_ref().map(|v| minus(v, &self.origin));
         let interval = RayInterval::new(case, self.t_exponent);
         let contact = contact::decide(&interval, &self.direction, [&a, &b, &c], &n);
-        if degenerate { Truth::Degenerate(contact) } else { Truth::Coplanar(contact) }
+        if degenerate {
+            Truth::Degenerate(contact)
+        } else {
+            Truth::Coplanar(contact)
+        }
     }
 }

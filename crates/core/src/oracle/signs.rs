@@ -96,8 +96,11 @@ impl DecidingSigns {
 #[inline]
 pub(super) fn place(from_min: Ordering, from_max: Ordering) -> Place {
     // By the two signs: below, at and above zero.
-    const PLACES: [[Place; 3]; 3] =
-        [[Place::Before; 3], [Place::AtMin; 3], [Place::Within, Place::AtMax, Place::Beyond]];
+    const PLACES: [[Place; 3]; 3] = [
+        [Place::Before; 3],
+        [Place::AtMin; 3],
+        [Place::Within, Place::AtMax, Place::Beyond],
+    ];
     let [from_min, from_max] = [from_min, from_max].map(|sign| (sign as i8 + 1) as usize);
     PLACES[from_min][from_max]
 }

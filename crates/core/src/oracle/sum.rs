@@ -14,13 +14,20 @@ pub(super) struct ExactProduct {
 
 impl ExactProduct {
     /// For places that are not used.
-    pub const ZERO: ExactProduct = ExactProduct { factors: [0; 4], exponent: 0 };
+    pub const ZERO: ExactProduct = ExactProduct {
+        factors: [0; 4],
+        exponent: 0,
+    };
 
     fn digits(&self) -> I256 {
         let [x, y, z, w] = self.factors.map(i128::from);
         let (one, other) = (x * y, z * w);
         let digits = I256::product(one.unsigned_abs(), other.unsigned_abs());
-        if (one < 0) == (other < 0) { digits } else { -digits }
+        if (one < 0) == (other < 0) {
+            digits
+        } else {
+            -digits
+        }
     }
 }
 
@@ -75,14 +82,21 @@ impl I256 {
         let middle = a_high * b_low + a_low * b_high;
         let (low, carry) = (a_low * b_low).overflowing_add(middle << 64);
         let high = a_high * b_high + (middle >> 64) + u128::from(carry);
-        I256 { high: high as i128, low }
+        I256 {
+            high: high as i128,
+            low,
+        }
     }
 
     /// How many bits its absolute value has.
     #[inline(always)]
     fn bits(self) -> u32 {
         let I256 { high, low } = if self.high < 0 { -self } else { self };
-        if high == 0 { 128 - low.leading_zeros() } else { 256 - high.leading_zeros() }
+        if high == 0 {
+            128 - low.leading_zeros()
+        } else {
+            256 - high.leading_zeros()
+        }
     }
 
     /// Times 2^places. The result has at most 255 bits.
@@ -94,7 +108,10 @@ impl I256 {
                 high: self.high << places | (self.low >> (128 - places)) as i128,
                 low: self.low << places,
             },
-            _ => I256 { high: (self.low << (places - 128)) as i128, low: 0 },
+            _ => I256 {
+                high: (self.low << (places - 128)) as i128,
+                low: 0,
+            },
         }
     }
 }
@@ -104,7 +121,10 @@ impl Add for I256 {
     #[inline(always)]
     fn add(self, other: I256) -> I256 {
         let (low, carry) = self.low.overflowing_add(other.low);
-        I256 { high: self.high + other.high + i128::from(carry), low }
+        I256 {
+            high: self.high + other.high + i128::from(carry),
+            low,
+        }
     }
 }
 
@@ -112,7 +132,10 @@ impl Neg for I256 {
     type Output = I256;
     #[inline(always)]
     fn neg(self) -> I256 {
-        I256 { high: !self.high, low: !self.low } + I256 { high: 0, low: 1 }
+        I256 {
+            high: !self.high,
+            low: !self.low,
+        } + I256 { high: 0, low: 1 }
     }
 }
 
@@ -160,16 +183,27 @@ mod tests {
             let places = 255 - x.bits().max(1);
             let places = draw.integer(0, places as i64) as u32;
             let [a, b] = [&x, &y].map(I256::of);
-            assert_eq!([a.big(), b.big(), (a + b).big()], [x.clone(), y.clone(), &x + &y]);
+            assert_eq!(
+                [a.big(), b.big(), (a + b).big()],
+                [x.clone(), y.clone(), &x + &y]
+            );
             assert_eq!(((-a).big(), a.cmp(&b)), (-&x, x.cmp(&y)), "{x} {y}");
-            assert_eq!((u64::from(a.bits()), a.shifted(places).big()), (x.bits(), &x << places));
+            assert_eq!(
+                (u64::from(a.bits()), a.shifted(places).big()),
+                (x.bits(), &x << places)
+            );
             let factors = [0; 4].map(|_| {
                 let bits = draw.integer(0, 53);
                 i64::try_from(number(&mut draw, bits)).expect("53 bits")
             });
             let product: BigInt = factors.iter().map(|x| BigInt::from(*x)).product();
             assert_eq!(
-                ExactProduct { factors, exponent: 0 }.digits().big(),
+                ExactProduct {
+                    factors,
+                    exponent: 0
+                }
+                .digits()
+                .big(),
                 product,
                 "{factors:?}"
             );
@@ -179,9 +213,15 @@ mod tests {
     #[test]
     fn a_sum_decides_only_if_it_outweighs_all_that_may_come() {
         let most = (1 << 53) - 1;
-        let large = ExactProduct { factors: [-most, most, most, most], exponent: 0 };
+        let large = ExactProduct {
+            factors: [-most, most, most, most],
+            exponent: 0,
+        };
         let mut products = vec![large; 42];
-        products[0] = ExactProduct { factors: [1; 4], exponent: 217 };
+        products[0] = ExactProduct {
+            factors: [1; 4],
+            exponent: 217,
+        };
         assert_eq!(sign_of_sum(&products), Ordering::Less);
     }
 
@@ -199,7 +239,10 @@ mod tests {
                 let mut add = |factors: [i64; 4], more: i64| {
                     let product: BigInt = factors.iter().map(|x| BigInt::from(*x)).product();
                     sum += product << (exponent + more);
-                    products.push(ExactProduct { factors, exponent: (exponent + more) as i32 });
+                    products.push(ExactProduct {
+                        factors,
+                        exponent: (exponent + more) as i32,
+                    });
                 };
                 let factors = [0; 4].map(|_| {
                     let bits = draw.pick(&[1, 40, 53, 53]);
@@ -220,6 +263,9 @@ mod tests {
             assert_eq!(sign_of_sum(&products), sum.cmp(&BigInt::ZERO), "{index}");
             signs[(sum.cmp(&BigInt::ZERO) as i8 + 1) as usize] += 1;
         }
-        assert!(signs[0].min(signs[2]) > 10_000 && signs[1] > 1000, "{signs:?}");
+        assert!(
+            signs[0].min(signs[2]) > 10_000 && signs[1] > 1000,
+            "{signs:?}"
+        );
     }
 }

@@ -103,7 +103,10 @@ impl I192 {
     pub fn product(a: i64, b: i128) -> I192 {
         let a = i128::from(a);
         let low = a * i128::from(b as u64);
-        I192 { high: a * (b >> 64) + (low >> 64), low: low as u64 }
+        I192 {
+            high: a * (b >> 64) + (low >> 64),
+            low: low as u64,
+        }
     }
 }
 
@@ -112,7 +115,10 @@ impl Add for I192 {
     #[inline(always)]
     fn add(self, other: I192) -> I192 {
         let (low, carry) = self.low.overflowing_add(other.low);
-        I192 { high: self.high + other.high + i128::from(carry), low }
+        I192 {
+            high: self.high + other.high + i128::from(carry),
+            low,
+        }
     }
 }
 
@@ -121,7 +127,10 @@ impl Sub for I192 {
     #[inline(always)]
     fn sub(self, other: I192) -> I192 {
         let (low, borrow) = self.low.overflowing_sub(other.low);
-        I192 { high: self.high - other.high - i128::from(borrow), low }
+        I192 {
+            high: self.high - other.high - i128::from(borrow),
+            low,
+        }
     }
 }
 
@@ -142,7 +151,13 @@ mod tests {
         let near = i128::from(draw.integer(0, 2));
         let any = (i128::from(draw.bits()) << 64 | i128::from(draw.bits())) & most;
         let carry = i128::from(u64::MAX) & most;
-        let x = draw.pick(&[near, most - near, any, any >> (bits / 2), (carry + near) & most]);
+        let x = draw.pick(&[
+            near,
+            most - near,
+            any,
+            any >> (bits / 2),
+            (carry + near) & most,
+        ]);
         if draw.coin() { x } else { -x }
     }
 

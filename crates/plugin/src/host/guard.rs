@@ -37,9 +37,12 @@ impl Buffer {
     pub fn all() -> io::Result<[Buffer; BUFFERS]> {
         // SAFETY: a plain question.
         let page = unsafe { libc::sysconf(libc::_SC_PAGESIZE) }.max(1) as usize;
-        let buffers: Vec<Buffer> =
-            (0..BUFFERS).map(|place| Buffer::new(place, page, 0)).collect::<io::Result<_>>()?;
-        buffers.try_into().map_err(|_| io::Error::other("as many as there are places"))
+        let buffers: Vec<Buffer> = (0..BUFFERS)
+            .map(|place| Buffer::new(place, page, 0))
+            .collect::<io::Result<_>>()?;
+        buffers
+            .try_into()
+            .map_err(|_| io::Error::other("as many as there are places"))
     }
 
     /// Makes it this long, and writable. What was in it is lost.
@@ -66,7 +69,13 @@ impl Buffer {
         if map == libc::MAP_FAILED {
             return Err(io::Error::last_os_error());
         }
-        let mut buffer = Buffer { place, map, map_length, page, length };
+        let mut buffer = Buffer {
+            place,
+            map,
+            map_length,
+            page,
+            length,
+        };
         buffer.protect(libc::PROT_READ | libc::PROT_WRITE)?;
         buffer.slack().fill(SLACK);
         RANGES[place][0].store(map as usize, Ordering::SeqCst);
@@ -82,14 +91,26 @@ impl Buffer {
         let guard = GUARD_PAGES * self.page;
         // SAFETY: the pages of this mapping between its guards; no reference into them is alive.
         let done = unsafe {
-            libc::mprotect(self.map.byte_add(guard), self.map_length - 2 * guard, protection)
+            libc::mprotect(
+                self.map.byte_add(guard),
+                self.map_length - 2 * guard,
+                protection,
+            )
         };
-        if done == 0 { Ok(()) } else { Err(io::Error::last_os_error()) }
+        if done == 0 {
+            Ok(())
+        } else {
+            Err(io::Error::last_os_error())
+        }
     }
 
     fn end(&self) -> *mut u8 {
         // SAFETY: within the mapping.
-        unsafe { self.map.byte_add(self.map_length - GUARD_PAGES * self.page).cast() }
+        unsafe {
+            self.map
+                .byte_add(self.map_length - GUARD_PAGES * self.page)
+                .cast()
+        }
     }
 
     pub fn start(&self) -> *mut u8 {
@@ -134,7 +155,10 @@ pub(super) type CurrentException = unsafe extern "C" fn() -> *const c_void;
 /// any other kills the process as usual.
 pub(super) fn watch(output: c_int, exception: Option<CurrentException>) {
     OUTPUT.store(output, Ordering::SeqCst);
-    CURRENT_EXCEPTION.store(exception.map_or(0, |current| current as usize), Ordering::SeqCst);
+    CURRENT_EXCEPTION.store(
+        exception.map_or(0, |current| current as usize),
+        Ordering::SeqCst,
+    );
     // SAFETY: the handler calls only what may be called in one.
     unsafe {
         let mut action: libc::sigaction = std::mem::zeroed();
@@ -156,7 +180,9 @@ extern "C" fn on_signal(signal: c_int, info: *mut libc::siginfo_t, _: *mut c_voi
         let failure = if signal == libc::SIGABRT {
             let current = CURRENT_EXCEPTION.load(Ordering::SeqCst);
             let current = std::mem::transmute::<usize, Option<CurrentException>>(current);
-            current.is_some_and(|current| !current().is_null()).then_some(Failure::Exception)
+            current
+                .is_some_and(|current| !current().is_null())
+                .then_some(Failure::Exception)
         } else {
             let address = (*info).si_addr() as usize;
             let is_ours = RANGES.iter().any(|[start, end]| {
@@ -166,7 +192,11 @@ extern "C" fn on_signal(signal: c_int, info: *mut libc::siginfo_t, _: *mut c_voi
         };
         if let Some(failure) = failure {
             let head = Before::Failure(failure).head();
-            libc::write(OUTPUT.load(Ordering::SeqCst), head.as_ptr().cast(), head.len());
+            libc::write(
+                OUTPUT.load(Ordering::SeqCst),
+                head.as_ptr().cast(),
+                head.len(),
+            );
             libc::_exit(1);
         }
         // Back to the default: the faulting instruction runs again, and ends the process.

@@ -53,7 +53,11 @@ impl Library {
             let reason = std::error::Error::source(&error).map(ToString::to_string);
             one_line(&reason.unwrap_or_else(|| error.to_string()))
         })?);
-        let mut library = Library { library, f32: None, f64: None };
+        let mut library = Library {
+            library,
+            f32: None,
+            f64: None,
+        };
         // SAFETY: by include/hairline.h this symbol has this type.
         let abi = unsafe { library.symbol::<unsafe extern "C" fn() -> u32>("hairline_abi") };
         let abi = abi.ok_or(
@@ -100,7 +104,9 @@ impl Library {
             let describe =
                 self.symbol::<unsafe extern "C" fn() -> *const CKernel>("hairline_describe");
             let describe = describe.ok_or("it has no function hairline_describe")?;
-            describe().as_ref().ok_or("hairline_describe returned NULL")?
+            describe()
+                .as_ref()
+                .ok_or("hairline_describe returned NULL")?
         };
         // SAFETY: strings by include/hairline.h.
         let [name, source, contract] =
@@ -117,7 +123,11 @@ impl Library {
             ));
         }
         let words = |words: &[(bool, &str)]| -> String {
-            words.iter().filter(|(given, _)| *given).map(|(_, word)| format!(" {word}")).collect()
+            words
+                .iter()
+                .filter(|(given, _)| *given)
+                .map(|(_, word)| format!(" {word}"))
+                .collect()
         };
         let gives =
             [(1, "t"), (2, "uv"), (4, "facing")].map(|(bit, w)| (kernel.gives & bit != 0, w));
@@ -147,10 +157,16 @@ fn epsilon_line(epsilon: &CEpsilon) -> Result<String, String> {
         unsafe { [epsilon.name, epsilon.value, epsilon.refuses].map(|text| text_of(text)) };
     let name = name.ok_or("an epsilon's name is NULL")?;
     let value = value.ok_or_else(|| format!("the value of epsilon {name} is NULL"))?;
-    let sign = if epsilon.non_negative != 0 { "non-negative" } else { "signed" };
+    let sign = if epsilon.non_negative != 0 {
+        "non-negative"
+    } else {
+        "signed"
+    };
     let (length, direction) = (epsilon.length, epsilon.direction);
     let refuses = refuses.unwrap_or_default();
-    Ok(format!("epsilon {name} {value} {length} {direction} {sign} {refuses}\n"))
+    Ok(format!(
+        "epsilon {name} {value} {length} {direction} {sign} {refuses}\n"
+    ))
 }
 
 /// A C string on one line; none for NULL.

@@ -40,14 +40,26 @@ pub fn load(
             hello.floats
         );
         if limits.require_ieee {
-            return Err(LoadError::Hello(format!("{note}, which --require-ieee refuses")));
+            return Err(LoadError::Hello(format!(
+                "{note}, which --require-ieee refuses"
+            )));
         }
         notes.push(note);
     }
     let info = hello.info();
     let scalars = hello.scalars;
-    let state = Mutex::new(ProcessState { idle: vec![running], notes, ..ProcessState::default() });
-    let kernel = Process { program, limits, hello, turns, state };
+    let state = Mutex::new(ProcessState {
+        idle: vec![running],
+        notes,
+        ..ProcessState::default()
+    });
+    let kernel = Process {
+        program,
+        limits,
+        hello,
+        turns,
+        state,
+    };
     let kernel: &'static Process = Box::leak(Box::new(kernel));
     let mut entry = Entry::new(info).chosen_by(flag.leak());
     if scalars[0] {

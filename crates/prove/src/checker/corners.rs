@@ -54,7 +54,11 @@ pub fn signs_to_try<T: Zero>(rows: &[Row<T>], unit: &[usize], fixed: usize) -> u
         for mut equation in all.map(|sign| sign ^ first.unwrap_or(0)) {
             while equation != 0 {
                 // The vector's coordinates have no signs to try.
-                let with_sign = if equation & of_unit == 0 { equation } else { equation & of_unit };
+                let with_sign = if equation & of_unit == 0 {
+                    equation
+                } else {
+                    equation & of_unit
+                };
                 let known = &mut equations[with_sign.trailing_zeros() as usize];
                 if *known == 0 {
                     *known = equation;
@@ -83,16 +87,31 @@ pub fn search(
     // for the last step depends on every step.
     let not_zero = |x: &BigInt| x.abs().max(BigInt::one());
     let plus = |row: &Row<BigInt>| Row {
-        constant: if row.support == 0 { not_zero(&row.constant) } else { BigInt::ZERO },
+        constant: if row.support == 0 {
+            not_zero(&row.constant)
+        } else {
+            BigInt::ZERO
+        },
         variables: row.variables.iter().map(|(c, v)| (c.abs(), *v)).collect(),
-        terms: row.terms.iter().map(|(c, a, b)| (c.abs(), *a, *b)).collect(),
+        terms: row
+            .terms
+            .iter()
+            .map(|(c, a, b)| (c.abs(), *a, *b))
+            .collect(),
         support: row.support,
     };
     let plus: Vec<_> = rows.iter().map(plus).collect();
-    let weight = |k: usize| (weights.get(k).map_or(BigInt::one(), |(w, _)| not_zero(w)), true);
+    let weight = |k: usize| {
+        (
+            weights.get(k).map_or(BigInt::one(), |(w, _)| not_zero(w)),
+            true,
+        )
+    };
     let all: Vec<_> = (0..rows.len()).map(weight).collect();
     let largest = |[a, b]: &[BigInt; 2]| [not_zero(a), not_zero(b)].into_iter().max();
-    let boxes = ends.iter().map(|ends| [(); 2].map(|()| largest(ends).expect("two")));
+    let boxes = ends
+        .iter()
+        .map(|ends| [(); 2].map(|()| largest(ends).expect("two")));
     let boxes: Vec<_> = boxes.collect();
     match search_in::<BigInt>(&plus, &all, &boxes, &[], 0)?.sum.bits() {
         0..=62 => search_in::<i64>(rows, weights, ends, unit, tried),
@@ -117,13 +136,25 @@ where
     let row = |row: &Row<BigInt>| {
         let variables = row.variables.iter().map(|(c, v)| Some((of(c)?, *v)));
         let terms = row.terms.iter().map(|(c, a, b)| Some((of(c)?, *a, *b)));
-        let (variables, terms) = (variables.collect::<Option<_>>()?, terms.collect::<Option<_>>()?);
-        Some(Row { constant: of(&row.constant)?, variables, terms, support: row.support })
+        let (variables, terms) = (
+            variables.collect::<Option<_>>()?,
+            terms.collect::<Option<_>>()?,
+        );
+        Some(Row {
+            constant: of(&row.constant)?,
+            variables,
+            terms,
+            support: row.support,
+        })
     };
     let rows: Vec<Row<T>> = rows.iter().map(row).collect::<Option<_>>()?;
-    let ends = ends.iter().map(|[upper, lower]| Some([of(upper)?, of(lower)?]));
+    let ends = ends
+        .iter()
+        .map(|[upper, lower]| Some([of(upper)?, of(lower)?]));
     let ends: Vec<[T; 2]> = ends.collect::<Option<_>>()?;
-    let weights = weights.iter().map(|(weight, relative)| Some((of(weight)?, *relative)));
+    let weights = weights
+        .iter()
+        .map(|(weight, relative)| Some((of(weight)?, *relative)));
     let weights: Vec<Weight<T>> = weights.collect::<Option<_>>()?;
     let (mut values, mut slopes) = (vec![T::zero(); rows.len()], vec![T::zero(); rows.len()]);
     let square = |x: &T| BigInt::from(x.clone()).pow(2);
@@ -149,7 +180,12 @@ where
                 }
                 for (c, a, b) in &row.terms {
                     let x = c.clone() * values[*a].clone();
-                    value = value + if let Some(b) = b { x * values[*b].clone() } else { x };
+                    value = value
+                        + if let Some(b) = b {
+                            x * values[*b].clone()
+                        } else {
+                            x
+                        };
                 }
                 if row.support & of_unit != 0 {
                     lengths[k] += square(&value);
@@ -180,7 +216,11 @@ where
                 }
                 let (weight, is_relative) = &weights[k];
                 let effect = slope.abs() * weight.clone();
-                let effect = if *is_relative { effect * values[k].abs() } else { effect };
+                let effect = if *is_relative {
+                    effect * values[k].abs()
+                } else {
+                    effect
+                };
                 if !unit.is_empty() && (*is_relative || row.support & of_unit == 0) {
                     of_axis = of_axis + effect;
                 } else if axis == 0 {
@@ -202,7 +242,12 @@ where
     }
     let sizes = sizes.into_iter().map(BigInt::from).zip(longest);
     let sizes = sizes.map(|(size, longest)| size.max(longest)).collect();
-    Some(Found { sum: best.into(), squares, corner: at, sizes })
+    Some(Found {
+        sum: best.into(),
+        squares,
+        corner: at,
+        sizes,
+    })
 }
 
 #[cfg(test)]

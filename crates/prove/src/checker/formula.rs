@@ -46,34 +46,54 @@ impl<'a> Formula<'a> {
         reader: &mut Reader<'a>,
     ) -> Outcome<Self> {
         let variables = variables::read(program, quotient, reader)?;
-        let unit = (0..variables.len()).filter(|v| variables[*v].part.is_some()).collect();
-        let mut formula = Formula { variables, unit, steps: vec![] };
+        let unit = (0..variables.len())
+            .filter(|v| variables[*v].part.is_some())
+            .collect();
+        let mut formula = Formula {
+            variables,
+            unit,
+            steps: vec![],
+        };
         while reader.is_next("step") {
             let words =
                 reader.read("step OPERATION KIND OPERANDS", |words| Some(words.to_vec()))?;
             let step = formula.step(&words, program, quotient.is_some());
             let found = |expected| format!("found `step {}`, expected {expected}", words.join(" "));
             formula.steps.push(step.map_err(found)?);
-            ensure(formula.steps.len() <= MOST_ROWS, format!("found more than {MOST_ROWS} steps"))?;
+            ensure(
+                formula.steps.len() <= MOST_ROWS,
+                format!("found more than {MOST_ROWS} steps"),
+            )?;
         }
         let operands = formula.steps.iter().flat_map(|step| &step.terms);
-        let operands: HashSet<usize> =
-            operands.flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)]).collect();
+        let operands: HashSet<usize> = operands
+            .flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)])
+            .collect();
         let is_whole = operands.len() + 1 == formula.steps.len();
-        ensure(is_whole, "found steps that the last one does not use, or none")?;
+        ensure(
+            is_whole,
+            "found steps that the last one does not use, or none",
+        )?;
         let is_linear = formula.unit.is_empty() || formula.is_linear(formula.steps.len() - 1);
-        ensure(is_linear, "found a last step without a part, expected one with parts")?;
+        ensure(
+            is_linear,
+            "found a last step without a part, expected one with parts",
+        )?;
         if quotient.is_some() {
             formula.leave_out();
         }
         if reader.is_next("relative") {
             let steps = &mut formula.steps;
-            reader.read("relative STEPS, each an earlier one that rounds once", |words| {
-                for i in indices(words, steps.len())? {
-                    steps[i].relative = (steps[i].rounds && !steps[i].relative).then_some(true)?;
-                }
-                Some(())
-            })?;
+            reader.read(
+                "relative STEPS, each an earlier one that rounds once",
+                |words| {
+                    for i in indices(words, steps.len())? {
+                        steps[i].relative =
+                            (steps[i].rounds && !steps[i].relative).then_some(true)?;
+                    }
+                    Some(())
+                },
+            )?;
         }
         Ok(formula)
     }
@@ -95,11 +115,16 @@ impl<'a> Formula<'a> {
         let is_known = operation.is_some()
             || in_quotient && ["variables", "number", "add", "mul", "sub"].contains(&name);
         is_known.then_some(()).ok_or(UNKNOWN)?;
-        let mut step = Step { place, name, ..Step::default() };
+        let mut step = Step {
+            place,
+            name,
+            ..Step::default()
+        };
         if name == "variables" {
             let variable = |word: &&str| {
-                let (sign, v) =
-                    word.split_at_checked(1).filter(|(sign, _)| ["+", "-"].contains(sign))?;
+                let (sign, v) = word
+                    .split_at_checked(1)
+                    .filter(|(sign, _)| ["+", "-"].contains(sign))?;
                 Some((sign == "-", indices(&[v], self.variables.len())?[0]))
             };
             let variables: Option<_> = words.iter().map(variable).collect();
@@ -130,11 +155,17 @@ impl<'a> Formula<'a> {
                 _ => return Err("variables that are, or add up to, this operation"),
             };
         } else if name == "number" {
-            let value = words.first().and_then(|word| whole(word)).filter(|_| words.len() == 1);
+            let value = words
+                .first()
+                .and_then(|word| whole(word))
+                .filter(|_| words.len() == 1);
             let right = operation.map_or(Some(1), |o| (o.name == name).then_some(o.value));
-            step.constant =
-                value.filter(|value| right == Some(*value)).ok_or("the program's number")?;
-            step.given = Some(Bound::exactly(&Number::from(BigInt::from(step.constant.abs()))));
+            step.constant = value
+                .filter(|value| right == Some(*value))
+                .ok_or("the program's number")?;
+            step.given = Some(Bound::exactly(&Number::from(BigInt::from(
+                step.constant.abs(),
+            ))));
         } else {
             let operands = indices(words, self.steps.len()).ok_or("earlier steps")?;
             step.terms = terms(name, &operands).ok_or("a step that adds or multiplies")?;
@@ -142,17 +173,26 @@ impl<'a> Formula<'a> {
             let is_same = operation.is_none_or(|o| {
                 o.name == name && places.by_ref().eq(o.operands.iter().map(|o| Some(*o)))
             });
-            is_same.then_some(()).ok_or("the operation of the program with its operands")?;
+            is_same
+                .then_some(())
+                .ok_or("the operation of the program with its operands")?;
             for (_, a, b) in &step.terms {
-                let (a, b) = (self.steps[*a].support, b.map_or(0, |b| self.steps[b].support));
-                (a & b == 0).then_some(()).ok_or("factors without a variable in common")?;
+                let (a, b) = (
+                    self.steps[*a].support,
+                    b.map_or(0, |b| self.steps[b].support),
+                );
+                (a & b == 0)
+                    .then_some(())
+                    .ok_or("factors without a variable in common")?;
                 step.support |= a | b;
             }
             let factors = |(_, a, b): &Term| [Some(*a), *b].into_iter().flatten();
             let parts = |term| factors(term).filter(|i| self.is_linear(*i)).count();
             let first = parts(&step.terms[0]);
             let is_fit = first < 2 && step.terms.iter().all(|term| parts(term) == first);
-            is_fit.then_some(()).ok_or("terms that are all linear in parts, or all without one")?;
+            is_fit
+                .then_some(())
+                .ok_or("terms that are all linear in parts, or all without one")?;
             // In f64 a difference of products is rounded more than once.
             let is_minor = name == "minor";
             (!is_minor || [F32, F64].contains(&program.format.parameters))
@@ -168,7 +208,11 @@ impl<'a> Formula<'a> {
     /// It may be under negations.
     fn leave_out(&mut self) {
         let operands = |(_, a, b): &Term| [Some(*a), *b].into_iter().flatten();
-        let all = self.steps.iter().flat_map(|step| &step.terms).flat_map(operands);
+        let all = self
+            .steps
+            .iter()
+            .flat_map(|step| &step.terms)
+            .flat_map(operands);
         let all: Vec<usize> = all.collect();
         let is_used_once = |step: usize| all.iter().filter(|other| **other == step).count() == 1;
         let last = self.steps.iter().rev().take(2).flat_map(|step| &step.terms);
@@ -186,7 +230,9 @@ impl<'a> Formula<'a> {
             let step = &mut self.steps[step];
             if step.rounds && is_used_once {
                 (step.rounds, step.left_out) = (false, true);
-                step.given.iter_mut().for_each(|bound| bound.error = Number::zero());
+                step.given
+                    .iter_mut()
+                    .for_each(|bound| bound.error = Number::zero());
             }
         }
     }
@@ -196,12 +242,16 @@ impl<'a> Formula<'a> {
         while program.name(place) == "neg" {
             place = program.operands(place)[0];
         }
-        self.steps.iter().any(|step| step.left_out && step.place == Some(place))
+        self.steps
+            .iter()
+            .any(|step| step.left_out && step.place == Some(place))
     }
 
     /// True if a part is in a step.
     fn is_linear(&self, step: usize) -> bool {
-        self.unit.iter().any(|v| self.steps[step].support >> v & 1 == 1)
+        self.unit
+            .iter()
+            .any(|v| self.steps[step].support >> v & 1 == 1)
     }
 
     /// True if the variables add up to a leaf, input by input.
@@ -213,7 +263,9 @@ impl<'a> Formula<'a> {
         };
         add((i, j), -1);
         for (minus, v) in sum {
-            let Some(leaf) = self.variables[*v].leaf else { return false };
+            let Some(leaf) = self.variables[*v].leaf else {
+                return false;
+            };
             add(leaf, if *minus { -1 } else { 1 });
         }
         left == [0; 17]
@@ -230,13 +282,16 @@ impl<'a> Formula<'a> {
         else {
             return false;
         };
-        let proof_only: Vec<usize> =
-            (0..self.steps.len()).filter(|i| self.steps[*i].place.is_none()).collect();
+        let proof_only: Vec<usize> = (0..self.steps.len())
+            .filter(|i| self.steps[*i].place.is_none())
+            .collect();
         let mut expected = vec![before.len(), before.len() + 1, before.len() + 2];
         if numerators.len() != 1 {
             expected.insert(0, above);
         }
-        let Step { name, place, terms, .. } = &self.steps[above];
+        let Step {
+            name, place, terms, ..
+        } = &self.steps[above];
         let of = |(_, a, _): &Term| self.steps[*a].place;
         let is_numerator = match numerators {
             [] => *name == "number",

@@ -46,39 +46,61 @@ struct Guarded<'a> {
 
 /// Reads and checks everything after the heading. Returns how many margins there are.
 pub fn check<'a>(format: Format, reader: &mut Reader<'a>) -> Outcome<usize> {
-    let promise = reader.read("guarded line, ray or interval, and both or front", |words| {
-        let &[extent, sides] = words else { return None };
-        let is_known = ["line", "ray", "interval"].contains(&extent);
-        let is_front = ["both", "front"].iter().position(|name| *name == sides)? == 1;
-        is_known.then(|| Promise { extent: extent.to_owned(), is_front })
-    })?;
+    let promise = reader.read(
+        "guarded line, ray or interval, and both or front",
+        |words| {
+            let &[extent, sides] = words else { return None };
+            let is_known = ["line", "ray", "interval"].contains(&extent);
+            let is_front = ["both", "front"].iter().position(|name| *name == sides)? == 1;
+            is_known.then(|| Promise {
+                extent: extent.to_owned(),
+                is_front,
+            })
+        },
+    )?;
     let program = Program::of_operations(format, reader)?;
     let signs = Signs::new(promise, &program);
-    let mut guarded = Guarded { program, margins: HashSet::new(), signs, steps: 0 };
+    let mut guarded = Guarded {
+        program,
+        margins: HashSet::new(),
+        signs,
+        steps: 0,
+    };
     let mut counts = HashMap::new();
     while reader.is_next("margin") {
         let count = guarded.program.operations.len();
         let form = "margin OPERATION ROUNDINGS FACTOR, once for an operation";
         let (place, found) = reader.read(form, |words| {
-            let &[place, roundings, factor] = words else { return None };
+            let &[place, roundings, factor] = words else {
+                return None;
+            };
             let place = indices(&[place], count)?[0];
             let is_new = !guarded.margins.contains(&place);
             is_new.then(|| (place, format!("{roundings} {factor}")))
         })?;
         let right = guarded.margin(place, &mut counts)?;
-        ensure(found == right, format!("found `{found}`, expected `{right}`"))?;
+        ensure(
+            found == right,
+            format!("found `{found}`, expected `{right}`"),
+        )?;
         guarded.margins.insert(place);
     }
     guarded.axes(reader)?;
     reader.read("end", |words| words.is_empty().then_some(()))?;
-    ensure(reader.lines.peek().is_none(), "found more lines after the end")?;
+    ensure(
+        reader.lines.peek().is_none(),
+        "found more lines after the end",
+    )?;
     Ok(guarded.margins.len())
 }
 
 impl<'a> Guarded<'a> {
     /// The roundings and the factor of a number's margin; `0 0` for an input and a difference of two.
     fn margin(&self, place: usize, counts: &mut HashMap<(usize, bool), Count>) -> Outcome<String> {
-        let [number, size] = [self.count(place, false, counts)?, self.count(place, true, counts)?];
+        let [number, size] = [
+            self.count(place, false, counts)?,
+            self.count(place, true, counts)?,
+        ];
         let few = number.underflows + size.underflows <= 500;
         ensure(few, format!("found operation {place} with too many terms"))?;
         let is_sum = ["add", "sub"].contains(&self.program.operations[place].name);
@@ -105,15 +127,30 @@ impl<'a> Guarded<'a> {
         if let Some(known) = counts.get(&(place, of_size)) {
             return Ok(*known);
         }
-        let input = Count { roundings: 0, terms: 1, shares: 0, underflows: 1 };
+        let input = Count {
+            roundings: 0,
+            terms: 1,
+            shares: 0,
+            underflows: 1,
+        };
         let Operation { name, operands, .. } = &self.program.operations[place];
         let found = match (self.program.leaf(place), *name, &operands[..]) {
             (Some((_, None)), ..) => input,
-            (Some(_), ..) => Count { roundings: 1, underflows: 4, ..input },
-            (_, "number", _) => Count { underflows: 0, ..input },
+            (Some(_), ..) => Count {
+                roundings: 1,
+                underflows: 4,
+                ..input
+            },
+            (_, "number", _) => Count {
+                underflows: 0,
+                ..input
+            },
             (_, "neg" | "abs", &[a]) => self.count(a, of_size, counts)?,
             (_, "add" | "sub", &[a, b]) => {
-                let (a, b) = (self.count(a, of_size, counts)?, self.count(b, of_size, counts)?);
+                let (a, b) = (
+                    self.count(a, of_size, counts)?,
+                    self.count(b, of_size, counts)?,
+                );
                 Count {
                     roundings: a.roundings.max(b.roundings),
                     terms: a.terms + b.terms,
@@ -122,7 +159,11 @@ impl<'a> Guarded<'a> {
                 }
             }
             (_, "mul", &[a, b]) => {
-                let mut product = Count { roundings: 1, shares: 0, ..input };
+                let mut product = Count {
+                    roundings: 1,
+                    shares: 0,
+                    ..input
+                };
                 for factor in [a, b] {
                     let mut count = self.count(factor, of_size, counts)?;
                     if of_size && self.count(factor, false, counts)?.underflows > 0 {
@@ -134,11 +175,25 @@ impl<'a> Guarded<'a> {
                 }
                 product
             }
-            _ => return Err(format!("found a margin of a number with `{name}`, which has none")),
+            _ => {
+                return Err(format!(
+                    "found a margin of a number with `{name}`, which has none"
+                ));
+            }
         };
-        let Count { roundings, terms, shares, underflows } = found;
-        let is_small = [roundings, terms, shares, underflows].iter().all(|n| *n <= MOST_COUNT);
-        ensure(is_small, format!("found operation {place} with too many roundings"))?;
+        let Count {
+            roundings,
+            terms,
+            shares,
+            underflows,
+        } = found;
+        let is_small = [roundings, terms, shares, underflows]
+            .iter()
+            .all(|n| *n <= MOST_COUNT);
+        ensure(
+            is_small,
+            format!("found operation {place} with too many roundings"),
+        )?;
         counts.insert((place, of_size), found);
         Ok(found)
     }
@@ -188,8 +243,9 @@ impl<'a> Guarded<'a> {
             return Ok(());
         }
         if reader.is_next("gate") {
-            let name = reader
-                .read("gate NAME", |words| (words.len() == 1).then(|| words[0].to_owned()))?;
+            let name = reader.read("gate NAME", |words| {
+                (words.len() == 1).then(|| words[0].to_owned())
+            })?;
             let mut hits = Vec::new();
             while reader.is_next("hit") {
                 hits.push(self.pattern("hit CONDITIONS", reader)?);
@@ -212,7 +268,9 @@ impl<'a> Guarded<'a> {
 
     /// A line of conditions.
     fn pattern(&self, form: &str, reader: &mut Reader<'a>) -> Outcome<Vec<Literal>> {
-        reader.read(form, |words| words.iter().map(|word| self.literal(word)).collect())
+        reader.read(form, |words| {
+            words.iter().map(|word| self.literal(word)).collect()
+        })
     }
 
     /// `-3*7!5`, of numbers with margins.
@@ -223,12 +281,25 @@ impl<'a> Guarded<'a> {
             Some((signs, nonzero)) => (signs, nonzero.split('!').collect()),
             None => (rest, vec![]),
         };
-        let signs: Vec<&str> = if signs.is_empty() { vec![] } else { signs.split('*').collect() };
-        let places = |words: &[&str]| -> Option<Vec<usize>> {
-            let all = words.iter().map(|word| whole(word)).collect::<Option<Vec<usize>>>()?;
-            all.iter().all(|place| self.margins.contains(place)).then_some(all)
+        let signs: Vec<&str> = if signs.is_empty() {
+            vec![]
+        } else {
+            signs.split('*').collect()
         };
-        Some(Literal { is_negative, signs: places(&signs)?, nonzero: places(&nonzero)? })
+        let places = |words: &[&str]| -> Option<Vec<usize>> {
+            let all = words
+                .iter()
+                .map(|word| whole(word))
+                .collect::<Option<Vec<usize>>>()?;
+            all.iter()
+                .all(|place| self.margins.contains(place))
+                .then_some(all)
+        };
+        Some(Literal {
+            is_negative,
+            signs: places(&signs)?,
+            nonzero: places(&nonzero)?,
+        })
     }
 }
 
@@ -236,6 +307,9 @@ impl<'a> Guarded<'a> {
 fn comparison(words: &[&str], count: usize) -> Option<()> {
     let (name, places) = words.split_first()?;
     let places = indices(places, count)?.len();
-    let is_known = matches!((*name, places), ("less" | "at-most", 2) | ("zero" | "negative", 1));
+    let is_known = matches!(
+        (*name, places),
+        ("less" | "at-most", 2) | ("zero" | "negative", 1)
+    );
     is_known.then_some(())
 }

@@ -77,27 +77,44 @@ fn checked<'a, T>(
     text: &'a str,
     check: impl FnOnce(&mut Reader<'a>) -> Outcome<T>,
 ) -> Result<T, Refusal> {
-    let mut reader = Reader { lines: text.lines().peekable(), line: 0, work: 0 };
-    let checked = ensure(text.len() <= MOST_BYTES, format!("found more than {MOST_BYTES} bytes"));
+    let mut reader = Reader {
+        lines: text.lines().peekable(),
+        line: 0,
+        work: 0,
+    };
+    let checked = ensure(
+        text.len() <= MOST_BYTES,
+        format!("found more than {MOST_BYTES} bytes"),
+    );
     let checked = checked.and_then(|()| check(&mut reader));
-    checked.map_err(|message| Refusal { line: reader.line, message })
+    checked.map_err(|message| Refusal {
+        line: reader.line,
+        message,
+    })
 }
 
 /// The first lines.
 fn heading(reader: &mut Reader) -> Outcome<Format> {
-    reader.read("hairline proof 3", |words| (words == ["proof", "3"]).then_some(()))?;
-    let scalar = reader.read("kernel NAME SCALAR", |words| (words.len() == 2).then(|| words[1]))?;
-    reader.read("format DIGITS SMALLEST LARGEST, as of the scalar", |words| {
-        let format: Option<Vec<i64>> = words.iter().map(|word| whole(word)).collect();
-        let format: [i64; 3] = format?.try_into().ok()?;
-        let is_right = match (scalar, format) {
-            ("f32", format) => format == F32,
-            ("f64", format) => format == F64,
-            ("float", [3..=60, -2048..=0, 0..=2048]) => true,
-            _ => false,
-        };
-        is_right.then(|| Format::of(format))
-    })
+    reader.read("hairline proof 3", |words| {
+        (words == ["proof", "3"]).then_some(())
+    })?;
+    let scalar = reader.read("kernel NAME SCALAR", |words| {
+        (words.len() == 2).then(|| words[1])
+    })?;
+    reader.read(
+        "format DIGITS SMALLEST LARGEST, as of the scalar",
+        |words| {
+            let format: Option<Vec<i64>> = words.iter().map(|word| whole(word)).collect();
+            let format: [i64; 3] = format?.try_into().ok()?;
+            let is_right = match (scalar, format) {
+                ("f32", format) => format == F32,
+                ("f64", format) => format == F64,
+                ("float", [3..=60, -2048..=0, 0..=2048]) => true,
+                _ => false,
+            };
+            is_right.then(|| Format::of(format))
+        },
+    )
 }
 
 fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
@@ -129,14 +146,20 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
         proved.push(Proved {
             line,
             domain: domain.0.clone(),
-            limits: program.limits.each_ref().map(|limits| limits.values().cloned().collect()),
+            limits: program
+                .limits
+                .each_ref()
+                .map(|limits| limits.values().cloned().collect()),
             gate: gate.to_owned(),
             bound,
             has_signs: symmetry == "signs",
             programs: program.variants(),
         });
     }
-    ensure(!proved.is_empty(), "found the end of the file, expected a program with a claim")?;
+    ensure(
+        !proved.is_empty(),
+        "found the end of the file, expected a program with a claim",
+    )?;
     Ok(proved)
 }
 
@@ -160,9 +183,17 @@ fn lemma(program: &mut Program, reader: &mut Reader) -> Outcome<()> {
         "sum" => sum(program, place, reader)?,
         "unit" => unit(program, place)?,
         _ => {
-            let prove = if rule.starts_with("quotient") { quotient } else { two_quotients };
+            let prove = if rule.starts_with("quotient") {
+                quotient
+            } else {
+                two_quotients
+            };
             let bound = prove(program, place, rule, reader)?;
-            Lemma { before: bound.error.clone(), bound, unit: None }
+            Lemma {
+                before: bound.error.clone(),
+                bound,
+                unit: None,
+            }
         }
     };
     reader.demand("size", &lemma.bound.size)?;
@@ -176,19 +207,33 @@ fn lemma(program: &mut Program, reader: &mut Reader) -> Outcome<()> {
 fn sum(program: &Program, place: usize, reader: &mut Reader) -> Outcome<Lemma> {
     let formula = Formula::read(program, None, reader)?;
     let last = formula.steps[formula.steps.len() - 1].place;
-    ensure(last == Some(place), format!("found another last step, expected operation {place}"))?;
+    ensure(
+        last == Some(place),
+        format!("found another last step, expected operation {place}"),
+    )?;
     let shown = formula.maximum(&program.format, reader)?;
     let size = round_up(&shown.size, SIZE_DIGITS);
     let error = round_up(&shown.error, ERROR_DIGITS);
-    let bound = Bound { computed: shown.computed.min(&size + &error), size, error };
-    Ok(Lemma { bound, before: shown.before, unit: None })
+    let bound = Bound {
+        computed: shown.computed.min(&size + &error),
+        size,
+        error,
+    };
+    Ok(Lemma {
+        bound,
+        before: shown.before,
+        unit: None,
+    })
 }
 
 /// The bound of a number that is rounded once more: its exact size, and its error and size before that.
 fn rounded(format: &Format, size: Number, error: Number, before: &Number) -> Outcome<Bound> {
     let bound = format.rounded(size, before);
     format.finite(&bound.computed)?;
-    Ok(Bound { error: round_up(&(error + bound.error), ERROR_DIGITS), ..bound })
+    Ok(Bound {
+        error: round_up(&(error + bound.error), ERROR_DIGITS),
+        ..bound
+    })
 }
 
 /// The least size of a computed divisor.
@@ -230,14 +275,24 @@ fn two_quotients(
         // The sum of both is 1 less the number.
         let lower = down_to.map(|_| most - Number::one());
         let upper = Number::one() + down_to.unwrap_or(most);
-        let upper = lower.clone().map_or(upper.clone(), |lower| upper.max(lower));
+        let upper = lower
+            .clone()
+            .map_or(upper.clone(), |lower| upper.max(lower));
         let size = limited(&both + Number::one(), most.clone());
         (size, limited(both, upper), lower)
     };
     let by_reciprocal = rule.ends_with("-by-reciprocal");
-    let mut error = error_of_both(program, [u, v], (&sum, lower.as_ref()), by_reciprocal, reader)?;
+    let mut error = error_of_both(
+        program,
+        [u, v],
+        (&sum, lower.as_ref()),
+        by_reciprocal,
+        reader,
+    )?;
     if let Some(rest) = rest {
-        let Bound { size, error: own, .. } = program.bound(rest)?;
+        let Bound {
+            size, error: own, ..
+        } = program.bound(rest)?;
         error += program.format.half_ulp(&(size + own));
     }
     let before = &size + &error;
@@ -283,7 +338,11 @@ fn error_of_both(
         error /= least;
     }
     for (part, n) in parts.into_iter().zip(numerators) {
-        let Bound { size, error: of_part, .. } = program.bound(part)?;
+        let Bound {
+            size,
+            error: of_part,
+            ..
+        } = program.bound(part)?;
         // Whatever its own lemma leaves out.
         let mut largest = (size + of_part + &of_tiny) * (Number::one() + &share + &share);
         if formula.leaves_out(program, n) {
@@ -311,7 +370,9 @@ fn quotient(program: &Program, place: usize, rule: &str, reader: &mut Reader) ->
     let above = n.map_or(Ok(&one), |n| program.bound(n))?;
     let below_before = &program.lemma(d)?.before;
     let (numerator, divisor) = (n.and_then(|n| program.input(n)), program.input(d));
-    let is_ordered = numerator.zip(divisor).is_some_and(|order| program.orders.contains(&order));
+    let is_ordered = numerator
+        .zip(divisor)
+        .is_some_and(|order| program.orders.contains(&order));
     let (floor, least) = (program.floor(d), least(program, d)?);
     if by_reciprocal {
         format.finite(&round_up(&least.recip(), ERROR_DIGITS))?;
@@ -322,14 +383,21 @@ fn quotient(program: &Program, place: usize, rule: &str, reader: &mut Reader) ->
         None => floor.recip(),
     };
     let size = round_up(&size, SIZE_DIGITS);
-    let about = Quotient { size: &size, down_to: program.down_to(place) };
+    let about = Quotient {
+        size: &size,
+        down_to: program.down_to(place),
+    };
     let formula = Formula::read(program, Some(about), reader)?;
     ensure(
         formula.is_quotient_of(n.as_slice(), d),
         "found other last steps, expected numerator - quotient * divisor",
     )?;
     let of_divisor = formula.leaves_out(program, d);
-    let closest = if of_divisor { floor - below_before } else { least.clone() };
+    let closest = if of_divisor {
+        floor - below_before
+    } else {
+        least.clone()
+    };
     let mut error = formula.maximum(format, reader)?.error / closest;
     let mut before = &size + &error;
     let left_out =
@@ -356,7 +424,9 @@ fn unit(program: &Program, place: usize) -> Outcome<Lemma> {
     let found = program.fraction(place);
     let vector = found.and_then(|(n, length)| {
         let is_fit = |vector: &Vec<usize>| vector.len() == 3 && vector.contains(&n);
-        squares(program, length).filter(is_fit).map(|vector| (vector, length))
+        squares(program, length)
+            .filter(is_fit)
+            .map(|vector| (vector, length))
     });
     let (vector, length) =
         vector.ok_or("found another operation, expected a part of a vector by its length")?;
@@ -366,18 +436,31 @@ fn unit(program: &Program, place: usize) -> Outcome<Lemma> {
         before += &lemma.before * &lemma.before;
         sizes += &lemma.bound.computed * &lemma.bound.computed;
     }
-    let (before, size) = (root_up(&before, ERROR_DIGITS), root_up(&sizes, ERROR_DIGITS));
+    let (before, size) = (
+        root_up(&before, ERROR_DIGITS),
+        root_up(&sizes, ERROR_DIGITS),
+    );
     let Format { unit, tiny, .. } = &program.format;
     let (floor, one) = (program.floor(length), Number::one());
     let times = |n: i64, x: &Number| Number::from_integer(n.into()) * x;
     let shift = &before + unit * (&before + floor) + times(2, tiny);
     let least = floor - &shift;
     let is_safe = least.is_positive() && times(6, tiny) <= unit * unit * &least * &least;
-    ensure(is_safe, "found a length that may be rounded to zero, expected a larger floor")?;
+    ensure(
+        is_safe,
+        "found a length that may be rounded to zero, expected a larger floor",
+    )?;
     let (longest, third) = (&size * (&one + times(2, unit)), &one - times(3, unit));
-    program.format.finite(&round_up(&(&longest * &longest), ERROR_DIGITS))?;
-    program.format.finite(&round_up(&(least * &third).recip(), ERROR_DIGITS))?;
-    let (turn, stretch) = (&shift / (floor - shifted(&shift, -1)), times(4, unit) / third);
+    program
+        .format
+        .finite(&round_up(&(&longest * &longest), ERROR_DIGITS))?;
+    program
+        .format
+        .finite(&round_up(&(least * &third).recip(), ERROR_DIGITS))?;
+    let (turn, stretch) = (
+        &shift / (floor - shifted(&shift, -1)),
+        times(4, unit) / third,
+    );
     let before = &stretch * &stretch + (&one + &stretch) * &turn * &turn;
     let before = root_up(&before, ERROR_DIGITS) + size * tiny;
     let rounded = &one + &before;
@@ -386,7 +469,15 @@ fn unit(program: &Program, place: usize) -> Outcome<Lemma> {
     program.format.finite(&computed)?;
     let by_reciprocal = program.operations[place].name == "mul";
     let unit = found.map(|(n, length)| (n, (length, by_reciprocal)));
-    Ok(Lemma { before: error.clone(), bound: Bound { size: one, computed, error }, unit })
+    Ok(Lemma {
+        before: error.clone(),
+        bound: Bound {
+            size: one,
+            computed,
+            error,
+        },
+        unit,
+    })
 }
 
 /// The numbers whose squares an operation adds up before it takes the root; more than three if they are too many.
@@ -394,7 +485,10 @@ fn squares(program: &Program, root: usize) -> Option<Vec<usize>> {
     let root = Some(&program.operations[root]).filter(|root| root.name == "sqrt")?;
     let (mut squares, mut open) = (Vec::new(), root.operands.clone());
     while let Some(place) = open.pop().filter(|_| squares.len() < 4) {
-        match (program.operations[place].name, &program.operations[place].operands[..]) {
+        match (
+            program.operations[place].name,
+            &program.operations[place].operands[..],
+        ) {
             ("mul", &[a, b]) if a == b => squares.push(a),
             ("fma", &[a, b, c]) if a == b => {
                 squares.push(a);

@@ -18,7 +18,10 @@ const MOST_EXPONENT: i64 = 1 << 12;
 /// A number as `show` writes it: the mantissa odd, no sign that says nothing.
 pub fn number(word: &str) -> Option<Number> {
     let (mantissa, exponent) = word.split_once("*2^").unwrap_or((word, "0"));
-    let (mantissa, exponent) = (mantissa.parse::<i128>().ok()?, exponent.parse::<i64>().ok()?);
+    let (mantissa, exponent) = (
+        mantissa.parse::<i128>().ok()?,
+        exponent.parse::<i64>().ok()?,
+    );
     let is_fair = 0 <= mantissa && (-MOST_EXPONENT..=MOST_EXPONENT).contains(&exponent);
     let found = is_fair.then(|| shifted(&Number::from(BigInt::from(mantissa)), exponent));
     found.filter(|found| show(found) == word)
@@ -26,7 +29,9 @@ pub fn number(word: &str) -> Option<Number> {
 
 /// A whole number, written in the one way.
 pub fn whole<T: FromStr + ToString>(word: &str) -> Option<T> {
-    word.parse().ok().filter(|found: &T| found.to_string() == word)
+    word.parse()
+        .ok()
+        .filter(|found: &T| found.to_string() == word)
 }
 
 pub fn show(x: &Number) -> String {
@@ -38,7 +43,11 @@ pub fn show(x: &Number) -> String {
 
 pub fn power(exponent: i64) -> Number {
     let power = BigInt::one() << exponent.unsigned_abs();
-    if exponent < 0 { Number::new_raw(BigInt::one(), power) } else { Number::from(power) }
+    if exponent < 0 {
+        Number::new_raw(BigInt::one(), power)
+    } else {
+        Number::from(power)
+    }
 }
 
 /// x * 2^exponent. Only factors of two are common to numerator and denominator.
@@ -60,13 +69,18 @@ pub fn shifted(x: &Number, exponent: i64) -> Number {
 /// The odd mantissa and the exponent of a binary fraction.
 pub fn split(x: &Number) -> (BigInt, i64) {
     let zeros = x.numer().trailing_zeros().unwrap_or(0);
-    (x.numer() >> zeros, zeros as i64 - (x.denom().bits() as i64 - 1))
+    (
+        x.numer() >> zeros,
+        zeros as i64 - (x.denom().bits() as i64 - 1),
+    )
 }
 
 /// The smallest e with x <= 2^e, for a positive x.
 fn ceil_log2(x: &Number) -> i64 {
     let least = x.numer().bits() as i64 - x.denom().bits() as i64 - 1;
-    (least..).find(|e| *x <= power(*e)).expect("2^e is above x at last")
+    (least..)
+        .find(|e| *x <= power(*e))
+        .expect("2^e is above x at last")
 }
 
 /// The smallest multiple of 2^last that is at least x.
@@ -76,7 +90,11 @@ fn up_to(x: &Number, last: i64) -> Number {
 
 /// The smallest number of so many binary digits that is at least x.
 pub fn round_up(x: &Number, digits: i64) -> Number {
-    if x.is_zero() { x.clone() } else { up_to(x, ceil_log2(x) - digits) }
+    if x.is_zero() {
+        x.clone()
+    } else {
+        up_to(x, ceil_log2(x) - digits)
+    }
 }
 
 /// The smallest number of so many binary digits whose square is at least x.
@@ -88,7 +106,11 @@ pub fn root_up(x: &Number, digits: i64) -> Number {
     let e = (ceil_log2(x) + 1).div_euclid(2);
     let scaled = shifted(x, 2 * (digits - e)).ceil().to_integer();
     let root = scaled.sqrt();
-    let root = if &root * &root < scaled { root + 1 } else { root };
+    let root = if &root * &root < scaled {
+        root + 1
+    } else {
+        root
+    };
     round_up(&shifted(&Number::from(root), e - digits), digits)
 }
 
@@ -106,7 +128,11 @@ pub struct Bound {
 impl Bound {
     /// The bounds of a number without an error.
     pub fn exactly(size: &Number) -> Bound {
-        Bound { size: size.clone(), computed: size.clone(), error: Number::zero() }
+        Bound {
+            size: size.clone(),
+            computed: size.clone(),
+            error: Number::zero(),
+        }
     }
 }
 
@@ -127,7 +153,11 @@ pub struct Format {
 impl Format {
     pub fn of(parameters: [i64; 3]) -> Format {
         let [digits, smallest, _] = parameters;
-        Format { parameters, unit: power(-digits), tiny: power(smallest - 1) }
+        Format {
+            parameters,
+            unit: power(-digits),
+            tiny: power(smallest - 1),
+        }
     }
 
     /// The largest error of rounding a number of at most this size.
@@ -143,17 +173,27 @@ impl Format {
     /// An error if the number may overflow.
     pub fn finite(&self, x: &Number) -> Result<(), String> {
         let is_finite = *x < power(self.parameters[2]);
-        is_finite.then_some(()).ok_or_else(|| format!("found {}, which may overflow", show(x)))
+        is_finite
+            .then_some(())
+            .ok_or_else(|| format!("found {}, which may overflow", show(x)))
     }
 
     /// The bound of a number of this exact size, from its largest size before it is rounded.
     pub fn rounded(&self, size: Number, before: &Number) -> Bound {
-        Bound { size, computed: self.float_up(before), error: self.half_ulp(before) }
+        Bound {
+            size,
+            computed: self.float_up(before),
+            error: self.half_ulp(before),
+        }
     }
 
     /// The smallest float that is at least x: no number of at most this size is rounded above it.
     pub fn float_up(&self, x: &Number) -> Number {
         let [digits, smallest, _] = self.parameters;
-        if x.is_zero() { x.clone() } else { up_to(x, (ceil_log2(x) - digits).max(smallest)) }
+        if x.is_zero() {
+            x.clone()
+        } else {
+            up_to(x, (ceil_log2(x) - digits).max(smallest))
+        }
     }
 }

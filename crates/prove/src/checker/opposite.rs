@@ -13,10 +13,14 @@ type Form<'a> = (&'a str, Vec<(bool, Vec<usize>)>);
 /// exchanged; and, for `signs`, that it is x(p)*y(q) - x(q)*y(p), with both products rounded or neither.
 pub fn check(program: &Program, place: usize, claim: &str) -> Outcome<()> {
     let ensure = |holds: bool, expected: &str| {
-        ensure(holds, format!("found `{claim}` of operation {place}, expected {expected}"))
+        ensure(
+            holds,
+            format!("found `{claim}` of operation {place}, expected {expected}"),
+        )
     };
-    let vertices: Vec<usize> =
-        (2..5).filter(|vertex| is_made_of(program, place, *vertex)).collect();
+    let vertices: Vec<usize> = (2..5)
+        .filter(|vertex| is_made_of(program, place, *vertex))
+        .collect();
     let &[p, q] = &vertices[..] else {
         return ensure(false, "one that is made of two vertices");
     };
@@ -28,7 +32,10 @@ pub fn check(program: &Program, place: usize, claim: &str) -> Outcome<()> {
         _ => i,
     };
     let (other_sign, other) = self::form(program, place, &mut forms, &exchange);
-    ensure(form == other && sign != other_sign, "its negative where the vertices are exchanged")?;
+    ensure(
+        form == other && sign != other_sign,
+        "its negative where the vertices are exchanged",
+    )?;
     if claim == "opposite" {
         return Ok(());
     }
@@ -60,8 +67,16 @@ pub fn check(program: &Program, place: usize, claim: &str) -> Outcome<()> {
 fn is_made_of(program: &Program, place: usize, point: usize) -> bool {
     let mut depends = Vec::new();
     for place in 0..=place {
-        let of_input = program.input(place).is_some_and(|i| i < 15 && i / 3 == point);
-        depends.push(of_input || program.operands(place).iter().any(|operand| depends[*operand]));
+        let of_input = program
+            .input(place)
+            .is_some_and(|i| i < 15 && i / 3 == point);
+        depends.push(
+            of_input
+                || program
+                    .operands(place)
+                    .iter()
+                    .any(|operand| depends[*operand]),
+        );
     }
     depends[place]
 }
@@ -91,7 +106,10 @@ fn form<'a>(
                 (name, vec![(s ^ t, vec![a, b])])
             }
             // A root has no sign of its own, and that of its operand counts.
-            ("sqrt", &[a]) => (name, vec![(false, vec![values[a].1, usize::from(values[a].0)])]),
+            ("sqrt", &[a]) => (
+                name,
+                vec![(false, vec![values[a].1, usize::from(values[a].0)])],
+            ),
             _ => {
                 let term = |(minus, a, b): (bool, usize, Option<usize>)| {
                     let factors = [Some(a), b].into_iter().flatten().map(|i| values[i]);

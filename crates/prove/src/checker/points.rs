@@ -98,8 +98,19 @@ impl Point {
         let far = minus(times(inputs[16], determinant), t);
         let pairs = [plus(u, v), plus(v, w), plus(w, u)];
         let square = dot(normal, normal);
-        let known = [&[u, v, w][..], &pairs, &[sum, t, near, far], &normal, &d, &[square]].concat();
-        Point { inputs, known: known.try_into().expect("seventeen") }
+        let known = [
+            &[u, v, w][..],
+            &pairs,
+            &[sum, t, near, far],
+            &normal,
+            &d,
+            &[square],
+        ]
+        .concat();
+        Point {
+            inputs,
+            known: known.try_into().expect("seventeen"),
+        }
     }
 }
 
@@ -107,13 +118,23 @@ impl Point {
 pub fn seed(program: &Program) -> u64 {
     let mix = |state: u64, word: u64| {
         let x = (state ^ word).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        (x ^ (x >> 29)).wrapping_mul(0x94d0_49bb_1331_11eb).rotate_left(31)
+        (x ^ (x >> 29))
+            .wrapping_mul(0x94d0_49bb_1331_11eb)
+            .rotate_left(31)
     };
-    program.operations.iter().fold(0, |state, Operation { name, operands, value }| {
-        let name = name.bytes().map(u64::from);
-        let operands = operands.iter().map(|place| *place as u64);
-        name.chain(operands).chain([*value as u64]).fold(state, mix)
-    })
+    program.operations.iter().fold(
+        0,
+        |state,
+         Operation {
+             name,
+             operands,
+             value,
+         }| {
+            let name = name.bytes().map(u64::from);
+            let operands = operands.iter().map(|place| *place as u64);
+            name.chain(operands).chain([*value as u64]).fold(state, mix)
+        },
+    )
 }
 
 /// The most that a number's degree and the sum of its coefficients' sizes may be: two such polynomials that differ also differ modulo
@@ -124,7 +145,12 @@ const MOST_COEFFICIENTS: u64 = 1 << 50;
 /// True if a number is a polynomial within these bounds.
 pub fn is_small(program: &Program, last: usize) -> bool {
     let mut all: Vec<Option<(u64, u64)>> = Vec::with_capacity(last + 1);
-    for Operation { name, operands, value } in &program.operations[..=last] {
+    for Operation {
+        name,
+        operands,
+        value,
+    } in &program.operations[..=last]
+    {
         let of = |i: usize| -> Option<(u64, u64)> { all[operands[i]] };
         let both = || Some((of(0)?, of(1)?));
         let found = match *name {
@@ -154,7 +180,9 @@ pub fn product(factors: &Factors, point: &Point) -> u64 {
 /// The products that a number may be, each by the ratio of its values at the first two points.
 pub fn products(points: &[Point]) -> HashMap<u64, Vec<Factors>> {
     let mut all: HashMap<u64, Vec<Factors>> = HashMap::new();
-    let mains = [(U, 0)].into_iter().chain((0..SUM).chain(T..N).map(|main| (main, 1)));
+    let mains = [(U, 0)]
+        .into_iter()
+        .chain((0..SUM).chain(T..N).map(|main| (main, 1)));
     for main in mains {
         for of_sum in 0..4 {
             for of_square in 0..3 {
@@ -162,7 +190,9 @@ pub fn products(points: &[Point]) -> HashMap<u64, Vec<Factors>> {
                     for along in powers(D, 4) {
                         let factors = [main, (SUM, of_sum), (SQUARE, of_square), normal, along];
                         let [first, second] = [0, 1].map(|i| product(&factors, &points[i]));
-                        all.entry(times(second, inverse(first))).or_default().push(factors);
+                        all.entry(times(second, inverse(first)))
+                            .or_default()
+                            .push(factors);
                     }
                 }
             }
@@ -186,7 +216,12 @@ pub fn value(
     axes: &[usize; 3],
 ) -> u64 {
     let mut values = Vec::with_capacity(last + 1);
-    for Operation { name, operands, value } in &program.operations[..=last] {
+    for Operation {
+        name,
+        operands,
+        value,
+    } in &program.operations[..=last]
+    {
         let of = |i: usize| -> u64 { values[operands[i]] };
         values.push(match *name {
             "input" => match *value as usize {

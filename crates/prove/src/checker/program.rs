@@ -92,12 +92,20 @@ pub fn places(word: &str, letters: &str) -> Option<[usize; 3]> {
 }
 
 impl Names {
-    pub const SAME: Names = Names { axes: [0, 1, 2], vertices: [0, 1, 2] };
+    pub const SAME: Names = Names {
+        axes: [0, 1, 2],
+        vertices: [0, 1, 2],
+    };
 
     /// Two words, each with all three letters: the first is in place of x, or of a.
     pub fn parse(words: &[&str]) -> Option<Names> {
-        let &[axes, vertices] = words else { return None };
-        Some(Names { axes: places(axes, "xyz")?, vertices: places(vertices, "abc")? })
+        let &[axes, vertices] = words else {
+            return None;
+        };
+        Some(Names {
+            axes: places(axes, "xyz")?,
+            vertices: places(vertices, "abc")?,
+        })
     }
 
     /// The input in place of an input. The origin, the direction and the ends stay what they are.
@@ -152,21 +160,38 @@ impl<'a> Program<'a> {
         let operations = operations(&format, reader)?;
         let (orders, lemmas, also) = (BTreeSet::new(), HashMap::new(), Vec::new());
         let (limits, domain) = (Default::default(), Domain(from_fn(|_| Number::default())));
-        Ok(Program { format, domain, operations, orders, limits, also, lemmas })
+        Ok(Program {
+            format,
+            domain,
+            operations,
+            orders,
+            limits,
+            also,
+            lemmas,
+        })
     }
 
     /// The operations, and what the proof supposes of them.
     pub fn read(format: Format, domain: Domain, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
         reader.read("program", |words| words.is_empty().then_some(()))?;
-        let mut program = Program { domain, ..Program::of_operations(format, reader)? };
+        let mut program = Program {
+            domain,
+            ..Program::of_operations(format, reader)?
+        };
         while reader.is_next("order") {
             let order = reader.read("order INPUT INPUT, each pair once", |words| {
-                let &[a, b] = &indices(words, INPUTS)?[..] else { return None };
+                let &[a, b] = &indices(words, INPUTS)?[..] else {
+                    return None;
+                };
                 Some((a, b)).filter(|pair| a != b && !program.orders.contains(pair))
             })?;
             program.orders.insert(order);
         }
-        for (limits, word) in program.limits.iter_mut().zip(["at-least", "at-most", "down-to"]) {
+        for (limits, word) in program
+            .limits
+            .iter_mut()
+            .zip(["at-least", "at-most", "down-to"])
+        {
             while reader.is_next(word) {
                 let count = program.operations.len();
                 let form = format!("{word} OPERATION X, once for an operation");
@@ -195,24 +220,40 @@ impl<'a> Program<'a> {
     pub fn last_of_used(&self) -> Outcome<usize> {
         const UNUSED: &str = "found operations that the last one does not use, or none";
         let last = self.operations.len().checked_sub(1).ok_or(UNUSED)?;
-        let used: HashSet<usize> =
-            self.operations.iter().flat_map(|operation| operation.operands.clone()).collect();
+        let used: HashSet<usize> = self
+            .operations
+            .iter()
+            .flat_map(|operation| operation.operands.clone())
+            .collect();
         // Operands are earlier operations.
         ensure(used.len() == last, UNUSED)?;
         let uses = |(a, b): &(usize, usize)| {
-            self.lemmas.keys().filter_map(|place| self.fraction(*place)).any(|(n, d)| {
-                self.input(d) == Some(*b)
-                    && (self.input(n) == Some(*a) || (3..6).contains(a) && self.is_largest(*b))
-            })
+            self.lemmas
+                .keys()
+                .filter_map(|place| self.fraction(*place))
+                .any(|(n, d)| {
+                    self.input(d) == Some(*b)
+                        && (self.input(n) == Some(*a) || (3..6).contains(a) && self.is_largest(*b))
+                })
         };
         let unused = self.orders.iter().find(|order| !uses(order));
-        unused.map_or(Ok(last), |(a, b)| Err(format!("found `order {a} {b}`, which no lemma uses")))
+        unused.map_or(Ok(last), |(a, b)| {
+            Err(format!("found `order {a} {b}`, which no lemma uses"))
+        })
     }
 
     /// The program and its orders under these names.
     fn variant(&self, names: Names) -> Variant {
         let mut text = String::new();
-        for (place, Operation { name, operands, value }) in self.operations.iter().enumerate() {
+        for (
+            place,
+            Operation {
+                name,
+                operands,
+                value,
+            },
+        ) in self.operations.iter().enumerate()
+        {
             let value = match *name {
                 "input" => vec![names.input(*value as usize) as i64],
                 "number" => vec![*value],
@@ -221,8 +262,14 @@ impl<'a> Program<'a> {
             let value: Vec<String> = value.iter().map(i64::to_string).collect();
             text.push_str(&format!("op {place} {name} {}\n", value.join(" ")));
         }
-        let orders = self.orders.iter().map(|(a, b)| (names.input(*a), names.input(*b)));
-        Variant { operations: text, orders: orders.collect() }
+        let orders = self
+            .orders
+            .iter()
+            .map(|(a, b)| (names.input(*a), names.input(*b)));
+        Variant {
+            operations: text,
+            orders: orders.collect(),
+        }
     }
 
     /// The programs that the claim is about.
@@ -234,11 +281,17 @@ impl<'a> Program<'a> {
     /// Numerator and divisor of n/d, or of n*(1/d).
     pub fn fraction(&self, place: usize) -> Option<(usize, usize)> {
         let operands = |place: usize, name: &str| {
-            let Operation { name: found, operands, .. } = &self.operations[place];
+            let Operation {
+                name: found,
+                operands,
+                ..
+            } = &self.operations[place];
             (*found == name).then(|| (operands[0], operands[1]))
         };
         let times = |n: usize, place: usize| {
-            operands(place, "div").filter(|(one, _)| self.is_one(*one)).map(|(_, d)| (n, d))
+            operands(place, "div")
+                .filter(|(one, _)| self.is_one(*one))
+                .map(|(_, d)| (n, d))
         };
         let product =
             || operands(place, "mul").and_then(|(a, b)| times(a, b).or_else(|| times(b, a)));
@@ -268,8 +321,13 @@ impl<'a> Program<'a> {
         if operation.name != "sub" {
             return self.input(place).map(|i| (i, None));
         }
-        let (i, j) = (self.input(operation.operands[0])?, self.input(operation.operands[1])?);
-        let are_points = [i, j].iter().all(|i| (0..3).contains(i) || (6..15).contains(i));
+        let (i, j) = (
+            self.input(operation.operands[0])?,
+            self.input(operation.operands[1])?,
+        );
+        let are_points = [i, j]
+            .iter()
+            .all(|i| (0..3).contains(i) || (6..15).contains(i));
         (are_points && i % 3 == j % 3 && i != j).then_some((i, Some(j)))
     }
 
@@ -277,7 +335,11 @@ impl<'a> Program<'a> {
     pub fn floor(&self, divisor: usize) -> &Number {
         self.limits[0].get(&divisor).unwrap_or_else(|| {
             let largest = self.input(divisor).filter(|d| self.is_largest(*d));
-            &self.domain.0[if largest.is_some() { DIRECTION_FLOOR } else { FLOOR }]
+            &self.domain.0[if largest.is_some() {
+                DIRECTION_FLOOR
+            } else {
+                FLOOR
+            }]
         })
     }
 
@@ -294,7 +356,9 @@ impl<'a> Program<'a> {
 
     /// The largest size of a quotient.
     pub fn most(&self, quotient: usize) -> &Number {
-        self.limits[1].get(&quotient).unwrap_or(&self.domain.0[QUOTIENT])
+        self.limits[1]
+            .get(&quotient)
+            .unwrap_or(&self.domain.0[QUOTIENT])
     }
 
     pub fn bound(&self, place: usize) -> Outcome<&Bound> {
@@ -304,7 +368,11 @@ impl<'a> Program<'a> {
     /// The lemma of a number, or of the number in its neg or abs.
     pub fn lemma(&self, place: usize) -> Outcome<&Lemma> {
         let mut inner = place;
-        while let Some(Operation { name: "neg" | "abs", operands, .. }) = self.operations.get(inner)
+        while let Some(Operation {
+            name: "neg" | "abs",
+            operands,
+            ..
+        }) = self.operations.get(inner)
         {
             inner = operands[0];
         }
@@ -327,7 +395,11 @@ fn operations<'a>(format: &Format, reader: &mut Reader<'a>) -> Outcome<Vec<Opera
             if let ("input" | "number", &[value]) = (name, &parsed[..]) {
                 let is_input = name == "input" && (0..INPUTS as i64).contains(&value);
                 let is_exact = name == "number" && BigInt::from(value).abs() <= most;
-                let operation = Operation { name, operands: vec![], value };
+                let operation = Operation {
+                    name,
+                    operands: vec![],
+                    value,
+                };
                 return (is_input || is_exact).then_some(operation);
             }
             let operands = indices(words, next)?;

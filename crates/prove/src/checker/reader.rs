@@ -34,7 +34,9 @@ impl<'a> Reader<'a> {
 
     /// True if the next line begins with this word.
     pub fn is_next(&mut self, word: &str) -> bool {
-        self.lines.peek().is_some_and(|line| line.split(' ').next() == Some(word))
+        self.lines
+            .peek()
+            .is_some_and(|line| line.split(' ').next() == Some(word))
     }
 
     /// Reads a line that states this number.

@@ -26,7 +26,10 @@ pub struct Literal {
 
 impl Literal {
     pub fn negated(&self) -> Literal {
-        Literal { is_negative: !self.is_negative, ..self.clone() }
+        Literal {
+            is_negative: !self.is_negative,
+            ..self.clone()
+        }
     }
 
     fn places(&self) -> impl Iterator<Item = usize> {
@@ -88,7 +91,11 @@ impl Monomial {
     fn sign(&self, signs: &[i8; COUNT]) -> i8 {
         let odd: i8 = self.odd.iter().map(|known| signs[*known]).product();
         let even: i8 = self.even.iter().map(|known| signs[*known].abs()).product();
-        if self.is_negative { -odd * even } else { odd * even }
+        if self.is_negative {
+            -odd * even
+        } else {
+            odd * even
+        }
     }
 }
 
@@ -112,16 +119,26 @@ type Inner = Vec<(usize, bool)>;
 impl Signs {
     pub fn new(promise: Promise, program: &Program) -> Signs {
         let seed = seed(program);
-        let points: Vec<Point> =
-            (1..=POINTS as u64).map(|i| Point::new(seed.wrapping_add(i << 32))).collect();
+        let points: Vec<Point> = (1..=POINTS as u64)
+            .map(|i| Point::new(seed.wrapping_add(i << 32)))
+            .collect();
         let (products, known) = (products(&points), RefCell::default());
-        Signs { promise, points, products, axes: vec![], known }
+        Signs {
+            promise,
+            points,
+            products,
+            axes: vec![],
+            known,
+        }
     }
 
     /// An error if these conditions hold for some ray that should hit.
     pub fn ensure_miss(&self, program: &Program, known: &[Literal]) -> Outcome<()> {
         self.every(program, known, &[], |signs| {
-            ensure(!self.promise.is_closed_hit(signs), "rejects rays that may hit")
+            ensure(
+                !self.promise.is_closed_hit(signs),
+                "rejects rays that may hit",
+            )
         })
     }
 
@@ -132,9 +149,11 @@ impl Signs {
         sure: &[Literal],
         gates: &[Vec<Vec<Literal>>],
     ) -> Outcome<()> {
-        self.every(program, sure, gates, |signs| match self.promise.wrong_hit(signs) {
-            Some(what) => Err(format!("its gates accept rays that {what}")),
-            None => Ok(()),
+        self.every(program, sure, gates, |signs| {
+            match self.promise.wrong_hit(signs) {
+                Some(what) => Err(format!("its gates accept rays that {what}")),
+                None => Ok(()),
+            }
         })
     }
 
@@ -147,18 +166,25 @@ impl Signs {
         test: impl Fn(&[i8; COUNT]) -> Outcome<()>,
     ) -> Outcome<()> {
         let of_gates = gates.iter().flatten().flatten();
-        let places: BTreeSet<usize> =
-            known.iter().chain(of_gates).flat_map(Literal::places).collect();
+        let places: BTreeSet<usize> = known
+            .iter()
+            .chain(of_gates)
+            .flat_map(Literal::places)
+            .collect();
         let mut sized = BTreeSet::new();
-        places.iter().for_each(|place| inner(program, *place, &mut sized));
+        places
+            .iter()
+            .for_each(|place| inner(program, *place, &mut sized));
         ensure(
             sized.len() <= MOST_SIZED,
             format!("needs the signs of more than {MOST_SIZED} numbers inside absolute values"),
         )?;
         for axes in &self.axes {
             for bits in 0..1_u32 << sized.len() {
-                let inner: Inner =
-                    (0..).zip(&sized).map(|(i, place)| (*place, bits >> i & 1 == 1)).collect();
+                let inner: Inner = (0..)
+                    .zip(&sized)
+                    .map(|(i, place)| (*place, bits >> i & 1 == 1))
+                    .collect();
                 let all = places.iter().chain(&sized);
                 let monomial = |place: &usize| {
                     let key = (*place, inner.clone(), *axes);
@@ -183,8 +209,11 @@ impl Signs {
         gates: &[Vec<Vec<Literal>>],
         test: &impl Fn(&[i8; COUNT]) -> Outcome<()>,
     ) -> Outcome<()> {
-        let mut used: BTreeSet<usize> =
-            monomials.iter().flat_map(|(_, it)| it.odd.iter().chain(&it.even)).copied().collect();
+        let mut used: BTreeSet<usize> = monomials
+            .iter()
+            .flat_map(|(_, it)| it.odd.iter().chain(&it.even))
+            .copied()
+            .collect();
         used.extend(U..=SUM);
         match self.promise.extent.as_str() {
             "ray" => used.extend([T]),
@@ -220,8 +249,12 @@ impl Signs {
                 test(&signs)?;
             }
             // The next combination.
-            let Some(next) = used.iter().find(|number| signs[**number] < 1) else { return Ok(()) };
-            used.iter().take_while(|number| *number != next).for_each(|number| signs[*number] = -1);
+            let Some(next) = used.iter().find(|number| signs[**number] < 1) else {
+                return Ok(());
+            };
+            used.iter()
+                .take_while(|number| *number != next)
+                .for_each(|number| signs[*number] = -1);
             signs[*next] += 1;
         }
     }
@@ -237,16 +270,27 @@ impl Signs {
         if !is_small(program, place) {
             return None;
         }
-        let values: Vec<u64> =
-            self.points.iter().map(|point| value(program, place, point, inner, axes)).collect();
+        let values: Vec<u64> = self
+            .points
+            .iter()
+            .map(|point| value(program, place, point, inner, axes))
+            .collect();
         let alike = self.products.get(&times(values[1], inverse(values[0])));
         alike.into_iter().flatten().find_map(|factors| {
             let is_negative = self.ratio(&values, |point| product(factors, point))?;
             let of_parity = |parity: u64| {
-                let all = factors.iter().filter(|(_, power)| *power > 0 && power % 2 == parity);
-                all.map(|(known, _)| *known).filter(|known| *known < COUNT).collect()
+                let all = factors
+                    .iter()
+                    .filter(|(_, power)| *power > 0 && power % 2 == parity);
+                all.map(|(known, _)| *known)
+                    .filter(|known| *known < COUNT)
+                    .collect()
             };
-            Some(Monomial { is_negative, odd: of_parity(1), even: of_parity(0) })
+            Some(Monomial {
+                is_negative,
+                odd: of_parity(1),
+                even: of_parity(0),
+            })
         })
     }
 

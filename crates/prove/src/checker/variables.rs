@@ -44,7 +44,15 @@ fn described(words: &[&str], in_quotient: bool) -> Option<(Variable, bool)> {
         _ => return None,
     };
     let is_boxed = *kind == "boxed";
-    Some((Variable { leaf, cut, is_boxed, ..Variable::default() }, *kind == "part"))
+    Some((
+        Variable {
+            leaf,
+            cut,
+            is_boxed,
+            ..Variable::default()
+        },
+        *kind == "part",
+    ))
 }
 
 /// With the quotient, in the lemmas that have one.
@@ -64,7 +72,10 @@ pub fn read(
         if let Some((i, j)) = variable.leaf {
             // What is known of the input's component, or of both.
             let (from, to) = (components[i], components[j.unwrap_or(17)]);
-            components.iter_mut().filter(|c| **c == from).for_each(|c| *c = to);
+            components
+                .iter_mut()
+                .filter(|c| **c == from)
+                .for_each(|c| *c = to);
             let expected =
                 "found a variable that follows from those above, expected an independent one";
             ensure(from != to, expected)?;
@@ -91,12 +102,18 @@ pub fn read(
         }
         variables.push(variable);
         let is_fair = variables.len() <= MOST_VARIABLES;
-        ensure(is_fair, format!("found more than {MOST_VARIABLES} variables"))?;
+        ensure(
+            is_fair,
+            format!("found more than {MOST_VARIABLES} variables"),
+        )?;
     }
     // A point in the box is where the box was moved to, not where it is.
     let is_point = |v: &Variable| matches!(v.leaf, Some((0..3 | 6..15, None)));
     let is_mixed = variables.iter().any(|v| v.is_boxed)
         && variables.iter().any(|v| is_point(v) && !v.is_boxed);
-    ensure(!is_mixed, "found points in a box and points as they are, expected one of both")?;
+    ensure(
+        !is_mixed,
+        "found points in a box and points as they are, expected one of both",
+    )?;
     Ok(variables)
 }

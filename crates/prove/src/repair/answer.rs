@@ -52,7 +52,13 @@ impl Guarded {
         inputs[15] = if clamped[0] { -far } else { near };
         inputs[16] = if clamped[1] { far } else { end };
         let (values, sizes) = (Vec::new(), Vec::new());
-        let mut run = Run { guarded: self, inputs, clamped, values, sizes };
+        let mut run = Run {
+            guarded: self,
+            inputs,
+            clamped,
+            values,
+            sizes,
+        };
         run.compute();
         run.answer(&self.steps)
     }
@@ -61,7 +67,10 @@ impl Guarded {
     pub fn uses_end(&self, place: Place, end: u8) -> bool {
         match self.operations[place as usize] {
             Operation::Input(i) => i == 15 + end,
-            operation => operation.operands().iter().any(|operand| self.uses_end(*operand, end)),
+            operation => operation
+                .operands()
+                .iter()
+                .any(|operand| self.uses_end(*operand, end)),
         }
     }
 }
@@ -91,7 +100,9 @@ impl<F: Float + Number> Run<'_, F> {
                     if misses.iter().any(|pattern| self.rejects(pattern)) {
                         return Answer::Miss;
                     }
-                    is_open |= !hits.iter().any(|pattern| pattern.iter().all(|it| self.holds(it)));
+                    is_open |= !hits
+                        .iter()
+                        .any(|pattern| pattern.iter().all(|it| self.holds(it)));
                     next
                 }
                 Step::Axes(axes, next) => {
@@ -111,7 +122,9 @@ impl<F: Float + Number> Run<'_, F> {
         while let Axes::If(comparison, yes, no) = axes {
             axes = if self.compare(comparison) { yes } else { no };
         }
-        let Axes::Are(axes) = axes else { unreachable!("a comparison has two sides") };
+        let Axes::Are(axes) = axes else {
+            unreachable!("a comparison has two sides")
+        };
         let inputs = self.inputs;
         for i in 0..15 {
             self.inputs[i] = inputs[i / 3 * 3 + usize::from(axes[i % 3])];
@@ -132,15 +145,21 @@ impl<F: Float + Number> Run<'_, F> {
         let guarded = self.guarded;
         // An end that another number stands for proves no miss.
         let is_far = |end: u8| {
-            pattern.iter().flat_map(Literal::places).any(|place| guarded.uses_end(place, end))
+            pattern
+                .iter()
+                .flat_map(Literal::places)
+                .any(|place| guarded.uses_end(place, end))
         };
         let is_unknown = (0..2).any(|end| self.clamped[usize::from(end)] && is_far(end));
         !is_unknown && pattern.iter().all(|literal| self.holds(literal))
     }
 
     fn holds(&self, literal: &Literal) -> bool {
-        let is_negative =
-            literal.signs.iter().fold(0, |sum, place| sum ^ i8::from(self.sign(*place) < 0)) == 1;
+        let is_negative = literal
+            .signs
+            .iter()
+            .fold(0, |sum, place| sum ^ i8::from(self.sign(*place) < 0))
+            == 1;
         literal.places().all(|place| self.sign(place) != 0) && is_negative == literal.is_negative
     }
 
@@ -164,9 +183,20 @@ impl<F: Float + Number> Run<'_, F> {
 
     /// Computes all numbers and their sizes.
     fn compute(&mut self) {
-        let Run { guarded, inputs, values, sizes, .. } = self;
+        let Run {
+            guarded,
+            inputs,
+            values,
+            sizes,
+            ..
+        } = self;
         let margins = guarded.sizes();
-        run(&guarded.operations, guarded.operations.len() as Place - 1, inputs, values);
+        run(
+            &guarded.operations,
+            guarded.operations.len() as Place - 1,
+            inputs,
+            values,
+        );
         sizes.clear();
         for (place, operation) in (0..).zip(&guarded.operations) {
             let of = |place: Place| sizes[place as usize];

@@ -37,7 +37,10 @@ pub struct Literal {
 impl Literal {
     /// The same condition on the negative.
     pub fn negated(&self) -> Literal {
-        Literal { is_negative: !self.is_negative, ..self.clone() }
+        Literal {
+            is_negative: !self.is_negative,
+            ..self.clone()
+        }
     }
 
     /// Every number in it.
@@ -116,7 +119,12 @@ fn without(from: &[Place], of: &[Place]) -> Vec<Place> {
 impl<'a> Numbers<'a> {
     pub fn new(arena: &'a mut Arena, path: &'a Path) -> Numbers<'a> {
         let count = path.operations.len();
-        Numbers { arena, path, plain: vec![None; count], fractions: vec![None; count] }
+        Numbers {
+            arena,
+            path,
+            plain: vec![None; count],
+            fractions: vec![None; count],
+        }
     }
 
     /// A number as the kernel computes it.
@@ -138,7 +146,9 @@ impl<'a> Numbers<'a> {
             found = self.sum(b, found, true);
         }
         let (mut signs, mut nonzero) = (Vec::new(), Vec::new());
-        let mut is_negative = self.arena.factors(found.numerator, &mut signs, &mut nonzero);
+        let mut is_negative = self
+            .arena
+            .factors(found.numerator, &mut signs, &mut nonzero);
         for divisor in &found.divisors {
             is_negative ^= self.arena.factors(*divisor, &mut signs, &mut nonzero);
         }
@@ -146,7 +156,11 @@ impl<'a> Numbers<'a> {
         nonzero.retain(|place| !signs.contains(place));
         nonzero.sort_unstable();
         nonzero.dedup();
-        Literal { is_negative, signs, nonzero }
+        Literal {
+            is_negative,
+            signs,
+            nonzero,
+        }
     }
 
     fn fraction(&mut self, place: Place) -> Fraction {
@@ -162,15 +176,22 @@ impl<'a> Numbers<'a> {
     fn made(&mut self, operation: Operation) -> Fraction {
         use Operation::*;
         match operation {
-            Input(_) | Number(_) => {
-                Fraction { numerator: self.arena.push(operation), divisors: vec![] }
-            }
+            Input(_) | Number(_) => Fraction {
+                numerator: self.arena.push(operation),
+                divisors: vec![],
+            },
             Neg(a) => match self.fraction(a) {
                 zero if self.arena.is_number(zero.numerator, 0) => zero,
-                a => Fraction { numerator: self.arena.push(Neg(a.numerator)), ..a },
+                a => Fraction {
+                    numerator: self.arena.push(Neg(a.numerator)),
+                    ..a
+                },
             },
             Abs(a) => {
-                let Fraction { numerator, divisors } = self.fraction(a);
+                let Fraction {
+                    numerator,
+                    divisors,
+                } = self.fraction(a);
                 let numerator = self.arena.push(Abs(numerator));
                 let odd = |place: &Place| divisors.iter().filter(|d| *d == place).count() % 2 == 1;
                 let mut last = None;
@@ -179,17 +200,27 @@ impl<'a> Numbers<'a> {
                     // A square is positive as it is.
                     let is_first = last.replace(*divisor) != Some(*divisor);
                     let is_single = is_first && odd(divisor);
-                    sized.push(if is_single { self.arena.push(Abs(*divisor)) } else { *divisor });
+                    sized.push(if is_single {
+                        self.arena.push(Abs(*divisor))
+                    } else {
+                        *divisor
+                    });
                 }
                 sized.sort_unstable();
-                Fraction { numerator, divisors: sized }
+                Fraction {
+                    numerator,
+                    divisors: sized,
+                }
             }
             Sqrt(a) => {
                 let a = self.fraction(a);
                 // A root of a fraction is left a root, and then has no margin.
                 let divided = |n: Place, d: &Place| self.arena.push(Div(n, *d));
                 let inner = a.divisors.iter().fold(a.numerator, divided);
-                Fraction { numerator: self.arena.push(Sqrt(inner)), divisors: vec![] }
+                Fraction {
+                    numerator: self.arena.push(Sqrt(inner)),
+                    divisors: vec![],
+                }
             }
             Add(a, b) | Sub(a, b) => {
                 let (a, b) = (self.fraction(a), self.fraction(b));
@@ -219,7 +250,10 @@ impl<'a> Numbers<'a> {
                 }
                 divisors.push(divisor);
                 divisors.sort_unstable();
-                Fraction { numerator, divisors }
+                Fraction {
+                    numerator,
+                    divisors,
+                }
             }
         }
     }
@@ -229,7 +263,10 @@ impl<'a> Numbers<'a> {
         let numerator = self.arena.product(a.numerator, b.numerator);
         let mut divisors = [a.divisors, b.divisors].concat();
         divisors.sort_unstable();
-        Fraction { numerator, divisors }
+        Fraction {
+            numerator,
+            divisors,
+        }
     }
 
     /// a + b, or a - b.
@@ -238,7 +275,9 @@ impl<'a> Numbers<'a> {
         divisors.sort_unstable();
         let [x, y] = [&a, &b].map(|part| {
             let missing = without(&divisors, &part.divisors);
-            missing.iter().fold(part.numerator, |n, factor| self.arena.product(n, *factor))
+            missing
+                .iter()
+                .fold(part.numerator, |n, factor| self.arena.product(n, *factor))
         });
         let is_zero = |place: Place| self.arena.is_number(place, 0);
         let numerator = match (is_zero(x), is_zero(y)) {
@@ -248,6 +287,9 @@ impl<'a> Numbers<'a> {
             _ if is_difference => self.arena.push(Operation::Sub(x, y)),
             _ => self.arena.push(Operation::Add(x, y)),
         };
-        Fraction { numerator, divisors }
+        Fraction {
+            numerator,
+            divisors,
+        }
     }
 }

@@ -28,7 +28,12 @@ impl Scale {
         let normal = format.smallest + format.digits as i32 - 1;
         let far = if format == Format::F32 { 40 } else { 300 };
         let slack = Dyadic::power(normal + format.digits as i32 + 8);
-        Scale { format, slack, tiny: Dyadic::power(normal + 10), far: Dyadic::power(far) }
+        Scale {
+            format,
+            slack,
+            tiny: Dyadic::power(normal + 10),
+            far: Dyadic::power(far),
+        }
     }
 }
 
@@ -54,7 +59,12 @@ struct Count {
 }
 
 impl Count {
-    const INPUT: Count = Count { roundings: 0, terms: 1, shares: 0, underflows: 1 };
+    const INPUT: Count = Count {
+        roundings: 0,
+        terms: 1,
+        shares: 0,
+        underflows: 1,
+    };
 
     fn all(self) -> u32 {
         self.roundings + self.terms - 1
@@ -108,17 +118,30 @@ impl Margins<'_> {
         let is_difference = Leaf::of(operation, self.operations).is_some_and(Leaf::is_difference);
         let mut of = |place: Place| self.count(place, is_size, known);
         let found = match operation {
-            _ if is_difference => Count { roundings: 1, underflows: 4, ..Count::INPUT },
+            _ if is_difference => Count {
+                roundings: 1,
+                underflows: 4,
+                ..Count::INPUT
+            },
             Operation::Input(_) => Count::INPUT,
-            Operation::Number(_) => Count { underflows: 0, ..Count::INPUT },
+            Operation::Number(_) => Count {
+                underflows: 0,
+                ..Count::INPUT
+            },
             Operation::Neg(a) | Operation::Abs(a) => of(a)?,
             Operation::Add(a, b) | Operation::Sub(a, b) => of(a)?.sum(of(b)?),
             Operation::Mul(a, b) => {
                 let mut factor = |place: Place| {
-                    let Count { terms, underflows, .. } = of(place)?;
+                    let Count {
+                        terms, underflows, ..
+                    } = of(place)?;
                     let more = u32::from(is_size && self.needs_slack(place));
                     let underflows = underflows + more;
-                    Ok::<_, String>(Count { terms: terms + more, underflows, ..of(place)? })
+                    Ok::<_, String>(Count {
+                        terms: terms + more,
+                        underflows,
+                        ..of(place)?
+                    })
                 };
                 factor(a)?.product(factor(b)?)
             }
@@ -140,7 +163,10 @@ impl Margins<'_> {
         let format = self.scale.format;
         let is_leaf = Leaf::of(self.operations[place as usize], self.operations).is_some();
         if is_leaf {
-            return Ok(Margin { roundings: 0, factor: Dyadic::ZERO });
+            return Ok(Margin {
+                roundings: 0,
+                factor: Dyadic::ZERO,
+            });
         }
         if 500 < count.underflows + size.underflows {
             return Err("it has too many terms".to_owned());
@@ -158,6 +184,9 @@ impl Margins<'_> {
         let (unit, share) = (format.digits, format.digits + 8);
         let error = power(unit, roundings) * power(share, count.shares) - Big::one();
         let factor = error * power(unit, size.all() + 3) * power(share, size.shares);
-        Ok(Margin { roundings, factor: round_up(&factor, format.digits) })
+        Ok(Margin {
+            roundings,
+            factor: round_up(&factor, format.digits),
+        })
     }
 }

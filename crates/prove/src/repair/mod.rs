@@ -46,7 +46,11 @@ impl Guarded {
         if entry.info.name.contains('+') {
             return Err("the margins take the place of epsilons, and hold with fused products and without: name the kernel without what stands behind +".to_owned());
         }
-        let Contract { coplanar, degenerate, .. } = entry.info.contract;
+        let Contract {
+            coplanar,
+            degenerate,
+            ..
+        } = entry.info.contract;
         if [coplanar, degenerate].contains(&Demand::Hit) {
             return Err(
                 "its contract wants hits in the plane of a triangle, where no margin is left"
@@ -55,7 +59,10 @@ impl Guarded {
         }
         let mut paths = paths_of::<F>(entry)?;
         paths.retain(|path| !is_impossible(path));
-        let mut builder = Builder { paths: &paths, arena: Arena::default() };
+        let mut builder = Builder {
+            paths: &paths,
+            arena: Arena::default(),
+        };
         let all: Vec<usize> = (0..paths.len()).collect();
         let steps = builder.steps(&all, 0, 0)?.with_axes(&mut builder.arena);
         let scale = Scale::of(format_of::<F>());
@@ -84,7 +91,10 @@ impl Guarded {
 
     /// The rule for its margins.
     pub fn sizes(&self) -> Margins<'_> {
-        Margins { operations: &self.operations, scale: self.scale }
+        Margins {
+            operations: &self.operations,
+            scale: self.scale,
+        }
     }
 
     /// True if the size of a number is its own absolute value: inputs, differences of points, and whole numbers.
@@ -96,11 +106,14 @@ impl Guarded {
     /// Drops the operations that nothing needs.
     fn keep_used(&mut self) {
         let mut is_used = vec![false; self.operations.len()];
-        self.steps.each(&mut |place| is_used[*place as usize] = true);
+        self.steps
+            .each(&mut |place| is_used[*place as usize] = true);
         for place in (0..self.operations.len()).rev() {
             if is_used[place] {
                 let operands = self.operations[place].operands();
-                operands.into_iter().for_each(|operand| is_used[operand as usize] = true);
+                operands
+                    .into_iter()
+                    .for_each(|operand| is_used[operand as usize] = true);
             }
         }
         let mut moved = Vec::with_capacity(is_used.len());
@@ -111,12 +124,16 @@ impl Guarded {
                 kept.push(operation.with(|operand| moved[operand as usize]));
             }
         }
-        self.steps.each(&mut |place| *place = moved[*place as usize]);
+        self.steps
+            .each(&mut |place| *place = moved[*place as usize]);
         self.operations = kept;
     }
 
     /// Its extent, and true if it hits the front only.
     pub fn promise(&self) -> (Extent, bool) {
-        (self.info.contract.extent, self.info.contract.sides == Sides::Front)
+        (
+            self.info.contract.extent,
+            self.info.contract.sides == Sides::Front,
+        )
     }
 }

@@ -41,7 +41,11 @@ impl Step {
             Step::Choice(comparison, ..) => each_of(comparison, visit),
             Step::Sign(literal, ..) => each_literal(literal, visit),
             Step::Gate(_, patterns, _) => {
-                patterns.iter_mut().flatten().flatten().for_each(|it| each_literal(it, visit));
+                patterns
+                    .iter_mut()
+                    .flatten()
+                    .flatten()
+                    .for_each(|it| each_literal(it, visit));
             }
             Step::Axes(axes, _) => axes.each(visit),
             Step::Hit(values) => values.iter_mut().flatten().for_each(&mut *visit),
@@ -67,7 +71,10 @@ impl Step {
 
     /// The step and all that may follow, each before what follows it.
     pub fn all(&self) -> Vec<&Step> {
-        [self].into_iter().chain(self.next().into_iter().flat_map(Step::all)).collect()
+        [self]
+            .into_iter()
+            .chain(self.next().into_iter().flat_map(Step::all))
+            .collect()
     }
 
     /// The conditions on signs that it looks at.
@@ -93,7 +100,14 @@ impl Step {
         while let Step::Choice(_, _, no) = body {
             body = no;
         }
-        let all = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2], [0, 2, 1], [2, 1, 0]];
+        let all = [
+            [0, 1, 2],
+            [1, 2, 0],
+            [2, 0, 1],
+            [1, 0, 2],
+            [0, 2, 1],
+            [2, 1, 0],
+        ];
         let known = all.map(|axes| (axes, body.renamed(axes, arena)));
         match self.axes(&known) {
             Some(axes) => Step::Axes(axes, Box::new(body.clone())),
@@ -105,8 +119,14 @@ impl Step {
         if let Some((axes, _)) = known.iter().find(|(_, step)| step == self) {
             return Some(Axes::Are(*axes));
         }
-        let Step::Choice(comparison, yes, no) = self else { return None };
-        Some(Axes::If(*comparison, Box::new(yes.axes(known)?), Box::new(no.axes(known)?)))
+        let Step::Choice(comparison, yes, no) = self else {
+            return None;
+        };
+        Some(Axes::If(
+            *comparison,
+            Box::new(yes.axes(known)?),
+            Box::new(no.axes(known)?),
+        ))
     }
 }
 
@@ -121,7 +141,11 @@ impl Axes {
 }
 
 fn each_literal(literal: &mut Literal, visit: &mut impl FnMut(&mut Place)) {
-    literal.signs.iter_mut().chain(&mut literal.nonzero).for_each(visit);
+    literal
+        .signs
+        .iter_mut()
+        .chain(&mut literal.nonzero)
+        .for_each(visit);
 }
 
 fn each_of(comparison: &mut Comparison, visit: &mut impl FnMut(&mut Place)) {
@@ -179,8 +203,9 @@ impl Builder<'_> {
         {
             return self.fixed(set, made, gates);
         }
-        let (yes, no): (Vec<usize>, Vec<usize>) =
-            set.iter().partition(|path| self.paths[**path].decisions[made].1);
+        let (yes, no): (Vec<usize>, Vec<usize>) = set
+            .iter()
+            .partition(|path| self.paths[**path].decisions[made].1);
         if yes.is_empty() || no.is_empty() {
             return self.steps(set, made + 1, gates);
         }
@@ -193,7 +218,10 @@ impl Builder<'_> {
         if yes == no {
             return Ok(*no);
         }
-        let places = comparison.places().into_iter().map(|place| path.operations[place as usize]);
+        let places = comparison
+            .places()
+            .into_iter()
+            .map(|place| path.operations[place as usize]);
         let compared: Vec<Operation> = places.filter(|it| *it != Operation::Number(0)).collect();
         // One number, and that is computed.
         if compared.len() < 2 && !compared.iter().all(|it| matches!(it, Operation::Input(_))) {
@@ -201,7 +229,11 @@ impl Builder<'_> {
             return Ok(literal.map_or(Step::Ask, |literal| Step::Sign(literal, yes, no)));
         }
         let mut numbers = Numbers::new(&mut self.arena, path);
-        Ok(Step::Choice(comparison.with(|place| numbers.plain(place)), yes, no))
+        Ok(Step::Choice(
+            comparison.with(|place| numbers.plain(place)),
+            yes,
+            no,
+        ))
     }
 
     /// The end of a path on which every gate accepts.
@@ -209,7 +241,10 @@ impl Builder<'_> {
         let path = &self.paths[path];
         let mut numbers = Numbers::new(&mut self.arena, path);
         if path.hits {
-            Step::Hit(path.values.map(|place| place.map(|place| numbers.plain(place))))
+            Step::Hit(
+                path.values
+                    .map(|place| place.map(|place| numbers.plain(place))),
+            )
         } else {
             Step::Ask
         }
@@ -233,16 +268,24 @@ impl Builder<'_> {
             let Acceptance::Fixed(asked, accepts) = &compared.accepts else {
                 unreachable!("its gate is fixed")
             };
-            if own.iter().any(|(comparison, _)| !asked.contains(comparison)) {
+            if own
+                .iter()
+                .any(|(comparison, _)| !asked.contains(comparison))
+            {
                 return Err(
-                    "a test without an epsilon has comparisons that are not its own".to_owned()
+                    "a test without an epsilon has comparisons that are not its own".to_owned(),
                 );
             }
             // Where two numbers are equal no margin is left.
-            if own.iter().any(|(comparison, answer)| is_equality(comparison) && *answer) {
+            if own
+                .iter()
+                .any(|(comparison, answer)| is_equality(comparison) && *answer)
+            {
                 continue;
             }
-            let signs = own.iter().filter(|(comparison, _)| !is_equality(comparison));
+            let signs = own
+                .iter()
+                .filter(|(comparison, _)| !is_equality(comparison));
             let pattern =
                 signs.map(|(comparison, answer)| self.literal(first, *comparison, *answer));
             if let Some(pattern) = pattern.collect() {
@@ -302,7 +345,11 @@ impl Builder<'_> {
             Comparison::Zero(a) => {
                 let Literal { signs, nonzero, .. } = numbers.difference(a, None);
                 let nonzero = [signs, nonzero].concat();
-                return Some(Literal { is_negative: false, signs: vec![], nonzero });
+                return Some(Literal {
+                    is_negative: false,
+                    signs: vec![],
+                    nonzero,
+                });
             }
         };
         let literal = if answer { literal } else { literal.negated() };

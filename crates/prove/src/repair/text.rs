@@ -15,7 +15,11 @@ impl Guarded {
             let _ = writeln!(text, "op {place} {}", operation_text(operation));
         }
         for (place, margin) in &self.margins {
-            let _ = writeln!(text, "margin {place} {} {}", margin.roundings, margin.factor);
+            let _ = writeln!(
+                text,
+                "margin {place} {} {}",
+                margin.roundings, margin.factor
+            );
         }
         self.write_step(&self.steps, &mut text);
         text.push_str("end\n");
@@ -32,8 +36,9 @@ impl Guarded {
                 let mut lines = vec![format!("gate {}", self.info.gates[*gate].name)];
                 for (word, patterns) in ["hit", "miss"].into_iter().zip(patterns) {
                     lines.extend(patterns.iter().map(|pattern| {
-                        let words =
-                            pattern.iter().map(|literal| format!(" {}", literal_text(literal)));
+                        let words = pattern
+                            .iter()
+                            .map(|literal| format!(" {}", literal_text(literal)));
                         format!("{word}{}", words.collect::<String>())
                     }));
                 }
@@ -46,15 +51,19 @@ impl Guarded {
             Step::Hit(_) => writeln!(text, "found"),
             Step::Ask => writeln!(text, "ask"),
         };
-        step.next().into_iter().for_each(|step| self.write_step(step, text));
+        step.next()
+            .into_iter()
+            .for_each(|step| self.write_step(step, text));
     }
 }
 
 fn write_axes(axes: &Axes, text: &mut String) {
     match axes {
         Axes::Are(axes) => {
-            let names: String =
-                axes.iter().map(|axis| ['x', 'y', 'z'][usize::from(*axis)]).collect();
+            let names: String = axes
+                .iter()
+                .map(|axis| ['x', 'y', 'z'][usize::from(*axis)])
+                .collect();
             let _ = writeln!(text, "axes {names}");
         }
         Axes::If(comparison, yes, no) => {
@@ -66,8 +75,18 @@ fn write_axes(axes: &Axes, text: &mut String) {
 }
 
 /// `-3*7!5`: the product of 3 and 7 is negative, and 5 is not zero.
-fn literal_text(Literal { is_negative, signs, nonzero }: &Literal) -> String {
+fn literal_text(
+    Literal {
+        is_negative,
+        signs,
+        nonzero,
+    }: &Literal,
+) -> String {
     let signs: Vec<String> = signs.iter().map(u32::to_string).collect();
     let nonzero: String = nonzero.iter().map(|place| format!("!{place}")).collect();
-    format!("{}{}{nonzero}", if *is_negative { '-' } else { '+' }, signs.join("*"))
+    format!(
+        "{}{}{nonzero}",
+        if *is_negative { '-' } else { '+' },
+        signs.join("*")
+    )
 }

@@ -9,7 +9,11 @@ use num_traits::{One, ToPrimitive};
 /// Bounds of the value and of the sign in units of u, where no difference is larger than the size.
 fn bounds(run: fn() -> Recorded, size: Dyadic, degree: usize) -> [f64; 2] {
     let (path, place) = recorded(run);
-    let domain = Domain { edge: size, reach: size, ..Domain::UNIT };
+    let domain = Domain {
+        edge: size,
+        reach: size,
+        ..Domain::UNIT
+    };
     let mut prover = Prover::new(&path, domain, Format::F64);
     let value = prover.bound(place).expect("a polynomial").error;
     let sign = prover.bound_before_last(place).expect("a polynomial");
@@ -35,11 +39,17 @@ struct Static {
 }
 
 impl Static {
-    const DIFFERENCE: Static = Static { size: 1.0, error: 1.0 };
+    const DIFFERENCE: Static = Static {
+        size: 1.0,
+        error: 1.0,
+    };
 
     fn rounded(size: f64, error: f64) -> Static {
         // Half an ulp of 1 is u.
-        Static { size, error: error + 2f64.powi(size.log2().floor() as i32) }
+        Static {
+            size,
+            error: error + 2f64.powi(size.log2().floor() as i32),
+        }
     }
     fn plus(self, other: Static) -> Static {
         Static::rounded(self.size + other.size, self.error + other.error)
@@ -115,7 +125,11 @@ impl Steps {
         self.0.variables.push(one);
         self.0.sources.push(Source::Quotient);
         let variable = vec![(self.0.variables.len() - 1, 1)];
-        let given = Bound { size: one, computed: one, error: Format::F64.half_ulp_of(&one.into()) };
+        let given = Bound {
+            size: one,
+            computed: one,
+            error: Format::F64.half_ulp_of(&one.into()),
+        };
         self.push(Step::Variables(variable), Some(given))
     }
     fn times(&mut self, a: usize, b: usize) -> usize {
@@ -157,7 +171,10 @@ fn in_units_of_u(x: Big, format: Format) -> [f64; 2] {
     let rounded = Big::from(round_up(&x, format.digits));
     let whole = (&x / &unit).floor();
     let rest = (rounded / &unit - &whole) / &unit;
-    [whole.to_f64().expect("small"), rest.to_f64().expect("small")]
+    [
+        whole.to_f64().expect("small"),
+        rest.to_f64().expect("small"),
+    ]
 }
 
 #[test]
@@ -165,7 +182,11 @@ fn shewchuks_filters_follow_from_the_recorded_programs() {
     let filter = |run: fn() -> Recorded, format: Format| {
         let (path, place) = recorded(run);
         let form = relative(&path, place, Domain::UNIT, format).expect("a polynomial");
-        (form.roundings.of_format, form.for_sign.of_format, form.filter(format))
+        (
+            form.roundings.of_format,
+            form.for_sign.of_format,
+            form.filter(format),
+        )
     };
     for format in [Format::F32, Format::F64] {
         let (value, sign, factor) = filter(orient2d, format);

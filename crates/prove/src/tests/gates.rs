@@ -8,20 +8,50 @@ use crate::kernel::{Acceptance, Compared, Path, Refuse};
 fn path(operations: Vec<Operation>, quantities: &[Place]) -> Path {
     let clauses = quantities.iter().map(|place| vec![*place]).collect();
     let accepts = Acceptance::Clauses(Refuse::Below, clauses);
-    let compared = Compared { gate: 0, accepts, quantities: quantities.to_vec(), decisions: 0 };
-    Path { operations, decisions: vec![], compared: vec![compared], hits: true, values: [None; 3] }
+    let compared = Compared {
+        gate: 0,
+        accepts,
+        quantities: quantities.to_vec(),
+        decisions: 0,
+    };
+    Path {
+        operations,
+        decisions: vec![],
+        compared: vec![compared],
+        hits: true,
+        values: [None; 3],
+    }
 }
 
 /// -999 (x + y) and (-999 + x) y: one number more than the codes of operations.
 #[test]
 fn programs_with_negative_numbers_are_not_taken_for_others() {
     use Operation::{Add, Input, Mul, Number};
-    let operations =
-        vec![Input(3), Input(4), Number(-999), Add(0, 1), Mul(2, 3), Add(2, 0), Mul(5, 1)];
-    let proof = Proof::new(vec![path(operations, &[4, 6])], None, Domain::UNIT, Format::F32);
-    let places: Vec<Place> = proof.quantities.iter().map(|quantity| quantity.place).collect();
+    let operations = vec![
+        Input(3),
+        Input(4),
+        Number(-999),
+        Add(0, 1),
+        Mul(2, 3),
+        Add(2, 0),
+        Mul(5, 1),
+    ];
+    let proof = Proof::new(
+        vec![path(operations, &[4, 6])],
+        None,
+        Domain::UNIT,
+        Format::F32,
+    );
+    let places: Vec<Place> = proof
+        .quantities
+        .iter()
+        .map(|quantity| quantity.place)
+        .collect();
     assert_eq!(places, [4, 6]);
-    let errors = proof.quantities.iter().map(|q| q.bound.as_ref().expect("a bound").error);
+    let errors = proof
+        .quantities
+        .iter()
+        .map(|q| q.bound.as_ref().expect("a bound").error);
     assert_ne!(errors.clone().min(), errors.max());
 }
 
@@ -31,11 +61,21 @@ fn programs_under_other_names_are_proved_once_and_named() {
     use Operation::{Input, Mul, Sub};
     let mut operations: Vec<Operation> = [0, 1, 3, 4, 6, 10].map(Input).to_vec();
     operations.extend([Sub(4, 0), Mul(2, 6), Sub(5, 1), Mul(3, 8), Mul(3, 6)]);
-    let proof = Proof::new(vec![path(operations, &[7, 9, 10])], None, Domain::UNIT, Format::F32);
-    let [one, two] = &proof.quantities[..] else { panic!("{:?}", proof.quantities) };
+    let proof = Proof::new(
+        vec![path(operations, &[7, 9, 10])],
+        None,
+        Domain::UNIT,
+        Format::F32,
+    );
+    let [one, two] = &proof.quantities[..] else {
+        panic!("{:?}", proof.quantities)
+    };
     assert_eq!((one.place, two.place), (7, 10));
     let names: Vec<String> = one.also.iter().map(ToString::to_string).collect();
-    assert_eq!((&names[..], &two.also[..]), (&["yxz bac".to_owned()][..], &[][..]));
+    assert_eq!(
+        (&names[..], &two.also[..]),
+        (&["yxz bac".to_owned()][..], &[][..])
+    );
 }
 
 /// A change of sign is exact: a quotient has the same bound with it, above or below.
@@ -58,9 +98,18 @@ fn the_rounding_under_a_negation_is_left_out_too() {
 #[test]
 fn no_quotient_of_a_negated_product_passes_its_bound_in_a_tiny_format() {
     use Operation::{Div, Input, Mul, Neg};
-    let format = Format { digits: 4, smallest: -200, largest: 200 };
-    let path = path(vec![Input(3), Input(4), Input(16), Mul(0, 1), Neg(3), Div(4, 2)], &[]);
-    let bound = Prover::new(&path, Domain::UNIT, format).bound(5).expect("a bound");
+    let format = Format {
+        digits: 4,
+        smallest: -200,
+        largest: 200,
+    };
+    let path = path(
+        vec![Input(3), Input(4), Input(16), Mul(0, 1), Neg(3), Div(4, 2)],
+        &[],
+    );
+    let bound = Prover::new(&path, Domain::UNIT, format)
+        .bound(5)
+        .expect("a bound");
     let floats = |binades: i32| {
         (0..binades).flat_map(|e| (8..16).map(move |m| f64::from(m) * 2f64.powi(-4 - e)))
     };

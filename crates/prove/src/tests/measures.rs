@@ -29,11 +29,18 @@ fn drawn(draw: &mut Draw) -> Option<[f64; 17]> {
     let lengths = [turn.x, turn.y].map(|x| 0.25 * 8f64.powf(fraction(x)));
     let angle = (5.0 + 170.0 * fraction(turn.z).powi(3)).to_radians();
     let (e, f) = (along.normalize(), along.cross(across).normalize());
-    let (b, c) = (a + lengths[0] * e, a + lengths[1] * (angle.cos() * e + angle.sin() * f));
+    let (b, c) = (
+        a + lengths[0] * e,
+        a + lengths[1] * (angle.cos() * e + angle.sin() * f),
+    );
     let normal = (b - a).cross(c - a);
     let (weights, slope) = (point(1.0), point(1.0));
     let [v, w] = [weights.x, weights.y].map(fraction);
-    let (v, w) = if v + w <= 1.0 { (v, w) } else { (1.0 - v, 1.0 - w) };
+    let (v, w) = if v + w <= 1.0 {
+        (v, w)
+    } else {
+        (1.0 - v, 1.0 - w)
+    };
     let target = a + v * (b - a) + w * (c - a);
     let angle = (2.0 + 88.0 * fraction(weights.z).powi(4)).to_radians();
     let direction =
@@ -75,7 +82,11 @@ fn what_a_scene_says_of_divisors_and_quotients_is_true_of_its_triangles() {
         let quotients = quotients.into_iter().map(|known| (known, false));
         for (Known { name, limit, value }, is_divisor) in divisors.chain(quotients) {
             let (value, limit) = (value.abs(), limit.to_f64());
-            let share = if is_divisor { limit / value } else { value / limit };
+            let share = if is_divisor {
+                limit / value
+            } else {
+                value / limit
+            };
             assert!(share <= 1.0, "{name}: {value} beside {limit} at {inputs:?}");
             let most = closest.entry(name).or_default();
             *most = most.max(share);
@@ -91,7 +102,10 @@ fn what_a_scene_says_of_divisors_and_quotients_is_true_of_its_triangles() {
 #[test]
 fn a_scene_knows_what_the_kernels_divide_by() {
     let domain = SCENE.domain().unwrap();
-    let effort = Effort { evaluations: 0, seed: 1 };
+    let effort = Effort {
+        evaluations: 0,
+        seed: 1,
+    };
     let mut all = Vec::new();
     for name in [
         "baldwin-weber",
@@ -112,7 +126,15 @@ fn a_scene_knows_what_the_kernels_divide_by() {
     let expected: [(&str, &[&str]); 5] = [
         (
             "baldwin-weber",
-            &["|(p×q)_k/N_k|", "|N_i/N_k|", "|N_k|", "|N·a/N_k|", "|N·d/N_k|", "|e_i/N_k|", "|t|"],
+            &[
+                "|(p×q)_k/N_k|",
+                "|N_i/N_k|",
+                "|N_k|",
+                "|N·a/N_k|",
+                "|N·d/N_k|",
+                "|e_i/N_k|",
+                "|t|",
+            ],
         ),
         ("moller-trumbore", &["|N·d|", "|u|"]),
         ("moller-trumbore+fma", &["|N·d|", "|u|"]),
@@ -124,7 +146,12 @@ fn a_scene_knows_what_the_kernels_divide_by() {
 
 #[test]
 fn parts_of_a_scene_have_the_largest_edges_and_the_least_areas() {
-    let scene = Scene { edge: [0.01, 10.0], coordinates: 100.0, distance: 100.0, ..SCENE };
+    let scene = Scene {
+        edge: [0.01, 10.0],
+        coordinates: 100.0,
+        distance: 100.0,
+        ..SCENE
+    };
     let parts = scene.parts(&scene.shapes());
     let whole = scene.domain().unwrap();
     assert!(15 < parts.len() && parts.len() < 25, "{}", parts.len());
@@ -137,11 +164,20 @@ fn parts_of_a_scene_have_the_largest_edges_and_the_least_areas() {
         assert!(area(part) <= area(next));
     }
     // A mesh without an area in one triangle.
-    let mesh = Scene { shape: Some(0.5), ..scene };
+    let mesh = Scene {
+        shape: Some(0.5),
+        ..scene
+    };
     let parts = mesh.parts(&[(1.0, 0.5), (1.0, f64::INFINITY), (1.1, 0.75), (3.0, 4.0)]);
     let areas: Vec<f64> = parts.iter().map(|part| area(part).to_f64()).collect();
     assert_eq!(parts.len(), 3);
-    assert!(areas.iter().zip([0.5, 0.75, 4.0]).all(|(x, y)| 0.99 * y < *x && *x < y), "{areas:?}");
+    assert!(
+        areas
+            .iter()
+            .zip([0.5, 0.75, 4.0])
+            .all(|(x, y)| 0.99 * y < *x && *x < y),
+        "{areas:?}"
+    );
 }
 
 /// N·d and a small number more is another number: so small that no float would show the difference.
@@ -163,7 +199,11 @@ fn a_scene_does_not_know_what_is_nearly_a_number_that_it_knows() {
         let (_, divisor, _) = prover.quotient(place).unwrap();
         prover.floor(divisor)
     };
-    assert!(matches!(floor(&volume), Limit::Scene("|N·d|", _)), "{:?}", floor(&volume));
+    assert!(
+        matches!(floor(&volume), Limit::Scene("|N·d|", _)),
+        "{:?}",
+        floor(&volume)
+    );
     // 2^-60, and one part in 2^50.
     let more = || volume() + Recorded::one() / power(60);
     let larger = || volume() * (Recorded::one() + Recorded::one() / power(50));

@@ -12,7 +12,11 @@ fn random(draw: &mut Draw, variables: usize) -> Formula {
     let mut push = |formula: &mut Formula, step: Step, given: Option<Dyadic>| {
         supports.push(step.support(&supports));
         formula.rounds.push(given.is_none());
-        let exactly = |size| Bound { size, computed: size, error: Dyadic::ZERO };
+        let exactly = |size| Bound {
+            size,
+            computed: size,
+            error: Dyadic::ZERO,
+        };
         formula.given.push(given.map(exactly));
         formula.steps.push(step);
         formula.places.push(None);
@@ -26,9 +30,15 @@ fn random(draw: &mut Draw, variables: usize) -> Formula {
         push(&mut formula, Step::Variables(vec![(v, 1)]), Some(size));
     }
     let value = draw.below(3) as i32;
-    push(&mut formula, Step::Of(Operation::Number(value)), Some(Dyadic::new(value.into(), 0)));
+    push(
+        &mut formula,
+        Step::Of(Operation::Number(value)),
+        Some(Dyadic::new(value.into(), 0)),
+    );
     // The first one's ends may be no mirror images.
-    let below = draw.coin().then(|| (0, Dyadic::new(draw.below(9) as i128, -3)));
+    let below = draw
+        .coin()
+        .then(|| (0, Dyadic::new(draw.below(9) as i128, -3)));
     formula.below = below.filter(|(_, below)| *below < formula.variables[0]);
     // The steps that no other one uses yet.
     let mut open: Vec<usize> = (0..formula.steps.len()).collect();
@@ -36,7 +46,11 @@ fn random(draw: &mut Draw, variables: usize) -> Formula {
         let a = open.swap_remove(draw.below(open.len()));
         // Steps may be used more than once.
         let all = formula.steps.len();
-        let b = if draw.below(4) == 0 { draw.below(all) } else { open[draw.below(open.len())] };
+        let b = if draw.below(4) == 0 {
+            draw.below(all)
+        } else {
+            open[draw.below(open.len())]
+        };
         let supports = push(&mut formula, Step::Of(Operation::Neg(a)), None);
         *formula.rounds.last_mut().unwrap() = false;
         let a = formula.steps.len() - 1;
@@ -66,13 +80,19 @@ fn effects(formula: &Formula, corner: u64, format: Format) -> Dyadic {
         };
         let minus = |(x, dx): (Dyadic, Vec<Dyadic>)| (-x, dx.into_iter().map(|a| -a).collect());
         let times = |(x, dx): (Dyadic, Vec<Dyadic>), (y, dy): (Dyadic, Vec<Dyadic>)| {
-            (x * y, dx.into_iter().zip(dy).map(|(a, b)| a * y + b * x).collect())
+            (
+                x * y,
+                dx.into_iter().zip(dy).map(|(a, b)| a * y + b * x).collect(),
+            )
         };
         let (value, mut slopes) = match *step {
             Step::Variables(ref sum) => {
                 let (v, _) = sum[0];
                 let size = formula.variables[v];
-                let below = formula.below.filter(|(of, _)| *of == v).map_or(size, |(_, x)| x);
+                let below = formula
+                    .below
+                    .filter(|(of, _)| *of == v)
+                    .map_or(size, |(_, x)| x);
                 (if corner >> v & 1 == 1 { -below } else { size }, none())
             }
             Step::Of(Operation::Number(value)) => (Dyadic::new(value.into(), 0), none()),
@@ -104,10 +124,14 @@ fn the_largest_effects_are_those_of_all_corners() {
     for _ in 0..2000 {
         let variables = 1 + draw.below(6);
         let mut formula = random(&mut draw, variables);
-        let Ok(Maximum { first, corner, .. }) = formula.maximum(Format::F32) else { continue };
+        let Ok(Maximum { first, corner, .. }) = formula.maximum(Format::F32) else {
+            continue;
+        };
         let of = |corner: u64| effects(&formula, corner, Format::F32);
         let largest = (0..1 << variables).map(of).fold(Dyadic::ZERO, Dyadic::max);
-        let at = (0..1 << variables).find(|corner| of(*corner) == largest).unwrap();
+        let at = (0..1 << variables)
+            .find(|corner| of(*corner) == largest)
+            .unwrap();
         assert_eq!(first, largest, "{formula:?}");
         let expected: Vec<bool> = (0..variables).map(|v| at >> v & 1 == 1).collect();
         assert_eq!(corner, expected, "{formula:?}");
@@ -116,7 +140,10 @@ fn the_largest_effects_are_those_of_all_corners() {
         all += variables as u32;
     }
     // Neither none nor all of them.
-    assert!(1500 < found && all / 4 < tried && tried < all * 3 / 4, "{found} {tried} {all}");
+    assert!(
+        1500 < found && all / 4 < tried && tried < all * 3 / 4,
+        "{found} {tried} {all}"
+    );
 }
 
 #[test]
@@ -131,7 +158,10 @@ fn of_a_scalar_triple_product_the_signs_of_axes_and_vectors_are_free() {
     let mut prover = Prover::new(&path, Domain::UNIT, Format::F32);
     prover.bound(place).expect("multi-affine");
     let formula = &prover.lemmas.last().expect("a lemma").formula;
-    assert_eq!((formula.variables.len(), formula.signs_to_try().count_ones()), (9, 4));
+    assert_eq!(
+        (formula.variables.len(), formula.signs_to_try().count_ones()),
+        (9, 4)
+    );
 }
 
 #[test]

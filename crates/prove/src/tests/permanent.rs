@@ -56,7 +56,9 @@ fn numbers<F: Float>(path: &Path, inputs: &[F; 17]) -> Vec<Option<[Big; 2]>> {
 /// The largest share of its bound that an error has, and how many were compared.
 fn largest_share<F: Scalar>(name: &str, format: Format) -> (f64, usize) {
     let entry = find(name).expect("a kernel");
-    let gated = F::subject(entry).and_then(|subject| subject.gated()).expect("gates");
+    let gated = F::subject(entry)
+        .and_then(|subject| subject.gated())
+        .expect("gates");
     let paths = gated.paths().expect("recorded");
     let mut draw = Draw::new("permanent", 1, 1);
     let (mut largest, mut count) = (0.0f64, 0);
@@ -79,9 +81,17 @@ fn largest_share<F: Scalar>(name: &str, format: Format) -> (f64, usize) {
             continue;
         };
         let numbers = numbers(path, &inputs);
-        for place in path.compared.iter().flat_map(|compared| &compared.quantities) {
-            let Ok(form) = relative(path, *place, Domain::UNIT, format) else { continue };
-            let Some([value, permanent]) = &numbers[*place as usize] else { continue };
+        for place in path
+            .compared
+            .iter()
+            .flat_map(|compared| &compared.quantities)
+        {
+            let Ok(form) = relative(path, *place, Domain::UNIT, format) else {
+                continue;
+            };
+            let Some([value, permanent]) = &numbers[*place as usize] else {
+                continue;
+            };
             let error = (exact(values[*place as usize].to_f64()) - value).abs();
             let bound = Big::from(form.factor) * permanent + Big::from(form.underflow);
             assert!(error <= bound, "{name}: {inputs:?} at {place}");
@@ -104,11 +114,15 @@ fn no_error_passes_its_bound_by_the_permanent() {
         "woop-watertight+fma",
         "plucker",
     ] {
-        let found =
-            [largest_share::<f32>(name, Format::F32), largest_share::<f64>(name, Format::F64)];
+        let found = [
+            largest_share::<f32>(name, Format::F32),
+            largest_share::<f64>(name, Format::F64),
+        ];
         println!("{name}: {found:?}");
         assert!(
-            found.iter().all(|(largest, count)| *largest > 0.1 && *count > 50),
+            found
+                .iter()
+                .all(|(largest, count)| *largest > 0.1 && *count > 50),
             "{name}: {found:?}"
         );
     }
@@ -133,11 +147,17 @@ fn a_difference_of_products_in_f64_is_rounded_more_than_once() {
     let units = (exact(computed) - (a * b - c * d)).abs() / Big::from(Format::F64.unit());
     let units = units.to_f64().expect("small");
     assert!(units > 1.995, "{units}");
-    let domain = Domain { world: Dyadic::ONE, ..Domain::UNIT };
+    let domain = Domain {
+        world: Dyadic::ONE,
+        ..Domain::UNIT
+    };
     let mut prover = Prover::new(&path, domain, Format::F64);
     let bound = prover.bound(place).expect("a bound").error.to_f64() / Format::F64.unit().to_f64();
     assert!((2.0..2.001).contains(&bound), "{bound}");
-    assert_eq!(prover.bound_before_last(place), Ok(prover.bound(place).expect("a bound").error));
+    assert_eq!(
+        prover.bound_before_last(place),
+        Ok(prover.bound(place).expect("a bound").error)
+    );
 }
 
 /// One product underflows, and is multiplied by 2^100: wrong by more than the permanent and the unit domain's share of
@@ -164,7 +184,10 @@ fn what_underflow_adds_is_known_in_a_domain_only() {
     };
     let d_y = f64::from(1.3f32) * 2f64.powi(-75);
     let (wrong, allowed) = error(d_y);
-    assert!((3.1e-16..3.3e-16).contains(&wrong) && allowed < 1.4e-21, "{wrong} {allowed}");
+    assert!(
+        (3.1e-16..3.3e-16).contains(&wrong) && allowed < 1.4e-21,
+        "{wrong} {allowed}"
+    );
     let (wrong, allowed) = error(d_y * 2f64.powi(20));
     assert!(wrong <= allowed, "{wrong} {allowed}");
 }

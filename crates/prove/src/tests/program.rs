@@ -44,7 +44,10 @@ pub(super) fn is_taken<F: Float>(path: &Path, values: &[F]) -> bool {
 }
 
 fn margins_that_a_program_computes<F: Scalar>(entry: &Entry) -> usize {
-    let gated: &dyn Gated<F> = F::subject(entry).expect("both scalars").gated().expect("gates");
+    let gated: &dyn Gated<F> = F::subject(entry)
+        .expect("both scalars")
+        .gated()
+        .expect("gates");
     let paths = gated.paths().expect("recorded");
     let mut draw = Draw::new("program", 1, 1);
     let mut compared = 0;
@@ -61,7 +64,9 @@ fn margins_that_a_program_computes<F: Scalar>(entry: &Entry) -> usize {
         let inputs: Vec<F> = [o, d, a, b, c].concat().into_iter().chain(ends).collect();
         let inputs: [F; 17] = inputs.try_into().expect("seventeen");
         let runs = paths.iter().map(|path| (path, run(path, &inputs)));
-        let Some((path, values)) = runs.into_iter().find(|(path, values)| is_taken(path, values))
+        let Some((path, values)) = runs
+            .into_iter()
+            .find(|(path, values)| is_taken(path, values))
         else {
             continue;
         };
@@ -79,9 +84,17 @@ fn margins_that_a_program_computes<F: Scalar>(entry: &Entry) -> usize {
             let is_one = mine.iter().all(|c| c.quantities.len() == 1);
             let least = found.iter().copied().fold(f64::INFINITY, f64::min);
             let expected = expected.to_f64();
-            let agrees = if is_one { least == expected } else { found.contains(&expected) };
+            let agrees = if is_one {
+                least == expected
+            } else {
+                found.contains(&expected)
+            };
             let name = entry.info.name;
-            assert!(agrees, "{name} gate {gate}: {found:?}, {expected}, {}", case.hex());
+            assert!(
+                agrees,
+                "{name} gate {gate}: {found:?}, {expected}, {}",
+                case.hex()
+            );
         }
     }
     compared
@@ -90,13 +103,19 @@ fn margins_that_a_program_computes<F: Scalar>(entry: &Entry) -> usize {
 #[test]
 fn every_recorded_program_computes_the_margins_of_its_kernel() {
     for entry in KERNELS {
-        for name in [entry.info.name.to_owned(), format!("{}+fma", entry.info.name)] {
+        for name in [
+            entry.info.name.to_owned(),
+            format!("{}+fma", entry.info.name),
+        ] {
             let entry = find(&name).expect("a kernel");
             let counts = [
                 margins_that_a_program_computes::<f32>(entry),
                 margins_that_a_program_computes::<f64>(entry),
             ];
-            assert!(counts.iter().all(|count| *count >= 20), "{name}: {counts:?}");
+            assert!(
+                counts.iter().all(|count| *count >= 20),
+                "{name}: {counts:?}"
+            );
         }
     }
 }

@@ -12,7 +12,9 @@ fn effects(formula: &Formula, variables: &[f64], values: &mut Vec<f64>) -> f64 {
     for step in &formula.steps {
         let of = |i: usize| values[i];
         let sum = |sum: &[(usize, i8)]| {
-            sum.iter().map(|(v, sign)| f64::from(*sign) * variables[*v]).sum()
+            sum.iter()
+                .map(|(v, sign)| f64::from(*sign) * variables[*v])
+                .sum()
         };
         values.push(match *step {
             Step::Variables(ref all) => sum(all),
@@ -57,7 +59,10 @@ fn effects(formula: &Formula, variables: &[f64], values: &mut Vec<f64>) -> f64 {
 fn effects_on_barycentric_quotients_are_largest_at_corners_of_a_box_of_points() {
     let paths = paths_of::<f32>(kernel::find("moller-trumbore").expect("it is there"));
     let proof = Proof::new(paths.expect("paths"), None, Domain::UNIT, Format::F32);
-    let lemmas = proof.quantities.iter().flat_map(|quantity| &quantity.lemmas);
+    let lemmas = proof
+        .quantities
+        .iter()
+        .flat_map(|quantity| &quantity.lemmas);
     let ratios = lemmas.filter(|lemma| matches!(lemma.rule, Rule::Quotient { .. }));
     let mut ratios: Vec<_> = ratios.map(|lemma| (lemma.place, lemma)).collect();
     ratios.dedup_by_key(|(place, _)| *place);
@@ -69,12 +74,25 @@ fn effects_on_barycentric_quotients_are_largest_at_corners_of_a_box_of_points() 
         assert_eq!(formula.sources.iter().filter(is_boxed).count(), 12);
         let (most, mut best) = (lemma.maximum.first.to_f64(), 0.0f64);
         for _ in 0..60_000 {
-            let point = formula.variables.iter().zip(&formula.sources).map(|(size, source)| {
-                let x: f64 = draw.symmetric();
-                let x = if draw.below(3) > 0 { x.signum() * (1.0 - x.powi(8)) } else { x };
-                // A quotient lies between 0 and 1.
-                size.to_f64() * if *source == Source::Quotient { x.abs() } else { x }
-            });
+            let point = formula
+                .variables
+                .iter()
+                .zip(&formula.sources)
+                .map(|(size, source)| {
+                    let x: f64 = draw.symmetric();
+                    let x = if draw.below(3) > 0 {
+                        x.signum() * (1.0 - x.powi(8))
+                    } else {
+                        x
+                    };
+                    // A quotient lies between 0 and 1.
+                    size.to_f64()
+                        * if *source == Source::Quotient {
+                            x.abs()
+                        } else {
+                            x
+                        }
+                });
             let found = effects(formula, &point.collect::<Vec<_>>(), &mut values);
             assert!(found <= most, "{found} {most}");
             best = best.max(found);
@@ -89,13 +107,30 @@ fn effects_on_barycentric_quotients_are_largest_at_corners_of_a_box_of_points() 
 /// Where 1 - u - v is at most 8 and at least 0, u + v is between -7 and 1.
 #[test]
 fn a_sum_is_as_large_as_its_rest_lets_it_be() {
-    let domain = Domain { quotient: Dyadic::power(3), ..Domain::UNIT };
+    let domain = Domain {
+        quotient: Dyadic::power(3),
+        ..Domain::UNIT
+    };
     let paths = paths_of::<f32>(kernel::find("cramer").expect("it is there")).expect("paths");
     let proof = Proof::new(paths, None, domain, Format::F32);
-    let is_rest =
-        |rule: &Rule| matches!(rule, Rule::Quotient { ratio: Ratio::Rest, below: Some(_), .. });
-    let lemmas = proof.quantities.iter().flat_map(|quantity| &quantity.lemmas);
-    let rest = lemmas.into_iter().find(|lemma| is_rest(&lemma.rule)).expect("(1-gamma)-beta");
+    let is_rest = |rule: &Rule| {
+        matches!(
+            rule,
+            Rule::Quotient {
+                ratio: Ratio::Rest,
+                below: Some(_),
+                ..
+            }
+        )
+    };
+    let lemmas = proof
+        .quantities
+        .iter()
+        .flat_map(|quantity| &quantity.lemmas);
+    let rest = lemmas
+        .into_iter()
+        .find(|lemma| is_rest(&lemma.rule))
+        .expect("(1-gamma)-beta");
     let formula = &rest.formula;
     let (v, lower) = formula.below.expect("it has ends");
     assert_eq!(formula.sources[v], Source::Quotient);

@@ -14,7 +14,10 @@ fn all_kernels_are_repaired_but_the_one_without_a_test_of_t() {
                 Ok(guarded) => assert!(name != "half-space" && !guarded.margins.is_empty()),
                 Err(why) => {
                     assert_eq!(name, "half-space", "{why}");
-                    assert_eq!(why, "its gates accept rays that meet the triangle at t <= 0");
+                    assert_eq!(
+                        why,
+                        "its gates accept rays that meet the triangle at t <= 0"
+                    );
                 }
             }
         }
@@ -30,9 +33,17 @@ fn a_margin_counts_no_fewer_roundings_than_the_permanent() {
     let path = &paths_of::<f64>(entry).unwrap()[0];
     let (_, place) = compared(path).next().unwrap();
     let permanent = relative(path, place, Domain::UNIT, Format::F64).unwrap();
-    let margins: Vec<u32> = guarded.margins.values().map(|margin| margin.roundings).collect();
+    let margins: Vec<u32> = guarded
+        .margins
+        .values()
+        .map(|margin| margin.roundings)
+        .collect();
     let in_order = permanent.for_sign.of_format;
-    assert!(margins.iter().all(|any_order| (in_order..in_order + 3).contains(any_order)));
+    assert!(
+        margins
+            .iter()
+            .all(|any_order| (in_order..in_order + 3).contains(any_order))
+    );
     // Six roundings, and shares of u/256 for underflows.
     let factor = guarded.margins.values().next().unwrap().factor.to_f64() * 2f64.powi(53);
     assert!((6.0..6.1).contains(&factor), "{factor}");

@@ -16,8 +16,11 @@ impl Prover<'_> {
             return self.bound_before_last(inner);
         }
         let bound = self.bound(place)?;
-        let lemma =
-            self.lemmas.iter().find(|lemma| lemma.place == place).expect("a lemma of a bound");
+        let lemma = self
+            .lemmas
+            .iter()
+            .find(|lemma| lemma.place == place)
+            .expect("a lemma of a bound");
         let mut formula = lemma.formula.clone();
         let rounds = formula.rounds.last().is_some_and(|rounds| *rounds);
         if lemma.rule != Rule::Sum || !rounds {

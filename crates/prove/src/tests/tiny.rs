@@ -10,7 +10,11 @@ use num_traits::ToPrimitive;
 use std::collections::BTreeMap;
 
 fn format(digits: u32) -> Format {
-    Format { digits, smallest: -200, largest: 200 }
+    Format {
+        digits,
+        smallest: -200,
+        largest: 200,
+    }
 }
 
 /// Rounded to so many digits, ties to even.
@@ -36,7 +40,12 @@ impl Run {
     fn new(path: &Path) -> Run {
         let zeros = vec![0.0; path.operations.len()];
         let [computed, exact, permanent, rounded] = [(); 4].map(|()| zeros.clone());
-        Run { computed, exact, permanent, rounded }
+        Run {
+            computed,
+            exact,
+            permanent,
+            rounded,
+        }
     }
 
     fn set(&mut self, at: usize, x: f64) {
@@ -45,7 +54,12 @@ impl Run {
     }
 
     fn step(&mut self, path: &Path, at: usize, digits: u32) {
-        let Run { computed, exact, permanent, rounded } = self;
+        let Run {
+            computed,
+            exact,
+            permanent,
+            rounded,
+        } = self;
         let is_input = |p: Place| matches!(path.operations[p as usize], Operation::Input(_));
         match path.operations[at] {
             Operation::Input(_) => {}
@@ -92,12 +106,21 @@ impl Worst {
         let inputs: Vec<usize> = (0..path.operations.len())
             .filter(|at| matches!(path.operations[*at], Operation::Input(_)))
             .collect();
-        let (low, high) = values.iter().fold((0.0f64, 0.0f64), |(l, h), x| (l.min(*x), h.max(*x)));
+        let (low, high) = values
+            .iter()
+            .fold((0.0f64, 0.0f64), |(l, h), x| (l.min(*x), h.max(*x)));
         let size = Dyadic::from_f64(high - low).expect("finite");
-        let domain = Domain { edge: size, reach: size, ..Domain::UNIT };
+        let domain = Domain {
+            edge: size,
+            reach: size,
+            ..Domain::UNIT
+        };
         let mut prover = Prover::new(path, domain, format);
         let bound = prover.bound(place).expect("a polynomial").error.to_f64();
-        let before_last = prover.bound_before_last(place).expect("a polynomial").to_f64();
+        let before_last = prover
+            .bound_before_last(place)
+            .expect("a polynomial")
+            .to_f64();
         let form = relative(path, place, domain, format).expect("a polynomial");
         let factor = form.factor.to_f64();
         let mut run = Run::new(path);
@@ -118,7 +141,9 @@ impl Worst {
             let error = (computed - exact).abs();
             self.of_bound = self.of_bound.max(error / bound);
             if run.permanent[last] > 0.0 {
-                self.of_permanent = self.of_permanent.max(error / (run.permanent[last] * factor));
+                self.of_permanent = self
+                    .of_permanent
+                    .max(error / (run.permanent[last] * factor));
             }
             if computed != 0.0 && computed * exact <= 0.0 {
                 let share = computed.abs() / run.rounded[last];
@@ -161,14 +186,21 @@ fn no_input_of_a_slice_in_tiny_formats_passes_a_bound() {
             let filter = form.filter(format(digits)) / Big::from(format(digits).unit());
             let filter = filter.to_f64().expect("small");
             let mut worst = Worst::default();
-            for (_, _, values, scale) in
-                SLICES.iter().filter(|slice| (slice.0, slice.1) == (dimension, digits))
+            for (_, _, values, scale) in SLICES
+                .iter()
+                .filter(|slice| (slice.0, slice.1) == (dimension, digits))
             {
-                let values: Vec<f64> =
-                    values.iter().map(|m| f64::from(*m) * 2f64.powi(*scale)).collect();
+                let values: Vec<f64> = values
+                    .iter()
+                    .map(|m| f64::from(*m) * 2f64.powi(*scale))
+                    .collect();
                 worst.include(path, *place, &values, digits);
             }
-            let Worst { of_bound, of_permanent, of_wrong_sign } = worst;
+            let Worst {
+                of_bound,
+                of_permanent,
+                of_wrong_sign,
+            } = worst;
             println!(
                 "orient{dimension}d p={digits}: {of_bound:.3} of the bound, {of_permanent:.3} of the one \
                  by the permanent; a wrong sign at {of_wrong_sign:.3} u, filter {filter:.3} u"
@@ -183,8 +215,16 @@ fn no_input_of_a_slice_in_tiny_formats_passes_a_bound() {
 /// minus a small one. A tie goes to the even number.
 fn ends(m: f64, digits: u32) -> [f64; 2] {
     let unit = 2f64.powi(-(digits as i32));
-    let half = if m % 2.0 == 0.0 { 0.5 } else { 0.5 * (1.0 - unit) };
-    let below = if m == 2f64.powi(digits as i32 - 1) { 0.25 } else { half };
+    let half = if m % 2.0 == 0.0 {
+        0.5
+    } else {
+        0.5 * (1.0 - unit)
+    };
+    let below = if m == 2f64.powi(digits as i32 - 1) {
+        0.25
+    } else {
+        half
+    };
     [m - below, m + half]
 }
 
@@ -198,7 +238,9 @@ fn largest_wrong_sign(digits: u32) -> f64 {
         for b in a..2 * first {
             let (a, b) = (a as f64, b as f64);
             let ([a0, a1], [b0, b1]) = (ends(a, digits), ends(b, digits));
-            let known = products.entry(round(a * b, digits) as u64).or_insert([f64::MAX, 0.0]);
+            let known = products
+                .entry(round(a * b, digits) as u64)
+                .or_insert([f64::MAX, 0.0]);
             *known = [known[0].min(a0 * b0), known[1].max(a1 * b1)];
         }
     }

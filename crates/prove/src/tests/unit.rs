@@ -13,7 +13,13 @@ fn unit([x, y, z]: [Recorded; 3], by_reciprocal: bool) -> [Recorded; 3] {
     let square = |x: &Recorded| x.clone() * x;
     let length = (square(&x) + square(&y) + square(&z)).sqrt();
     let reciprocal = Recorded::one() / &length;
-    [x, y, z].map(|x| if by_reciprocal { x * &reciprocal } else { x / &length })
+    [x, y, z].map(|x| {
+        if by_reciprocal {
+            x * &reciprocal
+        } else {
+            x / &length
+        }
+    })
 }
 
 /// The normal of a, b, c.
@@ -22,7 +28,11 @@ fn normal() -> [Recorded; 3] {
     let [[x, y, z], [u, v, w]] = edges;
     let minor =
         |a: &Recorded, b: &Recorded, c: &Recorded, d: &Recorded| a.clone() * b - c.clone() * d;
-    [minor(&y, &w, &v, &z), minor(&z, &u, &w, &x), minor(&x, &v, &u, &y)]
+    [
+        minor(&y, &w, &v, &z),
+        minor(&z, &u, &w, &x),
+        minor(&x, &v, &u, &y),
+    ]
 }
 
 fn edge() -> [Recorded; 3] {
@@ -51,7 +61,11 @@ fn values(path: &Path, inputs: &[f64; 17], digits: u32) -> Vec<f64> {
             Operation::Sqrt(a) => of(a).sqrt(),
             other => panic!("{other:?}"),
         };
-        values.push(if digits < 53 && value != 0.0 { round(value, digits) } else { value });
+        values.push(if digits < 53 && value != 0.0 {
+            round(value, digits)
+        } else {
+            value
+        });
     }
     values
 }
@@ -64,9 +78,15 @@ pub fn largest_share(
     digits: u32,
     all: impl Iterator<Item = [f64; 17]>,
 ) -> (f64, usize) {
-    let format = Format { digits, smallest: -200, largest: 200 };
+    let format = Format {
+        digits,
+        smallest: -200,
+        largest: 200,
+    };
     let mut prover = Prover::new(&path, domain, format);
-    let Bound { error, computed, .. } = prover.bound(place).expect("a bound");
+    let Bound {
+        error, computed, ..
+    } = prover.bound(place).expect("a bound");
     let (mut worst, mut tried) = (0.0f64, 0);
     for inputs in all {
         let exact = values(&path, &inputs, 53);
@@ -92,7 +112,11 @@ pub fn largest_share(
 /// The same where edges are at most 1.
 fn share_of_edges_below_one(run: &dyn Fn() -> Recorded, digits: u32, floor: f64) -> f64 {
     let floor = Dyadic::from_f64(floor).expect("finite");
-    let domain = Domain { edge: Dyadic::ONE, floor, ..Domain::UNIT };
+    let domain = Domain {
+        edge: Dyadic::ONE,
+        floor,
+        ..Domain::UNIT
+    };
     let mut draw = Draw::new("unit", 1, u64::from(digits));
     let all = (0..400_000).map(|_| {
         // Points between -1/2 and 1/2.
@@ -117,15 +141,47 @@ fn no_quotient_and_no_unit_vector_in_a_tiny_format_passes_its_bound() {
     };
     let cases: [(&str, &dyn Fn() -> Recorded, f64); 10] = [
         ("a share of a sum", &share, 0.25),
-        ("a quotient of inputs", &|| Recorded::input(3) / &Recorded::input(4), 0.5),
-        ("of differences", &|| difference(2, 1, 0) / &difference(3, 1, 1), 0.5),
-        ("of an input and a determinant", &|| Recorded::input(3) / &last(normal()), 0.5),
-        ("of determinants", &|| first(normal()) / &last(normal()), 0.5),
-        ("a direction's coordinate", &|| first(unit(direction(), true)), 0.5),
+        (
+            "a quotient of inputs",
+            &|| Recorded::input(3) / &Recorded::input(4),
+            0.5,
+        ),
+        (
+            "of differences",
+            &|| difference(2, 1, 0) / &difference(3, 1, 1),
+            0.5,
+        ),
+        (
+            "of an input and a determinant",
+            &|| Recorded::input(3) / &last(normal()),
+            0.5,
+        ),
+        (
+            "of determinants",
+            &|| first(normal()) / &last(normal()),
+            0.5,
+        ),
+        (
+            "a direction's coordinate",
+            &|| first(unit(direction(), true)),
+            0.5,
+        ),
         ("by divisions", &|| first(unit(direction(), false)), 0.5),
-        ("a difference's coordinate", &|| first(unit(edge(), true)), 0.5),
-        ("a normal's coordinate", &|| first(unit(normal(), true)), 0.75),
-        ("a normal along a direction", &|| along_direction(unit(normal(), true)), 0.75),
+        (
+            "a difference's coordinate",
+            &|| first(unit(edge(), true)),
+            0.5,
+        ),
+        (
+            "a normal's coordinate",
+            &|| first(unit(normal(), true)),
+            0.75,
+        ),
+        (
+            "a normal along a direction",
+            &|| along_direction(unit(normal(), true)),
+            0.75,
+        ),
     ];
     for digits in [4, 5, 8] {
         for (name, run, floor) in cases {
@@ -143,12 +199,18 @@ fn parts_and_cuts(run: fn() -> Recorded) -> [usize; 2] {
     prover.bound(place).expect("a bound");
     let sources = &prover.lemmas.last().expect("a lemma").formula.sources;
     let count = |is: fn(&Source) -> bool| sources.iter().filter(|source| is(source)).count();
-    [count(|s| matches!(s, Source::Part(_))), count(|s| matches!(s, Source::Cut(_)))]
+    [
+        count(|s| matches!(s, Source::Part(_))),
+        count(|s| matches!(s, Source::Cut(_))),
+    ]
 }
 
 #[test]
 fn what_is_not_linear_in_one_unit_vector_has_its_coordinates_in_boxes() {
-    assert_eq!(parts_and_cuts(|| along_direction(unit(normal(), true))), [3, 0]);
+    assert_eq!(
+        parts_and_cuts(|| along_direction(unit(normal(), true))),
+        [3, 0]
+    );
     // A constant beside it, a product of two coordinates, the same coordinate twice, and two unit vectors.
     let not_linear: [fn() -> Recorded; 4] = [
         || along_direction(unit(normal(), true)) + Recorded::input(15),

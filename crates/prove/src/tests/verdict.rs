@@ -66,8 +66,13 @@ fn inside(point: DVec3, vertices: [DVec3; 3]) -> f64 {
     let [a, b, c] = vertices;
     let normal = (b - a).cross(c - a);
     let sides = [(a, b), (b, c), (c, a)];
-    let longest = sides.iter().map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
-    let is_inside = sides.iter().all(|(p, q)| normal.dot((*q - *p).cross(point - *p)) >= 0.0);
+    let longest = sides
+        .iter()
+        .map(|(p, q)| p.distance(*q))
+        .fold(0.0, f64::max);
+    let is_inside = sides
+        .iter()
+        .all(|(p, q)| normal.dot((*q - *p).cross(point - *p)) >= 0.0);
     let distance = sides.iter().map(|(p, q)| {
         let along = ((point - *p).dot(*q - *p) / p.distance_squared(*q)).clamp(0.0, 1.0);
         point.distance(*p + along * (*q - *p))
@@ -117,17 +122,32 @@ fn no_verdict_of_a_tiny_format_is_farther_off_than_its_bound() {
         ("cramer", 12, &[0.0, 0.0, 0.0]),
     ] {
         let entry = kernel::find(name).unwrap();
-        let format = Format { digits, smallest: -200, largest: 200 };
+        let format = Format {
+            digits,
+            smallest: -200,
+            largest: 200,
+        };
         let of = |domain| Proof::new(paths_of::<f64>(entry).unwrap(), None, domain, format);
         let quotient = Dyadic::ABOVE_ONE;
-        let wide = |below| of(Domain { quotient, below, ..Domain::UNIT });
-        let (proof, near, far) = (of(Domain::UNIT), wide(quotient - Dyadic::ONE), wide(quotient));
+        let wide = |below| {
+            of(Domain {
+                quotient,
+                below,
+                ..Domain::UNIT
+            })
+        };
+        let (proof, near, far) = (
+            of(Domain::UNIT),
+            wide(quotient - Dyadic::ONE),
+            wide(quotient),
+        );
         let Verdicts { misses, hits, .. } =
             verdicts(entry, [&proof, &near, &far], epsilons, &[Domain::UNIT]);
         let bounds = [misses, hits].map(|bound| bound.unwrap().share);
         let (mut worst, mut draw) = ([0.0f64; 2], Draw::new("verdict", 1, 1));
-        for (inputs, point, vertices) in
-            (0..3_000_000).filter_map(|_| drawn(&mut draw, digits)).take(300_000)
+        for (inputs, point, vertices) in (0..3_000_000)
+            .filter_map(|_| drawn(&mut draw, digits))
+            .take(300_000)
         {
             let depth = inside(point, vertices);
             let is_hit = accepts(&proof.paths, &inputs, epsilons, digits);
@@ -145,9 +165,18 @@ fn no_verdict_of_a_tiny_format_is_farther_off_than_its_bound() {
 fn in_a_tiny_format_no_barycentric_quotient_is_wrong_by_more_than_its_bound() {
     for (name, digits) in [("moller-trumbore", 9), ("cramer", 9), ("cramer", 12)] {
         let entry = kernel::find(name).unwrap();
-        let format = Format { digits, smallest: -200, largest: 200 };
+        let format = Format {
+            digits,
+            smallest: -200,
+            largest: 200,
+        };
         let proof = Proof::new(paths_of::<f64>(entry).unwrap(), None, Domain::UNIT, format);
-        let of_weights = || proof.quantities.iter().filter(|quantity| quantity.uses().inside);
+        let of_weights = || {
+            proof
+                .quantities
+                .iter()
+                .filter(|quantity| quantity.uses().inside)
+        };
         // u, v, 1 less each and 1 less both, on some path.
         assert!(4 <= of_weights().count(), "{name}");
         let mut draw = Draw::new("inside", 1, digits.into());
@@ -156,8 +185,9 @@ fn in_a_tiny_format_no_barycentric_quotient_is_wrong_by_more_than_its_bound() {
             let path = &proof.paths[quantity.path];
             let bound = quantity.bound.as_ref().unwrap().error.to_f64();
             let mut worst = 0.0f64;
-            for (inputs, point, vertices) in
-                (0..300_000).filter_map(|_| drawn(&mut draw, digits)).take(30_000)
+            for (inputs, point, vertices) in (0..300_000)
+                .filter_map(|_| drawn(&mut draw, digits))
+                .take(30_000)
             {
                 let of = |values: Vec<f64>| values[quantity.place as usize];
                 if 0.0 <= inside(point, vertices) {
@@ -171,6 +201,9 @@ fn in_a_tiny_format_no_barycentric_quotient_is_wrong_by_more_than_its_bound() {
         }
         println!("{name} p={digits}: {shares:?}");
         // The bounds say something.
-        assert!(shares.iter().all(|share| 0.05 < *share), "{name}: {shares:?}");
+        assert!(
+            shares.iter().all(|share| 0.05 < *share),
+            "{name}: {shares:?}"
+        );
     }
 }

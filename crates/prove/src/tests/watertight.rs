@@ -154,7 +154,11 @@ impl Kernel for Flat {
             WithoutAGate => passes && !(u.clone() + &v + &w).is_zero(),
             _ => passes,
         };
-        hits.then_some(Hit { t: None, uv: None, facing: None })
+        hits.then_some(Hit {
+            t: None,
+            uv: None,
+            facing: None,
+        })
     }
 }
 
@@ -192,9 +196,16 @@ fn all_edges_that_one_ray_may_meet_are_of_one_picture_and_decided_by_their_close
         (WithTheInterval, Symmetry::None),
     ] {
         let paths = paths_of_flat(decides).unwrap();
-        assert_eq!(symmetry(&paths, |gate| gate == EDGE), expected, "{decides:?}");
+        assert_eq!(
+            symmetry(&paths, |gate| gate == EDGE),
+            expected,
+            "{decides:?}"
+        );
     }
-    assert_eq!(symmetry(&paths_of_flat(Well).unwrap(), |_| false), Symmetry::None);
+    assert_eq!(
+        symmetry(&paths_of_flat(Well).unwrap(), |_| false),
+        Symmetry::None
+    );
 }
 
 #[test]
@@ -239,7 +250,12 @@ fn woops_parallel_gate_refuses_met_triangles_whose_edge_values_are_all_zero() {
         if zero.is_less(&exact[edge]) && zero.is_less(&exact[parallel]) {
             met += 1;
             let computed = gated.thresholds(&case);
-            assert_eq!((computed[edge], computed[parallel]), (0.0, 0.0), "{}", case.hex());
+            assert_eq!(
+                (computed[edge], computed[parallel]),
+                (0.0, 0.0),
+                "{}",
+                case.hex()
+            );
         }
     }
     assert!(8 < met, "{met}");

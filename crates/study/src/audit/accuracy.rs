@@ -28,8 +28,11 @@ pub struct Accuracy {
 impl Accuracy {
     /// Counts a hit.
     pub fn add(&mut self, errors: &Errors) {
-        let parts =
-            [(&mut self.t, errors.t), (&mut self.uv, errors.uv), (&mut self.point, errors.point)];
+        let parts = [
+            (&mut self.t, errors.t),
+            (&mut self.uv, errors.uv),
+            (&mut self.point, errors.point),
+        ];
         for (histogram, error) in parts {
             if let Some(error) = error {
                 histogram.add(error);
@@ -66,10 +69,14 @@ impl Errors {
         verdict: &Verdict<F>,
     ) -> Errors {
         let measure = Measure::new(case, crossing);
-        measure.errors(gives, verdict, Bounded::new, Bounded::within).unwrap_or_else(|| {
-            let float = |x: &Exact, _| Some(x.approximate());
-            measure.errors(gives, verdict, Exact::from_f64, float).expect("always a number")
-        })
+        measure
+            .errors(gives, verdict, Bounded::new, Bounded::within)
+            .unwrap_or_else(|| {
+                let float = |x: &Exact, _| Some(x.approximate());
+                measure
+                    .errors(gives, verdict, Exact::from_f64, float)
+                    .expect("always a number")
+            })
     }
 }
 
@@ -85,9 +92,18 @@ struct Measure<'a, F: Float> {
 
 impl<'a, F: Float> Measure<'a, F> {
     fn new(case: &'a Case<F>, crossing: &Crossing) -> Self {
-        let u = matches!(crossing.feature, Feature::EdgeCa | Feature::VertexA | Feature::VertexC);
-        let v = matches!(crossing.feature, Feature::EdgeAb | Feature::VertexA | Feature::VertexB);
-        let longest = case.vectors()[1].map(|x| x.to_f64().abs()).into_iter().fold(0.0, f64::max);
+        let u = matches!(
+            crossing.feature,
+            Feature::EdgeCa | Feature::VertexA | Feature::VertexC
+        );
+        let v = matches!(
+            crossing.feature,
+            Feature::EdgeAb | Feature::VertexA | Feature::VertexB
+        );
+        let longest = case.vectors()[1]
+            .map(|x| x.to_f64().abs())
+            .into_iter()
+            .fold(0.0, f64::max);
         let t_unit = ulp_of_points(case).to_f64() / longest;
         let one = F::EPSILON.to_f64();
         Measure {
@@ -126,7 +142,11 @@ impl<'a, F: Float> Measure<'a, F> {
         };
         let uv = |found: &Verdict<F>| Some(error_of(1, found.u)?.max(error_of(2, found.v)?));
         Some(Errors {
-            t: if gives.t { Some(error_of(0, verdict.t)?) } else { None },
+            t: if gives.t {
+                Some(error_of(0, verdict.t)?)
+            } else {
+                None
+            },
             uv: if gives.uv { Some(uv(verdict)?) } else { None },
             point: if gives.t {
                 Some(self.point(verdict.t, &ray, &exact[0], lift, float)?)

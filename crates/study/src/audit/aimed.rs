@@ -38,7 +38,9 @@ impl Aimed {
         [examples, places]: [usize; 2],
     ) {
         let outcome = self.classes[ray.class].add(group, examples);
-        let Some(fault) = fault_in(outcome, across) else { return };
+        let Some(fault) = fault_in(outcome, across) else {
+            return;
+        };
         if fault == PlaceFault::Crack {
             let word = ray.target as usize / 64;
             self.leaking.resize(self.leaking.len().max(word + 1), 0);
@@ -53,13 +55,20 @@ impl Aimed {
             groups.merge(more, examples);
         }
         self.places.merge(other.places, places);
-        self.leaking.resize(self.leaking.len().max(other.leaking.len()), 0);
-        self.leaking.iter_mut().zip(other.leaking).for_each(|(word, more)| *word |= more);
+        self.leaking
+            .resize(self.leaking.len().max(other.leaking.len()), 0);
+        self.leaking
+            .iter_mut()
+            .zip(other.leaking)
+            .for_each(|(word, more)| *word |= more);
     }
 
     /// How many targets have a crack.
     pub fn leaking(&self) -> u64 {
-        self.leaking.iter().map(|word| u64::from(word.count_ones())).sum()
+        self.leaking
+            .iter()
+            .map(|word| u64::from(word.count_ones()))
+            .sum()
     }
 }
 

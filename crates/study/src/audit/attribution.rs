@@ -70,7 +70,14 @@ pub fn attribute<F: Float>(
     (contract, obligation): (&Contract, Obligation),
 ) -> Option<Attribution> {
     let exact = || Some(subject.gated()?.run_exact(case, epsilons));
-    attribute_with(subject, case, epsilons, truth, (contract, obligation), exact)
+    attribute_with(
+        subject,
+        case,
+        epsilons,
+        truth,
+        (contract, obligation),
+        exact,
+    )
 }
 
 /// The same with the run without rounding from elsewhere, which is asked for where it is needed.
@@ -93,13 +100,22 @@ pub fn attribute_with<F: Float>(
         values.is_some_and(|hit| exact_values_are_near(case, gives, hit, contract.value_tolerance))
     };
     let right = |answer: Answer| right(Answer { near, ..answer });
-    if right(without_rounding(contract, (case, truth, gives), &given, exact)?) {
+    if right(without_rounding(
+        contract,
+        (case, truth, gives),
+        &given,
+        exact,
+    )?) {
         let raised = match finding {
             Finding::BadValue | Finding::WrongValue => given.decision.and(given.values),
             _ => given.decision,
         };
         let range = raised.overflow || raised.underflow;
-        return Some(if range { Attribution::Range } else { Attribution::Rounding });
+        return Some(if range {
+            Attribution::Range
+        } else {
+            Attribution::Rounding
+        });
     }
     if epsilons.iter().all(F::is_zero) {
         return Some(Attribution::Convention);
@@ -109,7 +125,11 @@ pub fn attribute_with<F: Float>(
     let answer = without_rounding(contract, (case, truth, gives), &zero, || {
         Some(subject.run_exact(case, &zeros))
     })?;
-    Some(if right(answer) { Attribution::Epsilon } else { Attribution::Convention })
+    Some(if right(answer) {
+        Attribution::Epsilon
+    } else {
+        Attribution::Convention
+    })
 }
 
 /// Why a kernel that does not show its formula is wrong on a case, as far as a run with every epsilon 0 tells; none
@@ -128,7 +148,13 @@ pub fn attribute_by_running<F: Float>(
     let is_wrong = |epsilons: &[F]| {
         let mut verdict = [Verdict::miss(None)];
         verdicts_of(subject, slice::from_ref(case), epsilons, &mut verdict);
-        judge((contract, obligation), (case, truth), info.gives, &verdict[0]).is_some()
+        judge(
+            (contract, obligation),
+            (case, truth),
+            info.gives,
+            &verdict[0],
+        )
+        .is_some()
     };
     let zeros = vec![F::zero(); epsilons.len()];
     Some(match epsilons != zeros && !is_wrong(&zeros) {
@@ -151,7 +177,15 @@ fn without_rounding<F: Float>(
     }
     let exact = exact()?;
     if decided {
-        return Some(Answer { finite: exact.finite, ..answer });
+        return Some(Answer {
+            finite: exact.finite,
+            ..answer
+        });
     }
-    Some(Answer { hit: exact.hit(), finite: exact.finite, facing: exact.facing, ..answer })
+    Some(Answer {
+        hit: exact.hit(),
+        finite: exact.finite,
+        facing: exact.facing,
+        ..answer
+    })
 }

@@ -15,7 +15,11 @@ fn place(class: Class, finding: Finding) -> usize {
 
 impl<T> Default for ByFinding<T> {
     fn default() -> ByFinding<T> {
-        ByFinding(std::iter::repeat_with(|| None).take(Class::COUNT * FINDINGS).collect())
+        ByFinding(
+            std::iter::repeat_with(|| None)
+                .take(Class::COUNT * FINDINGS)
+                .collect(),
+        )
     }
 }
 
@@ -44,7 +48,8 @@ impl<T> ByFinding<T> {
     /// All that is kept, by class, then by finding.
     pub fn iter(&self) -> impl Iterator<Item = ((Class, Finding), &T)> {
         let keys = Class::all().flat_map(|class| Finding::ALL.map(|finding| (class, finding)));
-        keys.zip(&self.0).filter_map(|(key, kept)| Some((key, kept.as_deref()?)))
+        keys.zip(&self.0)
+            .filter_map(|(key, kept)| Some((key, kept.as_deref()?)))
     }
 
     /// The same to be changed, without the keys.

@@ -41,7 +41,11 @@ impl Causes {
             }
         }
         let told = by.iter().sum();
-        causes.by.iter_mut().zip(by).for_each(|(trials, count)| trials.add_ray(count, told));
+        causes
+            .by
+            .iter_mut()
+            .zip(by)
+            .for_each(|(trials, count)| trials.add_ray(count, told));
         causes
     }
 
@@ -71,7 +75,12 @@ pub(super) fn causes<F: Scalar>(
             let asked = (contract, asked(case, &truth, contract, secondary));
             if source.instance::<F>().is_some() {
                 let mut verdict = [Verdict::miss(None)];
-                verdicts_of(row.subject, slice::from_ref(case), &row.epsilons, &mut verdict);
+                verdicts_of(
+                    row.subject,
+                    slice::from_ref(case),
+                    &row.epsilons,
+                    &mut verdict,
+                );
                 // Values are not judged in an instance.
                 if judge(asked, (case, &truth), Gives::NOTHING, &verdict[0]).is_none() {
                     return Some(Attribution::Transform);
@@ -87,13 +96,22 @@ pub(super) fn causes<F: Scalar>(
         places.iter().map(of_place).collect()
     };
     let of_ray = |places: &[CasePlace]| Causes::of_ray(on_ray(places).into_iter());
-    let told = tally.examples.iter().filter(|((_, finding), _)| !finding.is_failure());
+    let told = tally
+        .examples
+        .iter()
+        .filter(|((_, finding), _)| !finding.is_failure());
     let counted = told.map(|(key, examples)| {
         let places = &examples.first[..examples.first.len().min(most)];
         let rays = places.chunk_by(|a, b| a.index == b.index);
         let causes = rays.map(of_ray).fold(Causes::default(), Causes::merged);
-        let worst = examples.worst.and_then(|(_, place)| on_ray(&[place]).remove(0));
+        let worst = examples
+            .worst
+            .and_then(|(_, place)| on_ray(&[place]).remove(0));
         (key, Causes { worst, ..causes })
     });
-    if most == 0 { BTreeMap::new() } else { counted.collect() }
+    if most == 0 {
+        BTreeMap::new()
+    } else {
+        counted.collect()
+    }
 }

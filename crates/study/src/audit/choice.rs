@@ -85,7 +85,12 @@ impl EpsilonChoice {
                         true => name.clone(),
                         false => format!("{name}: {}", taken.join("+")),
                     };
-                    rows.push(Row { entry, set, epsilons, contract });
+                    rows.push(Row {
+                        entry,
+                        set,
+                        epsilons,
+                        contract,
+                    });
                 }
                 EpsilonChoice::Given(pairs) => {
                     let mut epsilons = decimals(sets[0].values);
@@ -106,9 +111,17 @@ impl EpsilonChoice {
                             Err(_) => {}
                         }
                     }
-                    let set =
-                        if words.is_empty() { sets[0].name.to_owned() } else { words.join(",") };
-                    rows.push(Row { entry, set, epsilons, contract });
+                    let set = if words.is_empty() {
+                        sets[0].name.to_owned()
+                    } else {
+                        words.join(",")
+                    };
+                    rows.push(Row {
+                        entry,
+                        set,
+                        epsilons,
+                        contract,
+                    });
                 }
             }
         }
@@ -132,11 +145,14 @@ impl EpsilonChoice {
 
 /// The preset of a name.
 fn find_preset(name: &str) -> Result<&'static Preset, Error> {
-    PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
-        let names = PRESETS.iter().map(|preset| preset.name);
-        let advice = did_you_mean(name, names, "hairline list presets");
-        Error(format!("unknown epsilon preset '{name}'{advice}"))
-    })
+    PRESETS
+        .iter()
+        .find(|preset| preset.name == name)
+        .ok_or_else(|| {
+            let names = PRESETS.iter().map(|preset| preset.name);
+            let advice = did_you_mean(name, names, "hairline list presets");
+            Error(format!("unknown epsilon preset '{name}'{advice}"))
+        })
 }
 
 /// Why a preset is for none of some kernels: one of its epsilons has no gate there.
@@ -148,7 +164,11 @@ fn unfit(name: &str, left_over: &PresetEntry, entries: &[&'static Entry]) -> Err
     let takes_all = |entry: &&Entry| {
         find_preset(name).is_ok_and(|preset| preset.over(entry.info.gates).is_ok())
     };
-    let others: Vec<&str> = KERNELS.iter().filter(takes_all).map(|entry| entry.info.name).collect();
+    let others: Vec<&str> = KERNELS
+        .iter()
+        .filter(takes_all)
+        .map(|entry| entry.info.name)
+        .collect();
     let advice = match others.is_empty() {
         true => String::new(),
         false => format!("; it fits {}", others.join(", ")),
@@ -161,8 +181,12 @@ fn unfit(name: &str, left_over: &PresetEntry, entries: &[&'static Entry]) -> Err
 
 /// An epsilon that a gate can take.
 fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, Error> {
-    let epsilon = EpsilonText::of(text)
-        .ok_or_else(|| Error(format!("'{text}' is not an epsilon for gate '{}'", gate.name)))?;
+    let epsilon = EpsilonText::of(text).ok_or_else(|| {
+        Error(format!(
+            "'{text}' is not an epsilon for gate '{}'",
+            gate.name
+        ))
+    })?;
     let Some(value) = epsilon.value::<f64>() else {
         let name = gate.name;
         let plain = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
@@ -175,7 +199,10 @@ fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, Error> 
         )));
     };
     match gate.epsilon {
-        Tunable::Fixed => Err(Error(format!("gate '{}' of {kernel} takes no epsilon", gate.name))),
+        Tunable::Fixed => Err(Error(format!(
+            "gate '{}' of {kernel} takes no epsilon",
+            gate.name
+        ))),
         Tunable::NonNegative if value < 0.0 => Err(Error(format!(
             "gate '{}' of {kernel} refuses where {}: below 0 that is the same as 0, so {text} means nothing",
             gate.name, gate.refuses
@@ -185,7 +212,10 @@ fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, Error> 
 }
 
 fn unknown_gate(name: &str, entries: &[&'static Entry]) -> Error {
-    let gates = entries.iter().flat_map(|entry| entry.info.gates).map(|gate| gate.name);
+    let gates = entries
+        .iter()
+        .flat_map(|entry| entry.info.gates)
+        .map(|gate| gate.name);
     let advice = did_you_mean(name, gates, "hairline list kernels");
     let advice = match name {
         "t_min" | "t-min" | "tmin" => {
@@ -220,7 +250,10 @@ impl RowSpec {
     /// The row, if this program has its kernel.
     pub fn row(&self) -> Result<Row, Error> {
         let row = Row::named(&self.kernel, self.epsilons.as_deref(), &self.contract)?;
-        Ok(Row { set: self.set.clone().unwrap_or(row.set), ..row })
+        Ok(Row {
+            set: self.set.clone().unwrap_or(row.set),
+            ..row
+        })
     }
 }
 
@@ -235,7 +268,10 @@ mod tests {
 
     fn given(pairs: &[(&str, &str)]) -> EpsilonChoice {
         EpsilonChoice::Given(
-            pairs.iter().map(|(g, v)| ((*g).to_owned(), (*v).to_owned())).collect(),
+            pairs
+                .iter()
+                .map(|(g, v)| ((*g).to_owned(), (*v).to_owned()))
+                .collect(),
         )
     }
 
@@ -243,14 +279,21 @@ mod tests {
     fn the_default_plan_has_two_rows_where_a_source_gives_no_value() {
         let all: Vec<_> = KERNELS.iter().collect();
         let rows = EpsilonChoice::Source.rows(&all, None).unwrap();
-        let of = |name: &str| rows.iter().filter(|row| row.entry.info.name == name).count();
+        let of = |name: &str| {
+            rows.iter()
+                .filter(|row| row.entry.info.name == name)
+                .count()
+        };
         assert_eq!((of("plane-unit-normal"), of("moller-trumbore")), (2, 1));
     }
 
     #[test]
     fn epsilons_go_to_the_gates_that_have_them() {
-        let rows =
-            rows(&["moller-trumbore", "half-space"], given(&[("parallel", "1e-9")])).unwrap();
+        let rows = rows(
+            &["moller-trumbore", "half-space"],
+            given(&[("parallel", "1e-9")]),
+        )
+        .unwrap();
         assert_eq!(rows[0].epsilons::<f32>(), [1e-9, 0.0]);
         assert_eq!(rows[0].set, "parallel=1e-9");
         assert_eq!(rows[1].set, "source");
@@ -272,14 +315,21 @@ mod tests {
         );
         // A kernel that cannot take a value does not keep the others from taking it.
         let rows = rows(&["havel-herout", "cramer"], given(&[("t", "1e-6")])).unwrap();
-        assert_eq!((rows[0].set.as_str(), rows[1].set.as_str()), ("source", "t=1e-6"));
+        assert_eq!(
+            (rows[0].set.as_str(), rows[1].set.as_str()),
+            ("source", "t=1e-6")
+        );
     }
 
     #[test]
     fn an_epsilon_that_a_scalar_has_not_is_refused_there() {
         let row = |text: &str| rows(&["moller-trumbore"], given(&[("parallel", text)])).unwrap();
         let in_f32 = |text: &str| row(text)[0].check::<f32>().map_err(|error| error.0);
-        assert!(in_f32("1e39").unwrap_err().contains("1e39 is beyond the range of f32"));
+        assert!(
+            in_f32("1e39")
+                .unwrap_err()
+                .contains("1e39 is beyond the range of f32")
+        );
         assert!(in_f32("1e-60").unwrap_err().contains("1e-60 is 0 in f32"));
         for fine in ["0", "0.0e5", "1e-45", "3e38", "EPSILON"] {
             assert_eq!(in_f32(fine), Ok(()), "{fine}");
@@ -295,10 +345,16 @@ mod tests {
         assert_eq!(taken.len(), 2, "woop's determinant has another dimension");
         let bvh = || EpsilonChoice::Preset("bvh".to_owned());
         let taken = rows(&["cramer"], bvh()).unwrap();
-        assert_eq!(taken[0].epsilons::<f32>(), [f32::EPSILON, f32::EPSILON, 0.0]);
+        assert_eq!(
+            taken[0].epsilons::<f32>(),
+            [f32::EPSILON, f32::EPSILON, 0.0]
+        );
         let bullet = EpsilonChoice::Preset("bullet".to_owned());
         let error = rows(&["moller-trumbore"], bullet).err().unwrap().0;
-        assert!(error.contains("no gate of moller-trumbore is a 'edge-over-n2'"), "{error}");
+        assert!(
+            error.contains("no gate of moller-trumbore is a 'edge-over-n2'"),
+            "{error}"
+        );
     }
 
     #[test]
@@ -313,8 +369,13 @@ mod tests {
         );
         // Among several kernels one that does not take it is left out.
         let taken = rows(&["moller-trumbore", "moller-trumbore-t"], godot()).unwrap();
-        let [row] = &taken[..] else { panic!("{} rows", taken.len()) };
-        assert_eq!((row.entry.info.name, &*row.set), ("moller-trumbore-t", "godot: parallel+t"));
+        let [row] = &taken[..] else {
+            panic!("{} rows", taken.len())
+        };
+        assert_eq!(
+            (row.entry.info.name, &*row.set),
+            ("moller-trumbore-t", "godot: parallel+t")
+        );
         assert_eq!(row.epsilons::<f64>(), [1e-5, 0.0, 1e-5]);
     }
 
@@ -327,24 +388,53 @@ mod tests {
                         --epsilon 'parallel=1e-6,edge=0' --contract closed-ray,coplanar=free";
         assert_eq!(command, expected);
         row.contract.band = "4ulps".parse().ok();
-        assert_eq!(row.explain_command("'x'"), format!("{expected} --band 4ulps"));
+        assert_eq!(
+            row.explain_command("'x'"),
+            format!("{expected} --band 4ulps")
+        );
     }
 
     #[test]
     fn a_row_comes_back_from_its_text() {
         for (kernel, epsilons, contract) in [
             ("moller-trumbore", None, "own"),
-            ("moller-trumbore+fma", Some("parallel=16*EPSILON,edge=-1e-7"), "own,band=4ulps"),
-            ("half-space", None, "front-closed-ray,invalid=free,band=1e-3"),
+            (
+                "moller-trumbore+fma",
+                Some("parallel=16*EPSILON,edge=-1e-7"),
+                "own,band=4ulps",
+            ),
+            (
+                "half-space",
+                None,
+                "front-closed-ray,invalid=free,band=1e-3",
+            ),
         ] {
             let row = Row::named(kernel, epsilons, contract).unwrap();
             let text = serde_json::to_string(&row.spec()).unwrap();
-            let again = serde_json::from_str::<RowSpec>(&text).unwrap().row().unwrap();
+            let again = serde_json::from_str::<RowSpec>(&text)
+                .unwrap()
+                .row()
+                .unwrap();
             assert_eq!(again.spec(), row.spec());
-            assert_eq!((again.epsilons, again.contract), (row.epsilons, row.contract), "{text}");
+            assert_eq!(
+                (again.epsilons, again.contract),
+                (row.epsilons, row.contract),
+                "{text}"
+            );
         }
-        let unknown =
-            RowSpec { kernel: "x".into(), set: None, epsilons: None, contract: "own".into() };
-        assert!(unknown.row().err().unwrap().0.starts_with("unknown kernel 'x': one of your own"));
+        let unknown = RowSpec {
+            kernel: "x".into(),
+            set: None,
+            epsilons: None,
+            contract: "own".into(),
+        };
+        assert!(
+            unknown
+                .row()
+                .err()
+                .unwrap()
+                .0
+                .starts_with("unknown kernel 'x': one of your own")
+        );
     }
 }

@@ -61,7 +61,10 @@ impl SourceSummary {
         self.indices += other.indices;
         self.cases += other.cases;
         self.promise_broken += other.promise_broken;
-        self.first_broken = [self.first_broken, other.first_broken].into_iter().flatten().min();
+        self.first_broken = [self.first_broken, other.first_broken]
+            .into_iter()
+            .flatten()
+            .min();
         self.layers.merge(&other.layers);
         self.oracle_nanoseconds += other.oracle_nanoseconds;
     }
@@ -141,7 +144,10 @@ impl<F: Scalar> Chunk<F> {
     /// Each index with the range of its cases.
     pub fn groups(&self) -> impl Iterator<Item = (u64, Range<usize>)> {
         let first = self.first_index;
-        self.starts.windows(2).zip(first..).map(|(ends, index)| (index, ends[0]..ends[1]))
+        self.starts
+            .windows(2)
+            .zip(first..)
+            .map(|(ends, index)| (index, ends[0]..ends[1]))
     }
 
     /// The target and the class of the ray of an index; none of sources that are no part of a mesh.
@@ -158,7 +164,11 @@ impl<F: Scalar> Chunk<F> {
     /// The values of a kernel that are judged. In an instance they belong to the ray that the kernel got, and not to
     /// the truth.
     pub fn judged(&self, gives: Gives) -> Gives {
-        if self.world.is_some() { Gives::NOTHING } else { gives }
+        if self.world.is_some() {
+            Gives::NOTHING
+        } else {
+            gives
+        }
     }
 
     /// True if a matrix puts the triangles into the world.
@@ -185,7 +195,11 @@ impl<F: Scalar> Chunk<F> {
 
     /// The same, without what else is known of the cases.
     pub fn obligations(&self, contract: &Contract) -> Vec<Obligation> {
-        self.expectations(contract).of.iter().map(|expected| expected.obligation()).collect()
+        self.expectations(contract)
+            .of
+            .iter()
+            .map(|expected| expected.obligation())
+            .collect()
     }
 
     /// The class of a case.

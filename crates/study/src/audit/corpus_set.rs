@@ -23,14 +23,20 @@ impl CorpusSet {
         fn is_far(case: &Case<f64>) -> bool {
             let [origin, _, a, b, c] = case.vectors();
             let distance = |p: [f64; 3], q: [f64; 3]| {
-                p.iter().zip(q).fold(0.0, |sum: f64, (p, q)| sum.hypot(p - q))
+                p.iter()
+                    .zip(q)
+                    .fold(0.0, |sum: f64, (p, q)| sum.hypot(p - q))
             };
             let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
-            [a, b, c].into_iter().all(|vertex| 2.0 * longest < distance(origin, vertex))
+            [a, b, c]
+                .into_iter()
+                .all(|vertex| 2.0 * longest < distance(origin, vertex))
         }
         let in_f32 = self.f32.iter().filter(|(_, case)| is_far(&case.widen()));
         let in_f64 = self.f64.iter().filter(|(_, case)| is_far(case));
-        in_f32.map(|(name, _)| name.as_str()).chain(in_f64.map(|(name, _)| name.as_str()))
+        in_f32
+            .map(|(name, _)| name.as_str())
+            .chain(in_f64.map(|(name, _)| name.as_str()))
     }
 
     /// The name and the case of an index.

@@ -116,20 +116,40 @@ aspects! {
 const POWER: f64 = 1_048_576.0;
 
 fn zeros(v: DVec3) -> usize {
-    if v == DVec3::ZERO { 0 } else { v.to_array().iter().filter(|x| **x == 0.0).count() }
+    if v == DVec3::ZERO {
+        0
+    } else {
+        v.to_array().iter().filter(|x| **x == 0.0).count()
+    }
 }
 
 /// The length, also where its square is beyond the range.
 fn length(v: DVec3) -> f64 {
     let largest = v.abs().max_element();
-    if largest == 0.0 { 0.0 } else { largest * (v / largest).length() }
+    if largest == 0.0 {
+        0.0
+    } else {
+        largest * (v / largest).length()
+    }
 }
 
 impl CaseShape {
     fn of<F: Float>(case: &Case<F>) -> CaseShape {
-        let Case { ray: Ray { origin, direction, t_min, t_max }, triangle } = case.widen();
+        let Case {
+            ray:
+                Ray {
+                    origin,
+                    direction,
+                    t_min,
+                    t_max,
+                },
+            triangle,
+        } = case.widen();
         let [a, b, c] = triangle.vertices();
-        let edge = [b - a, c - b, a - c].map(length).into_iter().fold(0.0, f64::max);
+        let edge = [b - a, c - b, a - c]
+            .map(length)
+            .into_iter()
+            .fold(0.0, f64::max);
         // Near 1, so that products of extreme numbers stay numbers.
         let [ab, ac, start] = [b - a, c - a, a - origin].map(|v| v / edge);
         let unit = direction / length(direction);
@@ -170,11 +190,13 @@ impl CaseShape {
     }
 
     fn faces(&self, facing: Facing) -> bool {
-        self.crossing().is_some_and(|crossing| crossing.facing == facing)
+        self.crossing()
+            .is_some_and(|crossing| crossing.facing == facing)
     }
 
     fn is_at(&self, place: Place) -> bool {
-        self.crossing().is_some_and(|crossing| crossing.place == place)
+        self.crossing()
+            .is_some_and(|crossing| crossing.place == place)
     }
 
     /// True if t lies there against an interval whose start has a sign, and whose end is finite or not.
@@ -195,7 +217,11 @@ impl CaseShape {
 
     /// How far the triangle lies from 0, in longest edges.
     fn offset(&self) -> f64 {
-        self.points.map(length).into_iter().fold(f64::INFINITY, f64::min) / self.edge
+        self.points
+            .map(length)
+            .into_iter()
+            .fold(f64::INFINITY, f64::min)
+            / self.edge
     }
 }
 
@@ -207,8 +233,15 @@ pub fn coverage(family: &Family, indices: u64) -> Vec<f64> {
         false => vec![Parameters::default()],
         true => {
             let (room, _) = Scene::parse("room").expect("a preset");
-            let in_scene = |scene| Parameters { scene: Some(scene), ..Parameters::default() };
-            room.to_try_kernels("room").of_all_kinds().into_iter().map(in_scene).collect()
+            let in_scene = |scene| Parameters {
+                scene: Some(scene),
+                ..Parameters::default()
+            };
+            room.to_try_kernels("room")
+                .of_all_kinds()
+                .into_iter()
+                .map(in_scene)
+                .collect()
         }
     };
     let (mut counts, mut cases) = (vec![0u64; ASPECTS.len()], 0);
@@ -216,7 +249,10 @@ pub fn coverage(family: &Family, indices: u64) -> Vec<f64> {
         cases += add::<f32>(family, parameters, indices, &mut counts)
             + add::<f64>(family, parameters, indices, &mut counts);
     }
-    counts.into_iter().map(|count| count as f64 / cases as f64).collect()
+    counts
+        .into_iter()
+        .map(|count| count as f64 / cases as f64)
+        .collect()
 }
 
 fn add<F: Scalar>(
@@ -251,12 +287,19 @@ mod tests {
             .collect();
         for (i, aspect) in ASPECTS.iter().enumerate() {
             let most = rows.iter().map(|(_, shares)| shares[i]).fold(0.0, f64::max);
-            let least = if aspect.kind.starts_with("t in") { 0.01 } else { 0.05 };
+            let least = if aspect.kind.starts_with("t in") {
+                0.01
+            } else {
+                0.05
+            };
             assert!(least < most, "{} {}: {most}", aspect.kind, aspect.name);
         }
         for (name, shares) in &rows {
             for kind in ["corner", "edge"] {
-                let of = ASPECTS.iter().zip(shares).filter(|(aspect, _)| aspect.kind == kind);
+                let of = ASPECTS
+                    .iter()
+                    .zip(shares)
+                    .filter(|(aspect, _)| aspect.kind == kind);
                 let of: Vec<f64> = of.map(|(_, share)| *share).collect();
                 let all: f64 = of.iter().sum();
                 let least = of.iter().fold(1.0, |least: f64, share| least.min(*share));
@@ -277,8 +320,11 @@ mod tests {
             [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
         );
         let shape = CaseShape::of(&case);
-        let met: Vec<&str> =
-            ASPECTS.iter().filter(|aspect| (aspect.is_met)(&shape)).map(|a| a.name).collect();
+        let met: Vec<&str> = ASPECTS
+            .iter()
+            .filter(|aspect| (aspect.is_met)(&shape))
+            .map(|a| a.name)
+            .collect();
         let expected = [
             "ab",
             "front",

@@ -103,14 +103,24 @@ mod tests {
         let mut parts = digest(&[(2, 1)]);
         parts.merge(&digest(&[(1, 0), (9, 3), (2, 0)]));
         assert_eq!(parts, whole);
-        let others = [&[(1, 0), (2, 0), (2, 1)][..], &[(1, 0), (2, 0), (2, 1), (3, 9)], &[]];
+        let others = [
+            &[(1, 0), (2, 0), (2, 1)][..],
+            &[(1, 0), (2, 0), (2, 1), (3, 9)],
+            &[],
+        ];
         assert!(others.iter().all(|places| digest(places) != whole));
         assert_eq!(Digest::try_from(whole.to_string()), Ok(whole.clone()));
         assert_eq!(
             parts.beyond(&digest(&[(1, 0), (2, 0), (2, 1)]), 10).min(),
-            Some(CasePlace { index: 9, triangle: 3 })
+            Some(CasePlace {
+                index: 9,
+                triangle: 3
+            })
         );
-        assert_eq!(parts.beyond(&digest(&[(1, 0), (2, 0), (2, 1)]), 9).min(), None);
+        assert_eq!(
+            parts.beyond(&digest(&[(1, 0), (2, 0), (2, 1)]), 9).min(),
+            None
+        );
         // Index and triangle are not exchangeable, and no small places collide.
         let all = (0..100).flat_map(|i| (0..100).map(move |k| digest(&[(i, k)]).to_string()));
         assert_eq!(all.collect::<BTreeSet<_>>().len(), 10_000);

@@ -25,7 +25,8 @@ impl EpsilonText {
 
     /// In a scalar; none if it is too large there, or so small that it is 0.
     pub fn fitting<F: Float>(&self) -> Option<F> {
-        self.value().filter(|value: &F| !value.is_zero() || self.is_zero())
+        self.value()
+            .filter(|value: &F| !value.is_zero() || self.is_zero())
     }
 
     /// True if it is written as zero.
@@ -44,11 +45,13 @@ impl EpsilonText {
         let Some(factor) = text.strip_suffix("EPSILON") else {
             return Some(EpsilonText::Decimal(text.to_owned()));
         };
-        Some(EpsilonText::MachineEpsilon(match factor.strip_suffix('*').unwrap_or(factor) {
-            "" => 1.0,
-            "-" => -1.0,
-            factor => factor.parse().ok()?,
-        }))
+        Some(EpsilonText::MachineEpsilon(
+            match factor.strip_suffix('*').unwrap_or(factor) {
+                "" => 1.0,
+                "-" => -1.0,
+                factor => factor.parse().ok()?,
+            },
+        ))
     }
 }
 

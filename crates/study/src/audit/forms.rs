@@ -14,7 +14,9 @@ pub(super) mod scalar_name {
 
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<&'static str, D::Error> {
         let text = String::deserialize(from)?;
-        let known = [f32::NAME, f64::NAME].into_iter().find(|name| *name == text);
+        let known = [f32::NAME, f64::NAME]
+            .into_iter()
+            .find(|name| *name == text);
         known.ok_or_else(|| de::Error::custom(format!("unknown scalar '{text}'")))
     }
 }
@@ -41,7 +43,9 @@ pub(super) mod scored {
         value: &Option<(f64, CasePlace)>,
         to: S,
     ) -> Result<S::Ok, S::Error> {
-        value.map(|(score, place)| (score.to_bits(), place)).serialize(to)
+        value
+            .map(|(score, place)| (score.to_bits(), place))
+            .serialize(to)
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(

@@ -79,7 +79,9 @@ impl GroupOutcome {
 impl GroupCount {
     /// Counts a group; returns what it shows.
     pub(super) fn add(&mut self, group: &JudgedGroup, limit: usize) -> GroupOutcome {
-        let JudgedGroup { index, truth, hits, .. } = *group;
+        let JudgedGroup {
+            index, truth, hits, ..
+        } = *group;
         let outcome = GroupOutcome::of(group);
         match truth {
             GroupTruth::Free => {}
@@ -91,16 +93,22 @@ impl GroupCount {
         }
         let (count, first, digest) = match outcome {
             GroupOutcome::Right => return outcome,
-            GroupOutcome::Crack => {
-                (&mut self.cracks, &mut self.first_cracks, Some(&mut self.crack_digest))
-            }
+            GroupOutcome::Crack => (
+                &mut self.cracks,
+                &mut self.first_cracks,
+                Some(&mut self.crack_digest),
+            ),
             GroupOutcome::Elsewhere => (&mut self.elsewhere, &mut self.first_elsewhere, None),
-            GroupOutcome::Double => {
-                (&mut self.doubles, &mut self.first_doubles, Some(&mut self.double_digest))
-            }
-            GroupOutcome::OddFold => {
-                (&mut self.odd_folds, &mut self.first_odd_folds, Some(&mut self.odd_fold_digest))
-            }
+            GroupOutcome::Double => (
+                &mut self.doubles,
+                &mut self.first_doubles,
+                Some(&mut self.double_digest),
+            ),
+            GroupOutcome::OddFold => (
+                &mut self.odd_folds,
+                &mut self.first_odd_folds,
+                Some(&mut self.odd_fold_digest),
+            ),
         };
         *count += 1;
         if first.len() < limit {

@@ -28,15 +28,23 @@ impl<F: Scalar> RowIn<F> {
             true => self.elsewhere(source, chunk, (contract, truths), verdicts),
             false => Vec::new(),
         };
-        chunk.groups().zip(truths).map(move |((index, cases), truth)| {
-            let verdicts = &verdicts[cases];
-            if verdicts.iter().any(|verdict| verdict.failure.is_some()) {
-                return Err(index);
-            }
-            let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
-            let elsewhere = elsewhere.binary_search(&index).is_ok();
-            Ok(JudgedGroup { index, truth: *truth, hits, elsewhere })
-        })
+        chunk
+            .groups()
+            .zip(truths)
+            .map(move |((index, cases), truth)| {
+                let verdicts = &verdicts[cases];
+                if verdicts.iter().any(|verdict| verdict.failure.is_some()) {
+                    return Err(index);
+                }
+                let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
+                let elsewhere = elsewhere.binary_search(&index).is_ok();
+                Ok(JudgedGroup {
+                    index,
+                    truth: *truth,
+                    hits,
+                    elsewhere,
+                })
+            })
     }
 
     /// The indices of crossings without a hit whose hit may be among the neighbours.
@@ -54,7 +62,9 @@ impl<F: Scalar> RowIn<F> {
         });
         let (mut elsewhere, mut cases, mut waiting) = (Vec::new(), Vec::new(), Vec::new());
         for ((index, group), _) in missed {
-            let Some(crossing) = chunk.truths[group.start].crossing() else { continue };
+            let Some(crossing) = chunk.truths[group.start].crossing() else {
+                continue;
+            };
             // Where the neighbours are too many to be tried, nobody is accused.
             if !source.add_neighbours(index, &chunk.cases[group], &mut cases) {
                 elsewhere.push(index);

@@ -31,17 +31,29 @@ impl<const BITS: u32> Histogram<BITS> {
 
     /// The leading bits of a number: the exponent, and some of the significand.
     const fn bin(value: f64) -> u32 {
-        if value == 0.0 { ZERO } else { (value.to_bits() >> (52 - BITS)) as u32 + 1 }
+        if value == 0.0 {
+            ZERO
+        } else {
+            (value.to_bits() >> (52 - BITS)) as u32 + 1
+        }
     }
 
     /// Where a bin starts.
     fn start(bin: u32) -> f64 {
-        if bin == ZERO { 0.0 } else { f64::from_bits(u64::from(bin - 1) << (52 - BITS)) }
+        if bin == ZERO {
+            0.0
+        } else {
+            f64::from_bits(u64::from(bin - 1) << (52 - BITS))
+        }
     }
 
     /// Counts a number; NaN as infinite, the sign left out.
     pub fn add(&mut self, value: f64) {
-        let value = if value.is_nan() { f64::INFINITY } else { value.abs() };
+        let value = if value.is_nan() {
+            f64::INFINITY
+        } else {
+            value.abs()
+        };
         *self.slot(Self::bin(value)) += 1;
         self.count += 1;
         self.largest = self.largest.max(value);
@@ -66,8 +78,13 @@ impl<const BITS: u32> Histogram<BITS> {
         }
         if bin < self.first || self.counts.is_empty() {
             let first = bin.saturating_sub(ROOM).max(ZERO + 1);
-            let missing = if self.counts.is_empty() { ROOM } else { self.first - first };
-            self.counts.splice(0..0, std::iter::repeat_n(0, missing as usize));
+            let missing = if self.counts.is_empty() {
+                ROOM
+            } else {
+                self.first - first
+            };
+            self.counts
+                .splice(0..0, std::iter::repeat_n(0, missing as usize));
             self.first = first;
         }
         let place = (bin - self.first) as usize;
@@ -104,8 +121,16 @@ impl<const BITS: u32> Histogram<BITS> {
         for (bin, count) in self.bins() {
             below += count;
             if rank <= below {
-                let end = if bin == ZERO { 0.0 } else { Self::start(bin + 1) };
-                return if end < self.largest { end } else { self.largest };
+                let end = if bin == ZERO {
+                    0.0
+                } else {
+                    Self::start(bin + 1)
+                };
+                return if end < self.largest {
+                    end
+                } else {
+                    self.largest
+                };
             }
         }
         self.largest
@@ -186,13 +211,27 @@ struct StoredHistogram {
 impl<const BITS: u32> From<Histogram<BITS>> for StoredHistogram {
     fn from(histogram: Histogram<BITS>) -> StoredHistogram {
         let bins = histogram.bins().collect();
-        StoredHistogram { bins, count: histogram.count, largest: histogram.largest }
+        StoredHistogram {
+            bins,
+            count: histogram.count,
+            largest: histogram.largest,
+        }
     }
 }
 
 impl<const BITS: u32> From<StoredHistogram> for Histogram<BITS> {
-    fn from(StoredHistogram { bins, count, largest }: StoredHistogram) -> Self {
-        let mut histogram = Self { count, largest, ..Self::default() };
+    fn from(
+        StoredHistogram {
+            bins,
+            count,
+            largest,
+        }: StoredHistogram,
+    ) -> Self {
+        let mut histogram = Self {
+            count,
+            largest,
+            ..Self::default()
+        };
         for (bin, count) in bins {
             // A number beyond the bins is none that a histogram wrote.
             *histogram.slot(bin.min(Self::INFINITE)) += count;
@@ -207,11 +246,16 @@ mod tests {
 
     #[test]
     fn quantiles_are_those_of_the_sorted_numbers_within_an_eighth() {
-        let numbers: Vec<f64> =
-            (0..1000u64).map(|i| ((i * 7919 % 1000) as f64).powi(3) * 1e-5).collect();
+        let numbers: Vec<f64> = (0..1000u64)
+            .map(|i| ((i * 7919 % 1000) as f64).powi(3) * 1e-5)
+            .collect();
         let (mut left, mut right) = (<Histogram>::default(), Histogram::default());
         for (i, number) in numbers.iter().enumerate() {
-            if i % 3 == 0 { left.add(*number) } else { right.add(*number) }
+            if i % 3 == 0 {
+                left.add(*number)
+            } else {
+                right.add(*number)
+            }
         }
         let mut swapped = right.clone();
         swapped.merge(&left);
@@ -222,7 +266,10 @@ mod tests {
         for share in [0.0005, 0.1, 0.5, 0.9, 0.99, 1.0] {
             let rank = ((share * 1000.0f64).ceil() as usize).max(1);
             let (found, exact) = (left.quantile(share), sorted[rank - 1]);
-            assert!(exact <= found && found <= exact * 1.125, "{share}: {found} {exact}");
+            assert!(
+                exact <= found && found <= exact * 1.125,
+                "{share}: {found} {exact}"
+            );
         }
         assert_eq!((left.count(), left.largest()), (1000, sorted[999]));
     }
@@ -230,10 +277,22 @@ mod tests {
     #[test]
     fn zero_and_infinity_have_bins_of_their_own() {
         let mut histogram = <Histogram>::default();
-        [0.0, 0.0, 0.0, f64::NAN].into_iter().for_each(|x| histogram.add(x));
-        assert_eq!((histogram.quantile(0.75), histogram.quantile(0.76)), (0.0, f64::INFINITY));
+        [0.0, 0.0, 0.0, f64::NAN]
+            .into_iter()
+            .for_each(|x| histogram.add(x));
+        assert_eq!(
+            (histogram.quantile(0.75), histogram.quantile(0.76)),
+            (0.0, f64::INFINITY)
+        );
         histogram.add(3.0);
         let octaves: Vec<_> = histogram.octaves().into_iter().collect();
-        assert_eq!(octaves, [(Octave::Zero, 3), (Octave::From(1), 1), (Octave::Infinite, 1)]);
+        assert_eq!(
+            octaves,
+            [
+                (Octave::Zero, 3),
+                (Octave::From(1), 1),
+                (Octave::Infinite, 1)
+            ]
+        );
     }
 }

@@ -51,7 +51,11 @@ fn beta_quantile(a: f64, b: f64, p: f64) -> f64 {
         }
         let density = exp((a - 1.0) * log(x) + (b - 1.0) * log1p(-x) - log_beta);
         let newton = x - excess / density;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let next = if newton > low && newton < high {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
         if fabs(next - x) <= 1e-14 * x {
             return next;
         }
@@ -121,7 +125,11 @@ mod tests {
         assert_near(at_95(1, 20), 0.00127, 0.24873);
         assert_near(at_95(0, 0), 0.0, 1.0);
         // Less left out is wider: 1 - (10^-5)^(1/100).
-        assert_near(clopper_pearson(0.0, 100.0, 1e-5), 0.0, 1.0 - 1e-5f64.powf(0.01));
+        assert_near(
+            clopper_pearson(0.0, 100.0, 1e-5),
+            0.0,
+            1.0 - 1e-5f64.powf(0.01),
+        );
         // Where n is large the normal approximation agrees to its own accuracy.
         for (k, n) in [(3_000_000u64, 10_000_000u64), (40_000_000, 100_000_000_000)] {
             let Interval { low, high } = at_95(k, n);

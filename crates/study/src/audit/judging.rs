@@ -123,11 +123,15 @@ impl<F: Scalar> RowIn<F> {
         let gives = chunk.judged(self.info.gives);
         for &i in sample {
             let (truth, verdict) = (&chunk.truths[i], &verdicts[i]);
-            let Some(crossing) = truth.crossing() else { continue };
+            let Some(crossing) = truth.crossing() else {
+                continue;
+            };
             let may_hit = asked.expectations.of[i].obligation() != Obligation::MustMiss;
             let is_right = verdict.hit && may_hit;
             if is_right && crossing.feature != Feature::Outside {
-                tally.accuracy.add(&Errors::of(&chunk.cases[i], crossing, gives, verdict));
+                tally
+                    .accuracy
+                    .add(&Errors::of(&chunk.cases[i], crossing, gives, verdict));
             }
         }
     }
@@ -176,7 +180,10 @@ fn add_rays<F: Scalar>(
                 }
             }
             counts[0].1.merge(&count);
-            match counts.iter_mut().find(|(number, _)| *number == class.number()) {
+            match counts
+                .iter_mut()
+                .find(|(number, _)| *number == class.number())
+            {
                 Some((_, sum)) => sum.merge(&count),
                 None => counts.push((class.number(), count)),
             }
@@ -192,7 +199,11 @@ fn add_rays<F: Scalar>(
     for (class, sums) in keys.zip(sums) {
         for (finding, sum) in Finding::ALL.into_iter().zip(sums) {
             if sum.of_squared > 0 {
-                tally.products.entry((class, finding)).or_default().merge(&sum);
+                tally
+                    .products
+                    .entry((class, finding))
+                    .or_default()
+                    .merge(&sum);
             }
         }
     }

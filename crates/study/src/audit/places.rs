@@ -36,7 +36,14 @@ impl Places {
     /// Adds a ray.
     pub(super) fn add(&mut self, wrong: PlaceFault, target: u32, index: u64, limit: usize) {
         let key = (wrong, mix(u64::from(target)), target);
-        self.add_seen(key, Seen { rays: 1, first: index }, limit);
+        self.add_seen(
+            key,
+            Seen {
+                rays: 1,
+                first: index,
+            },
+            limit,
+        );
     }
 
     /// Adds another sum.
@@ -51,8 +58,14 @@ impl Places {
         if is_full && self.0.last_key_value().is_none_or(|(last, _)| *last < key) {
             return;
         }
-        let sum = self.0.entry(key).or_insert(Seen { rays: 0, first: u64::MAX });
-        *sum = Seen { rays: sum.rays + seen.rays, first: sum.first.min(seen.first) };
+        let sum = self.0.entry(key).or_insert(Seen {
+            rays: 0,
+            first: u64::MAX,
+        });
+        *sum = Seen {
+            rays: sum.rays + seen.rays,
+            first: sum.first.min(seen.first),
+        };
         if limit < self.0.len() {
             self.0.pop_last();
         }
@@ -60,7 +73,9 @@ impl Places {
 
     /// Each fault with a number to merge several by, its target, and how often it was seen.
     pub fn iter(&self) -> impl Iterator<Item = ((PlaceFault, u64), u32, Seen)> + '_ {
-        self.0.iter().map(|((wrong, order, target), seen)| ((*wrong, *order), *target, *seen))
+        self.0
+            .iter()
+            .map(|((wrong, order, target), seen)| ((*wrong, *order), *target, *seen))
     }
 }
 
@@ -79,7 +94,8 @@ mod tests {
             .collect();
         let sum = |rays: &[(PlaceFault, u32, u64)], limit| {
             let mut places = Places::default();
-            rays.iter().for_each(|(wrong, target, i)| places.add(*wrong, *target, *i, limit));
+            rays.iter()
+                .for_each(|(wrong, target, i)| places.add(*wrong, *target, *i, limit));
             places
         };
         let all = sum(&rays, 1000);

@@ -25,7 +25,15 @@ pub struct Plan {
 impl Plan {
     /// A plan that counts and keeps so many examples, without causes, accuracy and places.
     pub fn new(rows: Vec<Row>, sources: Vec<Source>, scalars: [bool; 2], examples: usize) -> Plan {
-        Plan { rows, sources, scalars, examples, attribute: 0, measured: 0, places: 0 }
+        Plan {
+            rows,
+            sources,
+            scalars,
+            examples,
+            attribute: 0,
+            measured: 0,
+            places: 0,
+        }
     }
 
     /// How many examples, findings to attribute and places a tally keeps.

@@ -52,7 +52,10 @@ impl Relations {
     ) {
         let bits = |it: &Verdict<F>| [it.t, it.u, it.v].map(F::to_bits);
         let is_repeated = before.is_some_and(|it| it.hit && bits(it) == bits(verdict));
-        for relation in Relation::ALL.into_iter().filter(|it| values.wrong.contains(&it.part())) {
+        for relation in Relation::ALL
+            .into_iter()
+            .filter(|it| values.wrong.contains(&it.part()))
+        {
             let holds = match relation {
                 Relation::Previous => is_repeated,
                 relation => values.holding.contains(&relation),
@@ -69,7 +72,12 @@ impl Relations {
 
     /// Adds those of other cases.
     pub fn merge(&mut self, other: &Relations) {
-        for (sum, more) in self.counts.iter_mut().flatten().zip(other.counts.iter().flatten()) {
+        for (sum, more) in self
+            .counts
+            .iter_mut()
+            .flatten()
+            .zip(other.counts.iter().flatten())
+        {
             *sum += more;
         }
     }
@@ -111,7 +119,10 @@ impl Relations {
             return;
         }
         for (relation, demand) in other_demands(case, truth, contract) {
-            self.add(relation, answers_as(relation, demand, truth, gives, verdict));
+            self.add(
+                relation,
+                answers_as(relation, demand, truth, gives, verdict),
+            );
         }
     }
 
@@ -119,7 +130,11 @@ impl Relations {
     pub fn known(&self) -> Vec<Related> {
         let all = Relation::ALL.into_iter().map(|relation| {
             let [count, of] = self.counts[relation as usize];
-            Related { relation, count, of }
+            Related {
+                relation,
+                count,
+                of,
+            }
         });
         let mut known: Vec<Related> = Vec::new();
         for related in all.filter(Related::is_known) {
@@ -172,7 +187,11 @@ impl Related {
 /// `t is twice the exact t on all 707,378 hits with a wrong t`.
 impl fmt::Display for Related {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Related { relation, count, of } = self;
+        let Related {
+            relation,
+            count,
+            of,
+        } = self;
         let cases = relation.part().cases();
         let how_many = match count == of {
             true => format!("all {}", group_digits(*of)),

@@ -60,7 +60,11 @@ impl Row {
             if text.fitting::<F>().is_some() {
                 continue;
             }
-            let wrong = if text.value::<F>().is_some() { "0 in" } else { "beyond the range of" };
+            let wrong = if text.value::<F>().is_some() {
+                "0 in"
+            } else {
+                "beyond the range of"
+            };
             let (name, gate, scalar) = (self.entry.info.name, gate.name, F::NAME);
             return Err(Error(format!(
                 "gate '{gate}' of {name}: {text} is {wrong} {scalar} (see --scalar)"
@@ -83,7 +87,10 @@ impl Row {
 
     /// The epsilons in a scalar, one a gate; 0 for one that [`Row::check`] refuses.
     pub fn epsilons<F: Float>(&self) -> Vec<F> {
-        self.epsilons.iter().map(|text| text.value().unwrap_or(F::zero())).collect()
+        self.epsilons
+            .iter()
+            .map(|text| text.value().unwrap_or(F::zero()))
+            .collect()
     }
 
     /// The gates that take an epsilon, with theirs.
@@ -94,14 +101,18 @@ impl Row {
 
     /// The `--epsilon` argument that makes this row again; none if no gate takes an epsilon.
     pub fn epsilon_argument(&self) -> Option<String> {
-        let words: Vec<String> =
-            self.tuned().map(|(gate, text)| format!("{}={text}", gate.name)).collect();
+        let words: Vec<String> = self
+            .tuned()
+            .map(|(gate, text)| format!("{}={text}", gate.name))
+            .collect();
         (!words.is_empty()).then(|| words.join(","))
     }
 
     /// The flags that make this row again: `--kernel`, `--epsilon`, `--contract` and `--band`.
     pub fn flags(&self) -> String {
-        let RowSpec { epsilons, contract, .. } = self.spec();
+        let RowSpec {
+            epsilons, contract, ..
+        } = self.spec();
         flags(&self.entry.selector(), epsilons.as_deref(), &contract)
     }
 
@@ -113,14 +124,17 @@ impl Row {
 
 /// The flags of a row: how its kernel is chosen, and its epsilons and contract in words.
 pub fn flags(selector: &str, epsilons: Option<&str>, contract: &str) -> String {
-    let (bands, others): (Vec<&str>, Vec<&str>) =
-        contract.split(',').partition(|word| word.starts_with("band="));
+    let (bands, others): (Vec<&str>, Vec<&str>) = contract
+        .split(',')
+        .partition(|word| word.starts_with("band="));
     let contract = Some(others.join(",")).filter(|words| words != "own");
     let flags = [
         Some(selector.to_owned()).filter(|selector| !selector.is_empty()),
         epsilons.map(|epsilons| format!("--epsilon '{epsilons}'")),
         contract.map(|words| format!("--contract {words}")),
-        bands.first().map(|band| band.replacen("band=", "--band ", 1)),
+        bands
+            .first()
+            .map(|band| band.replacen("band=", "--band ", 1)),
     ];
     flags.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
@@ -128,7 +142,11 @@ pub fn flags(selector: &str, epsilons: Option<&str>, contract: &str) -> String {
 /// A word for a shell, without quotes where none are needed.
 pub fn shell_word(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_./:,=^+-".contains(c);
-    if !word.is_empty() && word.chars().all(plain) { word.to_owned() } else { quoted(word) }
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        quoted(word)
+    }
 }
 
 /// True if a shell takes a line as one command with words as they stand, whatever the words are: a line that somebody else
@@ -162,9 +180,12 @@ mod tests {
     #[test]
     fn a_line_of_somebody_else_is_one_command_or_is_not_shown() {
         let word = "it's $(a) `b`; rm -rf / | sh > x & \"";
-        for line in
-            ["hairline explain 'tiny@3/f32/-/1/0' --kernel cramer+fma", &quoted(word), "", "a  b"]
-        {
+        for line in [
+            "hairline explain 'tiny@3/f32/-/1/0' --kernel cramer+fma",
+            &quoted(word),
+            "",
+            "a  b",
+        ] {
             assert!(is_one_command(line), "{line}");
         }
         let wrong = [

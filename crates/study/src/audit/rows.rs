@@ -32,14 +32,23 @@ impl<F: Scalar> Rows<F> {
         let mut contracts: Vec<Contract> = Vec::new();
         let resolve = |(number, row): (usize, &Row)| {
             let subject = F::subject(row.entry)?;
-            let known = contracts.iter().position(|contract| *contract == row.contract);
+            let known = contracts
+                .iter()
+                .position(|contract| *contract == row.contract);
             let contract = known.unwrap_or_else(|| {
                 contracts.push(row.contract);
                 contracts.len() - 1
             });
             let info = row.entry.info;
             let is_own = !row.entry.is_built_in();
-            Some(RowIn { number, subject, info, is_own, epsilons: row.epsilons(), contract })
+            Some(RowIn {
+                number,
+                subject,
+                info,
+                is_own,
+                epsilons: row.epsilons(),
+                contract,
+            })
         };
         let each = rows.iter().enumerate().filter_map(resolve).collect();
         Rows { each, contracts }

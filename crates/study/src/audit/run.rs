@@ -45,7 +45,14 @@ impl SourceCell {
         tally: Tally,
         nanoseconds: u64,
     ) -> SourceCell {
-        SourceCell { row, source, scalar, tally, causes: BTreeMap::new(), nanoseconds }
+        SourceCell {
+            row,
+            source,
+            scalar,
+            tally,
+            causes: BTreeMap::new(),
+            nanoseconds,
+        }
     }
 }
 
@@ -95,15 +102,23 @@ fn sum_scalar<F: Scalar>(plan: &Plan, shard: Shard, observer: &dyn Observer, aud
         let empty = || runner.no_sums(number);
         let add = |sums: &mut SourceSums, indices| runner.add_chunk(source, indices, sums);
         let indices = shard.range(source.count::<F>());
-        runner.add_to(engine::sum(indices, source.chunk(), observer, empty, add), audit);
+        runner.add_to(
+            engine::sum(indices, source.chunk(), observer, empty, add),
+            audit,
+        );
     }
 }
 
 fn finish_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut Audit) {
     let runner = Runner::<F>::new(plan, observer);
-    let cells: Vec<&mut SourceCell> =
-        audit.cells.iter_mut().filter(|cell| cell.scalar == F::NAME).collect();
-    let causes = engine::map(&cells, |cell| runner.causes(&plan.sources[cell.source], cell));
+    let cells: Vec<&mut SourceCell> = audit
+        .cells
+        .iter_mut()
+        .filter(|cell| cell.scalar == F::NAME)
+        .collect();
+    let causes = engine::map(&cells, |cell| {
+        runner.causes(&plan.sources[cell.source], cell)
+    });
     for (cell, causes) in cells.into_iter().zip(causes) {
         cell.causes = causes;
         cell.tally.keep_examples(plan.examples);
@@ -168,7 +183,11 @@ pub(super) struct ChunkDemands {
 
 impl<'a, F: Scalar> Runner<'a, F> {
     fn new(plan: &'a Plan, observer: &'a dyn Observer) -> Self {
-        Runner { rows: Rows::new(&plan.rows), plan, observer }
+        Runner {
+            rows: Rows::new(&plan.rows),
+            plan,
+            observer,
+        }
     }
 
     fn no_sums(&self, source: usize) -> SourceSums {
@@ -205,10 +224,18 @@ impl<'a, F: Scalar> Runner<'a, F> {
             for (class, obligation, cases) in &expectations.counts {
                 classes[class.number()].ask(*obligation, *cases);
             }
-            ChunkDemands { expectations, classes, groups }
+            ChunkDemands {
+                expectations,
+                classes,
+                groups,
+            }
         };
         let contracts = &self.rows.contracts;
-        contracts.iter().zip(chunk.group_truths_of_all(contracts)).map(ask).collect()
+        contracts
+            .iter()
+            .zip(chunk.group_truths_of_all(contracts))
+            .map(ask)
+            .collect()
     }
 
     /// The cases of a chunk on which the values of hits are measured.
@@ -218,7 +245,9 @@ impl<'a, F: Scalar> Runner<'a, F> {
             return Vec::new();
         }
         let every = source.count::<F>().div_ceil(measured as u64).max(1);
-        let sampled = chunk.groups().filter(|(index, _)| index.is_multiple_of(every));
+        let sampled = chunk
+            .groups()
+            .filter(|(index, _)| index.is_multiple_of(every));
         sampled.flat_map(|(_, cases)| cases).collect()
     }
 
@@ -237,7 +266,13 @@ impl<'a, F: Scalar> Runner<'a, F> {
             let of = (&asked.expectations.of[..], &limits[..]);
             judge::suspects(of, chunk.judged(row.info.gives), &verdicts, &mut suspects);
             let found = (&verdicts[..], &suspects[..]);
-            row.judge((source, &chunk), (contract, asked), found, &mut known, tally);
+            row.judge(
+                (source, &chunk),
+                (contract, asked),
+                found,
+                &mut known,
+                tally,
+            );
             row.measure(&chunk, &sample, asked, &verdicts, tally);
             // Rounded polygons are not planar, and have no truth as a whole.
             if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {

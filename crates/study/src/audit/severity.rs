@@ -64,12 +64,27 @@ fn severity(
     truth: &Truth,
     extent: Extent,
 ) -> Severity {
-    let (Ray { origin: o, direction: d, .. }, Triangle { a, b, c }) = (ray, triangle);
+    let (
+        Ray {
+            origin: o,
+            direction: d,
+            ..
+        },
+        Triangle { a, b, c },
+    ) = (ray, triangle);
     let n = b.minus(a).cross(&c.minus(a));
     let capital_d = n.dot(d);
     let crosses = !capital_d.is_zero();
-    let Squares { longest, in_space, along } = Squares::of(ray, triangle, crosses);
-    let unit = if longest.is_zero() { Exact::one() } else { longest };
+    let Squares {
+        longest,
+        in_space,
+        along,
+    } = Squares::of(ray, triangle, crosses);
+    let unit = if longest.is_zero() {
+        Exact::one()
+    } else {
+        longest
+    };
     let relative = |square: Exact| (square / &unit).approximate_root();
 
     let in_plane = crosses.then(|| {
@@ -77,12 +92,17 @@ fn severity(
         [(a, b), (b, c), (c, a)].map(|(p, q)| point_to_segment(&hit, p, q))
     });
     let in_plane = in_plane.and_then(|squares| squares.into_iter().reduce(Exact::smaller));
-    let along = ends(extent).iter().filter_map(|&end| along[end].clone()).reduce(Exact::smaller);
+    let along = ends(extent)
+        .iter()
+        .filter_map(|&end| along[end].clone())
+        .reduce(Exact::smaller);
     Severity {
         in_plane: in_plane.map(relative),
         in_space: relative(in_space),
         along: along.map(relative),
-        off_end: truth.crossing().and_then(|crossing| off_end(crossing, extent)),
+        off_end: truth
+            .crossing()
+            .and_then(|crossing| off_end(crossing, extent)),
         edge_in_ulps: (unit.clone() / (ulp.clone() * ulp)).approximate_root(),
     }
 }
@@ -138,11 +158,20 @@ mod tests {
             [Extent::Interval, Extent::Ray, Extent::Line]
                 .map(|extent| exact_severity(&case, extent).unwrap().off_end)
         };
-        assert_eq!(off(from(2.0).on(0.0, 1.0)), [Some(Place::Beyond), None, None]);
-        assert_eq!(off(from(2.0).on(3.0, 4.0)), [Some(Place::Before), None, None]);
+        assert_eq!(
+            off(from(2.0).on(0.0, 1.0)),
+            [Some(Place::Beyond), None, None]
+        );
+        assert_eq!(
+            off(from(2.0).on(3.0, 4.0)),
+            [Some(Place::Before), None, None]
+        );
         assert_eq!(off(from(2.0).on(2.0, 3.0)), [None; 3]);
         // And here behind the origin, at t = -2.
-        assert_eq!(off(from(-2.0).on(-3.0, 1.0)), [None, Some(Place::Before), None]);
+        assert_eq!(
+            off(from(-2.0).on(-3.0, 1.0)),
+            [None, Some(Place::Before), None]
+        );
     }
 
     #[test]

@@ -57,11 +57,20 @@ impl Sketch {
 
     /// Places of this set that another does not have: some of them, and perhaps none although there are.
     pub fn beyond(&self, other: &Sketch) -> impl Iterator<Item = (u64, u32)> {
-        let keys = self.0.iter().zip(other.0).map(|(cell, old)| cell.wrapping_sub(old) & MASK);
-        keys.enumerate().filter(|&(i, key)| key != 0 && cell_of(key) == i).map(|(_, key)| {
-            let place = restored(key);
-            (place & ((1 << INDEX_BITS) - 1), (place >> INDEX_BITS) as u32)
-        })
+        let keys = self
+            .0
+            .iter()
+            .zip(other.0)
+            .map(|(cell, old)| cell.wrapping_sub(old) & MASK);
+        keys.enumerate()
+            .filter(|&(i, key)| key != 0 && cell_of(key) == i)
+            .map(|(_, key)| {
+                let place = restored(key);
+                (
+                    place & ((1 << INDEX_BITS) - 1),
+                    (place >> INDEX_BITS) as u32,
+                )
+            })
     }
 
     /// The cells that are not 0: each its number, and its sum.
@@ -69,7 +78,9 @@ impl Sketch {
         let mut text = String::new();
         for (i, cell) in self.0.iter().enumerate().filter(|(_, cell)| **cell != 0) {
             text.push(char::from(DIGITS[i]));
-            let digits = (0..DIGITS_A_CELL).rev().map(|k| (cell >> (6 * k)) as usize % 64);
+            let digits = (0..DIGITS_A_CELL)
+                .rev()
+                .map(|k| (cell >> (6 * k)) as usize % 64);
             text.extend(digits.map(|digit| char::from(DIGITS[digit])));
         }
         text
@@ -98,7 +109,9 @@ fn cell_of(key: u64) -> usize {
 /// One 48-bit number for another, so that every bit depends on every bit.
 fn scrambled(place: u64) -> u64 {
     let fold = |x: u64| x ^ x >> 24;
-    FACTORS.iter().fold(fold(place ^ START), |x, factor| fold(x.wrapping_mul(*factor) & MASK))
+    FACTORS.iter().fold(fold(place ^ START), |x, factor| {
+        fold(x.wrapping_mul(*factor) & MASK)
+    })
 }
 
 /// The number that is scrambled to this one.
@@ -110,7 +123,9 @@ fn restored(key: u64) -> u64 {
 
 /// The inverse of an odd number, modulo 2^64, by Newton's iteration: right bits double from three.
 fn inverse(odd: u64) -> u64 {
-    (0..5).fold(odd, |x, _| x.wrapping_mul(2u64.wrapping_sub(odd.wrapping_mul(x))))
+    (0..5).fold(odd, |x, _| {
+        x.wrapping_mul(2u64.wrapping_sub(odd.wrapping_mul(x)))
+    })
 }
 
 #[cfg(test)]
@@ -154,8 +169,10 @@ mod tests {
         let found = |seed: u64| {
             let start = seed * 1_000_003;
             let known = (0..500).map(|i| (start + i * 3, 0));
-            let (new, gone) =
-                (start + 2000..start + 2000 + new, start + 5_000_000..start + 5_000_000 + gone);
+            let (new, gone) = (
+                start + 2000..start + 2000 + new,
+                start + 5_000_000..start + 5_000_000 + gone,
+            );
             let now = sketch(known.clone().chain(new.clone().map(|i| (i, 0))));
             let before = sketch(known.chain(gone.map(|i| (i, 0))));
             let in_reach = |place: &(u64, u32)| place.0 < 1 << 32 && place.1 == 0;

@@ -57,19 +57,31 @@ pub fn is_of_mesh(name: &str) -> bool {
 
 /// The kind of planes and rays of the scene whose source has this name in tables; the generic one of other sources.
 pub fn kind_of(name: &str) -> SceneKind {
-    let kind = name.split_once(':').and_then(|(_, kind)| SceneKind::named(kind));
+    let kind = name
+        .split_once(':')
+        .and_then(|(_, kind)| SceneKind::named(kind));
     kind.unwrap_or(SceneKind::ALL[0])
 }
 
 /// A matrix as `--instance` takes it.
 pub fn words(matrix: &Matrix<f64>) -> String {
-    matrix.as_flattened().iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
+    matrix
+        .as_flattened()
+        .iter()
+        .map(f64::to_string)
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 impl Source {
     /// So many cases of a family.
     pub fn of(family: &'static Family, parameters: Parameters, seed: u64, count: u64) -> Source {
-        Source { stock: Stock::Family(family), parameters, seed, count }
+        Source {
+            stock: Stock::Family(family),
+            parameters,
+            seed,
+            count,
+        }
     }
 
     /// A stratum of a scene, or of the scene that a mesh is: its parameters get the mesh's digest.
@@ -84,14 +96,30 @@ impl Source {
             return Source::of(stratum.family(), parameters, seed, count);
         };
         let digest = mesh.surface().mesh().digest.clone();
-        let parameters = Parameters { mesh: Some(digest), ..parameters };
-        Source { stock: Stock::SceneMesh(mesh.clone(), stratum), parameters, seed, count }
+        let parameters = Parameters {
+            mesh: Some(digest),
+            ..parameters
+        };
+        Source {
+            stock: Stock::SceneMesh(mesh.clone(), stratum),
+            parameters,
+            seed,
+            count,
+        }
     }
 
     /// Stored cases; a matrix puts their triangles somewhere.
     pub fn stored(set: CorpusSet, instance: Option<Matrix<f64>>) -> Source {
-        let parameters = Parameters { instance, ..Parameters::default() };
-        Source { stock: Stock::Corpus(set), parameters, seed: 0, count: 0 }
+        let parameters = Parameters {
+            instance,
+            ..Parameters::default()
+        };
+        Source {
+            stock: Stock::Corpus(set),
+            parameters,
+            seed: 0,
+            count: 0,
+        }
     }
 
     /// The same source with its triangles put somewhere.
@@ -127,12 +155,15 @@ impl Source {
             return oracle::truths(cases, truths, layers);
         };
         oracle::truths_of_instance(cases, &instance, truths, layers);
-        cases.iter_mut().for_each(|case| *case = instance.in_object(case));
+        cases
+            .iter_mut()
+            .for_each(|case| *case = instance.in_object(case));
     }
 
     /// A case that it makes, as kernels get it.
     pub fn seen<F: Float>(&self, case: &Case<F>) -> Case<F> {
-        self.instance().map_or(*case, |instance| instance.in_object(case))
+        self.instance()
+            .map_or(*case, |instance| instance.in_object(case))
     }
 
     /// The same stratum of a scene in the other kinds of planes and rays that it can have; none of other sources.
@@ -141,8 +172,9 @@ impl Source {
             return Vec::new();
         };
         // Rays that are parallel to a triangle, or almost, go where that needs.
-        let is_flat =
-            [Stratum::Grazing, Stratum::Parallel].map(|it| it.family().name).contains(&family.name);
+        let is_flat = [Stratum::Grazing, Stratum::Parallel]
+            .map(|it| it.family().name)
+            .contains(&family.name);
         let others = scene.of_all_kinds().into_iter().skip(1);
         let others = others.filter(|scene| !is_flat || scene.toward == Toward::Any);
         let of = |scene| {
@@ -167,7 +199,11 @@ impl Source {
                 format!("{}:{}", part.name(), surface.family().file_name())
             }
             Stock::SceneMesh(mesh, stratum) => {
-                format!("{}:{}", stratum.family().name, mesh.surface().family().file_name())
+                format!(
+                    "{}:{}",
+                    stratum.family().name,
+                    mesh.surface().family().file_name()
+                )
             }
             Stock::Corpus(set) if set.is_secondary => format!("corpus-secondary:{}", set.file),
             Stock::Corpus(set) => format!("corpus:{}", set.file),
@@ -185,9 +221,9 @@ impl Source {
             Stock::Whole(family) => family.size.unwrap_or(LATTICE_SIZE),
             Stock::Family(family) => family.size.map_or(self.count, |size| size.min(self.count)),
             Stock::Mesh(_) => self.count,
-            Stock::MeshPart(_, part) => {
-                self.targets::<F>().map_or(0, |targets| targets.count(*part) * self.count)
-            }
+            Stock::MeshPart(_, part) => self
+                .targets::<F>()
+                .map_or(0, |targets| targets.count(*part) * self.count),
             Stock::SceneMesh(mesh, stratum) => mesh.count::<F>(*stratum, self.count),
             Stock::Corpus(set) if F::NAME == f32::NAME => set.f32.len() as u64,
             Stock::Corpus(set) => set.f64.len() as u64,
@@ -205,7 +241,9 @@ impl Source {
     /// The groups at the edges and at the vertices of a mesh, in some scalars; none of other sources.
     #[cfg(feature = "studies")]
     pub fn mesh_parts(&self, directions: u64, scalars: [bool; 2]) -> Vec<Source> {
-        let Stock::Mesh(family) = &self.stock else { return Vec::new() };
+        let Stock::Mesh(family) = &self.stock else {
+            return Vec::new();
+        };
         let surface = Arc::new(Surface::new(family.clone(), scalars));
         let parameters = &self.parameters;
         Source::parts_of(&surface, parameters, self.seed, directions).into()
@@ -228,22 +266,31 @@ impl Source {
 
     /// The edges and vertices of a mesh; none of other sources, or in another scalar.
     pub fn targets<F: Float>(&self) -> Option<Targets<'_>> {
-        let Stock::MeshPart(surface, _) = &self.stock else { return None };
+        let Stock::MeshPart(surface, _) = &self.stock else {
+            return None;
+        };
         surface.targets::<F>(&self.parameters, self.seed)
     }
 
     /// The target and the class of the ray of an index; none of sources that are no part of a mesh.
     pub(super) fn aimed<F: Float>(&self, index: u64, truths: &[Truth]) -> Option<AimedRay> {
-        let Stock::MeshPart(_, part) = &self.stock else { return None };
+        let Stock::MeshPart(_, part) = &self.stock else {
+            return None;
+        };
         let (target, number) = self.targets::<F>()?.place(*part, index);
         let is_near = !is_on_target(*part, truths);
         let class = 2 * usize::from(is_near) + usize::from(Aim::of(number).grazing);
-        Some(AimedRay { target: target as u32, class })
+        Some(AimedRay {
+            target: target as u32,
+            class,
+        })
     }
 
     /// How many polygons of its mesh's file are not in the mesh.
     pub fn left_out(&self) -> usize {
-        self.mesh().and_then(|family| family.mesh().left_out()).map_or(0, |note| note.count)
+        self.mesh()
+            .and_then(|family| family.mesh().left_out())
+            .map_or(0, |note| note.count)
     }
 
     /// True if there are triangles around those of a group, which may have the hit that it lacks.
@@ -299,7 +346,9 @@ impl Source {
 
     /// The cases of an index. Of an instance the rays are of the world and the triangles of the object.
     pub fn make<F: Scalar>(&self, index: u64) -> Made<F> {
-        let Source { parameters, seed, .. } = self;
+        let Source {
+            parameters, seed, ..
+        } = self;
         let mut made = match &self.stock {
             Stock::Whole(family) => family.make_in_order(parameters, index),
             Stock::Family(family) => family.make(parameters, *seed, index),
@@ -315,7 +364,9 @@ impl Source {
             Stock::Corpus(set) => return Made::One(set.get(index).1),
         };
         if let Some(instance) = self.instance() {
-            made.cases_mut().iter_mut().for_each(|case| *case = instance.in_world(case));
+            made.cases_mut()
+                .iter_mut()
+                .for_each(|case| *case = instance.in_world(case));
         }
         made
     }
@@ -324,7 +375,9 @@ impl Source {
     pub fn add<F: Scalar>(&self, index: u64, cases: &mut Vec<Case<F>>) {
         match &self.stock {
             Stock::MeshPart(_, part) if self.parameters.instance.is_none() => {
-                self.targets::<F>().expect("a scalar of the run").make(*part, index, cases);
+                self.targets::<F>()
+                    .expect("a scalar of the run")
+                    .make(*part, index, cases);
             }
             _ => cases.extend_from_slice(self.make(index).cases()),
         }
@@ -340,7 +393,9 @@ impl Source {
 
     /// True if the parameters leave the promise standing.
     pub fn promises(&self) -> bool {
-        let Parameters { scale, instance, .. } = &self.parameters;
+        let Parameters {
+            scale, instance, ..
+        } = &self.parameters;
         // Scaling can leave the range at either end.
         !matches!(self.stock, Stock::Family(_) | Stock::Whole(_))
             || self.keeps_truth() && *scale == 0 && instance.is_none()
@@ -353,7 +408,9 @@ impl Source {
 
     /// The id of a case, or of triangle k of a group.
     pub fn id<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
-        let Source { parameters, seed, .. } = self;
+        let Source {
+            parameters, seed, ..
+        } = self;
         let id = match &self.stock {
             Stock::Whole(family) => {
                 // In its natural order the lattice has a name of its own: `lattice-all@1/f32/-/0/17`,
@@ -383,10 +440,16 @@ impl Source {
     /// The flag that names the file from which an id makes its case; none of families.
     pub fn file_flag(&self) -> Option<String> {
         let Stock::Corpus(set) = &self.stock else {
-            return self.mesh().map(|family| format!("--mesh {}", quoted(family.path())));
+            return self
+                .mesh()
+                .map(|family| format!("--mesh {}", quoted(family.path())));
         };
         let instance = self.parameters.instance.as_ref();
         let instance = instance.map(|matrix| format!(" --instance {}", quoted(&words(matrix))));
-        Some(format!("--corpus {}{}", quoted(&set.file), instance.unwrap_or_default()))
+        Some(format!(
+            "--corpus {}{}",
+            quoted(&set.file),
+            instance.unwrap_or_default()
+        ))
     }
 }

@@ -77,7 +77,12 @@ impl StoredPlan {
         let sources = self.sources.iter().map(|source| source.open(&mut open));
         Ok(Plan {
             sources: sources.collect::<Result<_, E>>()?,
-            rows: self.rows.iter().map(RowSpec::row).collect::<Result<_, _>>().map_err(|e| e.0)?,
+            rows: self
+                .rows
+                .iter()
+                .map(RowSpec::row)
+                .collect::<Result<_, _>>()
+                .map_err(|e| e.0)?,
             scalars: self.scalars,
             examples: self.examples,
             attribute: self.attribute,
@@ -102,8 +107,18 @@ impl StoredSource {
             }
             Stock::Corpus(set) => StoredStock::Corpus(set.file.clone(), set.is_secondary),
         };
-        let Source { parameters, seed, count, .. } = source;
-        StoredSource { stock, parameters: parameters.to_string(), seed: *seed, count: *count }
+        let Source {
+            parameters,
+            seed,
+            count,
+            ..
+        } = source;
+        StoredSource {
+            stock,
+            parameters: parameters.to_string(),
+            seed: *seed,
+            count: *count,
+        }
     }
 
     /// The source again; `open` reads what is in a file.
@@ -119,7 +134,12 @@ impl StoredSource {
             stock => open(stock)?,
         };
         let parameters = self.parameters.parse().map_err(|Error(line)| line)?;
-        Ok(Source { stock, parameters, seed: self.seed, count: self.count })
+        Ok(Source {
+            stock,
+            parameters,
+            seed: self.seed,
+            count: self.count,
+        })
     }
 }
 
@@ -127,12 +147,25 @@ impl Audit {
     /// Adds another part of the same run; both as they are before [`super::finish`].
     pub fn merge(&mut self, other: Audit) -> Result<(), String> {
         let layout = |audit: &Audit| -> Vec<_> {
-            audit.cells.iter().map(|cell| (cell.scalar, cell.source, cell.row)).collect()
+            audit
+                .cells
+                .iter()
+                .map(|cell| (cell.scalar, cell.source, cell.row))
+                .collect()
         };
-        let sources =
-            |audit: &Audit| audit.sources.iter().map(|s| (s.scalar, s.source)).collect::<Vec<_>>();
-        let whole =
-            |audit: &Audit| audit.cells.iter().all(|cell| cell.tally.classes.len() == Class::COUNT);
+        let sources = |audit: &Audit| {
+            audit
+                .sources
+                .iter()
+                .map(|s| (s.scalar, s.source))
+                .collect::<Vec<_>>()
+        };
+        let whole = |audit: &Audit| {
+            audit
+                .cells
+                .iter()
+                .all(|cell| cell.tally.classes.len() == Class::COUNT)
+        };
         let same = layout(self) == layout(&other) && sources(self) == sources(&other);
         if !same || !whole(self) || !whole(&other) {
             return Err("the sums are not of the same plan".to_owned());

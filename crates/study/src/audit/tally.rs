@@ -115,11 +115,13 @@ impl Examples {
     }
 
     fn propose(&mut self, (severity, place): (f64, CasePlace)) {
-        let better = self.worst.is_none_or(|(worst, at)| match severity.total_cmp(&worst) {
-            Ordering::Greater => true,
-            Ordering::Equal => place < at,
-            Ordering::Less => false,
-        });
+        let better = self
+            .worst
+            .is_none_or(|(worst, at)| match severity.total_cmp(&worst) {
+                Ordering::Greater => true,
+                Ordering::Equal => place < at,
+                Ordering::Less => false,
+            });
         if better {
             self.worst = Some((severity, place));
         }
@@ -159,7 +161,10 @@ impl PolygonCount {
             self.count.fail(obligation);
         }
         let place = CasePlace { index, triangle: 0 };
-        self.examples.entry(finding).or_default().add((place, Digest::hash(place)), 0.0, limit);
+        self.examples
+            .entry(finding)
+            .or_default()
+            .add((place, Digest::hash(place)), 0.0, limit);
     }
 
     fn merge(&mut self, other: PolygonCount, limit: usize) {
@@ -286,9 +291,13 @@ impl Tally {
     ) {
         self.classes[class.number()].find(finding, !class.is_invalid());
         let edges = severity.map_or(0.0, |(edges, _)| edges);
-        self.examples.slot(class, finding).add(place, edges, self.limit);
-        let has_severity =
-            matches!(finding, Finding::FalseMiss | Finding::FalseHit | Finding::WrongValue);
+        self.examples
+            .slot(class, finding)
+            .add(place, edges, self.limit);
+        let has_severity = matches!(
+            finding,
+            Finding::FalseMiss | Finding::FalseHit | Finding::WrongValue
+        );
         if let (true, Some((edges, edge_in_ulps))) = (has_severity, severity) {
             let severities = self.severities.entry(finding).or_default();
             severities.edges.add(edges);
@@ -300,7 +309,8 @@ impl Tally {
     pub fn group(&mut self, group: &JudgedGroup, aimed: Option<AimedRay>, across: Across) {
         self.groups.add(group, self.group_limit);
         if let Some(ray) = aimed {
-            self.aimed.add((ray, group), across, [self.group_limit, self.place_limit]);
+            self.aimed
+                .add((ray, group), across, [self.group_limit, self.place_limit]);
         }
     }
 
@@ -318,14 +328,16 @@ impl Tally {
             self.products.entry(*key).or_default().merge(more);
         }
         let limit = self.limit;
-        self.examples.merge(other.examples, |examples, more| examples.merge(more, limit));
+        self.examples
+            .merge(other.examples, |examples, more| examples.merge(more, limit));
         for (finding, more) in &other.severities {
             self.severities.entry(*finding).or_default().merge(more);
         }
         self.accuracy.merge(&other.accuracy);
         self.relations.merge(&other.relations);
         self.groups.merge(other.groups, self.group_limit);
-        self.aimed.merge(other.aimed, [self.group_limit, self.place_limit]);
+        self.aimed
+            .merge(other.aimed, [self.group_limit, self.place_limit]);
         self.polygons.merge(other.polygons, self.group_limit);
         self.self_hits.rays += other.self_hits.rays;
         self.self_hits.hits += other.self_hits.hits;
@@ -336,17 +348,23 @@ impl Tally {
         let counts = class.map_or_else(|| self.total(), |class| self.classes[class.number()]);
         let (count, of) = (counts.of(finding), counts.trials(finding));
         match self.products.get(&(class, finding)) {
-            Some(products) => Trials { count, of, products: *products },
+            Some(products) => Trials {
+                count,
+                of,
+                products: *products,
+            },
             None => Trials::independent(count, of),
         }
     }
 
     /// All classes together.
     pub fn total(&self) -> ClassCount {
-        self.classes.iter().fold(ClassCount::default(), |mut total, count| {
-            total.merge(count);
-            total
-        })
+        self.classes
+            .iter()
+            .fold(ClassCount::default(), |mut total, count| {
+                total.merge(count);
+                total
+            })
     }
 }
 
@@ -363,14 +381,30 @@ mod tests {
             if index.is_multiple_of(3) {
                 let place = CasePlace { index, triangle: 0 };
                 let severity = Some(((index * 7 % 11) as f64, 2.0));
-                tally.find(class, Finding::FalseMiss, (place, Digest::hash(place)), severity);
+                tally.find(
+                    class,
+                    Finding::FalseMiss,
+                    (place, Digest::hash(place)),
+                    severity,
+                );
             }
-            let products = tally.products.entry((Some(class), Finding::FalseMiss)).or_default();
+            let products = tally
+                .products
+                .entry((Some(class), Finding::FalseMiss))
+                .or_default();
             products.add_ray(index % 4, 4);
             let (truth, hits) = (GroupTruth::Crossing, (index % 4) as usize);
-            let group = JudgedGroup { index, truth, hits, elsewhere: index % 8 == 4 };
+            let group = JudgedGroup {
+                index,
+                truth,
+                hits,
+                elsewhere: index % 8 == 4,
+            };
             let target = (index * 37 % 1000) as u32;
-            let aimed = AimedRay { target, class: (index % 3) as usize };
+            let aimed = AimedRay {
+                target,
+                class: (index % 3) as usize,
+            };
             tally.group(&group, Some(aimed), Across::ExactlyOne);
         };
         let mut whole = Tally::new([5, 0, 7]);

@@ -19,7 +19,11 @@ pub struct RayProducts {
 impl RayProducts {
     /// The sums for rays with one trial each.
     pub fn of_single(count: u64, of: u64) -> RayProducts {
-        RayProducts { count_squared: count, count_times_of: count, of_squared: of }
+        RayProducts {
+            count_squared: count,
+            count_times_of: count,
+            of_squared: of,
+        }
     }
 
     /// Adds a ray with so many findings among so many trials.
@@ -55,7 +59,11 @@ pub struct Trials {
 impl Trials {
     /// Each trial on a ray of its own.
     pub fn independent(count: u64, of: u64) -> Trials {
-        Trials { count, of, products: RayProducts::of_single(count, of) }
+        Trials {
+            count,
+            of,
+            products: RayProducts::of_single(count, of),
+        }
     }
 
     /// Adds a ray with so many findings among so many trials.
@@ -75,7 +83,11 @@ impl Trials {
     /// Other counts on rays like these: as many findings on a ray that has any, as many trials on a ray.
     /// Where these trials have no finding, all trials of a ray count as ending alike.
     pub fn scaled(&self, count: u64, of: u64) -> Trials {
-        let RayProducts { count_squared, count_times_of, of_squared } = self.products;
+        let RayProducts {
+            count_squared,
+            count_times_of,
+            of_squared,
+        } = self.products;
         if self.of == 0 {
             return Trials::independent(count, of);
         }
@@ -92,7 +104,11 @@ impl Trials {
             count_times_of: of_findings(count_times_of),
             of_squared: by(of_squared, of, self.of),
         };
-        Trials { count, of, products }
+        Trials {
+            count,
+            of,
+            products,
+        }
     }
 
     /// The share that findings have; none without a trial.
@@ -125,15 +141,22 @@ impl Trials {
     /// size is put beside those that were seen, all of whose trials end as fewer of the others do. Without
     /// a finding this is all that is known, and the effect is that of rays whose trials all end alike.
     fn design_effect(&self) -> f64 {
-        let RayProducts { count_squared, count_times_of, of_squared } = self.products;
+        let RayProducts {
+            count_squared,
+            count_times_of,
+            of_squared,
+        } = self.products;
         if of_squared == self.of || self.of == 0 {
             return 1.0;
         }
         let [k, n] = [self.count, self.of].map(|x| x as f64);
         let [kk, kn, nn] = [count_squared, count_times_of, of_squared].map(|x| x as f64);
         // The effect is the same for findings and for the rest: whichever is less.
-        let (k, kk, kn) =
-            if 2.0 * k <= n { (k, kk, kn) } else { (n - k, nn - 2.0 * kn + kk, nn - kn) };
+        let (k, kk, kn) = if 2.0 * k <= n {
+            (k, kk, kn)
+        } else {
+            (n - k, nn - 2.0 * kn + kk, nn - kn)
+        };
         let ray = nn / n;
         let (k, n) = (k + ray, n + ray);
         let [kk, kn, nn] = [kk, kn, nn].map(|sum| sum + ray * ray);
@@ -149,13 +172,17 @@ mod tests {
 
     fn trials(rays: impl IntoIterator<Item = (u64, u64)>) -> Trials {
         let mut trials = Trials::default();
-        rays.into_iter().for_each(|(count, of)| trials.add_ray(count, of));
+        rays.into_iter()
+            .for_each(|(count, of)| trials.add_ray(count, of));
         trials
     }
 
     #[track_caller]
     fn assert_same(a: Interval, b: Interval) {
-        assert!((a.low - b.low).abs() < 1e-12 && (a.high - b.high).abs() < 1e-12, "{a:?} {b:?}");
+        assert!(
+            (a.low - b.low).abs() < 1e-12 && (a.high - b.high).abs() < 1e-12,
+            "{a:?} {b:?}"
+        );
     }
 
     #[test]
@@ -183,14 +210,33 @@ mod tests {
     fn the_design_effect_is_worked_out_by_hand() {
         // Two rays of 3 with 2 findings, eight with none: k = 4 of n = 30, and the sums are 8, 12, 90.
         let rays = trials((0..10).map(|ray| (if ray < 2 { 2 } else { 0 }, 3)));
-        let products = RayProducts { count_squared: 8, count_times_of: 12, of_squared: 90 };
-        assert_eq!(rays, Trials { count: 4, of: 30, products });
+        let products = RayProducts {
+            count_squared: 8,
+            count_times_of: 12,
+            of_squared: 90,
+        };
+        assert_eq!(
+            rays,
+            Trials {
+                count: 4,
+                of: 30,
+                products
+            }
+        );
         // With one more ray of 90/30 = 3, all wrong: 7 of 33, p = 7/33, and
         // (17 - 2·21·7/33 + 99·(7/33)²) / (7·26/33) = (17 - 294/33 + 147/33) / (182/33) = 414/182.
-        assert!((rays.design_effect() - 414.0 / 182.0).abs() < 1e-14, "{}", rays.design_effect());
+        assert!(
+            (rays.design_effect() - 414.0 / 182.0).abs() < 1e-14,
+            "{}",
+            rays.design_effect()
+        );
         // The rest clusters as the findings do.
         let rest = trials((0..10).map(|ray| (if ray < 2 { 1 } else { 3 }, 3)));
-        assert!((rest.design_effect() - 414.0 / 182.0).abs() < 1e-14, "{}", rest.design_effect());
+        assert!(
+            (rest.design_effect() - 414.0 / 182.0).abs() < 1e-14,
+            "{}",
+            rest.design_effect()
+        );
         // One finding a ray, as regularly as can be, is no reason for more trials than there are.
         assert_eq!(trials((0..1000).map(|_| (1, 2))).design_effect(), 1.0);
     }
@@ -228,9 +274,15 @@ mod tests {
         assert!((twice.design_effect() / rays.design_effect() - 1.0).abs() < 0.02);
         // All that is known without a finding: rays of 6, as if each were one trial.
         let none = trials((0..300).map(|_| (0, 6)));
-        assert_same(none.scaled(60, 1800).interval(), Trials::independent(10, 300).interval());
+        assert_same(
+            none.scaled(60, 1800).interval(),
+            Trials::independent(10, 300).interval(),
+        );
         // Rays with one trial stay so, and nothing is known of nothing.
-        assert_eq!(Trials::independent(0, 90).scaled(5, 70), Trials::independent(5, 70));
+        assert_eq!(
+            Trials::independent(0, 90).scaled(5, 70),
+            Trials::independent(5, 70)
+        );
         assert_eq!(Trials::default().scaled(5, 70), Trials::independent(5, 70));
     }
 
@@ -243,8 +295,16 @@ mod tests {
             of_squared: u64::MAX - x,
         }) {
             for (count, of) in [(0, 0), (5, 3), (1, 9), (9, 9)] {
-                let Interval { low, high } = Trials { count, of, products }.interval();
-                assert!(0.0 <= low && low <= high && high <= 1.0, "{count} of {of} {products:?}");
+                let Interval { low, high } = Trials {
+                    count,
+                    of,
+                    products,
+                }
+                .interval();
+                assert!(
+                    0.0 <= low && low <= high && high <= 1.0,
+                    "{count} of {of} {products:?}"
+                );
             }
         }
     }

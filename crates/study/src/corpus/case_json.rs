@@ -45,7 +45,17 @@ const FIELDS: [&str; 28] = [
 ];
 
 /// The fields of `bits`.
-const BITS: [&str; 9] = ["origin", "direction", "from", "to", "a", "b", "c", "t_min", "t_max"];
+const BITS: [&str; 9] = [
+    "origin",
+    "direction",
+    "from",
+    "to",
+    "a",
+    "b",
+    "c",
+    "t_min",
+    "t_max",
+];
 
 /// The value of the field `starts` for a ray that starts at a computed hit point on its triangle.
 const ON_TRIANGLE: &str = "on-triangle";
@@ -57,7 +67,10 @@ pub fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
         true => plain_json::read::<f32>(text, AnyCase::F32),
         false => plain_json::read::<f64>(text, AnyCase::F64),
     };
-    plain.map_or_else(|| parse_any(text, line), |plain| Ok(StoredCase { line, ..plain }))
+    plain.map_or_else(
+        || parse_any(text, line),
+        |plain| Ok(StoredCase { line, ..plain }),
+    )
 }
 
 /// Any line, and what is wrong with it.
@@ -87,7 +100,9 @@ pub(super) fn parse_any(text: &str, line: usize) -> Result<StoredCase, String> {
 }
 
 fn parse_case<F: Float>(object: &Object) -> Result<Case<F>, String> {
-    let bits = object.read("bits", |bits| Object::parse(bits, &BITS))?.unwrap_or_default();
+    let bits = object
+        .read("bits", |bits| Object::parse(bits, &BITS))?
+        .unwrap_or_default();
     let vector = |field| parse_vector(field, object.get(field), bits.get(field));
     let is_given = |field: &&&str| object.get(field).or(bits.get(field)).is_some();
     let is_segment = ["from", "to"].iter().any(|field| is_given(&field));
@@ -103,7 +118,10 @@ fn parse_case<F: Float>(object: &Object) -> Result<Case<F>, String> {
     let corners = [vector("a")?, vector("b")?, vector("c")?];
     let end = |field| number_of(field, object.get(field), bits.get(field));
     let longest = if is_segment { F::one() } else { F::infinity() };
-    let (t_min, t_max) = (end("t_min")?.unwrap_or(F::zero()), end("t_max")?.unwrap_or(longest));
+    let (t_min, t_max) = (
+        end("t_min")?.unwrap_or(F::zero()),
+        end("t_max")?.unwrap_or(longest),
+    );
     Ok(Case::new(origin, direction, corners).on(t_min, t_max))
 }
 
@@ -113,7 +131,11 @@ fn three(value: &str) -> Result<[&str; 3], String> {
         return json::array(value, "numbers");
     }
     let object = Object::parse(value, &["x", "y", "z"])?;
-    Ok([object.required("x")?, object.required("y")?, object.required("z")?])
+    Ok([
+        object.required("x")?,
+        object.required("y")?,
+        object.required("z")?,
+    ])
 }
 
 fn parse_vector<F: Float>(
@@ -126,10 +148,15 @@ fn parse_vector<F: Float>(
     }
     // A vector of another language may stand in quotes.
     let unquoted = value.and_then(|value| json::string(value).ok());
-    let value = unquoted.as_deref().map(json::tidied).or(value.map(Into::into));
+    let value = unquoted
+        .as_deref()
+        .map(json::tidied)
+        .or(value.map(Into::into));
     let values = value.as_deref().map(three).transpose();
     let values = values.map_err(|message| format!("{field}: {message}"))?;
-    let bits = bits.map(|bits| json::array::<3>(bits, "bit patterns")).transpose();
+    let bits = bits
+        .map(|bits| json::array::<3>(bits, "bit patterns"))
+        .transpose();
     let bits = bits.map_err(|message| format!("bits.{field}: {message}"))?;
     let mut vector = [F::zero(); 3];
     for (axis, number) in vector.iter_mut().enumerate() {
@@ -144,7 +171,10 @@ pub fn parse_number<F: Float>(path: impl fmt::Display, text: &str) -> Result<F, 
     let number = match text.as_bytes().first() {
         Some(b'"') => json::string(text).and_then(|text| number::parse(&text)),
         Some(b'-' | b'0'..=b'9') => number::parse(text),
-        _ => Err(format!("expected a number or a string, found {}", json::excerpt(text))),
+        _ => Err(format!(
+            "expected a number or a string, found {}",
+            json::excerpt(text)
+        )),
     };
     number.map_err(|message| format!("{path}: {message}"))
 }
@@ -159,12 +189,22 @@ fn number_of<F: Float>(
     let pattern: Option<F> = bits
         .map(|bits| parse_pattern(bits).map_err(|message| format!("bits.{path}: {message}")))
         .transpose()?;
-    let show = |value: F| format!("{} ({})", number::write(value).replace('"', ""), value.hex());
+    let show = |value: F| {
+        format!(
+            "{} ({})",
+            number::write(value).replace('"', ""),
+            value.hex()
+        )
+    };
     match (number, pattern) {
         (Some(number), Some(pattern))
             if pattern.to_bits() != number.to_bits() && !(pattern.is_nan() && number.is_nan()) =>
         {
-            Err(format!("bits.{path} is {}, but {path} is {}", show(pattern), show(number)))
+            Err(format!(
+                "bits.{path} is {}, but {path} is {}",
+                show(pattern),
+                show(number)
+            ))
         }
         (number, pattern) => Ok(pattern.or(number)),
     }
@@ -177,7 +217,10 @@ fn parse_pattern<F: Float>(value: &str) -> Result<F, String> {
     let plain = text.len() == digits && text.bytes().all(|byte| byte.is_ascii_hexdigit());
     match u64::from_str_radix(text, 16) {
         Ok(bits) if plain => Ok(F::from_bits(bits)),
-        _ => Err(format!("expected {digits} hexadecimal digits, found {}", json::quoted(text))),
+        _ => Err(format!(
+            "expected {digits} hexadecimal digits, found {}",
+            json::quoted(text)
+        )),
     }
 }
 
@@ -193,7 +236,10 @@ pub fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
         fields.push((field, format!("[{}]", vector.map(number::write).join(","))));
         bits.push((field, format!("[{}]", vector.map(hex).join(","))));
     }
-    let ends = [("t_min", case.ray.t_min, F::zero()), ("t_max", case.ray.t_max, F::infinity())];
+    let ends = [
+        ("t_min", case.ray.t_min, F::zero()),
+        ("t_max", case.ray.t_max, F::infinity()),
+    ];
     for (field, end, default) in ends {
         if end.to_bits() != default.to_bits() {
             fields.push((field, number::write(end)));
@@ -203,11 +249,21 @@ pub fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
     if stored.is_secondary {
         fields.push(("starts", format!("\"{ON_TRIANGLE}\"")));
     }
-    fields.extend(stored.truth.as_ref().map(|truth| ("truth", truth.to_json())));
+    fields.extend(
+        stored
+            .truth
+            .as_ref()
+            .map(|truth| ("truth", truth.to_json())),
+    );
     fields.push(("bits", json::object(bits)));
     fields.extend(stored.why.as_ref().map(|why| ("why", text(why))));
     fields.extend(stored.url.as_ref().map(|url| ("url", text(url))));
-    fields.extend(stored.found.as_ref().map(|found| ("found", found.to_json())));
+    fields.extend(
+        stored
+            .found
+            .as_ref()
+            .map(|found| ("found", found.to_json())),
+    );
     json::object(fields)
 }
 
@@ -226,7 +282,11 @@ mod tests {
 
     #[test]
     fn a_case_needs_its_scalar_and_five_vectors() {
-        let plain = Case::new([0., 0., 1.], [0., 0., -1.], [[0.; 3], [4., 0., 0.], [0., 4., 0.]]);
+        let plain = Case::new(
+            [0., 0., 1.],
+            [0., 0., -1.],
+            [[0.; 3], [4., 0., 0.], [0., 4., 0.]],
+        );
         let stored = f32_case("").unwrap();
         assert_eq!(stored.case, AnyCase::F32(plain));
         assert_eq!((stored.line, stored.name, stored.truth), (7, None, None));
@@ -235,15 +295,23 @@ mod tests {
 "truth":{{"feature":"vertex_a"}}, "scalar":"f32"}} "#
         );
         let stored = parse(&all.replace('\n', " "), 1).unwrap();
-        assert_eq!(stored.case, AnyCase::F32(plain.on(f32::NEG_INFINITY, f32::from_bits(1))));
-        assert_eq!([stored.name, stored.why, stored.url].map(Option::unwrap), ["x", "y", "z"]);
+        assert_eq!(
+            stored.case,
+            AnyCase::F32(plain.on(f32::NEG_INFINITY, f32::from_bits(1)))
+        );
+        assert_eq!(
+            [stored.name, stored.why, stored.url].map(Option::unwrap),
+            ["x", "y", "z"]
+        );
         assert_eq!(stored.truth.unwrap().to_json(), r#"{"feature":"vertex_a"}"#);
     }
 
     #[test]
     fn numbers_are_read_from_their_text() {
         let text = r#"{"scalar":"f32","origin":[1.000000059604644775390626,-0,"0x1.8p-3"],"direction":["nan","-inf",1e-46],"a":[0,0,0],"b":[0,0,0],"c":[0,0,0]}"#;
-        let AnyCase::F32(case) = parse(text, 1).unwrap().case else { panic!() };
+        let AnyCase::F32(case) = parse(text, 1).unwrap().case else {
+            panic!()
+        };
         let [origin, direction, ..] = case.vectors();
         assert_eq!(origin.map(Float::hex), ["3f800001", "80000000", "3e400000"]);
         assert!(direction[0].is_nan());
@@ -270,20 +338,34 @@ mod tests {
                 format!(r#"[{zeros},"3f80000"]"#),
                 "bits.origin[2]: expected 8 hexadecimal digits, found '3f80000'",
             ),
-            (format!(r#"[{zeros},"+3f80000"]"#), "bits.origin[2]: expected 8 hexadecimal digits, "),
-            (format!(r#"[{zeros},0]"#), "bits.origin[2]: expected a string, found 0"),
-            (format!("[{zeros}]"), "bits.origin: expected 3 bit patterns, found 2"),
+            (
+                format!(r#"[{zeros},"+3f80000"]"#),
+                "bits.origin[2]: expected 8 hexadecimal digits, ",
+            ),
+            (
+                format!(r#"[{zeros},0]"#),
+                "bits.origin[2]: expected a string, found 0",
+            ),
+            (
+                format!("[{zeros}]"),
+                "bits.origin: expected 3 bit patterns, found 2",
+            ),
         ] {
             let error = f32_case(&format!(r#","bits":{{"origin":{more}}}"#)).unwrap_err();
             assert!(error.starts_with(message), "{error}");
         }
         let error = f32_case(r#","t_max":"inf","bits":{"t_max":"00000000"}"#).unwrap_err();
-        assert_eq!(error, "bits.t_max is 0 (00000000), but t_max is inf (7f800000)");
+        assert_eq!(
+            error,
+            "bits.t_max is 0 (00000000), but t_max is inf (7f800000)"
+        );
         assert!(
             f32_case(r#","t_max":"inf","bits":{"t_min":"0x00000000","t_max":"7F800000"}"#).is_ok()
         );
         let nan = f32_case(r#","t_min":"nan","bits":{"t_min":"ffc12345"}"#).unwrap();
-        let AnyCase::F32(case) = nan.case else { panic!() };
+        let AnyCase::F32(case) = nan.case else {
+            panic!()
+        };
         assert_eq!(case.ray.t_min.to_bits(), 0xffc1_2345);
     }
 
@@ -298,15 +380,28 @@ mod tests {
         let mut vector = || [number(), number(), number()];
         let (origin, direction) = (vector(), vector());
         let case = Case::new(origin, direction, [vector(), vector(), vector()]);
-        if draw.coin() { case } else { case.on(F::from_bits(draw.bits()), F::from_f64(1.0)) }
+        if draw.coin() {
+            case
+        } else {
+            case.on(F::from_bits(draw.bits()), F::from_f64(1.0))
+        }
     }
 
     fn check_round_trip<F: Float>(case: Case<F>, any: AnyCase, name: String) -> String {
         let truth = StoredTruth::parse(r#"{"facing":null,"u_exact":"1/3"}"#).ok();
         let (why, url) = (Some("tab\t\"quote\"".to_owned()), Some("ü\n".to_owned()));
-        let stored =
-            StoredCase { name: Some(name), truth, line: 7, why, url, ..StoredCase::of(any) };
-        let stored = StoredCase { is_secondary: case.bits()[0] & 1 == 1, ..stored };
+        let stored = StoredCase {
+            name: Some(name),
+            truth,
+            line: 7,
+            why,
+            url,
+            ..StoredCase::of(any)
+        };
+        let stored = StoredCase {
+            is_secondary: case.bits()[0] & 1 == 1,
+            ..stored
+        };
         let text = write_case(&stored);
         assert!(!text.contains('\n'));
         let read = parse(&text, 7).unwrap();
@@ -333,7 +428,11 @@ mod tests {
 
     #[test]
     fn a_written_case_reads_like_this() {
-        let case = Case::new([0.5, -0.0, 1e-7], [0., 0., 1.], [[0.1; 3], [4., 0., 0.], [1.; 3]]);
+        let case = Case::new(
+            [0.5, -0.0, 1e-7],
+            [0., 0., 1.],
+            [[0.1; 3], [4., 0., 0.], [1.; 3]],
+        );
         let case = case.on(0.0, f32::NAN);
         let stored = StoredCase {
             name: Some("x".to_owned()),

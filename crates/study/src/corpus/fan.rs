@@ -37,7 +37,9 @@ pub(super) fn folds(corners: &[[f64; 3]]) -> bool {
 /// True if a closed fan goes once around its centre, as seen along a direction from which all its
 /// triangles face alike. `ring` holds the points around the centre in their order; all finite.
 pub fn winds_once(direction: [f64; 3], centre: [f64; 3], ring: &[[f64; 3]]) -> bool {
-    let in_floats = turns_once(ring.len(), |i| side_in_floats(direction, centre, ring[0], ring[i]));
+    let in_floats = turns_once(ring.len(), |i| {
+        side_in_floats(direction, centre, ring[0], ring[i])
+    });
     in_floats.unwrap_or_else(|| decide!(fan_turns_once(&direction, &centre, ring)))
 }
 
@@ -48,7 +50,10 @@ fn fan_turns_once<R: Real>(
     ring: &[[f64; 3]],
 ) -> bool {
     let direction = Triple::from(direction.map(number));
-    let arms: Vec<_> = ring.iter().map(|point| arm(number, centre, point)).collect();
+    let arms: Vec<_> = ring
+        .iter()
+        .map(|point| arm(number, centre, point))
+        .collect();
     let side = |i: usize| Some(sign(&arms[0].cross(&arms[i]).dot(&direction)));
     turns_once(arms.len(), side).expect("every side is known")
 }
@@ -64,7 +69,11 @@ fn turns_once(points: usize, side: impl Fn(usize) -> Option<Ordering>) -> Option
     for i in 1..points {
         let side = side(i)?;
         // On the line of the first point: opposite to it after the first half, at it after the second.
-        let first_half = if side == Ordering::Equal { beyond_half } else { side == turn };
+        let first_half = if side == Ordering::Equal {
+            beyond_half
+        } else {
+            side == turn
+        };
         if first_half && beyond_half {
             rounds += 1;
         }
@@ -89,7 +98,11 @@ fn side_in_floats(
     let sizes = (e.yzx() * f.zxy() + e.zxy() * f.yzx()).dot(d);
     let is_moderate = (1e-150..1e150).contains(&sizes) && d.max_element() < 1e100;
     let is_certain = is_moderate && side.abs() > 8.0 * f64::EPSILON * sizes;
-    is_certain.then_some(if side < 0.0 { Ordering::Less } else { Ordering::Greater })
+    is_certain.then_some(if side < 0.0 {
+        Ordering::Less
+    } else {
+        Ordering::Greater
+    })
 }
 
 fn normal_is_zero<R: Real>(number: fn(f64) -> R, [a, b, c]: &[[f64; 3]; 3]) -> bool {
@@ -97,15 +110,24 @@ fn normal_is_zero<R: Real>(number: fn(f64) -> R, [a, b, c]: &[[f64; 3]; 3]) -> b
 }
 
 fn fan_folds<R: Real>(number: fn(f64) -> R, corners: &[[f64; 3]]) -> bool {
-    let arms: Vec<_> = corners[1..].iter().map(|corner| arm(number, &corners[0], corner)).collect();
-    let normals: Vec<_> = arms.windows(2).map(|pair| pair[0].cross(&pair[1])).collect();
+    let arms: Vec<_> = corners[1..]
+        .iter()
+        .map(|corner| arm(number, &corners[0], corner))
+        .collect();
+    let normals: Vec<_> = arms
+        .windows(2)
+        .map(|pair| pair[0].cross(&pair[1]))
+        .collect();
     let zero = arm(number, &corners[0], &corners[0]);
     let area = normals.iter().fold(zero, |area, normal| area.plus(normal));
     let normals: Vec<_> = normals.iter().filter(|normal| !is_zero(normal)).collect();
     if normals.is_empty() {
         return false;
     }
-    if normals.windows(2).any(|pair| sign(&pair[0].dot(pair[1])) != Ordering::Greater) {
+    if normals
+        .windows(2)
+        .any(|pair| sign(&pair[0].dot(pair[1])) != Ordering::Greater)
+    {
         return true;
     }
     let arms: Vec<_> = arms.iter().filter(|arm| !is_zero(arm)).collect();
@@ -187,8 +209,19 @@ mod tests {
 
     #[test]
     fn bow_ties_pentagrams_and_spirals_fold() {
-        assert!(fold_of(&flat(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])));
-        let star = [[3.0, 0.0], [-2.0, 2.0], [1.0, -3.0], [1.0, 3.0], [-2.0, -2.0]];
+        assert!(fold_of(&flat(&[
+            [0.0, 0.0],
+            [1.0, 1.0],
+            [1.0, 0.0],
+            [0.0, 1.0]
+        ])));
+        let star = [
+            [3.0, 0.0],
+            [-2.0, 2.0],
+            [1.0, -3.0],
+            [1.0, 3.0],
+            [-2.0, -2.0],
+        ];
         assert!(fold_of(&flat(&star)));
         // Around the first corner once and a quarter: every triangle of the fan turns left.
         let mut spiral = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
@@ -207,7 +240,13 @@ mod tests {
         let on_edge = [[0.0, 0.0], [third, 1.0], [2.0 * third, 2.0], [-2.0, 1.0]];
         assert!(!fold_of(&flat(&on_edge)));
         // The edge from the third corner to the fourth runs through the first.
-        let through = [[0.0, 0.0], [1.0, 0.0], [-1.0, 1.0], [1.0, -1.0], [2.0, -1.0]];
+        let through = [
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [-1.0, 1.0],
+            [1.0, -1.0],
+            [2.0, -1.0],
+        ];
         assert!(fold_of(&flat(&through)));
         let line = [[0.0, 0.0], [1.0, 1.0], [-3.0, -3.0], [2.0, 2.0]];
         assert!(!fold_of(&flat(&line)), "without area");
@@ -226,9 +265,11 @@ mod tests {
         let mut back_at_the_start = once.to_vec();
         back_at_the_start.extend(once);
         for direction in [[0.0, 0.0, 1.0], [0.0, 0.0, -2.0], [0.0, 0.1, -1.0]] {
-            for (points, expected) in
-                [(&once[..], true), (&twice[..], false), (&back_at_the_start[..], false)]
-            {
+            for (points, expected) in [
+                (&once[..], true),
+                (&twice[..], false),
+                (&back_at_the_start[..], false),
+            ] {
                 let mut ring = ring(points);
                 for _ in 0..ring.len() {
                     ring.rotate_left(1);
@@ -254,13 +295,23 @@ mod tests {
     #[test]
     fn a_polygon_folds_if_it_is_bent_by_a_right_angle_or_more() {
         let quad = |height: f64| {
-            fold_of(&[[0.0, 0.0, 0.0], [1.0, 0.0, height], [1.0, 1.0, 0.0], [0.0, 1.0, height]])
+            fold_of(&[
+                [0.0, 0.0, 0.0],
+                [1.0, 0.0, height],
+                [1.0, 1.0, 0.0],
+                [0.0, 1.0, height],
+            ])
         };
         assert!(!quad(0.25));
         // The normals are (-h, h, 1) and (h, -h, 1).
         assert!(!quad(0.7));
         assert!(quad(0.75));
-        let at_right_angles = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 1.0, 1.0]];
+        let at_right_angles = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [1.0, 1.0, 1.0],
+        ];
         assert!(fold_of(&at_right_angles));
         // A steep roof around the first corner: each bend is small, but its ends face each other.
         let ring = [[4, 0], [3, 3], [0, 4], [-3, 3], [-4, 0], [-3, -3], [0, -4]];
@@ -270,13 +321,23 @@ mod tests {
         roof[0][2] = 2.0;
         assert!(!fold_of(&roof));
         // Three gentle bends again, the last triangle small and seen from behind.
-        let arms = [[200, -100, -4000], [200, 100, -4000], [0, 20, -400], [-2, 1, -40]];
+        let arms = [
+            [200, -100, -4000],
+            [200, 100, -4000],
+            [0, 20, -400],
+            [-2, 1, -40],
+        ];
         let mut hook = vec![[0.0; 3]];
         hook.extend(arms.map(|arm| arm.map(f64::from)));
         assert!(fold_of(&hook));
         hook.pop();
         assert!(!fold_of(&hook));
-        let closed_book = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.1]];
+        let closed_book = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [1.0, 0.0, 0.1],
+        ];
         assert!(fold_of(&closed_book));
     }
 
@@ -290,8 +351,14 @@ mod tests {
         assert!(is_without_area([[0.0; 3], a, double(a)]));
         assert!(is_without_area([a, a, b]));
         for scale in [1e-200, 1e200, 5e-324] {
-            assert!(!is_without_area([[0.0; 3], [scale, 0.0, 0.0], [0.0, scale, 0.0]]), "{scale}");
-            assert!(is_without_area([[0.0; 3], [scale; 3], [2.0 * scale; 3]]), "{scale}");
+            assert!(
+                !is_without_area([[0.0; 3], [scale, 0.0, 0.0], [0.0, scale, 0.0]]),
+                "{scale}"
+            );
+            assert!(
+                is_without_area([[0.0; 3], [scale; 3], [2.0 * scale; 3]]),
+                "{scale}"
+            );
         }
         assert!(is_without_area([[f64::MIN; 3], [0.0; 3], [f64::MAX; 3]]));
     }

@@ -73,7 +73,9 @@ impl FoundBy {
 
 /// A number that is no less than zero.
 fn number<T: DeserializeOwned + PartialOrd + Default>(value: &str) -> Result<T, String> {
-    let parsed = serde_json::from_str(value).ok().filter(|n| T::default() <= *n);
+    let parsed = serde_json::from_str(value)
+        .ok()
+        .filter(|n| T::default() <= *n);
     parsed.ok_or_else(|| format!("expected a number, found {}", json::excerpt(value)))
 }
 
@@ -104,14 +106,33 @@ mod tests {
             ..full.clone()
         };
         for provenance in [&full, &bare] {
-            assert_eq!(FoundBy::parse(&provenance.to_json()).as_ref(), Ok(provenance));
+            assert_eq!(
+                FoundBy::parse(&provenance.to_json()).as_ref(),
+                Ok(provenance)
+            );
         }
         for (old, new, message) in [
             ("\"kernel\":\"cramer\",", "", "missing field 'kernel'"),
-            ("\"kernel\":\"cramer\"", "\"kernel\":3", "kernel: expected a string, found 3"),
-            ("\"seconds\":1.5", "\"seconds\":-1.5", "seconds: expected a number, found -1.5"),
-            ("\"evaluations\":7", "\"evaluations\":\"7\"", "evaluations: expected a number"),
-            ("\"version\"", "\"tool\"", "unknown field 'tool', expected one of version, "),
+            (
+                "\"kernel\":\"cramer\"",
+                "\"kernel\":3",
+                "kernel: expected a string, found 3",
+            ),
+            (
+                "\"seconds\":1.5",
+                "\"seconds\":-1.5",
+                "seconds: expected a number, found -1.5",
+            ),
+            (
+                "\"evaluations\":7",
+                "\"evaluations\":\"7\"",
+                "evaluations: expected a number",
+            ),
+            (
+                "\"version\"",
+                "\"tool\"",
+                "unknown field 'tool', expected one of version, ",
+            ),
         ] {
             let error = FoundBy::parse(&full.to_json().replacen(old, new, 1)).unwrap_err();
             assert!(error.starts_with(message), "{error}");

@@ -43,12 +43,16 @@ impl<'a> Object<'a> {
 
     /// The value of a field, if it is there; `null` is a value.
     pub fn get(&self, field: &str) -> Option<&'a str> {
-        self.0.iter().find(|(name, _)| name == field).map(|(_, value)| *value)
+        self.0
+            .iter()
+            .find(|(name, _)| name == field)
+            .map(|(_, value)| *value)
     }
 
     /// The value of a field that must be there.
     pub fn required(&self, field: &str) -> Result<&'a str, String> {
-        self.get(field).ok_or_else(|| format!("missing field '{field}'"))
+        self.get(field)
+            .ok_or_else(|| format!("missing field '{field}'"))
     }
 
     /// The value of a field, if it is there. An error names the field.
@@ -97,7 +101,11 @@ pub fn tidied(text: &str) -> Cow<'_, str> {
         rest = behind;
     }
     // What is wrong with an object is better said of what it was meant to be.
-    if is_json(&out) || out.starts_with('{') { Cow::Owned(out) } else { Cow::Borrowed(text) }
+    if is_json(&out) || out.starts_with('{') {
+        Cow::Owned(out)
+    } else {
+        Cow::Borrowed(text)
+    }
 }
 
 fn is_of_word(c: char) -> bool {
@@ -123,25 +131,38 @@ fn end_of_token(text: &str) -> usize {
     if !text.starts_with(is_of_word) {
         return text.chars().next().map_or(0, char::len_utf8);
     }
-    let end = chars.find(|(place, c)| is_end(*place, *c)).map_or(text.len(), |(end, _)| end);
-    let is_nan = text[..end].trim_start_matches(['-', '+']).eq_ignore_ascii_case("nan");
-    let note = text[end..].find(')').filter(|_| is_nan && text[end..].starts_with('('));
+    let end = chars
+        .find(|(place, c)| is_end(*place, *c))
+        .map_or(text.len(), |(end, _)| end);
+    let is_nan = text[..end]
+        .trim_start_matches(['-', '+'])
+        .eq_ignore_ascii_case("nan");
+    let note = text[end..]
+        .find(')')
+        .filter(|_| is_nan && text[end..].starts_with('('));
     note.map_or(end, |note| end + note + 1)
 }
 
 /// The fields of an object in their order, duplicates included.
 pub fn pairs(text: &str) -> Result<Vec<Field<'_>>, String> {
     if !text.trim_start().starts_with('{') {
-        return Err(format!("expected an object, found {}", excerpt(text.trim_start())));
+        return Err(format!(
+            "expected an object, found {}",
+            excerpt(text.trim_start())
+        ));
     }
     let mut reader = serde_json::Deserializer::from_str(text);
-    let pairs = reader.deserialize_map(Pairs).and_then(|pairs| reader.end().map(|()| pairs));
+    let pairs = reader
+        .deserialize_map(Pairs)
+        .and_then(|pairs| reader.end().map(|()| pairs));
     pairs.map_err(|error| plain_message(&error))
 }
 
 /// An object of fields whose values are JSON already.
 pub fn object<'a>(fields: impl IntoIterator<Item = (&'a str, String)>) -> String {
-    let fields = fields.into_iter().map(|(name, json)| format!("\"{name}\":{json}"));
+    let fields = fields
+        .into_iter()
+        .map(|(name, json)| format!("\"{name}\":{json}"));
     format!("{{{}}}", fields.collect::<Vec<_>>().join(","))
 }
 
@@ -165,7 +186,11 @@ pub fn array<'a, const N: usize>(value: &'a str, what: &str) -> Result<[&'a str;
         }
         count += 1;
     }
-    if count == N { Ok(array) } else { Err(format!("expected {N} {what}, found {count}")) }
+    if count == N {
+        Ok(array)
+    } else {
+        Err(format!("expected {N} {what}, found {count}"))
+    }
 }
 
 /// The elements of a JSON array; none of another value.
@@ -176,7 +201,10 @@ pub fn elements(value: &str) -> Option<impl Iterator<Item = &str>> {
         let text = rest?;
         let end = end_of_first(text);
         let (element, behind) = text.split_at(end);
-        rest = behind.trim_ascii_start().strip_prefix(',').map(str::trim_ascii_start);
+        rest = behind
+            .trim_ascii_start()
+            .strip_prefix(',')
+            .map(str::trim_ascii_start);
         Some(element.trim_ascii_end())
     }))
 }
@@ -190,7 +218,10 @@ fn end_of_first(values: &str) -> usize {
             return values.byte_offset();
         }
     }
-    values.bytes().position(|byte| byte == b',').unwrap_or(values.len())
+    values
+        .bytes()
+        .position(|byte| byte == b',')
+        .unwrap_or(values.len())
 }
 
 /// The beginning of an input, on one line.
@@ -262,15 +293,29 @@ mod tests {
     #[test]
     fn an_array_is_cut_where_its_elements_end() {
         let nested = r#"[ 1 , "a,\"]," ,[2,[3]],{"b":[4,5]} ,null, -6.5e7 ]"#;
-        let expected = ["1", r#""a,\"],""#, "[2,[3]]", r#"{"b":[4,5]}"#, "null", "-6.5e7"];
+        let expected = [
+            "1",
+            r#""a,\"],""#,
+            "[2,[3]]",
+            r#"{"b":[4,5]}"#,
+            "null",
+            "-6.5e7",
+        ];
         assert_eq!(array::<6>(nested, "values"), Ok(expected));
         assert_eq!(array::<0>("[ ]", "values"), Ok([]));
-        assert_eq!(array::<1>("[1,2]", "numbers"), Err("expected 1 numbers, found 2".to_owned()));
+        assert_eq!(
+            array::<1>("[1,2]", "numbers"),
+            Err("expected 1 numbers, found 2".to_owned())
+        );
         let text = Err("expected an array of 2 numbers, found \"[1,2]\"".to_owned());
         assert_eq!(array::<2>(r#""[1,2]""#, "numbers"), text);
         // As serde_json reads them.
         let read: Vec<&RawValue> = serde_json::from_str(nested).unwrap();
-        assert!(elements(nested).unwrap().eq(read.iter().map(|value| value.get())));
+        assert!(
+            elements(nested)
+                .unwrap()
+                .eq(read.iter().map(|value| value.get()))
+        );
     }
 
     #[test]

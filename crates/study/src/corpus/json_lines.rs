@@ -18,7 +18,11 @@ pub struct JsonLines<R> {
 impl<R: BufRead> JsonLines<R> {
     /// A reader's text as JSON lines.
     pub fn new(reader: R) -> JsonLines<R> {
-        JsonLines { reader, lines: LinesRead::default(), read: 0 }
+        JsonLines {
+            reader,
+            lines: LinesRead::default(),
+            read: 0,
+        }
     }
 }
 
@@ -142,7 +146,11 @@ impl LinesRead {
             }
             _ => {
                 self.out.push(byte);
-                self.place = if is_blank { self.place } else { BytePlace::Rest };
+                self.place = if is_blank {
+                    self.place
+                } else {
+                    BytePlace::Rest
+                };
             }
         }
     }
@@ -184,7 +192,11 @@ impl LinesRead {
             }
             (self.last, self.begins_line) = (byte, false);
             if self.depth == 0 {
-                self.place = if self.in_array { BytePlace::Behind } else { BytePlace::Rest };
+                self.place = if self.in_array {
+                    BytePlace::Behind
+                } else {
+                    BytePlace::Rest
+                };
             }
         }
         self.out.push(byte);
@@ -243,11 +255,20 @@ mod tests {
     fn what_is_cut_off_is_found_and_does_not_swallow_what_follows() {
         let good = "{\"a\":1}\n";
         for cut in ["{\"a", "{\"a\":1,", "{", "{\"a\":1"] {
-            assert_eq!(lines_of(&format!("{cut}\n{good}")).lines().nth(1), good.lines().next());
+            assert_eq!(
+                lines_of(&format!("{cut}\n{good}")).lines().nth(1),
+                good.lines().next()
+            );
         }
-        assert_eq!(lines_of("[{},\n").lines().last(), Some("the end of an array without its ]"));
+        assert_eq!(
+            lines_of("[{},\n").lines().last(),
+            Some("the end of an array without its ]")
+        );
         assert_eq!(lines_of(" ["), " [");
         assert_eq!(lines_of("[{}] x"), "{} x");
-        assert_eq!(lines_of("[{} x]"), "{} \nx]\nthe end of an array without its ]");
+        assert_eq!(
+            lines_of("[{} x]"),
+            "{} \nx]\nthe end of an array without its ]"
+        );
     }
 }

@@ -56,7 +56,9 @@ mod tests {
 
     fn read_text(text: impl AsRef<[u8]>) -> Vec<Result<StoredCase, String>> {
         let reader = io::BufReader::with_capacity(7, text.as_ref());
-        read(reader, "cases.jsonl").map(|item| item.map_err(|error| error.to_string())).collect()
+        read(reader, "cases.jsonl")
+            .map(|item| item.map_err(|error| error.to_string()))
+            .collect()
     }
 
     #[test]
@@ -112,11 +114,23 @@ mod tests {
                 r#"{"unit":1}"#,
                 "unknown field 'unit', expected one of name, scalar, origin, direction, from, to, a, b, c, t_min, t_max, starts, truth, bits, why, url, found, note, ",
             ),
-            (r#"{"orign":1}"#, "unknown field 'orign': did you mean 'origin'?"),
-            (r#"{"scalar":"f32",CASE,"tmax":1}"#, "unknown field 'tmax': did you mean 't_max'?"),
-            (r#"{"scalar":"f32",CASE,"to":[0,0,0]}"#, "origin: leave it out, or 'from' and 'to'"),
+            (
+                r#"{"orign":1}"#,
+                "unknown field 'orign': did you mean 'origin'?",
+            ),
+            (
+                r#"{"scalar":"f32",CASE,"tmax":1}"#,
+                "unknown field 'tmax': did you mean 't_max'?",
+            ),
+            (
+                r#"{"scalar":"f32",CASE,"to":[0,0,0]}"#,
+                "origin: leave it out, or 'from' and 'to'",
+            ),
             (r#"{"scalar":"f32","from":[0,0,0]}"#, "missing field 'to'"),
-            (r#"{"a\nb":1}"#, "unknown field 'a\\nb', expected one of name, "),
+            (
+                r#"{"a\nb":1}"#,
+                "unknown field 'a\\nb', expected one of name, ",
+            ),
             (r#"{CASE,"a":[0,0,0]}"#, "duplicate field 'a'"),
             ("{CASE}", "missing field 'scalar'"),
             (r#"{"scalar":"f32"}"#, "missing field 'origin'"),
@@ -124,10 +138,22 @@ mod tests {
                 r#"{"scalar":"f64","origin":[0,0,0],"direction":[0,0,0],"a":[0,0,0],"b":[0,0,0]}"#,
                 "missing field 'c'",
             ),
-            (r#"{"scalar":"f16",CASE}"#, "scalar: 'f16' is none of f32, f64"),
-            (r#"{"scalar":32,CASE}"#, "scalar: expected a string, found 32"),
-            (r#"{"scalar":"f32","origin":[0,1e999,0]}"#, "origin[1]: '1e999' overflows f32"),
-            (r#"{"scalar":"f32","origin":[0,0,"1_0"]}"#, "origin[2]: '1_0' is not a number: "),
+            (
+                r#"{"scalar":"f16",CASE}"#,
+                "scalar: 'f16' is none of f32, f64",
+            ),
+            (
+                r#"{"scalar":32,CASE}"#,
+                "scalar: expected a string, found 32",
+            ),
+            (
+                r#"{"scalar":"f32","origin":[0,1e999,0]}"#,
+                "origin[1]: '1e999' overflows f32",
+            ),
+            (
+                r#"{"scalar":"f32","origin":[0,0,"1_0"]}"#,
+                "origin[2]: '1_0' is not a number: ",
+            ),
             (
                 r#"{"scalar":"f32","origin":[true,0,0]}"#,
                 "origin[0]: expected a number or a string, found true",
@@ -136,8 +162,14 @@ mod tests {
                 r#"{"scalar":"f32","origin":[null,0,0]}"#,
                 "origin[0]: expected a number or a string, found null",
             ),
-            (r#"{"scalar":"f32","origin":[0,0]}"#, "origin: expected 3 numbers, found 2"),
-            (r#"{"scalar":"f32","origin":7}"#, "origin: expected an array of 3 numbers, found 7"),
+            (
+                r#"{"scalar":"f32","origin":[0,0]}"#,
+                "origin: expected 3 numbers, found 2",
+            ),
+            (
+                r#"{"scalar":"f32","origin":7}"#,
+                "origin: expected an array of 3 numbers, found 7",
+            ),
             (
                 r#"{"scalar":"f32","origin":null}"#,
                 "origin: expected an array of 3 numbers, found null",
@@ -146,16 +178,34 @@ mod tests {
                 r#"{"scalar":"f32",CASE,"t_max":null}"#,
                 "t_max: expected a number or a string, found null",
             ),
-            (r#"{"scalar":"f32",CASE,"t_min":"-1e39"}"#, "t_min: '-1e39' overflows f32"),
+            (
+                r#"{"scalar":"f32",CASE,"t_min":"-1e39"}"#,
+                "t_min: '-1e39' overflows f32",
+            ),
             (
                 r#"{"scalar":"f32",CASE,"starts":"on-edge"}"#,
                 "starts: expected 'on-triangle', found 'on-edge'",
             ),
-            (r#"{"scalar":"f32",CASE,"name":null}"#, "name: expected a string, found null"),
-            (r#"{"scalar":"f32",CASE,"why":1}"#, "why: expected a string, found 1"),
-            (r#"{"scalar":"f32",CASE,"url":[]}"#, "url: expected a string, found []"),
-            (r#"{"scalar":"f32",CASE,"truth":null}"#, "truth: expected an object, found null"),
-            (r#"{"scalar":"f32",CASE,"truth":{"t":"in"}}"#, "truth: t: 'in' is none of before, "),
+            (
+                r#"{"scalar":"f32",CASE,"name":null}"#,
+                "name: expected a string, found null",
+            ),
+            (
+                r#"{"scalar":"f32",CASE,"why":1}"#,
+                "why: expected a string, found 1",
+            ),
+            (
+                r#"{"scalar":"f32",CASE,"url":[]}"#,
+                "url: expected a string, found []",
+            ),
+            (
+                r#"{"scalar":"f32",CASE,"truth":null}"#,
+                "truth: expected an object, found null",
+            ),
+            (
+                r#"{"scalar":"f32",CASE,"truth":{"t":"in"}}"#,
+                "truth: t: 'in' is none of before, ",
+            ),
             (
                 r#"{"scalar":"f32",CASE,"bits":{"d":[]}}"#,
                 "bits: unknown field 'd', expected one of origin, direction, from, to, a, b, c, t_min, t_max",
@@ -166,7 +216,10 @@ mod tests {
             ),
             ("\u{feff}{}", "missing field 'scalar'"),
             (r#"["f32"]"#, "expected an object, found [\"f32\"]"),
-            (r#"{"scalar":"f32",CASE} x"#, "trailing characters at column 92"),
+            (
+                r#"{"scalar":"f32",CASE} x"#,
+                "trailing characters at column 92",
+            ),
         ] {
             let line = line.replace(new, old);
             let error = read_text(&line).remove(0).unwrap_err();
@@ -183,7 +236,10 @@ mod tests {
     fn the_curated_cases_are_all_read_and_written_as_they_stand() {
         let corpora = concat!(env!("CARGO_MANIFEST_DIR"), "/../../corpora/curated.jsonl");
         let file = std::fs::read_to_string(corpora).unwrap();
-        let cases: Vec<_> = read_text(&file[..]).into_iter().map(Result::unwrap).collect();
+        let cases: Vec<_> = read_text(&file[..])
+            .into_iter()
+            .map(Result::unwrap)
+            .collect();
         assert!(cases.len() >= 170, "{}", cases.len());
         assert_eq!(cases.len(), file.lines().count());
         let names: HashSet<_> = cases.iter().flat_map(|case| &case.name).collect();
@@ -193,7 +249,10 @@ mod tests {
             let written = write_case(case);
             let (head, bits) = written.split_once(",\"bits\":{").unwrap();
             let (_, tail) = bits.split_once('}').unwrap();
-            assert!(line == written || line == format!("{head}{tail}"), "{line}\n{written}");
+            assert!(
+                line == written || line == format!("{head}{tail}"),
+                "{line}\n{written}"
+            );
         }
     }
 }

@@ -68,7 +68,9 @@ impl Mesh {
 
     /// The note on the polygons of the file that are not in the mesh, if there are any.
     pub fn left_out(&self) -> Option<&Note> {
-        self.notes.iter().find(|note| note.message == builder::LEFT_OUT)
+        self.notes
+            .iter()
+            .find(|note| note.message == builder::LEFT_OUT)
     }
 }
 

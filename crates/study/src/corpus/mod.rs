@@ -50,18 +50,30 @@ pub struct InputError {
 impl InputError {
     /// With a line number.
     pub fn at(file: &str, line: usize, message: impl Into<String>) -> InputError {
-        InputError { line: Some(line), ..InputError::of(file, message) }
+        InputError {
+            line: Some(line),
+            ..InputError::of(file, message)
+        }
     }
 
     /// About the file as a whole.
     pub fn of(file: &str, message: impl Into<String>) -> InputError {
-        InputError { file: file.to_owned(), line: None, message: message.into(), unreadable: false }
+        InputError {
+            file: file.to_owned(),
+            line: None,
+            message: message.into(),
+            unreadable: false,
+        }
     }
 
     /// An error of reading itself, at a line if it is known.
     pub fn reading(file: &str, line: Option<usize>, error: &io::Error) -> InputError {
         let unread = InputError::of(file, format!("cannot read: {error}"));
-        InputError { line, unreadable: true, ..unread }
+        InputError {
+            line,
+            unreadable: true,
+            ..unread
+        }
     }
 }
 

@@ -15,7 +15,10 @@ const LONGEST: usize = 4096;
 /// A finite text that overflows is an error; one that underflows is a zero of its sign.
 pub fn parse<F: Float>(text: &str) -> Result<F, String> {
     if text.len() > LONGEST {
-        return Err(format!("{} has more than {LONGEST} characters", quoted(text)));
+        return Err(format!(
+            "{} has more than {LONGEST} characters",
+            quoted(text)
+        ));
     }
     let magnitude = text.strip_prefix(['-', '+']).unwrap_or(text);
     let value = match magnitude.to_ascii_lowercase().as_str() {
@@ -45,7 +48,12 @@ pub fn write<F: Float>(value: F) -> String {
         format!("\"{value}\"")
     } else if value == 0.0 {
         // `-0` is an integer to some readers, and loses its sign.
-        if value.is_sign_negative() { "-0.0" } else { "0" }.to_owned()
+        if value.is_sign_negative() {
+            "-0.0"
+        } else {
+            "0"
+        }
+        .to_owned()
     } else if (1e-5..1e15).contains(&value.abs()) {
         value.to_string()
     } else {
@@ -69,7 +77,9 @@ fn finite<F: Float>(text: &str) -> Result<Option<F>, String> {
         }
         Some(digits) => hexadecimal(digits),
         None if text.starts_with(|c: char| c.is_ascii_digit() || c == '.') => {
-            let suffix = text.strip_suffix(F::NAME).map(|rest| rest.trim_end_matches('_'));
+            let suffix = text
+                .strip_suffix(F::NAME)
+                .map(|rest| rest.trim_end_matches('_'));
             let decimal = suffix.or_else(|| text.strip_suffix(['f', 'F']));
             let decimal = decimal.filter(|rest| !rest.ends_with(['e', 'E']));
             F::parse(decimal.unwrap_or(text))
@@ -134,8 +144,11 @@ pub fn rounded<F: Float>(integer: u128, inexact: bool, exponent: i64) -> F {
     if integer == 0 {
         return F::zero();
     }
-    let [digits, lowest, highest] =
-        [i64::from(F::DIGITS), F::MIN_EXPONENT.into(), F::MAX_EXPONENT.into()];
+    let [digits, lowest, highest] = [
+        i64::from(F::DIGITS),
+        F::MIN_EXPONENT.into(),
+        F::MAX_EXPONENT.into(),
+    ];
     let top = exponent + i64::from(integer.ilog2());
     if top > highest {
         return F::infinity();
@@ -146,8 +159,11 @@ pub fn rounded<F: Float>(integer: u128, inexact: bool, exponent: i64) -> F {
     let units = match shift {
         ..=0 => integer << -shift,
         1..=127 => {
-            let (units, rest, half) =
-                (integer >> shift, integer & ((1 << shift) - 1), 1 << (shift - 1));
+            let (units, rest, half) = (
+                integer >> shift,
+                integer & ((1 << shift) - 1),
+                1 << (shift - 1),
+            );
             let up = rest > half || rest == half && (inexact || units & 1 == 1);
             units + u128::from(up)
         }
@@ -164,7 +180,12 @@ mod tests {
 
     fn check<F: Float>(text: &str, bits: u64) {
         let value: F = parse(text).unwrap();
-        assert_eq!(value.hex(), F::from_bits(bits).hex(), "{text} as {}", F::NAME);
+        assert_eq!(
+            value.hex(),
+            F::from_bits(bits).hex(),
+            "{text} as {}",
+            F::NAME
+        );
     }
 
     #[test]
@@ -243,7 +264,10 @@ mod tests {
     fn hexadecimal_ties_go_to_even_and_nothing_else_does() {
         check::<f32>("0x1.000001p0", 0x3f80_0000);
         check::<f32>("0x1.000003p0", 0x3f80_0002);
-        check::<f32>("0x1.00000100000000000000000000000000000000001p0", 0x3f80_0001);
+        check::<f32>(
+            "0x1.00000100000000000000000000000000000000001p0",
+            0x3f80_0001,
+        );
         check::<f32>("0x1.000000fffffffffffffffffffffffffffffffffp0", 0x3f80_0000);
         // Between subnormals, at half the smallest, and from the largest of them up.
         check::<f32>("0x1p-150", 0);
@@ -283,11 +307,20 @@ mod tests {
 
     #[test]
     fn what_overflows_is_an_error() {
-        for text in ["1e999", "-3.4028236e38", "0x1p128", "0x1.ffffffp127", "0x1p99999999999999"] {
+        for text in [
+            "1e999",
+            "-3.4028236e38",
+            "0x1p128",
+            "0x1.ffffffp127",
+            "0x1p99999999999999",
+        ] {
             let message = parse::<f32>(text).unwrap_err();
             assert_eq!(message, format!("'{text}' overflows f32"));
         }
-        assert_eq!(parse::<f64>("-1e309").unwrap_err(), "'-1e309' overflows f64");
+        assert_eq!(
+            parse::<f64>("-1e309").unwrap_err(),
+            "'-1e309' overflows f64"
+        );
     }
 
     #[test]
@@ -330,11 +363,20 @@ mod tests {
             assert!(parse::<f64>(text).is_err(), "{text:?}");
         }
         let message = parse::<f32>("1_0").unwrap_err();
-        assert!(message.starts_with("'1_0' is not a number: write a decimal"), "{message}");
+        assert!(
+            message.starts_with("'1_0' is not a number: write a decimal"),
+            "{message}"
+        );
         let message = parse::<f32>("0x3f80").unwrap_err();
-        assert!(message.starts_with("'0x3f80' needs a binary exponent, as 0x1.8p-3"), "{message}");
+        assert!(
+            message.starts_with("'0x3f80' needs a binary exponent, as 0x1.8p-3"),
+            "{message}"
+        );
         let message = parse::<f32>(&"1".repeat(5000)).unwrap_err();
-        assert!(message.ends_with("...' has more than 4096 characters"), "{message}");
+        assert!(
+            message.ends_with("...' has more than 4096 characters"),
+            "{message}"
+        );
         assert!(!parse::<f32>("1\n2").unwrap_err().contains('\n'));
     }
 
@@ -362,17 +404,31 @@ mod tests {
     fn check_round_trip<F: Float>(value: F) {
         let text = write(value);
         assert_eq!(parse::<F>(&text).unwrap().hex(), value.hex(), "{text}");
-        assert_eq!(F::from_f64(text.parse().unwrap()).hex(), value.hex(), "{text}");
+        assert_eq!(
+            F::from_f64(text.parse().unwrap()).hex(),
+            value.hex(),
+            "{text}"
+        );
         assert!(text.len() < 26, "{text}");
         let fraction_bits = F::DIGITS - 1;
         let magnitude = value.abs().to_bits();
-        let (field, fraction) =
-            (magnitude >> fraction_bits, magnitude & ((1 << fraction_bits) - 1));
+        let (field, fraction) = (
+            magnitude >> fraction_bits,
+            magnitude & ((1 << fraction_bits) - 1),
+        );
         let hidden = u64::from(field > 0) << fraction_bits;
         let exponent = field.max(1) as i64 - 1 + i64::from(F::MIN_EXPONENT);
-        let sign = if value.to_f64().is_sign_negative() { "-" } else { "" };
+        let sign = if value.to_f64().is_sign_negative() {
+            "-"
+        } else {
+            ""
+        };
         let spelled = format!("{sign}0x{:x}p{exponent}", hidden | fraction);
-        assert_eq!(parse::<F>(&spelled).unwrap().hex(), value.hex(), "{spelled}");
+        assert_eq!(
+            parse::<F>(&spelled).unwrap().hex(),
+            value.hex(),
+            "{spelled}"
+        );
     }
 
     #[test]

@@ -30,13 +30,23 @@ pub fn read<F: Float>(text: &str, case: fn(Case<F>) -> AnyCase) -> Option<Stored
     if text.len() > LONGEST || !text.starts_with('{') {
         return None;
     }
-    let PlainLine { name, scalar, origin, direction, a, b, c } =
-        serde_json::from_str::<PlainLine<F>>(text).ok()?;
+    let PlainLine {
+        name,
+        scalar,
+        origin,
+        direction,
+        a,
+        b,
+        c,
+    } = serde_json::from_str::<PlainLine<F>>(text).ok()?;
     let name = name.map(check_name).transpose().ok()?;
     let [origin, direction, a, b, c] =
         [origin, direction, a, b, c].map(|vector| vector.map(|RoundedOnce(number)| number));
     let case = case(Case::new(origin, direction, [a, b, c]));
-    (scalar == F::NAME).then(|| StoredCase { name, ..StoredCase::of(case) })
+    (scalar == F::NAME).then(|| StoredCase {
+        name,
+        ..StoredCase::of(case)
+    })
 }
 
 /// A number that is rounded once, from its text; an error if `serde_json` may have rounded it before.
@@ -78,11 +88,15 @@ impl<F: Float> Visitor<'_> for Once<F> {
     }
 
     fn visit_u64<E: Error>(self, value: u64) -> Result<RoundedOnce<F>, E> {
-        u32::try_from(value).map_err(E::custom).map(|value| RoundedOnce(F::from_f64(value.into())))
+        u32::try_from(value)
+            .map_err(E::custom)
+            .map(|value| RoundedOnce(F::from_f64(value.into())))
     }
 
     fn visit_i64<E: Error>(self, value: i64) -> Result<RoundedOnce<F>, E> {
-        i32::try_from(value).map_err(E::custom).map(|value| RoundedOnce(F::from_f64(value.into())))
+        i32::try_from(value)
+            .map_err(E::custom)
+            .map(|value| RoundedOnce(F::from_f64(value.into())))
     }
 }
 
@@ -102,7 +116,9 @@ mod tests {
         fn compare<F: Float>(draw: &mut Draw, read: &mut usize) {
             let digits = |draw: &mut Draw, most: i64| {
                 let count = draw.integer(1, most) as usize;
-                (0..count).map(|_| char::from(b'0' + draw.below(10) as u8)).collect::<String>()
+                (0..count)
+                    .map(|_| char::from(b'0' + draw.below(10) as u8))
+                    .collect::<String>()
             };
             let mut number = || {
                 let sign = draw.pick(&["", "-"]);
@@ -111,7 +127,10 @@ mod tests {
                     1 => format!("{sign}{}{}", draw.integer(1, i64::MAX), digits(draw, 3)),
                     2..=11 => number::write(F::from_bits(draw.integer(0, i64::MAX) as u64)),
                     12..=20 => {
-                        format!("{sign}{}", draw.pick(&["0", "0.0", "1", "16777217", "1e-46"]))
+                        format!(
+                            "{sign}{}",
+                            draw.pick(&["0", "0.0", "1", "16777217", "1e-46"])
+                        )
                     }
                     21..=30 => format!("{sign}1{}.{}", digits(draw, 25), digits(draw, 60)),
                     _ => format!("{sign}3.{}e{}", digits(draw, 30), draw.integer(-60, 50)),
@@ -135,7 +154,10 @@ mod tests {
             compare::<f32>(&mut draw, &mut read[0]);
             compare::<f64>(&mut draw, &mut read[1]);
         }
-        assert!(read.iter().all(|read| (400..4000).contains(read)), "{read:?}");
+        assert!(
+            read.iter().all(|read| (400..4000).contains(read)),
+            "{read:?}"
+        );
         let long = format!("0.{}1", "0".repeat(4096));
         let long = format!(
             r#"{{"scalar":"f32","origin":[0,0,{long}],"direction":[0,0,-1],"a":[0,0,0],"b":[4,0,0],"c":[0,4,0]}}"#

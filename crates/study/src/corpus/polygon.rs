@@ -15,7 +15,11 @@ type Three = [usize; 3];
 /// no area so, or a fan that folds over and more than 4,096 corners.
 pub(super) fn triangles(corners: &[[f64; 3]]) -> Option<Vec<Three>> {
     if corners.len() == 3 || !folds(corners) {
-        return Some((2..corners.len()).map(|corner| [0, corner - 1, corner]).collect());
+        return Some(
+            (2..corners.len())
+                .map(|corner| [0, corner - 1, corner])
+                .collect(),
+        );
     }
     if corners.len() > MOST {
         return None;
@@ -31,7 +35,10 @@ pub(super) fn triangles(corners: &[[f64; 3]]) -> Option<Vec<Three>> {
 }
 
 fn seen_along(axis: usize, corners: &[[f64; 3]]) -> Vec<[f64; 2]> {
-    corners.iter().map(|corner| [corner[(axis + 1) % 3], corner[(axis + 2) % 3]]).collect()
+    corners
+        .iter()
+        .map(|corner| [corner[(axis + 1) % 3], corner[(axis + 2) % 3]])
+        .collect()
 }
 
 fn area_in_floats(points: &[[f64; 2]]) -> f64 {
@@ -44,14 +51,21 @@ fn area_in_floats(points: &[[f64; 2]]) -> f64 {
 /// Cuts off a corner whose triangle holds no other, and again from the rest. The result is checked: all triangles turn the
 /// polygon's way, and no two overlap.
 fn ears(points: &[[f64; 2]], mut left: Vec<usize>) -> Option<Vec<Three>> {
-    let points = Points { points, turn: decide!(turn_of(points)) };
+    let points = Points {
+        points,
+        turn: decide!(turn_of(points)),
+    };
     if points.turn == Ordering::Equal {
         return None;
     }
     let (mut ears, mut at, mut tried) = (Vec::new(), 0, 0);
     while left.len() > 3 {
         let last = left.len() - 1;
-        let ear = [left[(at + last) % left.len()], left[at], left[(at + 1) % left.len()]];
+        let ear = [
+            left[(at + last) % left.len()],
+            left[at],
+            left[(at + 1) % left.len()],
+        ];
         if points.is_ear(ear, &left) {
             ears.push(ear);
             left.remove(at);
@@ -94,7 +108,8 @@ fn side_in_floats([a, b, c]: &[[f64; 2]; 3]) -> Option<Ordering> {
     // the rest of 8.
     let is_certain = (left - right).abs() > 4.0 * f64::EPSILON * size;
     let is_moderate = (1e-150..1e150).contains(&size);
-    left.partial_cmp(&right).filter(|_| is_certain && is_moderate)
+    left.partial_cmp(&right)
+        .filter(|_| is_certain && is_moderate)
 }
 
 struct Points<'a> {
@@ -108,7 +123,11 @@ impl Points<'_> {
     fn side(&self, from: usize, to: usize, point: usize) -> Ordering {
         let points = [from, to, point].map(|corner| self.points[corner]);
         let side = side_in_floats(&points).unwrap_or_else(|| decide!(side_of(&points)));
-        if self.turn == Ordering::Less { side.reverse() } else { side }
+        if self.turn == Ordering::Less {
+            side.reverse()
+        } else {
+            side
+        }
     }
 
     /// The least and the greatest coordinate of a triangle.
@@ -137,8 +156,11 @@ impl Points<'_> {
     /// on its outer side.
     fn are_apart(&self, triangles: &[Three]) -> bool {
         let keeps_out = |[a, b, c]: Three, other: Three| {
-            let is_out =
-                |(from, to)| other.iter().all(|p| self.side(from, to, *p) != Ordering::Greater);
+            let is_out = |(from, to)| {
+                other
+                    .iter()
+                    .all(|p| self.side(from, to, *p) != Ordering::Greater)
+            };
             [(a, b), (b, c), (c, a)].into_iter().any(is_out)
         };
         let are_apart = |one: Three, other: Three| {
@@ -188,7 +210,10 @@ mod tests {
     /// The triangles, which cover each place that the polygon goes around, and no other, once. Places are the points of
     /// a grid that meets no line through two corners, as coordinates are multiples of 64 and below 64 · 64.
     fn check(points: &[[i64; 2]]) -> Option<Vec<Three>> {
-        let points: Vec<[i64; 2]> = points.iter().map(|point| point.map(|x| 64 * 64 * x)).collect();
+        let points: Vec<[i64; 2]> = points
+            .iter()
+            .map(|point| point.map(|x| 64 * 64 * x))
+            .collect();
         let found = triangles(&lifted(&points, 0.25));
         for scale in [f64::powi(2.0, -980), f64::powi(2.0, 900)] {
             assert_eq!(triangles(&lifted(&points, scale)), found, "{points:?}");
@@ -202,13 +227,20 @@ mod tests {
                 let corners = triangle.map(|corner| points[corner]);
                 let edges =
                     [[0, 1], [1, 2], [2, 0]].map(|[i, j]| twice_area([corners[i], corners[j], at]));
-                if edges.contains(&0) { None } else { Some(rounds(&corners, at)) }
+                if edges.contains(&0) {
+                    None
+                } else {
+                    Some(rounds(&corners, at))
+                }
             };
             let each: Option<Vec<i64>> = found.iter().flatten().map(of_triangle).collect();
             if let (Some(each), true) = (each, found.is_some()) {
                 let covered: i64 = each.iter().sum();
                 assert_eq!(covered, rounds(&points, at), "{points:?} at {at:?}");
-                assert!(each.iter().filter(|rounds| **rounds != 0).count() < 2, "{points:?}");
+                assert!(
+                    each.iter().filter(|rounds| **rounds != 0).count() < 2,
+                    "{points:?}"
+                );
             }
         }
         found
@@ -250,7 +282,18 @@ mod tests {
             [0, 1],
         ];
         // Corners on edges, which other faces share.
-        let flat = [[0, 0], [2, 0], [4, 0], [4, 1], [2, 1], [1, 1], [1, 3], [1, 4], [0, 4], [0, 2]];
+        let flat = [
+            [0, 0],
+            [2, 0],
+            [4, 0],
+            [4, 1],
+            [2, 1],
+            [1, 1],
+            [1, 3],
+            [1, 4],
+            [0, 4],
+            [0, 2],
+        ];
         for shape in [&ell[..], &dart, &COMB, &spiral, &flat] {
             let mut shape = shape.to_vec();
             for _ in 0..shape.len() {
@@ -269,7 +312,18 @@ mod tests {
 
     #[test]
     fn a_hole_on_a_bridge_and_repeated_corners_are_cut() {
-        let hole = [[0, 0], [8, 0], [8, 8], [0, 8], [0, 0], [2, 2], [2, 6], [6, 6], [6, 2], [2, 2]];
+        let hole = [
+            [0, 0],
+            [8, 0],
+            [8, 8],
+            [0, 8],
+            [0, 0],
+            [2, 2],
+            [2, 6],
+            [6, 6],
+            [6, 2],
+            [2, 2],
+        ];
         let found = check(&hole).expect("cut");
         assert_eq!(found.len(), hole.len() - 2);
         let mut twice: Vec<[i64; 2]> = COMB.iter().flat_map(|corner| [*corner; 2]).collect();
@@ -282,19 +336,37 @@ mod tests {
         let bow = [[0, 0], [2, 2], [2, 0], [0, 2]];
         let uneven_bow = [[0, 0], [5, 5], [5, 0], [0, 2]];
         let star = [[3, 0], [-2, 2], [1, -3], [1, 3], [-2, -2]];
-        let twice = [[0, 0], [8, 0], [8, 8], [0, 8], [0, 1], [7, 1], [7, 7], [1, 7]];
+        let twice = [
+            [0, 0],
+            [8, 0],
+            [8, 8],
+            [0, 8],
+            [0, 1],
+            [7, 1],
+            [7, 7],
+            [1, 7],
+        ];
         let line = [[0, 0], [4, 0], [2, 0], [6, 0], [1, 0]];
         for shape in [&bow[..], &uneven_bow, &star, &twice] {
             assert_eq!(check(shape), None, "{shape:?}");
         }
-        assert_eq!(check(&line).map(|fan| fan.len()), Some(3), "without area it does not fold");
+        assert_eq!(
+            check(&line).map(|fan| fan.len()),
+            Some(3),
+            "without area it does not fold"
+        );
         let comb = |teeth: i64| -> Vec<[i64; 2]> {
             let tooth = |i: i64| [[2 * i, 5], [2 * i, 1], [2 * i - 1, 1], [2 * i - 1, 5]];
             let ends = [[0, 0], [2 * MOST as i64, 0]];
-            ends.into_iter().chain((1..=teeth).rev().flat_map(tooth)).collect()
+            ends.into_iter()
+                .chain((1..=teeth).rev().flat_map(tooth))
+                .collect()
         };
         let long = comb(1023);
-        assert_eq!(triangles(&lifted(&long, 1.0)).map(|found| found.len()), Some(4092));
+        assert_eq!(
+            triangles(&lifted(&long, 1.0)).map(|found| found.len()),
+            Some(4092)
+        );
         assert_eq!(triangles(&lifted(&comb(1024), 1.0)), None);
     }
 
@@ -304,8 +376,9 @@ mod tests {
         let (mut cut, mut left_out) = (0, 0);
         for _ in 0..1500 {
             let corners = draw.integer(4, 9);
-            let points: Vec<[i64; 2]> =
-                (0..corners).map(|_| [draw.integer(0, 6), draw.integer(0, 6)]).collect();
+            let points: Vec<[i64; 2]> = (0..corners)
+                .map(|_| [draw.integer(0, 6), draw.integer(0, 6)])
+                .collect();
             let edge = |i: usize| [points[i], points[(i + 1) % points.len()]];
             let meet = |i: usize, j: usize| {
                 let ([a, b], [c, d]) = (edge(i), edge(j));
@@ -325,7 +398,11 @@ mod tests {
             });
             let found = check(&points);
             if is_simple {
-                assert_eq!(found.map(|found| found.len()), Some(points.len() - 2), "{points:?}");
+                assert_eq!(
+                    found.map(|found| found.len()),
+                    Some(points.len() - 2),
+                    "{points:?}"
+                );
                 cut += 1;
             } else if found.is_none() {
                 left_out += 1;

@@ -55,7 +55,10 @@ impl StoredCase {
 
     /// The same with its truth.
     pub fn with_truth(self) -> StoredCase {
-        StoredCase { truth: Some(StoredTruth::from(&self.truth_line(true))), ..self }
+        StoredCase {
+            truth: Some(StoredTruth::from(&self.truth_line(true))),
+            ..self
+        }
     }
 }
 
@@ -72,5 +75,8 @@ pub(super) fn check_name(name: String) -> Result<String, String> {
         _ if name.len() > LONGEST_NAME => format!("it has more than {LONGEST_NAME} bytes"),
         _ => return Ok(name),
     };
-    Err(format!("{} cannot name a case: {wrong}", json::quoted(&name)))
+    Err(format!(
+        "{} cannot name a case: {wrong}",
+        json::quoted(&name)
+    ))
 }

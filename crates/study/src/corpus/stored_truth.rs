@@ -11,7 +11,13 @@ use serde_json::Value;
 /// The most characters of a fraction. On the whole range of `f64` t has fewer than 4,000.
 const LONGEST_FRACTION: usize = 10_000;
 
-const CLASSES: [&str; 5] = ["transversal", "parallel", "coplanar", "degenerate", "invalid"];
+const CLASSES: [&str; 5] = [
+    "transversal",
+    "parallel",
+    "coplanar",
+    "degenerate",
+    "invalid",
+];
 const CONTACT_KINDS: [&str; 3] = ["none", "point", "segment"];
 
 const FIELDS: [&str; 10] = [
@@ -64,12 +70,18 @@ impl StoredTruth {
     pub fn check(&self, line: &TruthLine) -> Result<(), String> {
         let found = StoredTruth::from(line);
         for (field, stored) in self.0.iter().filter(|(field, _)| *field != "name") {
-            let found = found.0.iter().find(|(other, _)| other == field).map(|(_, value)| value);
+            let found = found
+                .0
+                .iter()
+                .find(|(other, _)| other == field)
+                .map(|(_, value)| value);
             match (stored, found) {
                 (Value::Object(stored), Some(Value::Object(found))) => {
                     for field in CONTACT_FIELDS {
                         let path = format!("contact.{field}");
-                        stored.get(field).map_or(Ok(()), |it| same(&path, it, found.get(field)))?;
+                        stored
+                            .get(field)
+                            .map_or(Ok(()), |it| same(&path, it, found.get(field)))?;
                     }
                 }
                 _ => same(field, stored, found)?,
@@ -80,7 +92,9 @@ impl StoredTruth {
 
     /// True if a fraction is stored, so that those of the truth are needed to check it.
     pub fn has_fractions(&self) -> bool {
-        self.0.iter().any(|(field, value)| field.ends_with("_exact") || value.get("t").is_some())
+        self.0
+            .iter()
+            .any(|(field, value)| field.ends_with("_exact") || value.get("t").is_some())
     }
 }
 
@@ -121,7 +135,10 @@ fn contact(text: &str) -> Result<Value, String> {
             Ok(Value::from(vec![fraction(first)?, fraction(last)?]))
         }
     })?;
-    Ok(fields.into_iter().map(|(field, value)| (field.to_owned(), value)).collect())
+    Ok(fields
+        .into_iter()
+        .map(|(field, value)| (field.to_owned(), value))
+        .collect())
 }
 
 /// An error if a stored value is not the one that was found; a missing one is null.
@@ -156,12 +173,21 @@ fn word(value: &str, known: &[&str]) -> Result<Value, String> {
     if known.contains(&text.as_str()) {
         return Ok(Value::from(text));
     }
-    Err(format!("{} is none of {}", json::quoted(&text), known.join(", ")))
+    Err(format!(
+        "{} is none of {}",
+        json::quoted(&text),
+        known.join(", ")
+    ))
 }
 
 fn boolean(value: &str) -> Result<Value, String> {
     let parsed = value.parse().map(Value::Bool);
-    parsed.map_err(|_| format!("expected true, false or null, found {}", json::excerpt(value)))
+    parsed.map_err(|_| {
+        format!(
+            "expected true, false or null, found {}",
+            json::excerpt(value)
+        )
+    })
 }
 
 /// `p/q` or an integer, in a string; reduced.
@@ -169,7 +195,10 @@ fn fraction(value: &str) -> Result<Value, String> {
     let text = json::string(value)?;
     match parse_fraction(&text) {
         Some(fraction) => Ok(Value::from(fraction_text(&fraction))),
-        None => Err(format!("{} is not a fraction p/q with q > 0", json::quoted(&text))),
+        None => Err(format!(
+            "{} is not a fraction p/q with q > 0",
+            json::quoted(&text)
+        )),
     }
 }
 
@@ -193,7 +222,11 @@ mod tests {
 
     #[test]
     fn a_stored_truth_is_the_printed_one_or_part_of_it() {
-        for line in [transversal(), contact(ContactKind::Segment), contact(ContactKind::None)] {
+        for line in [
+            transversal(),
+            contact(ContactKind::Segment),
+            contact(ContactKind::None),
+        ] {
             let printed = serde_json::to_string(&line).unwrap();
             let stored = StoredTruth::parse(&printed).unwrap();
             assert_eq!(stored.check(&line), Ok(()));
@@ -201,8 +234,16 @@ mod tests {
             assert_eq!(stored.0[0].0, "name");
             assert_eq!(stored.0[1..], StoredTruth::from(&line).0);
         }
-        for part in ["{}", r#"{"name":"other"}"#, r#"{"v_exact":"3","t_exact":"-15/10"}"#] {
-            assert_eq!(StoredTruth::parse(part).unwrap().check(&transversal()), Ok(()), "{part}");
+        for part in [
+            "{}",
+            r#"{"name":"other"}"#,
+            r#"{"v_exact":"3","t_exact":"-15/10"}"#,
+        ] {
+            assert_eq!(
+                StoredTruth::parse(part).unwrap().check(&transversal()),
+                Ok(()),
+                "{part}"
+            );
         }
         let part = StoredTruth::parse(r#"{"contact":{"t":["2/6","4"]}}"#).unwrap();
         assert_eq!(part.check(&contact(ContactKind::Segment)), Ok(()));
@@ -213,15 +254,60 @@ mod tests {
         let segment = contact(ContactKind::Segment);
         let point = contact(ContactKind::Point(Feature::EdgeAb));
         for (stored, line, is, says) in [
-            (r#"{"class":"parallel"}"#, transversal(), "class is 'parallel'", "'transversal'"),
-            (r#"{"facing":"back"}"#, transversal(), "facing is 'back'", "'front'"),
-            (r#"{"t":"at_min"}"#, transversal(), "t is 'at_min'", "'within'"),
-            (r#"{"feature":"edge_ab"}"#, transversal(), "feature is 'edge_ab'", "'vertex_a'"),
-            (r#"{"feature":null}"#, transversal(), "feature is null", "'vertex_a'"),
-            (r#"{"feature":"interior"}"#, point.clone(), "feature is 'interior'", "null"),
-            (r#"{"contact":{}}"#, transversal(), "contact is 'some'", "null"),
-            (r#"{"contact":{"kind":"none"}}"#, transversal(), "contact is 'none'", "null"),
-            (r#"{"contact":null}"#, segment.clone(), "contact is null", "'segment'"),
+            (
+                r#"{"class":"parallel"}"#,
+                transversal(),
+                "class is 'parallel'",
+                "'transversal'",
+            ),
+            (
+                r#"{"facing":"back"}"#,
+                transversal(),
+                "facing is 'back'",
+                "'front'",
+            ),
+            (
+                r#"{"t":"at_min"}"#,
+                transversal(),
+                "t is 'at_min'",
+                "'within'",
+            ),
+            (
+                r#"{"feature":"edge_ab"}"#,
+                transversal(),
+                "feature is 'edge_ab'",
+                "'vertex_a'",
+            ),
+            (
+                r#"{"feature":null}"#,
+                transversal(),
+                "feature is null",
+                "'vertex_a'",
+            ),
+            (
+                r#"{"feature":"interior"}"#,
+                point.clone(),
+                "feature is 'interior'",
+                "null",
+            ),
+            (
+                r#"{"contact":{}}"#,
+                transversal(),
+                "contact is 'some'",
+                "null",
+            ),
+            (
+                r#"{"contact":{"kind":"none"}}"#,
+                transversal(),
+                "contact is 'none'",
+                "null",
+            ),
+            (
+                r#"{"contact":null}"#,
+                segment.clone(),
+                "contact is null",
+                "'segment'",
+            ),
             (
                 r#"{"contact":{"kind":"none"}}"#,
                 segment.clone(),
@@ -240,14 +326,42 @@ mod tests {
                 "contact.t is '[1/3, 5/1]'",
                 "'[1/3, 4/1]'",
             ),
-            (r#"{"contact":{"t":null}}"#, segment, "contact.t is null", "'[1/3, 4/1]'"),
-            (r#"{"hits_closed":false}"#, transversal(), "hits_closed is 'false'", "'true'"),
-            (r#"{"t_exact":"3/2"}"#, transversal(), "t_exact is '3/2'", "'-3/2'"),
-            (r#"{"u_exact":"1"}"#, transversal(), "u_exact is '1/1'", "'0/1'"),
-            (r#"{"v_exact":null}"#, transversal(), "v_exact is null", "'3/1'"),
+            (
+                r#"{"contact":{"t":null}}"#,
+                segment,
+                "contact.t is null",
+                "'[1/3, 4/1]'",
+            ),
+            (
+                r#"{"hits_closed":false}"#,
+                transversal(),
+                "hits_closed is 'false'",
+                "'true'",
+            ),
+            (
+                r#"{"t_exact":"3/2"}"#,
+                transversal(),
+                "t_exact is '3/2'",
+                "'-3/2'",
+            ),
+            (
+                r#"{"u_exact":"1"}"#,
+                transversal(),
+                "u_exact is '1/1'",
+                "'0/1'",
+            ),
+            (
+                r#"{"v_exact":null}"#,
+                transversal(),
+                "v_exact is null",
+                "'3/1'",
+            ),
         ] {
             let message = format!("stored truth is wrong: {is}, the oracle says {says}");
-            assert_eq!(StoredTruth::parse(stored).unwrap().check(&line), Err(message));
+            assert_eq!(
+                StoredTruth::parse(stored).unwrap().check(&line),
+                Err(message)
+            );
         }
     }
 
@@ -256,20 +370,44 @@ mod tests {
         for (text, message) in [
             ("[]", "expected an object, found []"),
             (r#"{"class":null}"#, "class: cannot be null"),
-            (r#"{"class":"hit"}"#, "class: 'hit' is none of transversal, parallel, "),
-            (r#"{"t":"inside"}"#, "t: 'inside' is none of before, at_min, within, at_max, beyond"),
+            (
+                r#"{"class":"hit"}"#,
+                "class: 'hit' is none of transversal, parallel, ",
+            ),
+            (
+                r#"{"t":"inside"}"#,
+                "t: 'inside' is none of before, at_min, within, at_max, beyond",
+            ),
             (r#"{"facing":3}"#, "facing: expected a string, found 3"),
-            (r#"{"feature":"edge"}"#, "feature: 'edge' is none of interior, edge_ab, "),
+            (
+                r#"{"feature":"edge"}"#,
+                "feature: 'edge' is none of interior, edge_ab, ",
+            ),
             (r#"{"t_exact":3}"#, "t_exact: expected a string, found 3"),
-            (r#"{"u_exact":"1/0"}"#, "u_exact: '1/0' is not a fraction p/q with q > 0"),
+            (
+                r#"{"u_exact":"1/0"}"#,
+                "u_exact: '1/0' is not a fraction p/q with q > 0",
+            ),
             (r#"{"u_exact":"1/-2"}"#, "u_exact: '1/-2' is not a fraction"),
             (r#"{"u_exact":"+1/2"}"#, "u_exact: '+1/2' is not a fraction"),
             (r#"{"u_exact":"0.5"}"#, "u_exact: '0.5' is not a fraction"),
             (r#"{"u_exact":"1_0"}"#, "u_exact: '1_0' is not a fraction"),
-            (r#"{"hits_closed":1}"#, "hits_closed: expected true, false or null, found 1"),
-            (r#"{"contact":"none"}"#, "contact: expected an object, found \"none\""),
-            (r#"{"contact":{"kind":"line"}}"#, "contact: kind: 'line' is none of none, point, "),
-            (r#"{"contact":{"t":["1"]}}"#, "contact: t: expected 2 fractions, found 1"),
+            (
+                r#"{"hits_closed":1}"#,
+                "hits_closed: expected true, false or null, found 1",
+            ),
+            (
+                r#"{"contact":"none"}"#,
+                "contact: expected an object, found \"none\"",
+            ),
+            (
+                r#"{"contact":{"kind":"line"}}"#,
+                "contact: kind: 'line' is none of none, point, ",
+            ),
+            (
+                r#"{"contact":{"t":["1"]}}"#,
+                "contact: t: expected 2 fractions, found 1",
+            ),
             (
                 r#"{"contact":{"t":"1"}}"#,
                 "contact: t: expected an array of 2 fractions, found \"1\"",
@@ -278,7 +416,10 @@ mod tests {
                 r#"{"contact":{"u":1}}"#,
                 "contact: unknown field 'u', expected one of kind, feature, t",
             ),
-            (r#"{"hit":true}"#, "unknown field 'hit', expected one of name, class, facing, t, "),
+            (
+                r#"{"hit":true}"#,
+                "unknown field 'hit', expected one of name, class, facing, t, ",
+            ),
             (r#"{"t":null,"t":null}"#, "duplicate field 't'"),
         ] {
             let error = StoredTruth::parse(text).unwrap_err();

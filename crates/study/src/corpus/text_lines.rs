@@ -21,7 +21,14 @@ pub struct TextLines<R> {
 impl<R: BufRead> TextLines<R> {
     /// The lines of a reader; `file` is the name in errors, `longest` the most bytes of a line.
     pub fn new(reader: R, file: &str, longest: usize) -> TextLines<R> {
-        TextLines { reader, file: file.to_owned(), longest, number: 0, inside: false, ended: false }
+        TextLines {
+            reader,
+            file: file.to_owned(),
+            longest,
+            number: 0,
+            inside: false,
+            ended: false,
+        }
     }
 
     /// How many lines were read.
@@ -72,7 +79,9 @@ impl<R: BufRead> Iterator for TextLines<R> {
             };
             if self.inside {
                 let longest = self.longest;
-                return Some(Err(self.error(format!("a line of more than {longest} bytes"))));
+                return Some(Err(
+                    self.error(format!("a line of more than {longest} bytes"))
+                ));
             }
             match String::from_utf8(bytes) {
                 Ok(text) if text.trim_ascii().is_empty() => {}

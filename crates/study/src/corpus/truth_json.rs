@@ -90,7 +90,11 @@ impl ContactLine {
             ContactKind::Point(feature) => ("point", Some(feature.name())),
             ContactKind::Segment => ("segment", None),
         };
-        ContactLine { kind, feature, t: None }
+        ContactLine {
+            kind,
+            feature,
+            t: None,
+        }
     }
 }
 
@@ -118,14 +122,34 @@ pub(super) mod tests {
             feature: Feature::VertexA,
         });
         let [t, u, v] = [ratio(6, -4), ratio(0, 7), ratio(3, 1)].map(Some);
-        TruthLine::new(Some("one"), &truth, Some(&ExactValues { t, u, v, contact_t: None }))
+        TruthLine::new(
+            Some("one"),
+            &truth,
+            Some(&ExactValues {
+                t,
+                u,
+                v,
+                contact_t: None,
+            }),
+        )
     }
 
     /// In the plane, from t = 1/3 to 4.
     pub fn contact(kind: ContactKind) -> TruthLine {
-        let truth = Truth::Coplanar(Contact { kind, meets_ray: true, meets_line: true });
+        let truth = Truth::Coplanar(Contact {
+            kind,
+            meets_ray: true,
+            meets_line: true,
+        });
         let contact_t = Some([ratio(1, 3), ratio(4, 1)]);
-        TruthLine::new(None, &truth, Some(&ExactValues { contact_t, ..ExactValues::default() }))
+        TruthLine::new(
+            None,
+            &truth,
+            Some(&ExactValues {
+                contact_t,
+                ..ExactValues::default()
+            }),
+        )
     }
 
     #[test]
@@ -145,16 +169,27 @@ pub(super) mod tests {
                 + nulls
         );
         for (kind, json) in [
-            (ContactKind::None, r#"{"kind":"none","feature":null,"t":null}"#),
+            (
+                ContactKind::None,
+                r#"{"kind":"none","feature":null,"t":null}"#,
+            ),
             (
                 ContactKind::Point(Feature::EdgeBc),
                 r#"{"kind":"point","feature":"edge_bc","t":["1/3","4/1"]}"#,
             ),
-            (ContactKind::Segment, r#"{"kind":"segment","feature":null,"t":["1/3","4/1"]}"#),
+            (
+                ContactKind::Segment,
+                r#"{"kind":"segment","feature":null,"t":["1/3","4/1"]}"#,
+            ),
         ] {
             let hits = kind != ContactKind::None;
             let rest = format!(r#""contact":{json},"hits_closed":{hits},{nulls}"#);
-            assert!(serde_json::to_string(&contact(kind)).unwrap().ends_with(&rest), "{rest}");
+            assert!(
+                serde_json::to_string(&contact(kind))
+                    .unwrap()
+                    .ends_with(&rest),
+                "{rest}"
+            );
         }
     }
 }

@@ -38,7 +38,11 @@ fn cap(knob: Knob, gates: &[Gate], scene: Option<&Scene>) -> f64 {
     let Some(scene) = scene else { return f64::MAX };
     let Dimension { length, direction } = knob.gate(gates).dimension;
     let farthest = scene.distance[1].max(scene.edge[1]);
-    let size = if knob.gate(gates).role == Role::T { farthest } else { scene.edge[1] };
+    let size = if knob.gate(gates).role == Role::T {
+        farthest
+    } else {
+        scene.edge[1]
+    };
     let [shortest, longest] = match scene.direction {
         DirectionLength::Unit => [1.0, 1.0],
         DirectionLength::Target => [scene.edge[0], farthest],
@@ -63,7 +67,9 @@ impl Merge for Ranges {
     fn merge(&mut self, other: Ranges) {
         let pairs = self.above.iter_mut().zip(other.above);
         for (range, more) in pairs.chain(self.below.iter_mut().zip(other.below)) {
-            more.into_iter().flatten().for_each(|size| widen(range, size));
+            more.into_iter()
+                .flatten()
+                .for_each(|size| widen(range, size));
         }
     }
 }
@@ -77,7 +83,10 @@ pub fn grid<F: Scalar>(
     pass: Pass<'_>,
 ) -> (KnobGrid<F>, usize) {
     let gates = setting.row.entry.info.gates;
-    let empty = || Ranges { above: [None; MOST_KNOBS], below: [None; MOST_KNOBS] };
+    let empty = || Ranges {
+        above: [None; MOST_KNOBS],
+        below: [None; MOST_KNOBS],
+    };
     let add = |ranges: &mut Ranges, trial: Trial<'_, F>| {
         let kind = setting.counts[trial.count].kind;
         let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(&trial));
@@ -121,7 +130,10 @@ pub fn grid<F: Scalar>(
             }
         }
     };
-    let pilot = Pass { count: pass.count.min(PILOT), ..pass };
+    let pilot = Pass {
+        count: pass.count.min(PILOT),
+        ..pass
+    };
     let ranges = setting.sum(pilot, empty, add);
     let mut step = 0;
     loop {
@@ -139,7 +151,10 @@ pub fn grid<F: Scalar>(
             setting.knobs.iter().enumerate().map(of_knob).unzip();
         let points: usize = values.iter().map(|values| values.len() + 1).product();
         if points <= most_points || step == 8 {
-            return (KnobGrid::new(values), steps.into_iter().fold(step, usize::max));
+            return (
+                KnobGrid::new(values),
+                steps.into_iter().fold(step, usize::max),
+            );
         }
         step += 1;
     }
@@ -151,14 +166,21 @@ pub fn round_values<F: Float>(special: &[F], is_fine: bool) -> Vec<F> {
     let mut values = vec![F::zero()];
     values.extend(special);
     for sign in [F::one(), -F::one()] {
-        let sizes = special.iter().map(|x| (*x * sign).to_f64()).filter(|size| 0.0 < *size);
+        let sizes = special
+            .iter()
+            .map(|x| (*x * sign).to_f64())
+            .filter(|size| 0.0 < *size);
         let ends = sizes.fold(None, |ends: Option<[f64; 2]>, size| {
             let [low, high] = ends.unwrap_or([size; 2]);
             Some([low.min(size), high.max(size)])
         });
         let around = ends.map(|[low, high]| {
             let ends = [low / 1e3, high * 1e3];
-            let more = if is_fine { two_digits::<F>(ends) } else { Vec::new() };
+            let more = if is_fine {
+                two_digits::<F>(ends)
+            } else {
+                Vec::new()
+            };
             [few_rounds::<F>(ends, 0).0, more].concat()
         });
         values.extend(around.into_iter().flatten().map(|x| x * sign));
@@ -185,7 +207,9 @@ fn in_order<F: Float>(mut values: Vec<F>) -> Vec<F> {
 /// At most [`MOST_VALUES`] round numbers over a range, and the first step from the given one on that has so few.
 fn few_rounds<F: Float>(range: [f64; 2], step: usize) -> (Vec<F>, usize) {
     let all = (step..).map(|step| (rounds::<F>(range, step), step));
-    all.into_iter().find(|(values, _)| values.len() <= MOST_VALUES).expect("in the end one is left")
+    all.into_iter()
+        .find(|(values, _)| values.len() <= MOST_VALUES)
+        .expect("in the end one is left")
 }
 
 /// Round numbers from one at or below a range to one at or above it: 1, 2 and 5 of each decade; in step 1 the powers of
@@ -198,9 +222,12 @@ fn rounds<F: Float>([low, high]: [f64; 2], step: usize) -> Vec<F> {
     let decades = DECADES.filter(|k| k % every == 0);
     let all = decades.flat_map(|k| digits.iter().map(move |d| format!("{d}e{k}")));
     let all = all.filter_map(|text| Some((text.parse::<f64>().ok()?, F::parse(&text)?)));
-    let all: Vec<(f64, F)> =
-        all.filter(|(wide, value)| normal <= *wide && value.is_finite()).collect();
-    let first = all.partition_point(|(wide, _)| *wide <= low).saturating_sub(1);
+    let all: Vec<(f64, F)> = all
+        .filter(|(wide, value)| normal <= *wide && value.is_finite())
+        .collect();
+    let first = all
+        .partition_point(|(wide, _)| *wide <= low)
+        .saturating_sub(1);
     let last = (all.partition_point(|(wide, _)| *wide < high) + 1).min(all.len());
     all[first..last].iter().map(|(_, value)| *value).collect()
 }
@@ -210,8 +237,12 @@ pub fn middle<F: Float>(low: F, high: F) -> F {
     let ends = [low.to_f64(), high.to_f64()];
     let far_from_middle =
         |x: &F| (libm::log(x.to_f64() / ends[0]) - libm::log(ends[1] / x.to_f64())).abs();
-    let within = rounds::<F>(ends, 0).into_iter().filter(|x| low <= *x && *x <= high);
-    within.min_by(|a, b| far_from_middle(a).total_cmp(&far_from_middle(b))).unwrap_or(low)
+    let within = rounds::<F>(ends, 0)
+        .into_iter()
+        .filter(|x| low <= *x && *x <= high);
+    within
+        .min_by(|a, b| far_from_middle(a).total_cmp(&far_from_middle(b)))
+        .unwrap_or(low)
 }
 
 /// The grid of some values of each knob.
@@ -229,7 +260,9 @@ pub fn around<F: Float>(point: &[F], step: usize) -> KnobGrid<F> {
         let mut values = vec![F::zero(), *x];
         if 0.0 < size {
             values.extend(
-                rounds::<F>([size / factor, size * factor], step).into_iter().map(|y| y * sign),
+                rounds::<F>([size / factor, size * factor], step)
+                    .into_iter()
+                    .map(|y| y * sign),
             );
         }
         in_order(values)

@@ -28,10 +28,20 @@ pub struct Ranks {
 /// below. None of fewer than 29 trials, which cannot even show one in ten.
 pub fn ranks(n: u64) -> Option<Ranks> {
     let rounds = || (1..=18).flat_map(|k| [1u64, 2, 5].map(|d| d * 10u64.pow(k)));
-    let rarer = || rounds().skip_while(|round| *round <= ONE_IN).find_map(|it| ranks_at(n, it));
+    let rarer = || {
+        rounds()
+            .skip_while(|round| *round <= ONE_IN)
+            .find_map(|it| ranks_at(n, it))
+    };
     let shown = || rounds().take_while(|round| *round < ONE_IN);
     ranks_at(n, ONE_IN)
-        .or_else(|| if n < KEPT as u64 * ONE_IN / 4 { None } else { rarer() })
+        .or_else(|| {
+            if n < KEPT as u64 * ONE_IN / 4 {
+                None
+            } else {
+                rarer()
+            }
+        })
         .or_else(|| shown().filter_map(|round| ranks_at(n, round)).last())
 }
 
@@ -46,7 +56,11 @@ fn ranks_at(n: u64, one_in: u64) -> Option<Ranks> {
             safe = Some(k);
         }
         if at_least <= 1.0 - CONFIDENCE {
-            return safe.map(|safe| Ranks { one_in, safe, far: k });
+            return safe.map(|safe| Ranks {
+                one_in,
+                safe,
+                far: k,
+            });
         }
     }
     None
@@ -55,7 +69,9 @@ fn ranks_at(n: u64, one_in: u64) -> Option<Ranks> {
 /// How many margins of each count may decide among at most n trials.
 pub fn kept(n: u64) -> usize {
     // Of fewer trials than show the share, and a larger share, the ranks are at most 16.
-    ranks(n).map_or(0, |ranks| ranks.far as usize).clamp(64, KEPT)
+    ranks(n)
+        .map_or(0, |ranks| ranks.far as usize)
+        .clamp(64, KEPT)
 }
 
 /// True if `found` among n trials show that the share of all trials is at most one in `one_in`.
@@ -105,7 +121,10 @@ mod tests {
             for one_in in [2, 3, 10, 50] {
                 for k in 0..=n + 2 {
                     let (found, exact) = (at_least(k, n, one_in), exactly_at_least(k, n, one_in));
-                    assert!((found - exact).abs() < 1e-12, "{k} of {n}, {one_in}: {found} {exact}");
+                    assert!(
+                        (found - exact).abs() < 1e-12,
+                        "{k} of {n}, {one_in}: {found} {exact}"
+                    );
                 }
             }
         }
@@ -114,7 +133,11 @@ mod tests {
                 for one_in in [10, 20, 50] {
                     let exact = exactly_at_least(found + 1, n, one_in);
                     let shown = is_shown(found, n, one_in);
-                    assert_eq!(shown, CONFIDENCE <= exact, "{found} of {n}, {one_in}: {exact}");
+                    assert_eq!(
+                        shown,
+                        CONFIDENCE <= exact,
+                        "{found} of {n}, {one_in}: {exact}"
+                    );
                 }
             }
         }
@@ -131,7 +154,10 @@ mod tests {
             assert!(far < 16, "{n}: {far}");
             let rounds = [10, 20, 50, 100, 200, 500, 1000, 2000];
             let next = rounds.into_iter().find(|round| one_in < *round).unwrap();
-            assert!(rounds.contains(&one_in) && at_least(1, n, next) < CONFIDENCE, "{n}");
+            assert!(
+                rounds.contains(&one_in) && at_least(1, n, next) < CONFIDENCE,
+                "{n}"
+            );
         }
     }
 
@@ -144,13 +170,19 @@ mod tests {
         let mut before = 0;
         for n in (30_000..9_000_000).step_by(123_456) {
             let Ranks { one_in, safe, far } = ranks(n).unwrap();
-            assert!(one_in == ONE_IN && before <= safe && far as usize <= kept(n), "{n}");
+            assert!(
+                one_in == ONE_IN && before <= safe && far as usize <= kept(n),
+                "{n}"
+            );
             before = safe;
         }
         // Where more are not kept, the share falls, and the limit is still no extreme.
         for n in [20_000_000, 10_u64.pow(9), 10_u64.pow(12)] {
             let Ranks { one_in, safe, far } = ranks(n).unwrap();
-            assert!(ONE_IN < one_in && 100 < safe && far as usize <= KEPT, "{n}: {one_in} {safe}");
+            assert!(
+                ONE_IN < one_in && 100 < safe && far as usize <= KEPT,
+                "{n}: {one_in} {safe}"
+            );
         }
     }
 

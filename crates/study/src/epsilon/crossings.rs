@@ -42,8 +42,14 @@ struct Measured<F: Float> {
 impl<F: Scalar> Setting<'_, F> {
     /// The crossings of a chunk. Where the triangles around a group are too many to be asked, nobody is accused.
     pub(super) fn crossings(&self, source: &Source, chunk: &Chunk<F>, rays: Rays) -> Crossings<F> {
-        let mut crossings = Crossings { each: Vec::new(), around: Vec::new() };
-        let of_cracks = RayCount { rays, kind: WrongKind::Crack };
+        let mut crossings = Crossings {
+            each: Vec::new(),
+            around: Vec::new(),
+        };
+        let of_cracks = RayCount {
+            rays,
+            kind: WrongKind::Crack,
+        };
         let Some(count) = self.counts.iter().position(|count| *count == of_cracks) else {
             return crossings;
         };
@@ -60,7 +66,11 @@ impl<F: Scalar> Setting<'_, F> {
             let start = crossings.around.len();
             crossings.around.append(&mut around);
             let around = start..crossings.around.len();
-            crossings.each.push(Surrounded { count, group, around });
+            crossings.each.push(Surrounded {
+                count,
+                group,
+                around,
+            });
         }
         crossings
     }
@@ -70,17 +80,33 @@ impl<F: Scalar> Setting<'_, F> {
         let mut truths = Vec::with_capacity(around.len());
         source.ask(around, &mut truths, &mut Layers::default());
         let mut truths = truths.iter();
-        around.retain(|_| truths.next().is_some_and(|it| is_moved(it, &self.row.contract)));
+        around.retain(|_| {
+            truths
+                .next()
+                .is_some_and(|it| is_moved(it, &self.row.contract))
+        });
     }
 
     /// Adds crossings as trials. Triangles around a group come after those of the group, which is put at the end once
     /// more; those that report no hit where the group reports none are left out.
     pub(super) fn add_crossings(&self, crossings: Crossings<F>, prepared: &mut Prepared<F>) {
-        let Crossings { each, around: cases } = crossings;
+        let Crossings {
+            each,
+            around: cases,
+        } = crossings;
         let (margins, values) = self.margins(&cases);
         let relative = self.relative_margins(&cases, &margins);
-        let around = Measured { margins, relative, values };
-        for Surrounded { count, group, around: range } in each {
+        let around = Measured {
+            margins,
+            relative,
+            values,
+        };
+        for Surrounded {
+            count,
+            group,
+            around: range,
+        } in each
+        {
             let own = &prepared.margins[group.clone()];
             let relative = self.relative_margins(&prepared.cases[group.clone()], own);
             let adds = |i: &usize| {
@@ -104,8 +130,12 @@ impl<F: Scalar> Setting<'_, F> {
             prepared.margins.extend_from_within(group.clone());
             prepared.values.extend_from_within(group);
             prepared.cases.extend(kept.iter().map(|i| cases[*i]));
-            prepared.margins.extend(kept.iter().map(|i| around.margins[*i]));
-            prepared.values.extend(kept.iter().map(|i| around.values[*i].clone()));
+            prepared
+                .margins
+                .extend(kept.iter().map(|i| around.margins[*i]));
+            prepared
+                .values
+                .extend(kept.iter().map(|i| around.values[*i].clone()));
             let cases = start..prepared.cases.len();
             prepared.trials.push(PreparedTrial { cases, ..trial });
         }
@@ -114,7 +144,12 @@ impl<F: Scalar> Setting<'_, F> {
 
 /// True if one of some margins accepts whatever these accept.
 fn is_covered<F: Float>(margins: &KnobMargins<F>, by: &[KnobMargins<F>]) -> bool {
-    by.iter().any(|other| margins.iter().zip(other).all(|(margin, other)| margin <= other))
+    by.iter().any(|other| {
+        margins
+            .iter()
+            .zip(other)
+            .all(|(margin, other)| margin <= other)
+    })
 }
 
 #[cfg(test)]

@@ -26,7 +26,9 @@ struct Accepted(Vec<Vec<Vec<u64>>>);
 impl Merge for Accepted {
     fn merge(&mut self, other: Accepted) {
         let cells = self.0.iter_mut().flatten().flatten();
-        cells.zip(other.0.into_iter().flatten().flatten()).for_each(|(sum, more)| *sum += more);
+        cells
+            .zip(other.0.into_iter().flatten().flatten())
+            .for_each(|(sum, more)| *sum += more);
     }
 }
 
@@ -56,12 +58,17 @@ pub fn curves<F: Scalar>(
     let Accepted(cells) = setting.sum(pass, empty, add);
     let curve = |(values, cells): (&Vec<F>, Vec<Vec<u64>>)| {
         let at = |cells: &Vec<u64>| {
-            (0..values.len()).map(|i| cells[i + 1..=values.len()].iter().sum()).collect()
+            (0..values.len())
+                .map(|i| cells[i + 1..=values.len()].iter().sum())
+                .collect()
         };
         Curve {
             values: values.clone(),
             hits: cells.iter().map(at).collect(),
-            left: cells.iter().map(|cells| cells[..=values.len()].iter().sum()).collect(),
+            left: cells
+                .iter()
+                .map(|cells| cells[..=values.len()].iter().sum())
+                .collect(),
             of: cells.iter().map(|cells| cells.iter().sum()).collect(),
         }
     };
@@ -81,7 +88,10 @@ pub fn axes<F: Float>(
         let limits = limits.iter().filter(|limit| limit.knob == knob);
         let proofs = proofs.iter().filter(|proved| proved.knob == knob);
         let limits = limits.filter_map(|limit| limit.value);
-        let special: Vec<F> = own.chain(limits).chain(proofs.map(|proved| proved.value)).collect();
+        let special: Vec<F> = own
+            .chain(limits)
+            .chain(proofs.map(|proved| proved.value))
+            .collect();
         round_values(&special, is_fine)
     };
     let knobs = tried.first().map_or(0, |(_, epsilons)| epsilons.len());

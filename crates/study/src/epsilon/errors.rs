@@ -41,15 +41,19 @@ impl MaxError {
         let mut most = MaxError::default();
         for word in text.split(',').map(str::trim) {
             let expected = "write t=1e-3 (relative) or point=0.01 (in the scene's unit), or both";
-            let (key, number) =
-                word.split_once('=').ok_or_else(|| format!("'{word}' is no error: {expected}"))?;
+            let (key, number) = word
+                .split_once('=')
+                .ok_or_else(|| format!("'{word}' is no error: {expected}"))?;
             let value = Value::named(key.trim());
             let value = value.ok_or_else(|| format!("unknown value '{key}': {expected}"))?;
             if most.of[value as usize].is_some() {
                 return Err(format!("'{key}' is given twice"));
             }
             let number = number.trim();
-            let error = number.parse().ok().filter(|x: &f64| 0.0 < *x && x.is_finite());
+            let error = number
+                .parse()
+                .ok()
+                .filter(|x: &f64| 0.0 < *x && x.is_finite());
             let error = error.ok_or_else(|| format!("{key}={number}: not a number above 0"))?;
             most.of[value as usize] = Some(error);
         }
@@ -76,7 +80,9 @@ impl MaxError {
 /// The errors of what a kernel reports of a trial's first triangle, if that is a hit.
 pub fn errors_of<F: Float>(trial: &Trial<'_, F>) -> HitErrors {
     let values = trial.values[0].as_ref();
-    values.map_or([None; Value::ALL.len()], |hit| hit_errors(&trial.cases[0], hit))
+    values.map_or([None; Value::ALL.len()], |hit| {
+        hit_errors(&trial.cases[0], hit)
+    })
 }
 
 /// The errors of a hit on a triangle whose plane the line crosses.
@@ -156,7 +162,11 @@ mod tests {
             let t = (z - o[2]) / d[2] * (1.0 + draw.symmetric::<f32>() / 1024.0);
             let exact = (rational(z) - rational(o[2])) / rational(d[2]);
             let off = (rational(t) - &exact) / &exact;
-            let hit = Hit { t: Some(t), uv: None, facing: None };
+            let hit = Hit {
+                t: Some(t),
+                uv: None,
+                facing: None,
+            };
             let [of_t, of_point] = hit_errors(&Case::new(o, d, corners), &hit);
             let close = |found: f64, expected: f64| (found - expected).abs() <= 1e-5 * expected;
             assert!(close(of_t.unwrap(), to_f64(&off).abs()), "{of_t:?} {off}");
@@ -168,7 +178,11 @@ mod tests {
                 .sum();
             assert!(close(of_point.unwrap(), square.sqrt()), "{of_point:?}");
         }
-        let hit = Hit { t: Some(f32::NAN), uv: None, facing: None };
+        let hit = Hit {
+            t: Some(f32::NAN),
+            uv: None,
+            facing: None,
+        };
         let case = Case::new([0.0; 3], [0.0, 0.0, 1.0], [[0.0, 0.0, 1.0]; 3]);
         assert_eq!(hit_errors(&case, &hit)[1], Some(f64::INFINITY));
     }
@@ -194,7 +208,11 @@ mod tests {
             let off = |i: usize| to_f64(&(rational(at(i)) - (&ro[i] + &t * &rd[i])));
             let distance = (0..3).map(|i| off(i).powi(2)).sum::<f64>().sqrt();
             let case = Case::new(o, d, corners);
-            let hit = Hit { t: None, uv: Some((u, v)), facing: None };
+            let hit = Hit {
+                t: None,
+                uv: Some((u, v)),
+                facing: None,
+            };
             let [of_t, of_point] = hit_errors(&case, &hit);
             let found = of_point.unwrap();
             assert!(
@@ -202,8 +220,25 @@ mod tests {
                 "{found} {index}"
             );
             // The point of t is judged where there is one.
-            let both = hit_errors(&case, &Hit { t: Some(0.5), uv: Some((u, v)), facing: None });
-            assert_eq!(both, hit_errors(&case, &Hit { t: Some(0.5), uv: None, facing: None }));
+            let both = hit_errors(
+                &case,
+                &Hit {
+                    t: Some(0.5),
+                    uv: Some((u, v)),
+                    facing: None,
+                },
+            );
+            assert_eq!(
+                both,
+                hit_errors(
+                    &case,
+                    &Hit {
+                        t: Some(0.5),
+                        uv: None,
+                        facing: None
+                    }
+                )
+            );
         }
     }
 
@@ -212,7 +247,14 @@ mod tests {
         let corners = [[-4.0, -4.0, 2.0], [4.0, -4.0, 2.0], [0.0, 4.0, 2.0]];
         let of = |t: Option<f32>, uv, z: f32| {
             let case = Case::<f32>::new([0.0, 0.0, z], [0.0, 0.0, 1.0], corners);
-            hit_errors(&case, &Hit { t, uv, facing: None })
+            hit_errors(
+                &case,
+                &Hit {
+                    t,
+                    uv,
+                    facing: None,
+                },
+            )
         };
         assert_eq!(of(Some(2.0), None, 0.0), [Some(0.0); 2]);
         assert_eq!(of(Some(3.0), None, 1.0), [Some(2.0), Some(2.0)]);
@@ -224,7 +266,10 @@ mod tests {
         assert_eq!(of(None, Some((0.25, 0.5)), 0.0), [None, Some(0.0)]);
         assert_eq!(of(Some(f32::INFINITY), None, 0.0), [Some(f64::INFINITY); 2]);
         assert_eq!(of(Some(f32::NAN), None, 0.0), [Some(f64::INFINITY); 2]);
-        assert_eq!(of(None, Some((f32::NAN, 0.5)), 0.0), [None, Some(f64::INFINITY)]);
+        assert_eq!(
+            of(None, Some((f32::NAN, 0.5)), 0.0),
+            [None, Some(f64::INFINITY)]
+        );
     }
 
     fn to_f64(x: &BigRational) -> f64 {
@@ -242,7 +287,10 @@ mod tests {
     #[test]
     fn words_say_how_large_errors_may_be() {
         let most = MaxError::parse("t=1e-3, point=0.5").unwrap();
-        assert_eq!(Value::ALL.map(|value| most.of(value)), [Some(1e-3), Some(0.5)]);
+        assert_eq!(
+            Value::ALL.map(|value| most.of(value)),
+            [Some(1e-3), Some(0.5)]
+        );
         assert!(most.is_exceeded(&[Some(0.01), None]) && most.is_exceeded(&[None, Some(1.0)]));
         assert!(!most.is_exceeded(&[Some(1e-3), Some(0.5)]) && !most.is_exceeded(&[None, None]));
         for (text, part) in [

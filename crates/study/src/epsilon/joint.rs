@@ -19,7 +19,9 @@ pub struct Costs {
 impl Default for Costs {
     /// A crack shows as a hole in a surface: it costs ten times as much as another wrong answer.
     fn default() -> Costs {
-        Costs { of: [10.0, 1.0, 1.0, 1.0] }
+        Costs {
+            of: [10.0, 1.0, 1.0, 1.0],
+        }
     }
 }
 
@@ -29,8 +31,9 @@ impl Costs {
         let (mut costs, mut named) = (Costs::default(), Vec::new());
         for word in text.split(',').map(str::trim) {
             let expected = "write crack=10,miss=1,hit=1,self-hit=1";
-            let (key, value) =
-                word.split_once('=').ok_or_else(|| format!("'{word}' is no cost: {expected}"))?;
+            let (key, value) = word
+                .split_once('=')
+                .ok_or_else(|| format!("'{word}' is no cost: {expected}"))?;
             let kind = WrongKind::named(key.trim());
             let kind = kind.ok_or_else(|| {
                 let near = nearest_name(key.trim(), WrongKind::ALL.map(WrongKind::name));
@@ -42,7 +45,10 @@ impl Costs {
             }
             named.push(kind);
             let value = value.trim();
-            let cost = value.parse().ok().filter(|cost: &f64| (0.0..=1e9).contains(cost));
+            let cost = value
+                .parse()
+                .ok()
+                .filter(|cost: &f64| (0.0..=1e9).contains(cost));
             costs.of[kind as usize] =
                 cost.ok_or_else(|| format!("{key}={value}: not a number from 0 to 1e9"))?;
         }
@@ -59,12 +65,19 @@ impl Costs {
 
     /// The total of what was wrong; where there was no trial, nothing.
     pub fn of_trials(&self, counts: &[RayCount], wrong: &[Trials]) -> f64 {
-        self.total(counts, wrong.iter().map(|trials| trials.share().unwrap_or(0.0)))
+        self.total(
+            counts,
+            wrong.iter().map(|trials| trials.share().unwrap_or(0.0)),
+        )
     }
 
     /// The sum of the shares of wrong answers, each times its cost.
     pub fn total(&self, counts: &[RayCount], shares: impl IntoIterator<Item = f64>) -> f64 {
-        counts.iter().zip(shares).map(|(count, share)| self.of(count.kind) * share).sum()
+        counts
+            .iter()
+            .zip(shares)
+            .map(|(count, share)| self.of(count.kind) * share)
+            .sum()
     }
 }
 
@@ -110,7 +123,8 @@ impl<F: Float> KnobGrid<F> {
     /// How many values of each knob accept margins.
     fn accepted(&self, margins: &KnobMargins<F>) -> Vec<usize> {
         let axes = self.values.iter().zip(margins);
-        axes.map(|(values, margin)| values.partition_point(|value| value <= margin)).collect()
+        axes.map(|(values, margin)| values.partition_point(|value| value <= margin))
+            .collect()
     }
 
     fn cell(&self, places: &[usize]) -> usize {
@@ -119,7 +133,11 @@ impl<F: Float> KnobGrid<F> {
     }
 
     fn point(&self, places: &[usize]) -> Vec<F> {
-        self.values.iter().zip(places).map(|(values, place)| values[*place]).collect()
+        self.values
+            .iter()
+            .zip(places)
+            .map(|(values, place)| values[*place])
+            .collect()
     }
 }
 
@@ -131,13 +149,19 @@ struct JointSums {
 
 impl Merge for JointSums {
     fn merge(&mut self, other: JointSums) {
-        self.of.iter_mut().zip(other.of).for_each(|(sum, more)| *sum += more);
+        self.of
+            .iter_mut()
+            .zip(other.of)
+            .for_each(|(sum, more)| *sum += more);
         let cells = self.cells.iter_mut().zip(other.cells);
         for (cells, more) in cells.chain(self.exceeded.iter_mut().zip(other.exceeded)) {
             if cells.is_empty() {
                 *cells = more;
             } else {
-                cells.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+                cells
+                    .iter_mut()
+                    .zip(more)
+                    .for_each(|(sum, more)| *sum += more);
             }
         }
     }
@@ -153,14 +177,19 @@ impl<F: Scalar> Joint<F> {
     ) -> Joint<F> {
         let number = setting.counts.len();
         let none = vec![Vec::new(); number];
-        let empty =
-            || JointSums { of: vec![0; number], cells: none.clone(), exceeded: none.clone() };
+        let empty = || JointSums {
+            of: vec![0; number],
+            cells: none.clone(),
+            exceeded: none.clone(),
+        };
         let add = |sums: &mut JointSums, trial: Trial<'_, F>| {
             sums.of[trial.count] += 1;
             let terms = union(trial.margins.iter().map(|m| grid.accepted(m)).collect());
             let add_to = |cells: &mut Vec<i64>| {
                 cells.resize(grid.cells(), 0);
-                terms.iter().for_each(|(sign, places)| cells[grid.cell(places)] += sign);
+                terms
+                    .iter()
+                    .for_each(|(sign, places)| cells[grid.cell(places)] += sign);
             };
             add_to(&mut sums.cells[trial.count]);
             let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(&trial));
@@ -169,12 +198,24 @@ impl<F: Scalar> Joint<F> {
                 add_to(&mut sums.exceeded[trial.count]);
             }
         };
-        let JointSums { of, cells, exceeded } = setting.sum(pass, empty, add);
+        let JointSums {
+            of,
+            cells,
+            exceeded,
+        } = setting.sum(pass, empty, add);
         let all = |cells: Vec<Vec<i64>>| {
-            cells.into_iter().map(|cells| accumulated(&grid, cells)).collect()
+            cells
+                .into_iter()
+                .map(|cells| accumulated(&grid, cells))
+                .collect()
         };
         let (hits, exceeded) = (all(cells), max_error.map(|_| all(exceeded)));
-        Joint { grid, of, hits, exceeded }
+        Joint {
+            grid,
+            of,
+            hits,
+            exceeded,
+        }
     }
 
     /// The cell with the hits of a point: those that accept one value more than its place.
@@ -185,7 +226,9 @@ impl<F: Scalar> Joint<F> {
 
     /// True if the hits that remain at a point have errors as small as is wanted, in each stratum.
     fn is_accurate(&self, counts: &[RayCount], places: &[usize]) -> bool {
-        let Some(exceeded) = &self.exceeded else { return true };
+        let Some(exceeded) = &self.exceeded else {
+            return true;
+        };
         let cell = self.cell_of(places);
         let at = |of: &[i64]| of.get(cell).copied().unwrap_or(0) as u64;
         let pairs = counts.iter().zip(self.hits.iter().zip(exceeded));
@@ -196,11 +239,19 @@ impl<F: Scalar> Joint<F> {
     /// The share of wrong answers of each count at a point; 0 of nothing.
     fn shares(&self, counts: &[RayCount], places: &[usize]) -> Vec<f64> {
         let cell = self.cell_of(places);
-        let wrong = counts.iter().zip(&self.of).zip(&self.hits).map(|((count, of), hits)| {
-            let hits = hits.get(cell).copied().unwrap_or(0) as u64;
-            let wrong = if count.kind.is_wrong_if_refused() { of - hits } else { hits };
-            wrong as f64 / (*of).max(1) as f64
-        });
+        let wrong = counts
+            .iter()
+            .zip(&self.of)
+            .zip(&self.hits)
+            .map(|((count, of), hits)| {
+                let hits = hits.get(cell).copied().unwrap_or(0) as u64;
+                let wrong = if count.kind.is_wrong_if_refused() {
+                    of - hits
+                } else {
+                    hits
+                };
+                wrong as f64 / (*of).max(1) as f64
+            });
         wrong.collect()
     }
 
@@ -217,8 +268,9 @@ impl<F: Scalar> Joint<F> {
             if is_cheaper && self.is_accurate(counts, &places) {
                 best = Some((found, places.clone()));
             }
-            let Some(next) =
-                (0..places.len()).rev().find(|&k| places[k] + 1 < self.grid.values[k].len())
+            let Some(next) = (0..places.len())
+                .rev()
+                .find(|&k| places[k] + 1 < self.grid.values[k].len())
             else {
                 break;
             };
@@ -246,7 +298,9 @@ impl<F: Scalar> Joint<F> {
             let ends = |from: usize, most: f64| {
                 let as_good = |place: &usize| is_kept(&moved(&places, k, *place), most);
                 let first = (0..from).rev().take_while(as_good).last();
-                let last = (from + 1..self.grid.values[k].len()).take_while(as_good).last();
+                let last = (from + 1..self.grid.values[k].len())
+                    .take_while(as_good)
+                    .last();
                 [first.unwrap_or(from), last.unwrap_or(from)]
             };
             // Where several values cost the least, they alone: what costs nothing more may do no harm either.
@@ -269,8 +323,11 @@ impl<F: Scalar> Joint<F> {
         to: &[Option<F>],
     ) -> Option<Vec<F>> {
         let place = |k: usize, wanted: F| self.grid.values[k].iter().position(|x| *x == wanted);
-        let mut places: Vec<usize> =
-            from.iter().enumerate().map(|(k, value)| place(k, *value)).collect::<Option<_>>()?;
+        let mut places: Vec<usize> = from
+            .iter()
+            .enumerate()
+            .map(|(k, value)| place(k, *value))
+            .collect::<Option<_>>()?;
         let shares = self.shares(counts, &places);
         let must_be_accurate = self.is_accurate(counts, &places);
         for (k, value) in to.iter().enumerate() {
@@ -318,9 +375,12 @@ fn union(boxes: Vec<Vec<usize>>) -> Vec<(i64, Vec<usize>)> {
     }
     let mut terms: Vec<(i64, Vec<usize>)> = Vec::new();
     for one in kept {
-        let met = terms
-            .iter()
-            .map(|(sign, other)| (-sign, one.iter().zip(other).map(|(a, b)| *a.min(b)).collect()));
+        let met = terms.iter().map(|(sign, other)| {
+            (
+                -sign,
+                one.iter().zip(other).map(|(a, b)| *a.min(b)).collect(),
+            )
+        });
         let met: Vec<_> = met.collect();
         terms.extend(met);
         terms.push((1, one));

@@ -71,8 +71,15 @@ impl Knob {
 /// The contract in a scene: with a least t, a kernel that is judged on the whole line is judged on the ray.
 pub fn contract_with(knobs: &[Knob], contract: &Contract) -> Contract {
     let on_line = contract.extent == Extent::Line && knobs.contains(&Knob::LeastT);
-    let extent = if on_line { Extent::Ray } else { contract.extent };
-    Contract { extent, ..*contract }
+    let extent = if on_line {
+        Extent::Ray
+    } else {
+        contract.extent
+    };
+    Contract {
+        extent,
+        ..*contract
+    }
 }
 
 #[cfg(test)]
@@ -87,7 +94,10 @@ mod tests {
             let entry = crate::kernel::find(kernel).unwrap();
             let row = &EpsilonChoice::Source.rows(&[entry], None).unwrap()[0];
             let gates = entry.info.gates;
-            Knob::all(row).into_iter().map(|knob| knob.gate(gates).name).collect::<Vec<_>>()
+            Knob::all(row)
+                .into_iter()
+                .map(|knob| knob.gate(gates).name)
+                .collect::<Vec<_>>()
         };
         assert_eq!(of("moller-trumbore"), ["parallel", "edge", "t_min"]);
         assert_eq!(of("plane-unit-normal"), ["parallel", "t", "edge"]);
@@ -96,7 +106,11 @@ mod tests {
         assert_eq!(of("havel-herout"), ["t_min"]);
         assert_eq!(of("scalar-triple"), ["edge"]);
         for entry in KERNELS {
-            assert!((1..=MOST_KNOBS).contains(&of(entry.info.name).len()), "{}", entry.info.name);
+            assert!(
+                (1..=MOST_KNOBS).contains(&of(entry.info.name).len()),
+                "{}",
+                entry.info.name
+            );
         }
     }
 
@@ -104,7 +118,13 @@ mod tests {
     fn values_below_zero_mean_something_where_the_gate_takes_them_and_is_not_on_t() {
         let gate = |role, epsilon| {
             let dimension = Dimension::new(1, 0);
-            Gate { name: "gate", role, refuses: "", dimension, epsilon }
+            Gate {
+                name: "gate",
+                role,
+                refuses: "",
+                dimension,
+                epsilon,
+            }
         };
         let gates = [
             gate(Role::Edge, Tunable::Signed),
@@ -128,13 +148,23 @@ mod tests {
     #[test]
     fn a_least_t_makes_a_ray_of_a_line_and_of_nothing_else() {
         for (extent, knobs, expected) in [
-            (Extent::Line, &[Knob::Gate(0), Knob::LeastT][..], Extent::Ray),
+            (
+                Extent::Line,
+                &[Knob::Gate(0), Knob::LeastT][..],
+                Extent::Ray,
+            ),
             (Extent::Line, &[Knob::Gate(0)], Extent::Line),
             (Extent::Interval, &[Knob::LeastT], Extent::Interval),
             (Extent::Ray, &[Knob::LeastT], Extent::Ray),
         ] {
-            let contract = Contract { extent, ..Contract::CLOSED_RAY };
-            let expected = Contract { extent: expected, ..contract };
+            let contract = Contract {
+                extent,
+                ..Contract::CLOSED_RAY
+            };
+            let expected = Contract {
+                extent: expected,
+                ..contract
+            };
             assert_eq!(contract_with(knobs, &contract), expected);
         }
     }

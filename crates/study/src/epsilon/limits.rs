@@ -38,7 +38,9 @@ const UNSURE: f64 = 30.0;
 impl<F: Float> KnobLimit<F> {
     /// True if these rays show so little of where the limit is that nobody should act on its value.
     pub fn is_unsure(&self) -> bool {
-        let Some(value) = self.value else { return false };
+        let Some(value) = self.value else {
+            return false;
+        };
         let Some(far) = self.far else { return true };
         let [value, far] = [value, far].map(F::to_f64);
         let ratio = value / far;
@@ -140,9 +142,21 @@ pub fn all_limits<F: Scalar>(
     let gates = setting.row.entry.info.gates;
     let kept = kept(pass.count);
     let mut none = Vec::new();
-    for (knob, role) in setting.knobs.iter().map(|knob| knob.gate(gates).role).enumerate() {
+    for (knob, role) in setting
+        .knobs
+        .iter()
+        .map(|knob| knob.gate(gates).role)
+        .enumerate()
+    {
         for (count, counted) in setting.counts.iter().enumerate() {
-            let tail = |is_lower| Tail { knob, count, is_lower, of: 0, kept, margins: Vec::new() };
+            let tail = |is_lower| Tail {
+                knob,
+                count,
+                is_lower,
+                of: 0,
+                kept,
+                margins: Vec::new(),
+            };
             none.extend(side(role, *counted).map(tail));
         }
     }
@@ -160,12 +174,26 @@ pub fn all_limits<F: Scalar>(
         }
     };
     let Tails(tails) = setting.sum(pass, || Tails(none.clone()), add);
-    let limit = |Tail { knob, count, is_lower, of, margins, .. }: Tail<F>| {
+    let limit = |Tail {
+                     knob,
+                     count,
+                     is_lower,
+                     of,
+                     margins,
+                     ..
+                 }: Tail<F>| {
         let Ranks { one_in, safe, far } = ranks(of)?;
         let margin = |rank: u64| margins.get(rank as usize - 1).copied();
         let value = value(margin(safe)?, is_lower)?;
         let far = margin(far).and_then(|margin| bound(margin, is_lower, !is_lower));
-        Some(KnobLimit { knob, count, is_lower, value, far, one_in })
+        Some(KnobLimit {
+            knob,
+            count,
+            is_lower,
+            value,
+            far,
+            one_in,
+        })
     };
     tails.into_iter().filter_map(limit).collect()
 }
@@ -189,8 +217,9 @@ fn bound<F: Float>(margin: F, is_lower: bool, is_up: bool) -> Option<F> {
 pub fn between<F: Float>(limits: &[KnobLimit<F>], knobs: usize) -> Vec<Option<F>> {
     let between = |knob: usize| {
         let of_side = |is_lower: bool| {
-            let found =
-                limits.iter().filter(|limit| limit.knob == knob && limit.is_lower == is_lower);
+            let found = limits
+                .iter()
+                .filter(|limit| limit.knob == knob && limit.is_lower == is_lower);
             // None if there is no limit, or one that no value keeps.
             let values: Option<Vec<F>> = found.map(|limit| limit.value).collect();
             let stricter = |a: F, b: F| if (a < b) == is_lower { b } else { a };
@@ -231,7 +260,11 @@ pub(super) fn is_own<F: Float>(trial: &Trial<'_, F>, knob: usize, largest: F) ->
 fn above<F: Float>(x: F) -> F {
     let normal = smallest_normal::<F>();
     let next = x.offset_ulps(1);
-    if F::zero() < next && next.to_f64() < normal { F::from_f64(normal) } else { next }
+    if F::zero() < next && next.to_f64() < normal {
+        F::from_f64(normal)
+    } else {
+        next
+    }
 }
 
 #[cfg(test)]
@@ -240,7 +273,14 @@ mod tests {
     use crate::case::Draw;
 
     fn empty_tail<F>(is_lower: bool, of: u64, kept: usize) -> Tail<F> {
-        Tail { knob: 1, count: 2, is_lower, of, kept, margins: Vec::new() }
+        Tail {
+            knob: 1,
+            count: 2,
+            is_lower,
+            of,
+            kept,
+            margins: Vec::new(),
+        }
     }
 
     #[test]
@@ -287,17 +327,32 @@ mod tests {
         assert_eq!([own(0.0), own(1.0)], [(0.5, true); 2]);
         assert_eq!([own(2.0), own(10.0)], [(-0.3, false), (no, false)]);
         // What another gate refuses is no knob's.
-        let refused = Trial { margins: &[[no; 3]; 2], ..trial };
+        let refused = Trial {
+            margins: &[[no; 3]; 2],
+            ..trial
+        };
         assert!(!is_own(&refused, 0, no));
     }
 
     #[test]
     fn above_a_number_is_the_next_that_is_not_flushed() {
         let normal = f32::MIN_POSITIVE;
-        for x in [1.0f32, -1.0, normal, normal.next_down(), -normal, -normal.next_down()] {
+        for x in [
+            1.0f32,
+            -1.0,
+            normal,
+            normal.next_down(),
+            -normal,
+            -normal.next_down(),
+        ] {
             assert_eq!(above(x), x.next_up(), "{x:e}");
         }
-        for x in [0.0, f32::from_bits(1), normal / 2.0, normal.next_down().next_down()] {
+        for x in [
+            0.0,
+            f32::from_bits(1),
+            normal / 2.0,
+            normal.next_down().next_down(),
+        ] {
             assert_eq!(above(x), normal, "{x:e}");
         }
         assert_eq!(above(-f32::from_bits(1)), 0.0);
@@ -310,7 +365,10 @@ mod tests {
             [true, false].map(|is_lower| value(0.123, is_lower)),
             [Some(0.13), Some(0.12)].map(Some)
         );
-        assert_eq!([inf, -inf].map(|margin| value(margin, true)), [Some(None), None]);
+        assert_eq!(
+            [inf, -inf].map(|margin| value(margin, true)),
+            [Some(None), None]
+        );
         assert_eq!([inf, -inf].map(|margin| value(margin, false)), [None; 2]);
     }
 
@@ -337,30 +395,80 @@ mod tests {
                 ],
                 Some(1e-7),
             ),
-            (vec![low.clone(), limit(false, Some(1.0)), high.clone()], Some(5e-8)),
             (
-                vec![high.clone(), limit(false, Some(1.0)), low.clone(), limit(true, Some(1e-12))],
+                vec![low.clone(), limit(false, Some(1.0)), high.clone()],
                 Some(5e-8),
             ),
-            (vec![limit(true, Some(3.1e-6)), limit(false, Some(3.3e-6))], Some(3.1e-6)),
-            (vec![limit(true, Some(4e-6)), limit(false, Some(3.3e-6))], None),
+            (
+                vec![
+                    high.clone(),
+                    limit(false, Some(1.0)),
+                    low.clone(),
+                    limit(true, Some(1e-12)),
+                ],
+                Some(5e-8),
+            ),
+            (
+                vec![limit(true, Some(3.1e-6)), limit(false, Some(3.3e-6))],
+                Some(3.1e-6),
+            ),
+            (
+                vec![limit(true, Some(4e-6)), limit(false, Some(3.3e-6))],
+                None,
+            ),
             (vec![low.clone(), limit(false, None)], None),
             (vec![low.clone()], None),
             (vec![high.clone()], None),
             // Below zero too, where 2.1e-4 is in the middle.
-            (vec![limit(true, Some(-6e-2)), limit(false, Some(-7.2e-7))], Some(-2e-4)),
-            (vec![limit(true, Some(-3.1e-6)), limit(false, Some(-3.1e-6))], Some(-3.1e-6)),
-            (vec![limit(true, Some(-1e-4)), limit(false, Some(-8e-4))], None),
-            (vec![limit(true, Some(-1e-4)), limit(false, Some(-f64::MIN_POSITIVE))], None),
-            (vec![limit(true, Some(-1e-4)), limit(false, Some(8e-4))], None),
-            (vec![limit(true, Some(3e-9)), limit(false, Some(-7.2e-7))], None),
-            (vec![limit(true, Some(3.1e-6)), limit(false, Some(3.1e-6))], Some(3.1e-6)),
+            (
+                vec![limit(true, Some(-6e-2)), limit(false, Some(-7.2e-7))],
+                Some(-2e-4),
+            ),
+            (
+                vec![limit(true, Some(-3.1e-6)), limit(false, Some(-3.1e-6))],
+                Some(-3.1e-6),
+            ),
+            (
+                vec![limit(true, Some(-1e-4)), limit(false, Some(-8e-4))],
+                None,
+            ),
+            (
+                vec![
+                    limit(true, Some(-1e-4)),
+                    limit(false, Some(-f64::MIN_POSITIVE)),
+                ],
+                None,
+            ),
+            (
+                vec![limit(true, Some(-1e-4)), limit(false, Some(8e-4))],
+                None,
+            ),
+            (
+                vec![limit(true, Some(3e-9)), limit(false, Some(-7.2e-7))],
+                None,
+            ),
+            (
+                vec![limit(true, Some(3.1e-6)), limit(false, Some(3.1e-6))],
+                Some(3.1e-6),
+            ),
             // Both are round, or one: the first that is nearest to the middle.
-            (vec![limit(true, Some(1e-6)), limit(false, Some(2e-6))], Some(1e-6)),
-            (vec![limit(true, Some(1.5e-6)), limit(false, Some(2e-6))], Some(2e-6)),
+            (
+                vec![limit(true, Some(1e-6)), limit(false, Some(2e-6))],
+                Some(1e-6),
+            ),
+            (
+                vec![limit(true, Some(1.5e-6)), limit(false, Some(2e-6))],
+                Some(2e-6),
+            ),
             // Up to twice the least normal number is any above zero.
-            (vec![limit(true, Some(2.0 * f64::MIN_POSITIVE)), high.clone()], None),
-            (vec![limit(true, Some(3.0 * f64::MIN_POSITIVE)), high.clone()], Some(5e-156)),
+            (
+                vec![limit(true, Some(2.0 * f64::MIN_POSITIVE)), high.clone()],
+                None,
+            ),
+            (
+                vec![limit(true, Some(3.0 * f64::MIN_POSITIVE)), high.clone()],
+                Some(5e-156),
+            ),
         ] {
             assert_eq!(between(&limits, 2), [None, middle], "{limits:?}");
         }
@@ -392,7 +500,15 @@ mod tests {
     #[test]
     fn a_limit_that_could_as_well_be_elsewhere_is_unsure() {
         let limit = |value: Option<f64>, far| {
-            KnobLimit { knob: 0, count: 0, is_lower: false, value, far, one_in: 9 }.is_unsure()
+            KnobLimit {
+                knob: 0,
+                count: 0,
+                is_lower: false,
+                value,
+                far,
+                one_in: 9,
+            }
+            .is_unsure()
         };
         for (value, far, is_unsure) in [
             (1e-6, Some(2.9e-5), false),

@@ -23,18 +23,29 @@ pub struct Attempt<F> {
 impl<F: Float> Attempt<F> {
     /// On all trials.
     pub fn new(epsilons: Vec<F>) -> Attempt<F> {
-        Attempt { epsilons, of_knob: None }
+        Attempt {
+            epsilons,
+            of_knob: None,
+        }
     }
 
     /// A limit, where the other knobs stay; none if it has no value.
     pub fn at_limit(limit: &KnobLimit<F>, others: &[F]) -> Option<Attempt<F>> {
-        Some(Attempt::alone(limit.knob, limit.value?, limit.is_lower, others))
+        Some(Attempt::alone(
+            limit.knob,
+            limit.value?,
+            limit.is_lower,
+            others,
+        ))
     }
 
     pub(super) fn alone(knob: usize, value: F, is_lower: bool, others: &[F]) -> Attempt<F> {
         let mut epsilons = others.to_vec();
         epsilons[knob] = value;
-        Attempt { epsilons, of_knob: (!is_lower).then_some(knob) }
+        Attempt {
+            epsilons,
+            of_knob: (!is_lower).then_some(knob),
+        }
     }
 }
 
@@ -79,7 +90,11 @@ pub(super) struct OfHits {
 
 impl Merge for OfHits {
     fn merge(&mut self, other: OfHits) {
-        let errors = self.errors.iter_mut().flatten().zip(other.errors.iter().flatten());
+        let errors = self
+            .errors
+            .iter_mut()
+            .flatten()
+            .zip(other.errors.iter().flatten());
         errors.for_each(|(sum, more)| sum.merge(more));
         let exceeded = self.exceeded.iter_mut().zip(&other.exceeded);
         exceeded.for_each(|(sum, more)| sum.merge(more));
@@ -90,9 +105,16 @@ impl Merge for OfHits {
 
 impl Merge for WrongAnswers {
     fn merge(&mut self, other: WrongAnswers) {
-        let counts = self.trials.iter_mut().flatten().zip(other.trials.iter().flatten());
+        let counts = self
+            .trials
+            .iter_mut()
+            .flatten()
+            .zip(other.trials.iter().flatten());
         counts.for_each(|(sum, more)| sum.merge(more));
-        self.of_hits.iter_mut().zip(other.of_hits).for_each(|(sum, more)| sum.merge(more));
+        self.of_hits
+            .iter_mut()
+            .zip(other.of_hits)
+            .for_each(|(sum, more)| sum.merge(more));
         self.ran.merge(other.ran);
     }
 }
@@ -103,8 +125,19 @@ impl WrongAnswers {
         let none = vec![Trials::default(); counts.len()];
         let errors = vec![ErrorSums::default(); counts.len()];
         let (exceeded, doubles) = (none.clone(), none.clone());
-        let of_hits = vec![OfHits { errors, exceeded, doubles }; with_errors];
-        WrongAnswers { trials: vec![none; attempts], of_hits, ran: Ran::default() }
+        let of_hits = vec![
+            OfHits {
+                errors,
+                exceeded,
+                doubles
+            };
+            with_errors
+        ];
+        WrongAnswers {
+            trials: vec![none; attempts],
+            of_hits,
+            ran: Ran::default(),
+        }
     }
 
     fn add_errors<F: Scalar>(
@@ -204,32 +237,41 @@ pub(super) fn differs<F: Scalar>(
     let has_least_t = setting.knobs.contains(&Knob::LeastT);
     let subject = setting.subject;
     move |cases, margins| {
-        let mut ran = Ran { rays: cases.len() as u64, ..Ran::default() };
-        ran.fault = all.iter().enumerate().find_map(|(i, (at, epsilons, least_t))| {
-            let mut verdicts = vec![Verdict::miss(None); cases.len()];
-            let start = observer.now();
-            let own = verdicts_of(subject, cases, epsilons, &mut verdicts);
-            if i == 0 {
-                ran.nanoseconds = own.unwrap_or_else(|| observer.now() - start);
-            }
-            let is_hit =
-                |verdict: &Verdict<F>| verdict.hit && (!has_least_t || *least_t <= verdict.t);
-            let known = cases.iter().zip(margins).zip(&verdicts);
-            let pairs = known.filter(|((_, margins), _)| !is_unknown(margins));
-            let mut faults =
-                pairs.filter(|((_, margins), verdict)| is_hit(verdict) != accepts(margins, at));
-            let ((case, _), verdict) = faults.next()?;
-            let gates = setting.row.entry.info.gates;
-            let at = setting.knobs.iter().zip(at);
-            let at = at.map(|(knob, value)| format!("{}={value:e}", knob.gate(gates).name));
-            let (together, alone) =
-                if is_hit(verdict) { ("hits", "misses") } else { ("misses", "hits") };
-            Some(format!(
-                "at {} it {together}, but with each of these alone it {alone}, on {}",
-                at.collect::<Vec<_>>().join(","),
-                case.hex()
-            ))
-        });
+        let mut ran = Ran {
+            rays: cases.len() as u64,
+            ..Ran::default()
+        };
+        ran.fault = all
+            .iter()
+            .enumerate()
+            .find_map(|(i, (at, epsilons, least_t))| {
+                let mut verdicts = vec![Verdict::miss(None); cases.len()];
+                let start = observer.now();
+                let own = verdicts_of(subject, cases, epsilons, &mut verdicts);
+                if i == 0 {
+                    ran.nanoseconds = own.unwrap_or_else(|| observer.now() - start);
+                }
+                let is_hit =
+                    |verdict: &Verdict<F>| verdict.hit && (!has_least_t || *least_t <= verdict.t);
+                let known = cases.iter().zip(margins).zip(&verdicts);
+                let pairs = known.filter(|((_, margins), _)| !is_unknown(margins));
+                let mut faults =
+                    pairs.filter(|((_, margins), verdict)| is_hit(verdict) != accepts(margins, at));
+                let ((case, _), verdict) = faults.next()?;
+                let gates = setting.row.entry.info.gates;
+                let at = setting.knobs.iter().zip(at);
+                let at = at.map(|(knob, value)| format!("{}={value:e}", knob.gate(gates).name));
+                let (together, alone) = if is_hit(verdict) {
+                    ("hits", "misses")
+                } else {
+                    ("misses", "hits")
+                };
+                Some(format!(
+                    "at {} it {together}, but with each of these alone it {alone}, on {}",
+                    at.collect::<Vec<_>>().join(","),
+                    case.hex()
+                ))
+            });
         ran
     }
 }
@@ -252,14 +294,23 @@ mod tests {
             cases: &[],
             values: &[],
         };
-        let counts = [RayCount { rays: Rays::Stratum(Stratum::Edges), kind: WrongKind::Crack }];
+        let counts = [RayCount {
+            rays: Rays::Stratum(Stratum::Edges),
+            kind: WrongKind::Crack,
+        }];
         let cracks = |least_t: f64, of_knob: Option<usize>| {
-            let attempt = Attempt { epsilons: vec![0.6, least_t], of_knob };
+            let attempt = Attempt {
+                epsilons: vec![0.6, least_t],
+                of_knob,
+            };
             let mut wrong = WrongAnswers::new(1, 0, &counts);
             wrong.add(&counts, &[attempt], &trial);
             (wrong.trials[0][0].count, wrong.trials[0][0].of)
         };
-        assert_eq!([None, Some(0), Some(1)].map(|of| cracks(0.0, of)), [(1, 1), (1, 1), (0, 0)]);
+        assert_eq!(
+            [None, Some(0), Some(1)].map(|of| cracks(0.0, of)),
+            [(1, 1), (1, 1), (0, 0)]
+        );
         assert_eq!([None, Some(0)].map(|of| cracks(2.0, of)), [(1, 1), (0, 0)]);
     }
 }

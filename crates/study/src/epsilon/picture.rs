@@ -56,9 +56,16 @@ pub fn holes<F: Scalar>(
     pass: Pass<'_>,
 ) -> Vec<Option<HoleShare>> {
     // Families are no scene, whose triangles could cover a picture.
-    let Some(scene) = setting.scene else { return vec![None; epsilons.len()] };
-    let empty = RaySums { leaks: vec![Leaks::default(); epsilons.len()], triangles: 0.0 };
-    let count = setting.source(Stratum::Edges, pass.seed, pass.count).count::<F>();
+    let Some(scene) = setting.scene else {
+        return vec![None; epsilons.len()];
+    };
+    let empty = RaySums {
+        leaks: vec![Leaks::default(); epsilons.len()],
+        triangles: 0.0,
+    };
+    let count = setting
+        .source(Stratum::Edges, pass.seed, pass.count)
+        .count::<F>();
     let starts: Vec<u64> = (0..count).step_by(CHUNK as usize).collect();
     let of_chunk = |start: &u64| {
         let mut sums = empty.clone();
@@ -66,7 +73,10 @@ pub fn holes<F: Scalar>(
         pass.observer.advance(indices.end - indices.start);
         for index in indices {
             let pixel = setting.pixel(scene, pass.seed, index);
-            sums.add(&pixel, setting.leaking(epsilons, (pass.seed, index), &pixel));
+            sums.add(
+                &pixel,
+                setting.leaking(epsilons, (pass.seed, index), &pixel),
+            );
         }
         sums
     };
@@ -75,7 +85,10 @@ pub fn holes<F: Scalar>(
     for part in engine::map(&starts, of_chunk) {
         sums.merge(&part);
     }
-    sums.leaks.iter().map(|leaks| leaks.share_of(sums.triangles)).collect()
+    sums.leaks
+        .iter()
+        .map(|leaks| leaks.share_of(sums.triangles))
+        .collect()
 }
 
 impl Leaks {
@@ -103,13 +116,22 @@ impl Leaks {
         }
         let share = (self.area / triangles).min(1.0);
         if self.area == 0.0 {
-            return Some(HoleShare { share, interval: None });
+            return Some(HoleShare {
+                share,
+                interval: None,
+            });
         }
         let seen = self.interval(triangles, 0.0);
         let mut supposed = *self;
         supposed.add(UNSEEN * self.largest);
-        let interval = Interval { low: seen.low, high: supposed.interval(triangles, 1.0).high };
-        Some(HoleShare { share, interval: Some(interval) })
+        let interval = Interval {
+            low: seen.low,
+            high: supposed.interval(triangles, 1.0).high,
+        };
+        Some(HoleShare {
+            share,
+            interval: Some(interval),
+        })
     }
 
     /// The binomial interval of equal leaks, some less than were seen.
@@ -164,7 +186,12 @@ impl<F: Scalar> Setting<'_, F> {
             return Some(none);
         };
         let is_moved = |epsilons: &Vec<F>| around.iter().any(|margins| accepts(margins, epsilons));
-        Some(epsilons.iter().map(|epsilons| is_lost(epsilons) && !is_moved(epsilons)).collect())
+        Some(
+            epsilons
+                .iter()
+                .map(|epsilons| is_lost(epsilons) && !is_moved(epsilons))
+                .collect(),
+        )
     }
 
     /// The margins of a pixel's triangles, relative if epsilons are; none if the kernel failed.
@@ -173,7 +200,11 @@ impl<F: Scalar> Setting<'_, F> {
         if margins.iter().any(is_unknown) {
             return None;
         }
-        Some(if self.relative { self.relative_margins(cases, &margins) } else { margins })
+        Some(if self.relative {
+            self.relative_margins(cases, &margins)
+        } else {
+            margins
+        })
     }
 }
 
@@ -203,13 +234,25 @@ mod tests {
         // Of equal areas the lower end is the binomial's; a leak of hardly any area adds hardly anything.
         let interval =
             |areas: &[f64], triangles| share(areas, triangles).unwrap().interval.unwrap();
-        assert_eq!(interval(&[1.0; 3], 40.0).low, clopper_pearson(3.0, 40.0, 0.025).low);
+        assert_eq!(
+            interval(&[1.0; 3], 40.0).low,
+            clopper_pearson(3.0, 40.0, 0.025).low
+        );
         let [unequal, single] = [&[1.0, 1e-9][..], &[1.0]].map(|areas| interval(areas, 1e6));
-        assert!((unequal.low / single.low - 1.0).abs() < 1e-3, "{unequal:?} {single:?}");
-        assert!((unequal.high / single.high - 1.0).abs() < 1e-3, "{unequal:?} {single:?}");
+        assert!(
+            (unequal.low / single.low - 1.0).abs() < 1e-3,
+            "{unequal:?} {single:?}"
+        );
+        assert!(
+            (unequal.high / single.high - 1.0).abs() < 1e-3,
+            "{unequal:?} {single:?}"
+        );
         // With one of 8 more, a leak of 1 is as many as 9²/65 equal ones of 65/9.
         let by_hand = clopper_pearson(16.0 / 65.0, 1e6 / (65.0 / 9.0), 0.025).high;
-        assert!((single.high / by_hand - 1.0).abs() < 1e-12, "{single:?} {by_hand}");
+        assert!(
+            (single.high / by_hand - 1.0).abs() < 1e-12,
+            "{single:?} {by_hand}"
+        );
     }
 
     /// The share of holes among rays at uniform points of both triangles, parallel to their own. Those that are nearest
@@ -224,7 +267,11 @@ mod tests {
             let own = cases[usize::from(draw.coin())];
             let [origin, d, a, b, c] = own.vectors().map(wide);
             let (u, v) = (draw.unit(), draw.unit());
-            let [u, v] = if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
+            let [u, v] = if u + v > 1.0 {
+                [1.0 - u, 1.0 - v]
+            } else {
+                [u, v]
+            };
             let point = a + (b - a) * u + (c - a) * v;
             let area = (b - a).cross(c - a).dot(d).abs() / d.length();
             all += area;
@@ -232,7 +279,9 @@ mod tests {
             let is_shared = |p: DVec3| other[2..].iter().any(|q| wide(*q) == p);
             let weights = [1.0 - u - v, u, v];
             let opposite = [a, b, c].iter().position(|p| !is_shared(*p)).unwrap();
-            let nearest = (0..3).min_by(|i, j| weights[*i].total_cmp(&weights[*j])).unwrap();
+            let nearest = (0..3)
+                .min_by(|i, j| weights[*i].total_cmp(&weights[*j]))
+                .unwrap();
             if opposite != nearest {
                 continue;
             }
@@ -256,11 +305,18 @@ mod tests {
 
     #[test]
     fn the_interval_covers_the_share_of_many_more_rays() {
-        let tuned =
-            Tuned::new("moller-trumbore", "extent=1e5,edge=1..4,distance=10..100,direction=unit");
+        let tuned = Tuned::new(
+            "moller-trumbore",
+            "extent=1e5,edge=1..4,distance=10..100,direction=unit",
+        );
         let at = |seed: u64, count: u64, epsilon: f32| {
             let epsilons = vec![epsilon; tuned.knobs.len()];
-            holes(&tuned.setting(), &[epsilons], Pass::new(seed, count, &Unobserved))[0].unwrap()
+            holes(
+                &tuned.setting(),
+                &[epsilons],
+                Pass::new(seed, count, &Unobserved),
+            )[0]
+            .unwrap()
         };
         for epsilon in [0.0, 0.01] {
             let truth = at(1, 1_000_000, epsilon).share;
@@ -304,8 +360,14 @@ mod tests {
             assert!(fewest <= pixels, "{kernel} {at}: {pixels} pixels");
             match fewest {
                 // A handful of pixels shows no more.
-                0 => assert!(0.0 < found && found < 1e-5 && share < 1e-4, "{found}, {share}"),
-                _ => assert!((found / share - 1.0).abs() < 0.2, "{kernel} {at}: {found}, {share}"),
+                0 => assert!(
+                    0.0 < found && found < 1e-5 && share < 1e-4,
+                    "{found}, {share}"
+                ),
+                _ => assert!(
+                    (found / share - 1.0).abs() < 0.2,
+                    "{kernel} {at}: {found}, {share}"
+                ),
             }
         }
     }

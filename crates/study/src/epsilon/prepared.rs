@@ -51,7 +51,11 @@ struct Kept<F: Float> {
 
 impl<F: Float> Default for Store<F> {
     fn default() -> Store<F> {
-        Store(Mutex::new(Kept { seed: 0, cases: 0, parts: BTreeMap::new() }))
+        Store(Mutex::new(Kept {
+            seed: 0,
+            cases: 0,
+            parts: BTreeMap::new(),
+        }))
     }
 }
 
@@ -67,7 +71,11 @@ impl<F: Float> Store<F> {
         {
             let mut kept = kept();
             if kept.seed != seed {
-                *kept = Kept { seed, cases: 0, parts: BTreeMap::new() };
+                *kept = Kept {
+                    seed,
+                    cases: 0,
+                    parts: BTreeMap::new(),
+                };
             }
             if let Some(part) = kept.parts.get(&place) {
                 return part.clone();
@@ -93,7 +101,13 @@ mod tests {
     fn of_cases(count: usize) -> Prepared<f32> {
         let case = Case::new([0.0; 3], [1.0; 3], [[0.0; 3]; 3]);
         let (margins, values, trials) = (Vec::new(), Vec::new(), Vec::new());
-        Prepared { cases: vec![case; count], margins, relative: OnceLock::new(), values, trials }
+        Prepared {
+            cases: vec![case; count],
+            margins,
+            relative: OnceLock::new(),
+            values,
+            trials,
+        }
     }
 
     /// How many cases a part has, and whether it was made now.
@@ -129,6 +143,9 @@ mod tests {
             of_cases(2)
         });
         assert_eq!(part.cases.len(), 2);
-        assert_eq!([made(&store, 6, 0, 3), made(&store, 6, 1, 3)], [(3, true), (1, false)]);
+        assert_eq!(
+            [made(&store, 6, 0, 3), made(&store, 6, 1, 3)],
+            [(3, true), (1, false)]
+        );
     }
 }

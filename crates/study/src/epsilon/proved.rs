@@ -25,33 +25,58 @@ pub struct ProvedValue<F> {
 /// The values that are proved for each knob; none in scenes whose directions have any length, nor where a proof
 /// assumes more than the sizes of triangles and distances.
 pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<ProvedValue<F>> {
-    let Some(scene) = setting.scene else { return Vec::new() };
+    let Some(scene) = setting.scene else {
+        return Vec::new();
+    };
     let is_unit = scene.direction == DirectionLength::Unit;
     // Else rounding moves vertices and starts by more than the room that the domain has for it.
     if !is_unit || setting.relative || scene.check_in::<F>().is_err() {
         return Vec::new();
     }
     let of_knob = |(k, knob): (usize, &Knob)| {
-        let Knob::Gate(gate) = *knob else { return Vec::new() };
+        let Knob::Gate(gate) = *knob else {
+            return Vec::new();
+        };
         let role = setting.row.entry.info.gates[gate].role;
         let is_lower = role == Role::Parallel;
         let decided = |count: &RayCount| {
             matches!(
                 (role, count.rays, count.kind),
-                (Role::Parallel, Rays::Stratum(Stratum::Parallel), WrongKind::Hit)
-                    | (
-                        Role::Edge,
-                        Rays::Stratum(Stratum::Edges | Stratum::Vertices),
-                        WrongKind::Crack
-                    )
+                (
+                    Role::Parallel,
+                    Rays::Stratum(Stratum::Parallel),
+                    WrongKind::Hit
+                ) | (
+                    Role::Edge,
+                    Rays::Stratum(Stratum::Edges | Stratum::Vertices),
+                    WrongKind::Crack
+                )
             )
         };
-        let counts = setting.counts.iter().enumerate().filter(|(_, count)| decided(count));
+        let counts = setting
+            .counts
+            .iter()
+            .enumerate()
+            .filter(|(_, count)| decided(count));
         let places: Vec<usize> = counts.map(|(place, _)| place).collect();
-        let bound = if places.is_empty() { None } else { bound(setting, scene, gate) };
-        let Some(bound) = bound else { return Vec::new() };
+        let bound = if places.is_empty() {
+            None
+        } else {
+            bound(setting, scene, gate)
+        };
+        let Some(bound) = bound else {
+            return Vec::new();
+        };
         let value = beyond(bound, is_lower);
-        places.into_iter().map(|count| ProvedValue { knob: k, count, is_lower, value }).collect()
+        places
+            .into_iter()
+            .map(|count| ProvedValue {
+                knob: k,
+                count,
+                is_lower,
+                value,
+            })
+            .collect()
     };
     setting.knobs.iter().enumerate().flat_map(of_knob).collect()
 }
@@ -68,7 +93,12 @@ fn bound<F: Scalar>(setting: &Setting<'_, F>, scene: &Scene, gate: usize) -> Opt
     let domain = proved_scene(scene)?.domain().ok()?;
     let proof = Proof::of::<F>(setting.row.entry, Some(gate), domain).ok()?;
     let bound = proof.gate(gate)?.ok()?.bound.as_ref().ok()?.error.to_f64();
-    let uses = Uses::of(proof.quantities.iter().flat_map(|quantity| &quantity.lemmas));
+    let uses = Uses::of(
+        proof
+            .quantities
+            .iter()
+            .flat_map(|quantity| &quantity.lemmas),
+    );
     let is_margin = proof.quantities.iter().all(|quantity| quantity.is_margin);
     (is_margin && !uses.floor && !uses.extent).then_some(bound)
 }
@@ -96,8 +126,14 @@ mod tests {
 
     #[test]
     fn a_proved_value_is_strictly_beyond_its_bound() {
-        assert_eq!([true, false].map(|above| beyond::<f32>(1.0, above)), [1.01, -1.01]);
-        assert_eq!([true, false].map(|above| beyond::<f64>(1.234, above)), [1.24, -1.24]);
+        assert_eq!(
+            [true, false].map(|above| beyond::<f32>(1.0, above)),
+            [1.01, -1.01]
+        );
+        assert_eq!(
+            [true, false].map(|above| beyond::<f64>(1.234, above)),
+            [1.24, -1.24]
+        );
         // The float before 1.01 is beyond the one before itself.
         let before = f64::from(1.01f32.next_down()) * (1.0 - 1e-9);
         assert_eq!(beyond::<f32>(before, true), 1.01);
@@ -113,13 +149,24 @@ mod tests {
     fn what_is_proved_holds_for_a_larger_scene() {
         let (scene, _) = Scene::parse("extent=8,edge=0.5..4,distance=1..16").unwrap();
         let edge = [0.5 / 2.5, 4.0 + 0.5 / 16.0];
-        let expected =
-            Scene { extent: 8.0 + 8.0, edge, distance: [1.0, 16.0 + 10.0], ..scene.clone() };
-        let (found, expected) =
-            (proved_scene(&scene).unwrap(), prove::Scene::of(&expected).unwrap());
+        let expected = Scene {
+            extent: 8.0 + 8.0,
+            edge,
+            distance: [1.0, 16.0 + 10.0],
+            ..scene.clone()
+        };
+        let (found, expected) = (
+            proved_scene(&scene).unwrap(),
+            prove::Scene::of(&expected).unwrap(),
+        );
         assert_eq!(
             (found.coordinates, found.edge, found.distance, found.shape),
-            (expected.coordinates, expected.edge, expected.distance, expected.shape)
+            (
+                expected.coordinates,
+                expected.edge,
+                expected.distance,
+                expected.shape
+            )
         );
     }
 }

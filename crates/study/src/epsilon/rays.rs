@@ -67,7 +67,9 @@ impl Rays {
     fn named(name: &str) -> Option<Rays> {
         let stratum = Stratum::named(name).map(Rays::Stratum);
         let stored = || (name == Rays::Stored.name()).then_some(Rays::Stored);
-        stratum.or_else(|| find(name).map(|family| Rays::Family(family.name))).or_else(stored)
+        stratum
+            .or_else(|| find(name).map(|family| Rays::Family(family.name)))
+            .or_else(stored)
     }
 }
 
@@ -116,7 +118,12 @@ pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<RayCount> {
         (Outside, WrongKind::Hit, true),
     ];
     let counted = all.into_iter().filter(|(.., is_counted)| *is_counted);
-    counted.map(|(stratum, kind, _)| RayCount { rays: Rays::Stratum(stratum), kind }).collect()
+    counted
+        .map(|(stratum, kind, _)| RayCount {
+            rays: Rays::Stratum(stratum),
+            kind,
+        })
+        .collect()
 }
 
 /// The counts on sources: of strata those of a scene; of other rays all that they can show. On a ray that starts on a
@@ -124,7 +131,9 @@ pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<RayCount> {
 pub fn counts_of(sources: &[Source], knobs: &[Knob], row: &Row) -> Vec<RayCount> {
     let of_scene = counts(knobs, &row.contract);
     let gates = row.entry.info.gates;
-    let has_start = knobs.iter().any(|knob| guards_start(knob.gate(gates).role, &row.contract));
+    let has_start = knobs
+        .iter()
+        .any(|knob| guards_start(knob.gate(gates).role, &row.contract));
     let mut counts: Vec<RayCount> = Vec::new();
     for source in sources {
         let (rays, grouping) = (Rays::of(source), source.grouping());
@@ -186,7 +195,11 @@ mod tests {
 
     fn guarded(kernel: &str, gate: &str) -> Vec<String> {
         let info = kernel::find(kernel).unwrap().info;
-        let gate = info.gates.iter().position(|known| known.name == gate).unwrap();
+        let gate = info
+            .gates
+            .iter()
+            .position(|known| known.name == gate)
+            .unwrap();
         let role = info.gates[gate].role;
         let is_guarded = |class: &Class| guards(info.gates, role, &info.contract, *class);
         Class::all().filter(is_guarded).map(Class::name).collect()
@@ -207,17 +220,39 @@ mod tests {
         use Role::{Edge, Other, Parallel, T};
         let of = |roles: &[Role], culls: bool, extent, sides| {
             let gate = |role: &Role| {
-                let epsilon = if culls { Tunable::Signed } else { Tunable::NonNegative };
+                let epsilon = if culls {
+                    Tunable::Signed
+                } else {
+                    Tunable::NonNegative
+                };
                 let dimension = crate::kernel::Dimension::new(0, 0);
-                Gate { name: role.name(), role: *role, refuses: "", dimension, epsilon }
+                Gate {
+                    name: role.name(),
+                    role: *role,
+                    refuses: "",
+                    dimension,
+                    epsilon,
+                }
             };
             let gates: Vec<Gate> = roles.iter().map(gate).collect();
-            (gates, Contract { extent, sides, ..Contract::CLOSED_RAY })
+            (
+                gates,
+                Contract {
+                    extent,
+                    sides,
+                    ..Contract::CLOSED_RAY
+                },
+            )
         };
         let flat = ["parallel", "coplanar", "degenerate"];
         let off = ["*/*/before", "*/*/beyond"];
         let beside = ["edge/*/within", "vertex/*/within", "outside/*/*", "invalid"];
-        let seen_beside = ["edge/front/within", "vertex/front/within", "outside/*/*", "invalid"];
+        let seen_beside = [
+            "edge/front/within",
+            "vertex/front/within",
+            "outside/*/*",
+            "invalid",
+        ];
         let all = [&["*/*/*", "invalid"], &flat[..]].concat();
         let (line, interval) = (Extent::Line, Extent::Interval);
         let (both, front) = (Sides::Both, Sides::Front);
@@ -225,7 +260,14 @@ mod tests {
         type Row<'a> = (&'a [Role], bool, Extent, Sides, Role, Vec<&'a str>);
         let rows: [Row; 16] = [
             (&three, true, interval, both, Parallel, flat.to_vec()),
-            (&three, true, interval, both, T, [&off[..], &["interior/*/within"]].concat()),
+            (
+                &three,
+                true,
+                interval,
+                both,
+                T,
+                [&off[..], &["interior/*/within"]].concat(),
+            ),
             (&three, true, interval, both, Edge, beside.to_vec()),
             (&three, true, line, both, T, vec![]),
             (
@@ -237,9 +279,30 @@ mod tests {
                 vec!["edge/*/*", "vertex/*/*", "outside/*/*", "invalid"],
             ),
             (&three, false, interval, front, Parallel, flat.to_vec()),
-            (&three, true, interval, front, Parallel, [&flat[..], &["*/back/*"]].concat()),
-            (&three, false, interval, front, T, [&off[..], &["interior/front/within"]].concat()),
-            (&three, false, interval, front, Edge, [&seen_beside[..], &["*/back/*"]].concat()),
+            (
+                &three,
+                true,
+                interval,
+                front,
+                Parallel,
+                [&flat[..], &["*/back/*"]].concat(),
+            ),
+            (
+                &three,
+                false,
+                interval,
+                front,
+                T,
+                [&off[..], &["interior/front/within"]].concat(),
+            ),
+            (
+                &three,
+                false,
+                interval,
+                front,
+                Edge,
+                [&seen_beside[..], &["*/back/*"]].concat(),
+            ),
             (&three, true, interval, front, Edge, seen_beside.to_vec()),
             (&[Other], true, interval, front, Other, all),
             (
@@ -248,9 +311,20 @@ mod tests {
                 line,
                 both,
                 Edge,
-                [&flat[..], &["edge/*/*", "vertex/*/*", "outside/*/*", "invalid"]].concat(),
+                [
+                    &flat[..],
+                    &["edge/*/*", "vertex/*/*", "outside/*/*", "invalid"],
+                ]
+                .concat(),
             ),
-            (&[Edge, T], false, interval, both, Edge, [&flat[..], &beside[..]].concat()),
+            (
+                &[Edge, T],
+                false,
+                interval,
+                both,
+                Edge,
+                [&flat[..], &beside[..]].concat(),
+            ),
             (
                 &[Parallel, Other],
                 false,

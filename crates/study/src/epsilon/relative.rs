@@ -19,15 +19,25 @@ pub(super) fn relative<F: Float>(margin: F, unit: F) -> F {
 pub(super) fn scale<F: Float>(case: &Case<F>, dimension: Dimension) -> F {
     let [o, d, a, b, c] = case.vectors().map(|v| glam::DVec3::from(v.map(F::to_f64)));
     let length = if dimension == Dimension::new(1, -1) {
-        [o, a, b, c].iter().fold(0.0f64, |most, v| most.max(v.abs().max_element()))
+        [o, a, b, c]
+            .iter()
+            .fold(0.0f64, |most, v| most.max(v.abs().max_element()))
     } else {
         let squares = [(a, b), (b, c), (c, a)].map(|(p, q)| p.distance_squared(q));
         squares.into_iter().fold(0.0f64, f64::max).sqrt()
     };
-    let speed = if dimension.direction == 0 { 1.0 } else { d.length() };
+    let speed = if dimension.direction == 0 {
+        1.0
+    } else {
+        d.length()
+    };
     let unit = length.powi(dimension.length.into()) * speed.powi(dimension.direction.into());
     let unit = F::from_f64(unit);
-    if unit.is_finite() && F::zero() < unit { unit } else { F::from_f64(1.0) }
+    if unit.is_finite() && F::zero() < unit {
+        unit
+    } else {
+        F::from_f64(1.0)
+    }
 }
 
 /// The comparison that means the same at every scale, for a gate of this dimension.
@@ -41,7 +51,11 @@ pub fn scale_free_form(dimension: Dimension) -> Option<String> {
         return None;
     }
     let Dimension { length, direction } = dimension;
-    let base = if dimension == Dimension::new(1, -1) { "M" } else { "L" };
+    let base = if dimension == Dimension::new(1, -1) {
+        "M"
+    } else {
+        "L"
+    };
     let mut text = "e".to_owned();
     text.extend(power(base, length));
     match direction {
@@ -91,7 +105,11 @@ mod tests {
                     }
                 }
             }
-            let has_epsilons = entry.info.gates.iter().any(|gate| gate.epsilon != Tunable::Fixed);
+            let has_epsilons = entry
+                .info
+                .gates
+                .iter()
+                .any(|gate| gate.epsilon != Tunable::Fixed);
             assert!(!has_epsilons || 100 < compared, "{}", entry.info.name);
         }
     }
@@ -108,7 +126,10 @@ mod tests {
         for (origin, x) in [(-17.0, 0.0), (5.0, -17.0), (5.0, 14.0)] {
             let case = at(origin, x, 1.0);
             let unit = |length, direction| scale(&case, Dimension::new(length, direction));
-            assert_eq!([unit(0, 0), unit(1, 0), unit(3, 1), unit(0, 2)], [1.0, 5.0, 875.0, 49.0]);
+            assert_eq!(
+                [unit(0, 0), unit(1, 0), unit(3, 1), unit(0, 2)],
+                [1.0, 5.0, 875.0, 49.0]
+            );
             assert_eq!(unit(1, -1), 17.0 / 7.0);
             let scales = [at(0.0, 0.0, 2.0), case].map(|case| scale(&case, Dimension::new(2, 0)));
             assert_eq!(scales, [100.0, 25.0]);
@@ -124,7 +145,9 @@ mod tests {
         }
         for axis in 0..3 {
             let mut corners = corners(0.0);
-            corners.iter_mut().for_each(|corner| corner.rotate_right(axis));
+            corners
+                .iter_mut()
+                .for_each(|corner| corner.rotate_right(axis));
             corners.rotate_left(axis);
             let case = Case::<f32>::new([0.0; 3], [1.0, 0.0, 0.0], corners);
             assert_eq!(scale(&case, Dimension::new(1, 0)), 5.0);
@@ -133,7 +156,10 @@ mod tests {
         let point = Case::<f32>::new([0.0; 3], [1.0; 3], [[2.0; 3]; 3]);
         assert_eq!(scale(&point, Dimension::new(1, 0)), 1.0);
         let (huge, tiny) = (at(0.0, 0.0, 1e30), at(0.0, 0.0, 1e-30));
-        assert_eq!([&huge, &tiny].map(|case| scale(case, Dimension::new(2, 0))), [1.0; 2]);
+        assert_eq!(
+            [&huge, &tiny].map(|case| scale(case, Dimension::new(2, 0))),
+            [1.0; 2]
+        );
     }
 
     #[test]
@@ -150,7 +176,10 @@ mod tests {
             "e * L^2 * |d|",
             "e * L^4 * |d|^2",
         ];
-        assert_eq!(forms.map(|(length, direction)| form(length, direction).unwrap()), expected);
+        assert_eq!(
+            forms.map(|(length, direction)| form(length, direction).unwrap()),
+            expected
+        );
     }
 
     #[test]

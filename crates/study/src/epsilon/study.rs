@@ -100,14 +100,20 @@ pub fn study_scene<F: Scalar>(
     pass: Pass<'_>,
 ) -> Result<SceneStudy<F>, String> {
     let store = Store::default();
-    let setting = &Setting { store: Some(&store), ..*setting };
+    let setting = &Setting {
+        store: Some(&store),
+        ..*setting
+    };
     let (counts, fresh) = (setting.counts, pass.fresh());
     let accurate = cheapest(setting, costs, max_error, pass);
     let is_accurate = accurate.is_some();
     let best = accurate.or_else(|| cheapest(setting, costs, None, pass));
     let best = best.expect("without a limit of errors some point is the cheapest");
     let (best, found) = within_limits(setting, best, costs, max_error, pass);
-    let following = Setting { relative: true, ..*setting };
+    let following = Setting {
+        relative: true,
+        ..*setting
+    };
     let followed = cheapest(&following, costs, max_error, pass);
     let followed =
         followed.map(|followed| within_limits(&following, followed, costs, max_error, pass));
@@ -119,18 +125,30 @@ pub fn study_scene<F: Scalar>(
         }
     }
     let plain = vectors.len();
-    let mut attempts: Vec<Attempt<F>> =
-        vectors.iter().map(|(_, epsilons)| Attempt::new(epsilons.clone())).collect();
-    attempts.extend(found.iter().filter_map(|limit| Attempt::at_limit(limit, &best)));
+    let mut attempts: Vec<Attempt<F>> = vectors
+        .iter()
+        .map(|(_, epsilons)| Attempt::new(epsilons.clone()))
+        .collect();
+    attempts.extend(
+        found
+            .iter()
+            .filter_map(|limit| Attempt::at_limit(limit, &best)),
+    );
     let proofs = proved(setting);
     let at_proved =
         |proved: &ProvedValue<F>| Attempt::alone(proved.knob, proved.value, proved.is_lower, &best);
     attempts.extend(proofs.iter().map(at_proved));
-    let plain_ones: Vec<Vec<F>> =
-        attempts[..plain].iter().map(|attempt| attempt.epsilons.clone()).collect();
+    let plain_ones: Vec<Vec<F>> = attempts[..plain]
+        .iter()
+        .map(|attempt| attempt.epsilons.clone())
+        .collect();
     let differs = differs(setting, &plain_ones, pass.observer);
     let run = measure(setting, &attempts, plain, max_error, fresh, differs);
-    let WrongAnswers { trials: mut wrong, of_hits, ran } = run;
+    let WrongAnswers {
+        trials: mut wrong,
+        of_hits,
+        ran,
+    } = run;
     ran.fault.map_or(Ok(()), Err)?;
     let of_proofs = wrong.split_off(attempts.len() - proofs.len());
     let mut of_limits = wrong.split_off(plain).into_iter();
@@ -154,19 +172,38 @@ pub fn study_scene<F: Scalar>(
             price: price(bound.knob, bound.is_lower, &wrong),
             bound,
         },
-        None => OnFresh { bound, wrong: Trials::default(), price: None },
+        None => OnFresh {
+            bound,
+            wrong: Trials::default(),
+            price: None,
+        },
     };
     let curves = curves(setting, &best, &axes, fresh);
     let found = found.into_iter().map(of_limit).collect();
-    let has_edges = counts.iter().any(|count| count.rays == Rays::Stratum(Stratum::Edges));
+    let has_edges = counts
+        .iter()
+        .any(|count| count.rays == Rays::Stratum(Stratum::Edges));
     let pictures = |setting: &Setting<'_, F>, all: &[Vec<F>]| match has_edges {
         true => holes(setting, all, fresh),
         false => vec![None; all.len()],
     };
     let tried = |(name, epsilons): (String, Vec<F>), wrong: Vec<Trials>, of_hits: OfHits, holes| {
         let cost = costs.of_trials(counts, &wrong);
-        let OfHits { errors, exceeded, doubles } = of_hits;
-        Tried { name, epsilons, wrong, cost, errors, exceeded, doubles, holes }
+        let OfHits {
+            errors,
+            exceeded,
+            doubles,
+        } = of_hits;
+        Tried {
+            name,
+            epsilons,
+            wrong,
+            cost,
+            errors,
+            exceeded,
+            doubles,
+            holes,
+        }
     };
     let of_vectors = vectors.into_iter().zip(wrong).zip(of_hits);
     let all: Vec<Tried<F>> = (of_vectors.zip(pictures(setting, &plain_ones)))
@@ -226,7 +263,10 @@ pub fn within_limits<F: Scalar>(
     let both = best.iter().zip(&middles);
     let both = both.map(|(own, middle)| [Some(*own), *middle].into_iter().flatten().collect());
     let joint = Joint::count(setting, of_values(both), max_error, pass);
-    match joint.moved(setting.counts, costs, &best, &middles).filter(|moved| *moved != best) {
+    match joint
+        .moved(setting.counts, costs, &best, &middles)
+        .filter(|moved| *moved != best)
+    {
         Some(moved) => {
             let found = limits(setting, &moved, pass);
             (moved, found)
@@ -239,7 +279,10 @@ pub fn within_limits<F: Scalar>(
 fn refuted<F: Float>(proofs: &[OnFresh<ProvedValue<F>>]) -> Option<String> {
     let OnFresh { bound, wrong, .. } = proofs.iter().find(|found| 0 < found.wrong.count)?;
     let value = bound.value.to_f64();
-    Some(format!("{value:e} is proved to be never wrong, and was {} times", wrong.count))
+    Some(format!(
+        "{value:e} is proved to be never wrong, and was {} times",
+        wrong.count
+    ))
 }
 
 /// True if a form is cheaper than fixed epsilons by enough, and by more than chance explains.
@@ -255,8 +298,11 @@ fn is_worth_saying<F>(
 /// True if the costs of two epsilons differ by more than three standard deviations, as if they were of different rays:
 /// they are of the same, so chance explains even less.
 fn is_beyond_chance<F>(counts: &[RayCount], costs: &Costs, tried: [&Tried<F>; 2]) -> bool {
-    let variance =
-        |wrong: &Trials| wrong.share().map_or(0.0, |share| share * (1.0 - share) / wrong.of as f64);
+    let variance = |wrong: &Trials| {
+        wrong
+            .share()
+            .map_or(0.0, |share| share * (1.0 - share) / wrong.of as f64)
+    };
     let of_count =
         |(count, wrong): (&RayCount, &Trials)| costs.of(count.kind).powi(2) * variance(wrong);
     let variances = tried.map(|tried| counts.iter().zip(&tried.wrong).map(of_count).sum::<f64>());
@@ -274,7 +320,10 @@ fn price<F: Scalar>(setting: &Setting<'_, F>, knob: usize, is_lower: bool) -> Op
         _ => return None,
     };
     let (rays, kind) = (Rays::Stratum(wanted.0), wanted.1);
-    setting.counts.iter().position(|count| *count == RayCount { rays, kind })
+    setting
+        .counts
+        .iter()
+        .position(|count| *count == RayCount { rays, kind })
 }
 
 /// The epsilons of a row by knob, and the least t.
@@ -301,7 +350,9 @@ pub fn cheapest<F: Scalar>(
     };
     let (grid, step) = grid(setting, MOST_POINTS, max_error, pass);
     // What a coarse grid leaves out may be cheaper.
-    (0..step).rev().try_fold(best(grid)?, |found, step| best(around(&found, step)))
+    (0..step)
+        .rev()
+        .try_fold(best(grid)?, |found, step| best(around(&found, step)))
 }
 
 /// Tries the recommended epsilons and the proved values in other scenes. A value that is wrong there is taken out of what
@@ -318,10 +369,17 @@ pub fn try_elsewhere<F: Scalar>(
             let bound = &found.bound;
             Attempt::alone(bound.knob, bound.value, bound.is_lower, &study.best)
         }));
-        let setting = Setting { scene: Some(scene), store: None, ..*setting };
+        let setting = Setting {
+            scene: Some(scene),
+            store: None,
+            ..*setting
+        };
         let mut wrong = count_at(&setting, &attempts, pass.fresh()).into_iter();
         let of_best = wrong.next().expect("one attempt at least");
-        study.elsewhere.push(Elsewhere { kind: scene.kind(), wrong: of_best });
+        study.elsewhere.push(Elsewhere {
+            kind: scene.kind(),
+            wrong: of_best,
+        });
         study.proved.retain(|found| {
             let wrong = wrong.next().expect("an attempt for each proof");
             wrong[found.bound.count].count == 0
@@ -334,20 +392,41 @@ mod tests {
     use super::*;
 
     const COUNTS: [RayCount; 3] = [
-        RayCount { rays: Rays::Stratum(Stratum::Edges), kind: WrongKind::Crack },
-        RayCount { rays: Rays::Stratum(Stratum::Interior), kind: WrongKind::Miss },
-        RayCount { rays: Rays::Stratum(Stratum::Shadow), kind: WrongKind::SelfHit },
+        RayCount {
+            rays: Rays::Stratum(Stratum::Edges),
+            kind: WrongKind::Crack,
+        },
+        RayCount {
+            rays: Rays::Stratum(Stratum::Interior),
+            kind: WrongKind::Miss,
+        },
+        RayCount {
+            rays: Rays::Stratum(Stratum::Shadow),
+            kind: WrongKind::SelfHit,
+        },
     ];
 
     /// So many cracks of 10,000 rays and misses of 500; of self-hits there was no ray.
     fn tried(cracks: u64, misses: u64) -> Tried<f32> {
-        let some = [Trials::independent(cracks, 10_000), Trials::independent(misses, 500)];
+        let some = [
+            Trials::independent(cracks, 10_000),
+            Trials::independent(misses, 500),
+        ];
         let wrong = [&some[..], &[Trials::default()]].concat();
         let cost = Costs::default().of_trials(&COUNTS, &wrong);
         assert_eq!(cost, 10.0 * (cracks as f64 / 1e4) + misses as f64 / 500.0);
         let (name, epsilons, errors) = (String::new(), vec![0.0f32], Vec::new());
         let (exceeded, doubles) = (Vec::new(), Vec::new());
-        Tried { name, epsilons, wrong, cost, errors, exceeded, doubles, holes: None }
+        Tried {
+            name,
+            epsilons,
+            wrong,
+            cost,
+            errors,
+            exceeded,
+            doubles,
+            holes: None,
+        }
     }
 
     #[test]
@@ -374,7 +453,10 @@ mod tests {
             let [form, fixed] = [form, fixed].map(|cracks| tried(cracks, 0));
             is_worth_saying(&COUNTS, &Costs::default(), &form, &fixed)
         };
-        assert_eq!([790, 800, 850].map(|form| is_worth(form, 1000)), [true, false, false]);
+        assert_eq!(
+            [790, 800, 850].map(|form| is_worth(form, 1000)),
+            [true, false, false]
+        );
         assert_eq!([1500, 1700].map(|form| is_worth(form, 2000)), [true, false]);
         assert_eq!([is_worth(0, 8), is_worth(0, 10)], [false, true]);
     }
@@ -382,7 +464,12 @@ mod tests {
     #[test]
     fn one_wrong_answer_refutes_a_proof() {
         let proof = |value: f64, wrong: u64| OnFresh {
-            bound: ProvedValue { knob: 0, count: 0, is_lower: true, value },
+            bound: ProvedValue {
+                knob: 0,
+                count: 0,
+                is_lower: true,
+                value,
+            },
             wrong: Trials::independent(wrong, 9),
             price: None,
         };

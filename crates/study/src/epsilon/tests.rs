@@ -44,15 +44,31 @@ pub(super) struct Tuned {
 
 impl Tuned {
     pub fn new(kernel: &str, scene: &str) -> Tuned {
-        let row = EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap().remove(0);
+        let row = EpsilonChoice::Source
+            .rows(&[find(kernel).unwrap()], None)
+            .unwrap()
+            .remove(0);
         let knobs = Knob::all(&row);
-        let row = Row { contract: contract_with(&knobs, &row.contract), ..row };
+        let row = Row {
+            contract: contract_with(&knobs, &row.contract),
+            ..row
+        };
         let counts = counts(&knobs, &row.contract);
-        Tuned { row, knobs, counts, scene: Scene::parse(scene).unwrap().0 }
+        Tuned {
+            row,
+            knobs,
+            counts,
+            scene: Scene::parse(scene).unwrap().0,
+        }
     }
 
     pub fn setting(&self) -> Setting<'_, f32> {
-        let Tuned { row, knobs, counts, scene } = self;
+        let Tuned {
+            row,
+            knobs,
+            counts,
+            scene,
+        } = self;
         let subject = f32::subject(row.entry).unwrap();
         Setting {
             row,
@@ -71,9 +87,19 @@ impl Tuned {
     pub fn all(&self, seed: u64, number: u64) -> Vec<Kept> {
         let keep = |all: &mut All, trial: Trial<'_, f32>| {
             let margins = trial.margins.to_vec();
-            all.0.push(Kept { count: trial.count, margins, errors: errors_of(&trial) });
+            all.0.push(Kept {
+                count: trial.count,
+                margins,
+                errors: errors_of(&trial),
+            });
         };
-        self.setting().sum(Pass::new(seed, number, &Unobserved), || All(Vec::new()), keep).0
+        self.setting()
+            .sum(
+                Pass::new(seed, number, &Unobserved),
+                || All(Vec::new()),
+                keep,
+            )
+            .0
     }
 
     fn is_miss(&self, count: usize) -> bool {
@@ -88,7 +114,9 @@ impl Tuned {
 
 impl Kept {
     pub fn is_hit(&self, epsilons: &[f32]) -> bool {
-        self.margins.iter().any(|m| epsilons.iter().zip(m).all(|(e, m)| e <= m))
+        self.margins
+            .iter()
+            .any(|m| epsilons.iter().zip(m).all(|(e, m)| e <= m))
     }
 
     /// True if it is a hit after one of the epsilons is replaced.
@@ -119,12 +147,19 @@ fn what_is_counted_depends_on_the_least_t_and_the_sides() {
     use Stratum::*;
     use WrongKind::*;
     let of = |knobs: &[Knob], extent, sides| {
-        let contract = Contract { extent, sides, ..Contract::CLOSED_RAY };
+        let contract = Contract {
+            extent,
+            sides,
+            ..Contract::CLOSED_RAY
+        };
         let stratum = |count: &RayCount| match count.rays {
             Rays::Stratum(stratum) => (stratum, count.kind),
             other => panic!("{other:?} in a scene"),
         };
-        counts(knobs, &contract).iter().map(stratum).collect::<Vec<_>>()
+        counts(knobs, &contract)
+            .iter()
+            .map(stratum)
+            .collect::<Vec<_>>()
     };
     let always = vec![
         (Interior, Miss),
@@ -142,8 +177,14 @@ fn what_is_counted_depends_on_the_least_t_and_the_sides() {
     assert_eq!(of(&[Knob::LeastT], Extent::Ray, Sides::Both), more);
     more.insert(1, (Interior, Hit));
     assert_eq!(of(&[Knob::LeastT], Extent::Ray, Sides::Front), more);
-    assert_eq!(WrongKind::ALL.map(WrongKind::name), ["crack", "miss", "hit", "self-hit"]);
-    assert_eq!(WrongKind::ALL.map(WrongKind::is_wrong_if_refused), [true, true, false, false]);
+    assert_eq!(
+        WrongKind::ALL.map(WrongKind::name),
+        ["crack", "miss", "hit", "self-hit"]
+    );
+    assert_eq!(
+        WrongKind::ALL.map(WrongKind::is_wrong_if_refused),
+        [true, true, false, false]
+    );
 }
 
 #[test]
@@ -152,9 +193,25 @@ fn curves_count_the_hits_at_each_value_while_the_others_stay() {
         let tuned = Tuned::new(kernel, "room");
         let epsilons = &epsilons[..tuned.knobs.len()];
         let all = tuned.all(3, 300);
-        let axis = vec![f32::MIN, -1e-3, -1e-6, 0.0, 1e-9, 1e-7, 1e-5, 1e-3, 0.1, 10.0];
+        let axis = vec![
+            f32::MIN,
+            -1e-3,
+            -1e-6,
+            0.0,
+            1e-9,
+            1e-7,
+            1e-5,
+            1e-3,
+            0.1,
+            10.0,
+        ];
         let axes = vec![axis.clone(); tuned.knobs.len()];
-        let found = curves(&tuned.setting(), epsilons, &axes, Pass::new(3, 300, &Unobserved));
+        let found = curves(
+            &tuned.setting(),
+            epsilons,
+            &axes,
+            Pass::new(3, 300, &Unobserved),
+        );
         assert_eq!(found.len(), tuned.knobs.len());
         for (k, curve) in found.iter().enumerate() {
             assert_eq!(curve.values, axis);
@@ -163,8 +220,15 @@ fn curves_count_the_hits_at_each_value_while_the_others_stay() {
                 let hits =
                     |value| of().filter(|t| t.is_hit_with(epsilons, k, value)).count() as u64;
                 let expected: Vec<u64> = axis.iter().map(|value| hits(*value)).collect();
-                assert_eq!(curve.hits[c], expected, "{kernel} {k} {:?}", tuned.counts[c]);
-                assert_eq!((curve.left[c], curve.of[c]), (hits(f32::MIN), of().count() as u64));
+                assert_eq!(
+                    curve.hits[c], expected,
+                    "{kernel} {k} {:?}",
+                    tuned.counts[c]
+                );
+                assert_eq!(
+                    (curve.left[c], curve.of[c]),
+                    (hits(f32::MIN), of().count() as u64)
+                );
             }
         }
     }
@@ -181,7 +245,10 @@ fn limits_are_margins_of_their_rank() {
         // How near rays pass beside a triangle is not printed.
         let mut told = found.clone();
         told.retain(|limit| tuned.counts[limit.count].rays.name() != "scene-outside");
-        assert_eq!(limits(&tuned.setting(), epsilons, Pass::new(4, 400, &Unobserved)), told);
+        assert_eq!(
+            limits(&tuned.setting(), epsilons, Pass::new(4, 400, &Unobserved)),
+            told
+        );
         let mut found = found.into_iter();
         let gates = tuned.row.entry.info.gates;
         for (k, knob) in tuned.knobs.iter().enumerate() {
@@ -212,7 +279,14 @@ fn limits_are_margins_of_their_rank() {
                 }
                 let above = |m: f32| {
                     let next = m.next_up();
-                    two_digits(if 0.0 < next { next.max(f32::MIN_POSITIVE) } else { next }, true)
+                    two_digits(
+                        if 0.0 < next {
+                            next.max(f32::MIN_POSITIVE)
+                        } else {
+                            next
+                        },
+                        true,
+                    )
                 };
                 let value = match is_lower {
                     true => (margin < f32::INFINITY).then(|| above(margin)),
@@ -220,16 +294,31 @@ fn limits_are_margins_of_their_rank() {
                 };
                 let beyond = |m: f32| match is_lower {
                     true => {
-                        let next = if m == -0.0 { f32::MIN_POSITIVE } else { m.next_up() };
+                        let next = if m == -0.0 {
+                            f32::MIN_POSITIVE
+                        } else {
+                            m.next_up()
+                        };
                         two_digits(
-                            if 0.0 < next { next.max(f32::MIN_POSITIVE) } else { next },
+                            if 0.0 < next {
+                                next.max(f32::MIN_POSITIVE)
+                            } else {
+                                next
+                            },
                             false,
                         )
                     }
                     false => two_digits(m, true),
                 };
                 let far = far.is_finite().then(|| beyond(far));
-                let expected = KnobLimit { knob: k, count: c, is_lower, value, far, one_in };
+                let expected = KnobLimit {
+                    knob: k,
+                    count: c,
+                    is_lower,
+                    value,
+                    far,
+                    one_in,
+                };
                 assert_eq!(found.next(), Some(expected), "{kernel} {knob:?} {count:?}");
                 found_some[usize::from(is_lower)] += 1;
             }
@@ -244,7 +333,11 @@ fn limits_are_margins_of_their_rank() {
 fn largest(tuned: &Tuned, knob: Knob) -> f64 {
     let gates = tuned.row.entry.info.gates;
     let [edge, way] = [tuned.scene.edge[1], tuned.scene.distance[1]];
-    let length = if knob.gate(gates).role == Role::T { way } else { edge };
+    let length = if knob.gate(gates).role == Role::T {
+        way
+    } else {
+        edge
+    };
     length.powi(knob.gate(gates).dimension.length.into())
 }
 
@@ -257,8 +350,12 @@ fn a_grid_holds_round_numbers_over_the_margins_that_matter() {
         for (most_points, max_error) in [(300_000, None), (300_000, Some(&max_error)), (1000, None)]
         {
             let all = tuned.all(5, 200);
-            let (found, step): (KnobGrid<f32>, usize) =
-                grid(&tuned.setting(), most_points, max_error, Pass::new(5, 200, &Unobserved));
+            let (found, step): (KnobGrid<f32>, usize) = grid(
+                &tuned.setting(),
+                most_points,
+                max_error,
+                Pass::new(5, 200, &Unobserved),
+            );
             let is_thin = 0 < step;
             assert!(!is_thin || most_points == 1000, "{kernel}");
             thin += u32::from(is_thin);
@@ -291,7 +388,10 @@ fn a_grid_holds_round_numbers_over_the_margins_that_matter() {
                     below.clear();
                 }
                 let values = &found.values()[k];
-                assert!(values.windows(2).all(|pair| pair[0] < pair[1]), "{values:?}");
+                assert!(
+                    values.windows(2).all(|pair| pair[0] < pair[1]),
+                    "{values:?}"
+                );
                 let has = |value: f32| values.contains(&value);
                 assert!(has(0.0), "{values:?}");
                 let of_sign = |is_above: bool| -> Vec<f64> {
@@ -325,7 +425,11 @@ fn a_grid_holds_round_numbers_over_the_margins_that_matter() {
                     assert!(sizes.len() == 1 || before < most, "{told} {most:e}");
                 }
             }
-            let points: usize = found.values().iter().map(|values| values.len() + 1).product();
+            let points: usize = found
+                .values()
+                .iter()
+                .map(|values| values.len() + 1)
+                .product();
             assert!(points <= most_points, "{points}");
         }
     }
@@ -337,15 +441,26 @@ fn a_grid_is_as_fine_as_its_points_allow() {
     for (kernel, _) in KERNELS {
         let tuned = Tuned::new(kernel, "room");
         let within = |most_points: usize| {
-            let (found, step) =
-                grid(&tuned.setting(), most_points, None, Pass::new(5, 200, &Unobserved));
-            let points: usize = found.values().iter().map(|values| values.len() + 1).product();
+            let (found, step) = grid(
+                &tuned.setting(),
+                most_points,
+                None,
+                Pass::new(5, 200, &Unobserved),
+            );
+            let points: usize = found
+                .values()
+                .iter()
+                .map(|values| values.len() + 1)
+                .product();
             (points, step)
         };
         let (points, finest) = within(usize::MAX);
         assert_eq!((within(points), finest), ((points, 0), 0), "{kernel}");
         let (fewer, coarser) = within(points - 1);
-        assert!(fewer < points && coarser == 1, "{kernel}: {fewer} of {points}, {coarser}");
+        assert!(
+            fewer < points && coarser == 1,
+            "{kernel}: {fewer} of {points}, {coarser}"
+        );
         // Nothing is left out after the eighth step, however few are allowed.
         assert_eq!(within(0).1, 8, "{kernel}");
     }

@@ -48,12 +48,19 @@ pub struct Pass<'a> {
 impl Pass<'_> {
     /// So many rays of a seed.
     pub fn new(seed: u64, count: u64, observer: &dyn Observer) -> Pass<'_> {
-        Pass { seed, count, observer }
+        Pass {
+            seed,
+            count,
+            observer,
+        }
     }
 
     /// As many fresh rays.
     pub fn fresh(self) -> Self {
-        Pass { seed: fresh_seed(self.seed), ..self }
+        Pass {
+            seed: fresh_seed(self.seed),
+            ..self
+        }
     }
 }
 
@@ -105,13 +112,17 @@ pub struct Trial<'a, F: Float> {
 impl<F: Float> Trial<'_, F> {
     /// True if a hit is reported with these epsilons.
     pub fn is_hit(&self, epsilons: &[F]) -> bool {
-        self.margins.iter().any(|margins| accepts(margins, epsilons))
+        self.margins
+            .iter()
+            .any(|margins| accepts(margins, epsilons))
     }
 
     /// How many triangles of the group itself report a hit with these epsilons.
     pub fn hits(&self, epsilons: &[F]) -> usize {
         let own = &self.margins[..self.margins.len() - self.around];
-        own.iter().filter(|margins| accepts(margins, epsilons)).count()
+        own.iter()
+            .filter(|margins| accepts(margins, epsilons))
+            .count()
     }
 }
 
@@ -122,7 +133,10 @@ pub fn is_unknown<F: Float>(margins: &KnobMargins<F>) -> bool {
 
 /// True if margins accept epsilons.
 pub fn accepts<F: Float>(margins: &KnobMargins<F>, epsilons: &[F]) -> bool {
-    epsilons.iter().zip(margins).all(|(epsilon, margin)| epsilon <= margin)
+    epsilons
+        .iter()
+        .zip(margins)
+        .all(|(epsilon, margin)| epsilon <= margin)
 }
 
 impl<F: Scalar> Setting<'_, F> {
@@ -156,22 +170,49 @@ impl<F: Scalar> Setting<'_, F> {
                         Some(store) => store.part(pass.seed, place, make),
                         None => Arc::new(make()),
                     };
-                    let Prepared { cases, margins, relative, values, trials } = &*part;
+                    let Prepared {
+                        cases,
+                        margins,
+                        relative,
+                        values,
+                        trials,
+                    } = &*part;
                     let margins = match self.relative {
                         true => relative.get_or_init(|| self.relative_margins(cases, margins)),
                         false => margins,
                     };
                     look(sums, cases, margins);
                     for trial in trials {
-                        let PreparedTrial { count, guards, around, cases: range } = trial;
+                        let PreparedTrial {
+                            count,
+                            guards,
+                            around,
+                            cases: range,
+                        } = trial;
                         let (count, guards, around) = (*count, *guards, *around);
                         let (margins, cases) = (&margins[range.clone()], &cases[range.clone()]);
                         let values = &values[range.clone()];
-                        add(sums, Trial { count, guards, margins, around, cases, values });
+                        add(
+                            sums,
+                            Trial {
+                                count,
+                                guards,
+                                margins,
+                                around,
+                                cases,
+                                values,
+                            },
+                        );
                     }
                 };
                 let indices = 0..source.count::<F>();
-                total.merge(engine::sum(indices, source.chunk(), pass.observer, &empty, add));
+                total.merge(engine::sum(
+                    indices,
+                    source.chunk(),
+                    pass.observer,
+                    &empty,
+                    add,
+                ));
             }
         }
         total
@@ -181,7 +222,11 @@ impl<F: Scalar> Setting<'_, F> {
     fn sources_of(&self, rays: Rays, pass: Pass<'_>) -> Vec<Source> {
         let Pass { seed, count, .. } = pass;
         let reseeded = |source: &Source| match source.stock {
-            Stock::Family(_) => Source { seed, count, ..source.clone() },
+            Stock::Family(_) => Source {
+                seed,
+                count,
+                ..source.clone()
+            },
             _ => source.clone(),
         };
         match rays {
@@ -199,7 +244,11 @@ impl<F: Scalar> Setting<'_, F> {
     pub fn source(&self, stratum: Stratum, seed: u64, count: u64) -> Source {
         let kernel = (stratum == Stratum::Shadow).then(|| self.row.entry.info.name.to_owned());
         let scene = Some(self.scene.cloned().unwrap_or_default());
-        let parameters = Parameters { scene, kernel, ..Parameters::default() };
+        let parameters = Parameters {
+            scene,
+            kernel,
+            ..Parameters::default()
+        };
         Source::of_stratum(stratum, self.mesh, parameters, seed, count)
     }
 
@@ -236,16 +285,26 @@ impl<F: Scalar> Setting<'_, F> {
         let trials = self.trials(&chunk, rays);
         let crossings = self.crossings(source, &chunk, rays);
         let cases = chunk.cases;
-        let mut prepared = Prepared { cases, margins, relative: OnceLock::new(), values, trials };
+        let mut prepared = Prepared {
+            cases,
+            margins,
+            relative: OnceLock::new(),
+            values,
+            trials,
+        };
         self.add_crossings(crossings, &mut prepared);
-        let Prepared { margins, trials, .. } = &mut prepared;
+        let Prepared {
+            margins, trials, ..
+        } = &mut prepared;
         trials.retain(|trial| !margins[trial.cases.clone()].iter().any(is_unknown));
         prepared
     }
 
     /// The place of a count, if it is counted.
     fn place(&self, rays: Rays, kind: WrongKind) -> Option<usize> {
-        self.counts.iter().position(|count| *count == RayCount { rays, kind })
+        self.counts
+            .iter()
+            .position(|count| *count == RayCount { rays, kind })
     }
 
     /// Which cases are a trial together, and of which count; other rays than those of a stratum may count for several things.
@@ -281,7 +340,12 @@ impl<F: Scalar> Setting<'_, F> {
                 Obligation::Free => None,
             };
             let cases = i..i + 1;
-            trials.extend(count.map(|count| PreparedTrial { count, guards, cases, around: 0 }));
+            trials.extend(count.map(|count| PreparedTrial {
+                count,
+                guards,
+                cases,
+                around: 0,
+            }));
         }
         trials
     }

@@ -24,7 +24,10 @@ pub struct Decimal {
 
 impl Decimal {
     /// Zero.
-    pub const ZERO: Decimal = Decimal { exponent: i64::MIN, digits: 0 };
+    pub const ZERO: Decimal = Decimal {
+        exponent: i64::MIN,
+        digits: 0,
+    };
 
     /// The decimal nearest to an exact number, ties to even. None of NaN, an infinity or a negative
     /// number.
@@ -73,14 +76,23 @@ impl Decimal {
         let unit = 10u64.pow(DIGITS - digits);
         let rounded = (self.digits + unit / 2) / unit * unit;
         match rounded == 10u64.pow(DIGITS) {
-            true => Decimal { exponent: self.exponent + 1, digits: rounded / 10 },
-            false => Decimal { digits: rounded, ..self },
+            true => Decimal {
+                exponent: self.exponent + 1,
+                digits: rounded / 10,
+            },
+            false => Decimal {
+                digits: rounded,
+                ..self
+            },
         }
     }
 
     /// Rounded to some digits, with zeros at the end.
     pub fn with_digits(self, digits: u32) -> String {
-        let Decimal { exponent, digits: all } = self.rounded(digits);
+        let Decimal {
+            exponent,
+            digits: all,
+        } = self.rounded(digits);
         if all == 0 {
             return "0".to_owned();
         }
@@ -119,7 +131,11 @@ fn rounded(value: &BigRational, power: i64) -> BigInt {
         std::cmp::Ordering::Equal => quotient.bit(0),
         std::cmp::Ordering::Greater => true,
     };
-    if up { quotient + BigInt::one() } else { quotient }
+    if up {
+        quotient + BigInt::one()
+    } else {
+        quotient
+    }
 }
 
 /// Rationals below and above √r, 2^-bits over the denominator of r apart; equal if √r is one of them.
@@ -129,7 +145,11 @@ fn root_bounds(r: &BigRational, bits: u64) -> [BigRational; 2] {
     let root = square.sqrt();
     let exact = &root * &root == square;
     let denominator = r.denom() << bits;
-    let above = if exact { root.clone() } else { &root + BigInt::one() };
+    let above = if exact {
+        root.clone()
+    } else {
+        &root + BigInt::one()
+    };
     [root, above].map(|root| BigRational::new(root, denominator.clone()))
 }
 
@@ -156,8 +176,14 @@ impl FromStr for Decimal {
             let (digits, exponent) = text.split_once('e')?;
             let (first, rest) = digits.split_once('.').unwrap_or((digits, ""));
             let padded = format!("{first}{rest:0<16}");
-            let digits = padded.parse().ok().filter(|_| padded.len() == DIGITS as usize)?;
-            Some(Decimal { exponent: exponent.parse().ok()?, digits })
+            let digits = padded
+                .parse()
+                .ok()
+                .filter(|_| padded.len() == DIGITS as usize)?;
+            Some(Decimal {
+                exponent: exponent.parse().ok()?,
+                digits,
+            })
         };
         parsed()
             .filter(|decimal| decimal.to_string() == text)
@@ -183,9 +209,15 @@ mod tests {
         assert_eq!(of(f64::from_bits(1)), "4.9406564584124654e-324");
         assert_eq!(of(f64::MAX), "1.7976931348623157e308");
         let third = Exact::one() / Exact::from_f64(3.0);
-        assert_eq!(Decimal::of(&third).unwrap().to_string(), "3.3333333333333333e-1");
+        assert_eq!(
+            Decimal::of(&third).unwrap().to_string(),
+            "3.3333333333333333e-1"
+        );
         let two_thirds = Exact::from_f64(2.0) / Exact::from_f64(3.0);
-        assert_eq!(Decimal::of(&two_thirds).unwrap().to_string(), "6.6666666666666667e-1");
+        assert_eq!(
+            Decimal::of(&two_thirds).unwrap().to_string(),
+            "6.6666666666666667e-1"
+        );
         // Seventeen nines and a half round up to a power of ten.
         let nines = Exact::from_f64(1e17) * Exact::from_f64(10.0) - Exact::from_f64(1.0);
         assert_eq!(Decimal::of(&nines).unwrap().to_string(), "1e18");
@@ -196,11 +228,22 @@ mod tests {
     #[test]
     fn roots_are_rounded_right_through_cancellation() {
         let two = Exact::from_f64(2.0).sqrt();
-        assert_eq!(Decimal::of(&two).unwrap().to_string(), "1.414213562373095e0");
+        assert_eq!(
+            Decimal::of(&two).unwrap().to_string(),
+            "1.414213562373095e0"
+        );
         // √2 against its nearest f64: it is 9.66729331345291303718…e-17 above it.
         let rest = Exact::from_f64(2f64.sqrt()) - two;
-        assert_eq!(Decimal::of(&rest).unwrap().to_string(), "9.667293313452913e-17");
-        assert_eq!(Decimal::of(&Exact::from_f64(9.0).sqrt()).unwrap().to_string(), "3e0");
+        assert_eq!(
+            Decimal::of(&rest).unwrap().to_string(),
+            "9.667293313452913e-17"
+        );
+        assert_eq!(
+            Decimal::of(&Exact::from_f64(9.0).sqrt())
+                .unwrap()
+                .to_string(),
+            "3e0"
+        );
     }
 
     #[test]
@@ -221,16 +264,26 @@ mod tests {
     #[test]
     fn decimals_survive_their_text_and_keep_their_order() {
         let values = [0.0, 1e-300, 0.25, 0.3, 1.0, 1.0 + f64::EPSILON, 7e22];
-        let decimals: Vec<Decimal> =
-            values.iter().map(|x| Decimal::of(&Exact::from_f64(*x)).unwrap()).collect();
+        let decimals: Vec<Decimal> = values
+            .iter()
+            .map(|x| Decimal::of(&Exact::from_f64(*x)).unwrap())
+            .collect();
         assert!(decimals.is_sorted_by(|a, b| a < b));
         for (decimal, value) in decimals.iter().zip(values) {
             assert_eq!(decimal.to_string().parse(), Ok(*decimal));
             assert_eq!(decimal.to_f64(), value);
         }
-        for bad in
-            ["", "1", "1.50e3", "-1e0", "12e0", "1.25", "0e0", "1e0x", "1.12345678901234567e0"]
-        {
+        for bad in [
+            "",
+            "1",
+            "1.50e3",
+            "-1e0",
+            "12e0",
+            "1.25",
+            "0e0",
+            "1e0x",
+            "1.12345678901234567e0",
+        ] {
             assert!(bad.parse::<Decimal>().is_err(), "{bad}");
         }
     }

@@ -36,7 +36,11 @@ impl SearchDomain {
         self.allows_numbers(case)
             && (self == SearchDomain::Any || {
                 let wide = case.widen();
-                is_healthy(&wide.ray, &wide.triangle, [FAR, SHARE].map(|share| share * 1.001))
+                is_healthy(
+                    &wide.ray,
+                    &wide.triangle,
+                    [FAR, SHARE].map(|share| share * 1.001),
+                )
             })
     }
 
@@ -67,14 +71,20 @@ const SHARE: f64 = 1.0 / 64.0;
 /// True if the longest edge is at least `far` of the largest coordinate, and height, sine and distance
 /// at least `share`. All comparisons are of squares: no root is taken.
 fn is_healthy<V: Vector>(
-    Ray { origin: o, direction: d, .. }: &Ray<V>,
+    Ray {
+        origin: o,
+        direction: d,
+        ..
+    }: &Ray<V>,
     Triangle { a, b, c }: &Triangle<V>,
     shares: [V::Real; 2],
 ) -> bool {
     let [far, share] = shares.map(|share| share.clone() * &share);
     let larger = |x: V::Real, y: V::Real| if x.is_less(&y) { y } else { x };
     let square = |v: &V| v.dot(v);
-    let numbers = [o, a, b, c].into_iter().flat_map(|p| [p.at(0), p.at(1), p.at(2)]);
+    let numbers = [o, a, b, c]
+        .into_iter()
+        .flat_map(|p| [p.at(0), p.at(1), p.at(2)]);
     let largest = numbers.map(|x| x.abs()).fold(V::Real::zero(), larger);
     let edges = [b.minus(a), c.minus(b), a.minus(c)];
     let longest = edges.iter().map(square).fold(V::Real::zero(), larger);

@@ -42,8 +42,10 @@ pub fn mutate<F: Float>(case: &Case<F>, draw: &mut Draw) -> Case<F> {
         flatten,
         change_interval,
     ];
-    let mut parts =
-        CaseParts { vectors: case.vectors(), interval: [case.ray.t_min, case.ray.t_max] };
+    let mut parts = CaseParts {
+        vectors: case.vectors(),
+        interval: [case.ray.t_min, case.ray.t_max],
+    };
     for _ in 0..=draw.bits().trailing_zeros().min(3) {
         draw.pick(&moves)(&mut parts, draw);
     }
@@ -68,7 +70,11 @@ impl<F: Float> CaseParts<F> {
         let share = |draw: &mut Draw| {
             // Small denominators come out exact where the coordinates are short.
             let exact = F::from_f64(draw.integer(-2, 10) as f64 / 8.0);
-            if draw.coin() { exact } else { F::from_f64(draw.unit()) }
+            if draw.coin() {
+                exact
+            } else {
+                F::from_f64(draw.unit())
+            }
         };
         let [p, q, r] = draw.pick(&[[p, q, r], [q, r, p], [r, p, q]]);
         match draw.below(3) {
@@ -224,7 +230,9 @@ mod tests {
             [zero, zero, -one],
             [[zero, zero, one], [three, zero, one], [zero, three, one]],
         );
-        (0..2000).map(|i| mutate(&case, &mut Draw::new("moves", seed, i)).bits()).collect()
+        (0..2000)
+            .map(|i| mutate(&case, &mut Draw::new("moves", seed, i)).bits())
+            .collect()
     }
 
     #[test]
@@ -253,7 +261,11 @@ mod tests {
         for all in [mutants::<f32>(1), mutants::<f64>(1)] {
             for number in 0..17 {
                 let distinct: HashSet<u64> = all.iter().map(|bits| bits[number]).collect();
-                assert!(distinct.len() > 20, "number {number} takes {} values", distinct.len());
+                assert!(
+                    distinct.len() > 20,
+                    "number {number} takes {} values",
+                    distinct.len()
+                );
             }
         }
     }

@@ -87,11 +87,19 @@ impl SearchTarget {
     pub fn of_kernel(info: &KernelInfo) -> Vec<SearchTarget> {
         let at_gates = |objective| {
             let gates = 0..info.gates.len();
-            gates.map(move |gate| SearchTarget { objective, gate: Some(gate) })
+            gates.map(move |gate| SearchTarget {
+                objective,
+                gate: Some(gate),
+            })
         };
-        let value = |objective| SearchTarget { objective, gate: None };
+        let value = |objective| SearchTarget {
+            objective,
+            gate: None,
+        };
         let tuned = |target: &SearchTarget| {
-            target.gate.is_some_and(|g| info.gates[g].epsilon != Tunable::Fixed)
+            target
+                .gate
+                .is_some_and(|g| info.gates[g].epsilon != Tunable::Fixed)
         };
         let mut targets: Vec<SearchTarget> = at_gates(Objective::Margin).filter(tuned).collect();
         targets.extend(info.gives.t.then_some(value(Objective::T)));
@@ -112,7 +120,9 @@ impl SearchTarget {
 
     /// The target of a name.
     pub fn find(name: &str, info: &KernelInfo) -> Option<SearchTarget> {
-        SearchTarget::of_kernel(info).into_iter().find(|target| target.name(info) == name)
+        SearchTarget::of_kernel(info)
+            .into_iter()
+            .find(|target| target.name(info) == name)
     }
 }
 
@@ -127,13 +137,22 @@ pub struct Scorer<'a, F> {
 /// A substitute that a search climbs on where there is no score: below every score, and lower the farther
 /// the line passes from the triangle's boundary, where findings are.
 fn no_score_yet(in_space: f64) -> f64 {
-    if in_space.is_finite() { -1.0 - in_space } else { f64::MIN }
+    if in_space.is_finite() {
+        -1.0 - in_space
+    } else {
+        f64::MIN
+    }
 }
 
 impl<'a, F: Scalar> Scorer<'a, F> {
     /// A kernel with its epsilons, judged by the row's contract.
     pub fn new(row: &'a Row, target: SearchTarget, domain: SearchDomain) -> Self {
-        Scorer { row, epsilons: row.epsilons(), target, domain }
+        Scorer {
+            row,
+            epsilons: row.epsilons(),
+            target,
+            domain,
+        }
     }
 
     /// A score in `f64`: of an `f32` case against the same kernel and formulas in `f64`, of an `f64`
@@ -190,7 +209,11 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         let (gate, threshold) = self.reached_threshold(case)?;
         let wide = case.widen();
         let exact = f64::subject(self.row.entry)?.gated()?.thresholds(&wide)[gate];
-        let scale = scale(&wide.ray, &wide.triangle, self.row.entry.info.gates[gate].dimension);
+        let scale = scale(
+            &wide.ray,
+            &wide.triangle,
+            self.row.entry.info.gates[gate].dimension,
+        );
         let unit = scale.max(exact.abs()) * F::EPSILON.to_f64();
         let error = (threshold.to_f64() - exact).abs() / unit;
         error.is_finite().then_some(error)
@@ -226,7 +249,9 @@ impl<'a, F: Scalar> Scorer<'a, F> {
     fn hit_with_values(&self, case: &Case<F>) -> Option<(Truth, Verdict<F>)> {
         let verdict = self.true_hit(case)?;
         let truth = oracle::truth(case);
-        let is_met = truth.crossing().is_some_and(|it| it.feature != Feature::Outside);
+        let is_met = truth
+            .crossing()
+            .is_some_and(|it| it.feature != Feature::Outside);
         let values = [verdict.t, verdict.u, verdict.v];
         (is_met && values.iter().all(F::is_finite)).then_some((truth, verdict))
     }
@@ -296,7 +321,10 @@ impl<'a, F: Scalar> Scorer<'a, F> {
             }
             (Objective::FalseHit, Finding::FalseHit) => {
                 let gates = self.row.entry.info.gates;
-                let tests_t = self.target.gate.is_some_and(|gate| gates[gate].role == Role::T);
+                let tests_t = self
+                    .target
+                    .gate
+                    .is_some_and(|gate| gates[gate].role == Role::T);
                 let extent = self.row.contract.extent;
                 let off_end = truth.crossing().is_some_and(|c| !is_in_extent(c, extent));
                 let refusing = exactly_refusing(self.row, &self.epsilons, case);
@@ -309,7 +337,10 @@ impl<'a, F: Scalar> Scorer<'a, F> {
 
 /// The first gate that refuses in exact arithmetic; none if the formula without rounding hits.
 fn exactly_refusing<F: Scalar>(row: &Row, epsilons: &[F], case: &Case<F>) -> Option<usize> {
-    F::subject(row.entry)?.gated()?.run_exact(case, epsilons).refused_by()
+    F::subject(row.entry)?
+        .gated()?
+        .run_exact(case, epsilons)
+        .refused_by()
 }
 
 /// The truth, the kernel's verdict, and what `judge` makes of the two. Cases are judged one by one:
@@ -327,7 +358,16 @@ pub fn verdict_and_finding<F: Scalar>(
     let [verdict] = verdict;
     let truth = oracle::truth(case);
     let asked = asked(case, &truth, &row.contract, false);
-    (truth, verdict, judge((&row.contract, asked), (case, &truth), row.entry.info.gives, &verdict))
+    (
+        truth,
+        verdict,
+        judge(
+            (&row.contract, asked),
+            (case, &truth),
+            row.entry.info.gives,
+            &verdict,
+        ),
+    )
 }
 
 /// True if `f64` has digits and range to spare for products of a scalar's numbers.
@@ -341,7 +381,11 @@ fn of<F: Float>(value: F) -> Exact {
 
 /// A score as a float; beyond the floats there is still something to climb on.
 fn nearest(value: &Exact) -> f64 {
-    if value.is_finite() { value.approximate().min(f64::MAX) } else { f64::NAN }
+    if value.is_finite() {
+        value.approximate().min(f64::MAX)
+    } else {
+        f64::NAN
+    }
 }
 
 /// A gate's scale on a case: E^p·|d|^q.
@@ -354,7 +398,9 @@ pub fn scale<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, dimension: Dimensi
     };
     let points = [&ray.origin, &triangle.a, &triangle.b, &triangle.c];
     let pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
-    let differences = pairs.into_iter().map(|(i, j): (usize, usize)| points[i].minus(points[j]));
+    let differences = pairs
+        .into_iter()
+        .map(|(i, j): (usize, usize)| points[i].minus(points[j]));
     let extent = differences.fold(V::Real::zero(), larger);
     let direction = larger(V::Real::zero(), ray.direction.clone());
     power(&extent, dimension.length) * power(&direction, dimension.direction)
@@ -362,5 +408,9 @@ pub fn scale<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, dimension: Dimensi
 
 fn power<R: Real>(base: &R, exponent: i8) -> R {
     let product = (0..exponent.unsigned_abs()).fold(R::one(), |product, _| product * base);
-    if exponent < 0 { R::one() / product } else { product }
+    if exponent < 0 {
+        R::one() / product
+    } else {
+        product
+    }
 }

@@ -49,7 +49,14 @@ pub fn shrink_within<F: Float>(
     keeps: impl Fn(&Case<F>) -> bool,
 ) -> Shrunk<F> {
     let steps = Simplification::all();
-    let (mut shrunk, mut size) = (Shrunk { case: *case, steps: 0, tried: 0 }, Size::of(case));
+    let (mut shrunk, mut size) = (
+        Shrunk {
+            case: *case,
+            steps: 0,
+            tried: 0,
+        },
+        Size::of(case),
+    );
     // A place in the list of steps, and how many in a row led nowhere.
     let (mut next, mut idle) = (0, 0);
     while idle < steps.len() && shrunk.tried < most {
@@ -83,7 +90,9 @@ pub fn shrink_scored<F: Scalar>(scorer: &Scorer<'_, F>, case: &Case<F>) -> Optio
     let least_exact = scorer.exact(case)? * Exact::from_f64(KEPT_SHARE);
     let least = Decimal::of(&least_exact)?;
     let keeps_exactly = |case: &Case<F>| {
-        scorer.exact(case).is_some_and(|score| Decimal::of(&score).is_some_and(|s| least <= s))
+        scorer
+            .exact(case)
+            .is_some_and(|score| Decimal::of(&score).is_some_and(|s| least <= s))
     };
     let shrunk = if score < f64::MAX {
         shrink(case, |case| KEPT_SHARE * score <= scorer.quick(case))

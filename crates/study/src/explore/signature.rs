@@ -59,7 +59,14 @@ impl Signature {
             gate: verdict.refused_by.map(usize::from).map(name),
             exactly: exact.as_ref().and_then(ExactRun::refused_by).map(name),
             attribution: subject.and_then(|subject| {
-                attribute_with(subject, case, epsilons, truth, (&row.contract, asked), || exact)
+                attribute_with(
+                    subject,
+                    case,
+                    epsilons,
+                    truth,
+                    (&row.contract, asked),
+                    || exact,
+                )
             }),
         })
     }
@@ -70,14 +77,19 @@ impl Signature {
         let epsilons: Vec<F> = row.epsilons();
         let seen = verdict_and_finding(row, &epsilons, case);
         let (truth, verdict, finding) = &seen;
-        let gate = verdict.refused_by.map(|gate| row.entry.info.gates[usize::from(gate)].name);
+        let gate = verdict
+            .refused_by
+            .map(|gate| row.entry.info.gates[usize::from(gate)].name);
         (*finding, gate, Class::of(truth)) == (Some(self.finding), self.gate, self.class)
             && Signature::of_seen(row, &epsilons, case, &seen).as_ref() == Some(self)
     }
 
     /// The kind alone: the same whatever the epsilons are.
     pub fn kind(&self) -> Signature {
-        Signature { epsilons: None, ..self.clone() }
+        Signature {
+            epsilons: None,
+            ..self.clone()
+        }
     }
 }
 
@@ -89,7 +101,13 @@ impl fmt::Display for Signature {
         if let Some(epsilons) = &self.epsilons {
             write!(f, " ({epsilons})")?;
         }
-        write!(f, ", {}: {} of {}", self.scalar, self.finding.name(), self.class.name())?;
+        write!(
+            f,
+            ", {}: {} of {}",
+            self.scalar,
+            self.finding.name(),
+            self.class.name()
+        )?;
         if let Some(gate) = self.gate {
             write!(f, ", refused by '{gate}'")?;
         }
@@ -99,6 +117,7 @@ impl fmt::Display for Signature {
             Some(gate) => write!(f, "; without rounding '{gate}' refuses"),
             None => f.write_str("; without rounding a hit"),
         }?;
-        self.attribution.map_or(Ok(()), |attribution| write!(f, " ({})", attribution.name()))
+        self.attribution
+            .map_or(Ok(()), |attribution| write!(f, " ({})", attribution.name()))
     }
 }

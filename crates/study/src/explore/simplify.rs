@@ -30,7 +30,11 @@ impl Size {
         let mut all = coordinates.iter().flatten().chain(&ends);
         let mut values: [u64; 17] = array::from_fn(|_| all.next().map_or(0, |x| x.abs().to_bits()));
         values.sort_unstable();
-        let parts = coordinates.iter().flatten().chain(&ends).filter_map(|x| odd_and_exponent(*x));
+        let parts = coordinates
+            .iter()
+            .flatten()
+            .chain(&ends)
+            .filter_map(|x| odd_and_exponent(*x));
         Size {
             bits: bits(case),
             values: values.chunk_by(u64::eq).count(),
@@ -42,16 +46,26 @@ impl Size {
     /// The size of a case that is simpler than another; none if it is not.
     pub fn below<F: Float>(case: &Case<F>, other: &Size) -> Option<Size> {
         // The bits decide most, and are the quickest to count.
-        (bits(case) <= other.bits).then(|| Size::of(case)).filter(|size| size < other)
+        (bits(case) <= other.bits)
+            .then(|| Size::of(case))
+            .filter(|size| size < other)
     }
 }
 
 /// The bits that a case's numbers need.
 fn bits<F: Float>(case: &Case<F>) -> u32 {
     let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
-    let far = if t_max == F::infinity() { 0 } else { 1 + number_bits(t_max) };
+    let far = if t_max == F::infinity() {
+        0
+    } else {
+        1 + number_bits(t_max)
+    };
     let coordinates = case.vectors();
-    coordinates.as_flattened().iter().map(|x| number_bits(*x)).sum::<u32>()
+    coordinates
+        .as_flattened()
+        .iter()
+        .map(|x| number_bits(*x))
+        .sum::<u32>()
         + number_bits(t_min)
         + far
 }
@@ -60,7 +74,11 @@ fn bits<F: Float>(case: &Case<F>) -> u32 {
 fn number_bits<F: Float>(x: F) -> u32 {
     let negative = u32::from(x.is_sign_negative());
     let Some((digits, exponent)) = odd_and_exponent(x) else {
-        return if x.is_zero() { negative } else { 100 + negative };
+        return if x.is_zero() {
+            negative
+        } else {
+            100 + negative
+        };
     };
     let of = |n: u64| u64::BITS - n.leading_zeros();
     of(digits) + of(exponent.unsigned_abs().into()) + negative + u32::from(exponent < 0)
@@ -182,13 +200,18 @@ impl Simplification {
             all.extend([3, 1, 2].map(|vectors| Scale { vectors, by }));
         }
         all.extend([0, 1, 2].map(TurnHalf));
-        let coordinates_of_points = POINTS.into_iter().flat_map(|p| [3 * p, 3 * p + 1, 3 * p + 2]);
+        let coordinates_of_points = POINTS
+            .into_iter()
+            .flat_map(|p| [3 * p, 3 * p + 1, 3 * p + 2]);
         let changes = SimplerNumber::all();
         for number in coordinates_of_points {
             all.extend(changes.iter().map(|change| Everywhere(number, *change)));
         }
         for axis in 0..3 {
-            for (from, to) in POINTS.into_iter().flat_map(|from| POINTS.map(|to| (from, to))) {
+            for (from, to) in POINTS
+                .into_iter()
+                .flat_map(|from| POINTS.map(|to| (from, to)))
+            {
                 all.extend((from != to).then_some(Copy { from, to, axis }));
             }
         }
@@ -196,7 +219,9 @@ impl Simplification {
             all.extend(changes.iter().map(|change| Number(number, *change)));
         }
         for (i, j) in (0..15).flat_map(|i| (0..i).map(move |j| (i, j))) {
-            let values = [0, 1, -1].into_iter().flat_map(|x| [0, 1, -1].map(|y| [x, y]));
+            let values = [0, 1, -1]
+                .into_iter()
+                .flat_map(|x| [0, 1, -1].map(|y| [x, y]));
             all.extend(values.map(|values| Pair([i, j], values)));
         }
         all
@@ -246,7 +271,10 @@ impl Simplification {
             Simplification::Everywhere(number, change) => {
                 let axis = number % 3;
                 let value = vectors[number / 3][axis];
-                for i in POINTS.into_iter().filter(|&i| case.vectors()[i][axis] == value) {
+                for i in POINTS
+                    .into_iter()
+                    .filter(|&i| case.vectors()[i][axis] == value)
+                {
                     vectors[i][axis] = change.apply(value);
                 }
             }
@@ -284,7 +312,12 @@ fn lattice_case<F: Float>(number: usize) -> [[F; 3]; 5] {
 
 /// Origin and direction of [`Simplification::Aim`]; none where the line does not cross the plane.
 fn aimed<F: Float>(case: &Case<F>, axis: Option<usize>) -> Option<[[F; 3]; 2]> {
-    let Case { ray: Ray { origin, direction, .. }, triangle: Triangle { a, b, c } } = case;
+    let Case {
+        ray: Ray {
+            origin, direction, ..
+        },
+        triangle: Triangle { a, b, c },
+    } = case;
     let normal = b.minus(a).cross(&c.minus(a));
     let t = normal.dot(&a.minus(origin)) / normal.dot(direction);
     if !t.is_finite() {
@@ -324,7 +357,10 @@ impl SimplerNumber {
         }
         all.extend([SimplerNumber::Integer, SimplerNumber::HalfExponent]);
         all.extend([-1, 1, -8, 8].map(SimplerNumber::Scaled));
-        all.extend([SimplerNumber::LowestBitCleared, SimplerNumber::LowestBitAdded]);
+        all.extend([
+            SimplerNumber::LowestBitCleared,
+            SimplerNumber::LowestBitAdded,
+        ]);
         all
     }
 
@@ -338,11 +374,19 @@ impl SimplerNumber {
         };
         let of = |digits: u64, exponent: i32| {
             let size = F::from_f64(scale_by_power_of_two(digits as f64, exponent));
-            if x.is_sign_negative() && !size.is_zero() { -size } else { size }
+            if x.is_sign_negative() && !size.is_zero() {
+                -size
+            } else {
+                size
+            }
         };
         let cut = |bits: u8, up: u64| {
             let low = (digits.ilog2() + 1).saturating_sub(bits.into());
-            if low == 0 { x } else { of((digits >> low) + up, exponent + low as i32) }
+            if low == 0 {
+                x
+            } else {
+                of((digits >> low) + up, exponent + low as i32)
+            }
         };
         match self {
             SimplerNumber::To(value) => F::from_f64(value.into()),
@@ -351,7 +395,11 @@ impl SimplerNumber {
             SimplerNumber::CutUp(bits) => cut(bits, 1),
             SimplerNumber::Integer => {
                 let whole = x.to_f64().round();
-                if whole == 0.0 { F::zero() } else { F::from_f64(whole) }
+                if whole == 0.0 {
+                    F::zero()
+                } else {
+                    F::from_f64(whole)
+                }
             }
             SimplerNumber::Scaled(power) => of(digits, exponent + i32::from(power)),
             SimplerNumber::HalfExponent => of(digits, exponent / 2),

@@ -52,14 +52,24 @@ pub fn c_snippet<F: Scalar>(row: &Row, case: &Case<F>, signature: &Signature) ->
     if !(case.ray.t_min.is_finite() && case.ray.t_max.is_finite()) {
         text.push_str("#include <math.h>\n");
     }
-    for (name, vector) in ["origin", "direction", "a", "b", "c"].into_iter().zip(case.vectors()) {
+    for (name, vector) in ["origin", "direction", "a", "b", "c"]
+        .into_iter()
+        .zip(case.vectors())
+    {
         let numbers = vector.map(c_number).join(", ");
-        text.push_str(&format!("static const {scalar} {name}[3] = {{{numbers}}};\n"));
+        text.push_str(&format!(
+            "static const {scalar} {name}[3] = {{{numbers}}};\n"
+        ));
     }
     let (t_min, t_max) = (c_number(case.ray.t_min), c_number(case.ray.t_max));
-    text.push_str(&format!("static const {scalar} t_min = {t_min}, t_max = {t_max};\n"));
+    text.push_str(&format!(
+        "static const {scalar} t_min = {t_min}, t_max = {t_max};\n"
+    ));
     let hit = i32::from(signature.finding != Finding::FalseHit);
-    text.push_str(&format!("static const int hit = {hit}; /* {} */\n", asked(signature.finding)));
+    text.push_str(&format!(
+        "static const int hit = {hit}; /* {} */\n",
+        asked(signature.finding)
+    ));
     text
 }
 

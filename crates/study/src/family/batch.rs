@@ -32,7 +32,11 @@ impl Recipe for MixedBatch {
             let triangle = [a, b, draw.point()];
             // Half of the rays miss.
             let [u, v, w] = interior_weights(draw);
-            let weights = if draw.coin() { [u, v, w] } else { [u + w, v + w, -w] };
+            let weights = if draw.coin() {
+                [u, v, w]
+            } else {
+                [u + w, v + w, -w]
+            };
             let weights = shuffle(draw, weights);
             let origin = draw.point::<F>();
             let target = combination(triangle, weights.map(F::from_f64));

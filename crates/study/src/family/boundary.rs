@@ -31,7 +31,11 @@ fn through(
     let triangle = shuffle(draw, triangle);
     let direction = transversal(draw, normal(triangle), reach / 8);
     let origin = target - direction * draw.integer(1, 4);
-    IntegerCase { origin, direction, triangle }
+    IntegerCase {
+        origin,
+        direction,
+        triangle,
+    }
 }
 
 impl Recipe for EdgeExact {

@@ -18,7 +18,11 @@ impl Recipe for DirectionLengthFamily {
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let case = aimed::<F>(draw, &mut |draw| {
             let s = draw.unit();
-            if draw.coin() { shuffle(draw, [s, 1.0 - s, 0.0]) } else { interior_weights(draw) }
+            if draw.coin() {
+                shuffle(draw, [s, 1.0 - s, 0.0])
+            } else {
+                interior_weights(draw)
+            }
         });
         let exponent = draw.integer(-60, 60) as i32;
         let [origin, direction, a, b, c] = case.vectors();
@@ -52,16 +56,30 @@ impl Recipe for AxisAligned {
         let target = draw.pick(&[vertex, other, edge_point, edge_point + LatticePoint::Y]);
         let origin = target - direction * draw.integer(1, 4);
         // Half of the cases have a vertex at the coordinate origin: zeros in the triangle.
-        let base = if draw.coin() { draw.pick(&triangle) } else { LatticePoint::ZERO };
-        let case =
-            IntegerCase { origin: origin - base, direction, triangle: triangle.map(|p| p - base) };
+        let base = if draw.coin() {
+            draw.pick(&triangle)
+        } else {
+            LatticePoint::ZERO
+        };
+        let case = IntegerCase {
+            origin: origin - base,
+            direction,
+            triangle: triangle.map(|p| p - base),
+        };
         Made::One(with_signed_zeros(draw, case.case()))
     }
 }
 
 /// Gives each zero coordinate a random sign.
 fn with_signed_zeros<F: Float>(draw: &mut Draw, case: Case<F>) -> Case<F> {
-    let [origin, direction, a, b, c] =
-        case.vectors().map(|v| v.map(|x| if x.is_zero() && draw.coin() { -F::zero() } else { x }));
+    let [origin, direction, a, b, c] = case.vectors().map(|v| {
+        v.map(|x| {
+            if x.is_zero() && draw.coin() {
+                -F::zero()
+            } else {
+                x
+            }
+        })
+    });
     Case::new(origin, direction, [a, b, c])
 }

@@ -63,9 +63,15 @@ impl Crossing {
         let (numerator, denominator) = (normal.dot(a - origin), normal.dot(direction));
         let middle = (a + b + c) / 3.0;
         let nearest = direction.dot(middle - origin) / direction.dot(direction);
-        let t = if denominator == 0.0 { nearest } else { numerator / denominator };
+        let t = if denominator == 0.0 {
+            nearest
+        } else {
+            numerator / denominator
+        };
         let size = (b - a).abs().max((c - a).abs()).max_element() / direction.abs().max_element();
-        let numbers = [origin, direction, a, b, c].into_iter().flat_map(|v| v.to_array());
+        let numbers = [origin, direction, a, b, c]
+            .into_iter()
+            .flat_map(|v| v.to_array());
         let mut numbers = numbers.map(f64::abs);
         let is_lattice = numbers.all(|x| x.fract() == 0.0 && x <= LARGEST_INTEGER);
         Crossing {
@@ -96,9 +102,11 @@ impl Crossing {
             27 => [after, far_after],
             28 | 29 => [far_before, before],
             30 => [far_before - self.step, far_before],
-            _ if self.is_exact => {
-                draw.pick(&[[self.t, f64::INFINITY], [self.t, far_after], [far_before, self.t]])
-            }
+            _ if self.is_exact => draw.pick(&[
+                [self.t, f64::INFINITY],
+                [self.t, far_after],
+                [far_before, self.t],
+            ]),
             _ => self.ends,
         }
     }

@@ -7,7 +7,10 @@ use crate::arith::Float;
 /// the direction is (p - o) + (q - o).
 pub(crate) fn exact_ray<F: Float>([p, q]: [[F; 3]; 2], away: [f64; 3]) -> ([F; 3], [F; 3]) {
     let axes: [(F, F); 3] = std::array::from_fn(|i| exact_axis(p[i], q[i], away[i]));
-    (axes.map(|(origin, _)| origin), axes.map(|(_, direction)| direction))
+    (
+        axes.map(|(origin, _)| origin),
+        axes.map(|(_, direction)| direction),
+    )
 }
 
 /// o and d of one axis with d = (p - o) + (q - o), exactly if such were found: with o on the coarser
@@ -15,7 +18,13 @@ pub(crate) fn exact_ray<F: Float>([p, q]: [[F; 3]; 2], away: [f64; 3]) -> ([F; 3
 fn exact_axis<F: Float>(p: F, q: F, away: f64) -> (F, F) {
     let (wide_p, wide_q) = (p.to_f64(), q.to_f64());
     let middle = wide_p * 0.5 + wide_q * 0.5;
-    let ulps = |x: F, of_zero: f64| if x.is_zero() { of_zero } else { x.ulp().to_f64() };
+    let ulps = |x: F, of_zero: f64| {
+        if x.is_zero() {
+            of_zero
+        } else {
+            x.ulp().to_f64()
+        }
+    };
     let coarse = ulps(p, 0.0).max(ulps(q, 0.0));
     let fine = ulps(p, f64::INFINITY).min(ulps(q, f64::INFINITY));
     let reach = fine * (1u64 << (F::DIGITS - 3)) as f64;
@@ -82,10 +91,17 @@ mod tests {
         assert!(exact_axes::<f64>(near) > 990);
         // Of very different sizes, one of them zero, and a vertex.
         let apart = |draw: &mut Draw| {
-            (draw.symmetric::<f32>(), F32_SMALL * draw.symmetric::<f32>(), draw.unit())
+            (
+                draw.symmetric::<f32>(),
+                F32_SMALL * draw.symmetric::<f32>(),
+                draw.unit(),
+            )
         };
         assert!(exact_axes::<f32>(apart) > 500);
-        assert_eq!(exact_axes::<f32>(|draw| (draw.symmetric(), 0.0, draw.unit())), 1000);
+        assert_eq!(
+            exact_axes::<f32>(|draw| (draw.symmetric(), 0.0, draw.unit())),
+            1000
+        );
         let vertex = |draw: &mut Draw| {
             let p = draw.symmetric::<f64>();
             (p, p, 2.0 * draw.unit())

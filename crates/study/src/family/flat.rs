@@ -73,7 +73,12 @@ impl Recipe for ParallelOff {
         let triangle = shuffle(draw, triangle);
         let direction = in_plane(draw, triangle);
         let off = transversal(draw, normal(triangle), 2);
-        IntegerCase { origin: point - direction + off, direction, triangle }.made()
+        IntegerCase {
+            origin: point - direction + off,
+            direction,
+            triangle,
+        }
+        .made()
     }
 }
 
@@ -91,9 +96,18 @@ impl Recipe for Coplanar {
         let outside = a + (b - a) * draw.pick(&[-1, 2]);
         let target = draw.pick(&[a, b, c, edge_point, edge_point, outside]);
         let along = draw.pick(&[b - a, c - a, c - b, edge_point - c]);
-        let direction = if draw.coin() { along } else { in_plane(draw, triangle) };
+        let direction = if draw.coin() {
+            along
+        } else {
+            in_plane(draw, triangle)
+        };
         let origin = target - direction * draw.integer(-2, 3);
-        IntegerCase { origin, direction, triangle }.made()
+        IntegerCase {
+            origin,
+            direction,
+            triangle,
+        }
+        .made()
     }
 }
 
@@ -126,6 +140,11 @@ impl Recipe for Grazing {
         let off = transversal(draw, normal(triangle), 2);
         let steepness = draw.integer(1, i64::from(F::DIGITS) - 14);
         let direction = flat * (1 << steepness) + off;
-        IntegerCase { origin: point - direction, direction, triangle }.made()
+        IntegerCase {
+            origin: point - direction,
+            direction,
+            triangle,
+        }
+        .made()
     }
 }

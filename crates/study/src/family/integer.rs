@@ -27,7 +27,11 @@ pub(super) struct IntegerCase {
 
 impl IntegerCase {
     pub fn case<F: Float>(&self) -> Case<F> {
-        Case::new(float(self.origin), float(self.direction), self.triangle.map(float))
+        Case::new(
+            float(self.origin),
+            float(self.direction),
+            self.triangle.map(float),
+        )
     }
 
     pub fn made<F: Float>(&self) -> Made<F> {
@@ -63,7 +67,14 @@ pub(super) fn independent(draw: &mut Draw, other: LatticePoint, bound: i64) -> L
 /// The vertices in a random one of the six orders.
 pub(super) fn shuffle<T: Copy>(draw: &mut Draw, triangle: [T; 3]) -> [T; 3] {
     let [a, b, c] = triangle;
-    draw.pick(&[[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]])
+    draw.pick(&[
+        [a, b, c],
+        [b, c, a],
+        [c, a, b],
+        [a, c, b],
+        [c, b, a],
+        [b, a, c],
+    ])
 }
 
 /// The vertices in a random one of the three orders with the same winding.

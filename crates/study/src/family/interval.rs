@@ -19,7 +19,11 @@ fn at(draw: &mut Draw, t: i64) -> IntegerCase {
     let triangle = shuffle(draw, [a, b, c]);
     let target = draw.pick(&[middle, middle, middle, edge_point, c]);
     let direction = transversal(draw, normal(triangle), reach / 8);
-    IntegerCase { origin: target - direction * t, direction, triangle }
+    IntegerCase {
+        origin: target - direction * t,
+        direction,
+        triangle,
+    }
 }
 
 impl Recipe for Behind {

@@ -27,7 +27,12 @@ impl Recipe for Lattice {
                 digit as i64 - 1
             }))
         });
-        IntegerCase { origin, direction, triangle: [a, b, c] }.made()
+        IntegerCase {
+            origin,
+            direction,
+            triangle: [a, b, c],
+        }
+        .made()
     }
 }
 

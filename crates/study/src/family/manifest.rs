@@ -58,8 +58,9 @@ const SET_SIZE: u64 = 10_000;
 
 /// The generated sets of this version of the program.
 pub fn sets() -> impl Iterator<Item = ManifestLine> {
-    let sets =
-        FAMILIES.iter().flat_map(|family| [set_line::<f32>(family), set_line::<f64>(family)]);
+    let sets = FAMILIES
+        .iter()
+        .flat_map(|family| [set_line::<f32>(family), set_line::<f64>(family)]);
     sets.map(ManifestLine::Set)
 }
 
@@ -85,7 +86,9 @@ fn set_digest<F: Scalar>(
     let mut hash = Hash::new();
     for index in 0..count {
         for case in family.make::<F>(parameters, seed, index).cases() {
-            case.bits().iter().for_each(|bits| hash.update(bits.to_le_bytes()));
+            case.bits()
+                .iter()
+                .for_each(|bits| hash.update(bits.to_le_bytes()));
         }
     }
     hex(&hash.finalize())
@@ -134,8 +137,18 @@ fn digest_again(line: &SetLine) -> Result<String, String> {
     }
     let parameters: Parameters = line.parameters.parse()?;
     match line.scalar.as_str() {
-        "f32" => Ok(set_digest::<f32>(family, &parameters, line.seed, line.count)),
-        "f64" => Ok(set_digest::<f64>(family, &parameters, line.seed, line.count)),
+        "f32" => Ok(set_digest::<f32>(
+            family,
+            &parameters,
+            line.seed,
+            line.count,
+        )),
+        "f64" => Ok(set_digest::<f64>(
+            family,
+            &parameters,
+            line.seed,
+            line.count,
+        )),
         other => Err(format!("unknown scalar '{other}'")),
     }
 }

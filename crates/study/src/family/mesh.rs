@@ -22,7 +22,10 @@ pub struct MeshFamily {
 impl MeshFamily {
     /// The family of a mesh read from a path. The mesh has triangles.
     pub fn new(mesh: Mesh, path: &str) -> MeshFamily {
-        MeshFamily { mesh, path: path.to_owned() }
+        MeshFamily {
+            mesh,
+            path: path.to_owned(),
+        }
     }
 
     /// The mesh.
@@ -54,7 +57,15 @@ impl MeshFamily {
         index: u64,
     ) -> CaseId {
         let mesh = Some(self.mesh.digest.clone());
-        id_of::<F>(family, Parameters { mesh, ..parameters.clone() }, seed, index)
+        id_of::<F>(
+            family,
+            Parameters {
+                mesh,
+                ..parameters.clone()
+            },
+            seed,
+            index,
+        )
     }
 
     /// Case `index` of the set of a seed.
@@ -115,7 +126,9 @@ fn exact_ray<F: Float>(draw: &mut Draw, target: [F; 3]) -> ([F; 3], [F; 3]) {
 /// A ray from about the triangle's size away, aimed at the target and nudged by ulps.
 fn near_ray<F: Float>(draw: &mut Draw, target: [F; 3], [a, b, c]: [[F; 3]; 3]) -> ([F; 3], [F; 3]) {
     let extent = |p: [F; 3], q: [F; 3]| {
-        (0..3).fold(0.0, |m: f64, i| m.max((p[i].to_f64() - q[i].to_f64()).abs()))
+        (0..3).fold(0.0, |m: f64, i| {
+            m.max((p[i].to_f64() - q[i].to_f64()).abs())
+        })
     };
     let size = extent(a, b).max(extent(b, c)).max(extent(c, a));
     let distance = F::from_f64(if size > 0.0 { size } else { 1.0 } * (0.5 + 7.5 * draw.unit()));

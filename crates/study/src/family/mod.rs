@@ -210,12 +210,18 @@ pub static FAMILIES: &[Family] = &[
     row::<vertex_fan::VertexFan>(Question::Vertices),
     row::<noise::Noise>(Question::Range),
     row::<polygon::Polygon>(Question::Edges),
-    Family { size: Some(LATTICE_SIZE), ..row::<lattice::Lattice>(Question::Grid) },
+    Family {
+        size: Some(LATTICE_SIZE),
+        ..row::<lattice::Lattice>(Question::Grid)
+    },
 ];
 
 /// The family of a name, be it a stratum of a scene.
 pub fn find(name: &str) -> Option<&'static Family> {
-    FAMILIES.iter().chain(STRATA).find(|family| family.name == name)
+    FAMILIES
+        .iter()
+        .chain(STRATA)
+        .find(|family| family.name == name)
 }
 
 /// The cases that an id makes without a mesh, in the scalar that it names, and how they belong together. An error says
@@ -225,16 +231,28 @@ pub fn cases_of<F: Scalar>(id: &CaseId) -> Result<(Vec<Case<F>>, Grouping), Stri
     let name = in_order.unwrap_or(&id.family);
     let family = find(name).filter(|family| family.version == id.version);
     let Some(family) = family else {
-        return Err(format!("this program makes no cases of '{}@{}'", id.family, id.version));
+        return Err(format!(
+            "this program makes no cases of '{}@{}'",
+            id.family, id.version
+        ));
     };
-    if let Some(name) = id.parameters.kernel.as_deref().filter(|name| kernel::find(name).is_none())
+    if let Some(name) = id
+        .parameters
+        .kernel
+        .as_deref()
+        .filter(|name| kernel::find(name).is_none())
     {
         return Err(format!("'{id}': there is no kernel '{name}'"));
     }
     if let Some(scene) = &id.parameters.scene {
-        scene.check_in::<F>().map_err(|error| format!("'{id}': {error}"))?;
+        scene
+            .check_in::<F>()
+            .map_err(|error| format!("'{id}': {error}"))?;
     }
-    if family.size.map_or(in_order.is_some(), |size| id.index >= size) {
+    if family
+        .size
+        .map_or(in_order.is_some(), |size| id.index >= size)
+    {
         return Err(format!("'{id}': family '{name}' has no case of that index"));
     }
     let made: Made<F> = match in_order {
@@ -254,7 +272,11 @@ pub fn chosen_triangle<F: Float>(
     triangle: usize,
     cases: &[Case<F>],
 ) -> Result<Case<F>, String> {
-    let noun = if cases.len() == 1 { "triangle" } else { "triangles" };
+    let noun = if cases.len() == 1 {
+        "triangle"
+    } else {
+        "triangles"
+    };
     let error = || format!("'{id}' has {} {noun}, counted from 0", cases.len());
     cases.get(triangle).copied().ok_or_else(error)
 }
@@ -263,7 +285,9 @@ impl Family {
     /// Case `index` of the set of a seed, put through the parameters.
     pub fn make<F: Scalar>(&self, parameters: &Parameters, seed: u64, index: u64) -> Made<F> {
         let mut draw = Draw::new(self.name, seed, index);
-        let index = self.size.map_or(index, |size| lattice::shuffled(index % size, seed));
+        let index = self
+            .size
+            .map_or(index, |size| lattice::shuffled(index % size, seed));
         self.generator::<F>()(parameters, &mut draw, index)
     }
 
@@ -275,7 +299,9 @@ impl Family {
     /// The generator of a scalar, which is one of the two.
     fn generator<F: Scalar>(&self) -> Generator<F> {
         let both: [&dyn Any; 2] = [&self.make_f32, &self.make_f64];
-        let found = both.into_iter().find_map(|make| make.downcast_ref::<Generator<F>>());
+        let found = both
+            .into_iter()
+            .find_map(|make| make.downcast_ref::<Generator<F>>());
         *found.expect("a scalar is f32 or f64")
     }
 
@@ -302,13 +328,26 @@ fn id_of<F: Float>(
     index: u64,
 ) -> CaseId {
     let (family, scalar) = (family.to_owned(), F::NAME.to_owned());
-    CaseId { family, version, scalar, parameters, seed, index, triangle: None }
+    CaseId {
+        family,
+        version,
+        scalar,
+        parameters,
+        seed,
+        index,
+        triangle: None,
+    }
 }
 
 /// Scales, moves and normalises a case. Where only positions are scaled, t and the ends of the
 /// interval scale with them.
 pub fn apply<F: Float>(parameters: &Parameters, case: &mut Case<F>) {
-    let Parameters { scale, scale_direction, offset, .. } = parameters;
+    let Parameters {
+        scale,
+        scale_direction,
+        offset,
+        ..
+    } = parameters;
     if *scale == 0 && *offset == [0.0; 3] && !parameters.unit_direction {
         return;
     }
@@ -316,23 +355,45 @@ pub fn apply<F: Float>(parameters: &Parameters, case: &mut Case<F>) {
     let moved = |point: [F; 3]| -> [F; 3] {
         std::array::from_fn(|i| {
             let x = scaled(point[i], *scale);
-            if offset[i] == 0.0 { x } else { x + F::from_f64(offset[i]) }
+            if offset[i] == 0.0 {
+                x
+            } else {
+                x + F::from_f64(offset[i])
+            }
         })
     };
-    let end = |t: F| if *scale_direction { t } else { scaled(t, *scale) };
+    let end = |t: F| {
+        if *scale_direction {
+            t
+        } else {
+            scaled(t, *scale)
+        }
+    };
     let (t_min, t_max) = (end(case.ray.t_min), end(case.ray.t_max));
     let direction = apply_to_direction(parameters, direction);
     *case = Case::new(moved(origin), direction, [a, b, c].map(moved)).on(t_min, t_max);
 }
 
 fn apply_to_direction<F: Float>(parameters: &Parameters, direction: [F; 3]) -> [F; 3] {
-    let power = if parameters.scale_direction { parameters.scale } else { 0 };
+    let power = if parameters.scale_direction {
+        parameters.scale
+    } else {
+        0
+    };
     let direction = direction.map(|x| scaled(x, power));
-    if parameters.unit_direction { unit(direction) } else { direction }
+    if parameters.unit_direction {
+        unit(direction)
+    } else {
+        direction
+    }
 }
 
 fn scaled<F: Float>(x: F, power: i32) -> F {
-    if power == 0 { x } else { F::from_f64(scale_by_power_of_two(x.to_f64(), power)) }
+    if power == 0 {
+        x
+    } else {
+        F::from_f64(scale_by_power_of_two(x.to_f64(), power))
+    }
 }
 
 /// The rounded unit vector; the zero vector and vectors that are not finite stay.

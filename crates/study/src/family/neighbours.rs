@@ -25,7 +25,11 @@ impl Recipe for SharedEdgeFamily {
     });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        Made::Group(if draw.coin() { exact_pair(draw) } else { near_pair(draw) })
+        Made::Group(if draw.coin() {
+            exact_pair(draw)
+        } else {
+            near_pair(draw)
+        })
     }
 }
 
@@ -43,7 +47,12 @@ fn exact_pair<F: Float>(draw: &mut Draw) -> Vec<Case<F>> {
         }
         let origin = target - direction * draw.integer(1, 4);
         let mut case = |triangle: [LatticePoint; 3]| {
-            IntegerCase { origin, direction, triangle: turned(draw, triangle) }.case()
+            IntegerCase {
+                origin,
+                direction,
+                triangle: turned(draw, triangle),
+            }
+            .case()
         };
         return [first, second].map(&mut case).into();
     }
@@ -59,14 +68,25 @@ fn near_pair<F: Float>(draw: &mut Draw) -> Vec<Case<F>> {
         let (origin, direction) = nudged_ray(draw, target);
         if is_steep(direction, [a, b, c]) && is_steep(direction, second) {
             let case = |triangle| Case::new(origin, direction, triangle);
-            return [[a, b, c], second].map(|triangle| case(turned(draw, triangle))).into();
+            return [[a, b, c], second]
+                .map(|triangle| case(turned(draw, triangle)))
+                .into();
         }
     }
 }
 
 /// Directions around the axis, counter-clockwise; consecutive ones of any choice that leaves out no
 /// two neighbours are less than half a turn apart.
-const RING: [[i64; 2]; 8] = [[2, 0], [2, 2], [0, 2], [-2, 2], [-2, 0], [-2, -2], [0, -2], [2, -2]];
+const RING: [[i64; 2]; 8] = [
+    [2, 0],
+    [2, 2],
+    [0, 2],
+    [-2, 2],
+    [-2, 0],
+    [-2, -2],
+    [0, -2],
+    [2, -2],
+];
 
 impl Recipe for Fan {
     const NAME: &'static str = "fan";
@@ -96,7 +116,11 @@ impl Recipe for Fan {
         let direction = if draw.coin() { down } else { -down };
         let spoke = draw.pick(&ring);
         // The centre, a point of a spoke (half way, a lattice point of the doubled fan), or near them.
-        let target = if draw.coin() { center * 2 } else { center + spoke };
+        let target = if draw.coin() {
+            center * 2
+        } else {
+            center + spoke
+        };
         let origin = target - direction * 2;
         let nudge = draw.pick(&[0, 1, 4, 16]);
         let origin = nudged(draw, float::<F>(origin), nudge);
@@ -112,7 +136,9 @@ impl Recipe for Fan {
 
 /// True if the line of a case crosses its closed triangle.
 pub(super) fn meets_line(truth: &Truth) -> bool {
-    truth.crossing().is_some_and(|crossing| crossing.feature != Feature::Outside)
+    truth
+        .crossing()
+        .is_some_and(|crossing| crossing.feature != Feature::Outside)
 }
 
 /// True if a line crosses all triangles from the same side.

@@ -15,7 +15,12 @@ pub(super) struct OriginNear;
 pub(super) struct SecondaryRay;
 
 /// The kernels at whose hit points secondary rays start: they find t and u, v in different ways.
-const FIRST_HIT: [&str; 4] = ["moller-trumbore", "plane-unit-normal", "plucker", "woop-watertight"];
+const FIRST_HIT: [&str; 4] = [
+    "moller-trumbore",
+    "plane-unit-normal",
+    "plucker",
+    "woop-watertight",
+];
 
 impl Recipe for OriginOn {
     const NAME: &'static str = "origin-on";
@@ -34,7 +39,12 @@ impl Recipe for OriginOn {
         let triangle = shuffle(draw, [a, b, c]);
         let origin = draw.pick(&[a, b, c, edge_point, edge_point, middle, middle]);
         let direction = transversal(draw, normal(triangle), reach / 8);
-        IntegerCase { origin, direction, triangle }.made()
+        IntegerCase {
+            origin,
+            direction,
+            triangle,
+        }
+        .made()
     }
 }
 

@@ -10,8 +10,16 @@ use crate::kernel::Scalar;
 pub(super) struct Polygon;
 
 /// A strictly convex octagon, counter-clockwise; any of its vertices in turn are convex too.
-const OCTAGON: [[i64; 2]; 8] =
-    [[6, 2], [4, 5], [1, 6], [-3, 5], [-6, 1], [-5, -3], [-1, -6], [4, -4]];
+const OCTAGON: [[i64; 2]; 8] = [
+    [6, 2],
+    [4, 5],
+    [1, 6],
+    [-3, 5],
+    [-6, 1],
+    [-5, -3],
+    [-1, -6],
+    [4, -4],
+];
 
 impl Recipe for Polygon {
     const NAME: &'static str = "polygon";
@@ -28,7 +36,11 @@ impl Recipe for Polygon {
         let outline: Vec<[i64; 2]> = (0..corners).map(|i| OCTAGON[(skip + i) % 8]).collect();
         let base = lattice_point(draw, 16);
         let x = lattice_point(draw, 2);
-        let x = if x == LatticePoint::ZERO { LatticePoint::X } else { x };
+        let x = if x == LatticePoint::ZERO {
+            LatticePoint::X
+        } else {
+            x
+        };
         let y = independent(draw, x, 2);
         let at = |[i, j]: [i64; 2]| base + x * i + y * j;
         let vertices: Vec<LatticePoint> = outline.iter().map(|corner| at(*corner)).collect();
@@ -45,7 +57,12 @@ impl Recipe for Polygon {
         let corner = |i: usize| vertices[i] * 2;
         let case = |i: usize| {
             let triangle = [corner(0), corner(i), corner(i + 1)];
-            IntegerCase { origin, direction, triangle }.case()
+            IntegerCase {
+                origin,
+                direction,
+                triangle,
+            }
+            .case()
         };
         Made::Group((1..corners - 1).map(case).collect())
     }

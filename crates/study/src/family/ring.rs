@@ -18,10 +18,14 @@ pub(crate) fn add_ring<F: Float>(
     cases: &mut Vec<Case<F>>,
 ) -> bool {
     let triangles: Vec<[[F; 3]; 3]> = group.iter().map(corners).collect();
-    let Some(centre) = centre(&triangles) else { return false };
+    let Some(centre) = centre(&triangles) else {
+        return false;
+    };
     let rim = rim(&triangles);
     let is_finite = |[from, to]: &[[F; 3]; 2]| {
-        [from, to].into_iter().all(|p| beyond(*p, centre).iter().all(|x| x.is_finite()))
+        [from, to]
+            .into_iter()
+            .all(|p| beyond(*p, centre).iter().all(|x| x.is_finite()))
     };
     if rim.is_empty() || !rim.iter().all(is_finite) {
         return false;
@@ -30,7 +34,10 @@ pub(crate) fn add_ring<F: Float>(
         let [far_from, far_to] = [from, to].map(|point| beyond(point, centre));
         for corners in [[to, from, far_from], [to, far_from, far_to]] {
             let [a, b, c] = corners.map(F::Vector::from);
-            cases.push(Case { ray: *ray, triangle: Triangle::new(a, b, c) });
+            cases.push(Case {
+                ray: *ray,
+                triangle: Triangle::new(a, b, c),
+            });
         }
     }
     true
@@ -67,7 +74,9 @@ fn centre<F: Float>(triangles: &[[[F; 3]; 3]]) -> Option<[F; 3]> {
 
 /// The edges through which one triangle runs, and none in the other direction.
 fn rim<F: Float>(triangles: &[[[F; 3]; 3]]) -> Vec<[[F; 3]; 2]> {
-    let edges = triangles.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);
+    let edges = triangles
+        .iter()
+        .flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);
     let is_open = |[from, to]: &[[F; 3]; 2]| !edges.clone().any(|edge| edge == [*to, *from]);
     edges.clone().filter(is_open).collect()
 }

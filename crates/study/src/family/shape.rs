@@ -45,11 +45,17 @@ impl Outline {
         let thickness = scale_by_power_of_two(1.0 + draw.unit(), power);
         let long = 0.5 + 0.5 * draw.unit();
         // A needle's third vertex is near an end, a cap's near the middle.
-        let third =
-            if draw.coin() { thickness * draw.unit() } else { long * (0.25 + 0.5 * draw.unit()) };
+        let third = if draw.coin() {
+            thickness * draw.unit()
+        } else {
+            long * (0.25 + 0.5 * draw.unit())
+        };
         let corners = shuffle(draw, [[0.0, 0.0], [long, 0.0], [third, thickness]]);
         let across = thickness * draw.pick(&[0.0, 0.25, 0.5, 1.0, -0.25]);
-        Outline { corners, target: [draw.unit() * long, across] }
+        Outline {
+            corners,
+            target: [draw.unit() * long, across],
+        }
     }
 }
 
@@ -72,7 +78,10 @@ fn generic<F: Float>(draw: &mut Draw) -> Case<F> {
 /// In the plane of two axes, where the thin side has its own exponent.
 fn level<F: Float>(draw: &mut Draw) -> Case<F> {
     let axes = draw.pick(&[[0, 1, 2], [1, 2, 0], [2, 0, 1]]);
-    let Outline { corners, target: [along, across] } = Outline::draw(draw, FINEST);
+    let Outline {
+        corners,
+        target: [along, across],
+    } = Outline::draw(draw, FINEST);
     let float = |x: f64| F::from_f64(x);
     let triangle = corners.map(|[x, y]| placed(axes, float(x), float(y), F::zero()));
     let [dx, dy] = [draw.symmetric::<F>(), draw.symmetric()];
@@ -84,7 +93,10 @@ fn level<F: Float>(draw: &mut Draw) -> Case<F> {
 
 /// Tilted, in integers: a long edge of 2^m steps, and a third vertex one small step beside it.
 fn tilted(draw: &mut Draw) -> IntegerCase {
-    let (a, step) = (lattice_point(draw, 8), independent(draw, LatticePoint::Z, 4));
+    let (a, step) = (
+        lattice_point(draw, 8),
+        independent(draw, LatticePoint::Z, 4),
+    );
     let aside = independent(draw, step, 4);
     let m = draw.integer(4, 16);
     let along = if draw.coin() { 0 } else { 1 << (m - 1) };
@@ -93,7 +105,11 @@ fn tilted(draw: &mut Draw) -> IntegerCase {
     let target = a + step * draw.integer(0, 1 << m);
     let target = if draw.coin() { target } else { target + aside };
     let direction = transversal(draw, normal(triangle), 8);
-    IntegerCase { origin: target - direction * draw.integer(1, 4), direction, triangle }
+    IntegerCase {
+        origin: target - direction * draw.integer(1, 4),
+        direction,
+        triangle,
+    }
 }
 
 impl Recipe for Degenerate {
@@ -114,10 +130,19 @@ impl Recipe for Degenerate {
             step
         } else {
             // Any direction but the segment's own.
-            let other = if step == LatticePoint::ZERO { LatticePoint::Z } else { step };
+            let other = if step == LatticePoint::ZERO {
+                LatticePoint::Z
+            } else {
+                step
+            };
             independent(draw, other, 4)
         };
         let origin = target - direction * draw.integer(-1, 3);
-        IntegerCase { origin, direction, triangle }.made()
+        IntegerCase {
+            origin,
+            direction,
+            triangle,
+        }
+        .made()
     }
 }

@@ -25,7 +25,11 @@ fn scaled<F: Float>(draw: &mut Draw, scale: i32) -> Made<F> {
         };
         shuffle(draw, weights)
     });
-    let parameters = Parameters { scale, scale_direction: draw.coin(), ..Parameters::default() };
+    let parameters = Parameters {
+        scale,
+        scale_direction: draw.coin(),
+        ..Parameters::default()
+    };
     apply(&parameters, &mut case);
     Made::One(case)
 }

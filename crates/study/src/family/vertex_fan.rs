@@ -63,5 +63,7 @@ fn is_one_sheet<F: Float>(direction: [F; 3], triangles: &[[[F; 3]; 3]]) -> bool 
         0.0 < normal.dot(wide(direction))
     };
     let first = is_front(&triangles[0]);
-    triangles.iter().all(|it| is_steep(direction, *it) && is_front(it) == first)
+    triangles
+        .iter()
+        .all(|it| is_steep(direction, *it) && is_front(it) == first)
 }

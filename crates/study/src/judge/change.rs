@@ -22,14 +22,17 @@ impl Distances {
 /// does not count, a line along the plane) it is the distance to the boundary. Lengths or their
 /// squares, infinite from an infinite end.
 fn to_change<R: Real>(truth: &Truth, contract: &Contract, in_space: R, along: [R; 3]) -> R {
-    let Some(crossing) = truth.crossing() else { return in_space };
+    let Some(crossing) = truth.crossing() else {
+        return in_space;
+    };
     let [to_zero, to_min, to_max] = along;
     let (along, off_end) = match contract.extent {
         Extent::Line => (R::infinity(), false),
         Extent::Ray => (to_zero, crossing.t_sign == Ordering::Less),
-        Extent::Interval => {
-            (to_min.smaller(to_max), matches!(crossing.place, Place::Before | Place::Beyond))
-        }
+        Extent::Interval => (
+            to_min.smaller(to_max),
+            matches!(crossing.place, Place::Before | Place::Beyond),
+        ),
     };
     if contract.sides == Sides::Front && crossing.facing == Facing::Back {
         return in_space;
@@ -53,8 +56,16 @@ pub fn exact_to_change<F: Float>(
     }
     let (ray, triangle) = case.exact();
     let crosses = truth.crossing().is_some();
-    let Squares { longest, in_space, along } = Squares::<Exact>::of(&ray, &triangle, crosses);
-    let unit = if longest.is_zero() { Exact::one() } else { longest };
+    let Squares {
+        longest,
+        in_space,
+        along,
+    } = Squares::<Exact>::of(&ray, &triangle, crosses);
+    let unit = if longest.is_zero() {
+        Exact::one()
+    } else {
+        longest
+    };
     let along = along.map(|square| square.unwrap_or_else(Exact::infinity));
     Some((to_change(truth, contract, in_space, along) / unit).sqrt())
 }
@@ -82,7 +93,10 @@ pub fn has_small_determinant<F: Float>(case: &Case<F>, contract: &Contract) -> b
     }
     let (ray, Triangle { a, b, c }) = case.exact();
     let normal = b.minus(&a).cross(&c.minus(&a));
-    ray.direction.dot(&normal).abs().is_less(&Exact::from_f64(contract.least_determinant))
+    ray.direction
+        .dot(&normal)
+        .abs()
+        .is_less(&Exact::from_f64(contract.least_determinant))
 }
 
 /// True if one number is less than another; none if they differ by less than 1/256, as distances are right to a
@@ -106,10 +120,22 @@ pub fn is_polygon_within<F: Float>(
     let each = |(i, (ray, triangle)): (usize, &(Ray<_>, Triangle<_>))| {
         let Squares { longest, along, .. } = Squares::<Exact>::of(ray, triangle, crosses);
         let [first, rim, closing] = triangle.edges();
-        let outline = [(i == 0).then_some(first), Some(rim), (i == last).then_some(closing)];
+        let outline = [
+            (i == 0).then_some(first),
+            Some(rim),
+            (i == last).then_some(closing),
+        ];
         let to_edge = |(p, q)| line_to_segment(&ray.origin, &ray.direction, p, q);
-        let in_space = outline.into_iter().flatten().map(to_edge).reduce(Exact::smaller);
-        Squares { longest, in_space: in_space.expect("an edge of the outline"), along }
+        let in_space = outline
+            .into_iter()
+            .flatten()
+            .map(to_edge)
+            .reduce(Exact::smaller);
+        Squares {
+            longest,
+            in_space: in_space.expect("an edge of the outline"),
+            along,
+        }
     };
     let larger = |one: Squares<Exact>, other: Squares<Exact>| Squares {
         longest: one.longest.larger(other.longest),
@@ -118,14 +144,23 @@ pub fn is_polygon_within<F: Float>(
     };
     let ulps = cases.iter().map(ulp_of_points);
     let ulp = ulps.fold(F::zero(), F::larger);
-    let squares = fan.iter().enumerate().map(each).reduce(larger).expect("a triangle");
+    let squares = fan
+        .iter()
+        .enumerate()
+        .map(each)
+        .reduce(larger)
+        .expect("a triangle");
     squares.are_within(band, ulp, truth, contract)
 }
 
 impl Squares<Exact> {
     /// True if they are within a band of where the obligation would change.
     fn are_within(self, band: Band, ulp: impl Float, truth: &Truth, contract: &Contract) -> bool {
-        let Squares { longest, in_space, along } = self;
+        let Squares {
+            longest,
+            in_space,
+            along,
+        } = self;
         let unit = match band.unit {
             BandUnit::Edges if longest.is_zero() => Exact::one(),
             BandUnit::Edges => longest,

@@ -21,10 +21,16 @@ impl TruthKind {
                 matches!(t_sign, Ordering::Less),
                 matches!(t_sign, Ordering::Equal),
             ],
-            Truth::Coplanar(Contact { kind, meets_ray, meets_line })
-            | Truth::Degenerate(Contact { kind, meets_ray, meets_line }) => {
-                [matches!(kind, ContactKind::None), *meets_ray, *meets_line]
-            }
+            Truth::Coplanar(Contact {
+                kind,
+                meets_ray,
+                meets_line,
+            })
+            | Truth::Degenerate(Contact {
+                kind,
+                meets_ray,
+                meets_line,
+            }) => [matches!(kind, ContactKind::None), *meets_ray, *meets_line],
             Truth::Parallel | Truth::Invalid => [false; 3],
         };
         let shifted = |number, digit| 2 * number + u8::from(digit);
@@ -39,7 +45,11 @@ impl TruthKind {
     /// The side that the ray crosses the plane from; none if it does not.
     pub fn facing(self) -> Option<Facing> {
         let class = self.class();
-        let side = if class.is_back() { Facing::Back } else { Facing::Front };
+        let side = if class.is_back() {
+            Facing::Back
+        } else {
+            Facing::Front
+        };
         class.crosses().then_some(side)
     }
 
@@ -70,7 +80,12 @@ impl Class {
     /// The class of a truth.
     pub fn of(truth: &Truth) -> Class {
         let number = match truth {
-            Truth::Transversal(Crossing { facing, place, feature, .. }) => {
+            Truth::Transversal(Crossing {
+                facing,
+                place,
+                feature,
+                ..
+            }) => {
                 let part = match feature {
                     Feature::Interior => 0,
                     feature if feature.is_edge() => 1,
@@ -147,7 +162,12 @@ impl Class {
     /// The name in records: `edge/front/within`, `coplanar`.
     pub fn name(self) -> String {
         match self.crosses() {
-            true => format!("{}/{}/{}", self.part(), SIDES[self.side()], PLACES[self.place()]),
+            true => format!(
+                "{}/{}/{}",
+                self.part(),
+                SIDES[self.side()],
+                PLACES[self.place()]
+            ),
             false => self.part().to_owned(),
         }
     }
@@ -164,6 +184,10 @@ impl TryFrom<u8> for Class {
 
     fn try_from(number: u8) -> Result<Class, String> {
         let known = usize::from(number) < Class::COUNT;
-        if known { Ok(Class(number)) } else { Err(format!("no class of number {number}")) }
+        if known {
+            Ok(Class(number))
+        } else {
+            Err(format!("no class of number {number}"))
+        }
     }
 }

@@ -56,12 +56,22 @@ impl<R: Real> Squares<R> {
     pub fn of(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>, crosses: bool) -> Squares<R> {
         let (o, d) = (&ray.origin, &ray.direction);
         let edges = triangle.edges();
-        let longest = edges.map(|(p, q)| square(&q.minus(p))).into_iter().reduce(R::larger);
+        let longest = edges
+            .map(|(p, q)| square(&q.minus(p)))
+            .into_iter()
+            .reduce(R::larger);
         let to_edges = edges.map(|(p, q)| line_to_segment(o, d, p, q));
         Squares {
             longest: longest.expect("three edges"),
-            in_space: to_edges.into_iter().reduce(R::smaller).expect("three edges"),
-            along: if crosses { along(ray, triangle) } else { [None, None, None] },
+            in_space: to_edges
+                .into_iter()
+                .reduce(R::smaller)
+                .expect("three edges"),
+            along: if crosses {
+                along(ray, triangle)
+            } else {
+                [None, None, None]
+            },
         }
     }
 }
@@ -69,7 +79,12 @@ impl<R: Real> Squares<R> {
 /// The squares of |t - end|·|d| for ends 0, t_min and t_max, of a line that crosses the plane; none
 /// where the end is infinite.
 fn along<R: Real>(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>) -> [Option<R>; 3] {
-    let Ray { origin: o, direction: d, t_min, t_max } = ray;
+    let Ray {
+        origin: o,
+        direction: d,
+        t_min,
+        t_max,
+    } = ray;
     let Triangle { a, b, c } = triangle;
     let n = b.minus(a).cross(&c.minus(a));
     let t = n.dot(&a.minus(o)) / n.dot(d);
@@ -104,7 +119,12 @@ pub fn nearest_on_segment<R: Real>(numerator: R, denominator: R) -> R {
 pub fn ulp_of_points<F: Float>(case: &Case<F>) -> F {
     let [o, _, a, b, c] = case.vectors();
     let coordinates = [o, a, b, c];
-    coordinates.as_flattened().iter().map(F::abs).fold(F::zero(), F::larger).ulp()
+    coordinates
+        .as_flattened()
+        .iter()
+        .map(F::abs)
+        .fold(F::zero(), F::larger)
+        .ulp()
 }
 
 impl Distances {
@@ -155,9 +175,10 @@ impl Distances {
         let by_bounds = || by_bounds(&near, &found?, &zeros).filter(|_| near.is_exact(&wide));
         match by_bounds() {
             Some(found) => (found, DistanceStep::DoubleDoubles),
-            None => {
-                (integers::distances(&wide, ulp, zeros.along.is_some()), DistanceStep::Integers)
-            }
+            None => (
+                integers::distances(&wide, ulp, zeros.along.is_some()),
+                DistanceStep::Integers,
+            ),
         }
     }
 }
@@ -172,7 +193,11 @@ fn relative<F: Float, R: Real>(
 ) -> Option<Distances> {
     let (ray, triangle, times) = instance.lift(case, number);
     let ulp = number(ulp) * times;
-    let Squares { longest, in_space, along } = Squares::of(&ray, &triangle, zeros.along.is_some());
+    let Squares {
+        longest,
+        in_space,
+        along,
+    } = Squares::of(&ray, &triangle, zeros.along.is_some());
     let unit = if longest.is_zero() { R::one() } else { longest };
     let relative = |square: R| root(&(square / &unit));
     let mut ends = [f64::NAN; 3];
@@ -185,7 +210,11 @@ fn relative<F: Float, R: Real>(
         };
     }
     Some(Distances {
-        in_space: if zeros.in_space { 0.0 } else { relative(in_space)? },
+        in_space: if zeros.in_space {
+            0.0
+        } else {
+            relative(in_space)?
+        },
         along: ends,
         edge_in_ulps: root(&(unit.clone() / (ulp.clone() * ulp)))?,
     })
@@ -210,10 +239,14 @@ impl Zeros {
                 ]),
             },
             Truth::Coplanar(Contact { meets_line, .. })
-            | Truth::Degenerate(Contact { meets_line, .. }) => {
-                Zeros { in_space: *meets_line, along: None }
-            }
-            Truth::Parallel | Truth::Invalid => Zeros { in_space: false, along: None },
+            | Truth::Degenerate(Contact { meets_line, .. }) => Zeros {
+                in_space: *meets_line,
+                along: None,
+            },
+            Truth::Parallel | Truth::Invalid => Zeros {
+                in_space: false,
+                along: None,
+            },
         }
     }
 }
@@ -253,7 +286,11 @@ impl NearOne {
 /// The divisor of distances: the longest edge, or a length of 1 if that is zero; lengths were
 /// divided by 2^size.
 fn unit_of(longest: f64, size: i32) -> f64 {
-    if longest > 0.0 { longest } else { scaled(1.0, -size) }
+    if longest > 0.0 {
+        longest
+    } else {
+        scaled(1.0, -size)
+    }
 }
 
 /// The exponent of the largest number; -1023 where all are subnormal.
@@ -285,8 +322,10 @@ impl Quick {
 fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> {
     let vectors = case.vectors();
     let [o, d, a, b, c] = vectors.map(DVec3::from);
-    let largest =
-        scaled(1.0, exponent_of([vectors[0], vectors[2], vectors[3], vectors[4]].as_flattened()));
+    let largest = scaled(
+        1.0,
+        exponent_of([vectors[0], vectors[2], vectors[3], vectors[4]].as_flattened()),
+    );
     let sides = [b - a, c - b, a - c].map(DVec3::length_squared);
     let longest = sides.into_iter().fold(0.0, f64::max).sqrt();
     // The square of a very short edge underflows.
@@ -299,7 +338,9 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> 
     let to_edges = [(0, 1), (1, 2), (2, 0)].map(|(p, q)| {
         let (offset, edge) = (offsets[p], offsets[q] - offsets[p]);
         // Of an edge that is a point, 0/0: the larger of NaN and 0 is 0.
-        let s = (-offset.dot(edge) / edge.length_squared()).clamp(0.0, 1.0).max(0.0);
+        let s = (-offset.dot(edge) / edge.length_squared())
+            .clamp(0.0, 1.0)
+            .max(0.0);
         (offset + edge * s).length_squared()
     });
     let in_space = to_edges.into_iter().fold(f64::INFINITY, f64::min).sqrt() / length;
@@ -334,8 +375,17 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> 
         }
     }
     let in_space = if zeros.in_space { 0.0 } else { in_space / unit };
-    let distances = Distances { in_space, along, edge_in_ulps: unit / ulp };
-    Some(Quick { distances, unit, edges_in_doubt, along_in_doubt })
+    let distances = Distances {
+        in_space,
+        along,
+        edge_in_ulps: unit / ulp,
+    };
+    Some(Quick {
+        distances,
+        unit,
+        edges_in_doubt,
+        along_in_doubt,
+    })
 }
 
 /// Decides in double-doubles with bounds what floats left in doubt; none where the bounds do not decide.

@@ -43,7 +43,10 @@ pub fn may_be_elsewhere<F: Float>(
                     beside_silhouette |= from_behind && !verdict.hit;
                     continue;
                 };
-                match shared.iter_mut().find(|known| known.0 == rim && known.1 == from_behind) {
+                match shared
+                    .iter_mut()
+                    .find(|known| known.0 == rim && known.1 == from_behind)
+                {
                     Some(known) => known.2 &= !verdict.hit,
                     None => shared.push((rim, from_behind, !verdict.hit)),
                 }

@@ -28,7 +28,10 @@ impl Kinds {
             each[slot].2 += 1;
             kind
         };
-        Kinds { of: truths.iter().enumerate().map(&mut count).collect(), each }
+        Kinds {
+            of: truths.iter().enumerate().map(&mut count).collect(),
+            each,
+        }
     }
 }
 
@@ -59,7 +62,10 @@ pub fn ask_all<F: Float>(
             (kind.class(), asked, count)
         };
         let counts = kinds.each.iter().map(ask).collect();
-        (kinds.of.iter().map(|kind| of_kind[kind.number()]).collect(), counts)
+        (
+            kinds.of.iter().map(|kind| of_kind[kind.number()]).collect(),
+            counts,
+        )
     } else {
         let cases = cases.iter().zip(truths).zip(&kinds.of);
         let ask = |((case, truth), kind): ((&Case<F>, &Truth), &TruthKind)| {
@@ -68,7 +74,9 @@ pub fn ask_all<F: Float>(
         };
         cases.map(ask).unzip()
     };
-    let free = (0..of.len()).filter(|&i| of[i].obligation() == Obligation::Free).collect();
+    let free = (0..of.len())
+        .filter(|&i| of[i].obligation() == Obligation::Free)
+        .collect();
     Demands { of, free, counts }
 }
 
@@ -83,7 +91,11 @@ pub struct Expected {
 
 impl Expected {
     /// Nothing.
-    const FREE: Expected = Expected { may_hit: true, may_miss: true, facing: None };
+    const FREE: Expected = Expected {
+        may_hit: true,
+        may_miss: true,
+        facing: None,
+    };
 
     /// The demand on a case with its obligation and the kind of its truth.
     pub fn new(obligation: Obligation, kind: TruthKind) -> Expected {

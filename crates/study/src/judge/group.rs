@@ -43,8 +43,12 @@ pub fn group_obligation<F: Float>(
         return GroupTruth::Free;
     }
     let truth = group_truth(truths, contract, grouping);
-    let is_free =
-        |band| cases.iter().zip(truths).any(|(case, truth)| is_within(band, case, truth, contract));
+    let is_free = |band| {
+        cases
+            .iter()
+            .zip(truths)
+            .any(|(case, truth)| is_within(band, case, truth, contract))
+    };
     match truth {
         GroupTruth::Free => truth,
         // A fan that goes around its centre twice has two triangles on each side of it.
@@ -52,7 +56,12 @@ pub fn group_obligation<F: Float>(
             GroupTruth::Free
         }
         _ if contract.band.is_some_and(is_free) => GroupTruth::Free,
-        _ if cases.iter().any(|case| has_small_determinant(case, contract)) => GroupTruth::Free,
+        _ if cases
+            .iter()
+            .any(|case| has_small_determinant(case, contract)) =>
+        {
+            GroupTruth::Free
+        }
         _ => truth,
     }
 }
@@ -78,7 +87,9 @@ fn goes_around_once<F: Float>(cases: &[Case<F>], truths: &[Truth]) -> bool {
         }
     };
     let spokes: Option<Vec<[[f64; 3]; 2]>> = cases.iter().zip(truths).map(spoke).collect();
-    let (Some(case), Some(spokes)) = (cases.first(), spokes) else { return true };
+    let (Some(case), Some(spokes)) = (cases.first(), spokes) else {
+        return true;
+    };
     let direction: [F; 3] = case.ray.direction.into();
     let ring: Vec<[f64; 3]> = spokes.iter().map(|[_, next]| *next).collect();
     let winds = |[centre, _]: &[_; 2]| winds_once(direction.map(F::to_f64), *centre, &ring);
@@ -88,11 +99,15 @@ fn goes_around_once<F: Float>(cases: &[Case<F>], truths: &[Truth]) -> bool {
 /// The demand that the truths of a group lead to, under a contract's extent and sides.
 pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) -> GroupTruth {
     let crossings = truths.iter().filter_map(Truth::crossing);
-    let Some(first) = truths.first().and_then(Truth::crossing) else { return GroupTruth::Free };
+    let Some(first) = truths.first().and_then(Truth::crossing) else {
+        return GroupTruth::Free;
+    };
     if crossings.clone().count() < truths.len() {
         return GroupTruth::Free;
     }
-    let alike = crossings.clone().all(|crossing| crossing.facing == first.facing);
+    let alike = crossings
+        .clone()
+        .all(|crossing| crossing.facing == first.facing);
     if contract.sides == Sides::Front && !(alike && first.facing == Facing::Front) {
         return GroupTruth::Free;
     }
@@ -107,11 +122,22 @@ pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) ->
         return GroupTruth::Free;
     }
     let hits = met.clone().count();
-    let inside = met.clone().filter(|crossing| crossing.feature == Feature::Interior).count();
+    let inside = met
+        .clone()
+        .filter(|crossing| crossing.feature == Feature::Interior)
+        .count();
     if alike {
         let on_edges = met.all(|crossing| crossing.feature.is_edge());
-        let once = if inside > 0 { hits == 1 } else { hits == 2 || !on_edges };
-        return if once { GroupTruth::Crossing } else { GroupTruth::Free };
+        let once = if inside > 0 {
+            hits == 1
+        } else {
+            hits == 2 || !on_edges
+        };
+        return if once {
+            GroupTruth::Crossing
+        } else {
+            GroupTruth::Free
+        };
     }
     // Over a fold the rims of the two triangles pass through each other's inside: the number of hits
     // is owed only where no triangle is met on an edge of its own.
@@ -126,7 +152,14 @@ pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) ->
 /// True if two contracts demand the same of every group.
 pub fn owes_groups_alike(one: &Contract, other: &Contract) -> bool {
     let all = |contract: &Contract| {
-        let Contract { extent, sides, direction, band, least_determinant, .. } = *contract;
+        let Contract {
+            extent,
+            sides,
+            direction,
+            band,
+            least_determinant,
+            ..
+        } = *contract;
         (extent, sides, direction, band, least_determinant)
     };
     all(one) == all(other)
@@ -140,7 +173,8 @@ fn is_off_the_rim<'a>(
     grouping: Grouping,
 ) -> bool {
     let hits = met.clone().count();
-    met.clone().any(|crossing| crossing.feature == Feature::Interior)
+    met.clone()
+        .any(|crossing| crossing.feature == Feature::Interior)
         || (hits >= 2 && met.all(|crossing| crossing.feature.is_edge()))
         || (grouping == Grouping::Fan && hits == triangles)
 }
@@ -166,7 +200,11 @@ pub fn polygon_obligation<F: Float>(
         Obligation::Free => owed,
         _ if truth == Truth::Invalid => owed,
         _ if contract.band.is_some_and(is_free) => Obligation::Free,
-        Obligation::MustHit if cases.iter().any(|case| has_small_determinant(case, contract)) => {
+        Obligation::MustHit
+            if cases
+                .iter()
+                .any(|case| has_small_determinant(case, contract)) =>
+        {
             Obligation::Free
         }
         _ => owed,
@@ -181,7 +219,10 @@ pub fn polygon_truth(truths: &[Truth]) -> Truth {
     match met.clone().next() {
         None => truths[0],
         Some(first) if is_off_the_rim(met, truths.len(), Grouping::Polygon) => {
-            Truth::Transversal(Crossing { feature: Feature::Interior, ..*first })
+            Truth::Transversal(Crossing {
+                feature: Feature::Interior,
+                ..*first
+            })
         }
         Some(first) => Truth::Transversal(*first),
     }

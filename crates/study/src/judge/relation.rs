@@ -144,7 +144,12 @@ impl RelatedValues {
         verdict: &Verdict<F>,
         tolerance: f64,
     ) -> RelatedValues {
-        let hit = HitValues { case, gives, verdict, tolerance };
+        let hit = HitValues {
+            case,
+            gives,
+            verdict,
+            tolerance,
+        };
         let in_bounds = bounded(|| hit.related(&Allowed::of(case, Bounded::new)));
         in_bounds.unwrap_or_else(|| hit.related(&Allowed::of(case, Exact::from_f64)))
     }
@@ -165,7 +170,10 @@ impl<F: Float> HitValues<'_, F> {
             let value = values.into_iter().find(|(place, _)| *place == which);
             value.is_some_and(|value| !allowed.admits_all(&[value], self.tolerance))
         };
-        let mut related = RelatedValues { wrong: Vec::new(), holding: Vec::new() };
+        let mut related = RelatedValues {
+            wrong: Vec::new(),
+            holding: Vec::new(),
+        };
         if is_wrong(0) {
             related.wrong.push(Part::T);
             related.holding.extend(self.of_t(allowed));
@@ -176,7 +184,9 @@ impl<F: Float> HitValues<'_, F> {
         }
         if !related.wrong.is_empty() {
             related.wrong.push(Part::Values);
-            related.holding.extend(self.is_in_f32(allowed).then_some(Relation::InF32));
+            related
+                .holding
+                .extend(self.is_in_f32(allowed).then_some(Relation::InF32));
         }
         related
     }
@@ -207,7 +217,9 @@ impl<F: Float> HitValues<'_, F> {
                 is_near(allowed, &t, expected, unit)
             }
         };
-        let held = lines.into_iter().filter(|(_, factor, start)| holds(*factor, *start));
+        let held = lines
+            .into_iter()
+            .filter(|(_, factor, start)| holds(*factor, *start));
         let mut holding: Vec<Relation> = held.map(|(relation, ..)| relation).collect();
         if self.verdict.t == self.case.ray.t_max {
             holding.push(Relation::ClampedT);
@@ -221,7 +233,12 @@ impl<F: Float> HitValues<'_, F> {
         let unit = allowed.unit[1].clone() + &allowed.unit[2];
         let found = [self.verdict.u, self.verdict.v].map(|x| (allowed.number)(x.to_f64()));
         let stands_for = |place: usize, weight: usize| {
-            is_near(allowed, &found[place], weights[weight].clone(), unit.clone())
+            is_near(
+                allowed,
+                &found[place],
+                weights[weight].clone(),
+                unit.clone(),
+            )
         };
         let holds = |[for_u, for_v]: [usize; 2]| stands_for(0, for_u) && stands_for(1, for_v);
         let held = WEIGHTS.into_iter().filter(|(_, weights)| holds(*weights));
@@ -233,12 +250,14 @@ impl<F: Float> HitValues<'_, F> {
         /// The roundoff of f32 in units of that of f64.
         const COARSER: f64 = (1u64 << 29) as f64;
         F::NAME == f64::NAME
-            && given_values(self.gives, self.verdict).into_iter().all(|(which, value)| {
-                let unit = (allowed.number)(COARSER) * &allowed.unit[which];
-                let exact = allowed.exact[which].clone();
-                f64::from(value as f32) == value
-                    && is_near(allowed, &(allowed.number)(value), exact, unit)
-            })
+            && given_values(self.gives, self.verdict)
+                .into_iter()
+                .all(|(which, value)| {
+                    let unit = (allowed.number)(COARSER) * &allowed.unit[which];
+                    let exact = allowed.exact[which].clone();
+                    f64::from(value as f32) == value
+                        && is_near(allowed, &(allowed.number)(value), exact, unit)
+                })
     }
 }
 
@@ -272,9 +291,16 @@ pub fn other_demands<F: Float>(
     let others: Vec<(Relation, Obligation)> = others.collect();
     let is_clear = || {
         let distances = Distances::of(case, truth);
-        CLEAR <= distances.in_space.min(distances.nearest_change(truth, contract))
+        CLEAR
+            <= distances
+                .in_space
+                .min(distances.nearest_change(truth, contract))
     };
-    if others.is_empty() || !is_clear() { Vec::new() } else { others }
+    if others.is_empty() || !is_clear() {
+        Vec::new()
+    } else {
+        others
+    }
 }
 
 /// A crossing as a kernel takes it of which a relation is true; none if the relation changes no answer to the case.
@@ -289,11 +315,17 @@ fn as_taken<F: Float>(relation: Relation, case: &Case<F>, crossing: &Crossing) -
             let turned = Case::new(origin, direction.map(|x| -x), [a, b, c]);
             let truth = oracle::truth(&turned.on(ray.t_min, ray.t_max));
             let place = truth.crossing()?.place;
-            Some(Crossing { place, t_sign: Ordering::Greater, ..*crossing })
+            Some(Crossing {
+                place,
+                t_sign: Ordering::Greater,
+                ..*crossing
+            })
         }
-        Relation::IgnoresTMin if is_before => {
-            Some(Crossing { place: Place::Within, t_sign: Ordering::Greater, ..*crossing })
-        }
+        Relation::IgnoresTMin if is_before => Some(Crossing {
+            place: Place::Within,
+            t_sign: Ordering::Greater,
+            ..*crossing
+        }),
         Relation::ZeroTMin if is_before && !is_negative => at(Place::Within),
         Relation::ZeroTMin | Relation::ClampedTMin if !is_before && is_negative => {
             at(Place::Before)
@@ -317,7 +349,9 @@ pub fn answers_as<F: Float>(
     if verdict.hit != (demand == Obligation::MustHit) {
         return false;
     }
-    let is_behind = truth.crossing().is_some_and(|it| it.t_sign == Ordering::Less);
+    let is_behind = truth
+        .crossing()
+        .is_some_and(|it| it.t_sign == Ordering::Less);
     if !verdict.hit || !gives.t || !is_behind {
         return true;
     }

@@ -26,7 +26,9 @@ pub const ALLOWANCE: f64 = 16.0;
 
 /// True if the values of a hit are compared, because the line meets the triangle at one point.
 pub(super) fn has_values(truth: &Truth) -> bool {
-    truth.crossing().is_some_and(|crossing| crossing.feature != Feature::Outside)
+    truth
+        .crossing()
+        .is_some_and(|crossing| crossing.feature != Feature::Outside)
 }
 
 /// Exact t, u, v of a line that crosses the plane, and how far each may be off.
@@ -48,7 +50,14 @@ impl<R: Real> Allowed<R> {
     pub(super) fn of<F: Float>(case: &Case<F>, number: fn(f64) -> R) -> Allowed<R> {
         let roundoff = roundoff::<F>();
         let (ray, triangle) = case.widen().lift(number);
-        let (Ray { origin: o, direction: d, .. }, Triangle { a, b, c }) = (&ray, &triangle);
+        let (
+            Ray {
+                origin: o,
+                direction: d,
+                ..
+            },
+            Triangle { a, b, c },
+        ) = (&ray, &triangle);
         let (ab, ac) = (b.minus(a), c.minus(a));
         let rows = [ab.cross(&ac), d.cross(&ac), ab.cross(d)];
         let determinant = d.dot(&rows[0]);
@@ -59,14 +68,21 @@ impl<R: Real> Allowed<R> {
         let terms = [(a, &w), (b, u), (c, v), (d, t)];
         let size = (0..3).map(|axis| {
             let term = |(point, weight): (&Triple<R>, &R)| (point.at(axis) * weight).abs();
-            terms.into_iter().map(term).fold(o.at(axis).abs(), |sum, term| sum + term)
+            terms
+                .into_iter()
+                .map(term)
+                .fold(o.at(axis).abs(), |sum, term| sum + term)
         });
         let size = size.reduce(R::larger).expect("three axes");
         let per_row = size * number(roundoff) / determinant.abs();
         let unit: [R; 3] = array::from_fn(|i| {
             let row = &rows[i];
             let moved = (row.at(0).abs() + row.at(1).abs() + row.at(2).abs()) * &per_row;
-            if i == 0 { moved } else { moved.larger(number(roundoff)) }
+            if i == 0 {
+                moved
+            } else {
+                moved.larger(number(roundoff))
+            }
         });
         let edge = |edge: &Triple<R>| edge.dot(edge);
         Allowed {
@@ -92,7 +108,9 @@ impl<R: Real> Allowed<R> {
 
     /// The same of several values of a hit.
     pub(super) fn admits_all(&self, values: &[(usize, f64)], tolerance: f64) -> bool {
-        values.iter().all(|&(which, value)| self.admits(which, (self.number)(value), tolerance))
+        values
+            .iter()
+            .all(|&(which, value)| self.admits(which, (self.number)(value), tolerance))
     }
 
     /// True if an error moves the point by at most so many longest edges, or a weight by at most so much.
@@ -121,7 +139,10 @@ fn given(gives: Gives) -> [bool; 3] {
 /// Those of t, u and v (0, 1 and 2) that a kernel gives; not a t that is rightly infinite, which is as near as a number can
 /// be.
 pub(super) fn given_values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Vec<(usize, f64)> {
-    let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64).into_iter().enumerate();
+    let values = [verdict.t, verdict.u, verdict.v]
+        .map(F::to_f64)
+        .into_iter()
+        .enumerate();
     let finite = values.filter(|(_, value)| value.is_finite());
     finite.filter(|(which, _)| given(gives)[*which]).collect()
 }
@@ -165,17 +186,25 @@ pub fn exact_values_are_near<F: Float>(
     let values = [hit.t, u, v].into_iter().zip(given(gives)).enumerate();
     let near =
         |value: Option<Exact>, which| value.is_some_and(|x| allowed.admits(which, x, tolerance));
-    values.into_iter().all(|(which, (value, given))| !given || near(value, which))
+    values
+        .into_iter()
+        .all(|(which, (value, given))| !given || near(value, which))
 }
 
 /// The error of the worst value of a hit, in multiples of u·κ; infinite if a value has no unit. The hit has finite values,
 /// and its line crosses the plane.
 pub fn exact_times<F: Float>(case: &Case<F>, gives: Gives, verdict: &Verdict<F>) -> Exact {
     let allowed = Allowed::of(case, Exact::from_f64);
-    let times = given_values(gives, verdict).into_iter().map(|(which, value)| {
-        let off = (Exact::from_f64(value) - &allowed.exact[which]).abs();
-        if off.is_zero() { off } else { off / &allowed.unit[which] }
-    });
+    let times = given_values(gives, verdict)
+        .into_iter()
+        .map(|(which, value)| {
+            let off = (Exact::from_f64(value) - &allowed.exact[which]).abs();
+            if off.is_zero() {
+                off
+            } else {
+                off / &allowed.unit[which]
+            }
+        });
     times.fold(Exact::from_f64(0.0), Exact::larger)
 }
 
@@ -205,9 +234,17 @@ impl ValueErrors {
         let direction = length(case.widen().vectors()[1]);
         let edges = [off[0] / longest * direction, off[1], off[2]];
         let given = given(gives);
-        let worst = (0..3).filter(|i| given[*i]).map(|i| edges[i]).fold(0.0, f64::max);
+        let worst = (0..3)
+            .filter(|i| given[*i])
+            .map(|i| edges[i])
+            .fold(0.0, f64::max);
         let times = array::from_fn(|i| given[i].then_some(times[i]));
-        ValueErrors { exact, times, edges: worst, by_value: edges }
+        ValueErrors {
+            exact,
+            times,
+            edges: worst,
+            by_value: edges,
+        }
     }
 
     /// True if t, u or v (0, 1 or 2) is farther off than rounding explains and a contract tolerates.
@@ -246,7 +283,11 @@ fn measure<F: Float, R: Real>(
 /// The length of a vector, without overflow on the way.
 pub(super) fn length(v: [f64; 3]) -> f64 {
     let largest = v.into_iter().map(f64::abs).fold(0.0, f64::max);
-    largest * v.into_iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
+    largest
+        * v.into_iter()
+            .map(|x| (x / largest).powi(2))
+            .sum::<f64>()
+            .sqrt()
 }
 
 /// Ranges in which t, u and v of a hit are surely right. Beyond these numbers `are_near` decides.
@@ -262,12 +303,18 @@ impl<F: Float> ValueLimits<F> {
     /// Every finite number.
     fn any() -> Self {
         let largest = F::infinity().offset_ulps(-1);
-        ValueLimits { low: [-largest; 3], high: [largest; 3] }
+        ValueLimits {
+            low: [-largest; 3],
+            high: [largest; 3],
+        }
     }
 
     /// No number.
     fn none() -> Self {
-        ValueLimits { low: [F::infinity(); 3], high: [-F::infinity(); 3] }
+        ValueLimits {
+            low: [F::infinity(); 3],
+            high: [-F::infinity(); 3],
+        }
     }
 
     /// The ranges for a case with its truth.
@@ -291,9 +338,23 @@ impl<F: Float> ValueLimits<F> {
                 // Each is rounded once or twice, by less than what is taken off here.
                 let off = off - (value.abs() + off) * (4.0 * f64::EPSILON);
                 let (low, high) = (F::from_f64(value - off), F::from_f64(value + off));
-                let inside = |x: F, ulps| if x.is_finite() { x.offset_ulps(ulps) } else { x };
-                limits.low[i] = if low.to_f64() < value - off { inside(low, 1) } else { low };
-                limits.high[i] = if high.to_f64() > value + off { inside(high, -1) } else { high };
+                let inside = |x: F, ulps| {
+                    if x.is_finite() {
+                        x.offset_ulps(ulps)
+                    } else {
+                        x
+                    }
+                };
+                limits.low[i] = if low.to_f64() < value - off {
+                    inside(low, 1)
+                } else {
+                    low
+                };
+                limits.high[i] = if high.to_f64() > value + off {
+                    inside(high, -1)
+                } else {
+                    high
+                };
                 if !(limits.low[i].is_finite() && limits.high[i].is_finite()) {
                     return ValueLimits::none();
                 }
@@ -309,7 +370,10 @@ fn quick(case: &Case<f64>, roundoff: f64) -> Option<[(f64, f64); 3]> {
     const LARGEST: f64 = (1u128 << 127) as f64 * (1u128 << 73) as f64;
     let vectors = case.vectors();
     let size = vectors.as_flattened().iter().map(|x| x.abs());
-    if !size.clone().all(|x| x == 0.0 || (1.0 / LARGEST..=LARGEST).contains(&x)) {
+    if !size
+        .clone()
+        .all(|x| x == 0.0 || (1.0 / LARGEST..=LARGEST).contains(&x))
+    {
         return None;
     }
     let [o, d, a, b, c] = vectors.map(DVec3::from);

@@ -48,12 +48,22 @@ impl DrawingTexts {
         let subject = F::subject(row.entry)
             .ok_or_else(|| Error(format!("kernel '{name}' does not run in {}", F::NAME)))?;
         let mut verdict = [Verdict::miss(None)];
-        verdicts_of(subject, std::slice::from_ref(case), &row.epsilons::<F>(), &mut verdict);
+        verdicts_of(
+            subject,
+            std::slice::from_ref(case),
+            &row.epsilons::<F>(),
+            &mut verdict,
+        );
         let [verdict] = verdict;
         let definition = oracle::define(case);
         let asked = asked(case, &definition.truth, &row.contract, false);
         let gives = row.entry.info.gives;
-        let finding = judge((&row.contract, asked), (case, &definition.truth), gives, &verdict);
+        let finding = judge(
+            (&row.contract, asked),
+            (case, &definition.truth),
+            gives,
+            &verdict,
+        );
         let judged = finding.map_or("as its contract asks", |finding| finding.name());
         let mut witness = DrawingTexts {
             title: format!("{} in {}: {judged}", row.label(), F::NAME),
@@ -71,14 +81,18 @@ impl DrawingTexts {
         if direction.iter().any(|x| !x.is_zero()) {
             witness.scene(&MapScene::new(case, gives, &verdict, &definition));
         } else {
-            witness.lines.push("A direction of zero: there is no line to draw.".to_owned());
+            witness
+                .lines
+                .push("A direction of zero: there is no line to draw.".to_owned());
         }
         Ok(witness)
     }
 
     /// How far the case is from its boundary, in words.
     fn distances<F: Float>(&mut self, case: &Case<F>, row: &Row) {
-        let Some(severity) = exact_severity(case, row.contract.extent) else { return };
+        let Some(severity) = exact_severity(case, row.contract.extent) else {
+            return;
+        };
         let space = severity.in_space;
         let mut text = format!(
             "The line passes the triangle's boundary at {} of its longest edge, {} ulps of the largest coordinate",
@@ -108,7 +122,13 @@ impl DrawingTexts {
         let near = scene.from(&scene.focus());
         if let Some(half) = near.inset_half() {
             let left = WIDTH - MARGIN - SIDE;
-            let inset = Panel { left, top, side: SIDE, centre: [0.0; 2], half };
+            let inset = Panel {
+                left,
+                top,
+                side: SIDE,
+                centre: [0.0; 2],
+                half,
+            };
             let name = format!("the point, {} times larger", brief(main.half / half));
             self.panel(&inset, &near, &name);
             self.bar(&inset);
@@ -118,11 +138,15 @@ impl DrawingTexts {
     }
 
     fn panel(&mut self, panel: &Panel, layer: &FloatLayer, name: &str) {
-        let Panel { left, top, side, .. } = *panel;
+        let Panel {
+            left, top, side, ..
+        } = *panel;
         let out = &mut self.body;
         *out += &text(left, top - 8.0, BOLD, name);
         let edges: Option<Vec<Stretch>> = layer.edges.iter().copied().collect();
-        let fill = edges.filter(|_| layer.has_area).map(|edges| panel.left_of(&edges));
+        let fill = edges
+            .filter(|_| layer.has_area)
+            .map(|edges| panel.left_of(&edges));
         if let Some(path) = fill.filter(|path| !path.is_empty()) {
             *out += &format!("<path d=\"{path}\" fill=\"#6fb4e6\" fill-opacity=\"0.4\"/>\n");
         }
@@ -135,9 +159,15 @@ impl DrawingTexts {
         for edge in &layer.edges {
             stroke(edge, "stroke=\"currentColor\" stroke-width=\"2\"");
         }
-        stroke(&layer.line, "stroke=\"currentColor\" stroke-dasharray=\"3 4\"");
+        stroke(
+            &layer.line,
+            "stroke=\"currentColor\" stroke-dasharray=\"3 4\"",
+        );
         stroke(&layer.interval, "stroke=\"currentColor\"");
-        stroke(&layer.contact, "stroke=\"#0072b2\" stroke-width=\"5\" stroke-opacity=\"0.7\"");
+        stroke(
+            &layer.contact,
+            "stroke=\"#0072b2\" stroke-width=\"5\" stroke-opacity=\"0.7\"",
+        );
         *out += &format!(
             "<rect x=\"{left}\" y=\"{top}\" width=\"{side}\" height=\"{side}\" fill=\"none\" stroke=\"#808080\"/>\n"
         );
@@ -168,7 +198,9 @@ impl DrawingTexts {
     fn names(&mut self, panel: &Panel, layer: &FloatLayer) {
         let mut named: Vec<([f64; 2], String)> = Vec::new();
         for (vertex, name) in layer.vertices.into_iter().zip(["a", "b", "c"]) {
-            let Some(place) = panel.place(vertex) else { continue };
+            let Some(place) = panel.place(vertex) else {
+                continue;
+            };
             match named.iter_mut().find(|(at, _)| *at == place) {
                 Some((_, names)) => *names += &format!(" = {name}"),
                 None => named.push((place, name.to_owned())),
@@ -223,7 +255,11 @@ impl DrawingTexts {
             self.body += &text(format_args!("{:.2}", x + 12.0), self.y, SMALL, words);
             x += 40.0 + 6.6 * words.len() as f64;
         }
-        let contact = if scene.contact.is_some() { ", thick: in the triangle" } else { "" };
+        let contact = if scene.contact.is_some() {
+            ", thick: in the triangle"
+        } else {
+            ""
+        };
         self.lines.push(format!(
             "Lines: the ray on its interval, dashed: the rest of its line{contact}. Arrows at the rim point to marks outside of it."
         ));
@@ -238,7 +274,11 @@ impl DrawingTexts {
             self.body += &text(MARGIN, y, SMALL, &line);
         }
         let words = [&*self.title, &self.lines.join(" ")];
-        drawing_of([WIDTH, y + 10.0], words, &(document.to_owned() + &self.body))
+        drawing_of(
+            [WIDTH, y + 10.0],
+            words,
+            &(document.to_owned() + &self.body),
+        )
     }
 }
 
@@ -281,15 +321,29 @@ impl PointMark {
 fn overview(layer: &FloatLayer, left: f64, top: f64) -> Panel {
     let mut points: Vec<[f64; 2]> = layer.vertices.to_vec();
     let is_near = |p: &[f64; 2]| p.iter().all(|x| x.abs() < 2.5);
-    points.extend([layer.exact, layer.computed].into_iter().flatten().filter(is_near));
+    points.extend(
+        [layer.exact, layer.computed]
+            .into_iter()
+            .flatten()
+            .filter(is_near),
+    );
     let ends = |i: usize| {
         let values = || points.iter().map(|p| p[i]).filter(|x| x.is_finite());
-        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+        (
+            values().fold(f64::INFINITY, f64::min),
+            values().fold(f64::NEG_INFINITY, f64::max),
+        )
     };
     let [(x0, x1), (y0, y1)] = [ends(0), ends(1)];
     let extent = (x1 - x0).max(y1 - y0);
     let half = if extent > 0.0 { extent * 0.64 } else { 1.5 };
-    Panel { left, top, side: SIDE, centre: [x0.midpoint(x1), y0.midpoint(y1)], half }
+    Panel {
+        left,
+        top,
+        side: SIDE,
+        centre: [x0.midpoint(x1), y0.midpoint(y1)],
+        half,
+    }
 }
 
 /// The exact truth in words.
@@ -310,7 +364,9 @@ fn computed<F: Float>(row: &Row, verdict: &Verdict<F>) -> String {
         return format!("Computed: no verdict, the kernel {failure}.");
     }
     if !verdict.hit {
-        let gate = verdict.refused_by.and_then(|gate| row.entry.info.gates.get(usize::from(gate)));
+        let gate = verdict
+            .refused_by
+            .and_then(|gate| row.entry.info.gates.get(usize::from(gate)));
         return match gate {
             Some(gate) => format!("Computed: a miss, refused by gate {}.", gate.name),
             None => "Computed: a miss.".to_owned(),
@@ -354,5 +410,9 @@ fn value<F: Float>(x: F) -> String {
 
 /// A factor in three digits.
 fn brief(factor: f64) -> String {
-    if factor < 1000.0 { format!("{factor:.1}") } else { format!("{factor:.2e}") }
+    if factor < 1000.0 {
+        format!("{factor:.1}")
+    } else {
+        format!("{factor:.2e}")
+    }
 }

@@ -49,7 +49,11 @@ impl MapFrame {
         let Triangle { a, b, c } = triangle;
         let edges = [b.minus(a), c.minus(b), a.minus(c)];
         let longest = |best: ExactVector, edge: ExactVector| {
-            if square(&best).is_less(&square(&edge)) { edge } else { best }
+            if square(&best).is_less(&square(&edge)) {
+                edge
+            } else {
+                best
+            }
         };
         let edge = edges.into_iter().reduce(longest).expect("three edges");
         let normal = b.minus(a).cross(&c.minus(a));
@@ -62,16 +66,29 @@ impl MapFrame {
             (View::Ray, [d.cross(&across), across])
         } else if !is_zero(&edge) {
             let up = edge.cross(&offset).cross(&edge);
-            let up = if is_zero(&up) { perpendicular(&edge) } else { up };
+            let up = if is_zero(&up) {
+                perpendicular(&edge)
+            } else {
+                up
+            };
             (View::Across, [edge.clone(), up])
         } else {
             let aside = perpendicular(d);
             (View::Ray, [aside.clone(), d.cross(&aside)])
         };
         let squares = axes.each_ref().map(square);
-        let mut frame = MapFrame { view, axes, squares, unit: Exact::one() };
+        let mut frame = MapFrame {
+            view,
+            axes,
+            squares,
+            unit: Exact::one(),
+        };
         let to_line = frame.flat(&offset);
-        let unit = if is_zero(&edge) { frame.dot(&to_line, &to_line) } else { square(&edge) };
+        let unit = if is_zero(&edge) {
+            frame.dot(&to_line, &to_line)
+        } else {
+            square(&edge)
+        };
         if !unit.is_zero() {
             frame.unit = unit;
         }
@@ -116,7 +133,11 @@ impl MapFrame {
         let [x, y] = way.0.each_ref().map(|x| x.clone() * x);
         let share = |square: Exact, i: usize| {
             let share = (square / &self.squares[i] / &length).approximate_root();
-            if way.0[i].is_sign_negative() { -share } else { share }
+            if way.0[i].is_sign_negative() {
+                -share
+            } else {
+                share
+            }
         };
         Some(Stretch {
             foot: self.coordinates(&foot),
@@ -134,7 +155,11 @@ impl MapFrame {
     /// The root of a square in units, with the sign of another number.
     fn signed_length(&self, sign: &Exact, square: &Exact) -> f64 {
         let length = (square.clone() / &self.unit).approximate_root();
-        if sign.is_sign_negative() { -length } else { length }
+        if sign.is_sign_negative() {
+            -length
+        } else {
+            length
+        }
     }
 }
 
@@ -152,7 +177,9 @@ impl Stretch {
     /// How far the stretch is from the point that distances are counted from.
     pub fn distance(&self) -> f64 {
         let s = 0f64.clamp(self.from, self.to);
-        (0..2).map(|i| self.foot[i] + s * self.way[i]).fold(0.0, f64::hypot)
+        (0..2)
+            .map(|i| self.foot[i] + s * self.way[i])
+            .fold(0.0, f64::hypot)
     }
 }
 

@@ -89,7 +89,10 @@ impl<F: Float> Grid<F> {
                 values.len()
             )));
         }
-        if ![width, height].iter().all(|side| (1..=MOST_PIXELS).contains(side)) {
+        if ![width, height]
+            .iter()
+            .all(|side| (1..=MOST_PIXELS).contains(side))
+        {
             return Err(Error(format!(
                 "a map of {width}x{height} pixels is not possible: each side has 1 to {MOST_PIXELS}"
             )));
@@ -100,9 +103,17 @@ impl<F: Float> Grid<F> {
         let axis = |coordinate: usize, count| {
             let centre = values[coordinate];
             let step = step.unwrap_or_else(|| natural_step(centre, values, extent));
-            Axis { coordinate, centre, step, count }
+            Axis {
+                coordinate,
+                centre,
+                step,
+                count,
+            }
         };
-        Ok(Grid { point, axes: [axis(coordinates[0], width), axis(coordinates[1], height)] })
+        Ok(Grid {
+            point,
+            axes: [axis(coordinates[0], width), axis(coordinates[1], height)],
+        })
     }
 
     /// Pixels to the right, and upwards.
@@ -123,7 +134,11 @@ impl<F: Float> Grid<F> {
 /// point's largest coordinate (of `extent`, for a point that is zero).
 fn natural_step<F: Float>(centre: F, values: &[F], extent: F) -> PixelStep {
     let largest = values.iter().map(F::abs).fold(F::zero(), F::larger);
-    let largest = if largest.is_zero() { extent.abs() } else { largest };
+    let largest = if largest.is_zero() {
+        extent.abs()
+    } else {
+        largest
+    };
     if !centre.is_zero() || largest.is_zero() || !largest.is_finite() {
         return PixelStep::Ulps(1);
     }

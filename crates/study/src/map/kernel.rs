@@ -42,9 +42,20 @@ pub fn grid_of_case<F: Float>(
 ) -> Result<Grid<F>, Error> {
     let vectors = case.vectors();
     let [origin, _, a, b, c] = vectors;
-    let extent = [origin, a, b, c].as_flattened().iter().map(F::abs).fold(F::zero(), F::larger);
+    let extent = [origin, a, b, c]
+        .as_flattened()
+        .iter()
+        .map(F::abs)
+        .fold(F::zero(), F::larger);
     let coordinates = coordinates.unwrap_or_else(|| plane_axes(case));
-    Grid::about(part as usize, &vectors[part as usize], coordinates, step, size, extent)
+    Grid::about(
+        part as usize,
+        &vectors[part as usize],
+        coordinates,
+        step,
+        size,
+        extent,
+    )
 }
 
 /// The coordinates in order without the one in which the normal is longest.
@@ -52,7 +63,9 @@ fn plane_axes<F: Float>(case: &Case<F>) -> [usize; 2] {
     let [_, _, a, b, c] = case.widen().vectors();
     let edge = |p: [f64; 3]| glam::DVec3::from_array(p) - glam::DVec3::from_array(a);
     let normal = edge(b).cross(edge(c)).abs().to_array();
-    let longest = (0..3).rev().fold(2, |best, i| if normal[i] > normal[best] { i } else { best });
+    let longest = (0..3)
+        .rev()
+        .fold(2, |best, i| if normal[i] > normal[best] { i } else { best });
     match longest {
         0 => [1, 2],
         1 => [0, 2],
@@ -116,7 +129,12 @@ fn pixels<F: Float>(
             truth,
             asked,
             on_boundary: is_on_boundary(&truth, asked, &row.contract),
-            finding: judge((&row.contract, asked), (case, &truth), row.entry.info.gives, verdict),
+            finding: judge(
+                (&row.contract, asked),
+                (case, &truth),
+                row.entry.info.gives,
+                verdict,
+            ),
         }
     };
     cases.iter().zip(&verdicts).zip(truths).map(pixel).collect()
@@ -124,11 +142,16 @@ fn pixels<F: Float>(
 
 /// True if the ray crosses the boundary where it would have to hit the inside.
 fn is_on_boundary(truth: &Truth, asked: Obligation, contract: &Contract) -> bool {
-    let Some(crossing) = truth.crossing() else { return false };
+    let Some(crossing) = truth.crossing() else {
+        return false;
+    };
     if !(crossing.feature.is_edge() || crossing.feature.is_vertex()) {
         return false;
     }
-    let inside = Truth::Transversal(Crossing { feature: Feature::Interior, ..*crossing });
+    let inside = Truth::Transversal(Crossing {
+        feature: Feature::Interior,
+        ..*crossing
+    });
     // Within a band nothing is asked, on the boundary or not.
     let freed = asked != obligation(truth, contract, false);
     !freed && obligation(&inside, contract, false) == Obligation::MustHit

@@ -155,7 +155,10 @@ impl Map {
 
     /// How many pixels are wrong.
     pub fn wrong(&self) -> usize {
-        self.pixels.iter().filter(|pixel| pixel.finding.is_some()).count()
+        self.pixels
+            .iter()
+            .filter(|pixel| pixel.finding.is_some())
+            .count()
     }
 
     /// The inks of the computed side that occur, what they mean and how many pixels have them.
@@ -190,8 +193,13 @@ impl Map {
         let mut counts = [0; Ink::ALL.len()];
         let [width, height] = self.size();
         (0..width * height).for_each(|pixel| counts[ink(pixel) as usize] += 1);
-        let counted = Ink::ALL.into_iter().zip(counts).filter(|(_, count)| *count > 0);
-        counted.map(|(ink, count)| (ink, words(ink), count)).collect()
+        let counted = Ink::ALL
+            .into_iter()
+            .zip(counts)
+            .filter(|(_, count)| *count > 0);
+        counted
+            .map(|(ink, count)| (ink, words(ink), count))
+            .collect()
     }
 }
 

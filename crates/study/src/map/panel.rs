@@ -23,13 +23,19 @@ impl Panel {
     /// Where a point within the window is drawn.
     fn drawn(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let middle = self.side / 2.0;
-        [self.left + middle * (1.0 + x), self.top + middle * (1.0 - y)]
+        [
+            self.left + middle * (1.0 + x),
+            self.top + middle * (1.0 - y),
+        ]
     }
 
     /// Where a point is drawn; none outside of the window.
     pub fn place(&self, point: [f64; 2]) -> Option<[f64; 2]> {
         let point = self.relative(point);
-        point.iter().all(|x| x.abs() <= 1.0).then(|| self.drawn(point))
+        point
+            .iter()
+            .all(|x| x.abs() <= 1.0)
+            .then(|| self.drawn(point))
     }
 
     /// The ends of what is seen of a stretch; none if nothing is.

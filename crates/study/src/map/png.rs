@@ -14,7 +14,10 @@ const CLEAR: u8 = Ink::ALL.len() as u8;
 /// wide. An error if the picture would have more than 2^26 dots.
 pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, Error> {
     let [width, height] = map.size();
-    let wide = width.saturating_mul(2).saturating_mul(scale).saturating_add(GAP);
+    let wide = width
+        .saturating_mul(2)
+        .saturating_mul(scale)
+        .saturating_add(GAP);
     let high = height.saturating_mul(scale);
     if !(1..=MOST_DOTS).contains(&wide.saturating_mul(high)) {
         return Err(Error(format!(
@@ -24,7 +27,9 @@ pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, Error> {
     let mut dots = Vec::with_capacity(wide * high);
     for y in 0..height {
         let side = |ink: &dyn Fn(usize) -> Ink| -> Vec<u8> {
-            (0..width).flat_map(|x| std::iter::repeat_n(ink(y * width + x) as u8, scale)).collect()
+            (0..width)
+                .flat_map(|x| std::iter::repeat_n(ink(y * width + x) as u8, scale))
+                .collect()
         };
         let mut line = side(&|pixel| map.computed(pixel));
         line.extend([CLEAR; GAP]);
@@ -43,9 +48,11 @@ pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, Error> {
     encoder.set_depth(BitDepth::Eight);
     encoder.set_palette(palette);
     encoder.set_trns(opacity);
-    let written = encoder
-        .write_header()
-        .and_then(|mut writer| writer.write_image_data(&dots).and_then(|()| writer.finish()));
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer
+            .write_image_data(&dots)
+            .and_then(|()| writer.finish())
+    });
     written.map_err(|error| Error(format!("the picture cannot be encoded: {error}")))?;
     Ok(bytes)
 }

@@ -46,7 +46,11 @@ impl MapScene {
         let (ray, triangle) = case.exact();
         let frame = MapFrame::of(&ray, &triangle);
         let on_line = |t: &Exact| ray.origin.plus(&ray.direction.times(t));
-        let exact = definition.exact.t.as_ref().map(|t| on_line(&Exact::from_rational(t)));
+        let exact = definition
+            .exact
+            .t
+            .as_ref()
+            .map(|t| on_line(&Exact::from_rational(t)));
         let contact = definition.exact.contact_t.as_ref();
         let contact = contact.map(|ends| ends.each_ref().map(Exact::from_rational));
         let finite = |x: F| x.is_finite().then(|| Exact::from_f64(x.to_f64()));
@@ -58,13 +62,22 @@ impl MapScene {
             true if gives.uv => finite(verdict.u).zip(finite(verdict.v)).map(weighed),
             _ => None,
         };
-        MapScene { frame, ray, triangle, exact, computed, contact }
+        MapScene {
+            frame,
+            ray,
+            triangle,
+            exact,
+            computed,
+            contact,
+        }
     }
 
     /// The point that an inset looks at: where the line meets the plane or first touches the triangle,
     /// else its point nearest to a vertex, as it is seen.
     pub fn focus(&self) -> ExactVector {
-        let Ray { origin, direction, .. } = &self.ray;
+        let Ray {
+            origin, direction, ..
+        } = &self.ray;
         if let Some(exact) = &self.exact {
             return exact.clone();
         }
@@ -85,7 +98,11 @@ impl MapScene {
         });
         let [first, others @ ..] = nearest;
         let nearer = |best: (Exact, Exact), other: (Exact, Exact)| {
-            if other.0.is_less(&best.0) { other } else { best }
+            if other.0.is_less(&best.0) {
+                other
+            } else {
+                best
+            }
         };
         let (_, t) = others.into_iter().fold(first, nearer);
         origin.plus(&direction.times(&t))
@@ -101,7 +118,12 @@ impl MapScene {
             let way = frame.flat(&to.minus(from));
             frame.stretch(&flat(from), &way, [Some(Exact::zero()), Some(Exact::one())])
         };
-        let Ray { origin, direction, t_min, t_max } = &self.ray;
+        let Ray {
+            origin,
+            direction,
+            t_min,
+            t_max,
+        } = &self.ray;
         let (base, way): (Flat, Flat) = (flat(origin), frame.flat(direction));
         let along = |ends| frame.stretch(&base, &way, ends);
         // NaN ends are no interval, nor are ends that are the wrong infinity.
@@ -114,7 +136,9 @@ impl MapScene {
             vertices: [a, b, c].map(place),
             edges: [edge(a, b), edge(b, c), edge(c, a)],
             line: along([None, None]),
-            interval: is_interval.then(|| along([end(t_min), end(t_max)])).flatten(),
+            interval: is_interval
+                .then(|| along([end(t_min), end(t_max)]))
+                .flatten(),
             contact: self.contact.clone().and_then(|ends| along(ends.map(Some))),
             origin: place(origin),
             exact: self.exact.as_ref().map(place),
@@ -133,7 +157,10 @@ impl MapScene {
 
     /// How far the computed point is from the exact one, in units of the frame.
     pub fn apart(&self) -> Option<f64> {
-        Some(self.frame.length(&self.computed.as_ref()?.minus(self.exact.as_ref()?)))
+        Some(
+            self.frame
+                .length(&self.computed.as_ref()?.minus(self.exact.as_ref()?)),
+        )
     }
 }
 
@@ -142,7 +169,12 @@ impl FloatLayer {
     /// overview shows it.
     pub fn inset_half(&self) -> Option<f64> {
         let is_near = |distance: &f64| (f64::MIN_POSITIVE..NEAR).contains(distance);
-        let edges = self.edges.iter().flatten().map(Stretch::distance).filter(is_near);
+        let edges = self
+            .edges
+            .iter()
+            .flatten()
+            .map(Stretch::distance)
+            .filter(is_near);
         let boundary = edges.reduce(f64::min);
         let computed = self.computed.map(|[x, y]| x.hypot(y)).filter(is_near);
         boundary.or(computed).map(|distance| distance * 2.5)

@@ -36,7 +36,10 @@ pub(super) const SMALL: &str = " font-size=\"12\"";
 
 /// Text at a place.
 pub(super) fn text(x: impl Display, y: impl Display, attributes: &str, words: &str) -> String {
-    format!("<text x=\"{x}\" y=\"{y}\"{attributes}>{}</text>\n", escaped(words))
+    format!(
+        "<text x=\"{x}\" y=\"{y}\"{attributes}>{}</text>\n",
+        escaped(words)
+    )
 }
 
 /// A drawing of so many dots: its title, its description for a reader who does not see it, and what it consists of.
@@ -60,7 +63,11 @@ struct SvgDrawing<'a> {
 
 impl<'a> SvgDrawing<'a> {
     fn new(map: &'a Map) -> SvgDrawing<'a> {
-        let mut drawing = SvgDrawing { map, body: String::new(), y: 0.0 };
+        let mut drawing = SvgDrawing {
+            map,
+            body: String::new(),
+            y: 0.0,
+        };
         drawing.lines(&title(map), BOLD);
         drawing.lines(&format!("what is right: {}", map.measure), SMALL);
         drawing.panels();
@@ -70,7 +77,11 @@ impl<'a> SvgDrawing<'a> {
 
     fn finish(self, document: &str) -> String {
         let words = [&*title(self.map), &description(self.map)];
-        drawing_of([WIDTH, self.y + 6.0], words, &(document.to_owned() + &self.body))
+        drawing_of(
+            [WIDTH, self.y + 6.0],
+            words,
+            &(document.to_owned() + &self.body),
+        )
     }
 
     /// Text over the whole width, in as many lines as it takes.
@@ -87,8 +98,10 @@ impl<'a> SvgDrawing<'a> {
         let cell = PANEL / width.max(height) as f64;
         let (wide, high) = (cell * width as f64, cell * height as f64);
         let top = self.y + 34.0;
-        let sides: [(&str, &dyn Fn(usize) -> Ink); 2] =
-            [("computed", &|pixel| map.computed(pixel)), ("exact", &|pixel| map.exact(pixel))];
+        let sides: [(&str, &dyn Fn(usize) -> Ink); 2] = [
+            ("computed", &|pixel| map.computed(pixel)),
+            ("exact", &|pixel| map.exact(pixel)),
+        ];
         for ((name, ink), left) in sides.into_iter().zip([LEFT, LEFT + PANEL + GAP]) {
             let cells = cells([width, height], ink);
             self.body += &text(left, top - 10.0, BOLD, name);
@@ -103,7 +116,12 @@ impl<'a> SvgDrawing<'a> {
         }
         for (at, tick) in ticks(&map.axes[1]) {
             let y = top + (1.0 - at) * high;
-            self.tick(format_args!("{LEFT} {y:.1}h-5"), LEFT - 8.0, y + 4.0, ("end", &tick));
+            self.tick(
+                format_args!("{LEFT} {y:.1}h-5"),
+                LEFT - 8.0,
+                y + 4.0,
+                ("end", &tick),
+            );
         }
         self.y = top + high + 24.0;
         for (axis, way) in map.axes.iter().zip(["to the right", "upwards"]) {
@@ -185,15 +203,19 @@ fn ticks(axis: &AxisText) -> Ticks {
 fn cells([width, height]: [usize; 2], ink: impl Fn(usize) -> Ink) -> String {
     let inks: Vec<Ink> = (0..width * height).map(ink).collect();
     let count = |wanted: Ink| inks.iter().filter(|ink| **ink == wanted).count();
-    let ground = Ink::ALL.into_iter().max_by_key(|ink| count(*ink)).expect("there are inks");
+    let ground = Ink::ALL
+        .into_iter()
+        .max_by_key(|ink| count(*ink))
+        .expect("there are inks");
     let mut paths = vec![String::new(); Ink::ALL.len()];
     // The runs that may go on below: ink, first and last column, first row.
     let mut open: Vec<(Ink, usize, usize, usize)> = Vec::new();
     for y in 0..=height {
         let row = inks.get(y * width..(y + 1) * width).unwrap_or(&[]);
         let runs = runs(row);
-        let (kept, ended): (Vec<_>, Vec<_>) =
-            open.into_iter().partition(|(ink, from, to, _)| runs.contains(&(*ink, *from, *to)));
+        let (kept, ended): (Vec<_>, Vec<_>) = open
+            .into_iter()
+            .partition(|(ink, from, to, _)| runs.contains(&(*ink, *from, *to)));
         for (ink, from, to, top) in ended {
             let (w, h) = (to - from, y - top);
             let _ = write!(paths[ink as usize], "M{from} {top}h{w}v{h}h-{w}z");
@@ -201,13 +223,17 @@ fn cells([width, height]: [usize; 2], ink: impl Fn(usize) -> Ink) -> String {
         open = runs
             .into_iter()
             .map(|(ink, from, to)| {
-                let above = kept.iter().find(|run| (run.0, run.1, run.2) == (ink, from, to));
+                let above = kept
+                    .iter()
+                    .find(|run| (run.0, run.1, run.2) == (ink, from, to));
                 above.copied().unwrap_or((ink, from, to, y))
             })
             .collect();
     }
-    let mut out =
-        format!("<path fill=\"{}\" d=\"M0 0h{width}v{height}h-{width}z\"/>\n", ground.name());
+    let mut out = format!(
+        "<path fill=\"{}\" d=\"M0 0h{width}v{height}h-{width}z\"/>\n",
+        ground.name()
+    );
     for ink in Ink::ALL {
         let path = &paths[ink as usize];
         if ink != ground && !path.is_empty() {
@@ -240,5 +266,8 @@ pub(super) fn wrapped(text: &str, most: usize) -> Vec<String> {
             line.push_str(word);
         }
     }
-    lines.iter().map(|line| line.trim_end().to_owned()).collect()
+    lines
+        .iter()
+        .map(|line| line.trim_end().to_owned())
+        .collect()
 }

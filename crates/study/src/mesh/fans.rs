@@ -37,8 +37,13 @@ impl Fans {
 
     /// The centre, and the faces in their order around it. Panics if there is no such fan.
     pub fn get(&self, fan: usize) -> (u32, &[u32]) {
-        let start = fan.checked_sub(1).map_or(0, |before| self.ends[before] as usize);
-        (self.centres[fan], &self.faces[start..self.ends[fan] as usize])
+        let start = fan
+            .checked_sub(1)
+            .map_or(0, |before| self.ends[before] as usize);
+        (
+            self.centres[fan],
+            &self.faces[start..self.ends[fan] as usize],
+        )
     }
 
     pub(super) fn push(&mut self, centre: u32, faces: impl Iterator<Item = u32>) {
@@ -67,8 +72,15 @@ pub(super) fn fan_of(
     arcs.clear();
     arcs.extend(around.iter().map(|face| {
         let corners = corners[*face as usize];
-        let at = corners.iter().position(|corner| *corner == point).expect("a face at the point");
-        Arc { from: corners[(at + 1) % 3], to: corners[(at + 2) % 3], face: *face }
+        let at = corners
+            .iter()
+            .position(|corner| *corner == point)
+            .expect("a face at the point");
+        Arc {
+            from: corners[(at + 1) % 3],
+            to: corners[(at + 2) % 3],
+            face: *face,
+        }
     }));
     let first = arcs[0];
     arcs.sort_unstable();
@@ -80,7 +92,11 @@ pub(super) fn fan_of(
         return VertexKind::Irregular;
     }
     // Every point starts at most one arc and ends at most one: paths and cycles.
-    let after = |to: u32| arcs.binary_search_by_key(&to, |arc| arc.from).ok().map(|i| arcs[i]);
+    let after = |to: u32| {
+        arcs.binary_search_by_key(&to, |arc| arc.from)
+            .ok()
+            .map(|i| arcs[i])
+    };
     let is_start = |arc: &&Arc| ends.binary_search(&arc.from).is_err();
     let open_start = arcs.iter().find(is_start).copied();
     let start = open_start.unwrap_or(first);

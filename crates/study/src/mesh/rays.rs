@@ -47,7 +47,10 @@ pub struct Aim {
 impl Aim {
     /// The aim of the ray with a number: any four in a row have all kinds.
     pub fn of(number: u64) -> Aim {
-        Aim { exact: matches!(number % 4, 0 | 3), grazing: number % 4 >= 2 }
+        Aim {
+            exact: matches!(number % 4, 0 | 3),
+            grazing: number % 4 >= 2,
+        }
     }
 }
 
@@ -67,7 +70,12 @@ impl<'m> Targets<'m> {
         parameters: &'m Parameters,
         seed: u64,
     ) -> Targets<'m> {
-        Targets { mesh, topology, parameters, seed }
+        Targets {
+            mesh,
+            topology,
+            parameters,
+            seed,
+        }
     }
 
     /// How many targets there are.
@@ -141,7 +149,10 @@ impl<'m> Targets<'m> {
     /// A face, put through the parameters, with a ray that was.
     fn case<F: Float>(&self, ray: &Ray<F::Vector>, face: u32) -> Case<F> {
         let [a, b, c] = self.mesh.vertices(face as usize).map(F::Vector::from);
-        let mut case = Case { ray: *ray, triangle: Triangle::new(a, b, c) };
+        let mut case = Case {
+            ray: *ray,
+            triangle: Triangle::new(a, b, c),
+        };
         family::apply(self.parameters, &mut case);
         Case { ray: *ray, ..case }
     }
@@ -166,8 +177,15 @@ impl<'m> Targets<'m> {
         triangle: [[F; 3]; 3],
     ) -> ([F; 3], [F; 3]) {
         let wide = triangle.map(|corner| DVec3::from(corner.map(F::to_f64)));
-        let size = (wide[1] - wide[0]).abs().max((wide[2] - wide[0]).abs()).max_element();
-        let way = if aim.grazing { grazing_direction(draw, wide) } else { any_way(draw) };
+        let size = (wide[1] - wide[0])
+            .abs()
+            .max((wide[2] - wide[0]).abs())
+            .max_element();
+        let way = if aim.grazing {
+            grazing_direction(draw, wide)
+        } else {
+            any_way(draw)
+        };
         let distance = if draw.coin() {
             self.topology.extent * (0.5 + 1.5 * draw.unit())
         } else {

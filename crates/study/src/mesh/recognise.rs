@@ -12,8 +12,9 @@ impl Topology {
     /// The topology of a mesh's positions in a scalar.
     pub fn of<F: Float>(mesh: &Mesh) -> Topology {
         let points = welded::<F>(mesh);
-        let corners =
-            engine::map(&mesh.triangles, |face| face.map(|vertex| points[vertex as usize]));
+        let corners = engine::map(&mesh.triangles, |face| {
+            face.map(|vertex| points[vertex as usize])
+        });
         let mut kinds = engine::map(&corners, |face| kind_alone::<F>(mesh, *face));
         let duplicated_places = mark_duplicates(&corners, &mut kinds);
         let mut faces: [Noted; 5] = Default::default();
@@ -45,9 +46,13 @@ impl Topology {
         let mut arcs = Vec::new();
         for point in 0..self.points.len() {
             let around = self.incidence.at(point);
-            let Some(first) = around.first() else { continue };
+            let Some(first) = around.first() else {
+                continue;
+            };
             self.used_points += 1;
-            let sound = around.iter().all(|face| kinds[*face as usize] == FaceKind::Sound);
+            let sound = around
+                .iter()
+                .all(|face| kinds[*face as usize] == FaceKind::Sound);
             let kind = if sound {
                 fan_of(point as u32, around, corners, &mut arcs)
             } else {
@@ -55,7 +60,8 @@ impl Topology {
             };
             self.vertices[kind as usize].note(*first, &[point as u32]);
             if kind == VertexKind::Closed {
-                self.fans.push(point as u32, arcs.iter().map(|arc| arc.face));
+                self.fans
+                    .push(point as u32, arcs.iter().map(|arc| arc.face));
             }
         }
     }
@@ -79,7 +85,9 @@ fn welded<F: Float>(mesh: &Mesh) -> Vec<u32> {
     (0..count as u32)
         .map(|vertex| {
             // Adding +0 makes +0 of -0 and leaves every other number alone.
-            let key = mesh.position::<F>(vertex).map(|x| (x.to_f64() + 0.0).to_bits());
+            let key = mesh
+                .position::<F>(vertex)
+                .map(|x| (x.to_f64() + 0.0).to_bits());
             *first.entry(key).or_insert(vertex)
         })
         .collect()
@@ -115,9 +123,13 @@ fn mark_duplicates(corners: &[[u32; 3]], kinds: &mut [FaceKind]) -> u64 {
         .collect();
     faces.par_sort_unstable();
     let mut places = 0;
-    for same in faces.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+    for same in faces
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|same| same.len() > 1)
+    {
         places += 1;
-        same.iter().for_each(|(_, face)| kinds[*face as usize] = FaceKind::Duplicated);
+        same.iter()
+            .for_each(|(_, face)| kinds[*face as usize] = FaceKind::Duplicated);
     }
     places
 }
@@ -139,13 +151,18 @@ fn edges(corners: &[[u32; 3]], kinds: &[FaceKind]) -> ([Noted; 5], Vec<SharedEdg
     let mut shared = Vec::with_capacity(halves.len() / 2);
     for edge in halves.chunk_by(|a, b| a.0 == b.0) {
         let (ends, (face, _)) = edge[0];
-        let sound = edge.iter().all(|(_, (face, _))| kinds[*face as usize] == FaceKind::Sound);
+        let sound = edge
+            .iter()
+            .all(|(_, (face, _))| kinds[*face as usize] == FaceKind::Sound);
         let kind = match edge {
             _ if !sound => EdgeKind::Unsound,
             [_] => EdgeKind::Open,
             [(_, (_, one)), (_, (_, other))] if one == other => EdgeKind::Inconsistent,
             [_, (_, (other, _))] => {
-                shared.push(SharedEdge { ends, faces: [face, *other] });
+                shared.push(SharedEdge {
+                    ends,
+                    faces: [face, *other],
+                });
                 EdgeKind::Shared
             }
             _ => EdgeKind::NonManifold,

@@ -26,7 +26,10 @@ const TRIES: usize = 64;
 impl SceneMesh {
     /// In the scalars of the surface.
     pub fn new(surface: Surface) -> SceneMesh {
-        let faces = [faces_with_area::<f32>(&surface), faces_with_area::<f64>(&surface)];
+        let faces = [
+            faces_with_area::<f32>(&surface),
+            faces_with_area::<f64>(&surface),
+        ];
         SceneMesh { surface, faces }
     }
 
@@ -48,7 +51,11 @@ impl SceneMesh {
     /// three digits, rounded outwards.
     pub fn scene(&self) -> Scene {
         let mesh = self.surface.mesh();
-        let faces = if self.faces[1].is_empty() { &self.faces[0] } else { &self.faces[1] };
+        let faces = if self.faces[1].is_empty() {
+            &self.faces[0]
+        } else {
+            &self.faces[1]
+        };
         let mut edge = [f64::INFINITY, 0.0f64];
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for face in faces {
@@ -75,7 +82,10 @@ impl SceneMesh {
             let [a, b, c] = mesh.vertices::<F>(*face as usize).map(wide);
             (b - a).cross(c - a).length()
         };
-        self.faces_of::<F>().iter().map(shape).fold(f64::INFINITY, f64::min)
+        self.faces_of::<F>()
+            .iter()
+            .map(shape)
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// How many of so many indices of a stratum there are: none if the mesh has nothing to aim at.
@@ -118,10 +128,15 @@ impl SceneMesh {
             _ => return false,
         };
         let mesh = self.surface.mesh();
-        let Some(faces) = topology.around(&mesh.triangles, group) else { return false };
+        let Some(faces) = topology.around(&mesh.triangles, group) else {
+            return false;
+        };
         for face in faces {
             let [a, b, c] = mesh.vertices(face as usize).map(F::Vector::from);
-            cases.push(Case { ray: *ray, triangle: Triangle::new(a, b, c) });
+            cases.push(Case {
+                ray: *ray,
+                triangle: Triangle::new(a, b, c),
+            });
         }
         true
     }
@@ -132,7 +147,11 @@ impl SceneMesh {
         scene: &'a Scene,
     ) -> impl TriangleSource<F> + use<'a, F> {
         let topology = self.surface.topology::<F>().expect("a scalar of the run");
-        OfMesh { mesh: self, topology, scene }
+        OfMesh {
+            mesh: self,
+            topology,
+            scene,
+        }
     }
 }
 
@@ -189,19 +208,30 @@ impl OfMesh<'_> {
 impl<F: Float> TriangleSource<F> for OfMesh<'_> {
     fn triangle(&self, draw: &mut Draw) -> (Corners<F>, RayAxes) {
         let triangle = self.any_face(draw);
-        (triangle, RayAxes::of(triangle).expect("faces without a normal are left out"))
+        (
+            triangle,
+            RayAxes::of(triangle).expect("faces without a normal are left out"),
+        )
     }
 
     fn pair(&self, draw: &mut Draw) -> Pair<F> {
         let edge = any_edge(self.topology, draw);
-        let ends = edge.ends.map(|point| self.mesh.surface.mesh().position(point));
-        Pair { ends, triangles: edge.faces.map(|face| self.corners(face)) }
+        let ends = edge
+            .ends
+            .map(|point| self.mesh.surface.mesh().position(point));
+        Pair {
+            ends,
+            triangles: edge.faces.map(|face| self.corners(face)),
+        }
     }
 
     fn fan(&self, draw: &mut Draw) -> Ring<F> {
         let (center, faces) = any_fan(self.topology, draw);
         let triangles = faces.iter().map(|face| self.corners(*face)).collect();
-        Ring { center: self.mesh.surface.mesh().position(center), triangles }
+        Ring {
+            center: self.mesh.surface.mesh().position(center),
+            triangles,
+        }
     }
 
     fn parallel(&self, draw: &mut Draw) -> Parallel<F> {
@@ -214,7 +244,11 @@ impl<F: Float> TriangleSource<F> for OfMesh<'_> {
             let (triangle, frame) = self.triangle(draw);
             (triangle, rounded(in_plane(draw, &frame)))
         });
-        Parallel { triangle, direction, size: longest_edge(triangle) }
+        Parallel {
+            triangle,
+            direction,
+            size: longest_edge(triangle),
+        }
     }
 }
 

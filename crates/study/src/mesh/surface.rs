@@ -21,7 +21,10 @@ impl Surface {
         let mesh = family.mesh();
         let f32 = scalars[0].then(|| Topology::of::<f32>(mesh));
         let f64 = scalars[1].then(|| Topology::of::<f64>(mesh));
-        Surface { family, topologies: [f32, f64] }
+        Surface {
+            family,
+            topologies: [f32, f64],
+        }
     }
 
     /// The mesh and where it comes from.
@@ -45,7 +48,12 @@ impl Surface {
         parameters: &'m Parameters,
         seed: u64,
     ) -> Option<Targets<'m>> {
-        Some(Targets::new(self.mesh(), self.topology::<F>()?, parameters, seed))
+        Some(Targets::new(
+            self.mesh(),
+            self.topology::<F>()?,
+            parameters,
+            seed,
+        ))
     }
 
     /// The id of an index; it holds the mesh's digest.
@@ -56,6 +64,7 @@ impl Surface {
         seed: u64,
         index: u64,
     ) -> CaseId {
-        self.family.id_of::<F>((part.name(), VERSION), parameters, seed, index)
+        self.family
+            .id_of::<F>((part.name(), VERSION), parameters, seed, index)
     }
 }

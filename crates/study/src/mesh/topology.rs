@@ -82,16 +82,24 @@ impl Incidence {
         corners: &[[u32; 3]],
         takes_part: impl Fn(usize) -> bool,
     ) -> Incidence {
-        let parts = (0..).zip(corners).filter(|(face, _)| takes_part(*face as usize));
-        let mut pairs: Vec<(u32, u32)> =
-            parts.flat_map(|(face, corners)| corners.map(|point| (point, face))).collect();
+        let parts = (0..)
+            .zip(corners)
+            .filter(|(face, _)| takes_part(*face as usize));
+        let mut pairs: Vec<(u32, u32)> = parts
+            .flat_map(|(face, corners)| corners.map(|point| (point, face)))
+            .collect();
         pairs.par_sort_unstable();
         let mut starts = vec![0; points + 1];
-        pairs.iter().for_each(|(point, _)| starts[*point as usize + 1] += 1);
+        pairs
+            .iter()
+            .for_each(|(point, _)| starts[*point as usize + 1] += 1);
         for i in 1..starts.len() {
             starts[i] += starts[i - 1];
         }
-        Incidence { starts, faces: pairs.into_iter().map(|(_, face)| face).collect() }
+        Incidence {
+            starts,
+            faces: pairs.into_iter().map(|(_, face)| face).collect(),
+        }
     }
 
     /// The faces at a point. Panics if there is no such point.
@@ -136,11 +144,16 @@ impl Topology {
     pub(super) fn around(&self, triangles: &[[u32; 3]], group: &[u32]) -> Option<Vec<u32>> {
         let corners = group.iter().flat_map(|face| triangles[*face as usize]);
         let points: BTreeSet<u32> = corners.map(|vertex| self.points[vertex as usize]).collect();
-        let faces = points.iter().flat_map(|point| self.incidence.at(*point as usize));
+        let faces = points
+            .iter()
+            .flat_map(|point| self.incidence.at(*point as usize));
         if MOST_AROUND < faces.clone().count() {
             return None;
         }
-        let others: BTreeSet<u32> = faces.copied().filter(|face| !group.contains(face)).collect();
+        let others: BTreeSet<u32> = faces
+            .copied()
+            .filter(|face| !group.contains(face))
+            .collect();
         Some(others.into_iter().collect())
     }
 

@@ -44,8 +44,17 @@ pub(super) fn truth(case: &Case<f64>) -> (Truth, Option<f64>) {
     let parts = vectors.map(|v| v.map(digits));
     let nonzero = || parts.as_flattened().iter().filter(|(odd, _)| *odd != 0);
     let grid = nonzero().map(|(_, exponent)| *exponent).min().unwrap_or(0);
-    let bits = nonzero().map(|part| length(*part) - grid).max().unwrap_or(0);
-    let shifted = |(odd, exponent)| if odd == 0 { (0, 0) } else { (odd, exponent - grid) };
+    let bits = nonzero()
+        .map(|part| length(*part) - grid)
+        .max()
+        .unwrap_or(0);
+    let shifted = |(odd, exponent)| {
+        if odd == 0 {
+            (0, 0)
+        } else {
+            (odd, exponent - grid)
+        }
+    };
     let parts = parts.map(|point| point.map(shifted));
     let ends = [t_min, t_max];
     let short = |t: f64| t.is_infinite() || length(digits(t)).max(-digits(t).1) <= NARROW;
@@ -69,7 +78,10 @@ fn digits(x: f64) -> (i64, i64) {
         return (0, 0);
     }
     let zeros = mantissa.trailing_zeros();
-    ((mantissa >> zeros) as i64 * i64::from(sign), i64::from(exponent) + i64::from(zeros))
+    (
+        (mantissa >> zeros) as i64 * i64::from(sign),
+        i64::from(exponent) + i64::from(zeros),
+    )
 }
 
 /// The number of bits before the binary point.
@@ -99,13 +111,25 @@ where
         let [t_min, t_max] = ends.map(end);
         let number = |(odd, shift)| integer(odd, shift);
         let [o, d, vertices @ ..] = parts.map(|point| point.map(number));
-        Integers { o, d, vertices, t_min, t_max }
+        Integers {
+            o,
+            d,
+            vertices,
+            t_min,
+            t_max,
+        }
     }
 
     /// A case on the lattice, on [0, inf).
     pub fn of_lattice([o, d, vertices @ ..]: [IntegerPoint<I>; 5]) -> Self {
         let t_min = IntegerFraction(I::zero(), I::one());
-        Integers { o, d, vertices, t_min, t_max: IntegerFraction(I::one(), I::zero()) }
+        Integers {
+            o,
+            d,
+            vertices,
+            t_min,
+            t_max: IntegerFraction(I::one(), I::zero()),
+        }
     }
 
     pub fn truth(&self) -> (Truth, Option<f64>) {
@@ -150,7 +174,12 @@ where
             _ => Place::Within,
         };
         let facing = if front { Facing::Front } else { Facing::Back };
-        let crossing = Crossing { facing, place, t_sign: sign(&t.0), feature };
+        let crossing = Crossing {
+            facing,
+            place,
+            t_sign: sign(&t.0),
+            feature,
+        };
         Some((Truth::Transversal(crossing), t.near()))
     }
 
@@ -161,7 +190,10 @@ where
         let Some(axis) = n.iter().position(|x| !x.is_zero()) else {
             let range = self.range_of_segment();
             let contact = self.cut(&range, |t| self.feature_on_segment(t));
-            return (Truth::Degenerate(contact), range.and_then(|range| range[1].near()));
+            return (
+                Truth::Degenerate(contact),
+                range.and_then(|range| range[1].near()),
+            );
         };
         if !dot(&n, &minus(&self.o, a)).is_zero() {
             return (Truth::Parallel, None);
@@ -169,7 +201,10 @@ where
         let edges = self.edges(axis, n[axis].is_negative());
         let range = Self::range_inside(&edges);
         let contact = self.cut(&range, |t| Self::feature_in_plane(&edges, t));
-        (Truth::Coplanar(contact), range.and_then(|range| range[1].near()))
+        (
+            Truth::Coplanar(contact),
+            range.and_then(|range| range[1].near()),
+        )
     }
 
     /// For each edge ab, bc, ca, seen along an axis: the constant and the slope in t of twice the area
@@ -181,7 +216,11 @@ where
             let (x, y) = (&to[i] - &from[i], &to[j] - &from[j]);
             let constant = &x * &(&self.o[j] - &from[j]) - &y * &(&self.o[i] - &from[i]);
             let slope = &x * &self.d[j] - &y * &self.d[i];
-            if clockwise { (-constant, -slope) } else { (constant, slope) }
+            if clockwise {
+                (-constant, -slope)
+            } else {
+                (constant, slope)
+            }
         })
     }
 
@@ -195,7 +234,11 @@ where
         if is_zero(&x) && is_zero(&y) {
             let [s, t] =
                 [p, q].map(|v| IntegerFraction::new(&v[m] - &self.o[m], self.d[m].clone()));
-            return Some(if s.compare(&t).is_le() { [s, t] } else { [t, s] });
+            return Some(if s.compare(&t).is_le() {
+                [s, t]
+            } else {
+                [t, s]
+            });
         }
         // x + s (y-x) = 0 for an s in [0, 1]: x and y opposite, or one of them zero.
         if !is_zero(&cross(&x, &y)) || dot(&x, &y).is_positive() {
@@ -233,16 +276,32 @@ where
         feature: impl Fn(&IntegerFraction<I>) -> Feature,
     ) -> Contact {
         let Some([low, high]) = range else {
-            return Contact { kind: ContactKind::None, meets_ray: false, meets_line: false };
+            return Contact {
+                kind: ContactKind::None,
+                meets_ray: false,
+                meets_line: false,
+            };
         };
-        let first = if low.compare(&self.t_min).is_lt() { &self.t_min } else { low };
-        let last = if high.compare(&self.t_max).is_gt() { &self.t_max } else { high };
+        let first = if low.compare(&self.t_min).is_lt() {
+            &self.t_min
+        } else {
+            low
+        };
+        let last = if high.compare(&self.t_max).is_gt() {
+            &self.t_max
+        } else {
+            high
+        };
         let kind = match first.compare(last) {
             Ordering::Less => ContactKind::Segment,
             Ordering::Equal => ContactKind::Point(feature(first)),
             Ordering::Greater => ContactKind::None,
         };
-        Contact { kind, meets_ray: !high.0.is_negative(), meets_line: true }
+        Contact {
+            kind,
+            meets_ray: !high.0.is_negative(),
+            meets_line: true,
+        }
     }
 
     /// The t at which three functions, linear in t, are all at least zero.
@@ -262,7 +321,10 @@ where
             } else {
                 (&mut high, Ordering::Greater)
             };
-            if end.as_ref().is_none_or(|end| end.compare(&bound) == tighter) {
+            if end
+                .as_ref()
+                .is_none_or(|end| end.compare(&bound) == tighter)
+            {
                 *end = Some(bound);
             }
         }
@@ -275,7 +337,9 @@ where
         edges: &[(I, I); 3],
         IntegerFraction(t, whole): &IntegerFraction<I>,
     ) -> Feature {
-        let on = edges.each_ref().map(|(constant, slope)| (constant * whole + slope * t).is_zero());
+        let on = edges
+            .each_ref()
+            .map(|(constant, slope)| (constant * whole + slope * t).is_zero());
         match on {
             [true, _, true] => Feature::VertexA,
             [true, true, _] => Feature::VertexB,

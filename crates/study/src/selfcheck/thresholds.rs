@@ -26,7 +26,11 @@ pub(super) fn case(seed: u64, index: u64) -> Case<f64> {
         2 => case.on(0.0, 1.0),
         _ => case,
     };
-    assert!(case.vectors().as_flattened().iter().all(|x| x.is_finite()), "{}", case.hex());
+    assert!(
+        case.vectors().as_flattened().iter().all(|x| x.is_finite()),
+        "{}",
+        case.hex()
+    );
     case
 }
 
@@ -58,7 +62,8 @@ fn cancelling(draw: &mut Draw) -> (Case<f64>, i32) {
     let bits = draw.pick(&[20, 29, 40, 50, 53]);
     let one = (1i64 << bits) as f64;
     let grid = |draw: &mut Draw| -> Doubles {
-        draw.lattice_point((1i64 << bits) - 1).map(|x| x as f64 / one)
+        draw.lattice_point((1i64 << bits) - 1)
+            .map(|x| x as f64 / one)
     };
     let beside = |draw: &mut Draw, v: Doubles, units: i64| -> Doubles {
         let by = draw.lattice_point(units);
@@ -116,7 +121,11 @@ fn scaled(draw: &mut Draw, case: &Case<f64>, bits: i32) -> Case<f64> {
     }
     let [o, a, b, c] = points;
     let scaled = Case::new(o, d, [a, b, c]);
-    let is_finite = scaled.vectors().as_flattened().iter().all(|x| x.is_finite());
+    let is_finite = scaled
+        .vectors()
+        .as_flattened()
+        .iter()
+        .all(|x| x.is_finite());
     if is_finite { scaled } else { *case }
 }
 
@@ -124,7 +133,11 @@ fn scaled(draw: &mut Draw, case: &Case<f64>, bits: i32) -> Case<f64> {
 /// that it decides the sign, against another component that is left.
 fn underflowing(draw: &mut Draw) -> Case<f64> {
     let i = draw.below(3);
-    let (j, k) = if draw.coin() { ((i + 1) % 3, (i + 2) % 3) } else { ((i + 2) % 3, (i + 1) % 3) };
+    let (j, k) = if draw.coin() {
+        ((i + 1) % 3, (i + 2) % 3)
+    } else {
+        ((i + 2) % 3, (i + 1) % 3)
+    };
     // Both products of the lost component lie about the smallest float.
     let lost = |draw: &mut Draw| -1076 + draw.integer(-2, 2);
     let (mut p, mut q, mut f) = ([0i64; 3], [0i64; 3], [0i64; 3]);
@@ -154,7 +167,11 @@ fn overflowing(draw: &mut Draw) -> Case<f64> {
     let half = scale_by_power_of_two(draw.pick(&[1.0, -1.0]), 1023);
     let f = [0, 1, 2].map(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        let share = if i == beyond { 1.01 + 0.1 * draw.unit() } else { -0.6 - 0.3 * draw.unit() };
+        let share = if i == beyond {
+            1.01 + 0.1 * draw.unit()
+        } else {
+            -0.6 - 0.3 * draw.unit()
+        };
         half / (p[j] * q[k] - p[k] * q[j]) * (2.0 * share)
     });
     let other = [draw.point(), draw.point()];

@@ -31,7 +31,10 @@ pub struct Start<F: Float> {
 impl<F: Float> Start<F> {
     /// At a point, where every t from 0 up counts.
     pub fn at(origin: [F; 3]) -> Start<F> {
-        Start { origin, t_min: F::zero() }
+        Start {
+            origin,
+            t_min: F::zero(),
+        }
     }
 
     /// Where hits begin to count along a direction, in `f64`.

@@ -23,14 +23,22 @@ impl Neighbour {
             let (from, to, other) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
             let along = (to - from).normalize_or_zero();
             let inward = other - from;
-            (from, (inward - along * inward.dot(along)).normalize_or_zero())
+            (
+                from,
+                (inward - along * inward.dot(along)).normalize_or_zero(),
+            )
         };
         let distance = |(edge, inward): &(DVec3, DVec3)| (point - *edge).dot(*inward);
         let edges = [0, 1, 2].map(of_edge).into_iter();
         let nearest = edges.min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let (edge, inward) = nearest.expect("three edges");
         let (sine, cosine) = libm::sincos(degrees.to_radians());
-        Neighbour { edge, inward, sine, cosine }
+        Neighbour {
+            edge,
+            inward,
+            sine,
+            cosine,
+        }
     }
 
     /// True if a start at a height over the triangle, in units of length, is behind the neighbour's plane.

@@ -49,7 +49,11 @@ impl<R: Real> PlaneMeasures<R> {
 
     /// The dot product of the normal with a vector, or with the way from the plane to a point.
     fn product(&self, is_point: bool, vector: Triple<R>) -> R {
-        self.normal.dot(&if is_point { vector.minus(&self.corner) } else { vector })
+        self.normal.dot(&if is_point {
+            vector.minus(&self.corner)
+        } else {
+            vector
+        })
     }
 }
 
@@ -58,7 +62,11 @@ impl Plane {
     pub fn new<F: Float>(vertices: [[F; 3]; 3], instance: Option<Instance<F>>) -> Plane {
         let vertices = vertices.map(|vertex| vertex.map(F::to_f64));
         let instance = instance.map(|it| it.widen());
-        Plane { vertices, near: PlaneMeasures::new(vertices, &instance, Bounded::new), instance }
+        Plane {
+            vertices,
+            near: PlaneMeasures::new(vertices, &instance, Bounded::new),
+            instance,
+        }
     }
 
     /// How high a point lies above the plane, in longest edges of the triangle, within a millionth of
@@ -80,8 +88,15 @@ impl Plane {
         if !vector.iter().all(|x| x.is_finite()) {
             return f64::NAN;
         }
-        let PlaneMeasures { normal_squared, edge_squared, .. } = &self.near;
-        let product = self.near.product(is_point, triple(vector, Bounded::new)).approximate();
+        let PlaneMeasures {
+            normal_squared,
+            edge_squared,
+            ..
+        } = &self.near;
+        let product = self
+            .near
+            .product(is_point, triple(vector, Bounded::new))
+            .approximate();
         let lengths = normal_squared.approximate().zip(edge_squared.approximate());
         if let Some((product, (normal, edge))) = product.zip(lengths) {
             let height = product / normal.sqrt() / edge.sqrt();
@@ -93,6 +108,10 @@ impl Plane {
         let product = measures.product(is_point, triple(vector, Exact::from_f64));
         let squares = measures.normal_squared * &measures.edge_squared;
         let height = (product.clone() * &product / &squares).approximate_root();
-        if product.is_sign_negative() { -height } else { height }
+        if product.is_sign_negative() {
+            -height
+        } else {
+            height
+        }
     }
 }

@@ -153,8 +153,14 @@ impl OffsetFormula {
         let HitPoint { point, normal, .. } = *hit;
         match self {
             OffsetFormula::Nothing => Start::at(point),
-            OffsetFormula::TMin => Start { origin: point, t_min: parameter },
-            OffsetFormula::TRelative => Start { origin: point, t_min: parameter * hit.t },
+            OffsetFormula::TMin => Start {
+                origin: point,
+                t_min: parameter,
+            },
+            OffsetFormula::TRelative => Start {
+                origin: point,
+                t_min: parameter * hit.t,
+            },
             OffsetFormula::Normal => Start::at(along(point, normal, parameter)),
             OffsetFormula::Ulps => {
                 Start::at(along(point, normal, parameter * largest(point).ulp()))
@@ -194,7 +200,9 @@ fn larger<F: Float>(a: F, b: F) -> F {
 
 /// The largest absolute value of a coordinate.
 pub(super) fn largest<F: Float>(point: [F; 3]) -> F {
-    point.into_iter().fold(F::zero(), |most, x| larger(most, x.abs()))
+    point
+        .into_iter()
+        .fold(F::zero(), |most, x| larger(most, x.abs()))
 }
 
 /// On each axis the largest absolute value of a coordinate of the vertices.

@@ -54,7 +54,10 @@ const CHUNK: u64 = 1024;
 pub fn run<F: Scalar>(plan: &SpawnPlan<'_>, observer: &dyn Observer) -> SpawnSums {
     let empty = || {
         let schemes = vec![OfScheme::default(); plan.schemes.len()];
-        SpawnSums { schemes, ..SpawnSums::default() }
+        SpawnSums {
+            schemes,
+            ..SpawnSums::default()
+        }
     };
     let source = plan.source();
     let add = |sums: &mut SpawnSums, indices| {
@@ -79,8 +82,17 @@ impl SpawnPlan<'_> {
 
     /// The first rays: towards the insides of triangles.
     pub fn source(&self) -> Source {
-        let SpawnPlan { scene, mesh, seed, count, .. } = *self;
-        let parameters = Parameters { scene: Some(scene.clone()), ..Parameters::default() };
+        let SpawnPlan {
+            scene,
+            mesh,
+            seed,
+            count,
+            ..
+        } = *self;
+        let parameters = Parameters {
+            scene: Some(scene.clone()),
+            ..Parameters::default()
+        };
         let source = Source::of_stratum(Stratum::Interior, mesh, parameters, seed, count);
         match self.instance {
             Some(matrix) => source.placed(matrix),
@@ -89,14 +101,18 @@ impl SpawnPlan<'_> {
     }
 
     fn trials<F: Scalar>(&self, source: &Source, indices: Range<u64>) -> SpawnTrials<F> {
-        let SpawnPlan { row, kind, seed, .. } = *self;
+        let SpawnPlan {
+            row, kind, seed, ..
+        } = *self;
         SpawnTrials::on(row.entry, &row.epsilons::<F>(), kind, source, seed, indices)
     }
 }
 
 /// True if a new ray starts on the side to which it leaves: its line meets the plane at a t before t_min.
 fn starts_right(truth: &Truth) -> bool {
-    truth.crossing().is_some_and(|crossing| crossing.place == Place::Before)
+    truth
+        .crossing()
+        .is_some_and(|crossing| crossing.place == Place::Before)
 }
 
 /// The data of a trial that do not depend on a scheme.
@@ -119,15 +135,26 @@ struct MeasuredTrial<F: Float> {
 impl<F: Float> MeasuredTrial<F> {
     fn of(trial: &SpawnTrial<F>, fold: f64, with_least: bool) -> MeasuredTrial<F> {
         let hit = &trial.hit;
-        let (plane, side) =
-            (Plane::new(trial.object, trial.instance), if trial.is_front { 1.0 } else { -1.0 });
+        let (plane, side) = (
+            Plane::new(trial.object, trial.instance),
+            if trial.is_front { 1.0 } else { -1.0 },
+        );
         let is_right = |origin: [F; 3]| starts_right(&trial.truth(origin, F::zero()));
         let [a, b, c] = hit.vertices.map(|vertex| vertex.map(F::to_f64));
         let length = |p: [f64; 3], q: [f64; 3]| glam::DVec3::from(p).distance(glam::DVec3::from(q));
         let edge = length(a, b).max(length(b, c)).max(length(c, a));
-        let most = hit.vertices.map(largest).into_iter().map(F::to_f64).fold(0.0, f64::max);
+        let most = hit
+            .vertices
+            .map(largest)
+            .into_iter()
+            .map(F::to_f64)
+            .fold(0.0, f64::max);
         let height = side * plane.height(hit.point);
-        let least = if with_least { least(hit, is_right) } else { None };
+        let least = if with_least {
+            least(hit, is_right)
+        } else {
+            None
+        };
         let way = |least: &Least<F>| side * plane.height(least.origin) - height;
         MeasuredTrial {
             side,
@@ -135,7 +162,10 @@ impl<F: Float> MeasuredTrial<F> {
             edge,
             edge_in_ulps: edge / F::from_f64(most).ulp().to_f64(),
             height,
-            least_way: least.as_ref().filter(|least| !least.distance.is_zero()).map(way),
+            least_way: least
+                .as_ref()
+                .filter(|least| !least.distance.is_zero())
+                .map(way),
             least,
             plane,
         }
@@ -156,13 +186,20 @@ fn add_chunk<F: Scalar>(
     trials: SpawnTrials<F>,
     sums: &mut SpawnSums,
 ) {
-    let SpawnTrials { trials, missed, without_side, not_finite } = trials;
+    let SpawnTrials {
+        trials,
+        missed,
+        without_side,
+        not_finite,
+    } = trials;
     sums.hits += trials.len() as u64;
     sums.missed += missed;
     sums.without_side += without_side;
     sums.not_finite += not_finite;
-    let measured: Vec<MeasuredTrial<F>> =
-        trials.iter().map(|trial| MeasuredTrial::of(trial, plan.fold, plan.with_least)).collect();
+    let measured: Vec<MeasuredTrial<F>> = trials
+        .iter()
+        .map(|trial| MeasuredTrial::of(trial, plan.fold, plan.with_least))
+        .collect();
     for (trial, measured) in trials.iter().zip(&measured) {
         let weights = trial.hit.weights.into_iter().flatten().map(F::to_f64);
         sums.least_weight = weights.fold(sums.least_weight, f64::min);
@@ -172,21 +209,27 @@ fn add_chunk<F: Scalar>(
             Some(least) => {
                 let distance = least.distance.to_f64();
                 sums.least.add(distance);
-                sums.least_in_ulps.add(distance / largest(trial.hit.point).ulp().to_f64());
+                sums.least_in_ulps
+                    .add(distance / largest(trial.hit.point).ulp().to_f64());
             }
         }
     }
-    let Some(kernel) = F::subject(plan.row.entry) else { return };
+    let Some(kernel) = F::subject(plan.row.entry) else {
+        return;
+    };
     let (epsilons, tells_self_hits) = (plan.row.epsilons::<F>(), plan.tells_self_hits());
     let mut verdicts = vec![Verdict::miss(None); trials.len()];
     let (mut truths, mut layers) = (Vec::new(), Layers::default());
     let hits: Vec<HitPoint<F>> = trials.iter().map(|trial| trial.hit).collect();
     for (scheme, sums) in plan.schemes.iter().zip(&mut sums.schemes) {
-        let Some(offset) = scheme.offset::<F>() else { continue };
+        let Some(offset) = scheme.offset::<F>() else {
+            continue;
+        };
         let starts = offset.starts(&hits);
         let with_starts = trials.iter().zip(&starts);
-        let mut cases: Vec<Case<F>> =
-            with_starts.map(|(trial, start)| trial.case(start.origin, start.t_min)).collect();
+        let mut cases: Vec<Case<F>> = with_starts
+            .map(|(trial, start)| trial.case(start.origin, start.t_min))
+            .collect();
         source.ask(&mut cases, &mut truths, &mut layers);
         kernel.run(&cases, &epsilons, &mut verdicts);
         for (i, (trial, start)) in trials.iter().zip(&starts).enumerate() {
@@ -213,7 +256,8 @@ fn add_chunk<F: Scalar>(
                 let is_past = measured.neighbour.is_passed(point, height * measured.edge);
                 sums.past_neighbour += u64::from(is_right && is_past);
                 if let Some(least_way) = measured.least_way {
-                    sums.over_least.add(((height - measured.height) / least_way).max(0.0));
+                    sums.over_least
+                        .add(((height - measured.height) / least_way).max(0.0));
                 }
             }
         }
@@ -235,7 +279,10 @@ pub struct Least<F: Float> {
 pub fn least<F: Float>(hit: &HitPoint<F>, is_right: impl Fn([F; 3]) -> bool) -> Option<Least<F>> {
     let at = |distance: F| along(hit.point, hit.normal, distance);
     if is_right(hit.point) {
-        return Some(Least { distance: F::zero(), origin: hit.point });
+        return Some(Least {
+            distance: F::zero(),
+            origin: hit.point,
+        });
     }
     let (mut low, mut high) = (F::zero(), largest(hit.point).ulp());
     while !is_right(at(high)) {
@@ -245,7 +292,14 @@ pub fn least<F: Float>(hit: &HitPoint<F>, is_right: impl Fn([F; 3]) -> bool) -> 
         }
     }
     while let Some(middle) = ordered_midpoint(low, high) {
-        *(if is_right(at(middle)) { &mut high } else { &mut low }) = middle;
+        *(if is_right(at(middle)) {
+            &mut high
+        } else {
+            &mut low
+        }) = middle;
     }
-    Some(Least { distance: high, origin: at(high) })
+    Some(Least {
+        distance: high,
+        origin: at(high),
+    })
 }

@@ -34,7 +34,13 @@ impl Scheme {
     /// ```
     pub fn own(name: &str) -> Scheme {
         let (name, source) = (name.to_owned(), "your own".to_owned());
-        Scheme { flags: format!("--scheme {name}"), name, source, f32: None, f64: None }
+        Scheme {
+            flags: format!("--scheme {name}"),
+            name,
+            source,
+            f32: None,
+            f64: None,
+        }
     }
 
     /// The same, chosen by other flags.
@@ -44,18 +50,26 @@ impl Scheme {
 
     /// The same with a formula in `f32`.
     pub fn f32(self, offset: impl Offset<f32> + 'static) -> Scheme {
-        Scheme { f32: Some(Arc::new(offset)), ..self }
+        Scheme {
+            f32: Some(Arc::new(offset)),
+            ..self
+        }
     }
 
     /// The same with a formula in `f64`.
     pub fn f64(self, offset: impl Offset<f64> + 'static) -> Scheme {
-        Scheme { f64: Some(Arc::new(offset)), ..self }
+        Scheme {
+            f64: Some(Arc::new(offset)),
+            ..self
+        }
     }
 
     /// Its formula in a scalar, if it has one.
     pub fn offset<F: Float>(&self) -> Option<&dyn Offset<F>> {
         let both: [&dyn Any; 2] = [&self.f32, &self.f64];
-        let found = both.into_iter().find_map(|f| f.downcast_ref::<Option<Arc<dyn Offset<F>>>>());
+        let found = both
+            .into_iter()
+            .find_map(|f| f.downcast_ref::<Option<Arc<dyn Offset<F>>>>());
         found?.as_deref()
     }
 
@@ -69,9 +83,14 @@ impl Scheme {
             Some(value) => format!("{}={value}", published.name),
             None => published.name.to_owned(),
         };
-        let text = parameter.or(published.parameter.map(|p| p.default)).unwrap_or("0");
+        let text = parameter
+            .or(published.parameter.map(|p| p.default))
+            .unwrap_or("0");
         let (narrow, wide) = (f32::parse(text), f64::parse(text));
-        let scheme = Scheme { source: published.source.to_owned(), ..Scheme::own(&name) };
+        let scheme = Scheme {
+            source: published.source.to_owned(),
+            ..Scheme::own(&name)
+        };
         let narrow = narrow.unwrap_or(f32::NAN);
         let scheme = scheme.f32(move |hit: &HitPoint<f32>| formula.start(narrow, hit));
         if published.only_f32 {
@@ -112,14 +131,19 @@ fn added() -> Vec<Scheme> {
 
 /// Every scheme, each published one with its default parameter.
 pub fn all() -> Vec<Scheme> {
-    let published = PUBLISHED.iter().map(|published| Scheme::published(published, None));
+    let published = PUBLISHED
+        .iter()
+        .map(|published| Scheme::published(published, None));
     published.chain(added()).collect()
 }
 
 /// The schemes that run if nobody names one: the published ones, some with two values, and a program's own.
 pub fn default_schemes() -> Vec<Scheme> {
     let of = |published: &'static PublishedScheme| {
-        let values = published.usual.iter().map(|value| Scheme::published(published, *value));
+        let values = published
+            .usual
+            .iter()
+            .map(|value| Scheme::published(published, *value));
         values.collect::<Vec<_>>()
     };
     PUBLISHED.iter().flat_map(of).chain(added()).collect()
@@ -135,10 +159,14 @@ pub fn describe(name: &str) -> String {
     let (word, value) = name.split_once('=').unwrap_or((name, ""));
     let published = PUBLISHED.iter().find(|published| published.name == word);
     published.map_or(String::new(), |published| {
-        let default = published.parameter.map_or("", |parameter| parameter.default);
+        let default = published
+            .parameter
+            .map_or("", |parameter| parameter.default);
         format!(
             ": {}",
-            published.start.replace('#', if value.is_empty() { default } else { value })
+            published
+                .start
+                .replace('#', if value.is_empty() { default } else { value })
         )
     })
 }
@@ -162,7 +190,9 @@ pub fn parse(text: &str) -> Result<Scheme, String> {
         let advice = did_you_mean(name, names, "hairline list schemes");
         return Err(format!("unknown scheme '{name}'{advice}"));
     };
-    let Some(value) = value else { return Ok(Scheme::published(published, None)) };
+    let Some(value) = value else {
+        return Ok(Scheme::published(published, None));
+    };
     let Some(parameter) = published.parameter else {
         return Err(format!("'{name}' takes no value"));
     };

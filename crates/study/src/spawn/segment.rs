@@ -88,7 +88,11 @@ fn way<F: Float>(case: &Case<F>) -> DVec3 {
 fn normal_of<F: Float>(case: &Case<F>) -> DVec3 {
     let [a, b, c] = case.triangle.vertices().map(|corner| wide(corner.into()));
     let normal = (b - a).cross(c - a).normalize_or_zero();
-    if 0.0 < normal.dot(way(case)) { -normal } else { normal }
+    if 0.0 < normal.dot(way(case)) {
+        -normal
+    } else {
+        normal
+    }
 }
 
 /// The counts of the segments of a plan.
@@ -118,11 +122,17 @@ impl SegmentSums {
 impl Merge for SegmentSums {
     fn merge(&mut self, other: SegmentSums) {
         self.segments += other.segments;
-        self.blocked.iter_mut().zip(&other.blocked).for_each(|(sum, more)| *sum += more);
+        self.blocked
+            .iter_mut()
+            .zip(&other.blocked)
+            .for_each(|(sum, more)| *sum += more);
         self.largest_share = self.largest_share.max(other.largest_share);
         self.largest_length = self.largest_length.max(other.largest_length);
         self.largest_lift = self.largest_lift.max(other.largest_lift);
-        self.shorter.iter_mut().zip(&other.shorter).for_each(|(sum, more)| sum.merge(more));
+        self.shorter
+            .iter_mut()
+            .zip(&other.shorter)
+            .for_each(|(sum, more)| sum.merge(more));
     }
 }
 
@@ -149,8 +159,18 @@ impl SegmentPlan<'_> {
             ..self.scene.clone()
         };
         let kernel = Some(self.row.entry.info.name.to_owned());
-        let parameters = Parameters { scene: Some(scene), kernel, ..Parameters::default() };
-        Source::of_stratum(Stratum::Segment, self.mesh, parameters, self.seed, self.count)
+        let parameters = Parameters {
+            scene: Some(scene),
+            kernel,
+            ..Parameters::default()
+        };
+        Source::of_stratum(
+            Stratum::Segment,
+            self.mesh,
+            parameters,
+            self.seed,
+            self.count,
+        )
     }
 
     fn add<F: Scalar>(&self, cases: &[Case<F>], sums: &mut SegmentSums) {
@@ -159,7 +179,10 @@ impl SegmentPlan<'_> {
         for (place, end) in self.ends.iter().enumerate() {
             let of = |(case, normal): (&Case<F>, &DVec3)| end.of(case, *normal);
             let ended: Vec<Case<F>> = cases.iter().zip(&normals).map(of).collect();
-            let hits = self.verdicts(&ended).into_iter().filter(|verdict| verdict.hit);
+            let hits = self
+                .verdicts(&ended)
+                .into_iter()
+                .filter(|verdict| verdict.hit);
             sums.blocked[place] += hits.count() as u64;
             for (case, normal) in cases.iter().zip(&normals) {
                 sums.shorter[place].add(end.shorter_by(way(case), *normal));

@@ -18,7 +18,11 @@ pub struct Heights {
 impl Heights {
     /// Counts a start.
     pub fn add(&mut self, height: f64, is_right: bool) {
-        if is_right { self.above.add(height) } else { self.behind.add(height) }
+        if is_right {
+            self.above.add(height)
+        } else {
+            self.behind.add(height)
+        }
     }
 
     /// The height below which a share of all starts lies; none if that is on the plane or behind it.
@@ -115,6 +119,9 @@ impl Merge for SpawnSums {
         self.without_least += other.without_least;
         self.least.merge(&other.least);
         self.least_in_ulps.merge(&other.least_in_ulps);
-        self.schemes.iter_mut().zip(&other.schemes).for_each(|(sum, more)| sum.merge(more));
+        self.schemes
+            .iter_mut()
+            .zip(&other.schemes)
+            .for_each(|(sum, more)| sum.merge(more));
     }
 }

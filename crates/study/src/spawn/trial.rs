@@ -96,8 +96,15 @@ impl<F: Scalar> SpawnTrials<F> {
         first_rays: &[(u64, Case<F>)],
         instance: Option<Instance<F>>,
     ) -> SpawnTrials<F> {
-        let mut all = SpawnTrials { trials: Vec::new(), missed: 0, without_side: 0, not_finite: 0 };
-        let Some(kernel) = F::subject(entry) else { return all };
+        let mut all = SpawnTrials {
+            trials: Vec::new(),
+            missed: 0,
+            without_side: 0,
+            not_finite: 0,
+        };
+        let Some(kernel) = F::subject(entry) else {
+            return all;
+        };
         let cases: Vec<Case<F>> = first_rays
             .iter()
             .map(|(_, case)| instance.map_or(*case, |it| it.in_object(case)))
@@ -117,7 +124,13 @@ impl<F: Scalar> SpawnTrials<F> {
             let object = [case.triangle.a, case.triangle.b, case.triangle.c].map(Into::into);
             let hit = hit_point((entry, kind), case, instance, &verdict, direction, is_front);
             if hit.point.iter().all(|x| x.is_finite()) {
-                all.trials.push(SpawnTrial { index: *index, hit, is_front, object, instance });
+                all.trials.push(SpawnTrial {
+                    index: *index,
+                    hit,
+                    is_front,
+                    object,
+                    instance,
+                });
             } else {
                 all.not_finite += 1;
             }
@@ -128,7 +141,9 @@ impl<F: Scalar> SpawnTrials<F> {
 
 /// The truth of a ray, which is of the world if there is an instance.
 fn truth_in<F: Float>(case: &Case<F>, instance: Option<&Instance<F>>) -> Truth {
-    let Some(instance) = instance else { return oracle::truth(case) };
+    let Some(instance) = instance else {
+        return oracle::truth(case);
+    };
     let (mut truths, layers) = (Vec::new(), &mut Layers::default());
     oracle::truths_of_instance(slice::from_ref(case), instance, &mut truths, layers);
     truths[0]
@@ -171,13 +186,22 @@ fn hit_point<F: Float>(
     let [.., a, b, c] = case.vectors();
     let vertices = [a, b, c];
     let gives = entry.info.gives;
-    let weights = gives.uv.then(|| [F::one() - verdict.u - verdict.v, verdict.u, verdict.v]);
+    let weights = gives
+        .uv
+        .then(|| [F::one() - verdict.u - verdict.v, verdict.u, verdict.v]);
     let point = match (kind, weights) {
         (PointKind::Weights, Some(weights)) => combination(vertices, weights),
-        _ => case.ray.origin.plus(&case.ray.direction.times(&verdict.t)).into(),
+        _ => case
+            .ray
+            .origin
+            .plus(&case.ray.direction.times(&verdict.t))
+            .into(),
     };
     let triangle = case.triangle;
-    let normal = triangle.b.minus(&triangle.a).cross(&triangle.c.minus(&triangle.a));
+    let normal = triangle
+        .b
+        .minus(&triangle.a)
+        .cross(&triangle.c.minus(&triangle.a));
     let in_world = |point| instance.map_or(point, |instance| instance.point_in_world(point));
     let turned = |it: Instance<F>| it.normal_in_world(normal.into()).into();
     let normal: [F; 3] = instance.map_or(normal, turned).normalize().into();

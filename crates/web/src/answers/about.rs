@@ -37,7 +37,12 @@ pub fn about() -> About {
         let gates = info.gates.iter().zip(values);
         let tuned = gates.filter(|(gate, _)| gate.epsilon != Tunable::Fixed);
         let part = |(gate, value): (&hairline::Gate, &&'static str)| {
-            (gate.name, gate.refuses, *value, gate.epsilon == Tunable::Signed)
+            (
+                gate.name,
+                gate.refuses,
+                *value,
+                gate.epsilon == Tunable::Signed,
+            )
         };
         KernelPart {
             name: info.name,
@@ -48,14 +53,22 @@ pub fn about() -> About {
     };
     About {
         kernels: KERNELS.iter().map(kernel).collect(),
-        families: FAMILIES.iter().map(|family| [family.name, family.promise]).collect(),
+        families: FAMILIES
+            .iter()
+            .map(|family| [family.name, family.promise])
+            .collect(),
         scenes: SCENES.iter().map(|preset| preset.name).collect(),
-        contracts: NAMED.iter().map(|named| [named.name, named.about]).collect(),
+        contracts: NAMED
+            .iter()
+            .map(|named| [named.name, named.about])
+            .collect(),
         spots: [(f32::NAME, spots::<f32>()), (f64::NAME, spots::<f64>())].into(),
         inks: Ink::ALL.map(|ink| ink.name().to_owned()).to_vec(),
     }
 }
 
 fn spots<F: Float>() -> Vec<(&'static str, String)> {
-    Spot::ALL.map(|spot| (spot.name(), bare_case(spot.case::<F>()))).to_vec()
+    Spot::ALL
+        .map(|spot| (spot.name(), bare_case(spot.case::<F>())))
+        .to_vec()
 }

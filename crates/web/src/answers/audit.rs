@@ -44,12 +44,19 @@ pub fn audit(asked: &Audit) -> Result<AuditAnswer, String> {
     let row = asked.kernel.row()?;
     // The commands that lead on name the kernel and the cases. No command runs a kernel in WGSL.
     let is_known = !row.entry.selector().is_empty();
-    let flags = PlanFlags { kernels: row.flags(), sources: asked.cases.flags() };
+    let flags = PlanFlags {
+        kernels: row.flags(),
+        sources: asked.cases.flags(),
+    };
     let mut record = record(vec![row], &asked.cases, [EXAMPLES, ATTRIBUTED, MEASURED])?;
     record.provenance.plan_flags = Some(flags).filter(|_| is_known);
     let record = record.sealed();
     let title = record.page().title;
-    Ok(AuditAnswer { title, html: elements(&record), record })
+    Ok(AuditAnswer {
+        title,
+        html: elements(&record),
+        record,
+    })
 }
 
 pub fn curve(asked: &Curve) -> Result<Vec<Point>, String> {
@@ -61,7 +68,10 @@ pub fn curve(asked: &Curve) -> Result<Vec<Point>, String> {
     let mut points: Vec<Point> = asked
         .epsilons
         .iter()
-        .map(|text| Point { epsilons: text.clone(), ..Point::default() })
+        .map(|text| Point {
+            epsilons: text.clone(),
+            ..Point::default()
+        })
         .collect();
     for source in record.result.results.chunks(points.len().max(1)) {
         for (result, point) in source.iter().zip(&mut points) {
@@ -83,14 +93,30 @@ fn record(
     [examples, attribute, measured]: [usize; 3],
 ) -> Result<Record, String> {
     let scalars = scalars_of(&cases.scalar)?;
-    rows.iter().try_for_each(|row| row.check_in(scalars)).map_err(|error| error.0)?;
-    if rows.iter().any(|row| !(0..2).any(|i| scalars[i] && row.entry.scalars()[i])) {
+    rows.iter()
+        .try_for_each(|row| row.check_in(scalars))
+        .map_err(|error| error.0)?;
+    if rows
+        .iter()
+        .any(|row| !(0..2).any(|i| scalars[i] && row.entry.scalars()[i]))
+    {
         return Err(format!("the kernel does not run in {}", cases.scalar));
     }
     let sources = sources(cases, scalars)?;
-    let plan = Plan { attribute, measured, ..Plan::new(rows, sources, scalars, examples) };
+    let plan = Plan {
+        attribute,
+        measured,
+        ..Plan::new(rows, sources, scalars, examples)
+    };
     let sums = audit::run(&plan, &Unobserved);
-    Ok(build(&plan, &sums, &Context { seconds: 0.0, threads: 1 }))
+    Ok(build(
+        &plan,
+        &sums,
+        &Context {
+            seconds: 0.0,
+            threads: 1,
+        },
+    ))
 }
 
 fn sources(cases: &Cases, scalars: [bool; 2]) -> Result<Vec<Source>, String> {
@@ -106,19 +132,30 @@ fn sources(cases: &Cases, scalars: [bool; 2]) -> Result<Vec<Source>, String> {
         }
         parameters.scene = Some(scene.to_try_kernels(words));
     }
-    let all = if cases.scene.is_some() { STRATA } else { FAMILIES };
+    let all = if cases.scene.is_some() {
+        STRATA
+    } else {
+        FAMILIES
+    };
     let family = |name: &String| -> Result<&'static Family, String> {
         let known = all.iter().find(|family| family.name == name);
         known.ok_or_else(|| format!("there is no family '{name}' here"))
     };
     let chosen = match cases.families.is_empty() {
         true => all.iter().collect(),
-        false => cases.families.iter().map(family).collect::<Result<Vec<_>, _>>()?,
+        false => cases
+            .families
+            .iter()
+            .map(family)
+            .collect::<Result<Vec<_>, _>>()?,
     };
     let source = |family| Source::of(family, parameters.clone(), cases.seed, cases.count);
     let sources: Vec<Source> = chosen.into_iter().map(source).collect();
     let named = cases.scene.as_deref().is_some_and(Scene::names_kind);
-    let others: Vec<Source> =
-        if named { Vec::new() } else { sources.iter().flat_map(Source::in_other_kinds).collect() };
+    let others: Vec<Source> = if named {
+        Vec::new()
+    } else {
+        sources.iter().flat_map(Source::in_other_kinds).collect()
+    };
     Ok(sources.into_iter().chain(others).collect())
 }

@@ -66,7 +66,11 @@ type Found<F> = (Vec<Case<F>>, Grouping);
 fn found(text: &str) -> Result<AnyScalar<Found<f32>, Found<f64>>, String> {
     if text.trim_start().starts_with('{') {
         let stored = lines::case_of(text.trim(), 1, "case").map_err(|error| error.to_string())?;
-        let grouping = if stored.is_secondary { Grouping::SecondaryRay } else { Grouping::Single };
+        let grouping = if stored.is_secondary {
+            Grouping::SecondaryRay
+        } else {
+            Grouping::Single
+        };
         return Ok(match stored.case {
             AnyScalar::F32(case) => AnyScalar::F32((vec![case], grouping)),
             AnyScalar::F64(case) => AnyScalar::F64((vec![case], grouping)),
@@ -104,22 +108,39 @@ pub fn explain(asked: &Explain) -> Result<Explained, String> {
 fn explained<F: Scalar>(name: &str, found: Found<F>, row: Row) -> Result<Explained, String> {
     row.check::<F>().map_err(|error| error.0)?;
     let (cases, grouping) = found;
-    let group = Together { cases: &cases, grouping, neighbours: Some(&[]), instance: None };
+    let group = Together {
+        cases: &cases,
+        grouping,
+        neighbours: Some(&[]),
+        instance: None,
+    };
     let rows = [row];
     let explanation = explain::explain(name, group, &rows);
     let (page, html) = (explanation.page(), elements(&explanation));
     let drawing = |case| map::drawing(case, &rows[0]).ok();
     let finite = |x: f64| Some(x).filter(|x| x.is_finite());
-    let triangles = explanation.triangles.into_iter().zip(&cases).map(|(part, case)| Triangle {
-        numbers: numbers(case).map(finite).to_vec(),
-        case: part.case,
-        truth: part.truth,
-        finding: part.rows.first().and_then(|row| row.finding),
-        said: part.rows.first().map_or(String::new(), |row| row.said.clone()),
-        drawing: drawing(case),
-    });
+    let triangles = explanation
+        .triangles
+        .into_iter()
+        .zip(&cases)
+        .map(|(part, case)| Triangle {
+            numbers: numbers(case).map(finite).to_vec(),
+            case: part.case,
+            truth: part.truth,
+            finding: part.rows.first().and_then(|row| row.finding),
+            said: part
+                .rows
+                .first()
+                .map_or(String::new(), |row| row.said.clone()),
+            drawing: drawing(case),
+        });
     let triangles = triangles.collect();
-    Ok(Explained { title: page.title, html, scalar: F::NAME, triangles })
+    Ok(Explained {
+        title: page.title,
+        html,
+        scalar: F::NAME,
+        triangles,
+    })
 }
 
 pub fn map(asked: &Map) -> Result<Mapped, String> {
@@ -135,7 +156,10 @@ fn mapped<F: Scalar>(asked: &Map, case: &Case<F>, row: &Row) -> Result<Mapped, S
     let part =
         CaseVector::named(&asked.vary).ok_or_else(|| format!("there is no '{}'", asked.vary))?;
     if !asked.zoom.is_power_of_two() || (1 << 24) < asked.zoom {
-        return Err(format!("zoom: {} is not a power of two up to 2^24", asked.zoom));
+        return Err(format!(
+            "zoom: {} is not a power of two up to 2^24",
+            asked.zoom
+        ));
     }
     let mut grid = map::grid_of_case(case, part, None, None, asked.size).map_err(|e| e.0)?;
     for (axis, shift) in grid.axes.iter_mut().zip(asked.shift) {
@@ -146,19 +170,26 @@ fn mapped<F: Scalar>(asked: &Map, case: &Case<F>, row: &Row) -> Result<Mapped, S
             }
         };
         // As on a picture wide enough to have that pixel.
-        let wide = map::Axis { count: 1 << 31, ..*axis };
+        let wide = map::Axis {
+            count: 1 << 31,
+            ..*axis
+        };
         axis.centre = wide.value((i64::from(shift) + (1 << 30)) as usize);
     }
     if let Some(pixel) = asked.pixel {
         let within = pixel.iter().zip(grid.size()).all(|(at, size)| *at < size);
         let at = within.then(|| map::case_at(case, &grid, pixel));
         let at = at.ok_or_else(|| "the map has no such pixel".to_owned())?;
-        return Ok(Mapped::Case { case: bare_case(at) });
+        return Ok(Mapped::Case {
+            case: bare_case(at),
+        });
     }
     let map = map::of_kernel(case, row, &grid, &Unobserved).map_err(|error| error.0)?;
     let [width, height] = map.size();
     let digits = |ink: &dyn Fn(usize) -> map::Ink| -> String {
-        (0..width * height).map(|pixel| char::from(b'0' + ink(pixel) as u8)).collect()
+        (0..width * height)
+            .map(|pixel| char::from(b'0' + ink(pixel) as u8))
+            .collect()
     };
     let legend = |legend: Vec<(map::Ink, &'static str, usize)>| {
         legend
@@ -170,7 +201,10 @@ fn mapped<F: Scalar>(asked: &Map, case: &Case<F>, row: &Row) -> Result<Mapped, S
         computed: digits(&|pixel| map.computed(pixel)),
         exact: digits(&|pixel| map.exact(pixel)),
         legends: [legend(map.computed_legend()), legend(map.exact_legend())],
-        axes: map.axes.clone().map(|axis| [axis.name, axis.centre, axis.step.describe()]),
+        axes: map
+            .axes
+            .clone()
+            .map(|axis| [axis.name, axis.centre, axis.step.describe()]),
         wrong: map.wrong(),
     }))
 }

@@ -22,17 +22,22 @@ const WITHOUT_CASES: [&str; 2] = ["mesh", "settings"];
 pub fn read_path(path: &Path, rows: &[Row], finds: &mut Vec<Find>) -> Result<(), Failure> {
     fs::metadata(path).map_err(|error| Failure::of_path(path, &error))?;
     let is_campaign = |path: &Path| path.join(CAMPAIGN).exists();
-    files_under(path, is_campaign)?.iter().try_for_each(|path| match is_campaign(path) {
-        true => read_campaign(path, finds),
-        false => read_file(path, rows, finds),
-    })
+    files_under(path, is_campaign)?
+        .iter()
+        .try_for_each(|path| match is_campaign(path) {
+            true => read_campaign(path, finds),
+            false => read_file(path, rows, finds),
+        })
 }
 
 /// The finds of a campaign, also while it runs: a last line that is not whole yet is left out.
 fn read_campaign(directory: &Path, finds: &mut Vec<Find>) -> Result<(), Failure> {
     read_begun(directory)?;
     let (name, mut bytes) = read_bytes(&directory.join(FINDS))?;
-    let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+    let whole = bytes
+        .iter()
+        .rposition(|byte| *byte == b'\n')
+        .map_or(0, |end| end + 1);
     if whole < bytes.len() {
         eprintln!("{name}: the last line is cut short and left out");
     }
@@ -47,15 +52,25 @@ pub fn read_finds_file(path: &Path, finds: &mut Vec<Find>) -> Result<(), Failure
 }
 
 fn add_finds(text: &[u8], file: &str, finds: &mut Vec<Find>) -> Result<(), Failure> {
-    finds.extend(read_finds(text, file)?.into_iter().map(|find| named(find, file)));
+    finds.extend(
+        read_finds(text, file)?
+            .into_iter()
+            .map(|find| named(find, file)),
+    );
     Ok(())
 }
 
 /// A corpus, the lines of a fuzz target's input, or its bytes. Which target it is of, the folder says.
 fn read_file(path: &Path, rows: &[Row], finds: &mut Vec<Find>) -> Result<(), Failure> {
     let (name, bytes) = read_bytes(path)?;
-    let is_corpus = path.extension().is_some_and(|extension| extension == "jsonl");
-    let target = path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
+    let is_corpus = path
+        .extension()
+        .is_some_and(|extension| extension == "jsonl");
+    let target = path
+        .parent()
+        .and_then(Path::file_name)
+        .unwrap_or_default()
+        .to_string_lossy();
     if !is_corpus && WITHOUT_CASES.contains(&&*target) {
         eprintln!("{name}: an input of the target {target} holds no case; left out");
         return Ok(());
@@ -93,7 +108,8 @@ fn read_case(
     finds: &mut Vec<Find>,
 ) -> Result<(), Failure> {
     if stored.found.is_none() {
-        rows.iter().try_for_each(|row| row.check_in(stored.case.scalars()))?;
+        rows.iter()
+            .try_for_each(|row| row.check_in(stored.case.scalars()))?;
         finds.extend(of_rows(rows, stored.case, file));
         return Ok(());
     }
@@ -104,7 +120,9 @@ fn read_case(
 }
 
 fn of_rows(rows: &[Row], case: AnyCase, file: &str) -> impl Iterator<Item = Find> {
-    rows.iter().filter_map(move |row| Find::of(row, case)).map(move |find| named(find, file))
+    rows.iter()
+        .filter_map(move |row| Find::of(row, case))
+        .map(move |find| named(find, file))
 }
 
 /// With the file that it comes from, if it does not say.

@@ -39,7 +39,12 @@ pub fn elements(record: &impl Paged) -> String {
 fn of_blocks(blocks: &[Block], left: usize) -> String {
     let mut anchors = BTreeSet::new();
     add_anchors(blocks, &mut anchors);
-    HtmlWriter { anchors: &anchors, used: BTreeMap::new(), left }.blocks(blocks, 0)
+    HtmlWriter {
+        anchors: &anchors,
+        used: BTreeMap::new(),
+        left,
+    }
+    .blocks(blocks, 0)
 }
 
 /// The page in fewer bytes than a limit.
@@ -104,7 +109,11 @@ fn policy(style: &str, script: &str) -> String {
 /// From 0 for nothing to 5.
 fn shade(share: f64) -> usize {
     const SHADES: [f64; 4] = [0.001, 0.01, 0.1, 0.5];
-    if share == 0.0 { 0 } else { 1 + SHADES.iter().filter(|start| **start <= share).count() }
+    if share == 0.0 {
+        0
+    } else {
+        1 + SHADES.iter().filter(|start| **start <= share).count()
+    }
 }
 
 /// The fragments that lead to parts which are folded.
@@ -119,7 +128,11 @@ fn add_anchors(blocks: &[Block], anchors: &mut BTreeSet<String>) {
 
 /// The fragment of a title.
 fn anchor(title: &str) -> String {
-    title.chars().take(80).map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect()
+    title
+        .chars()
+        .take(80)
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' })
+        .collect()
 }
 
 /// Before the head of a table.
@@ -140,7 +153,10 @@ impl HtmlWriter<'_> {
         if !self.takes(note(u64::MAX).len()) {
             return text;
         }
-        let mut folded = all.iter().filter(|block| matches!(block, Block::Details(..))).count();
+        let mut folded = all
+            .iter()
+            .filter(|block| matches!(block, Block::Details(..)))
+            .count();
         let mut left_out = 0;
         for block in all {
             left_out += match block {
@@ -170,7 +186,10 @@ impl HtmlWriter<'_> {
                     let legend = html! { @if !legend.is_empty() { p.note { (legend) } } };
                     let end = format!("</tbody></table></div>{}", legend.into_string());
                     let anchors = self.anchors;
-                    let rows = table.rows.iter().map(|one| row(anchors, table, one).into_string());
+                    let rows = table
+                        .rows
+                        .iter()
+                        .map(|one| row(anchors, table, one).into_string());
                     self.add(&mut text, [&start, &end], rows)
                 }
                 Block::Heading(title) => self.add_one(&mut text, heading(title, depth)),
@@ -218,7 +237,11 @@ impl HtmlWriter<'_> {
         let anchor = anchor(title);
         let number = self.used.entry(anchor.clone()).or_insert(0);
         *number += 1;
-        if *number == 1 { anchor } else { format!("{anchor}.{number}") }
+        if *number == 1 {
+            anchor
+        } else {
+            format!("{anchor}.{number}")
+        }
     }
 }
 
@@ -260,7 +283,9 @@ fn sort_key(share: Option<f64>, text: &str) -> Option<String> {
         plain.parse::<f64>().ok()
     };
     let one_in = || Some(1.0 / text.strip_prefix("1 in ").and_then(number)?);
-    let number = share.or_else(one_in).or_else(|| number(text.split_whitespace().next()?))?;
+    let number = share
+        .or_else(one_in)
+        .or_else(|| number(text.split_whitespace().next()?))?;
     Some(format!("{number:.3e}"))
 }
 
@@ -295,7 +320,11 @@ fn block(block: &Block) -> Markup {
             dl.guide { @for (term, meaning) in terms { dt { (term) } dd { (shortened(meaning, LONGEST)) } } }
         },
         Block::Listing(text) => html! { pre { (text) } },
-        Block::Picture(Picture { about, caption, drawing }) => html! {
+        Block::Picture(Picture {
+            about,
+            caption,
+            drawing,
+        }) => html! {
             figure {
                 @match drawing {
                     Drawing::Chart(elements, [width, height]) => {
@@ -311,7 +340,15 @@ fn block(block: &Block) -> Markup {
     }
 }
 
-fn item(Item { text, notes, url, lines, more }: &Item) -> Markup {
+fn item(
+    Item {
+        text,
+        notes,
+        url,
+        lines,
+        more,
+    }: &Item,
+) -> Markup {
     html! {
         li {
             p { (shortened(text, LONGEST)) }

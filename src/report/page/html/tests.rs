@@ -16,7 +16,13 @@ const HOSTILE: &str = "<script>alert('1')</script>\"><img src=x onerror=alert(2)
 fn rate(count: u64, of: u64) -> Rate {
     let interval = (0 < of).then_some([0.25, 0.75]);
     let rate = (0 < of).then(|| count as f64 / of as f64);
-    Rate { count, of, rate, interval, ..Rate::default() }
+    Rate {
+        count,
+        of,
+        rate,
+        interval,
+        ..Rate::default()
+    }
 }
 
 fn counts(misses: u64) -> Counts {
@@ -79,8 +85,11 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
         polygons: None,
         self_hits: None,
     };
-    let source =
-        |family: &String| PlannedSource { family: family.clone(), set: family.clone(), count: 100 };
+    let source = |family: &String| PlannedSource {
+        family: family.clone(),
+        set: family.clone(),
+        count: 100,
+    };
     let summary = |family: &String| SourcePart {
         scalar: "f32".to_owned(),
         family: family.clone(),
@@ -92,7 +101,9 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
         first_broken: None,
         left_out: None,
     };
-    let results = kernels.iter().flat_map(|k| families.iter().map(move |f| result(k, f)));
+    let results = kernels
+        .iter()
+        .flat_map(|k| families.iter().map(move |f| result(k, f)));
     let result = ResultPart {
         mesh: None,
         plan: PlanPart {
@@ -106,7 +117,13 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
         results: results.collect(),
         totals: Vec::new(),
     };
-    Record::new(result, Provenance { tool: "hairline".to_owned(), ..Provenance::default() })
+    Record::new(
+        result,
+        Provenance {
+            tool: "hairline".to_owned(),
+            ..Provenance::default()
+        },
+    )
 }
 
 pub fn deviation(text: &str, url: &str) -> Deviation {
@@ -171,21 +188,36 @@ pub fn conformance(deviations: Vec<Deviation>) -> Conformance {
 fn hostile() -> Record {
     let name = HOSTILE.to_owned();
     let found = finding(HOSTILE, vec![example(HOSTILE)]);
-    let mut record = record(std::slice::from_ref(&name), std::slice::from_ref(&name), &[found]);
+    let mut record = record(
+        std::slice::from_ref(&name),
+        std::slice::from_ref(&name),
+        &[found],
+    );
     record.result.plan.hash = name.clone();
     record.result.plan.rows[0].contract = name.clone();
     record.result.plan.rows[0].epsilons = [(name.clone(), name.clone())].into();
     record.provenance.tool = name.clone();
     record.provenance.target = name.clone();
-    let urls = ["javascript:alert(3)", "https://example.org/?a=\"><b>", "HTTP://x\ny", HOSTILE];
+    let urls = [
+        "javascript:alert(3)",
+        "https://example.org/?a=\"><b>",
+        "HTTP://x\ny",
+        HOSTILE,
+    ];
     record.conformance = Some(conformance(urls.map(|url| deviation(HOSTILE, url)).into()));
     record.illustrations = Some(Illustrations {
         proofs: vec![ProofPart {
             kernel: name.clone(),
             scalar: name.clone(),
             edges: name.clone(),
-            gates: [(name.clone(), ProvedGate { bound: Some(f64::MAX), known: Some(f64::NAN) })]
-                .into(),
+            gates: [(
+                name.clone(),
+                ProvedGate {
+                    bound: Some(f64::MAX),
+                    known: Some(f64::NAN),
+                },
+            )]
+            .into(),
         }],
     });
     record
@@ -221,7 +253,10 @@ fn tags(page: &str) -> Vec<(String, Vec<(String, String)>)> {
                 let (inside, behind) = quoted.split_once('"').unwrap();
                 (value, words) = (inside, behind);
             }
-            assert!(attribute.chars().all(|c| c.is_alphanumeric() || c == '-'), "{tag}");
+            assert!(
+                attribute.chars().all(|c| c.is_alphanumeric() || c == '-'),
+                "{tag}"
+            );
             attributes.push((attribute.to_owned(), value.to_owned()));
             words = words.trim_start();
         }
@@ -239,25 +274,44 @@ fn tags(page: &str) -> Vec<(String, Vec<(String, String)>)> {
 }
 
 fn attribute<'a>(tag: &'a (String, Vec<(String, String)>), name: &str) -> Option<&'a str> {
-    tag.1.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
+    tag.1
+        .iter()
+        .find(|(key, _)| key == name)
+        .map(|(_, value)| value.as_str())
 }
 
 #[test]
 fn a_page_is_well_formed_and_whatever_a_record_says_is_text() {
-    for record in
-        [hostile(), record(&["a".to_owned()], &["b".to_owned()], &[]), record(&[], &[], &[])]
-    {
+    for record in [
+        hostile(),
+        record(&["a".to_owned()], &["b".to_owned()], &[]),
+        record(&[], &[], &[]),
+    ] {
         let page = within(&record.page(), LIMIT);
         let tags = tags(&page);
         let count = |name: &str| tags.iter().filter(|tag| tag.0 == name).count();
-        assert_eq!((count("script"), count("style"), count("h1"), count("main")), (1, 1, 1, 1));
+        assert_eq!(
+            (count("script"), count("style"), count("h1"), count("main")),
+            (1, 1, 1, 1)
+        );
         let ids: Vec<&str> = tags.iter().filter_map(|tag| attribute(tag, "id")).collect();
-        assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len(), "{ids:?}");
+        assert_eq!(
+            ids.iter().collect::<BTreeSet<_>>().len(),
+            ids.len(),
+            "{ids:?}"
+        );
         for tag in &tags {
-            assert!(tag.1.iter().all(|(name, _)| !name.starts_with("on") && name != "style"));
+            assert!(
+                tag.1
+                    .iter()
+                    .all(|(name, _)| !name.starts_with("on") && name != "style")
+            );
             if let Some(target) = attribute(tag, "href") {
                 let inside = target.strip_prefix('#').is_some_and(|id| ids.contains(&id));
-                assert!(inside || target.starts_with("https://example.org/?a=&quot;"), "{target}");
+                assert!(
+                    inside || target.starts_with("https://example.org/?a=&quot;"),
+                    "{target}"
+                );
             }
             assert_eq!(attribute(tag, "src"), None);
         }
@@ -274,7 +328,10 @@ fn the_policy_names_the_page_s_own_style_and_script() {
     for name in ["style", "script"] {
         let (_, after) = page.split_once(&format!("<{name}>")).unwrap();
         let inside = after.split_once(&format!("</{name}>")).unwrap().0;
-        assert!(page.contains(&format!("{name}-src 'sha256-{}'", digest(inside))), "{name}");
+        assert!(
+            page.contains(&format!("{name}-src 'sha256-{}'", digest(inside))),
+            "{name}"
+        );
     }
 }
 
@@ -284,9 +341,13 @@ fn a_hundred_thousand_findings_stay_below_the_limit_and_what_is_left_out_is_said
         (0..count).map(|i| format!("{letter}{i}")).collect()
     };
     let classes = |count: usize| -> Vec<FindingPart> {
-        (0..count).map(|i| finding(&format!("class{i}"), Vec::new())).collect()
+        (0..count)
+            .map(|i| finding(&format!("class{i}"), Vec::new()))
+            .collect()
     };
-    let examples = (0..100_000).map(|i| example(&format!("tiny@1/f32/-/1/{i}"))).collect();
+    let examples = (0..100_000)
+        .map(|i| example(&format!("tiny@1/f32/-/1/{i}")))
+        .collect();
     let long = "x".repeat(20 << 20);
     let only = std::slice::from_ref::<String>;
     let long_texts = vec![deviation(&long, &long); 2];
@@ -296,11 +357,27 @@ fn a_hundred_thousand_findings_stay_below_the_limit_and_what_is_left_out_is_said
     let mut many_deviations = record(&names("k", 2), &names("f", 2), &classes(2));
     many_deviations.conformance = Some(conformance(many));
     for (what, record) in [
-        ("classes", record(&names("k", 10), &names("f", 5), &classes(4000))),
-        ("examples", record(&["k".to_owned()], &names("f", 10), &[finding("c", examples)])),
+        (
+            "classes",
+            record(&names("k", 10), &names("f", 5), &classes(4000)),
+        ),
+        (
+            "examples",
+            record(
+                &["k".to_owned()],
+                &names("f", 10),
+                &[finding("c", examples)],
+            ),
+        ),
         ("kernels", record(&names("k", 1_000), &names("f", 5), &[])),
-        ("families", record(&names("k", 4), &names("f", 10_000), &classes(2))),
-        ("a long name", record(only(&long), only(&long), &[finding(&long, Vec::new())])),
+        (
+            "families",
+            record(&names("k", 4), &names("f", 10_000), &classes(2)),
+        ),
+        (
+            "a long name",
+            record(only(&long), only(&long), &[finding(&long, Vec::new())]),
+        ),
         ("long texts", too_long),
         ("deviations", many_deviations),
     ] {

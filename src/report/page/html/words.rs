@@ -5,7 +5,8 @@ use maud::{Markup, html};
 /// Text that people wrote, as a link if it is an address of the web.
 pub(super) fn link(url: &str) -> Markup {
     let is_scheme = |scheme: &str| {
-        url.get(..scheme.len()).is_some_and(|start| start.eq_ignore_ascii_case(scheme))
+        url.get(..scheme.len())
+            .is_some_and(|start| start.eq_ignore_ascii_case(scheme))
     };
     let is_web = is_scheme("https://") || is_scheme("http://");
     let is_plain = !url.chars().any(|c| c.is_whitespace() || c.is_control());

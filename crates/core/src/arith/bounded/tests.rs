@@ -63,7 +63,10 @@ fn the_exact_value_lies_within_the_bound_and_decided_comparisons_agree() {
             }
         }
     }
-    assert!(decisions > 100_000 && zeros > 1_000 && doubts > 1_000, "{decisions} {doubts}");
+    assert!(
+        decisions > 100_000 && zeros > 1_000 && doubts > 1_000,
+        "{decisions} {doubts}"
+    );
 }
 
 #[test]
@@ -71,7 +74,13 @@ fn what_floats_cannot_tell_apart_bounds_do() {
     let third = Bounded::one() / Bounded::new(3.0);
     let near = Bounded::new(1.0 / 3.0);
     assert_eq!(bounded(|| near.is_less(&third)), Some(true));
-    assert_eq!(bounded(|| (third * Bounded::new(3.0)).is_less(&Bounded::one())), None);
-    assert_eq!(bounded(|| (Bounded::new(6.0) / Bounded::new(3.0)).is_less(&third)), Some(false));
+    assert_eq!(
+        bounded(|| (third * Bounded::new(3.0)).is_less(&Bounded::one())),
+        None
+    );
+    assert_eq!(
+        bounded(|| (Bounded::new(6.0) / Bounded::new(3.0)).is_less(&third)),
+        Some(false)
+    );
     assert_eq!(third.approximate(), Some(1.0 / 3.0));
 }

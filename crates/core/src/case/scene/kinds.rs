@@ -82,7 +82,10 @@ impl SceneKind {
     /// The kind of a name, also one that is not tried by itself.
     pub fn named(name: &str) -> Option<SceneKind> {
         let with = |plane| Toward::ALL.map(|toward| SceneKind { plane, toward });
-        PlaneKind::ALL.into_iter().flat_map(with).find(|kind| kind.to_string() == name)
+        PlaneKind::ALL
+            .into_iter()
+            .flat_map(with)
+            .find(|kind| kind.to_string() == name)
     }
 
     /// The planes and the rays in a few words.

@@ -16,10 +16,18 @@ fn scenes_survive_their_text() {
         assert_eq!(Scene::parse(text).unwrap().0.to_string(), text);
     }
     let (city, unit) = Scene::parse("city").unwrap();
-    assert_eq!(Scene::parse("extent=1000, edge=0.01..10, distance=0..2000").unwrap().0, city);
+    assert_eq!(
+        Scene::parse("extent=1000, edge=0.01..10, distance=0..2000")
+            .unwrap()
+            .0,
+        city
+    );
     assert_eq!(unit, "m");
     // What is not given grows with the extent.
-    for text in ["extent=1000", "distance=0..4000, extent = 1000, edge=100..1000"] {
+    for text in [
+        "extent=1000",
+        "distance=0..4000, extent = 1000, edge=100..1000",
+    ] {
         let grown = "extent=1000,edge=100..1000,distance=0..4000,direction=unit";
         assert_eq!(Scene::parse(text).unwrap().0.to_string(), grown);
     }
@@ -33,7 +41,10 @@ fn scenes_survive_their_text() {
         assert_eq!(scene.left_out(text).as_deref(), left, "{text}");
     }
     let (near, unit) = Scene::parse("city, distance = 0..20").unwrap();
-    assert_eq!((near.distance, near.extent, unit), ([0.0, 20.0], 1000.0, "m"));
+    assert_eq!(
+        (near.distance, near.extent, unit),
+        ([0.0, 20.0], 1000.0, "m")
+    );
 }
 
 #[test]
@@ -58,7 +69,10 @@ fn bad_scenes_say_what_was_expected() {
         ("ray=cast", "there are stored, generated"),
         ("plane=flat", "there are generic, axis"),
         ("toward=up", "there are any, axis-plane, axis"),
-        ("extent=2,center=1,edge=1,plane=axis-0", "at coordinate 0, not around center=1"),
+        (
+            "extent=2,center=1,edge=1,plane=axis-0",
+            "at coordinate 0, not around center=1",
+        ),
         ("edge=0.5..2", "the longest edge is at most the extent, 1"),
         ("distance=0", "not 0 alone"),
         ("distance=-1..2", "from 0 up"),
@@ -67,13 +81,22 @@ fn bad_scenes_say_what_was_expected() {
         ("sine=0.5..2", "to 1"),
         ("aim=up", "write aim=inside or both"),
         ("sine=flat", "'flat' is not a finite number"),
-        ("extent=4km", "'4km' is not a finite number: write all lengths in one unit"),
+        (
+            "extent=4km",
+            "'4km' is not a finite number: write all lengths in one unit",
+        ),
         ("Room", "'Room' is no scene; did you mean 'room'?"),
-        ("edge=1,room", "'room' is a preset: it comes first, and there is one at most"),
+        (
+            "edge=1,room",
+            "'room' is a preset: it comes first, and there is one at most",
+        ),
         ("extent=1,extent=2", "'extent' is given twice"),
     ] {
         let error = Scene::parse(text).unwrap_err();
-        assert!(error.contains(part) && !error.contains('\n'), "{text}: {error}");
+        assert!(
+            error.contains(part) && !error.contains('\n'),
+            "{text}: {error}"
+        );
     }
 }
 
@@ -109,5 +132,9 @@ fn every_kind_of_planes_and_rays_is_found_by_its_name() {
         }
     }
     assert_eq!(SceneKind::named("model.obj"), None);
-    assert!(SceneKind::ALL.iter().all(|kind| SceneKind::named(&kind.to_string()) == Some(*kind)));
+    assert!(
+        SceneKind::ALL
+            .iter()
+            .all(|kind| SceneKind::named(&kind.to_string()) == Some(*kind))
+    );
 }

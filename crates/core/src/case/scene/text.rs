@@ -6,15 +6,25 @@ use std::fmt;
 /// The extent that words give; 1 if they give none that is a length.
 pub(super) fn extent_in<'a>(mut words: impl Iterator<Item = &'a str>) -> f64 {
     let given = |word: &str| {
-        let (_, value) = word.split_once('=').filter(|(key, _)| key.trim() == "extent")?;
-        value.trim().parse().ok().filter(|extent: &f64| extent.is_finite() && 0.0 < *extent)
+        let (_, value) = word
+            .split_once('=')
+            .filter(|(key, _)| key.trim() == "extent")?;
+        value
+            .trim()
+            .parse()
+            .ok()
+            .filter(|extent: &f64| extent.is_finite() && 0.0 < *extent)
     };
     words.find_map(given).unwrap_or(1.0)
 }
 
 /// A finite number.
 pub(super) fn number(key: &str, text: &str) -> Result<f64, String> {
-    let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
+    let number = text
+        .trim()
+        .parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite());
     number.ok_or_else(|| {
         let (whole, text) = (text, text.trim());
         let starts_with_digit = text.starts_with(|c: char| c.is_ascii_digit());
@@ -37,23 +47,36 @@ pub(super) fn number(key: &str, text: &str) -> Result<f64, String> {
 pub(super) fn range(key: &str, text: &str) -> Result<[f64; 2], String> {
     let (low, high) = text.split_once("..").unwrap_or((text, text));
     if high.starts_with('.') {
-        return Err(format!("{key}={text}: write a range with two dots, as 0.5..2"));
+        return Err(format!(
+            "{key}={text}: write a range with two dots, as 0.5..2"
+        ));
     }
     if low.trim().is_empty() || high.trim().is_empty() {
-        return Err(format!("{key}={text}: write both ends, as 0.5..2, or one number"));
+        return Err(format!(
+            "{key}={text}: write both ends, as 0.5..2, or one number"
+        ));
     }
     let [low, high] = [number(key, low)?, number(key, high)?];
     if high < low {
-        return Err(format!("{key}={text}: the range is empty; write the smaller number first"));
+        return Err(format!(
+            "{key}={text}: the range is empty; write the smaller number first"
+        ));
     }
     Ok([low, high])
 }
 
 /// Sizes: a range, perhaps with the number in its middle that half of them are below.
 pub(super) fn sizes(key: &str, text: &str) -> Result<([f64; 2], Option<f64>), String> {
-    let Some((low, rest)) = text.split_once("..") else { return Ok((range(key, text)?, None)) };
-    let Some((middle, high)) = rest.split_once("..") else { return Ok((range(key, text)?, None)) };
-    if [low, middle, high].iter().any(|part| part.trim().is_empty() || part.contains("..")) {
+    let Some((low, rest)) = text.split_once("..") else {
+        return Ok((range(key, text)?, None));
+    };
+    let Some((middle, high)) = rest.split_once("..") else {
+        return Ok((range(key, text)?, None));
+    };
+    if [low, middle, high]
+        .iter()
+        .any(|part| part.trim().is_empty() || part.contains(".."))
+    {
         return Err(format!(
             "{key}={text}: write two numbers or three, as 0.05..20 or 0.05..0.1..20"
         ));
@@ -100,14 +123,18 @@ impl fmt::Display for Sizes {
 impl fmt::Display for Scene {
     /// The words that make it again, as they stand in case ids.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (edge, distance) = (Sizes(self.edge, self.median_edge), Sizes(self.distance, None));
+        let (edge, distance) = (
+            Sizes(self.edge, self.median_edge),
+            Sizes(self.distance, None),
+        );
         let (extent, direction) = (ShortNumber(self.extent), self.direction);
         write!(f, "extent={extent},")?;
         if self.center != 0.0 {
             write!(f, "center={},", ShortNumber(self.center))?;
         }
         write!(f, "edge={edge},distance={distance},direction={direction}")?;
-        self.sine.map_or(Ok(()), |sine| write!(f, ",sine={}", Sizes(sine, None)))?;
+        self.sine
+            .map_or(Ok(()), |sine| write!(f, ",sine={}", Sizes(sine, None)))?;
         if self.aims_inside {
             f.write_str(",aim=inside")?;
         }

@@ -23,8 +23,10 @@ fn columns_and_slices_and_single_cases_have_the_same_truths() {
         assert_eq!(of_slice, single);
         let rows = [0, 1, 2, 3, 4]
             .map(|k| Vec::from_iter(cases[..count].iter().map(|case| case.vectors()[k])));
-        let ends: Vec<[f32; 2]> =
-            cases[..count].iter().map(|case| [case.ray.t_min, case.ray.t_max]).collect();
+        let ends: Vec<[f32; 2]> = cases[..count]
+            .iter()
+            .map(|case| [case.ray.t_min, case.ray.t_max])
+            .collect();
         let ends = [0, 1].map(|k| Vec::from_iter(ends.iter().map(|ends| ends[k])));
         let (mut of_rows, mut row_layers) = (vec![Truth::Parallel], Layers::default());
         let of = |ends: [&[f32]; 2], truths: &mut Vec<Truth>, layers: &mut Layers| {
@@ -34,9 +36,20 @@ fn columns_and_slices_and_single_cases_have_the_same_truths() {
         assert_eq!((of_rows, row_layers), (single.clone(), layers));
         let longer = vec![1.0; count + 1];
         let error = of([&ends[0], &longer], &mut Vec::new(), &mut row_layers).unwrap_err();
-        assert_eq!(error, UnequalColumns { column: "t_max", length: count + 1, expected: count });
+        assert_eq!(
+            error,
+            UnequalColumns {
+                column: "t_max",
+                length: count + 1,
+                expected: count
+            }
+        );
         let mut without_wide_vectors = Vec::new();
-        decide_groups(&cases[..count], &mut without_wide_vectors, &mut Layers::default());
+        decide_groups(
+            &cases[..count],
+            &mut without_wide_vectors,
+            &mut Layers::default(),
+        );
         assert_eq!(without_wide_vectors, single);
         let mut single_layers = Layers::default();
         for case in &cases[..count] {
@@ -85,8 +98,16 @@ fn whole_groups_go_through_the_filter_together_and_only_the_rest_one_by_one() {
         };
         let (mut truths, mut layers) = (Vec::new(), Layers::default());
         decide_all(&noted, &mut truths, &mut layers);
-        assert_eq!(noted.groups.into_inner(), Vec::from_iter(0..groups), "{count}");
-        assert_eq!(noted.singles.into_inner(), Vec::from_iter(GROUP * groups..count), "{count}");
+        assert_eq!(
+            noted.groups.into_inner(),
+            Vec::from_iter(0..groups),
+            "{count}"
+        );
+        assert_eq!(
+            noted.singles.into_inner(),
+            Vec::from_iter(GROUP * groups..count),
+            "{count}"
+        );
         assert_eq!(layers.of(Layer::Filter), count as u64);
         assert_eq!(truths, vec![crate::oracle::truth(&cases[0]); count]);
     }
@@ -99,7 +120,12 @@ fn intervals_are_those_of_the_cases_in_whole_groups_too() {
     let ray = Case::<f64>::new([1.0, 1.0, 3.0], [0.25, 0.25, -1.0], triangle);
     let transversal = |place| {
         let (facing, feature) = (Facing::Front, Feature::Interior);
-        Truth::Transversal(Crossing { facing, place, t_sign: Ordering::Greater, feature })
+        Truth::Transversal(Crossing {
+            facing,
+            place,
+            t_sign: Ordering::Greater,
+            feature,
+        })
     };
     let [inf, nan] = [f64::INFINITY, f64::NAN];
     let intervals = [
@@ -121,7 +147,11 @@ fn intervals_are_those_of_the_cases_in_whole_groups_too() {
         let (mut truths, mut layers) = (Vec::new(), Layers::default());
         batch.truths(&mut truths, &mut layers);
         assert_eq!(truths, [truth; GROUP], "{t_min} {t_max}");
-        let layer = if truth == Truth::Invalid { Layer::Invalid } else { Layer::Filter };
+        let layer = if truth == Truth::Invalid {
+            Layer::Invalid
+        } else {
+            Layer::Filter
+        };
         assert_eq!(layers.of(layer), GROUP as u64, "{t_min} {t_max}");
     }
 }
@@ -131,7 +161,14 @@ fn columns_of_different_lengths_are_refused_by_name() {
     let (three, four): (&[f64], &[f64]) = (&[1.0; 3], &[1.0; 4]);
     let good = [three; 3];
     let batch = Batch::from_columns(good, [three, four, four], [good; 3], [three; 2]).unwrap_err();
-    assert_eq!(batch, UnequalColumns { column: "d.y", length: 4, expected: 3 });
+    assert_eq!(
+        batch,
+        UnequalColumns {
+            column: "d.y",
+            length: 4,
+            expected: 3
+        }
+    );
     assert_eq!(batch.to_string(), "column d.y has 4 cases, the first one 3");
     let end = Batch::from_columns(good, good, [good; 3], [three, four]).unwrap_err();
     assert_eq!(end.column, "t_max");

@@ -19,7 +19,11 @@ fn exact(determinant: Determinant, case: &Case<f64>) -> [BigInt; 3] {
     let [first, p, q, base] = rows(determinant, case.vectors());
     let minus_base = |v: [f64; 3]| [0, 1, 2].map(|i| whole(v[i]) - whole(base[i]));
     let (p, q) = (minus_base(p), minus_base(q));
-    let first = if determinant == Determinant::T { minus_base(first) } else { first.map(whole) };
+    let first = if determinant == Determinant::T {
+        minus_base(first)
+    } else {
+        first.map(whole)
+    };
     let [mut value, mut permanent, mut length] = [0; 3].map(BigInt::from);
     for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
         let (x, y) = (&p[j] * &q[k], &p[k] * &q[j]);
@@ -33,7 +37,9 @@ fn exact(determinant: Determinant, case: &Case<f64>) -> [BigInt; 3] {
 /// The exact permanent of a determinant. The filter's permanent of D is the sum of the weights' permanents.
 fn permanent(determinant: Determinant, case: &Case<f64>) -> BigInt {
     match determinant {
-        Determinant::D => (0..3).map(|k| permanent(Determinant::Weight(k), case)).sum(),
+        Determinant::D => (0..3)
+            .map(|k| permanent(Determinant::Weight(k), case))
+            .sum(),
         _ => exact(determinant, case)[1].clone(),
     }
 }
@@ -41,7 +47,12 @@ fn permanent(determinant: Determinant, case: &Case<f64>) -> BigInt {
 /// Vectors of sizes from all over the range, also such that products underflow or overflow in part.
 fn any_size(index: u64) -> Case<f64> {
     let mut draw = Draw::new("filter", 1, index);
-    let sizes = draw.pick(&[[0, 0, 0], [-600, 0, 300], [-520, -480, -400], [-360, -340, -330]]);
+    let sizes = draw.pick(&[
+        [0, 0, 0],
+        [-600, 0, 300],
+        [-520, -480, -400],
+        [-360, -340, -330],
+    ]);
     let spread = draw.pick(&[2, 40]);
     let [o, d, a, b, c] = std::array::from_fn(|i| {
         // Every second origin is zero, so that differences are as small as points.
@@ -49,7 +60,11 @@ fn any_size(index: u64) -> Case<f64> {
         let zero = i == 0 && draw.coin();
         std::array::from_fn(|_| {
             let exponent = draw.integer(middle - spread, middle + spread) as i32;
-            if zero { 0.0 } else { draw.with_exponent::<f64>(exponent) }
+            if zero {
+                0.0
+            } else {
+                draw.with_exponent::<f64>(exponent)
+            }
         })
     });
     Case::new(o, d, [a, b, c])
@@ -84,7 +99,10 @@ fn errors_are_below_the_bounds_and_the_bounds_are_those_of_the_proof() {
             compared += 1;
         }
     }
-    assert!(compared > 10_000 && at_underflow > 1000, "{compared} {at_underflow}");
+    assert!(
+        compared > 10_000 && at_underflow > 1000,
+        "{compared} {at_underflow}"
+    );
 }
 
 fn layer_of(case: &Case<f64>) -> Layer {
@@ -130,7 +148,11 @@ fn a_value_at_its_bound_is_handed_on_and_one_above_it_is_not() {
             let case = make(e);
             let sign = compute(case.vectors()).sign(determinant);
             assert_eq!(sign.is_some(), certain, "{determinant:?} {e:e}");
-            assert_eq!(layer_of(&case) == Layer::Filter, certain, "{determinant:?} {e:e}");
+            assert_eq!(
+                layer_of(&case) == Layer::Filter,
+                certain,
+                "{determinant:?} {e:e}"
+            );
         }
     }
 }
@@ -145,7 +167,10 @@ fn weights_of_one_sign_tell_the_sign_of_d_whatever_its_bound() {
     assert_eq!(computed.sign(Determinant::D), None);
     assert_eq!(layer_of(&case), Layer::Filter);
     // One of the other sign leaves the sign of D open.
-    assert_ne!(layer_of(&Case::new([0.0; 3], [x, x, -x], unit)), Layer::Filter);
+    assert_ne!(
+        layer_of(&Case::new([0.0; 3], [x, x, -x], unit)),
+        Layer::Filter
+    );
 }
 
 #[test]
@@ -155,9 +180,17 @@ fn an_end_is_compared_up_to_the_errors_of_t_and_d() {
         let past = |t: f64, end: f64| is_past(end, (t, 0.5), (sign, 0.25));
         for (t, is_positive) in [(3.0, true), (1.0, false)] {
             assert_eq!(past(sign * t, 2.0), None);
-            let farther = sign * (t + if is_positive { 2f64.powi(-50) } else { -2f64.powi(-50) });
+            let farther = sign
+                * (t + if is_positive {
+                    2f64.powi(-50)
+                } else {
+                    -2f64.powi(-50)
+                });
             assert_eq!(past(farther, 2.0), Some(is_positive));
-            assert_eq!(is_past(-2.0, (-farther, 0.5), (sign, 0.25)), Some(!is_positive));
+            assert_eq!(
+                is_past(-2.0, (-farther, 0.5), (sign, 0.25)),
+                Some(!is_positive)
+            );
         }
         assert_eq!(past(9.0, f64::INFINITY), Some(false));
         assert_eq!(past(9.0, f64::NEG_INFINITY), Some(true));
@@ -171,6 +204,12 @@ fn an_end_is_compared_up_to_the_errors_of_t_and_d() {
 fn an_overflow_of_the_end_times_d_decides_nothing() {
     // T may be as large as end·D, which overflows by a little.
     let (t, error) = (f64::MAX, f64::MAX * U);
-    assert_eq!(is_past(2f64.powi(1000), (t, error), (2f64.powi(24), 0.0)), None);
-    assert_eq!(is_past(2f64.powi(1000), (t, error), (2f64.powi(23), 0.0)), Some(true));
+    assert_eq!(
+        is_past(2f64.powi(1000), (t, error), (2f64.powi(24), 0.0)),
+        None
+    );
+    assert_eq!(
+        is_past(2f64.powi(1000), (t, error), (2f64.powi(23), 0.0)),
+        Some(true)
+    );
 }

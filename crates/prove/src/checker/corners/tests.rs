@@ -38,7 +38,9 @@ fn expected(rows: &Rows, weights: &[Weight<BigInt>], ends: &[[BigInt; 2]], unit:
         let mut lengths = vec![BigInt::ZERO; rows.len()];
         for (axis, effects) in effects.iter_mut().enumerate() {
             let mut ends = ends.to_vec();
-            unit.iter().filter(|v| **v != unit[axis]).for_each(|v| ends[*v] = Default::default());
+            unit.iter()
+                .filter(|v| **v != unit[axis])
+                .for_each(|v| ends[*v] = Default::default());
             alone = BigInt::ZERO;
             for k in 0..rows.len() {
                 let all = at_corner(rows, &ends, corner, k);
@@ -59,7 +61,11 @@ fn expected(rows: &Rows, weights: &[Weight<BigInt>], ends: &[[BigInt; 2]], unit:
             sizes[k] = lengths[k].clone().max(sizes[k].clone());
         }
         let here: BigInt = effects.iter().map(|effect| effect * effect).sum();
-        if if unit.is_empty() { sum < alone } else { squares < here } {
+        if if unit.is_empty() {
+            sum < alone
+        } else {
+            squares < here
+        } {
             first = corner;
         }
         (sum, squares) = (sum.max(alone), squares.max(here));
@@ -73,7 +79,10 @@ fn found(
     ends: &[[BigInt; 2]],
     unit: &[usize],
 ) -> Option<All> {
-    let fixed = ends.iter().enumerate().filter(|(_, [upper, lower])| -lower != *upper);
+    let fixed = ends
+        .iter()
+        .enumerate()
+        .filter(|(_, [upper, lower])| -lower != *upper);
     let fixed = fixed.fold(0, |bits, (v, _)| bits | 1 << v);
     let found = search(rows, weights, ends, unit, signs_to_try(rows, unit, fixed))?;
     Some((found.sum, found.corner, found.sizes, found.squares))
@@ -88,7 +97,11 @@ fn number(draw: &mut Draw, bits: usize) -> BigInt {
 fn random_ends(draw: &mut Draw, variables: usize, bits: usize) -> Vec<[BigInt; 2]> {
     let ends = |_| {
         let upper = number(draw, bits);
-        let lower = if draw.below(4) == 0 { number(draw, bits) } else { upper.clone() };
+        let lower = if draw.below(4) == 0 {
+            number(draw, bits)
+        } else {
+            upper.clone()
+        };
         [upper, -lower]
     };
     (0..variables).map(ends).collect()
@@ -107,9 +120,18 @@ fn random_weights(draw: &mut Draw, rows: &Rows, bits: usize) -> Vec<Weight<BigIn
         let has_none = row.constant.is_zero() && row.variables.is_empty();
         zeros.push(has_none && row.terms.iter().all(is_zero));
     }
-    let weight = |is_zero| if is_zero { BigInt::ZERO } else { number(draw, bits) };
+    let weight = |is_zero| {
+        if is_zero {
+            BigInt::ZERO
+        } else {
+            number(draw, bits)
+        }
+    };
     let weights: Vec<BigInt> = zeros.into_iter().map(weight).collect();
-    weights.into_iter().map(|weight| (weight, draw.coin())).collect()
+    weights
+        .into_iter()
+        .map(|weight| (weight, draw.coin()))
+        .collect()
 }
 
 /// A factor, as it brings terms to one scale.
@@ -121,13 +143,19 @@ fn factor(draw: &mut Draw) -> BigInt {
 fn random_rows(draw: &mut Draw, variables: usize, bits: usize) -> Rows {
     let mut rows: Rows = Vec::new();
     for _ in 0..1 + draw.below(5) {
-        let mut row = Row { constant: BigInt::ZERO, variables: vec![], terms: vec![], support: 0 };
+        let mut row = Row {
+            constant: BigInt::ZERO,
+            variables: vec![],
+            terms: vec![],
+            support: 0,
+        };
         match draw.below(4) {
             0 => row.constant = number(draw, bits) * sign(draw),
             1 if !rows.is_empty() => {
                 for _ in 0..1 + draw.below(2) {
                     let other = draw.coin().then(|| draw.below(rows.len()));
-                    row.terms.push((factor(draw), draw.below(rows.len()), other));
+                    row.terms
+                        .push((factor(draw), draw.below(rows.len()), other));
                 }
             }
             _ => (0..variables)
@@ -139,10 +167,21 @@ fn random_rows(draw: &mut Draw, variables: usize, bits: usize) -> Rows {
         rows.push(row);
     }
     let terms = (0..rows.len()).map(|k| (sign(draw), k, None)).collect();
-    rows.push(Row { constant: BigInt::ZERO, variables: vec![], terms, support: 0 });
+    rows.push(Row {
+        constant: BigInt::ZERO,
+        variables: vec![],
+        terms,
+        support: 0,
+    });
     for k in 0..rows.len() {
-        let of_variables = rows[k].variables.iter().fold(0, |bits, (_, v)| bits | 1 << v);
-        let operands = rows[k].terms.iter().flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)]);
+        let of_variables = rows[k]
+            .variables
+            .iter()
+            .fold(0, |bits, (_, v)| bits | 1 << v);
+        let operands = rows[k]
+            .terms
+            .iter()
+            .flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)]);
         rows[k].support = operands.fold(of_variables, |bits, a| bits | rows[a].support);
     }
     rows
@@ -166,7 +205,10 @@ fn the_largest_sum_is_that_of_every_corner_by_itself_in_integers_of_any_width() 
         }] += 1;
         assert_eq!(found(&rows, &weights, &ends, &[]), Some(sum));
         // Without weights only sizes are wanted.
-        assert_eq!(found(&rows, &[], &ends, &[]), Some(expected(&rows, &[], &ends, &[])));
+        assert_eq!(
+            found(&rows, &[], &ends, &[]),
+            Some(expected(&rows, &[], &ends, &[]))
+        );
     }
     assert!(widths.into_iter().all(|n| 20 < n), "{widths:?}");
 }
@@ -178,14 +220,23 @@ fn linear_rows(draw: &mut Draw, variables: usize, bits: usize) -> Rows {
     let push = |rows: &mut Rows, variables, terms: Vec<(BigInt, usize, Option<usize>)>, support| {
         let operands = terms.iter().flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)]);
         let support = operands.fold(support, |bits, a| bits | rows[a].support);
-        rows.push(Row { constant: BigInt::ZERO, variables, terms, support });
+        rows.push(Row {
+            constant: BigInt::ZERO,
+            variables,
+            terms,
+            support,
+        });
         rows.len() - 1
     };
     let mut sum = Vec::new();
     for v in variables..variables + 3 {
         let part = push(&mut rows, vec![(BigInt::one(), v)], vec![], 1 << v);
         // The last of the random steps depends on all of them.
-        let by = if sum.is_empty() { count - 1 } else { draw.below(count) };
+        let by = if sum.is_empty() {
+            count - 1
+        } else {
+            draw.below(count)
+        };
         let term = (factor(draw), by, Some(part));
         let product = push(&mut rows, vec![], vec![term], 0);
         sum.push((sign(draw), product, None));
@@ -232,6 +283,9 @@ fn numbers_that_are_too_long_are_refused() {
     let weights = [(BigInt::one(), true)];
     let longest: BigInt = (BigInt::one() << MOST_BITS) - 1;
     let all = |bound: &BigInt| found(&rows, &weights, &[[bound.clone(), -bound.clone()]], &[]);
-    assert_eq!(all(&longest), Some((longest.clone(), 0, vec![longest.clone()], BigInt::ZERO)));
+    assert_eq!(
+        all(&longest),
+        Some((longest.clone(), 0, vec![longest.clone()], BigInt::ZERO))
+    );
     assert_eq!(all(&(longest + 1)), None);
 }

@@ -38,7 +38,11 @@ impl Formula<'_> {
             ends(v).map(|end| shifted(&end, -exponent).to_integer())
         };
         let boxes: Vec<_> = self.variables.iter().zip(&exponents).map(whole).collect();
-        let fixed = self.variables.iter().enumerate().filter(|(_, v)| v.down_to.is_some());
+        let fixed = self
+            .variables
+            .iter()
+            .enumerate()
+            .filter(|(_, v)| v.down_to.is_some());
         let fixed = fixed.fold(0, |bits, (v, _)| bits | 1 << v);
         let mut scales: Vec<i64> = Vec::new();
         let mut rows = Vec::new();
@@ -46,20 +50,36 @@ impl Formula<'_> {
             let of_term = |b: &Option<usize>| b.map_or(0, |b| scales[b]);
             let of_variables = step.variables.iter().map(|(_, v)| exponents[*v]);
             let of_terms = step.terms.iter().map(|(_, a, b)| scales[*a] + of_term(b));
-            let scale = of_variables.clone().chain(of_terms.clone()).min().unwrap_or(0);
+            let scale = of_variables
+                .clone()
+                .chain(of_terms.clone())
+                .min()
+                .unwrap_or(0);
             let factor =
                 |minus: &bool, of: i64| BigInt::from(if *minus { -1 } else { 1 }) << (of - scale);
             let variables = step.variables.iter().zip(of_variables);
-            let variables = variables.map(|((minus, v), of)| (factor(minus, of), *v)).collect();
+            let variables = variables
+                .map(|((minus, v), of)| (factor(minus, of), *v))
+                .collect();
             let terms = step.terms.iter().zip(of_terms);
-            let terms = terms.map(|((minus, a, b), of)| (factor(minus, of), *a, *b)).collect();
+            let terms = terms
+                .map(|((minus, a, b), of)| (factor(minus, of), *a, *b))
+                .collect();
             let (constant, support) = (step.constant.into(), step.support);
-            rows.push(Row { constant, variables, terms, support });
+            rows.push(Row {
+                constant,
+                variables,
+                terms,
+                support,
+            });
             scales.push(scale);
         }
         let tried = signs_to_try(&rows, &self.unit, fixed);
         reader.work += (self.steps.len() as u64) << tried.count_ones();
-        ensure(reader.work <= MOST_WORK, "found too many corners of too many steps in this file")?;
+        ensure(
+            reader.work <= MOST_WORK,
+            "found too many corners of too many steps in this file",
+        )?;
         let found = search(&rows, &[], &boxes, &self.unit, tried).ok_or(LONG)?;
         let size = |(k, size): (usize, BigInt)| {
             if self.is_linear(k) {
@@ -84,7 +104,12 @@ impl Formula<'_> {
             }
         };
         let weights: Vec<Number> = (0..self.steps.len()).map(weight).collect();
-        let finest = weights.iter().filter(|w| !w.is_zero()).map(|w| split(w).1).min().unwrap_or(0);
+        let finest = weights
+            .iter()
+            .filter(|w| !w.is_zero())
+            .map(|w| split(w).1)
+            .min()
+            .unwrap_or(0);
         let whole = |(w, step): (&Number, &Step)| (shifted(w, -finest).to_integer(), step.relative);
         let weights: Vec<_> = weights.iter().zip(&self.steps).map(whole).collect();
         let found = search(&rows, &weights, &boxes, &self.unit, tried).ok_or(LONG)?;
@@ -93,11 +118,16 @@ impl Formula<'_> {
         if let Some(v) = self.unit.first() {
             // The vector's own error takes its place.
             first += &self.variables[*v].bound.error * &bounds[last].size;
-            first += root_up(&shifted(&Number::from(found.squares), 2 * scale), ERROR_DIGITS);
+            first += root_up(
+                &shifted(&Number::from(found.squares), 2 * scale),
+                ERROR_DIGITS,
+            );
         }
         let sign = |v: usize| if found.corner >> v & 1 == 1 { '-' } else { '+' };
         let signs: String = (0..self.variables.len()).map(sign).collect();
-        reader.read(&format!("corner {signs}"), |words| (words.concat() == signs).then_some(()))?;
+        reader.read(&format!("corner {signs}"), |words| {
+            (words.concat() == signs).then_some(())
+        })?;
         reader.demand("first", &first)?;
         if self.steps.iter().any(|step| step.relative) {
             let known: Vec<_> = bounds.iter().cloned().map(Some).collect();
@@ -105,11 +135,24 @@ impl Formula<'_> {
         }
         let rest = round_up(&rest, ERROR_DIGITS);
         reader.demand("rest", &rest)?;
-        let Bound { size, computed, error: own } = bounds.pop().expect("a step");
+        let Bound {
+            size,
+            computed,
+            error: own,
+        } = bounds.pop().expect("a step");
         let error = first + rest;
         let is_known = self.steps[last].rounds && !self.steps[last].relative;
-        let before = if is_known { &error - own } else { error.clone() };
-        Ok(Shown { size, computed, error, before })
+        let before = if is_known {
+            &error - own
+        } else {
+            error.clone()
+        };
+        Ok(Shown {
+            size,
+            computed,
+            error,
+            before,
+        })
     }
 
     /// The bounds of the steps where they are not known, and the terms of second and higher order of the
@@ -148,7 +191,10 @@ impl Formula<'_> {
             bounds.push(bound);
             orders.push([first, rest]);
         }
-        (bounds, orders.pop().map_or(Number::zero(), |[_, rest]| rest))
+        (
+            bounds,
+            orders.pop().map_or(Number::zero(), |[_, rest]| rest),
+        )
     }
 }
 
@@ -157,13 +203,23 @@ impl Step<'_> {
     fn bound(&self, format: &Format, bounds: &[Bound], corner: &Number, before: Number) -> Bound {
         let products = |part: fn(&Bound) -> &Number| -> Vec<Number> {
             let of = |i: usize| part(&bounds[i]).clone();
-            self.terms.iter().map(|(_, a, b)| of(*a) * b.map_or(Number::one(), of)).collect()
+            self.terms
+                .iter()
+                .map(|(_, a, b)| of(*a) * b.map_or(Number::one(), of))
+                .collect()
         };
-        let size = products(|bound| &bound.size).iter().sum::<Number>().min(corner.clone());
+        let size = products(|bound| &bound.size)
+            .iter()
+            .sum::<Number>()
+            .min(corner.clone());
         let products = products(|bound| &bound.computed);
         let z = products.iter().sum::<Number>().min(&size + before);
         if self.place.is_none() || self.name == "neg" || self.left_out {
-            return Bound { size, computed: format.float_up(&z), error: Number::zero() };
+            return Bound {
+                size,
+                computed: format.float_up(&z),
+                error: Number::zero(),
+            };
         }
         let mut bound = format.rounded(size, &z);
         if self.name == "minor" && format.parameters == F32 {

@@ -15,13 +15,20 @@ struct Stated {
 
 /// The number 1, so that a single operand is a product too.
 fn one() -> Stated {
-    Stated { bound: Bound::exactly(&Number::one()), first: Number::zero(), rest: Number::zero() }
+    Stated {
+        bound: Bound::exactly(&Number::one()),
+        first: Number::zero(),
+        rest: Number::zero(),
+    }
 }
 
 /// The products that a step adds up.
 fn products(step: &Step, above: &[Stated]) -> Vec<[Stated; 2]> {
     let of = |i: &usize| above[*i].clone();
-    step.terms.iter().map(|(_, a, b)| [of(a), b.as_ref().map_or(one(), of)]).collect()
+    step.terms
+        .iter()
+        .map(|(_, a, b)| [of(a), b.as_ref().map_or(one(), of)])
+        .collect()
 }
 
 fn sum(numbers: impl Iterator<Item = Number>) -> Number {
@@ -48,11 +55,16 @@ fn stated_bound(
     corner: &Number,
     error: &Number,
 ) -> Bound {
-    let (h, up) = (|z: &Number| format.half_ulp(z), |z: &Number| format.float_up(z));
+    let (h, up) = (
+        |z: &Number| format.half_ulp(z),
+        |z: &Number| format.float_up(z),
+    );
     let by_operands = sum(pairs.iter().map(|[a, b]| &a.bound.size * &b.bound.size));
     let size = by_operands.min(corner.clone());
-    let computed: Vec<Number> =
-        pairs.iter().map(|[a, b]| &a.bound.computed * &b.bound.computed).collect();
+    let computed: Vec<Number> = pairs
+        .iter()
+        .map(|[a, b]| &a.bound.computed * &b.bound.computed)
+        .collect();
     let z = sum(computed.iter().cloned()).min(&size + error);
     let (computed, error) = match (step.name, format.parameters) {
         ("neg", _) => (up(&z), Number::zero()),
@@ -62,11 +74,18 @@ fn stated_bound(
             let two_tiny = Number::from_integer(2.into()) * power(format.parameters[1] - 1);
             let w = up(&computed[0]) + up(&computed[1]);
             let y = h(&computed[0]) + h(&computed[1]) + &two_tiny;
-            (up(&(up(&w) + up(&y))), round_up(&(h(&w) + up(&y) + h(&y) + two_tiny), ERROR_DIGITS))
+            (
+                up(&(up(&w) + up(&y))),
+                round_up(&(h(&w) + up(&y) + h(&y) + two_tiny), ERROR_DIGITS),
+            )
         }
         _ => (up(&z), h(&z)),
     };
-    Bound { size, computed, error }
+    Bound {
+        size,
+        computed,
+        error,
+    }
 }
 
 /// The guide's statements about all steps. The bounds are known when relative steps count as such.
@@ -127,11 +146,26 @@ fn random_steps(draw: &mut Draw, format: &Format, scale: i64) -> Vec<Step<'stati
         let below = draw.below(4) as i64;
         let error = near(draw, scale - below);
         let (size, computed) = (near(draw, scale), near(draw, scale));
-        steps.push(step("variables", vec![], Some(Bound { size, computed, error })));
+        steps.push(step(
+            "variables",
+            vec![],
+            Some(Bound {
+                size,
+                computed,
+                error,
+            }),
+        ));
     }
     let has_minor = [F32, F64].contains(&format.parameters);
     for _ in 0..1 + draw.below(4) {
-        let all = [("neg", 1), ("add", 2), ("sub", 2), ("mul", 2), ("fma", 3), ("minor", 4)];
+        let all = [
+            ("neg", 1),
+            ("add", 2),
+            ("sub", 2),
+            ("mul", 2),
+            ("fma", 3),
+            ("minor", 4),
+        ];
         let (name, operands) = draw.pick(&all[..if has_minor { 6 } else { 5 }]);
         let operands: Vec<usize> = (0..operands).map(|_| draw.below(steps.len())).collect();
         let mut next = step(name, terms(name, &operands).expect("a sum"), None);
@@ -159,8 +193,16 @@ fn bounds_and_higher_orders_are_what_the_guide_says() {
         // Some products are subnormal numbers or less, or all numbers are.
         let scale = draw.pick(&[0, 0, smallest / 2 + 5, smallest + 4]);
         let steps = random_steps(&mut draw, format, scale);
-        let formula = Formula { variables: vec![], unit: vec![], steps };
-        let corners: Vec<Number> = formula.steps.iter().map(|_| near(&mut draw, scale)).collect();
+        let formula = Formula {
+            variables: vec![],
+            unit: vec![],
+            steps,
+        };
+        let corners: Vec<Number> = formula
+            .steps
+            .iter()
+            .map(|_| near(&mut draw, scale))
+            .collect();
 
         let expected = stated(format, &formula.steps, &corners, None);
         let expected: Vec<Bound> = expected.into_iter().map(|stated| stated.bound).collect();

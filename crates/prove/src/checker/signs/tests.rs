@@ -5,7 +5,10 @@ use super::super::reader::Reader;
 use super::*;
 
 fn promise(extent: &str, is_front: bool) -> Promise {
-    Promise { extent: extent.to_owned(), is_front }
+    Promise {
+        extent: extent.to_owned(),
+        is_front,
+    }
 }
 
 /// Signs of a ray that hits the inside of the front, between the ends, with some of them changed. There the weights and
@@ -30,7 +33,15 @@ fn hits_and_misses_by_their_signs() {
     const START: Option<&str> = Some("meet the triangle at t <= 0");
     const NEAREST: Option<&str> = Some("meet the triangle at t <= t_min");
     const FARTHEST: Option<&str> = Some("meet the triangle at t >= t_max");
-    let back = [(U, -1), (V, -1), (W, -1), (SUM, -1), (T, 1), (NEAR, 1), (FAR, 1)];
+    let back = [
+        (U, -1),
+        (V, -1),
+        (W, -1),
+        (SUM, -1),
+        (T, 1),
+        (NEAR, 1),
+        (FAR, 1),
+    ];
     for (extent, is_front, changes, wrong, may_hit) in [
         ("line", true, &[][..], None, true),
         ("line", false, &back[..], None, true),
@@ -41,7 +52,13 @@ fn hits_and_misses_by_their_signs() {
         ("line", false, &[(U, 0)], INSIDE, true),
         ("line", false, &[(V, 0)], INSIDE, true),
         ("line", false, &[(W, 0)], INSIDE, true),
-        ("line", false, &[(U, 0), (V, 0), (W, 0), (SUM, 0)], INSIDE, false),
+        (
+            "line",
+            false,
+            &[(U, 0), (V, 0), (W, 0), (SUM, 0)],
+            INSIDE,
+            false,
+        ),
         ("line", false, &[(T, 1), (NEAR, 1), (FAR, 1)], None, true),
         ("ray", false, &[], None, true),
         ("ray", false, &back[..], None, true),
@@ -59,7 +76,11 @@ fn hits_and_misses_by_their_signs() {
         let promise = promise(extent, is_front);
         let signs = signs(changes);
         assert_eq!(promise.wrong_hit(&signs), wrong, "{extent} {changes:?}");
-        assert_eq!(promise.is_closed_hit(&signs), may_hit, "{extent} {changes:?}");
+        assert_eq!(
+            promise.is_closed_hit(&signs),
+            may_hit,
+            "{extent} {changes:?}"
+        );
     }
 }
 
@@ -67,12 +88,14 @@ fn hits_and_misses_by_their_signs() {
 #[test]
 fn signs_that_occur_can_be() {
     let all = -2..=2;
-    for (u, v, w) in
-        all.clone().flat_map(|u| (-2..=2).flat_map(move |v| (-2..=2).map(move |w| (u, v, w))))
+    for (u, v, w) in all
+        .clone()
+        .flat_map(|u| (-2..=2).flat_map(move |v| (-2..=2).map(move |w| (u, v, w))))
     {
         let (sum, determinant) = (u + v + w, -(u + v + w));
-        for (t, start, length) in
-            all.clone().flat_map(|t| (-2..=2).flat_map(move |s| (0..=2).map(move |l| (t, s, l))))
+        for (t, start, length) in all
+            .clone()
+            .flat_map(|t| (-2..=2).flat_map(move |s| (0..=2).map(move |l| (t, s, l))))
         {
             let near = t - start * determinant;
             let far = (start + length) * determinant - t;
@@ -102,19 +125,31 @@ fn signs_that_occur_can_be() {
 /// Two polynomials that differ agree at a point with a chance below 2^-54, at all points after the first below 2^-200.
 #[test]
 fn polynomials_are_compared_at_every_point() {
-    let mut reader = Reader { lines: "op 0 input 3\n".lines().peekable(), line: 0, work: 0 };
+    let mut reader = Reader {
+        lines: "op 0 input 3\n".lines().peekable(),
+        line: 0,
+        work: 0,
+    };
     let program = Program::of_operations(Format::of(F32), &mut reader).unwrap();
     let known = Signs::new(promise("line", false), &program);
     assert!(200 < 54 * (known.points.len() - 1));
     let factors = &known.products.values().next().unwrap()[0];
     let of_point = |point: &Point| product(factors, point);
-    let values: Vec<u64> = known.points.iter().map(|point| times(3, of_point(point))).collect();
+    let values: Vec<u64> = known
+        .points
+        .iter()
+        .map(|point| times(3, of_point(point)))
+        .collect();
     assert_eq!(known.ratio(&values, of_point), Some(false));
     let negative: Vec<u64> = values.iter().map(|value| PRIME - value).collect();
     assert_eq!(known.ratio(&negative, of_point), Some(true));
     for i in 0..values.len() {
         let mut other = values.clone();
         other[i] = times(2, other[i]);
-        assert_eq!(known.ratio(&other, of_point), None, "another value at point {i}");
+        assert_eq!(
+            known.ratio(&other, of_point),
+            None,
+            "another value at point {i}"
+        );
     }
 }

@@ -60,7 +60,10 @@ type Broken<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str);
 fn changed(certificate: &str, changes: &[(&str, &str)]) -> String {
     let mut text = certificate.to_owned();
     for (from, to) in changes {
-        assert!(text.contains(from), "the certificate has no {from:?}:\n{text}");
+        assert!(
+            text.contains(from),
+            "the certificate has no {from:?}:\n{text}"
+        );
         text = text.replacen(from, to, 1);
     }
     text
@@ -69,7 +72,11 @@ fn changed(certificate: &str, changes: &[(&str, &str)]) -> String {
 /// Why a certificate is refused.
 fn refusal(text: &str) -> Option<String> {
     let is_guarded = text.contains("\nguarded ");
-    let refused = if is_guarded { check_guarded(text).err() } else { check(text).err() };
+    let refused = if is_guarded {
+        check_guarded(text).err()
+    } else {
+        check(text).err()
+    };
     refused.map(|refusal| refusal.to_string())
 }
 

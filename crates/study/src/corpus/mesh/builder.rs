@@ -48,7 +48,8 @@ pub struct Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.message, self.count)?;
-        self.first.map_or(Ok(()), |first| write!(f, " (first at {first})"))
+        self.first
+            .map_or(Ok(()), |first| write!(f, " (first at {first})"))
     }
 }
 
@@ -73,14 +74,21 @@ impl MeshBuilder {
     /// For a file without lines.
     #[cfg(feature = "files")]
     pub fn without_lines() -> MeshBuilder {
-        MeshBuilder { without_lines: true, ..MeshBuilder::default() }
+        MeshBuilder {
+            without_lines: true,
+            ..MeshBuilder::default()
+        }
     }
 
     /// Counts one more note of a kind; the place is kept if it is the first.
     pub fn note(&mut self, message: &str, first: Option<FilePlace>) {
         match self.notes.iter_mut().find(|note| note.message == message) {
             Some(note) => note.count += 1,
-            None => self.notes.push(Note { first, count: 1, message: message.to_owned() }),
+            None => self.notes.push(Note {
+                first,
+                count: 1,
+                message: message.to_owned(),
+            }),
         }
     }
 
@@ -105,13 +113,18 @@ impl MeshBuilder {
     /// faces.
     pub fn face(&mut self, corners: &[u32], number: u32) {
         let count = number as usize;
-        let place =
-            if self.without_lines { FilePlace::Face(count) } else { FilePlace::Line(count) };
+        let place = if self.without_lines {
+            FilePlace::Face(count)
+        } else {
+            FilePlace::Line(count)
+        };
         if let Ok(triangle) = corners.try_into() {
             return self.triangle(triangle, number, place);
         }
-        let positions: Vec<[f64; 3]> =
-            corners.iter().map(|vertex| self.positions_f64[*vertex as usize]).collect();
+        let positions: Vec<[f64; 3]> = corners
+            .iter()
+            .map(|vertex| self.positions_f64[*vertex as usize])
+            .collect();
         match polygon::triangles(&positions) {
             Some(triangles) => triangles
                 .into_iter()
@@ -152,10 +165,22 @@ impl MeshBuilder {
 
 fn digest(wide: &[[f64; 3]], narrow: &[[f32; 3]], triangles: &[[u32; 3]]) -> String {
     let mut hash = Hash::new();
-    wide.as_flattened().iter().for_each(|x| hash.update(x.to_le_bytes()));
-    narrow.as_flattened().iter().for_each(|x| hash.update(x.to_le_bytes()));
-    triangles.as_flattened().iter().for_each(|index| hash.update(index.to_le_bytes()));
-    hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    wide.as_flattened()
+        .iter()
+        .for_each(|x| hash.update(x.to_le_bytes()));
+    narrow
+        .as_flattened()
+        .iter()
+        .for_each(|x| hash.update(x.to_le_bytes()));
+    triangles
+        .as_flattened()
+        .iter()
+        .for_each(|index| hash.update(index.to_le_bytes()));
+    hash.finalize()
+        .iter()
+        .take(8)
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
 }
 
 /// As `8 vertices`.

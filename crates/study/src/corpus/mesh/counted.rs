@@ -14,7 +14,10 @@ pub(super) struct ReadLimits {
 }
 
 /// One MiB, and what 32-bit indices hold with room to spare.
-pub(super) const LIMITS: ReadLimits = ReadLimits { line: 1 << 20, elements: 100_000_000 };
+pub(super) const LIMITS: ReadLimits = ReadLimits {
+    line: 1 << 20,
+    elements: 100_000_000,
+};
 
 /// Calls `progress` about every MiB with the bytes read so far.
 pub(super) struct Counted<'p, R> {
@@ -26,7 +29,12 @@ pub(super) struct Counted<'p, R> {
 
 impl<'p, R> Counted<'p, R> {
     pub fn new(reader: R, progress: &'p mut dyn FnMut(u64)) -> Counted<'p, R> {
-        Counted { reader, progress, bytes: 0, next_report: MEBIBYTE }
+        Counted {
+            reader,
+            progress,
+            bytes: 0,
+            next_report: MEBIBYTE,
+        }
     }
 
     /// Reports the end.

@@ -30,7 +30,9 @@ pub(super) fn read(
     beside: &mut super::ReadBeside,
 ) -> Result<Mesh, InputError> {
     let mut bytes = Vec::new();
-    reader.read_to_end(&mut bytes).map_err(|error| InputError::reading(name, None, &error))?;
+    reader
+        .read_to_end(&mut bytes)
+        .map_err(|error| InputError::reading(name, None, &error))?;
     let size = bytes.len();
     let (root, binary) = parse(&bytes, name)?;
     drop(bytes);
@@ -38,7 +40,13 @@ pub(super) fn read(
     let root = stripped(root, &mut mesh).map_err(|message| InputError::of(name, message))?;
     let document = Document::from_json(root).map_err(|error| InputError::of(name, said(&error)))?;
     let buffers = Buffers::new(name, binary, size, beside);
-    let mut reader = GltfReader { name, limits, mesh, buffers, groups: 0 };
+    let mut reader = GltfReader {
+        name,
+        limits,
+        mesh,
+        buffers,
+        groups: 0,
+    };
     reader.walk(&document)?;
     reader.mesh.finish(name, reader.groups)
 }
@@ -56,34 +64,60 @@ fn parse(bytes: &[u8], name: &str) -> Result<(json::Root, Option<Vec<u8>>), Inpu
     };
     let text = str::from_utf8(&text).map_err(|_| bad("its JSON is not UTF-8".to_owned()))?;
     let root: json::Root = json::deserialize::from_str(text).map_err(|error| {
-        let line = (!is_binary).then_some(error.line()).filter(|line| *line > 0);
-        InputError { line, ..bad(format!("not glTF: {error}")) }
+        let line = (!is_binary)
+            .then_some(error.line())
+            .filter(|line| *line > 0);
+        InputError {
+            line,
+            ..bad(format!("not glTF: {error}"))
+        }
     })?;
     if !root.asset.version.starts_with("2.") {
         let version = crate::corpus::json::quoted(&root.asset.version);
         return Err(bad(format!("glTF of version {version}, expected 2.0")));
     }
-    root.extensions_required.iter().try_for_each(|name| check_extension(name)).map_err(bad)?;
+    root.extensions_required
+        .iter()
+        .try_for_each(|name| check_extension(name))
+        .map_err(bad)?;
     Ok((root, binary))
 }
 
 /// How long a GLB file says that it is: at most as long as it is, and at least the headers of the file and of its JSON.
 fn length_of(bytes: &[u8]) -> Result<usize, String> {
-    let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
+    let length = bytes
+        .get(8..12)
+        .and_then(|length| length.try_into().ok())
+        .map(u32::from_le_bytes);
     match length {
         Some(length) if length >= 20 && length as usize <= bytes.len() => Ok(length as usize),
         Some(length) => {
-            let short = if length < 20 { " (headers alone have 20)" } else { "" };
-            Err(format!("the file has {} bytes, but its header says {length}{short}", bytes.len()))
+            let short = if length < 20 {
+                " (headers alone have 20)"
+            } else {
+                ""
+            };
+            Err(format!(
+                "the file has {} bytes, but its header says {length}{short}",
+                bytes.len()
+            ))
         }
-        None => Err(format!("the file has {} of the 12 bytes of a GLB header", bytes.len())),
+        None => Err(format!(
+            "the file has {} of the 12 bytes of a GLB header",
+            bytes.len()
+        )),
     }
 }
 
 /// Refuses what changes the geometry in ways that are not read.
 fn check_extension(name: &str) -> Result<(), String> {
-    let harmless =
-        ["KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_"];
+    let harmless = [
+        "KHR_materials_",
+        "KHR_texture_",
+        "EXT_texture_",
+        "MSFT_texture_",
+        "KHR_lights_",
+    ];
     if harmless.iter().any(|start| name.starts_with(start)) {
         return Ok(());
     }
@@ -95,13 +129,20 @@ fn check_extension(name: &str) -> Result<(), String> {
         "EXT_mesh_gpu_instancing" => "instances are not read: export each as a node",
         _ => "hairline does not know it",
     };
-    Err(format!("the file needs the extension {}: {about}", crate::corpus::json::quoted(name)))
+    Err(format!(
+        "the file needs the extension {}: {about}",
+        crate::corpus::json::quoted(name)
+    ))
 }
 
 /// Leaves away what does not concern triangles, so that a fault in it is none here.
 fn stripped(mut root: json::Root, mesh: &mut MeshBuilder) -> Result<json::Root, String> {
     root.extensions_required.clear();
-    if root.extensions_used.iter().any(|name| name == "EXT_mesh_gpu_instancing") {
+    if root
+        .extensions_used
+        .iter()
+        .any(|name| name == "EXT_mesh_gpu_instancing")
+    {
         mesh.note("instances (EXT_mesh_gpu_instancing) not made", None);
     }
     root.animations.clear();
@@ -124,15 +165,22 @@ fn stripped(mut root: json::Root, mesh: &mut MeshBuilder) -> Result<json::Root, 
     }
     let accessors = root.accessors.len();
     for primitive in root.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
-        let positions = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
-        if let Some(index) = positions.map(|index| index.value()).filter(|i| *i >= accessors) {
+        let positions = primitive
+            .attributes
+            .get(&Checked::Valid(Semantic::Positions));
+        if let Some(index) = positions
+            .map(|index| index.value())
+            .filter(|i| *i >= accessors)
+        {
             // The crate would panic.
             return Err(format!(
                 "a primitive has its positions in accessors[{index}], of {accessors}"
             ));
         }
         primitive.material = None;
-        primitive.attributes.retain(|name, _| *name == Checked::Valid(Semantic::Positions));
+        primitive
+            .attributes
+            .retain(|name, _| *name == Checked::Valid(Semantic::Positions));
         if primitive.targets.take().is_some() {
             mesh.note("morph targets left out", None);
         }
@@ -170,13 +218,19 @@ impl GltfReader<'_> {
 
     /// Adds the meshes of the default scene, or of the first one, or of all nodes if there is no scene.
     fn walk(&mut self, document: &Document) -> Result<(), InputError> {
-        let scene = document.default_scene().or_else(|| document.scenes().next());
+        let scene = document
+            .default_scene()
+            .or_else(|| document.scenes().next());
         let mut waiting: Vec<(Node, DAffine3)> = match scene {
-            Some(scene) => scene.nodes().map(|node| (node, DAffine3::IDENTITY)).collect(),
+            Some(scene) => scene
+                .nodes()
+                .map(|node| (node, DAffine3::IDENTITY))
+                .collect(),
             None => {
                 let mut is_root = vec![true; document.nodes().len()];
                 for node in document.nodes() {
-                    node.children().for_each(|child| is_root[child.index()] = false);
+                    node.children()
+                        .for_each(|child| is_root[child.index()] = false);
                 }
                 let roots = document.nodes().filter(|node| is_root[node.index()]);
                 roots.map(|node| (node, DAffine3::IDENTITY)).collect()
@@ -212,10 +266,13 @@ impl GltfReader<'_> {
             let place = format!("meshes[{}].primitives[{}]", mesh.index(), primitive.index());
             use Mode::{TriangleFan, TriangleStrip, Triangles};
             if !matches!(primitive.mode(), Triangles | TriangleStrip | TriangleFan) {
-                self.mesh.note("primitives of lines and points skipped", None);
+                self.mesh
+                    .note("primitives of lines and points skipped", None);
                 continue;
             }
-            let Some(positions) = primitive.get(&Semantic::Positions) else { continue };
+            let Some(positions) = primitive.get(&Semantic::Positions) else {
+                continue;
+            };
             let start = match starts.get(&positions.index()) {
                 Some(start) => *start,
                 None => {
@@ -239,7 +296,9 @@ impl GltfReader<'_> {
         use gltf::accessor::{DataType, Dimensions};
         let kind = (accessor.dimensions(), accessor.data_type());
         if kind != (Dimensions::Vec3, DataType::F32) {
-            return self.error(format!("{place}: positions are {kind:?}, expected (Vec3, F32)"));
+            return self.error(format!(
+                "{place}: positions are {kind:?}, expected (Vec3, F32)"
+            ));
         }
         let limit = self.limits.elements;
         if accessor.count() > limit - self.mesh.vertices().min(limit) {
@@ -251,11 +310,13 @@ impl GltfReader<'_> {
             let local = [0, 1, 2].map(|axis| f32::from_le_bytes(coordinates[axis]));
             let wide = placed(transform, local);
             if let Some(number) = wide.iter().find(|number| !number.is_finite()) {
-                return self
-                    .error(format!("{place}: vertex {index} has {number}, which is not finite"));
+                return self.error(format!(
+                    "{place}: vertex {index} has {number}, which is not finite"
+                ));
             }
             let place = FilePlace::Vertex(self.mesh.vertices() + 1);
-            self.mesh.vertex(wide, wide.map(|number| number as f32), place);
+            self.mesh
+                .vertex(wide, wide.map(|number| number as f32), place);
         }
         Ok(())
     }
@@ -268,10 +329,14 @@ impl GltfReader<'_> {
         transform: &DAffine3,
         place: &str,
     ) -> Result<(), InputError> {
-        let count = primitive.indices().map_or(vertices, |indices| indices.count());
+        let count = primitive
+            .indices()
+            .map_or(vertices, |indices| indices.count());
         let triangles = match primitive.mode() {
             Mode::Triangles if !count.is_multiple_of(3) => {
-                return self.error(format!("{place}: {count} corners, expected a multiple of 3"));
+                return self.error(format!(
+                    "{place}: {count} corners, expected a multiple of 3"
+                ));
             }
             Mode::Triangles => count / 3,
             _ => count.saturating_sub(2),
@@ -301,7 +366,8 @@ impl GltfReader<'_> {
                 mem::swap(&mut b, &mut c);
             }
             let number = self.mesh.triangles() as u32 + 1;
-            self.mesh.face(&[a, b, c].map(|corner| start + indices[corner]), number);
+            self.mesh
+                .face(&[a, b, c].map(|corner| start + indices[corner]), number);
         }
         Ok(())
     }
@@ -319,11 +385,16 @@ impl GltfReader<'_> {
             (Dimensions::Scalar, DataType::U8) => bytes.into_iter().map(u32::from).collect(),
             (Dimensions::Scalar, DataType::U16) => {
                 let words = bytes.as_chunks().0.iter();
-                words.map(|word| u32::from(u16::from_le_bytes(*word))).collect()
+                words
+                    .map(|word| u32::from(u16::from_le_bytes(*word)))
+                    .collect()
             }
-            (Dimensions::Scalar, DataType::U32) => {
-                bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect()
-            }
+            (Dimensions::Scalar, DataType::U32) => bytes
+                .as_chunks()
+                .0
+                .iter()
+                .map(|word| u32::from_le_bytes(*word))
+                .collect(),
             kind => {
                 let expected = "expected (Scalar, U8), (Scalar, U16) or (Scalar, U32)";
                 return self.error(format!("{place}: indices are {kind:?}, {expected}"));
@@ -351,10 +422,18 @@ fn transform_of(node: &Transform) -> Option<DAffine3> {
             let is_affine = matrix.row(3).to_array() == [0.0, 0.0, 0.0, 1.0];
             is_affine.then(|| DAffine3::from_mat4(matrix))
         }
-        Transform::Decomposed { translation, rotation, scale } => {
+        Transform::Decomposed {
+            translation,
+            rotation,
+            scale,
+        } => {
             let rotation = DQuat::from_array(rotation.map(f64::from));
             let (scale, translation) = (wide(scale), wide(translation));
-            Some(DAffine3::from_scale_rotation_translation(scale, rotation, translation))
+            Some(DAffine3::from_scale_rotation_translation(
+                scale,
+                rotation,
+                translation,
+            ))
         }
     }
 }

@@ -49,7 +49,11 @@ fn faces(mesh: &tobj::Mesh) -> impl Iterator<Item = Vec<u32>> {
         let arity = arities.next().map_or(3, |arity| *arity as usize);
         let (face, after) = rest.split_at_checked(arity)?;
         rest = after;
-        Some(face.iter().map(|vertex| mesh.positions[*vertex as usize * 3] as u32).collect())
+        Some(
+            face.iter()
+                .map(|vertex| mesh.positions[*vertex as usize * 3] as u32)
+                .collect(),
+        )
     })
 }
 
@@ -108,8 +112,14 @@ impl ObjSource {
             Err(error) => {
                 let read = &self.text[..self.text.len() - unread.len()];
                 let faces = read.lines().filter(|line| line.starts_with('f')).count();
-                let line = self.face_lines.get(faces.saturating_sub(1)).map(|line| *line as usize);
-                Err(InputError { line, ..InputError::of(name, format!("tobj: {error}")) })
+                let line = self
+                    .face_lines
+                    .get(faces.saturating_sub(1))
+                    .map(|line| *line as usize);
+                Err(InputError {
+                    line,
+                    ..InputError::of(name, format!("tobj: {error}"))
+                })
             }
         }
     }
@@ -158,7 +168,11 @@ impl ObjSource {
         match count {
             0..3 => return Err(format!("vertex has {count} of 3 coordinates")),
             3..=8 => {}
-            _ => return Err(format!("vertex has {count} numbers; x y z w r g b a are the most")),
+            _ => {
+                return Err(format!(
+                    "vertex has {count} numbers; x y z w r g b a are the most"
+                ));
+            }
         }
         if count == 4 && weight != 1.0 {
             self.note("weights (w) other than 1 ignored", line);
@@ -187,7 +201,9 @@ impl ObjSource {
                 if index < 1 {
                     let count = vertices_text(vertices);
                     let verb = if vertices == 1 { "precedes" } else { "precede" };
-                    return Err(format!("face names vertex {given} but only {count} {verb} it"));
+                    return Err(format!(
+                        "face names vertex {given} but only {count} {verb} it"
+                    ));
                 }
             }
             if index > self.largest.0 {
@@ -222,10 +238,19 @@ fn face_vertex(word: &str) -> Result<i64, String> {
     match vertex.parse() {
         Ok(index) if sound => Ok(index),
         Err(error)
-            if matches!(error.kind(), IntErrorKind::PosOverflow | IntErrorKind::NegOverflow) =>
+            if matches!(
+                error.kind(),
+                IntErrorKind::PosOverflow | IntErrorKind::NegOverflow
+            ) =>
         {
-            Err(format!("face names vertex {}, which no file has", excerpt(vertex)))
+            Err(format!(
+                "face names vertex {}, which no file has",
+                excerpt(vertex)
+            ))
         }
-        _ => Err(format!("face has {} for v, v/vt, v//vn or v/vt/vn", quoted(word))),
+        _ => Err(format!(
+            "face has {} for v, v/vt, v//vn or v/vt/vn",
+            quoted(word)
+        )),
     }
 }

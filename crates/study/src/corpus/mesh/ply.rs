@@ -30,8 +30,9 @@ pub(super) fn read(
             return Err(InputError::of(name, message));
         }
         Err(error) => {
-            let line =
-                error.line().and_then(|line| Some((line, text.split(is_end).nth(line - 1)?)));
+            let line = error
+                .line()
+                .and_then(|line| Some((line, text.split(is_end).nth(line - 1)?)));
             let Some((line, words)) = line.filter(|(_, words)| !words.is_empty()) else {
                 return Err(refused(name, error.line(), "header", &error));
             };
@@ -43,10 +44,22 @@ pub(super) fn read(
     check_header(&header, limits).map_err(|message| InputError::of(name, message))?;
     let line = reader.line().saturating_sub(1);
     let has_lines = header.encoding == Encoding::Ascii;
-    let mesh = if has_lines { MeshBuilder::default() } else { MeshBuilder::without_lines() };
+    let mesh = if has_lines {
+        MeshBuilder::default()
+    } else {
+        MeshBuilder::without_lines()
+    };
     let faces = Faces::default();
     let reader = reader.into_inner();
-    let mut file = File { reader, name, limits, encoding: header.encoding, line, mesh, faces };
+    let mut file = File {
+        reader,
+        name,
+        limits,
+        encoding: header.encoding,
+        line,
+        mesh,
+        faces,
+    };
     for element in header.elements.values() {
         file.read(element)?;
     }
@@ -63,11 +76,16 @@ fn plain_header<R: BufRead>(mut reader: R, limit: u64) -> io::Result<(Vec<u8>, R
         if lines.read_until(b'\n', &mut header)? == 0 {
             break;
         }
-        let found = header[start..].windows(END.len()).position(|bytes| bytes == END);
+        let found = header[start..]
+            .windows(END.len())
+            .position(|bytes| bytes == END);
         end = found.map(|place| start + place);
     }
     let end = end.unwrap_or(header.len());
-    header[..end].iter_mut().filter(|byte| !byte.is_ascii()).for_each(|byte| *byte = b'?');
+    header[..end]
+        .iter_mut()
+        .filter(|byte| !byte.is_ascii())
+        .for_each(|byte| *byte = b'?');
     Ok((header, reader))
 }
 
@@ -79,7 +97,11 @@ fn is_end(byte: &u8) -> bool {
 
 /// The form that a line of a header should have.
 fn expected(line: usize, words: &[u8]) -> &'static str {
-    match words.split(u8::is_ascii_whitespace).next().unwrap_or_default() {
+    match words
+        .split(u8::is_ascii_whitespace)
+        .next()
+        .unwrap_or_default()
+    {
         _ if line == 1 => "'ply'",
         b"format" => "one line 'format ascii 1.0', or binary_little_endian or binary_big_endian",
         b"element" => "'element NAME COUNT'",
@@ -101,14 +123,22 @@ fn check_header(header: &Header, limits: ReadLimits) -> Result<(), String> {
     };
     let vertex = element("vertex")?;
     for axis in ["x", "y", "z"] {
-        match vertex.properties.get(axis).map(|property| &property.data_type) {
+        match vertex
+            .properties
+            .get(axis)
+            .map(|property| &property.data_type)
+        {
             Some(PropertyType::Scalar(_)) => {}
             _ => return Err(format!("element 'vertex' has no number '{axis}'")),
         }
     }
     let face = element("face")?;
     let is_float = |kind: &ScalarType| matches!(kind, ScalarType::Float | ScalarType::Double);
-    match INDICES.iter().find_map(|name| face.properties.get(*name)).map(|list| &list.data_type) {
+    match INDICES
+        .iter()
+        .find_map(|name| face.properties.get(*name))
+        .map(|list| &list.data_type)
+    {
         Some(PropertyType::List(count, index)) if !is_float(count) && !is_float(index) => {}
         _ => return Err("element 'face' has no list of integers 'vertex_indices'".to_owned()),
     }
@@ -170,7 +200,8 @@ impl<R: BufRead> File<'_, R> {
             return Ok(());
         }
         if !["vertex", "face"].contains(&kind.name.as_str()) {
-            self.mesh.note("kinds of elements other than vertex and face skipped", None);
+            self.mesh
+                .note("kinds of elements other than vertex and face skipped", None);
         }
         for number in 1..=kind.count {
             let what = format!("{} {number} of {}", shown(&kind.name), kind.count);
@@ -194,7 +225,10 @@ impl<R: BufRead> File<'_, R> {
 
     fn bad(&self, message: &str) -> InputError {
         let line = (self.encoding == Encoding::Ascii).then_some(self.line);
-        InputError { line, ..InputError::of(self.name, message) }
+        InputError {
+            line,
+            ..InputError::of(self.name, message)
+        }
     }
 
     fn binary_element(&mut self, kind: &ElementDef, what: &str) -> Result<Element, InputError> {
@@ -241,7 +275,8 @@ impl<R: BufRead> File<'_, R> {
         if let Some(number) = position.iter().find(|number| !number.is_finite()) {
             return Err(format!("{number} is not finite"));
         }
-        self.mesh.vertex(position, position.map(|number| number as f32), place);
+        self.mesh
+            .vertex(position, position.map(|number| number as f32), place);
         Ok(())
     }
 
@@ -271,9 +306,16 @@ impl<R: BufRead> File<'_, R> {
         if largest as usize >= self.mesh.vertices() {
             let count = vertices_text(self.mesh.vertices());
             let has_lines = self.encoding == Encoding::Ascii;
-            let face = if has_lines { "face".to_owned() } else { format!("face {at}") };
+            let face = if has_lines {
+                "face".to_owned()
+            } else {
+                format!("face {at}")
+            };
             let message = format!("{face} names vertex {largest}, counted from 0, of {count}");
-            return Err(InputError { line: has_lines.then_some(at), ..self.bad(&message) });
+            return Err(InputError {
+                line: has_lines.then_some(at),
+                ..self.bad(&message)
+            });
         }
         let mut rest = self.faces.corners.as_slice();
         for (size, number) in &self.faces.sizes {
@@ -297,7 +339,9 @@ fn checked_words(line: &str, kind: &ElementDef) -> Result<String, String> {
     for property in kind.properties.values() {
         if let PropertyType::List(..) = property.data_type {
             let count: u32 = match words.get(expected) {
-                Some(word) => word.parse().map_err(|_| format!("{} is no count", quoted(word)))?,
+                Some(word) => word
+                    .parse()
+                    .map_err(|_| format!("{} is no count", quoted(word)))?,
                 None => 0,
             };
             expected += count as usize;
@@ -306,7 +350,9 @@ fn checked_words(line: &str, kind: &ElementDef) -> Result<String, String> {
     }
     let mut line = String::new();
     for word in &words {
-        let number: f64 = word.parse().map_err(|_| format!("{} is not a number", quoted(word)))?;
+        let number: f64 = word
+            .parse()
+            .map_err(|_| format!("{} is not a number", quoted(word)))?;
         if !number.is_finite() && !word.bytes().any(|byte| byte.is_ascii_digit()) {
             return Err(format!("{} is not finite", quoted(word)));
         }
@@ -376,7 +422,10 @@ macro_rules! lists {
 
 impl PropertyAccess for Element {
     fn new() -> Element {
-        Element { position: [0.0; 3], corners: Vec::new() }
+        Element {
+            position: [0.0; 3],
+            corners: Vec::new(),
+        }
     }
 
     numbers!(

@@ -71,7 +71,10 @@ impl Joined {
 
 /// `facet`, `outer loop`, three times `vertex x y z`, `endloop`, `endfacet`, between `solid` and `endsolid`, once or more often.
 fn read_text(reader: impl BufRead, name: &str, limits: ReadLimits) -> Result<Mesh, InputError> {
-    let mut all = Joined { mesh: MeshBuilder::default(), known: HashMap::new() };
+    let mut all = Joined {
+        mesh: MeshBuilder::default(),
+        known: HashMap::new(),
+    };
     let mut lines = Statements::new(reader, name, limits.line);
     let mut corners: Vec<u32> = Vec::new();
     let mut facet = 0;
@@ -84,7 +87,10 @@ fn read_text(reader: impl BufRead, name: &str, limits: ReadLimits) -> Result<Mes
                 let found: Result<Vec<(f64, f32)>, _> = words.map(coordinate).collect();
                 let found = found.map_err(error)?;
                 let Some((all_three, [])) = found.split_first_chunk::<3>() else {
-                    return Err(error(format!("vertex has {} of 3 coordinates", found.len())));
+                    return Err(error(format!(
+                        "vertex has {} of 3 coordinates",
+                        found.len()
+                    )));
                 };
                 let (wide, narrow) = (all_three.map(|it| it.0), all_three.map(|it| it.1));
                 corners.push(all.corner(wide, narrow, FilePlace::Line(line)));
@@ -117,21 +123,29 @@ fn read_binary(
     count: usize,
 ) -> Result<Mesh, InputError> {
     if count > limits.elements {
-        let message = format!("more than {} triangles: the header says {count}", limits.elements);
+        let message = format!(
+            "more than {} triangles: the header says {count}",
+            limits.elements
+        );
         return Err(InputError::of(name, message));
     }
-    let mut all = Joined { mesh: MeshBuilder::without_lines(), known: HashMap::new() };
+    let mut all = Joined {
+        mesh: MeshBuilder::without_lines(),
+        known: HashMap::new(),
+    };
     for number in 1..=count {
         let mut bytes = [0; TRIANGLE];
-        reader.read_exact(&mut bytes).map_err(|error| match error.kind() {
-            ErrorKind::UnexpectedEof => {
-                let message = format!(
-                    "the file ends in triangle {number} of the {count} that its header says"
-                );
-                InputError::of(name, message)
-            }
-            _ => InputError::reading(name, None, &error),
-        })?;
+        reader
+            .read_exact(&mut bytes)
+            .map_err(|error| match error.kind() {
+                ErrorKind::UnexpectedEof => {
+                    let message = format!(
+                        "the file ends in triangle {number} of the {count} that its header says"
+                    );
+                    InputError::of(name, message)
+                }
+                _ => InputError::reading(name, None, &error),
+            })?;
         let (_normal, numbers) = bytes.as_chunks::<4>().0.split_at(3);
         let mut corners = Vec::with_capacity(3);
         for corner in numbers.as_chunks::<3>().0 {

@@ -10,7 +10,11 @@ pub(super) fn coordinate(word: &str) -> Result<(f64, f32), String> {
     let value: f64 = word.parse().map_err(number)?;
     if !value.is_finite() {
         let overflow = word.bytes().any(|byte| byte.is_ascii_digit());
-        let what = if overflow { "overflows f64" } else { "is not finite" };
+        let what = if overflow {
+            "overflows f64"
+        } else {
+            "is not finite"
+        };
         return Err(format!("vertex has {}, which {what}", quoted(word)));
     }
     // From the text: a cast of the f64 would round twice.
@@ -31,7 +35,14 @@ pub(super) struct Statements<'a, R> {
 
 impl<'a, R: BufRead> Statements<'a, R> {
     pub fn new(reader: R, name: &'a str, limit: usize) -> Self {
-        Statements { reader, name, limit, number: 0, raw: Vec::new(), statement: String::new() }
+        Statements {
+            reader,
+            name,
+            limit,
+            number: 0,
+            raw: Vec::new(),
+            statement: String::new(),
+        }
     }
 
     /// Reads the next statement, perhaps an empty one, and gives the number of its first line.
@@ -70,7 +81,11 @@ impl<'a, R: BufRead> Statements<'a, R> {
             return Err(InputError::at(self.name, first, message));
         }
         if self.number > u32::MAX as usize {
-            return Err(InputError::at(self.name, self.number, "more lines than 32 bits count"));
+            return Err(InputError::at(
+                self.name,
+                self.number,
+                "more lines than 32 bits count",
+            ));
         }
         Ok(true)
     }
@@ -79,7 +94,10 @@ impl<'a, R: BufRead> Statements<'a, R> {
 /// A line as text, without its end and without the byte order mark of a file's first line. Bytes that are no UTF-8 stand in names
 /// and comments of other encodings: they do not matter, and in a number they are no digits.
 fn checked_line(raw: &[u8], number: usize) -> Result<String, &'static str> {
-    let text = raw.strip_prefix("\u{feff}".as_bytes()).filter(|_| number == 1).unwrap_or(raw);
+    let text = raw
+        .strip_prefix("\u{feff}".as_bytes())
+        .filter(|_| number == 1)
+        .unwrap_or(raw);
     let text = String::from_utf8_lossy(text);
     let text = text.trim_end_matches(['\n', '\r']);
     if text.contains('\0') {
@@ -94,5 +112,7 @@ fn checked_line(raw: &[u8], number: usize) -> Result<String, &'static str> {
 /// Up to a `#` that starts the line or follows a blank: `1.#INF` is not a one.
 fn without_comment(text: &str) -> &str {
     let starts = |at: usize| at == 0 || text.as_bytes()[at - 1].is_ascii_whitespace();
-    text.match_indices('#').find(|(at, _)| starts(*at)).map_or(text, |(at, _)| &text[..at])
+    text.match_indices('#')
+        .find(|(at, _)| starts(*at))
+        .map_or(text, |(at, _)| &text[..at])
 }

@@ -9,7 +9,13 @@ use crate::kernel::Tunable;
 fn the_largest_value_is_that_of_the_largest_triangle_or_the_longest_way() {
     let gate = |role, length, direction| {
         let dimension = Dimension::new(length, direction);
-        Gate { name: "", role, refuses: "", dimension, epsilon: Tunable::Signed }
+        Gate {
+            name: "",
+            role,
+            refuses: "",
+            dimension,
+            epsilon: Tunable::Signed,
+        }
     };
     let gates = [
         gate(Role::Parallel, 2, 1),
@@ -32,9 +38,16 @@ fn the_largest_value_is_that_of_the_largest_triangle_or_the_longest_way() {
 #[test]
 fn ranges_of_two_parts_are_one_that_holds_both() {
     let ranges = |k: usize, above: [f64; 2], below: [f64; 2]| {
-        let mut ranges = Ranges { above: [None; MOST_KNOBS], below: [None; MOST_KNOBS] };
-        above.into_iter().for_each(|size| widen(&mut ranges.above[k], size));
-        below.into_iter().for_each(|size| widen(&mut ranges.below[k], size));
+        let mut ranges = Ranges {
+            above: [None; MOST_KNOBS],
+            below: [None; MOST_KNOBS],
+        };
+        above
+            .into_iter()
+            .for_each(|size| widen(&mut ranges.above[k], size));
+        below
+            .into_iter()
+            .for_each(|size| widen(&mut ranges.below[k], size));
         ranges
     };
     let mut sum = ranges(1, [3.0, 2.0], [7.0, 8.0]);
@@ -47,11 +60,16 @@ fn ranges_of_two_parts_are_one_that_holds_both() {
 /// All values of a step: 1, 2 and 5 times each power of ten, then each power, each second, each fourth.
 fn all_rounds<F: Float>(step: usize) -> Vec<F> {
     let every = [1, 1, 2, 4, 8, 16, 32, 64, 128][step];
-    let digits = if step == 0 { &["1", "2", "5"][..] } else { &["1"] };
+    let digits = if step == 0 {
+        &["1", "2", "5"][..]
+    } else {
+        &["1"]
+    };
     let powers = (-400..400).filter(|k| k % every == 0);
     let all = powers.flat_map(|k| digits.iter().map(move |d| format!("{d}e{k}")));
     let all = all.map(|text| F::parse(&text).unwrap());
-    all.filter(|x| smallest_normal::<F>() <= x.to_f64() && x.is_finite()).collect()
+    all.filter(|x| smallest_normal::<F>() <= x.to_f64() && x.is_finite())
+        .collect()
 }
 
 /// Checks them by what the range is to be enclosed by, with as small a step as gives few enough.
@@ -62,14 +80,21 @@ fn check_rounds<F: Float>(low: f64, high: f64, first_step: usize) {
         // Round numbers as decimals, of which the scalar's are rounded.
         let wide = |x: &F| format!("{x:e}").parse::<f64>().unwrap();
         let first = all.iter().rposition(|x| wide(x) <= low).unwrap_or(0);
-        let last = all.iter().position(|x| high <= wide(x)).unwrap_or(all.len() - 1);
+        let last = all
+            .iter()
+            .position(|x| high <= wide(x))
+            .unwrap_or(all.len() - 1);
         all[first..=last].to_vec()
     };
     let mut step = first_step;
     while step < 8 && enclosing(step).len() > 60 {
         step += 1;
     }
-    assert_eq!(found, (enclosing(step), step), "{low:e} {high:e} {first_step}");
+    assert_eq!(
+        found,
+        (enclosing(step), step),
+        "{low:e} {high:e} {first_step}"
+    );
 }
 
 #[test]
@@ -85,7 +110,13 @@ fn round_numbers_enclose_every_range_with_as_few_as_are_wanted() {
             check_rounds::<f64>(low, high, step);
         }
     }
-    for (low, high) in [(1.0, 1e20), (1e-3, 5e17), (2e-3, 5e17), (0.0, 1e-30), (1e-320, 1e308)] {
+    for (low, high) in [
+        (1.0, 1e20),
+        (1e-3, 5e17),
+        (2e-3, 5e17),
+        (0.0, 1e-30),
+        (1e-320, 1e308),
+    ] {
         for step in [0, 1, 8] {
             check_rounds::<f32>(low, high, step);
             check_rounds::<f64>(low, high, step);
@@ -97,8 +128,17 @@ fn round_numbers_enclose_every_range_with_as_few_as_are_wanted() {
 fn values_of_a_curve_reach_a_thousand_times_beyond_the_special_ones_of_each_sign() {
     let expected = |special: &[f64], above: Option<[f64; 2]>, below: Option<[f64; 2]>| {
         let mut values = [special, &[0.0]].concat();
-        values.extend(above.into_iter().flat_map(|ends| few_rounds::<f64>(ends, 0).0));
-        values.extend(below.into_iter().flat_map(|ends| few_rounds::<f64>(ends, 0).0).map(|x| -x));
+        values.extend(
+            above
+                .into_iter()
+                .flat_map(|ends| few_rounds::<f64>(ends, 0).0),
+        );
+        values.extend(
+            below
+                .into_iter()
+                .flat_map(|ends| few_rounds::<f64>(ends, 0).0)
+                .map(|x| -x),
+        );
         values.sort_by(f64::total_cmp);
         values.dedup();
         values
@@ -111,12 +151,19 @@ fn values_of_a_curve_reach_a_thousand_times_beyond_the_special_ones_of_each_sign
         (&[7e4, -0.6, 0.0, 3e-3, -12.0], above, below),
         (&[], None, None),
     ] {
-        assert_eq!(round_values(special, false), expected(special, above, below), "{special:?}");
+        assert_eq!(
+            round_values(special, false),
+            expected(special, above, below),
+            "{special:?}"
+        );
     }
     let [coarse, fine] = [false, true].map(|is_fine| round_values(&[1.0f64, 0.3125], is_fine));
     assert!(coarse.contains(&1e-3) && coarse.contains(&1e3));
     // Every number of two digits from 0.0003125 to 1000, what was given, and the round number before.
-    assert_eq!((fine.len(), fine[1..3].to_vec()), (68 + 6 * 90 + 1 + 2 + 1, vec![2e-4, 3.2e-4]));
+    assert_eq!(
+        (fine.len(), fine[1..3].to_vec()),
+        (68 + 6 * 90 + 1 + 2 + 1, vec![2e-4, 3.2e-4])
+    );
     assert!(coarse.iter().all(|value| fine.contains(value)));
     assert!(fine.contains(&0.3125) && fine.contains(&0.99) && fine.is_sorted());
 }
@@ -125,7 +172,10 @@ fn values_of_a_curve_reach_a_thousand_times_beyond_the_special_ones_of_each_sign
 fn numbers_of_two_digits_come_once_each_with_both_ends_of_their_range() {
     let below = (12..100).map(|digits| format!("0.0{digits}"));
     let above = (10..=12).map(|digits| format!("0.{digits}"));
-    let expected: Vec<f64> = below.chain(above).map(|text| text.parse().unwrap()).collect();
+    let expected: Vec<f64> = below
+        .chain(above)
+        .map(|text| text.parse().unwrap())
+        .collect();
     assert_eq!(two_digits::<f64>([0.012, 0.12]), expected);
 }
 
@@ -134,13 +184,18 @@ fn around_a_point_are_the_round_numbers_of_a_step_of_its_sign() {
     let grid = around(&[3.0f32, -0.07, 0.0], 0);
     let expected: [&[f32]; 3] = [
         &[0.0, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0],
-        &[-1.0, -0.5, -0.2, -0.1, -0.07, -0.05, -0.02, -0.01, -0.005, 0.0],
+        &[
+            -1.0, -0.5, -0.2, -0.1, -0.07, -0.05, -0.02, -0.01, -0.005, 0.0,
+        ],
         &[0.0],
     ];
     assert_eq!(grid.values(), expected);
     // A tenth of it lies below 0.2.
     let grid = around(&[1.9f32], 0);
-    assert_eq!(grid.values(), [[0.0, 0.1, 0.2, 0.5, 1.0, 1.9, 2.0, 5.0, 10.0, 20.0]]);
+    assert_eq!(
+        grid.values(),
+        [[0.0, 0.1, 0.2, 0.5, 1.0, 1.9, 2.0, 5.0, 10.0, 20.0]]
+    );
     // Of a grid with a number every fourth decade: every second, as far as the next ones were.
     let grid = around(&[1e-8f64, 0.0], 2);
     let expected: [&[f64]; 2] = [&[0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4], &[0.0]];

@@ -10,14 +10,23 @@ use crate::epsilon::Rays;
 fn a_union_counts_each_point_once() {
     let mut draw = Draw::new("union", 1, 0);
     for _ in 0..500 {
-        let boxes: Vec<Vec<usize>> =
-            (0..draw.below(6) + 1).map(|_| (0..3).map(|_| draw.below(4)).collect()).collect();
+        let boxes: Vec<Vec<usize>> = (0..draw.below(6) + 1)
+            .map(|_| (0..3).map(|_| draw.below(4)).collect())
+            .collect();
         let terms = union(boxes.clone());
         for point in 0..64usize {
             let point = [point / 16, point / 4 % 4, point % 4];
             let holds = |corner: &Vec<usize>| point.iter().zip(corner).all(|(p, c)| p < c);
-            let sum: i64 = terms.iter().filter(|(_, c)| holds(c)).map(|(sign, _)| sign).sum();
-            assert_eq!(sum, i64::from(boxes.iter().any(holds)), "{boxes:?} {point:?}");
+            let sum: i64 = terms
+                .iter()
+                .filter(|(_, c)| holds(c))
+                .map(|(sign, _)| sign)
+                .sum();
+            assert_eq!(
+                sum,
+                i64::from(boxes.iter().any(holds)),
+                "{boxes:?} {point:?}"
+            );
         }
     }
 }
@@ -29,11 +38,18 @@ fn the_counts_of_a_pass_are_those_of_its_trials_one_by_one() {
         let tuned = Tuned::new(kernel, "room");
         let all = tuned.all(6, 200);
         let of_knob = |size: f32| vec![-size, 0.0, size, 100.0 * size];
-        let values: Vec<Vec<f32>> =
-            epsilons[..tuned.knobs.len()].iter().map(|e| of_knob(e.abs().max(1e-6))).collect();
+        let values: Vec<Vec<f32>> = epsilons[..tuned.knobs.len()]
+            .iter()
+            .map(|e| of_knob(e.abs().max(1e-6)))
+            .collect();
         let count = |max_error: Option<&MaxError>| {
             let grid = KnobGrid::new(values.clone());
-            Joint::count(&tuned.setting(), grid, max_error, Pass::new(6, 200, &Unobserved))
+            Joint::count(
+                &tuned.setting(),
+                grid,
+                max_error,
+                Pass::new(6, 200, &Unobserved),
+            )
         };
         let joint = count(Some(&max_error));
         assert!(count(None).exceeded.is_none());
@@ -45,12 +61,27 @@ fn the_counts_of_a_pass_are_those_of_its_trials_one_by_one() {
             for (c, count) in tuned.counts.iter().enumerate() {
                 let of: Vec<&Kept> = all.iter().filter(|kept| kept.count == c).collect();
                 let hits: Vec<&&Kept> = of.iter().filter(|kept| kept.is_hit(&point)).collect();
-                let off = hits.iter().filter(|kept| max_error.is_exceeded(&kept.errors)).count();
+                let off = hits
+                    .iter()
+                    .filter(|kept| max_error.is_exceeded(&kept.errors))
+                    .count();
                 // Only where a hit is right its errors count.
-                let off = if count.kind == WrongKind::Miss { off } else { 0 };
+                let off = if count.kind == WrongKind::Miss {
+                    off
+                } else {
+                    0
+                };
                 off_in_all += off;
-                let found = [joint.of[c] as usize, counted(&joint.hits[c]), counted(&exceeded[c])];
-                assert_eq!(found, [of.len(), hits.len(), off], "{kernel} {count:?} {point:?}");
+                let found = [
+                    joint.of[c] as usize,
+                    counted(&joint.hits[c]),
+                    counted(&exceeded[c]),
+                ];
+                assert_eq!(
+                    found,
+                    [of.len(), hits.len(), off],
+                    "{kernel} {count:?} {point:?}"
+                );
             }
         }
         assert!(0 < off_in_all, "{kernel}");
@@ -66,10 +97,22 @@ struct Trials {
 const COUNTS: [RayCount; 4] = {
     use crate::family::Stratum::*;
     [
-        RayCount { rays: Rays::Stratum(Interior), kind: WrongKind::Miss },
-        RayCount { rays: Rays::Stratum(Parallel), kind: WrongKind::Hit },
-        RayCount { rays: Rays::Stratum(Edges), kind: WrongKind::Crack },
-        RayCount { rays: Rays::Stratum(Shadow), kind: WrongKind::SelfHit },
+        RayCount {
+            rays: Rays::Stratum(Interior),
+            kind: WrongKind::Miss,
+        },
+        RayCount {
+            rays: Rays::Stratum(Parallel),
+            kind: WrongKind::Hit,
+        },
+        RayCount {
+            rays: Rays::Stratum(Edges),
+            kind: WrongKind::Crack,
+        },
+        RayCount {
+            rays: Rays::Stratum(Shadow),
+            kind: WrongKind::SelfHit,
+        },
     ]
 };
 
@@ -86,17 +129,26 @@ impl Trials {
             let triangles = if count == 2 { 1 + draw.below(3) } else { 1 };
             let margins = (0..triangles).map(|_| [0, 1, 2].map(|axis| margin(draw, axis)));
             let margins = margins.collect();
-            let off = if draw.below(4) == 0 { draw.below(3) as i64 } else { 0 };
+            let off = if draw.below(4) == 0 {
+                draw.below(3) as i64
+            } else {
+                0
+            };
             (count, margins, draw.pick(&[1, 100, 300]), off)
         };
-        Trials { all: (0..1 + draw.below(12)).map(|_| trial(draw)).collect() }
+        Trials {
+            all: (0..1 + draw.below(12)).map(|_| trial(draw)).collect(),
+        }
     }
 
     /// By count: the hits at a point, and those of them that are too far off.
     fn hits(&self, point: &[f32]) -> [[i64; 2]; 4] {
         let mut hits = [[0; 2]; 4];
         for (count, margins, many, off) in &self.all {
-            if margins.iter().any(|m| point.iter().zip(m).all(|(value, m)| value <= m)) {
+            if margins
+                .iter()
+                .any(|m| point.iter().zip(m).all(|(value, m)| value <= m))
+            {
                 hits[*count][0] += many;
                 hits[*count][1] += off;
             }
@@ -107,7 +159,12 @@ impl Trials {
     fn cost(&self, costs: &[f64; 4], point: &[f32]) -> f64 {
         let hits = self.hits(point);
         let share = |c: usize| {
-            let of: i64 = self.all.iter().filter(|trial| trial.0 == c).map(|trial| trial.2).sum();
+            let of: i64 = self
+                .all
+                .iter()
+                .filter(|trial| trial.0 == c)
+                .map(|trial| trial.2)
+                .sum();
             let refused = [0, 2].contains(&c);
             let wrong = if refused { of - hits[c][0] } else { hits[c][0] };
             wrong as f64 / of.max(1) as f64
@@ -129,13 +186,18 @@ fn draw_near(draw: &mut Draw, values: &[f32]) -> f32 {
 fn counted(values: &[Vec<f32>], trials: &Trials, limited: bool) -> Joint<f32> {
     let grid = KnobGrid::new(values.to_vec());
     let mut of = vec![0; 4];
-    trials.all.iter().for_each(|(count, _, many, _)| of[*count] += *many as u64);
+    trials
+        .all
+        .iter()
+        .for_each(|(count, _, many, _)| of[*count] += *many as u64);
     let mut sums = [(); 2].map(|()| vec![vec![-1; grid.cells()]; 4]);
     for places in all_places(values) {
         let above: Vec<usize> = places.iter().map(|place| place + 1).collect();
         let hits = trials.hits(&at(values, &places));
         for (c, hits) in hits.into_iter().enumerate() {
-            hits.into_iter().zip(&mut sums).for_each(|(n, sum)| sum[c][grid.cell(&above)] = n);
+            hits.into_iter()
+                .zip(&mut sums)
+                .for_each(|(n, sum)| sum[c][grid.cell(&above)] = n);
         }
     }
     let [mut hits, mut exceeded] = sums;
@@ -145,11 +207,20 @@ fn counted(values: &[Vec<f32>], trials: &Trials, limited: bool) -> Joint<f32> {
     if trials.all.iter().all(|(.., off)| *off == 0) {
         exceeded[0] = Vec::new();
     }
-    Joint { grid, of, hits, exceeded: limited.then_some(exceeded) }
+    Joint {
+        grid,
+        of,
+        hits,
+        exceeded: limited.then_some(exceeded),
+    }
 }
 
 fn at(values: &[Vec<f32>], places: &[usize]) -> Vec<f32> {
-    values.iter().zip(places).map(|(values, place)| values[*place]).collect()
+    values
+        .iter()
+        .zip(places)
+        .map(|(values, place)| values[*place])
+        .collect()
 }
 
 /// The last knob's places first.
@@ -171,7 +242,9 @@ fn expected(
     cost: &dyn Fn(&[usize]) -> f64,
     is_accurate: &dyn Fn(&[usize]) -> bool,
 ) -> Option<Vec<usize>> {
-    let accurate = all_places(values).into_iter().filter(|places| is_accurate(places));
+    let accurate = all_places(values)
+        .into_iter()
+        .filter(|places| is_accurate(places));
     let mut places = accurate.reduce(|a, b| if cost(&b) < cost(&a) { b } else { a })?;
     let is_kept = |places: &[usize], most: f64| is_accurate(places) && cost(places) <= most;
     let most = cost(&places) * 1.01;
@@ -206,7 +279,11 @@ fn expected(
         };
         // Four values of the least cost or more are taken by themselves.
         let (low, high) = ends(cost(&places));
-        let (low, high) = if low + 3 <= high { (low, high) } else { ends(most) };
+        let (low, high) = if low + 3 <= high {
+            (low, high)
+        } else {
+            ends(most)
+        };
         places[k] = (low + high) / 2;
     }
     Some(places)
@@ -216,13 +293,19 @@ fn expected(
 fn axes(draw: &mut Draw) -> Vec<Vec<f32>> {
     let axis = |draw: &mut Draw| {
         let from = -(draw.below(5) as i64);
-        (from..from + 1 + draw.below(6) as i64).map(|x| x as f32).collect()
+        (from..from + 1 + draw.below(6) as i64)
+            .map(|x| x as f32)
+            .collect()
     };
     (0..1 + draw.below(3)).map(|_| axis(draw)).collect()
 }
 
 /// A hundredth more is within reach of what costs a hundredth.
-const COSTS: [[f64; 4]; 3] = [[10.0, 1.0, 1.0, 1.0], [1.0, 100.0, 1.0, 1.0], [1.0, 0.0, 0.01, 1.0]];
+const COSTS: [[f64; 4]; 3] = [
+    [10.0, 1.0, 1.0, 1.0],
+    [1.0, 100.0, 1.0, 1.0],
+    [1.0, 0.0, 0.01, 1.0],
+];
 
 #[test]
 fn the_best_point_is_the_cheapest_and_rather_zero_or_in_the_middle() {
@@ -234,7 +317,9 @@ fn the_best_point_is_the_cheapest_and_rather_zero_or_in_the_middle() {
             values[0].iter_mut().for_each(|x| *x += 0.5);
         }
         let trials = Trials::random(&mut draw, &values);
-        let costs = Costs { of: draw.pick(&COSTS) };
+        let costs = Costs {
+            of: draw.pick(&COSTS),
+        };
         let limited = draw.below(3) == 0;
         let joint = counted(&values, &trials, limited);
         let by_count = COUNTS.map(|count| costs.of(count.kind));
@@ -264,7 +349,9 @@ fn a_point_moves_one_knob_after_the_other_where_that_costs_no_more_than_chance_e
     'rounds: for round in 0..1500 {
         let values = axes(&mut draw);
         let trials = Trials::random(&mut draw, &values);
-        let costs = Costs { of: draw.pick(&COSTS) };
+        let costs = Costs {
+            of: draw.pick(&COSTS),
+        };
         let limited = draw.coin();
         let by_count = COUNTS.map(|count| costs.of(count.kind));
         let cost = |point: &[f32]| trials.cost(&by_count, point);
@@ -272,7 +359,12 @@ fn a_point_moves_one_knob_after_the_other_where_that_costs_no_more_than_chance_e
         let by_chance_at_most = |from: &[f32], to: &[f32]| {
             let [before, after] = [from, to].map(|point| trials.hits(point));
             let weight = |c: usize| {
-                let of: i64 = trials.all.iter().filter(|it| it.0 == c).map(|it| it.2).sum();
+                let of: i64 = trials
+                    .all
+                    .iter()
+                    .filter(|it| it.0 == c)
+                    .map(|it| it.2)
+                    .sum();
                 by_count[c] / of.max(1) as f64
             };
             let changed = |c: usize| (after[c][0] - before[c][0]).abs() as f64;
@@ -289,7 +381,9 @@ fn a_point_moves_one_knob_after_the_other_where_that_costs_no_more_than_chance_e
         let to: Vec<Option<f32>> = values.iter().map(to).collect();
         let (mut expected, mut stayed) = (from.clone(), 0);
         for (k, to) in to.iter().enumerate() {
-            let Some(value) = to.filter(|value| *value != 99.0) else { continue };
+            let Some(value) = to.filter(|value| *value != 99.0) else {
+                continue;
+            };
             let mut next = expected.clone();
             next[k] = value;
             let is_kept = is_accurate(&next) || !is_accurate(&from);
@@ -312,8 +406,16 @@ fn a_point_moves_one_knob_after_the_other_where_that_costs_no_more_than_chance_e
         let found = joint.moved(&COUNTS, &costs, &from, &to);
         all_moved += u32::from(expected != from && stayed == 0);
         some_stay += u32::from(0 < stayed);
-        assert_eq!(found, Some(expected), "{round} {values:?} {from:?} {to:?} {:?}", trials.all);
-        assert_eq!(joint.moved(&COUNTS, &costs, &vec![99.0; from.len()], &to), None);
+        assert_eq!(
+            found,
+            Some(expected),
+            "{round} {values:?} {from:?} {to:?} {:?}",
+            trials.all
+        );
+        assert_eq!(
+            joint.moved(&COUNTS, &costs, &vec![99.0; from.len()], &to),
+            None
+        );
     }
     assert!(
         100 < all_moved && 100 < some_stay && 2 < inaccurate && 20 < by_chance,
@@ -325,12 +427,16 @@ fn a_point_moves_one_knob_after_the_other_where_that_costs_no_more_than_chance_e
 fn cells_are_summed_over_all_above_them() {
     let mut draw = Draw::new("accumulated", 1, 0);
     for lengths in [vec![1], vec![4], vec![2, 3], vec![3, 1, 2]] {
-        let values: Vec<Vec<f32>> =
-            lengths.iter().map(|n| (0..*n).map(|x| x as f32).collect()).collect();
+        let values: Vec<Vec<f32>> = lengths
+            .iter()
+            .map(|n| (0..*n).map(|x| x as f32).collect())
+            .collect();
         let grid = KnobGrid::new(values.clone());
         // One more in each direction.
-        let wide: Vec<Vec<f32>> =
-            lengths.iter().map(|n| (0..=*n).map(|x| x as f32).collect()).collect();
+        let wide: Vec<Vec<f32>> = lengths
+            .iter()
+            .map(|n| (0..=*n).map(|x| x as f32).collect())
+            .collect();
         let all = all_places(&wide);
         assert_eq!(grid.cells(), all.len());
         let cells: Vec<i64> = all.iter().map(|_| draw.integer(-9, 9)).collect();
@@ -347,15 +453,24 @@ fn cells_are_summed_over_all_above_them() {
 #[test]
 fn costs_are_words_between_commas() {
     let costs = Costs::parse("miss=0, crack=2.5").unwrap();
-    assert_eq!(WrongKind::ALL.map(|kind| costs.of(kind)), [2.5, 0.0, 1.0, 1.0]);
+    assert_eq!(
+        WrongKind::ALL.map(|kind| costs.of(kind)),
+        [2.5, 0.0, 1.0, 1.0]
+    );
     let of = |costs: Costs| WrongKind::ALL.map(|kind| costs.of(kind));
     assert_eq!(of(Costs::default()), [10.0, 1.0, 1.0, 1.0]);
-    assert_eq!(of(Costs::parse("hit=1e9,self-hit=0").unwrap()), [10.0, 1.0, 1e9, 0.0]);
+    assert_eq!(
+        of(Costs::parse("hit=1e9,self-hit=0").unwrap()),
+        [10.0, 1.0, 1e9, 0.0]
+    );
     for (text, part) in [
         ("", "is no cost"),
         ("crack", "is no cost"),
         ("cracks=1", "unknown kind"),
-        ("mis=3", "unknown kind 'mis': did you mean 'miss'? write crack=10,"),
+        (
+            "mis=3",
+            "unknown kind 'mis': did you mean 'miss'? write crack=10,",
+        ),
         ("crack=nan", "not a number from 0"),
         ("crack=-1", "not a number from 0"),
         ("crack=1000000000.1", "not a number from 0"),

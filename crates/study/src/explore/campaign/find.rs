@@ -21,7 +21,12 @@ pub struct Find {
 impl Find {
     /// The finding of a signature that a row shows on a case; it does not say where it comes from.
     pub fn new(case: AnyCase, row: &Row, signature: Signature) -> Find {
-        let RowSpec { kernel, epsilons, contract, .. } = row.spec();
+        let RowSpec {
+            kernel,
+            epsilons,
+            contract,
+            ..
+        } = row.spec();
         let found = FoundBy {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             kernel,
@@ -34,7 +39,12 @@ impl Find {
             seconds: None,
             from: None,
         };
-        Find { case, row: row.clone(), signature, found }
+        Find {
+            case,
+            row: row.clone(),
+            signature,
+            found,
+        }
     }
 
     /// A row's finding on a case; none if its verdict is right.
@@ -47,38 +57,75 @@ impl Find {
     /// The finding that a stored case holds. The case is run again, and must show the stored signature. The error says
     /// why it is not a finding of a campaign.
     pub fn of_stored(stored: &StoredCase) -> Result<Find, String> {
-        let found = stored.found.clone().ok_or("missing field 'found': it is no find")?;
+        let found = stored
+            .found
+            .clone()
+            .ok_or("missing field 'found': it is no find")?;
         let wrong = |message: String| format!("found: {message}");
         let row = Row::named(&found.kernel, found.epsilons.as_deref(), &found.contract)
             .map_err(|error| wrong(error.0))?;
-        row.check_in(stored.case.scalars()).map_err(|error| wrong(error.0))?;
+        row.check_in(stored.case.scalars())
+            .map_err(|error| wrong(error.0))?;
         let said = format!("'{}', as hairline {} found", found.signature, found.version);
         let find = Find::of(&row, stored.case)
             .ok_or_else(|| wrong(format!("nothing wrong is shown, not {said}")))?;
-        let FoundBy { signature: shown, finding, .. } = &find.found;
+        let FoundBy {
+            signature: shown,
+            finding,
+            ..
+        } = &find.found;
         if *shown != found.signature {
             return Err(wrong(format!("'{shown}' is shown, not {said}")));
         }
         if *finding != found.finding {
-            return Err(wrong(format!("finding: it is a {finding}, not a '{}'", found.finding)));
+            return Err(wrong(format!(
+                "finding: it is a {finding}, not a '{}'",
+                found.finding
+            )));
         }
         // Epsilons and contract as this program writes them.
-        let FoundBy { version, seed, evaluations, seconds, from, .. } = found;
-        let found = FoundBy { version, seed, evaluations, seconds, from, ..find.found };
+        let FoundBy {
+            version,
+            seed,
+            evaluations,
+            seconds,
+            from,
+            ..
+        } = found;
+        let found = FoundBy {
+            version,
+            seed,
+            evaluations,
+            seconds,
+            from,
+            ..find.found
+        };
         Ok(Find { found, ..find })
     }
 
     /// As a case of a corpus file, its truth included.
     pub fn stored(&self) -> StoredCase {
         let stored = StoredCase::of(self.case).with_truth();
-        StoredCase { name: Some(self.name()), found: Some(self.found.clone()), ..stored }
+        StoredCase {
+            name: Some(self.name()),
+            found: Some(self.found.clone()),
+            ..stored
+        }
     }
 
     /// `found:kernel/scalar/finding/class/gate/gate without rounding/attribution`: a name for each
     /// kind.
     pub fn name(&self) -> String {
-        let Signature { kernel, scalar, finding, class, gate, exactly, attribution, .. } =
-            &self.signature;
+        let Signature {
+            kernel,
+            scalar,
+            finding,
+            class,
+            gate,
+            exactly,
+            attribution,
+            ..
+        } = &self.signature;
         let named = |gate: &Option<&'static str>| gate.unwrap_or("hit");
         let (finding, class) = (finding.name(), class.name().replace('/', "-"));
         let why = attribution.map_or("untold", Attribution::name);

@@ -44,7 +44,9 @@ impl<F: Scalar> Island<F> {
         Island {
             name: format!("fuzz:{}/{}", rows[0].entry.info.name, F::NAME),
             epsilons: CampaignRows::new(rows, varies),
-            population: Population { niches: BTreeMap::new() },
+            population: Population {
+                niches: BTreeMap::new(),
+            },
             known: BTreeSet::new(),
         }
     }
@@ -94,10 +96,17 @@ impl<F: Scalar> Island<F> {
 
     /// A new individual: of a family at some scale, or some moves from one or two that are kept.
     fn make(&self, parents: &Parents<F>, draw: &mut Draw) -> Individual<F> {
-        let parent = if draw.below(4) == 0 { None } else { parents.pick(draw) };
+        let parent = if draw.below(4) == 0 {
+            None
+        } else {
+            parents.pick(draw)
+        };
         let Some(parent) = parent else {
             let case = family_case(&parameters(draw), draw);
-            return Individual { case, row: self.epsilons.draw(draw) };
+            return Individual {
+                case,
+                row: self.epsilons.draw(draw),
+            };
         };
         let mut child = parent.clone();
         if draw.below(8) == 0 {
@@ -117,7 +126,10 @@ impl<F: Scalar> Island<F> {
             if let Niche::Kind(kind) = &niche
                 && self.known.insert(kind.clone())
             {
-                newcomers.push(Newcomer { individual: individual.clone(), kind: kind.clone() });
+                newcomers.push(Newcomer {
+                    individual: individual.clone(),
+                    kind: kind.clone(),
+                });
             }
             self.population.offer(niche, score, individual);
         }
@@ -137,15 +149,29 @@ impl<F: Scalar> Island<F> {
     /// The population, to be saved.
     pub fn saved(&self) -> impl Iterator<Item = SavedIndividual> {
         self.population.all().map(|individual| {
-            let RowSpec { kernel, epsilons, contract, .. } = individual.row.spec();
+            let RowSpec {
+                kernel,
+                epsilons,
+                contract,
+                ..
+            } = individual.row.spec();
             let bits = individual.case.bits().to_vec();
-            SavedIndividual { kernel, scalar: F::NAME.to_owned(), epsilons, contract, bits }
+            SavedIndividual {
+                kernel,
+                scalar: F::NAME.to_owned(),
+                epsilons,
+                contract,
+                bits,
+            }
         })
     }
 
     /// Takes a saved individual back.
     pub fn restore(&mut self, case: Case<F>, row: Row) {
-        let individual = Individual { case, row: Arc::new(row) };
+        let individual = Individual {
+            case,
+            row: Arc::new(row),
+        };
         let (glance, score) = individual.look();
         let kind = Signature::of(&individual.row, &case).map(|signature| signature.kind());
         let niche = kind.map_or(Niche::Near(glance), Niche::Kind);
@@ -156,8 +182,14 @@ impl<F: Scalar> Island<F> {
 impl<F: Scalar> Newcomer<F> {
     /// The find: the same kind on a simpler case, as simple as some hundred tries make it.
     pub fn find(&self, seed: u64, evaluations: u64) -> Find {
-        let Newcomer { individual: Individual { case, row }, kind } = self;
-        let signature = Signature { epsilons: row.epsilon_argument(), ..kind.clone() };
+        let Newcomer {
+            individual: Individual { case, row },
+            kind,
+        } = self;
+        let signature = Signature {
+            epsilons: row.epsilon_argument(),
+            ..kind.clone()
+        };
         let case = shrink_within(case, EFFORT, |case| signature.is_shown(row, case)).case;
         let mut find = Find::new(AnyCase::from(case), row, signature);
         (find.found.seed, find.found.evaluations) = (Some(seed), Some(evaluations));
@@ -195,21 +227,33 @@ impl CampaignRows {
         let mut all: Vec<Row> = rows.iter().map(|row| (*row).clone()).collect();
         let first = rows[0];
         let published = PRESETS.iter().filter(|_| varies).filter_map(|preset| {
-            EpsilonChoice::Preset(preset.name.to_owned()).rows(&[first.entry], None).ok()
+            EpsilonChoice::Preset(preset.name.to_owned())
+                .rows(&[first.entry], None)
+                .ok()
         });
         for row in published.flatten() {
             if all.iter().all(|known| known.epsilons != row.epsilons) {
-                all.push(Row { contract: first.contract, ..row });
+                all.push(Row {
+                    contract: first.contract,
+                    ..row
+                });
             }
         }
         let varies = varies && first.tuned().next().is_some();
-        CampaignRows { rows: all.into_iter().map(Arc::new).collect(), varies }
+        CampaignRows {
+            rows: all.into_iter().map(Arc::new).collect(),
+            varies,
+        }
     }
 
     /// One of the rows, or one with numbers between theirs.
     fn draw(&self, draw: &mut Draw) -> Arc<Row> {
         let row = &self.rows[draw.below(self.rows.len())];
-        if self.varies && draw.below(3) == 0 { self.between(row, draw) } else { row.clone() }
+        if self.varies && draw.below(3) == 0 {
+            self.between(row, draw)
+        } else {
+            row.clone()
+        }
     }
 
     /// A row some of whose epsilons lie between zero and one that another row has there.
@@ -220,7 +264,10 @@ impl CampaignRows {
                 continue;
             }
             let other = &self.rows[draw.below(self.rows.len())].epsilons[i];
-            let value = other.value::<f64>().filter(|value| *value != 0.0).unwrap_or(1e-6);
+            let value = other
+                .value::<f64>()
+                .filter(|value| *value != 0.0)
+                .unwrap_or(1e-6);
             // Two digits: whoever reads them should be able to remember them.
             let share = draw.unit() * draw.pick(&[1.0, 1e-2, 1e-4, 1e-8]);
             row.epsilons[i] = EpsilonText::Decimal(format!("{:.1e}", value * share));
@@ -247,11 +294,23 @@ mod tests {
                 let row = epsilons.draw(&mut draw);
                 let argument = row.epsilon_argument();
                 let again = Row::named(entry.info.name, argument.as_deref(), "own").unwrap();
-                assert_eq!(again.epsilons::<f32>(), row.epsilons::<f32>(), "{argument:?}");
-                assert_eq!(again.epsilons::<f64>(), row.epsilons::<f64>(), "{argument:?}");
+                assert_eq!(
+                    again.epsilons::<f32>(),
+                    row.epsilons::<f32>(),
+                    "{argument:?}"
+                );
+                assert_eq!(
+                    again.epsilons::<f64>(),
+                    row.epsilons::<f64>(),
+                    "{argument:?}"
+                );
                 seen.insert(argument);
             }
-            assert!(rows[0].tuned().next().is_none() || seen.len() > 30, "{}", entry.info.name);
+            assert!(
+                rows[0].tuned().next().is_none() || seen.len() > 30,
+                "{}",
+                entry.info.name
+            );
             let fixed = CampaignRows::new(&[&rows[0]], false);
             assert!((0..20).all(|_| fixed.draw(&mut draw).epsilons == rows[0].epsilons));
         }

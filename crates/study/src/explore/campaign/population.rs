@@ -46,9 +46,16 @@ impl Niche {
     fn glance(&self) -> Glance {
         match self {
             Niche::Near(glance) => *glance,
-            Niche::Kind(Signature { finding, class, gate, .. }) => {
-                Glance { finding: Some(*finding), class: *class, gate: *gate }
-            }
+            Niche::Kind(Signature {
+                finding,
+                class,
+                gate,
+                ..
+            }) => Glance {
+                finding: Some(*finding),
+                class: *class,
+                gate: *gate,
+            },
         }
     }
 }
@@ -61,14 +68,25 @@ impl<F: Scalar> Individual<F> {
         let (truth, verdict, finding) = verdict_and_finding(&self.row, &epsilons, &self.case);
         let gates = self.row.entry.info.gates;
         let gate = verdict.refused_by.map(|gate| gates[usize::from(gate)].name);
-        let glance = Glance { finding, class: Class::of(&truth), gate };
+        let glance = Glance {
+            finding,
+            class: Class::of(&truth),
+            gate,
+        };
         let score = match finding {
             _ if truth == Truth::Invalid => 0.0,
             Some(_) => Distances::at_a_glance(&self.case, &truth)
                 .nearest_change(&truth, &self.row.contract),
             None => -self.distance_from_a_change(&epsilons, &truth, verdict.hit),
         };
-        (glance, if score.is_nan() { f64::NEG_INFINITY } else { score })
+        (
+            glance,
+            if score.is_nan() {
+                f64::NEG_INFINITY
+            } else {
+                score
+            },
+        )
     }
 
     /// How far the margins are from where the verdict changes, in shares of the gates' scales: of a
@@ -77,7 +95,9 @@ impl<F: Scalar> Individual<F> {
     fn distance_from_a_change(&self, epsilons: &[F], truth: &Truth, hit: bool) -> f64 {
         let gates = self.row.entry.info.gates;
         let gated = F::subject(self.row.entry).and_then(|subject| subject.gated());
-        let Some(gated) = gated else { return Distances::at_a_glance(&self.case, truth).in_space };
+        let Some(gated) = gated else {
+            return Distances::at_a_glance(&self.case, truth).in_space;
+        };
         let margins = gated.measure(&self.case).margins;
         let wide = self.case.widen();
         let gap = |i: usize| {
@@ -88,7 +108,9 @@ impl<F: Scalar> Individual<F> {
         let refused = |i: &usize| margins[*i] < epsilons[*i];
         let all = 0..gates.len();
         let distance = if hit {
-            all.map(gap).filter(|gap| gap.is_finite()).fold(f64::INFINITY, f64::min)
+            all.map(gap)
+                .filter(|gap| gap.is_finite())
+                .fold(f64::INFINITY, f64::min)
         } else {
             all.filter(refused).map(|i| -gap(i)).fold(0.0, f64::max)
         };
@@ -109,7 +131,10 @@ impl<F: Scalar> Population<F> {
     /// Keeps an individual if its niche has room or a worse one.
     pub fn offer(&mut self, niche: Niche, score: f64, individual: Individual<F>) {
         let kept = self.niches.entry(niche).or_default();
-        let place = kept.iter().position(|(other, _)| *other < score).unwrap_or(kept.len());
+        let place = kept
+            .iter()
+            .position(|(other, _)| *other < score)
+            .unwrap_or(kept.len());
         let same = |(_, other): &(f64, Individual<F>)| other.case.bits() == individual.case.bits();
         if place < NICHE && !kept.iter().any(same) {
             kept.insert(place, (score, individual));
@@ -124,7 +149,10 @@ impl<F: Scalar> Population<F> {
 
     /// All individuals, niche by niche.
     pub fn all(&self) -> impl Iterator<Item = &Individual<F>> {
-        self.niches.values().flatten().map(|(_, individual)| individual)
+        self.niches
+            .values()
+            .flatten()
+            .map(|(_, individual)| individual)
     }
 
     /// The best score of what looks alike at a glance.
@@ -145,6 +173,8 @@ impl<'p, F: Scalar> Parents<'p, F> {
     /// A random individual, each niche equally likely; none if the population is empty.
     pub fn pick(&self, draw: &mut Draw) -> Option<&'p Individual<F>> {
         let niche = self.0.get(draw.below(self.0.len().max(1)))?;
-        niche.get(draw.below(niche.len())).map(|(_, individual)| individual)
+        niche
+            .get(draw.below(niche.len()))
+            .map(|(_, individual)| individual)
     }
 }

@@ -45,7 +45,10 @@ impl Campaign {
     pub fn new(plan: &CampaignPlan) -> Campaign {
         let mut kernels: Vec<Vec<&Row>> = Vec::new();
         for row in &plan.rows {
-            match kernels.iter_mut().find(|rows| rows[0].entry.info.name == row.entry.info.name) {
+            match kernels
+                .iter_mut()
+                .find(|rows| rows[0].entry.info.name == row.entry.info.name)
+            {
                 Some(rows) => rows.push(row),
                 None => kernels.push(vec![row]),
             }
@@ -53,11 +56,18 @@ impl Campaign {
         // A kernel may run in one scalar alone.
         let running = |scalar: usize| {
             let runs = move |rows: &&Vec<&Row>| rows[0].entry.scalars()[scalar];
-            kernels.iter().filter(move |_| plan.scalars[scalar]).filter(runs)
+            kernels
+                .iter()
+                .filter(move |_| plan.scalars[scalar])
+                .filter(runs)
         };
         Campaign {
-            f32: running(0).map(|rows| Island::new(rows, plan.varies)).collect(),
-            f64: running(1).map(|rows| Island::new(rows, plan.varies)).collect(),
+            f32: running(0)
+                .map(|rows| Island::new(rows, plan.varies))
+                .collect(),
+            f64: running(1)
+                .map(|rows| Island::new(rows, plan.varies))
+                .collect(),
             seed: plan.seed,
             rounds: 0,
             evaluations: 0,
@@ -79,7 +89,9 @@ impl Campaign {
         self.evaluations = self.evaluations.saturating_add(evaluations);
         let evaluations = self.evaluations;
         let mut finds = engine::map(&narrow, |newcomer| newcomer.find(seed, evaluations));
-        finds.extend(engine::map(&wide, |newcomer| newcomer.find(seed, evaluations)));
+        finds.extend(engine::map(&wide, |newcomer| {
+            newcomer.find(seed, evaluations)
+        }));
         finds
     }
 
@@ -95,7 +107,9 @@ impl Campaign {
     /// Counters and population, to be saved.
     pub fn state(&self, seconds: f64, sessions: u64) -> CampaignState {
         let narrow = self.f32.iter().flat_map(Island::saved);
-        let population = narrow.chain(self.f64.iter().flat_map(Island::saved)).collect();
+        let population = narrow
+            .chain(self.f64.iter().flat_map(Island::saved))
+            .collect();
         CampaignState {
             rounds: self.rounds,
             evaluations: self.evaluations,
@@ -108,14 +122,18 @@ impl Campaign {
     /// Goes on from what was saved.
     pub fn restore(&mut self, state: &CampaignState) -> Result<(), String> {
         (self.rounds, self.evaluations) = (state.rounds, state.evaluations);
-        state.population.iter().enumerate().try_for_each(|(i, individual)| {
-            let restored = match individual.scalar.as_str() {
-                "f32" => restore(&mut self.f32, individual),
-                "f64" => restore(&mut self.f64, individual),
-                other => Err(format!("unknown scalar '{other}'")),
-            };
-            restored.map_err(|message| format!("population[{i}]: {message}"))
-        })
+        state
+            .population
+            .iter()
+            .enumerate()
+            .try_for_each(|(i, individual)| {
+                let restored = match individual.scalar.as_str() {
+                    "f32" => restore(&mut self.f32, individual),
+                    "f64" => restore(&mut self.f64, individual),
+                    other => Err(format!("unknown scalar '{other}'")),
+                };
+                restored.map_err(|message| format!("population[{i}]: {message}"))
+            })
     }
 }
 
@@ -150,10 +168,15 @@ fn learn<F: Scalar>(islands: &mut [Island<F>], kernel: &str, kind: crate::explor
 fn restore<F: Scalar>(islands: &mut [Island<F>], saved: &SavedIndividual) -> Result<(), String> {
     let row = Row::named(&saved.kernel, saved.epsilons.as_deref(), &saved.contract)?;
     row.check::<F>()?;
-    let island = islands.iter_mut().find(|island| island.is_of(&saved.kernel));
+    let island = islands
+        .iter_mut()
+        .find(|island| island.is_of(&saved.kernel));
     let island = island.ok_or_else(|| format!("no {} in {}", saved.kernel, F::NAME))?;
-    let bits: &[u64; 17] =
-        saved.bits.as_slice().try_into().map_err(|_| "bits: expected 17 numbers".to_owned())?;
+    let bits: &[u64; 17] = saved
+        .bits
+        .as_slice()
+        .try_into()
+        .map_err(|_| "bits: expected 17 numbers".to_owned())?;
     island.restore(Case::from_bits(bits), row);
     Ok(())
 }

@@ -33,7 +33,11 @@ pub(super) fn construct<F: Float>(bytes: &mut Bytes) -> Case<F> {
     let point =
         |bytes: &mut Bytes, bound: u8| LatticePoint::from([(); 3].map(|()| bytes.small(bound)));
     // Doubled, so that midpoints are integers.
-    let offset = if kind == FAR { point(bytes, 100) * (1 << 10) } else { point(bytes, 8) };
+    let offset = if kind == FAR {
+        point(bytes, 100) * (1 << 10)
+    } else {
+        point(bytes, 8)
+    };
     let a = offset * 2;
     let (step, side) = (point(bytes, 4) * 2, point(bytes, 8) * 2);
     let parts = 2 + i64::from(bytes.below(3));
@@ -53,19 +57,38 @@ pub(super) fn construct<F: Float>(bytes: &mut Bytes) -> Case<F> {
     };
     let in_plane = step * bytes.small(2) + side * bytes.small(2);
     let free = point(bytes, 8);
-    let direction = if [IN_PLANE, PARALLEL].contains(&kind) { in_plane } else { free };
+    let direction = if [IN_PLANE, PARALLEL].contains(&kind) {
+        in_plane
+    } else {
+        free
+    };
     let steps = if kind == AT_ORIGIN { 0 } else { bytes.small(4) };
     let mut origin = target - direction * steps;
     if kind == PARALLEL {
         origin += free;
     }
-    let triangle = if kind == SHARED_EDGE { [b, a, c] } else { [a, b, c] };
-    let case = Case::new(float(origin), float(direction), rotated(bytes, triangle).map(float));
+    let triangle = if kind == SHARED_EDGE {
+        [b, a, c]
+    } else {
+        [a, b, c]
+    };
+    let case = Case::new(
+        float(origin),
+        float(direction),
+        rotated(bytes, triangle).map(float),
+    );
     finish(bytes, case, steps)
 }
 
 fn rotated(bytes: &mut Bytes, [a, b, c]: [LatticePoint; 3]) -> [LatticePoint; 3] {
-    let orders = [[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]];
+    let orders = [
+        [a, b, c],
+        [b, c, a],
+        [c, a, b],
+        [a, c, b],
+        [c, b, a],
+        [b, a, c],
+    ];
     orders[usize::from(bytes.below(orders.len() as u8))]
 }
 
@@ -101,5 +124,9 @@ fn finish<F: Float>(bytes: &mut Bytes, case: Case<F>, t: i64) -> Case<F> {
 fn power<F: Float>(bytes: &mut Bytes) -> i32 {
     let byte = bytes.byte();
     let reach = if F::NAME == f32::NAME { 1 } else { 8 };
-    if byte.is_multiple_of(2) { 0 } else { i32::from(byte as i8) * reach }
+    if byte.is_multiple_of(2) {
+        0
+    } else {
+        i32::from(byte as i8) * reach
+    }
 }

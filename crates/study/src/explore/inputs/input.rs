@@ -62,14 +62,24 @@ pub fn mutated(input: &AnyInput, draw: &mut Draw) -> AnyInput {
 impl<F: Scalar> Input<F> {
     /// A kernel with the epsilons of its source, on a case.
     pub fn of_source(entry: &'static Entry, case: Case<F>) -> Input<F> {
-        let epsilons = (0..entry.info.gates.len()).map(|gate| source(entry, gate)).collect();
-        Input { entry, epsilons, case }
+        let epsilons = (0..entry.info.gates.len())
+            .map(|gate| source(entry, gate))
+            .collect();
+        Input {
+            entry,
+            epsilons,
+            case,
+        }
     }
 
     fn read(flags: u8, bytes: &mut Bytes) -> Input<F> {
         let entry = &KERNELS[usize::from(bytes.below(KERNELS.len() as u8))];
         let choices = [(); MAX_GATES].map(|()| bytes.byte());
-        let case = if flags & HAS_NUMBERS == 0 { construct(bytes) } else { read_case(bytes) };
+        let case = if flags & HAS_NUMBERS == 0 {
+            construct(bytes)
+        } else {
+            read_case(bytes)
+        };
         let mut input = Input::of_source(entry, case);
         let margins = of_kernel::<F>(entry).1.measure(&case).margins;
         for (gate, choice) in choices.into_iter().enumerate().take(margins.len()) {
@@ -82,7 +92,9 @@ impl<F: Scalar> Input<F> {
     }
 
     fn write(&self, flags: u8) -> Vec<u8> {
-        let kernel = KERNELS.iter().position(|entry| entry.info.name == self.entry.info.name);
+        let kernel = KERNELS
+            .iter()
+            .position(|entry| entry.info.name == self.entry.info.name);
         let mut bytes = vec![flags, kernel.expect("a built-in kernel") as u8];
         bytes.extend([GIVEN; MAX_GATES]);
         for number in self.case.numbers().iter().chain(&self.epsilons) {
@@ -122,7 +134,10 @@ impl<F: Scalar> Input<F> {
 /// A built-in kernel and its gates: all of those have both scalars, and show their gates.
 pub fn of_kernel<F: Scalar>(entry: &Entry) -> (&'static dyn Subject<F>, &'static dyn Gated<F>) {
     let subject = F::subject(entry).expect("a built-in kernel has both scalars");
-    (subject, subject.gated().expect("a built-in kernel shows its gates"))
+    (
+        subject,
+        subject.gated().expect("a built-in kernel shows its gates"),
+    )
 }
 
 fn read_case<F: Float>(bytes: &mut Bytes) -> Case<F> {
@@ -193,16 +208,25 @@ mod tests {
 
     #[test]
     fn every_kernel_fits_and_keeps_epsilons_that_the_command_line_takes() {
-        assert!(KERNELS.iter().all(|entry| entry.info.gates.len() <= MAX_GATES));
+        assert!(
+            KERNELS
+                .iter()
+                .all(|entry| entry.info.gates.len() <= MAX_GATES)
+        );
         let (mut kernels, mut distinct) = (HashSet::new(), HashSet::new());
         for i in 0..5000 {
             let data = random_bytes(&mut Draw::new("epsilons", 1, i));
-            let AnyInput::F64(input) = from_bytes(&data) else { continue };
+            let AnyInput::F64(input) = from_bytes(&data) else {
+                continue;
+            };
             kernels.insert(input.entry.info.name);
             for (gate, epsilon) in input.entry.info.gates.iter().zip(&input.epsilons) {
                 distinct.insert(epsilon.to_bits());
                 assert!(epsilon.is_finite(), "{i}");
-                assert!(gate.epsilon == Tunable::Signed || 0.0 <= *epsilon, "{i}: {epsilon}");
+                assert!(
+                    gate.epsilon == Tunable::Signed || 0.0 <= *epsilon,
+                    "{i}: {epsilon}"
+                );
             }
             assert_eq!(input.row().epsilons::<f64>(), input.epsilons);
         }
@@ -219,7 +243,10 @@ mod tests {
             data[0] &= !HAS_NUMBERS;
             if let AnyInput::F32(input) = from_bytes(&data) {
                 let truth = oracle::truth(&input.case);
-                seen.insert((truth.class_name(), truth.crossing().map(|c| c.feature.name())));
+                seen.insert((
+                    truth.class_name(),
+                    truth.crossing().map(|c| c.feature.name()),
+                ));
             }
         }
         // Eight features, and four classes beside the transversal one.
@@ -229,12 +256,19 @@ mod tests {
     #[test]
     fn mutants_change_kernels_epsilons_and_cases() {
         let input = from_bytes(&[0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 1, 9, 8, 7, 6, 5, 4, 3]);
-        let AnyInput::F32(input) = input else { panic!("f32") };
-        let mutants: Vec<_> =
-            (0..500).map(|i| input.mutated(&mut Draw::new("mutants", 1, i))).collect();
+        let AnyInput::F32(input) = input else {
+            panic!("f32")
+        };
+        let mutants: Vec<_> = (0..500)
+            .map(|i| input.mutated(&mut Draw::new("mutants", 1, i)))
+            .collect();
         let (name, epsilons, case) = parts(&input);
         assert!(mutants.iter().any(|m| parts(m).0 != name));
-        assert!(mutants.iter().any(|m| parts(m).0 == name && parts(m).1 != epsilons));
+        assert!(
+            mutants
+                .iter()
+                .any(|m| parts(m).0 == name && parts(m).1 != epsilons)
+        );
         assert!(mutants.iter().filter(|m| parts(m).2 != case).count() > 200);
     }
 }

@@ -37,10 +37,16 @@ pub fn conforms<F: Float>(
 ) -> Result<(), WrongAnswer> {
     let (truth, t) = (oracle::truth(case), kernel(case));
     let asked = asked(case, &truth, contract, false);
-    let gives = Gives { t: true, uv: false, facing: false };
+    let gives = Gives {
+        t: true,
+        uv: false,
+        facing: false,
+    };
     let verdict = verdict(t);
     let found = judge((contract, asked), (case, &truth), gives, &verdict);
-    let Some(finding) = found.map(Finding::name) else { return Ok(()) };
+    let Some(finding) = found.map(Finding::name) else {
+        return Ok(());
+    };
     let contract = contract.describe();
     let text = format!("contract {contract}\n{}", describe(case, &truth, t));
     Err(WrongAnswer { finding, text })
@@ -58,7 +64,10 @@ pub fn conforms_together<F: Float>(
     for case in cases {
         conforms(&kernel, contract, case)?;
     }
-    let (truths, answers) = (cases.each_ref().map(oracle::truth), cases.each_ref().map(&kernel));
+    let (truths, answers) = (
+        cases.each_ref().map(oracle::truth),
+        cases.each_ref().map(&kernel),
+    );
     let hits = answers.iter().flatten().count();
     let owed = group_obligation(cases, &truths, contract, Grouping::SharedEdge);
     let finding = match (owed, contract.across) {
@@ -73,7 +82,10 @@ pub fn conforms_together<F: Float>(
     };
     let each = |i: usize| describe(&cases[i], &truths[i], answers[i]);
     let contract = contract.describe();
-    Err(WrongAnswer { finding, text: format!("contract {contract}\n{}\n{}", each(0), each(1)) })
+    Err(WrongAnswer {
+        finding,
+        text: format!("contract {contract}\n{}\n{}", each(0), each(1)),
+    })
 }
 
 /// True if rounding may have moved the hit that two triangles lack to one of a ring around them, or if there is no ring.
@@ -83,8 +95,12 @@ fn is_elsewhere<F: Float>(
     cases: &[Case<F>; 2],
 ) -> bool {
     let first = oracle::truth(&cases[0]);
-    let Some(crossing) = first.crossing() else { return false };
-    let Some(ring) = around(cases, Grouping::SharedEdge) else { return true };
+    let Some(crossing) = first.crossing() else {
+        return false;
+    };
+    let Some(ring) = around(cases, Grouping::SharedEdge) else {
+        return true;
+    };
     let truths: Vec<Truth> = ring.iter().map(oracle::truth).collect();
     let verdicts: Vec<Verdict<F>> = ring.iter().map(|case| verdict(kernel(case))).collect();
     may_be_elsewhere(crossing.facing, &ring, &truths, &verdicts, contract)
@@ -93,11 +109,18 @@ fn is_elsewhere<F: Float>(
 /// A hit at a t, or a miss.
 fn verdict<F: Float>(t: Option<F>) -> Verdict<F> {
     let miss = Verdict::miss(None);
-    t.map_or(miss, |t| Verdict { hit: true, t, ..miss })
+    t.map_or(miss, |t| Verdict {
+        hit: true,
+        t,
+        ..miss
+    })
 }
 
 fn describe<F: Float>(case: &Case<F>, truth: &Truth, t: Option<F>) -> String {
-    let exact = oracle::define(case).exact.t.map_or(String::new(), |t| format!(", t = {t}"));
+    let exact = oracle::define(case)
+        .exact
+        .t
+        .map_or(String::new(), |t| format!(", t = {t}"));
     let stored = StoredCase::of(*case);
     let kernel = t.map_or("miss".to_owned(), |t| format!("hit, t = {t:e}"));
     format!(

@@ -52,15 +52,18 @@ pub fn named<F: Scalar>(name: &str) -> Option<FamilyCases<F>> {
 
 /// Cases of any of the strategies but [`invalid`]; each keeps the promise of the one that it is from.
 pub fn any_case<F: Scalar>() -> impl Strategy<Value = Case<F>> {
-    let all =
-        STRATEGIES.iter().filter(|promise| promise.name() != "invalid" && promise.is_single());
+    let all = STRATEGIES
+        .iter()
+        .filter(|promise| promise.name() != "invalid" && promise.is_single());
     FamilyCases::new(all.collect()).prop_map(|cases: Vec<Case<F>>| cases[0])
 }
 
 /// Two triangles on one edge, both transversal, and one ray near or exactly through the edge. The edge
 /// stays shared.
 pub fn shared_edge<F: Scalar>() -> impl Strategy<Value = [Case<F>; 2]> {
-    named("shared-edge").expect("a row of the table").prop_map(|cases| [cases[0], cases[1]])
+    named("shared-edge")
+        .expect("a row of the table")
+        .prop_map(|cases| [cases[0], cases[1]])
 }
 
 macro_rules! strategies {
@@ -129,7 +132,9 @@ strategies! {
 macro_rules! prop_assert_conforms {
     ($kernel:expr, $contract:expr, $case:expr $(,)?) => {
         if let Err(disagreement) = $crate::strategy::conforms(&$kernel, &$contract, &$case) {
-            return Err($crate::strategy::TestCaseError::fail(disagreement.to_string()));
+            return Err($crate::strategy::TestCaseError::fail(
+                disagreement.to_string(),
+            ));
         }
     };
 }
@@ -142,7 +147,9 @@ macro_rules! prop_assert_conforms_together {
         if let Err(disagreement) =
             $crate::strategy::conforms_together(&$kernel, &$contract, &$cases)
         {
-            return Err($crate::strategy::TestCaseError::fail(disagreement.to_string()));
+            return Err($crate::strategy::TestCaseError::fail(
+                disagreement.to_string(),
+            ));
         }
     };
 }

@@ -69,9 +69,17 @@ impl PromisedNumbers {
 
     /// Rounding moves the limits a little, which no promise minds.
     fn holds_in_f64(self, Case { ray, triangle }: Case<f64>, ulp: f64) -> bool {
-        let (Ray { origin, direction, .. }, Triangle { a, b, c }) = (ray, triangle);
+        let (
+            Ray {
+                origin, direction, ..
+            },
+            Triangle { a, b, c },
+        ) = (ray, triangle);
         let edges = [b - a, c - b, a - c];
-        let longest = edges.map(|edge| edge.length()).into_iter().fold(0.0, f64::max);
+        let longest = edges
+            .map(|edge| edge.length())
+            .into_iter()
+            .fold(0.0, f64::max);
         let normal = edges[0].cross(c - a);
         let area = normal.length();
         match self {
@@ -88,7 +96,10 @@ impl PromisedNumbers {
                 (0.25..=4.0).contains(&size)
             }
             PromisedNumbers::Far => {
-                let largest = [a, b, c].iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+                let largest = [a, b, c]
+                    .iter()
+                    .map(|p| p.abs().max_element())
+                    .fold(0.0, f64::max);
                 8.0 * longest <= largest
             }
             _ => unreachable!("decided on the floats themselves"),
@@ -101,7 +112,9 @@ impl PromisedNumbers {
 /// 0.058 high: 4,300 ulps.
 fn is_near<F: Float>(case: &Case<F>, count: usize) -> bool {
     let exact = oracle::define(case).exact;
-    let (Some(u), Some(v)) = (exact.u, exact.v) else { return false };
+    let (Some(u), Some(v)) = (exact.u, exact.v) else {
+        return false;
+    };
     let most = BigRational::from_float(8192.0 * F::EPSILON.to_f64()).expect("finite");
     let weights = [BigRational::one() - &u - &v, u, v];
     weights.iter().filter(|weight| weight.abs() <= most).count() == count
@@ -110,9 +123,23 @@ fn is_near<F: Float>(case: &Case<F>, count: usize) -> bool {
 /// True if both triangles have one ray and two vertices in common.
 fn share_an_edge<F: Float>(cases: &[Case<F>]) -> bool {
     let [first, second] = cases else { return false };
-    let of = |case: &Case<F>| case.triangle.vertices().map(|vertex| -> [F; 3] { vertex.into() });
-    let ray = |case: &Case<F>| ([0, 1].map(|i| case.vectors()[i]), case.ray.t_min, case.ray.t_max);
+    let of = |case: &Case<F>| {
+        case.triangle
+            .vertices()
+            .map(|vertex| -> [F; 3] { vertex.into() })
+    };
+    let ray = |case: &Case<F>| {
+        (
+            [0, 1].map(|i| case.vectors()[i]),
+            case.ray.t_min,
+            case.ray.t_max,
+        )
+    };
     let theirs = of(second);
     ray(first) == ray(second)
-        && of(first).iter().filter(|vertex| theirs.contains(vertex)).count() == 2
+        && of(first)
+            .iter()
+            .filter(|vertex| theirs.contains(vertex))
+            .count()
+            == 2
 }

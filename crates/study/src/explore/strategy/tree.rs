@@ -21,13 +21,18 @@ pub struct FamilyCases<F> {
 
 impl<F> FamilyCases<F> {
     pub(super) fn new(promises: Vec<&'static StrategyPromise>) -> Self {
-        FamilyCases { promises, scalar: PhantomData }
+        FamilyCases {
+            promises,
+            scalar: PhantomData,
+        }
     }
 }
 
 impl<F> std::fmt::Debug for FamilyCases<F> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_list().entries(self.promises.iter().map(|promise| promise.name())).finish()
+        f.debug_list()
+            .entries(self.promises.iter().map(|promise| promise.name()))
+            .finish()
     }
 }
 
@@ -40,7 +45,13 @@ impl<F: Scalar> Strategy for FamilyCases<F> {
         let promise = self.promises[(seed % self.promises.len() as u64) as usize];
         // Some families promise a little less than their strategy: most indices keep it.
         (0..1000)
-            .map(|i| promise.family().make::<F>(&Parameters::default(), seed, i).cases().to_vec())
+            .map(|i| {
+                promise
+                    .family()
+                    .make::<F>(&Parameters::default(), seed, i)
+                    .cases()
+                    .to_vec()
+            })
             .find(|cases| promise.keeps(cases))
             .map(|cases| CaseTree::new(promise, cases))
             .ok_or_else(|| format!("'{}' keeps no promise", promise.name()).into())
@@ -61,13 +72,22 @@ pub struct CaseTree<F: Float> {
 
 impl<F: Float> std::fmt::Debug for CaseTree<F> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_tuple("CaseTree").field(&self.promise.name()).field(&self.current).finish()
+        f.debug_tuple("CaseTree")
+            .field(&self.promise.name())
+            .field(&self.current)
+            .finish()
     }
 }
 
 impl<F: Scalar> CaseTree<F> {
     fn new(promise: &'static StrategyPromise, cases: Vec<Case<F>>) -> Self {
-        CaseTree { promise, failing: cases.clone(), current: cases, next: 0, idle: 0 }
+        CaseTree {
+            promise,
+            failing: cases.clone(),
+            current: cases,
+            next: 0,
+            idle: 0,
+        }
     }
 
     /// To the next simpler cases that keep the promise; back to the failing ones if there are none.
@@ -141,11 +161,16 @@ fn applied<F: Float>(step: Simplification, cases: &[Case<F>], triangle: usize) -
     let follow = |case: &Case<F>| {
         let vertices = case.triangle.vertices().map(|vertex| {
             let vertex: [F; 3] = vertex.into();
-            before.iter().position(|old| *old == vertex).map_or(vertex, |i| after[i])
+            before
+                .iter()
+                .position(|old| *old == vertex)
+                .map_or(vertex, |i| after[i])
         });
         let [origin, direction, ..] = new.vectors();
         Case::new(origin, direction, vertices).on(new.ray.t_min, new.ray.t_max)
     };
     let others = cases.iter().enumerate();
-    others.map(|(i, case)| if i == triangle { new } else { follow(case) }).collect()
+    others
+        .map(|(i, case)| if i == triangle { new } else { follow(case) })
+        .collect()
 }

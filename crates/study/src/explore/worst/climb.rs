@@ -38,15 +38,27 @@ pub struct WorstGoal {
 impl WorstGoal {
     /// `kernel/scalar/epsilons/target/domain`: what its entry in the table is called.
     pub fn name<F: Scalar>(&self) -> String {
-        let epsilons = self.row.epsilon_argument().unwrap_or_else(|| "-".to_owned());
+        let epsilons = self
+            .row
+            .epsilon_argument()
+            .unwrap_or_else(|| "-".to_owned());
         let (info, domain) = (self.row.entry.info, self.domain.name());
-        format!("{}/{}/{epsilons}/{}/{domain}", info.name, F::NAME, self.target.name(info))
+        format!(
+            "{}/{}/{epsilons}/{}/{domain}",
+            info.name,
+            F::NAME,
+            self.target.name(info)
+        )
     }
 
     /// Every goal of a row in a domain.
     pub fn of_row(row: &Row, domain: SearchDomain) -> impl Iterator<Item = WorstGoal> + use<'_> {
         let targets = SearchTarget::of_kernel(row.entry.info).into_iter();
-        targets.map(move |target| WorstGoal { row: row.clone(), target, domain })
+        targets.map(move |target| WorstGoal {
+            row: row.clone(),
+            target,
+            domain,
+        })
     }
 
     /// The goal's scorer.
@@ -77,7 +89,12 @@ pub fn search<F: Scalar>(
         let scorer = goal.scorer::<F>();
         let mut draw = Draw::new(&goal.name::<F>(), seed, lane);
         let share = evaluations / LANES + u64::from(lane < evaluations % LANES);
-        let best = Climb { scorer: &scorer, evaluated: 0, best: None }.run(&mut draw, share)?;
+        let best = Climb {
+            scorer: &scorer,
+            evaluated: 0,
+            best: None,
+        }
+        .run(&mut draw, share)?;
         let score = Decimal::of(&scorer.exact(&best)?)?;
         Some(FoundWorst { case: best, score })
     });
@@ -120,7 +137,9 @@ impl<F: Scalar> Climb<'_, F> {
                 }
             }
         }
-        self.best.filter(|(score, _)| *score >= 0.0).map(|(_, case)| case)
+        self.best
+            .filter(|(score, _)| *score >= 0.0)
+            .map(|(_, case)| case)
     }
 
     /// The best of some cases of the families.

@@ -70,7 +70,14 @@ pub fn find_worst<F: Scalar>(
         let case = shrunk.map_or(found.case, |shrunk| shrunk.case);
         let score = exact_score(goal, &case)?;
         let (goal, case) = ((*goal).clone(), AnyCase::from(case));
-        Some(WorstEntry { goal, case, score, found: found.score, seed, evaluations })
+        Some(WorstEntry {
+            goal,
+            case,
+            score,
+            found: found.score,
+            seed,
+            evaluations,
+        })
     })
 }
 
@@ -83,13 +90,23 @@ impl WorstEntry {
 
     /// As a case of a corpus file, its truth included.
     pub fn stored(&self) -> StoredCase {
-        let WorstEntry { score, found, seed, evaluations, .. } = self;
+        let WorstEntry {
+            score,
+            found,
+            seed,
+            evaluations,
+            ..
+        } = self;
         let unit = self.goal.target.objective.unit();
         let why = format!(
             "score={score} found={found} seed={seed} evaluations={evaluations} unit={unit}"
         );
         let stored = StoredCase::of(self.case).with_truth();
-        StoredCase { name: Some(self.name()), why: Some(why), ..stored }
+        StoredCase {
+            name: Some(self.name()),
+            why: Some(why),
+            ..stored
+        }
     }
 
     /// The entry that a stored case is; none if its name says that it is none.
@@ -110,7 +127,8 @@ impl WorstEntry {
         let entry = parsed.and_then(|entry| {
             let written = entry.name();
             let same = Some(&written) == stored.name.as_ref();
-            same.then_some(entry).ok_or_else(|| format!("its name would be '{written}'"))
+            same.then_some(entry)
+                .ok_or_else(|| format!("its name would be '{written}'"))
         });
         Some(entry)
     }
@@ -129,10 +147,17 @@ impl WorstEntry {
 /// `kernel/scalar/epsilons/target/domain`; the scalar is that of the case.
 fn parse_goal(name: &str, case: &AnyCase) -> Result<WorstGoal, String> {
     let shape = || format!("'{name}' is not kernel/scalar/epsilons/target/domain");
-    let parts: [&str; 5] = name.split('/').collect::<Vec<_>>().try_into().map_err(|_| shape())?;
+    let parts: [&str; 5] = name
+        .split('/')
+        .collect::<Vec<_>>()
+        .try_into()
+        .map_err(|_| shape())?;
     let [kernel, scalar, epsilons, target, domain] = parts;
     if scalar != case.scalar() {
-        return Err(format!("'{name}' is of {scalar}, its case of {}", case.scalar()));
+        return Err(format!(
+            "'{name}' is of {scalar}, its case of {}",
+            case.scalar()
+        ));
     }
     let epsilons = Some(epsilons).filter(|text| *text != "-");
     let row = Row::named(kernel, epsilons, "own")?;
@@ -140,7 +165,11 @@ fn parse_goal(name: &str, case: &AnyCase) -> Result<WorstGoal, String> {
     let target = SearchTarget::find(target, row.entry.info)
         .ok_or_else(|| format!("'{target}' is nothing that {kernel} is searched for"))?;
     let domain = SearchDomain::named(domain).ok_or_else(|| format!("unknown domain '{domain}'"))?;
-    Ok(WorstGoal { row, target, domain })
+    Ok(WorstGoal {
+        row,
+        target,
+        domain,
+    })
 }
 
 /// The values of score, found, seed and evaluations.
@@ -149,17 +178,26 @@ fn parse_why(why: Option<&str>) -> Result<[&str; 4], String> {
     let words: Vec<&str> = why.unwrap_or_default().splitn(5, ' ').collect();
     let words: [&str; 5] = words.try_into().map_err(|_| expected.to_owned())?;
     let value = |i: usize, key: &str| {
-        let text = words[i].strip_prefix(key).and_then(|rest| rest.strip_prefix('='));
+        let text = words[i]
+            .strip_prefix(key)
+            .and_then(|rest| rest.strip_prefix('='));
         text.ok_or_else(|| expected.to_owned())
     };
     value(4, "unit")?;
-    Ok([value(0, "score")?, value(1, "found")?, value(2, "seed")?, value(3, "evaluations")?])
+    Ok([
+        value(0, "score")?,
+        value(1, "found")?,
+        value(2, "seed")?,
+        value(3, "evaluations")?,
+    ])
 }
 
 /// Computes the score of a stored case of the table again, exactly. True if it is a case of the
 /// table; an error if the score is another one.
 pub fn replay(stored: &StoredCase) -> Result<bool, String> {
-    let Some(entry) = WorstEntry::of_stored(stored) else { return Ok(false) };
+    let Some(entry) = WorstEntry::of_stored(stored) else {
+        return Ok(false);
+    };
     let entry = entry?;
     match either_scalar!(&entry.case, case => exact_score(&entry.goal, case)) {
         Some(score) if score == entry.score => Ok(true),
@@ -178,7 +216,9 @@ impl WorstTable {
             let stored = stored?;
             let wrong = |message: String| InputError::at(file, stored.line, message);
             let none = || wrong(format!("no entry: its name does not begin with '{PREFIX}'"));
-            let entry = WorstEntry::of_stored(&stored).ok_or_else(none)?.map_err(wrong)?;
+            let entry = WorstEntry::of_stored(&stored)
+                .ok_or_else(none)?
+                .map_err(wrong)?;
             replay(&stored).map_err(wrong)?;
             if table.entries.insert(entry.name(), entry).is_some() {
                 return Err(wrong("a second entry of this name".to_owned()));
@@ -206,6 +246,7 @@ impl WorstTable {
 
     /// One line an entry.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.entries().try_for_each(|entry| writeln!(out, "{}", lines::write_case(&entry.stored())))
+        self.entries()
+            .try_for_each(|entry| writeln!(out, "{}", lines::write_case(&entry.stored())))
     }
 }

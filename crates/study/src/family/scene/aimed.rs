@@ -55,19 +55,29 @@ fn aimed<F: Float>(
     weights: fn(&mut Draw) -> [f64; 2],
 ) -> Case<F> {
     let (triangle, _) = setup.triangles.triangle(draw);
-    let (target, toward) = (point_of(triangle, weights(draw)), aim(draw, setup.scene, triangle));
+    let (target, toward) = (
+        point_of(triangle, weights(draw)),
+        aim(draw, setup.scene, triangle),
+    );
     let (start, direction) = ray(draw, setup.scene, target, toward);
     Case::new(start, direction, triangle)
 }
 
 pub fn edges<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    let Pair { ends: [p, q], triangles } = setup.triangles.pair(draw);
+    let Pair {
+        ends: [p, q],
+        triangles,
+    } = setup.triangles.pair(draw);
     // Away from the ends, where rounding moves the ray off the rim of both.
     let along = 0.0625 + 0.875 * draw.unit();
     let target = wide(p) + (wide(q) - wide(p)) * along;
     let toward = aim(draw, setup.scene, triangles[0]);
     let (start, direction) = ray(draw, setup.scene, target, toward);
-    Made::Group(triangles.map(|triangle| Case::new(start, direction, triangle)).into())
+    Made::Group(
+        triangles
+            .map(|triangle| Case::new(start, direction, triangle))
+            .into(),
+    )
 }
 
 pub fn vertices<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
@@ -75,6 +85,9 @@ pub fn vertices<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
     let toward = aim(draw, setup.scene, triangles[0]);
     let (start, direction) = ray(draw, setup.scene, wide(center), toward);
     Made::Group(
-        triangles.into_iter().map(|triangle| Case::new(start, direction, triangle)).collect(),
+        triangles
+            .into_iter()
+            .map(|triangle| Case::new(start, direction, triangle))
+            .collect(),
     )
 }

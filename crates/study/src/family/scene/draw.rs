@@ -29,7 +29,11 @@ pub fn edge_length(draw: &mut Draw, scene: &Scene) -> f64 {
     match scene.median_edge {
         None => between_powers(draw, [low, high]),
         Some(median) => {
-            let range = if draw.coin() { [low, median] } else { [median, high] };
+            let range = if draw.coin() {
+                [low, median]
+            } else {
+                [median, high]
+            };
             between_powers(draw, range)
         }
     }
@@ -78,7 +82,11 @@ impl RayAxes {
             let square = across.dot(across);
             if 0.0625 < square {
                 let across = across / square.sqrt();
-                return RayAxes { along: across.cross(normal), across, normal };
+                return RayAxes {
+                    along: across.cross(normal),
+                    across,
+                    normal,
+                };
             }
         }
     }
@@ -86,7 +94,11 @@ impl RayAxes {
     /// Upright on two axes, the first two of three in cyclic order, and turned about the third by the angle of a
     /// vector of length 1.
     pub fn upright([i, j, k]: [usize; 3], [x, y]: [f64; 2]) -> RayAxes {
-        let mut frame = RayAxes { along: DVec3::ZERO, across: DVec3::ZERO, normal: DVec3::ZERO };
+        let mut frame = RayAxes {
+            along: DVec3::ZERO,
+            across: DVec3::ZERO,
+            normal: DVec3::ZERO,
+        };
         (frame.along[i], frame.along[j]) = (x, y);
         (frame.across[i], frame.across[j]) = (-y, x);
         frame.normal[k] = 1.0;
@@ -99,7 +111,11 @@ impl RayAxes {
         let normal = self.normal * (1.0 - sine * sine).sqrt() + downhill * sine;
         let across = normal.cross(self.along);
         let across = across / across.dot(across).sqrt();
-        RayAxes { along: across.cross(normal), across, normal }
+        RayAxes {
+            along: across.cross(normal),
+            across,
+            normal,
+        }
     }
 
     /// The frame of a triangle's plane, along its first edge; none if `f64` finds no normal.
@@ -111,7 +127,11 @@ impl RayAxes {
         let along = (e / largest).normalize();
         let normal = (e / largest).cross(f / largest).normalize();
         let is_frame = along.is_finite() && normal.is_finite();
-        is_frame.then(|| RayAxes { along, across: normal.cross(along), normal })
+        is_frame.then(|| RayAxes {
+            along,
+            across: normal.cross(along),
+            normal,
+        })
     }
 
     /// The vector of coordinates along and across.
@@ -137,7 +157,11 @@ pub fn point_of<F: Float>(triangle: [[F; 3]; 3], [u, v]: [f64; 2]) -> DVec3 {
 /// Weights of b and c, uniform in the triangle.
 pub fn inside(draw: &mut Draw) -> [f64; 2] {
     let (u, v) = (draw.unit(), draw.unit());
-    if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] }
+    if u + v > 1.0 {
+        [1.0 - u, 1.0 - v]
+    } else {
+        [u, v]
+    }
 }
 
 /// Weights of b and c, uniform in a rhomboid three times as large on each side, but outside; the rhomboid's
@@ -172,7 +196,9 @@ pub fn ray<F: Float>(
 /// vector stays 0 if the scene's rays go along axes.
 pub fn direction<F: Float>(scene: &Scene, mut way: DVec3, toward: DVec3) -> [F; 3] {
     if scene.toward != Toward::Any {
-        (0..3).filter(|axis| toward[*axis] == 0.0).for_each(|axis| way[axis] = 0.0);
+        (0..3)
+            .filter(|axis| toward[*axis] == 0.0)
+            .for_each(|axis| way[axis] = 0.0);
     }
     // Nearer than the shortest edge, the target's own rounding would turn the ray.
     let is_short = way.dot(way) < scene.edge[0] * scene.edge[0];

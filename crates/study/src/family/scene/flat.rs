@@ -22,7 +22,11 @@ pub fn grazing_ray<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> (Case<F>,
     let frame = RayAxes::of(triangle).unwrap_or(drawn);
     // The coin is tossed in any case, so that the other draws stay the same.
     let is_inside = draw.coin() || setup.scene.aims_inside;
-    let weights = if is_inside { inside(draw) } else { beside(draw) };
+    let weights = if is_inside {
+        inside(draw)
+    } else {
+        beside(draw)
+    };
     let target = point_of(triangle, weights);
     let sine = match setup.scene.sine {
         Some(range) => between_powers(draw, range) * if draw.coin() { 1.0 } else { -1.0 },
@@ -84,7 +88,11 @@ pub fn grazing_sine<F: Float>(draw: &mut Draw) -> f64 {
 }
 
 pub fn parallel<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    let Parallel { triangle, direction, size } = setup.triangles.parallel(draw);
+    let Parallel {
+        triangle,
+        direction,
+        size,
+    } = setup.triangles.parallel(draw);
     let length = wide(direction).dot(wide(direction)).sqrt();
     let ahead = wide(direction) / length;
     let off = match draw.below(4) {

@@ -100,7 +100,9 @@ impl Stratum {
         };
         let mut made = self.maker()(&setup, draw);
         if doublings != 0 {
-            made.cases_mut().iter_mut().for_each(|case| lengthen(case, doublings));
+            made.cases_mut()
+                .iter_mut()
+                .for_each(|case| lengthen(case, doublings));
         }
         // A segment ends where its target is: that is its question.
         if scene.interval == SceneInterval::Drawn && self != Stratum::Segment {
@@ -152,7 +154,15 @@ pub fn missed_sine<F: Float>(
     index: u64,
 ) -> Option<f64> {
     let mut draw = Draw::new(Stratum::Grazing.family().name, seed, index);
-    grazing_ray(&Setup { triangles, scene, kernel: None }, &mut draw).1
+    grazing_ray(
+        &Setup {
+            triangles,
+            scene,
+            kernel: None,
+        },
+        &mut draw,
+    )
+    .1
 }
 
 /// Chooses the length of one ray's direction in a scene of all lengths: a unit vector in half of the cases, the way to the
@@ -162,7 +172,11 @@ fn settle_length(draw: &mut Draw, scene: &mut Scene) -> i32 {
         return 0;
     }
     let kind = draw.below(4);
-    scene.direction = if kind == 0 { DirectionLength::Target } else { DirectionLength::Unit };
+    scene.direction = if kind == 0 {
+        DirectionLength::Target
+    } else {
+        DirectionLength::Unit
+    };
     match kind {
         1 => draw.pick(&[-6, -3, -1, 1, 3, 6]),
         _ => 0,
@@ -175,7 +189,10 @@ fn lengthen<F: Float>(case: &mut Case<F>, doublings: i32) {
     let scaled = |x: F, power: i32| F::from_f64(scale_by_power_of_two(x.to_f64(), power));
     let direction: [F; 3] = case.ray.direction.into();
     case.ray.direction = direction.map(|x| scaled(x, doublings)).into();
-    *case = case.on(scaled(case.ray.t_min, -doublings), scaled(case.ray.t_max, -doublings));
+    *case = case.on(
+        scaled(case.ray.t_min, -doublings),
+        scaled(case.ray.t_max, -doublings),
+    );
 }
 
 /// The data from which a stratum's cases are made.

@@ -37,7 +37,11 @@ pub fn pixel<F: Float>(
     seed: u64,
     index: u64,
 ) -> Pixel<F> {
-    let setup = Setup { triangles, scene, kernel: None };
+    let setup = Setup {
+        triangles,
+        scene,
+        kernel: None,
+    };
     let draw = &mut pixel_draw(seed, index);
     let Pair { ends, triangles } = setup.triangles.pair(draw);
     let toward = aim(draw, scene, triangles[0]);
@@ -46,7 +50,9 @@ pub fn pixel<F: Float>(
         (b - a).cross(c - a).dot(toward).abs() / 2.0
     });
     let which = usize::from(draw.coin());
-    let apex = triangles[which].into_iter().find(|corner| !ends.contains(corner));
+    let apex = triangles[which]
+        .into_iter()
+        .find(|corner| !ends.contains(corner));
     let apex = wide(apex.unwrap_or(ends[0]));
     let [p, q] = ends.map(wide);
     // The weight of the third corner is the least of the three.
@@ -57,7 +63,9 @@ pub fn pixel<F: Float>(
     let target = p + (q - p) * of_q + (apex - p) * weight;
     let (start, direction) = ray(draw, scene, target, toward);
     Pixel {
-        cases: triangles.map(|triangle| Case::new(start, direction, triangle)).into(),
+        cases: triangles
+            .map(|triangle| Case::new(start, direction, triangle))
+            .into(),
         // Over the densities of the weight and of the triangle.
         area: 2.0 * areas[which] * length * weight * halvings * LN_2 * 2.0,
         triangles: (areas[0] + areas[1]) / 3.0,

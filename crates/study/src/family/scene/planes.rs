@@ -41,9 +41,20 @@ pub fn plane(draw: &mut Draw, scene: &Scene, size: f64) -> (DVec3, RayAxes) {
             return (base, frame.tilted(downhill, slope));
         }
     }
-    let RayAxes { along, across, normal } = frame;
+    let RayAxes {
+        along,
+        across,
+        normal,
+    } = frame;
     // Half of the planes face down.
-    (base, RayAxes { along, across: across * side, normal: normal * side })
+    (
+        base,
+        RayAxes {
+            along,
+            across: across * side,
+            normal: normal * side,
+        },
+    )
 }
 
 /// A point so far inside the extent that all within `size` of it is inside too, where there is one.
@@ -51,7 +62,11 @@ pub fn place(draw: &mut Draw, scene: &Scene, size: f64) -> DVec3 {
     let reach = (scene.extent - size).max(0.0);
     let from_center = DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw)) * reach;
     // Adding 0 would take the sign from zeros.
-    if scene.center == 0.0 { from_center } else { from_center + DVec3::splat(scene.center) }
+    if scene.center == 0.0 {
+        from_center
+    } else {
+        from_center + DVec3::splat(scene.center)
+    }
 }
 
 /// A vector of length 1, uniform on the circle.
@@ -63,7 +78,10 @@ pub fn turn(draw: &mut Draw) -> [f64; 2] {
 /// Along and across, two vertices of half a rectangle whose corner is the third and whose diagonal is `size` long.
 pub fn half_of_a_face(draw: &mut Draw, size: f64) -> [(f64, f64); 2] {
     let across = 0.25 + 0.45 * draw.unit();
-    [((1.0 - across * across).sqrt() * size, 0.0), (0.0, across * size)]
+    [
+        ((1.0 - across * across).sqrt() * size, 0.0),
+        (0.0, across * size),
+    ]
 }
 
 /// The ends of the six edges around a corner of a box: three are the box's, three are diagonals of faces, all at most

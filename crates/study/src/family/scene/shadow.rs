@@ -16,7 +16,11 @@ pub fn shadow<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
     let (point, triangle) = hit(setup, draw);
     let toward = aim(draw, setup.scene, triangle);
     let way = toward * between(draw, setup.scene.distance);
-    Made::One(Case::new(point, direction(setup.scene, way, toward), triangle))
+    Made::One(Case::new(
+        point,
+        direction(setup.scene, way, toward),
+        triangle,
+    ))
 }
 
 /// From a rounded point to a hit point, as programs ask what stands between the two: a unit vector and the rounded distance,
@@ -58,14 +62,32 @@ fn hit<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> ([F; 3], [[F; 3]; 3]
 pub fn hit_point<F: Scalar>(draw: &mut Draw, case: &Case<F>, kernel: &Entry) -> Option<[F; 3]> {
     let mut verdict = [Verdict::miss(None)];
     let zeros = vec![F::zero(); kernel.info.gates.len()];
-    verdicts_of(F::subject(kernel)?, slice::from_ref(case), &zeros, &mut verdict);
-    let Verdict { hit: true, t, u, v, .. } = verdict[0] else { return None };
+    verdicts_of(
+        F::subject(kernel)?,
+        slice::from_ref(case),
+        &zeros,
+        &mut verdict,
+    );
+    let Verdict {
+        hit: true, t, u, v, ..
+    } = verdict[0]
+    else {
+        return None;
+    };
     let triangle = case.triangle.vertices().map(Into::into);
     let on_ray = |t: F| case.ray.origin.plus(&case.ray.direction.times(&t)).into();
     let by_weights = |(u, v): (F, F)| combination(triangle, [F::one() - u - v, u, v]);
-    let Gives { t: gives_t, uv: gives_uv, .. } = kernel.info.gives;
-    let points: [Option<[F; 3]>; 2] =
-        [gives_t.then(|| on_ray(t)), gives_uv.then(|| by_weights((u, v)))];
+    let Gives {
+        t: gives_t,
+        uv: gives_uv,
+        ..
+    } = kernel.info.gives;
+    let points: [Option<[F; 3]>; 2] = [
+        gives_t.then(|| on_ray(t)),
+        gives_uv.then(|| by_weights((u, v))),
+    ];
     let first = usize::from(draw.coin());
-    points[first].or(points[1 - first]).filter(|point| point.iter().all(F::is_finite))
+    points[first]
+        .or(points[1 - first])
+        .filter(|point| point.iter().all(F::is_finite))
 }

@@ -86,7 +86,10 @@ impl<F: Float> TriangleSource<F> for Scene {
         let second = p + frame.along * x + down * y;
         let [p, q, first, second] = [p, q, first, second].map(rounded);
         let triangles = [[p, q, first], [q, p, second]].map(|corners| turned(draw, corners));
-        Pair { ends: [p, q], triangles }
+        Pair {
+            ends: [p, q],
+            triangles,
+        }
     }
 
     fn fan(&self, draw: &mut Draw) -> Ring<F> {
@@ -107,7 +110,10 @@ impl<F: Float> TriangleSource<F> for Scene {
         let ring = ring.map(|corner| rounded::<F>(center + corner * (size / 1.1)));
         let center = rounded(center);
         let triangle = |i: usize| turned(draw, [center, ring[i], ring[(i + 1) % ring.len()]]);
-        Ring { center, triangles: (0..ring.len()).map(triangle).collect() }
+        Ring {
+            center,
+            triangles: (0..ring.len()).map(triangle).collect(),
+        }
     }
 
     /// Unit vectors exactly in a generic plane do not exist among floats. What does: rays along an axis in
@@ -118,7 +124,11 @@ impl<F: Float> TriangleSource<F> for Scene {
         if !matches!(self.plane, PlaneKind::Generic | PlaneKind::Terrain) {
             let (base, frame) = plane(draw, self, size);
             let (triangle, direction) = level(draw, self, size, base, &frame);
-            return Parallel { triangle, direction, size };
+            return Parallel {
+                triangle,
+                direction,
+                size,
+            };
         }
         let axes = draw.pick(&AXES);
         let (triangle, direction) = match (self.direction, draw.below(3)) {
@@ -129,14 +139,25 @@ impl<F: Float> TriangleSource<F> for Scene {
                 level(draw, self, size, base, &RayAxes::upright(axes, turned))
             }
         };
-        Parallel { triangle, direction, size }
+        Parallel {
+            triangle,
+            direction,
+            size,
+        }
     }
 }
 
 /// The corners of a hexagon: cosines and sines of multiples of 60 degrees.
 pub const HEXAGON: [[f64; 2]; 6] = {
     const SINE: f64 = 0.866_025_403_784_438_6;
-    [[1.0, 0.0], [0.5, SINE], [-0.5, SINE], [-1.0, 0.0], [-0.5, -SINE], [0.5, -SINE]]
+    [
+        [1.0, 0.0],
+        [0.5, SINE],
+        [-0.5, SINE],
+        [-1.0, 0.0],
+        [-0.5, -SINE],
+        [0.5, -SINE],
+    ]
 };
 
 /// Along and across, the third vertex of a triangle on the edge from (0, 0) to (size, 0), which is the
@@ -175,7 +196,10 @@ fn on_grid<F: Float>(draw: &mut Draw, scene: &Scene, size: f64) -> ([[F; 3]; 3],
         if 0.001 * size.powi(4) < normal.dot(normal) {
             let sums = [(1.0, 0.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 2.0)];
             let (i, j) = draw.pick(&sums);
-            return (shuffle(draw, [a, b, c]).map(rounded), rounded(e * i + f * j));
+            return (
+                shuffle(draw, [a, b, c]).map(rounded),
+                rounded(e * i + f * j),
+            );
         }
     }
 }
@@ -193,16 +217,25 @@ fn holding_axis<F: Float>(
     let base = place(draw, scene, size);
     let steps = (size / spacing / 4.0) as i64;
     loop {
-        let line = [draw.integer(-steps, steps), draw.integer((steps + 1) / 2, steps)];
+        let line = [
+            draw.integer(-steps, steps),
+            draw.integer((steps + 1) / 2, steps),
+        ];
         let [first, second] = draw.pick(&[[1, 2], [2, -1], [-1, 1], [1, -2]]);
         let along = [0.0, symmetric(draw) * size, symmetric(draw) * size];
         let from_base = |step: i64, along: f64| {
             let [i, j] = line.map(|part| (step * part) as f64 * spacing);
             DVec3::new(along, i, j)
         };
-        let corners = [from_base(0, 0.0), from_base(first, along[1]), from_base(second, along[2])];
+        let corners = [
+            from_base(0, 0.0),
+            from_base(first, along[1]),
+            from_base(second, along[2]),
+        ];
         let [e, f] = [corners[1] - corners[0], corners[2] - corners[0]];
-        let longest = [e, f, f - e].iter().fold(0.0f64, |most, edge| most.max(edge.length()));
+        let longest = [e, f, f - e]
+            .iter()
+            .fold(0.0f64, |most, edge| most.max(edge.length()));
         let is_wide = 0.125 * longest * longest <= e.cross(f).length();
         if longest <= size && size <= 2.0 * longest && is_wide {
             let at_base = |corner: DVec3| {

@@ -26,18 +26,30 @@ fn a_band_is_compared_exactly() {
     let triangle = [[0.0; 3], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
     let ask = |y: f64, triangle: [[f64; 3]; 3], band: String| {
         let case = Case::<f64>::new([1.0, y, 8.0], [0.0, 0.0, -1.0], triangle);
-        let contract = Contract { band: Some(band.parse().unwrap()), ..Contract::CLOSED_RAY };
+        let contract = Contract {
+            band: Some(band.parse().unwrap()),
+            ..Contract::CLOSED_RAY
+        };
         asked(&case, &truth(&case), &contract, false)
     };
     // As a float 0.1 is a little more than a tenth, and the float before it less.
     let edges = |size: f64| ask(0.5, triangle, format!("{size:e}"));
-    assert_eq!([0.1f64.next_down(), 0.1].map(edges), [Obligation::MustHit, Obligation::Free]);
+    assert_eq!(
+        [0.1f64.next_down(), 0.1].map(edges),
+        [Obligation::MustHit, Obligation::Free]
+    );
     // In ulps of the largest coordinate, 8: 2^-49.
     let ulps = |ulps: f64| ask(2f64.powi(-48), triangle, format!("{ulps}ulps"));
-    assert_eq!([2.0, 2f64.next_up()].map(ulps), [Obligation::MustHit, Obligation::Free]);
+    assert_eq!(
+        [2.0, 2f64.next_up()].map(ulps),
+        [Obligation::MustHit, Obligation::Free]
+    );
     // Of a triangle that is a point, in units of length.
     let point = |size: f64| ask(0.5, [[1.0, 0.0, 0.0]; 3], format!("{size:e}"));
-    assert_eq!([0.5, 0.5f64.next_up()].map(point), [Obligation::MustMiss, Obligation::Free]);
+    assert_eq!(
+        [0.5, 0.5f64.next_up()].map(point),
+        [Obligation::MustMiss, Obligation::Free]
+    );
 }
 
 #[test]
@@ -55,7 +67,10 @@ fn a_band_is_compared_exactly_where_distances_are_least_certain() {
         let exact = (exact.clone() * exact).approximate_root();
         for (factor, owed) in [(1.0 + 1e-6, true), (1.0 - 1e-6, false)] {
             let band = format!("{:e}", exact * factor).parse().ok();
-            let contract = Contract { band, ..Contract::CLOSED_RAY };
+            let contract = Contract {
+                band,
+                ..Contract::CLOSED_RAY
+            };
             let is_free = asked(&case, &found, &contract, false) == Obligation::Free;
             assert_eq!(is_free, owed, "{}", case.hex());
         }
@@ -67,9 +82,18 @@ fn a_band_is_compared_exactly_where_distances_are_least_certain() {
 
 #[test]
 fn the_distance_to_change_is_that_which_counts() {
-    let distances = Distances { in_space: 2.0, along: [1.0, 3.0, 5.0], edge_in_ulps: 1.0 };
+    let distances = Distances {
+        in_space: 2.0,
+        along: [1.0, 3.0, 5.0],
+        edge_in_ulps: 1.0,
+    };
     let change = |facing, place, t_sign, feature, contract: Contract| {
-        let truth = Truth::Transversal(Crossing { facing, place, t_sign, feature });
+        let truth = Truth::Transversal(Crossing {
+            facing,
+            place,
+            t_sign,
+            feature,
+        });
         distances.nearest_change(&truth, &contract)
     };
     use Ordering::{Greater, Less};
@@ -83,14 +107,39 @@ fn the_distance_to_change_is_that_which_counts() {
                 (Extent::Ray, Place::Within, Greater, Feature::Outside, 2.0),
                 (Extent::Ray, Place::Within, Less, Feature::Interior, 1.0),
                 (Extent::Ray, Place::Within, Less, Feature::Outside, 2.0),
-                (Extent::Interval, Place::Within, Less, Feature::Interior, 2.0),
-                (Extent::Interval, Place::Before, Greater, Feature::Interior, 3.0),
-                (Extent::Interval, Place::Beyond, Greater, Feature::Outside, 3.0),
+                (
+                    Extent::Interval,
+                    Place::Within,
+                    Less,
+                    Feature::Interior,
+                    2.0,
+                ),
+                (
+                    Extent::Interval,
+                    Place::Before,
+                    Greater,
+                    Feature::Interior,
+                    3.0,
+                ),
+                (
+                    Extent::Interval,
+                    Place::Beyond,
+                    Greater,
+                    Feature::Outside,
+                    3.0,
+                ),
             ] {
-                let contract = Contract { extent, sides, ..closed };
+                let contract = Contract {
+                    extent,
+                    sides,
+                    ..closed
+                };
                 let found = change(facing, place, t_sign, feature, contract);
                 let owed = if culled { 2.0 } else { owed };
-                assert_eq!(found, owed, "{extent:?} {sides:?} {facing:?} {place:?} {feature:?}");
+                assert_eq!(
+                    found, owed,
+                    "{extent:?} {sides:?} {facing:?} {place:?} {feature:?}"
+                );
             }
         }
     }
@@ -113,9 +162,15 @@ fn the_exact_distance_to_change_is_a_share_of_the_longest_edge() {
     assert!(is(ask(0.5, corners), [0.25, 25.0]) && is(ask(-2.0, corners), [4.0, 25.0]));
     assert!(is(ask(0.5, [[1.0, 0.0, 0.0]; 3]), [0.25, 1.0]));
     // An infinite end is never near.
-    let interval = Contract { extent: Extent::Interval, ..Contract::CLOSED_RAY };
+    let interval = Contract {
+        extent: Extent::Interval,
+        ..Contract::CLOSED_RAY
+    };
     let case = Case::<f64>::new([1.0, 0.5, 0.25], [0.0, 0.0, -1.0], corners);
     let case = case.on(-f64::INFINITY, f64::INFINITY);
-    assert!(is(exact_to_change(&case, &truth(&case), &interval), [0.25, 25.0]));
+    assert!(is(
+        exact_to_change(&case, &truth(&case), &interval),
+        [0.25, 25.0]
+    ));
     assert!(exact_to_change(&case, &Truth::Invalid, &interval).is_none());
 }

@@ -24,7 +24,10 @@ struct WideFloat {
 
 impl WideFloat {
     /// In the order of numbers.
-    const ZERO: WideFloat = WideFloat { exponent: i64::MIN / 4, float: 0.0 };
+    const ZERO: WideFloat = WideFloat {
+        exponent: i64::MIN / 4,
+        float: 0.0,
+    };
 
     fn new(float: f64, exponent: i64) -> WideFloat {
         if float == 0.0 {
@@ -33,7 +36,10 @@ impl WideFloat {
         let (digits, power) = decompose(float);
         let bits = i64::from(63 - digits.leading_zeros());
         let near_one = scale_by_power_of_two(digits as f64, -bits as i32);
-        WideFloat { float: near_one, exponent: exponent + power + bits }
+        WideFloat {
+            float: near_one,
+            exponent: exponent + power + bits,
+        }
     }
 
     /// The magnitude of an integer times a power of two, its first 64 bits.
@@ -70,13 +76,20 @@ struct WideVector {
 
 impl WideVector {
     fn of(vector: &IntegerVector<BigInt>, exponent: i64) -> WideVector {
-        let bits = vector.iter().map(BigInt::bits).max().expect("three components");
+        let bits = vector
+            .iter()
+            .map(BigInt::bits)
+            .max()
+            .expect("three components");
         let shift = bits.saturating_sub(64);
         let float = |x: &BigInt| {
             let leading = (x >> shift).to_i128().expect("65 bits");
             scale_by_power_of_two(leading as f64, -64)
         };
-        WideVector { floats: vector.each_ref().map(float), exponent: exponent + shift as i64 + 64 }
+        WideVector {
+            floats: vector.each_ref().map(float),
+            exponent: exponent + shift as i64 + 64,
+        }
     }
 
     fn length(&self) -> WideFloat {
@@ -86,7 +99,11 @@ impl WideVector {
 
     /// The dot product but for a power of two: its sign is what counts.
     fn dot(&self, other: &WideVector) -> f64 {
-        self.floats.iter().zip(other.floats).map(|(x, y)| x * y).sum()
+        self.floats
+            .iter()
+            .zip(other.floats)
+            .map(|(x, y)| x * y)
+            .sum()
     }
 }
 
@@ -102,8 +119,15 @@ pub(super) fn distances(case: &Case<f64>, ulp: f64, crosses: bool) -> Distances 
 
     let edges = [(0, 1), (1, 2), (2, 0)];
     let sides = edges.map(|(p, q)| WideVector::of(&minus(&points[q], &points[p]), grid).length());
-    let longest = sides.into_iter().max_by(WideFloat::compare).expect("three edges");
-    let unit = if longest == WideFloat::ZERO { WideFloat::new(1.0, 0) } else { longest };
+    let longest = sides
+        .into_iter()
+        .max_by(WideFloat::compare)
+        .expect("three edges");
+    let unit = if longest == WideFloat::ZERO {
+        WideFloat::new(1.0, 0)
+    } else {
+        longest
+    };
     let to_edges = edges.map(|(p, q)| {
         let slope = WideVector::of(&minus(&offsets[q], &offsets[p]), squared);
         let [at_p, at_q] = [p, q].map(|end| WideVector::of(&offsets[end], squared));
@@ -118,7 +142,10 @@ pub(super) fn distances(case: &Case<f64>, ulp: f64, crosses: bool) -> Distances 
                 .over(length)
         }
     });
-    let in_space = to_edges.into_iter().min_by(WideFloat::compare).expect("three edges");
+    let in_space = to_edges
+        .into_iter()
+        .min_by(WideFloat::compare)
+        .expect("three edges");
 
     let [from_a, ..] = &points;
     let n = cross(&minus(&b, &a), &minus(&c, &a));
@@ -128,10 +155,16 @@ pub(super) fn distances(case: &Case<f64>, ulp: f64, crosses: bool) -> Distances 
             return f64::INFINITY;
         }
         let gap = gap((&capital_t, 3 * grid), (&capital_d, grid + squared), end);
-        gap.over(WideFloat::of(&capital_d, grid + squared)).times(length).over(unit).to_f64()
+        gap.over(WideFloat::of(&capital_d, grid + squared))
+            .times(length)
+            .over(unit)
+            .to_f64()
     };
-    let along =
-        if crosses { [0.0, case.ray.t_min, case.ray.t_max].map(to_end) } else { [f64::NAN; 3] };
+    let along = if crosses {
+        [0.0, case.ray.t_min, case.ray.t_max].map(to_end)
+    } else {
+        [f64::NAN; 3]
+    };
     Distances {
         in_space: in_space.over(unit).to_f64(),
         along,
@@ -162,9 +195,15 @@ mod tests {
     fn by_squares(case: &Case<f64>, truth: &Truth) -> (f64, [f64; 3]) {
         let (ray, triangle) = case.exact();
         let squares = Squares::<Exact>::of(&ray, &triangle, truth.crossing().is_some());
-        let unit = if squares.longest.is_zero() { Exact::one() } else { squares.longest };
+        let unit = if squares.longest.is_zero() {
+            Exact::one()
+        } else {
+            squares.longest
+        };
         let relative = |square: Exact| (square / &unit).approximate_root();
-        let along = squares.along.map(|square| square.map_or(f64::NAN, relative));
+        let along = squares
+            .along
+            .map(|square| square.map_or(f64::NAN, relative));
         (relative(squares.in_space), along)
     }
 
@@ -184,7 +223,11 @@ mod tests {
                     }
                     let found = distances(case, 1.0, truth.crossing().is_some());
                     let (in_space, along) = by_squares(case, &truth);
-                    assert!(near(found.in_space, in_space), "{} {in_space:e}", case.hex());
+                    assert!(
+                        near(found.in_space, in_space),
+                        "{} {in_space:e}",
+                        case.hex()
+                    );
                     for (found, exact) in found.along.into_iter().zip(along) {
                         let agree = exact.is_nan() || near(found, exact);
                         assert!(agree, "{} {found:e} {exact:e}", case.hex());

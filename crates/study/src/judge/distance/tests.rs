@@ -18,12 +18,20 @@ fn compare<F: Float>(case: &Case<F>, steps: &mut [u32; 4]) {
     steps[step as usize] += 1;
     let (ray, triangle) = case.exact();
     let squares = Squares::<Exact>::of(&ray, &triangle, truth.crossing().is_some());
-    let unit = if squares.longest.is_zero() { Exact::one() } else { squares.longest };
+    let unit = if squares.longest.is_zero() {
+        Exact::one()
+    } else {
+        squares.longest
+    };
     let is_near = |found: f64, square: Exact, what: &str| {
         let exact = (square / &unit).approximate_root();
         // Neither below nor above the range of floats.
         let is_near = exact == found || (found - exact).abs() <= exact / 1000.0;
-        assert!(is_near || exact < 1e-300, "{step:?} {what} {found:e} {exact:e} {}", case.hex());
+        assert!(
+            is_near || exact < 1e-300,
+            "{step:?} {what} {found:e} {exact:e} {}",
+            case.hex()
+        );
     };
     is_near(found.in_space, squares.in_space, "in space");
     let ends = [0.0, case.ray.t_min.to_f64(), case.ray.t_max.to_f64()];
@@ -43,7 +51,9 @@ fn compare<F: Float>(case: &Case<F>, steps: &mut [u32; 4]) {
 /// A case, and the same on intervals that end at its t, some ulps beside it, and less near.
 fn compare_cuts<F: Float>(case: &Case<F>, draw: &mut Draw, steps: &mut [u32; 4]) {
     compare(case, steps);
-    let Some(t) = define(case).exact.t.and_then(|t| t.to_f64()) else { return };
+    let Some(t) = define(case).exact.t.and_then(|t| t.to_f64()) else {
+        return;
+    };
     let t = F::from_f64(t);
     let beside =
         F::from_f64(t.to_f64() * (1.0 + scaled(draw.symmetric(), draw.integer(-45, 0) as i32)));
@@ -62,8 +72,11 @@ fn families<F: crate::kernel::Scalar>(scales: &[i32], steps: &mut [u32; 4]) {
             let mut draw = Draw::new("distances", 1, index);
             let made = family.make::<F>(&Parameters::default(), 1, index);
             let scale = scales[index as usize % scales.len()];
-            let parameters =
-                Parameters { scale, scale_direction: draw.coin(), ..Parameters::default() };
+            let parameters = Parameters {
+                scale,
+                scale_direction: draw.coin(),
+                ..Parameters::default()
+            };
             for case in made.cases() {
                 let mut case = *case;
                 apply(&parameters, &mut case);
@@ -99,7 +112,11 @@ fn of_all_sizes(steps: &mut [u32; 4]) {
         for (i, vector) in vectors.iter_mut().enumerate() {
             for (axis, x) in vector.iter_mut().enumerate() {
                 let size = of_axis[axis] + if i == 1 { of_axis[3] } else { 0 };
-                *x = if draw.below(6) == 0 { 0.0 } else { scaled(*x, size) };
+                *x = if draw.below(6) == 0 {
+                    0.0
+                } else {
+                    scaled(*x, size)
+                };
             }
         }
         if draw.coin() {
@@ -128,7 +145,10 @@ fn distances_are_right_to_a_thousandth_and_each_step_finds_what_it_can() {
     of_all_sizes(&mut steps[2]);
     // A step that hands on what it could find is only slower, which no distance shows. So whoever changes
     // when a step is certain, or these cases, puts the new counts here, and says why.
-    assert_eq!(steps, [[244, 0, 156, 0], [0, 117, 197, 86], [0, 57, 105, 237]]);
+    assert_eq!(
+        steps,
+        [[244, 0, 156, 0], [0, 117, 197, 86], [0, 57, 105, 237]]
+    );
 }
 
 #[test]
@@ -157,8 +177,11 @@ fn numbers_lost_beside_a_far_origin_are_not_overlooked() {
 fn what_a_truth_knows_to_be_zero_is_zero_in_every_step() {
     let mut steps = Vec::new();
     // Onto an edge of a triangle, and at an end of the interval.
-    for (far, edge) in [(1.0, 1.0), (scaled(3.0, -700), scaled(1.0, -700)), (scaled(1.0, 800), 1.0)]
-    {
+    for (far, edge) in [
+        (1.0, 1.0),
+        (scaled(3.0, -700), scaled(1.0, -700)),
+        (scaled(1.0, 800), 1.0),
+    ] {
         let triangle = [[0.0; 3], [0.0, 4.0 * edge, 0.0], [0.0, 0.0, 4.0 * edge]];
         let case = Case::<f64>::new([far, edge, 0.0], [-1.0, 0.0, 0.0], triangle);
         for (t_min, t_max) in [(far, f64::INFINITY), (0.0, far), (far, far.next_up())] {
@@ -186,15 +209,20 @@ fn a_line_that_does_not_cross_the_plane_has_no_distance_along_it() {
     let along = Squares::<Exact>::of(&ray, &triangle, false).along;
     assert!(along.iter().all(Option::is_none));
     assert_eq!(nearest_on_segment(0.0, 0.0), 0.0);
-    assert_eq!([-1.0, 1.0, 3.0].map(|x| nearest_on_segment(x, 2.0)), [0.0, 0.5, 1.0]);
+    assert_eq!(
+        [-1.0, 1.0, 3.0].map(|x| nearest_on_segment(x, 2.0)),
+        [0.0, 0.5, 1.0]
+    );
 }
 
 #[test]
 fn a_line_through_the_middle_of_an_edge_is_at_zero_although_floats_round() {
     for index in 0..40 {
         let mut draw = Draw::new("middle", 1, index);
-        let [o, a, b, c] =
-            [(); 4].map(|()| draw.lattice_point(1 << 45).map(|x| x as f64 / (1i64 << 45) as f64));
+        let [o, a, b, c] = [(); 4].map(|()| {
+            draw.lattice_point(1 << 45)
+                .map(|x| x as f64 / (1i64 << 45) as f64)
+        });
         // o + d/2 is the middle of ab.
         let d = [0, 1, 2].map(|i| a[i] + b[i] - 2.0 * o[i]);
         let case = Case::<f64>::new(o, d, [a, b, c]);
@@ -238,11 +266,20 @@ fn steps_at<F: Float>(share: f64, [size, length]: [i32; 2]) -> [DistanceStep; 4]
 #[test]
 fn floats_are_certain_of_distances_from_a_share_of_the_largest_coordinate_on() {
     for powers in [[0, 0], [40, 20], [-40, 0]] {
-        assert_eq!(steps_at::<f32>(3.0, powers), [DistanceStep::DoubleDoubles; 4]);
-        assert_eq!(steps_at::<f64>(3.0, powers), [DistanceStep::DoubleDoubles; 4]);
+        assert_eq!(
+            steps_at::<f32>(3.0, powers),
+            [DistanceStep::DoubleDoubles; 4]
+        );
+        assert_eq!(
+            steps_at::<f64>(3.0, powers),
+            [DistanceStep::DoubleDoubles; 4]
+        );
         for share in [4.0, 5.0] {
             assert_eq!(steps_at::<f32>(share, powers), [DistanceStep::Floats; 4]);
-            assert_eq!(steps_at::<f64>(share, powers), [DistanceStep::FloatsNearOne; 4]);
+            assert_eq!(
+                steps_at::<f64>(share, powers),
+                [DistanceStep::FloatsNearOne; 4]
+            );
         }
     }
 }
@@ -274,7 +311,9 @@ fn floats_are_certain_of_an_end_from_a_thousandfold_of_their_error_on() {
         // Origins and triangles of sizes of their own.
         let far = scaled(1.0, draw.integer(-3, 3) as i32);
         let case = Case::<f64>::new(o.map(|x| x * far), d, [a, b, c]);
-        let Some(t) = define(&case).exact.t.and_then(|t| t.to_f64()) else { continue };
+        let Some(t) = define(&case).exact.t.and_then(|t| t.to_f64()) else {
+            continue;
+        };
         let end = t * (1.0 + scaled(draw.symmetric(), draw.integer(-44, -26) as i32));
         compare(&case.on(end, f64::INFINITY), &mut steps);
     }

@@ -10,11 +10,21 @@ fn case<F: Float>() -> Case<F> {
         .on(number(1.0), number(11.0))
 }
 
-const GIVES: Gives = Gives { t: true, uv: true, facing: false };
+const GIVES: Gives = Gives {
+    t: true,
+    uv: true,
+    facing: false,
+};
 
 fn hit<F: Float>([t, u, v]: [f64; 3]) -> Verdict<F> {
     let [t, u, v] = [t, u, v].map(F::from_f64);
-    Verdict { hit: true, t, u, v, ..Verdict::miss(None) }
+    Verdict {
+        hit: true,
+        t,
+        u,
+        v,
+        ..Verdict::miss(None)
+    }
 }
 
 #[test]
@@ -34,7 +44,10 @@ fn each_relation_of_values_is_that_worked_out_by_hand() {
         ([3.0, 0.25, 0.625], vec![Relation::WeightAForV]),
         ([3.0, 0.625, 0.25], vec![Relation::WeightsOfAb]),
         ([3.0, 0.125, 0.625], vec![Relation::WeightsOfCa]),
-        ([6.0, 0.125, 0.25], vec![Relation::TwiceT, Relation::Exchanged]),
+        (
+            [6.0, 0.125, 0.25],
+            vec![Relation::TwiceT, Relation::Exchanged],
+        ),
         ([7.0, 0.25, 0.125], vec![]),
         ([3.0, 0.3, 0.125], vec![]),
     ] {
@@ -49,8 +62,18 @@ fn each_relation_of_values_is_that_worked_out_by_hand() {
 #[test]
 fn right_values_have_no_relation_and_those_of_f32_are_known_in_f64() {
     let right = RelatedValues::of(&case::<f64>(), GIVES, &hit([3.0, 0.25, 0.125]), 0.0);
-    assert_eq!(right, RelatedValues { wrong: vec![], holding: vec![] });
-    let rounded = [f64::from(3.0f32.next_up()), 0.25, f64::from(0.125f32.next_up())];
+    assert_eq!(
+        right,
+        RelatedValues {
+            wrong: vec![],
+            holding: vec![]
+        }
+    );
+    let rounded = [
+        f64::from(3.0f32.next_up()),
+        0.25,
+        f64::from(0.125f32.next_up()),
+    ];
     let in_f32 = RelatedValues::of(&case::<f64>(), GIVES, &hit(rounded), 0.0);
     assert_eq!(in_f32.wrong, [Part::T, Part::Weights, Part::Values]);
     assert_eq!(in_f32.holding, [Relation::InF32]);
@@ -70,10 +93,16 @@ fn relations_about_the_interval_change_the_demand_where_they_should() {
         other_demands(&case, &oracle::truth(&case), &contract)
     };
     let (hit, miss) = (Obligation::MustHit, Obligation::MustMiss);
-    assert_eq!(demands(12.0, [4.0, 9.0]), [(IgnoresTMin, hit), (ZeroTMin, hit)]);
+    assert_eq!(
+        demands(12.0, [4.0, 9.0]),
+        [(IgnoresTMin, hit), (ZeroTMin, hit)]
+    );
     assert_eq!(demands(12.0, [1.0, 2.0]), [(IgnoresTMax, hit)]);
     assert_eq!(demands(12.0, [1.0, 9.0]), []);
-    assert_eq!(demands(-12.0, [0.0, 9.0]), [(AbsoluteT, hit), (IgnoresTMin, hit)]);
+    assert_eq!(
+        demands(-12.0, [0.0, 9.0]),
+        [(AbsoluteT, hit), (IgnoresTMin, hit)]
+    );
     assert_eq!(demands(-12.0, [0.0, 2.0]), [(IgnoresTMin, hit)]);
     assert_eq!(
         demands(-12.0, [-5.0, 2.0]),

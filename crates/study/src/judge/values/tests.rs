@@ -13,16 +13,21 @@ fn number(x: f64) -> BigRational {
 /// Solves t·d - u·ab - v·ac = a - o by elimination.
 fn solve(vectors: &[[BigRational; 3]; 5]) -> [BigRational; 3] {
     let [o, d, a, b, c] = vectors;
-    let mut rows: Vec<[BigRational; 4]> =
-        (0..3).map(|j| [d[j].clone(), &a[j] - &b[j], &a[j] - &c[j], &a[j] - &o[j]]).collect();
+    let mut rows: Vec<[BigRational; 4]> = (0..3)
+        .map(|j| [d[j].clone(), &a[j] - &b[j], &a[j] - &c[j], &a[j] - &o[j]])
+        .collect();
     for column in 0..3 {
-        let pivot = (column..3).find(|&i| !rows[i][column].is_zero()).expect("it crosses");
+        let pivot = (column..3)
+            .find(|&i| !rows[i][column].is_zero())
+            .expect("it crosses");
         rows.swap(column, pivot);
         let top = rows[column].clone().map(|x| x / &rows[column][column]);
         for (i, row) in rows.iter_mut().enumerate() {
             let factor = row[column].clone();
             if i != column {
-                row.iter_mut().zip(&top).for_each(|(x, y)| *x -= &factor * y);
+                row.iter_mut()
+                    .zip(&top)
+                    .for_each(|(x, y)| *x -= &factor * y);
             }
         }
         rows[column] = top;
@@ -40,7 +45,10 @@ fn defined<F: Float>(case: &Case<F>) -> ([BigRational; 3], [BigRational; 3]) {
     let [o, d, a, b, c] = &vectors;
     let size = |j: usize| {
         let terms = [&w * &a[j], u * &b[j], v * &c[j], o[j].clone(), t * &d[j]];
-        terms.iter().map(BigRational::abs).fold(BigRational::zero(), |sum, x| sum + x)
+        terms
+            .iter()
+            .map(BigRational::abs)
+            .fold(BigRational::zero(), |sum, x| sum + x)
     };
     let size = (0..3).map(size).max().expect("three axes");
     let mut moves: [BigRational; 3] = array::from_fn(|_| BigRational::zero());
@@ -55,17 +63,31 @@ fn defined<F: Float>(case: &Case<F>) -> ([BigRational; 3], [BigRational; 3]) {
     let roundoff = number(F::EPSILON.to_f64() / 2.0);
     let allowed = array::from_fn(|i| {
         let kappa = &moves[i] * &size;
-        let kappa = if i == 0 { kappa } else { kappa.max(number(1.0)) };
+        let kappa = if i == 0 {
+            kappa
+        } else {
+            kappa.max(number(1.0))
+        };
         (kappa * &roundoff * number(16.0)).max(number(F::from_place(1).to_f64()))
     });
     (exact, allowed)
 }
 
-const ALL: Gives = Gives { t: true, uv: true, facing: false };
+const ALL: Gives = Gives {
+    t: true,
+    uv: true,
+    facing: false,
+};
 
 fn hit<F: Float>(values: [F; 3]) -> Verdict<F> {
     let [t, u, v] = values;
-    Verdict { hit: true, t, u, v, ..Verdict::miss(None) }
+    Verdict {
+        hit: true,
+        t,
+        u,
+        v,
+        ..Verdict::miss(None)
+    }
 }
 
 fn cases_with_values<F: Scalar>(count: u64) -> Vec<(Case<F>, Truth)> {
@@ -88,9 +110,13 @@ fn values_are_judged_as_defined<F: Scalar>() {
         let nearest = exact.each_ref().map(float);
         for which in 0..3 {
             // Around both ends, and the ends of what is surely right.
-            let ends = [&exact[which] - &allowed[which], &exact[which] + &allowed[which]];
-            let around =
-                ends.iter().flat_map(|end| (-2..=2).map(move |ulps| float(end).offset_ulps(ulps)));
+            let ends = [
+                &exact[which] - &allowed[which],
+                &exact[which] + &allowed[which],
+            ];
+            let around = ends
+                .iter()
+                .flat_map(|end| (-2..=2).map(move |ulps| float(end).offset_ulps(ulps)));
             let sure = [limits.low[which], limits.high[which]];
             for value in around.chain(sure).filter(|x| x.is_finite()) {
                 let mut values = nearest;
@@ -113,7 +139,11 @@ fn values_are_judged_as_defined<F: Scalar>() {
             }
         }
     }
-    assert!(cases.len() > 200 && sure * 10 > cases.len() * 9, "{sure} of {}", cases.len());
+    assert!(
+        cases.len() > 200 && sure * 10 > cases.len() * 9,
+        "{sure} of {}",
+        cases.len()
+    );
 }
 
 #[test]
@@ -140,7 +170,11 @@ fn errors_are_those_of_rational_numbers() {
             let found = errors.times[i].expect("given");
             // Where the least number is all that is allowed, there is no unit to count in.
             let counts = allowed[i] > number(f64::MIN_POSITIVE) && times.is_finite();
-            assert!(!counts || close(found, times), "{} {found} {times}", case.hex());
+            assert!(
+                !counts || close(found, times),
+                "{} {found} {times}",
+                case.hex()
+            );
         }
     }
 }
@@ -153,7 +187,9 @@ fn a_rounded_value_is_near_and_a_thousandth_of_an_edge_is_not() {
         [[0.0, 0.0, 0.1], [1.0, 0.0, 0.0], [0.0, 1.0, 0.2]],
     );
     let truth = oracle::truth(&unit);
-    let exact = ValueErrors::of(&unit, &truth, ALL, &hit([0.0; 3])).exact.map(|x| x as f32);
+    let exact = ValueErrors::of(&unit, &truth, ALL, &hit([0.0; 3]))
+        .exact
+        .map(|x| x as f32);
     assert!(are_near(&unit, ALL, &hit(exact), 0.0));
     for which in 0..3 {
         for off in [-1e-3, 1e-3, 1e-5] {
@@ -200,7 +236,11 @@ fn tolerances_are_judged_as_defined<F: Scalar>() {
                 };
                 let expected = (0..3).all(is_near);
                 let about = format!("{} {which} {tolerance} {factor}", case.hex());
-                assert_eq!(are_near(case, ALL, &hit(values), tolerance), expected, "{about}");
+                assert_eq!(
+                    are_near(case, ALL, &hit(values), tolerance),
+                    expected,
+                    "{about}"
+                );
                 assert!(are_near(case, ALL, &hit(values), f64::INFINITY), "{about}");
                 *(if expected { &mut within } else { &mut beyond }) += 1;
             }
@@ -221,12 +261,18 @@ fn the_worst_value_is_counted_in_units_of_rounding() {
         let (exact, _) = defined(&case);
         let float = |x: &BigRational| Exact::from_rational(x).approximate();
         let values = exact.each_ref().map(|x| float(x) * 1.25 + 0.5);
-        let times = ValueErrors::of(&case, &truth, ALL, &hit(values)).times.map(Option::unwrap);
+        let times = ValueErrors::of(&case, &truth, ALL, &hit(values))
+            .times
+            .map(Option::unwrap);
         let worst = times.into_iter().fold(0.0, f64::max);
         let found = exact_times(&case, ALL, &hit(values));
         if worst.is_finite() && found.is_finite() {
             let found = found.approximate();
-            assert!((found - worst).abs() <= 1e-5 * worst, "{} {found} {worst}", case.hex());
+            assert!(
+                (found - worst).abs() <= 1e-5 * worst,
+                "{} {found} {worst}",
+                case.hex()
+            );
         }
     }
 }
@@ -244,7 +290,11 @@ fn a_tolerated_value_is_not_wrong() {
         assert!(!right.is_wrong(which, 0.0), "{which}");
         assert!(off.is_wrong(which, 0.0), "{which}");
         // The longest edge is the root of 2.
-        let share = if which == 0 { 0.125 / 2.0f64.sqrt() } else { 0.125 };
+        let share = if which == 0 {
+            0.125 / 2.0f64.sqrt()
+        } else {
+            0.125
+        };
         assert!(off.is_wrong(which, share * 0.999), "{which}");
         assert!(!off.is_wrong(which, share * 1.001), "{which}");
     }

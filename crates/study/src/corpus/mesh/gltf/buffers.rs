@@ -35,7 +35,13 @@ impl<'a> Buffers<'a> {
         bytes: usize,
         beside: &'a mut ReadBeside<'a>,
     ) -> Buffers<'a> {
-        Buffers { name, binary, beside, loaded: HashMap::new(), bytes }
+        Buffers {
+            name,
+            binary,
+            beside,
+            loaded: HashMap::new(),
+            bytes,
+        }
     }
 
     /// How many bytes were read so far.
@@ -52,7 +58,9 @@ impl<'a> Buffers<'a> {
             Some(view) => self.packed(&view, accessor.offset(), count, size, index)?,
             None => Vec::new(),
         };
-        let Some(sparse) = accessor.sparse() else { return Ok(elements) };
+        let Some(sparse) = accessor.sparse() else {
+            return Ok(elements);
+        };
         let indices = sparse.indices();
         let [width, replaced] = [indices.index_type().size(), sparse.count()];
         let places = self.packed(&indices.view(), indices.offset(), replaced, width, index)?;
@@ -73,7 +81,9 @@ impl<'a> Buffers<'a> {
             match elements.chunks_exact_mut(size).nth(place) {
                 Some(element) => element.copy_from_slice(value),
                 None => {
-                    return Err(bad(format!("sparse index {place}, but it has {count} elements")));
+                    return Err(bad(format!(
+                        "sparse index {place}, but it has {count} elements"
+                    )));
                 }
             }
         }
@@ -94,7 +104,9 @@ impl<'a> Buffers<'a> {
         let held = || {
             let end = view.offset().checked_add(view.length())?;
             let bytes = buffer.get(view.offset()..end)?.get(offset..)?;
-            let Some(last) = count.checked_sub(1) else { return Some(Vec::new()) };
+            let Some(last) = count.checked_sub(1) else {
+                return Some(Vec::new());
+            };
             let bytes = bytes.get(..last.checked_mul(stride)?.checked_add(size)?)?;
             let element = |i: usize| &bytes[i * stride..][..size];
             Some((0..count).flat_map(element).copied().collect())
@@ -126,7 +138,10 @@ impl<'a> Buffers<'a> {
         let bad = |message: &str| InputError::of(self.name, format!("{place}{message}"));
         let uri = match buffer.source() {
             Source::Bin if buffer.index() == 0 => {
-                return self.binary.take().ok_or_else(|| bad(" has neither a uri nor a BIN chunk"));
+                return self
+                    .binary
+                    .take()
+                    .ok_or_else(|| bad(" has neither a uri nor a BIN chunk"));
             }
             Source::Bin => return Err(bad(" has no uri")),
             Source::Uri(uri) => uri,
@@ -140,12 +155,17 @@ impl<'a> Buffers<'a> {
         }
         let Some(path) = path_beside(uri) else {
             let uri = quoted(uri);
-            return Err(bad(&format!(".uri: {uri} is not a file in the folder of this one")));
+            return Err(bad(&format!(
+                ".uri: {uri} is not a file in the folder of this one"
+            )));
         };
         (self.beside)(&path, buffer.length() as u64).map_err(|error| {
             let place = format!("{place}.uri: {}", quoted(&path));
             let unread = InputError::reading(self.name, None, &error);
-            InputError { message: format!("{place}: {}", unread.message), ..unread }
+            InputError {
+                message: format!("{place}: {}", unread.message),
+                ..unread
+            }
         })
     }
 }
