@@ -1,12 +1,30 @@
 //! Each fuzz target over its stored seeds and, where it reads files of the project, over these.
 
-use std::path::Path;
+use std::env;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+
+/// A target's program. Cargo builds examples beside the folder of tests, and tells their paths to nobody.
+fn program(target: &str) -> PathBuf {
+    let test = env::current_exe().expect("a path");
+    let built = test
+        .parent()
+        .and_then(Path::parent)
+        .expect("target/PROFILE/deps");
+    let program = built.join("examples").join(target);
+    program.with_extension(env::consts::EXE_EXTENSION)
+}
 
 /// Replays files and folders of the project. A target that finds something, or no input, panics. Only `pinned` reads the
 /// kernel's name.
-fn replay(program: &str, files: &[&str]) {
+fn replay(target: &str, files: &[&str]) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let program = program(target);
+    assert!(
+        program.exists(),
+        "{}: `cargo test -p hairline-replay` builds it",
+        program.display()
+    );
     let mut command = Command::new(program);
     command
         .args(files)
@@ -14,14 +32,14 @@ fn replay(program: &str, files: &[&str]) {
         .env("HAIRLINE_KERNEL", "woop-watertight");
     let output = command.output().expect("it runs");
     let [out, error] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
-    assert!(output.status.success(), "{program} {files:?}: {out}{error}");
+    assert!(output.status.success(), "{target} {files:?}: {out}{error}");
 }
 
 macro_rules! targets {
     ($($name:ident: $($files:literal)+;)+) => {
         $(#[test]
         fn $name() {
-            replay(env!(concat!("CARGO_BIN_EXE_", stringify!($name))), &[$($files),+]);
+            replay(stringify!($name), &[$($files),+]);
         })+
 
         const TARGETS: &[&str] = &[$(stringify!($name)),+];
@@ -36,17 +54,6 @@ targets! {
     pinned: "fuzz/seeds/cases";
     response: "fuzz/seeds/cases";
     settings: "fuzz/seeds/settings" "hairline.toml" "tests/expectations.toml" "tests/expectations.toml.lock";
-}
-
-/// The targets are programs of the workspace, so `cargo run` has to be told which one is meant.
-#[test]
-fn cargo_run_is_hairline() {
-    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../../Cargo.toml");
-    let text = std::fs::read_to_string(manifest).unwrap();
-    assert!(
-        text.lines()
-            .any(|line| line == "default-run = \"hairline\"")
-    );
 }
 
 #[test]
