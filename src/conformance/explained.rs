@@ -15,10 +15,12 @@ pub const VARIABLE: &str = "HAIRLINE_CASE";
 /// The explanation of the case that the environment names, or what is wrong with it; none if it names none.
 pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, Error>) -> Option<String> {
     let case = std::env::var(VARIABLE).ok()?;
-    let of_rows = |rows: Vec<Row>| {
-        explained(&rows, &case).unwrap_or_else(|message| format!("{VARIABLE}: {message}"))
+    let rows = match rows() {
+        Ok(rows) => rows,
+        Err(Error(text)) => return Some(text),
     };
-    Some(rows().map_or_else(|Error(text)| text, of_rows))
+    let text = explained(&rows, &case);
+    Some(text.unwrap_or_else(|message| format!("{VARIABLE}: {message}")))
 }
 
 /// The explanation of a case as text. An error says what is wrong with its name.
@@ -26,9 +28,13 @@ pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, Error> {
     let id = named(name)?;
     let explanation = in_named_scalar!(id.scalar, F => {
         let (cases, grouping) = cases_of::<F>(&id)?;
-        let around = around(&cases, grouping);
-        let neighbours = around.as_deref();
-        let group = Together { cases: &cases, grouping, neighbours, instance: None };
+        let neighbours = around(&cases, grouping);
+        let group = Together {
+            cases: &cases,
+            grouping,
+            neighbours: neighbours.as_deref(),
+            instance: None,
+        };
         explain(name, group, rows)
     });
     let mut text = Vec::new();
@@ -42,10 +48,10 @@ pub(super) fn mapped(row: &Row, name: &str) -> Result<String, Error> {
     let drawn = in_named_scalar!(id.scalar, F => {
         let (cases, _) = cases_of::<F>(&id)?;
         let case = cases.first().ok_or_else(|| format!("'{id}' has no triangle"))?;
-        map::grid_of_case(case, map::CaseVector::Origin, None, None, [128; 2])
-            .and_then(|grid| map::of_kernel(case, row, &grid, &Unobserved))
+        let grid = map::grid_of_case(case, map::CaseVector::Origin, None, None, [128; 2])?;
+        map::of_kernel(case, row, &grid, &Unobserved)?
     });
-    Ok(map::svg_document(&drawn?))
+    Ok(map::svg_document(&drawn))
 }
 
 fn named(name: &str) -> Result<CaseId, Error> {

@@ -28,33 +28,67 @@ pub(crate) fn blocks(
     if others.is_empty() {
         return Vec::new();
     }
-    let of_rate = |rate: &Rate| rate.rate.unwrap_or(0.0);
-    let most = |row: &ComparedRates| {
-        let (own, others) = row.rates.split_first()?;
-        let [_, high] = own.interval.unwrap_or([0.0, 1.0]);
-        let is_worse = |rate: &Rate| rate.interval.is_some_and(|[low, _]| high < low);
-        let worse = others
-            .iter()
-            .zip(&kinds[1..])
-            .filter(|(rate, _)| is_worse(rate));
-        let (most, kind) = worse.max_by(|(a, _), (b, _)| of_rate(a).total_cmp(&of_rate(b)))?;
-        let cells = [share(own), share(most), kind.clone()];
-        Some((of_rate(most) - of_rate(own), Row::new(&row.label, cells)))
-    };
-    let mut worse: Vec<(f64, Row)> = rows.iter().filter_map(most).collect();
+    let mut worse: Vec<Worse<'_>> = rows
+        .iter()
+        .filter_map(|row| Worse::of(row, &kinds[1..]))
+        .collect();
     if worse.is_empty() {
         let others = others.join(", ");
         return vec![Block::text(format!(
             "{title} on other planes or rays: nothing ({others})"
         ))];
     }
-    worse.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    worse.sort_by(|one, other| other.difference().total_cmp(&one.difference()));
     let heads = vec![
         Head::of(format!("{title} elsewhere")),
         Head::of(first),
         Head::of("most"),
         Head::text("on"),
     ];
-    let rows = worse.into_iter().map(|(_, row)| row).collect();
+    let row = |found: Worse<'_>| {
+        let cells = [share(found.own), share(found.most), found.kind.to_owned()];
+        Row::new(found.label, cells)
+    };
+    let rows = worse.into_iter().map(row).collect();
     vec![Block::Table(Table::new(heads, rows).at_most(MOST))]
+}
+
+/// A rate that is higher on some other kind than chance explains.
+struct Worse<'a> {
+    label: &'a str,
+    own: &'a Rate,
+    most: &'a Rate,
+    kind: &'a str,
+}
+
+impl<'a> Worse<'a> {
+    /// The kind on which a row is most often wrong, if its interval is above that of the first.
+    fn of(row: &'a ComparedRates, kinds: &'a [String]) -> Option<Worse<'a>> {
+        let (own, others) = row.rates.split_first()?;
+        let [_, high] = own.interval.unwrap_or([0.0, 1.0]);
+        let mut found: Option<Worse<'a>> = None;
+        for (rate, kind) in others.iter().zip(kinds) {
+            let is_worse = rate.interval.is_some_and(|[low, _]| high < low);
+            let is_most = found
+                .as_ref()
+                .is_none_or(|worse| value(worse.most) <= value(rate));
+            if is_worse && is_most {
+                found = Some(Worse {
+                    label: &row.label,
+                    own,
+                    most: rate,
+                    kind,
+                });
+            }
+        }
+        found
+    }
+
+    fn difference(&self) -> f64 {
+        value(self.most) - value(self.own)
+    }
+}
+
+fn value(rate: &Rate) -> f64 {
+    rate.rate.unwrap_or(0.0)
 }

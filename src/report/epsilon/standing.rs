@@ -45,45 +45,58 @@ const MOST_GIVEN: usize = 3;
 
 /// How good the numbers are that the kernel came with, or the user gave, a sentence each.
 pub(super) fn of_given(record: &SceneResult, part: &SceneKernelPart) -> Option<String> {
-    let best = &part.tried[0];
-    let sentence = |tried: &TriedPart| {
-        let numbers = part.knobs.iter().zip(&tried.epsilons);
-        let numbers = numbers.map(|(knob, e)| format!("{}={}", knob.name, human(e)));
-        let numbers = numbers.collect::<Vec<_>>().join(",");
-        let is_as_good = |cost: fn(&SceneResult, &SceneKernelPart, &TriedPart) -> f64| {
-            let [own, best] = [tried, best].map(|tried| cost(record, part, tried));
-            own - best <= (AS_GOOD * best).clamp(TELLING, 10.0 * TELLING)
-        };
-        let holes = holes_text(tried);
-        let holes = holes.map_or(String::new(), |it| {
-            format!(", {it} holes in a million pixels")
-        });
-        let costs = format!("cost {:.3} against {:.3}{holes}", tried.cost, best.cost);
-        let rest = remains(record, part, tried, Some(best), 1);
-        let rest = rest.map_or(String::new(), |rest| format!(": {rest}"));
-        let is_bad = is_no_good(record, part, tried);
-        let is_worse = is_bad && !is_no_good(record, part, best);
-        let judged = match is_bad {
-            _ if !is_worse && is_as_good(|_, _, tried| tried.cost) => format!("as good ({costs})"),
-            _ if is_as_good(cost_without_self_hits) => {
-                format!("as good once shadow rays start off the surface; else not ({costs})")
-            }
-            true => format!("no good ({costs}){rest}"),
-            false => format!("worse ({costs}){rest}"),
-        };
-        match tried.name.as_str() {
-            "source" => format!("As published: {judged}."),
-            _ => format!("At {numbers}: {judged}."),
-        }
-    };
     // The last ones are those of `--at`.
-    let given = part.tried[1..]
+    let given: Vec<&TriedPart> = part.tried[1..]
         .iter()
-        .rev()
-        .filter(|tried| tried.name != "zero");
-    let mut sentences: Vec<String> = given.take(MOST_GIVEN).map(sentence).collect();
-    sentences.reverse();
+        .filter(|tried| tried.name != "zero")
+        .collect();
+    let last = &given[given.len().saturating_sub(MOST_GIVEN)..];
+    let sentences: Vec<String> = last
+        .iter()
+        .map(|tried| given_sentence(record, part, tried))
+        .collect();
     (!sentences.is_empty()).then(|| sentences.join(" "))
+}
+
+fn given_sentence(record: &SceneResult, part: &SceneKernelPart, tried: &TriedPart) -> String {
+    let judged = judged(record, part, tried);
+    if tried.name == "source" {
+        return format!("As published: {judged}.");
+    }
+    let numbers: Vec<String> = part
+        .knobs
+        .iter()
+        .zip(&tried.epsilons)
+        .map(|(knob, epsilon)| format!("{}={}", knob.name, human(epsilon)))
+        .collect();
+    format!("At {}: {judged}.", numbers.join(","))
+}
+
+/// How good tried numbers are beside the recommended ones: `no good (cost 3.150 against 0.141)`.
+fn judged(record: &SceneResult, part: &SceneKernelPart, tried: &TriedPart) -> String {
+    let best = &part.tried[0];
+    let mut costs = format!("cost {:.3} against {:.3}", tried.cost, best.cost);
+    if let Some(holes) = holes_text(tried) {
+        costs = format!("{costs}, {holes} holes in a million pixels");
+    }
+    let is_bad = is_no_good(record, part, tried);
+    let is_best_bad = is_no_good(record, part, best);
+    if (!is_bad || is_best_bad) && is_as_cheap(tried.cost, best.cost) {
+        return format!("as good ({costs})");
+    }
+    let [own_rest, best_rest] = [tried, best].map(|it| cost_without_self_hits(record, part, it));
+    if is_as_cheap(own_rest, best_rest) {
+        return format!("as good once shadow rays start off the surface; else not ({costs})");
+    }
+    let word = if is_bad { "no good" } else { "worse" };
+    match remains(record, part, tried, Some(best), 1) {
+        Some(rest) => format!("{word} ({costs}): {rest}"),
+        None => format!("{word} ({costs})"),
+    }
+}
+
+fn is_as_cheap(cost: f64, best: f64) -> bool {
+    cost - best <= (AS_GOOD * best).clamp(TELLING, 10.0 * TELLING)
 }
 
 /// The cost of all wrong answers but self-hits, which starts off the surface end too.

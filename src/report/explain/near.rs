@@ -45,6 +45,12 @@ impl<F: Scalar> Nearby<F> {
         })
     }
 
+    /// All cases with their answers.
+    pub fn all(&self) -> impl Iterator<Item = (&Case<F>, &Verdict<F>)> {
+        let drawn = self.drawn.iter().zip(&self.answers);
+        drawn.chain(self.scaled.iter().map(|(case, answer)| (case, answer)))
+    }
+
     /// The simple relations that hold there between the wrong answers of a row and the exact values.
     pub fn relations(&self, row: &Row) -> Vec<String> {
         let gives = row.entry.info.gives;
@@ -84,37 +90,68 @@ pub(super) fn run<F: Scalar>(
 /// The case with every length multiplied by a power of two, which need not be whole.
 fn scaled<F: Float>(case: &Case<F>, power: f64) -> Case<F> {
     let factor = 2f64.powf(power);
-    let [origin, direction, a, b, c] = case.vectors();
     let times = |x: F| F::from_f64(x.to_f64() * factor);
-    let [origin, a, b, c] = [origin, a, b, c].map(|point| point.map(times));
-    Case::new(origin, direction, [a, b, c]).on(times(case.ray.t_min), times(case.ray.t_max))
+    let [origin, direction, a, b, c] = case.vectors();
+    let triangle = [a, b, c].map(|vertex| vertex.map(times));
+    let larger = Case::new(origin.map(times), direction, triangle);
+    larger.on(times(case.ray.t_min), times(case.ray.t_max))
+}
+
+/// How the numbers of one kind, points or directions, are moved.
+struct Move {
+    /// A number moves by at most this.
+    most: f64,
+    /// What it is multiplied with after that: a power of two, which changes no rounding.
+    factor: f64,
+}
+
+impl Move {
+    fn apply<F: Float>(&self, vector: [F; 3], draw: &mut Draw) -> [F; 3] {
+        vector.map(|x| {
+            let by = draw.symmetric::<F>().to_f64() * self.most;
+            F::from_f64((x.to_f64() + by) * self.factor)
+        })
+    }
 }
 
 /// The case with every number moved by the same part of its triangle, or of the direction: from one unit in the last place to
-/// all of it. In ordinary sizes if asked, because what an epsilon refuses in small triangles is a hit there; and from the other side.
+/// all of it. In ordinary sizes if asked, because what an epsilon refuses in small triangles is a hit there; and from the other
+/// side.
 fn near<F: Float>(case: &Case<F>, [ordinary, turned]: [bool; 2], draw: &mut Draw) -> Case<F> {
-    let [o, d, a, b, c] = case.vectors();
-    let [b, c] = if turned { [c, b] } else { [b, c] };
-    let largest =
-        |numbers: &mut dyn Iterator<Item = f64>| numbers.fold(0.0, |m: f64, x| m.max(x.abs()));
-    let sides = [b, c].map(|vertex| [0, 1, 2].map(|i| (vertex[i] - a[i]).to_f64()));
-    let size = largest(&mut sides.into_iter().flatten());
-    let length = largest(&mut d.into_iter().map(F::to_f64));
-    // Powers of two change no rounding.
-    let power = |size: f64| match ordinary && size.is_normal() {
-        true => 2f64.powi(-size.log2().floor() as i32),
-        false => 1.0,
+    let [origin, direction, a, b, c] = case.vectors();
+    let triangle = if turned { [a, c, b] } else { [a, b, c] };
+    let size = triangle_size(triangle);
+    let length = largest(direction.map(F::to_f64));
+    // The numbers of a scalar have so many binary digits: the part is one of them.
+    let digit = draw.below(F::DIGITS as usize) as i32;
+    let part = 2f64.powi(-digit);
+    let of = |size: f64| Move {
+        most: size * part,
+        factor: if ordinary { to_about_one(size) } else { 1.0 },
     };
-    let (of_size, of_length) = (power(size), power(length));
-    let part = 2f64.powi(-(draw.below(F::DIGITS as usize) as i32));
-    let mut moved = |vector: [F; 3], size: f64, power: f64| {
-        vector.map(|x| {
-            let by = draw.symmetric::<F>().to_f64() * size * part;
-            F::from_f64((x.to_f64() + by) * power)
-        })
-    };
-    let [o, a, b, c] = [o, a, b, c].map(|point| moved(point, size, of_size));
-    let ends = [case.ray.t_min, case.ray.t_max];
-    let [t_min, t_max] = ends.map(|t| F::from_f64(t.to_f64() * of_size / of_length));
-    Case::new(o, moved(d, length, of_length), [a, b, c]).on(t_min, t_max)
+    let (points, directions) = (of(size), of(length));
+    let origin = points.apply(origin, draw);
+    let triangle = triangle.map(|vertex| points.apply(vertex, draw));
+    let direction = directions.apply(direction, draw);
+    let end = |t: F| F::from_f64(t.to_f64() * points.factor / directions.factor);
+    Case::new(origin, direction, triangle).on(end(case.ray.t_min), end(case.ray.t_max))
+}
+
+fn largest(numbers: [f64; 3]) -> f64 {
+    numbers.into_iter().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// The largest coordinate of the two edges at the first vertex.
+fn triangle_size<F: Float>([a, b, c]: [[F; 3]; 3]) -> f64 {
+    let edge = |to: [F; 3]| [0, 1, 2].map(|i| (to[i] - a[i]).to_f64());
+    largest(edge(b)).max(largest(edge(c)))
+}
+
+/// The power of two that makes a size at least 1 and less than 2; 1 where there is none.
+fn to_about_one(size: f64) -> f64 {
+    if size.is_normal() {
+        2f64.powi(-size.log2().floor() as i32)
+    } else {
+        1.0
+    }
 }

@@ -3,8 +3,7 @@
 use super::near::Nearby;
 use crate::arith::Float;
 use crate::audit::Row;
-use crate::case::Case;
-use crate::kernel::{KERNELS, Role, Scalar, Tunable, Verdict};
+use crate::kernel::{KERNELS, Role, Scalar, Tunable};
 use crate::report::epsilon::shortest;
 
 /// The range of an epsilon: the kernel refuses at a margin of `low` and accepts at one of `high`.
@@ -12,6 +11,12 @@ use crate::report::epsilon::shortest;
 struct EpsilonRange<F> {
     low: F,
     high: F,
+}
+
+/// What a kernel answered to a case, beside the margins that the formula's gates have there.
+struct Answer<F> {
+    margins: Vec<F>,
+    hit: bool,
 }
 
 /// The gate of a formula with another epsilon at which it explains every answer of a kernel nearby: `parallel between 9.8e-5 and
@@ -24,85 +29,97 @@ pub(super) fn other_epsilon<F: Scalar>(
     nearby: &Nearby<F>,
 ) -> Option<String> {
     let gated = F::subject(formula.entry)?.gated()?;
+    let gates = formula.entry.info.gates;
+    let declared: Vec<Named<F>> = tunable(row);
     let mut epsilons: Vec<F> = formula.epsilons();
-    let declared: Vec<(&str, F)> = tunable(row);
-    for &(name, value) in &declared {
-        let place = formula
-            .entry
-            .info
-            .gates
-            .iter()
-            .position(|gate| gate.name == name);
-        if let Some(place) = place {
-            epsilons[place] = value;
+    for (gate, epsilon) in gates.iter().zip(&mut epsilons) {
+        if let Some(named) = declared.iter().find(|named| named.gate == gate.name) {
+            *epsilon = named.epsilon;
         }
     }
-    let drawn = nearby.drawn.iter().zip(&nearby.answers);
-    let scaled = nearby.scaled.iter().map(|(case, answer)| (case, answer));
-    let measured =
-        |(case, answer): (&Case<F>, &Verdict<F>)| (gated.measure(case).margins, answer.hit);
-    let answers: Vec<(Vec<F>, bool)> = drawn.chain(scaled).map(measured).collect();
-    let gates = formula.entry.info.gates.iter().enumerate();
-    // Cases have intervals: a kernel's t_min and a gate on t cannot be told apart.
-    let tuned = gates.filter(|(_, gate)| gate.epsilon != Tunable::Fixed && gate.role != Role::T);
-    let of_gate = tuned.filter_map(|(place, gate)| {
-        let range = range(&answers, &epsilons, place)?;
-        let old = epsilons[place];
-        // A kernel may call its epsilon as it likes.
-        let is_declared = declared.iter().any(|(_, value)| range.holds(*value));
-        if range.holds(old) || is_declared || published(gate.name).any(|it| range.holds(it)) {
-            return None;
+    let answers: Vec<Answer<F>> = nearby
+        .all()
+        .map(|(case, verdict)| Answer {
+            margins: gated.measure(case).margins,
+            hit: verdict.hit,
+        })
+        .collect();
+    let mut found = Vec::new();
+    for (place, gate) in gates.iter().enumerate() {
+        // Cases have intervals: a kernel's t_min and a gate on t cannot be told apart.
+        if gate.epsilon == Tunable::Fixed || gate.role == Role::T {
+            continue;
         }
-        Some(format!(
-            "{} {} in place of {}",
-            gate.name,
-            range.in_words(),
-            shortest(old)
-        ))
-    });
-    let found: Vec<String> = of_gate.collect();
+        let Some(range) = range(&answers, &epsilons, place) else {
+            continue;
+        };
+        let own = epsilons[place];
+        // A kernel may call its epsilon as it likes.
+        let is_declared = declared.iter().any(|named| range.holds(named.epsilon));
+        let is_published = published(gate.name).any(|epsilon| range.holds(epsilon));
+        if range.holds(own) || is_declared || is_published {
+            continue;
+        }
+        let (name, own) = (gate.name, shortest(own));
+        found.push(format!("{name} {} in place of {own}", range.in_words()));
+    }
     match &found[..] {
         [one] => Some(one.clone()),
         _ => None,
     }
 }
 
-/// The epsilons of a row that can be chosen, with the names of their gates.
-fn tunable<F: Scalar>(row: &Row) -> Vec<(&'static str, F)> {
-    let gates = row.entry.info.gates.iter().zip(row.epsilons::<F>());
-    let chosen = gates.filter(|(gate, _)| gate.epsilon != Tunable::Fixed);
-    chosen.map(|(gate, value)| (gate.name, value)).collect()
+/// An epsilon, with the name of its gate.
+struct Named<F> {
+    gate: &'static str,
+    epsilon: F,
+}
+
+/// The epsilons of a row that can be chosen.
+fn tunable<F: Scalar>(row: &Row) -> Vec<Named<F>> {
+    let mut all = Vec::new();
+    for (gate, epsilon) in row.entry.info.gates.iter().zip(row.epsilons::<F>()) {
+        if gate.epsilon != Tunable::Fixed {
+            all.push(Named {
+                gate: gate.name,
+                epsilon,
+            });
+        }
+    }
+    all
 }
 
 /// The epsilons that built-in formulas publish for a gate of this name.
-fn published<F: Scalar>(name: &str) -> impl Iterator<Item = F> {
-    let rows = KERNELS
+fn published<F: Scalar>(gate: &str) -> impl Iterator<Item = F> {
+    KERNELS
         .iter()
-        .filter_map(|entry| Row::named(entry.info.name, None, "own").ok());
-    let all = rows.flat_map(|row| tunable::<F>(&row));
-    all.filter(move |(gate, _)| *gate == name)
-        .map(|(_, value)| value)
+        .filter_map(|entry| Row::named(entry.info.name, None, "own").ok())
+        .flat_map(|row| tunable::<F>(&row))
+        .filter(move |named| named.gate == gate)
+        .map(|named| named.epsilon)
 }
 
 /// The range of one gate's epsilon that explains all answers; none if no epsilon does, or if it has no end.
-fn range<F: Float>(
-    answers: &[(Vec<F>, bool)],
-    epsilons: &[F],
-    place: usize,
-) -> Option<EpsilonRange<F>> {
+fn range<F: Float>(answers: &[Answer<F>], epsilons: &[F], place: usize) -> Option<EpsilonRange<F>> {
     let mut range = EpsilonRange {
         low: -F::infinity(),
         high: F::infinity(),
     };
-    for (margins, hit) in answers {
+    for Answer { margins, hit } in answers {
         let mut others = (0..margins.len()).filter(|other| *other != place);
-        let others_pass = others.all(|other| epsilons[other] <= margins[other]);
+        if !others.all(|other| epsilons[other] <= margins[other]) {
+            // Another gate refuses: a hit contradicts the formula, and a miss says nothing of this one.
+            if *hit {
+                return None;
+            }
+            continue;
+        }
         let margin = margins[place];
-        match (hit, others_pass) {
-            (true, false) => return None,
-            (true, true) if margin < range.high => range.high = margin,
-            (false, true) if range.low < margin => range.low = margin,
-            _ => {}
+        if *hit && margin < range.high {
+            range.high = margin;
+        }
+        if !*hit && range.low < margin {
+            range.low = margin;
         }
     }
     let is_bounded = range.low.is_finite() && range.high.is_finite();
