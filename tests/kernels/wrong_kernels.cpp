@@ -56,7 +56,9 @@ const Fault FAULTS[] = {
     {"small coordinates are 0", INPUT}, {"d_x at least 1e-6", INPUT}, {"computed in float", INPUT}, {"negative zero is small", INPUT},
     {"b and c exchanged", INPUT},
     /* Company. */
-    {"a NaN spoils its group of eight", COMPANY}, {"a cache keyed by a and b", COMPANY}, {"wrong after 2^24 calls", COMPANY},
+    {"a NaN spoils its group of eight", COMPANY}, {"an infinity spoils its group of eight", COMPANY},
+    {"a cache keyed by a and b", COMPANY}, {"a cache keyed by b and c", COMPANY}, {"a cache keyed by c and a", COMPANY},
+    {"a cache of the interval keyed by the ray", COMPANY}, {"wrong after 2^24 calls", COMPANY},
     {"the previous answer, one in eight", COMPANY}, {"the first of a batch is missed", COMPANY},
     {"the last of a batch is missed", COMPANY}, {"t_max shrinks along a batch", COMPANY},
 };
@@ -239,6 +241,13 @@ bool has_nan(const Question &q) {
     return std::isnan(q.t_min) || std::isnan(q.t_max);
 }
 
+/* Of a coordinate: t_max is infinite more often than not. */
+bool has_infinity(const Question &q) {
+    const double *numbers = q.o;
+    for (int i = 0; i < 15; i++) if (std::isinf(numbers[i])) return true;
+    return false;
+}
+
 /* The answer to a question whose numbers have so many bits: `widest` is half an ulp of 1. */
 int answer_to(Question q, bool is_float, double widest, hairline_answer &answer) {
     if (has_nan(q)) { answer.hit = is("NaN is a hit"); return answer.hit; }
@@ -287,11 +296,20 @@ void test(const Case *cases, size_t count, Verdict *verdicts, bool is_float, Rea
     for (size_t i = 0; i < count; i++) {
         Question q = read(cases[i]);
         Verdict &verdict = verdicts[i];
-        if (is("a cache keyed by a and b")) {
-            bool same = has_cached && !std::memcmp(cached.a, cases[i].a, sizeof cached.a) && !std::memcmp(cached.b, cases[i].b, sizeof cached.b);
-            if (!same) cached = cases[i], has_cached = true;
-            for (int k = 0; k < 3; k++) q.c[k] = cached.c[k];
+        const Case &asked = cases[i];
+        auto same = [&](const Real *before, const Real *now) { return has_cached && !std::memcmp(before, now, 3 * sizeof(Real)); };
+        bool same_a = same(cached.a, asked.a), same_b = same(cached.b, asked.b), same_c = same(cached.c, asked.c);
+        bool same_ray = same(cached.origin, asked.origin) && same(cached.direction, asked.direction);
+        bool is_kept = (is("a cache keyed by a and b") && same_a && same_b) || (is("a cache keyed by b and c") && same_b && same_c) ||
+                       (is("a cache keyed by c and a") && same_c && same_a) ||
+                       (is("a cache of the interval keyed by the ray") && same_ray);
+        if (!is_kept) cached = asked, has_cached = true;
+        for (int k = 0; k < 3; k++) {
+            if (is("a cache keyed by a and b")) q.c[k] = cached.c[k];
+            if (is("a cache keyed by b and c")) q.a[k] = cached.a[k];
+            if (is("a cache keyed by c and a")) q.b[k] = cached.b[k];
         }
+        if (is("a cache of the interval keyed by the ray")) q.t_min = cached.t_min, q.t_max = cached.t_max;
         if (is("t_max shrinks along a batch") && i > 0 && verdicts[i - 1].hit && verdicts[i - 1].t < q.t_max) q.t_max = verdicts[i - 1].t;
         hairline_answer answer = {0, 0, 0, 0, 0, 0};
         verdict.hit = answer_to(q, is_float, widest, answer);
@@ -305,12 +323,14 @@ void test(const Case *cases, size_t count, Verdict *verdicts, bool is_float, Rea
     }
     batch.assign(cases, cases + count);
     answers.assign(verdicts, verdicts + count);
-    if (is("a NaN spoils its group of eight")) {
-        for (size_t start = 0; start < count; start += 8) {
-            bool spoiled = false;
-            for (size_t i = start; i < count && i < start + 8; i++) spoiled |= has_nan(read(cases[i]));
-            for (size_t i = start; spoiled && i < count && i < start + 8; i++) verdicts[i].hit = 0;
+    bool by_nan = is("a NaN spoils its group of eight"), by_infinity = is("an infinity spoils its group of eight");
+    for (size_t start = 0; (by_nan || by_infinity) && start < count; start += 8) {
+        bool spoiled = false;
+        for (size_t i = start; i < count && i < start + 8; i++) {
+            Question q = read(cases[i]);
+            spoiled |= by_nan ? has_nan(q) : has_infinity(q);
         }
+        for (size_t i = start; spoiled && i < count && i < start + 8; i++) verdicts[i].hit = 0;
     }
 }
 

@@ -21,7 +21,7 @@ pub use expected::{Demands, Kinds, ask_all, suspects};
 pub use group::{
     GroupTruth, group_obligation, group_truth, owes_groups_alike, polygon_obligation, polygon_truth,
 };
-pub use relation::{Part, RelatedValues, Relation, answers_as, other_demands};
+pub use relation::{Part, RelatedValues, Relation, answers_as, is_plain, other_demands};
 pub use values::{
     ALLOWANCE, ValueErrors, ValueLimits, exact_times, exact_values_are_near, rounds_to_infinity,
 };

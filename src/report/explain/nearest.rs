@@ -15,7 +15,7 @@ use crate::report::group_digits;
 const FUSED: &str = "+fma";
 
 /// The fewest hits of both by which a formula is known, and the share of them with the same values.
-const FEWEST_HITS: usize = 20;
+const FEWEST_HITS: usize = 50;
 const SAME: f64 = 0.9;
 
 /// The answers of a formula beside a kernel's.

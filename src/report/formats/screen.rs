@@ -198,7 +198,8 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
             false => format!(" {lead}: {}.", counts.join(", ")),
         }
     };
-    let others = told("Breaks its promise across triangles", true) + &told("Besides", false);
+    let others =
+        told("Breaks its promise across triangles (in all sizes)", true) + &told("Besides", false);
     let mut text = text + &others;
     if let Some(partial) = &record.result.partial {
         text += &format!(" {}", partial.sentence());

@@ -8,7 +8,8 @@ use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{
-    Finding, Obligation, RelatedValues, Relation, answers_as, asked, judge, other_demands,
+    Finding, Obligation, Part, RelatedValues, Relation, answers_as, asked, is_plain, judge,
+    other_demands,
 };
 use crate::kernel::{Gives, Scalar, Verdict};
 use crate::oracle;
@@ -29,6 +30,8 @@ const LEAST: u64 = 90;
 pub struct Relations {
     /// By [`Relation::ALL`]: the cases on which it holds, and all that could show it.
     counts: [[u64; 2]; Relation::ALL.len()],
+    /// The wrong verdicts to plain cases ([`is_plain`]) that no relation demands.
+    unexplained: u64,
 }
 
 /// A relation that holds, and how often.
@@ -72,6 +75,7 @@ impl Relations {
 
     /// Adds those of other cases.
     pub fn merge(&mut self, other: &Relations) {
+        self.unexplained += other.unexplained;
         for (sum, more) in self
             .counts
             .iter_mut()
@@ -99,31 +103,38 @@ impl Relations {
                 let before = i.checked_sub(1).map(|place| &verdicts[place]);
                 relations.add_values(&values, verdict, before);
             }
-            if owed != Obligation::Free {
-                relations.add_answer(case, &truth, contract, gives, verdict);
-            }
+            relations.add_answer((case, &truth), (contract, owed), gives, verdict);
         }
         relations
     }
 
-    /// Counts the answer to a case of which the contract demands something.
+    /// Counts the answer to a case with an obligation.
     fn add_answer<F: Float>(
         &mut self,
-        case: &Case<F>,
-        truth: &Truth,
-        contract: &Contract,
+        (case, truth): (&Case<F>, &Truth),
+        (contract, owed): (&Contract, Obligation),
         gives: Gives,
         verdict: &Verdict<F>,
     ) {
-        if verdict.failure.is_some() {
+        if owed == Obligation::Free || verdict.failure.is_some() {
             return;
         }
-        for (relation, demand) in other_demands(case, truth, contract) {
-            self.add(
-                relation,
-                answers_as(relation, demand, truth, gives, verdict),
-            );
+        let demands = other_demands(case, truth, contract);
+        for (relation, demand) in &demands {
+            let holds = answers_as(*relation, *demand, truth, gives, verdict);
+            self.add(*relation, holds);
         }
+        let is_wrong = verdict.hit != (owed == Obligation::MustHit);
+        if demands.is_empty() && is_wrong && is_plain(case) {
+            self.unexplained += 1;
+        }
+    }
+
+    /// True if a relation about hit or miss explains at least half of the wrong verdicts that rounding does not: a kernel that
+    /// misses whatever it is asked misses behind the origin too. Values say by themselves what they are.
+    fn explains_most(&self, related: &Related) -> bool {
+        let is_of_verdicts = matches!(related.relation.part(), Part::Start | Part::End);
+        !is_of_verdicts || self.unexplained <= related.count
     }
 
     /// The relations that hold on (nearly) all cases that could show them, of each part of an answer the one with the most.
@@ -137,7 +148,7 @@ impl Relations {
             }
         });
         let mut known: Vec<Related> = Vec::new();
-        for related in all.filter(Related::is_known) {
+        for related in all.filter(|it| it.is_known() && self.explains_most(it)) {
             let part = |it: &Related| it.relation.part();
             match known.iter_mut().find(|other| part(other) == part(&related)) {
                 Some(other) if other.count < related.count => *other = related,
@@ -169,11 +180,9 @@ impl<F: Scalar> RowIn<F> {
         }
         let gives = self.info.gives;
         for (i, expected) in asked.expectations.of.iter().enumerate() {
-            if expected.obligation() == Obligation::Free {
-                continue;
-            }
-            let (case, truth) = (&chunk.cases[i], &chunk.truths[i]);
-            relations.add_answer(case, truth, contract, gives, &verdicts[i]);
+            let asked = (&chunk.cases[i], &chunk.truths[i]);
+            let owed = (contract, expected.obligation());
+            relations.add_answer(asked, owed, gives, &verdicts[i]);
         }
     }
 }

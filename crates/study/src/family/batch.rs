@@ -1,25 +1,76 @@
 //! `mixed-batch`: cases that stand beside others which they have something in common with. A kernel that tests eight rays
-//! at a time may let the NaN of one lane reach the others; one that keeps what it computed of a triangle may take it for
-//! another.
+//! at a time may let the NaN of one lane reach the others; one that keeps what it computed of an edge or of a ray may take it
+//! for another's.
 
 use super::control::{combination, interior_weights, is_steep, well_shaped};
 use super::integer::shuffle;
 use super::{Kept, Made, Recipe};
+use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 
 pub(super) struct MixedBatch;
 
-/// So many cases in a row share their vertices a and b.
+/// So many cases in a row have something in common.
 const SHARING: u64 = 4;
 
-/// One case of so many in a row has a NaN.
+/// One case of so many in a row has a number that is not finite.
 const LANES: u64 = 8;
+
+/// What some cases in a row have in common.
+enum Common<F> {
+    /// Two vertices, the one at this place and the next.
+    Vertices { first: usize, points: [[F; 3]; 2] },
+    /// The origin and the direction, which go through one point.
+    Ray { origin: [F; 3], through: [F; 3] },
+}
+
+impl<F: Float> Common<F> {
+    fn drawn(shared: &mut Draw) -> Common<F> {
+        let [p, q, _] = well_shaped(shared);
+        match shared.below(4) {
+            3 => Common::Ray {
+                origin: p,
+                through: q,
+            },
+            first => Common::Vertices {
+                first,
+                points: [p, q],
+            },
+        }
+    }
+
+    /// A case, its own numbers drawn: the ray meets the plane where the triangle has these weights.
+    fn case(&self, weights: [F; 3], draw: &mut Draw) -> Case<F> {
+        match self {
+            Common::Vertices { first, points } => {
+                let mut triangle = [draw.point::<F>(); 3];
+                triangle[*first] = points[0];
+                triangle[(first + 1) % 3] = points[1];
+                let origin = draw.point::<F>();
+                let target = combination(triangle, weights);
+                let direction = std::array::from_fn(|i| target[i] - origin[i]);
+                Case::new(origin, direction, triangle)
+            }
+            Common::Ray { origin, through } => {
+                let direction = std::array::from_fn(|i| through[i] - origin[i]);
+                let t = F::from_f64(0.5 + draw.unit());
+                let [a, b] = [draw.point::<F>(), draw.point()];
+                let c = std::array::from_fn(|i| {
+                    let target = origin[i] + direction[i] * t;
+                    (target - a[i] * weights[0] - b[i] * weights[1]) / weights[2]
+                });
+                Case::new(*origin, direction, [a, b, c])
+            }
+        }
+    }
+}
 
 impl Recipe for MixedBatch {
     const NAME: &'static str = "mixed-batch";
-    const PROMISE: &'static str = "four in a row share a and b, and every eighth has a NaN; the others are transversal, at t > 0";
+    const VERSION: u32 = 2;
+    const PROMISE: &'static str = "four in a row share two vertices or the ray but for its interval, and every eighth has a NaN or an infinity; the others are transversal, at t > 0";
     const KEEPS: Kept =
         Kept::Truths(|truth| *truth == Truth::Invalid || truth.crossing().is_some());
 
@@ -27,9 +78,13 @@ impl Recipe for MixedBatch {
         // Neighbours have this stream in common, whatever the seed is.
         let mut shared = Draw::new(Self::NAME, 0, index / SHARING);
         let lane = shared.below(LANES as usize) as u64;
+        let spoils = if shared.coin() {
+            f64::NAN
+        } else {
+            f64::INFINITY
+        };
+        let common = Common::<F>::drawn(&mut shared);
         let case = loop {
-            let [a, b, _] = well_shaped::<F>(&mut shared.clone());
-            let triangle = [a, b, draw.point()];
             // Half of the rays miss.
             let [u, v, w] = interior_weights(draw);
             let weights = if draw.coin() {
@@ -38,19 +93,18 @@ impl Recipe for MixedBatch {
                 [u + w, v + w, -w]
             };
             let weights = shuffle(draw, weights);
-            let origin = draw.point::<F>();
-            let target = combination(triangle, weights.map(F::from_f64));
-            let direction = std::array::from_fn(|i| target[i] - origin[i]);
-            if is_steep(direction, triangle) {
-                break Case::new(origin, direction, triangle);
+            let case = common.case(weights.map(F::from_f64), draw);
+            let [_, direction, a, b, c] = case.vectors();
+            if is_steep(direction, [a, b, c]) {
+                break case;
             }
         };
-        // Of two groups that share vertices, one has the NaN.
+        // Of two groups in a row, one has a number that is not finite.
         if index % LANES != lane {
             return Made::One(case);
         }
         let mut vectors = case.vectors();
-        vectors[draw.below(5)][draw.below(3)] = F::from_f64(f64::NAN);
+        vectors[draw.below(5)][draw.below(3)] = F::from_f64(spoils);
         let [origin, direction, a, b, c] = vectors;
         Made::One(Case::new(origin, direction, [a, b, c]))
     }

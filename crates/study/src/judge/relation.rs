@@ -10,6 +10,7 @@ use crate::contract::Contract;
 use crate::kernel::{Gives, Verdict};
 use crate::oracle;
 use crate::truth::{Crossing, Feature, Place, Truth};
+use glam::DVec3;
 use std::cmp::Ordering;
 
 named! {
@@ -271,6 +272,9 @@ fn is_near<R: Real>(allowed: &Allowed<R>, found: &R, expected: R, unit: R) -> bo
 /// the interval is read: nearer to either rounding decides.
 const CLEAR: f64 = 1.0 / 1024.0;
 
+/// A sine, a weight and a share of t from which on a case is plain.
+const PLAIN: f64 = 1.0 / 64.0;
+
 /// The relations about hit or miss that demand another answer to a case than its contract, each with what it demands. The
 /// contract demands something there.
 pub fn other_demands<F: Float>(
@@ -291,16 +295,32 @@ pub fn other_demands<F: Float>(
     let others: Vec<(Relation, Obligation)> = others.collect();
     let is_clear = || {
         let distances = Distances::of(case, truth);
-        CLEAR
-            <= distances
-                .in_space
-                .min(distances.nearest_change(truth, contract))
+        let nearest = distances.nearest_change(truth, contract);
+        CLEAR <= distances.in_space.min(nearest)
     };
     if others.is_empty() || !is_clear() {
-        Vec::new()
-    } else {
-        others
+        return Vec::new();
     }
+    others
+}
+
+/// True if a line passes so steeply and so clearly inside or outside a triangle that no kernel errs by rounding, nor by an epsilon
+/// that anybody would choose. In `f64`, so that it costs little: it decides what a kernel's mistake is called and no verdict.
+pub fn is_plain<F: Float>(case: &Case<F>) -> bool {
+    let [origin, direction, a, b, c] = case.widen().vectors().map(DVec3::from);
+    let normal = (b - a).cross(c - a);
+    let det = normal.dot(direction);
+    let is_steep = PLAIN * normal.length() * direction.length() < det.abs();
+    let s = origin - a;
+    let v = (b - a).cross(s).dot(direction) / det;
+    let u = s.cross(c - a).dot(direction) / det;
+    let weights = [1.0 - u - v, u, v];
+    let is_inside = weights.iter().all(|weight| PLAIN < *weight);
+    let is_outside = weights.iter().any(|weight| *weight < -PLAIN);
+    let t = -normal.dot(s) / det;
+    let ends = [case.ray.t_min, case.ray.t_max].map(F::to_f64);
+    let is_away = |end: f64| PLAIN * t.abs() < (t - end).abs();
+    is_steep && t.is_normal() && (is_outside || is_inside && ends.into_iter().all(is_away))
 }
 
 /// A crossing as a kernel takes it of which a relation is true; none if the relation changes no answer to the case.
