@@ -7,19 +7,22 @@ use crate::arith::Float;
 /// the direction is (p - o) + (q - o).
 pub(crate) fn exact_ray<F: Float>(ends: [[F; 3]; 2], away: [f64; 3]) -> ([F; 3], [F; 3]) {
     let [p, q] = ends;
-    let mut origin = [F::zero(); 3];
-    let mut direction = [F::zero(); 3];
-    for axis in 0..3 {
-        let (o, d) = exact_axis(p[axis], q[axis], away[axis]);
-        origin[axis] = o;
-        direction[axis] = d;
-    }
+    let axes = [0, 1, 2].map(|i| exact_axis(p[i], q[i], away[i]));
+    let origin = axes.map(|axis| axis.origin);
+    let direction = axes.map(|axis| axis.direction);
     (origin, direction)
 }
 
-/// o and d of one axis with d = (p - o) + (q - o), exactly if such were found: with o on the coarser
+/// A ray along one axis.
+#[derive(Clone, Copy)]
+struct AxisRay<F> {
+    origin: F,
+    direction: F,
+}
+
+/// The ray along one axis with d = (p - o) + (q - o), exactly if such were found: with o on the coarser
 /// grid of p and q, and near enough for d to keep the finer one's digits.
-fn exact_axis<F: Float>(p: F, q: F, away: f64) -> (F, F) {
+fn exact_axis<F: Float>(p: F, q: F, away: f64) -> AxisRay<F> {
     let wide_p = p.to_f64();
     let wide_q = q.to_f64();
     let middle = wide_p * 0.5 + wide_q * 0.5;
@@ -28,12 +31,17 @@ fn exact_axis<F: Float>(p: F, q: F, away: f64) -> (F, F) {
     let fine = ulp_or(p, f64::INFINITY).min(ulp_or(q, f64::INFINITY));
     let kept_digits = F::DIGITS - 3;
     let reach = fine * (1u64 << kept_digits) as f64;
-    let mut found = (F::zero(), F::zero());
-    for distance in [away, away.min(reach).max(-reach)] {
-        let origin = F::from_f64(rounded_to(middle - distance, coarse));
+    let within_reach = away.min(reach).max(-reach);
+    let mut found = AxisRay {
+        origin: F::zero(),
+        direction: F::zero(),
+    };
+    for distance in [away, within_reach] {
+        let start = rounded_to(middle - distance, coarse);
+        let origin = F::from_f64(start);
         let (sum, is_exact) = sum_of_differences(wide_p, wide_q, origin.to_f64());
         let direction = F::from_f64(sum);
-        found = (origin, direction);
+        found = AxisRay { origin, direction };
         if is_exact && direction.to_f64() == sum {
             break;
         }
@@ -89,9 +97,9 @@ mod tests {
         let mut draw = Draw::new("exact-axes", 1, 0);
         let is_exact = |_: &u32| {
             let (p, q, away) = segment(&mut draw);
-            let (origin, direction) = exact_axis(p, q, away);
-            let origin = exact(origin);
-            exact(p) + exact(q) - &origin - &origin == exact(direction)
+            let found = exact_axis(p, q, away);
+            let origin = exact(found.origin);
+            exact(p) + exact(q) - &origin - &origin == exact(found.direction)
         };
         (0..1000).filter(is_exact).count()
     }

@@ -58,7 +58,8 @@ pub fn around<F: Float>(group: &[Case<F>], grouping: Grouping) -> Option<Vec<Cas
     Some(ring)
 }
 
-fn corners<F: Float>(case: &Case<F>) -> Corners<F> {
+/// The corners of a case's triangle.
+pub(super) fn corners<F: Float>(case: &Case<F>) -> Corners<F> {
     case.triangle.vertices().map(Into::into)
 }
 
