@@ -30,7 +30,7 @@ pub fn mutate<F: Float>(case: &Case<F>, draw: &mut Draw) -> Case<F> {
         CaseParts::nudge,
         CaseParts::change_exponent,
         CaseParts::flip_bit,
-        CaseParts::to_lattice,
+        CaseParts::round_to_lattice,
         CaseParts::copy_coordinate,
         CaseParts::zero_or_negate,
         CaseParts::slide_origin,
@@ -143,7 +143,7 @@ impl<F: Float> CaseParts<F> {
     }
 
     /// One coordinate, or all, to fewer bits: rounded to a multiple of a power of two near their size.
-    fn to_lattice(&mut self, draw: &mut Draw) {
+    fn round_to_lattice(&mut self, draw: &mut Draw) {
         // Places count in bits: clearing the low ones of a place rounds the significand.
         let kept_bits = draw.integer(0, 6);
         let step = 1i64 << (i64::from(F::DIGITS) - 1 - kept_bits);
