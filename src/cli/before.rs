@@ -93,12 +93,12 @@ pub fn note_secondary_rays(rows: &[Row], sources: &[Source]) {
         );
     }
     for set in marked {
-        let mut far = set.far_starts();
-        if let Some(first) = far.next() {
+        let far = set.far_starts();
+        if let Some(first) = far.first() {
             eprintln!(
                 "warning: {} of {}: \"starts\":\"on-triangle\", but the ray starts farther from its triangle than \
                  that is large: {first} first. Is it a first ray?",
-                number_of(1 + far.count() as u64, "case", "cases"),
+                number_of(far.len() as u64, "case", "cases"),
                 set.file
             );
         }

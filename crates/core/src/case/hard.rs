@@ -12,52 +12,81 @@ pub fn hard_cases<F: Float>(seed: u64, count: u64) -> Vec<Case<F>> {
 }
 
 fn hard_case<F: Float>(draw: &mut Draw, index: u64) -> Case<F> {
-    let number = |value: i64| F::from_f64(value as f64);
     match index % 4 {
-        0 => {
-            let corners: [[i64; 3]; 3] = [(); 3].map(|()| draw.lattice_point(4));
-            let weights = [
-                [2, 0, 0],
-                [0, 2, 0],
-                [1, 1, 0],
-                [0, 1, 1],
-                [1, 2, 1],
-                [3, -1, 0],
-            ];
-            let weights = draw.pick(&weights);
-            let direction = draw.lattice_point(3);
-            let sum: i64 = weights.iter().sum();
-            let at = |axis: usize| -> i64 { (0..3).map(|i| weights[i] * corners[i][axis]).sum() };
-            let origin = std::array::from_fn(|axis| number(at(axis) - sum * 2 * direction[axis]));
-            let corners = corners.map(|corner| corner.map(|c| number(sum * c)));
-            Case::new(origin, direction.map(number), corners)
-        }
+        0 => on_a_grid(draw),
         1 | 2 => {
-            let limit = if index % 8 == 1 {
+            let most_exponent = if index % 8 == 1 {
                 8
             } else {
                 F::MAX_EXPONENT as i64 / 3
             };
-            let scale = draw.integer(-limit, limit) as i32;
-            let corners: [[F; 3]; 3] =
-                [(); 3].map(|()| [(); 3].map(|()| draw.with_exponent(scale)));
-            let (u, v) = (draw.unit(), [0.0, 1e-7, -1e-7, draw.unit()][draw.below(4)]);
-            let origin: [F; 3] = [(); 3].map(|()| draw.with_exponent(scale + 1));
-            let target = |axis: usize| {
-                let [a, b, c] = corners.map(|corner| corner[axis].to_f64());
-                a + u * (b - a) + v * (c - a)
-            };
-            let towards = |axis: usize| F::from_f64(target(axis) - origin[axis].to_f64());
-            Case::new(origin, std::array::from_fn(towards), corners)
+            near_an_edge(draw, most_exponent)
         }
-        _ => {
-            let mut any = || -> [F; 3] {
-                [(); 3].map(|()| {
-                    let exponent = draw.integer(F::MIN_EXPONENT as i64, F::MAX_EXPONENT as i64);
-                    draw.with_exponent(exponent as i32)
-                })
-            };
-            Case::new(any(), any(), [any(), any(), any()])
-        }
+        _ => of_any_exponents(draw),
     }
+}
+
+/// The weights, of any sum, of a vertex, a point of an edge, inside, and outside.
+const WEIGHTS: [[i64; 3]; 6] = [
+    [2, 0, 0],
+    [0, 2, 0],
+    [1, 1, 0],
+    [0, 1, 1],
+    [1, 2, 1],
+    [3, -1, 0],
+];
+
+/// A small triangle of integers, and a ray exactly at a point of its plane.
+fn on_a_grid<F: Float>(draw: &mut Draw) -> Case<F> {
+    let corners: [[i64; 3]; 3] = [(); 3].map(|()| draw.lattice_point(4));
+    let weights = draw.pick(&WEIGHTS);
+    let direction = draw.lattice_point(3);
+    let sum: i64 = weights.iter().sum();
+    let mut origin = [0; 3];
+    for (axis, coordinate) in origin.iter_mut().enumerate() {
+        // Times the sum of the weights, so that nothing is divided.
+        let mut target = 0;
+        for (weight, corner) in weights.iter().zip(corners) {
+            target += weight * corner[axis];
+        }
+        *coordinate = target - 2 * sum * direction[axis];
+    }
+    let scaled = corners.map(|corner| corner.map(|x| sum * x));
+    Case::new(floats(origin), floats(direction), scaled.map(floats))
+}
+
+fn floats<F: Float>(point: [i64; 3]) -> [F; 3] {
+    point.map(|x| F::from_f64(x as f64))
+}
+
+/// A triangle of a drawn size, and a ray through a point near an edge of it.
+fn near_an_edge<F: Float>(draw: &mut Draw, most_exponent: i64) -> Case<F> {
+    let exponent = draw.integer(-most_exponent, most_exponent) as i32;
+    let corners = [(); 3].map(|()| vector::<F>(draw, exponent));
+    let u = draw.unit();
+    let other_v = draw.unit();
+    let v = draw.pick(&[0.0, 1e-7, -1e-7, other_v]);
+    let origin = vector::<F>(draw, exponent + 1);
+    let direction = [0, 1, 2].map(|axis| {
+        let [a, b, c] = corners.map(|corner| corner[axis].to_f64());
+        let target = a + u * (b - a) + v * (c - a);
+        F::from_f64(target - origin[axis].to_f64())
+    });
+    Case::new(origin, direction, corners)
+}
+
+fn vector<F: Float>(draw: &mut Draw, exponent: i32) -> [F; 3] {
+    [(); 3].map(|()| draw.with_exponent(exponent))
+}
+
+fn of_any_exponents<F: Float>(draw: &mut Draw) -> Case<F> {
+    let least = F::MIN_EXPONENT as i64;
+    let most = F::MAX_EXPONENT as i64;
+    let mut vectors = [[F::zero(); 3]; 5];
+    for coordinate in vectors.as_flattened_mut() {
+        let exponent = draw.integer(least, most) as i32;
+        *coordinate = draw.with_exponent(exponent);
+    }
+    let [origin, direction, a, b, c] = vectors;
+    Case::new(origin, direction, [a, b, c])
 }

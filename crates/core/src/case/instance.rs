@@ -20,27 +20,20 @@ impl<F: Float> Instance<F> {
     /// It is computed as glam's `Affine3::inverse` does: the cross products of the columns times the rounded 1/det, and
     /// the translation from that.
     pub fn new(matrix: Matrix<F>) -> Option<Instance<F>> {
-        let [x, y, z, translation] = [0, 1, 2, 3].map(|column| matrix.map(|row| row[column]));
+        let [x, y, z, translation] = [0, 1, 2, 3].map(|i| column(&matrix, i));
         let rows = [cross(y, z), cross(z, x), cross(x, y)];
         let scale = F::one() / dot(x, rows[0]);
         let inverse = rows.map(|row| {
             let [a, b, c] = row.map(|number| number * scale);
-            [a, b, c, -dot([a, b, c], translation)]
+            let moved_back = -dot([a, b, c], translation);
+            [a, b, c, moved_back]
         });
-        let is_finite = inverse
-            .as_flattened()
-            .iter()
-            .all(|number| number.is_finite());
-        is_finite.then_some(Instance { matrix, inverse })
+        is_finite(&inverse).then_some(Instance { matrix, inverse })
     }
 
     /// The instance of a matrix that has an inverse, exactly and as computed; else what is wrong with it.
     pub fn checked(matrix: Matrix<F>) -> Result<Instance<F>, String> {
-        let is_finite = matrix
-            .as_flattened()
-            .iter()
-            .all(|number| number.is_finite());
-        if is_finite && exact_determinant(&matrix).is_zero() {
+        if is_finite(&matrix) && exact_determinant(&matrix).is_zero() {
             return Err(format!(
                 "the matrix is singular in {}: it has no inverse",
                 F::NAME
@@ -54,35 +47,31 @@ impl<F: Float> Instance<F> {
         self.matrix
     }
 
-    /// The same in `f64`, which holds its numbers exactly.
+    /// The instance in `f64`, which holds its numbers exactly.
     pub fn widen(&self) -> Instance<f64> {
-        let [matrix, inverse] =
-            [self.matrix, self.inverse].map(|m| m.map(|row| row.map(F::to_f64)));
-        Instance { matrix, inverse }
+        Instance {
+            matrix: self.matrix.map(|row| row.map(F::to_f64)),
+            inverse: self.inverse.map(|row| row.map(F::to_f64)),
+        }
     }
 
     /// A point of the object in the world, rounded.
     pub fn point_in_world(&self, point: [F; 3]) -> [F; 3] {
-        self.matrix
-            .map(|[i, j, k, moved]| dot([i, j, k], point) + moved)
+        apply_to_point(&self.matrix, point)
     }
 
     /// A normal of the object in the world, of any length, rounded: by the transposed inverse, which leaves it on its
     /// side of the triangle.
     pub fn normal_in_world(&self, normal: [F; 3]) -> [F; 3] {
-        [0, 1, 2].map(|column| dot(self.inverse.map(|row| row[column]), normal))
+        [0, 1, 2].map(|i| dot(column(&self.inverse, i), normal))
     }
 
     /// The case whose ray, which was in the object, is brought to the world and rounded there.
     pub fn in_world(&self, case: &Case<F>) -> Case<F> {
         let [origin, direction, ..] = case.vectors();
-        let direction = self
-            .matrix
-            .map(|[i, j, k, _]| dot([i, j, k], direction))
-            .into();
         let ray = Ray {
             origin: self.point_in_world(origin).into(),
-            direction,
+            direction: apply_to_direction(&self.matrix, direction).into(),
             ..case.ray
         };
         Case { ray, ..*case }
@@ -92,10 +81,12 @@ impl<F: Float> Instance<F> {
     pub fn place<R: Real>(&self, points: [[F; 3]; 3], number: impl Fn(f64) -> R) -> [Triple<R>; 3] {
         let lift = |x: F| number(x.to_f64());
         points.map(|point| {
-            let point = Triple::from(point.map(lift));
-            self.matrix
-                .map(|[i, j, k, moved]| Triple::from([i, j, k].map(lift)).dot(&point) + lift(moved))
-                .into()
+            let lifted = Triple::from(point.map(lift));
+            let coordinates = self.matrix.map(|[x, y, z, moved]| {
+                let row = Triple::from([x, y, z].map(lift));
+                row.dot(&lifted) + lift(moved)
+            });
+            coordinates.into()
         })
     }
 
@@ -111,50 +102,73 @@ impl<F: Float> Instance<F> {
         case: &Case<F>,
         number: impl Fn(f64) -> R,
     ) -> (Ray<Triple<R>>, Triangle<Triple<R>>, R) {
-        let column = |i: usize| Triple::from(self.matrix.map(|row| number(row[i].to_f64())));
-        let [x, y, z] = [0, 1, 2].map(column);
+        let columns = [0, 1, 2, 3].map(|i| column(&self.matrix, i));
+        let [x, y, z, translation] =
+            columns.map(|numbers| Triple::from(numbers.map(|x| number(x.to_f64()))));
         let rows = [y.cross(&z), z.cross(&x), x.cross(&y)];
         let determinant = x.dot(&rows[0]);
-        let solved = |v: &Triple<R>| rows.each_ref().map(|row| row.dot(v)).into();
-        let (ray, Triangle { a, b, c }) = case.widen().lift(&number);
-        let origin = solved(&ray.origin.minus(&column(3)));
-        let [a, b, c] = [a, b, c].map(|vertex| vertex.times(&determinant));
-        (
-            Ray {
-                origin,
-                direction: solved(&ray.direction),
-                ..ray
-            },
-            Triangle { a, b, c },
-            determinant,
-        )
+        let (ray, triangle) = case.widen().lift(&number);
+        let from_translation = ray.origin.minus(&translation);
+        let in_object = Ray {
+            origin: dots(&rows, &from_translation),
+            direction: dots(&rows, &ray.direction),
+            ..ray
+        };
+        let scaled = Triangle {
+            a: triangle.a.times(&determinant),
+            b: triangle.b.times(&determinant),
+            c: triangle.c.times(&determinant),
+        };
+        (in_object, scaled, determinant)
     }
 
     /// The case that a kernel gets for a ray of the world and a triangle of the object: the ray by the rounded inverse.
     pub fn in_object(&self, case: &Case<F>) -> Case<F> {
         let [origin, direction, a, b, c] = case.vectors();
-        let origin = self
-            .inverse
-            .map(|[i, j, k, moved]| dot([i, j, k], origin) + moved);
-        let direction = self.inverse.map(|[i, j, k, _]| dot([i, j, k], direction));
-        Case::new(origin, direction, [a, b, c]).on(case.ray.t_min, case.ray.t_max)
+        let in_object = Case::new(
+            apply_to_point(&self.inverse, origin),
+            apply_to_direction(&self.inverse, direction),
+            [a, b, c],
+        );
+        in_object.on(case.ray.t_min, case.ray.t_max)
     }
 }
 
 fn exact_determinant<F: Float>(matrix: &Matrix<F>) -> Exact {
-    let [x, y, z] = [0, 1, 2]
-        .map(|column| Triple::from(matrix.map(|row| Exact::from_f64(row[column].to_f64()))));
+    let columns = [0, 1, 2].map(|i| column(matrix, i));
+    let [x, y, z] =
+        columns.map(|numbers| Triple::from(numbers.map(|x| Exact::from_f64(x.to_f64()))));
     x.dot(&y.cross(&z))
+}
+
+fn column<F: Float>(matrix: &Matrix<F>, i: usize) -> [F; 3] {
+    matrix.map(|row| row[i])
+}
+
+fn is_finite<F: Float>(matrix: &Matrix<F>) -> bool {
+    let mut numbers = matrix.as_flattened().iter();
+    numbers.all(|number| number.is_finite())
+}
+
+fn apply_to_point<F: Float>(matrix: &Matrix<F>, point: [F; 3]) -> [F; 3] {
+    matrix.map(|[x, y, z, moved]| dot([x, y, z], point) + moved)
+}
+
+/// Without the translation, which moves no direction.
+fn apply_to_direction<F: Float>(matrix: &Matrix<F>, direction: [F; 3]) -> [F; 3] {
+    matrix.map(|[x, y, z, _]| dot([x, y, z], direction))
+}
+
+/// The product of each row with a vector.
+fn dots<R: Real>(rows: &[Triple<R>; 3], vector: &Triple<R>) -> Triple<R> {
+    rows.each_ref().map(|row| row.dot(vector)).into()
 }
 
 /// A matrix as case ids have it: twelve numbers, row by row.
 pub(super) fn text(matrix: &Matrix<f64>) -> String {
-    matrix
-        .as_flattened()
-        .iter()
-        .map(|x| format!("{x:e}"))
-        .collect::<Vec<_>>()
-        .join(":")
+    let numbers = matrix.as_flattened();
+    let words: Vec<String> = numbers.iter().map(|x| format!("{x:e}")).collect();
+    words.join(":")
 }
 
 /// A matrix of a case id.

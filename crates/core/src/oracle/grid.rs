@@ -24,13 +24,13 @@ pub(super) fn decide<W: Width>(case: &Case<f64>) -> Option<Truth> {
     flat_positions.copy_from_slice([o, a, b, c].as_flattened());
     let (positions, p) = on_grid::<W, 12>(flat_positions)?;
     let (d, q) = on_grid::<W, 3>(d)?;
-    let at = |k: usize| [positions[3 * k], positions[3 * k + 1], positions[3 * k + 2]];
-    let [a, b, c] = [
-        minus(at(1), at(0)),
-        minus(at(2), at(0)),
-        minus(at(3), at(0)),
-    ];
-    let (bc, ca, ab) = (cross::<W>(b, c), cross::<W>(c, a), cross::<W>(a, b));
+    let origin = point(&positions, 0);
+    let a = minus(point(&positions, 1), origin);
+    let b = minus(point(&positions, 2), origin);
+    let c = minus(point(&positions, 3), origin);
+    let bc = cross::<W>(b, c);
+    let ca = cross::<W>(c, a);
+    let ab = cross::<W>(a, b);
     // (b-a)×(c-a), which is the sum of all three; that of two is (B-A)×C, no larger.
     let normal = [0, 1, 2].map(|i| bc[i] + ca[i] + ab[i]);
     let capital_d = wide_dot::<W>(d, normal);
@@ -40,11 +40,12 @@ pub(super) fn decide<W: Width>(case: &Case<f64>) -> Option<Truth> {
         return Some(flat::<W>(&interval, d, [a, b, c], normal, capital_t));
     }
     // The negated weights, whose sum is D.
-    let (u, v) = (wide_dot::<W>(d, bc), wide_dot::<W>(d, ca));
-    let weights = [u, v, capital_d - u - v];
+    let u = wide_dot::<W>(d, bc);
+    let v = wide_dot::<W>(d, ca);
+    let w = capital_d - u - v;
     let signs = DecidingSigns {
         d: capital_d.sign(),
-        weights: weights.map(|x| x.sign().reverse()),
+        weights: [u, v, w].map(|weight| weight.sign().reverse()),
         t: capital_t.sign(),
         from_min: interval.compare_start(&capital_t, &capital_d),
         from_max: interval.compare_end(&capital_t, &capital_d),
@@ -68,8 +69,10 @@ fn flat<W: Width>(
     if !degenerate && interval.is_default() {
         return Truth::Coplanar(coplanar_contact::<W>(d, vertices, n));
     }
-    let [d, a, b, c] = [d, vertices[0], vertices[1], vertices[2]].map(|v| v.map(W::Contact::from));
-    let contact = contact::decide(interval, &d, [&a, &b, &c], &n.map(W::Contact::from));
+    let direction = d.map(W::Contact::from);
+    let normal = n.map(W::Contact::from);
+    let [a, b, c] = vertices.map(|vertex| vertex.map(W::Contact::from));
+    let contact = contact::decide(interval, &direction, [&a, &b, &c], &normal);
     if degenerate {
         Truth::Degenerate(contact)
     } else {
@@ -81,20 +84,21 @@ fn flat<W: Width>(
 #[inline(always)]
 fn on_grid<W: Width, const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)> {
     // Four maxima side by side, so that none waits for the one before.
-    let larger = |m: f64, x: f64| if x > m { x } else { m };
     let mut maxima = [0.0; 4];
     for (i, x) in values.into_iter().enumerate() {
         maxima[i % 4] = larger(maxima[i % 4], x.abs());
     }
-    let largest = larger(larger(maxima[0], maxima[1]), larger(maxima[2], maxima[3]));
+    let first = larger(maxima[0], maxima[1]);
+    let second = larger(maxima[2], maxima[3]);
+    let largest = larger(first, second);
     let exponent = (largest.to_bits() >> 52) as i32 - 1023;
     let shift = W::BITS - 1 - exponent;
     // The scale must be a normal number; zeros and subnormal numbers alone are for the layers behind.
     if !(-1000..=1000).contains(&shift) {
         return None;
     }
-    let scale = f64::from_bits(((1023 + shift) as u64) << 52);
-    let unscale = f64::from_bits(((1023 - shift) as u64) << 52);
+    let scale = power_of_two(shift);
+    let unscale = power_of_two(-shift);
     let mut integers = [0; N];
     // The bits of all differences between a number and its integer scaled back, which is zero for a
     // multiple alone: one that underflowed to zero is none, and a NaN or an infinity gives a NaN.
@@ -113,20 +117,52 @@ fn on_grid<W: Width, const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)
 }
 
 #[inline(always)]
+fn larger(m: f64, x: f64) -> f64 {
+    if x > m { x } else { m }
+}
+
+/// 2 to a power, which is a normal number.
+#[inline(always)]
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+/// The k-th of the points whose coordinates stand one after the other.
+#[inline(always)]
+fn point(coordinates: &[i64; 12], k: usize) -> [i64; 3] {
+    let first = 3 * k;
+    [
+        coordinates[first],
+        coordinates[first + 1],
+        coordinates[first + 2],
+    ]
+}
+
+#[inline(always)]
 fn minus(a: [i64; 3], b: [i64; 3]) -> [i64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 #[inline(always)]
 fn cross<W: Width>(a: [i64; 3], b: [i64; 3]) -> [W::Minor; 3] {
-    let minor = |i: usize, j: usize| W::product(a[i], b[j]) - W::product(a[j], b[i]);
-    [minor(1, 2), minor(2, 0), minor(0, 1)]
+    [
+        minor::<W>(a, b, 1, 2),
+        minor::<W>(a, b, 2, 0),
+        minor::<W>(a, b, 0, 1),
+    ]
+}
+
+#[inline(always)]
+fn minor<W: Width>(a: [i64; 3], b: [i64; 3], i: usize, j: usize) -> W::Minor {
+    W::product(a[i], b[j]) - W::product(a[j], b[i])
 }
 
 #[inline(always)]
 fn wide_dot<W: Width>(a: [i64; 3], b: [W::Minor; 3]) -> W::Determinant {
-    let product = |i: usize| W::wide_product(a[i], b[i]);
-    product(0) + product(1) + product(2)
+    let x = W::wide_product(a[0], b[0]);
+    let y = W::wide_product(a[1], b[1]);
+    let z = W::wide_product(a[2], b[2]);
+    x + y + z
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 use super::errors::{ErrorSums, MaxError, errors_of};
 use super::knob::{Knob, KnobMargins};
 use super::limits::{KnobLimit, alone, is_own};
+use super::proved::ProvedValue;
 use super::rays::{RayCount, WrongKind};
 use super::trials::{Pass, Setting, Trial, accepts, is_unknown};
 use crate::arith::Float;
@@ -39,7 +40,12 @@ impl<F: Float> Attempt<F> {
         ))
     }
 
-    pub(super) fn alone(knob: usize, value: F, is_lower: bool, others: &[F]) -> Attempt<F> {
+    /// A proved value, where the other knobs stay.
+    pub(super) fn at_proof(proof: &ProvedValue<F>, others: &[F]) -> Attempt<F> {
+        Attempt::alone(proof.knob, proof.value, proof.is_lower, others)
+    }
+
+    fn alone(knob: usize, value: F, is_lower: bool, others: &[F]) -> Attempt<F> {
         let mut epsilons = others.to_vec();
         epsilons[knob] = value;
         Attempt {

@@ -13,6 +13,7 @@ mod confidence;
 mod crossings;
 mod curves;
 mod errors;
+mod fresh;
 mod joint;
 mod knob;
 mod limits;
@@ -33,6 +34,7 @@ pub const COUNT: u64 = 40_000;
 pub use confidence::{CONFIDENCE, ranks};
 pub use curves::Curve;
 pub use errors::{ERRORS_ONE_IN, ErrorSums, HitErrors, MaxError, Value, hit_errors};
+pub use fresh::{OnFresh, Tried};
 pub use joint::Costs;
 pub use knob::{Knob, LEAST_T, MOST_KNOBS, contract_with};
 pub use limits::{KnobLimit, limits};
@@ -42,7 +44,6 @@ pub use proved::{ProvedValue, proved};
 pub use rays::{RayCount, Rays, WrongKind, counts, counts_of};
 pub use relative::scale_free_form;
 pub use study::{
-    Elsewhere, OnFresh, SCALE_FREE, SceneStudy, Tried, cheapest, own_epsilons, study_scene,
-    try_elsewhere,
+    Elsewhere, SCALE_FREE, SceneStudy, cheapest, own_epsilons, study_scene, try_elsewhere,
 };
 pub use trials::{Pass, Setting, StudiedRays, Trial, fresh_seed};

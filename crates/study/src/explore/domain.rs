@@ -24,24 +24,27 @@ named! {
 impl SearchDomain {
     /// True if a case is in the domain, decided exactly.
     pub fn holds<F: Float>(self, case: &Case<F>) -> bool {
-        self.allows_numbers(case)
-            && (self == SearchDomain::Any || {
-                let (ray, triangle) = case.exact();
-                is_healthy(&ray, &triangle, [FAR, SHARE].map(Exact::from_f64))
-            })
+        if !self.allows_numbers(case) {
+            return false;
+        }
+        if self == SearchDomain::Any {
+            return true;
+        }
+        let (ray, triangle) = case.exact();
+        is_healthy(&ray, &triangle, [FAR, SHARE].map(Exact::from_f64))
     }
 
-    /// The same in `f64`, a little stricter, so that rounding lets none in.
+    /// True if a case is in the domain, decided in `f64` and a little stricter, so that rounding lets none in.
     pub(super) fn holds_quickly<F: Float>(self, case: &Case<F>) -> bool {
-        self.allows_numbers(case)
-            && (self == SearchDomain::Any || {
-                let wide = case.widen();
-                is_healthy(
-                    &wide.ray,
-                    &wide.triangle,
-                    [FAR, SHARE].map(|share| share * 1.001),
-                )
-            })
+        if !self.allows_numbers(case) {
+            return false;
+        }
+        if self == SearchDomain::Any {
+            return true;
+        }
+        let wide = case.widen();
+        let stricter = [FAR, SHARE].map(|share| share * 1.001);
+        is_healthy(&wide.ray, &wide.triangle, stricter)
     }
 
     fn allows_numbers<F: Float>(self, case: &Case<F>) -> bool {

@@ -7,6 +7,7 @@
 
 use crate::arith::{Float, Vector, scale_by_power_of_two};
 use crate::case::{Case, Draw};
+use crate::family::integer::turned;
 
 /// The vectors of a case by index: origin, direction, a, b, c.
 const ORIGIN: usize = 0;
@@ -25,39 +26,44 @@ type Move<F> = fn(&mut CaseParts<F>, &mut Draw);
 /// A case some moves away: mostly one, rarely more than three. The same draw gives the same case.
 pub fn mutate<F: Float>(case: &Case<F>, draw: &mut Draw) -> Case<F> {
     let moves: [Move<F>; 16] = [
-        nudge,
-        nudge,
-        change_exponent,
-        flip_bit,
-        to_lattice,
-        copy_coordinate,
-        zero_or_negate,
-        slide_origin,
-        aim,
-        put_origin_on_the_triangle,
-        |parts, draw| scale(parts, draw, &POINTS),
-        |parts, draw| scale(parts, draw, &[DIRECTION]),
-        shift_points,
-        swap_vertices,
-        flatten,
-        change_interval,
+        CaseParts::nudge,
+        CaseParts::nudge,
+        CaseParts::change_exponent,
+        CaseParts::flip_bit,
+        CaseParts::round_to_lattice,
+        CaseParts::copy_coordinate,
+        CaseParts::zero_or_negate,
+        CaseParts::slide_origin,
+        CaseParts::aim,
+        CaseParts::put_origin_on_the_triangle,
+        CaseParts::scale_points,
+        CaseParts::scale_direction,
+        CaseParts::shift_points,
+        CaseParts::swap_vertices,
+        CaseParts::flatten,
+        CaseParts::change_interval,
     ];
     let mut parts = CaseParts {
         vectors: case.vectors(),
         interval: [case.ray.t_min, case.ray.t_max],
     };
-    for _ in 0..=draw.bits().trailing_zeros().min(3) {
-        draw.pick(&moves)(&mut parts, draw);
+    let more_moves = draw.bits().trailing_zeros().min(3);
+    for _ in 0..=more_moves {
+        let make_move = draw.pick(&moves);
+        make_move(&mut parts, draw);
     }
     let [origin, direction, a, b, c] = parts.vectors;
     let [t_min, t_max] = parts.interval;
     Case::new(origin, direction, [a, b, c]).on(t_min, t_max)
 }
 
+/// The points and numbers that moves begin with.
 impl<F: Float> CaseParts<F> {
     /// One of the fifteen coordinates.
     fn any(&mut self, draw: &mut Draw) -> &mut F {
-        &mut self.vectors[draw.below(5)][draw.below(3)]
+        let vector = draw.below(5);
+        let axis = draw.below(3);
+        &mut self.vectors[vector][axis]
     }
 
     fn point(&self, i: usize) -> F::Vector {
@@ -66,26 +72,32 @@ impl<F: Float> CaseParts<F> {
 
     /// A vertex, a point of an edge, or a point of the plane of the triangle, as it rounds.
     fn point_of_triangle(&self, draw: &mut Draw) -> F::Vector {
-        let [p, q, r] = VERTICES.map(|i| self.point(i));
-        let share = |draw: &mut Draw| {
-            // Small denominators come out exact where the coordinates are short.
-            let exact = F::from_f64(draw.integer(-2, 10) as f64 / 8.0);
-            if draw.coin() {
-                exact
-            } else {
-                F::from_f64(draw.unit())
-            }
-        };
-        let [p, q, r] = draw.pick(&[[p, q, r], [q, r, p], [r, p, q]]);
-        match draw.below(3) {
-            0 => p,
-            1 => p.plus(&q.minus(&p).times(&share(draw))),
-            _ => {
-                let along = p.plus(&q.minus(&p).times(&share(draw)));
-                along.plus(&r.minus(&p).times(&share(draw)))
-            }
+        let [a, b, c] = VERTICES.map(|i| self.point(i));
+        let [p, q, r] = turned(draw, [a, b, c]);
+        let dimension = draw.below(3);
+        if dimension == 0 {
+            return p;
         }
+        let to_q = q.minus(&p);
+        let on_edge = p.plus(&to_q.times(&share(draw)));
+        if dimension == 1 {
+            return on_edge;
+        }
+        let to_r = r.minus(&p);
+        on_edge.plus(&to_r.times(&share(draw)))
     }
+}
+
+/// How far along an edge a point lies, mostly between its ends.
+fn share<F: Float>(draw: &mut Draw) -> F {
+    // Small denominators come out exact where the coordinates are short.
+    let eighths = draw.integer(-2, 10);
+    let share = if draw.coin() {
+        eighths as f64 / 8.0
+    } else {
+        draw.unit()
+    };
+    F::from_f64(share)
 }
 
 /// 2 to a power, as a number of the scalar.
@@ -93,129 +105,173 @@ fn power<F: Float>(exponent: i64) -> F {
     F::from_f64(scale_by_power_of_two(1.0, exponent as i32))
 }
 
-/// One coordinate by a few ulps.
-fn nudge<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let most = draw.pick(&[1, 1, 4, 16, 1000]);
-    let ulps = draw.integer(1, most) * if draw.coin() { 1 } else { -1 };
-    let x = parts.any(draw);
-    *x = x.offset_ulps(ulps);
+/// A number with all but some leading bits rounded away: to a multiple of `step` in places.
+fn rounded<F: Float>(x: F, step: i64) -> F {
+    // The places of some NaNs have no sum with half a step.
+    if !x.is_finite() {
+        return x;
+    }
+    let place = x.place();
+    let steps = (place.abs() + step / 2) / step;
+    F::from_place(steps * step * place.signum())
 }
 
-/// One coordinate by a power of two, mostly a small one.
-fn change_exponent<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let most = draw.pick(&[1, 2, 8, 40]);
-    let factor = power::<F>(draw.integer(-most, most));
-    let x = parts.any(draw);
-    *x = *x * factor;
-}
+/// The moves.
+impl<F: Float> CaseParts<F> {
+    /// One coordinate by a few ulps.
+    fn nudge(&mut self, draw: &mut Draw) {
+        let most = draw.pick(&[1, 1, 4, 16, 1000]);
+        let ulps = draw.integer(1, most);
+        let is_up = draw.coin();
+        let x = self.any(draw);
+        *x = x.offset_ulps(if is_up { ulps } else { -ulps });
+    }
 
-/// One bit of a significand.
-fn flip_bit<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let bit = draw.below(F::DIGITS as usize - 1);
-    let x = parts.any(draw);
-    *x = F::from_bits(x.to_bits() ^ 1 << bit);
-}
+    /// One coordinate by a power of two, mostly a small one.
+    fn change_exponent(&mut self, draw: &mut Draw) {
+        let most = draw.pick(&[1, 2, 8, 40]);
+        let factor = power::<F>(draw.integer(-most, most));
+        let x = self.any(draw);
+        *x = *x * factor;
+    }
 
-/// One coordinate, or all, to fewer bits: rounded to a multiple of a power of two near their size.
-fn to_lattice<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    // Places count in bits: clearing the low ones of a place rounds the significand.
-    let step = 1i64 << (i64::from(F::DIGITS) - 1 - draw.integer(0, 6));
-    let rounded = |x: F| {
-        // The places of some NaNs have no sum with half a step.
-        if !x.is_finite() {
-            return x;
+    /// One bit of a significand.
+    fn flip_bit(&mut self, draw: &mut Draw) {
+        let bit = draw.below(F::DIGITS as usize - 1);
+        let x = self.any(draw);
+        *x = F::from_bits(x.to_bits() ^ 1 << bit);
+    }
+
+    /// One coordinate, or all, to fewer bits: rounded to a multiple of a power of two near their size.
+    fn round_to_lattice(&mut self, draw: &mut Draw) {
+        // Places count in bits: clearing the low ones of a place rounds the significand.
+        let kept_bits = draw.integer(0, 6);
+        let step = 1i64 << (i64::from(F::DIGITS) - 1 - kept_bits);
+        let rounds_all = draw.below(4) == 0;
+        if rounds_all {
+            for x in self.vectors.as_flattened_mut() {
+                *x = rounded(*x, step);
+            }
+        } else {
+            let x = self.any(draw);
+            *x = rounded(*x, step);
         }
-        let place = x.place();
-        let magnitude = (place.abs() + step / 2) / step * step;
-        F::from_place(magnitude * place.signum())
-    };
-    if draw.below(4) == 0 {
-        parts.vectors = parts.vectors.map(|vector| vector.map(rounded));
-    } else {
-        let x = parts.any(draw);
-        *x = rounded(*x);
     }
-}
 
-/// A coordinate of one point becomes that of another, or one of its neighbours.
-fn copy_coordinate<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let (from, to, axis) = (draw.pick(&POINTS), draw.pick(&POINTS), draw.below(3));
-    let ulps = draw.pick(&[0, 0, 1, -1]);
-    parts.vectors[to][axis] = parts.vectors[from][axis].offset_ulps(ulps);
-}
-
-fn zero_or_negate<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let zero = draw.coin();
-    let x = parts.any(draw);
-    *x = if zero { F::zero() } else { -*x };
-}
-
-/// The origin along the ray.
-fn slide_origin<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let by: F = draw.symmetric::<F>() * power::<F>(draw.integer(-8, 12));
-    let direction = parts.point(DIRECTION);
-    parts.vectors[ORIGIN] = parts.point(ORIGIN).plus(&direction.times(&by)).into();
-}
-
-/// The direction from the origin to a point of the triangle's plane.
-fn aim<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let target = parts.point_of_triangle(draw);
-    let factor = power::<F>(draw.pick(&[0, 0, 1, -1, 6, -6]));
-    parts.vectors[DIRECTION] = target.minus(&parts.point(ORIGIN)).times(&factor).into();
-}
-
-fn put_origin_on_the_triangle<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    parts.vectors[ORIGIN] = parts.point_of_triangle(draw).into();
-}
-
-/// Some vectors by one power of two.
-fn scale<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw, vectors: &[usize]) {
-    let most = draw.pick(&[1, 4, 30]);
-    let factor = power::<F>(draw.integer(-most, most));
-    for i in vectors {
-        parts.vectors[*i] = parts.vectors[*i].map(|x| x * factor);
+    /// A coordinate of one point becomes that of another, or one of its neighbours.
+    fn copy_coordinate(&mut self, draw: &mut Draw) {
+        let from = draw.pick(&POINTS);
+        let to = draw.pick(&POINTS);
+        let axis = draw.below(3);
+        let ulps = draw.pick(&[0, 0, 1, -1]);
+        let copied = self.vectors[from][axis];
+        self.vectors[to][axis] = copied.offset_ulps(ulps);
     }
-}
 
-/// All points by one offset, which is a coordinate of one of them or any number of their size.
-fn shift_points<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let axis = draw.below(3);
-    let size = parts.vectors[draw.pick(&POINTS)][axis];
-    let by = if draw.coin() {
-        -size
-    } else {
-        size * draw.symmetric::<F>() * power::<F>(draw.integer(0, 6))
-    };
-    for i in POINTS {
-        parts.vectors[i][axis] = parts.vectors[i][axis] + by;
+    fn zero_or_negate(&mut self, draw: &mut Draw) {
+        let becomes_zero = draw.coin();
+        let x = self.any(draw);
+        *x = if becomes_zero { F::zero() } else { -*x };
     }
-}
 
-fn swap_vertices<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let (i, j) = (draw.pick(&VERTICES), draw.pick(&VERTICES));
-    parts.vectors.swap(i, j);
-}
+    /// The origin along the ray.
+    fn slide_origin(&mut self, draw: &mut Draw) {
+        let share: F = draw.symmetric();
+        let by = share * power::<F>(draw.integer(-8, 12));
+        let way = self.point(DIRECTION).times(&by);
+        let origin = self.point(ORIGIN);
+        self.vectors[ORIGIN] = origin.plus(&way).into();
+    }
 
-/// A vertex towards the others: near another vertex, or near their line.
-fn flatten<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let (moved, target) = (draw.pick(&VERTICES), parts.point_of_triangle(draw));
-    let keep = power::<F>(-draw.integer(1, 12));
-    let offset = parts.point(moved).minus(&target);
-    parts.vectors[moved] = target.plus(&offset.times(&keep)).into();
-}
+    /// The direction from the origin to a point of the triangle's plane.
+    fn aim(&mut self, draw: &mut Draw) {
+        let target = self.point_of_triangle(draw);
+        let factor = power::<F>(draw.pick(&[0, 0, 1, -1, 6, -6]));
+        let way = target.minus(&self.point(ORIGIN));
+        self.vectors[DIRECTION] = way.times(&factor).into();
+    }
 
-/// An end of the interval: the default one, near where the line crosses the plane, or any.
-fn change_interval<F: Float>(parts: &mut CaseParts<F>, draw: &mut Draw) {
-    let [a, b, c] = VERTICES.map(|i| parts.point(i));
-    let normal = b.minus(&a).cross(&c.minus(&a));
-    let t = normal.dot(&a.minus(&parts.point(ORIGIN))) / normal.dot(&parts.point(DIRECTION));
-    let end = draw.below(2);
-    parts.interval[end] = match draw.below(4) {
-        0 => [F::zero(), F::infinity()][end],
-        1 => draw.symmetric(),
-        _ if t.to_f64().is_finite() => t.offset_ulps(draw.integer(-3, 3)),
-        _ => parts.interval[end],
-    };
+    fn put_origin_on_the_triangle(&mut self, draw: &mut Draw) {
+        self.vectors[ORIGIN] = self.point_of_triangle(draw).into();
+    }
+
+    fn scale_points(&mut self, draw: &mut Draw) {
+        self.scale(draw, &POINTS);
+    }
+
+    fn scale_direction(&mut self, draw: &mut Draw) {
+        self.scale(draw, &[DIRECTION]);
+    }
+
+    /// Some vectors by one power of two.
+    fn scale(&mut self, draw: &mut Draw, vectors: &[usize]) {
+        let most = draw.pick(&[1, 4, 30]);
+        let factor = power::<F>(draw.integer(-most, most));
+        for i in vectors {
+            for x in &mut self.vectors[*i] {
+                *x = *x * factor;
+            }
+        }
+    }
+
+    /// All points by one offset, which is a coordinate of one of them or any number of their size.
+    fn shift_points(&mut self, draw: &mut Draw) {
+        let axis = draw.below(3);
+        let size = self.vectors[draw.pick(&POINTS)][axis];
+        let offset = if draw.coin() {
+            -size
+        } else {
+            let share: F = draw.symmetric();
+            size * share * power::<F>(draw.integer(0, 6))
+        };
+        for i in POINTS {
+            let x = &mut self.vectors[i][axis];
+            *x = *x + offset;
+        }
+    }
+
+    fn swap_vertices(&mut self, draw: &mut Draw) {
+        let one = draw.pick(&VERTICES);
+        let other = draw.pick(&VERTICES);
+        self.vectors.swap(one, other);
+    }
+
+    /// A vertex towards the others: near another vertex, or near their line.
+    fn flatten(&mut self, draw: &mut Draw) {
+        let moved = draw.pick(&VERTICES);
+        let target = self.point_of_triangle(draw);
+        let kept_share = power::<F>(-draw.integer(1, 12));
+        let offset = self.point(moved).minus(&target);
+        let kept = offset.times(&kept_share);
+        self.vectors[moved] = target.plus(&kept).into();
+    }
+
+    /// An end of the interval: the default one, near where the line crosses the plane, or any.
+    fn change_interval(&mut self, draw: &mut Draw) {
+        let defaults = [F::zero(), F::infinity()];
+        let end = draw.below(2);
+        let kind = draw.below(4);
+        self.interval[end] = match kind {
+            0 => defaults[end],
+            1 => draw.symmetric(),
+            _ => {
+                let t = self.t_at_plane();
+                if !t.to_f64().is_finite() {
+                    return;
+                }
+                t.offset_ulps(draw.integer(-3, 3))
+            }
+        };
+    }
+
+    /// The parameter at which the line of the ray crosses the plane, as it rounds.
+    fn t_at_plane(&self) -> F {
+        let [a, b, c] = VERTICES.map(|i| self.point(i));
+        let normal = b.minus(&a).cross(&c.minus(&a));
+        let from_origin = a.minus(&self.point(ORIGIN));
+        let along_direction = normal.dot(&self.point(DIRECTION));
+        normal.dot(&from_origin) / along_direction
+    }
 }
 
 #[cfg(test)]

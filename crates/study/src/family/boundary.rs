@@ -126,3 +126,9 @@ pub(crate) fn nudged<F: Float>(draw: &mut Draw, vector: [F; 3], ulps: i64) -> [F
 pub(crate) fn toward<F: Float>(origin: [F; 3], target: [F; 3]) -> [F; 3] {
     std::array::from_fn(|i| target[i] - origin[i])
 }
+
+/// The middle of two points, rounded.
+pub(super) fn middle<F: Float>(p: [F; 3], q: [F; 3]) -> [F; 3] {
+    let half = F::from_f64(0.5);
+    std::array::from_fn(|axis| p[axis] * half + q[axis] * half)
+}

@@ -2,7 +2,7 @@
 //! from every boundary.
 
 use super::integer::shuffle;
-use super::{Kept, Made, Recipe};
+use super::{Corners, Kept, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -34,50 +34,55 @@ impl Recipe for Outside {
     });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        Made::One(aimed(draw, &mut |draw| {
-            let [u, v, w] = interior_weights(draw);
-            // One weight or two below zero; the sum stays 1.
-            let shift = 0.125 + draw.unit();
-            let weights = if draw.coin() {
-                [-u - shift, v + u, w + u + shift]
-            } else {
-                [u + 2.0 + shift, v - 1.0 - shift, w - 1.0]
-            };
-            shuffle(draw, weights)
-        }))
+        Made::One(aimed(draw, &mut outside_weights))
     }
+}
+
+/// Weights of which one or two are below zero; their sum stays 1.
+fn outside_weights(draw: &mut Draw) -> [f64; 3] {
+    let [u, v, w] = interior_weights(draw);
+    let shift = 0.125 + draw.unit();
+    let weights = if draw.coin() {
+        [-u - shift, v + u, w + u + shift]
+    } else {
+        [u + 2.0 + shift, v - 1.0 - shift, w - 1.0]
+    };
+    shuffle(draw, weights)
 }
 
 /// Weights of at least 1/16 each.
 pub(super) fn interior_weights(draw: &mut Draw) -> [f64; 3] {
-    let (mut u, mut v) = (draw.unit(), draw.unit());
+    let mut u = draw.unit();
+    let mut v = draw.unit();
     if u + v > 1.0 {
-        (u, v) = (1.0 - u, 1.0 - v);
+        u = 1.0 - u;
+        v = 1.0 - v;
     }
-    [u, v, 1.0 - u - v].map(|w| 0.0625 + w * 0.8125)
+    let weights = [u, v, 1.0 - u - v];
+    weights.map(|weight| 0.0625 + weight * 0.8125)
 }
 
 /// A ray at the point of a random well-shaped triangle that has the given weights, from far enough
 /// and steep enough that rounding leaves it there.
 pub(super) fn aimed<F: Float>(
     draw: &mut Draw,
-    weights: &mut dyn FnMut(&mut Draw) -> [f64; 3],
+    draw_weights: &mut dyn FnMut(&mut Draw) -> [f64; 3],
 ) -> Case<F> {
     loop {
-        let [a, b, c] = well_shaped::<F>(draw);
-        let [u, v, w] = weights(draw).map(F::from_f64);
-        let target = combination([a, b, c], [u, v, w]);
+        let triangle = well_shaped::<F>(draw);
+        let weights = draw_weights(draw).map(F::from_f64);
+        let target = combination(triangle, weights);
         let origin = draw.point::<F>();
         let length = F::from_f64(0.25 + 3.75 * draw.unit());
         let direction = std::array::from_fn(|i| (target[i] - origin[i]) * length);
-        if is_steep(direction, [a, b, c]) {
-            return Case::new(origin, direction, [a, b, c]);
+        if is_steep(direction, triangle) {
+            return Case::new(origin, direction, triangle);
         }
     }
 }
 
 /// A triangle of size about 1 whose normal is not small.
-pub(super) fn well_shaped<F: Float>(draw: &mut Draw) -> [[F; 3]; 3] {
+pub(super) fn well_shaped<F: Float>(draw: &mut Draw) -> Corners<F> {
     loop {
         let triangle = [draw.point::<F>(), draw.point(), draw.point()];
         let n = wide_normal(triangle);
@@ -88,23 +93,26 @@ pub(super) fn well_shaped<F: Float>(draw: &mut Draw) -> [[F; 3]; 3] {
 }
 
 /// True if a direction is at least 1/4 long and makes a sine of at least 1/8 with the plane.
-pub(super) fn is_steep<F: Float>(direction: [F; 3], triangle: [[F; 3]; 3]) -> bool {
+pub(super) fn is_steep<F: Float>(direction: [F; 3], triangle: Corners<F>) -> bool {
     let d = wide(direction);
     let n = wide_normal(triangle);
-    let (along, length) = (n.dot(d), d.dot(d));
-    length > 0.0625 && along * along > length * n.dot(n) / 64.0
+    let along = n.dot(d);
+    let length_squared = d.dot(d);
+    length_squared > 0.0625 && along * along > length_squared * n.dot(n) / 64.0
 }
 
 /// The point with the given weights, in the scalar's arithmetic.
-pub fn combination<F: Float>(triangle: [[F; 3]; 3], weights: [F; 3]) -> [F; 3] {
+pub fn combination<F: Float>(triangle: Corners<F>, weights: [F; 3]) -> [F; 3] {
     let [a, b, c] = triangle;
-    std::array::from_fn(|i| a[i] * weights[0] + b[i] * weights[1] + c[i] * weights[2])
+    let [u, v, w] = weights;
+    std::array::from_fn(|i| a[i] * u + b[i] * v + c[i] * w)
 }
 
 fn wide<F: Float>(v: [F; 3]) -> glam::DVec3 {
     v.map(F::to_f64).into()
 }
 
-fn wide_normal<F: Float>([a, b, c]: [[F; 3]; 3]) -> glam::DVec3 {
-    (wide(b) - wide(a)).cross(wide(c) - wide(a))
+fn wide_normal<F: Float>(triangle: Corners<F>) -> glam::DVec3 {
+    let [a, b, c] = triangle.map(wide);
+    (b - a).cross(c - a)
 }

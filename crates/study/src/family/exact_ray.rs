@@ -5,57 +5,81 @@ use crate::arith::Float;
 /// A ray through the middle of a segment (or through a point given twice), from about as far away as
 /// said. Where floats allow it the middle lies on its line exactly, though it need be no float itself:
 /// the direction is (p - o) + (q - o).
-pub(crate) fn exact_ray<F: Float>([p, q]: [[F; 3]; 2], away: [f64; 3]) -> ([F; 3], [F; 3]) {
-    let axes: [(F, F); 3] = std::array::from_fn(|i| exact_axis(p[i], q[i], away[i]));
-    (
-        axes.map(|(origin, _)| origin),
-        axes.map(|(_, direction)| direction),
-    )
+pub(crate) fn exact_ray<F: Float>(ends: [[F; 3]; 2], away: [f64; 3]) -> ([F; 3], [F; 3]) {
+    let [p, q] = ends;
+    let axes = [0, 1, 2].map(|i| exact_axis(p[i], q[i], away[i]));
+    let origin = axes.map(|axis| axis.origin);
+    let direction = axes.map(|axis| axis.direction);
+    (origin, direction)
 }
 
-/// o and d of one axis with d = (p - o) + (q - o), exactly if such were found: with o on the coarser
+/// A ray along one axis.
+#[derive(Clone, Copy)]
+struct AxisRay<F> {
+    origin: F,
+    direction: F,
+}
+
+/// The ray along one axis with d = (p - o) + (q - o), exactly if such were found: with o on the coarser
 /// grid of p and q, and near enough for d to keep the finer one's digits.
-fn exact_axis<F: Float>(p: F, q: F, away: f64) -> (F, F) {
-    let (wide_p, wide_q) = (p.to_f64(), q.to_f64());
+fn exact_axis<F: Float>(p: F, q: F, away: f64) -> AxisRay<F> {
+    let wide_p = p.to_f64();
+    let wide_q = q.to_f64();
     let middle = wide_p * 0.5 + wide_q * 0.5;
-    let ulps = |x: F, of_zero: f64| {
-        if x.is_zero() {
-            of_zero
-        } else {
-            x.ulp().to_f64()
-        }
+    // Zero is on every grid.
+    let coarse = ulp_or(p, 0.0).max(ulp_or(q, 0.0));
+    let fine = ulp_or(p, f64::INFINITY).min(ulp_or(q, f64::INFINITY));
+    let kept_digits = F::DIGITS - 3;
+    let reach = fine * (1u64 << kept_digits) as f64;
+    let within_reach = away.min(reach).max(-reach);
+    let mut found = AxisRay {
+        origin: F::zero(),
+        direction: F::zero(),
     };
-    let coarse = ulps(p, 0.0).max(ulps(q, 0.0));
-    let fine = ulps(p, f64::INFINITY).min(ulps(q, f64::INFINITY));
-    let reach = fine * (1u64 << (F::DIGITS - 3)) as f64;
-    let mut nearest = (F::zero(), F::zero());
-    for away in [away, away.min(reach).max(-reach)] {
-        let start = middle - away;
-        let on_grid = (start / coarse).round() * coarse;
-        let origin = F::from_f64(if on_grid.is_finite() { on_grid } else { start });
-        let (sum, exact) = sum_of_differences(wide_p, wide_q, origin.to_f64());
+    for distance in [away, within_reach] {
+        let start = rounded_to(middle - distance, coarse);
+        let origin = F::from_f64(start);
+        let (sum, is_exact) = sum_of_differences(wide_p, wide_q, origin.to_f64());
         let direction = F::from_f64(sum);
-        nearest = (origin, direction);
-        if exact && direction.to_f64() == sum {
+        found = AxisRay { origin, direction };
+        if is_exact && direction.to_f64() == sum {
             break;
         }
     }
-    nearest
+    found
+}
+
+/// The distance from a number to its neighbours; of zero what is given.
+fn ulp_or<F: Float>(x: F, of_zero: f64) -> f64 {
+    if x.is_zero() {
+        of_zero
+    } else {
+        x.ulp().to_f64()
+    }
+}
+
+/// The nearest multiple of a step; the number itself where that is not finite.
+fn rounded_to(x: f64, step: f64) -> f64 {
+    let rounded = (x / step).round() * step;
+    if rounded.is_finite() { rounded } else { x }
 }
 
 /// (p - o) + (q - o), and whether no step rounded.
 fn sum_of_differences(p: f64, q: f64, o: f64) -> (f64, bool) {
-    let (from_p, e1) = two_sum(p, -o);
-    let (from_q, e2) = two_sum(q, -o);
-    let (sum, e3) = two_sum(from_p, from_q);
-    (sum, e1 == 0.0 && e2 == 0.0 && e3 == 0.0)
+    let (from_p, error_p) = two_sum(p, -o);
+    let (from_q, error_q) = two_sum(q, -o);
+    let (sum, error) = two_sum(from_p, from_q);
+    let is_exact = error_p == 0.0 && error_q == 0.0 && error == 0.0;
+    (sum, is_exact)
 }
 
 /// The rounded sum and its error (Knuth).
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
+    let b_as_added = sum - a;
+    let a_as_added = sum - b_as_added;
+    let error = (a - a_as_added) + (b - b_as_added);
+    (sum, error)
 }
 
 #[cfg(test)]
@@ -73,9 +97,9 @@ mod tests {
         let mut draw = Draw::new("exact-axes", 1, 0);
         let is_exact = |_: &u32| {
             let (p, q, away) = segment(&mut draw);
-            let (origin, direction) = exact_axis(p, q, away);
-            let origin = exact(origin);
-            exact(p) + exact(q) - &origin - &origin == exact(direction)
+            let found = exact_axis(p, q, away);
+            let origin = exact(found.origin);
+            exact(p) + exact(q) - &origin - &origin == exact(found.direction)
         };
         (0..1000).filter(is_exact).count()
     }

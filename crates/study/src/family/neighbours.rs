@@ -5,7 +5,7 @@ use super::control::{combination, is_steep, well_shaped};
 use super::integer::{
     IntegerCase, LatticePoint, float, lattice_point, normal, triangle_with_edge_point, turned,
 };
-use super::{Grouping, Kept, Made, Recipe};
+use super::{Corners, Grouping, Kept, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -20,9 +20,7 @@ impl Recipe for SharedEdgeFamily {
     const PROMISE: &'static str =
         "two triangles on one edge, both transversal: crossings and folds, exact and near";
     const GROUPING: Grouping = Grouping::SharedEdge;
-    const KEEPS: Kept = Kept::Together(|truths| {
-        truths.len() == 2 && truths.iter().all(|truth| truth.crossing().is_some())
-    });
+    const KEEPS: Kept = Kept::Together(are_two_crossings);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         Made::Group(if draw.coin() {
@@ -67,10 +65,7 @@ fn near_pair<F: Float>(draw: &mut Draw) -> Vec<Case<F>> {
         let target = combination([a, b, c], [s, 1.0 - s, 0.0].map(F::from_f64));
         let (origin, direction) = nudged_ray(draw, target);
         if is_steep(direction, [a, b, c]) && is_steep(direction, second) {
-            let case = |triangle| Case::new(origin, direction, triangle);
-            return [[a, b, c], second]
-                .map(|triangle| case(turned(draw, triangle)))
-                .into();
+            return turned_cases(draw, origin, direction, &[[a, b, c], second]);
         }
     }
 }
@@ -132,6 +127,27 @@ impl Recipe for Fan {
         };
         Made::Group((0..ring.len()).map(case).collect())
     }
+}
+
+/// The cases of one ray and several triangles. The first corner of each triangle is drawn, because kernels do not
+/// treat a, b and c alike.
+pub(super) fn turned_cases<F: Float>(
+    draw: &mut Draw,
+    origin: [F; 3],
+    direction: [F; 3],
+    triangles: &[Corners<F>],
+) -> Vec<Case<F>> {
+    let mut cases = Vec::with_capacity(triangles.len());
+    for triangle in triangles {
+        let corners = turned(draw, *triangle);
+        cases.push(Case::new(origin, direction, corners));
+    }
+    cases
+}
+
+/// True if a line crosses the planes of both triangles of a pair.
+pub(super) fn are_two_crossings(truths: &[Truth]) -> bool {
+    truths.len() == 2 && truths.iter().all(|truth| truth.crossing().is_some())
 }
 
 /// True if the line of a case crosses its closed triangle.

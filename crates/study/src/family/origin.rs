@@ -3,6 +3,7 @@
 use super::boundary::{nudged, toward};
 use super::control::{combination, interior_weights, is_steep, well_shaped};
 use super::integer::{IntegerCase, normal, shuffle, transversal, triangle_with_edge_point};
+use super::ring::corners;
 use super::scene::{any_direction, hit_point, rounded};
 use super::{Grouping, Kept, Made, Recipe, apply_to_direction};
 use crate::case::{Case, Draw, Parameters};
@@ -90,7 +91,7 @@ impl Recipe for SecondaryRay {
 
     fn finish<F: Scalar>(draw: &mut Draw, parameters: &Parameters, made: &mut Made<F>) {
         let Made::One(case) = made else { return };
-        let triangle = case.triangle.vertices().map(Into::into);
+        let triangle = corners(case);
         let point = find(draw.pick(&FIRST_HIT)).and_then(|kernel| hit_point(draw, case, kernel));
         // A kernel that misses leaves the middle of the triangle.
         let middle = || combination(triangle, [F::from_f64(1.0 / 3.0); 3]);

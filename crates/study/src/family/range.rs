@@ -1,7 +1,7 @@
 //! `mixed-scale`, `range-ends`, `invalid`: exponents of all sizes, the ends of the range, and input that
 //! is not a finite ray and triangle.
 
-use super::boundary::toward;
+use super::boundary::{middle, toward};
 use super::control::{aimed, interior_weights};
 use super::integer::shuffle;
 use super::{Kept, Made, Recipe};
@@ -14,34 +14,70 @@ pub(super) struct MixedScale;
 pub(super) struct RangeEnds;
 pub(super) struct Invalid;
 
-/// A finite case of coordinates that a closure draws.
-fn drawn<F: Float>(draw: &mut Draw, mut coordinate: impl FnMut(&mut Draw) -> F) -> Made<F> {
-    let mut vector = |draw: &mut Draw| -> [F; 3] { std::array::from_fn(|_| coordinate(draw)) };
-    let [origin, a, b, c] = std::array::from_fn(|_| vector(draw));
-    // At a vertex, at the middle of two, or anywhere.
-    let [p, q, _] = shuffle(draw, [a, b, c]);
-    let half = F::from_f64(0.5);
-    let direction = match draw.below(3) {
-        0 => toward(origin, p),
-        1 => std::array::from_fn(|i| (p[i] * half + q[i] * half) - origin[i]),
-        _ => vector(draw),
-    };
-    let usable = direction.iter().all(|x| x.is_finite()) && direction.iter().any(|x| !x.is_zero());
-    let direction = if usable { direction } else { [F::one(); 3] };
-    Made::One(Case::new(origin, direction, [a, b, c]))
+/// The coordinates of a family: of drawn exponents, and finite.
+struct Coordinates {
+    least_exponent: i64,
+    most_exponent: i64,
+    /// One in eight is zero.
+    has_zeros: bool,
+}
+
+impl Coordinates {
+    fn draw<F: Float>(&self, draw: &mut Draw) -> F {
+        if self.has_zeros && draw.below(8) == 0 {
+            return F::zero();
+        }
+        let exponent = draw.integer(self.least_exponent, self.most_exponent);
+        let x = draw.with_exponent::<F>(exponent as i32);
+        if x.is_finite() { x } else { F::one() }
+    }
+
+    fn vector<F: Float>(&self, draw: &mut Draw) -> [F; 3] {
+        [self.draw(draw), self.draw(draw), self.draw(draw)]
+    }
+
+    fn made<F: Float>(&self, draw: &mut Draw) -> Made<F> {
+        let origin = self.vector(draw);
+        let corners = [(); 3].map(|()| self.vector(draw));
+        let [p, q, _] = shuffle(draw, corners);
+        // Towards a vertex, towards the middle of two, or anywhere.
+        let direction = match draw.below(3) {
+            0 => toward(origin, p),
+            1 => toward(origin, middle(p, q)),
+            _ => self.vector(draw),
+        };
+        if is_usable(direction) {
+            Made::One(Case::new(origin, direction, corners))
+        } else {
+            Made::One(Case::new(origin, [F::one(); 3], corners))
+        }
+    }
+}
+
+fn is_valid(truth: &Truth) -> bool {
+    *truth != Truth::Invalid
+}
+
+/// True if a ray may have a direction: it is finite and not zero.
+fn is_usable<F: Float>(direction: [F; 3]) -> bool {
+    let is_finite = direction.iter().all(|x| x.is_finite());
+    let is_zero = direction.iter().all(F::is_zero);
+    is_finite && !is_zero
 }
 
 impl Recipe for MixedScale {
     const NAME: &'static str = "mixed-scale";
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "finite, each exponent drawn independently in -30..30";
-    const KEEPS: Kept = Kept::Truths(|truth| *truth != Truth::Invalid);
+    const KEEPS: Kept = Kept::Truths(is_valid);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        drawn(draw, |draw| {
-            let exponent = draw.integer(-30, 30) as i32;
-            draw.with_exponent(exponent)
-        })
+        let coordinates = Coordinates {
+            least_exponent: -30,
+            most_exponent: 30,
+            has_zeros: false,
+        };
+        coordinates.made(draw)
     }
 }
 
@@ -49,26 +85,25 @@ impl Recipe for RangeEnds {
     const NAME: &'static str = "range-ends";
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "finite, subnormals and values near the largest float";
-    const KEEPS: Kept = Kept::Truths(|truth| *truth != Truth::Invalid);
+    const KEEPS: Kept = Kept::Truths(is_valid);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        let (lowest, highest) = (F::MIN_EXPONENT, F::MAX_EXPONENT);
-        let digits = F::DIGITS as i32;
-        let (low, high) = draw.pick(&[
+        let lowest = i64::from(F::MIN_EXPONENT);
+        let highest = i64::from(F::MAX_EXPONENT);
+        let digits = i64::from(F::DIGITS);
+        let (least_exponent, most_exponent) = draw.pick(&[
             (lowest, lowest + digits),
             (lowest, lowest + 2 * digits),
             (highest - 2, highest),
             (highest - digits, highest),
             (lowest, highest),
         ]);
-        drawn(draw, |draw| {
-            if draw.below(8) == 0 {
-                return F::zero();
-            }
-            let exponent = draw.integer(i64::from(low), i64::from(high)) as i32;
-            let x = draw.with_exponent::<F>(exponent);
-            if x.is_finite() { x } else { F::one() }
-        })
+        let coordinates = Coordinates {
+            least_exponent,
+            most_exponent,
+            has_zeros: true,
+        };
+        coordinates.made(draw)
     }
 }
 
@@ -80,23 +115,34 @@ impl Recipe for Invalid {
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let case = aimed::<F>(draw, &mut interior_weights);
-        let [nan, infinity] = [F::from_f64(f64::NAN), F::infinity()];
-        match draw.below(8) {
-            0 => return Made::One(case.on(F::one(), F::zero())),
-            1 => return Made::One(case.on(draw.pick(&[nan, F::zero()]), nan)),
-            2 => {
-                let [origin, _, a, b, c] = case.vectors();
-                return Made::One(Case::new(origin, [F::zero(); 3], [a, b, c]));
-            }
-            3 => return Made::One(Case::new([nan; 3], [nan; 3], [[nan; 3]; 3])),
-            _ => {}
-        }
-        let mut vectors = case.vectors();
-        let poison = draw.pick(&[nan, infinity, -infinity]);
-        for _ in 0..draw.integer(1, 3) {
-            vectors[draw.below(5)][draw.below(3)] = poison;
-        }
-        let [origin, direction, a, b, c] = vectors;
-        Made::One(Case::new(origin, direction, [a, b, c]))
+        let nan = F::from_f64(f64::NAN);
+        let kind = draw.below(8);
+        Made::One(match kind {
+            0 => case.on(F::one(), F::zero()),
+            1 => case.on(draw.pick(&[nan, F::zero()]), nan),
+            2 => without_direction(&case),
+            3 => Case::new([nan; 3], [nan; 3], [[nan; 3]; 3]),
+            _ => poisoned(draw, &case),
+        })
     }
+}
+
+fn without_direction<F: Float>(case: &Case<F>) -> Case<F> {
+    let [origin, _, a, b, c] = case.vectors();
+    Case::new(origin, [F::zero(); 3], [a, b, c])
+}
+
+/// A case of which one to three coordinates are a NaN or an infinity.
+fn poisoned<F: Float>(draw: &mut Draw, case: &Case<F>) -> Case<F> {
+    let nan = F::from_f64(f64::NAN);
+    let infinity = F::infinity();
+    let poison = draw.pick(&[nan, infinity, -infinity]);
+    let mut vectors = case.vectors();
+    for _ in 0..draw.integer(1, 3) {
+        let vector = draw.below(5);
+        let axis = draw.below(3);
+        vectors[vector][axis] = poison;
+    }
+    let [origin, direction, a, b, c] = vectors;
+    Case::new(origin, direction, [a, b, c])
 }

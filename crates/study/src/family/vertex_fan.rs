@@ -6,12 +6,11 @@
 
 use super::control::is_steep;
 use super::exact_ray::exact_ray;
-use super::integer::turned;
-use super::neighbours::{face_alike, meets_line};
-use super::scene::{HEXAGON, RayAxes, any_direction, rounded, wide};
+use super::neighbours::{face_alike, meets_line, turned_cases};
+use super::scene::{Corners, HEXAGON, RayAxes, any_direction, rounded, wide};
 use super::{Grouping, Kept, Made, Recipe};
 use crate::arith::Float;
-use crate::case::{Case, Draw};
+use crate::case::Draw;
 use crate::kernel::Scalar;
 
 pub(super) struct VertexFan;
@@ -27,43 +26,61 @@ impl Recipe for VertexFan {
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         loop {
             let centre = draw.point::<F>();
-            let away = any_direction(draw) * (0.5 + draw.unit());
-            let (origin, direction) = exact_ray([centre; 2], away.to_array());
-            let ring = ring(draw, centre);
-            let triangle = |i: usize| [centre, ring[i], ring[(i + 1) % ring.len()]];
-            let triangles: Vec<[[F; 3]; 3]> = (0..ring.len()).map(triangle).collect();
-            if !is_one_sheet(direction, &triangles) {
-                continue;
+            let way = any_direction(draw);
+            let distance = 0.5 + draw.unit();
+            let away = (way * distance).to_array();
+            let (origin, direction) = exact_ray([centre; 2], away);
+            let rim = rim(draw, centre);
+            let triangles = fan(centre, &rim);
+            if is_one_sheet(direction, &triangles) {
+                return Made::Group(turned_cases(draw, origin, direction, &triangles));
             }
-            // The centre may be any corner: kernels do not treat a, b and c alike.
-            let case = |corners| Case::new(origin, direction, turned(draw, corners));
-            return Made::Group(triangles.into_iter().map(case).collect());
         }
     }
 }
 
 /// The other ends of three to six spokes, around an axis of any direction, and at some height over its plane.
-fn ring<F: Float>(draw: &mut Draw, centre: [F; 3]) -> Vec<[F; 3]> {
+fn rim<F: Float>(draw: &mut Draw, centre: [F; 3]) -> Vec<[F; 3]> {
     let frame = RayAxes::draw(draw);
-    let mut ring = Vec::with_capacity(HEXAGON.len());
+    let mut rim = Vec::with_capacity(HEXAGON.len());
     for (i, [x, y]) in HEXAGON.into_iter().enumerate() {
         if i % 2 == 0 || draw.coin() {
-            let (length, height) = (0.25 + 0.75 * draw.unit(), 0.4 * draw.unit() - 0.2);
+            let length = 0.25 + 0.75 * draw.unit();
+            let height = 0.4 * draw.unit() - 0.2;
             let spoke = frame.flat(x, y) * length + frame.normal * height;
-            ring.push(rounded(wide(centre) + spoke));
+            rim.push(rounded(wide(centre) + spoke));
         }
     }
-    ring
+    rim
+}
+
+/// The triangles from a centre to each edge of a closed rim.
+fn fan<F: Float>(centre: [F; 3], rim: &[[F; 3]]) -> Vec<Corners<F>> {
+    let mut triangles = Vec::with_capacity(rim.len());
+    for (i, corner) in rim.iter().enumerate() {
+        let next = (i + 1) % rim.len();
+        triangles.push([centre, *corner, rim[next]]);
+    }
+    triangles
 }
 
 /// True if a direction is steep to all triangles, and crosses all of them from the same side.
-fn is_one_sheet<F: Float>(direction: [F; 3], triangles: &[[[F; 3]; 3]]) -> bool {
-    let is_front = |[a, b, c]: &[[F; 3]; 3]| {
-        let normal = (wide(*b) - wide(*a)).cross(wide(*c) - wide(*a));
-        0.0 < normal.dot(wide(direction))
-    };
-    let first = is_front(&triangles[0]);
-    triangles
-        .iter()
-        .all(|it| is_steep(direction, *it) && is_front(it) == first)
+fn is_one_sheet<F: Float>(direction: [F; 3], triangles: &[Corners<F>]) -> bool {
+    let mut fronts = 0;
+    for triangle in triangles {
+        if !is_steep(direction, *triangle) {
+            return false;
+        }
+        if is_front(direction, *triangle) {
+            fronts += 1;
+        }
+    }
+    fronts == 0 || fronts == triangles.len()
+}
+
+/// True if a direction points to the side of a triangle to which its normal points.
+fn is_front<F: Float>(direction: [F; 3], triangle: Corners<F>) -> bool {
+    let [a, b, c] = triangle.map(wide);
+    let normal = (b - a).cross(c - a);
+    0.0 < normal.dot(wide(direction))
 }

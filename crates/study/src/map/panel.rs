@@ -3,6 +3,9 @@
 use super::frame::Stretch;
 use std::fmt::Write;
 
+/// A point of the plane, or of the drawing.
+type Point = [f64; 2];
+
 /// A window: where it lies in the drawing, and what it looks at.
 pub(super) struct Panel {
     /// In the drawing.
@@ -10,18 +13,18 @@ pub(super) struct Panel {
     pub top: f64,
     pub side: f64,
     /// The point in its middle; `half` is half of what fits into it, in units.
-    pub centre: [f64; 2],
+    pub centre: Point,
     pub half: f64,
 }
 
 impl Panel {
     /// A point of the plane against the window, whose inside is from -1 to 1.
-    fn relative(&self, point: [f64; 2]) -> [f64; 2] {
+    fn relative(&self, point: Point) -> Point {
         [0, 1].map(|i| (point[i] - self.centre[i]) / self.half)
     }
 
     /// Where a point within the window is drawn.
-    fn drawn(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    fn drawn(&self, [x, y]: Point) -> Point {
         let middle = self.side / 2.0;
         [
             self.left + middle * (1.0 + x),
@@ -30,30 +33,40 @@ impl Panel {
     }
 
     /// Where a point is drawn; none outside of the window.
-    pub fn place(&self, point: [f64; 2]) -> Option<[f64; 2]> {
-        let point = self.relative(point);
-        point
-            .iter()
-            .all(|x| x.abs() <= 1.0)
-            .then(|| self.drawn(point))
+    pub fn place(&self, point: Point) -> Option<Point> {
+        let [x, y] = self.relative(point);
+        let is_seen = x.abs() <= 1.0 && y.abs() <= 1.0;
+        is_seen.then(|| self.drawn([x, y]))
     }
 
     /// The ends of what is seen of a stretch; none if nothing is.
-    pub fn ends(&self, stretch: &Stretch) -> Option<[[f64; 2]; 2]> {
+    pub fn ends(&self, stretch: &Stretch) -> Option<[Point; 2]> {
         let foot = self.relative(stretch.foot);
-        let (mut from, mut to) = (stretch.from / self.half, stretch.to / self.half);
+        let mut from = stretch.from / self.half;
+        let mut to = stretch.to / self.half;
         for (x, way) in foot.into_iter().zip(stretch.way) {
-            if !x.is_finite() || (way == 0.0 && x.abs() > 1.0) {
+            if !x.is_finite() {
                 return None;
             }
-            if way != 0.0 {
-                let (a, b) = ((-1.0 - x) / way, (1.0 - x) / way);
-                (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
+            if way == 0.0 {
+                if x.abs() > 1.0 {
+                    return None;
+                }
+                continue;
             }
+            let at_low_side = (-1.0 - x) / way;
+            let at_high_side = (1.0 - x) / way;
+            from = from.max(at_low_side.min(at_high_side));
+            to = to.min(at_low_side.max(at_high_side));
         }
-        let at =
-            |s: f64| self.drawn([0, 1].map(|i| (foot[i] + s * stretch.way[i]).clamp(-1.0, 1.0)));
-        (from <= to && from.is_finite() && to.is_finite()).then(|| [at(from), at(to)])
+        if !from.is_finite() || !to.is_finite() || to < from {
+            return None;
+        }
+        let at = |share: f64| {
+            let point = [0, 1].map(|i| foot[i] + share * stretch.way[i]);
+            self.drawn(point.map(|x| x.clamp(-1.0, 1.0)))
+        };
+        Some([at(from), at(to)])
     }
 
     /// The visible part of the points to the left of some stretches (all of them), as the data of a path;
@@ -61,29 +74,17 @@ impl Panel {
     pub fn left_of(&self, stretches: &[Stretch]) -> String {
         let mut corners = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         for stretch in stretches {
-            let (foot, [x, y]) = (self.relative(stretch.foot), stretch.way);
-            let height = |p: [f64; 2]| (p[1] - foot[1]) * x - (p[0] - foot[0]) * y;
-            let mut kept = Vec::new();
-            for (i, &p) in corners.iter().enumerate() {
-                let q = corners[(i + 1) % corners.len()];
-                let (hp, hq) = (height(p), height(q));
-                if hp >= 0.0 {
-                    kept.push(p);
-                }
-                if (hp >= 0.0) != (hq >= 0.0) {
-                    let s = hp / (hp - hq);
-                    kept.push([0, 1].map(|i| p[i] + s * (q[i] - p[i])));
-                }
-            }
-            corners = kept;
+            let foot = self.relative(stretch.foot);
+            corners = cut_off(&corners, foot, stretch.way);
         }
         let mut path = String::new();
         if corners.iter().flatten().any(|x| !x.is_finite()) {
             return path;
         }
-        for (i, corner) in corners.into_iter().enumerate() {
+        for corner in corners {
             let [x, y] = self.drawn(corner);
-            let _ = write!(path, "{}{x:.2} {y:.2}", if i == 0 { "M" } else { "L" });
+            let command = if path.is_empty() { "M" } else { "L" };
+            let _ = write!(path, "{command}{x:.2} {y:.2}");
         }
         if !path.is_empty() {
             path.push('z');
@@ -93,7 +94,7 @@ impl Panel {
 
     /// A point outside of the window: where on its rim it is nearest, as seen from the middle, and which
     /// way it lies. None for a point within, or one that is nowhere.
-    pub fn pointer(&self, point: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
+    pub fn pointer(&self, point: Point) -> Option<(Point, Point)> {
         let [x, y] = self.relative(point);
         let size = x.abs().max(y.abs());
         if !size.is_finite() || size <= 1.0 {
@@ -101,6 +102,29 @@ impl Panel {
         }
         let way = [x / size, y / size];
         let length = way[0].hypot(way[1]);
-        Some((self.drawn(way), [way[0] / length, -way[1] / length]))
+        let drawn_way = [way[0] / length, -way[1] / length];
+        Some((self.drawn(way), drawn_way))
     }
+}
+
+/// The part of a convex polygon to the left of a line through a foot.
+fn cut_off(corners: &[Point], foot: Point, way: Point) -> Vec<Point> {
+    let height = |point: Point| {
+        let [x, y] = [0, 1].map(|i| point[i] - foot[i]);
+        y * way[0] - x * way[1]
+    };
+    let mut kept = Vec::new();
+    for (i, from) in corners.iter().enumerate() {
+        let to = &corners[(i + 1) % corners.len()];
+        let from_height = height(*from);
+        let to_height = height(*to);
+        if from_height >= 0.0 {
+            kept.push(*from);
+        }
+        if (from_height >= 0.0) != (to_height >= 0.0) {
+            let share = from_height / (from_height - to_height);
+            kept.push([0, 1].map(|i| from[i] + share * (to[i] - from[i])));
+        }
+    }
+    kept
 }

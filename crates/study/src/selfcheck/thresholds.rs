@@ -11,84 +11,118 @@ type Doubles = [f64; 3];
 /// Case `index` of a set.
 pub(super) fn case(seed: u64, index: u64) -> Case<f64> {
     let mut draw = Draw::new("thresholds", seed, index);
-    let case = match index % 16 {
+    let unlimited = match index % 16 {
         3 => overflowing(&mut draw),
         n if n % 4 == 0 => underflowing(&mut draw),
         n if n % 4 == 1 => last_bits(&mut draw),
         _ => {
-            let (case, bits) = cancelling(&mut draw);
+            let bits = draw.pick(&[20, 29, 40, 50, 53]);
+            let case = cancelling(&mut draw, bits);
             scaled(&mut draw, &case, bits)
         }
     };
     let case = match draw.below(8) {
-        0 => case.on(1.0, 4.0),
-        1 => case.on(-1.0, 1.0),
-        2 => case.on(0.0, 1.0),
-        _ => case,
+        0 => unlimited.on(1.0, 4.0),
+        1 => unlimited.on(-1.0, 1.0),
+        2 => unlimited.on(0.0, 1.0),
+        _ => unlimited,
     };
-    assert!(
-        case.vectors().as_flattened().iter().all(|x| x.is_finite()),
-        "{}",
-        case.hex()
-    );
+    assert!(is_finite(&case), "{}", case.hex());
     case
+}
+
+fn is_finite(case: &Case<f64>) -> bool {
+    let vectors = case.vectors();
+    vectors.as_flattened().iter().all(|x| x.is_finite())
 }
 
 fn number(draw: &mut Draw, exponent: i64) -> f64 {
     draw.with_exponent(exponent as i32)
 }
 
+fn sum(a: Doubles, b: Doubles) -> Doubles {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// The axes after one, in turn.
+fn next_axes(axis: usize) -> [usize; 2] {
+    [(axis + 1) % 3, (axis + 2) % 3]
+}
+
 /// A case of whose determinants one has these rows (a point stands for its difference from a base), the
 /// rest being random: one of the weights, T or D.
 fn with_rows(
     draw: &mut Draw,
-    [x, y, z]: [Doubles; 3],
+    rows: [Doubles; 3],
     base: Doubles,
-    other: [Doubles; 2],
+    others: [Doubles; 2],
 ) -> Case<f64> {
-    let at = |v: Doubles| -> Doubles { [0, 1, 2].map(|i| base[i] + v[i]) };
+    let [x, ..] = rows;
+    let [at_x, at_y, at_z] = rows.map(|row| sum(base, row));
+    let [other, other_direction] = others;
     match draw.below(5) {
-        0 => Case::new(base, x, [other[0], at(y), at(z)]),
-        1 => Case::new(base, x, [at(z), other[0], at(y)]),
-        2 => Case::new(base, x, [at(y), at(z), other[0]]),
-        3 => Case::new(other[0], x, [base, at(y), at(z)]),
-        _ => Case::new(base, other[1], [at(x), at(y), at(z)]),
+        0 => Case::new(base, x, [other, at_y, at_z]),
+        1 => Case::new(base, x, [at_z, other, at_y]),
+        2 => Case::new(base, x, [at_y, at_z, other]),
+        3 => Case::new(other, x, [base, at_y, at_z]),
+        _ => Case::new(base, other_direction, [at_x, at_y, at_z]),
+    }
+}
+
+/// The numbers of a grid: the multiples of 2 to a power below 1.
+struct Grid {
+    /// How many there are from 0 to 1.
+    steps: i64,
+}
+
+impl Grid {
+    fn point(&self, draw: &mut Draw) -> Doubles {
+        let steps = draw.lattice_point(self.steps - 1);
+        steps.map(|x| x as f64 / self.steps as f64)
+    }
+
+    /// A point of the grid some units beside another point in each axis.
+    fn beside(&self, draw: &mut Draw, point: Doubles, units: i64) -> Doubles {
+        let steps = self.steps as f64;
+        let offset = draw.lattice_point(units);
+        [0, 1, 2].map(|i| ((point[i] * steps).round() + offset[i] as f64) / steps)
     }
 }
 
 /// Three vectors on a grid of up to 53 bits, nearly in a plane (their determinant is about 2^-53), and
-/// half the time two of them also nearly parallel (2^-106): then double-doubles cannot tell it either. And the bits.
-fn cancelling(draw: &mut Draw) -> (Case<f64>, i32) {
-    let bits = draw.pick(&[20, 29, 40, 50, 53]);
-    let one = (1i64 << bits) as f64;
-    let grid = |draw: &mut Draw| -> Doubles {
-        draw.lattice_point((1i64 << bits) - 1)
-            .map(|x| x as f64 / one)
+/// half the time two of them also nearly parallel (2^-106): then double-doubles cannot tell it either.
+fn cancelling(draw: &mut Draw, bits: i32) -> Case<f64> {
+    let grid = Grid { steps: 1 << bits };
+    let x = grid.point(draw);
+    let y = if draw.coin() {
+        let multiple = draw.pick(&[1.0, -1.0, 0.5, -0.75]);
+        grid.beside(draw, x.map(|x| x * multiple), 4)
+    } else {
+        grid.point(draw)
     };
-    let beside = |draw: &mut Draw, v: Doubles, units: i64| -> Doubles {
-        let by = draw.lattice_point(units);
-        [0, 1, 2].map(|i| ((v[i] * one).round() + by[i] as f64) / one)
-    };
-    let x = grid(draw);
-    let y = match draw.coin() {
-        true => {
-            let multiple = draw.pick(&[1.0, -1.0, 0.5, -0.75]);
-            beside(draw, x.map(|x| x * multiple), 4)
-        }
-        false => grid(draw),
-    };
-    let factor = |draw: &mut Draw| match draw.coin() {
-        true => draw.pick(&[0.0, 0.5, -0.5, 1.0, -1.0]),
-        false => draw.symmetric::<f64>() * 0.5,
-    };
-    let (s, t) = (factor(draw), factor(draw));
+    let s = factor(draw);
+    let t = factor(draw);
     let units = draw.pick(&[0, 1, 1, 3]);
-    let z = beside(draw, [0, 1, 2].map(|i| s * x[i] + t * y[i]), units);
+    let in_plane = [0, 1, 2].map(|i| s * x[i] + t * y[i]);
+    let z = grid.beside(draw, in_plane, units);
     let mut rows = [x, y, z];
     rows.rotate_left(draw.below(3));
-    let base = if draw.coin() { [0.0; 3] } else { grid(draw) };
-    let other = [grid(draw), grid(draw)];
-    (with_rows(draw, rows, base, other), bits)
+    let base = if draw.coin() {
+        [0.0; 3]
+    } else {
+        grid.point(draw)
+    };
+    let others = [grid.point(draw), grid.point(draw)];
+    with_rows(draw, rows, base, others)
+}
+
+/// How much of a vector a sum has.
+fn factor(draw: &mut Draw) -> f64 {
+    if draw.coin() {
+        draw.pick(&[0.0, 0.5, -0.5, 1.0, -1.0])
+    } else {
+        draw.symmetric::<f64>() * 0.5
+    }
 }
 
 /// A case whose axes, and then its direction, are multiplied by powers of two, which keeps all signs:
@@ -96,137 +130,189 @@ fn cancelling(draw: &mut Draw) -> (Case<f64>, i32) {
 /// overflow or underflow, and each axis by itself, also such that the last of its bits is the smallest float,
 /// with or without a point that lies far off along it. As it was if a number leaves the range.
 fn scaled(draw: &mut Draw, case: &Case<f64>, bits: i32) -> Case<f64> {
-    let uniform = |draw: &mut Draw, low, high| [draw.integer(low, high) as i32; 3];
-    let mut by = match draw.below(6) {
-        0 => [0; 3],
-        1 => [0; 3].map(|_| draw.integer(-60, 60) as i32),
-        2 => uniform(draw, -345, -190),
-        3 => uniform(draw, 240, 342),
-        4 => [0; 3].map(|_| draw.integer(-330, 330) as i32),
-        _ => [0; 3].map(|_| draw.integer(-1000, 900) as i32),
+    let drawn_powers = axis_powers(draw);
+    let drawn_power = draw.integer(-300, 300) as i32;
+    let direction_power = draw.pick(&[0, 0, drawn_power]);
+    let has_smallest = draw.below(12) == 0;
+    let smallest = has_smallest.then(|| draw.below(3));
+    let powers = match smallest {
+        Some(axis) => with_last_bit_at_the_smallest(drawn_powers, axis, bits),
+        None => drawn_powers,
     };
-    let direction = draw.integer(-300, 300) as i32;
-    let direction = draw.pick(&[0, 0, direction]);
-    let smallest = (draw.below(12) == 0).then(|| draw.below(3));
-    if let Some(axis) = smallest {
-        by = by.map(|power| power.clamp(-330, 330));
-        by[axis] = bits - 1074;
-    }
-    let [o, d, vertices @ ..] = case.vectors();
-    let position = |v: Doubles| [0, 1, 2].map(|i| scale_by_power_of_two(v[i], by[i]));
-    let d = position(d).map(|x| scale_by_power_of_two(x, direction));
-    let mut points = [o, vertices[0], vertices[1], vertices[2]].map(position);
-    if let Some(axis) = smallest.filter(|_| draw.coin()) {
+    let [origin, direction, a, b, c] = case
+        .vectors()
+        .map(|vector| [0, 1, 2].map(|i| scale_by_power_of_two(vector[i], powers[i])));
+    let direction = direction.map(|x| scale_by_power_of_two(x, direction_power));
+    let mut points = [origin, a, b, c];
+    if let Some(axis) = smallest
+        && draw.coin()
+    {
         points[draw.below(4)][axis] = 1.0;
     }
-    let [o, a, b, c] = points;
-    let scaled = Case::new(o, d, [a, b, c]);
-    let is_finite = scaled
-        .vectors()
-        .as_flattened()
-        .iter()
-        .all(|x| x.is_finite());
-    if is_finite { scaled } else { *case }
+    let [origin, a, b, c] = points;
+    let scaled = Case::new(origin, direction, [a, b, c]);
+    if is_finite(&scaled) { scaled } else { *case }
+}
+
+/// Powers of two for the axes: none, or all of one size, or each by itself.
+fn axis_powers(draw: &mut Draw) -> [i32; 3] {
+    match draw.below(6) {
+        0 => [0; 3],
+        1 => each_from(draw, -60, 60),
+        2 => [draw.integer(-345, -190) as i32; 3],
+        3 => [draw.integer(240, 342) as i32; 3],
+        4 => each_from(draw, -330, 330),
+        _ => each_from(draw, -1000, 900),
+    }
+}
+
+fn each_from(draw: &mut Draw, low: i64, high: i64) -> [i32; 3] {
+    [(); 3].map(|()| draw.integer(low, high) as i32)
+}
+
+/// Powers that make the last of some bits the smallest float in one axis, with moderate ones in the others.
+fn with_last_bit_at_the_smallest(powers: [i32; 3], axis: usize, bits: i32) -> [i32; 3] {
+    let mut moderate = powers.map(|power| power.clamp(-330, 330));
+    moderate[axis] = bits - 1074;
+    moderate
 }
 
 /// A determinant f·(p×q) of which one component of p×q is lost to underflow while f is so large in it
 /// that it decides the sign, against another component that is left.
 fn underflowing(draw: &mut Draw) -> Case<f64> {
     let i = draw.below(3);
-    let (j, k) = if draw.coin() {
-        ((i + 1) % 3, (i + 2) % 3)
+    let [next, after] = next_axes(i);
+    let [j, k] = if draw.coin() {
+        [next, after]
     } else {
-        ((i + 2) % 3, (i + 1) % 3)
+        [after, next]
     };
+    let mut p = [0; 3];
+    let mut q = [0; 3];
+    let mut f = [0; 3];
+    p[j] = draw.integer(-650, -430);
+    p[k] = draw.integer(-650, -430);
     // Both products of the lost component lie about the smallest float.
-    let lost = |draw: &mut Draw| -1076 + draw.integer(-2, 2);
-    let (mut p, mut q, mut f) = ([0i64; 3], [0i64; 3], [0i64; 3]);
-    (p[j], p[k]) = (draw.integer(-650, -430), draw.integer(-650, -430));
-    (q[k], q[j]) = (lost(draw) - p[j], lost(draw) - p[k]);
+    q[k] = about_the_smallest(draw) - p[j];
+    q[j] = about_the_smallest(draw) - p[k];
     let left = draw.integer(-985, -860);
-    (p[i], q[i]) = (left - q[k], left - p[k]);
+    p[i] = left - q[k];
+    q[i] = left - p[k];
     f[i] = draw.integer(0, 330);
     // The other components: anything from nothing to as much as the lost one.
     f[j] = f[i] - 1075 - left - draw.integer(-2, 90);
     f[k] = f[j] - draw.integer(0, 100);
-    let none = draw.pick(&[None, Some(j), Some(k)]);
-    let mut vector = |exponents: [i64; 3]| exponents.map(|e| number(draw, e.clamp(-1070, 1000)));
-    let [p, q, mut f] = [p, q, f].map(&mut vector);
-    if let Some(axis) = none {
+    let nothing = draw.pick(&[None, Some(j), Some(k)]);
+    let [p, q, mut f] = [p, q, f].map(|exponents| with_exponents(draw, exponents));
+    if let Some(axis) = nothing {
         f[axis] = 0.0;
     }
-    let other = [draw.point(), draw.point()];
-    with_rows(draw, [f, p, q], [0.0; 3], other)
+    let others = [draw.point(), draw.point()];
+    with_rows(draw, [f, p, q], [0.0; 3], others)
+}
+
+/// The exponent of a product that underflows, or just does not.
+fn about_the_smallest(draw: &mut Draw) -> i64 {
+    -1076 + draw.integer(-2, 2)
+}
+
+fn with_exponents(draw: &mut Draw, exponents: [i64; 3]) -> Doubles {
+    exponents.map(|exponent| number(draw, exponent.clamp(-1070, 1000)))
 }
 
 /// A determinant f·(p×q) of which one product of f and p×q is beyond the largest float, while the other two together
 /// outweigh it: computed it is infinite and has the wrong sign.
 fn overflowing(draw: &mut Draw) -> Case<f64> {
-    let [p, q] = [0; 2].map(|_| [0; 3].map(|_| number(draw, 300)));
+    let p = [(); 3].map(|()| number(draw, 300));
+    let q = [(); 3].map(|()| number(draw, 300));
     let beyond = draw.below(3);
     let half = scale_by_power_of_two(draw.pick(&[1.0, -1.0]), 1023);
-    let f = [0, 1, 2].map(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+    let mut f = [0.0; 3];
+    for (i, number) in f.iter_mut().enumerate() {
+        let [j, k] = next_axes(i);
+        let component = p[j] * q[k] - p[k] * q[j];
+        // The product as a share of the largest float.
         let share = if i == beyond {
             1.01 + 0.1 * draw.unit()
         } else {
             -0.6 - 0.3 * draw.unit()
         };
-        half / (p[j] * q[k] - p[k] * q[j]) * (2.0 * share)
-    });
-    let other = [draw.point(), draw.point()];
-    with_rows(draw, [f, p, q], [0.0; 3], other)
+        *number = half / component * (2.0 * share);
+    }
+    let others = [draw.point(), draw.point()];
+    with_rows(draw, [f, p, q], [0.0; 3], others)
 }
 
 /// Integers about the largest that a small or a wide grid holds, times powers of two up to the ends of what
 /// it takes, with one number now and then half a unit or one ulp off.
 fn last_bits(draw: &mut Draw) -> Case<f64> {
     let bits = draw.pick(&[29, 30, 31, 60, 61, 62]);
-    // One above the largest float of so many bits.
-    let largest = (1i64 << bits) - (1i64 << bits >> f64::MANTISSA_DIGITS).max(1) + 1;
-    let [position, direction] = [0; 2].map(|_| match draw.below(4) {
-        0 => draw.integer(-1074, -960),
-        1 => 1023 - bits - draw.integer(0, 37),
-        2 => draw.integer(-30, 30),
-        _ => 0,
-    });
+    let largest = above_the_largest(bits);
+    let position_exponent = grid_exponent(draw, bits);
+    let direction_exponent = grid_exponent(draw, bits);
     let kind = draw.below(3);
-    let coordinate = |draw: &mut Draw| match kind {
-        0 => draw.pick(&[largest - 1, 1 - largest]),
-        1 => draw.pick(&[largest - 1, 1 - largest, largest, largest - 2, 0, 1]),
-        _ => draw.integer(1 - largest, largest - 1),
-    };
-    let mut vectors: [[i64; 3]; 5] = [[0; 3]; 5].map(|v| v.map(|_| coordinate(draw)));
+    let mut vectors = [[0; 3]; 5];
+    for coordinate in vectors.as_flattened_mut() {
+        *coordinate = match kind {
+            0 => draw.pick(&[largest - 1, 1 - largest]),
+            1 => draw.pick(&[largest - 1, 1 - largest, largest, largest - 2, 0, 1]),
+            _ => draw.integer(1 - largest, largest - 1),
+        };
+    }
     match draw.below(4) {
         // In the plane, and on it.
         0 => vectors[1] = [0, 1, 2].map(|i| (vectors[2][i] - vectors[3][i]) / 2),
         1 => vectors[4] = [0, 1, 2].map(|i| vectors[2][i] / 2 + vectors[3][i] / 2),
-        // The origin and two vertices on a line, whose direction has the last bit beside the first.
-        2 => {
-            let half = 1i64 << (bits - 1);
-            let mut step = [0; 3].map(|_| draw.pick(&[half, -half]));
-            step[draw.below(3)] = draw.pick(&[1, -1]);
-            let mut on_line = || {
-                let steps = draw.integer(0, 3);
-                step.map(|x| steps * x - (x + x / 2))
-            };
-            vectors[0] = on_line();
-            (vectors[2], vectors[3]) = (on_line(), on_line());
-            vectors[1] = step;
-            vectors[2..].rotate_left(draw.below(3));
-        }
+        2 => put_on_a_line(draw, &mut vectors, bits),
         _ => {}
     }
+    // Counted from 1; beyond 15 none is off.
     let off = draw.below(30);
-    let mut at = 0;
-    let mut float = |v: [i64; 3], exponent: i64| {
-        v.map(|x| {
-            at += 1;
-            let x = if at == off { x as f64 + 0.5 } else { x as f64 };
-            scale_by_power_of_two(x, exponent as i32)
-        })
-    };
-    let exponents = [position, direction, position, position, position];
-    let [o, d, a, b, c] = std::array::from_fn(|i| float(vectors[i], exponents[i]));
+    let mut floats = [[0.0; 3]; 5];
+    for (i, float) in floats.as_flattened_mut().iter_mut().enumerate() {
+        let mut units = vectors[i / 3][i % 3] as f64;
+        if i + 1 == off {
+            units += 0.5;
+        }
+        let is_of_direction = i / 3 == 1;
+        let exponent = if is_of_direction {
+            direction_exponent
+        } else {
+            position_exponent
+        };
+        *float = scale_by_power_of_two(units, exponent);
+    }
+    let [o, d, a, b, c] = floats;
     Case::new(o, d, [a, b, c])
+}
+
+/// One above the largest float of so many bits.
+fn above_the_largest(bits: i64) -> i64 {
+    let power = 1i64 << bits;
+    let last_place = (power >> f64::MANTISSA_DIGITS).max(1);
+    power - last_place + 1
+}
+
+/// The exponent of a grid of so many bits, often at an end of what floats take.
+fn grid_exponent(draw: &mut Draw, bits: i64) -> i32 {
+    let exponent = match draw.below(4) {
+        0 => draw.integer(-1074, -960),
+        1 => 1023 - bits - draw.integer(0, 37),
+        2 => draw.integer(-30, 30),
+        _ => 0,
+    };
+    exponent as i32
+}
+
+/// Puts the origin and two vertices on a line, whose direction has the last bit beside the first.
+fn put_on_a_line(draw: &mut Draw, vectors: &mut [[i64; 3]; 5], bits: i64) {
+    let half = 1i64 << (bits - 1);
+    let mut step = [(); 3].map(|()| draw.pick(&[half, -half]));
+    step[draw.below(3)] = draw.pick(&[1, -1]);
+    vectors[1] = step;
+    for point in [0, 2, 3] {
+        let steps = draw.integer(0, 3);
+        vectors[point] = step.map(|x| steps * x - (x + x / 2));
+    }
+    vectors[2..].rotate_left(draw.below(3));
 }

@@ -1,93 +1,109 @@
 //! Rays from a kernel's own hit points, and segments that end at them.
 
-use super::super::{Made, control::combination, unit};
+use super::super::control::combination;
+use super::super::ring::corners;
+use super::super::{Corners, Made, toward, unit};
 use super::Setup;
 use super::aimed::{aim, interior_case};
 use super::draw::{between, direction, point_of, rounded, wide};
 use crate::arith::Vector;
 use crate::case::{Case, DirectionLength, Draw};
-use crate::kernel::{Entry, Gives, Scalar, Verdict, find, verdicts_of};
+use crate::kernel::{Entry, Scalar, Verdict, find, verdicts_of};
 use std::slice;
 
 /// The kernel at whose hit points shadow rays start, unless the parameters name another.
 const DEFAULT_SHADOW_KERNEL: &str = "moller-trumbore";
 
 pub fn shadow<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    let (point, triangle) = hit(setup, draw);
-    let toward = aim(draw, setup.scene, triangle);
-    let way = toward * between(draw, setup.scene.distance);
-    Made::One(Case::new(
-        point,
-        direction(setup.scene, way, toward),
-        triangle,
-    ))
+    let HitPoint { point, triangle } = hit(setup, draw);
+    let unit_way = aim(draw, setup.scene, triangle);
+    let distance = between(draw, setup.scene.distance);
+    let way = unit_way * distance;
+    let direction = direction(setup.scene, way, unit_way);
+    Made::One(Case::new(point, direction, triangle))
 }
 
 /// From a rounded point to a hit point, as programs ask what stands between the two: a unit vector and the rounded distance,
 /// or their difference and t_max = 1.
 pub fn segment<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    let (target, triangle) = hit(setup, draw);
-    let toward = aim(draw, setup.scene, triangle);
+    let HitPoint { point, triangle } = hit(setup, draw);
+    let unit_way = aim(draw, setup.scene, triangle);
+    let drawn_length = between(draw, setup.scene.distance);
     // A segment has a length: of none there is nothing to ask.
-    let length = between(draw, setup.scene.distance).max(setup.scene.edge[0]);
-    let start: [F; 3] = rounded(wide(target) - toward * length);
-    let way: [F; 3] = std::array::from_fn(|i| target[i] - start[i]);
-    let length = wide(way).length();
-    let case = match setup.scene.direction {
-        DirectionLength::Target => Case::new(start, way, triangle).on(F::zero(), F::one()),
+    let length = drawn_length.max(setup.scene.edge[0]);
+    let start = rounded::<F>(wide(point) - unit_way * length);
+    let way = toward(start, point);
+    let (direction, t_max) = match setup.scene.direction {
+        DirectionLength::Target => (way, F::one()),
         DirectionLength::Unit | DirectionLength::Mixed => {
-            Case::new(start, unit(way), triangle).on(F::zero(), F::from_f64(length))
+            let rounded_length = wide(way).length();
+            (unit(way), F::from_f64(rounded_length))
         }
     };
-    Made::One(case)
+    let case = Case::new(start, direction, triangle);
+    Made::One(case.on(F::zero(), t_max))
 }
 
-/// A hit of the kernel at whose hit points rays start: its point, and the triangle. A triangle's middle if the kernel
-/// reports no point.
-fn hit<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> ([F; 3], [[F; 3]; 3]) {
-    let kernel = find(setup.kernel.unwrap_or(DEFAULT_SHADOW_KERNEL));
-    for _ in 0..64 {
+/// A point on a triangle from which rays start.
+struct HitPoint<F> {
+    point: [F; 3],
+    triangle: Corners<F>,
+}
+
+/// How many rays are tried for a hit.
+const TRIES: usize = 64;
+
+/// A hit of the kernel at whose hit points rays start; a triangle's middle if the kernel reports no point.
+fn hit<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> HitPoint<F> {
+    let name = setup.kernel.unwrap_or(DEFAULT_SHADOW_KERNEL);
+    let kernel = find(name);
+    for _ in 0..TRIES {
         let case = interior_case(setup, draw);
         let Some(kernel) = kernel else { break };
         if let Some(point) = hit_point(draw, &case, kernel) {
-            return (point, case.triangle.vertices().map(Into::into));
+            let triangle = corners(&case);
+            return HitPoint { point, triangle };
         }
     }
     let (triangle, _) = setup.triangles.triangle(draw);
-    (rounded(point_of(triangle, [1.0 / 3.0; 2])), triangle)
+    let middle = point_of(triangle, [1.0 / 3.0; 2]);
+    HitPoint {
+        point: rounded(middle),
+        triangle,
+    }
 }
 
 /// The point at which a kernel with every epsilon at zero hits, in one of the two ways in which renderers
 /// form it.
 pub fn hit_point<F: Scalar>(draw: &mut Draw, case: &Case<F>, kernel: &Entry) -> Option<[F; 3]> {
-    let mut verdict = [Verdict::miss(None)];
-    let zeros = vec![F::zero(); kernel.info.gates.len()];
-    verdicts_of(
-        F::subject(kernel)?,
-        slice::from_ref(case),
-        &zeros,
-        &mut verdict,
-    );
-    let Verdict {
-        hit: true, t, u, v, ..
-    } = verdict[0]
-    else {
+    let subject = F::subject(kernel)?;
+    let gates = kernel.info.gates;
+    let zeros = vec![F::zero(); gates.len()];
+    let mut verdicts = [Verdict::miss(None)];
+    verdicts_of(subject, slice::from_ref(case), &zeros, &mut verdicts);
+    let [verdict] = verdicts;
+    if !verdict.hit {
         return None;
+    }
+    let gives = kernel.info.gives;
+    let on_ray = gives.t.then(|| point_on_ray(case, verdict.t));
+    let by_weights = gives
+        .uv
+        .then(|| point_by_weights(case, verdict.u, verdict.v));
+    let point = if draw.coin() {
+        by_weights.or(on_ray)
+    } else {
+        on_ray.or(by_weights)
     };
-    let triangle = case.triangle.vertices().map(Into::into);
-    let on_ray = |t: F| case.ray.origin.plus(&case.ray.direction.times(&t)).into();
-    let by_weights = |(u, v): (F, F)| combination(triangle, [F::one() - u - v, u, v]);
-    let Gives {
-        t: gives_t,
-        uv: gives_uv,
-        ..
-    } = kernel.info.gives;
-    let points: [Option<[F; 3]>; 2] = [
-        gives_t.then(|| on_ray(t)),
-        gives_uv.then(|| by_weights((u, v))),
-    ];
-    let first = usize::from(draw.coin());
-    points[first]
-        .or(points[1 - first])
-        .filter(|point| point.iter().all(F::is_finite))
+    point.filter(|point| point.iter().all(F::is_finite))
+}
+
+fn point_on_ray<F: Scalar>(case: &Case<F>, t: F) -> [F; 3] {
+    let ray = &case.ray;
+    ray.origin.plus(&ray.direction.times(&t)).into()
+}
+
+fn point_by_weights<F: Scalar>(case: &Case<F>, u: F, v: F) -> [F; 3] {
+    let weights = [F::one() - u - v, u, v];
+    combination(corners(case), weights)
 }
