@@ -1,6 +1,6 @@
 //! The meaning of signs, and the points that tell two polynomials apart.
 
-use super::super::number::{F32, Format};
+use super::super::format::{F32, Format};
 use super::super::reader::Reader;
 use super::*;
 
