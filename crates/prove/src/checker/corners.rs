@@ -151,7 +151,7 @@ impl Problem<BigInt> {
     fn converted<T: Integer>(&self) -> Option<Problem<T>> {
         let mut rows = Vec::new();
         for row in &self.rows {
-            rows.push(row.converted()?);
+            rows.push(row.mapped(converted)?);
         }
         let mut weights = Vec::new();
         for weight in &self.weights {
@@ -176,38 +176,33 @@ impl Problem<BigInt> {
 
 impl Row<BigInt> {
     fn without_signs(&self) -> Row<BigInt> {
-        let mut row = self.clone();
-        row.constant = match row.support {
-            0 => not_zero(&row.constant),
+        let mut row = self.mapped(|factor| Some(factor.abs())).expect("a size");
+        row.constant = match self.support {
+            0 => not_zero(&self.constant),
             _ => BigInt::ZERO,
         };
-        for multiple in &mut row.variables {
-            multiple.factor = multiple.factor.abs();
-        }
-        for product in &mut row.products {
-            product.factor = product.factor.abs();
-        }
         row
     }
 
-    fn converted<T: Integer>(&self) -> Option<Row<T>> {
+    /// The row with other numbers in place of its own; none if one has none.
+    fn mapped<T>(&self, number: impl Fn(&BigInt) -> Option<T>) -> Option<Row<T>> {
         let mut variables = Vec::new();
         for multiple in &self.variables {
             variables.push(Multiple {
-                factor: converted(&multiple.factor)?,
+                factor: number(&multiple.factor)?,
                 variable: multiple.variable,
             });
         }
         let mut products = Vec::new();
         for product in &self.products {
             products.push(Product {
-                factor: converted(&product.factor)?,
+                factor: number(&product.factor)?,
                 left: product.left,
                 right: product.right,
             });
         }
         Some(Row {
-            constant: converted(&self.constant)?,
+            constant: number(&self.constant)?,
             variables,
             products,
             support: self.support,

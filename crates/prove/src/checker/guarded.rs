@@ -8,8 +8,9 @@ use super::names::places;
 use super::number::whole;
 use super::operations::{index, indices};
 use super::program::Program;
+use super::promise::Promise;
 use super::reader::{Outcome, Reader, ensure};
-use super::signs::{Gate, Literal, Pattern, Promise, Signs};
+use super::signs::{Gate, Literal, Pattern, Signs};
 use std::collections::HashSet;
 
 /// A tree of decisions is not deeper.

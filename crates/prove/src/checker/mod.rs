@@ -18,6 +18,7 @@ mod operations;
 mod opposite;
 mod points;
 mod program;
+mod promise;
 mod quotient;
 mod reader;
 mod signs;

@@ -66,5 +66,8 @@ impl<'a> Reader<'a> {
 
 /// An error if it does not hold.
 pub fn ensure(holds: bool, message: impl Into<String>) -> Outcome<()> {
-    if holds { Ok(()) } else { Err(message.into()) }
+    if holds {
+        return Ok(());
+    }
+    Err(message.into())
 }

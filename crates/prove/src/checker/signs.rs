@@ -8,8 +8,9 @@
 
 use super::modular::{PRIME, inverse, times};
 use super::points::{Assumed, COUNT, Case, FAR, Factors, NEAR, POINTS, Point, SQUARE, SUM, T};
-use super::points::{U, UV, V, VW, W, WU, is_small, product, products, seed, value};
+use super::points::{U, is_small, product, products, seed, value};
 use super::program::Program;
+use super::promise::{Promise, can_be};
 use super::reader::{Outcome, ensure};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -36,47 +37,6 @@ impl Literal {
         Literal {
             is_negative: !self.is_negative,
             ..self.clone()
-        }
-    }
-}
-
-/// The part of the line and the side that count.
-pub struct Promise {
-    pub extent: String,
-    pub is_front: bool,
-}
-
-impl Promise {
-    /// True if the triangle with its edges may be hit between the ends, these included.
-    fn is_closed_hit(&self, signs: &[i8; COUNT]) -> bool {
-        let weights = &signs[U..=W];
-        let is_one_sided = weights.iter().all(|x| *x >= 0) || weights.iter().all(|x| *x <= 0);
-        let after = |number: usize| signs[number] * -signs[SUM] >= 0;
-        let is_between = match self.extent.as_str() {
-            "ray" => after(T),
-            "interval" => after(NEAR) && after(FAR),
-            _ => true,
-        };
-        let is_of_side = !self.is_front || signs[SUM] > 0;
-        signs[SUM] != 0 && is_one_sided && is_between && is_of_side
-    }
-
-    /// The reason why a hit of rays with these signs is wrong; none if it is inside the triangle, between the ends and on
-    /// a side that counts.
-    fn wrong_hit(&self, signs: &[i8; COUNT]) -> Option<&'static str> {
-        let is_inside = signs[U] != 0 && signs[U] == signs[V] && signs[V] == signs[W];
-        if !is_inside {
-            return Some("do not pass through the inside of the triangle");
-        }
-        if self.is_front && signs[SUM] < 0 {
-            return Some("hit the back, and it promises the front only");
-        }
-        let after = |number: usize| signs[number] * -signs[SUM];
-        match self.extent.as_str() {
-            "ray" if after(T) <= 0 => Some("meet the triangle at t <= 0"),
-            "interval" if after(NEAR) <= 0 => Some("meet the triangle at t <= t_min"),
-            "interval" if after(FAR) <= 0 => Some("meet the triangle at t >= t_max"),
-            _ => None,
         }
     }
 }
@@ -417,29 +377,6 @@ fn inner(program: &Program, places: &BTreeSet<usize>) -> BTreeSet<usize> {
         open.extend(operands);
     }
     found
-}
-
-/// True if numbers can have these signs together.
-///
-/// The two numbers of an interval that is not empty add up to its length times D, and SUM is -D.
-fn can_be(signs: &[i8; COUNT], is_interval: bool) -> bool {
-    let both = signs[NEAR] + signs[FAR];
-    let is_possible = !is_interval || both == 0 || both.signum() == -signs[SUM];
-    is_possible
-        && is_sum(signs, U, V, UV)
-        && is_sum(signs, V, W, VW)
-        && is_sum(signs, W, U, WU)
-        && is_sum(signs, UV, W, SUM)
-        && is_sum(signs, VW, U, SUM)
-        && is_sum(signs, WU, V, SUM)
-}
-
-/// True if a sum can have its sign: sums of two numbers of one sign have it too, and 0 changes nothing.
-fn is_sum(signs: &[i8; COUNT], left: usize, right: usize, sum: usize) -> bool {
-    match [signs[left], signs[right]] {
-        [0, other] => signs[sum] == other,
-        [one, other] => one * other < 0 || signs[sum] == one,
-    }
 }
 
 #[cfg(test)]

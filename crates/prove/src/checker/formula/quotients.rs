@@ -74,6 +74,9 @@ impl Formula<'_> {
             return false;
         };
         let count = before.len();
+        if (factors.left, below.left) != (count, count + 1) {
+            return false;
+        }
         let is_difference = is_alone(above) && is_alone(below);
         let has_signs = !above.is_negative && below.is_negative;
         let is_of_divisor = factors
@@ -87,8 +90,6 @@ impl Formula<'_> {
             && is_difference
             && has_signs
             && is_of_divisor
-            && factors.left == count
-            && below.left == count + 1
             && self.is_numerator(above.left, numerators)
             && self.proof_only() == expected
     }
