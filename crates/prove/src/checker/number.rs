@@ -63,14 +63,10 @@ pub fn shifted(x: &Number, exponent: i64) -> Number {
     let size = exponent.unsigned_abs();
     if exponent < 0 {
         let common = twos(x.numer()).min(size);
-        let numerator = x.numer() >> common;
-        let denominator = x.denom() << (size - common);
-        Number::new_raw(numerator, denominator)
+        Number::new_raw(x.numer() >> common, x.denom() << (size - common))
     } else {
         let common = twos(x.denom()).min(size);
-        let numerator = x.numer() << (size - common);
-        let denominator = x.denom() >> common;
-        Number::new_raw(numerator, denominator)
+        Number::new_raw(x.numer() << (size - common), x.denom() >> common)
     }
 }
 

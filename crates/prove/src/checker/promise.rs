@@ -51,25 +51,30 @@ fn after(signs: &[i8; COUNT], number: usize) -> i8 {
     signs[number] * -signs[SUM]
 }
 
+/// Two numbers and their sum.
+const SUMS: [[usize; 3]; 6] = [
+    [U, V, UV],
+    [V, W, VW],
+    [W, U, WU],
+    [UV, W, SUM],
+    [VW, U, SUM],
+    [WU, V, SUM],
+];
+
 /// True if numbers can have these signs together.
 ///
 /// The two numbers of an interval that is not empty add up to its length times D, and SUM is -D.
 pub fn can_be(signs: &[i8; COUNT], is_interval: bool) -> bool {
     let both = signs[NEAR] + signs[FAR];
     let is_possible = !is_interval || both == 0 || both.signum() == -signs[SUM];
-    is_possible
-        && is_sum(signs, U, V, UV)
-        && is_sum(signs, V, W, VW)
-        && is_sum(signs, W, U, WU)
-        && is_sum(signs, UV, W, SUM)
-        && is_sum(signs, VW, U, SUM)
-        && is_sum(signs, WU, V, SUM)
+    is_possible && SUMS.iter().all(|sum| is_sum(signs, *sum))
 }
 
 /// True if a sum can have its sign: sums of two numbers of one sign have it too, and 0 changes nothing.
-fn is_sum(signs: &[i8; COUNT], left: usize, right: usize, sum: usize) -> bool {
-    match [signs[left], signs[right]] {
-        [0, other] => signs[sum] == other,
-        [one, other] => one * other < 0 || signs[sum] == one,
+fn is_sum(signs: &[i8; COUNT], numbers: [usize; 3]) -> bool {
+    let [left, right, sum] = numbers.map(|number| signs[number]);
+    match left {
+        0 => sum == right,
+        _ => left * right < 0 || sum == left,
     }
 }

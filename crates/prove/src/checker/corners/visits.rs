@@ -55,7 +55,9 @@ impl<'p, T: Integer> Search<'p, T> {
         let axes = self.problem.unit.len().max(1);
         let mut alone = T::zero();
         let mut squares = BigInt::ZERO;
-        self.lengths.fill(BigInt::ZERO);
+        if has_unit {
+            self.lengths.fill(BigInt::ZERO);
+        }
         for axis in 0..axes {
             self.evaluate(corner, axis);
             if self.problem.weights.is_empty() {
@@ -63,15 +65,15 @@ impl<'p, T: Integer> Search<'p, T> {
             }
             self.differentiate();
             let effects = self.effects();
-            squares += square(&effects.of_axis);
+            if has_unit {
+                squares += square(&effects.of_axis);
+            }
             if axis == 0 {
                 alone = effects.alone;
             }
         }
-        for (longest, length) in self.longest.iter_mut().zip(&self.lengths) {
-            if *longest < *length {
-                *longest = length.clone();
-            }
+        if has_unit {
+            self.keep_longest();
         }
         if self.best < alone {
             self.best = alone;
@@ -82,6 +84,14 @@ impl<'p, T: Integer> Search<'p, T> {
         if self.squares < squares {
             self.squares = squares;
             self.corner = corner;
+        }
+    }
+
+    fn keep_longest(&mut self) {
+        for (longest, length) in self.longest.iter_mut().zip(&self.lengths) {
+            if *longest < *length {
+                *longest = length.clone();
+            }
         }
     }
 
