@@ -1,8 +1,11 @@
 //! Inputs modulo a prime, and the numbers there that a guarded kernel may be made from.
 
-use super::program::{Operation, Program};
+use super::domain::INPUTS;
+use super::modular::{PRIME, Vector, cross, difference, dot, inverse, minus, plus, raised, times};
+use super::program::Program;
 use std::array::from_fn;
 use std::collections::HashMap;
+use std::ops::{Range, RangeInclusive};
 
 /// The numbers that have a sign of their own.
 pub const U: usize = 0;
@@ -21,178 +24,205 @@ pub const COUNT: usize = 16;
 /// N·N, which is positive.
 pub const SQUARE: usize = 16;
 
-pub const PRIME: u64 = (1 << 61) - 1;
 pub const POINTS: usize = 5;
-
-pub fn times(a: u64, b: u64) -> u64 {
-    (u128::from(a) * u128::from(b) % u128::from(PRIME)) as u64
-}
-
-pub fn minus(a: u64, b: u64) -> u64 {
-    (a + (PRIME - b)) % PRIME
-}
-
-pub fn plus(a: u64, b: u64) -> u64 {
-    (a + b) % PRIME
-}
-
-fn raised(x: u64, power: u64) -> u64 {
-    (0..power).fold(1, |product, _| times(product, x))
-}
-
-/// The inverse, by Fermat.
-pub fn inverse(mut x: u64) -> u64 {
-    let (mut power, mut found) = (PRIME - 2, 1);
-    while power > 0 {
-        if power % 2 == 1 {
-            found = times(found, x);
-        }
-        x = times(x, x);
-        power /= 2;
-    }
-    found
-}
-
-type Vector = [u64; 3];
-
-fn difference(p: Vector, q: Vector) -> Vector {
-    from_fn(|i| minus(p[i], q[i]))
-}
-
-fn cross(p: Vector, q: Vector) -> Vector {
-    from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        minus(times(p[j], q[k]), times(p[k], q[j]))
-    })
-}
-
-fn dot(p: Vector, q: Vector) -> u64 {
-    (0..3).fold(0, |sum, i| plus(sum, times(p[i], q[i])))
-}
 
 /// Inputs, and the known numbers there.
 pub struct Point {
-    inputs: [u64; 17],
+    inputs: [u64; INPUTS],
     known: [u64; COUNT + 1],
 }
 
 impl Point {
     pub fn new(seed: u64) -> Point {
         let mut state = seed;
-        let inputs: [u64; 17] = from_fn(|_| {
-            // SplitMix64.
-            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let x = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            (x ^ (x >> 31)) % PRIME
-        });
-        let at = |i: usize| -> Vector { from_fn(|axis| inputs[i + axis]) };
-        let [o, d, a, b, c] = [0, 3, 6, 9, 12].map(at);
-        let [pa, pb, pc] = [a, b, c].map(|p| difference(p, o));
-        let triple = |p, q| dot(d, cross(p, q));
-        let (u, v, w) = (triple(pc, pb), triple(pa, pc), triple(pb, pa));
-        let normal = cross(difference(b, a), difference(c, a));
-        let (sum, t) = (plus(plus(u, v), w), dot(normal, pa));
-        let determinant = minus(0, sum);
-        let near = minus(t, times(inputs[15], determinant));
-        let far = minus(times(inputs[16], determinant), t);
-        let pairs = [plus(u, v), plus(v, w), plus(w, u)];
-        let square = dot(normal, normal);
-        let known = [
-            &[u, v, w][..],
-            &pairs,
-            &[sum, t, near, far],
-            &normal,
-            &d,
-            &[square],
-        ]
-        .concat();
-        Point {
+        let inputs: [u64; INPUTS] = from_fn(|_| next_random(&mut state) % PRIME);
+        let mut point = Point {
             inputs,
-            known: known.try_into().expect("seventeen"),
-        }
+            known: [0; COUNT + 1],
+        };
+        point.compute_known();
+        point
     }
+
+    /// Three inputs from this one on.
+    fn vector(&self, first: usize) -> Vector {
+        from_fn(|axis| self.inputs[first + axis])
+    }
+
+    /// Computes the known numbers by their definitions.
+    fn compute_known(&mut self) {
+        let origin = self.vector(0);
+        let direction = self.vector(3);
+        let a = self.vector(6);
+        let b = self.vector(9);
+        let c = self.vector(12);
+        let to_a = difference(a, origin);
+        let to_b = difference(b, origin);
+        let to_c = difference(c, origin);
+        let normal = cross(difference(b, a), difference(c, a));
+        let u = dot(direction, cross(to_c, to_b));
+        let v = dot(direction, cross(to_a, to_c));
+        let w = dot(direction, cross(to_b, to_a));
+        let t = dot(normal, to_a);
+        let sum = plus(plus(u, v), w);
+        let determinant = minus(0, sum);
+        let known = &mut self.known;
+        known[U] = u;
+        known[V] = v;
+        known[W] = w;
+        known[UV] = plus(u, v);
+        known[VW] = plus(v, w);
+        known[WU] = plus(w, u);
+        known[SUM] = sum;
+        known[T] = t;
+        known[NEAR] = minus(t, times(self.inputs[15], determinant));
+        known[FAR] = minus(times(self.inputs[16], determinant), t);
+        known[N..N + 3].copy_from_slice(&normal);
+        known[D..D + 3].copy_from_slice(&direction);
+        known[SQUARE] = dot(normal, normal);
+    }
+}
+
+/// The next number of SplitMix64.
+fn next_random(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut x = *state;
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
 }
 
 /// A seed of points that depends on every operation, so that no program can be chosen for its points.
 pub fn seed(program: &Program) -> u64 {
-    let mix = |state: u64, word: u64| {
-        let x = (state ^ word).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        (x ^ (x >> 29))
-            .wrapping_mul(0x94d0_49bb_1331_11eb)
-            .rotate_left(31)
-    };
-    program.operations.iter().fold(
-        0,
-        |state,
-         Operation {
-             name,
-             operands,
-             value,
-         }| {
-            let name = name.bytes().map(u64::from);
-            let operands = operands.iter().map(|place| *place as u64);
-            name.chain(operands).chain([*value as u64]).fold(state, mix)
-        },
-    )
+    let mut state = 0;
+    for operation in &program.operations {
+        for byte in operation.name.bytes() {
+            state = mixed(state, byte.into());
+        }
+        for place in &operation.operands {
+            state = mixed(state, *place as u64);
+        }
+        state = mixed(state, operation.value as u64);
+    }
+    state
 }
 
-/// The most that a number's degree and the sum of its coefficients' sizes may be: two such polynomials that differ also differ modulo
-/// the prime, and agree at a point with a chance below 2^-54.
+fn mixed(state: u64, word: u64) -> u64 {
+    let mut x = state ^ word;
+    x = x.wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 29)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x.rotate_left(31)
+}
+
+/// The most that a number's degree may be, and the sum of its coefficients' sizes: two such polynomials that differ also
+/// differ modulo the prime, and agree at a point with a chance below 2^-54.
 const MOST_DEGREE: u64 = 64;
 const MOST_COEFFICIENTS: u64 = 1 << 50;
 
+/// Bounds of a polynomial.
+#[derive(Clone, Copy)]
+struct Polynomial {
+    degree: u64,
+    /// The sum of the coefficients' sizes.
+    coefficients: u64,
+}
+
+impl Polynomial {
+    /// The bounds of a sum of two; none if they are too large for this machine's integers.
+    fn plus(self, other: Polynomial) -> Option<Polynomial> {
+        Some(Polynomial {
+            degree: self.degree.max(other.degree),
+            coefficients: self.coefficients.checked_add(other.coefficients)?,
+        })
+    }
+
+    fn times(self, other: Polynomial) -> Option<Polynomial> {
+        Some(Polynomial {
+            degree: self.degree + other.degree,
+            coefficients: self.coefficients.checked_mul(other.coefficients)?,
+        })
+    }
+
+    fn is_small(&self) -> bool {
+        self.degree <= MOST_DEGREE && self.coefficients <= MOST_COEFFICIENTS
+    }
+}
+
 /// True if a number is a polynomial within these bounds.
 pub fn is_small(program: &Program, last: usize) -> bool {
-    let mut all: Vec<Option<(u64, u64)>> = Vec::with_capacity(last + 1);
-    for Operation {
-        name,
-        operands,
-        value,
-    } in &program.operations[..=last]
-    {
-        let of = |i: usize| -> Option<(u64, u64)> { all[operands[i]] };
-        let both = || Some((of(0)?, of(1)?));
-        let found = match *name {
-            "input" => Some((1, 1)),
-            "number" => Some((0, value.unsigned_abs())),
-            "add" | "sub" => {
-                both().and_then(|((p, a), (q, b))| Some((p.max(q), a.checked_add(b)?)))
-            }
-            "mul" => both().and_then(|((p, a), (q, b))| Some((p + q, a.checked_mul(b)?))),
-            "neg" | "abs" => of(0),
-            // No number with a margin is made from it.
-            _ => Some((0, 0)),
-        };
-        all.push(found.filter(|(degree, sum)| *degree <= MOST_DEGREE && *sum <= MOST_COEFFICIENTS));
+    let mut all = Vec::new();
+    for place in 0..=last {
+        let found = polynomial(program, place, &all);
+        all.push(found.filter(Polynomial::is_small));
     }
     all[last].is_some()
 }
 
-/// Known numbers and their powers.
-pub type Factors = [(usize, u64); 5];
+fn polynomial(program: &Program, place: usize, all: &[Option<Polynomial>]) -> Option<Polynomial> {
+    match (program.name(place), program.operands(place)) {
+        ("input", _) => Some(Polynomial {
+            degree: 1,
+            coefficients: 1,
+        }),
+        ("number", _) => Some(Polynomial {
+            degree: 0,
+            coefficients: program.operations[place].value.unsigned_abs(),
+        }),
+        ("add" | "sub", &[a, b]) => all[a]?.plus(all[b]?),
+        ("mul", &[a, b]) => all[a]?.times(all[b]?),
+        ("neg" | "abs", &[a]) => all[a],
+        // No number with a margin is made from it.
+        _ => Some(Polynomial {
+            degree: 0,
+            coefficients: 0,
+        }),
+    }
+}
 
+/// A power of a known number.
+#[derive(Clone, Copy)]
+pub struct Power {
+    pub known: usize,
+    pub exponent: u64,
+}
+
+/// Known numbers and their powers.
+pub type Factors = [Power; 5];
+
+/// The value of a product at a point.
 pub fn product(factors: &Factors, point: &Point) -> u64 {
-    let power = |(known, power): &(usize, u64)| raised(point.known[*known], *power);
-    factors.iter().map(power).fold(1, times)
+    let mut product = 1;
+    for factor in factors {
+        let power = raised(point.known[factor.known], factor.exponent);
+        product = times(product, power);
+    }
+    product
 }
 
 /// The products that a number may be, each by the ratio of its values at the first two points.
 pub fn products(points: &[Point]) -> HashMap<u64, Vec<Factors>> {
     let mut all: HashMap<u64, Vec<Factors>> = HashMap::new();
-    let mains = [(U, 0)]
-        .into_iter()
-        .chain((0..SUM).chain(T..N).map(|main| (main, 1)));
+    for factors in every_product() {
+        let first = product(&factors, &points[0]);
+        let second = product(&factors, &points[1]);
+        let ratio = times(second, inverse(first));
+        all.entry(ratio).or_default().push(factors);
+    }
+    all
+}
+
+/// At most one of the weights, their pairs, T and the ends, times powers of D, of N·N, and of one coordinate of N and d.
+fn every_product() -> Vec<Factors> {
+    let mut mains = powers(U..U + 1, 0..=0);
+    mains.extend(powers(U..SUM, 1..=1));
+    mains.extend(powers(T..N, 1..=1));
+    let mut all = Vec::new();
     for main in mains {
-        for of_sum in 0..4 {
-            for of_square in 0..3 {
-                for normal in powers(N, 2) {
-                    for along in powers(D, 4) {
-                        let factors = [main, (SUM, of_sum), (SQUARE, of_square), normal, along];
-                        let [first, second] = [0, 1].map(|i| product(&factors, &points[i]));
-                        all.entry(times(second, inverse(first)))
-                            .or_default()
-                            .push(factors);
+        for of_sum in powers(SUM..SUM + 1, 0..=3) {
+            for of_square in powers(SQUARE..SQUARE + 1, 0..=2) {
+                for normal in none_or_powers(N, 2) {
+                    for along in none_or_powers(D, 4) {
+                        all.push([main, of_sum, of_square, normal, along]);
                     }
                 }
             }
@@ -201,46 +231,75 @@ pub fn products(points: &[Point]) -> HashMap<u64, Vec<Factors>> {
     all
 }
 
-/// One of three coordinates to a power, or none.
-fn powers(first: usize, most: u64) -> impl Iterator<Item = (usize, u64)> {
-    let all = (first..first + 3).flat_map(move |known| (1..=most).map(move |power| (known, power)));
-    [(first, 0)].into_iter().chain(all)
+fn powers(numbers: Range<usize>, exponents: RangeInclusive<u64>) -> Vec<Power> {
+    let mut all = Vec::new();
+    for known in numbers {
+        for exponent in exponents.clone() {
+            all.push(Power { known, exponent });
+        }
+    }
+    all
 }
 
-/// A number's value at a point under other names of the axes.
-pub fn value(
-    program: &Program,
-    last: usize,
-    point: &Point,
-    inner: &[(usize, bool)],
-    axes: &[usize; 3],
-) -> u64 {
-    let mut values = Vec::with_capacity(last + 1);
-    for Operation {
-        name,
-        operands,
-        value,
-    } in &program.operations[..=last]
-    {
-        let of = |i: usize| -> u64 { values[operands[i]] };
-        values.push(match *name {
-            "input" => match *value as usize {
-                i @ 0..15 => point.inputs[i / 3 * 3 + axes[i % 3]],
-                i => point.inputs[i],
-            },
-            "number" if *value < 0 => minus(0, value.unsigned_abs() % PRIME),
-            "number" => value.unsigned_abs() % PRIME,
-            "add" => plus(of(0), of(1)),
-            "sub" => minus(of(0), of(1)),
-            "mul" => times(of(0), of(1)),
-            "neg" => minus(0, of(0)),
-            "abs" => match inner.contains(&(operands[0], true)) {
-                true => minus(0, of(0)),
-                false => of(0),
-            },
+/// No coordinate of a vector, or one of three to a power.
+fn none_or_powers(first: usize, most: u64) -> Vec<Power> {
+    let mut all = powers(first..first + 1, 0..=0);
+    all.extend(powers(first..first + 3, 1..=most));
+    all
+}
+
+/// The sign that is assumed of a number inside an absolute value.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Assumed {
+    pub place: usize,
+    pub is_negative: bool,
+}
+
+/// The signs inside absolute values, and the names of the axes.
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub struct Case {
+    pub inner: Vec<Assumed>,
+    pub axes: [usize; 3],
+}
+
+/// A number's value at a point, in a case.
+pub fn value(program: &Program, last: usize, point: &Point, case: &Case) -> u64 {
+    let mut values = Vec::new();
+    for place in 0..=last {
+        let own = program.operations[place].value;
+        let value = match (program.name(place), program.operands(place)) {
+            ("input", _) => point.inputs[case.input(own as usize)],
+            ("number", _) if own < 0 => minus(0, own.unsigned_abs() % PRIME),
+            ("number", _) => own.unsigned_abs() % PRIME,
+            ("add", &[a, b]) => plus(values[a], values[b]),
+            ("sub", &[a, b]) => minus(values[a], values[b]),
+            ("mul", &[a, b]) => times(values[a], values[b]),
+            ("neg", &[a]) => minus(0, values[a]),
+            ("abs", &[a]) if case.is_negative(a) => minus(0, values[a]),
+            ("abs", &[a]) => values[a],
             // No number with a margin is made from it.
             _ => 0,
-        });
+        };
+        values.push(value);
     }
     values[last]
+}
+
+impl Case {
+    /// The input in place of an input, under these names of the axes.
+    fn input(&self, input: usize) -> usize {
+        match input {
+            0..15 => input / 3 * 3 + self.axes[input % 3],
+            _ => input,
+        }
+    }
+
+    /// True if a number is assumed to be negative.
+    fn is_negative(&self, place: usize) -> bool {
+        let negative = Assumed {
+            place,
+            is_negative: true,
+        };
+        self.inner.contains(&negative)
+    }
 }

@@ -1,122 +1,12 @@
-//! One program of a certificate: the operations of a number, what its proof supposes, and the bounds so far.
+//! One program of a certificate: the operations of a number, the suppositions of its proof, and the lemmas so far.
 
-use super::number::{Bound, Format, Number, number, power, whole};
+use super::domain::{Domain, INPUTS, Leaf, is_of_direction, is_of_point};
+use super::format::{Bound, Format};
+use super::names::Names;
+use super::number::{Number, number};
+use super::operations::{self, Operation, index};
 use super::reader::{Outcome, Reader, ensure};
-use num_bigint::BigInt;
-use num_traits::Signed;
-use std::array::from_fn;
 use std::collections::{BTreeSet, HashMap, HashSet};
-
-/// Longer programs and formulas are refused.
-pub const MOST_ROWS: usize = 1 << 12;
-
-/// The numbers of a case.
-const INPUTS: usize = 17;
-
-/// Bounds of the inputs, in the order of their names.
-#[derive(Clone)]
-pub struct Domain(pub [Number; 8]);
-
-const EDGE: usize = 0;
-const REACH: usize = 1;
-const WORLD: usize = 2;
-const DIRECTION: usize = 3;
-const EXTENT: usize = 4;
-const DIRECTION_FLOOR: usize = 5;
-const FLOOR: usize = 6;
-const QUOTIENT: usize = 7;
-
-/// A leaf of a formula: an input, or the difference of two points' inputs along one axis.
-pub type Leaf = (usize, Option<usize>);
-
-impl Domain {
-    pub fn parse(words: &[&str]) -> Option<Domain> {
-        let names = "edge reach world direction extent direction-floor floor quotient".split(' ');
-        let right = words.len() == 16 && words.iter().step_by(2).copied().eq(names);
-        let numbers: Option<Vec<Number>> =
-            words.iter().skip(1).step_by(2).map(|x| number(x)).collect();
-        right.then_some(Domain(numbers?.try_into().ok()?))
-    }
-
-    /// The largest difference of two points' coordinates.
-    pub fn largest_difference(&self) -> &Number {
-        (&self.0[EDGE]).max(&self.0[REACH])
-    }
-
-    pub fn bound(&self, leaf: Leaf) -> &Number {
-        &self.0[match leaf {
-            (0..3, Some(_)) | (_, Some(0..3)) => REACH,
-            (_, Some(_)) => EDGE,
-            (3..6, None) => DIRECTION,
-            (0..15, None) => WORLD,
-            _ => EXTENT,
-        }]
-    }
-}
-
-/// An input's or a number's value is `value`; everything else has operands.
-pub struct Operation<'a> {
-    pub name: &'a str,
-    pub operands: Vec<usize>,
-    pub value: i64,
-}
-
-/// A signed product of two numbers, or a signed number.
-pub type Term = (bool, usize, Option<usize>);
-
-/// The terms that an operation adds up; none for operations that are not sums.
-pub fn terms(name: &str, operands: &[usize]) -> Option<Vec<Term>> {
-    Some(match (name, operands) {
-        ("neg", &[a]) => vec![(true, a, None)],
-        ("add", &[a, b]) => vec![(false, a, None), (false, b, None)],
-        ("sub", &[a, b]) => vec![(false, a, None), (true, b, None)],
-        ("mul", &[a, b]) => vec![(false, a, Some(b))],
-        ("fma", &[a, b, c]) => vec![(false, a, Some(b)), (false, c, None)],
-        ("minor", &[a, b, c, d]) => vec![(false, a, Some(b)), (true, c, Some(d))],
-        _ => return None,
-    })
-}
-
-/// The axis in place of each axis, and the vertex in place of each vertex.
-#[derive(Clone, Copy)]
-pub struct Names {
-    axes: [usize; 3],
-    vertices: [usize; 3],
-}
-
-/// The place of each letter of a word that has all three of them.
-pub fn places(word: &str, letters: &str) -> Option<[usize; 3]> {
-    let places: Option<Vec<usize>> = word.chars().map(|letter| letters.find(letter)).collect();
-    let places: [usize; 3] = places?.try_into().ok()?;
-    (0..3).all(|i| places.contains(&i)).then_some(places)
-}
-
-impl Names {
-    pub const SAME: Names = Names {
-        axes: [0, 1, 2],
-        vertices: [0, 1, 2],
-    };
-
-    /// Two words, each with all three letters: the first is in place of x, or of a.
-    pub fn parse(words: &[&str]) -> Option<Names> {
-        let &[axes, vertices] = words else {
-            return None;
-        };
-        Some(Names {
-            axes: places(axes, "xyz")?,
-            vertices: places(vertices, "abc")?,
-        })
-    }
-
-    /// The input in place of an input. The origin, the direction and the ends stay what they are.
-    pub fn input(&self, i: usize) -> usize {
-        match i {
-            0..6 => i / 3 * 3 + self.axes[i % 3],
-            6..15 => 6 + 3 * self.vertices[i / 3 - 2] + self.axes[i % 3],
-            _ => i,
-        }
-    }
-}
 
 /// A program of which a bound is proved.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -134,173 +24,218 @@ pub struct Program<'a> {
     pub operations: Vec<Operation<'a>>,
     /// Pairs of inputs: without their signs, the first is at most the second.
     pub orders: BTreeSet<(usize, usize)>,
-    /// The limits of divisors and of quotients that stand in place of the domain's; and how far below zero quotients may be,
-    /// where that is supposed.
-    pub limits: [HashMap<usize, Number>; 3],
+    pub limits: Limits,
     /// Other names of axes and vertices, under which the same is claimed.
-    pub also: Vec<Names>,
+    also: Vec<Names>,
     pub lemmas: HashMap<usize, Lemma>,
 }
 
-/// A coordinate of a vector, and the vector's length; and whether its rounded reciprocal is multiplied.
-pub type Unit = (usize, (usize, bool));
+/// Suppositions about single operations, in place of the domain's.
+#[derive(Default)]
+pub struct Limits {
+    /// The least sizes of divisors.
+    pub at_least: HashMap<usize, Number>,
+    /// The largest sizes of quotients.
+    pub at_most: HashMap<usize, Number>,
+    /// How far below zero quotients may be, where that is supposed.
+    pub down_to: HashMap<usize, Number>,
+}
 
 /// A lemma: the bound that is proved of a number.
 pub struct Lemma {
     pub bound: Bound,
     /// The error before the operation rounds, if it rounds once; else that of the number.
     pub before: Number,
-    /// If it is a coordinate of a vector divided by the vector's length: of what.
+    /// Set if it is a coordinate of a vector divided by the vector's length.
     pub unit: Option<Unit>,
 }
 
+/// A coordinate of a vector, and how it is divided by the vector's length.
+#[derive(Clone, Copy)]
+pub struct Unit {
+    pub coordinate: usize,
+    pub length: Length,
+}
+
+/// The length that a vector is divided by.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Length {
+    pub place: usize,
+    /// True if the vector is multiplied by the length's rounded reciprocal.
+    pub by_reciprocal: bool,
+}
+
+/// The numerator and the divisor of n/d, or of n*(1/d).
+#[derive(Clone, Copy)]
+pub struct Fraction {
+    pub numerator: usize,
+    pub divisor: usize,
+}
+
 impl<'a> Program<'a> {
-    /// Operations alone.
+    /// Reads operations alone.
     pub fn of_operations(format: Format, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
-        let operations = operations(&format, reader)?;
-        let (orders, lemmas, also) = (BTreeSet::new(), HashMap::new(), Vec::new());
-        let (limits, domain) = (Default::default(), Domain(from_fn(|_| Number::default())));
+        let operations = operations::read(&format, reader)?;
         Ok(Program {
             format,
-            domain,
+            domain: Domain::default(),
             operations,
-            orders,
-            limits,
-            also,
-            lemmas,
+            orders: BTreeSet::new(),
+            limits: Limits::default(),
+            also: vec![],
+            lemmas: HashMap::new(),
         })
     }
 
-    /// The operations, and what the proof supposes of them.
+    /// Reads the operations and the suppositions of the proof.
     pub fn read(format: Format, domain: Domain, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
-        reader.read("program", |words| words.is_empty().then_some(()))?;
-        let mut program = Program {
-            domain,
-            ..Program::of_operations(format, reader)?
-        };
+        reader.read_word("program")?;
+        let mut program = Program::of_operations(format, reader)?;
+        program.domain = domain;
+        program.read_orders(reader)?;
+        let count = program.operations.len();
+        let limits = &mut program.limits;
+        read_limits("at-least", count, &mut limits.at_least, reader)?;
+        read_limits("at-most", count, &mut limits.at_most, reader)?;
+        read_limits("down-to", count, &mut limits.down_to, reader)?;
+        program.read_other_names(reader)?;
+        Ok(program)
+    }
+
+    fn read_orders(&mut self, reader: &mut Reader) -> Outcome<()> {
         while reader.is_next("order") {
             let order = reader.read("order INPUT INPUT, each pair once", |words| {
-                let &[a, b] = &indices(words, INPUTS)?[..] else {
+                let &[smaller, larger] = words else {
                     return None;
                 };
-                Some((a, b)).filter(|pair| a != b && !program.orders.contains(pair))
+                let order = (index(smaller, INPUTS)?, index(larger, INPUTS)?);
+                let is_new = order.0 != order.1 && !self.orders.contains(&order);
+                is_new.then_some(order)
             })?;
-            program.orders.insert(order);
+            self.orders.insert(order);
         }
-        for (limits, word) in program
-            .limits
-            .iter_mut()
-            .zip(["at-least", "at-most", "down-to"])
-        {
-            while reader.is_next(word) {
-                let count = program.operations.len();
-                let form = format!("{word} OPERATION X, once for an operation");
-                let (place, limit) = reader.read(&form, |words| {
-                    let &[place, limit] = words else { return None };
-                    let place = indices(&[place], count)?[0];
-                    Some((place, number(limit)?)).filter(|_| !limits.contains_key(&place))
-                })?;
-                limits.insert(place, limit);
-            }
-        }
+        Ok(())
+    }
+
+    fn read_other_names(&mut self, reader: &mut Reader) -> Outcome<()> {
         while reader.is_next("also") {
+            let known = self.variants();
             let form = "also AXES VERTICES, as yzx abc, for another program";
             let names = reader.read(form, |words| {
                 let names = Names::parse(words)?;
-                let other = program.variant(names);
-                let is_other = program.variants().iter().all(|known| *known != other);
+                let is_other = !known.contains(&self.variant(names));
                 is_other.then_some(names)
             })?;
-            program.also.push(names);
+            self.also.push(names);
         }
-        Ok(program)
+        Ok(())
     }
 
     /// The last operation; an error if there is none, or if something is written that no proof of its number uses.
     pub fn last_of_used(&self) -> Outcome<usize> {
         const UNUSED: &str = "found operations that the last one does not use, or none";
         let last = self.operations.len().checked_sub(1).ok_or(UNUSED)?;
-        let used: HashSet<usize> = self
-            .operations
-            .iter()
-            .flat_map(|operation| operation.operands.clone())
-            .collect();
-        // Operands are earlier operations.
+        let mut used: HashSet<usize> = HashSet::new();
+        for operation in &self.operations {
+            used.extend(&operation.operands);
+        }
+        // Operands are earlier operations, so the last one is no operand. If all others are, each serves the last one.
         ensure(used.len() == last, UNUSED)?;
-        let uses = |(a, b): &(usize, usize)| {
-            self.lemmas
-                .keys()
-                .filter_map(|place| self.fraction(*place))
-                .any(|(n, d)| {
-                    self.input(d) == Some(*b)
-                        && (self.input(n) == Some(*a) || (3..6).contains(a) && self.is_largest(*b))
-                })
-        };
-        let unused = self.orders.iter().find(|order| !uses(order));
-        unused.map_or(Ok(last), |(a, b)| {
-            Err(format!("found `order {a} {b}`, which no lemma uses"))
-        })
+        for (smaller, larger) in &self.orders {
+            ensure(
+                self.uses_order(*smaller, *larger),
+                format!("found `order {smaller} {larger}`, which no lemma uses"),
+            )?;
+        }
+        Ok(last)
+    }
+
+    /// True if the lemma of some quotient uses an order: because it is that of its operands, or because it is part of
+    /// why the divisor is the largest coordinate of the direction.
+    fn uses_order(&self, smaller: usize, larger: usize) -> bool {
+        for place in self.lemmas.keys() {
+            let Some(fraction) = self.fraction(*place) else {
+                continue;
+            };
+            if self.input(fraction.divisor) != Some(larger) {
+                continue;
+            }
+            let is_of_operands = self.input(fraction.numerator) == Some(smaller);
+            if is_of_operands || is_of_direction(smaller) && self.is_largest(larger) {
+                return true;
+            }
+        }
+        false
     }
 
     /// The program and its orders under these names.
     fn variant(&self, names: Names) -> Variant {
         let mut text = String::new();
-        for (
-            place,
-            Operation {
-                name,
-                operands,
-                value,
-            },
-        ) in self.operations.iter().enumerate()
-        {
-            let value = match *name {
-                "input" => vec![names.input(*value as usize) as i64],
-                "number" => vec![*value],
-                _ => operands.iter().map(|operand| *operand as i64).collect(),
-            };
-            let value: Vec<String> = value.iter().map(i64::to_string).collect();
-            text.push_str(&format!("op {place} {name} {}\n", value.join(" ")));
+        for (place, operation) in self.operations.iter().enumerate() {
+            text.push_str(&format!("op {place} {}", operation.name));
+            match operation.name {
+                "input" => {
+                    let input = names.input(operation.value as usize);
+                    text.push_str(&format!(" {input}"));
+                }
+                "number" => text.push_str(&format!(" {}", operation.value)),
+                _ => {
+                    for operand in &operation.operands {
+                        text.push_str(&format!(" {operand}"));
+                    }
+                }
+            }
+            text.push('\n');
         }
-        let orders = self
-            .orders
-            .iter()
-            .map(|(a, b)| (names.input(*a), names.input(*b)));
+        let mut orders = BTreeSet::new();
+        for (smaller, larger) in &self.orders {
+            orders.insert((names.input(*smaller), names.input(*larger)));
+        }
         Variant {
             operations: text,
-            orders: orders.collect(),
+            orders,
         }
     }
 
     /// The programs that the claim is about.
     pub fn variants(&self) -> Vec<Variant> {
-        let all = [Names::SAME].into_iter().chain(self.also.iter().copied());
-        all.map(|names| self.variant(names)).collect()
+        let mut variants = vec![self.variant(Names::SAME)];
+        for names in &self.also {
+            variants.push(self.variant(*names));
+        }
+        variants
     }
 
-    /// Numerator and divisor of n/d, or of n*(1/d).
-    pub fn fraction(&self, place: usize) -> Option<(usize, usize)> {
-        let operands = |place: usize, name: &str| {
-            let Operation {
-                name: found,
-                operands,
-                ..
-            } = &self.operations[place];
-            (*found == name).then(|| (operands[0], operands[1]))
+    /// The fraction that an operation computes, if it is a quotient or a product with a reciprocal.
+    pub fn fraction(&self, place: usize) -> Option<Fraction> {
+        let &[left, right] = self.operands(place) else {
+            return None;
         };
-        let times = |n: usize, place: usize| {
-            operands(place, "div")
-                .filter(|(one, _)| self.is_one(*one))
-                .map(|(_, d)| (n, d))
-        };
-        let product =
-            || operands(place, "mul").and_then(|(a, b)| times(a, b).or_else(|| times(b, a)));
-        operands(place, "div").or_else(product)
+        match self.name(place) {
+            "div" => Some(Fraction {
+                numerator: left,
+                divisor: right,
+            }),
+            "mul" => {
+                let by_right = self.times_reciprocal(left, right);
+                by_right.or_else(|| self.times_reciprocal(right, left))
+            }
+            _ => None,
+        }
     }
 
+    /// The fraction of a number times another operation, if that one is a reciprocal.
+    fn times_reciprocal(&self, numerator: usize, reciprocal: usize) -> Option<Fraction> {
+        let &[one, divisor] = self.operands(reciprocal) else {
+            return None;
+        };
+        let is_reciprocal = self.name(reciprocal) == "div" && self.is_one(one);
+        is_reciprocal.then_some(Fraction { numerator, divisor })
+    }
+
+    /// True if an operation is the number 1.
     pub fn is_one(&self, place: usize) -> bool {
-        let Operation { name, value, .. } = self.operations[place];
-        (name, value) == ("number", 1)
+        self.name(place) == "number" && self.operations[place].value == 1
     }
 
     pub fn name(&self, place: usize) -> &'a str {
@@ -311,111 +246,101 @@ impl<'a> Program<'a> {
         &self.operations[place].operands
     }
 
+    /// The input that an operation is, if it is one.
     pub fn input(&self, place: usize) -> Option<usize> {
         let operation = &self.operations[place];
         (operation.name == "input").then_some(operation.value as usize)
     }
 
+    /// The leaf that an operation is: an input, or a difference of two points along an axis.
     pub fn leaf(&self, place: usize) -> Option<Leaf> {
-        let operation = &self.operations[place];
-        if operation.name != "sub" {
-            return self.input(place).map(|i| (i, None));
+        if self.name(place) != "sub" {
+            let input = self.input(place)?;
+            return Some(Leaf { input, less: None });
         }
-        let (i, j) = (
-            self.input(operation.operands[0])?,
-            self.input(operation.operands[1])?,
-        );
-        let are_points = [i, j]
-            .iter()
-            .all(|i| (0..3).contains(i) || (6..15).contains(i));
-        (are_points && i % 3 == j % 3 && i != j).then_some((i, Some(j)))
+        let &[left, right] = self.operands(place) else {
+            return None;
+        };
+        let input = self.input(left)?;
+        let other = self.input(right)?;
+        let are_points = is_of_point(input) && is_of_point(other);
+        let is_difference = are_points && input % 3 == other % 3 && input != other;
+        is_difference.then_some(Leaf {
+            input,
+            less: Some(other),
+        })
     }
 
     /// The least size of a divisor.
     pub fn floor(&self, divisor: usize) -> &Number {
-        self.limits[0].get(&divisor).unwrap_or_else(|| {
-            let largest = self.input(divisor).filter(|d| self.is_largest(*d));
-            &self.domain.0[if largest.is_some() {
-                DIRECTION_FLOOR
-            } else {
-                FLOOR
-            }]
-        })
+        if let Some(floor) = self.limits.at_least.get(&divisor) {
+            return floor;
+        }
+        match self.input(divisor) {
+            Some(input) if self.is_largest(input) => self.domain.direction_floor(),
+            _ => self.domain.floor(),
+        }
     }
 
-    /// True if an input is the largest coordinate of the direction.
-    fn is_largest(&self, d: usize) -> bool {
-        let is_smaller = |axis: usize| axis == d || self.orders.contains(&(axis, d));
-        (3..6).contains(&d) && (3..6).all(is_smaller)
+    /// True if an input is the largest coordinate of the direction, by the orders with both others.
+    fn is_largest(&self, input: usize) -> bool {
+        if !is_of_direction(input) {
+            return false;
+        }
+        for other in 3..6 {
+            if other != input && !self.orders.contains(&(other, input)) {
+                return false;
+            }
+        }
+        true
     }
 
     /// How far below zero a quotient may be, if that is supposed.
     pub fn down_to(&self, quotient: usize) -> Option<&Number> {
-        self.limits[2].get(&quotient)
+        self.limits.down_to.get(&quotient)
     }
 
     /// The largest size of a quotient.
     pub fn most(&self, quotient: usize) -> &Number {
-        self.limits[1]
-            .get(&quotient)
-            .unwrap_or(&self.domain.0[QUOTIENT])
+        let own = self.limits.at_most.get(&quotient);
+        own.unwrap_or(self.domain.quotient())
     }
 
     pub fn bound(&self, place: usize) -> Outcome<&Bound> {
         Ok(&self.lemma(place)?.bound)
     }
 
-    /// The lemma of a number, or of the number in its neg or abs.
+    /// The lemma of a number, or of the number in its neg or abs: a change of sign is exact.
     pub fn lemma(&self, place: usize) -> Outcome<&Lemma> {
         let mut inner = place;
-        while let Some(Operation {
-            name: "neg" | "abs",
-            operands,
-            ..
-        }) = self.operations.get(inner)
-        {
-            inner = operands[0];
+        while let Some(operation) = self.operations.get(inner) {
+            if !["neg", "abs"].contains(&operation.name) {
+                break;
+            }
+            inner = operation.operands[0];
         }
         let missing = || format!("found operation {place}, expected one with a lemma above");
         self.lemmas.get(&inner).ok_or_else(missing)
     }
 }
 
-/// The lines of operations.
-fn operations<'a>(format: &Format, reader: &mut Reader<'a>) -> Outcome<Vec<Operation<'a>>> {
-    let mut operations: Vec<Operation> = Vec::new();
-    let most = power(format.parameters[0]).to_integer();
-    while reader.is_next("op") && operations.len() < MOST_ROWS {
-        let next = operations.len();
-        let form = format!("op {next} OPERATION OPERANDS, each an earlier one");
-        operations.push(reader.read(&form, |words| {
-            let (&[place, name], words) = words.split_first_chunk()?;
-            let parsed: Option<Vec<i64>> = words.iter().map(|word| whole(word)).collect();
-            let parsed = parsed.filter(|_| whole(place) == Some(next))?;
-            if let ("input" | "number", &[value]) = (name, &parsed[..]) {
-                let is_input = name == "input" && (0..INPUTS as i64).contains(&value);
-                let is_exact = name == "number" && BigInt::from(value).abs() <= most;
-                let operation = Operation {
-                    name,
-                    operands: vec![],
-                    value,
-                };
-                return (is_input || is_exact).then_some(operation);
-            }
-            let operands = indices(words, next)?;
-            let is_known = matches!((name, operands.len()), ("abs" | "sqrt", 1) | ("div", 2));
-            (is_known || terms(name, &operands).is_some()).then_some(Operation {
-                name,
-                operands,
-                value: 0,
-            })
-        })?);
+/// Reads the lines of a kind of limits, each for another operation.
+fn read_limits(
+    word: &str,
+    operations: usize,
+    limits: &mut HashMap<usize, Number>,
+    reader: &mut Reader,
+) -> Outcome<()> {
+    while reader.is_next(word) {
+        let form = format!("{word} OPERATION X, once for an operation");
+        let (place, limit) = reader.read(&form, |words| {
+            let &[place, limit] = words else { return None };
+            let place = index(place, operations)?;
+            let limit = number(limit)?;
+            let is_new = !limits.contains_key(&place);
+            is_new.then_some((place, limit))
+        })?;
+        limits.insert(place, limit);
     }
-    Ok(operations)
-}
-
-/// Whole numbers below `end`.
-pub fn indices(words: &[&str], end: usize) -> Option<Vec<usize>> {
-    let index = |word: &&str| whole(word).filter(|i| *i < end);
-    words.iter().map(index).collect()
+    Ok(())
 }

@@ -7,6 +7,9 @@ use std::str::Lines;
 /// The value that was read, or one sentence on what was found at the last line that was read, and what was expected.
 pub type Outcome<T> = Result<T, String>;
 
+/// How much of a line a refusal shows.
+const MOST_SHOWN: usize = 80;
+
 /// The lines that are left, the number of the last one that was read, and the work that those above took.
 pub struct Reader<'a> {
     pub lines: Peekable<Lines<'a>>,
@@ -15,7 +18,7 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads a line of this form: its first word, and what `parse` makes of the others.
+    /// Reads a line of this form: its first word, and the value that `parse` makes of the others.
     pub fn read<T>(
         &mut self,
         form: &str,
@@ -23,31 +26,48 @@ impl<'a> Reader<'a> {
     ) -> Outcome<T> {
         let line = self.lines.next();
         self.line += 1;
-        let words = line.unwrap_or_default().split(' ').collect::<Vec<_>>();
-        let parse = || (form.split(' ').next() == Some(words[0])).then(|| parse(&words[1..]))?;
-        parse().ok_or_else(|| {
-            let found = line.map(|line| format!("`{}`", line.chars().take(80).collect::<String>()));
-            let found = found.unwrap_or("the end of the file".to_owned());
-            format!("found {found}, expected `{form}`")
-        })
+        let words: Vec<&str> = line.unwrap_or_default().split(' ').collect();
+        let is_named = form.split(' ').next() == Some(words[0]);
+        if is_named && let Some(value) = parse(&words[1..]) {
+            return Ok(value);
+        }
+        let found = match line {
+            Some(line) => {
+                let start: String = line.chars().take(MOST_SHOWN).collect();
+                format!("`{start}`")
+            }
+            None => "the end of the file".to_owned(),
+        };
+        Err(format!("found {found}, expected `{form}`"))
+    }
+
+    /// Reads a line of one word.
+    pub fn read_word(&mut self, word: &str) -> Outcome<()> {
+        self.read(word, |words| words.is_empty().then_some(()))
     }
 
     /// True if the next line begins with this word.
     pub fn is_next(&mut self, word: &str) -> bool {
-        self.lines
-            .peek()
-            .is_some_and(|line| line.split(' ').next() == Some(word))
+        match self.lines.peek() {
+            Some(line) => line.split(' ').next() == Some(word),
+            None => false,
+        }
     }
 
     /// Reads a line that states this number.
     pub fn demand(&mut self, name: &str, right: &Number) -> Outcome<()> {
-        self.read(&format!("{name} {}", show(right)), |words| {
-            (words.len() == 1 && number(words[0])? == *right).then_some(())
+        let form = format!("{name} {}", show(right));
+        self.read(&form, |words| {
+            let &[word] = words else { return None };
+            (number(word)? == *right).then_some(())
         })
     }
 }
 
 /// An error if it does not hold.
 pub fn ensure(holds: bool, message: impl Into<String>) -> Outcome<()> {
-    if holds { Ok(()) } else { Err(message.into()) }
+    if holds {
+        return Ok(());
+    }
+    Err(message.into())
 }

@@ -1,7 +1,9 @@
 //! The search against its definition: every corner by itself, in integers of any length, and derivatives forwards.
 
+use super::super::mirrors::signs_to_try;
 use super::*;
 use crate::case::Draw;
+use num_traits::Zero;
 
 type Rows = Vec<Row<BigInt>>;
 
@@ -10,11 +12,13 @@ fn at_corner(rows: &Rows, ends: &[[BigInt; 2]], corner: usize, by: usize) -> Vec
     let mut all: Vec<[BigInt; 2]> = Vec::new();
     for (k, row) in rows.iter().enumerate() {
         let (mut value, mut slope) = (row.constant.clone(), BigInt::ZERO);
-        for (c, v) in &row.variables {
-            value += c * &ends[*v][usize::from(corner & (1 << v) != 0)];
+        for multiple in &row.variables {
+            let v = multiple.variable;
+            value += &multiple.factor * &ends[v][usize::from(corner & (1 << v) != 0)];
         }
-        for (c, a, b) in &row.terms {
-            let [x, dx] = &all[*a];
+        for product in &row.products {
+            let (c, b) = (&product.factor, product.right);
+            let [x, dx] = &all[product.left];
             let [y, dy] = b.map_or([BigInt::one(), BigInt::ZERO], |b| all[b].clone());
             (value, slope) = (value + c * x * &y, slope + c * (dx * &y + x * dy));
         }
@@ -49,7 +53,11 @@ fn expected(rows: &Rows, weights: &[Weight<BigInt>], ends: &[[BigInt; 2]], unit:
                 if !is_linear(k) {
                     sizes[k] = size.clone().max(sizes[k].clone());
                 }
-                if let Some((weight, is_relative)) = weights.get(k) {
+                if let Some(Weight {
+                    size: weight,
+                    is_relative,
+                }) = weights.get(k)
+                {
                     let slope = all[rows.len() - 1][1].abs();
                     let effect = slope * weight * if *is_relative { size } else { BigInt::one() };
                     let depends = !unit.is_empty() && (*is_relative || !is_linear(k));
@@ -84,7 +92,13 @@ fn found(
         .enumerate()
         .filter(|(_, [upper, lower])| -lower != *upper);
     let fixed = fixed.fold(0, |bits, (v, _)| bits | 1 << v);
-    let found = search(rows, weights, ends, unit, signs_to_try(rows, unit, fixed))?;
+    let found = search(&Problem {
+        rows: rows.clone(),
+        weights: weights.to_vec(),
+        ends: ends.to_vec(),
+        unit: unit.to_vec(),
+        tried: signs_to_try(rows, unit, fixed),
+    })?;
     Some((found.sum, found.corner, found.sizes, found.squares))
 }
 
@@ -116,9 +130,9 @@ fn random_weights(draw: &mut Draw, rows: &Rows, bits: usize) -> Vec<Weight<BigIn
     let mut zeros: Vec<bool> = Vec::new();
     for row in rows {
         let is_zero =
-            |(_, a, b): &(_, usize, Option<usize>)| zeros[*a] || b.is_some_and(|b| zeros[b]);
+            |term: &Product<BigInt>| zeros[term.left] || term.right.is_some_and(|b| zeros[b]);
         let has_none = row.constant.is_zero() && row.variables.is_empty();
-        zeros.push(has_none && row.terms.iter().all(is_zero));
+        zeros.push(has_none && row.products.iter().all(is_zero));
     }
     let weight = |is_zero| {
         if is_zero {
@@ -130,7 +144,10 @@ fn random_weights(draw: &mut Draw, rows: &Rows, bits: usize) -> Vec<Weight<BigIn
     let weights: Vec<BigInt> = zeros.into_iter().map(weight).collect();
     weights
         .into_iter()
-        .map(|weight| (weight, draw.coin()))
+        .map(|size| Weight {
+            size,
+            is_relative: draw.coin(),
+        })
         .collect()
 }
 
@@ -146,7 +163,7 @@ fn random_rows(draw: &mut Draw, variables: usize, bits: usize) -> Rows {
         let mut row = Row {
             constant: BigInt::ZERO,
             variables: vec![],
-            terms: vec![],
+            products: vec![],
             support: 0,
         };
         match draw.below(4) {
@@ -154,34 +171,47 @@ fn random_rows(draw: &mut Draw, variables: usize, bits: usize) -> Rows {
             1 if !rows.is_empty() => {
                 for _ in 0..1 + draw.below(2) {
                     let other = draw.coin().then(|| draw.below(rows.len()));
-                    row.terms
-                        .push((factor(draw), draw.below(rows.len()), other));
+                    row.products.push(Product {
+                        factor: factor(draw),
+                        left: draw.below(rows.len()),
+                        right: other,
+                    });
                 }
             }
             _ => (0..variables)
                 .filter(|_| draw.coin())
                 .collect::<Vec<_>>()
                 .into_iter()
-                .for_each(|v| row.variables.push((factor(draw), v))),
+                .for_each(|variable| {
+                    row.variables.push(Multiple {
+                        factor: factor(draw),
+                        variable,
+                    })
+                }),
         }
         rows.push(row);
     }
-    let terms = (0..rows.len()).map(|k| (sign(draw), k, None)).collect();
+    let term = |left| Product {
+        factor: sign(draw),
+        left,
+        right: None,
+    };
+    let products = (0..rows.len()).map(term).collect();
     rows.push(Row {
         constant: BigInt::ZERO,
         variables: vec![],
-        terms,
+        products,
         support: 0,
     });
     for k in 0..rows.len() {
         let of_variables = rows[k]
             .variables
             .iter()
-            .fold(0, |bits, (_, v)| bits | 1 << v);
+            .fold(0, |bits, multiple| bits | 1 << multiple.variable);
         let operands = rows[k]
-            .terms
+            .products
             .iter()
-            .flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)]);
+            .flat_map(|term| [term.left, term.right.unwrap_or(term.left)]);
         rows[k].support = operands.fold(of_variables, |bits, a| bits | rows[a].support);
     }
     rows
@@ -217,32 +247,54 @@ fn the_largest_sum_is_that_of_every_corner_by_itself_in_integers_of_any_width() 
 fn linear_rows(draw: &mut Draw, variables: usize, bits: usize) -> Rows {
     let mut rows = random_rows(draw, variables, bits);
     let count = rows.len();
-    let push = |rows: &mut Rows, variables, terms: Vec<(BigInt, usize, Option<usize>)>, support| {
-        let operands = terms.iter().flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)]);
+    let push = |rows: &mut Rows, variables, products: Vec<Product<BigInt>>, support| {
+        let operands = products
+            .iter()
+            .flat_map(|term| [term.left, term.right.unwrap_or(term.left)]);
         let support = operands.fold(support, |bits, a| bits | rows[a].support);
         rows.push(Row {
             constant: BigInt::ZERO,
             variables,
-            terms,
+            products,
             support,
         });
         rows.len() - 1
     };
     let mut sum = Vec::new();
     for v in variables..variables + 3 {
-        let part = push(&mut rows, vec![(BigInt::one(), v)], vec![], 1 << v);
+        let part = push(
+            &mut rows,
+            vec![Multiple {
+                factor: BigInt::one(),
+                variable: v,
+            }],
+            vec![],
+            1 << v,
+        );
         // The last of the random steps depends on all of them.
         let by = if sum.is_empty() {
             count - 1
         } else {
             draw.below(count)
         };
-        let term = (factor(draw), by, Some(part));
+        let term = Product {
+            factor: factor(draw),
+            left: by,
+            right: Some(part),
+        };
         let product = push(&mut rows, vec![], vec![term], 0);
-        sum.push((sign(draw), product, None));
+        sum.push(Product {
+            factor: sign(draw),
+            left: product,
+            right: None,
+        });
     }
     let last = push(&mut rows, vec![], sum, 0);
-    let term = (sign(draw), last, draw.coin().then(|| draw.below(count)));
+    let term = Product {
+        factor: sign(draw),
+        left: last,
+        right: draw.coin().then(|| draw.below(count)),
+    };
     push(&mut rows, vec![], vec![term], 0);
     rows
 }
@@ -276,11 +328,17 @@ fn a_unit_vector_is_every_axis_in_turn_in_integers_of_any_width() {
 fn numbers_that_are_too_long_are_refused() {
     let rows = vec![Row {
         constant: BigInt::ZERO,
-        variables: vec![(BigInt::one(), 0)],
-        terms: vec![],
+        variables: vec![Multiple {
+            factor: BigInt::one(),
+            variable: 0,
+        }],
+        products: vec![],
         support: 1,
     }];
-    let weights = [(BigInt::one(), true)];
+    let weights = [Weight {
+        size: BigInt::one(),
+        is_relative: true,
+    }];
     let longest: BigInt = (BigInt::one() << MOST_BITS) - 1;
     let all = |bound: &BigInt| found(&rows, &weights, &[[bound.clone(), -bound.clone()]], &[]);
     assert_eq!(

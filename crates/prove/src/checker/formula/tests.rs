@@ -1,9 +1,12 @@
 //! The bounds of steps, and what is of higher order, against what docs/guide/proof.md says of them.
 
-use super::super::number::{ERROR_DIGITS, Format, power, round_up};
+use super::super::format::{Bound, F32, F64, Format, Parameters};
+use super::super::number::{ERROR_DIGITS, Number, power, round_up};
+use super::super::operations::{Term, terms};
 use super::*;
 use crate::case::Draw;
-use num_traits::One;
+use num_bigint::BigInt;
+use num_traits::{One, Zero};
 
 /// The guide's statements about a step: its bound, its terms of first order, and all others.
 #[derive(Clone)]
@@ -24,10 +27,10 @@ fn one() -> Stated {
 
 /// The products that a step adds up.
 fn products(step: &Step, above: &[Stated]) -> Vec<[Stated; 2]> {
-    let of = |i: &usize| above[*i].clone();
+    let of = |i: usize| above[i].clone();
     step.terms
         .iter()
-        .map(|(_, a, b)| [of(a), b.as_ref().map_or(one(), of)])
+        .map(|term| [of(term.left), term.right.map_or(one(), of)])
         .collect()
 }
 
@@ -71,7 +74,7 @@ fn stated_bound(
         _ if step.place.is_none() => (up(&z), Number::zero()),
         ("minor", F32) => (up(&z), h(&z) + Format::of(F64).half_ulp(&z)),
         ("minor", _) => {
-            let two_tiny = Number::from_integer(2.into()) * power(format.parameters[1] - 1);
+            let two_tiny = Number::from_integer(2.into()) * power(format.parameters.smallest - 1);
             let w = up(&computed[0]) + up(&computed[1]);
             let y = h(&computed[0]) + h(&computed[1]) + &two_tiny;
             (
@@ -104,7 +107,9 @@ fn stated(
         let bound = known.map(|known| known[k].clone()).or(step.given.clone());
         let bound = bound.unwrap_or_else(by_rule);
         if known.is_some() && step.relative {
-            let [digits, smallest, _] = format.parameters;
+            let Parameters {
+                digits, smallest, ..
+            } = format.parameters;
             rest += power(-digits) * error + power(smallest - 1);
             first += power(-digits) * &bound.size;
         } else {
@@ -185,11 +190,16 @@ fn random_steps(draw: &mut Draw, format: &Format, scale: i64) -> Vec<Step<'stati
 #[test]
 fn bounds_and_higher_orders_are_what_the_guide_says() {
     let mut draw = Draw::new("formula", 1, 0);
-    let formats = [[3, -40, 100], F32, F64].map(Format::of);
+    let small = Parameters {
+        digits: 3,
+        smallest: -40,
+        largest: 100,
+    };
+    let formats = [small, F32, F64].map(Format::of);
     let mut with_rest = 0;
     for _ in 0..4000 {
         let format = &formats[draw.below(3)];
-        let smallest = format.parameters[1];
+        let smallest = format.parameters.smallest;
         // Some products are subnormal numbers or less, or all numbers are.
         let scale = draw.pick(&[0, 0, smallest / 2 + 5, smallest + 4]);
         let steps = random_steps(&mut draw, format, scale);
@@ -206,13 +216,11 @@ fn bounds_and_higher_orders_are_what_the_guide_says() {
 
         let expected = stated(format, &formula.steps, &corners, None);
         let expected: Vec<Bound> = expected.into_iter().map(|stated| stated.bound).collect();
-        let none = vec![None; expected.len()];
-        let (bounds, _) = formula.run(format, &corners, &none, false);
+        let bounds = formula.run(format, &corners, None).bounds;
         assert_eq!(bounds, expected);
 
         let all = stated(format, &formula.steps, &corners, Some(&expected));
-        let known: Vec<_> = bounds.into_iter().map(Some).collect();
-        let (_, rest) = formula.run(format, &corners, &known, true);
+        let rest = formula.run(format, &corners, Some(&bounds)).rest;
         assert_eq!(rest, all[all.len() - 1].rest);
         with_rest += usize::from(!rest.is_zero());
     }

@@ -1,6 +1,7 @@
 //! The meaning of signs, and the points that tell two polynomials apart.
 
-use super::super::number::{F32, Format};
+use super::super::format::{F32, Format};
+use super::super::points::{UV, V, VW, W, WU};
 use super::super::reader::Reader;
 use super::*;
 

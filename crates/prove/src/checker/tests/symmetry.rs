@@ -3,7 +3,7 @@
 //! Programs alone: these claims depend on no lemma. No lemma is of a root, so the condition on its operand's sign can be
 //! broken by no whole certificate.
 
-use super::super::number::{F32, Format};
+use super::super::format::{F32, Format};
 use super::super::opposite;
 use super::super::program::Program;
 use super::super::reader::Reader;
