@@ -2,13 +2,14 @@
 //! at a time may let the NaN of one lane reach the others; one that keeps what it computed of an edge or of a ray may take it
 //! for another's.
 
-use super::control::{combination, interior_weights, is_steep, well_shaped};
+use super::control::{combination, interior_weights, is_steep};
 use super::integer::shuffle;
 use super::{Kept, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
+use glam::DVec3;
 
 pub(super) struct MixedBatch;
 
@@ -17,6 +18,17 @@ const SHARING: u64 = 4;
 
 /// One case of so many in a row has a number that is not finite.
 const LANES: u64 = 8;
+
+/// Two points that are at least 1/2 apart: far enough for a ray through both to be steep.
+fn apart<F: Float>(draw: &mut Draw) -> [[F; 3]; 2] {
+    loop {
+        let points = [draw.point::<F>(), draw.point()];
+        let [p, q] = points.map(|point| DVec3::from(point.map(F::to_f64)));
+        if 0.25 < (q - p).length_squared() {
+            return points;
+        }
+    }
+}
 
 /// What some cases in a row have in common.
 enum Common<F> {
@@ -28,7 +40,7 @@ enum Common<F> {
 
 impl<F: Float> Common<F> {
     fn drawn(shared: &mut Draw) -> Common<F> {
-        let [p, q, _] = well_shaped(shared);
+        let [p, q] = apart(shared);
         match shared.below(4) {
             3 => Common::Ray {
                 origin: p,
