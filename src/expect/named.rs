@@ -45,7 +45,7 @@ pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
     }
 }
 
-/// What two records name alike, by name, and how many names only one of them has.
+/// The things that two records name alike, in the order of their names, and how many names only one of them has.
 struct Common<T> {
     both: Vec<(T, T)>,
     only_old: usize,

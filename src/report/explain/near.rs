@@ -101,7 +101,7 @@ fn scaled<F: Float>(case: &Case<F>, power: f64) -> Case<F> {
 struct Move {
     /// A number moves by at most this.
     most: f64,
-    /// What it is multiplied with after that: a power of two, which changes no rounding.
+    /// It is multiplied with this after that: a power of two, which changes no rounding.
     factor: f64,
 }
 

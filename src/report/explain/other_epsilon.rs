@@ -13,7 +13,7 @@ struct EpsilonRange<F> {
     high: F,
 }
 
-/// What a kernel answered to a case, beside the margins that the formula's gates have there.
+/// A kernel's answer to a case, beside the margins that the formula's gates have there.
 struct Answer<F> {
     margins: Vec<F>,
     hit: bool,

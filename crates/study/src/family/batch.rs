@@ -30,7 +30,7 @@ fn apart<F: Float>(draw: &mut Draw) -> [[F; 3]; 2] {
     }
 }
 
-/// What some cases in a row have in common.
+/// Numbers that some cases in a row have in common.
 enum Common<F> {
     /// Two vertices, the one at this place and the next.
     Vertices { first: usize, points: [[F; 3]; 2] },
