@@ -193,7 +193,7 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
 
 /// Tokens of each crate, without tests and comments. A cut lowers its number. It is raised only with something new that was
 /// asked for (a kernel, a study, a format), in the same commit, with the reason.
-const MOST_TOKENS: [usize; 5] = [78_900, 92_300, 213_600, 19_300, 245_700];
+const MOST_TOKENS: [usize; 5] = [78_900, 96_700, 214_600, 19_300, 245_800];
 
 /// How far below its number a crate may be before the number has to follow.
 const SLACK: usize = 1_000;
