@@ -7,6 +7,7 @@ use program::{ends, flat, scratch};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// A kernel of `related.c` with a mistake, and the sentence about it; none for one that no relation explains.
 const MISTAKES: [(&str, Option<&str>); 24] = [
@@ -132,6 +133,33 @@ fn each_simple_mistake_is_named_in_the_first_line_and_others_are_not() {
                 );
             }
         }
+    }
+}
+
+/// A kernel that misses everything misses behind its t_min too: that is not its mistake.
+#[test]
+fn a_mistake_that_explains_little_of_what_is_wrong_is_not_named() {
+    let folder = scratch("relations-little");
+    let source = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/kernels/wrong_kernels.cpp");
+    let flags = ["-xc++", "-std=c++17", "-O2"];
+    let Some(library) = library(&source, "wrong-kernels-little", &flags) else {
+        return;
+    };
+    for (fault, named) in [
+        ("always a miss", false),
+        ("always a hit", false),
+        ("t_min ignored", true),
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_hairline"))
+            .args(["audit", "-q", "--scalar", "f32", "-n", "400"])
+            .args(["--kernel-lib", &library])
+            .env("WRONG_KERNEL", fault)
+            .current_dir(&folder)
+            .output()
+            .unwrap();
+        let screen = flat(&String::from_utf8(output.stdout).unwrap());
+        let start = screen.split(". ").next().unwrap();
+        assert_eq!(start.contains("t_min"), named, "{fault}: {screen}");
     }
 }
 
