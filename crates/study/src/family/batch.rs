@@ -57,6 +57,7 @@ impl<F: Float> Common<F> {
     fn case(&self, weights: [F; 3], draw: &mut Draw) -> Case<F> {
         match self {
             Common::Vertices { first, points } => {
+                // Two of the three are replaced: the one that is left is the case's own.
                 let mut triangle = [draw.point::<F>(); 3];
                 triangle[*first] = points[0];
                 triangle[(first + 1) % 3] = points[1];
