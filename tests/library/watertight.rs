@@ -455,7 +455,7 @@ fn woop_leaves_no_crack_and_others_do() {
 #[test]
 fn a_hit_that_a_neighbour_reports_leaves_no_crack() {
     let mesh = shape("heightfield");
-    let found = found::<f32>(&mesh, &row("woop-watertight"), 8);
+    let found = found::<f32>(&mesh, &row("woop-watertight"), 12);
     let (topology, parameters) = (Topology::of::<f32>(&mesh), Parameters::default());
     let targets = Targets::new(&mesh, &topology, &parameters, 1);
     let mut elsewhere = 0;
@@ -488,7 +488,7 @@ fn a_hit_that_a_neighbour_reports_leaves_no_crack() {
             }
         }
     }
-    assert_eq!(elsewhere, 2);
+    assert_eq!(elsewhere, 3);
     assert!(found.iter().flatten().all(|part| part.leaking() == 0));
 }
 
