@@ -32,7 +32,7 @@
 // What stands below: the words, the numbers, the kernels, the truth; the proofs; cases, counts and studies; kernels of others.
 #[macro_use(either_scalar, in_named_scalar, named)]
 extern crate hairline_core;
-use hairline_core::{arith, case, contract, engine, kernel, oracle, suggest};
+use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, suggest};
 #[cfg(feature = "cli")]
 use hairline_plugin as plugin;
 #[cfg(feature = "studies")]

@@ -3,7 +3,7 @@
 use super::exit::{Failure, Status};
 use super::flags::{find_family, is_f32};
 use super::input::{MANIFEST, corpus_files, open, read_corpus};
-use super::output::{write_json_lines, write_result};
+use super::output::{write_json_lines, write_lines, write_result};
 use super::progress::Progress;
 use crate::case::Parameters;
 use crate::corpus::InputError;
@@ -182,9 +182,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
     if nothing {
         return Err(Failure::nothing(format!("{path}: no case to verify")));
     }
-    write_result("-", |out| {
-        report.iter().try_for_each(|line| writeln!(out, "{line}"))
-    })?;
+    write_lines(|out| report.iter().try_for_each(|line| writeln!(out, "{line}")))?;
     Ok(Status::Success)
 }
 

@@ -192,10 +192,13 @@ impl Process {
             }
         }
         if failure == Failure::Timeout && !state.has_answered && failures >= NEVER_ANSWERED {
+            let cause = if self.program.is_host {
+                "its function does not return; if it only starts slowly, --kernel-timeout waits longer"
+            } else {
+                "does it flush its output after a batch, and speak the encoding that its hello announces?"
+            };
             return Err(format!(
-                "it has answered none of {failures} cases, each within {} s: does it flush its output after a \
-                 batch, and speak the encoding that its hello announces?",
-                silence
+                "it has answered none of {failures} cases, each within {silence} s: {cause}"
             ));
         }
         let first = state.first.get_or_insert_with(|| {

@@ -8,7 +8,7 @@
 
 #[macro_use(either_scalar, in_named_scalar, named)]
 extern crate hairline_core;
-use hairline_core::{arith, case, contract, engine, kernel, oracle, suggest, truth};
+use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, suggest, truth};
 #[cfg(feature = "studies")]
 use hairline_prove as prove;
 

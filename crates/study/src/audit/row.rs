@@ -4,8 +4,8 @@
 use super::epsilon_text::EpsilonText;
 use crate::arith::Float;
 use crate::contract::Contract;
-use crate::corpus::json::is_obeyed;
 use crate::kernel::{Entry, Gate, Tunable};
+use crate::printable::is_obeyed;
 use hairline_core::Error;
 use serde::{Deserialize, Serialize};
 

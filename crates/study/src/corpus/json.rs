@@ -1,6 +1,7 @@
 //! JSON objects with known fields, read through `serde_json`, and errors that name the field. A value is the
 //! text of its JSON, which was checked when its object was read.
 
+use crate::printable::printable;
 use crate::suggest::nearest_name;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -229,22 +230,6 @@ pub fn excerpt(text: &str) -> String {
     let start: String = text.chars().take(EXCERPT).collect();
     let dots = if start.len() < text.len() { "..." } else { "" };
     printable(&start) + dots
-}
-
-/// A text on one line, without what a terminal obeys.
-pub fn printable(text: &str) -> String {
-    let shown = |c: char| match is_obeyed(c) {
-        true => c.escape_default().to_string(),
-        false => c.to_string(),
-    };
-    text.chars().map(shown).collect()
-}
-
-/// True for a character that is an order and no letter: a control character, one that is not seen, or one that turns the
-/// direction of what follows (Unicode Standard Annex 9, table of explicit formatting characters).
-pub fn is_obeyed(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{feff}' | '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 /// [`excerpt`] between apostrophes.

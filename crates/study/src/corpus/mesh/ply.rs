@@ -6,7 +6,8 @@
 use super::builder::{FilePlace, MeshBuilder, vertices_text};
 use super::counted::ReadLimits;
 use super::{InputError, Mesh};
-use crate::corpus::json::{self, quoted};
+use crate::corpus::json::quoted;
+use crate::printable::printable;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
@@ -163,7 +164,7 @@ fn refused(name: &str, line: Option<usize>, what: &str, error: &ParseError) -> I
                 .unwrap_or(("", reason));
             InputError {
                 line,
-                ..InputError::of(name, format!("{what}: {}", json::printable(reason)))
+                ..InputError::of(name, format!("{what}: {}", printable(reason)))
             }
         }
         kind => InputError::reading(name, line, &kind.into()),
