@@ -5,10 +5,10 @@ use super::sizes::{DemandedSize, is_within, why_not};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::input::read_text;
 use crate::cli::output::write_result;
-use crate::corpus::InputError;
+use crate::files::InputError;
 use crate::kernel::{self, Entry, Path, Role, Scalar};
 use crate::named_file::SizeLimit;
-use crate::printable::printable;
+use crate::printable::printable_lines;
 use crate::prove::certificate::operations;
 use crate::prove::checker::{self, Number, Proved};
 use crate::prove::repair::Guarded;
@@ -30,7 +30,7 @@ pub fn check(arguments: &ProveArguments) -> Result<Status, Failure> {
     write_result(path, |out| {
         lines
             .iter()
-            .try_for_each(|line| writeln!(out, "{}", printable(line)))
+            .try_for_each(|line| writeln!(out, "{}", printable_lines(line)))
     })?;
     Ok(Status::Success)
 }

@@ -1,9 +1,10 @@
 //! A case from a corpus file, and what stands beside it.
 
+use super::FoundBy;
 use super::stored_truth::StoredTruth;
 use super::truth_json::TruthLine;
-use super::{FoundBy, json};
 use crate::case::AnyCase;
+use crate::files::json;
 use crate::oracle;
 use crate::printable::is_obeyed;
 
