@@ -1,10 +1,10 @@
 //! One row of a plan: a kernel with its epsilons, and the contract it is judged by. It parses, prints
 //! and serialises, so that every file and every printed command can show the same row again.
 
-use super::epsilon_text::EpsilonText;
 use crate::arith::Float;
 use crate::contract::Contract;
 use crate::corpus::json::is_obeyed;
+use crate::kernel::EpsilonText;
 use crate::kernel::{Entry, Gate, Tunable};
 use hairline_core::Error;
 use serde::{Deserialize, Serialize};
