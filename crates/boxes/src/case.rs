@@ -43,7 +43,7 @@ impl<F: Float> BoxCase<F> {
         BoxCase { ray, bounds }
     }
 
-    /// The same case on another interval.
+    /// This case on another interval.
     pub fn on(mut self, t_min: F, t_max: F) -> Self {
         self.ray.t_min = t_min;
         self.ray.t_max = t_max;

@@ -14,21 +14,37 @@
 
 #![forbid(unsafe_code)]
 
+// From the ground up: each block uses only those above it.
 mod case;
 mod truth;
 
 mod define;
+mod distance;
 mod filter;
 mod integers;
 
-mod oracle;
-
 mod family;
 mod kernel;
+mod oracle;
 
+mod judge;
+mod setup;
+mod source;
+
+mod audit;
+mod epsilon;
+mod search;
+
+pub use audit::{Row, Tally, Worst, Wrong, audit};
 pub use case::{Bounds, BoxCase, Boxes, NUMBERS};
 pub use define::{Definition, Range, define};
+pub use distance::{Padding, padding};
+pub use epsilon::{Answer, Largest, Question, epsilon};
 pub use family::{FAMILIES, Family, Made, case_of, find_family};
+pub use judge::{Finding, Obligation, severity};
 pub use kernel::{KERNELS, TABLE};
 pub use oracle::{Layers, check, truth, truth_counted, truth_in_integers};
+pub use search::{Found, Search, search};
+pub use setup::Setup;
+pub use source::{Scene, Source};
 pub use truth::{Class, Meeting, Origin, Overlap, Truth};
