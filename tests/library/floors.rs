@@ -7,8 +7,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates' sources, the lowest first.
-const CRATES: [&str; 5] = [
+const CRATES: [&str; 6] = [
     "crates/core/src",
+    "crates/boxes/src",
     "crates/prove/src",
     "crates/study/src",
     "crates/plugin/src",
@@ -93,26 +94,29 @@ fn names_after(text: &str, prefix: &str) -> BTreeSet<String> {
     names
 }
 
-/// The floors, the lowest first: the `mod` lines of the crates' `lib.rs`, in blocks between blank lines. The prover and
-/// the plug-ins are each one module with its crate's name.
-fn floors() -> Vec<BTreeSet<String>> {
+/// The `mod` lines of a crate's `lib.rs`, in blocks between blank lines.
+fn floors_within(of_crate: &str) -> Vec<BTreeSet<String>> {
     let module = |line: &str| {
         let line = line.strip_prefix("pub ").unwrap_or(line);
         Some(line.strip_prefix("mod ")?.strip_suffix(';')?.to_owned())
     };
-    let of_crate = |of_crate: &str| -> Vec<BTreeSet<String>> {
-        let text = code(&source(of_crate).join("lib.rs"));
-        text.split("\n\n")
-            .map(|block| block.lines().filter_map(module).collect())
-            .collect()
-    };
+    let text = code(&source(of_crate).join("lib.rs"));
+    text.split("\n\n")
+        .map(|block| block.lines().filter_map(module).collect())
+        .collect()
+}
+
+/// The floors, the lowest first: those of the crates. Boxes, the prover and the plug-ins are each one module with its
+/// crate's name.
+fn floors() -> Vec<BTreeSet<String>> {
     let alone = |name: &str| BTreeSet::from([name.to_owned()]);
-    let [core, _, study, _, top] = CRATES;
-    let mut floors = of_crate(core);
+    let [core, _, _, study, _, top] = CRATES;
+    let mut floors = floors_within(core);
+    floors.push(alone("boxes"));
     floors.push(alone("prove"));
-    floors.extend(of_crate(study));
+    floors.extend(floors_within(study));
     floors.push(alone("plugin"));
-    floors.extend(of_crate(top));
+    floors.extend(floors_within(top));
     floors
         .iter_mut()
         .for_each(|floor| floor.retain(|name| name != "internals"));
@@ -120,11 +124,10 @@ fn floors() -> Vec<BTreeSet<String>> {
     floors
 }
 
-/// What each module uses of the others.
-fn uses() -> BTreeMap<String, BTreeSet<String>> {
+/// What each module of some crates uses of the others.
+fn uses_within(crates: &[&str]) -> BTreeMap<String, BTreeSet<String>> {
     let mut uses: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    let [core, prover, study, plugin, top] = CRATES;
-    for (file, place) in [core, study, top].into_iter().flat_map(rust_files) {
+    for (file, place) in crates.iter().copied().flat_map(rust_files) {
         let module = place
             .iter()
             .next()
@@ -139,13 +142,23 @@ fn uses() -> BTreeMap<String, BTreeSet<String>> {
             .or_default()
             .extend(names_after(&code(&file), "crate::"));
     }
+    for (module, used) in &mut uses {
+        used.remove(module);
+    }
+    uses
+}
+
+/// What each module uses of the others; boxes, the prover and the plug-ins are each one module.
+fn uses() -> BTreeMap<String, BTreeSet<String>> {
+    let [core, boxes, prover, study, plugin, top] = CRATES;
+    let mut uses = uses_within(&[core, study, top]);
+    let of_core = |(file, _): (PathBuf, PathBuf)| names_after(&code(&file), "hairline_core::");
+    let used = rust_files(boxes).into_iter().flat_map(of_core).collect();
+    uses.insert("boxes".into(), used);
     for (name, of_crate) in [("prove", prover), ("plugin", plugin)] {
         let lib = code(&source(of_crate).join("lib.rs"));
         let crates = ["hairline_core::", "hairline_study::"].map(|below| names_after(&lib, below));
         uses.insert(name.into(), crates.into_iter().flatten().collect());
-    }
-    for (module, used) in &mut uses {
-        used.remove(module);
     }
     uses
 }
@@ -162,8 +175,20 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
         uses.len(),
         "{floors:?}"
     );
+    check_floors(&floors, &uses);
+}
+
+#[test]
+fn boxes_have_floors_of_their_own() {
+    let [_, boxes, ..] = CRATES;
+    let (floors, uses) = (floors_within(boxes), uses_within(&[boxes]));
+    assert!(uses.len() > 10 && uses.contains_key("define"), "{uses:?}");
+    check_floors(&floors, &uses);
+}
+
+fn check_floors(floors: &[BTreeSet<String>], uses: &BTreeMap<String, BTreeSet<String>>) {
     let floor = |name: &str| floors.iter().position(|floor| floor.contains(name));
-    for (module, used) in &uses {
+    for (module, used) in uses {
         for other in used {
             assert!(
                 floor(other).is_some(),
@@ -193,7 +218,7 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
 
 /// Tokens of each crate, without tests and comments. A cut lowers its number. It is raised only with something new that was
 /// asked for (a kernel, a study, a format), in the same commit, with the reason.
-const MOST_TOKENS: [usize; 5] = [78_900, 96_700, 214_600, 19_300, 245_800];
+const MOST_TOKENS: [usize; 6] = [78_900, 29_000, 96_700, 214_600, 19_300, 245_800];
 
 /// How far below its number a crate may be before the number has to follow.
 const SLACK: usize = 1_000;

@@ -24,6 +24,12 @@ pub struct BoxCase<F: Float> {
     pub bounds: Bounds<F::Vector>,
 }
 
+/// The results of a function for the axes x, y and z.
+#[inline(always)]
+pub(crate) fn each_axis<T>(of_axis: impl FnMut(usize) -> T) -> [T; 3] {
+    array::from_fn(of_axis)
+}
+
 /// How many numbers a case has.
 pub const NUMBERS: usize = 14;
 
@@ -80,7 +86,8 @@ impl<F: Float> BoxCase<F> {
     /// The bit patterns of all numbers, in hexadecimal.
     pub fn hex(&self) -> String {
         let [o, d, min, max] = self.vectors().map(|v| v.map(F::hex).join(","));
-        let [t_min, t_max] = [self.ray.t_min.hex(), self.ray.t_max.hex()];
+        let t_min = self.ray.t_min.hex();
+        let t_max = self.ray.t_max.hex();
         format!("o={o} d={d} min={min} max={max} t={t_min},{t_max}")
     }
 }
@@ -112,7 +119,7 @@ impl Target for Boxes {
     }
 
     fn placed<R: Real>(number: impl Fn(usize) -> R) -> (Ray<Triple<R>>, Bounds<Triple<R>>) {
-        let triple = |first: usize| Triple::from([0, 1, 2].map(|axis| number(first + axis)));
+        let triple = |first: usize| Triple::from(each_axis(|axis| number(first + axis)));
         let ray = Ray {
             origin: triple(0),
             direction: triple(3),

@@ -35,19 +35,19 @@ pub struct Question<'a> {
 pub struct Answer<F> {
     /// The cases that must be hit.
     pub must_hit: u64,
-    /// Those of them that are lost whatever this epsilon is: another gate refuses them, or a NaN or an infinity does.
+    /// The cases among them that are lost whatever this epsilon is: another gate refuses them, or a NaN or an infinity does.
     pub lost_anyway: u64,
-    /// Those of the others that are lost at an epsilon of 0.
+    /// The others that are lost at an epsilon of 0.
     pub lost_at_zero: u64,
-    /// Those of the others that are lost at the setup's own epsilon.
+    /// The others that are lost at the setup's own epsilon.
     pub lost_at_own: u64,
     /// The largest epsilon that loses none of the others; none if there are no others.
     pub largest: Option<Largest<F>>,
     /// The cases that must be missed.
     pub must_miss: u64,
-    /// Those of them that are hit at an epsilon of 0.
+    /// The cases among them that are hit at an epsilon of 0.
     pub false_hits_at_zero: u64,
-    /// Those of them that are hit at the largest epsilon that loses nothing.
+    /// The cases among them that are hit at the largest epsilon that loses nothing.
     pub false_hits_at_largest: u64,
 }
 

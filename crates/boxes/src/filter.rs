@@ -44,7 +44,8 @@ pub(crate) fn decide(case: &BoxCase<f64>) -> Option<Truth> {
         }
         touches_a_plane |= min[i] == max[i];
         let size = direction[i].abs();
-        let [from_min, from_max] = [min[i] - origin[i], max[i] - origin[i]];
+        let from_min = min[i] - origin[i];
+        let from_max = max[i] - origin[i];
         slabs.push(if direction[i] > 0.0 {
             Slab {
                 near: from_min,
@@ -134,7 +135,8 @@ fn on_ray(slabs: &[Slab]) -> Overlap {
 
 /// The part in the interval of a line through the interior; `ray` is its part at t >= 0.
 fn in_interval(case: &BoxCase<f64>, slabs: &[Slab], ray: Overlap) -> Option<Overlap> {
-    let [t_min, t_max] = [case.ray.t_min, case.ray.t_max];
+    let t_min = case.ray.t_min;
+    let t_max = case.ray.t_max;
     if t_min == 0.0 && t_max == f64::INFINITY {
         return Some(ray);
     }

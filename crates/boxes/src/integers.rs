@@ -3,7 +3,7 @@
 //! Positions are multiples of 2^p and the direction of 2^q for the smallest exponents p, q of their lowest bits. So all
 //! coordinates become integers, and t carries 2^(p-q).
 
-use crate::case::BoxCase;
+use crate::case::{BoxCase, each_axis};
 use crate::truth::{Class, Meeting, Origin, Overlap, Truth};
 use hairline_core::oracle::integer::{Integer, IntegerVector, RayInterval, align};
 use num_bigint::BigInt;
@@ -64,7 +64,7 @@ fn narrow(vectors: &[IntegerVector<BigInt>; 4]) -> Option<[IntegerVector<i128>; 
 
 fn decide_in<I: Integer>(vectors: [IntegerVector<I>; 4], ends: &RayInterval) -> Truth {
     let [origin, direction, min, max] = &vectors;
-    let axes = [0, 1, 2].map(|i| axis(&origin[i], &direction[i], [&min[i], &max[i]]));
+    let axes = each_axis(|i| axis(&origin[i], &direction[i], [&min[i], &max[i]]));
     let is_beside = |axis: &Axis<I>| axis.crossing.is_none() && axis.origin == Origin::Outside;
     if axes.iter().any(is_beside) {
         return Truth::Outside;

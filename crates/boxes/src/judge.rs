@@ -1,11 +1,11 @@
-//! What a slab test owes on a case, and whether it gave it. A verdict is compared with a truth here and nowhere else.
+//! The obligation of a slab test on a case, and whether it was met. A verdict is compared with a truth here and nowhere else.
 
 use crate::case::BoxCase;
 use crate::distance::padding;
 use crate::truth::{Class, Meeting, Overlap, Truth};
 use hairline_core::{Boundary, Contract, Demand, Extent, Float, Verdict};
 
-/// What a contract and a truth demand.
+/// The demand of a contract on a case with some truth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Obligation {
     /// A hit.

@@ -1,6 +1,6 @@
 //! Where the cases of a run come from: a family, or a scene of a program's own sizes.
 
-use crate::case::BoxCase;
+use crate::case::{BoxCase, each_axis};
 use crate::family::{Family, Made};
 use hairline_core::Float;
 use hairline_core::case::Draw;
@@ -42,7 +42,7 @@ impl Scene {
         };
         let min = point(&mut draw, self.extent - self.size);
         let max = min.map(|x| x + number(draw.unit() * self.size));
-        let target: [F; 3] = std::array::from_fn(|i| match draw.below(3) {
+        let target: [F; 3] = each_axis(|i| match draw.below(3) {
             0 => min[i],
             1 => max[i],
             _ => min[i] + (max[i] - min[i]) * number(draw.unit()),
@@ -50,7 +50,7 @@ impl Scene {
         let length = number(0.25 + 3.75 * draw.unit());
         loop {
             let origin = point(&mut draw, self.extent);
-            let direction: [F; 3] = std::array::from_fn(|i| (target[i] - origin[i]) * length);
+            let direction: [F; 3] = each_axis(|i| (target[i] - origin[i]) * length);
             if !direction.iter().all(|x| x.is_zero()) {
                 return BoxCase::new(origin, direction, [min, max]);
             }

@@ -20,9 +20,9 @@ pub struct Meeting {
     pub class: Class,
     /// Where the ray starts.
     pub origin: Origin,
-    /// Whether the common points lie on the ray, at t >= 0.
+    /// How much of the common points lies on the ray, at t >= 0.
     pub ray: Overlap,
-    /// Whether the common points lie in the interval.
+    /// How much of the common points lies in the interval.
     pub interval: Overlap,
 }
 

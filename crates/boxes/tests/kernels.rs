@@ -178,7 +178,7 @@ fn embree_fast(case: &BoxCase<f32>) -> bool {
 fn tinybvh(case: &BoxCase<f32>) -> bool {
     let [o, d, min, max] = case.vectors();
     let inverse = |x: f32| {
-        if x > 1e-12 || x < -1e-12 {
+        if x > 1e-12 || -x > 1e-12 {
             1.0 / x
         } else {
             1e30

@@ -1,52 +1,92 @@
 //! Families on small integers times powers of two: what their names say is exactly so.
 
-use crate::case::BoxCase;
+use crate::case::{BoxCase, each_axis};
 use hairline_core::Float;
 use hairline_core::arith::scale_by_power_of_two;
 use hairline_core::case::Draw;
+use std::mem;
 
 type Integers = [i64; 3];
 
 /// A ray and a box in integers.
-struct Lattice {
+pub(super) struct Lattice {
     origin: Integers,
     direction: Integers,
-    min: Integers,
-    max: Integers,
+    block: Block,
+    interval: Interval,
+}
+
+/// The interval of the ray.
+enum Interval {
+    Whole,
+    Until(i64),
+    From(i64),
+}
+
+/// The powers of two that integers are multiplied by.
+struct Powers {
+    positions: i32,
+    directions: i32,
 }
 
 impl Lattice {
     /// Through a point of the box, which it meets at a whole t.
     fn through(point: Integers, direction: Integers, block: Block, t: i64) -> Lattice {
+        let origin = each_axis(|i| point[i] - t * direction[i]);
         Lattice {
-            origin: [0, 1, 2].map(|i| point[i] - t * direction[i]),
+            origin,
             direction,
-            min: block.min,
-            max: block.max,
+            block,
+            interval: Interval::Whole,
         }
     }
 
-    /// In a scalar, positions times one power of two and the direction times another. Zeros of the direction get either
-    /// sign.
-    fn placed<F: Float>(&self, draw: &mut Draw) -> BoxCase<F> {
+    /// In a scalar, positions times one power of two and the direction times another.
+    pub fn placed<F: Float>(&self, draw: &mut Draw) -> BoxCase<F> {
         let positions = draw.integer(-20, 20) as i32;
         let directions = draw.integer(-20, 20) as i32;
-        self.scaled(draw, positions, directions)
+        let powers = Powers {
+            positions,
+            directions,
+        };
+        self.scaled(draw, &powers)
     }
 
-    fn scaled<F: Float>(&self, draw: &mut Draw, positions: i32, directions: i32) -> BoxCase<F> {
-        let number = |x: i64, power: i32| F::from_f64(scale_by_power_of_two(x as f64, power));
-        let point = |point: Integers| point.map(|x| number(x, positions));
-        let direction = self.direction.map(|x| match x {
-            0 if draw.coin() => -F::zero(),
-            _ => number(x, directions),
-        });
-        BoxCase::new(
-            point(self.origin),
-            direction,
-            [point(self.min), point(self.max)],
-        )
+    /// In a scalar, so small that positions are subnormal numbers, and often the direction too.
+    pub fn denormal<F: Float>(&self, draw: &mut Draw) -> BoxCase<F> {
+        let least = F::MIN_EXPONENT;
+        let positions = least + draw.integer(0, 12) as i32;
+        let directions = draw.pick(&[least, least + 12, 0]);
+        let powers = Powers {
+            positions,
+            directions,
+        };
+        self.scaled(draw, &powers)
     }
+
+    /// Zeros of the direction get either sign.
+    fn scaled<F: Float>(&self, draw: &mut Draw, powers: &Powers) -> BoxCase<F> {
+        let position = |x: i64| scaled(x, powers.positions);
+        let mut direction = self.direction.map(|x| scaled::<F>(x, powers.directions));
+        for x in &mut direction {
+            let is_turned = x.is_zero() && draw.coin();
+            *x = if is_turned { -F::zero() } else { *x };
+        }
+        let origin = self.origin.map(position);
+        let min = self.block.min.map(position);
+        let max = self.block.max.map(position);
+        let case = BoxCase::new(origin, direction, [min, max]);
+        let time = |t: i64| scaled(t, powers.positions - powers.directions);
+        match self.interval {
+            Interval::Whole => case,
+            Interval::Until(t) => case.on(F::zero(), time(t)),
+            Interval::From(t) => case.on(time(t), F::infinity()),
+        }
+    }
+}
+
+fn scaled<F: Float>(x: i64, power: i32) -> F {
+    F::from_f64(scale_by_power_of_two(x as f64, power))
 }
 
 /// A box in integers.
@@ -66,7 +106,7 @@ impl Block {
 
     /// A point in the interior.
     fn inside(&self, draw: &mut Draw) -> Integers {
-        [0, 1, 2].map(|i| draw.integer(self.min[i] + 1, self.max[i] - 1))
+        each_axis(|i| draw.integer(self.min[i] + 1, self.max[i] - 1))
     }
 
     /// One of the two planes of an axis, and the direction from there into the box.
@@ -89,13 +129,23 @@ struct Plane {
     inward: i64,
 }
 
-/// A direction without a zero.
-fn any_direction(draw: &mut Draw) -> Integers {
-    [(); 3].map(|()| sign(draw) * draw.integer(1, 9))
+impl Plane {
+    /// Makes a component of a direction point into the box.
+    fn turn_inward(&self, component: &mut i64) {
+        *component = self.inward * component.abs();
+    }
+
+    fn turn_outward(&self, component: &mut i64) {
+        *component = -self.inward * component.abs();
+    }
 }
 
-fn sign(draw: &mut Draw) -> i64 {
-    if draw.coin() { 1 } else { -1 }
+/// A direction without a zero.
+fn any_direction(draw: &mut Draw) -> Integers {
+    each_axis(|_| {
+        let size = draw.integer(1, 9);
+        if draw.coin() { size } else { -size }
+    })
 }
 
 /// The t of a point ahead.
@@ -103,28 +153,20 @@ fn ahead(draw: &mut Draw) -> i64 {
     draw.integer(1, 40)
 }
 
-pub(super) fn corner<F: Float>(draw: &mut Draw) -> BoxCase<F> {
-    touching_a_corner(draw).placed(draw)
-}
-
-fn touching_a_corner(draw: &mut Draw) -> Lattice {
+pub(super) fn corner(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
-    let planes = [0, 1, 2].map(|axis| block.plane(draw, axis));
+    let planes = each_axis(|axis| block.plane(draw, axis));
     let mut direction = any_direction(draw);
     // One axis goes in where another goes out, so no point but the corner is in the box.
     let out = draw.below(3);
     let into = (out + 1 + draw.below(2)) % 3;
-    direction[into] = planes[into].inward * direction[into].abs();
-    direction[out] = -planes[out].inward * direction[out].abs();
+    planes[into].turn_inward(&mut direction[into]);
+    planes[out].turn_outward(&mut direction[out]);
     let t = ahead(draw);
     Lattice::through(planes.map(|plane| plane.at), direction, block, t)
 }
 
-pub(super) fn edge<F: Float>(draw: &mut Draw) -> BoxCase<F> {
-    touching_an_edge(draw).placed(draw)
-}
-
-fn touching_an_edge(draw: &mut Draw) -> Lattice {
+pub(super) fn edge(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let mut direction = any_direction(draw);
@@ -132,17 +174,19 @@ fn touching_an_edge(draw: &mut Draw) -> Lattice {
     if draw.coin() {
         direction[along] = 0;
     }
-    let [into, out] = [(along + 1) % 3, (along + 2) % 3];
-    let [first, second] = [into, out].map(|axis| block.plane(draw, axis));
+    let into = (along + 1) % 3;
+    let out = (along + 2) % 3;
+    let first = block.plane(draw, into);
+    let second = block.plane(draw, out);
     point[into] = first.at;
     point[out] = second.at;
-    direction[into] = first.inward * direction[into].abs();
-    direction[out] = -second.inward * direction[out].abs();
+    first.turn_inward(&mut direction[into]);
+    second.turn_outward(&mut direction[out]);
     let t = ahead(draw);
     Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn in_face<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub(super) fn in_face(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let mut direction = any_direction(draw);
@@ -153,7 +197,7 @@ pub(super) fn in_face<F: Float>(draw: &mut Draw) -> BoxCase<F> {
         direction[axis] = 0;
     }
     let t = ahead(draw);
-    Lattice::through(point, direction, block, t).placed(draw)
+    Lattice::through(point, direction, block, t)
 }
 
 /// A direction with one or two zeros.
@@ -167,15 +211,23 @@ fn axis_direction(draw: &mut Draw) -> Integers {
     direction
 }
 
-pub(super) fn axis_inside<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+/// A direction with or without zeros.
+fn some_direction(draw: &mut Draw) -> Integers {
+    if draw.coin() {
+        return any_direction(draw);
+    }
+    axis_direction(draw)
+}
+
+pub(super) fn axis_inside(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let point = block.inside(draw);
     let direction = axis_direction(draw);
     let t = ahead(draw);
-    Lattice::through(point, direction, block, t).placed(draw)
+    Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn axis_outside<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub(super) fn axis_outside(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let mut direction = axis_direction(draw);
@@ -187,46 +239,39 @@ pub(super) fn axis_outside<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     }
     point[axis] = plane.at - plane.inward * draw.integer(1, 9);
     let t = ahead(draw);
-    Lattice::through(point, direction, block, t).placed(draw)
+    Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn origin_inside<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub(super) fn origin_inside(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let point = block.inside(draw);
-    let direction = if draw.coin() {
-        any_direction(draw)
-    } else {
-        axis_direction(draw)
-    };
-    Lattice::through(point, direction, block, 0).placed(draw)
+    let direction = some_direction(draw);
+    Lattice::through(point, direction, block, 0)
 }
 
-pub(super) fn origin_on<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub(super) fn origin_on(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
-    for axis in 0..=draw.below(3) {
-        point[axis] = block.plane(draw, axis).at;
+    let planes = 1 + draw.below(3);
+    for (axis, x) in point.iter_mut().enumerate().take(planes) {
+        *x = block.plane(draw, axis).at;
     }
-    let direction = if draw.coin() {
-        any_direction(draw)
-    } else {
-        axis_direction(draw)
-    };
-    Lattice::through(point, direction, block, 0).placed(draw)
+    let direction = some_direction(draw);
+    Lattice::through(point, direction, block, 0)
 }
 
-pub(super) fn touch_at_zero<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub(super) fn touch_at_zero(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let mut direction = any_direction(draw);
     let axis = draw.below(3);
     let plane = block.plane(draw, axis);
     point[axis] = plane.at;
-    direction[axis] = -plane.inward * direction[axis].abs();
-    Lattice::through(point, direction, block, 0).placed(draw)
+    plane.turn_outward(&mut direction[axis]);
+    Lattice::through(point, direction, block, 0)
 }
 
-pub(super) fn interval_ends<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub(super) fn interval_ends(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let mut direction = any_direction(draw);
@@ -234,31 +279,30 @@ pub(super) fn interval_ends<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let plane = block.plane(draw, axis);
     point[axis] = plane.at;
     let enters = draw.coin();
-    let inward = if enters { plane.inward } else { -plane.inward };
-    direction[axis] = inward * direction[axis].abs();
     let t = ahead(draw);
-    let positions = draw.integer(-20, 20) as i32;
-    let directions = draw.integer(-20, 20) as i32;
-    let end = F::from_f64(scale_by_power_of_two(t as f64, positions - directions));
-    let case = Lattice::through(point, direction, block, t);
-    let case = case.scaled::<F>(draw, positions, directions);
-    if enters {
-        case.on(F::zero(), end)
+    let interval = if enters {
+        plane.turn_inward(&mut direction[axis]);
+        Interval::Until(t)
     } else {
-        case.on(end, F::infinity())
+        plane.turn_outward(&mut direction[axis]);
+        Interval::From(t)
+    };
+    Lattice {
+        interval,
+        ..Lattice::through(point, direction, block, t)
     }
 }
 
-pub(super) fn behind<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub(super) fn behind(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let point = block.inside(draw);
     let direction = any_direction(draw);
     // No axis is longer than this, and the ray leaves it by at least a unit for each t.
     let beyond = -64 - draw.integer(1, 40);
-    Lattice::through(point, direction, block, beyond).placed(draw)
+    Lattice::through(point, direction, block, beyond)
 }
 
-pub(super) fn flat<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub(super) fn flat(draw: &mut Draw) -> Lattice {
     let mut block = Block::drawn(draw);
     let point = block.inside(draw);
     let axis = draw.below(3);
@@ -269,50 +313,46 @@ pub(super) fn flat<F: Float>(draw: &mut Draw) -> BoxCase<F> {
         direction[(axis + 1) % 3] = 0;
     }
     let t = ahead(draw);
-    Lattice::through(point, direction, block, t).placed(draw)
+    Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn point<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub(super) fn point(draw: &mut Draw) -> Lattice {
     let point = draw.lattice_point(100);
     let block = Block {
         min: point,
         max: point,
     };
-    let direction = if draw.coin() {
-        any_direction(draw)
-    } else {
-        axis_direction(draw)
-    };
+    let direction = some_direction(draw);
     let t = ahead(draw);
-    Lattice::through(point, direction, block, t).placed(draw)
+    Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn empty<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub(super) fn empty(draw: &mut Draw) -> Lattice {
     let mut block = Block::drawn(draw);
     let point = block.inside(draw);
-    for axis in 0..=draw.below(3) {
-        let (min, max) = (block.min[axis], block.max[axis]);
-        block.min[axis] = max;
-        block.max[axis] = min;
+    let turned = 1 + draw.below(3);
+    let axes = block.min.iter_mut().zip(&mut block.max);
+    for (min, max) in axes.take(turned) {
+        mem::swap(min, max);
     }
     let direction = any_direction(draw);
     let t = ahead(draw);
-    Lattice::through(point, direction, block, t).placed(draw)
+    Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn denormal<F: Float>(draw: &mut Draw) -> BoxCase<F> {
-    let lattice = match draw.below(3) {
-        0 => touching_a_corner(draw),
-        1 => touching_an_edge(draw),
-        _ => {
-            let block = Block::drawn(draw);
-            let point = block.inside(draw);
-            let direction = any_direction(draw);
-            let t = ahead(draw);
-            Lattice::through(point, direction, block, t)
-        }
-    };
-    let positions = F::MIN_EXPONENT + draw.integer(0, 12) as i32;
-    let directions = draw.pick(&[F::MIN_EXPONENT, F::MIN_EXPONENT + 12, 0]);
-    lattice.scaled(draw, positions, directions)
+/// Through the interior, an edge or a corner.
+pub(super) fn meeting(draw: &mut Draw) -> Lattice {
+    match draw.below(3) {
+        0 => corner(draw),
+        1 => edge(draw),
+        _ => interior(draw),
+    }
+}
+
+fn interior(draw: &mut Draw) -> Lattice {
+    let block = Block::drawn(draw);
+    let point = block.inside(draw);
+    let direction = any_direction(draw);
+    let t = ahead(draw);
+    Lattice::through(point, direction, block, t)
 }

@@ -95,8 +95,17 @@ pub fn find_family(name: &str) -> Result<&'static Family, String> {
     })
 }
 
+/// A row, from a name, a function that makes a case, a promise, and a function that says if a truth keeps it.
 macro_rules! family {
-    ($name:literal, $make:path, $promise:literal, $keeps:expr) => {
+    ($name:literal, lattice::$make:ident, $promise:literal, $keeps:expr) => {
+        family!(
+            $name,
+            |draw| lattice::$make(draw).placed(draw),
+            $promise,
+            $keeps
+        )
+    };
+    ($name:literal, $make:expr, $promise:literal, $keeps:expr) => {
         Family {
             name: $name,
             version: 1,
@@ -211,7 +220,7 @@ pub static FAMILIES: &[Family] = &[
     ),
     family!(
         "denormal",
-        lattice::denormal,
+        |draw| lattice::meeting(draw).denormal(draw),
         "meets a box of subnormal size, ahead",
         is_ahead
     ),

@@ -8,11 +8,8 @@
 //! takes it and loses what it had.
 
 use super::growth::{AT_MOST, BELOW, Comparison, compare};
-use super::numbers::{Formula, Multiplied, axis, maxps, minps};
-use super::{PLAIN, contract, info};
-use crate::case::{Bounds, Boxes};
-use hairline_core::arith::{Real, Vector};
-use hairline_core::{Boundary, Extent, Hit, Kernel, KernelInfo, Ray, Sink};
+use super::numbers::*;
+use super::*;
 
 pub(super) struct Majercik;
 pub(super) struct Barnes2011;
@@ -26,17 +23,6 @@ const BARNES_2015: &str = "T. Barnes, Fast, Branchless Ray/Bounding Box Intersec
                            https://tavianator.com/2015/ray_box_nan.html";
 const BARNES_2022: &str = "T. Barnes, Fast, Branchless Ray/Bounding Box Intersections, Part 3: Boundaries, \
                            https://tavianator.com/2022/ray_box_boundary.html";
-
-/// The t of the planes at min and at max of an axis, in this order.
-#[inline(always)]
-pub(super) fn planes<A: Formula, V: Vector>(
-    bounds: &Bounds<V>,
-    ray: &Ray<V>,
-    i: usize,
-) -> [V::Real; 2] {
-    let axis = axis::<A, V>(ray, i);
-    [bounds.min.at(i), bounds.max.at(i)].map(|plane| A::t(&axis, plane))
-}
 
 impl Kernel<Boxes> for Majercik {
     const INFO: KernelInfo = info(
@@ -56,11 +42,12 @@ impl Kernel<Boxes> for Majercik {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let slabs = [0, 1, 2].map(|i| planes::<Multiplied, V>(bounds, ray, i));
-        let [x, y, z] = slabs.clone().map(|[t0, t1]| t0.smaller(t1));
-        let near = x.larger(y).larger(z);
-        let [x, y, z] = slabs.map(|[t0, t1]| t0.larger(t1));
-        let far = x.smaller(y).smaller(z);
+        let [x, y, z] = each_axis(|i| {
+            let slab = unsorted::<Multiplied, V>(bounds, ray, i);
+            slab.sorted(Real::smaller, Real::larger)
+        });
+        let both = x.and(y, Real::larger, Real::smaller);
+        let Slab { near, far } = both.and(z, Real::larger, Real::smaller);
         compare(sink, Comparison::AtMost, &near, &far)?;
         Some(Hit::at(near))
     }
@@ -83,16 +70,14 @@ impl Kernel<Boxes> for Barnes2011 {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let [t1, t2] = planes::<Multiplied, V>(bounds, ray, 0);
-        let mut near = minps(t1.clone(), t2.clone());
-        let mut far = maxps(t1, t2);
+        let slab = |i: usize| unsorted::<Multiplied, V>(bounds, ray, i);
+        let mut common = slab(0).sorted(minps, maxps);
         for i in 1..3 {
-            let [t1, t2] = planes::<Multiplied, V>(bounds, ray, i);
-            near = maxps(near, minps(t1.clone(), t2.clone()));
-            far = minps(far, maxps(t1, t2));
+            let sorted = slab(i).sorted(minps, maxps);
+            common = common.and(sorted, maxps, minps);
         }
-        compare(sink, Comparison::AtMost, &near, &far)?;
-        Some(Hit::at(near))
+        compare(sink, Comparison::AtMost, &common.near, &common.far)?;
+        Some(Hit::at(common.near))
     }
 }
 
@@ -113,14 +98,13 @@ impl Kernel<Boxes> for Barnes2015 {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let [t1, t2] = planes::<Multiplied, V>(bounds, ray, 0);
-        let mut near = minps(t1.clone(), t2.clone());
-        let mut far = maxps(t1, t2);
+        let slab = |i: usize| unsorted::<Multiplied, V>(bounds, ray, i);
+        let Slab { mut near, mut far } = slab(0).sorted(minps, maxps);
         for i in 1..3 {
-            let [t1, t2] = planes::<Multiplied, V>(bounds, ray, i);
-            let first = minps(minps(t1.clone(), t2.clone()), far.clone());
+            let sorted = slab(i).sorted(minps, maxps);
+            let first = minps(sorted.near, far.clone());
             near = maxps(near, first);
-            let last = maxps(maxps(t1, t2), near.clone());
+            let last = maxps(sorted.far, near.clone());
             far = minps(far, last);
         }
         let near = maxps(near, V::Real::zero());
@@ -146,13 +130,15 @@ impl Kernel<Boxes> for Barnes2022 {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let [mut near, mut far] = [ray.t_min.clone(), ray.t_max.clone()];
+        let Slab { mut near, mut far } = interval(ray);
         for i in 0..3 {
-            let [t1, t2] = planes::<Multiplied, V>(bounds, ray, i);
-            let [near1, near2] = [t1.clone(), t2.clone()].map(|t| maxps(t, near.clone()));
-            let [far1, far2] = [t1, t2].map(|t| minps(t, far.clone()));
-            near = minps(near1, near2);
-            far = maxps(far1, far2);
+            let t = unsorted::<Multiplied, V>(bounds, ray, i);
+            let first = maxps(t.near.clone(), near.clone());
+            let second = maxps(t.far.clone(), near);
+            near = minps(first, second);
+            let first = minps(t.near, far.clone());
+            let second = minps(t.far, far);
+            far = maxps(first, second);
         }
         compare(sink, Comparison::AtMost, &near, &far)?;
         Some(Hit::at(near))
@@ -177,14 +163,13 @@ impl Kernel<Boxes> for PlaneFirst {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let [mut near, mut far] = [ray.t_min.clone(), ray.t_max.clone()];
+        let mut common = interval(ray);
         for i in 0..3 {
-            let [first, last] = crossed::<Multiplied, V>(bounds, ray, i);
-            near = maxps(first, near);
-            far = minps(last, far);
+            let slab = crossed::<Multiplied, V>(bounds, ray, i);
+            common = slab.and(common, maxps, minps);
         }
-        compare(sink, Comparison::AtMost, &near, &far)?;
-        Some(Hit::at(near))
+        compare(sink, Comparison::AtMost, &common.near, &common.far)?;
+        Some(Hit::at(common.near))
     }
 }
 
@@ -206,27 +191,12 @@ impl Kernel<Boxes> for PlaneLast {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let [mut near, mut far] = [ray.t_min.clone(), ray.t_max.clone()];
+        let mut common = interval(ray);
         for i in 0..3 {
-            let [first, last] = crossed::<Multiplied, V>(bounds, ray, i);
-            near = maxps(near, first);
-            far = minps(far, last);
+            let slab = crossed::<Multiplied, V>(bounds, ray, i);
+            common = common.and(slab, maxps, minps);
         }
-        compare(sink, Comparison::AtMost, &near, &far)?;
-        Some(Hit::at(near))
+        compare(sink, Comparison::AtMost, &common.near, &common.far)?;
+        Some(Hit::at(common.near))
     }
-}
-
-/// The t of the planes of an axis, the one first that the sign of the direction says is nearer.
-#[inline(always)]
-pub(super) fn crossed<A: Formula, V: Vector>(
-    bounds: &Bounds<V>,
-    ray: &Ray<V>,
-    i: usize,
-) -> [V::Real; 2] {
-    let axis = axis::<A, V>(ray, i);
-    let [min, max] = [bounds.min.at(i), bounds.max.at(i)];
-    let is_backward = axis.direction.is_sign_negative();
-    let [near, far] = if is_backward { [max, min] } else { [min, max] };
-    [A::t(&axis, near), A::t(&axis, far)]
 }

@@ -5,13 +5,9 @@
 //! listing has 1.00000024, which is `1 + 2*EPSILON`; its error analysis allows three roundings on each side,
 //! 1 + 2·gamma(3), which rounds to `1 + 3*EPSILON`. It computes (b-o)·inv. The other formulas are set into the same test.
 
-use super::branchless::crossed;
 use super::growth::{AT_MOST, Comparison, compare};
-use super::numbers::{Divided, Formula, Fused, Multiplied, maxps, minps};
-use super::{PLAIN, contract, info};
-use crate::case::{Bounds, Boxes};
-use hairline_core::arith::Vector;
-use hairline_core::{Boundary, EpsilonSet, Extent, Hit, Kernel, KernelInfo, Ray, Sink};
+use super::numbers::*;
+use super::*;
 use std::marker::PhantomData;
 
 /// The test in one formula.
@@ -101,12 +97,11 @@ fn slabs<A: Formula, V: Vector, S: Sink<V::Real>>(
     ray: &Ray<V>,
     sink: &mut S,
 ) -> Option<Hit<V::Real>> {
-    let [mut near, mut far] = [ray.t_min.clone(), ray.t_max.clone()];
+    let mut common = interval(ray);
     for i in 0..3 {
-        let [first, last] = crossed::<A, V>(bounds, ray, i);
-        near = maxps(first, near);
-        far = minps(last, far);
+        let slab = crossed::<A, V>(bounds, ray, i);
+        common = slab.and(common, maxps, minps);
     }
-    compare(sink, Comparison::AtMost, &near, &far)?;
-    Some(Hit::at(near))
+    compare(sink, Comparison::AtMost, &common.near, &common.far)?;
+    Some(Hit::at(common.near))
 }

@@ -4,9 +4,14 @@
 //! a number slightly above 1. Here that number is `1 - e`: an epsilon of 0 is the plain test, and a negative one lets
 //! more through. So the margin of this gate says which growth a case needs. A far end below 0 is left as it is, so that
 //! growth never moves it inwards; no ray with `t_min >= 0` meets a box there.
+//!
+//! How much is enough, barring overflow and underflow? With u half an ulp of 1 and n roundings in each t, the computed near
+//! end is at most (1+u)^n times the exact one and the far end at least (1-u)^n times it. Times 1 + 2nu the far end is at
+//! least the near one times about 1 - 2n²u², and rounds to no less, since the near end is a float. So
+//! 2 units in the last place of 1 are enough for (b-o)/d, and 3 for (b-o)·inv. For fma(b, inv, -o·inv) no number is
+//! enough: the error of o·inv counts, however small t is beside it.
 
-use hairline_core::arith::Real;
-use hairline_core::{Gate, Role, Sink};
+use super::*;
 
 /// The place of the gate among those of every kernel here.
 pub(super) const GROWTH: usize = 0;

@@ -5,13 +5,9 @@
 //! `a <= b ? a : b` and `a >= b ? a : b`, then `f32::max` and `f32::min`, and a hit only if far is above near, so that a
 //! flat box is missed.
 
-use super::branchless::planes;
 use super::growth::{AT_MOST, BELOW, Comparison, compare};
-use super::numbers::{Axis, Formula, Multiplied, fmax, fmin, maxps, minps};
-use super::{PLAIN, contract, info};
-use crate::case::{Bounds, Boxes};
-use hairline_core::arith::{Real, Vector};
-use hairline_core::{Boundary, Extent, Gate, Hit, Kernel, KernelInfo, Ray, Role, Sink};
+use super::numbers::*;
+use super::*;
 
 pub(super) struct TinyBvh;
 pub(super) struct Bvh;
@@ -38,19 +34,20 @@ impl Kernel<Boxes> for TinyBvh {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let slabs = [0, 1, 2].map(|i| {
+        let [x, y, z] = each_axis(|i| {
             let axis = Axis {
                 origin: ray.origin.at(i),
                 direction: safe_reciprocal(ray.direction.at(i)),
             };
-            [bounds.min.at(i), bounds.max.at(i)].map(|plane| Multiplied::t(&axis, plane))
+            let slab = turned::<Multiplied, V>(bounds, &axis, i, false);
+            slab.sorted(minps, maxps)
         });
-        let [x, y, z] = slabs.clone().map(|[t1, t2]| minps(t1, t2));
-        let near = maxps(maxps(x, y), z);
-        let [x, y, z] = slabs.map(|[t1, t2]| maxps(t1, t2));
-        let far = minps(minps(x, y), z);
+        let both = x.and(y, maxps, minps);
+        let Slab { near, far } = both.and(z, maxps, minps);
         compare(sink, Comparison::AtMost, &near, &far)?;
-        sink.fixed(END, near.is_less(&ray.t_max) && ray.t_min.is_at_most(&far))?;
+        let starts_before_the_end = near.is_less(&ray.t_max);
+        let ends_after_the_start = ray.t_min.is_at_most(&far);
+        sink.fixed(END, starts_before_the_end && ends_after_the_start)?;
         Some(Hit::at(near))
     }
 }
@@ -82,11 +79,12 @@ impl Kernel<Boxes> for Bvh {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let slabs = [0, 1, 2].map(|i| planes::<Multiplied, V>(bounds, ray, i));
-        let [x, y, z] = slabs.clone().map(|[t1, t2]| meet(t1, t2));
-        let near = fmax(fmax(x, y), z);
-        let [x, y, z] = slabs.map(|[t1, t2]| join(t1, t2));
-        let far = fmin(fmin(x, y), z);
+        let [x, y, z] = each_axis(|i| {
+            let slab = unsorted::<Multiplied, V>(bounds, ray, i);
+            slab.sorted(meet, join)
+        });
+        let both = x.and(y, fmax, fmin);
+        let Slab { near, far } = both.and(z, fmax, fmin);
         let near = fmax(near, V::Real::zero());
         compare(sink, Comparison::Below, &near, &far)?;
         Some(Hit::at(near))

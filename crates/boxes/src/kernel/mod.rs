@@ -24,11 +24,13 @@ mod pairwise;
 mod renderers;
 mod slopes;
 
-use crate::case::Boxes;
+use crate::case::{Bounds, Boxes, each_axis};
 use forms::Slabs;
+use hairline_core::arith::{Real, Vector};
 use hairline_core::contract::Sides;
 use hairline_core::kernel::{Entry, Table};
-use hairline_core::{Boundary, Contract, Demand, EpsilonSet, Extent, Gate, KernelInfo};
+use hairline_core::{Boundary, Contract, Demand, EpsilonSet, Extent, Gate, Hit};
+use hairline_core::{Kernel, KernelInfo, Ray, Refuse, Role, Sink};
 
 /// Every built-in slab test, in the order of reports.
 pub static KERNELS: &[Entry<Boxes>] = &[

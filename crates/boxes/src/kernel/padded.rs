@@ -5,11 +5,8 @@
 //! epsilon at which the box is met, so the negative of the least padding.
 
 use super::growth::GROWTH;
-use super::numbers::{Divided, Formula, axis, maxps, minps};
-use super::{contract, info};
-use crate::case::{Bounds, Boxes};
-use hairline_core::arith::{Real, Vector};
-use hairline_core::{Boundary, EpsilonSet, Extent, Gate, Hit, Kernel, KernelInfo, Ray, Role, Sink};
+use super::numbers::*;
+use super::*;
 
 pub(super) struct PaddedBox;
 
@@ -35,7 +32,7 @@ impl Kernel<Boxes> for PaddedBox {
     ) -> Option<Hit<V::Real>> {
         sink.rounded(
             GROWTH,
-            |epsilon| ends(bounds, ray, epsilon).is_some(),
+            |epsilon| meets(bounds, ray, epsilon),
             || threshold(bounds, ray),
         )?;
         Some(Hit {
@@ -46,26 +43,29 @@ impl Kernel<Boxes> for PaddedBox {
     }
 }
 
-/// The near and the far end on the box that an epsilon leaves, if they are in order.
+/// True if the ray meets the box that an epsilon leaves.
 #[inline(always)]
-fn ends<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, epsilon: &V::Real) -> Option<[V::Real; 2]> {
-    let [mut near, mut far] = [ray.t_min.clone(), ray.t_max.clone()];
+fn meets<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, epsilon: &V::Real) -> bool {
+    let mut common = interval(ray);
+    let all = V::new(epsilon.clone(), epsilon.clone(), epsilon.clone());
+    let padded = Bounds {
+        min: bounds.min.plus(&all),
+        max: bounds.max.minus(&all),
+    };
     for i in 0..3 {
-        let min = bounds.min.at(i) + epsilon;
-        let max = bounds.max.at(i) - epsilon;
-        let axis = axis::<Divided, V>(ray, i);
-        if axis.direction.is_zero() {
-            if axis.origin.is_less(&min) || max.is_less(&axis.origin) {
-                return None;
+        let origin = ray.origin.at(i);
+        if ray.direction.at(i).is_zero() {
+            let is_below = origin.is_less(&padded.min.at(i));
+            let is_above = padded.max.at(i).is_less(&origin);
+            if is_below || is_above {
+                return false;
             }
             continue;
         }
-        let is_backward = axis.direction.is_sign_negative();
-        let [first, last] = if is_backward { [max, min] } else { [min, max] };
-        near = maxps(Divided::t(&axis, first), near);
-        far = minps(Divided::t(&axis, last), far);
+        let slab = crossed::<Divided, V>(&padded, ray, i);
+        common = slab.and(common, maxps, minps);
     }
-    near.is_at_most(&far).then_some([near, far])
+    common.near.is_at_most(&common.far)
 }
 
 /// The greatest epsilon without rounding: the least of what each pair of conditions allows.
@@ -73,28 +73,33 @@ fn ends<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, epsilon: &V::Real) -> Optio
 /// With near, far and size as in the truth's filter, the line enters slab i before it leaves slab j if
 /// (near_i + e)/size_i <= (far_j - e)/size_j, so e <= (far_j·size_i - near_i·size_j) / (size_i + size_j).
 fn threshold<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>) -> V::Real {
-    let zero = V::Real::zero();
     let mut least = V::Real::infinity();
     let mut slabs = Vec::with_capacity(3);
     for i in 0..3 {
-        let direction = ray.direction.at(i);
-        let from_min = bounds.min.at(i) - ray.origin.at(i);
-        let from_max = bounds.max.at(i) - ray.origin.at(i);
-        if direction.is_zero() {
-            least = least.smaller(from_max).smaller(-from_min);
-        } else if zero.is_less(&direction) {
-            slabs.push([from_min, from_max, direction]);
+        let origin = ray.origin.at(i);
+        let size = ray.direction.at(i);
+        let from_min = bounds.min.at(i) - &origin;
+        let from_max = bounds.max.at(i) - &origin;
+        if size.is_zero() {
+            least = least.smaller(from_max);
+            least = least.smaller(-from_min);
+        } else if size.is_less(&V::Real::zero()) {
+            slabs.push([-from_max, -from_min, -size]);
         } else {
-            slabs.push([-from_max, -from_min, -direction]);
+            slabs.push([from_min, from_max, size]);
         }
     }
     for [near, far, size] in &slabs {
         for [_, other_far, other_size] in &slabs {
-            let both = other_far.clone() * size - near.clone() * other_size;
-            least = least.smaller(both / (size.clone() + other_size));
+            let leaves = other_far.clone() * size;
+            let enters = near.clone() * other_size;
+            let sizes = size.clone() + other_size;
+            least = least.smaller((leaves - enters) / sizes);
         }
-        least = least.smaller(ray.t_max.clone() * size - near);
-        least = least.smaller(far.clone() - ray.t_min.clone() * size);
+        let end = ray.t_max.clone() * size;
+        least = least.smaller(end - near);
+        let start = ray.t_min.clone() * size;
+        least = least.smaller(far.clone() - start);
     }
     least
 }

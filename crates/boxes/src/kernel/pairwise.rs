@@ -8,11 +8,8 @@
 //! asks for the sign of the reciprocal, so that a direction of -0 counts as negative.
 
 use super::growth::{Comparison, NOT_ABOVE, compare};
-use super::numbers::{Axis, Divided, Formula, Multiplied, axis};
-use super::{PLAIN, contract, info};
-use crate::case::{Bounds, Boxes};
-use hairline_core::arith::{Real, Vector};
-use hairline_core::{Boundary, Extent, Gate, Hit, Kernel, KernelInfo, Ray, Role, Sink};
+use super::numbers::*;
+use super::*;
 
 pub(super) struct KayKajiya;
 pub(super) struct Smits;
@@ -20,12 +17,6 @@ pub(super) struct Williams;
 
 const END: usize = 1;
 const PARALLEL: usize = 2;
-
-/// The t of the two planes of a slab, the nearer one first.
-struct Slab<R> {
-    near: R,
-    far: R,
-}
 
 impl Kernel<Boxes> for KayKajiya {
     const INFO: KernelInfo = info(
@@ -52,20 +43,21 @@ impl Kernel<Boxes> for KayKajiya {
         let mut near = -V::Real::infinity();
         let mut far = V::Real::infinity();
         for i in 0..3 {
-            let [min, max] = [bounds.min.at(i), bounds.max.at(i)];
-            let ray = axis::<Divided, V>(ray, i);
-            if ray.direction.is_zero() {
-                let is_beside = ray.origin.is_less(&min) || max.is_less(&ray.origin);
-                sink.fixed(PARALLEL, !is_beside)?;
+            let axis = axis::<Divided, V>(ray, i);
+            if axis.direction.is_zero() {
+                let is_below = axis.origin.is_less(&bounds.min.at(i));
+                let is_above = bounds.max.at(i).is_less(&axis.origin);
+                sink.fixed(PARALLEL, !is_below && !is_above)?;
                 continue;
             }
-            let [t1, t2] = [Divided::t(&ray, min), Divided::t(&ray, max)];
-            let is_turned = t2.is_less(&t1);
-            let [t1, t2] = if is_turned { [t2, t1] } else { [t1, t2] };
-            near = near.larger(t1);
-            far = far.smaller(t2);
+            let t = turned::<Divided, V>(bounds, &axis, i, false);
+            let is_backward = t.far.is_less(&t.near);
+            let slab = turned::<Divided, V>(bounds, &axis, i, is_backward);
+            near = near.larger(slab.near);
+            far = far.smaller(slab.far);
             compare(sink, Comparison::NotAbove, &near, &far)?;
-            sink.fixed(END, !far.is_less(&V::Real::zero()))?;
+            let is_behind = far.is_less(&V::Real::zero());
+            sink.fixed(END, !is_behind)?;
         }
         Some(Hit::at(near))
     }
@@ -91,12 +83,12 @@ impl Kernel<Boxes> for Smits {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let slabs = [0, 1, 2].map(|i| {
+        let [x, y, z] = each_axis(|i| {
             let axis = axis::<Divided, V>(ray, i);
             let is_forward = V::Real::zero().is_at_most(&axis.direction);
-            slab::<Divided, V>(&axis, bounds, i, is_forward)
+            turned::<Divided, V>(bounds, &axis, i, !is_forward)
         });
-        overlapping(slabs, ray, sink)
+        overlapping(x, [y, z], ray, sink)
     }
 }
 
@@ -121,44 +113,40 @@ impl Kernel<Boxes> for Williams {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let slabs = [0, 1, 2].map(|i| {
-            let axis = axis::<Multiplied, V>(ray, i);
-            let is_forward = !axis.direction.is_less(&V::Real::zero());
-            slab::<Multiplied, V>(&axis, bounds, i, is_forward)
-        });
-        overlapping(slabs, ray, sink)
+        let [x, y, z] = each_axis(|i| by_reciprocal(bounds, ray, i));
+        overlapping(x, [y, z], ray, sink)
     }
 }
 
+/// The slab of an axis, near and far as the reciprocal of the direction is below 0 or not.
 #[inline(always)]
-fn slab<A: Formula, V: Vector>(
-    axis: &Axis<V::Real>,
+pub(super) fn by_reciprocal<V: Vector>(
     bounds: &Bounds<V>,
+    ray: &Ray<V>,
     i: usize,
-    is_forward: bool,
 ) -> Slab<V::Real> {
-    let [min, max] = [bounds.min.at(i), bounds.max.at(i)];
-    let [near, far] = if is_forward { [min, max] } else { [max, min] };
-    Slab {
-        near: A::t(axis, near),
-        far: A::t(axis, far),
-    }
+    let axis = axis::<Multiplied, V>(ray, i);
+    let is_backward = axis.direction.is_less(&V::Real::zero());
+    turned::<Multiplied, V>(bounds, &axis, i, is_backward)
 }
 
 /// The comparisons of Smits, which Williams and others kept.
 #[inline(always)]
-fn overlapping<V: Vector, S: Sink<V::Real>>(
-    [x, y, z]: [Slab<V::Real>; 3],
+pub(super) fn overlapping<V: Vector, S: Sink<V::Real>>(
+    first: Slab<V::Real>,
+    others: [Slab<V::Real>; 2],
     ray: &Ray<V>,
     sink: &mut S,
 ) -> Option<Hit<V::Real>> {
-    let Slab { mut near, mut far } = x;
-    for slab in [y, z] {
+    let Slab { mut near, mut far } = first;
+    for slab in others {
         compare(sink, Comparison::NotAbove, &near, &slab.far)?;
         compare(sink, Comparison::NotAbove, &slab.near, &far)?;
         near = near.larger(slab.near);
         far = far.smaller(slab.far);
     }
-    sink.fixed(END, near.is_less(&ray.t_max) && ray.t_min.is_less(&far))?;
+    let starts_before_the_end = near.is_less(&ray.t_max);
+    let ends_after_the_start = ray.t_min.is_less(&far);
+    sink.fixed(END, starts_before_the_end && ends_after_the_start)?;
     Some(Hit::at(near))
 }

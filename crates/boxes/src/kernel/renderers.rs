@@ -7,13 +7,11 @@
 //! reciprocal is an estimate with a Newton step; here it is rounded correctly. T. Aila and S. Laine, "Understanding the
 //! Efficiency of Ray Traversal on GPUs", HPG 2009, kernels: fused operations, directions kept from 0 by 2^-80.
 
-use super::branchless::planes;
 use super::growth::{AT_MOST, Comparison, GROWTH, NOT_ABOVE, compare, everything, grown};
-use super::numbers::{Axis, Formula, Multiplied, axis, fmax, fmin, maxps, minps};
-use super::{PLAIN, contract, info};
-use crate::case::{Bounds, Boxes};
-use hairline_core::arith::{Real, Vector};
-use hairline_core::{Boundary, EpsilonSet, Extent, Gate, Hit, Kernel, KernelInfo, Ray, Role, Sink};
+use super::numbers::*;
+use super::pairwise::{by_reciprocal, overlapping};
+use super::*;
+use std::mem;
 
 pub(super) struct Pbrt;
 pub(super) struct PbrtPrecomputed;
@@ -44,24 +42,22 @@ impl Kernel<Boxes> for Pbrt {
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
         let mut near = ray.t_min.clone();
-        let mut fars: Vec<V::Real> = Vec::with_capacity(3);
+        let mut fars = Vec::with_capacity(3);
         for i in 0..3 {
-            let [first, last] = planes::<Multiplied, V>(bounds, ray, i);
-            let is_turned = last.is_less(&first);
-            let [first, last] = if is_turned {
-                [last, first]
-            } else {
-                [first, last]
-            };
-            near = near.larger(first);
+            let mut slab = unsorted::<Multiplied, V>(bounds, ray, i);
+            if slab.far.is_less(&slab.near) {
+                mem::swap(&mut slab.near, &mut slab.far);
+            }
+            near = near.larger(slab.near);
             // `far = last < far ? last : far` leaves a NaN out.
-            if !last.is_nan() {
-                fars.push(last);
+            if !slab.far.is_nan() {
+                fars.push(slab.far);
             }
             for far in &fars {
                 compare(sink, Comparison::NotAbove, &near, far)?;
             }
-            sink.fixed(END, !ray.t_max.is_less(&near))?;
+            let is_beyond = ray.t_max.is_less(&near);
+            sink.fixed(END, !is_beyond)?;
         }
         Some(Hit::at(near))
     }
@@ -90,22 +86,8 @@ impl Kernel<Boxes> for PbrtPrecomputed {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let slabs = [0, 1, 2].map(|i| {
-            let axis = axis::<Multiplied, V>(ray, i);
-            let [min, max] = [bounds.min.at(i), bounds.max.at(i)];
-            let is_backward = axis.direction.is_less(&V::Real::zero());
-            let [near, far] = if is_backward { [max, min] } else { [min, max] };
-            [Multiplied::t(&axis, near), Multiplied::t(&axis, far)]
-        });
-        let [[mut near, mut far], y, z] = slabs;
-        for [first, last] in [y, z] {
-            compare(sink, Comparison::NotAbove, &near, &last)?;
-            compare(sink, Comparison::NotAbove, &first, &far)?;
-            near = near.larger(first);
-            far = far.smaller(last);
-        }
-        sink.fixed(END, near.is_less(&ray.t_max) && ray.t_min.is_less(&far))?;
-        Some(Hit::at(near))
+        let [x, y, z] = each_axis(|i| by_reciprocal(bounds, ray, i));
+        overlapping(x, [y, z], ray, sink)
     }
 }
 
@@ -120,29 +102,17 @@ fn zero_fixed<R: Real>(direction: R) -> R {
     }
 }
 
-/// The t of the planes of an axis by Embree, near and far by the sign of the reciprocal.
+/// The ends of what the ray and the box have in common, in Embree's order.
 #[inline(always)]
-fn embree_planes<V: Vector>(
-    bounds: &Bounds<V>,
-    ray: &Ray<V>,
-    i: usize,
-    t: fn(&Axis<V::Real>, V::Real) -> V::Real,
-) -> [V::Real; 2] {
-    let axis = Axis {
-        origin: ray.origin.at(i),
-        direction: V::Real::one() / zero_fixed(ray.direction.at(i)),
-    };
-    let is_forward = V::Real::zero().is_at_most(&axis.direction);
-    let [min, max] = [bounds.min.at(i), bounds.max.at(i)];
-    let [near, far] = if is_forward { [min, max] } else { [max, min] };
-    [t(&axis, near), t(&axis, far)]
-}
-
-/// `b·rdir - org·rdir`, the second product rounded.
-#[inline(always)]
-fn fused_t<R: Real>(axis: &Axis<R>, plane: R) -> R {
-    let product = axis.origin.clone() * &axis.direction;
-    R::fused(&plane, &axis.direction, &-product.clone())
+fn embree<A: Formula, V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>) -> Slab<V::Real> {
+    let [x, y, z] = each_axis(|i| {
+        let direction = zero_fixed(ray.direction.at(i));
+        let axis = A::prepare(ray.origin.at(i), direction);
+        let is_forward = V::Real::zero().is_at_most(&axis.direction);
+        turned::<A, V>(bounds, &axis, i, !is_forward)
+    });
+    let ends = z.and(interval(ray), maxps, minps);
+    x.and(y, maxps, minps).and(ends, maxps, minps)
 }
 
 impl Kernel<Boxes> for EmbreeFast {
@@ -162,8 +132,7 @@ impl Kernel<Boxes> for EmbreeFast {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let [x, y, z] = [0, 1, 2].map(|i| embree_planes(bounds, ray, i, fused_t));
-        let [near, far] = embree_ends(ray, [x, y, z]);
+        let Slab { near, far } = embree::<Fused, V>(bounds, ray);
         compare(sink, Comparison::AtMost, &near, &far)?;
         Some(Hit::at(near))
     }
@@ -189,8 +158,7 @@ impl Kernel<Boxes> for EmbreeRobust {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let [x, y, z] = [0, 1, 2].map(|i| embree_planes(bounds, ray, i, Multiplied::t));
-        let [near, far] = embree_ends(ray, [x, y, z]);
+        let Slab { near, far } = embree::<Multiplied, V>(bounds, ray);
         let accepts = |epsilon: &V::Real| {
             let near = grown(&near, &-epsilon.clone());
             near.is_at_most(&grown(&far, epsilon))
@@ -215,15 +183,6 @@ fn both_grown<R: Real>(near: &R, far: &R) -> R {
     }
 }
 
-/// The ends of the common range, in Embree's order.
-#[inline(always)]
-fn embree_ends<V: Vector>(ray: &Ray<V>, [x, y, z]: [[V::Real; 2]; 3]) -> [V::Real; 2] {
-    let [[near_x, far_x], [near_y, far_y], [near_z, far_z]] = [x, y, z];
-    let near = maxps(maxps(near_x, near_y), maxps(near_z, ray.t_min.clone()));
-    let far = minps(minps(far_x, far_y), minps(far_z, ray.t_max.clone()));
-    [near, far]
-}
-
 impl Kernel<Boxes> for AilaLaine {
     const INFO: KernelInfo = info(
         "aila-laine",
@@ -242,19 +201,16 @@ impl Kernel<Boxes> for AilaLaine {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let [mut near, mut far] = [ray.t_min.clone(), ray.t_max.clone()];
+        let mut common = interval(ray);
         for i in 0..3 {
-            let axis = Axis {
-                origin: ray.origin.at(i),
-                direction: V::Real::one() / kept_from_zero(ray.direction.at(i)),
-            };
-            let low = fused_t(&axis, bounds.min.at(i));
-            let high = fused_t(&axis, bounds.max.at(i));
-            near = fmax(fmin(low.clone(), high.clone()), near);
-            far = fmin(fmax(low, high), far);
+            let direction = kept_from_zero(ray.direction.at(i));
+            let axis = Fused::prepare(ray.origin.at(i), direction);
+            let slab = turned::<Fused, V>(bounds, &axis, i, false);
+            let sorted = slab.sorted(fmin, fmax);
+            common = sorted.and(common, fmax, fmin);
         }
-        compare(sink, Comparison::AtMost, &near, &far)?;
-        Some(Hit::at(near))
+        compare(sink, Comparison::AtMost, &common.near, &common.far)?;
+        Some(Hit::at(common.near))
     }
 }
 

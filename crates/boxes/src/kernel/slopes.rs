@@ -5,12 +5,7 @@
 //! beyond the far planes, and where it leaves a slab it must have entered each other one. Its slopes are products with a
 //! reciprocal, as the source computes them for each ray.
 
-use super::{contract, info};
-use crate::case::{Bounds, Boxes};
-use hairline_core::arith::{Real, Vector};
-use hairline_core::{
-    Boundary, EpsilonSet, Extent, Gate, Hit, Kernel, KernelInfo, Ray, Refuse, Role, Sink,
-};
+use super::*;
 
 pub(super) struct EisemannSlopes;
 
@@ -43,23 +38,22 @@ impl Kernel<Boxes> for EisemannSlopes {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let zero = V::Real::zero();
         for i in 0..3 {
-            let [origin, direction] = [ray.origin.at(i), ray.direction.at(i)];
+            let origin = ray.origin.at(i);
             let is_below = origin.is_less(&bounds.min.at(i));
             let is_above = bounds.max.at(i).is_less(&origin);
-            if direction.is_zero() {
+            if ray.direction.at(i).is_zero() {
                 sink.fixed(PARALLEL, !is_below && !is_above)?;
+            } else if is_forward(ray, i) {
+                sink.fixed(END, !is_above)?;
             } else {
-                let is_forward = zero.is_less(&direction);
-                let is_beyond = if is_forward { is_above } else { is_below };
-                sink.fixed(END, !is_beyond)?;
+                sink.fixed(END, !is_below)?;
             }
         }
         for leaves in 0..3 {
             for enters in 0..3 {
-                let directions = [ray.direction.at(leaves), ray.direction.at(enters)];
-                if leaves == enters || directions.iter().any(Real::is_zero) {
+                let is_parallel = |i: usize| ray.direction.at(i).is_zero();
+                if leaves == enters || is_parallel(leaves) || is_parallel(enters) {
                     continue;
                 }
                 let inside = inside(bounds, ray, leaves, enters);
@@ -77,30 +71,22 @@ impl Kernel<Boxes> for EisemannSlopes {
 /// How far the line is beyond the near plane of one slab where it leaves another.
 #[inline(always)]
 fn inside<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, leaves: usize, enters: usize) -> V::Real {
-    let zero = V::Real::zero();
-    let is_forward = |i: usize| zero.is_less(&ray.direction.at(i));
     let inverse = V::Real::one() / ray.direction.at(leaves);
     let slope = ray.direction.at(enters) * &inverse;
-    let offset = ray.origin.at(enters) - slope.clone() * ray.origin.at(leaves);
-    if is_forward(leaves) {
-        let at_far = slope * bounds.max.at(leaves);
-        return oriented(bounds, enters, is_forward(enters), at_far, offset);
+    let product = slope.clone() * ray.origin.at(leaves);
+    let offset = ray.origin.at(enters) - product;
+    let far = if is_forward(ray, leaves) {
+        bounds.max.at(leaves)
+    } else {
+        bounds.min.at(leaves)
+    };
+    if is_forward(ray, enters) {
+        return slope * far - bounds.min.at(enters) + offset;
     }
-    let at_far = slope * bounds.min.at(leaves);
-    oriented(bounds, enters, is_forward(enters), at_far, offset)
+    -(slope * far - bounds.max.at(enters) + offset)
 }
 
 #[inline(always)]
-fn oriented<V: Vector>(
-    bounds: &Bounds<V>,
-    enters: usize,
-    is_forward: bool,
-    at_far: V::Real,
-    offset: V::Real,
-) -> V::Real {
-    if is_forward {
-        at_far - bounds.min.at(enters) + offset
-    } else {
-        -(at_far - bounds.max.at(enters) + offset)
-    }
+fn is_forward<V: Vector>(ray: &Ray<V>, i: usize) -> bool {
+    V::Real::zero().is_less(&ray.direction.at(i))
 }
