@@ -7,6 +7,7 @@ mod forms;
 mod hard;
 mod instance;
 mod scene;
+mod target;
 
 pub use forms::{AnyCase, AnyScalar, rust_case, rust_list};
 #[cfg(test)]
@@ -17,6 +18,7 @@ pub use scene::{
     DirectionLength, PlaneKind, RayKind, SCENES, Scene, SceneInterval, SceneKind, ScenePreset,
     Toward,
 };
+pub use target::{Target, Triangles};
 
 use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};
 use crate::error::Error;

@@ -25,12 +25,13 @@ mod signature;
 mod simplify;
 mod snippet;
 
-pub mod campaign;
 pub mod inputs;
 #[cfg(feature = "proptest")]
 pub mod strategy;
-pub mod studied;
 pub mod worst;
+
+pub mod campaign;
+pub mod studied;
 
 pub use decimal::Decimal;
 pub use domain::SearchDomain;

@@ -10,9 +10,8 @@
 use hairline_core::case;
 use hairline_core::{arith, printable, suggest};
 
-mod input_error;
-
 mod fan;
+mod input_error;
 #[cfg(feature = "text")]
 pub mod json;
 #[cfg(feature = "text")]
@@ -22,8 +21,9 @@ pub mod number;
 #[cfg(feature = "text")]
 pub mod text_lines;
 
-pub mod mesh;
 mod polygon;
+
+pub mod mesh;
 
 pub use fan::{is_without_area, winds_once};
 pub use input_error::InputError;

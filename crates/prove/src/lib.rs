@@ -51,7 +51,7 @@ pub use measures::{Limit, Measures, Sample};
 pub use names::Names;
 pub use order::{is_at_most, is_impossible};
 pub use permanent::{Relative, Roundings, relative};
-pub use run::{Number, run};
+pub use run::run;
 pub use scene::{Scene, Shape};
 pub use sizes::BySize;
 pub use statement::{Published, Triangles, about_edges, above, below, statements, units};

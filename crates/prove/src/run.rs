@@ -1,48 +1,16 @@
 //! Recorded programs, run on numbers.
 
+use crate::arith::Real;
 use crate::arith::recorded::{Operation, Place};
-use crate::arith::{Bounded, Exact, Float, Real};
-
-/// A number that a recorded program runs on.
-pub trait Number: Real {
-    /// `a*b + c`, rounded once if it rounds.
-    fn fused(a: &Self, b: &Self, c: &Self) -> Self {
-        a.clone() * b + c
-    }
-}
-
-impl Number for f32 {
-    fn fused(a: &Self, b: &Self, c: &Self) -> Self {
-        Float::mul_add(*a, *b, *c)
-    }
-}
-
-impl Number for f64 {
-    fn fused(a: &Self, b: &Self, c: &Self) -> Self {
-        Float::mul_add(*a, *b, *c)
-    }
-}
-
-impl Number for Bounded {}
-impl Number for Exact {}
 
 /// Runs a program up to a place.
-pub fn run<R: Number>(
-    operations: &[Operation],
-    last: Place,
-    inputs: &[R; 17],
-    values: &mut Vec<R>,
-) {
+pub fn run<R: Real>(operations: &[Operation], last: Place, inputs: &[R; 17], values: &mut Vec<R>) {
     values.clear();
     for operation in &operations[..=last as usize] {
         let of = |place: Place| values[place as usize].clone();
         let value = match *operation {
             Operation::Input(i) => inputs[usize::from(i)].clone(),
-            Operation::Number(0) => R::zero(),
-            Operation::Number(value) => {
-                let size = (0..value.abs()).fold(R::zero(), |sum, _| sum + R::one());
-                if value < 0 { -size } else { size }
-            }
+            Operation::Number(value) => R::number(f64::from(value)),
             Operation::Add(a, b) => of(a) + &of(b),
             Operation::Sub(a, b) => of(a) - &of(b),
             Operation::Mul(a, b) => of(a) * &of(b),

@@ -3,18 +3,18 @@
 use super::depth::Judge;
 use super::gates::Quantity;
 use super::measures::{Angle, Sample, Samples};
-use super::run::{Number, cone, run};
+use super::run::{cone, run};
 use super::{Domain, Dyadic, Leaf, Measures, Proof, Rule, Source};
 use crate::arith::recorded::{Comparison, Operation, Place};
-use crate::arith::{Bounded, Exact, Float};
+use crate::arith::{Bounded, Exact, Float, Real};
 use crate::kernel::Path;
 use std::cmp::Ordering;
 
 /// A scalar, with the arithmetic in which a search takes the exact numbers: right to far less than an ulp of
 /// the scalar. The result of a search is measured again in [`Exact`] numbers.
-pub trait Searched: Float + Number {
+pub trait Searched: Float {
     /// That arithmetic.
-    type Near: Number;
+    type Near: Real;
     /// The number in it.
     fn near(self) -> Self::Near;
     /// Near enough, as a float; none if that is not known.
@@ -277,7 +277,7 @@ impl<'a, F: Searched> Search<'a, F> {
 
     /// The score of inputs that the last run was about, and true if it is of the wanted kind; none outside the domain. In an
     /// arithmetic that is given by how it makes a number, compares one with a bound, and makes a float of one.
-    fn measure<R: Number>(
+    fn measure<R: Real>(
         &self,
         inputs: &Inputs<F>,
         goal: Goal,

@@ -324,6 +324,9 @@ impl Real for Bounded {
     fn one() -> Self {
         Bounded::exact(1.0)
     }
+    fn number(value: f64) -> Self {
+        Bounded::new(value)
+    }
     fn abs(&self) -> Self {
         // Where the sign is not certain either reading keeps |x| within the error.
         if self.high < 0.0 { -*self } else { *self }

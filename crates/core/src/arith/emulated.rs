@@ -171,6 +171,9 @@ impl<F: Float, N: Notes> Real for Rounded<F, N> {
     fn one() -> Self {
         Rounded::constant(F::one())
     }
+    fn number(value: f64) -> Self {
+        Rounded::constant(F::from_f64(value))
+    }
     fn abs(&self) -> Self {
         Rounded {
             value: self.value.abs(),
@@ -219,6 +222,12 @@ impl<F: Float, N: Notes> Real for Rounded<F, N> {
             .fold(Arithmetic::IEEE, |both, x| both.and(x.arithmetic));
         let before = all.iter().fold(N::default(), |both, x| both.and(x.notes));
         let operation = RoundedOperation::Minor(a.value, b.value, c.value, d.value);
+        Rounded::made(operation, arithmetic, before)
+    }
+    fn fused(a: &Self, b: &Self, c: &Self) -> Self {
+        let arithmetic = a.arithmetic.and(b.arithmetic).and(c.arithmetic);
+        let before = a.notes.and(b.notes).and(c.notes);
+        let operation = RoundedOperation::Fused(a.value, b.value, c.value);
         Rounded::made(operation, arithmetic, before)
     }
     fn largest_accepted(accepts: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self {

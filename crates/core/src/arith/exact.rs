@@ -262,6 +262,9 @@ impl Real for Exact {
     fn one() -> Self {
         Exact::from_f64(1.0)
     }
+    fn number(value: f64) -> Self {
+        Exact::from_f64(value)
+    }
     fn abs(&self) -> Self {
         if self.sign() == Some(Ordering::Less) {
             self.negation()

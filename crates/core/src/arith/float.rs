@@ -164,6 +164,10 @@ macro_rules! float {
                 1.0
             }
             #[inline(always)]
+            fn number(value: f64) -> Self {
+                value as $scalar
+            }
+            #[inline(always)]
             fn abs(&self) -> Self {
                 $scalar::abs(*self)
             }
@@ -210,6 +214,10 @@ macro_rules! float {
             #[inline]
             fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
                 $wide(*a, *b, *c, *d)
+            }
+            #[inline]
+            fn fused(a: &Self, b: &Self, c: &Self) -> Self {
+                $scalar::mul_add(*a, *b, *c)
             }
             fn largest_accepted(
                 accepts: impl Fn(&Self) -> bool,

@@ -96,6 +96,8 @@ pub trait Real:
     fn zero() -> Self;
     /// One.
     fn one() -> Self;
+    /// A constant of a source, rounded to the arithmetic's format.
+    fn number(value: f64) -> Self;
     /// Absolute value.
     fn abs(&self) -> Self;
     /// Square root; NaN of a negative number.
@@ -132,6 +134,10 @@ pub trait Real:
     /// by exact products (an addition of this project), exact numbers as they are.
     fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
         a.clone() * b - c.clone() * d
+    }
+    /// `a*b + c`, rounded once where a source calls for the fused operation itself, in whatever arithmetic.
+    fn fused(a: &Self, b: &Self, c: &Self) -> Self {
+        a.clone() * b + c
     }
     /// The largest epsilon at which `accepts` still holds, for a test in which the source rounds
     /// with the epsilon in it. `accepts` is monotone: once false it stays false as its argument

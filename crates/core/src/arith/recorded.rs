@@ -348,6 +348,15 @@ impl Real for Recorded {
     fn one() -> Self {
         Recorded::at(Operation::Number(1))
     }
+    /// A small whole number; any other stands in as infinity does, and its program is not analysed.
+    fn number(value: f64) -> Self {
+        let whole = value as i32;
+        if f64::from(whole) == value {
+            Recorded::at(Operation::Number(whole))
+        } else {
+            Recorded::infinity()
+        }
+    }
     fn abs(&self) -> Self {
         Recorded::at(Operation::Abs(self.place))
     }
@@ -391,5 +400,8 @@ impl Real for Recorded {
     }
     fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
         Recorded::at(Operation::Minor(a.place, b.place, c.place, d.place))
+    }
+    fn fused(a: &Self, b: &Self, c: &Self) -> Self {
+        Recorded::at(Operation::Fma(a.place, b.place, c.place))
     }
 }

@@ -3,37 +3,37 @@
 use super::subject::Subject;
 use super::{Deciding, Kernel, KernelInfo, Verdict};
 use crate::arith::{Arithmetic, Float};
-use crate::case::{Case, Ray};
+use crate::case::{Ray, Target, Triangles};
 use std::marker::PhantomData;
 #[cfg(feature = "margins")]
 use {super::Hit, super::margins::each_case, super::subject::Gated};
 
 /// A [`Kernel`], written for every arithmetic, as a [`Subject`] of either scalar, in some [`Arithmetic`]. Without
 /// rounding it is the same kernel in all of them.
-pub struct Generic<K> {
+pub struct Generic<K, T: Target = Triangles> {
     pub(super) arithmetic: Arithmetic,
     pub(super) info: &'static KernelInfo,
-    kernel: PhantomData<fn() -> K>,
+    kernel: PhantomData<fn() -> (K, T)>,
 }
 
-impl<K: Kernel> Generic<K> {
+impl<T: Target, K: Kernel<T>> Generic<K, T> {
     /// In the machine's own arithmetic.
-    pub const SUBJECT: Generic<K> = Generic {
+    pub const SUBJECT: Generic<K, T> = Generic {
         arithmetic: Arithmetic::IEEE,
         info: &const { K::INFO },
         kernel: PhantomData,
     };
 }
 
-impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
-    fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+impl<F: Float, T: Target, K: Kernel<T>> Subject<F, T> for Generic<K, T> {
+    fn run(&self, cases: &[T::Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         #[cfg(feature = "margins")]
         if self.arithmetic != Arithmetic::IEEE {
             return self.run_emulated(cases, epsilons, verdicts);
         }
         for (case, verdict) in cases.iter().zip(verdicts) {
             let mut sink = Deciding::new(epsilons);
-            let hit = K::test(&K::prepare(&case.triangle), &case.ray, &mut sink);
+            let hit = K::test(&K::prepare(T::shape(case)), T::ray(case), &mut sink);
             *verdict = Verdict::of(hit, sink.refused_by);
         }
     }
@@ -54,7 +54,7 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
     }
 
     #[cfg(feature = "margins")]
-    fn gated(&self) -> Option<&dyn Gated<F>> {
+    fn gated(&self) -> Option<&dyn Gated<F, T>> {
         Some(self)
     }
 
@@ -62,7 +62,7 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
     fn margins(
         &self,
         info: &KernelInfo,
-        cases: &[Case<F>],
+        cases: &[T::Case<F>],
         margins: &mut [F],
         values: &mut [Option<Hit<F>>],
     ) {
@@ -76,8 +76,8 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
         &self,
         arithmetic: Arithmetic,
         info: &'static KernelInfo,
-    ) -> Option<&'static dyn Subject<F>> {
-        Some(Box::leak(Box::new(Generic::<K> {
+    ) -> Option<&'static dyn Subject<F, T>> {
+        Some(Box::leak(Box::new(Generic::<K, T> {
             arithmetic,
             info,
             kernel: PhantomData,

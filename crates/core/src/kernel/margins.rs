@@ -2,7 +2,6 @@
 
 use super::{Hit, KernelInfo, Tunable, Verdict};
 use crate::arith::Float;
-use crate::case::Case;
 
 /// By gate, the epsilon that lets the most through: 0 where smaller ones mean the same, otherwise the
 /// smallest number.
@@ -71,12 +70,12 @@ pub fn by_running<F: Float>(
 
 /// Measures case by case: margins into one entry a gate for each case in turn, and what a hit would report into
 /// `values`, unless that is empty.
-pub fn each_case<F: Float>(
+pub fn each_case<F: Float, C>(
     info: &KernelInfo,
-    cases: &[Case<F>],
+    cases: &[C],
     margins: &mut [F],
     values: &mut [Option<Hit<F>>],
-    mut measure: impl FnMut(&Case<F>, &mut [F]) -> Option<Hit<F>>,
+    mut measure: impl FnMut(&C, &mut [F]) -> Option<Hit<F>>,
 ) {
     let width = info.gates.len();
     for (i, case) in cases.iter().enumerate() {

@@ -22,6 +22,7 @@ macro_rules! stores_triangle {
 }
 
 mod changed;
+mod epsilon_text;
 pub mod gate;
 mod generic;
 mod margins;
@@ -46,6 +47,7 @@ mod scalar_triple;
 mod woop_watertight;
 
 pub use changed::{Change, has_size, refuses_at};
+pub use epsilon_text::EpsilonText;
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, refused_by};
 pub use generic::Generic;
 pub use margins::{by_running, open_epsilons, values_of};
@@ -53,7 +55,8 @@ pub use preset::{PRESETS, Preset, PresetEntry};
 pub use recording::{Acceptance, Compared, Path};
 pub use registry::kept;
 pub use registry::{
-    Entry, KERNELS, Scalar, all, changed, check_name, find, forms, in_arithmetic, register, unnamed,
+    Entry, KERNELS, Scalar, Table, all, changed, check_name, find, forms, in_arithmetic, register,
+    unnamed,
 };
 pub use runs::{ExactRun, Measured, TrackedRun};
 pub use subject::verdicts_of;
@@ -61,19 +64,19 @@ pub use subject::{Gated, Subject, Test};
 pub use verdict::{Failure, Verdict};
 
 use crate::arith::{Real, Vector};
-use crate::case::{Ray, Triangle};
+use crate::case::{Ray, Target, Triangles};
 use crate::contract::Contract;
 use crate::truth::Facing;
 
-/// A ray–triangle kernel, written once for every arithmetic.
-pub trait Kernel: Sync + 'static {
+/// A kernel, written once for every arithmetic: a ray–triangle test, or a test of another target.
+pub trait Kernel<T: Target = Triangles>: Sync + 'static {
     /// The description of the kernel, with its promise.
     const INFO: KernelInfo;
-    /// The data that it stores for a triangle.
+    /// The data that it stores for a shape.
     type Prepared<V: Vector>;
 
-    /// Computes what the source computes for each triangle ahead of any ray.
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Self::Prepared<V>;
+    /// Computes what the source computes for each shape ahead of any ray.
+    fn prepare<V: Vector>(shape: &T::Shape<V>) -> Self::Prepared<V>;
 
     /// The test of the source, in its order of operations and with its comparisons. A sink that does not
     /// stop at a refusal gets every margin; the result then does not say whether the ray hits.

@@ -6,7 +6,7 @@ use crate::arith::recorded::{
     next_script, outcomes, record,
 };
 use crate::arith::{Arithmetic, Real};
-use crate::case::lifted;
+use crate::case::Target;
 
 /// How many paths a kernel may have. Woop's has 2,304.
 const MOST_PATHS: usize = 1 << 14;
@@ -128,14 +128,14 @@ impl Sink<Recorded> for Recording {
 }
 
 /// Every path of a kernel in an arithmetic; an error in one sentence if it has no program, or too many paths.
-pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, String> {
+pub(super) fn paths<T: Target, K: Kernel<T>>(arithmetic: Arithmetic) -> Result<Vec<Path>, String> {
     if arithmetic.flushed {
         return Err("its arithmetic flushes subnormal numbers to zero".to_owned());
     }
     let mut paths = Vec::new();
     let mut script = Vec::new();
     loop {
-        let ((sink, hit), tape) = record(&script, arithmetic.fused, || run::<K>(None));
+        let ((sink, hit), tape) = record(&script, arithmetic.fused, || run::<T, K>(None));
         let decisions = tape.decisions.made;
         if tape.operations.contains(&Operation::INFINITY) {
             return Err("it computes with infinity".to_owned());
@@ -159,7 +159,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
             if paths.last().is_some_and(decided) {
                 continue;
             }
-            let refused = || run::<K>(Some(number));
+            let refused = || run::<T, K>(Some(number));
             let ((sink, hit), tape) = record(&script, arithmetic.fused, refused);
             let goes_on = sink.compared.len() > number + 1 || tape.decisions.made.len() > *before;
             if hit.is_some() || goes_on {
@@ -186,13 +186,13 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
 }
 
 /// Records a run: the gates' comparisons, of which one may refuse, and t, u and v if the run is a hit.
-fn run<K: Kernel>(refused: Option<usize>) -> (Recording, Option<[Option<Place>; 3]>) {
-    let (ray, triangle) = lifted(|i| Recorded::input(i as u8));
+fn run<T: Target, K: Kernel<T>>(refused: Option<usize>) -> (Recording, Option<[Option<Place>; 3]>) {
+    let (ray, shape) = T::placed(|i| Recorded::input(i as u8));
     let mut sink = Recording {
         refused,
         ..Recording::default()
     };
-    let prepared = K::prepare(&triangle);
+    let prepared = K::prepare(&shape);
     sink.asked = asked_so_far();
     let hit = K::test(&prepared, &ray, &mut sink).map(|hit| {
         let (u, v) = hit.uv.unzip();

@@ -1,27 +1,28 @@
-//! The table of kernels: the built-in ones, and those that a program adds.
+//! The tables of kernels, one a target: the built-in ones, and those that a program adds.
 
 use super::changed::{Change, Changed, InDouble, WithFallback, has_size, sized};
 use super::subject::{Own, Test};
 use super::{Gate, Generic, Kernel, KernelInfo, Role, Subject};
 use crate::arith::{Arithmetic, Float};
+use crate::case::{Target, Triangles};
 use crate::contract::{Contract, Extent, Sides};
 use std::ptr;
 use std::sync::{Mutex, PoisonError, RwLock};
 
 /// A row: a kernel in one or both scalars.
 #[derive(Clone, Copy)]
-pub struct Entry {
+pub struct Entry<T: Target = Triangles> {
     /// The description of the kernel, with its promise.
     pub info: &'static KernelInfo,
     /// The flag that chooses it on a command line, if not `--kernel` with its name.
     flag: Option<&'static str>,
-    f32: Option<&'static dyn Subject<f32>>,
-    f64: Option<&'static dyn Subject<f64>>,
+    f32: Option<&'static dyn Subject<f32, T>>,
+    f64: Option<&'static dyn Subject<f64, T>>,
 }
 
-impl Entry {
-    /// A kernel that runs in no scalar yet: [`Entry::f32`] and [`Entry::f64`] give it its tests.
-    pub const fn new(info: &'static KernelInfo) -> Entry {
+impl<T: Target> Entry<T> {
+    /// A kernel of any target that runs in no scalar yet; [`Entry::new`] is the same for triangles.
+    pub const fn described(info: &'static KernelInfo) -> Entry<T> {
         Entry {
             info,
             flag: None,
@@ -31,22 +32,22 @@ impl Entry {
     }
 
     /// A kernel written for every arithmetic: both scalars, margins and exact runs.
-    pub const fn of<K: Kernel>() -> Entry {
+    pub const fn of<K: Kernel<T>>() -> Entry<T> {
         Entry {
             info: &const { K::INFO },
             flag: None,
-            f32: Some(const { &Generic::<K>::SUBJECT }),
-            f64: Some(const { &Generic::<K>::SUBJECT }),
+            f32: Some(const { &Generic::<K, T>::SUBJECT }),
+            f64: Some(const { &Generic::<K, T>::SUBJECT }),
         }
     }
 
     /// The same with a test in `f32`, which lives as long as the process.
-    pub fn f32(self, test: impl Test<f32> + 'static) -> Entry {
+    pub fn f32(self, test: impl Test<f32, T> + 'static) -> Entry<T> {
         self.with_f32(Box::leak(Box::new(Own::new(test))))
     }
 
     /// The same with a test in `f64`, which lives as long as the process.
-    pub fn f64(self, test: impl Test<f64> + 'static) -> Entry {
+    pub fn f64(self, test: impl Test<f64, T> + 'static) -> Entry<T> {
         self.with_f64(Box::leak(Box::new(Own::new(test))))
     }
 
@@ -69,7 +70,7 @@ impl Entry {
     }
 
     /// The same with a subject in `f32`.
-    pub const fn with_f32(self, subject: &'static dyn Subject<f32>) -> Entry {
+    pub const fn with_f32(self, subject: &'static dyn Subject<f32, T>) -> Entry<T> {
         Entry {
             f32: Some(subject),
             ..self
@@ -77,7 +78,7 @@ impl Entry {
     }
 
     /// The same with a subject in `f64`.
-    pub const fn with_f64(self, subject: &'static dyn Subject<f64>) -> Entry {
+    pub const fn with_f64(self, subject: &'static dyn Subject<f64, T>) -> Entry<T> {
         Entry {
             f64: Some(subject),
             ..self
@@ -85,7 +86,7 @@ impl Entry {
     }
 
     /// The same, chosen on a command line by another flag than `--kernel` with its name.
-    pub const fn chosen_by(self, flag: &'static str) -> Entry {
+    pub const fn chosen_by(self, flag: &'static str) -> Entry<T> {
         Entry {
             flag: Some(flag),
             ..self
@@ -109,19 +110,12 @@ impl Entry {
         [self.f32.is_some(), self.f64.is_some()]
     }
 
-    /// True if a program has it without adding it, in whatever arithmetic.
-    pub fn is_built_in(&self) -> bool {
-        let name = self.info.name;
-        let name = name_and_variant(name).map_or(name, |(kernel, _)| kernel);
-        KERNELS.iter().any(|entry| entry.info.name == name)
-    }
-
     /// True if it is the same kernel with the same code.
-    fn is(&self, other: &Entry) -> bool {
+    fn is(&self, other: &Entry<T>) -> bool {
         // Subjects without size share their address, so that their methods count too; methods that are
         // in two places make the same kernel two, which is no harm.
         #[allow(ambiguous_wide_pointer_comparisons)]
-        fn same<T: ?Sized>(a: Option<&T>, b: Option<&T>) -> bool {
+        fn same<S: ?Sized>(a: Option<&S>, b: Option<&S>) -> bool {
             a.map(ptr::from_ref) == b.map(ptr::from_ref)
         }
         ptr::eq(self.info, other.info)
@@ -134,6 +128,155 @@ impl Entry {
     pub fn selector(&self) -> String {
         self.flag
             .map_or_else(|| format!("--kernel {}", self.info.name), str::to_owned)
+    }
+}
+
+impl Entry {
+    /// A kernel that runs in no scalar yet: [`Entry::f32`] and [`Entry::f64`] give it its tests.
+    pub const fn new(info: &'static KernelInfo) -> Entry {
+        Entry::described(info)
+    }
+
+    /// True if a program has it without adding it, in whatever arithmetic.
+    pub fn is_built_in(&self) -> bool {
+        let name = self.info.name;
+        let name = name_and_variant(name).map_or(name, |(kernel, _)| kernel);
+        KERNELS.iter().any(|entry| entry.info.name == name)
+    }
+}
+
+/// The kernels of a target.
+pub struct Table<T: Target> {
+    built_in: &'static [Entry<T>],
+    /// The kernels that programs added to the built-in ones.
+    added: RwLock<Vec<&'static Entry<T>>>,
+    /// The kernels in other forms that have been requested by name so far.
+    variants: RwLock<Vec<&'static Entry<T>>>,
+}
+
+impl<T: Target> Table<T> {
+    /// With the built-in kernels alone.
+    pub const fn new(built_in: &'static [Entry<T>]) -> Table<T> {
+        Table {
+            built_in,
+            added: RwLock::new(Vec::new()),
+            variants: RwLock::new(Vec::new()),
+        }
+    }
+
+    /// Every kernel: the added ones, then the built-in ones in the order of reports.
+    pub fn all(&self) -> Vec<&'static Entry<T>> {
+        let added = self.added.read().unwrap_or_else(PoisonError::into_inner);
+        added.iter().copied().chain(self.built_in).collect()
+    }
+
+    /// The kernel of a name; with the feature `margins` also in another arithmetic, as `moller-trumbore+fma`.
+    pub fn find(&self, name: &str) -> Option<&'static Entry<T>> {
+        if let Some((kernel, KernelForm::InArithmetic(arithmetic))) = name_and_variant(name) {
+            return self.in_arithmetic(self.find(kernel)?, arithmetic);
+        }
+        let is_named = |entry: &&'static Entry<T>| entry.info.name == name;
+        let added = || {
+            self.added
+                .read()
+                .unwrap_or_else(PoisonError::into_inner)
+                .iter()
+                .copied()
+                .find(is_named)
+        };
+        self.built_in.iter().find(is_named).or_else(added)
+    }
+
+    /// A kernel in an arithmetic, called `NAME+ARITHMETIC` unless that is IEEE 754's; none if the
+    /// kernel is not written for every arithmetic, or is in another one already.
+    pub fn in_arithmetic(
+        &self,
+        entry: &'static Entry<T>,
+        arithmetic: Arithmetic,
+    ) -> Option<&'static Entry<T>> {
+        if arithmetic == Arithmetic::IEEE {
+            return Some(entry);
+        }
+        let subjects = |info| {
+            let f32 = entry.f32?.in_arithmetic(arithmetic, info)?;
+            Some((Some(f32), Some(entry.f64?.in_arithmetic(arithmetic, info)?)))
+        };
+        let told = || Some((entry.info.contract, entry.info.gates));
+        self.variant(
+            entry,
+            (arithmetic.name(), arithmetic.describe()),
+            told,
+            subjects,
+        )
+    }
+
+    /// Another form of a kernel, made once; none of one that is in another form already.
+    fn variant(
+        &self,
+        entry: &'static Entry<T>,
+        (form, about): (&str, &str),
+        told: impl FnOnce() -> Option<(Contract, &'static [Gate])>,
+        subjects: impl FnOnce(&'static KernelInfo) -> Option<Subjects<T>>,
+    ) -> Option<&'static Entry<T>> {
+        let base = entry.info;
+        if name_and_variant(base.name).is_some() {
+            return None;
+        }
+        let name = format!("{}+{form}", base.name);
+        let mut variants = self
+            .variants
+            .write()
+            .unwrap_or_else(PoisonError::into_inner);
+        if let Some(variant) = variants.iter().find(|variant| variant.info.name == name) {
+            return Some(*variant);
+        }
+        let source = format!("{}; {about}", base.source);
+        let (contract, gates) = told()?;
+        let info: &'static KernelInfo = Box::leak(Box::new(KernelInfo {
+            name: String::leak(name),
+            source: String::leak(source),
+            contract,
+            gates,
+            ..*base
+        }));
+        let (f32, f64) = subjects(info)?;
+        let variant: &'static Entry<T> = Box::leak(Box::new(Entry {
+            info,
+            flag: None,
+            f32,
+            f64,
+        }));
+        variants.push(variant);
+        Some(variant)
+    }
+
+    /// Adds a kernel for the rest of the process; every command then knows its name. An error if the
+    /// name is empty, taken, or not a word.
+    pub fn register(&self, entry: Entry<T>) -> Result<&'static Entry<T>, String> {
+        let name = entry.info.name;
+        check_name(name)?;
+        if let Some((kernel, form)) = name_and_variant(name) {
+            let form_of = match form {
+                KernelForm::InArithmetic(_) => "a kernel in another arithmetic",
+                KernelForm::With(_) => "a changed kernel",
+            };
+            let form = &name[kernel.len()..];
+            return Err(format!(
+                "'{name}' is no name for a kernel: {form} names {form_of}"
+            ));
+        }
+        if self.find(name).is_some() {
+            return Err(format!(
+                "there are two kernels of the name '{name}' (to compare two builds, audit each with --format json, \
+                 and see hairline diff)"
+            ));
+        }
+        let entry: &'static Entry<T> = Box::leak(Box::new(entry));
+        self.added
+            .write()
+            .unwrap_or_else(PoisonError::into_inner)
+            .push(entry);
+        Ok(entry)
     }
 }
 
@@ -158,13 +301,12 @@ pub static KERNELS: &[Entry] = &[
     Entry::of::<super::havel_herout::HavelHerout>(),
 ];
 
-/// The kernels that programs added to the built-in ones.
-static ADDED: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
+/// The kernels of triangles.
+static TRIANGLES: Table<Triangles> = Table::new(KERNELS);
 
 /// Every kernel: the added ones, then the built-in ones in the order of reports.
 pub fn all() -> Vec<&'static Entry> {
-    let added = ADDED.read().unwrap_or_else(PoisonError::into_inner);
-    added.iter().copied().chain(KERNELS).collect()
+    TRIANGLES.all()
 }
 
 /// The kernels of a run that names none: those of the program's author, if it has some, or else all.
@@ -177,26 +319,10 @@ pub fn unnamed() -> Vec<&'static Entry> {
     all
 }
 
-/// The kernels in other arithmetics that have been requested by name so far.
-static VARIANTS: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
-
 /// A kernel in an arithmetic, called `NAME+ARITHMETIC` unless that is IEEE 754's; none if the
 /// kernel is not written for every arithmetic, or is in another one already.
 pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'static Entry> {
-    if arithmetic == Arithmetic::IEEE {
-        return Some(entry);
-    }
-    let subjects = |info| {
-        let f32 = entry.f32?.in_arithmetic(arithmetic, info)?;
-        Some((Some(f32), Some(entry.f64?.in_arithmetic(arithmetic, info)?)))
-    };
-    let told = || Some((entry.info.contract, entry.info.gates));
-    variant(
-        entry,
-        (arithmetic.name(), arithmetic.describe()),
-        told,
-        subjects,
-    )
+    TRIANGLES.in_arithmetic(entry, arithmetic)
 }
 
 /// The forms that a kernel has, as its name takes them after a `+`, each with its meaning.
@@ -270,50 +396,14 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
             entry.f64.map(|kernel| leaked(change, gates, kernel)),
         )),
     };
-    variant(entry, (change.name(), change.about()), told, subjects)
+    TRIANGLES.variant(entry, (change.name(), change.about()), told, subjects)
 }
 
 /// The same kernel in both scalars, in another form.
-type Subjects = (
-    Option<&'static dyn Subject<f32>>,
-    Option<&'static dyn Subject<f64>>,
+type Subjects<T> = (
+    Option<&'static dyn Subject<f32, T>>,
+    Option<&'static dyn Subject<f64, T>>,
 );
-
-/// Another form of a kernel, made once; none of one that is in another form already.
-fn variant(
-    entry: &'static Entry,
-    (form, about): (&str, &str),
-    told: impl FnOnce() -> Option<(Contract, &'static [Gate])>,
-    subjects: impl FnOnce(&'static KernelInfo) -> Option<Subjects>,
-) -> Option<&'static Entry> {
-    let base = entry.info;
-    if name_and_variant(base.name).is_some() {
-        return None;
-    }
-    let name = format!("{}+{form}", base.name);
-    let mut variants = VARIANTS.write().unwrap_or_else(PoisonError::into_inner);
-    if let Some(variant) = variants.iter().find(|variant| variant.info.name == name) {
-        return Some(*variant);
-    }
-    let source = format!("{}; {about}", base.source);
-    let (contract, gates) = told()?;
-    let info: &'static KernelInfo = Box::leak(Box::new(KernelInfo {
-        name: String::leak(name),
-        source: String::leak(source),
-        contract,
-        gates,
-        ..*base
-    }));
-    let (f32, f64) = subjects(info)?;
-    let variant: &'static Entry = Box::leak(Box::new(Entry {
-        info,
-        flag: None,
-        f32,
-        f64,
-    }));
-    variants.push(variant);
-    Some(variant)
-}
 
 /// The form of a kernel that stands behind a `+` in a name.
 enum KernelForm {
@@ -363,68 +453,32 @@ pub fn check_name(name: &str) -> Result<(), String> {
 /// Adds a kernel for the rest of the process; every command then knows its name. An error if the
 /// name is empty, taken, or not a word.
 pub fn register(entry: Entry) -> Result<&'static Entry, String> {
-    let name = entry.info.name;
-    check_name(name)?;
-    if let Some((kernel, form)) = name_and_variant(name) {
-        let form_of = match form {
-            KernelForm::InArithmetic(_) => "a kernel in another arithmetic",
-            KernelForm::With(_) => "a changed kernel",
-        };
-        let form = &name[kernel.len()..];
-        return Err(format!(
-            "'{name}' is no name for a kernel: {form} names {form_of}"
-        ));
-    }
-    if find(name).is_some() {
-        return Err(format!(
-            "there are two kernels of the name '{name}' (to compare two builds, audit each with --format json, \
-             and see hairline diff)"
-        ));
-    }
-    let entry: &'static Entry = Box::leak(Box::new(entry));
-    ADDED
-        .write()
-        .unwrap_or_else(PoisonError::into_inner)
-        .push(entry);
-    Ok(entry)
+    TRIANGLES.register(entry)
 }
 
 /// The kernel of a name; with the feature `studies` also in another arithmetic, as `moller-trumbore+fma`, or with a
 /// [`Change`], as `moller-trumbore+sorted`.
 pub fn find(name: &str) -> Option<&'static Entry> {
-    if let Some((kernel, form)) = name_and_variant(name) {
-        let kernel = find(kernel)?;
-        return match form {
-            KernelForm::InArithmetic(arithmetic) => in_arithmetic(kernel, arithmetic),
-            KernelForm::With(change) => changed(kernel, change),
-        };
+    match name_and_variant(name) {
+        Some((kernel, KernelForm::With(change))) => changed(find(kernel)?, change),
+        _ => TRIANGLES.find(name),
     }
-    let is_named = |entry: &&'static Entry| entry.info.name == name;
-    let added = || {
-        ADDED
-            .read()
-            .unwrap_or_else(PoisonError::into_inner)
-            .iter()
-            .copied()
-            .find(is_named)
-    };
-    KERNELS.iter().find(is_named).or_else(added)
 }
 
 /// A scalar that kernels are registered in.
 pub trait Scalar: Float {
     /// The kernel of a row, if it runs in this scalar.
-    fn subject(entry: &Entry) -> Option<&'static dyn Subject<Self>>;
+    fn subject<T: Target>(entry: &Entry<T>) -> Option<&'static dyn Subject<Self, T>>;
 }
 
 impl Scalar for f32 {
-    fn subject(entry: &Entry) -> Option<&'static dyn Subject<f32>> {
+    fn subject<T: Target>(entry: &Entry<T>) -> Option<&'static dyn Subject<f32, T>> {
         entry.f32
     }
 }
 
 impl Scalar for f64 {
-    fn subject(entry: &Entry) -> Option<&'static dyn Subject<f64>> {
+    fn subject<T: Target>(entry: &Entry<T>) -> Option<&'static dyn Subject<f64, T>> {
         entry.f64
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Deciding, Hit, Kernel, Verdict};
 use crate::arith::{Arithmetic, Exceptions, Float, Notes, Real, Tracked, tracked};
-use crate::case::Case;
+use crate::case::Target;
 use crate::truth::Facing;
 
 /// The margins of one case, and the values computed along the way.
@@ -61,16 +61,16 @@ pub struct TrackedRun<F> {
 
 impl<F: Float> TrackedRun<F> {
     /// The run of a kernel in some arithmetic.
-    pub(super) fn of<K: Kernel>(
-        case: &Case<F>,
+    pub(super) fn of<T: Target, K: Kernel<T>>(
+        case: &T::Case<F>,
         epsilons: &[F],
         arithmetic: Arithmetic,
     ) -> TrackedRun<F> {
         let number = |x: F| Tracked::new(x, arithmetic);
-        let (ray, triangle) = case.lift(number);
+        let (ray, shape) = T::lift(case, number);
         let epsilons: Vec<_> = epsilons.iter().map(|e| number(*e)).collect();
         let mut sink = Deciding::new(&epsilons);
-        let (hit, decision) = tracked(|| K::test(&K::prepare(&triangle), &ray, &mut sink));
+        let (hit, decision) = tracked(|| K::test(&K::prepare(&shape), &ray, &mut sink));
         let numbers = hit.iter().flat_map(Hit::numbers);
         let values = numbers.fold(Exceptions::default(), |all, x| all.and(x.notes()));
         let verdict = Verdict::of(hit.map(|hit| hit.map(|x| x.value())), sink.refused_by);

@@ -7,53 +7,56 @@ use super::runs::{ExactRun, Measured, TrackedRun};
 use super::subject::Gated;
 use super::{Deciding, Generic, Hit, Kernel, KernelInfo, Measuring, Verdict};
 use crate::arith::{Arithmetic, Bounded, Emulated, Exact, Float, Real, Triple, bounded};
-use crate::case::{Case, Ray, Triangle};
+use crate::case::{Case, Ray, Target, Triangle, Triangles};
 
 /// A case in an arithmetic that is not the machine's own.
-struct Lifted<R: Real> {
+struct Lifted<R: Real, T: Target> {
     ray: Ray<Triple<R>>,
-    triangle: Triangle<Triple<R>>,
+    shape: T::Shape<Triple<R>>,
 }
 
-impl<R: Real> Lifted<R> {
-    fn new<F: Float>(case: &Case<F>, number: impl Fn(F) -> R) -> Lifted<R> {
-        let (ray, triangle) = case.lift(number);
-        Lifted { ray, triangle }
+impl<R: Real, T: Target> Lifted<R, T> {
+    fn new<F: Float>(case: &T::Case<F>, number: impl Fn(F) -> R) -> Lifted<R, T> {
+        let (ray, shape) = T::lift(case, number);
+        Lifted { ray, shape }
     }
 
     /// Not inlined, and one for both sinks: a kernel's code is large, and compiled for every arithmetic.
     #[inline(never)]
-    fn test<K: Kernel>(
+    fn test<K: Kernel<T>>(
         &self,
         sink: &mut Either<&mut Deciding<R>, &mut Measuring<R>>,
     ) -> Option<Hit<R>> {
-        K::test(&K::prepare(&self.triangle), &self.ray, sink)
+        K::test(&K::prepare(&self.shape), &self.ray, sink)
     }
 }
 
 /// A run in an arithmetic that does not round. Both scalars share it, so that a kernel is compiled once for it.
-fn run<F: Float, K: Kernel, R: Real>(
-    case: &Case<F>,
+fn run<F: Float, T: Target, K: Kernel<T>, R: Real>(
+    case: &T::Case<F>,
     epsilons: &[F],
     number: fn(f64) -> R,
 ) -> ExactRun {
     let epsilons: Vec<R> = epsilons.iter().map(|e| number(e.to_f64())).collect();
     let mut watching = Deciding::watching(&epsilons);
-    let lifted = Lifted::new(case, |x| number(x.to_f64()));
+    let lifted = Lifted::<R, T>::new(case, |x: F| number(x.to_f64()));
     let values = lifted.test::<K>(&mut Either::One(&mut watching));
     ExactRun::of(watching.passed, values)
 }
 
 /// A run in the machine's own arithmetic that takes margins or thresholds. Not inlined, as above.
 #[inline(never)]
-fn measure<F: Float, K: Kernel>(case: &Case<F>, mut sink: Measuring<F>) -> Option<Hit<F>> {
-    K::test(&K::prepare(&case.triangle), &case.ray, &mut sink)
+fn measure<F: Float, T: Target, K: Kernel<T>>(
+    case: &T::Case<F>,
+    mut sink: Measuring<F>,
+) -> Option<Hit<F>> {
+    K::test(&K::prepare(T::shape(case)), T::ray(case), &mut sink)
 }
 
 /// As another machine computes.
-impl<K: Kernel> Generic<K> {
-    fn emulated<F: Float>(&self, case: &Case<F>) -> Lifted<Emulated<F>> {
-        Lifted::new(case, |x| Emulated::new(x, self.arithmetic))
+impl<T: Target, K: Kernel<T>> Generic<K, T> {
+    fn emulated<F: Float, U: Target>(&self, case: &U::Case<F>) -> Lifted<Emulated<F>, U> {
+        Lifted::new(case, |x: F| Emulated::new(x, self.arithmetic))
     }
 
     fn numbers<F: Float>(&self, values: &[F]) -> Vec<Emulated<F>> {
@@ -66,14 +69,15 @@ impl<K: Kernel> Generic<K> {
     /// [`Subject::run`](super::Subject::run).
     pub(super) fn run_emulated<F: Float>(
         &self,
-        cases: &[Case<F>],
+        cases: &[T::Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
     ) {
         let epsilons = self.numbers(epsilons);
         for (case, place) in cases.iter().zip(verdicts) {
             let mut sink = Deciding::new(&epsilons);
-            let hit = self.emulated(case).test::<K>(&mut Either::One(&mut sink));
+            let lifted = self.emulated::<F, T>(case);
+            let hit = lifted.test::<K>(&mut Either::One(&mut sink));
             *place = verdict(hit, sink.refused_by);
         }
     }
@@ -88,7 +92,7 @@ impl<K: Kernel> Generic<K> {
         // A case has room for a ray and three vertices.
         let lifted = |vertex: &F::Vector| {
             let triangle = Triangle::new(*vertex, *vertex, *vertex);
-            self.emulated(&Case {
+            self.emulated::<F, Triangles>(&Case {
                 ray: *ray,
                 triangle,
             })
@@ -98,7 +102,7 @@ impl<K: Kernel> Generic<K> {
         };
         let vertices: Vec<_> = vertices
             .iter()
-            .map(|vertex| lifted(vertex).triangle.a)
+            .map(|vertex| lifted(vertex).shape.a)
             .collect();
         let epsilons = self.numbers(epsilons);
         let mut sink = Deciding::new(&epsilons);
@@ -109,16 +113,17 @@ impl<K: Kernel> Generic<K> {
     /// Every gate's margin, or its threshold, into `margins`, one entry a gate.
     pub(super) fn measure_into<F: Float>(
         &self,
-        case: &Case<F>,
+        case: &T::Case<F>,
         margins: &mut [F],
         thresholds: bool,
     ) -> Option<Hit<F>> {
         if self.arithmetic == Arithmetic::IEEE {
-            return measure::<F, K>(case, Measuring::new(margins, thresholds));
+            return measure::<F, T, K>(case, Measuring::new(margins, thresholds));
         }
         let mut emulated = self.numbers(margins);
         let mut sink = Measuring::new(&mut emulated, thresholds);
-        let values = self.emulated(case).test::<K>(&mut Either::Other(&mut sink));
+        let lifted = self.emulated::<F, T>(case);
+        let values = lifted.test::<K>(&mut Either::Other(&mut sink));
         for (place, number) in margins.iter_mut().zip(&emulated) {
             let margin = number.value();
             *place = if thresholds {
@@ -135,42 +140,42 @@ fn verdict<F: Float>(hit: Option<Hit<Emulated<F>>>, refused_by: Option<usize>) -
     Verdict::of(hit.map(|hit| hit.map(|x| x.value())), refused_by)
 }
 
-impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
+impl<F: Float, T: Target, K: Kernel<T>> Gated<F, T> for Generic<K, T> {
     fn info(&self) -> &'static KernelInfo {
         self.info
     }
 
-    fn measure(&self, case: &Case<F>) -> Measured<F> {
+    fn measure(&self, case: &T::Case<F>) -> Measured<F> {
         let mut margins = vec![F::zero(); self.info.gates.len()];
         let values = self.measure_into(case, &mut margins, false);
         Measured { margins, values }
     }
 
-    fn thresholds(&self, case: &Case<F>) -> Vec<F> {
+    fn thresholds(&self, case: &T::Case<F>) -> Vec<F> {
         let mut thresholds = vec![F::zero(); self.info.gates.len()];
         self.measure_into(case, &mut thresholds, true);
         thresholds
     }
 
-    fn measure_exact(&self, case: &Case<F>) -> Measured<Exact> {
-        let lifted = Lifted::new(case, |x: F| Exact::from_f64(x.to_f64()));
+    fn measure_exact(&self, case: &T::Case<F>) -> Measured<Exact> {
+        let lifted = Lifted::<_, T>::new(case, |x: F| Exact::from_f64(x.to_f64()));
         let mut margins = vec![Exact::zero(); self.info.gates.len()];
         let mut sink = Measuring::new(&mut margins, false);
         let values = lifted.test::<K>(&mut Either::Other(&mut sink));
         Measured { margins, values }
     }
 
-    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> ExactRun {
-        let near = bounded(|| run::<F, K, _>(case, epsilons, Bounded::new));
-        near.unwrap_or_else(|| run::<F, K, _>(case, epsilons, Exact::from_f64))
+    fn run_exact(&self, case: &T::Case<F>, epsilons: &[F]) -> ExactRun {
+        let near = bounded(|| run::<F, T, K, _>(case, epsilons, Bounded::new));
+        near.unwrap_or_else(|| run::<F, T, K, _>(case, epsilons, Exact::from_f64))
     }
 
-    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> TrackedRun<F> {
-        TrackedRun::of::<K>(case, epsilons, self.arithmetic)
+    fn run_tracked(&self, case: &T::Case<F>, epsilons: &[F]) -> TrackedRun<F> {
+        TrackedRun::of::<T, K>(case, epsilons, self.arithmetic)
     }
 
     fn paths(&self) -> Result<Vec<Path>, String> {
-        paths::<K>(self.arithmetic)
+        paths::<T, K>(self.arithmetic)
     }
 }
 
@@ -186,8 +191,8 @@ mod tests {
         for (index, case) in hard_cases::<F>(1, 1000).iter().enumerate() {
             let epsilon = F::from_f64([0.0, 1e-6][index % 2]);
             let epsilons = vec![epsilon; K::INFO.gates.len()];
-            let exact = run::<F, K, _>(case, &epsilons, Exact::from_f64);
-            let near = bounded(|| run::<F, K, _>(case, &epsilons, Bounded::new));
+            let exact = run::<F, Triangles, K, _>(case, &epsilons, Exact::from_f64);
+            let near = bounded(|| run::<F, Triangles, K, _>(case, &epsilons, Bounded::new));
             let is_ordinary = index % 4 != 3;
             runs += usize::from(is_ordinary);
             if let Some(near) = near {

@@ -6,21 +6,21 @@ use super::recording::Path;
 use super::runs::{ExactRun, Measured, TrackedRun};
 use super::{Failure, Hit, KernelInfo, Verdict};
 use crate::arith::{Arithmetic, Exact, Float};
-use crate::case::{Case, Ray};
+use crate::case::{Ray, Target, Triangles};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::slice;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A kernel in one scalar: all that an audit needs.
-pub trait Subject<F: Float>: Sync {
+pub trait Subject<F: Float, T: Target = Triangles>: Sync {
     /// The verdict on each case; `epsilons` has one entry a gate, `verdicts` one a case.
-    fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]);
+    fn run(&self, cases: &[T::Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]);
 
     /// The same, and the nanoseconds that went by in the kernel, if it measures them itself: what runs in a
     /// process of its own does.
     fn run_timed(
         &self,
-        cases: &[Case<F>],
+        cases: &[T::Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
     ) -> Option<u64> {
@@ -39,7 +39,7 @@ pub trait Subject<F: Float>: Sync {
     }
 
     /// Its gates, if it shows them. A kernel that does not is audited at the epsilons that it takes.
-    fn gated(&self) -> Option<&dyn Gated<F>> {
+    fn gated(&self) -> Option<&dyn Gated<F, T>> {
         None
     }
 
@@ -49,7 +49,7 @@ pub trait Subject<F: Float>: Sync {
         &self,
         _arithmetic: Arithmetic,
         _info: &'static KernelInfo,
-    ) -> Option<&'static dyn Subject<F>> {
+    ) -> Option<&'static dyn Subject<F, T>> {
         None
     }
 
@@ -67,7 +67,7 @@ pub trait Subject<F: Float>: Sync {
     fn margins(
         &self,
         info: &KernelInfo,
-        cases: &[Case<F>],
+        cases: &[T::Case<F>],
         margins: &mut [F],
         values: &mut [Option<Hit<F>>],
     ) {
@@ -99,10 +99,10 @@ pub trait Subject<F: Float>: Sync {
 }
 
 /// [`Subject::margins`] of a kernel that does not show its gates: found by running it.
-fn margins_by_running<F: Float, S: Subject<F> + ?Sized>(
+fn margins_by_running<F: Float, T: Target, S: Subject<F, T> + ?Sized>(
     subject: &S,
     info: &KernelInfo,
-    cases: &[Case<F>],
+    cases: &[T::Case<F>],
     margins: &mut [F],
     values: &mut [Option<Hit<F>>],
 ) {
@@ -128,13 +128,13 @@ fn margins_by_running<F: Float, S: Subject<F> + ?Sized>(
 
 /// Runs a kernel on all cases; a panic is the verdict on the case at which it happens. Returns the
 /// nanoseconds in it, if it measures them itself.
-pub fn verdicts_of<F: Float>(
-    subject: &dyn Subject<F>,
-    cases: &[Case<F>],
+pub fn verdicts_of<F: Float, T: Target>(
+    subject: &dyn Subject<F, T>,
+    cases: &[T::Case<F>],
     epsilons: &[F],
     verdicts: &mut [Verdict<F>],
 ) -> Option<u64> {
-    let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
+    let run = |cases: &[T::Case<F>], verdicts: &mut [Verdict<F>]| {
         catch_unwind(AssertUnwindSafe(|| {
             subject.run_timed(cases, epsilons, verdicts)
         }))
@@ -152,58 +152,59 @@ pub fn verdicts_of<F: Float>(
 }
 
 /// A kernel that shows its gates: each one's margin, and its formula without rounding.
-pub trait Gated<F: Float>: Sync {
+pub trait Gated<F: Float, T: Target = Triangles>: Sync {
     /// The description of the kernel, with its promise.
     fn info(&self) -> &'static KernelInfo;
 
     /// Every gate's margin on a case, and the values of a hit.
-    fn measure(&self, case: &Case<F>) -> Measured<F>;
+    fn measure(&self, case: &T::Case<F>) -> Measured<F>;
 
     /// Every gate's threshold on a case: the least upper bound of the epsilons that it accepts, whether
     /// or not it accepts the bound itself.
-    fn thresholds(&self, case: &Case<F>) -> Vec<F>;
+    fn thresholds(&self, case: &T::Case<F>) -> Vec<F>;
 
     /// Every gate's margin on a case, in exact arithmetic, where it is also the threshold.
-    fn measure_exact(&self, case: &Case<F>) -> Measured<Exact>;
+    fn measure_exact(&self, case: &T::Case<F>) -> Measured<Exact>;
 
     /// The run without rounding.
-    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> ExactRun;
+    fn run_exact(&self, case: &T::Case<F>, epsilons: &[F]) -> ExactRun;
 
     /// The run of [`Subject::run`] with its exceptions.
-    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> TrackedRun<F>;
+    fn run_tracked(&self, case: &T::Case<F>, epsilons: &[F]) -> TrackedRun<F>;
 
     /// Its straight-line programs, one a path; an error in one sentence if they cannot be recorded.
     fn paths(&self) -> Result<Vec<Path>, String>;
 }
 
-/// A ray–triangle test in one scalar. Any closure of the same signature is one.
+/// A test in one scalar, of a ray and a triangle or of another target. Any closure of the same signature is one.
 ///
 /// It is a function of its arguments: the same case and epsilons give the same answer, on any thread.
-pub trait Test<F: Float>: Send + Sync {
+pub trait Test<F: Float, T: Target = Triangles>: Send + Sync {
     /// The hit that it reports, or none. `epsilons` has one entry for each gate of its
     /// [`KernelInfo`](super::KernelInfo). A panic is a finding.
-    fn test(&self, case: &Case<F>, epsilons: &[F]) -> Option<Hit<F>>;
+    fn test(&self, case: &T::Case<F>, epsilons: &[F]) -> Option<Hit<F>>;
 }
 
-impl<F, T> Test<F> for T
+impl<F, T, C> Test<F, T> for C
 where
     F: Float,
-    T: Fn(&Case<F>, &[F]) -> Option<Hit<F>> + Send + Sync,
+    T: Target,
+    C: Fn(&T::Case<F>, &[F]) -> Option<Hit<F>> + Send + Sync,
 {
-    fn test(&self, case: &Case<F>, epsilons: &[F]) -> Option<Hit<F>> {
+    fn test(&self, case: &T::Case<F>, epsilons: &[F]) -> Option<Hit<F>> {
         self(case, epsilons)
     }
 }
 
 /// A [`Test`] as a [`Subject`].
-pub(super) struct Own<T> {
-    test: T,
+pub(super) struct Own<C> {
+    test: C,
     /// Cases without margins, because it panics at some epsilon.
     without_margins: AtomicU64,
 }
 
-impl<T> Own<T> {
-    pub fn new(test: T) -> Own<T> {
+impl<C> Own<C> {
+    pub fn new(test: C) -> Own<C> {
         Own {
             test,
             without_margins: AtomicU64::new(0),
@@ -211,8 +212,8 @@ impl<T> Own<T> {
     }
 }
 
-impl<F: Float, T: Test<F>> Subject<F> for Own<T> {
-    fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+impl<F: Float, T: Target, C: Test<F, T>> Subject<F, T> for Own<C> {
+    fn run(&self, cases: &[T::Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         for (case, verdict) in cases.iter().zip(verdicts) {
             *verdict = Verdict::of(self.test.test(case, epsilons), None);
         }
@@ -222,7 +223,7 @@ impl<F: Float, T: Test<F>> Subject<F> for Own<T> {
     fn margins(
         &self,
         info: &KernelInfo,
-        cases: &[Case<F>],
+        cases: &[T::Case<F>],
         margins: &mut [F],
         values: &mut [Option<Hit<F>>],
     ) {

@@ -69,7 +69,7 @@ impl Integer for BigInt {
 pub type IntegerVector<I> = [I; 3];
 
 /// The interval of a case whose t = numerator / denominator carries a power of two.
-pub(super) struct RayInterval {
+pub struct RayInterval {
     t_min: f64,
     t_max: f64,
     exponent: i64,
@@ -78,9 +78,14 @@ pub(super) struct RayInterval {
 impl RayInterval {
     /// With t = numerator / denominator * 2^exponent.
     pub fn new(case: &Case<f64>, exponent: i64) -> RayInterval {
+        RayInterval::between(case.ray.t_min, case.ray.t_max, exponent)
+    }
+
+    /// From t_min to t_max, with t = numerator / denominator * 2^exponent.
+    pub fn between(t_min: f64, t_max: f64, exponent: i64) -> RayInterval {
         RayInterval {
-            t_min: case.ray.t_min,
-            t_max: case.ray.t_max,
+            t_min,
+            t_max,
             exponent,
         }
     }

@@ -3,7 +3,8 @@
 use crate::audit::{Attribution, Row, RowSpec};
 use crate::corpus::FoundBy;
 use crate::corpus::lines::{AnyCase, StoredCase};
-use crate::{Signature, Size};
+use crate::signature::Signature;
+use crate::simplify::Size;
 
 /// One example of a kind of finding.
 #[derive(Clone)]

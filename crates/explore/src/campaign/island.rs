@@ -8,7 +8,10 @@ use crate::audit::{EpsilonChoice, EpsilonText, Row, RowSpec};
 use crate::case::{Case, Draw, Parameters};
 use crate::corpus::lines::AnyCase;
 use crate::kernel::{PRESETS, Scalar, Tunable};
-use crate::{Signature, family_case, mutate, shrink_within};
+use crate::moves::mutate;
+use crate::shrink::shrink_within;
+use crate::signature::Signature;
+use crate::worst::family_case;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 

@@ -5,8 +5,9 @@ use crate::audit::Row;
 use crate::case::{Case, Draw};
 use crate::judge::{Class, Distances, Finding};
 use crate::kernel::Scalar;
+use crate::objective::{scale, verdict_and_finding};
+use crate::signature::Signature;
 use crate::truth::Truth;
-use crate::{Signature, scale, verdict_and_finding};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

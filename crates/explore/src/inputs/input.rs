@@ -6,7 +6,7 @@ use crate::arith::Float;
 use crate::audit::{EpsilonText, Row};
 use crate::case::{AnyScalar, Case, Draw};
 use crate::kernel::{Entry, Gated, KERNELS, Scalar, Subject, Tunable};
-use crate::mutate;
+use crate::moves::mutate;
 
 /// The most gates whose epsilons an input can hold.
 pub const MAX_GATES: usize = 8;

@@ -4,7 +4,7 @@ use super::promise::StrategyPromise;
 use crate::arith::Float;
 use crate::case::{Case, Parameters};
 use crate::kernel::Scalar;
-use crate::{Simplification, Size};
+use crate::simplify::{Simplification, Size};
 use proptest::prelude::any;
 use proptest::strategy::{NewTree, Strategy, ValueTree};
 use proptest::test_runner::TestRunner;

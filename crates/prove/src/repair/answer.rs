@@ -1,6 +1,6 @@
 //! The answers of a guarded kernel: its program run on floats.
 
-use super::super::run::{Number, run};
+use super::super::run::run;
 use super::super::{Dyadic, Searched};
 use super::{Axes, Guarded, Literal, Pattern, Step};
 use crate::arith::recorded::{Comparison, Operation, Place};
@@ -75,7 +75,7 @@ impl Guarded {
     }
 }
 
-impl<F: Float + Number> Run<'_, F> {
+impl<F: Float> Run<'_, F> {
     fn answer(mut self, steps: &Step) -> Answer<F> {
         let (mut step, mut is_open) = (steps, false);
         loop {

@@ -1,8 +1,8 @@
 //! How epsilons are chosen: as sources have them, from a published library, or given.
 
-use super::epsilon_text::EpsilonText;
 use super::row::{Row, RowSpec};
 use crate::contract::Contract;
+use crate::kernel::EpsilonText;
 use crate::kernel::{Entry, Gate, KERNELS, PRESETS, Preset, PresetEntry, Tunable, find};
 use crate::suggest::did_you_mean;
 use hairline_core::Error;

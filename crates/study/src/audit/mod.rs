@@ -17,7 +17,6 @@ mod corpus_set;
 #[cfg(feature = "studies")]
 mod coverage;
 mod digest;
-mod epsilon_text;
 mod forms;
 mod group_count;
 mod groups;
@@ -39,6 +38,7 @@ mod tally;
 mod trials;
 
 pub use crate::engine::{Observer, Unobserved};
+pub use crate::kernel::EpsilonText;
 pub use accuracy::values;
 pub use accuracy::{Accuracy, Errors};
 pub use aimed::{Aimed, CLASSES};
@@ -53,7 +53,6 @@ pub use corpus_set::CorpusSet;
 #[cfg(feature = "studies")]
 pub use coverage::{ASPECTS, Aspect, coverage};
 pub use digest::{CasePlace, Digest};
-pub use epsilon_text::EpsilonText;
 pub use group_count::GroupCount;
 pub use group_count::JudgedGroup;
 pub use histogram::{Histogram, Octave};

@@ -1,10 +1,9 @@
 //! One row of a plan: a kernel with its epsilons, and the contract it is judged by. It parses, prints
 //! and serialises, so that every file and every printed command can show the same row again.
 
-use super::epsilon_text::EpsilonText;
 use crate::arith::Float;
 use crate::contract::Contract;
-use crate::kernel::{Entry, Gate, Tunable};
+use crate::kernel::{Entry, EpsilonText, Gate, Tunable};
 use crate::printable::is_obeyed;
 use hairline_core::Error;
 use serde::{Deserialize, Serialize};

@@ -1,0 +1,78 @@
+//! Where the cases of a run come from: a family, or a scene of a program's own sizes.
+
+use crate::case::{BoxCase, each_axis};
+use crate::family::{Family, Made};
+use hairline_core::Float;
+use hairline_core::case::Draw;
+use std::fmt;
+
+/// A source of cases.
+#[derive(Clone, Copy)]
+pub enum Source {
+    /// A family.
+    Family(&'static Family),
+    /// A scene.
+    Scene(Scene),
+}
+
+/// The sizes of a program's boxes: rays start anywhere in the world and are aimed at corners, edges and faces of boxes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scene {
+    extent: f64,
+    size: f64,
+}
+
+impl Scene {
+    /// Coordinates lie within `extent`, and boxes are at most `size` long on each axis. An error if that is impossible.
+    pub fn new(extent: f64, size: f64) -> Result<Scene, String> {
+        let are_numbers = extent.is_finite() && 0.0 < size;
+        if !are_numbers || extent < size {
+            return Err(format!(
+                "a scene of extent {extent:e} has no boxes of size {size:e}: write finite numbers with 0 < size <= extent"
+            ));
+        }
+        Ok(Scene { extent, size })
+    }
+
+    fn case<F: Float>(&self, seed: u64, index: u64) -> BoxCase<F> {
+        let mut draw = Draw::new("scene of boxes", seed, index);
+        let number = |x: f64| F::from_f64(x);
+        let point = |draw: &mut Draw, most: f64| -> [F; 3] {
+            [(); 3].map(|()| number((2.0 * draw.unit() - 1.0) * most))
+        };
+        let min = point(&mut draw, self.extent - self.size);
+        let max = min.map(|x| x + number(draw.unit() * self.size));
+        let target: [F; 3] = each_axis(|i| match draw.below(3) {
+            0 => min[i],
+            1 => max[i],
+            _ => min[i] + (max[i] - min[i]) * number(draw.unit()),
+        });
+        let length = number(0.25 + 3.75 * draw.unit());
+        loop {
+            let origin = point(&mut draw, self.extent);
+            let direction: [F; 3] = each_axis(|i| (target[i] - origin[i]) * length);
+            if !direction.iter().all(|x| x.is_zero()) {
+                return BoxCase::new(origin, direction, [min, max]);
+            }
+        }
+    }
+}
+
+impl Source {
+    /// Case `index` of a seed's set.
+    pub fn case<F: Made>(&self, seed: u64, index: u64) -> BoxCase<F> {
+        match self {
+            Source::Family(family) => family.case(seed, index),
+            Source::Scene(scene) => scene.case(seed, index),
+        }
+    }
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Source::Family(family) => f.pad(family.name),
+            Source::Scene(scene) => write!(f, "extent={:e},size={:e}", scene.extent, scene.size),
+        }
+    }
+}
