@@ -109,19 +109,16 @@ struct MeasuredCase<F> {
 
 impl<'a, F: Made + Scalar> Measured<'a, F> {
     fn new(question: &'a Question<'a>) -> Result<Measured<'a, F>, String> {
-        let (setup, name) = (question.setup, question.setup.entry.info.name);
-        let gate = setup
-            .gates()
-            .iter()
-            .position(|gate| gate.name == question.gate);
-        let subject = F::subject(setup.entry);
+        let setup = question.setup;
+        let not_a_number = || {
+            let name = setup.entry.info.name;
+            format!("an epsilon of {name} is not a number of {}", F::NAME)
+        };
         Ok(Measured {
             question,
-            subject: subject.ok_or_else(|| format!("{name} does not run in {}", F::NAME))?,
-            gate: gate.ok_or_else(|| format!("{name} has no gate '{}'", question.gate))?,
-            epsilons: setup
-                .epsilons()
-                .ok_or_else(|| format!("an epsilon of {name} is not a number of {}", F::NAME))?,
+            subject: setup.subject()?,
+            gate: setup.place(question.gate)?,
+            epsilons: setup.epsilons().ok_or_else(not_a_number)?,
         })
     }
 
@@ -186,8 +183,9 @@ impl<F: Made> Losses<F> {
 
 /// The smaller epsilon of two; of equals that of the lower index.
 fn stricter<F: Made>(one: Largest<F>, other: Largest<F>) -> Largest<F> {
-    let is_first = one.index <= other.index;
-    if other.epsilon < one.epsilon || (other.epsilon == one.epsilon && !is_first) {
+    let is_lower = other.epsilon < one.epsilon;
+    let is_as_low = other.epsilon == one.epsilon;
+    if is_lower || (is_as_low && other.index < one.index) {
         return other;
     }
     one

@@ -13,11 +13,11 @@ use super::pairwise::{by_reciprocal, overlapping};
 use super::*;
 use std::mem;
 
-pub(super) struct Pbrt;
-pub(super) struct PbrtPrecomputed;
-pub(super) struct EmbreeFast;
-pub(super) struct EmbreeRobust;
-pub(super) struct AilaLaine;
+pub struct Pbrt;
+pub struct PbrtPrecomputed;
+pub struct EmbreeFast;
+pub struct EmbreeRobust;
+pub struct AilaLaine;
 
 const END: usize = 1;
 
