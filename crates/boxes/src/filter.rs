@@ -63,8 +63,10 @@ pub fn decide(case: &BoxCase<f64>) -> Option<Truth> {
 /// Finite coordinates, a direction that is not zero, and an interval whose ends are in order.
 pub fn is_valid(case: &BoxCase<f64>) -> bool {
     let vectors = case.vectors();
-    let is_finite = vectors.as_flattened().iter().all(|x| x.is_finite());
-    is_finite && vectors[1] != [0.0; 3] && case.ray.t_min <= case.ray.t_max
+    let mut numbers = vectors.as_flattened().iter();
+    let are_finite = numbers.all(|x| x.is_finite());
+    let has_direction = vectors[1] != [0.0; 3];
+    are_finite && has_direction && case.ray.t_min <= case.ray.t_max
 }
 
 /// The order of where the line enters the last slab and where it leaves the first, never called equal.

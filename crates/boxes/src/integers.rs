@@ -80,7 +80,10 @@ fn narrow(vectors: &Vectors<BigInt>) -> Option<Vectors<i128>> {
 }
 
 fn decide_in<I: Integer>(vectors: Vectors<I>, ends: &RayInterval) -> Truth {
-    let axes = each_axis(|i| axis(vectors.each_ref().map(|vector| &vector[i])));
+    let axes = each_axis(|i| {
+        let numbers = vectors.each_ref().map(|vector| &vector[i]);
+        axis(numbers)
+    });
     if axes.iter().any(Axis::is_beside) {
         return Truth::Outside;
     }
@@ -158,11 +161,11 @@ fn class<I: Integer>(axes: &[Axis<I>; 3], enter: &Time<I>, exit: &Time<I>) -> Cl
 }
 
 fn place<I>(axes: &[Axis<I>; 3]) -> Origin {
-    let has = |place| axes.iter().any(|axis| axis.origin == place);
-    if has(Origin::Outside) {
+    let places = axes.each_ref().map(|axis| axis.origin);
+    if places.contains(&Origin::Outside) {
         return Origin::Outside;
     }
-    if has(Origin::On) {
+    if places.contains(&Origin::On) {
         return Origin::On;
     }
     Origin::Inside

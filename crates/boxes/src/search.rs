@@ -138,8 +138,10 @@ impl<F: Made> Climber<'_, F> {
         let [first, others @ ..] = margins.as_slice() else {
             return None;
         };
-        let passes = others.iter().all(|margin| F::zero() <= *margin);
-        (passes && first.is_finite()).then_some(*first)
+        if others.iter().any(|margin| *margin < F::zero()) {
+            return None;
+        }
+        first.is_finite().then_some(*first)
     }
 }
 

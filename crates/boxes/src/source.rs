@@ -5,6 +5,7 @@ use crate::family::{Family, Made};
 use hairline_core::Float;
 use hairline_core::case::Draw;
 use std::fmt;
+use std::ops::Range;
 
 /// A source of cases.
 #[derive(Clone, Copy)]
@@ -74,6 +75,12 @@ impl Source {
             Source::Family(family) => family.case(seed, index),
             Source::Scene(scene) => scene.case(seed, index),
         }
+    }
+
+    /// The cases of some indices.
+    pub fn cases<F: Made>(&self, seed: u64, indices: Range<u64>) -> Vec<BoxCase<F>> {
+        let cases = indices.map(|index| self.case(seed, index));
+        cases.collect()
     }
 }
 
