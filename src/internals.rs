@@ -10,8 +10,8 @@ macro_rules! open {
 }
 
 open!(
-    arith, audit, case, contract, corpus, epsilon, explore, family, judge, kernel, map, mesh,
-    oracle, prove, report, selfcheck, spawn, truth, vectors,
+    arith, audit, case, contract, corpus, epsilon, explore, family, files, judge, kernel, map,
+    mesh, oracle, prove, report, selfcheck, spawn, truth, vectors,
 );
 
 #[cfg(feature = "cli")]

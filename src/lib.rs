@@ -32,14 +32,17 @@
 // What stands below: the words, the numbers, the kernels, the truth; the proofs; cases, counts and studies; kernels of others.
 #[macro_use(either_scalar, in_named_scalar, named)]
 extern crate hairline_core;
-use hairline_core::{arith, case, contract, engine, kernel, oracle, suggest};
+use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, suggest};
+#[cfg(feature = "studies")]
+use hairline_explore as explore;
+use hairline_files as files;
 #[cfg(feature = "cli")]
 use hairline_plugin as plugin;
 #[cfg(feature = "studies")]
 use hairline_prove as prove;
 use hairline_study::{audit, corpus, family, judge, mesh, plot};
 #[cfg(feature = "studies")]
-use hairline_study::{epsilon, explore, map, selfcheck, spawn, studied};
+use hairline_study::{epsilon, map, selfcheck, spawn, studied};
 
 #[macro_use]
 extern crate macro_rules_attribute;
@@ -92,7 +95,7 @@ pub use report::{Example, FindingKind, FindingPart, Rate, SeverityPart};
 pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
 
 #[cfg(feature = "proptest")]
-pub use hairline_study::{prop_assert_conforms, prop_assert_conforms_together, strategy};
+pub use hairline_explore::{prop_assert_conforms, prop_assert_conforms_together, strategy};
 
 #[cfg(feature = "internals")]
 #[doc(hidden)]

@@ -1,7 +1,7 @@
 //! The readers of meshes in all formats, by content: no panic on any bytes, and every index it gives is in range.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::internals::corpus::mesh::read;
+use hairline::internals::files::mesh::read;
 
 fn indices_in_range(data: &[u8]) {
     let mut beside = |_: &str, _| Err(std::io::ErrorKind::NotFound.into());

@@ -13,8 +13,8 @@ use super::settings::{self, Given};
 use crate::audit::{Plan, Row};
 use crate::case::Case;
 use crate::conformance::locked;
-use crate::corpus::InputError;
 use crate::expect::{self, BlessError, Expectations};
+use crate::files::InputError;
 use crate::named_file::SizeLimit;
 use crate::report::explain::misused_formula;
 use crate::report::{

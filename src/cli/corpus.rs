@@ -3,16 +3,16 @@
 use super::exit::{Failure, Status};
 use super::flags::{find_family, is_f32};
 use super::input::{MANIFEST, corpus_files, open, read_corpus};
-use super::output::{write_json_lines, write_result};
+use super::output::{write_json_lines, write_lines, write_result};
 use super::progress::Progress;
 use crate::case::Parameters;
-use crate::corpus::InputError;
 use crate::corpus::lines::{StoredCase, write_case};
 use crate::corpus::truth_json::TruthLine;
 use crate::explore;
 use crate::explore::campaign::Find;
 use crate::family::manifest::{self, ManifestLine};
 use crate::family::{Family, Grouping};
+use crate::files::InputError;
 use crate::kernel::Scalar;
 use crate::named_file::{self, SizeLimit};
 use crate::oracle;
@@ -182,9 +182,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
     if nothing {
         return Err(Failure::nothing(format!("{path}: no case to verify")));
     }
-    write_result("-", |out| {
-        report.iter().try_for_each(|line| writeln!(out, "{line}"))
-    })?;
+    write_lines(|out| report.iter().try_for_each(|line| writeln!(out, "{line}")))?;
     Ok(Status::Success)
 }
 

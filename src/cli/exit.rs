@@ -1,6 +1,6 @@
 //! Exit codes, and the errors that lead to them.
 
-use crate::corpus::InputError;
+use crate::files::InputError;
 use hairline_core::Error;
 use std::io;
 use std::path::Path;

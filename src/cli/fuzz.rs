@@ -9,11 +9,12 @@ mod worst;
 use super::before::{scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
 use super::flags::chosen_scalars;
-use super::output::{standard_output, write_result};
+use super::output::{standard_output, write_lines};
 use super::progress::Progress;
 use super::select::KernelArguments;
 use crate::audit::shell_word;
 use crate::explore::campaign::{Campaign, CampaignPlan, CampaignState, Find};
+use crate::printable::printable;
 use clap::{Args, Subcommand};
 use directory::{Begun, CAMPAIGN, Directory, FORMAT, NO_BAND};
 use std::io::Write;
@@ -128,7 +129,7 @@ fn campaign(arguments: &FuzzArguments) -> Result<Status, Failure> {
     session.progress.finish();
     // A full disk does not keep the summary from being printed.
     let (finds, new, state) = (&session.finds, session.new_finds(), session.state());
-    write_result("-", |out| write_summary(out, path, finds, new, &state))?;
+    write_lines(|out| write_summary(out, path, finds, new, &state))?;
     outcome.map(|()| Status::Success)
 }
 
@@ -279,7 +280,7 @@ impl Session {
             let mut out = standard_output()?;
             finds
                 .iter()
-                .try_for_each(|find| writeln!(out, "{}", find.name()))?;
+                .try_for_each(|find| writeln!(out, "{}", printable(&find.name())))?;
             out.flush()?;
         }
         self.finds.extend(finds);

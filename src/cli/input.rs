@@ -3,10 +3,10 @@
 use super::exit::Failure;
 use super::progress::Progress;
 use crate::audit::CorpusSet;
-use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
-use crate::corpus::mesh::{self, Mesh};
 use crate::descriptors;
+use crate::files::InputError;
+use crate::files::mesh::{self, Mesh};
 use crate::named_file::{self, SizeLimit};
 use crate::report::{Findings, Record, SCHEMA, Study, number_of};
 use serde::Deserialize;

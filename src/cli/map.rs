@@ -14,6 +14,7 @@ use crate::case::Case;
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
 use crate::map::{self, CaseVector, Map, PixelStep, Spot};
+use crate::printable::printable_lines;
 use crate::report::{Format, Style};
 use clap::Args;
 use std::io::{self, Write};
@@ -98,7 +99,7 @@ pub struct MapArguments {
 const FORMATS: &[Format<MapPicture>] = &[
     Format {
         name: "text",
-        write: |picture, _, out| out.write_all(picture.summary.as_bytes()),
+        write: |picture, _, out| out.write_all(printable_lines(&picture.summary).as_bytes()),
     },
     Format {
         name: "svg",
@@ -149,7 +150,7 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     })?;
     if !quiet {
         // A summary that nobody reads is no error.
-        let _ = io::stderr().write_all(picture.summary.as_bytes());
+        let _ = io::stderr().write_all(printable_lines(&picture.summary).as_bytes());
     }
     Ok(Status::Success)
 }

@@ -7,7 +7,7 @@
 macro_rules! eprintln {
     ($($words:tt)*) => {{
         use std::io::Write as _;
-        let line = $crate::corpus::json::printable(&format!($($words)*));
+        let line = $crate::printable::printable(&format!($($words)*));
         let _ = writeln!(std::io::stderr(), "{line}");
     }};
 }
@@ -55,6 +55,7 @@ use help::EXAMPLES;
 use crate::arith::FloatEnvironment;
 use crate::kernel::{self, Entry};
 use crate::plugin;
+use crate::printable::is_obeyed;
 use clap::builder::Styles;
 use clap::{Arg, ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
@@ -238,7 +239,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
                 return ended(not_utf8(&words));
             }
             if error.use_stderr() {
-                let _ = error.print();
+                print_misuse(&error, &words);
                 return Status::Usage as u8;
             }
             // Help and version are no errors.
@@ -287,6 +288,17 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     match plugins::check().and(outcome) {
         Ok(status) => status as u8,
         Err(failure) => ended(failure),
+    }
+}
+
+/// Says what is wrong with a command line: in colours, unless a word of it would be an order to the terminal.
+fn print_misuse(error: &clap::Error, words: &[OsString]) {
+    let is_order = |word: &OsString| word.to_string_lossy().contains(is_obeyed);
+    if words.iter().any(is_order) {
+        let message = error.render().to_string();
+        message.lines().for_each(|line| eprintln!("{line}"));
+    } else {
+        let _ = error.print();
     }
 }
 

@@ -5,8 +5,9 @@ use super::flags::OUTPUT;
 use super::plugins;
 use crate::descriptors;
 use crate::named_file;
+use crate::printable::printable_lines;
 use crate::report::page::Page;
-use crate::report::{Format, Style, number_of};
+use crate::report::{Format, Style, number_of, write_json_line};
 use crate::suggest::nearest_name;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -204,13 +205,18 @@ pub fn write_result(
     file.map_or(Ok(()), FileBeside::put_in_place)
 }
 
+/// Writes lines for people to standard output, without what a terminal would obey.
+pub fn write_lines(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+    let mut lines = Vec::new();
+    write(&mut lines)?;
+    let text = String::from_utf8_lossy(&lines);
+    write_result("-", |out| out.write_all(printable_lines(&text).as_bytes()))
+}
+
 /// Writes values as JSON, a line each.
 pub fn write_json_lines(path: impl AsRef<Path>, all: &[impl Serialize]) -> Result<(), Failure> {
     write_result(path, |out| {
-        all.iter().try_for_each(|one| {
-            serde_json::to_writer(&mut *out, one)?;
-            writeln!(out)
-        })
+        all.iter().try_for_each(|one| write_json_line(one, out))
     })
 }
 

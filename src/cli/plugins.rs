@@ -3,7 +3,7 @@
 use super::exit::{Failure, Status};
 use super::flags::{again, refuse_twice};
 use crate::audit::quoted;
-use crate::corpus::hex;
+use crate::files::hex;
 use crate::kernel::{self, Entry, Scalar};
 use crate::plugin::{HOST_COMMAND, KernelProgram, LoadError, ProcessLimits, load};
 use clap::Args;

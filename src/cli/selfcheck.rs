@@ -1,7 +1,7 @@
 //! `hairline selfcheck`: the oracle against its definition and against a separate checker in integers.
 
 use super::exit::{Failure, Status};
-use super::output::write_result;
+use super::output::write_lines;
 use super::progress::Progress;
 use crate::family::{FAMILIES, LATTICE_SIZE};
 use crate::oracle::Layers;
@@ -100,7 +100,7 @@ pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
     }
     progress.finish();
     let seconds = progress.seconds();
-    write_result("-", |out| write(out, &results, seconds))?;
+    write_lines(|out| write(out, &results, seconds))?;
     if wrong > 0 {
         let message = format!("self-check: the oracle is wrong on {wrong} cases");
         return Err(Failure::self_check(message));

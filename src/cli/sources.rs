@@ -8,9 +8,9 @@ use super::flags::{
 use super::input::{corpus_files, corpus_sets, read_mesh};
 use crate::audit::{CorpusSet, Source, Stock};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
-use crate::corpus::InputError;
 use crate::epsilon::StudiedRays;
 use crate::family::{FAMILIES, Family, MeshFamily, STRATA, Stratum};
+use crate::files::InputError;
 use crate::mesh::{SceneMesh, Surface};
 use clap::Args;
 use clap::builder::TypedValueParser;

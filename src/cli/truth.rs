@@ -3,10 +3,10 @@
 use super::exit::{Failure, Status};
 use super::input::open;
 use super::output::write_result;
-use crate::corpus::json_lines::JsonLines;
 use crate::corpus::lines::{self, LONGEST_LINE, StoredCase, StoredTruth};
 use crate::corpus::truth_json::TruthLine;
-use crate::corpus::{InputError, text_lines::TextLines};
+use crate::files::json_lines::JsonLines;
+use crate::files::{InputError, text_lines::TextLines};
 use clap::Args;
 use rayon::prelude::*;
 use std::io::{self, BufRead, BufReader, Read};

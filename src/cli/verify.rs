@@ -7,7 +7,7 @@ use super::exit::{Failure, Status};
 use super::flags::unknown;
 use super::input::read_text;
 use super::output::OutputArguments;
-use crate::corpus::{InputError, json};
+use crate::files::{InputError, json};
 use crate::named_file::SizeLimit;
 use crate::report::{Context, Record, provenance_of};
 use crate::vectors::profile::{Answered, Profile, demanded, is_right};

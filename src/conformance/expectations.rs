@@ -1,7 +1,7 @@
 //! An audit from a test, held to a reviewed file of expectations.
 
-use crate::corpus::InputError;
 use crate::expect::{self, BlessError};
+use crate::files::InputError;
 use crate::named_file::{self, SizeLimit};
 use crate::report::Record;
 use hairline_core::Error;

@@ -2,7 +2,7 @@
 
 use super::scene::scene_of;
 use super::{Amount, Expectations, Lock, LockedTarget, SCHEMA};
-use crate::corpus::InputError;
+use crate::files::InputError;
 use crate::report::{Conformance, Key, Record};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};

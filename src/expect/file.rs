@@ -4,8 +4,8 @@
 use super::{Amount, Expectations, ExpectedEntry, SCHEMA};
 use crate::audit::is_of_mesh;
 use crate::case::SceneKind;
-use crate::corpus::InputError;
 use crate::family::{FAMILIES, STRATA};
+use crate::files::InputError;
 use crate::kernel;
 use crate::report::{ALL_CLASSES, FindingKind, Key};
 use crate::suggest::nearest_name;

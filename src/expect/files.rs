@@ -1,8 +1,8 @@
 //! The two files of expectations together: read, and written after a run. Who calls opens and writes them.
 
 use super::{BlessError, Expectations, Lock, bless, read};
-use crate::corpus::InputError;
 use crate::family::{FAMILIES, Stratum};
+use crate::files::InputError;
 use crate::report::{Conformance, Record, disagreements};
 use std::path::Path;
 

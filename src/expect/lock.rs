@@ -4,7 +4,7 @@
 use super::accuracy::{HitErrors, LockedErrors, errors_of};
 use super::{Amount, Expectations};
 use crate::audit::Digest;
-use crate::corpus::InputError;
+use crate::files::InputError;
 use crate::report::{FindingKind, Key, ResultPart, RowPart, disagreements};
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,7 +1,7 @@
 //! The scene that cases come from, by its numbers: counts of one scene say nothing about another.
 
 use super::Expectations;
-use crate::corpus::InputError;
+use crate::files::InputError;
 use crate::report::{PlanPart, Record, apart};
 
 /// The numbers of a plan's scene, as case ids have them; none if it has no scene.

@@ -12,9 +12,9 @@ use crate::audit::{
 };
 use crate::case::{Case, Matrix};
 use crate::contract::{Boundary, Extent};
-use crate::corpus::hex;
 use crate::engine;
 use crate::family::Grouping;
+use crate::files::hex;
 use crate::judge::{Class, Finding};
 use crate::kernel::{Gate, Role, Scalar};
 use hmac_sha256::Hash;

@@ -3,7 +3,7 @@
 
 use super::surface;
 use crate::audit::{Audit, PlaceFault, Plan, SourceCell};
-use crate::corpus::mesh::Mesh;
+use crate::files::mesh::Mesh;
 use crate::kernel::Scalar;
 use crate::mesh::{AimedPart, Surface};
 use std::collections::{BTreeSet, HashMap};

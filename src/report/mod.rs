@@ -38,12 +38,12 @@ pub(crate) use disagreement::counts_alone;
 pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
 #[cfg(feature = "studies")]
 pub use drawing::{MeshDrawing, drawing, places};
-#[cfg(feature = "cli")]
-pub use formats::JSON_SCHEMA;
 #[cfg(feature = "studies")]
 pub use formats::{
     FORMATS, Format, HTML, JunitCase, ON_FAILURE, Style, severity, write_json, write_junit,
 };
+#[cfg(feature = "cli")]
+pub use formats::{JSON_SCHEMA, write_json_line};
 pub use illustration::{Illustrations, ProofPart, ProvedGate};
 pub(crate) use rate::{interval_of, percent};
 pub use record::*;

@@ -18,7 +18,7 @@ use super::drawing::MeshDrawing;
 use super::illustration::Illustrations;
 pub use super::rate::Rate;
 use crate::audit::Trials;
-use crate::corpus::hex;
+use crate::files::hex;
 pub use finding::*;
 use hmac_sha256::Hash;
 pub use kind::{FindingKind, Promised};

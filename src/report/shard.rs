@@ -3,7 +3,7 @@
 use super::build::{TOOL, plan_part};
 use super::{Context, PartialPart, Provenance, Record, ShardPart, build};
 use crate::audit::{self, Audit, MOST_SHARDS, Observer, Plan, Stock, StoredPlan, StoredStock};
-use crate::corpus::hex;
+use crate::files::hex;
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

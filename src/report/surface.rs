@@ -3,7 +3,7 @@
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::{Audit, GroupCount, Plan, SourceCell, Stock};
-use crate::corpus::mesh::Mesh;
+use crate::files::mesh::Mesh;
 use crate::kernel::Scalar;
 use crate::mesh::{AimedPart, Noted, Surface, Targets, Topology};
 use std::collections::BTreeMap;

@@ -2,7 +2,7 @@
 
 use super::number::nearest;
 use super::{VectorTest, place, result, word};
-use crate::corpus::number;
+use crate::files::number;
 
 /// The first line, without its end.
 pub const HEADER: &str = "id,triangle,triangles,scalar,group,parity,result,closed,open,free_because,\

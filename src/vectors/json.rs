@@ -3,9 +3,9 @@
 use super::flags::FLAGS;
 use super::number::{EitherFloat, nearest};
 use super::{TestGroup, TestTriangle, VectorTest, VectorTopic, place, result, word};
-use crate::corpus::json::object;
-use crate::corpus::number;
 use crate::corpus::truth_json::fraction_text;
+use crate::files::json::object;
+use crate::files::number;
 use num_rational::BigRational;
 use serde_json::{Value, json};
 

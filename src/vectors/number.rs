@@ -63,7 +63,7 @@ pub(super) fn nearest(value: &BigRational) -> f64 {
 mod tests {
     use super::*;
     use crate::case::Draw;
-    use crate::corpus::number::parse;
+    use crate::files::number::parse;
 
     #[test]
     fn a_float_is_written_as_its_bits_and_as_a_literal_that_reads_back() {

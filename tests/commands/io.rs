@@ -166,9 +166,12 @@ fn a_name_that_no_command_could_repeat_is_refused() {
         ),
         (
             "a\nb",
-            "'a\\nb' cannot name a case: it has a control character",
+            "'a\\nb' cannot name a case: it has a character that a terminal obeys",
         ),
-        ("a\0", "cannot name a case: it has a control character"),
+        (
+            "a\0",
+            "cannot name a case: it has a character that a terminal obeys",
+        ),
         (
             "x".repeat(1001).as_str(),
             "cannot name a case: it has more than 1000 bytes",

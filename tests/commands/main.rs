@@ -16,6 +16,8 @@ mod formats;
 mod found;
 mod fuzz;
 mod generate;
+#[cfg(unix)]
+mod hostile;
 mod html;
 mod instances;
 mod io;

@@ -5,8 +5,8 @@ mod writers;
 
 use crate::program;
 
-use hairline::internals::corpus::InputError;
-use hairline::internals::corpus::mesh::{self, Mesh};
+use hairline::internals::files::InputError;
+use hairline::internals::files::mesh::{self, Mesh};
 use program::{ends, scratch};
 use serde_json::{Value, json};
 use std::fs;

@@ -238,6 +238,11 @@ fn a_start_has_a_limit_of_its_own_and_is_no_cases_fault() {
     let error = refused(&[&flags[..], &[&hangs], &FLAGS].concat(), 65);
     let message = "in its first call, on a plain case, it was silent for 0.4 s after its start (--kernel-start";
     assert!(error.contains(message), "{error}");
+    // Its first call, at its start, is answered, and no other.
+    let (mute, _) = starting("start-mute", &["-DCALL=100"]).unwrap();
+    let flags = ["audit", "--kernel-timeout", "0.2", "--kernel-lib"];
+    let error = refused(&[&flags[..], &[&mute], &FLAGS].concat(), 65);
+    assert!(error.contains("its function does not return"), "{error}");
     // The first process dies of its first batch, and no other gets as far.
     let file = started.with_extension("again");
     let _ = fs::remove_file(&file);
@@ -1163,7 +1168,7 @@ fn shell(body: &str) -> String {
     )
 }
 
-const MISSES: &str = "while read -r word id rest; do case $word in case) echo $id miss;; end) echo end $id;; esac; done";
+pub const MISSES: &str = "while read -r word id rest; do case $word in case) echo $id miss;; end) echo end $id;; esac; done";
 
 #[test]
 fn a_kernel_in_a_shell_is_audited_over_its_pipe() {

@@ -90,7 +90,7 @@ fn every_screen_fits_a_terminal() {
                 "--kernel",
                 "moller-trumbore",
                 "-n",
-                "10000",
+                "3000",
             ],
             52,
         ),

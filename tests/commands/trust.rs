@@ -3,7 +3,7 @@
 #![cfg(unix)]
 
 use crate::io::in_time;
-use crate::program::{ends, hairline, resealed, scratch};
+use crate::program::{ends, resealed, scratch};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -248,64 +248,6 @@ fn a_record_is_as_hairline_writes_it_or_refused() {
         error.lines().count() == 1 && !error.contains('\x1b'),
         "{error:?}"
     );
-}
-
-/// A name that a terminal would obey, of a file.
-const HOSTILE: &str = "a\x1b[2J\x1b]0;t\x07\u{202e}b";
-
-#[test]
-fn no_name_reaches_a_terminal_as_an_order() {
-    let folder = scratch("trust-terminal");
-    let mesh = format!("{HOSTILE}.obj");
-    let text =
-        format!("g {HOSTILE}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 2 4 3\nf 1 1 2\n");
-    fs::write(folder.join(&mesh), text).unwrap();
-    fs::write(
-        folder.join("unknown.toml"),
-        format!(
-            "\"{}\" = 1\n",
-            HOSTILE
-                .escape_debug()
-                .to_string()
-                .replace("\\u{1b}", "\\u001b")
-                .replace("\\u{7}", "\\u0007")
-                .replace("\\u{202e}", "\\u202e")
-        ),
-    )
-    .unwrap();
-    fs::write(folder.join(format!("{HOSTILE}.jsonl")), "{\"name\": 1}\n").unwrap();
-    let corpus = format!("{HOSTILE}.jsonl");
-    let few = ["-n", "50", "--kernel", "cramer"];
-    let commands: Vec<Vec<&str>> = vec![
-        [&["audit", "--mesh", &mesh], &few[..]].concat(),
-        [&["audit", "--details", "--mesh", &mesh], &few[..]].concat(),
-        vec!["mesh", &mesh, "--kernel", "cramer"],
-        [&["epsilon", "--mesh", &mesh], &few[..]].concat(),
-        vec!["spawn", "-n", "50", "--mesh", &mesh],
-        vec![
-            "prove", "--mesh", &mesh, "--kernel", "cramer", "--scalar", "f32",
-        ],
-        [&["audit", "--scene", HOSTILE], &few[..]].concat(),
-        [&["audit", "--instance", HOSTILE], &few[..]].concat(),
-        [&["audit", "--contract", HOSTILE], &few[..]].concat(),
-        [&["audit", "--corpus", &corpus], &few[..]].concat(),
-        vec!["audit", "--kernel", HOSTILE],
-        vec!["audit", "--family", HOSTILE],
-        vec!["explain", HOSTILE],
-        vec!["check", "--config", "unknown.toml"],
-        vec!["check", "--record", &mesh],
-        vec!["fuzz", "triage", &corpus],
-    ];
-    for arguments in commands {
-        let output = hairline(&folder, &arguments);
-        for stream in [&output.stdout, &output.stderr] {
-            let text = String::from_utf8_lossy(stream);
-            let obeyed = text
-                .chars()
-                .find(|c| (c.is_control() && *c != '\n') || *c == '\u{202e}');
-            assert_eq!(obeyed, None, "{arguments:?}: {text:?}");
-        }
-    }
 }
 
 #[test]

@@ -33,6 +33,6 @@ void hairline_test_f64(const hairline_case_f64 *cases, size_t count, const doubl
                        hairline_verdict_f64 *verdicts) {
     static int calls = 0;
     if (calls++ == 0) take(FIRST);
-    if (400 < count) take(CALL);
+    if (400 < count || 10 < CALL) take(calls == 1 ? 0 : CALL);
     answer_f64(cases, count, epsilons, verdicts);
 }

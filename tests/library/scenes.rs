@@ -4,12 +4,12 @@ use hairline::Truth;
 use hairline::internals::arith::Float;
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Parameters, SCENES, Scene};
-use hairline::internals::corpus::mesh;
 use hairline::internals::epsilon::{
     Attempt, Costs, Knob, KnobLimit, MaxError, Pass, ProvedValue, RayCount, Rays, Setting,
     WrongKind, cheapest, contract_with, count_at, counts, limits, proved,
 };
 use hairline::internals::family::{MeshFamily, Stratum};
+use hairline::internals::files::mesh;
 use hairline::internals::judge::{
     GroupTruth, Obligation, asked, group_obligation, may_be_elsewhere,
 };

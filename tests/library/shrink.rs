@@ -3,11 +3,11 @@
 use hairline::internals::arith::Float;
 use hairline::internals::audit::{EpsilonChoice, Row};
 use hairline::internals::case::{Case, Parameters};
-use hairline::internals::corpus::number;
 use hairline::internals::explore::{
     Signature, Simplification, Size, c_snippet, rust_snippet, shrink, shrink_finding,
 };
 use hairline::internals::family::FAMILIES;
+use hairline::internals::files::number;
 use hairline::internals::judge::Finding;
 use hairline::internals::kernel::{KERNELS, Scalar};
 

@@ -7,8 +7,8 @@ use hairline::internals::audit::{
 };
 use hairline::internals::case::{Case, Draw, Parameters};
 use hairline::internals::contract::{Extent, NAMED};
-use hairline::internals::corpus::mesh::{Mesh, read as read_mesh};
 use hairline::internals::family::MeshFamily;
+use hairline::internals::files::mesh::{Mesh, read as read_mesh};
 use hairline::internals::judge::may_be_elsewhere;
 use hairline::internals::kernel::{Entry, Failure, Scalar, Verdict, find};
 use hairline::internals::mesh::{

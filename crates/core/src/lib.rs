@@ -128,6 +128,8 @@ pub mod case;
 #[doc(hidden)]
 pub mod contract;
 #[doc(hidden)]
+pub mod printable;
+#[doc(hidden)]
 pub mod suggest;
 #[doc(hidden)]
 pub mod truth;

@@ -5,7 +5,7 @@
 use super::PROTOCOL;
 use crate::arith::FloatEnvironment;
 use crate::contract::Contract;
-use crate::corpus::number;
+use crate::files::number;
 use crate::kernel::{Dimension, EpsilonSet, Gate, Gives, KernelInfo, Role, Tunable};
 
 /// A kernel's announcement.

@@ -15,7 +15,7 @@ use super::binary::{
 };
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
-use crate::corpus::number;
+use crate::files::number;
 use crate::kernel::{Failure, by_running};
 use guard::{Buffer, watch};
 use library::{Library, TestFunction, one_line};

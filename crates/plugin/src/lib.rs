@@ -7,6 +7,7 @@
 #![deny(unsafe_code)]
 
 use hairline_core::{arith, case, contract, kernel, truth};
+use hairline_files as files;
 use hairline_study::{corpus, plot, spawn};
 
 mod binary;

@@ -47,6 +47,9 @@ const NEVER_ANSWERED: u64 = 3;
 /// After so many processes that ended between batches, as if all was done, the command is one that does.
 const ENDED: u64 = 3;
 
+/// How often in ten milliseconds each words of a kernel are waited for.
+const LISTENED: usize = 10;
+
 struct Process {
     program: KernelProgram,
     limits: ProcessLimits,
@@ -61,6 +64,8 @@ struct ProcessState {
     idle: Vec<Running>,
     /// True if any batch was answered.
     has_answered: bool,
+    /// True if it was waited for words of it.
+    has_listened: bool,
     /// Cases that killed a process, or on which it was silent.
     failures: u64,
     /// Those on which it was silent.
@@ -192,10 +197,13 @@ impl Process {
             }
         }
         if failure == Failure::Timeout && !state.has_answered && failures >= NEVER_ANSWERED {
+            let cause = if self.program.is_host {
+                "its function does not return; if it only starts slowly, --kernel-timeout waits longer"
+            } else {
+                "does it flush its output after a batch, and speak the encoding that its hello announces?"
+            };
             return Err(format!(
-                "it has answered none of {failures} cases, each within {} s: does it flush its output after a \
-                 batch, and speak the encoding that its hello announces?",
-                silence
+                "it has answered none of {failures} cases, each within {silence} s: {cause}"
             ));
         }
         let first = state.first.get_or_insert_with(|| {
@@ -337,11 +345,15 @@ impl<F: Float> Subject<F> for Process {
     }
 
     fn talks(&self) -> bool {
-        // What it wrote before an answer may still be on its way.
-        (0..10).any(|_| {
+        // What it wrote before an answer may still be on its way; a kernel that was once silent for that long is not
+        // waited for again.
+        let has_listened = std::mem::replace(&mut self.state().has_listened, true);
+        let mut waits = if has_listened { 0 } else { LISTENED };
+        while 0 < waits && !self.program.said.are_some() {
             std::thread::sleep(Duration::from_millis(10));
-            self.program.said.are_some()
-        })
+            waits -= 1;
+        }
+        self.program.said.are_some()
     }
 
     fn finish(&self) {

@@ -5,7 +5,7 @@
 pub(super) use super::hello::shown;
 use crate::arith::Float;
 use crate::case::Case;
-use crate::corpus::number;
+use crate::files::number;
 use crate::kernel::Verdict;
 use crate::truth::Facing;
 use std::fmt::{Display, Write};

@@ -4,17 +4,19 @@
 //!
 //! It is the library behind the program `hairline`, whose interface is stable; this one changes with it.
 
-#![cfg_attr(not(feature = "files"), allow(dead_code, unused_imports))]
+#![cfg_attr(not(feature = "pictures"), allow(dead_code, unused_imports))]
 
-#[macro_use(either_scalar, in_named_scalar, named)]
+#[macro_use(either_scalar, named)]
 extern crate hairline_core;
-use hairline_core::{arith, case, contract, engine, kernel, oracle, suggest, truth};
+use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, suggest, truth};
+use hairline_files as files;
 #[cfg(feature = "studies")]
 use hairline_prove as prove;
 
 // The floors, from the ground up: each module uses only those above it in this list.
 pub mod plot;
 
+#[cfg(feature = "studies")]
 pub mod corpus;
 pub mod family;
 pub mod mesh;
@@ -25,8 +27,6 @@ pub mod audit;
 #[cfg(feature = "studies")]
 pub mod epsilon;
 #[cfg(feature = "studies")]
-pub mod explore;
-#[cfg(feature = "studies")]
 pub mod map;
 #[cfg(feature = "studies")]
 pub mod selfcheck;
@@ -36,9 +36,8 @@ pub mod spawn;
 #[cfg(feature = "studies")]
 pub mod studied;
 
+#[doc(hidden)]
+pub use hairline_core::kernel::Scalar;
 pub use hairline_core::{Case, Contract};
 #[cfg(feature = "studies")]
 pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
-
-#[cfg(feature = "proptest")]
-pub use explore::strategy;

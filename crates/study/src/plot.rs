@@ -1,5 +1,7 @@
 //! The parts that all plots share: axes with their ticks, stepped lines with their intervals, and text for XML.
 
+use crate::printable::is_obeyed;
+
 /// Each label of an axis with its place.
 pub type Ticks = Vec<(f64, String)>;
 
@@ -205,7 +207,7 @@ fn superscript(exponent: i32) -> String {
     exponent.to_string().chars().map(raised).collect()
 }
 
-/// Text for XML 1.0; a character that XML does not have becomes a replacement character.
+/// Text for XML 1.0; a character that XML does not have, or that is an order, becomes a replacement character.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
@@ -215,7 +217,7 @@ pub fn escaped(text: &str) -> String {
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
             '\t' | '\n' => escaped.push(c),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
+            c if is_obeyed(c) || matches!(c, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
             c => escaped.push(c),
         }
     }

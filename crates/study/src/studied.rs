@@ -2,31 +2,34 @@
 //! them once more, with its own optimisation.
 
 use crate::epsilon::{self, Costs, MaxError, Pass, SceneStudy, Setting};
-use crate::explore::worst::{self, WorstEntry, WorstGoal};
 use crate::family::Family;
 use crate::selfcheck::{self, Check, Reference};
 use crate::spawn;
-use crate::{case::Scene, engine::Observer, kernel::Scalar};
+use crate::{case::Scene, engine::Observer};
 
+/// A trait of functions of both scalars, each of them the one at a path.
+#[macro_export]
+#[doc(hidden)]
 macro_rules! studied {
-    ($($run:path: fn $name:ident($($argument:ident: $type:ty),* $(,)?) -> $result:ty;)*) => {
+    ($name_of_trait:ident; $($run:path: fn $name:ident($($argument:ident: $type:ty),* $(,)?) -> $result:ty;)*) => {
         /// A scalar in which everything is studied: each function is the one of its name in another module.
         #[allow(missing_docs)]
-        pub trait Studied: Scalar {
+        pub trait $name_of_trait: $crate::Scalar {
             $(fn $name($($argument: $type),*) -> $result;)*
         }
 
-        impl Studied for f32 {
+        impl $name_of_trait for f32 {
             $(fn $name($($argument: $type),*) -> $result { $run($($argument),*) })*
         }
 
-        impl Studied for f64 {
+        impl $name_of_trait for f64 {
             $(fn $name($($argument: $type),*) -> $result { $run($($argument),*) })*
         }
     };
 }
 
 studied! {
+    Studied;
     epsilon::study_scene: fn study_scene(
         setting: &Setting<'_, Self>,
         costs: &Costs,
@@ -48,11 +51,6 @@ studied! {
         plan: &spawn::SegmentPlan<'_>,
         observer: &dyn Observer,
     ) -> spawn::SegmentSums;
-    worst::find_worst::<Self>: fn find_worst(
-        goals: &[WorstGoal],
-        evaluations: u64,
-        seed: u64,
-    ) -> Vec<Option<WorstEntry>>;
     selfcheck::family::<Self>: fn check_family(
         family: &Family,
         reference: Reference,

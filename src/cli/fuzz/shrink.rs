@@ -4,7 +4,7 @@ use crate::audit::Row;
 use crate::case::Case;
 use crate::cli::case::CaseArguments;
 use crate::cli::exit::{Failure, Status};
-use crate::cli::output::write_result;
+use crate::cli::output::write_lines;
 use crate::cli::select::KernelArguments;
 use crate::corpus::lines::{StoredCase, write_case};
 use crate::explore::{
@@ -37,7 +37,7 @@ pub fn run(arguments: &ShrinkArguments) -> Result<Status, Failure> {
 fn shrink<F: Scalar>(rows: &[Row], case: &Case<F>) -> Result<Status, Failure> {
     let row = row_with_finding(rows, case)?;
     let (signature, shrunk) = shrink_finding(row, case).ok_or_else(|| no_finding(rows))?;
-    write_result("-", |out| write(out, row, case, &signature, &shrunk))?;
+    write_lines(|out| write(out, row, case, &signature, &shrunk))?;
     Ok(Status::Success)
 }
 

@@ -8,7 +8,7 @@ use crate::audit::Attribution;
 use crate::cli::before::set_threads;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::input::corpus_files;
-use crate::cli::output::write_result;
+use crate::cli::output::{write_lines, write_result};
 use crate::cli::select::KernelArguments;
 use crate::corpus::lines::{self, write_case};
 use crate::engine;
@@ -108,9 +108,7 @@ pub fn run(arguments: &TriageArguments) -> Result<Status, Failure> {
         .collect();
     write_finds(&arguments.output, kept.values())?;
     if !arguments.quiet {
-        write_result("-", |out| {
-            write_report(out, &arguments.output, count, kept.len(), &new)
-        })?;
+        write_lines(|out| write_report(out, &arguments.output, count, kept.len(), &new))?;
     }
     Ok(Status::Success)
 }

@@ -6,14 +6,14 @@ use crate::cli::before::{scalars_in_use, set_threads};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::flags::{chosen_scalars, unknown};
 use crate::cli::input::open;
-use crate::cli::output::write_result;
+use crate::cli::output::{write_lines, write_result};
 use crate::cli::progress::Progress;
 use crate::cli::select::KernelArguments;
 use crate::corpus::lines::{AnyCase, bare_case};
+use crate::explore::studied::Searched;
 use crate::explore::{LANES, Objective, SearchDomain, Update, WorstEntry, WorstGoal, WorstTable};
 use crate::kernel::{self, Scalar};
 use crate::prove;
-use crate::studied::Studied;
 use clap::Args;
 use std::fs;
 use std::io::{self, BufReader, Write};
@@ -111,7 +111,7 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
     };
     let found = search(arguments, &goals);
     let Some(path) = &arguments.update else {
-        write_result("-", |out| write_entries(out, found.entries(), None))?;
+        write_lines(|out| write_entries(out, found.entries(), None))?;
         return Ok(Status::Success);
     };
     let updates: Vec<(Update, &WorstEntry)> = found
@@ -133,7 +133,7 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
     eprintln!("{path}: {added} added, {raised} raised, {kept} stay as they were");
     let changed = updates.iter().filter(|(update, _)| *update != Update::Kept);
     let changed = changed.map(|(_, entry)| *entry);
-    write_result("-", |out| write_entries(out, changed, Some(path)))?;
+    write_lines(|out| write_entries(out, changed, Some(path)))?;
     Ok(Status::Success)
 }
 
@@ -254,9 +254,7 @@ fn list(arguments: &WorstArguments, goals: &[Vec<WorstGoal>; 2]) -> Result<Statu
                        this command searches, which takes minutes)";
         return Err(Failure::nothing(message));
     }
-    write_result("-", |out| {
-        write_entries(out, entries.into_iter(), arguments.table.as_deref())
-    })?;
+    write_lines(|out| write_entries(out, entries.into_iter(), arguments.table.as_deref()))?;
     Ok(Status::Success)
 }
 

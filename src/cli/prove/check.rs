@@ -5,9 +5,10 @@ use super::sizes::{DemandedSize, is_within, why_not};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::input::read_text;
 use crate::cli::output::write_result;
-use crate::corpus::InputError;
+use crate::files::InputError;
 use crate::kernel::{self, Entry, Path, Role, Scalar};
 use crate::named_file::SizeLimit;
+use crate::printable::printable_lines;
 use crate::prove::certificate::operations;
 use crate::prove::checker::{self, Number, Proved};
 use crate::prove::repair::Guarded;
@@ -27,7 +28,9 @@ pub fn check(arguments: &ProveArguments) -> Result<Status, Failure> {
         .collect::<Result<_, _>>()?;
     let path = arguments.output.output.first().map_or("-", String::as_str);
     write_result(path, |out| {
-        lines.iter().try_for_each(|line| writeln!(out, "{line}"))
+        lines
+            .iter()
+            .try_for_each(|line| writeln!(out, "{}", printable_lines(line)))
     })?;
     Ok(Status::Success)
 }

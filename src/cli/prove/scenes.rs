@@ -2,7 +2,7 @@
 
 use crate::cli::exit::Failure;
 use crate::cli::input::read_mesh;
-use crate::corpus::InputError;
+use crate::files::InputError;
 use crate::prove::{Scene, Shape};
 
 /// `0.01..10`, or one number for both.

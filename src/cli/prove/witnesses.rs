@@ -2,7 +2,7 @@
 
 use crate::arith::Float;
 use crate::cli::exit::Failure;
-use crate::corpus::InputError;
+use crate::files::InputError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 

@@ -3,7 +3,7 @@
 use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::Contract;
-use crate::corpus::{json, number};
+use crate::files::{json, number};
 use crate::judge::{Finding, Obligation, ValueErrors, judge};
 use crate::kernel::{Gives, Verdict};
 use crate::vectors::VectorTest;

@@ -27,6 +27,7 @@ pub use worst::severity;
 use super::disagreement::kinds_of;
 use super::*;
 use super::{disagreement, rate, record};
+use crate::printable::is_obeyed;
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -108,9 +109,31 @@ pub const FORMATS: &[Format] = &[
 pub const JSON_SCHEMA: &str = include_str!("../../../docs/schema/record.json");
 
 /// Writes one value over several lines, and a newline.
+///
+/// Only strings hold characters that a terminal obeys, and there an escape means the same.
 pub fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, value)?;
-    writeln!(out)
+    let text = serde_json::to_string_pretty(value)?;
+    write_json_text(&text, out)
+}
+
+/// Writes one value on one line.
+#[cfg(feature = "cli")]
+pub fn write_json_line(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
+    let text = serde_json::to_string(value)?;
+    write_json_text(&text, out)
+}
+
+/// Writes JSON and a newline, with escapes for what a terminal obeys: it stands in strings only, where they mean the same.
+fn write_json_text(text: &str, out: &mut dyn Write) -> io::Result<()> {
+    let mut rest = text;
+    while let Some(at) = rest.find(|c| c != '\n' && is_obeyed(c)) {
+        let (before, order_and_rest) = rest.split_at(at);
+        let mut chars = order_and_rest.chars();
+        let order = chars.next().map_or(0, u32::from);
+        write!(out, "{before}\\u{order:04x}")?;
+        rest = chars.as_str();
+    }
+    writeln!(out, "{rest}")
 }
 
 /// A text with a large first letter.

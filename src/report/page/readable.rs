@@ -4,7 +4,7 @@
 
 use super::{Block, Command, Item, Page, Row, Table};
 use crate::audit::is_one_command;
-use crate::corpus::json::{is_obeyed, printable};
+use crate::printable::{is_obeyed, printable, printable_lines};
 
 /// Stands for a line that a shell would take for more than one command.
 const NOT_SHOWN: &str = "(no line to paste: a name or a word in it would make a shell do more)";
@@ -39,17 +39,14 @@ fn make_block_readable(block: &mut Block) {
                 make_printable(meaning);
             }
         }
-        Block::Listing(text) => {
-            let lines: Vec<String> = text.split('\n').map(printable).collect();
-            *text = lines.join("\n");
-        }
+        Block::Listing(text) => *text = printable_lines(text),
         Block::Items(items) => items.items.iter_mut().for_each(make_item_readable),
         Block::Picture(picture) => {
             make_printable(&mut picture.about);
             make_printable(&mut picture.caption);
         }
-        // Its markup is ours, and says names by the templates' own escapes.
-        Block::Stage(_) => {}
+        // Its elements are ours; the names in them are escaped as markup, not as orders.
+        Block::Stage(stage) => stage.markup = printable_lines(&stage.markup),
         Block::Details(title, blocks) => {
             make_printable(title);
             blocks.iter_mut().for_each(make_block_readable);

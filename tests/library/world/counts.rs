@@ -5,12 +5,12 @@ use super::meshes::Mesh;
 use super::rays::{Aim, Shot, plane_of, shots, words, words_of_rays};
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Scene};
-use hairline::internals::corpus::mesh;
 use hairline::internals::epsilon::{
     Attempt, Knob, Pass, RayCount, Setting, WrongKind, contract_with, count_at, counts,
     own_epsilons,
 };
 use hairline::internals::family::{MeshFamily, Stratum};
+use hairline::internals::files::mesh;
 use hairline::internals::kernel::{Scalar, Verdict, find};
 use hairline::internals::mesh::{SceneMesh, Surface};
 use std::collections::BTreeMap;

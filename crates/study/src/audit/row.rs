@@ -3,9 +3,8 @@
 
 use crate::arith::Float;
 use crate::contract::Contract;
-use crate::corpus::json::is_obeyed;
-use crate::kernel::EpsilonText;
-use crate::kernel::{Entry, Gate, Tunable};
+use crate::kernel::{Entry, EpsilonText, Gate, Tunable};
+use crate::printable::is_obeyed;
 use hairline_core::Error;
 use serde::{Deserialize, Serialize};
 

@@ -9,6 +9,7 @@ use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum, a
 use crate::kernel::Scalar;
 use crate::mesh::{Aim, AimedPart, SceneMesh, Surface, Targets};
 use crate::oracle::{self, Layers};
+use crate::printable::printable;
 use crate::truth::Truth;
 use std::sync::Arc;
 
@@ -208,11 +209,7 @@ impl Source {
             Stock::Corpus(set) if set.is_secondary => format!("corpus-secondary:{}", set.file),
             Stock::Corpus(set) => format!("corpus:{}", set.file),
         };
-        let shown = |c: char| match c.is_control() {
-            true => c.escape_default().to_string(),
-            false => c.to_string(),
-        };
-        name.chars().map(shown).collect()
+        printable(&name)
     }
 
     /// The number of indices in a scalar.

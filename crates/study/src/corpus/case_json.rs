@@ -1,11 +1,12 @@
 //! A case as one JSON object.
 
-use super::json::{self, Object};
 use super::stored_case::{StoredCase, check_name};
 use super::stored_truth::StoredTruth;
-use super::{FoundBy, number, plain_json};
+use super::{FoundBy, plain_json};
 use crate::arith::Float;
 use crate::case::{AnyCase, Case};
+use crate::files::json::{self, Object};
+use crate::files::number;
 use serde_json::Value;
 use std::fmt;
 

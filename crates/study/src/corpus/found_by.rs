@@ -1,6 +1,6 @@
 //! How a finding was found, stored beside its case: the kernel, the finding, and where it came from.
 
-use super::json::{self, Object};
+use crate::files::json::{self, Object};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 

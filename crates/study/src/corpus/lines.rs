@@ -1,11 +1,12 @@
 //! Corpus files: one case a JSON object, with its truth and its bit patterns; one a line as they are written.
 
-use super::json_lines::JsonLines;
+use super::case_json;
 pub use super::stored_case::StoredCase;
 pub use super::stored_truth::StoredTruth;
-use super::text_lines::TextLines;
-use super::{InputError, case_json};
 pub use crate::case::AnyCase;
+use crate::files::InputError;
+use crate::files::json_lines::JsonLines;
+use crate::files::text_lines::TextLines;
 use std::io::BufRead;
 
 /// The most bytes of a line.

@@ -107,9 +107,9 @@ fn not_null<'a, D: Deserializer<'a>>(value: D) -> Result<Option<String>, D::Erro
 #[cfg(test)]
 mod tests {
     use super::super::case_json::{VECTORS, parse, parse_any};
-    use super::super::number;
     use super::*;
     use crate::case::Draw;
+    use crate::files::number;
 
     #[test]
     fn a_line_of_numbers_is_read_as_any_other_is() {

@@ -1,10 +1,12 @@
 //! A case from a corpus file, and what stands beside it.
 
+use super::FoundBy;
 use super::stored_truth::StoredTruth;
 use super::truth_json::TruthLine;
-use super::{FoundBy, json};
 use crate::case::AnyCase;
+use crate::files::json;
 use crate::oracle;
+use crate::printable::is_obeyed;
 
 /// A case from a corpus file, and what stands beside it.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +73,9 @@ pub(super) fn check_name(name: String) -> Result<String, String> {
         None => "it is empty".to_owned(),
         Some('{') => "it begins with '{', as a case that is written as JSON does".to_owned(),
         Some('-') => "it begins with '-', as a flag does".to_owned(),
-        _ if name.contains(char::is_control) => "it has a control character".to_owned(),
+        _ if name.contains(is_obeyed) => {
+            "it has a character that a terminal obeys and does not show".to_owned()
+        }
         _ if name.len() > LONGEST_NAME => format!("it has more than {LONGEST_NAME} bytes"),
         _ => return Ok(name),
     };

@@ -1,7 +1,7 @@
 //! A truth stored beside a case, and its comparison with the true one.
 
-use super::json::{self, Object};
 use super::truth_json::{TruthLine, fraction_text};
+use crate::files::json::{self, Object};
 use crate::truth::{Facing, Feature, Place};
 use num_bigint::BigInt;
 use num_rational::BigRational;

@@ -5,10 +5,11 @@ use crate::arith::Float;
 use crate::case::{Case, Draw};
 use glam::I64Vec3;
 
-pub(crate) type LatticePoint = I64Vec3;
+/// A point of small integers.
+pub type LatticePoint = I64Vec3;
 
-/// The same point in floats.
-pub(crate) fn float<F: Float>(point: LatticePoint) -> [F; 3] {
+/// A point in floats.
+pub fn float<F: Float>(point: LatticePoint) -> [F; 3] {
     point.to_array().map(|x| F::from_f64(x as f64))
 }
 

@@ -4,8 +4,8 @@
 use super::{FAMILIES, Family};
 use crate::case::Parameters;
 use crate::corpus::lines::LONGEST_LINE;
-use crate::corpus::text_lines::TextLines;
-use crate::corpus::{InputError, hex};
+use crate::files::text_lines::TextLines;
+use crate::files::{InputError, hex};
 use crate::kernel::Scalar;
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};

@@ -7,7 +7,7 @@ use super::drawn_interval::draw_interval;
 use super::{Grouping, apply, id_of};
 use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters};
-use crate::corpus::mesh::Mesh;
+use crate::files::mesh::Mesh;
 use std::slice;
 
 const NAME: &str = "mesh";

@@ -5,8 +5,8 @@ use super::{Obligation, obligation, promises_direction};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::{Contract, Extent, Sides};
-use crate::corpus::winds_once;
 use crate::family::Grouping;
+use crate::files::winds_once;
 use crate::truth::{Crossing, Facing, Feature, Place, Truth};
 use std::cmp::Ordering;
 

@@ -11,7 +11,7 @@ use super::svg::{BOLD, DOCUMENT, SMALL, drawing_of, text, wrapped};
 use crate::arith::{Exact, Float, Real};
 use crate::audit::{Row, exact_severity};
 use crate::case::Case;
-use crate::corpus::number;
+use crate::files::number;
 use crate::judge::{asked, judge};
 use crate::kernel::{Scalar, Verdict, verdicts_of};
 use crate::oracle::{self, Definition};

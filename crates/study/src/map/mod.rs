@@ -27,7 +27,7 @@ mod frame;
 mod grid;
 mod kernel;
 mod panel;
-#[cfg(feature = "files")]
+#[cfg(feature = "pictures")]
 mod png;
 mod scene;
 mod spot;
@@ -36,13 +36,13 @@ mod svg;
 pub use self::drawing::{drawing, drawing_document};
 pub use self::grid::{Axis, Grid, MOST_PIXELS, PixelStep};
 pub use self::kernel::{CaseVector, case_at, grid_of_case, of_kernel};
-#[cfg(feature = "files")]
+#[cfg(feature = "pictures")]
 pub use self::png::png;
 pub use self::spot::{Spot, standard};
 pub use self::svg::{svg, svg_document};
 
 use crate::arith::Float;
-use crate::corpus::number;
+use crate::files::number;
 use crate::judge::{Finding, Obligation};
 use crate::truth::Truth;
 /// The results at each pixel of a grid.

@@ -5,8 +5,8 @@
 use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters, Ray, Triangle};
-use crate::corpus::mesh::Mesh;
 use crate::family::{self, Grouping, draw_interval, exact_ray, nudged, toward, unit_vector};
+use crate::files::mesh::Mesh;
 use glam::DVec3;
 use std::slice;
 

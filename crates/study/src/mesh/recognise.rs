@@ -3,8 +3,8 @@
 use super::fans::{Fans, VertexKind, fan_of};
 use super::topology::{EdgeKind, FaceKind, Incidence, Noted, SharedEdge, Topology};
 use crate::arith::Float;
-use crate::corpus::mesh::Mesh;
 use crate::engine;
+use crate::files::mesh::Mesh;
 use rayon::slice::ParallelSliceMut;
 use std::collections::HashMap;
 
@@ -102,7 +102,7 @@ fn kind_alone<F: Float>(mesh: &Mesh, face: [u32; 3]) -> FaceKind {
     let corners = face.map(|point| mesh.position::<F>(point).map(F::to_f64));
     if corners.as_flattened().iter().any(|x| !x.is_finite()) {
         FaceKind::OutOfRange
-    } else if crate::corpus::is_without_area(corners) {
+    } else if crate::files::is_without_area(corners) {
         FaceKind::WithoutArea
     } else {
         FaceKind::Sound

@@ -5,11 +5,11 @@ use super::surface::Surface;
 use super::topology::{SharedEdge, Topology};
 use crate::arith::{Float, three_digits};
 use crate::case::{Case, DirectionLength, Draw, Parameters, Ray, Scene, Triangle};
-use crate::corpus::is_without_area;
 use crate::family::{
     Corners, Made, Pair, Parallel, RayAxes, Ring, Stratum, TriangleSource, along_axis, circle,
     flat_along, in_plane, rounded, wide,
 };
+use crate::files::is_without_area;
 use crate::kernel::Scalar;
 use glam::DVec3;
 

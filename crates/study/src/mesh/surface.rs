@@ -4,8 +4,8 @@ use super::rays::{AimedPart, Targets, VERSION};
 use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::{CaseId, Parameters};
-use crate::corpus::mesh::Mesh;
 use crate::family::MeshFamily;
+use crate::files::mesh::Mesh;
 use std::sync::Arc;
 
 /// A mesh and its topology in `f32`, in `f64` or in both.

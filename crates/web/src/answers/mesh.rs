@@ -4,7 +4,7 @@ use super::scalars_of;
 use crate::request::Mesh;
 use hairline::internals::audit::{Plan, Source, Unobserved, run};
 use hairline::internals::case::Parameters;
-use hairline::internals::corpus::mesh::read;
+use hairline::internals::files::mesh::read;
 use hairline::internals::family::MeshFamily;
 use hairline::internals::mesh::Surface;
 use hairline::internals::report::page::{Paged, elements};
