@@ -57,7 +57,8 @@ impl Worst {
     /// The more severe of two; of equals that of the lower index.
     fn of(self, other: Worst) -> Worst {
         let order = self.severity.total_cmp(&other.severity);
-        if order.then(other.index.cmp(&self.index)).is_lt() {
+        let of_equals = other.index.cmp(&self.index);
+        if order.then(of_equals).is_lt() {
             other
         } else {
             self
@@ -78,8 +79,10 @@ impl Wrong {
 impl Merge for Wrong {
     fn merge(&mut self, other: Wrong) {
         self.count += other.count;
-        self.first = self.first.into_iter().chain(other.first).min();
-        self.worst = self.worst.into_iter().chain(other.worst).reduce(Worst::of);
+        let both = self.first.into_iter().chain(other.first);
+        self.first = both.min();
+        let both = self.worst.into_iter().chain(other.worst);
+        self.worst = both.reduce(Worst::of);
     }
 }
 
@@ -99,7 +102,8 @@ impl Tally {
     /// The share of the cases with an obligation on which it was wrong; none if there are no such cases.
     pub fn rate(&self) -> Option<f64> {
         let owed = self.must_hit + self.must_miss;
-        let wrong = self.false_hits.count + self.false_misses.count + self.failed.count;
+        let false_verdicts = self.false_hits.count + self.false_misses.count;
+        let wrong = false_verdicts + self.failed.count;
         (owed > 0).then(|| wrong as f64 / owed as f64)
     }
 
@@ -206,7 +210,7 @@ fn add_chunk<F: Made + Scalar>(
     indices: Range<u64>,
 ) {
     let first = indices.start;
-    let cases: Vec<BoxCase<F>> = indices.map(|index| source.case(seed, index)).collect();
+    let cases = source.cases::<F>(seed, indices);
     let truths: Vec<_> = cases.iter().map(truth).collect();
     let mut verdicts = vec![Verdict::miss(None); cases.len()];
     for (running, tally) in running.iter().zip(&mut tallies.0) {

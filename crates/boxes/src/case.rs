@@ -26,7 +26,7 @@ pub struct BoxCase<F: Float> {
 
 /// The results of a function for the axes x, y and z.
 #[inline(always)]
-pub(crate) fn each_axis<T>(of_axis: impl FnMut(usize) -> T) -> [T; 3] {
+pub fn each_axis<T>(of_axis: impl FnMut(usize) -> T) -> [T; 3] {
     array::from_fn(of_axis)
 }
 
@@ -54,6 +54,13 @@ impl<F: Float> BoxCase<F> {
         self.ray.t_min = t_min;
         self.ray.t_max = t_max;
         self
+    }
+
+    /// This case with other vectors: origin, direction, min and max.
+    pub fn with(&self, vectors: [[F; 3]; 4]) -> Self {
+        let [origin, direction, min, max] = vectors;
+        let case = BoxCase::new(origin, direction, [min, max]);
+        case.on(self.ray.t_min, self.ray.t_max)
     }
 
     /// Origin, direction, min and max.

@@ -46,9 +46,23 @@ struct Axis {
 }
 
 impl Axis {
+    fn is_parallel(&self) -> bool {
+        self.direction.is_zero()
+    }
+
+    /// True if no point is between the planes.
+    fn is_empty(&self) -> bool {
+        self.min > self.max
+    }
+
+    /// True if the line is outside the slab at all t.
+    fn is_beside(&self) -> bool {
+        self.is_parallel() && !self.contains(&Rational::zero())
+    }
+
     /// Where it enters and leaves the slab; none of a line parallel to it.
     fn crossing(&self) -> Option<Range> {
-        if self.direction.is_zero() {
+        if self.is_parallel() {
             return None;
         }
         let at_min = (&self.min - &self.origin) / &self.direction;
@@ -91,13 +105,16 @@ pub fn define<F: Float>(case: &BoxCase<F>) -> Definition {
         interval: None,
     };
     let wide = case.widen();
-    let (Some(axes), Some([t_min, t_max])) = (axes(&wide), ends(&wide)) else {
+    let Some(axes) = axes(&wide) else {
         return only(Truth::Invalid);
     };
-    if t_min > t_max || axes.iter().all(|axis| axis.direction.is_zero()) {
+    let (Some(t_min), Some(t_max)) = (end(wide.ray.t_min), end(wide.ray.t_max)) else {
+        return only(Truth::Invalid);
+    };
+    if t_min > t_max || axes.iter().all(Axis::is_parallel) {
         return only(Truth::Invalid);
     }
-    if axes.iter().any(|axis| axis.min > axis.max) {
+    if axes.iter().any(Axis::is_empty) {
         return only(Truth::Empty);
     }
     let Some(line) = common(&axes) else {
@@ -131,11 +148,7 @@ fn axes(case: &BoxCase<f64>) -> Option<[Axis; 3]> {
     Some([axis(0)?, axis(1)?, axis(2)?])
 }
 
-/// None if an end is NaN.
-fn ends(case: &BoxCase<f64>) -> Option<[End; 2]> {
-    Some([end(case.ray.t_min)?, end(case.ray.t_max)?])
-}
-
+/// None of NaN.
 fn end(t: f64) -> Option<End> {
     if t == f64::INFINITY {
         return Some(End::PlusInfinity);
@@ -148,31 +161,26 @@ fn end(t: f64) -> Option<End> {
 
 /// The t at which the line is in all three slabs; none if there is no such t.
 fn common(axes: &[Axis; 3]) -> Option<Range> {
-    let is_beside = |axis: &Axis| axis.direction.is_zero() && !axis.contains(&Rational::zero());
-    if axes.iter().any(is_beside) {
+    if axes.iter().any(Axis::is_beside) {
         return None;
     }
-    let crossings: Vec<Range> = axes.iter().filter_map(Axis::crossing).collect();
-    let enter = crossings.iter().map(|range| range.enter.clone()).max()?;
-    let exit = crossings.iter().map(|range| range.exit.clone()).min()?;
+    let crossings = || axes.iter().filter_map(Axis::crossing);
+    let enter = crossings().map(|range| range.enter).max()?;
+    let exit = crossings().map(|range| range.exit).min()?;
     (enter <= exit).then_some(Range { enter, exit })
 }
 
 fn class(axes: &[Axis; 3], line: &Range) -> Class {
     if line.enter < line.exit {
-        let middle = (&line.enter + &line.exit) / Rational::from_integer(2.into());
-        let runs_in_a_face = axes.iter().any(|axis| axis.is_on_plane(&middle));
-        return if runs_in_a_face {
-            Class::Along
-        } else {
-            Class::Interior
-        };
+        let two = Rational::from_integer(2.into());
+        let middle = (&line.enter + &line.exit) / two;
+        if axes.iter().any(|axis| axis.is_on_plane(&middle)) {
+            return Class::Along;
+        }
+        return Class::Interior;
     }
-    match axes
-        .iter()
-        .filter(|axis| axis.is_on_plane(&line.enter))
-        .count()
-    {
+    let on_planes = axes.iter().filter(|axis| axis.is_on_plane(&line.enter));
+    match on_planes.count() {
         3 => Class::Corner,
         2 => Class::Edge,
         _ => Class::Face,

@@ -2,8 +2,9 @@
 
 use crate::case::BoxCase;
 use crate::filter::is_valid;
+use crate::slab::Slab;
 use num_rational::BigRational as Rational;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{ToPrimitive, Zero};
 
 /// The number by which a box must grow on all sides so that it is just met; below zero if it is met already.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,13 +15,6 @@ pub struct Padding {
     pub share: f64,
 }
 
-/// An axis on which the direction is not zero, turned so that it is positive.
-struct Slab {
-    near: Rational,
-    far: Rational,
-    size: Rational,
-}
-
 /// The padding of a case; none of an invalid one.
 ///
 /// Padded by p, the line enters slab i before it leaves slab j if (near_i - p)/size_i <= (far_j + p)/size_j, so if
@@ -29,52 +23,50 @@ pub fn padding(case: &BoxCase<f64>) -> Option<Padding> {
     if !is_valid(case) {
         return None;
     }
-    let vectors = case.vectors();
-    let [origin, direction, min, max] = vectors.map(|v| v.map(Rational::from_float));
     let mut bounds = Vec::new();
     let mut slabs = Vec::new();
     for i in 0..3 {
-        let (origin, direction) = (origin[i].as_ref()?, direction[i].as_ref()?);
-        let from_min = min[i].as_ref()? - origin;
-        let from_max = max[i].as_ref()? - origin;
-        if direction.is_zero() {
-            bounds.extend([from_min, -from_max]);
-            continue;
-        }
-        let size = direction.abs();
-        slabs.push(if direction.is_positive() {
-            Slab {
-                near: from_min,
-                far: from_max,
-                size,
-            }
+        let [origin, direction, min, max] = case.vectors().map(|vector| vector[i]);
+        let origin = Rational::from_float(origin)?;
+        let size = Rational::from_float(direction)?;
+        let from_min = Rational::from_float(min)? - &origin;
+        let from_max = Rational::from_float(max)? - &origin;
+        if direction == 0.0 {
+            bounds.push(from_min);
+            bounds.push(-from_max);
+        } else if direction > 0.0 {
+            slabs.push(Slab::forward(from_min, from_max, size));
         } else {
-            Slab {
-                near: -from_max,
-                far: -from_min,
-                size,
-            }
-        });
+            slabs.push(Slab::backward(from_min, from_max, size));
+        }
     }
-    // No bound of an infinite end.
-    let [t_min, t_max] = [case.ray.t_min, case.ray.t_max].map(Rational::from_float);
+    // An infinite end is no bound.
+    let t_min = Rational::from_float(case.ray.t_min);
+    let t_max = Rational::from_float(case.ray.t_max);
     for slab in &slabs {
-        bounds.extend(t_max.as_ref().map(|t_max| &slab.near - t_max * &slab.size));
-        bounds.extend(t_min.as_ref().map(|t_min| t_min * &slab.size - &slab.far));
+        if let Some(t_max) = &t_max {
+            bounds.push(&slab.near - t_max * &slab.size);
+        }
+        if let Some(t_min) = &t_min {
+            bounds.push(t_min * &slab.size - &slab.far);
+        }
         for other in &slabs {
-            let apart = &slab.near * &other.size - &other.far * &slab.size;
-            bounds.push(apart / (&slab.size + &other.size));
+            let enters = &slab.near * &other.size;
+            let leaves = &other.far * &slab.size;
+            let sizes = &slab.size + &other.size;
+            bounds.push((enters - leaves) / sizes);
         }
     }
     let length = bounds.into_iter().max()?;
-    let [origin, _, min, max] = vectors;
-    let coordinates = [origin, min, max];
-    let largest = coordinates
-        .as_flattened()
-        .iter()
-        .fold(0.0, |most: f64, x| most.max(x.abs()));
-    let share = share(&length, largest);
+    let share = share(&length, largest_coordinate(case));
     Some(Padding { length, share })
+}
+
+fn largest_coordinate(case: &BoxCase<f64>) -> f64 {
+    let [origin, _, min, max] = case.vectors();
+    let coordinates = [origin, min, max];
+    let sizes = coordinates.as_flattened().iter().map(|x| x.abs());
+    sizes.fold(0.0, f64::max)
 }
 
 /// A length by the largest coordinate; infinite if all coordinates are 0.

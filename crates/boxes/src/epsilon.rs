@@ -3,7 +3,7 @@
 //! A margin says at once what a slab test does at every epsilon. So one run over the cases that must be hit finds the
 //! largest epsilon that loses none of them, and a second one counts what it lets through that must be missed.
 
-use crate::case::{BoxCase, Boxes};
+use crate::case::Boxes;
 use crate::family::Made;
 use crate::judge::Obligation;
 use crate::oracle::truth;
@@ -109,19 +109,16 @@ struct MeasuredCase<F> {
 
 impl<'a, F: Made + Scalar> Measured<'a, F> {
     fn new(question: &'a Question<'a>) -> Result<Measured<'a, F>, String> {
-        let (setup, name) = (question.setup, question.setup.entry.info.name);
-        let gate = setup
-            .gates()
-            .iter()
-            .position(|gate| gate.name == question.gate);
-        let subject = F::subject(setup.entry);
+        let setup = question.setup;
+        let not_a_number = || {
+            let name = setup.entry.info.name;
+            format!("an epsilon of {name} is not a number of {}", F::NAME)
+        };
         Ok(Measured {
             question,
-            subject: subject.ok_or_else(|| format!("{name} does not run in {}", F::NAME))?,
-            gate: gate.ok_or_else(|| format!("{name} has no gate '{}'", question.gate))?,
-            epsilons: setup
-                .epsilons()
-                .ok_or_else(|| format!("an epsilon of {name} is not a number of {}", F::NAME))?,
+            subject: setup.subject()?,
+            gate: setup.place(question.gate)?,
+            epsilons: setup.epsilons().ok_or_else(not_a_number)?,
         })
     }
 
@@ -133,7 +130,7 @@ impl<'a, F: Made + Scalar> Measured<'a, F> {
             ..
         } = *self.question;
         let first = indices.start;
-        let cases: Vec<BoxCase<F>> = indices.map(|index| source.case(seed, index)).collect();
+        let cases = source.cases::<F>(seed, indices);
         let width = self.epsilons.len();
         let mut margins = vec![F::zero(); cases.len() * width];
         self.subject
@@ -149,8 +146,12 @@ impl<'a, F: Made + Scalar> Measured<'a, F> {
     }
 
     fn margin(&self, margins: &[F]) -> Option<F> {
-        let passes = |gate: usize| gate == self.gate || self.epsilons[gate] <= margins[gate];
-        (0..margins.len()).all(passes).then(|| margins[self.gate])
+        for (gate, margin) in margins.iter().enumerate() {
+            if gate != self.gate && *margin < self.epsilons[gate] {
+                return None;
+            }
+        }
+        Some(margins[self.gate])
     }
 }
 
@@ -170,24 +171,29 @@ impl<F: Made> Losses<F> {
             return;
         }
         self.must_hit += 1;
-        let Some(margin) = case.margin.filter(|margin| -F::infinity() < *margin) else {
+        let margin = case.margin.unwrap_or(-F::infinity());
+        if margin == -F::infinity() {
             self.lost_anyway += 1;
             return;
-        };
+        }
         self.lost_at_zero += u64::from(margin < F::zero());
         self.lost_at_own += u64::from(margin < case.own);
         let limit = Largest {
             epsilon: margin,
             index: case.index,
         };
-        self.largest = Some(self.largest.map_or(limit, |known| stricter(known, limit)));
+        self.largest = match self.largest {
+            Some(known) => Some(stricter(known, limit)),
+            None => Some(limit),
+        };
     }
 }
 
 /// The smaller epsilon of two; of equals that of the lower index.
 fn stricter<F: Made>(one: Largest<F>, other: Largest<F>) -> Largest<F> {
-    let is_first = one.index <= other.index;
-    if other.epsilon < one.epsilon || (other.epsilon == one.epsilon && !is_first) {
+    let is_lower = other.epsilon < one.epsilon;
+    let is_as_low = other.epsilon == one.epsilon;
+    if is_lower || (is_as_low && other.index < one.index) {
         return other;
     }
     one

@@ -9,6 +9,7 @@
 //! Signs of differences, and so the place of the origin, need no bound: IEEE subtraction never gets them wrong.
 
 use crate::case::BoxCase;
+use crate::slab::Slab;
 use crate::truth::{Class, Meeting, Origin, Overlap, Truth};
 use std::cmp::Ordering;
 
@@ -16,15 +17,8 @@ const U: f64 = f64::EPSILON / 2.0;
 /// More than underflow can add: 2^-1000.
 const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
 
-/// An axis on which the direction is not zero, turned so that it is positive.
-struct Slab {
-    near: f64,
-    far: f64,
-    size: f64,
-}
-
 /// The truth, if floats are sure of it.
-pub(crate) fn decide(case: &BoxCase<f64>) -> Option<Truth> {
+pub fn decide(case: &BoxCase<f64>) -> Option<Truth> {
     if !is_valid(case) {
         return Some(Truth::Invalid);
     }
@@ -43,21 +37,12 @@ pub(crate) fn decide(case: &BoxCase<f64>) -> Option<Truth> {
             continue;
         }
         touches_a_plane |= min[i] == max[i];
-        let size = direction[i].abs();
         let from_min = min[i] - origin[i];
         let from_max = max[i] - origin[i];
         slabs.push(if direction[i] > 0.0 {
-            Slab {
-                near: from_min,
-                far: from_max,
-                size,
-            }
+            Slab::forward(from_min, from_max, direction[i])
         } else {
-            Slab {
-                near: -from_max,
-                far: -from_min,
-                size,
-            }
+            Slab::backward(from_min, from_max, direction[i])
         });
     }
     if enters_before_it_leaves(&slabs)? == Ordering::Greater {
@@ -69,21 +54,23 @@ pub(crate) fn decide(case: &BoxCase<f64>) -> Option<Truth> {
     let ray = on_ray(&slabs);
     Some(Truth::Meets(Meeting {
         class: Class::Interior,
-        origin: place(origin, min, max),
+        origin: place(case.vectors()),
         ray,
         interval: in_interval(case, &slabs, ray)?,
     }))
 }
 
 /// Finite coordinates, a direction that is not zero, and an interval whose ends are in order.
-pub(crate) fn is_valid(case: &BoxCase<f64>) -> bool {
+pub fn is_valid(case: &BoxCase<f64>) -> bool {
     let vectors = case.vectors();
-    let is_finite = vectors.as_flattened().iter().all(|x| x.is_finite());
-    is_finite && vectors[1] != [0.0; 3] && case.ray.t_min <= case.ray.t_max
+    let mut numbers = vectors.as_flattened().iter();
+    let are_finite = numbers.all(|x| x.is_finite());
+    let has_direction = vectors[1] != [0.0; 3];
+    are_finite && has_direction && case.ray.t_min <= case.ray.t_max
 }
 
 /// The order of where the line enters the last slab and where it leaves the first, never called equal.
-fn enters_before_it_leaves(slabs: &[Slab]) -> Option<Ordering> {
+fn enters_before_it_leaves(slabs: &[Slab<f64>]) -> Option<Ordering> {
     let mut is_certain = true;
     for (i, enters) in slabs.iter().enumerate() {
         for (j, leaves) in slabs.iter().enumerate() {
@@ -112,18 +99,22 @@ fn order(left: f64, right: f64) -> Option<Ordering> {
 
 /// The place of the origin. All that is on the boundary has been handed on, unless the origin is on a plane that the
 /// line crosses.
-fn place(origin: [f64; 3], min: [f64; 3], max: [f64; 3]) -> Origin {
-    if (0..3).any(|i| origin[i] < min[i] || max[i] < origin[i]) {
+fn place([origin, _, min, max]: [[f64; 3]; 4]) -> Origin {
+    let is_below = (0..3).any(|i| origin[i] < min[i]);
+    let is_above = (0..3).any(|i| max[i] < origin[i]);
+    if is_below || is_above {
         return Origin::Outside;
     }
-    if (0..3).any(|i| origin[i] == min[i] || origin[i] == max[i]) {
+    let is_at_min = (0..3).any(|i| origin[i] == min[i]);
+    let is_at_max = (0..3).any(|i| origin[i] == max[i]);
+    if is_at_min || is_at_max {
         return Origin::On;
     }
     Origin::Inside
 }
 
 /// The part at t >= 0 of a line through the interior.
-fn on_ray(slabs: &[Slab]) -> Overlap {
+fn on_ray(slabs: &[Slab<f64>]) -> Overlap {
     if slabs.iter().any(|slab| slab.far < 0.0) {
         return Overlap::None;
     }
@@ -134,7 +125,7 @@ fn on_ray(slabs: &[Slab]) -> Overlap {
 }
 
 /// The part in the interval of a line through the interior; `ray` is its part at t >= 0.
-fn in_interval(case: &BoxCase<f64>, slabs: &[Slab], ray: Overlap) -> Option<Overlap> {
+fn in_interval(case: &BoxCase<f64>, slabs: &[Slab<f64>], ray: Overlap) -> Option<Overlap> {
     let t_min = case.ray.t_min;
     let t_max = case.ray.t_max;
     if t_min == 0.0 && t_max == f64::INFINITY {

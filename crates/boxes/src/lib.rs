@@ -16,6 +16,7 @@
 
 // From the ground up: each block uses only those above it.
 mod case;
+mod slab;
 mod truth;
 
 mod define;

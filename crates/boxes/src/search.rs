@@ -15,6 +15,12 @@ use hairline_core::engine::{Merge, Observer, sum};
 use hairline_core::kernel::{Scalar, Subject};
 use std::ops::Range;
 
+/// No number of a search but 0 is smaller: 2^-20.
+const LEAST: f64 = 1.0 / MOST;
+
+/// No number of a search is larger.
+const MOST: f64 = (1u64 << 20) as f64;
+
 /// A search from the cases of a source.
 pub struct Search<'a> {
     /// The slab test; the margin of its first gate is lowered.
@@ -51,8 +57,9 @@ impl<F: Made> Merge for Best<F> {
 
 /// The lower margin of two; of equals that of the lower start.
 fn lower<F: Made>(one: Found<F>, other: Found<F>) -> Found<F> {
-    let is_first = one.start <= other.start;
-    if other.margin < one.margin || (other.margin == one.margin && !is_first) {
+    let is_lower = other.margin < one.margin;
+    let is_as_low = other.margin == one.margin;
+    if is_lower || (is_as_low && other.start < one.start) {
         return other;
     }
     one
@@ -64,9 +71,9 @@ pub fn search<F: Made + Scalar>(
     search: &Search,
     observer: &dyn Observer,
 ) -> Result<Option<Found<F>>, String> {
-    let (entry, name) = (search.setup.entry, search.setup.entry.info.name);
-    let subject = F::subject(entry).ok_or_else(|| format!("{name} does not run in {}", F::NAME))?;
+    let subject = search.setup.subject::<F>()?;
     if search.setup.gates().is_empty() {
+        let name = search.setup.entry.info.name;
         return Err(format!("{name} has no gate"));
     }
     let climber = Climber { search, subject };
@@ -86,10 +93,16 @@ struct Climber<'a, F: Made> {
 
 impl<F: Made> Climber<'_, F> {
     fn climb(&self, start: u64) -> Option<Found<F>> {
-        let mut draw = Draw::new("search of boxes", self.search.seed, start);
-        let mut case = self.search.source.case::<F>(self.search.seed, start);
+        let Search {
+            source,
+            steps,
+            seed,
+            ..
+        } = *self.search;
+        let mut draw = Draw::new("search of boxes", seed, start);
+        let mut case = source.case::<F>(seed, start);
         let mut margin = self.margin(&case)?;
-        for _ in 0..self.search.steps {
+        for _ in 0..steps {
             let next = changed(&mut draw, &case);
             let leaves = draw.below(3);
             // The rounded plane may be one place short.
@@ -99,7 +112,8 @@ impl<F: Made> Climber<'_, F> {
                     continue;
                 };
                 if found <= margin {
-                    (case, margin) = (cut, found);
+                    case = cut;
+                    margin = found;
                 }
                 break;
             }
@@ -114,7 +128,8 @@ impl<F: Made> Climber<'_, F> {
     /// The margin of a case that must be hit, and that the other gates let through.
     fn margin(&self, case: &BoxCase<F>) -> Option<F> {
         let setup = self.search.setup;
-        if !is_ordinary(case) || Obligation::new(&truth(case), &setup.contract) != Obligation::Hit {
+        let obligation = Obligation::new(&truth(case), &setup.contract);
+        if obligation != Obligation::Hit || !is_ordinary(case) {
             return None;
         }
         let mut margins = vec![F::zero(); setup.gates().len()];
@@ -123,16 +138,20 @@ impl<F: Made> Climber<'_, F> {
         let [first, others @ ..] = margins.as_slice() else {
             return None;
         };
-        let passes = others.iter().all(|margin| F::zero() <= *margin);
-        (passes && first.is_finite()).then_some(*first)
+        if others.iter().any(|margin| *margin < F::zero()) {
+            return None;
+        }
+        first.is_finite().then_some(*first)
     }
 }
 
 /// True if all numbers are so far from the ends of the floats that nothing overflows or underflows.
 fn is_ordinary<F: Made>(case: &BoxCase<F>) -> bool {
-    let [least, most] = [-20, 20].map(|power: i32| f64::from(power).exp2());
-    let is_between = |x: &F| x.is_zero() || (least..=most).contains(&x.to_f64().abs());
-    case.vectors().as_flattened().iter().all(is_between)
+    let vectors = case.vectors();
+    vectors.as_flattened().iter().all(|x| {
+        let size = x.to_f64().abs();
+        size == 0.0 || (LEAST..=MOST).contains(&size)
+    })
 }
 
 /// One to three numbers moved, by one place or by up to a whole binade.
@@ -145,38 +164,31 @@ fn changed<F: Made>(draw: &mut Draw, case: &BoxCase<F>) -> BoxCase<F> {
         let reach = 1i64 << draw.integer(0, i64::from(F::DIGITS));
         *number = number.offset_ulps(draw.integer(-reach, reach));
     }
-    let [origin, direction, min, max] = vectors;
-    BoxCase::new(origin, direction, [min, max]).on(case.ray.t_min, case.ray.t_max)
+    case.with(vectors)
 }
 
 /// A case whose line leaves one slab about where it enters the last of the others: its far plane is put there, and some
 /// places further out.
 fn cut_off<F: Made>(case: &BoxCase<F>, leaves: usize, outwards: i64) -> BoxCase<F> {
-    let wide = case.widen();
-    let [origin, direction, min, max] = wide.vectors();
-    let is_forward = |i: usize| 0.0 < direction[i];
-    let enters = |i: usize| {
-        let near = if is_forward(i) { min[i] } else { max[i] };
-        (near - origin[i]) / direction[i]
-    };
-    let others = (0..3).filter(|i| *i != leaves && direction[*i] != 0.0);
-    let t = others.map(enters).fold(0.0, f64::max);
-    let plane = F::from_f64(origin[leaves] + t * direction[leaves]);
-    let [origin, direction, mut min, mut max] = case.vectors();
-    if F::zero() < direction[leaves] {
-        max[leaves] = plane.offset_ulps(outwards);
-        min[leaves] = if plane < min[leaves] {
-            origin[leaves]
-        } else {
-            min[leaves]
-        };
-    } else {
-        min[leaves] = plane.offset_ulps(-outwards);
-        max[leaves] = if max[leaves] < plane {
-            origin[leaves]
-        } else {
-            max[leaves]
-        };
+    let [origin, direction, min, max] = case.widen().vectors();
+    let mut t = 0.0;
+    for i in (0..3).filter(|i| *i != leaves && direction[*i] != 0.0) {
+        let is_forward = direction[i] > 0.0;
+        let near = if is_forward { min[i] } else { max[i] };
+        t = f64::max(t, (near - origin[i]) / direction[i]);
     }
-    BoxCase::new(origin, direction, [min, max]).on(case.ray.t_min, case.ray.t_max)
+    let plane = F::from_f64(origin[leaves] + t * direction[leaves]);
+    let mut vectors = case.vectors();
+    let [origin, _, min, max] = &mut vectors;
+    let origin = origin[leaves];
+    let min = &mut min[leaves];
+    let max = &mut max[leaves];
+    if direction[leaves] > 0.0 {
+        *max = plane.offset_ulps(outwards);
+        *min = if plane < *min { origin } else { *min };
+    } else {
+        *min = plane.offset_ulps(-outwards);
+        *max = if *max < plane { origin } else { *max };
+    }
+    case.with(vectors)
 }

@@ -1,8 +1,9 @@
 //! A slab test as it is run: with epsilons and a contract.
 
 use crate::case::Boxes;
-use hairline_core::kernel::{Entry, EpsilonText, Tunable};
-use hairline_core::{Contract, EpsilonSet, Float, Gate};
+use hairline_core::kernel::{Entry, EpsilonText, Scalar, Subject, Tunable};
+use hairline_core::{Contract, Float, Gate};
+use std::fmt;
 
 /// A slab test with one epsilon a gate, judged by a contract.
 #[derive(Clone)]
@@ -17,8 +18,8 @@ pub struct Setup {
     pub contract: Contract,
 }
 
-impl std::fmt::Debug for Setup {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Debug for Setup {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ({})", self.entry.info.name, self.set)
     }
 }
@@ -26,29 +27,24 @@ impl std::fmt::Debug for Setup {
 impl Setup {
     /// A slab test in each of its published epsilons, by its own contract.
     pub fn published(entry: &'static Entry<Boxes>) -> Vec<Setup> {
-        let setup = |set: &EpsilonSet| {
-            let values = set.values.iter().map(|text| EpsilonText::of(text));
-            Some(Setup {
+        let mut setups = Vec::new();
+        for set in entry.info.epsilon_sets {
+            let texts = set.values.iter();
+            setups.push(Setup {
                 entry,
                 set: set.name,
-                values: values.collect::<Option<_>>()?,
+                values: texts.filter_map(|text| EpsilonText::of(text)).collect(),
                 contract: entry.info.contract,
-            })
-        };
-        entry.info.epsilon_sets.iter().filter_map(setup).collect()
+            });
+        }
+        setups
     }
 
     /// This setup with another epsilon at a gate. An error if it has no such gate, or the gate takes no such epsilon.
     pub fn with(mut self, gate: &str, value: EpsilonText) -> Result<Setup, String> {
-        let name = self.entry.info.name;
-        let Some(place) = self.gates().iter().position(|it| it.name == gate) else {
-            let names: Vec<&str> = self.gates().iter().map(|gate| gate.name).collect();
-            return Err(format!(
-                "{name} has no gate '{gate}'; it has {}",
-                names.join(", ")
-            ));
-        };
+        let place = self.place(gate)?;
         if self.gates()[place].epsilon == Tunable::Fixed {
+            let name = self.entry.info.name;
             return Err(format!("gate '{gate}' of {name} takes no epsilon"));
         }
         if value.value::<f64>().is_none() {
@@ -69,6 +65,23 @@ impl Setup {
     /// The gates of the slab test.
     pub fn gates(&self) -> &'static [Gate] {
         self.entry.info.gates
+    }
+
+    /// The place of a gate among them. An error if there is no gate of this name.
+    pub fn place(&self, gate: &str) -> Result<usize, String> {
+        let mut gates = self.gates().iter();
+        gates.position(|it| it.name == gate).ok_or_else(|| {
+            let name = self.entry.info.name;
+            format!("{name} has no gate '{gate}'")
+        })
+    }
+
+    /// The slab test in a scalar. An error if it does not run in it.
+    pub fn subject<F: Scalar>(&self) -> Result<&'static dyn Subject<F, Boxes>, String> {
+        F::subject(self.entry).ok_or_else(|| {
+            let name = self.entry.info.name;
+            format!("{name} does not run in {}", F::NAME)
+        })
     }
 
     /// The epsilons in a scalar; none if one is not a finite number of it.

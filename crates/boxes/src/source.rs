@@ -5,6 +5,7 @@ use crate::family::{Family, Made};
 use hairline_core::Float;
 use hairline_core::case::Draw;
 use std::fmt;
+use std::ops::Range;
 
 /// A source of cases.
 #[derive(Clone, Copy)]
@@ -36,26 +37,35 @@ impl Scene {
 
     fn case<F: Float>(&self, seed: u64, index: u64) -> BoxCase<F> {
         let mut draw = Draw::new("scene of boxes", seed, index);
-        let number = |x: f64| F::from_f64(x);
-        let point = |draw: &mut Draw, most: f64| -> [F; 3] {
-            [(); 3].map(|()| number((2.0 * draw.unit() - 1.0) * most))
-        };
-        let min = point(&mut draw, self.extent - self.size);
-        let max = min.map(|x| x + number(draw.unit() * self.size));
-        let target: [F; 3] = each_axis(|i| match draw.below(3) {
-            0 => min[i],
-            1 => max[i],
-            _ => min[i] + (max[i] - min[i]) * number(draw.unit()),
-        });
-        let length = number(0.25 + 3.75 * draw.unit());
+        let min = within::<F>(&mut draw, self.extent - self.size);
+        let mut max = min;
+        let mut target = min;
+        for i in 0..3 {
+            let side = F::from_f64(draw.unit() * self.size);
+            max[i] = min[i] + side;
+            target[i] = match draw.below(3) {
+                0 => min[i],
+                1 => max[i],
+                _ => min[i] + side * F::from_f64(draw.unit()),
+            };
+        }
+        let length = F::from_f64(0.25 + 3.75 * draw.unit());
         loop {
-            let origin = point(&mut draw, self.extent);
-            let direction: [F; 3] = each_axis(|i| (target[i] - origin[i]) * length);
-            if !direction.iter().all(|x| x.is_zero()) {
+            let origin = within::<F>(&mut draw, self.extent);
+            let direction = each_axis(|i| (target[i] - origin[i]) * length);
+            if direction != [F::zero(); 3] {
                 return BoxCase::new(origin, direction, [min, max]);
             }
         }
     }
+}
+
+/// A point whose coordinates are at most this large.
+fn within<F: Float>(draw: &mut Draw, most: f64) -> [F; 3] {
+    each_axis(|_| {
+        let share = 2.0 * draw.unit() - 1.0;
+        F::from_f64(share * most)
+    })
 }
 
 impl Source {
@@ -65,6 +75,12 @@ impl Source {
             Source::Family(family) => family.case(seed, index),
             Source::Scene(scene) => scene.case(seed, index),
         }
+    }
+
+    /// The cases of some indices.
+    pub fn cases<F: Made>(&self, seed: u64, indices: Range<u64>) -> Vec<BoxCase<F>> {
+        let cases = indices.map(|index| self.case(seed, index));
+        cases.collect()
     }
 }
 

@@ -1,14 +1,14 @@
 //! Obligations, tallies, and what margins say of growth and padding.
 
 use hairline_boxes::{
-    BoxCase, FAMILIES, Finding, KERNELS, Obligation, Question, Row, Scene, Search, Setup, Source,
-    TABLE, Tally, audit, epsilon, find_family, padding, search, severity, truth,
+    BoxCase, Boxes, FAMILIES, Finding, KERNELS, Obligation, Question, Row, Scene, Search, Setup,
+    Source, TABLE, Tally, audit, epsilon, find_family, padding, search, severity, truth,
 };
 use hairline_core::arith::Float;
 use hairline_core::contract::{Boundary, Contract, Demand, Extent};
 use hairline_core::engine::{Merge, Unobserved};
-use hairline_core::kernel::{EpsilonText, Scalar};
-use hairline_core::{Failure, Verdict};
+use hairline_core::kernel::{Entry, EpsilonText, Scalar};
+use hairline_core::{Failure, KernelInfo, Verdict};
 
 const CUBE: [[f64; 3]; 2] = [[0.0; 3], [1.0; 3]];
 
@@ -205,6 +205,38 @@ fn the_largest_epsilon_loses_nothing_and_the_next_one_loses_its_case() {
     assert_eq!(plain.false_misses.count, answer.lost_at_zero);
     assert_eq!(plain.false_hits.count, answer.false_hits_at_zero);
     assert_eq!(answer.must_hit + answer.must_miss, 4000);
+}
+
+#[test]
+fn a_margin_of_zero_loses_nothing_at_zero() {
+    let slopes = setup("eisemann-slopes");
+    let question = Question {
+        setup: &slopes,
+        gate: "edge",
+        source: source("corner"),
+        count: 2000,
+        seed: 1,
+    };
+    let answer = epsilon::<f64>(&question, &Unobserved).unwrap();
+    let rows = audit::<f64>(&[slopes.clone()], &[question.source], 2000, 1, &Unobserved);
+    assert_eq!(answer.lost_at_zero, rows[0].tally.false_misses.count);
+    assert_eq!(answer.lost_at_own, answer.lost_at_zero);
+}
+
+#[test]
+fn a_panic_is_a_case_without_a_verdict() {
+    const OWN: KernelInfo = KernelInfo::own("panics", Contract::CLOSED_RAY);
+    let test = |case: &BoxCase<f64>, _: &[f64]| {
+        assert!(case.ray.origin.x < 0.0, "not here");
+        None
+    };
+    let entry: &'static Entry<Boxes> = Box::leak(Box::new(Entry::described(&OWN).f64(test)));
+    let setups = Setup::published(entry);
+    assert!(audit::<f32>(&setups, &[source("interior")], 10, 1, &Unobserved).is_empty());
+    let rows = audit::<f64>(&setups, &[source("interior")], 3000, 1, &Unobserved);
+    let Tally { cases, failed, .. } = &rows[0].tally;
+    assert_eq!(*cases, 3000);
+    assert!(1200 < failed.count && failed.count < 1800 && failed.worst.is_none());
 }
 
 #[test]

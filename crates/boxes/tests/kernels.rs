@@ -2,11 +2,12 @@
 //! other machines and closures compute them.
 
 use hairline_boxes::{
-    BoxCase, Boxes, FAMILIES, KERNELS, Made, Obligation, Setup, TABLE, padding, truth,
+    BoxCase, Boxes, FAMILIES, KERNELS, Made, Obligation, Setup, TABLE, define, padding, truth,
 };
 use hairline_core::arith::Exact;
 use hairline_core::kernel::{Entry, Scalar, refused_by, verdicts_of};
 use hairline_core::{Contract, EpsilonSet, Failure, Hit, KernelInfo, Verdict};
+use num_rational::BigRational;
 
 /// Cases of all families.
 fn cases<F: Made>(each: u64) -> Vec<BoxCase<F>> {
@@ -91,7 +92,7 @@ fn margins_say_what_runs_do_at_every_epsilon_in_either_scalar() {
 /// Without rounding a test is right, but where it computes with 0 times infinity or keeps a direction from 0.
 #[test]
 fn without_rounding_tests_that_divide_are_the_truth() {
-    for name in ["kay-kajiya", "divided", "padded-box"] {
+    for name in ["kay-kajiya", "eisemann-slopes", "divided", "padded-box"] {
         let entry = TABLE.find(name).unwrap();
         let gated = f64::subject(entry).unwrap().gated().unwrap();
         let epsilons = vec![0.0; entry.info.gates.len()];
@@ -116,6 +117,34 @@ fn the_exact_margin_of_a_padded_box_is_its_distance() {
         let length = padding(&case.widen()).unwrap().length;
         assert_eq!(margin.to_rational().unwrap(), -length, "{}", case.hex());
     }
+}
+
+#[test]
+fn the_exact_margin_of_growth_is_the_share_of_near_in_far() {
+    let entry = TABLE.find("divided").unwrap();
+    let gated = f64::subject(entry).unwrap().gated().unwrap();
+    let zero = BigRational::from_integer(0.into());
+    let mut compared = 0;
+    for case in cases::<f64>(100) {
+        let Some(line) = define(&case).line else {
+            continue;
+        };
+        let near = line
+            .enter
+            .max(BigRational::from_float(case.ray.t_min).unwrap());
+        let far = match BigRational::from_float(case.ray.t_max) {
+            Some(t_max) => line.exit.min(t_max),
+            None => line.exit,
+        };
+        if far <= zero || case.ray.direction.to_array().contains(&0.0) {
+            continue;
+        }
+        let margin: &Exact = &gated.measure_exact(&case).margins[0];
+        let share = BigRational::from_integer(1.into()) - near / far;
+        assert_eq!(margin.to_rational().unwrap(), share, "{}", case.hex());
+        compared += 1;
+    }
+    assert!(compared > 500, "{compared}");
 }
 
 /// The test of Ize in plain floats.
@@ -259,6 +288,7 @@ fn nans_and_signed_zeros_do_what_each_source_says() {
         ["smits", "williams"].map(|name| hits(name, &backwards)),
         [false, true]
     );
+    assert!(hits("divided", &backwards));
     // A flat box: near is far.
     let flat = BoxCase::new(
         [0.5, 0.5, -1.0],

@@ -110,21 +110,21 @@ fn is_away<F: Float>(a: Point<F>, b: Point<F>) -> bool {
     distances.iter().all(|distance| least < *distance)
 }
 
-pub(super) fn interior<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub fn interior<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::drawn(draw);
     let target = room.inside(draw, 0.125);
     let ray = Sight::at(draw, target);
     room.seen(draw, ray)
 }
 
-pub(super) fn corner_near<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub fn corner_near<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::drawn(draw);
     let target = room.corner(draw);
     let ray = Sight::at(draw, target);
     room.seen(draw, ray)
 }
 
-pub(super) fn edge_near<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub fn edge_near<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::drawn(draw);
     let mut target = room.corner(draw);
     let along = draw.below(3);
@@ -134,7 +134,7 @@ pub(super) fn edge_near<F: Float>(draw: &mut Draw) -> BoxCase<F> {
 }
 
 /// Beside an edge: on one axis the line goes in where on another it goes out, and it passes outside.
-pub(super) fn outside<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub fn outside<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::<F>::drawn(draw);
     let mut target = room.inside(draw, 0.125);
     let mut direction = draw.point::<F>();
@@ -153,7 +153,7 @@ pub(super) fn outside<F: Float>(draw: &mut Draw) -> BoxCase<F> {
 }
 
 /// Aimed at the middle from up to 2^11 away.
-pub(super) fn far<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub fn far<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::drawn(draw);
     let target = room.inside(draw, 0.375);
     let mut ray = Sight::at(draw, target);
@@ -163,7 +163,7 @@ pub(super) fn far<F: Float>(draw: &mut Draw) -> BoxCase<F> {
 }
 
 /// So large that differences of coordinates overflow.
-pub(super) fn huge<F: Float>(draw: &mut Draw) -> BoxCase<F> {
+pub fn huge<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::<F>::drawn(draw);
     let target = room.inside(draw, 0.125);
     let mut ray = Sight::at(draw, target);

@@ -9,7 +9,7 @@ use std::mem;
 type Integers = [i64; 3];
 
 /// A ray and a box in integers.
-pub(super) struct Lattice {
+pub struct Lattice {
     origin: Integers,
     direction: Integers,
     block: Block,
@@ -153,7 +153,7 @@ fn ahead(draw: &mut Draw) -> i64 {
     draw.integer(1, 40)
 }
 
-pub(super) fn corner(draw: &mut Draw) -> Lattice {
+pub fn corner(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let planes = each_axis(|axis| block.plane(draw, axis));
     let mut direction = any_direction(draw);
@@ -166,7 +166,7 @@ pub(super) fn corner(draw: &mut Draw) -> Lattice {
     Lattice::through(planes.map(|plane| plane.at), direction, block, t)
 }
 
-pub(super) fn edge(draw: &mut Draw) -> Lattice {
+pub fn edge(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let mut direction = any_direction(draw);
@@ -186,7 +186,7 @@ pub(super) fn edge(draw: &mut Draw) -> Lattice {
     Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn in_face(draw: &mut Draw) -> Lattice {
+pub fn in_face(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let mut direction = any_direction(draw);
@@ -219,7 +219,7 @@ fn some_direction(draw: &mut Draw) -> Integers {
     axis_direction(draw)
 }
 
-pub(super) fn axis_inside(draw: &mut Draw) -> Lattice {
+pub fn axis_inside(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let point = block.inside(draw);
     let direction = axis_direction(draw);
@@ -227,7 +227,7 @@ pub(super) fn axis_inside(draw: &mut Draw) -> Lattice {
     Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn axis_outside(draw: &mut Draw) -> Lattice {
+pub fn axis_outside(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let mut direction = axis_direction(draw);
@@ -242,14 +242,14 @@ pub(super) fn axis_outside(draw: &mut Draw) -> Lattice {
     Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn origin_inside(draw: &mut Draw) -> Lattice {
+pub fn origin_inside(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let point = block.inside(draw);
     let direction = some_direction(draw);
     Lattice::through(point, direction, block, 0)
 }
 
-pub(super) fn origin_on(draw: &mut Draw) -> Lattice {
+pub fn origin_on(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let planes = 1 + draw.below(3);
@@ -260,7 +260,7 @@ pub(super) fn origin_on(draw: &mut Draw) -> Lattice {
     Lattice::through(point, direction, block, 0)
 }
 
-pub(super) fn touch_at_zero(draw: &mut Draw) -> Lattice {
+pub fn touch_at_zero(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let mut direction = any_direction(draw);
@@ -271,7 +271,7 @@ pub(super) fn touch_at_zero(draw: &mut Draw) -> Lattice {
     Lattice::through(point, direction, block, 0)
 }
 
-pub(super) fn interval_ends(draw: &mut Draw) -> Lattice {
+pub fn interval_ends(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let mut point = block.inside(draw);
     let mut direction = any_direction(draw);
@@ -293,7 +293,7 @@ pub(super) fn interval_ends(draw: &mut Draw) -> Lattice {
     }
 }
 
-pub(super) fn behind(draw: &mut Draw) -> Lattice {
+pub fn behind(draw: &mut Draw) -> Lattice {
     let block = Block::drawn(draw);
     let point = block.inside(draw);
     let direction = any_direction(draw);
@@ -302,7 +302,7 @@ pub(super) fn behind(draw: &mut Draw) -> Lattice {
     Lattice::through(point, direction, block, beyond)
 }
 
-pub(super) fn flat(draw: &mut Draw) -> Lattice {
+pub fn flat(draw: &mut Draw) -> Lattice {
     let mut block = Block::drawn(draw);
     let point = block.inside(draw);
     let axis = draw.below(3);
@@ -316,7 +316,7 @@ pub(super) fn flat(draw: &mut Draw) -> Lattice {
     Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn point(draw: &mut Draw) -> Lattice {
+pub fn point(draw: &mut Draw) -> Lattice {
     let point = draw.lattice_point(100);
     let block = Block {
         min: point,
@@ -327,7 +327,7 @@ pub(super) fn point(draw: &mut Draw) -> Lattice {
     Lattice::through(point, direction, block, t)
 }
 
-pub(super) fn empty(draw: &mut Draw) -> Lattice {
+pub fn empty(draw: &mut Draw) -> Lattice {
     let mut block = Block::drawn(draw);
     let point = block.inside(draw);
     let turned = 1 + draw.below(3);
@@ -341,7 +341,7 @@ pub(super) fn empty(draw: &mut Draw) -> Lattice {
 }
 
 /// Through the interior, an edge or a corner.
-pub(super) fn meeting(draw: &mut Draw) -> Lattice {
+pub fn meeting(draw: &mut Draw) -> Lattice {
     match draw.below(3) {
         0 => corner(draw),
         1 => edge(draw),

@@ -88,9 +88,11 @@ pub fn case_of<F: Made>(id: &CaseId) -> Result<BoxCase<F>, String> {
 
 /// The family of a name.
 pub fn find_family(name: &str) -> Result<&'static Family, String> {
-    let found = FAMILIES.iter().find(|family| family.name == name);
+    let mut families = FAMILIES.iter();
+    let found = families.find(|family| family.name == name);
     found.ok_or_else(|| {
-        let names: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
+        let names = FAMILIES.iter().map(|family| family.name);
+        let names: Vec<&str> = names.collect();
         format!("unknown family '{name}'; there are {}", names.join(", "))
     })
 }

@@ -11,12 +11,12 @@ use super::growth::{AT_MOST, BELOW, Comparison, compare};
 use super::numbers::*;
 use super::*;
 
-pub(super) struct Majercik;
-pub(super) struct Barnes2011;
-pub(super) struct Barnes2015;
-pub(super) struct Barnes2022;
-pub(super) struct PlaneFirst;
-pub(super) struct PlaneLast;
+pub struct Majercik;
+pub struct Barnes2011;
+pub struct Barnes2015;
+pub struct Barnes2022;
+pub struct PlaneFirst;
+pub struct PlaneLast;
 
 const BARNES: &str = "T. Barnes, Fast, Branchless Ray/Bounding Box Intersections, https://tavianator.com/2011/ray_box.html";
 const BARNES_2015: &str = "T. Barnes, Fast, Branchless Ray/Bounding Box Intersections, Part 2: NaNs, \

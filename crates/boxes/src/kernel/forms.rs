@@ -11,14 +11,14 @@ use super::*;
 use std::marker::PhantomData;
 
 /// The test in one formula.
-pub(super) struct Slabs<A>(PhantomData<A>);
-pub(super) struct Ize;
+pub struct Slabs<A>(PhantomData<A>);
+pub struct Ize;
 
 const IZE: &str =
     "T. Ize, Robust BVH Ray Traversal, Journal of Computer Graphics Techniques 2(2), 2013";
 
 /// How a formula is called.
-pub(super) trait Named: Formula {
+pub trait Named: Formula {
     const NAME: &'static str;
     const ABOUT: &'static str;
 }

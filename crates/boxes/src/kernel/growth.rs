@@ -14,21 +14,19 @@
 use super::*;
 
 /// The place of the gate among those of every kernel here.
-pub(super) const GROWTH: usize = 0;
+pub const GROWTH: usize = 0;
 
 /// `near <= far`.
-pub(super) const AT_MOST: Gate =
+pub const AT_MOST: Gate =
     Gate::signed(Role::Edge, "!(near <= far * (1 - e))", 0, 0).named("growth");
 /// `near > far` refuses.
-pub(super) const NOT_ABOVE: Gate =
-    Gate::signed(Role::Edge, "near > far * (1 - e)", 0, 0).named("growth");
+pub const NOT_ABOVE: Gate = Gate::signed(Role::Edge, "near > far * (1 - e)", 0, 0).named("growth");
 /// `near < far`.
-pub(super) const BELOW: Gate =
-    Gate::signed(Role::Edge, "!(near < far * (1 - e))", 0, 0).named("growth");
+pub const BELOW: Gate = Gate::signed(Role::Edge, "!(near < far * (1 - e))", 0, 0).named("growth");
 
 /// How a source compares the near end with the far one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Comparison {
+pub enum Comparison {
     /// `near <= far`: a NaN is a miss.
     AtMost,
     /// A miss if `near > far`: a NaN goes through.
@@ -66,7 +64,7 @@ impl Comparison {
 }
 
 /// The threshold of a test that no epsilon changes.
-pub(super) fn everything<R: Real>(accepts: bool) -> R {
+pub fn everything<R: Real>(accepts: bool) -> R {
     if accepts {
         R::infinity()
     } else {
@@ -76,7 +74,7 @@ pub(super) fn everything<R: Real>(accepts: bool) -> R {
 
 /// The far end after its growth.
 #[inline(always)]
-pub(super) fn grown<R: Real>(far: &R, epsilon: &R) -> R {
+pub fn grown<R: Real>(far: &R, epsilon: &R) -> R {
     if far.is_less(&R::zero()) {
         return far.clone();
     }
@@ -85,7 +83,7 @@ pub(super) fn grown<R: Real>(far: &R, epsilon: &R) -> R {
 
 /// The gate on a near and a far end.
 #[inline(always)]
-pub(super) fn compare<R: Real, S: Sink<R>>(
+pub fn compare<R: Real, S: Sink<R>>(
     sink: &mut S,
     comparison: Comparison,
     near: &R,

@@ -9,8 +9,8 @@ use super::growth::{AT_MOST, BELOW, Comparison, compare};
 use super::numbers::*;
 use super::*;
 
-pub(super) struct TinyBvh;
-pub(super) struct Bvh;
+pub struct TinyBvh;
+pub struct Bvh;
 
 const END: usize = 1;
 

@@ -4,34 +4,34 @@
 use super::*;
 
 /// A minimum or a maximum.
-pub(super) type Choice<R> = fn(R, R) -> R;
+pub type Choice<R> = fn(R, R) -> R;
 
 /// `a < b ? a : b`, as SSE's `minps`: the second if either is NaN.
 #[inline(always)]
-pub(super) fn minps<R: Real>(a: R, b: R) -> R {
+pub fn minps<R: Real>(a: R, b: R) -> R {
     if a.is_less(&b) { a } else { b }
 }
 
 /// `a > b ? a : b`, as SSE's `maxps`: the second if either is NaN.
 #[inline(always)]
-pub(super) fn maxps<R: Real>(a: R, b: R) -> R {
+pub fn maxps<R: Real>(a: R, b: R) -> R {
     if b.is_less(&a) { a } else { b }
 }
 
 /// `fmin` of C: the other one if one is NaN.
 #[inline(always)]
-pub(super) fn fmin<R: Real>(a: R, b: R) -> R {
+pub fn fmin<R: Real>(a: R, b: R) -> R {
     if a.is_nan() { b } else { a.smaller(b) }
 }
 
 /// `fmax` of C: the other one if one is NaN.
 #[inline(always)]
-pub(super) fn fmax<R: Real>(a: R, b: R) -> R {
+pub fn fmax<R: Real>(a: R, b: R) -> R {
     if a.is_nan() { b } else { a.larger(b) }
 }
 
 /// One axis of a ray.
-pub(super) struct Axis<R> {
+pub struct Axis<R> {
     /// The origin, or the origin times the reciprocal of the direction.
     pub origin: R,
     /// The direction, or its reciprocal; both have the same sign, that of a zero included.
@@ -39,7 +39,7 @@ pub(super) struct Axis<R> {
 }
 
 /// How a source finds the t of a plane that is perpendicular to an axis.
-pub(super) trait Formula: Sync + 'static {
+pub trait Formula: Sync + 'static {
     /// The two numbers of a ray's axis that it computes with.
     fn prepare<R: Real>(origin: R, direction: R) -> Axis<R>;
     /// The t at which the ray meets the plane.
@@ -47,13 +47,13 @@ pub(super) trait Formula: Sync + 'static {
 }
 
 /// `(b - o) / d`.
-pub(super) struct Divided;
+pub struct Divided;
 
 /// `(b - o) * (1 / d)`.
-pub(super) struct Multiplied;
+pub struct Multiplied;
 
 /// `fma(b, 1 / d, -(o * (1 / d)))`.
-pub(super) struct Fused;
+pub struct Fused;
 
 impl Formula for Divided {
     #[inline(always)]
@@ -98,14 +98,14 @@ impl Formula for Fused {
 
 /// One axis of a ray, by its number.
 #[inline(always)]
-pub(super) fn axis<A: Formula, V: Vector>(ray: &Ray<V>, i: usize) -> Axis<V::Real> {
+pub fn axis<A: Formula, V: Vector>(ray: &Ray<V>, i: usize) -> Axis<V::Real> {
     let origin = ray.origin.at(i);
     A::prepare(origin, ray.direction.at(i))
 }
 
 /// The t of the two planes of a slab.
 #[derive(Clone)]
-pub(super) struct Slab<R> {
+pub struct Slab<R> {
     pub near: R,
     pub far: R,
 }
@@ -121,7 +121,7 @@ impl<R: Real> Slab<R> {
         }
     }
 
-    /// What it has in common with another.
+    /// The part that it has in common with another.
     #[inline(always)]
     pub fn and(self, other: Slab<R>, max: Choice<R>, min: Choice<R>) -> Slab<R> {
         Slab {
@@ -133,7 +133,7 @@ impl<R: Real> Slab<R> {
 
 /// The slab of an axis, near and far by the sign that a source looks at.
 #[inline(always)]
-pub(super) fn turned<A: Formula, V: Vector>(
+pub fn turned<A: Formula, V: Vector>(
     bounds: &Bounds<V>,
     axis: &Axis<V::Real>,
     i: usize,
@@ -155,7 +155,7 @@ pub(super) fn turned<A: Formula, V: Vector>(
 
 /// The slab of an axis with the plane at min as the near one.
 #[inline(always)]
-pub(super) fn unsorted<A: Formula, V: Vector>(
+pub fn unsorted<A: Formula, V: Vector>(
     bounds: &Bounds<V>,
     ray: &Ray<V>,
     i: usize,
@@ -166,11 +166,7 @@ pub(super) fn unsorted<A: Formula, V: Vector>(
 
 /// The slab of an axis, near and far by the sign bit of the direction.
 #[inline(always)]
-pub(super) fn crossed<A: Formula, V: Vector>(
-    bounds: &Bounds<V>,
-    ray: &Ray<V>,
-    i: usize,
-) -> Slab<V::Real> {
+pub fn crossed<A: Formula, V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, i: usize) -> Slab<V::Real> {
     let axis = axis::<A, V>(ray, i);
     let is_backward = axis.direction.is_sign_negative();
     turned::<A, V>(bounds, &axis, i, is_backward)
@@ -178,7 +174,7 @@ pub(super) fn crossed<A: Formula, V: Vector>(
 
 /// The interval of a ray.
 #[inline(always)]
-pub(super) fn interval<V: Vector>(ray: &Ray<V>) -> Slab<V::Real> {
+pub fn interval<V: Vector>(ray: &Ray<V>) -> Slab<V::Real> {
     Slab {
         near: ray.t_min.clone(),
         far: ray.t_max.clone(),

@@ -8,7 +8,7 @@ use super::growth::GROWTH;
 use super::numbers::*;
 use super::*;
 
-pub(super) struct PaddedBox;
+pub struct PaddedBox;
 
 impl Kernel<Boxes> for PaddedBox {
     const INFO: KernelInfo = info(

@@ -11,9 +11,9 @@ use super::growth::{Comparison, NOT_ABOVE, compare};
 use super::numbers::*;
 use super::*;
 
-pub(super) struct KayKajiya;
-pub(super) struct Smits;
-pub(super) struct Williams;
+pub struct KayKajiya;
+pub struct Smits;
+pub struct Williams;
 
 const END: usize = 1;
 const PARALLEL: usize = 2;
@@ -120,11 +120,7 @@ impl Kernel<Boxes> for Williams {
 
 /// The slab of an axis, near and far as the reciprocal of the direction is below 0 or not.
 #[inline(always)]
-pub(super) fn by_reciprocal<V: Vector>(
-    bounds: &Bounds<V>,
-    ray: &Ray<V>,
-    i: usize,
-) -> Slab<V::Real> {
+pub fn by_reciprocal<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, i: usize) -> Slab<V::Real> {
     let axis = axis::<Multiplied, V>(ray, i);
     let is_backward = axis.direction.is_less(&V::Real::zero());
     turned::<Multiplied, V>(bounds, &axis, i, is_backward)
@@ -132,7 +128,7 @@ pub(super) fn by_reciprocal<V: Vector>(
 
 /// The comparisons of Smits, which Williams and others kept.
 #[inline(always)]
-pub(super) fn overlapping<V: Vector, S: Sink<V::Real>>(
+pub fn overlapping<V: Vector, S: Sink<V::Real>>(
     first: Slab<V::Real>,
     others: [Slab<V::Real>; 2],
     ray: &Ray<V>,

@@ -13,11 +13,11 @@ use super::pairwise::{by_reciprocal, overlapping};
 use super::*;
 use std::mem;
 
-pub(super) struct Pbrt;
-pub(super) struct PbrtPrecomputed;
-pub(super) struct EmbreeFast;
-pub(super) struct EmbreeRobust;
-pub(super) struct AilaLaine;
+pub struct Pbrt;
+pub struct PbrtPrecomputed;
+pub struct EmbreeFast;
+pub struct EmbreeRobust;
+pub struct AilaLaine;
 
 const END: usize = 1;
 
@@ -172,7 +172,8 @@ impl Kernel<Boxes> for EmbreeRobust {
 fn both_grown<R: Real>(near: &R, far: &R) -> R {
     let zero = R::zero();
     let sum = near.clone() + far;
-    if near.is_less(&zero) || far.is_less(&zero) || !zero.is_less(&sum) {
+    let is_behind = near.is_less(&zero) || far.is_less(&zero);
+    if is_behind || !zero.is_less(&sum) {
         return everything(near.is_at_most(far));
     }
     let share = (far.clone() - near) / &sum;

@@ -7,7 +7,7 @@
 
 use super::*;
 
-pub(super) struct EisemannSlopes;
+pub struct EisemannSlopes;
 
 const EDGE: usize = 0;
 const END: usize = 1;
