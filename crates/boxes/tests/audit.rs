@@ -218,7 +218,13 @@ fn a_margin_of_zero_loses_nothing_at_zero() {
         seed: 1,
     };
     let answer = epsilon::<f64>(&question, &Unobserved).unwrap();
-    let rows = audit::<f64>(&[slopes.clone()], &[question.source], 2000, 1, &Unobserved);
+    let rows = audit::<f64>(
+        std::slice::from_ref(&slopes),
+        &[question.source],
+        2000,
+        1,
+        &Unobserved,
+    );
     assert_eq!(answer.lost_at_zero, rows[0].tally.false_misses.count);
     assert_eq!(answer.lost_at_own, answer.lost_at_zero);
 }
