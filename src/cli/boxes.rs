@@ -1,0 +1,43 @@
+//! `hairline boxes`: slab tests, which say whether a ray meets an axis-aligned box, on boxes and rays that are hard.
+
+mod audit;
+mod case;
+mod epsilon;
+mod explain;
+mod list;
+mod record;
+mod select;
+
+pub use record::BoxesResult;
+
+use super::exit::{Failure, Status};
+use clap::{Args, Subcommand};
+
+/// The arguments of `boxes`.
+#[derive(Args)]
+pub struct BoxesArguments {
+    #[command(subcommand)]
+    command: BoxesCommand,
+}
+
+#[derive(Subcommand)]
+enum BoxesCommand {
+    /// Run slab tests on hard boxes, and report which lose rays
+    Audit(audit::AuditArguments),
+    /// Show which growth or padding loses no ray of a scene or of families
+    Epsilon(epsilon::EpsilonArguments),
+    /// Show one box and ray: the exact truth, and the answer of each test
+    Explain(explain::ExplainArguments),
+    /// List the slab tests with their sources, or the families of boxes
+    List(list::ListArguments),
+}
+
+/// Runs the command.
+pub fn run(arguments: &BoxesArguments) -> Result<Status, Failure> {
+    match &arguments.command {
+        BoxesCommand::Audit(arguments) => audit::run(arguments),
+        BoxesCommand::Epsilon(arguments) => epsilon::run(arguments),
+        BoxesCommand::Explain(arguments) => explain::run(arguments),
+        BoxesCommand::List(arguments) => list::run(arguments),
+    }
+}

@@ -1,0 +1,232 @@
+//! `hairline boxes explain`.
+
+use super::case::{AnyBoxCase, case_named};
+use super::select::TestArguments;
+use crate::cli::exit::{Failure, Status};
+use crate::cli::output::OutputArguments;
+use crate::report::Format;
+use crate::report::page::{Block, Cell, Head, Page, Paged, Row, Table, Tone};
+use clap::Args;
+use hairline_boxes::{
+    BoxCase, Class, Definition, Finding, Made, Meeting, Obligation, Origin, Overlap, Range, Setup,
+    Truth, define, padding,
+};
+use hairline_core::kernel::{Scalar, verdicts_of};
+use hairline_core::{Extent, Float, Verdict};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+use serde::Serialize;
+
+/// Which box and ray, and which slab tests.
+#[derive(Args)]
+pub struct ExplainArguments {
+    /// The id of a family's case, as corner@1/f32/-/1/17, or a box and a ray as JSON
+    #[arg(value_name = "CASE")]
+    case: String,
+
+    #[command(flatten)]
+    tests: TestArguments,
+
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Runs the command.
+pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
+    let outputs = arguments.output.pairs(Format::OF_PAGE)?;
+    let setups = arguments.tests.setups()?;
+    let explained = match case_named(&arguments.case)? {
+        AnyBoxCase::F32(case) => explain(&arguments.case, &case, &setups),
+        AnyBoxCase::F64(case) => explain(&arguments.case, &case, &setups),
+    };
+    arguments.output.write(outputs, &explained)?;
+    Ok(Status::Success)
+}
+
+/// A box and a ray, what is true of them, and what slab tests say.
+#[derive(Serialize)]
+struct Explained {
+    case: String,
+    scalar: &'static str,
+    /// The numbers of the case, by name.
+    numbers: Vec<(&'static str, String)>,
+    truth: String,
+    /// Where the line enters and leaves the box, as fractions.
+    line: Option<[String; 2]>,
+    /// How far the box must grow on all sides to be met, by the largest coordinate; below 0 if it is met.
+    padding: Option<f64>,
+    answers: Vec<Answer>,
+}
+
+/// What one slab test says.
+#[derive(Serialize)]
+struct Answer {
+    test: String,
+    says: &'static str,
+    judged: &'static str,
+    /// The margin of each gate: the largest epsilon at which it lets the case through.
+    margins: Vec<(String, f64)>,
+}
+
+fn explain<F: Made + Scalar>(name: &str, case: &BoxCase<F>, setups: &[Setup]) -> Explained {
+    let defined = define(case);
+    let [origin, direction, min, max] = case.vectors();
+    let vector = |[x, y, z]: [F; 3]| format!("{x} {y} {z}");
+    let line = defined.line.as_ref();
+    Explained {
+        case: name.to_owned(),
+        scalar: F::NAME,
+        numbers: vec![
+            ("origin", vector(origin)),
+            ("direction", vector(direction)),
+            ("min", vector(min)),
+            ("max", vector(max)),
+            ("t", format!("{} to {}", case.ray.t_min, case.ray.t_max)),
+        ],
+        truth: in_words(&defined),
+        line: line.map(|Range { enter, exit }| [enter.to_string(), exit.to_string()]),
+        padding: padding(&case.widen()).map(|padding| padding.share),
+        answers: setups
+            .iter()
+            .filter_map(|setup| answer(case, &defined.truth, setup))
+            .collect(),
+    }
+}
+
+fn answer<F: Made + Scalar>(case: &BoxCase<F>, truth: &Truth, setup: &Setup) -> Option<Answer> {
+    let subject = F::subject(setup.entry)?;
+    let epsilons: Vec<F> = setup.epsilons()?;
+    let mut verdict = [Verdict::miss(None)];
+    verdicts_of(subject, &[*case], &epsilons, &mut verdict);
+    let mut margins = vec![F::zero(); setup.gates().len()];
+    subject.margins(setup.entry.info, &[*case], &mut margins, &mut []);
+    let gates = setup.gates().iter().map(|gate| gate.name.to_owned());
+    let says = match (verdict[0].failure, verdict[0].hit) {
+        (Some(_), _) => "fails",
+        (None, true) => "hit",
+        (None, false) => "miss",
+    };
+    let judged = match Obligation::new(truth, &setup.contract).judge(&verdict[0]) {
+        Finding::Right => "right",
+        Finding::FalseHit => "wrong: the box is not met",
+        Finding::FalseMiss => "wrong: the ray is lost",
+        Finding::Failed => "wrong: no verdict",
+    };
+    let test = match setup.set {
+        "source" => setup.entry.info.name.to_owned(),
+        set => format!("{} ({set})", setup.entry.info.name),
+    };
+    Some(Answer {
+        test,
+        says,
+        judged,
+        margins: gates.zip(margins.iter().map(Float::to_f64)).collect(),
+    })
+}
+
+/// What is true of a case, in a sentence.
+fn in_words(defined: &Definition) -> String {
+    let meeting = match &defined.truth {
+        Truth::Invalid => {
+            return "no question: NaN, an infinite coordinate, a zero direction, or an interval whose ends are not in order".to_owned();
+        }
+        Truth::Empty => return "the box has no points, so no ray meets it".to_owned(),
+        Truth::Outside => return "the line passes outside the box".to_owned(),
+        Truth::Meets(meeting) => meeting,
+    };
+    let Meeting {
+        class,
+        origin,
+        ray,
+        interval,
+    } = meeting;
+    let passes = match class {
+        Class::Interior => "passes through the interior",
+        Class::Face => "has one point of the flat box, inside a face",
+        Class::Edge => "touches an edge and nothing else",
+        Class::Corner => "touches a corner and nothing else",
+        Class::Along => "runs in the plane of a face",
+    };
+    let starts = match origin {
+        Origin::Outside => "outside",
+        Origin::On => "on the boundary",
+        Origin::Inside => "inside",
+    };
+    let on_the_ray = overlap(*ray, "on the ray");
+    let on_the_interval = overlap(*interval, "between t_min and t_max");
+    format!(
+        "the line {passes}; the ray starts {starts}; {on_the_ray}, {on_the_interval} of what they have in common"
+    )
+}
+
+fn overlap(overlap: Overlap, place: &str) -> String {
+    let much = match overlap {
+        Overlap::None => "nothing",
+        Overlap::AtAnEnd => "one point, the end,",
+        Overlap::Within => "some",
+    };
+    format!("{much} {place}")
+}
+
+/// A fraction as a decimal, with the fraction if it is short.
+fn decimal(fraction: &str) -> String {
+    let value = fraction.parse::<BigRational>().ok();
+    let value = value.and_then(|value| value.to_f64());
+    let near = value.map_or_else(|| fraction.to_owned(), |value| value.to_string());
+    if fraction.len() <= 24 && near != fraction {
+        return format!("{fraction} = {near}");
+    }
+    near
+}
+
+impl Paged for Explained {
+    fn page(&self) -> Page {
+        let mut terms: Vec<(&str, String)> = vec![("truth", self.truth.clone())];
+        if let Some([enter, exit]) = &self.line {
+            let (enter, exit) = (decimal(enter), decimal(exit));
+            terms.push(("line", format!("in the box from t = {enter} to {exit}")));
+        }
+        if let Some(share) = self.padding {
+            let words = match share.total_cmp(&0.0) {
+                std::cmp::Ordering::Greater => {
+                    format!("missed by {share:.1e} of the largest coordinate")
+                }
+                std::cmp::Ordering::Equal => "just met: a smaller box would not be".to_owned(),
+                std::cmp::Ordering::Less => {
+                    format!("met with {:.1e} of the largest coordinate to spare", -share)
+                }
+            };
+            terms.push(("box", words));
+        }
+        for (name, numbers) in &self.numbers {
+            terms.push((name, numbers.clone()));
+        }
+        let heads = vec![
+            Head::of("test"),
+            Head::text("says"),
+            Head::text("which is"),
+            Head::text("margins").about("the largest epsilon at which a gate lets the ray through"),
+        ];
+        let rows = self.answers.iter().map(row).collect();
+        let wrong = self.answers.iter().filter(|it| it.judged != "right").count();
+        let title = format!("{}: {wrong} of {} tests are wrong", self.case, self.answers.len());
+        Page {
+            command: "boxes explain",
+            title,
+            tone: if wrong == 0 { Tone::Good } else { Tone::Bad },
+            blocks: vec![Block::terms(terms), Block::Table(Table::new(heads, rows))],
+        }
+    }
+}
+
+fn row(answer: &Answer) -> Row {
+    let margin = |(gate, margin): &(String, f64)| format!("{gate} {margin:.2e}");
+    let margins: Vec<String> = answer.margins.iter().map(margin).collect();
+    let judged = Cell {
+        text: answer.judged.to_owned(),
+        is_broken: answer.judged != "right",
+        share: None,
+    };
+    let cells = [answer.says.to_owned().into(), judged, margins.join(", ").into()];
+    Row::new(answer.test.clone(), cells)
+}

@@ -1,0 +1,60 @@
+//! `hairline boxes list`.
+
+use crate::cli::exit::{Failure, Status};
+use crate::cli::output::write_page;
+use crate::report::page::{Block, Item, Items, Page};
+use clap::{Args, ValueEnum};
+use hairline_boxes::{BoxEntry, FAMILIES, TABLE};
+
+/// What to list.
+#[derive(Args)]
+pub struct ListArguments {
+    #[arg(value_enum)]
+    what: Listed,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Listed {
+    /// Slab tests with their sources, contracts, gates and epsilons
+    Tests,
+    /// Families of boxes with their promises
+    Families,
+}
+
+/// Runs the command.
+pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
+    let block = match arguments.what {
+        Listed::Tests => {
+            let items: Vec<Item> = TABLE.all().into_iter().map(item).collect();
+            let most = items.len();
+            Block::Items(Items { items, most })
+        }
+        Listed::Families => {
+            let term = |family: &hairline_boxes::Family| (family.name.to_owned(), family.promise.to_owned());
+            Block::Terms(FAMILIES.iter().map(term).collect())
+        }
+    };
+    write_page(Page {
+        blocks: vec![block],
+        ..Page::default()
+    })?;
+    Ok(Status::Success)
+}
+
+fn item(entry: &'static BoxEntry) -> Item {
+    let info = entry.info;
+    let mut notes = vec![info.source.to_owned(), format!("promises {}", info.contract.describe())];
+    for (i, gate) in info.gates.iter().enumerate() {
+        let values: Vec<String> = info
+            .epsilon_sets
+            .iter()
+            .filter_map(|set| Some(format!("{} {}", set.name, set.values.get(i)?)))
+            .collect();
+        notes.push(format!("{}: {}; e is {}", gate.name, gate.refuses, values.join(", ")));
+    }
+    Item {
+        text: info.name.to_owned(),
+        notes,
+        ..Item::default()
+    }
+}
