@@ -30,6 +30,21 @@ pub fn each_axis<T>(of_axis: impl FnMut(usize) -> T) -> [T; 3] {
     array::from_fn(of_axis)
 }
 
+/// True if a condition holds on some axis.
+#[inline(always)]
+pub fn any_axis(holds: impl Fn(usize) -> bool) -> bool {
+    (0..3).any(holds)
+}
+
+impl<V: Vector> Bounds<V> {
+    /// True if a coordinate is below the plane at min, or above the plane at max.
+    #[inline(always)]
+    pub fn is_beside(&self, axis: usize, x: &V::Real) -> bool {
+        let is_below = x.is_less(&self.min.at(axis));
+        is_below || self.max.at(axis).is_less(x)
+    }
+}
+
 /// How many numbers a case has.
 pub const NUMBERS: usize = 14;
 
@@ -85,14 +100,18 @@ impl<F: Float> BoxCase<F> {
 
     /// The case in `f64`, which holds every `f32` exactly.
     pub fn widen(&self) -> BoxCase<f64> {
-        let [origin, direction, min, max] = self.vectors().map(|v| v.map(F::to_f64));
-        BoxCase::new(origin, direction, [min, max])
-            .on(self.ray.t_min.to_f64(), self.ray.t_max.to_f64())
+        let wide = |vector: [F; 3]| vector.map(F::to_f64);
+        let [origin, direction, min, max] = self.vectors().map(wide);
+        let case = BoxCase::new(origin, direction, [min, max]);
+        let t_min = self.ray.t_min.to_f64();
+        let t_max = self.ray.t_max.to_f64();
+        case.on(t_min, t_max)
     }
 
     /// The bit patterns of all numbers, in hexadecimal.
     pub fn hex(&self) -> String {
-        let [o, d, min, max] = self.vectors().map(|v| v.map(F::hex).join(","));
+        let hex = |vector: [F; 3]| vector.map(F::hex).join(",");
+        let [o, d, min, max] = self.vectors().map(hex);
         let t_min = self.ray.t_min.hex();
         let t_max = self.ray.t_max.hex();
         format!("o={o} d={d} min={min} max={max} t={t_min},{t_max}")

@@ -108,7 +108,10 @@ pub fn define<F: Float>(case: &BoxCase<F>) -> Definition {
     let Some(axes) = axes(&wide) else {
         return only(Truth::Invalid);
     };
-    let (Some(t_min), Some(t_max)) = (end(wide.ray.t_min), end(wide.ray.t_max)) else {
+    let Some(t_min) = end(wide.ray.t_min) else {
+        return only(Truth::Invalid);
+    };
+    let Some(t_max) = end(wide.ray.t_max) else {
         return only(Truth::Invalid);
     };
     if t_min > t_max || axes.iter().all(Axis::is_parallel) {
@@ -202,10 +205,13 @@ fn origin(axes: &[Axis; 3]) -> Origin {
 fn clipped(range: &Range, low: &End, high: &End) -> Option<Range> {
     let enter = End::At(range.enter.clone()).max(low.clone());
     let exit = End::At(range.exit.clone()).min(high.clone());
-    match (enter, exit) {
-        (End::At(enter), End::At(exit)) if enter <= exit => Some(Range { enter, exit }),
-        _ => None,
-    }
+    let End::At(enter) = enter else {
+        return None;
+    };
+    let End::At(exit) = exit else {
+        return None;
+    };
+    (enter <= exit).then_some(Range { enter, exit })
 }
 
 fn overlap(range: &Range, low: &End, high: &End) -> Overlap {

@@ -23,10 +23,11 @@ pub fn padding(case: &BoxCase<f64>) -> Option<Padding> {
     if !is_valid(case) {
         return None;
     }
+    let vectors = case.vectors();
     let mut bounds = Vec::new();
     let mut slabs = Vec::new();
     for i in 0..3 {
-        let [origin, direction, min, max] = case.vectors().map(|vector| vector[i]);
+        let [origin, direction, min, max] = vectors.map(|vector| vector[i]);
         let origin = Rational::from_float(origin)?;
         let size = Rational::from_float(direction)?;
         let from_min = Rational::from_float(min)? - &origin;

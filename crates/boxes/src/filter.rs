@@ -8,7 +8,7 @@
 //!
 //! Signs of differences, and so the place of the origin, need no bound: IEEE subtraction never gets them wrong.
 
-use crate::case::BoxCase;
+use crate::case::{BoxCase, any_axis};
 use crate::slab::Slab;
 use crate::truth::{Class, Meeting, Origin, Overlap, Truth};
 use std::cmp::Ordering;
@@ -23,7 +23,7 @@ pub fn decide(case: &BoxCase<f64>) -> Option<Truth> {
         return Some(Truth::Invalid);
     }
     let [origin, direction, min, max] = case.vectors();
-    if (0..3).any(|i| max[i] < min[i]) {
+    if any_axis(|i| max[i] < min[i]) {
         return Some(Truth::Empty);
     }
     let mut slabs = Vec::with_capacity(3);
@@ -100,13 +100,13 @@ fn order(left: f64, right: f64) -> Option<Ordering> {
 /// The place of the origin. All that is on the boundary has been handed on, unless the origin is on a plane that the
 /// line crosses.
 fn place([origin, _, min, max]: [[f64; 3]; 4]) -> Origin {
-    let is_below = (0..3).any(|i| origin[i] < min[i]);
-    let is_above = (0..3).any(|i| max[i] < origin[i]);
+    let is_below = any_axis(|i| origin[i] < min[i]);
+    let is_above = any_axis(|i| max[i] < origin[i]);
     if is_below || is_above {
         return Origin::Outside;
     }
-    let is_at_min = (0..3).any(|i| origin[i] == min[i]);
-    let is_at_max = (0..3).any(|i| origin[i] == max[i]);
+    let is_at_min = any_axis(|i| origin[i] == min[i]);
+    let is_at_max = any_axis(|i| origin[i] == max[i]);
     if is_at_min || is_at_max {
         return Origin::On;
     }

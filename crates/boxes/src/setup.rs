@@ -84,8 +84,11 @@ impl Setup {
         })
     }
 
-    /// The epsilons in a scalar; none if one is not a finite number of it.
+    /// The epsilons in a scalar; none if one is not a finite number of it, or there is not one a gate.
     pub fn epsilons<F: Float>(&self) -> Option<Vec<F>> {
+        if self.values.len() != self.gates().len() {
+            return None;
+        }
         self.values.iter().map(EpsilonText::value).collect()
     }
 }

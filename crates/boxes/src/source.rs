@@ -23,6 +23,9 @@ pub struct Scene {
     size: f64,
 }
 
+/// How often the origin of a ray is drawn again if it is the target.
+const TRIES: usize = 8;
+
 impl Scene {
     /// Coordinates lie within `extent`, and boxes are at most `size` long on each axis. An error if that is impossible.
     pub fn new(extent: f64, size: f64) -> Result<Scene, String> {
@@ -50,13 +53,17 @@ impl Scene {
             };
         }
         let length = F::from_f64(0.25 + 3.75 * draw.unit());
-        loop {
-            let origin = within::<F>(&mut draw, self.extent);
-            let direction = each_axis(|i| (target[i] - origin[i]) * length);
+        let mut origin = target;
+        let mut direction = [F::zero(); 3];
+        // Where all coordinates round to 0 no ray has a direction, and the case is invalid.
+        for _ in 0..TRIES {
             if direction != [F::zero(); 3] {
-                return BoxCase::new(origin, direction, [min, max]);
+                break;
             }
+            origin = within::<F>(&mut draw, self.extent);
+            direction = each_axis(|i| (target[i] - origin[i]) * length);
         }
+        BoxCase::new(origin, direction, [min, max])
     }
 }
 

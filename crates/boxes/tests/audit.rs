@@ -218,7 +218,13 @@ fn a_margin_of_zero_loses_nothing_at_zero() {
         seed: 1,
     };
     let answer = epsilon::<f64>(&question, &Unobserved).unwrap();
-    let rows = audit::<f64>(&[slopes.clone()], &[question.source], 2000, 1, &Unobserved);
+    let rows = audit::<f64>(
+        std::slice::from_ref(&slopes),
+        &[question.source],
+        2000,
+        1,
+        &Unobserved,
+    );
     assert_eq!(answer.lost_at_zero, rows[0].tally.false_misses.count);
     assert_eq!(answer.lost_at_own, answer.lost_at_zero);
 }
@@ -323,6 +329,16 @@ fn the_constant_of_a_listing_loses_a_box_that_its_analysis_keeps() {
 }
 
 #[test]
+fn a_scene_beyond_the_floats_has_no_obligations() {
+    let owed = |extent: f64| {
+        let scene = Source::Scene(Scene::new(extent, extent / 2.0).unwrap());
+        let rows = audit::<f32>(&[setup("divided")], &[scene], 100, 1, &Unobserved);
+        rows[0].tally.must_hit + rows[0].tally.must_miss
+    };
+    assert_eq!([1e-60, 1.0, 1e60].map(owed), [0, 100, 0]);
+}
+
+#[test]
 fn bad_questions_are_errors() {
     let divided = setup("divided");
     let question = Question {
@@ -338,6 +354,9 @@ fn bad_questions_are_errors() {
     assert!(divided.clone().with("padding", value("1")).is_err());
     assert!(divided.clone().with("growth", value("nan")).is_err());
     assert!(setup("smits").with("t", value("1")).is_err());
+    let mut without_values = divided.clone();
+    without_values.values.clear();
+    assert_eq!(without_values.epsilons::<f32>(), None);
     let own = divided.with("growth", value("-2*EPSILON")).unwrap();
     assert_eq!(own.epsilons::<f64>().unwrap(), [-2.0 * f64::EPSILON]);
     assert_eq!(

@@ -47,9 +47,8 @@ impl Kernel<Boxes> for Majercik {
             slab.sorted(Real::smaller, Real::larger)
         });
         let both = x.and(y, Real::larger, Real::smaller);
-        let Slab { near, far } = both.and(z, Real::larger, Real::smaller);
-        compare(sink, Comparison::AtMost, &near, &far)?;
-        Some(Hit::at(near))
+        let common = both.and(z, Real::larger, Real::smaller);
+        common.hit(sink, Comparison::AtMost)
     }
 }
 
@@ -76,8 +75,7 @@ impl Kernel<Boxes> for Barnes2011 {
             let sorted = slab(i).sorted(minps, maxps);
             common = common.and(sorted, maxps, minps);
         }
-        compare(sink, Comparison::AtMost, &common.near, &common.far)?;
-        Some(Hit::at(common.near))
+        common.hit(sink, Comparison::AtMost)
     }
 }
 
@@ -168,8 +166,7 @@ impl Kernel<Boxes> for PlaneFirst {
             let slab = crossed::<Multiplied, V>(bounds, ray, i);
             common = slab.and(common, maxps, minps);
         }
-        compare(sink, Comparison::AtMost, &common.near, &common.far)?;
-        Some(Hit::at(common.near))
+        common.hit(sink, Comparison::AtMost)
     }
 }
 
@@ -196,7 +193,6 @@ impl Kernel<Boxes> for PlaneLast {
             let slab = crossed::<Multiplied, V>(bounds, ray, i);
             common = common.and(slab, maxps, minps);
         }
-        compare(sink, Comparison::AtMost, &common.near, &common.far)?;
-        Some(Hit::at(common.near))
+        common.hit(sink, Comparison::AtMost)
     }
 }

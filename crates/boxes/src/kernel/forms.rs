@@ -5,7 +5,7 @@
 //! listing has 1.00000024, which is `1 + 2*EPSILON`; its error analysis allows three roundings on each side,
 //! 1 + 2·gamma(3), which rounds to `1 + 3*EPSILON`. It computes (b-o)·inv. The other formulas are set into the same test.
 
-use super::growth::{AT_MOST, Comparison, compare};
+use super::growth::{AT_MOST, Comparison};
 use super::numbers::*;
 use super::*;
 use std::marker::PhantomData;
@@ -102,6 +102,5 @@ fn slabs<A: Formula, V: Vector, S: Sink<V::Real>>(
         let slab = crossed::<A, V>(bounds, ray, i);
         common = slab.and(common, maxps, minps);
     }
-    compare(sink, Comparison::AtMost, &common.near, &common.far)?;
-    Some(Hit::at(common.near))
+    common.hit(sink, Comparison::AtMost)
 }

@@ -11,6 +11,7 @@
 //! 2 units in the last place of 1 are enough for (b-o)/d, and 3 for (b-o)·inv. For fma(b, inv, -o·inv) no number is
 //! enough: the error of o·inv counts, however small t is beside it.
 
+use super::numbers::Slab;
 use super::*;
 
 /// The place of the gate among those of every kernel here.
@@ -79,6 +80,15 @@ pub fn grown<R: Real>(far: &R, epsilon: &R) -> R {
         return far.clone();
     }
     far.clone() * &(R::one() - epsilon)
+}
+
+impl<R: Real> Slab<R> {
+    /// The hit of what a ray and a box have in common, if near and far are in order.
+    #[inline(always)]
+    pub fn hit<S: Sink<R>>(self, sink: &mut S, comparison: Comparison) -> Option<Hit<R>> {
+        compare(sink, comparison, &self.near, &self.far)?;
+        Some(Hit::at(self.near))
+    }
 }
 
 /// The gate on a near and a far end.

@@ -55,9 +55,7 @@ fn meets<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, epsilon: &V::Real) -> bool
     for i in 0..3 {
         let origin = ray.origin.at(i);
         if ray.direction.at(i).is_zero() {
-            let is_below = origin.is_less(&padded.min.at(i));
-            let is_above = padded.max.at(i).is_less(&origin);
-            if is_below || is_above {
+            if padded.is_beside(i, &origin) {
                 return false;
             }
             continue;

@@ -45,9 +45,8 @@ impl Kernel<Boxes> for KayKajiya {
         for i in 0..3 {
             let axis = axis::<Divided, V>(ray, i);
             if axis.direction.is_zero() {
-                let is_below = axis.origin.is_less(&bounds.min.at(i));
-                let is_above = bounds.max.at(i).is_less(&axis.origin);
-                sink.fixed(PARALLEL, !is_below && !is_above)?;
+                let is_beside = bounds.is_beside(i, &axis.origin);
+                sink.fixed(PARALLEL, !is_beside)?;
                 continue;
             }
             let t = turned::<Divided, V>(bounds, &axis, i, false);

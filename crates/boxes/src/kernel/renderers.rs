@@ -132,9 +132,8 @@ impl Kernel<Boxes> for EmbreeFast {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let Slab { near, far } = embree::<Fused, V>(bounds, ray);
-        compare(sink, Comparison::AtMost, &near, &far)?;
-        Some(Hit::at(near))
+        let common = embree::<Fused, V>(bounds, ray);
+        common.hit(sink, Comparison::AtMost)
     }
 }
 
@@ -210,8 +209,7 @@ impl Kernel<Boxes> for AilaLaine {
             let sorted = slab.sorted(fmin, fmax);
             common = sorted.and(common, fmax, fmin);
         }
-        compare(sink, Comparison::AtMost, &common.near, &common.far)?;
-        Some(Hit::at(common.near))
+        common.hit(sink, Comparison::AtMost)
     }
 }
 
