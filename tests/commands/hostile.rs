@@ -197,6 +197,11 @@ fn commands(digest: &str) -> Vec<(Vec<String>, &'static [&'static str])> {
         ("prove --check proof.txt", PLAIN),
         ("audit --corpus markup.jsonl --kernel cramer", REPORT),
         ("check --corpus markup.jsonl --kernel cramer", REPORT),
+        ("boxes audit -k HOSTILE", PLAIN),
+        ("boxes audit -n 20 -k ize,bvh", PAGE),
+        ("boxes epsilon -n 20 -k ize --epsilon HOSTILE", PLAIN),
+        ("boxes explain HOSTILE", PLAIN),
+        ("boxes explain {HOSTILE", PLAIN),
         ("explain HOSTILE", PLAIN),
         ("explain MARKUP --corpus markup.jsonl", PAGE),
         (

@@ -4,6 +4,7 @@
 #[cfg(unix)]
 mod action;
 mod attribution;
+mod boxes;
 mod case_forms;
 mod check;
 mod claims;

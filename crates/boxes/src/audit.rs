@@ -9,6 +9,7 @@ use crate::source::Source;
 use hairline_core::engine::{Merge, Observer, sum};
 use hairline_core::kernel::{Scalar, Subject, verdicts_of};
 use hairline_core::{Extent, Verdict};
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// How many cases go through at once.
@@ -110,6 +111,7 @@ impl Tally {
     fn add<F: Made>(&mut self, judged: &Judged<F>, verdict: &Verdict<F>, extent: Extent) {
         let Judged {
             case,
+            severities,
             index,
             obligation,
         } = *judged;
@@ -117,7 +119,7 @@ impl Tally {
         self.hits += u64::from(verdict.hit);
         self.must_hit += u64::from(obligation == Obligation::Hit);
         self.must_miss += u64::from(obligation == Obligation::Miss);
-        let severity = || severity(case, extent);
+        let severity = || severities.of(case, extent);
         match obligation.judge(verdict) {
             Finding::Right => {}
             Finding::FalseHit => self.false_hits.add(index, severity()),
@@ -130,8 +132,26 @@ impl Tally {
 /// A case with what a setup owes on it.
 struct Judged<'a, F: Made> {
     case: &'a BoxCase<F>,
+    severities: &'a Severities,
     index: u64,
     obligation: Obligation,
+}
+
+/// How wrong a wrong verdict on one case is, by extent. Found in rationals when the first setup asks, which takes longer
+/// than all setups take for their verdicts.
+#[derive(Clone, Default)]
+struct Severities([OnceCell<Option<f64>>; 3]);
+
+impl Severities {
+    fn of<F: Made>(&self, case: &BoxCase<F>, extent: Extent) -> Option<f64> {
+        let [line, ray, interval] = &self.0;
+        let known = match extent {
+            Extent::Line => line,
+            Extent::Ray => ray,
+            Extent::Interval => interval,
+        };
+        *known.get_or_init(|| severity(case, extent))
+    }
 }
 
 /// A line of an audit.
@@ -212,6 +232,7 @@ fn add_chunk<F: Made + Scalar>(
     let first = indices.start;
     let cases = source.cases::<F>(seed, indices);
     let truths: Vec<_> = cases.iter().map(truth).collect();
+    let severities = vec![Severities::default(); cases.len()];
     let mut verdicts = vec![Verdict::miss(None); cases.len()];
     for (running, tally) in running.iter().zip(&mut tallies.0) {
         let contract = &running.setup.contract;
@@ -219,6 +240,7 @@ fn add_chunk<F: Made + Scalar>(
         for (index, case) in cases.iter().enumerate() {
             let judged = Judged {
                 case,
+                severities: &severities[index],
                 index: first + index as u64,
                 obligation: Obligation::new(&truths[index], contract),
             };

@@ -1,7 +1,7 @@
 //! The obligation of a slab test on a case, and whether it was met. A verdict is compared with a truth here and nowhere else.
 
 use crate::case::BoxCase;
-use crate::distance::padding;
+use crate::distance::about;
 use crate::truth::{Class, Meeting, Overlap, Truth};
 use hairline_core::{Boundary, Contract, Demand, Extent, Float, Verdict};
 
@@ -104,7 +104,7 @@ impl Obligation {
 }
 
 /// How wrong a verdict is: how far the box would have to grow, or shrink, on all sides for it to be right, by the largest
-/// coordinate of the case. A float just above the exact share or below it.
+/// coordinate of the case, to about 1e-15.
 pub fn severity<F: Float>(case: &BoxCase<F>, extent: Extent) -> Option<f64> {
     let case = case.widen();
     let case = match extent {
@@ -112,5 +112,5 @@ pub fn severity<F: Float>(case: &BoxCase<F>, extent: Extent) -> Option<f64> {
         Extent::Ray => case.on(0.0, f64::INFINITY),
         Extent::Interval => case,
     };
-    padding(&case).map(|padding| padding.share.abs())
+    about(&case).map(f64::abs)
 }

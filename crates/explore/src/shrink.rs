@@ -29,7 +29,7 @@ pub struct Shrunk<F: Float> {
 ///
 /// ```
 /// use hairline_core::{Case, truth};
-/// use hairline_study::explore::shrink;
+/// use hairline_explore::shrink;
 ///
 /// let triangle = [[0.1, 0.2, 0.3], [4.7, 0.1, 0.4], [0.3, 5.9, 0.2]];
 /// let case = Case::<f64>::new([1.1, 1.3, 7.0], [0.01, 0.02, -0.9], triangle);
