@@ -9,6 +9,7 @@ use crate::source::Source;
 use hairline_core::engine::{Merge, Observer, sum};
 use hairline_core::kernel::{Scalar, Subject, verdicts_of};
 use hairline_core::{Extent, Verdict};
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// How many cases go through at once.
@@ -109,15 +110,13 @@ impl Tally {
 
     fn add<F: Made>(&mut self, judged: &Judged<F>, verdict: &Verdict<F>, extent: Extent) {
         let Judged {
-            case,
-            index,
-            obligation,
+            index, obligation, ..
         } = *judged;
         self.cases += 1;
         self.hits += u64::from(verdict.hit);
         self.must_hit += u64::from(obligation == Obligation::Hit);
         self.must_miss += u64::from(obligation == Obligation::Miss);
-        let severity = || severity(case, extent);
+        let severity = || judged.severity(extent);
         match obligation.judge(verdict) {
             Finding::Right => {}
             Finding::FalseHit => self.false_hits.add(index, severity()),
@@ -132,6 +131,17 @@ struct Judged<'a, F: Made> {
     case: &'a BoxCase<F>,
     index: u64,
     obligation: Obligation,
+    severities: &'a Severities,
+}
+
+/// The severity of a wrong verdict on a case, by extent. It is rational, and most slab tests are wrong on the same cases.
+type Severities = [OnceCell<Option<f64>>; 3];
+
+impl<F: Made> Judged<'_, F> {
+    fn severity(&self, extent: Extent) -> Option<f64> {
+        let known = &self.severities[extent as usize];
+        *known.get_or_init(|| severity(self.case, extent))
+    }
 }
 
 /// A line of an audit.
@@ -212,6 +222,7 @@ fn add_chunk<F: Made + Scalar>(
     let first = indices.start;
     let cases = source.cases::<F>(seed, indices);
     let truths: Vec<_> = cases.iter().map(truth).collect();
+    let severities = vec![Severities::default(); cases.len()];
     let mut verdicts = vec![Verdict::miss(None); cases.len()];
     for (running, tally) in running.iter().zip(&mut tallies.0) {
         let contract = &running.setup.contract;
@@ -221,6 +232,7 @@ fn add_chunk<F: Made + Scalar>(
                 case,
                 index: first + index as u64,
                 obligation: Obligation::new(&truths[index], contract),
+                severities: &severities[index],
             };
             tally.add(&judged, &verdicts[index], contract.extent);
         }
