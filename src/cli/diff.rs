@@ -1,5 +1,6 @@
 //! `hairline diff`: two records side by side.
 
+use super::boxes::BoxesResult;
 use super::exit::{Failure, Status};
 use super::input::RecordText;
 use super::output::OutputArguments;
@@ -45,6 +46,7 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
         Study::Spawn => of_one_study::<SpawnResult>(old, new)?,
         Study::Prove => of_one_study::<ProofResult>(old, new)?,
         Study::Verify => of_one_study::<VerifyResult>(old, new)?,
+        Study::Boxes => of_one_study::<BoxesResult>(old, new)?,
     };
     if comparison.common == 0 {
         let message = "nothing to compare: the records have no kernel with its epsilons on the same kind of rays in common; two kernels, or two epsilons of one, are compared in one run";

@@ -46,6 +46,7 @@ pub const EXAMPLES: &[(&str, &str)] = &[
         "hairline map 'tiny@3/f32/-/1/15467' --kernel moller-trumbore -o map.svg",
     ),
     ("list", "hairline list kernels"),
+    ("boxes", "hairline boxes audit --kernel ize,kay-kajiya"),
     (
         "fuzz",
         "hairline fuzz campaign --kernel moller-trumbore --time 60",

@@ -15,6 +15,7 @@ macro_rules! eprintln {
 mod again;
 mod audit;
 mod before;
+mod boxes;
 mod case;
 pub(crate) mod check;
 mod corpus;
@@ -87,6 +88,8 @@ enum Chosen {
     Repair(Box<repair::RepairArguments>),
     /// Show one case: its exact truth, and why a kernel was wrong
     Explain(explain::ExplainArguments),
+    /// Run, choose and explain ray-box tests (slab tests)
+    Boxes(boxes::BoxesArguments),
     /// Draw where a kernel is wrong around a case, a pixel a float
     Map(Box<map::MapArguments>),
     /// List kernels, families, contracts, epsilon presets or arithmetics
@@ -129,13 +132,14 @@ enum Chosen {
 }
 
 /// The commands by what they are for, in the order of the help.
-const GROUPS: [(&str, &[&str]); 6] = [
+const GROUPS: [(&str, &[&str]); 7] = [
     (
         "Choose an epsilon",
         &[
             "audit", "epsilon", "spawn", "prove", "repair", "mesh", "explain", "map", "list",
         ],
     ),
+    ("Test boxes", &["boxes"]),
     ("Hunt with a fuzzer", &["fuzz"]),
     ("Gate a CI", &["check", "merge", "diff"]),
     (
@@ -264,6 +268,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Chosen::Prove(arguments) => prove::run(&arguments),
         Chosen::Repair(arguments) => repair::run(&arguments),
         Chosen::Explain(arguments) => explain::run(&arguments),
+        Chosen::Boxes(arguments) => boxes::run(&arguments),
         Chosen::Map(arguments) => map::run(&arguments),
         Chosen::List(arguments) => list::run(&arguments),
         Chosen::Fuzz(arguments) => fuzz::run(&arguments),

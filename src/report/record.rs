@@ -39,7 +39,7 @@ pub const SCHEMA: &str = "hairline-record/2";
 pub struct Record<R = ResultPart> {
     /// [`SCHEMA`].
     pub schema: String,
-    /// The study: `audit`, `epsilon`, `spawn`, `prove` or `verify`.
+    /// The study: `audit`, `epsilon`, `spawn`, `prove`, `verify` or `boxes`.
     #[cfg_attr(test, schemars(with = "String"))]
     pub study: Study,
     /// The findings.

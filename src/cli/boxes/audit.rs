@@ -44,11 +44,19 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
         let one = std::slice::from_ref(source);
         if scalars[0] {
             let found = hairline_boxes::audit::<f32>(&setups, one, count, seed, &progress);
-            rows.extend(found.iter().map(|row: &Row| BoxesRow::new::<f32>(row, source, seed)));
+            rows.extend(
+                found
+                    .iter()
+                    .map(|row: &Row| BoxesRow::new::<f32>(row, source, seed)),
+            );
         }
         if scalars[1] {
             let found = hairline_boxes::audit::<f64>(&setups, one, count, seed, &progress);
-            rows.extend(found.iter().map(|row: &Row| BoxesRow::new::<f64>(row, source, seed)));
+            rows.extend(
+                found
+                    .iter()
+                    .map(|row: &Row| BoxesRow::new::<f64>(row, source, seed)),
+            );
         }
     }
     progress.finish();

@@ -64,7 +64,9 @@ pub fn case_named(name: &str) -> Result<AnyBoxCase, Failure> {
         return match case.scalar.as_str() {
             "f32" => Ok(AnyBoxCase::F32(read(&case))),
             "f64" => Ok(AnyBoxCase::F64(read(&case))),
-            _ => Err(Failure::usage("the case in JSON: scalar is \"f32\" or \"f64\"")),
+            _ => Err(Failure::usage(
+                "the case in JSON: scalar is \"f32\" or \"f64\"",
+            )),
         };
     }
     let id: CaseId = name.parse().map_err(|_| {

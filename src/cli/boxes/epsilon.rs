@@ -1,6 +1,7 @@
 //! `hairline boxes epsilon`: which growth of the far end, or which padding, loses no ray.
 
 use super::case::name;
+use super::record::label;
 use super::select::{CaseArguments, TestArguments};
 use crate::cli::before::set_threads;
 use crate::cli::exit::{Failure, Status};
@@ -104,10 +105,7 @@ impl Advice {
         }
         let gate = &setup.gates()[gate];
         let mut row = AdviceRow {
-            test: match setup.set {
-                "source" => setup.entry.info.name.to_owned(),
-                set => format!("{} ({set})", setup.entry.info.name),
-            },
+            test: label(setup),
             gate: gate.name,
             scalar: F::NAME,
             must_hit: 0,
@@ -189,10 +187,10 @@ impl Paged for Advice {
             Head::text("scalar"),
             Head::of("lost at 0"),
             Head::of("as it is").about("lost at the test's own epsilon"),
-            Head::of("loses none").about(
-                "the epsilon at which no ray of this run is lost; more rays may need more",
-            ),
-            Head::of("lost anyway").about("lost at every epsilon of this gate: by a NaN, an infinity or another gate"),
+            Head::of("loses none")
+                .about("the epsilon at which no ray of this run is lost; more rays may need more"),
+            Head::of("lost anyway")
+                .about("lost at every epsilon of this gate: by a NaN, an infinity or another gate"),
         ];
         let rows: Vec<Row> = self.rows.iter().map(row).collect();
         let rays = number_of(self.count, "ray", "rays");
@@ -207,7 +205,10 @@ impl Paged for Advice {
                  tolerance. Set it with --epsilon growth=VALUE, or write far * (1 + 2*EPSILON) for growth=-2*EPSILON.",
             ),
         ];
-        let decided = self.rows.iter().filter(|row| row.largest.is_some_and(|it| it < 0.0));
+        let decided = self
+            .rows
+            .iter()
+            .filter(|row| row.largest.is_some_and(|it| it < 0.0));
         let lowest = decided.max_by(|a, b| a.lost_at_zero.cmp(&b.lost_at_zero));
         if let Some(row) = lowest {
             let case = row.decided_by.as_deref().unwrap_or_default();
@@ -221,7 +222,7 @@ impl Paged for Advice {
             ));
         }
         Page {
-            command: "boxes epsilon",
+            command: "boxes",
             title: format!("Which epsilon loses no ray: {rays} of {sources}, in each scalar"),
             tone: Tone::Plain,
             blocks,

@@ -1,6 +1,7 @@
 //! `hairline boxes explain`.
 
 use super::case::{AnyBoxCase, case_named};
+use super::record::label;
 use super::select::TestArguments;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::OutputArguments;
@@ -11,8 +12,8 @@ use hairline_boxes::{
     BoxCase, Class, Definition, Finding, Made, Meeting, Obligation, Origin, Overlap, Range, Setup,
     Truth, define, padding,
 };
+use hairline_core::Verdict;
 use hairline_core::kernel::{Scalar, verdicts_of};
-use hairline_core::{Extent, Float, Verdict};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use serde::Serialize;
@@ -112,15 +113,13 @@ fn answer<F: Made + Scalar>(case: &BoxCase<F>, truth: &Truth, setup: &Setup) -> 
         Finding::FalseMiss => "wrong: the ray is lost",
         Finding::Failed => "wrong: no verdict",
     };
-    let test = match setup.set {
-        "source" => setup.entry.info.name.to_owned(),
-        set => format!("{} ({set})", setup.entry.info.name),
-    };
     Some(Answer {
-        test,
+        test: label(setup),
         says,
         judged,
-        margins: gates.zip(margins.iter().map(Float::to_f64)).collect(),
+        margins: gates
+            .zip(margins.iter().map(|margin| margin.to_f64()))
+            .collect(),
     })
 }
 
@@ -208,10 +207,18 @@ impl Paged for Explained {
             Head::text("margins").about("the largest epsilon at which a gate lets the ray through"),
         ];
         let rows = self.answers.iter().map(row).collect();
-        let wrong = self.answers.iter().filter(|it| it.judged != "right").count();
-        let title = format!("{}: {wrong} of {} tests are wrong", self.case, self.answers.len());
+        let wrong = self
+            .answers
+            .iter()
+            .filter(|it| it.judged != "right")
+            .count();
+        let title = format!(
+            "{}: {wrong} of {} tests are wrong",
+            self.case,
+            self.answers.len()
+        );
         Page {
-            command: "boxes explain",
+            command: "boxes",
             title,
             tone: if wrong == 0 { Tone::Good } else { Tone::Bad },
             blocks: vec![Block::terms(terms), Block::Table(Table::new(heads, rows))],
@@ -227,6 +234,10 @@ fn row(answer: &Answer) -> Row {
         is_broken: answer.judged != "right",
         share: None,
     };
-    let cells = [answer.says.to_owned().into(), judged, margins.join(", ").into()];
+    let cells = [
+        answer.says.to_owned().into(),
+        judged,
+        margins.join(", ").into(),
+    ];
     Row::new(answer.test.clone(), cells)
 }

@@ -30,7 +30,9 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
             Block::Items(Items { items, most })
         }
         Listed::Families => {
-            let term = |family: &hairline_boxes::Family| (family.name.to_owned(), family.promise.to_owned());
+            let term = |family: &hairline_boxes::Family| {
+                (family.name.to_owned(), family.promise.to_owned())
+            };
             Block::Terms(FAMILIES.iter().map(term).collect())
         }
     };
@@ -43,14 +45,22 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
 
 fn item(entry: &'static BoxEntry) -> Item {
     let info = entry.info;
-    let mut notes = vec![info.source.to_owned(), format!("promises {}", info.contract.describe())];
+    let mut notes = vec![
+        info.source.to_owned(),
+        format!("promises {}", info.contract.describe()),
+    ];
     for (i, gate) in info.gates.iter().enumerate() {
         let values: Vec<String> = info
             .epsilon_sets
             .iter()
             .filter_map(|set| Some(format!("{} {}", set.name, set.values.get(i)?)))
             .collect();
-        notes.push(format!("{}: {}; e is {}", gate.name, gate.refuses, values.join(", ")));
+        notes.push(format!(
+            "{}: {}; e is {}",
+            gate.name,
+            gate.refuses,
+            values.join(", ")
+        ));
     }
     Item {
         text: info.name.to_owned(),

@@ -5,11 +5,14 @@ use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row as TableR
 use crate::report::{
     Comparable, NamedRate, Rate, Study, alike, group_digits, listed, number_of, percent,
 };
-use hairline_boxes::{Made, Row, Source, Wrong};
+use hairline_boxes::{Made, Row, Setup, Source, Wrong};
 use hairline_core::kernel::Scalar;
 
 /// How many sources of lost rays a line names.
-const NAMED: usize = 3;
+const NAMED: usize = 2;
+
+/// A false hit by less than this share of the largest coordinate may be rounding, in either scalar.
+const ROUNDED: f64 = 1e-3;
 
 /// What slab tests did on boxes.
 #[apply(part!)]
@@ -29,8 +32,8 @@ pub struct BoxesResult {
 pub struct BoxesRow {
     /// The slab test.
     test: String,
-    /// The name of its epsilons.
-    set: String,
+    /// Its name with that of its epsilons, if they are not its only published ones.
+    label: String,
     /// Its epsilons, by gate.
     epsilons: Vec<(String, String)>,
     /// `f32` or `f64`.
@@ -71,7 +74,7 @@ impl BoxesRow {
         let worst = tally.false_hits.worst;
         BoxesRow {
             test: setup.entry.info.name.to_owned(),
-            set: setup.set.to_owned(),
+            label: label(setup),
             epsilons: gates.zip(values).collect(),
             scalar: row.scalar.to_owned(),
             source: row.source.clone(),
@@ -86,13 +89,6 @@ impl BoxesRow {
         }
     }
 
-    fn label(&self) -> String {
-        if self.set == "source" {
-            return self.test.clone();
-        }
-        format!("{} ({})", self.test, self.set)
-    }
-
     fn is_wrong(&self) -> bool {
         0 < self.lost.count + self.false_hits.count + self.failed
     }
@@ -101,50 +97,102 @@ impl BoxesRow {
     fn command(&self) -> Option<String> {
         let farthest = self.farthest.as_ref().map(|farthest| &farthest.case);
         let case = self.first_lost.as_ref().or(farthest)?;
-        Some(format!("hairline boxes explain '{case}' --kernel {}", self.test))
+        Some(self.explain(case))
+    }
+
+    /// The command that shows a case, at the epsilons of this row.
+    fn explain(&self, case: &str) -> String {
+        let mut command = format!("hairline boxes explain '{case}' --kernel {}", self.test);
+        if self.label != self.test {
+            for (gate, value) in &self.epsilons {
+                command += &format!(" --epsilon '{gate}={value}'");
+            }
+        }
+        command
     }
 }
 
-/// A slab test in one scalar on all sources.
+/// The name of a slab test, with that of its epsilons if they are not its only published ones.
+pub fn label(setup: &Setup) -> String {
+    let info = setup.entry.info;
+    let is_only = info.epsilon_sets.len() == 1 && info.epsilon_sets[0].name == setup.set;
+    if is_only || setup.set == "source" {
+        return info.name.to_owned();
+    }
+    format!("{} ({})", info.name, setup.set)
+}
+
+/// A slab test on all sources.
 struct Sum<'a> {
-    lost: Rate,
-    false_hits: Rate,
-    failed: u64,
-    /// The rows with lost rays, those with the largest share first.
-    losing: Vec<&'a BoxesRow>,
-    farthest: Option<f64>,
+    label: String,
+    rows: Vec<&'a BoxesRow>,
 }
 
 impl<'a> Sum<'a> {
-    fn of(rows: &[&'a BoxesRow]) -> Sum<'a> {
-        let mut losing: Vec<&BoxesRow> = Vec::new();
-        losing.extend(rows.iter().filter(|row| 0 < row.lost.count));
-        let share = |row: &BoxesRow| row.lost.rate.unwrap_or(0.0);
-        losing.sort_by(|a, b| share(b).total_cmp(&share(a)));
-        let farthest = rows.iter().filter_map(|row| Some(row.farthest.as_ref()?.share));
-        Sum {
-            lost: Rate::sum(rows.iter().map(|row| &row.lost)),
-            false_hits: Rate::sum(rows.iter().map(|row| &row.false_hits)),
-            failed: rows.iter().map(|row| row.failed).sum(),
-            losing,
-            farthest: farthest.reduce(f64::max),
-        }
+    /// Its lost rays in a scalar, or in both.
+    fn lost(&self, scalar: Option<&str>) -> Rate {
+        let is_in = |row: &&&BoxesRow| scalar.is_none_or(|scalar| row.scalar == scalar);
+        Rate::sum(self.rows.iter().filter(is_in).map(|row| &row.lost))
     }
 
-    fn cells(&self) -> [Cell; 3] {
-        let lost = Cell {
-            text: counted(&self.lost),
-            is_broken: 0 < self.lost.count + self.failed,
-            share: self.lost.rate,
-        };
-        let farthest = self.farthest.map_or(String::new(), |share| format!("{share:.0e}"));
-        let where_lost = self.losing.iter().map(|row| {
-            let share = row.lost.rate.unwrap_or(0.0);
-            format!("{} {}", row.source, percent(share))
-        });
-        let where_lost: Vec<String> = where_lost.collect();
-        let named = listed(&where_lost, NAMED);
-        [lost, farthest.into(), named.into()]
+    /// Cases without a verdict.
+    fn failed(&self) -> u64 {
+        self.rows.iter().map(|row| row.failed).sum()
+    }
+
+    /// Whether it loses rays, and how many: the order of the table.
+    fn order(&self) -> u64 {
+        self.lost(None).count + self.failed()
+    }
+
+    /// The sources on which it loses most, with their shares in both scalars.
+    fn sources(&self) -> String {
+        let rows = self.rows.iter().copied();
+        let mut shares = Vec::new();
+        for (first, others) in alike(rows, |one, other| one.source == other.source) {
+            let all = others.iter().chain([&first]).map(|row| &row.lost);
+            let lost = Rate::sum(all);
+            if 0 < lost.count {
+                shares.push((&first.source, lost.rate.unwrap_or(0.0)));
+            }
+        }
+        shares.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+        let named: Vec<String> = shares
+            .into_iter()
+            .map(|(source, share)| format!("{source} {}", percent(share)))
+            .collect();
+        listed(&named, NAMED)
+    }
+
+    fn cells(&self, scalars: &[&str], tells_sources: bool) -> Vec<Cell> {
+        let mut cells = Vec::new();
+        for scalar in scalars {
+            let lost = self.lost(Some(scalar));
+            cells.push(Cell {
+                text: counted(&lost),
+                is_broken: 0 < lost.count,
+                share: lost.rate,
+            });
+        }
+        if tells_sources {
+            cells.push(self.sources().into());
+        }
+        cells
+    }
+
+    /// The false hit that passes its box by most, if that is more than rounding explains.
+    fn far(&self) -> Option<(&'a BoxesRow, &'a Farthest)> {
+        let rows = self.rows.iter().copied();
+        let all = rows.filter_map(|row| Some((row, row.farthest.as_ref()?)));
+        let far = all.filter(|(_, farthest)| ROUNDED < farthest.share);
+        far.max_by(|(_, a), (_, b)| a.share.total_cmp(&b.share))
+    }
+
+    /// One sentence on its cases without a verdict.
+    fn failures(&self) -> Option<String> {
+        let failed = self.failed();
+        let count = number_of(failed, "case", "cases");
+        (0 < failed).then(|| format!("{} gives no verdict on {count}", self.label))
     }
 }
 
@@ -162,37 +210,33 @@ impl BoxesResult {
         self.rows.iter().any(BoxesRow::is_wrong)
     }
 
-    /// The rows of each slab test in a scalar, those that lose least first.
-    fn sums(&self, scalar: &str) -> Vec<(String, Sum<'_>)> {
-        let rows = self.rows.iter().filter(|row| row.scalar == scalar);
+    /// The rows of each slab test, those that lose least first.
+    fn sums(&self) -> Vec<Sum<'_>> {
         let mut sums = Vec::new();
-        for (first, others) in alike(rows, |one, other| one.label() == other.label()) {
-            let mut all = vec![first];
-            all.extend(others);
-            sums.push((first.label(), Sum::of(&all)));
+        for (first, others) in alike(&self.rows, |one, other| one.label == other.label) {
+            let mut rows = vec![first];
+            rows.extend(others);
+            let label = first.label.clone();
+            sums.push(Sum { label, rows });
         }
-        sums.sort_by_key(|(_, sum)| (sum.lost.count + sum.failed, sum.false_hits.count));
+        sums.sort_by_key(Sum::order);
         sums
     }
 
-    fn table(&self, scalar: &str) -> Vec<Block> {
-        let sums = self.sums(scalar);
-        if sums.is_empty() {
-            return Vec::new();
+    fn table(&self, sums: &[Sum]) -> Table {
+        let is_run = |scalar: &&str| self.rows.iter().any(|row| row.scalar == *scalar);
+        let scalars: Vec<&str> = ["f32", "f64"].into_iter().filter(is_run).collect();
+        let tells_sources = 1 < self.sources.len();
+        let mut heads = vec![Head::of("lost in")];
+        heads.extend(scalars.iter().map(|scalar| Head::of(*scalar)));
+        if tells_sources {
+            heads.push(Head::text("most of").optional());
         }
-        let heads = vec![
-            Head::of(scalar),
-            Head::of("lost").about("rays that meet the box and are not reported"),
-            Head::of("passes by").about(
-                "the farthest false hit: how far the ray passes outside, by the largest coordinate",
-            ),
-            Head::text("of these families").optional(),
-        ];
         let rows = sums
             .iter()
-            .map(|(label, sum)| TableRow::new(label.clone(), sum.cells()))
+            .map(|sum| TableRow::new(sum.label.clone(), sum.cells(&scalars, tells_sources)))
             .collect();
-        vec![Block::Table(Table::new(heads, rows))]
+        Table::new(heads, rows)
     }
 
     /// The row with the largest share of lost rays on a source.
@@ -202,37 +246,53 @@ impl BoxesResult {
         losing.max_by(|a, b| share(a).total_cmp(&share(b)))
     }
 
-    fn title(&self) -> String {
-        let mut tests: Vec<String> = Vec::new();
-        let mut losing: Vec<String> = Vec::new();
-        for row in &self.rows {
-            let label = row.label();
-            if !tests.contains(&label) {
-                tests.push(label.clone());
-            }
-            if 0 < row.lost.count + row.failed && !losing.contains(&label) {
-                losing.push(label);
-            }
-        }
-        let all = number_of(tests.len() as u64, "slab test", "slab tests");
+    fn title(&self, sums: &[Sum]) -> String {
+        let losing = sums.iter().filter(|sum| 0 < sum.order()).count();
+        let all = number_of(sums.len() as u64, "slab test", "slab tests");
         let rays = number_of(self.count, "ray", "rays");
-        match losing.len() {
-            0 => format!("No ray is lost by {all}, of {rays} a family and scalar"),
-            some => format!("{some} of {all} lose rays that meet the box, of {rays} a family and scalar"),
+        let sources = match self.sources.as_slice() {
+            [source] => source.clone(),
+            many => format!("each of {} families", many.len()),
+        };
+        let drawn = format!("{rays} of {sources} in each scalar");
+        match losing {
+            0 => format!("No ray that meets its box is lost by {all}: {drawn}"),
+            some => format!("{some} of {all} lose rays that meet the box: {drawn}"),
         }
+    }
+
+    /// Sentences on what the table does not show.
+    fn notes(&self, sums: &[Sum]) -> Vec<String> {
+        let mut notes: Vec<String> = sums.iter().filter_map(Sum::failures).collect();
+        for sum in sums {
+            if let Some((row, farthest)) = sum.far() {
+                let (label, share) = (&sum.label, farthest.share);
+                let command = row.explain(&farthest.case);
+                notes.push(format!(
+                    "{label} hits boxes far from the ray, by {share:.0e} of the largest coordinate: {command}"
+                ));
+            }
+        }
+        notes.push(
+            "A lost box loses everything in it; a box that is hit too often only costs time."
+                .to_owned(),
+        );
+        if 1 < self.sources.len() {
+            let shares = "The families are rays at corners, edges and faces, and boxes that are flat or a point: their \
+                          shares are not those of a program (--extent and --size draw rays of its sizes).";
+            notes.push(shares.to_owned());
+        }
+        notes
     }
 }
 
 impl Paged for BoxesResult {
     fn page(&self) -> Page {
-        let mut blocks = Vec::new();
-        for scalar in ["f32", "f64"] {
-            blocks.extend(self.table(scalar));
-        }
-        let text = "A lost box loses everything in it; a box that is hit too often only costs time. The default families \
-                    are rays at corners, edges and faces: their shares are not those of a program (--extent and --size \
-                    draw rays of a program's sizes).";
-        blocks.push(Block::text(text));
+        let sums = self.sums();
+        let mut blocks = vec![
+            Block::Table(self.table(&sums)),
+            Block::Notes(self.notes(&sums)),
+        ];
         let mut commands = Vec::new();
         if let Some(line) = self.worst().and_then(BoxesRow::command) {
             commands.push(Command {
@@ -245,15 +305,23 @@ impl Paged for BoxesResult {
             what: "which growth or padding loses none",
         });
         blocks.push(Block::Commands("next", commands));
-        let details = self.rows.iter().filter(|row| row.is_wrong());
-        let details: Vec<Block> = details.map(detail).collect();
+        let details: Vec<Block> = self
+            .rows
+            .iter()
+            .filter(|row| row.is_wrong())
+            .map(detail)
+            .collect();
         if !details.is_empty() {
             blocks.push(Block::Details("Every family".to_owned(), details));
         }
         Page {
-            command: "boxes audit",
-            title: self.title(),
-            tone: if self.is_wrong() { Tone::Bad } else { Tone::Good },
+            command: "boxes",
+            title: self.title(&sums),
+            tone: if self.is_wrong() {
+                Tone::Bad
+            } else {
+                Tone::Good
+            },
             blocks,
         }
     }
@@ -270,7 +338,7 @@ fn detail(row: &BoxesRow) -> Block {
         0 => String::new(),
         count => format!("; {count} without a verdict"),
     };
-    let (label, scalar, source) = (row.label(), &row.scalar, &row.source);
+    let (label, scalar, source) = (&row.label, &row.scalar, &row.source);
     let lost = row.lost.counts();
     Block::text(format!(
         "{label}, {scalar}, {source}: {lost} lost{false_hits}{failed}: {command}"
@@ -291,7 +359,7 @@ impl Comparable for BoxesResult {
     fn counted(&self) -> Vec<NamedRate> {
         let mut counted = Vec::new();
         for row in &self.rows {
-            let (label, scalar, source) = (row.label(), &row.scalar, &row.source);
+            let (label, scalar, source) = (&row.label, &row.scalar, &row.source);
             let named = |what: &str, rate: &Rate| NamedRate {
                 what: format!("{label}, {scalar}, {source}: {what}"),
                 rate: rate.clone(),

@@ -10,11 +10,21 @@ use hairline_boxes::{FAMILIES, Family, Scene, Setup, Source, TABLE};
 #[derive(Args)]
 pub struct TestArguments {
     /// A slab test, or several separated by commas [default: all]; NAME+ARITHMETIC runs it in another arithmetic
-    #[arg(short = 'k', long = "kernel", value_delimiter = ',', value_name = "NAME")]
+    #[arg(
+        short = 'k',
+        long = "kernel",
+        value_delimiter = ',',
+        value_name = "NAME"
+    )]
     tests: Vec<String>,
 
     /// An epsilon of a gate for all of them, as growth=-3*EPSILON or padding=-1e-6
-    #[arg(long, value_delimiter = ',', value_name = "GATE=VALUE", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "GATE=VALUE",
+        allow_hyphen_values = true
+    )]
     epsilon: Vec<String>,
 }
 
@@ -52,7 +62,8 @@ impl TestArguments {
             let parts = given.split_once('=');
             let value = parts.and_then(|(_, value)| EpsilonText::of(value));
             let (Some((gate, _)), Some(value)) = (parts, value) else {
-                let message = format!("--epsilon: '{given}' is no GATE=VALUE, as growth=-3*EPSILON");
+                let message =
+                    format!("--epsilon: '{given}' is no GATE=VALUE, as growth=-3*EPSILON");
                 return Err(Failure::usage(message));
             };
             setup = setup.with(gate, value).map_err(Failure::usage)?;
@@ -69,7 +80,12 @@ pub struct CaseArguments {
     family: Vec<String>,
 
     /// A scene in place of families: coordinates of boxes and rays lie within this
-    #[arg(long, value_name = "LENGTH", requires = "size", conflicts_with = "family")]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        requires = "size",
+        conflicts_with = "family"
+    )]
     extent: Option<f64>,
 
     /// The longest side of a box of that scene

@@ -19,6 +19,8 @@ named! {
         Prove = "prove",
         /// A product's answers to the test vectors.
         Verify = "verify",
+        /// Slab tests on boxes.
+        Boxes = "boxes",
     }
 }
 

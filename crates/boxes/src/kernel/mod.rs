@@ -58,6 +58,9 @@ pub static KERNELS: &[Entry<Boxes>] = &[
     Entry::of::<padded::PaddedBox>(),
 ];
 
+/// A row of the table.
+pub type BoxEntry = Entry<Boxes>;
+
 /// The table of slab tests: it finds them by name, in other arithmetics too, and takes those of a program.
 pub static TABLE: Table<Boxes> = Table::new(KERNELS);
 
