@@ -28,7 +28,7 @@ const fn room(source: &'static str, alone: Option<&'static str>, most_tokens: us
 /// The crates, the lowest first.
 const ROOMS: [Room; 8] = [
     room("crates/core/src", None, 81_000),
-    room("crates/boxes/src", Some("boxes"), 27_000),
+    room("crates/boxes/src", Some("boxes"), 27_200),
     room("crates/files/src", Some("files"), 24_200),
     room("crates/prove/src", Some("prove"), 96_700),
     room("crates/study/src", None, 161_300),

@@ -110,16 +110,13 @@ impl Tally {
 
     fn add<F: Made>(&mut self, judged: &Judged<F>, verdict: &Verdict<F>, extent: Extent) {
         let Judged {
-            case,
-            severities,
-            index,
-            obligation,
+            index, obligation, ..
         } = *judged;
         self.cases += 1;
         self.hits += u64::from(verdict.hit);
         self.must_hit += u64::from(obligation == Obligation::Hit);
         self.must_miss += u64::from(obligation == Obligation::Miss);
-        let severity = || severities.of(case, extent);
+        let severity = || judged.severity(extent);
         match obligation.judge(verdict) {
             Finding::Right => {}
             Finding::FalseHit => self.false_hits.add(index, severity()),
@@ -132,25 +129,18 @@ impl Tally {
 /// A case with what a setup owes on it.
 struct Judged<'a, F: Made> {
     case: &'a BoxCase<F>,
-    severities: &'a Severities,
     index: u64,
     obligation: Obligation,
+    severities: &'a Severities,
 }
 
-/// How wrong a wrong verdict on one case is, by extent. Found in rationals when the first setup asks, which takes longer
-/// than all setups take for their verdicts.
-#[derive(Clone, Default)]
-struct Severities([OnceCell<Option<f64>>; 3]);
+/// The severity of a wrong verdict on a case, by extent. It is rational, and most slab tests are wrong on the same cases.
+type Severities = [OnceCell<Option<f64>>; 3];
 
-impl Severities {
-    fn of<F: Made>(&self, case: &BoxCase<F>, extent: Extent) -> Option<f64> {
-        let [line, ray, interval] = &self.0;
-        let known = match extent {
-            Extent::Line => line,
-            Extent::Ray => ray,
-            Extent::Interval => interval,
-        };
-        *known.get_or_init(|| severity(case, extent))
+impl<F: Made> Judged<'_, F> {
+    fn severity(&self, extent: Extent) -> Option<f64> {
+        let known = &self.severities[extent as usize];
+        *known.get_or_init(|| severity(self.case, extent))
     }
 }
 
@@ -240,9 +230,9 @@ fn add_chunk<F: Made + Scalar>(
         for (index, case) in cases.iter().enumerate() {
             let judged = Judged {
                 case,
-                severities: &severities[index],
                 index: first + index as u64,
                 obligation: Obligation::new(&truths[index], contract),
+                severities: &severities[index],
             };
             tally.add(&judged, &verdicts[index], contract.extent);
         }
