@@ -96,6 +96,7 @@ mod tests {
         Spawn(Record<SpawnResult>),
         Prove(Record<ProofResult>),
         Verify(Record<VerifyResult>),
+        Boxes(Record<BoxesResult>),
     }
 
     #[test]

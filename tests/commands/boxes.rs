@@ -46,7 +46,7 @@ fn a_ray_at_a_corner_is_met_and_one_float_further_out_it_is_not() {
     );
     // It misses a box whose entry and exit are one point.
     assert_eq!(
-        says(&met, "bvh"),
+        says(&met, "barnes-2015"),
         [Value::from("miss"), Value::from("wrong: the ray is lost")]
     );
     assert_eq!(
@@ -65,7 +65,7 @@ fn an_audit_counts_what_each_test_loses_and_its_commands_show_it() {
         "-n",
         "300",
         "--kernel",
-        "ize,fused,bvh",
+        "ize,fused,barnes-2015",
     ];
     let (screen, _) = ends_flat(&folder, &run, 0);
     assert!(

@@ -152,7 +152,7 @@ fn rows_add_up_however_they_are_split() {
 
 #[test]
 fn an_audit_finds_what_is_known_of_slab_tests() {
-    let names = ["bvh", "ize", "multiplied", "kay-kajiya"];
+    let names = ["barnes-2015", "ize", "multiplied", "kay-kajiya"];
     let setups = names.map(setup);
     let sources = ["flat", "corner-near", "interior", "outside"].map(source);
     let rows = audit::<f32>(&setups, &sources, 2000, 1, &Unobserved);
@@ -161,7 +161,7 @@ fn an_audit_finds_what_is_known_of_slab_tests() {
         &rows.iter().find(is).unwrap().tally
     };
     assert_eq!(
-        of("bvh", "flat").false_misses.count,
+        of("barnes-2015", "flat").false_misses.count,
         2000,
         "far is never above near"
     );

@@ -8,7 +8,9 @@ use crate::cli::output::OutputArguments;
 use crate::cli::progress::Progress;
 use crate::report::{Context, Format, Record, provenance_of};
 use clap::Args;
-use hairline_boxes::Row;
+use hairline_boxes::{Made, Setup, Source, audit};
+use hairline_core::kernel::Scalar;
+use std::slice;
 use std::time::Instant;
 
 /// Which slab tests, on which boxes, and how to report.
@@ -39,24 +41,19 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
     let start = Instant::now();
     let runs = scalars.iter().filter(|is_chosen| **is_chosen).count() * sources.len();
     let progress = Progress::new(runs as u64 * count, "boxes", arguments.output.quiet);
+    let run = AuditRun {
+        setups: &setups,
+        count,
+        seed,
+        progress: &progress,
+    };
     let mut rows = Vec::new();
     for source in &sources {
-        let one = std::slice::from_ref(source);
         if scalars[0] {
-            let found = hairline_boxes::audit::<f32>(&setups, one, count, seed, &progress);
-            rows.extend(
-                found
-                    .iter()
-                    .map(|row: &Row| BoxesRow::new::<f32>(row, source, seed)),
-            );
+            rows.extend(run.rows_of::<f32>(source));
         }
         if scalars[1] {
-            let found = hairline_boxes::audit::<f64>(&setups, one, count, seed, &progress);
-            rows.extend(
-                found
-                    .iter()
-                    .map(|row: &Row| BoxesRow::new::<f64>(row, source, seed)),
-            );
+            rows.extend(run.rows_of::<f64>(source));
         }
     }
     progress.finish();
@@ -78,4 +75,23 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
     } else {
         Status::Success
     })
+}
+
+/// The run of all sources.
+struct AuditRun<'a> {
+    setups: &'a [Setup],
+    count: u64,
+    seed: u64,
+    progress: &'a Progress,
+}
+
+impl AuditRun<'_> {
+    fn rows_of<F: Made + Scalar>(&self, source: &Source) -> Vec<BoxesRow> {
+        let sources = slice::from_ref(source);
+        let found = audit::<F>(self.setups, sources, self.count, self.seed, self.progress);
+        found
+            .iter()
+            .map(|row| BoxesRow::new::<F>(row, source, self.seed))
+            .collect()
+    }
 }

@@ -59,7 +59,7 @@ struct Explained {
     answers: Vec<Answer>,
 }
 
-/// What one slab test says.
+/// The answer of one slab test.
 #[derive(Serialize)]
 struct Answer {
     test: String,
@@ -123,7 +123,7 @@ fn answer<F: Made + Scalar>(case: &BoxCase<F>, truth: &Truth, setup: &Setup) -> 
     })
 }
 
-/// What is true of a case, in a sentence.
+/// The truth of a case, in a sentence.
 fn in_words(defined: &Definition) -> String {
     let meeting = match &defined.truth {
         Truth::Invalid => {

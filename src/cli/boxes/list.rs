@@ -6,7 +6,7 @@ use crate::report::page::{Block, Item, Items, Page};
 use clap::{Args, ValueEnum};
 use hairline_boxes::{BoxEntry, FAMILIES, TABLE};
 
-/// What to list.
+/// The table to list.
 #[derive(Args)]
 pub struct ListArguments {
     #[arg(value_enum)]

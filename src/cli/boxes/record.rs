@@ -2,9 +2,7 @@
 
 use crate::audit::Trials;
 use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row as TableRow, Table, Tone};
-use crate::report::{
-    Comparable, NamedRate, Rate, Study, alike, group_digits, listed, number_of, percent,
-};
+use crate::report::{Comparable, NamedRate, Rate, Study, alike, listed, number_of, percent};
 use hairline_boxes::{Made, Row, Setup, Source, Wrong};
 use hairline_core::kernel::Scalar;
 
@@ -14,7 +12,7 @@ const NAMED: usize = 2;
 /// A false hit by less than this share of the largest coordinate may be rounding, in either scalar.
 const ROUNDED: f64 = 1e-3;
 
-/// What slab tests did on boxes.
+/// The counts of slab tests on boxes.
 #[apply(part!)]
 pub struct BoxesResult {
     /// How many cases of each source in each scalar.
@@ -140,7 +138,7 @@ impl<'a> Sum<'a> {
         self.rows.iter().map(|row| row.failed).sum()
     }
 
-    /// Whether it loses rays, and how many: the order of the table.
+    /// How many rays it loses, by which the table is ordered.
     fn order(&self) -> u64 {
         self.lost(None).count + self.failed()
     }
@@ -169,7 +167,7 @@ impl<'a> Sum<'a> {
         for scalar in scalars {
             let lost = self.lost(Some(scalar));
             cells.push(Cell {
-                text: counted(&lost),
+                text: share(&lost),
                 is_broken: 0 < lost.count,
                 share: lost.rate,
             });
@@ -196,11 +194,11 @@ impl<'a> Sum<'a> {
     }
 }
 
-/// `0`, or a count with its share.
-fn counted(rate: &Rate) -> String {
-    match (rate.count, rate.rate) {
-        (0, _) | (_, None) => "0".to_owned(),
-        (count, Some(share)) => format!("{} ({})", group_digits(count), percent(share)),
+/// `0`, or a share.
+fn share(rate: &Rate) -> String {
+    match rate.count {
+        0 => "0".to_owned(),
+        _ => percent(rate.rate.unwrap_or(0.0)),
     }
 }
 
@@ -230,7 +228,7 @@ impl BoxesResult {
         let mut heads = vec![Head::of("lost in")];
         heads.extend(scalars.iter().map(|scalar| Head::of(*scalar)));
         if tells_sources {
-            heads.push(Head::text("most of").optional());
+            heads.push(Head::text("most of these families").optional());
         }
         let rows = sums
             .iter()
@@ -277,11 +275,13 @@ impl BoxesResult {
             "A lost box loses everything in it; a box that is hit too often only costs time."
                 .to_owned(),
         );
-        if 1 < self.sources.len() {
-            let shares = "The families are rays at corners, edges and faces, and boxes that are flat or a point: their \
-                          shares are not those of a program (--extent and --size draw rays of its sizes).";
-            notes.push(shares.to_owned());
-        }
+        let drawn = if 1 < self.sources.len() {
+            "The families are rays at corners, edges and faces, and boxes that are flat or a point: their \
+             shares are not those of a program (--extent and --size draw rays of its sizes)."
+        } else {
+            "The rays are aimed at what is hard, so these are not shares of a program's rays."
+        };
+        notes.push(drawn.to_owned());
         notes
     }
 }

@@ -51,6 +51,7 @@ pub static KERNELS: &[Entry<Boxes>] = &[
     Entry::of::<branchless::PlaneFirst>(),
     Entry::of::<branchless::PlaneLast>(),
     Entry::of::<libraries::TinyBvh>(),
+    Entry::of::<libraries::TinyBvh1e30>(),
     Entry::of::<libraries::Bvh>(),
     Entry::of::<Slabs<numbers::Divided>>(),
     Entry::of::<Slabs<numbers::Multiplied>>(),

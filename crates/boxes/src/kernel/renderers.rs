@@ -2,12 +2,13 @@
 //!
 //! Sources: pbrt-v3 and pbrt-v4, `Bounds3::IntersectP`, both overloads: each axis's far t is multiplied by
 //! 1 + 2·gamma(3), gamma(3) = 3u / (1 - 3u), which rounds to `1 + 3*EPSILON`. Intel Embree, node intersectors: the
-//! fast one computes b·rdir - org·rdir with fused operations, the robust one (b - org)·rdir, and compares
-//! (1 - 2ulp)·near with (1 + 2ulp)·far; both replace components of the direction below 1e-18 by 1e-18. Embree's
-//! reciprocal is an estimate with a Newton step; here it is rounded correctly. T. Aila and S. Laine, "Understanding the
+//! fast one computes b·rdir - org·rdir with fused operations; the robust one, of Embree 3 and 4 (`TravRayBase<N, true>`),
+//! (b - org)·((1 - 3ulp)·rdir) at near planes and (b - org)·((1 + 3ulp)·rdir) at far ones. Both replace components of the
+//! direction below 1e-18 by 1e-18. The fast one's reciprocal is an estimate with a Newton step; here it is rounded
+//! correctly. T. Aila and S. Laine, "Understanding the
 //! Efficiency of Ray Traversal on GPUs", HPG 2009, kernels: fused operations, directions kept from 0 by 2^-80.
 
-use super::growth::{AT_MOST, Comparison, GROWTH, NOT_ABOVE, compare, everything, grown};
+use super::growth::{AT_MOST, Comparison, GROWTH, NOT_ABOVE, compare, everything};
 use super::numbers::*;
 use super::pairwise::{by_reciprocal, overlapping};
 use super::*;
@@ -140,12 +141,19 @@ impl Kernel<Boxes> for EmbreeFast {
 impl Kernel<Boxes> for EmbreeRobust {
     const INFO: KernelInfo = info(
         "embree-robust",
-        "Intel Embree, intersectNodeRobust: (b - org)*rdir, and (1 - 2ulp)*near <= (1 + 2ulp)*far",
+        "Intel Embree 3 and 4, intersectNodeRobust: (b - org)*rdir_near and (b - org)*rdir_far, \
+         https://github.com/RenderKit/embree",
         contract(Extent::Interval, Boundary::Closed),
-        &[Gate::signed(Role::Edge, "!((1 + e)*near <= (1 - e)*far)", 0, 0).named("growth")],
+        &[Gate::signed(
+            Role::Edge,
+            "!(near*(1 + e) <= far*(1 - e)), in the reciprocals",
+            0,
+            0,
+        )
+        .named("growth")],
         &[EpsilonSet {
             name: "source",
-            values: &["-2*EPSILON"],
+            values: &["-3*EPSILON"],
         }],
     );
 
@@ -157,30 +165,94 @@ impl Kernel<Boxes> for EmbreeRobust {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let Slab { near, far } = embree::<Multiplied, V>(bounds, ray);
         let accepts = |epsilon: &V::Real| {
-            let near = grown(&near, &-epsilon.clone());
-            near.is_at_most(&grown(&far, epsilon))
+            let Slab { near, far } = robust(bounds, ray, epsilon);
+            near.is_at_most(&far)
         };
-        sink.rounded(GROWTH, accepts, || both_grown(&near, &far))?;
-        Some(Hit::at(near))
+        sink.rounded(GROWTH, accepts, || reciprocals_grown(bounds, ray))?;
+        Some(Hit::at(robust(bounds, ray, &V::Real::zero()).near))
     }
 }
 
-/// The largest epsilon at which `(1 + e)·near <= (1 - e)·far` without rounding.
-fn both_grown<R: Real>(near: &R, far: &R) -> R {
-    let zero = R::zero();
-    let sum = near.clone() + far;
-    let is_behind = near.is_less(&zero) || far.is_less(&zero);
-    if is_behind || !zero.is_less(&sum) {
-        return everything(near.is_at_most(far));
+/// The ends of what the ray and the box have in common, with an epsilon in the reciprocals.
+#[inline(always)]
+fn robust<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, epsilon: &V::Real) -> Slab<V::Real> {
+    let [x, y, z] = each_axis(|i| robust_slab(bounds, ray, i, epsilon));
+    let ends = z.and(interval(ray), maxps, minps);
+    x.and(y, maxps, minps).and(ends, maxps, minps)
+}
+
+/// One slab. A t below 0 is left as it is, and an epsilon beyond one half counts as one half: so a larger epsilon never
+/// accepts more. Neither matters to a ray with t_min >= 0 and an epsilon that anybody would choose.
+#[inline(always)]
+fn robust_slab<V: Vector>(
+    bounds: &Bounds<V>,
+    ray: &Ray<V>,
+    i: usize,
+    epsilon: &V::Real,
+) -> Slab<V::Real> {
+    let zero = V::Real::zero();
+    let half = V::Real::number(0.5);
+    let epsilon = epsilon.clone().smaller(half.clone()).larger(-half);
+    let reciprocal = V::Real::one() / zero_fixed(ray.direction.at(i));
+    let is_forward = zero.is_at_most(&reciprocal);
+    let (min, max) = (bounds.min.at(i), bounds.max.at(i));
+    let (entry, exit) = if is_forward { (min, max) } else { (max, min) };
+    let origin = ray.origin.at(i);
+    let to_entry = entry - &origin;
+    let to_exit = exit - &origin;
+    let near = to_entry.clone() * &reciprocal;
+    let far = to_exit.clone() * &reciprocal;
+    let shorter = (V::Real::one() + &epsilon) * &reciprocal;
+    let longer = (V::Real::one() - &epsilon) * &reciprocal;
+    Slab {
+        near: if near.is_less(&zero) {
+            near
+        } else {
+            to_entry * &shorter
+        },
+        far: if far.is_less(&zero) {
+            far
+        } else {
+            to_exit * &longer
+        },
     }
-    let share = (far.clone() - near) / &sum;
-    if share.is_nan() {
-        Comparison::AtMost.threshold(near, far)
-    } else {
-        share
+}
+
+/// The largest epsilon at which the robust test accepts, without rounding: where (1 + e)·near <= (1 - e)·far,
+/// (1 + e)·near <= t_max and t_min <= (1 - e)·far.
+fn reciprocals_grown<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>) -> V::Real {
+    let (zero, one) = (V::Real::zero(), V::Real::one());
+    let plain = |i: usize| robust_slab(bounds, ray, i, &zero);
+    let both = plain(0).and(plain(1), maxps, minps);
+    let Slab { near, far } = both.and(plain(2), maxps, minps);
+    let common = Slab {
+        near: near.clone(),
+        far: far.clone(),
+    };
+    let Slab {
+        near: start,
+        far: end,
+    } = common.and(interval(ray), maxps, minps);
+    if far.is_less(&zero) || ray.t_max.is_less(&ray.t_min) {
+        return everything(start.is_at_most(&end));
     }
+    let mut most = one.clone() - ray.t_min.clone() / &far;
+    if zero.is_less(&near) {
+        most = most.smaller(ray.t_max.clone() / &near - &one);
+        most = most.smaller((far.clone() - &near) / (far + &near));
+    }
+    let half = V::Real::number(0.5);
+    if most.is_nan() {
+        return everything(start.is_at_most(&end));
+    }
+    if half.is_at_most(&most) {
+        return everything(true);
+    }
+    if most.is_less(&-half) {
+        return everything(false);
+    }
+    most
 }
 
 impl Kernel<Boxes> for AilaLaine {
