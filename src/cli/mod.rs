@@ -88,7 +88,7 @@ enum Chosen {
     Repair(Box<repair::RepairArguments>),
     /// Show one case: its exact truth, and why a kernel was wrong
     Explain(explain::ExplainArguments),
-    /// Show which rays ray-box tests lose
+    /// Show which rays slab tests lose
     Boxes(boxes::BoxesArguments),
     /// Draw where a kernel is wrong around a case, a pixel a float
     Map(Box<map::MapArguments>),
