@@ -69,7 +69,7 @@ fn an_audit_counts_what_each_test_loses_and_its_commands_show_it() {
     ];
     let (screen, _) = ends_flat(&folder, &run, 0);
     assert!(
-        screen.contains("2 of 4 slab tests lose rays that meet the box"),
+        screen.contains("Rays that have to be hit are lost by 2 of 3 slab tests"),
         "{screen}"
     );
     assert!(
@@ -124,7 +124,7 @@ fn an_exit_code_tells_a_build_that_a_test_is_wrong_and_diff_that_it_got_worse() 
     ends(
         &folder,
         &[&run("growth=-3*EPSILON")[..], &["-o", "old.json"]].concat(),
-        1,
+        0,
     );
     ends(
         &folder,
@@ -134,20 +134,10 @@ fn an_exit_code_tells_a_build_that_a_test_is_wrong_and_diff_that_it_got_worse() 
     let (out, _) = ends(&folder, &["diff", "old.json", "new.json", "--exit-code"], 1);
     assert!(out.contains("corner-near: lost"), "{out}");
     ends(&folder, &["diff", "old.json", "old.json", "--exit-code"], 0);
-    // No number is enough for what must be missed.
-    let inside = [
-        "boxes",
-        "audit",
-        "-q",
-        "-n",
-        "500",
-        "-f",
-        "interior",
-        "-k",
-        "ize",
-        "--exit-code",
-    ];
-    ends(&folder, &inside, 0);
+    // It hits what it passes by, and loses nothing.
+    let old: Value = json(&std::fs::read_to_string(folder.join("old.json")).unwrap());
+    let false_hits = &old["result"]["rows"][0]["false_hits"]["count"];
+    assert!(0 < false_hits.as_u64().unwrap());
 }
 
 #[test]
@@ -244,4 +234,64 @@ fn what_is_no_box_and_no_test_is_refused_in_a_word() {
         let case = format!("{{\"scalar\":\"f32\",{numbers}}}");
         ends(&folder, &["boxes", "explain", &case], 0);
     }
+}
+
+#[test]
+fn a_judgement_says_which_promise_it_is_by() {
+    let folder = scratch("boxes-judged");
+    let judged = |case: &str, test: &str| {
+        let run = ["boxes", "explain", case, "-k", test, "--format", "json"];
+        let answer = json(&ends(&folder, &run, 0).0)["answers"][0].clone();
+        let [says, judged] = ["says", "judged"].map(|key| answer[key].as_str().unwrap().to_owned());
+        format!("{says}: {judged}")
+    };
+    let cases = [
+        (
+            "interval-ends@1/f32/-/1/72",
+            "smits",
+            "miss: right: its source leaves out this end",
+        ),
+        (
+            "interval-ends@1/f32/-/1/72",
+            "williams",
+            "hit: wrong: its source leaves out this end",
+        ),
+        (
+            "behind@1/f32/-/1/3",
+            "majercik",
+            "hit: right: it asks about the whole line",
+        ),
+        (
+            "empty@1/f32/-/1/3",
+            "bvh",
+            "hit: not judged: its promise leaves this open",
+        ),
+        ("interior@1/f64/-/1/3", "bvh", "hit: right"),
+    ];
+    for (case, test, expected) in cases {
+        let found = judged(case, test);
+        assert_eq!(found, expected, "{case}");
+    }
+    // Nothing is said where nothing is asked.
+    let huge = [
+        "boxes", "audit", "-q", "-n", "50", "--extent", "1e300", "--size", "1e299", "--scalar",
+        "f32",
+    ];
+    let (screen, _) = ends_flat(&folder, &huge, 0);
+    assert!(
+        screen.contains("No ray has to be hit, so nothing is said of 23 slab tests"),
+        "{screen}"
+    );
+    // A padding that rounds to 0 has a sign.
+    let near = r#"{"scalar":"f64","origin":[0,3e-200,0],"direction":[1,0,0],"min":[1e200,0,-1],"max":[2e200,1e-200,1]}"#;
+    let (screen, _) = ends_flat(&folder, &["boxes", "explain", near, "-k", "ize"], 0);
+    assert!(
+        screen.contains("box missed by 0.0e0 of the largest coordinate"),
+        "{screen}"
+    );
+    let (_, error) = ends(&folder, &["boxes", "explain", "corner@1/f128/-/1/1"], 2);
+    assert!(
+        error.contains("its scalar is 'f128', expected f32 or f64"),
+        "{error}"
+    );
 }

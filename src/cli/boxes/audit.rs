@@ -22,7 +22,7 @@ pub struct AuditArguments {
     #[command(flatten)]
     cases: CaseArguments,
 
-    /// Exit with 1 if a test loses a ray that it must hit, or hits a box that it must miss
+    /// Exit with 1 if a test loses a ray that it has to hit; hits of boxes that a ray passes by only cost time
     #[arg(long)]
     exit_code: bool,
 
@@ -63,14 +63,14 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
         sources: sources.iter().map(ToString::to_string).collect(),
         rows,
     };
-    let is_wrong = result.is_wrong();
+    let is_losing = result.is_losing();
     let provenance = provenance_of(&Context {
         seconds: start.elapsed().as_secs_f64(),
         threads,
     });
     let record = Record::new(result, provenance).sealed();
     arguments.output.write(outputs, &record)?;
-    Ok(if arguments.exit_code && is_wrong {
+    Ok(if arguments.exit_code && is_losing {
         Status::Disagreements
     } else {
         Status::Success

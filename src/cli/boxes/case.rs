@@ -77,10 +77,13 @@ pub fn case_named(name: &str) -> Result<AnyBoxCase, Failure> {
         Failure::usage(message)
     })?;
     let wrong = |message: String| Failure::usage(format!("'{name}': {message}"));
-    if id.scalar == "f32" {
-        return case_of(&id).map(AnyBoxCase::F32).map_err(wrong);
+    match id.scalar.as_str() {
+        "f32" => case_of(&id).map(AnyBoxCase::F32).map_err(wrong),
+        "f64" => case_of(&id).map(AnyBoxCase::F64).map_err(wrong),
+        other => Err(wrong(format!(
+            "its scalar is '{other}', expected f32 or f64"
+        ))),
     }
-    case_of(&id).map(AnyBoxCase::F64).map_err(wrong)
 }
 
 fn read<F: Float>(case: &WrittenCase) -> BoxCase<F> {

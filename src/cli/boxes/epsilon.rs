@@ -164,12 +164,17 @@ impl AdviceRow {
     fn needed(&self) -> String {
         match (self.largest, self.in_epsilons) {
             (None, _) => "-".to_owned(),
-            (Some(largest), _) if 0.0 <= largest => "none".to_owned(),
+            (Some(largest), _) if 0.0 <= largest => "0".to_owned(),
+            (Some(largest), Some(_)) if largest < -MOST_GROWTH => "no growth helps".to_owned(),
             (Some(_), Some(units)) => format!("{}*EPSILON", short(units)),
             (Some(largest), None) => format!("{largest:.2e}"),
         }
     }
 }
+
+/// A far end that has to grow by more than this share of itself is lost for another reason: an overflow, an underflow, or the
+/// error of o·inv in a fused product.
+const MOST_GROWTH: f64 = 0.01;
 
 /// A number in few characters.
 fn short(number: f64) -> String {
@@ -186,9 +191,11 @@ impl Paged for Advice {
             Head::text("gate"),
             Head::text("scalar"),
             Head::of("lost at 0"),
-            Head::of("as it is").about("lost at the test's own epsilon"),
-            Head::of("loses none")
-                .about("the epsilon at which no ray of this run is lost; more rays may need more"),
+            Head::of("as it is")
+                .about("lost at the test's own epsilon, those of the last column among them"),
+            Head::of("needs").about(
+                "the epsilon at which no ray of this run is lost but those of the last column; more rays may need more",
+            ),
             Head::of("lost anyway")
                 .about("lost at every epsilon of this gate: by a NaN, an infinity or another gate"),
         ];
@@ -223,7 +230,9 @@ impl Paged for Advice {
         }
         Page {
             command: "boxes",
-            title: format!("Which epsilon loses no ray: {rays} of {sources}, in each scalar"),
+            title: format!(
+                "Which epsilon loses no ray: {rays} of {sources}, aimed at what is hard"
+            ),
             tone: Tone::Plain,
             blocks,
         }
@@ -239,8 +248,8 @@ fn row(row: &AdviceRow) -> Row {
     let cells = [
         Cell::from(row.gate.to_owned()),
         Cell::from(row.scalar.to_owned()),
-        count(row.lost_at_zero),
-        count(row.lost_at_own),
+        count(row.lost_at_zero + row.lost_anyway),
+        count(row.lost_at_own + row.lost_anyway),
         Cell::from(row.needed()),
         count(row.lost_anyway),
     ];

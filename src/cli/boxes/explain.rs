@@ -12,11 +12,12 @@ use hairline_boxes::{
     BoxCase, Class, Definition, Finding, Made, Meeting, Obligation, Origin, Overlap, Range, Setup,
     Truth, define, padding,
 };
-use hairline_core::Verdict;
 use hairline_core::kernel::{Scalar, verdicts_of};
+use hairline_core::{Extent, Verdict};
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
+use num_traits::{ToPrimitive, Zero};
 use serde::Serialize;
+use std::cmp::Ordering;
 
 /// Which box and ray, and which slab tests.
 #[derive(Args)]
@@ -56,6 +57,11 @@ struct Explained {
     line: Option<[String; 2]>,
     /// How far the box must grow on all sides to be met, by the largest coordinate; below 0 if it is met.
     padding: Option<f64>,
+    /// The exact comparison of that with 0.
+    #[serde(skip)]
+    is_missed_by_padding: Option<Ordering>,
+    #[serde(skip)]
+    has_negative_start: bool,
     answers: Vec<Answer>,
 }
 
@@ -69,10 +75,17 @@ struct Answer {
     margins: Vec<(String, f64)>,
 }
 
+impl Answer {
+    fn is_wrong(&self) -> bool {
+        self.judged.starts_with("wrong")
+    }
+}
+
 fn explain<F: Made + Scalar>(name: &str, case: &BoxCase<F>, setups: &[Setup]) -> Explained {
     let defined = define(case);
     let [origin, direction, min, max] = case.vectors();
-    let vector = |[x, y, z]: [F; 3]| format!("{x} {y} {z}");
+    let vector = |[x, y, z]: [F; 3]| format!("{x:?} {y:?} {z:?}");
+    let padding = padding(&case.widen());
     let line = defined.line.as_ref();
     Explained {
         case: name.to_owned(),
@@ -82,11 +95,15 @@ fn explain<F: Made + Scalar>(name: &str, case: &BoxCase<F>, setups: &[Setup]) ->
             ("direction", vector(direction)),
             ("min", vector(min)),
             ("max", vector(max)),
-            ("t", format!("{} to {}", case.ray.t_min, case.ray.t_max)),
+            ("t", format!("{:?} to {:?}", case.ray.t_min, case.ray.t_max)),
         ],
         truth: in_words(&defined),
         line: line.map(|Range { enter, exit }| [enter.to_string(), exit.to_string()]),
-        padding: padding(&case.widen()).map(|padding| padding.share),
+        is_missed_by_padding: padding
+            .as_ref()
+            .map(|padding| padding.length.cmp(&BigRational::zero())),
+        padding: padding.map(|padding| padding.share),
+        has_negative_start: case.ray.t_min < F::zero(),
         answers: setups
             .iter()
             .filter_map(|setup| answer(case, &defined.truth, setup))
@@ -107,12 +124,7 @@ fn answer<F: Made + Scalar>(case: &BoxCase<F>, truth: &Truth, setup: &Setup) -> 
         (None, true) => "hit",
         (None, false) => "miss",
     };
-    let judged = match Obligation::new(truth, &setup.contract).judge(&verdict[0]) {
-        Finding::Right => "right",
-        Finding::FalseHit => "wrong: the box is not met",
-        Finding::FalseMiss => "wrong: the ray is lost",
-        Finding::Failed => "wrong: no verdict",
-    };
+    let judged = judged(truth, setup, &verdict[0]);
     Some(Answer {
         test: label(setup),
         says,
@@ -121,6 +133,28 @@ fn answer<F: Made + Scalar>(case: &BoxCase<F>, truth: &Truth, setup: &Setup) -> 
             .zip(margins.iter().map(|margin| margin.to_f64()))
             .collect(),
     })
+}
+
+/// The judgement of a verdict, with the reason where it is not the closed box and the closed interval that decide.
+fn judged<F: Made>(truth: &Truth, setup: &Setup, verdict: &Verdict<F>) -> &'static str {
+    let contract = &setup.contract;
+    let obligation = Obligation::new(truth, contract);
+    if obligation == Obligation::Free && verdict.failure.is_none() {
+        return "not judged: its promise leaves this open";
+    }
+    let is_met = truth.hits_closed() == Some(true);
+    match obligation.judge(verdict) {
+        Finding::Right if verdict.hit && !is_met => match contract.extent {
+            Extent::Line => "right: it asks about the whole line",
+            _ => "right: it asks about every t >= 0",
+        },
+        Finding::Right if !verdict.hit && is_met => "right: its source leaves out this end",
+        Finding::Right => "right",
+        Finding::FalseHit if is_met => "wrong: its source leaves out this end",
+        Finding::FalseHit => "wrong: the box is not met",
+        Finding::FalseMiss => "wrong: the ray is lost",
+        Finding::Failed => "wrong: no verdict",
+    }
 }
 
 /// The truth of a case, in a sentence.
@@ -151,27 +185,31 @@ fn in_words(defined: &Definition) -> String {
         Origin::On => "on the boundary",
         Origin::Inside => "inside",
     };
-    let on_the_ray = overlap(*ray, "on the ray");
-    let on_the_interval = overlap(*interval, "between t_min and t_max");
+    let on_the_ray = overlap(*ray);
+    let on_the_interval = overlap(*interval);
     format!(
-        "the line {passes}; the ray starts {starts}; {on_the_ray}, {on_the_interval} of what they have in common"
+        "the line {passes}; the ray starts {starts}. Of what line and box have in common, {on_the_ray} has t >= 0, and \
+         {on_the_interval} lies between t_min and t_max"
     )
 }
 
-fn overlap(overlap: Overlap, place: &str) -> String {
-    let much = match overlap {
+fn overlap(overlap: Overlap) -> &'static str {
+    match overlap {
         Overlap::None => "nothing",
         Overlap::AtAnEnd => "one point, the end,",
         Overlap::Within => "some",
-    };
-    format!("{much} {place}")
+    }
 }
 
 /// A fraction as a decimal, with the fraction if it is short.
 fn decimal(fraction: &str) -> String {
     let value = fraction.parse::<BigRational>().ok();
     let value = value.and_then(|value| value.to_f64());
-    let near = value.map_or_else(|| fraction.to_owned(), |value| value.to_string());
+    let value = value.filter(|value| value.is_finite());
+    let Some(value) = value else {
+        return "a number beyond the range of doubles (--format json has it)".to_owned();
+    };
+    let near = format!("{value:?}");
     if fraction.len() <= 24 && near != fraction {
         return format!("{fraction} = {near}");
     }
@@ -185,17 +223,21 @@ impl Paged for Explained {
             let (enter, exit) = (decimal(enter), decimal(exit));
             terms.push(("line", format!("in the box from t = {enter} to {exit}")));
         }
-        if let Some(share) = self.padding {
-            let words = match share.total_cmp(&0.0) {
-                std::cmp::Ordering::Greater => {
+        if let (Some(share), Some(order)) = (self.padding, self.is_missed_by_padding) {
+            let words = match order {
+                Ordering::Greater => {
                     format!("missed by {share:.1e} of the largest coordinate")
                 }
-                std::cmp::Ordering::Equal => "just met: a smaller box would not be".to_owned(),
-                std::cmp::Ordering::Less => {
+                Ordering::Equal => "just met: a smaller box would not be".to_owned(),
+                Ordering::Less => {
                     format!("met with {:.1e} of the largest coordinate to spare", -share)
                 }
             };
             terms.push(("box", words));
+        }
+        if self.has_negative_start {
+            let note = "t_min is below 0: a far end below 0 does not grow here, as it does in pbrt's and Embree's sources";
+            terms.push(("note", note.to_owned()));
         }
         for (name, numbers) in &self.numbers {
             terms.push((name, numbers.clone()));
@@ -207,11 +249,7 @@ impl Paged for Explained {
             Head::text("margins").about("the largest epsilon at which a gate lets the ray through"),
         ];
         let rows = self.answers.iter().map(row).collect();
-        let wrong = self
-            .answers
-            .iter()
-            .filter(|it| it.judged != "right")
-            .count();
+        let wrong = self.answers.iter().filter(|it| it.is_wrong()).count();
         let title = format!(
             "{}: {wrong} of {} tests are wrong",
             self.case,
@@ -231,7 +269,7 @@ fn row(answer: &Answer) -> Row {
     let margins: Vec<String> = answer.margins.iter().map(margin).collect();
     let judged = Cell {
         text: answer.judged.to_owned(),
-        is_broken: answer.judged != "right",
+        is_broken: answer.is_wrong(),
         share: None,
     };
     let cells = [

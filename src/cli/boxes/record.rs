@@ -5,6 +5,7 @@ use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row as TableR
 use crate::report::{Comparable, NamedRate, Rate, Study, alike, listed, number_of, percent};
 use hairline_boxes::{Made, Row, Setup, Source, Wrong};
 use hairline_core::kernel::Scalar;
+use std::collections::BTreeSet;
 
 /// How many sources of lost rays a line names.
 const NAMED: usize = 2;
@@ -87,8 +88,13 @@ impl BoxesRow {
         }
     }
 
+    /// True if it lost a ray, or gave no verdict.
+    fn is_losing(&self) -> bool {
+        0 < self.lost.count + self.failed
+    }
+
     fn is_wrong(&self) -> bool {
-        0 < self.lost.count + self.false_hits.count + self.failed
+        self.is_losing() || 0 < self.false_hits.count
     }
 
     /// Shows the first lost case, or else the farthest false hit.
@@ -114,10 +120,12 @@ impl BoxesRow {
 pub fn label(setup: &Setup) -> String {
     let info = setup.entry.info;
     let is_only = info.epsilon_sets.len() == 1 && info.epsilon_sets[0].name == setup.set;
-    if is_only || setup.set == "source" {
-        return info.name.to_owned();
+    match setup.set {
+        _ if is_only => info.name.to_owned(),
+        "source" => info.name.to_owned(),
+        "own" => format!("{} (as given)", info.name),
+        set => format!("{} ({set})", info.name),
     }
-    format!("{} ({})", info.name, setup.set)
 }
 
 /// A slab test on all sources.
@@ -138,9 +146,14 @@ impl<'a> Sum<'a> {
         self.rows.iter().map(|row| row.failed).sum()
     }
 
-    /// How many rays it loses, by which the table is ordered.
-    fn order(&self) -> u64 {
-        self.lost(None).count + self.failed()
+    /// True if it lost a ray, or gave no verdict.
+    fn is_losing(&self) -> bool {
+        self.rows.iter().any(|row| row.is_losing())
+    }
+
+    /// The share of rays that it loses, by which the table is ordered.
+    fn order(&self) -> f64 {
+        self.lost(None).rate.unwrap_or(0.0)
     }
 
     /// The sources on which it loses most, with their shares in both scalars.
@@ -194,18 +207,30 @@ impl<'a> Sum<'a> {
     }
 }
 
-/// `0`, or a share.
+/// `0`, or a share; a dash where there was no ray that it had to hit.
 fn share(rate: &Rate) -> String {
-    match rate.count {
-        0 => "0".to_owned(),
+    match (rate.of, rate.count) {
+        (0, _) => "–".to_owned(),
+        (_, 0) => "0".to_owned(),
         _ => percent(rate.rate.unwrap_or(0.0)),
     }
 }
 
 impl BoxesResult {
-    /// True if any slab test broke its promise.
-    pub fn is_wrong(&self) -> bool {
-        self.rows.iter().any(BoxesRow::is_wrong)
+    /// True if any slab test lost a ray, or gave no verdict.
+    pub fn is_losing(&self) -> bool {
+        self.rows.iter().any(BoxesRow::is_losing)
+    }
+
+    /// True if no slab test had a ray to hit.
+    fn asks_nothing(&self) -> bool {
+        self.rows.iter().all(|row| row.lost.of == 0)
+    }
+
+    /// The scalars that were run.
+    fn scalars(&self) -> Vec<&'static str> {
+        let is_run = |scalar: &&str| self.rows.iter().any(|row| row.scalar == *scalar);
+        ["f32", "f64"].into_iter().filter(is_run).collect()
     }
 
     /// The rows of each slab test, those that lose least first.
@@ -217,15 +242,15 @@ impl BoxesResult {
             let label = first.label.clone();
             sums.push(Sum { label, rows });
         }
-        sums.sort_by_key(Sum::order);
+        sums.sort_by(|one, other| one.order().total_cmp(&other.order()));
         sums
     }
 
     fn table(&self, sums: &[Sum]) -> Table {
-        let is_run = |scalar: &&str| self.rows.iter().any(|row| row.scalar == *scalar);
-        let scalars: Vec<&str> = ["f32", "f64"].into_iter().filter(is_run).collect();
+        let scalars = self.scalars();
         let tells_sources = 1 < self.sources.len();
-        let mut heads = vec![Head::of("lost in")];
+        let about = "the share of the rays that a test has to hit, by its own promise about the ends of a ray";
+        let mut heads = vec![Head::of("lost in").about(about)];
         heads.extend(scalars.iter().map(|scalar| Head::of(*scalar)));
         if tells_sources {
             heads.push(Head::text("most of these families").optional());
@@ -245,17 +270,24 @@ impl BoxesResult {
     }
 
     fn title(&self, sums: &[Sum]) -> String {
-        let losing = sums.iter().filter(|sum| 0 < sum.order()).count();
-        let all = number_of(sums.len() as u64, "slab test", "slab tests");
+        let tests = |sums: &mut dyn Iterator<Item = &Sum>| {
+            let names: BTreeSet<&str> = sums.map(|sum| sum.rows[0].test.as_str()).collect();
+            names.len()
+        };
+        let losing = tests(&mut sums.iter().filter(|sum| sum.is_losing()));
+        let all = number_of(tests(&mut sums.iter()) as u64, "slab test", "slab tests");
         let rays = number_of(self.count, "ray", "rays");
         let sources = match self.sources.as_slice() {
             [source] => source.clone(),
             many => format!("each of {} families", many.len()),
         };
-        let drawn = format!("{rays} of {sources} in each scalar");
+        let drawn = format!("{rays} of {sources} in {}", self.scalars().join(" and "));
+        if self.asks_nothing() {
+            return format!("No ray has to be hit, so nothing is said of {all}: {drawn}");
+        }
         match losing {
-            0 => format!("No ray that meets its box is lost by {all}: {drawn}"),
-            some => format!("{some} of {all} lose rays that meet the box: {drawn}"),
+            0 => format!("No ray that has to be hit is lost by {all}: {drawn}"),
+            some => format!("Rays that have to be hit are lost by {some} of {all}: {drawn}"),
         }
     }
 
@@ -276,10 +308,11 @@ impl BoxesResult {
                 .to_owned(),
         );
         let drawn = if 1 < self.sources.len() {
-            "The families are rays at corners, edges and faces, and boxes that are flat or a point: their \
-             shares are not those of a program (--extent and --size draw rays of its sizes)."
+            "The families are rays at corners, edges and faces, and boxes that are flat or a point. The shares compare \
+             tests on them; they are not rates in a program, whose rays are rarely so near an edge."
         } else {
-            "The rays are aimed at what is hard, so these are not shares of a program's rays."
+            "All rays are aimed at a corner, an edge or a face of a box, where rounding decides. The shares compare tests \
+             there; they are not rates in a program, whose rays are rarely so near an edge."
         };
         notes.push(drawn.to_owned());
         notes
@@ -317,7 +350,7 @@ impl Paged for BoxesResult {
         Page {
             command: "boxes",
             title: self.title(&sums),
-            tone: if self.is_wrong() {
+            tone: if self.is_losing() {
                 Tone::Bad
             } else {
                 Tone::Good

@@ -45,7 +45,7 @@ impl TestArguments {
     }
 
     fn entries(&self) -> Result<Vec<&'static hairline_boxes::BoxEntry>, Failure> {
-        if self.tests.is_empty() {
+        if self.tests.is_empty() || self.tests == ["all"] {
             return Ok(TABLE.all());
         }
         let names = || TABLE.all().into_iter().map(|entry| entry.info.name);
@@ -79,7 +79,8 @@ pub struct CaseArguments {
     #[arg(short, long, value_delimiter = ',', value_name = "NAME")]
     family: Vec<String>,
 
-    /// A scene in place of families: coordinates of boxes and rays lie within this
+    /// Boxes and rays of a program's sizes in place of families: coordinates lie within this. The rays are aimed at corners,
+    /// edges and faces
     #[arg(
         long,
         value_name = "LENGTH",
@@ -88,11 +89,11 @@ pub struct CaseArguments {
     )]
     extent: Option<f64>,
 
-    /// The longest side of a box of that scene
+    /// The longest side of such a box
     #[arg(long, value_name = "LENGTH", requires = "extent")]
     size: Option<f64>,
 
-    /// How many rays of each family, or of the scene
+    /// How many rays of each family, or of these sizes
     #[arg(short = 'n', long, default_value_t = 10_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub count: u64,
 
