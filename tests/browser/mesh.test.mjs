@@ -93,7 +93,7 @@ describe("the drawing", () => {
     const what = await page.textContent("#what");
     assert.match(what, /^crack at (edge \d+–\d+|vertex \d+) of .*icosphere\.obj, faces at lines [\d, ]+: \d of 8 rays aimed at this/);
     const command = await page.textContent("#command");
-    assert.match(command, /^hairline explain 'mesh-(edges|vertices)@1\/f32\/mesh=\w+\/1\/\d+' --mesh '.*' --kernel moller-trumbore/);
+    assert.match(command, /^hairline explain 'mesh-(edges|vertices)@\d+\/f32\/mesh=\w+\/1\/\d+' --mesh '.*' --kernel moller-trumbore/);
     // The place stands in the middle, and a click there finds it.
     await page.keyboard.press("Tab");
     await page.locator("#view").focus();
