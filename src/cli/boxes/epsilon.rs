@@ -74,6 +74,9 @@ struct Advice {
 #[derive(Serialize)]
 struct AdviceRow {
     test: String,
+    /// Its name alone, without that of its epsilons.
+    #[serde(skip)]
+    name: &'static str,
     gate: &'static str,
     scalar: &'static str,
     must_hit: u64,
@@ -106,6 +109,7 @@ impl Advice {
         let gate = &setup.gates()[gate];
         let mut row = AdviceRow {
             test: label(setup),
+            name: setup.entry.info.name,
             gate: gate.name,
             scalar: F::NAME,
             must_hit: 0,
@@ -219,11 +223,10 @@ impl Paged for Advice {
         let lowest = decided.max_by(|a, b| a.lost_at_zero.cmp(&b.lost_at_zero));
         if let Some(row) = lowest {
             let case = row.decided_by.as_deref().unwrap_or_default();
-            let test = row.test.split(' ').next().unwrap_or_default();
             blocks.push(Block::Commands(
                 "next",
                 vec![Command {
-                    line: format!("hairline boxes explain '{case}' --kernel {test}"),
+                    line: format!("hairline boxes explain '{case}' --kernel {}", row.name),
                     what: "the ray that needs it",
                 }],
             ));

@@ -59,7 +59,7 @@ struct Explained {
     padding: Option<f64>,
     /// The exact comparison of that with 0.
     #[serde(skip)]
-    is_missed_by_padding: Option<Ordering>,
+    padding_sign: Option<Ordering>,
     #[serde(skip)]
     has_negative_start: bool,
     answers: Vec<Answer>,
@@ -71,14 +71,11 @@ struct Answer {
     test: String,
     says: &'static str,
     judged: &'static str,
+    /// True if it breaks its promise here.
+    #[serde(skip)]
+    is_wrong: bool,
     /// The margin of each gate: the largest epsilon at which it lets the case through.
     margins: Vec<(String, f64)>,
-}
-
-impl Answer {
-    fn is_wrong(&self) -> bool {
-        self.judged.starts_with("wrong")
-    }
 }
 
 fn explain<F: Made + Scalar>(name: &str, case: &BoxCase<F>, setups: &[Setup]) -> Explained {
@@ -99,7 +96,7 @@ fn explain<F: Made + Scalar>(name: &str, case: &BoxCase<F>, setups: &[Setup]) ->
         ],
         truth: in_words(&defined),
         line: line.map(|Range { enter, exit }| [enter.to_string(), exit.to_string()]),
-        is_missed_by_padding: padding
+        padding_sign: padding
             .as_ref()
             .map(|padding| padding.length.cmp(&BigRational::zero())),
         padding: padding.map(|padding| padding.share),
@@ -124,11 +121,12 @@ fn answer<F: Made + Scalar>(case: &BoxCase<F>, truth: &Truth, setup: &Setup) -> 
         (None, true) => "hit",
         (None, false) => "miss",
     };
-    let judged = judged(truth, setup, &verdict[0]);
+    let finding = Obligation::new(truth, &setup.contract).judge(&verdict[0]);
     Some(Answer {
         test: label(setup),
         says,
-        judged,
+        judged: judged(truth, setup, &verdict[0]),
+        is_wrong: finding != Finding::Right,
         margins: gates
             .zip(margins.iter().map(|margin| margin.to_f64()))
             .collect(),
@@ -223,7 +221,7 @@ impl Paged for Explained {
             let (enter, exit) = (decimal(enter), decimal(exit));
             terms.push(("line", format!("in the box from t = {enter} to {exit}")));
         }
-        if let (Some(share), Some(order)) = (self.padding, self.is_missed_by_padding) {
+        if let (Some(share), Some(order)) = (self.padding, self.padding_sign) {
             let words = match order {
                 Ordering::Greater => {
                     format!("missed by {share:.1e} of the largest coordinate")
@@ -249,7 +247,7 @@ impl Paged for Explained {
             Head::text("margins").about("the largest epsilon at which a gate lets the ray through"),
         ];
         let rows = self.answers.iter().map(row).collect();
-        let wrong = self.answers.iter().filter(|it| it.is_wrong()).count();
+        let wrong = self.answers.iter().filter(|it| it.is_wrong).count();
         let title = format!(
             "{}: {wrong} of {} tests are wrong",
             self.case,
@@ -269,7 +267,7 @@ fn row(answer: &Answer) -> Row {
     let margins: Vec<String> = answer.margins.iter().map(margin).collect();
     let judged = Cell {
         text: answer.judged.to_owned(),
-        is_broken: answer.is_wrong(),
+        is_broken: answer.is_wrong,
         share: None,
     };
     let cells = [

@@ -4,7 +4,7 @@ use crate::cli::exit::Failure;
 use crate::cli::flags::{RUNNING, chosen_scalars, unknown};
 use crate::kernel::EpsilonText;
 use clap::Args;
-use hairline_boxes::{FAMILIES, Family, Scene, Setup, Source, TABLE};
+use hairline_boxes::{FAMILIES, Family, Scene, Setup, Source, TABLE, find_family};
 
 /// Which slab tests, with which epsilons.
 #[derive(Args)]
@@ -135,6 +135,5 @@ impl CaseArguments {
 
 fn found_family(name: &str) -> Result<&'static Family, Failure> {
     let names = FAMILIES.iter().map(|family| family.name);
-    let found = FAMILIES.iter().find(|family| family.name == name);
-    found.ok_or_else(|| unknown("family", name, names, "hairline boxes list families"))
+    find_family(name).map_err(|_| unknown("family", name, names, "hairline boxes list families"))
 }
