@@ -20,7 +20,7 @@ use crate::contract::{Across, Contract};
 use crate::engine::{self, Unobserved};
 use crate::family::{FAMILIES, Family, Stratum, find};
 use crate::kernel::{Entry, kept};
-use crate::report::{Context, build};
+use crate::record::{Context, build};
 use crate::suggest::did_you_mean;
 use hairline_core::Error;
 use outcome::ALLOWED;

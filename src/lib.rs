@@ -33,6 +33,8 @@
 #[macro_use(either_scalar, in_named_scalar, named)]
 extern crate hairline_core;
 use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, suggest};
+#[cfg(feature = "cli")]
+use hairline_expect as expect;
 #[cfg(feature = "studies")]
 use hairline_explore as explore;
 use hairline_files as files;
@@ -40,33 +42,27 @@ use hairline_files as files;
 use hairline_plugin as plugin;
 #[cfg(feature = "studies")]
 use hairline_prove as prove;
-use hairline_study::{audit, corpus, family, judge, mesh, plot};
+use hairline_record as record;
+#[cfg(feature = "studies")]
+use hairline_report as report;
+use hairline_study::{audit, corpus, family, judge, mesh};
 #[cfg(feature = "studies")]
 use hairline_study::{epsilon, map, selfcheck, spawn, studied};
 
+#[cfg(feature = "studies")]
+#[macro_use(part)]
+extern crate hairline_record;
+#[cfg(feature = "studies")]
 #[macro_use]
 extern crate macro_rules_attribute;
-
-attribute_alias! {
-    // A part of a record: it is written and read, a field that it does not know is an error, and tests know its schema.
-    #[apply(part!)] =
-        #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
-        #[cfg_attr(test, derive(schemars::JsonSchema))]
-        #[serde(deny_unknown_fields)]
-    ;
-}
 
 // The floors, from the ground up: each module uses only those above it in this list.
 #[cfg(feature = "studies")]
 mod vectors;
 
-mod report;
-
 mod conformance;
 #[cfg(feature = "cli")]
 mod descriptors;
-#[cfg(feature = "cli")]
-mod expect;
 #[cfg(feature = "cli")]
 mod named_file;
 
@@ -90,7 +86,7 @@ pub use kernel::{
 };
 
 pub use conformance::{Outcome, Request, audit};
-pub use report::{Example, FindingKind, FindingPart, Rate, SeverityPart};
+pub use record::{Example, FindingKind, FindingPart, Rate, SeverityPart};
 #[cfg(feature = "studies")]
 pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
 

@@ -6,7 +6,7 @@ use crate::audit::{self, Plan, Shard, Stock};
 use crate::case::CaseId;
 use crate::engine::Unobserved;
 use crate::expect::{self, Expectations};
-use crate::report::{
+use crate::record::{
     Conformance, Context, Deviation, FindingKind, Key, ResultPart, build, disagreements,
 };
 use std::collections::BTreeMap;

@@ -11,7 +11,7 @@ use crate::engine::Unobserved;
 use crate::family::{self, TRIES, missed_sine};
 use crate::judge::Finding;
 use crate::mesh::SceneMesh;
-use crate::report::number_of;
+use crate::record::number_of;
 
 /// The chosen scalars that a kernel runs in; an error if there are none, or if an epsilon is not representable in
 /// one of them.

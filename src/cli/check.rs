@@ -16,13 +16,16 @@ use crate::conformance::locked;
 use crate::expect::{self, BlessError, Expectations};
 use crate::files::InputError;
 use crate::named_file::SizeLimit;
-use crate::report::explain::misused_formula;
-use crate::report::{
-    ComparisonVerdict, Conformance, Deviation, JSON_SCHEMA, Method, PartialPart, Record, number_of,
+use crate::record::{
+    ComparisonVerdict, Conformance, Deviation, Method, PartialPart, Record, number_of,
 };
+use crate::report::explain::misused_formula;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
 use std::path::Path;
+
+/// The JSON Schema of records. A test derives it from the types; the program only prints it.
+const JSON_SCHEMA: &str = include_str!("../../docs/schema/record.json");
 
 /// Where expectations are looked for by default.
 const DEFAULT_FILE: &str = "hairline.expectations.toml";

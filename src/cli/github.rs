@@ -1,8 +1,9 @@
 //! GitHub Actions: annotations on the run, and its summary, when the program runs there.
 
 use super::exit::Failure;
+use crate::record::{Conformance, Deviation, Record, Unproved};
+use crate::report::Style;
 use crate::report::page::{MARKDOWN_LIMIT, Paged, markdown_within};
-use crate::report::{Conformance, Deviation, Record, Style, Unproved};
 use std::fs::{self, File};
 use std::io::{self, Write};
 

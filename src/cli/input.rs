@@ -8,7 +8,7 @@ use crate::descriptors;
 use crate::files::InputError;
 use crate::files::mesh::{self, Mesh};
 use crate::named_file::{self, SizeLimit};
-use crate::report::{Findings, Record, SCHEMA, Study, number_of};
+use crate::record::{Findings, Record, SCHEMA, Study, number_of};
 use serde::Deserialize;
 use std::collections::{HashMap, HashSet};
 use std::fs;

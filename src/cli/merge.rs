@@ -10,7 +10,7 @@ use crate::family::{MeshFamily, Stratum};
 use crate::files::InputError;
 use crate::kernel;
 use crate::mesh::{AimedPart, SceneMesh, Surface};
-use crate::report::{Record, mergeable, merged};
+use crate::record::{Record, mergeable, merged};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -11,7 +11,7 @@ use crate::audit::{Plan, Source};
 use crate::case::Parameters;
 use crate::family::MeshFamily;
 use crate::mesh::Surface;
-use crate::report::places;
+use crate::record::places;
 use clap::Args;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! The progress bar; nothing else knows indicatif.
 
 use crate::audit::Observer;
-use crate::report::group_digits;
+use crate::record::group_digits;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};

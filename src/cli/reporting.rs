@@ -12,10 +12,11 @@ use super::prove;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, rays_at_each};
 use crate::audit::{self, Audit, Plan, Shard, Source};
-use crate::report::{
-    Context, FORMATS, Format, HTML, Illustrations, ON_FAILURE, PartialPart, PlanFlags, Record,
-    build, drawing, group_digits, number_of, shard_part,
+use crate::record::{
+    Context, Illustrations, PartialPart, PlanFlags, Record, build, drawing, group_digits,
+    number_of, shard_part,
 };
+use crate::report::{FORMATS, Format, HTML, ON_FAILURE};
 use clap::{Args, ValueEnum};
 
 /// On how many indices of each source the errors of right hits are measured.
@@ -276,7 +277,7 @@ pub fn illustrate(plan: &Plan, sums: &Audit, record: &mut Record) {
 
 /// A family that breaks its own promise is a fault of this tool.
 pub fn self_check(record: &Record) -> Result<(), Failure> {
-    let broken = |source: &&crate::report::SourcePart| source.promises && source.promise_broken > 0;
+    let broken = |source: &&crate::record::SourcePart| source.promises && source.promise_broken > 0;
     match record.result.sources.iter().find(broken) {
         None => Ok(()),
         Some(source) => {

@@ -18,7 +18,8 @@ use crate::epsilon::fresh_seed;
 use crate::kernel::Scalar;
 use crate::mesh::SceneMesh;
 use crate::plugin::{KernelProgram, OffsetCommand};
-use crate::report::{Context, Format, Record, SegmentsPart, provenance_of};
+use crate::record::{Context, Record, provenance_of};
+use crate::report::{Format, SegmentsPart};
 use crate::spawn::{
     PointKind, Scheme, SegmentPlan, SpawnPlan, SpawnSums, default_schemes, needs_t, parse, register,
 };

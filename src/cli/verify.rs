@@ -9,7 +9,7 @@ use super::input::read_text;
 use super::output::OutputArguments;
 use crate::files::{InputError, json};
 use crate::named_file::SizeLimit;
-use crate::report::{Context, Record, provenance_of};
+use crate::record::{Context, Record, provenance_of};
 use crate::vectors::profile::{Answered, Profile, demanded, is_right};
 use crate::vectors::{VectorTest, core, digest, json::topic_file};
 use clap::Args;

@@ -3,7 +3,7 @@
 use crate::expect::{self, BlessError};
 use crate::files::InputError;
 use crate::named_file::{self, SizeLimit};
-use crate::report::Record;
+use crate::record::Record;
 use hairline_core::Error;
 use std::fs::File;
 use std::path::Path;

@@ -4,7 +4,7 @@ use crate::audit::quoted;
 use crate::case::{AnyScalar, Case, rust_case};
 use crate::corpus::lines::bare_case;
 use crate::kernel::KERNELS;
-use crate::report::{
+use crate::record::{
     ALL_CLASSES, ComparisonVerdict, Conformance, Example, FindingKind, FindingPart, Key, Promised,
     Rate, Record, counts_alone, disagreements, interval_of, percent, rate_of,
 };

@@ -1,7 +1,7 @@
 use super::*;
 use crate::case::Case;
 use crate::kernel::{Hit, KERNELS, KernelInfo};
-use crate::report::{FindingKind, disagreements};
+use crate::record::{FindingKind, disagreements};
 
 #[test]
 fn an_entry_is_kept_once_however_often_it_is_audited() {

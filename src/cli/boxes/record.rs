@@ -1,8 +1,9 @@
 //! The findings of an audit of slab tests, and their page.
 
 use crate::audit::Trials;
+use crate::record::{Comparable, NamedRate, Rate, Study, number_of, percent};
 use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row as TableRow, Table, Tone};
-use crate::report::{Comparable, NamedRate, Rate, Study, alike, listed, number_of, percent};
+use crate::report::{alike, listed};
 use hairline_boxes::{Made, Row, Setup, Source, Wrong};
 use hairline_core::kernel::Scalar;
 use std::collections::BTreeSet;

@@ -13,7 +13,7 @@ use crate::prove::certificate::operations;
 use crate::prove::checker::{self, Number, Proved};
 use crate::prove::repair::Guarded;
 use crate::prove::{above, compared, is_at_most, is_impossible, paths_of};
-use crate::report::number_of;
+use crate::record::number_of;
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet, HashMap};

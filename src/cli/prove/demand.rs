@@ -6,7 +6,7 @@ use super::ensure_gate;
 use crate::audit::Row;
 use crate::kernel::{Entry, Role, Scalar};
 use crate::prove::{Domain, Effort, Searched, Summary, Symmetry};
-use crate::report::{Unproved, WATERTIGHT};
+use crate::record::{Unproved, WATERTIGHT};
 
 /// A demand, as `kernel/scalar/gate=17` (no bound above 17 u in the unit domain) or
 /// `kernel/scalar/watertight=true`.

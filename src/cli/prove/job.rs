@@ -12,7 +12,7 @@ use crate::prove::{
     Domain, Effort, GOALS, GateSummary, Judged, Published, Scene, Searched, Shape, Summary,
     Symmetry, Triangles, USELESS, VERDICTS, about_edges, statements, useful_scenes,
 };
-use crate::report::{ProofPart, ProvedGate};
+use crate::record::{ProofPart, ProvedGate};
 use rayon::prelude::*;
 
 /// The settings that are the same for all kernels.

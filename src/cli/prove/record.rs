@@ -3,7 +3,7 @@
 use super::leaks::Leak;
 use super::verdicts::VerdictPart;
 use crate::prove::{Domain, Supposed};
-use crate::report::{Comparable, NamedRate, NamedValue, Record, Study};
+use crate::record::{Comparable, NamedRate, NamedValue, Record, Study};
 
 /// The record of a run, with what a page says beside it.
 pub struct Report {

@@ -7,7 +7,7 @@ use crate::audit::{
 use crate::judge::{Class, Finding};
 use crate::kernel::{Change, Scalar, Verdict, verdicts_of};
 use crate::prove::{Searched, above};
-use crate::report::group_digits;
+use crate::record::group_digits;
 use crate::report::page::{Block, Command, Head, Item, Items, Row as TableRow, Table};
 use std::marker::PhantomData;
 

@@ -1,7 +1,8 @@
 //! The part of what `spawn` found that is compared with another run: how often each offset went wrong, and which is to be used.
 
 use super::record::{PointsPart, SchemePart, SpawnResult, WrongPart};
-use crate::report::{Comparable, NamedRate, NamedValue, Rate, SegmentsPart, Study};
+use crate::record::{Comparable, NamedRate, NamedValue, Rate, Study};
+use crate::report::SegmentsPart;
 
 impl Comparable for SpawnResult {
     const STUDY: Study = Study::Spawn;

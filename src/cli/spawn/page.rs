@@ -6,9 +6,10 @@ use super::record::{BestPart, DerivedPart, PointsPart, SchemePart, SpawnResult};
 use crate::arith::Float;
 use crate::case::{Scene, SceneKind, ShortNumber};
 use crate::kernel::{self, Role};
+use crate::record::{Rate, group_digits, interval_of, percent};
 use crate::report::elsewhere::{self, ComparedRates};
 use crate::report::page::{Block, Command, Head, Page, Paged, Row, Table, Use};
-use crate::report::{Rate, group_digits, interval_of, percent, short_length as size};
+use crate::report::short_length as size;
 use crate::spawn::describe;
 
 impl Paged for SpawnResult {

@@ -6,7 +6,8 @@ use crate::audit::{Trials, quoted, words};
 use crate::case::Matrix;
 use crate::corpus::lines::{StoredCase, write_case};
 use crate::kernel::Scalar;
-use crate::report::{Rate, SegmentsPart, or_infinite};
+use crate::record::{Rate, or_infinite};
+use crate::report::SegmentsPart;
 use crate::spawn::{
     Heights, Lengths, OfScheme, PointKind, ROOM, Scheme, SpawnPlan, SpawnSums, derived_normal,
     least_weight, new_ray,
@@ -102,15 +103,15 @@ pub struct LeastPart {
 pub struct LengthsPart {
     /// Half are at most this.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(test, schemars(with = "Option<f64>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub median: f64,
     /// 99 % are at most this.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(test, schemars(with = "Option<f64>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub p99: f64,
     /// The largest seen on this seed: a larger one may come with more rays.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(test, schemars(with = "Option<f64>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub largest: f64,
 }
 
@@ -181,11 +182,11 @@ pub struct HeightsPart {
     pub p99: Option<f64>,
     /// The highest seen.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(test, schemars(with = "Option<f64>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub highest: f64,
     /// How deep the deepest wrong start that was seen lies.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(test, schemars(with = "Option<f64>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub deepest: f64,
 }
 

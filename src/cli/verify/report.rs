@@ -1,10 +1,9 @@
 //! The answers of a product, judged: counts by topic, and a list of what is wrong.
 
 use crate::audit::Trials;
+use crate::record::{Comparable, NamedRate, Rate, Record, Study, number_of};
 use crate::report::page::{Block, Head, Item, Page, Paged, Row, Table, Tone};
-use crate::report::{
-    Comparable, Format, JunitCase, NamedRate, Rate, Record, Study, number_of, write_junit,
-};
+use crate::report::{Format, JunitCase, write_junit};
 use crate::vectors::VectorTest;
 use crate::vectors::profile::{Answered, Profile, Saying, demanded, is_right};
 use std::collections::BTreeMap;

@@ -1,7 +1,8 @@
 //! The plan of a run: rows of kernels with epsilons, and sources of cases.
 
 use super::row::Row;
-use super::source::Source;
+use super::source::{Source, Stock};
+use crate::mesh::{AimedPart, Surface};
 
 /// Kernels, sources and a contract.
 pub struct Plan {
@@ -33,6 +34,17 @@ impl Plan {
             attribute: 0,
             measured: 0,
             places: 0,
+        }
+    }
+
+    /// The mesh whose edges and vertices it asks about; none if it asks about anything else.
+    pub fn surface(&self) -> Option<&Surface> {
+        let [edges, vertices] = &self.sources[..] else {
+            return None;
+        };
+        match (&edges.stock, &vertices.stock) {
+            (Stock::MeshPart(surface, AimedPart::Edges), Stock::MeshPart(..)) => Some(surface),
+            _ => None,
         }
     }
 

@@ -1,0 +1,461 @@
+//! An explanation from the case itself: every kernel runs here once more, as it is and without rounding.
+
+use super::advice::{advice, group_advice, of_invalid, of_line};
+use super::margin::margin_text;
+use super::near::{Nearby, add_relations};
+use super::nearest::nearest;
+use super::verdict::{Together, group_verdict, number, plain, short, verdict_of};
+use super::{ExplainedGate, ExplainedRow, Explanation, InstancePart, TogetherPart, TrianglePart};
+use crate::arith::{Exact, Float};
+use crate::audit::{
+    Attribution, Errors, Row, attribute, attribute_by_running, exact_severity, polygon_verdict,
+};
+use crate::case::{Case, Instance, Ray};
+use crate::contract::Extent;
+use crate::corpus::lines::{self, StoredCase};
+use crate::epsilon::shortest;
+use crate::family::Grouping;
+use crate::judge::{
+    ALLOWANCE, Finding, Obligation, ValueErrors, asked, judge, polygon_obligation, polygon_truth,
+};
+use crate::kernel::{Gated, Gives, Scalar, Subject, Tunable, Verdict};
+use crate::oracle::{self, Definition};
+use crate::truth::{ExactValues, Feature, Truth};
+use num_traits::ToPrimitive;
+use serde_json::value::RawValue;
+use std::slice;
+
+/// Explains a case or a group with some rows.
+pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Explanation {
+    let is_secondary = group.grouping == Grouping::SecondaryRay;
+    let (cases, _) = group.asked(group.cases);
+    let triangle = |(case, in_world): (&Case<F>, &Case<F>)| TrianglePart {
+        rows: rows
+            .iter()
+            .map(|row| row_part(case, is_secondary, row))
+            .collect(),
+        instance: group
+            .instance
+            .map(|it| instance_part(it, [in_world, case], is_secondary, rows)),
+        ..of_case(case, is_secondary)
+    };
+    let triangles = cases.iter().zip(group.cases).map(triangle).collect();
+    let mut together = Vec::new();
+    if 1 < group.cases.len() {
+        for row in rows {
+            together.extend(group_part(group, row));
+            if group.grouping == Grouping::Polygon && row.entry.info.polygons {
+                together.extend(polygon_part(group, row));
+            }
+        }
+    }
+    let is_json = name.trim_start().starts_with(['{', '[', '\u{feff}']);
+    let case = if is_json { "this case" } else { name };
+    let schema = "hairline-explanation/1";
+    Explanation {
+        schema,
+        case: case.to_owned(),
+        scalar: F::NAME,
+        triangles,
+        together,
+    }
+}
+
+/// The inputs and the truth.
+fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
+    let labels = ["origin", "direction", "a", "b", "c"];
+    let vector = |(label, vector): (&str, [F; 3])| {
+        let [x, y, z] = vector.map(number);
+        [label.to_owned(), x, y, z, vector.map(F::hex).join(" ")]
+    };
+    let inputs = labels.into_iter().zip(case.vectors()).map(vector).collect();
+    let stored = StoredCase {
+        is_secondary,
+        ..StoredCase::of(*case)
+    };
+    let line = lines::write_case(&stored);
+    let truth = oracle::define(case).truth;
+    // In the plane of the triangle there is no such distance.
+    let from_boundary = exact_severity(case, Extent::Interval)
+        .filter(|_| truth.crossing().is_some())
+        .map(|severity| [severity.in_space, severity.in_space * severity.edge_in_ulps]);
+    TrianglePart {
+        case: RawValue::from_string(line).expect("a case is written as JSON"),
+        truth: stored.truth_line(true),
+        from_boundary,
+        instance: None,
+        rows: Vec::new(),
+        in_words: match why_invalid(case) {
+            Some(reason) => format!("{truth}: {reason}"),
+            None => truth.to_string(),
+        },
+        inputs,
+        interval: [case.ray.t_min, case.ray.t_max].map(|t| [number(t), t.hex()]),
+    }
+}
+
+/// The answers of the rows held against the exact instance in the world.
+fn instance_part<F: Scalar>(
+    instance: &Instance<F>,
+    [in_world, in_object]: [&Case<F>; 2],
+    is_secondary: bool,
+    rows: &[Row],
+) -> InstancePart {
+    let (exact, seen) = (
+        oracle::define_instance(in_world, instance),
+        oracle::define(in_object),
+    );
+    let values = |definition: &Definition| {
+        let ExactValues { t, u, v, .. } = &definition.exact;
+        Some([t.clone()?, u.clone()?, v.clone()?])
+    };
+    let moved = values(&exact).zip(values(&seen)).map(|(exact, seen)| {
+        [0, 1, 2].map(|i| {
+            (&seen[i] - &exact[i])
+                .to_f64()
+                .unwrap_or(f64::INFINITY)
+                .abs()
+        })
+    });
+    let finding = |row: &Row| {
+        let subject = F::subject(row.entry)?;
+        let verdict = verdict_of(subject, in_object, &row.epsilons());
+        let owed = asked(in_object, &exact.truth, &row.contract, is_secondary);
+        // Values belong to the ray that the kernel got.
+        let gives = Gives::NOTHING;
+        let finding = judge(
+            (&row.contract, owed),
+            (in_object, &exact.truth),
+            gives,
+            &verdict,
+        )?;
+        Some((row.label(), finding.name()))
+    };
+    InstancePart {
+        matrix: instance
+            .matrix()
+            .map(|row| row.map(|number| number.to_f64())),
+        truth: exact.truth.to_string(),
+        moved,
+        wrong: rows.iter().filter_map(finding).collect(),
+    }
+}
+
+/// The reason for which no answer to a case is right; none if one is.
+fn why_invalid<F: Scalar>(case: &Case<F>) -> Option<&'static str> {
+    let (vectors, Ray { t_min, t_max, .. }) = (case.vectors(), case.ray);
+    let any = |is_so: fn(F) -> bool| vectors.iter().flatten().any(|x| is_so(*x));
+    let reasons = [
+        (any(|x| x.is_nan()), "a coordinate is NaN"),
+        (any(|x| !x.is_finite()), "a coordinate is infinite"),
+        (vectors[1].iter().all(|x| x.is_zero()), "the direction is 0"),
+        (t_min.is_nan() || t_max.is_nan(), "t_min or t_max is NaN"),
+        (t_min > t_max, "t_min is greater than t_max"),
+    ];
+    reasons
+        .into_iter()
+        .find(|(holds, _)| *holds)
+        .map(|(_, reason)| reason)
+}
+
+/// The contract's demand on the triangles together, and the kernel's answer.
+fn group_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart> {
+    let subject = F::subject(row.entry)?;
+    let (count, label) = (group.cases.len(), row.label());
+    let part = |said: String, judged: &str, is_wrong| TogetherPart {
+        row: label.clone(),
+        said,
+        judged: judged.to_owned(),
+        advice: if is_wrong {
+            group_advice(group, row)
+        } else {
+            String::new()
+        },
+        is_wrong,
+    };
+    Some(match group_verdict(group, row, subject) {
+        Err(failure) => part(failure, "the group is not judged", false),
+        Ok((hits, judged, is_wrong)) => {
+            part(format!("{hits} of {count} triangles hit"), judged, is_wrong)
+        }
+    })
+}
+
+/// The kernel's answer on a polygon as a whole.
+fn polygon_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart> {
+    let subject = F::subject(row.entry)?;
+    let (cases, truths) = &group.asked(group.cases);
+    let owed = polygon_obligation(cases, truths, &row.contract);
+    let verdict = polygon_verdict(subject, cases, &row.epsilons());
+    let (asked, union) = ((&row.contract, owed), (&cases[0], &polygon_truth(truths)));
+    let gives = group
+        .instance
+        .map_or(row.entry.info.gives, |_| Gives::NOTHING);
+    let finding = judge(asked, union, gives, &verdict);
+    let judged = answered(owed, &verdict, finding).judged();
+    let (said, judged) = judged.split_once("; ").unwrap_or(("", &judged));
+    Some(TogetherPart {
+        row: row.label(),
+        said: format!(
+            "the polygon of {} corners as a whole: {said}",
+            cases.len() + 2
+        ),
+        judged: judged.to_owned(),
+        advice: String::new(),
+        is_wrong: finding.is_some(),
+    })
+}
+
+/// A verdict beside what is asked.
+fn answered<F>(owed: Obligation, verdict: &Verdict<F>, finding: Option<Finding>) -> ExplainedRow {
+    let said = match verdict.failure {
+        Some(failure) => failure.to_string(),
+        None => if verdict.hit { "hit" } else { "miss" }.to_owned(),
+    };
+    let asked = match owed {
+        Obligation::MustHit => "a hit",
+        Obligation::MustMiss => "a miss",
+        Obligation::Free => "nothing",
+    };
+    ExplainedRow {
+        said,
+        asked,
+        finding: finding.map(Finding::name),
+        ..ExplainedRow::default()
+    }
+}
+
+/// The answer of a row, and all that explains it.
+fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> ExplainedRow {
+    let (kernel, set) = (row.entry.info.name.to_owned(), row.set.clone());
+    let contract = row.contract.describe();
+    let Some(subject) = F::subject(row.entry) else {
+        let others = ["f32", "f64"].into_iter().zip(row.entry.scalars());
+        let others = others.filter(|(_, runs)| *runs).map(|(scalar, _)| scalar);
+        let others = others.collect::<Vec<_>>().join(", ");
+        let said = format!("does not run in {} (it does in {others})", F::NAME);
+        return ExplainedRow {
+            kernel,
+            set,
+            contract,
+            said,
+            ..ExplainedRow::default()
+        };
+    };
+    let truth = oracle::define(case).truth;
+    let epsilons: Vec<F> = row.epsilons();
+    let verdict = verdict_of(subject, case, &epsilons);
+    let owed = asked(case, &truth, &row.contract, is_secondary);
+    let gives = row.entry.info.gives;
+    let finding = judge((&row.contract, owed), (case, &truth), gives, &verdict);
+    let mut part = ExplainedRow {
+        kernel,
+        set,
+        contract,
+        ..answered(owed, &verdict, finding)
+    };
+    if verdict.failure.is_some() {
+        return part;
+    }
+    match subject.gated() {
+        Some(gated) => add_gates(&mut part, case, gated, &verdict, row),
+        None => add_epsilons(&mut part, case, subject, &verdict, row),
+    }
+    if let Some(finding) = finding {
+        let info = row.entry.info;
+        let asked = (&row.contract, owed);
+        let cause = match subject.gated() {
+            Some(_) => attribute(subject, case, &epsilons, &truth, asked),
+            None => attribute_by_running(subject, info, case, &epsilons, &truth, asked),
+        };
+        part.why = Some(in_words(cause, subject.gated().is_some()).to_owned());
+        part.advice = advice(case, is_secondary, row, (finding, cause), &verdict);
+        if subject.gated().is_none()
+            && let Some(nearby) = Nearby::of(case, row)
+        {
+            add_relations(&mut part, nearby.relations(row), cause);
+            part.notes
+                .extend(nearest(case, is_secondary, row, &verdict, &nearby));
+        }
+    }
+    part.notes.extend(of_line(case, row, &verdict));
+    part.notes.extend(of_invalid(&truth, subject, &verdict));
+    if verdict.hit {
+        part.values.push(values(gives, &verdict));
+        let tolerance = row.contract.value_tolerance;
+        part.values
+            .extend(errors(case, &truth, finding, (gives, tolerance), &verdict));
+    }
+    part
+}
+
+fn in_words(cause: Option<Attribution>, shows_gates: bool) -> &'static str {
+    match (cause, shows_gates) {
+        (Some(Attribution::Epsilon), false) => {
+            "epsilon (with every epsilon 0 it is right, and wrong with these)"
+        }
+        (Some(cause), _) => cause.describe(),
+        (None, true) => "cannot be told: it does not run in exact arithmetic",
+        (None, false) => {
+            "cannot be told: it does not show its formula, and has no epsilons at which it could be run otherwise"
+        }
+    }
+}
+
+/// The epsilons that the kernel was given, where it does not show its gates, and the margins that runs at other
+/// epsilons find.
+fn add_epsilons<F: Scalar>(
+    part: &mut ExplainedRow,
+    case: &Case<F>,
+    subject: &dyn Subject<F>,
+    verdict: &Verdict<F>,
+    row: &Row,
+) {
+    let info = row.entry.info;
+    let epsilons: Vec<F> = row.epsilons();
+    let mut margins = vec![F::from_f64(f64::NAN); info.gates.len()];
+    if subject.tells_margins() {
+        subject.margins(info, slice::from_ref(case), &mut margins, &mut []);
+    }
+    if margins.iter().any(|margin| *margin == -F::infinity()) {
+        let note = "a miss whatever its epsilons are: none of its gates explains it";
+        part.notes.push(note.to_owned());
+    }
+    for (i, gate) in info
+        .gates
+        .iter()
+        .enumerate()
+        .filter(|(_, g)| g.epsilon != Tunable::Fixed)
+    {
+        let (margin, e) = (margins[i], epsilons[i]);
+        let accepted = if margin == F::infinity() {
+            Some("at every e".to_owned())
+        } else if margin.is_nan() || margin == -F::infinity() {
+            None
+        } else {
+            Some(margin_text(&Exact::from_f64(margin.to_f64()), e, false))
+        };
+        let decides = !verdict.hit && margin.to_f64().is_finite() && margin < e;
+        part.gates.push(ExplainedGate {
+            gate: gate.name,
+            refuses: gate.refuses,
+            epsilon: Some(shortest(e)),
+            margin: accepted,
+            decision: decides.then_some("refuses"),
+            decides,
+            ..ExplainedGate::default()
+        });
+    }
+    let note = "it does not show its formula: no exact margins, no run without rounding";
+    part.notes.push(note.to_owned());
+}
+
+/// Each gate's margin, computed and exact, and what it decided.
+fn add_gates<F: Scalar>(
+    part: &mut ExplainedRow,
+    case: &Case<F>,
+    gated: &dyn Gated<F>,
+    verdict: &Verdict<F>,
+    row: &Row,
+) {
+    let epsilons: Vec<F> = row.epsilons();
+    let measured = gated.measure(case);
+    let exact = gated.measure_exact(case);
+    let exact_run = gated.run_exact(case, &epsilons);
+    let word = |passes: bool| if passes { "passes" } else { "refuses" };
+    for (i, gate) in row.entry.info.gates.iter().enumerate() {
+        let (margin, e) = (measured.margins[i], epsilons[i]);
+        let exactly = Some(word(exact_run.passed[i]));
+        let numbers = (gate.epsilon != Tunable::Fixed).then(|| {
+            let computed = margin_text(&Exact::from_f64(margin.to_f64()), e, false);
+            let exact = margin_text(&exact.margins[i], e, exactly == Some(word(false)));
+            [shortest(e), computed, exact]
+        });
+        let [epsilon, computed, exact] = numbers.map_or([None, None, None], |all| all.map(Some));
+        part.gates.push(ExplainedGate {
+            gate: gate.name,
+            refuses: gate.refuses,
+            epsilon,
+            margin: computed,
+            exact,
+            decision: Some(word(margin >= e)),
+            exactly,
+            decides: verdict.refused_by == Some(i as u8),
+        });
+    }
+    part.without_rounding = Some(if exact_run.hit() { "hit" } else { "miss" });
+}
+
+/// The values that a hit reports.
+fn values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> String {
+    let mut values = Vec::new();
+    if gives.t {
+        values.push(format!("t = {}", number(verdict.t)));
+    }
+    if gives.uv {
+        let [u, v] = [verdict.u, verdict.v].map(number);
+        values.push(format!("u = {u}, v = {v}"));
+    }
+    if gives.facing {
+        values.push(format!(
+            "facing {}",
+            verdict.facing.map_or("unknown", |facing| facing.name())
+        ));
+    }
+    if values.is_empty() {
+        values.push("the hit alone".to_owned());
+    }
+    format!("reports {}", values.join(", "))
+}
+
+/// How far the values of a right hit are from the exact ones.
+fn errors<F: Scalar>(
+    case: &Case<F>,
+    truth: &Truth,
+    finding: Option<Finding>,
+    (gives, tolerance): (Gives, f64),
+    verdict: &Verdict<F>,
+) -> Vec<String> {
+    let Some(crossing) = truth.crossing() else {
+        return Vec::new();
+    };
+    if crossing.feature == Feature::Outside || finding == Some(Finding::FalseHit) {
+        return Vec::new();
+    }
+    let mut all = Vec::new();
+    if finding == Some(Finding::WrongValue) {
+        let errors = ValueErrors::of(case, truth, gives, verdict);
+        all = wrong_values(&errors, verdict, tolerance);
+    }
+    let Errors { t, uv, point } = Errors::of(case, crossing, gives, verdict);
+    let named = [("t", t), ("u, v", uv), ("o + t d", point)];
+    let parts: Vec<String> = named
+        .iter()
+        .filter_map(|(name, error)| error.map(|error| format!("{name} by {}", short(error))))
+        .collect();
+    if !parts.is_empty() {
+        all.push(format!("off by ulps: {}", parts.join(", ")));
+    }
+    all
+}
+
+/// Each value beside its exact one, and how many times the error of rounding it is off.
+fn wrong_values<F: Scalar>(
+    errors: &ValueErrors,
+    verdict: &Verdict<F>,
+    tolerance: f64,
+) -> Vec<String> {
+    let reported = [verdict.t, verdict.u, verdict.v];
+    let wrong = (0..3).filter(|which| errors.is_wrong(*which, tolerance)).map(|which| {
+        let (name, times) = (["t", "u", "v"][which], errors.times[which].unwrap_or_default());
+        let (reported, exact) = (reported[which], errors.exact[which]);
+        format!(
+            "wrong {name}: reported {}, exactly {}; off by {} u·κ, the size of one rounding (up to {ALLOWANCE} is allowed)",
+            number(reported),
+            plain(&format!("{exact:.9e}")),
+            short(times)
+        )
+    });
+    let point = format!("the point is off by {} longest edges", short(errors.edges));
+    wrong.chain([point]).collect()
+}

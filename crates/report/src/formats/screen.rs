@@ -1,0 +1,381 @@
+//! The screen of `hairline audit`: the answer, one table with the best row first, the worst finding, and what to do next.
+//! Everything else is behind `--details`.
+
+use super::capitalised;
+use super::columns::{Column, ColumnCell, ColumnSizes, kinds, shared_in_scenes, short_percent};
+use super::lines::{RowLine, notes};
+use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid, rays_in};
+use super::standing::{Standing, standings};
+use super::{close_up, extremes, ranking, relations};
+use crate::case::SceneKind;
+use crate::elsewhere::{self, ComparedRates};
+use crate::kernel;
+use crate::page::{Block, Command};
+use hairline_record::family_of;
+use hairline_record::percent;
+use hairline_record::*;
+use hairline_record::{group_digits, number_of};
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The most rows that the screen shows each by itself.
+const MOST_CLOSE_UPS: usize = 2;
+
+/// The answer, and everything below it on the screen.
+pub(super) fn blocks(
+    record: &Record,
+    columns: &[Column],
+    lines: &[RowLine],
+) -> (String, Vec<Block>) {
+    let standings = standings(record, columns, lines);
+    let (title, rest) = diagnosed(record, answer(record, columns, &standings));
+    let mut blocks = vec![Block::Text(rest), Block::Text(head(record))];
+    blocks.extend(notes(record));
+    blocks.extend(shared_in_scenes(record).map(Block::text));
+    for scalar in &record.result.plan.scalars {
+        let cases = cases_in(record, scalar);
+        if 0 < cases && is_all_invalid(&RowView::all(record, scalar), cases) {
+            blocks.push(Block::Text(format!("{scalar}: {ALL_INVALID}")));
+        }
+    }
+    blocks.extend(match is_close_up(record) {
+        true => close_up::blocks(record, columns, lines),
+        false => ranking::blocks(record, columns, &standings),
+    });
+    blocks.extend(of_elsewhere(record, columns, lines));
+    let rows: Vec<&RowView> = lines.iter().map(|line| &line.row).collect();
+    blocks.extend(failures(&rows).into_iter().map(Block::Text));
+    let worst = if is_close_up(record) { 2 } else { 1 };
+    blocks.extend(extremes::blocks(columns, lines, worst));
+    let commands = next(record, ranking::best(&standings), lines);
+    if !commands.is_empty() {
+        blocks.push(Block::Commands("next", commands));
+    }
+    (title, blocks)
+}
+
+/// An answer, its first sentence and the others, after the mistakes that explain it.
+fn diagnosed(record: &Record, answer: (String, String)) -> (String, String) {
+    let mistakes = relations::sentences(record);
+    match mistakes.is_empty() {
+        true => answer,
+        false => (
+            format!("{}.", mistakes.join(". ")),
+            format!("{} {}", answer.0, answer.1),
+        ),
+    }
+}
+
+/// Which kernels ran, and on how many cases.
+fn head(record: &Record) -> String {
+    let (result, provenance) = (&record.result, &record.provenance);
+    let counted = |scalar: &String| [cases_in(record, scalar), rays_in(record, scalar)];
+    // Usually as many in each scalar.
+    let mut counts: Vec<([u64; 2], Vec<&str>)> = Vec::new();
+    for scalar in &result.plan.scalars {
+        match counts.last_mut() {
+            Some((count, names)) if *count == counted(scalar) => names.push(scalar),
+            _ => counts.push((counted(scalar), vec![scalar])),
+        }
+    }
+    let counts = counts.iter().map(|([cases, rays], names)| {
+        let rays = match cases == rays {
+            true => String::new(),
+            false => format!(" of {}", number_of(*rays, "ray", "rays")),
+        };
+        format!(
+            "{}{rays} in {}",
+            number_of(*cases, "case", "cases"),
+            names.join(" and in ")
+        )
+    });
+    let sources = &result.plan.sources;
+    let families: BTreeSet<Option<&str>> = sources
+        .iter()
+        .map(|source| Some(family_of(&source.family)?.name))
+        .collect();
+    let sources = match families.contains(&None) {
+        false => number_of(families.len() as u64, "family", "families"),
+        true => number_of(sources.len() as u64, "source of cases", "sources of cases"),
+    };
+    let kinds = match kinds(record).len() {
+        1 => String::new(),
+        several => format!(" in {several} kinds of planes and rays"),
+    };
+    let placed = if result.is_placed() {
+        " in an instance"
+    } else {
+        ""
+    };
+    let kernels: BTreeSet<&str> = result.plan.rows.iter().map(|row| &*row.kernel).collect();
+    format!(
+        "{}: {} ({}) on {sources}{kinds}{placed}, {}, {:.1} s, plan {}",
+        provenance.tool,
+        number_of(result.plan.rows.len() as u64, "row", "rows"),
+        number_of(kernels.len() as u64, "kernel", "kernels"),
+        counts.collect::<Vec<_>>().join(", "),
+        provenance.seconds,
+        result.plan.hash,
+    )
+}
+
+/// True if there are so few kernels that each has a table of its own.
+fn is_close_up(record: &Record) -> bool {
+    record.result.plan.rows.len() <= MOST_CLOSE_UPS
+}
+
+/// The answer in words: its first sentence, and the others.
+fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (String, String) {
+    let special: Vec<&str> = columns
+        .iter()
+        .filter(|column| !column.is_ordinary())
+        .map(|column| column.label())
+        .collect();
+    let place = match &special[..] {
+        [] => String::new(),
+        // Each is a row of a close-up.
+        special if is_close_up(record) => format!(" in all rows but {}", special.join(" and ")),
+        special if special.contains(&"invalid") => {
+            " but for extreme exponents and invalid input".to_owned()
+        }
+        _ => " but for extreme exponents".to_owned(),
+    };
+    let meant = columns
+        .iter()
+        .filter(|column| column.is_ordinary() && !column.complete)
+        .count();
+    let mean = if 1 < meant {
+        ", the mean of the rows"
+    } else {
+        ""
+    };
+    let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
+    let text = match standings {
+        _ if columns.is_empty() => {
+            "No case has both a verdict and a contract that demands one.".to_owned()
+        }
+        all if all.iter().all(|row| row.share.is_none()) => {
+            "Every case has extreme exponents.".to_owned()
+        }
+        [only] => {
+            let wrong = match only.wrong {
+                0 if only.others.is_empty() => format!("Every verdict is right{place}."),
+                0 => format!("No false miss and no false hit{place}."),
+                _ => format!(
+                    "Wrong on {} % of the cases{place}{mean}.",
+                    percent(only.share.unwrap_or_default())
+                ),
+            };
+            format!("{} {wrong}", of_one(only, columns, judged(record, columns)))
+        }
+        all => ranking::answer(all, judged(record, columns), &place),
+    };
+    // Of several the table tells.
+    let broken = match standings {
+        [only] => only.others.clone(),
+        _ => BTreeMap::new(),
+    };
+    let is_across = |kind: &FindingKind| {
+        matches!(
+            kind,
+            FindingKind::Crack | FindingKind::Double | FindingKind::OddFold
+        )
+    };
+    let told = |lead: &str, of_across: bool| {
+        let chosen = broken
+            .iter()
+            .filter(|(kind, _)| is_across(kind) == of_across);
+        let counts = chosen.map(|(finding, count)| {
+            let ending = if finding.name().ends_with(['s', 'h']) {
+                "es"
+            } else {
+                "s"
+            };
+            number_of(*count, finding.name(), &format!("{finding}{ending}"))
+        });
+        let counts: Vec<String> = counts.collect();
+        match counts.is_empty() {
+            true => String::new(),
+            false => format!(" {lead}: {}.", counts.join(", ")),
+        }
+    };
+    let others =
+        told("Breaks its promise across triangles (in all sizes)", true) + &told("Besides", false);
+    let mut text = text + &others;
+    if let Some(partial) = &record.result.partial {
+        text += &format!(" {}", partial.sentence());
+    }
+    match text.split_once(". ") {
+        Some((first, rest)) => (format!("{first}."), rest.to_owned()),
+        None => (text, String::new()),
+    }
+}
+
+/// The answer about one row: does it leak, how many errors can be seen, and in which sizes?
+fn of_one(row: &Standing, columns: &[Column], cases: u64) -> String {
+    let label = row.part.label();
+    let leaks = row.leaks().map(|[count, of]| match count {
+        0 => format!(
+            "{label}: no leak seen in {of} rays at shared edges and vertices. ",
+            of = group_digits(of)
+        ),
+        _ => {
+            let [count, of] = [count, of].map(group_digits);
+            format!(
+                "{label} leaks: {count} of {of} rays at shared edges and vertices hit nothing. "
+            )
+        }
+    });
+    let seen = "by over 1/1000 of an edge, values included";
+    let visible = match row.all_far() {
+        0 => format!(
+            "no visible error ({seen}) in {} answers",
+            group_digits(cases)
+        ),
+        count => {
+            let [count, cases] = [count, cases].map(group_digits);
+            format!("visible errors ({seen}): {count} of {cases} answers")
+        }
+    };
+    let visible = match leaks {
+        Some(_) => capitalised(&visible),
+        None => format!("{label}: {visible}"),
+    };
+    let sizes = [
+        (ColumnSizes::Ordinary, "in ordinary sizes"),
+        (ColumnSizes::Unusual, "at tiny, huge, far or thin triangles"),
+        (ColumnSizes::Extreme, "at extreme exponents"),
+    ];
+    let asked = sizes
+        .iter()
+        .filter(|(sizes, _)| columns.iter().any(|it| it.sizes() == *sizes));
+    let sizes = asked.map(|(sizes, words)| match row.visible_in(*sizes) {
+        0 => format!("none {words}"),
+        count => format!("{} {words}", group_digits(count)),
+    });
+    let sizes = sizes.collect::<Vec<_>>().join(", ");
+    format!("{}{visible}. By size: {sizes}.", leaks.unwrap_or_default())
+}
+
+/// The cases of a record in some columns but for those of extreme exponents, in all scalars.
+fn judged(record: &Record, columns: &[Column]) -> u64 {
+    let is_judged = |source: &&SourcePart| {
+        columns
+            .iter()
+            .any(|column| column.is_ordinary() && column.has(source))
+    };
+    record
+        .result
+        .sources
+        .iter()
+        .filter(is_judged)
+        .map(|source| source.cases)
+        .sum()
+}
+
+/// Which rows are more often wrong on planes, or with rays, of other kinds than the table's, and where most.
+fn of_elsewhere(record: &Record, columns: &[Column], lines: &[RowLine]) -> Vec<Block> {
+    let kinds = kinds(record);
+    let compared = |line: &RowLine, column: &Column| ComparedRates {
+        label: format!("{}, {}: {}", line.label(), line.row.scalar, column.label()),
+        rates: (kinds.iter())
+            .map(|kind| ColumnCell::sum(&column.of_kind(*kind).results(&line.row)))
+            .map(|cell| Rate::new(cell.wrong, true))
+            .collect(),
+    };
+    let rows = lines
+        .iter()
+        .flat_map(|line| columns.iter().map(|column| compared(line, column)));
+    let names: Vec<String> = kinds.iter().map(SceneKind::to_string).collect();
+    let share = |rate: &Rate| rate.rate.map_or("-".to_owned(), percent);
+    let mut blocks = elsewhere::blocks(
+        "Clearly more often wrong",
+        &names,
+        &rows.collect::<Vec<_>>(),
+        share,
+    );
+    if !blocks.is_empty() {
+        let words = kinds[1..]
+            .iter()
+            .map(|kind| format!("{kind}: {}", kind.in_words()));
+        let of = "Shares are of all verdicts that are demanded, misses and hits together.";
+        blocks.push(Block::Text(format!(
+            "{}. {of}",
+            words.collect::<Vec<_>>().join("; ")
+        )));
+    }
+    blocks
+}
+
+/// The commands that lead on.
+fn next(record: &Record, best: Option<&RowPart>, lines: &[RowLine]) -> Vec<Command> {
+    // The product of `verify` cannot be chosen by a flag.
+    let all = best
+        .into_iter()
+        .chain(lines.iter().map(|line| line.row.part));
+    let mut rows: Vec<&RowPart> = all.filter(|row| !row.selector.is_empty()).collect();
+    // Those of one's own among others first.
+    rows.sort_by_key(|row| kernel::find(&row.kernel).is_some_and(|entry| entry.is_built_in()));
+    let Some(first) = rows.first() else {
+        return Vec::new();
+    };
+    let tuned = rows.iter().find(|row| row.is_tunable());
+    let spaced = |words: &str| {
+        if words.is_empty() {
+            String::new()
+        } else {
+            format!(" {words}")
+        }
+    };
+    let flags = record.provenance.plan_flags.clone().unwrap_or_default();
+    let [kernels, all_sources] = [&flags.kernels, &flags.sources].map(|words| spaced(words));
+    let is_alone = rows.iter().all(|row| row.selector == first.selector);
+    let mut commands: Vec<Command> = Vec::new();
+    if !is_alone {
+        let is_own = kernel::find(&first.kernel).is_some_and(|entry| !entry.is_built_in());
+        let one = if is_own {
+            first
+        } else {
+            tuned.unwrap_or(first)
+        };
+        let line = format!("hairline audit {}{all_sources}", one.selector);
+        commands.push(Command {
+            line,
+            what: "one kernel",
+        });
+    }
+    // No epsilon is chosen in instances.
+    if let Some(tuned) = tuned.filter(|_| !all_sources.contains(" --instance ")) {
+        // `epsilon` knows no rays at a mesh's edges, and takes a scene whole.
+        let sources = all_sources
+            .split(" --directions")
+            .next()
+            .unwrap_or_default();
+        let sources = if sources.contains(" --scene ") {
+            without_families(sources)
+        } else {
+            sources.to_owned()
+        };
+        let line = format!("hairline epsilon {}{sources}", tuned.selector);
+        commands.push(Command {
+            line,
+            what: "choose an epsilon",
+        });
+    }
+    let line = format!("hairline check{kernels}{all_sources} --bless");
+    commands.push(Command {
+        line,
+        what: "gate a CI; writes files",
+    });
+    commands
+}
+
+/// Flags without the families among them.
+fn without_families(flags: &str) -> String {
+    let words: Vec<&str> = flags.split(' ').collect();
+    let is_of_family = |i: &usize| words[*i] == "--family" || 0 < *i && words[i - 1] == "--family";
+    let kept = (0..words.len())
+        .filter(|i| !is_of_family(i))
+        .map(|i| words[i]);
+    kept.collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,41 @@
+//! What people read of a run: its record as a page, the page as text, Markdown and HTML, one exporter a format, and a
+//! case explained.
+//!
+//! It is a part of the program `hairline`, whose interface is stable; this one changes with it.
+
+#![forbid(unsafe_code)]
+#![cfg_attr(not(feature = "pages"), allow(dead_code, unused_imports))]
+
+#[macro_use(in_named_scalar)]
+extern crate hairline_core;
+#[macro_use(part)]
+extern crate hairline_record;
+#[macro_use]
+extern crate macro_rules_attribute;
+use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, truth};
+use hairline_explore as explore;
+use hairline_prove as prove;
+use hairline_study::{audit, corpus, family, judge, map, plot, spawn, studied};
+
+// The floors, from the ground up: each module uses only those above it in this list.
+mod format;
+mod lists;
+
+pub mod page;
+
+mod chart;
+pub mod elsewhere;
+
+mod segments;
+
+pub mod epsilon;
+pub mod explain;
+
+pub mod mesh;
+
+pub mod formats;
+
+pub use format::{Format, Style, write_json, write_json_line};
+pub use formats::{FORMATS, HTML, JunitCase, ON_FAILURE, severity, write_junit};
+pub use lists::{alike, listed};
+pub use segments::{SegmentEndPart, SegmentKindPart, SegmentsPart, short_length};

@@ -1,0 +1,444 @@
+//! The record of a mesh audit as a page of text: a sentence, a table a scalar, the first places; everything else folded.
+
+use super::rows::{AtPart, MeshRow, rows};
+use crate::epsilon::fitness::Grain;
+use crate::lists::alike;
+use crate::page::{Block, Cell, Command, Head, Page, Row, Table, Tone};
+use hairline_record::*;
+use hairline_record::{Rate, Record, group_digits, interval_of, number_of, percent};
+
+/// So many rows stand on the screen.
+const MOST_ROWS: usize = 8;
+
+/// So many places stand there with a command.
+const MOST_PLACES: usize = 3;
+
+/// The page of a record of an audit of a mesh.
+pub fn page(record: &Record, mesh: &MeshPart) -> Page {
+    let result = &record.result;
+    let rows = rows(result);
+    let (tone, title) = verdict(result, mesh, &rows);
+    let unit = result
+        .plan
+        .parameters()
+        .any(|parameters| parameters.unit_direction);
+    let mut blocks = vec![Block::text(format!(
+        "{}, {}, {}{}{}, seed {}, {:.1} s",
+        number_of(mesh.triangles, "triangle", "triangles"),
+        number_of(mesh.vertices, "vertex", "vertices"),
+        number_of(mesh.directions, "ray", "rays"),
+        match unit {
+            true => " with unit directions at each edge and vertex",
+            false => " at each edge and vertex",
+        },
+        if result.is_placed() {
+            " of an instance"
+        } else {
+            ""
+        },
+        mesh.seed,
+        record.provenance.seconds
+    ))];
+    let of_scalar = |part: &MeshScalar| -> Vec<&MeshRow<'_>> {
+        rows.iter()
+            .filter(|row| row.scalar == part.scalar)
+            .collect()
+    };
+    for part in &mesh.scalars {
+        let grain = grain(part);
+        let is_coarse = part.spacing.is_finite() && !grain.is_fine();
+        blocks.extend(is_coarse.then(|| Block::Text(grain.sentence("mesh"))));
+        blocks.extend(blocks_of(record, part, of_scalar(part)));
+    }
+    #[cfg(feature = "pages")]
+    blocks.extend(super::stage::block(record, mesh, &rows));
+    blocks.extend(
+        result
+            .partial
+            .as_ref()
+            .map(|part| Block::Text(part.sentence())),
+    );
+    let places = first_places(&rows);
+    if !places.is_empty() {
+        blocks.push(Block::Commands("shown by", places));
+    }
+    if 0 < all_rays(result) {
+        blocks.push(Block::text(SHARES));
+    }
+    for part in &mesh.scalars {
+        let title = format!("Everything in {}", part.scalar);
+        blocks.push(Block::Details(
+            title,
+            everything(record, mesh, &of_scalar(part)),
+        ));
+    }
+    Page {
+        command: "mesh",
+        title,
+        tone,
+        blocks,
+    }
+}
+
+fn grain(of: &MeshScalar) -> Grain<'_> {
+    Grain {
+        scalar: &of.scalar,
+        spacing: of.spacing,
+        smallest: of.smallest,
+        unit: "",
+    }
+}
+
+/// How many rays were aimed.
+fn all_rays(result: &ResultPart) -> u64 {
+    result.sources.iter().map(|source| source.indices).sum()
+}
+
+/// How it went, in one line.
+fn verdict(result: &ResultPart, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> (Tone, String) {
+    let name = mesh.file.rsplit(['/', '\\']).next().unwrap_or(&mesh.file);
+    let file: String = name.chars().take(120).collect();
+    let leaking = rows.iter().filter(|row| 0 < row.leaks()).count();
+    let is_broken = rows
+        .iter()
+        .any(|row| row.promise().is_some_and(|(_, kept)| !kept));
+    let failed = rows.iter().any(|row| 0 < row.failures());
+    let rays = all_rays(result);
+    let tone = match (is_broken, leaking) {
+        (true, _) => Tone::Bad,
+        (false, 0) if !failed && 0 < rays => Tone::Good,
+        _ => Tone::Plain,
+    };
+    let aimed = group_digits(rays);
+    let of = format!(
+        "of {aimed} aimed at its edges and vertices{}",
+        not_asked(mesh)
+    );
+    let title = match (leaking, rows.len()) {
+        _ if rays == 0 => format!("Nothing to ask of {file}"),
+        (0, 1) => format!("No ray slips through {file}, {of}"),
+        (0, n) => format!("No ray slips through {file} with {n} kernel rows, {of}"),
+        (1, 1) => format!("Rays slip through {file}"),
+        (k, n) => format!("Rays slip through {file} with {k} of {n} kernel rows"),
+    };
+    (tone, title)
+}
+
+/// The edges of a mesh through which no ray is aimed, as the end of a sentence; empty if there are none.
+fn not_asked(mesh: &MeshPart) -> String {
+    // In the scalar in which they are most.
+    let of_scalar = |part: &MeshScalar| {
+        let count = |key: &str| part.topology.edges.get(key).map_or(0, |noted| noted.count);
+        (
+            EDGE_WORDS[1..].iter().map(|(key, _)| count(key)).sum(),
+            count("open"),
+        )
+    };
+    match mesh.scalars.iter().map(of_scalar).max() {
+        None | Some((0, _)) => String::new(),
+        Some((others, open)) => {
+            let edges = number_of(others, "edge is", "edges are");
+            format!(
+                "; {edges} not asked about, {} of them open",
+                group_digits(open)
+            )
+        }
+    }
+}
+
+/// The mesh in one scalar, and the rows, those that leak least first; rows that answer alike stand together.
+fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) -> Vec<Block> {
+    let of_scalar = record
+        .result
+        .sources
+        .iter()
+        .filter(|source| source.scalar == part.scalar);
+    let rays: Vec<u64> = of_scalar.map(|source| source.indices).collect();
+    let mut blocks = vec![Block::terms(topology_terms(part, &rays))];
+    if rays.iter().all(|rays| *rays == 0) {
+        return blocks;
+    }
+    rows.sort_by(|one, other| {
+        let share = |row: &MeshRow<'_>, rate| row.both(rate).rate.unwrap_or(0.0);
+        let of = |rate| share(one, rate).total_cmp(&share(other, rate));
+        of(|across| &across.cracks).then(of(|across| &across.doubles))
+    });
+    let counts = |row: &MeshRow<'_>| {
+        let rates: [fn(&AcrossPart) -> &Rate; 3] = [
+            |across| &across.cracks,
+            |across| &across.doubles,
+            |across| &across.odd_folds,
+        ];
+        (
+            row.at.map(|at| at.leaking),
+            rates.map(|rate| row.both(rate).count),
+        )
+    };
+    let shown = alike(rows, |one, other| counts(one) == counts(other));
+    let heads = vec![
+        Head::of(format!("{} kernel", part.scalar)),
+        Head::of("cracks at edges"),
+        Head::of("at vertices"),
+        Head::of("doubles"),
+        Head::of("wrong at folds").optional(),
+        Head::of("edges leak"),
+        Head::of("vertices leak"),
+        Head::of("ns a ray").optional(),
+    ];
+    let times = record.provenance.kernel_nanoseconds.get(&part.scalar);
+    let row = |(row, alike): &(&MeshRow<'_>, Vec<&MeshRow<'_>>)| {
+        let time = times.and_then(|times| times.get(&row.part.label()));
+        let promised = row.promised() != Promised::Nothing;
+        let exactly = row.promised() == Promised::ExactlyOne;
+        let share = |rate: &Rate, is_promised: bool| Cell {
+            text: rate.rate.map_or("-".to_owned(), percent),
+            is_broken: is_promised && 0 < rate.count,
+            share: rate.rate,
+        };
+        let [edges, vertices] = row.at;
+        let cells = [
+            share(&edges.across.cracks, promised),
+            share(&vertices.across.cracks, promised),
+            share(&row.both(|across| &across.doubles), exactly),
+            share(&row.both(|across| &across.odd_folds), exactly),
+            group_digits(edges.leaking).into(),
+            group_digits(vertices.leaking).into(),
+            time.map_or("-".to_owned(), |time| format!("{time:.1}"))
+                .into(),
+        ];
+        let mut below = Vec::new();
+        if !alike.is_empty() {
+            let alike: Vec<String> = alike.iter().map(|other| other.short_label()).collect();
+            below.push(format!("same counts: {}", alike.join(", ")));
+        }
+        if let Some((hits, is_kept)) = row.promise() {
+            let kept = if is_kept { "kept" } else { "BROKEN" };
+            below.push(format!("promises hits {hits} where a ray crosses: {kept}"));
+        }
+        if 0 < row.failures() {
+            let count = number_of(row.failures(), "case", "cases");
+            below.push(format!(
+                "no verdict on {count}, which are in no share (--details)"
+            ));
+        }
+        Row {
+            below,
+            ..Row::new(row.short_label(), cells)
+        }
+    };
+    let rows = shown.iter().map(row).collect();
+    blocks.push(Block::Table(Table::new(heads, rows).at_most(MOST_ROWS)));
+    blocks
+}
+
+/// The topology, and how many rays were aimed.
+fn topology_terms(part: &MeshScalar, rays: &[u64]) -> Vec<(&'static str, String)> {
+    let mut terms = topology_lines(&part.topology);
+    let rays = |i: usize| group_digits(rays.get(i).copied().unwrap_or(0));
+    terms.push((
+        "aimed",
+        format!(
+            "{} rays at edges, {} at vertices, in {} ({})",
+            rays(0),
+            rays(1),
+            part.scalar,
+            number_of(part.topology.points, "point", "points")
+        ),
+    ));
+    terms
+}
+
+/// The commands that show the first places: of rows that break a promise, then of those that leak least.
+fn first_places(rows: &[MeshRow<'_>]) -> Vec<Command> {
+    let mut rows: Vec<&MeshRow<'_>> = rows.iter().collect();
+    rows.sort_by_key(|row| (row.promise().is_none_or(|(_, kept)| kept), row.leaks()));
+    let first = |row: &&MeshRow<'_>| {
+        let first = examples(row, 1, false).into_iter().next()?;
+        Some(Command {
+            line: first.command,
+            what: "",
+        })
+    };
+    rows.iter().filter_map(first).take(MOST_PLACES).collect()
+}
+
+/// Each row with its intervals, and the places that were kept.
+fn everything(record: &Record, mesh: &MeshPart, rows: &[&MeshRow<'_>]) -> Vec<Block> {
+    let heads = [
+        "kernel (epsilons)",
+        "edges [95 %]",
+        "vertices [95 %]",
+        "elsewhere",
+    ];
+    let rate = |rate: &Rate| interval_of(rate).trim_matches([' ', '(', ')']).to_owned();
+    let row = |row: &&MeshRow<'_>| {
+        let elsewhere = row.at.iter().filter_map(|at| at.across.elsewhere.as_ref());
+        let elsewhere = elsewhere.map(|rate| rate.count).sum();
+        let [edges, vertices] = row.at.map(|at| rate(&at.across.cracks));
+        Row::new(row.part.label(), [edges, vertices, group_digits(elsewhere)])
+    };
+    let table = Table::new(heads.map(Head::of).into(), rows.iter().map(row).collect());
+    let mut blocks = vec![Block::Table(table)];
+    blocks.push(Block::text(format!(
+        "{}, digest {}",
+        record.provenance.tool, mesh.digest
+    )));
+    for row in rows {
+        let count = row.failures();
+        if 0 < count {
+            let count = number_of(count, "case", "cases");
+            blocks.push(Block::Text(format!(
+                "{}: no verdict on {count}",
+                row.part.label()
+            )));
+        }
+        let mut findings = row.at.iter().flat_map(|at| &at.result.findings);
+        let failure = findings.find(|part| part.finding.is_failure());
+        let failure = failure.map(|part| Block::Listing(format!("    {}", part.worst.command)));
+        blocks.extend(failure);
+        let examples = examples(row, usize::MAX, true);
+        if examples.is_empty() {
+            blocks.push(Block::Text(format!("{}: nowhere", row.part.label())));
+            continue;
+        }
+        blocks.push(Block::Text(row.part.label()));
+        let line = |MeshExample { what, id, command }: MeshExample<'_>| {
+            let place = mesh.places.get(id).map(place).unwrap_or_default();
+            format!("    {what}: {place}\n        {command}")
+        };
+        blocks.push(Block::Listing(
+            examples
+                .into_iter()
+                .map(line)
+                .collect::<Vec<_>>()
+                .join("\n"),
+        ));
+    }
+    blocks
+}
+
+/// The topology of the mesh, and where it first is not what rays can be asked about: lines with their heads.
+fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, String)> {
+    let kinds = [
+        ("faces", &topology.faces, FACE_WORDS),
+        ("edges", &topology.edges, EDGE_WORDS),
+        ("vertices", &topology.vertices, VERTEX_WORDS),
+    ];
+    let mut lines = Vec::new();
+    for (name, kinds, words) in kinds {
+        let count = |key: &&(&str, &str)| kinds.get(key.0).is_some_and(|noted| noted.count > 0);
+        let mut parts: Vec<String> = Vec::new();
+        for (i, (key, word)) in words.iter().filter(count).enumerate() {
+            let noted = &kinds[*key];
+            let first = match (noted.first_line, noted.first_face) {
+                // The first of the regular ones tells nothing.
+                _ if i == 0 && *key == words[0].0 => String::new(),
+                (Some(line), _) => format!(" (first at line {line})"),
+                (_, Some(face)) => format!(" (first at face {face})"),
+                _ => String::new(),
+            };
+            parts.push(format!("{} {word}{first}", group_digits(noted.count)));
+        }
+        lines.push((
+            name,
+            if parts.is_empty() {
+                "none".to_owned()
+            } else {
+                parts.join(", ")
+            },
+        ));
+    }
+    if topology.duplicated_places > 0 {
+        let places = number_of(topology.duplicated_places, "place", "places");
+        lines.push(("", format!("the duplicated faces lie in {places}")));
+    }
+    if topology.closed_manifold {
+        lines.push(("", "a closed surface, wound consistently".to_owned()));
+    }
+    lines
+}
+
+/// The note on the shares in the table.
+const SHARES: &str = "Cracks: % of the rays aimed at edges, and at vertices, that cross the surface there, on a side that counts; \
+doubles: of both together; wrong at folds: of those that touch it. Rays at the whole mesh rarely come so near an edge. Sorted by the \
+share of cracks; `hairline epsilon --mesh` finds better epsilons, and weighs lost and false hits too.";
+
+const FACE_WORDS: &[(&str, &str)] = &[
+    ("sound", "sound"),
+    ("collapsed", "with two equal vertices"),
+    ("without_area", "without area"),
+    ("duplicated", "duplicated"),
+    ("out_of_range", "out of range"),
+    (
+        "left_out",
+        "left out, polygons that cross themselves or fold over",
+    ),
+];
+const EDGE_WORDS: &[(&str, &str)] = &[
+    ("shared", "between two faces"),
+    ("open", "open"),
+    ("inconsistent", "of two faces wound inconsistently"),
+    ("non_manifold", "non-manifold"),
+    ("unsound", "at faces that are not sound"),
+];
+const VERTEX_WORDS: &[(&str, &str)] = &[
+    ("closed_fan", "inside a closed fan"),
+    ("open_fan", "on the boundary"),
+    ("several_fans", "of several fans"),
+    ("irregular", "at edges or faces not asked about"),
+];
+
+/// A group that shows something.
+struct MeshExample<'a> {
+    what: String,
+    id: &'a str,
+    command: String,
+}
+
+/// So many findings of each kind and class: cracks, and what else the row's contract speaks of; what
+/// may be elsewhere, which is no finding, on demand.
+fn examples<'a>(row: &MeshRow<'a>, limit: usize, elsewhere: bool) -> Vec<MeshExample<'a>> {
+    let mut all = Vec::new();
+    for (name, AtPart { result, across, .. }) in ["edge", "vertex"].into_iter().zip(row.at) {
+        for (class, found) in &across.classes {
+            let mut lists = vec![("crack", &found.first_cracks)];
+            if row.promised() == Promised::ExactlyOne {
+                lists.push(("double", &found.first_doubles));
+                lists.push(("wrong at a fold", &found.first_odd_folds));
+            }
+            if elsewhere {
+                lists.push(("elsewhere", &found.first_elsewhere));
+            }
+            for (what, list) in lists {
+                all.extend(list.iter().take(limit).map(|id| MeshExample {
+                    what: format!("{what}, {name}, {class}"),
+                    id,
+                    command: result.explain_group(row.part, id),
+                }));
+            }
+        }
+    }
+    all
+}
+
+/// The points, and the lines of the faces, or their numbers.
+fn place(example: &PlacePart) -> String {
+    let points: Vec<String> = example
+        .points
+        .iter()
+        .map(|[x, y, z]| format!("({x}, {y}, {z})"))
+        .collect();
+    let (at, places) = match example.lines.as_slice() {
+        [] => ("", &example.faces),
+        _ => ("at lines ", &example.lines),
+    };
+    let mut places: Vec<String> = places.iter().map(u32::to_string).collect();
+    places.dedup();
+    let more = if places.len() > 8 { ", …" } else { "" };
+    places.truncate(8);
+    format!(
+        "{}, faces {at}{}{more}",
+        points.join(" to "),
+        places.join(", ")
+    )
+}
