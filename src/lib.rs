@@ -47,7 +47,7 @@ use hairline_record as record;
 use hairline_report as report;
 use hairline_study::{audit, corpus, family, judge, mesh};
 #[cfg(feature = "studies")]
-use hairline_study::{epsilon, map, selfcheck, spawn, studied};
+use hairline_study::{epsilon, map, offset, selfcheck, studied};
 
 #[cfg(feature = "studies")]
 #[macro_use(part)]
@@ -86,9 +86,9 @@ pub use kernel::{
 };
 
 pub use conformance::{Outcome, Request, audit};
-pub use record::{Example, FindingKind, FindingPart, Rate, SeverityPart};
 #[cfg(feature = "studies")]
-pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
+pub use offset::{HitPoint, Offset, Scheme, Start, register as register_scheme};
+pub use record::{Example, FindingKind, FindingPart, Rate, SeverityPart};
 
 #[cfg(feature = "proptest")]
 pub use hairline_explore::{prop_assert_conforms, prop_assert_conforms_together, strategy};

@@ -20,10 +20,10 @@ use crate::epsilon::{
 };
 use crate::family::STRATA;
 use crate::kernel::{Entry, Scalar, Subject};
+use crate::offset::SegmentPlan;
 use crate::record::Context;
 use crate::report::SegmentsPart;
 use crate::report::epsilon::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
-use crate::spawn::SegmentPlan;
 use crate::studied::Studied;
 use crate::suggest::nearest_name;
 use clap::parser::ValueSource;

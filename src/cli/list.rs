@@ -8,8 +8,8 @@ use crate::audit::{ASPECTS, Aspect, coverage};
 use crate::contract::NAMED;
 use crate::family::{FAMILIES, Family, STRATA};
 use crate::kernel::{self, Change, Dimension, KernelInfo, PRESETS, Preset, Tunable};
+use crate::offset::{PUBLISHED, PublishedScheme, describe};
 use crate::report::page::{Block, Head, Item, Items, Page, Row, Table};
-use crate::spawn::{PUBLISHED, PublishedScheme, describe};
 use clap::{Args, ValueEnum};
 
 /// The arguments of `list`.

@@ -33,6 +33,7 @@ mod list;
 mod map;
 mod merge;
 mod mesh;
+mod offset;
 mod output;
 mod plugins;
 mod progress;
@@ -43,7 +44,6 @@ mod select;
 mod selfcheck;
 mod settings;
 mod sources;
-mod spawn;
 mod truth;
 mod vectors;
 mod verify;
@@ -79,7 +79,8 @@ enum Chosen {
     /// Recommend epsilons for a scene, a mesh or families of cases
     Epsilon(Box<epsilon::EpsilonArguments>),
     /// Show which offset shadow rays need to leave their own surface
-    Spawn(Box<spawn::SpawnArguments>),
+    #[command(alias = "spawn")]
+    Offset(Box<offset::OffsetArguments>),
     /// Report where rays slip through the edges and vertices of a mesh
     Mesh(Box<mesh::MeshArguments>),
     /// Prove what a kernel can never do wrong, whatever the floats
@@ -136,7 +137,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
     (
         "Choose an epsilon",
         &[
-            "audit", "epsilon", "spawn", "prove", "repair", "mesh", "explain", "map", "list",
+            "audit", "epsilon", "offset", "prove", "repair", "mesh", "explain", "map", "list",
         ],
     ),
     ("Test boxes", &["boxes"]),
@@ -263,7 +264,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     let outcome = match command {
         Chosen::Audit(arguments) => audit::run(&arguments),
         Chosen::Epsilon(arguments) => epsilon::run(&arguments, own),
-        Chosen::Spawn(arguments) => spawn::run(&arguments),
+        Chosen::Offset(arguments) => offset::run(&arguments),
         Chosen::Mesh(arguments) => mesh::run(&arguments),
         Chosen::Prove(arguments) => prove::run(&arguments),
         Chosen::Repair(arguments) => repair::run(&arguments),

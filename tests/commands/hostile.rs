@@ -187,7 +187,7 @@ fn commands(digest: &str) -> Vec<(Vec<String>, &'static [&'static str])> {
             &format!("check {on_mesh} --expectations known.toml"),
             REPORT,
         ),
-        ("spawn -n 50 --mesh MESH", PAGE),
+        ("offset -n 50 --mesh MESH", PAGE),
         ("mesh MESH --kernel cramer", REPORT),
         (
             "prove --mesh MESH --distance 9 --kernel cramer --scalar f32",

@@ -28,6 +28,7 @@ mod mesh;
 mod mesh_files;
 mod mesh_page;
 mod numbers;
+mod offset;
 mod own;
 mod plugin;
 mod program;
@@ -48,7 +49,6 @@ mod screen;
 mod secondary;
 mod shards;
 mod shrink;
-mod spawn;
 #[cfg(unix)]
 mod terminal;
 mod tools;

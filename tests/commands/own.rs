@@ -366,7 +366,7 @@ fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
         .map(|(i, _)| i)
         .collect();
     assert!(pentagons.len() > 10);
-    let found = hairline::internals::report::disagreements(&outcome.record.result);
+    let found = hairline::internals::record::disagreements(&outcome.record.result);
     let panics = found.iter().find(|found| {
         let key = &found.key;
         (key.scalar.as_str(), key.class.as_str(), key.finding.name()) == ("f32", "polygon", "panic")

@@ -1768,7 +1768,7 @@ fn ten_ways_to_be_wrong_are_noticed_by_check() {
     }
     // No epsilon and no offset is advised where plain hits have wrong values.
     let library = wrong(1).unwrap();
-    for command in [&["epsilon", "--scene", "room"][..], &["spawn"]] {
+    for command in [&["epsilon", "--scene", "room"][..], &["offset"]] {
         let flags = [
             command,
             &["-n", "100", "--scalar", "f64", "--kernel-lib", &library],
@@ -1784,7 +1784,7 @@ fn ten_ways_to_be_wrong_are_noticed_by_check() {
     // A kernel that hits beside the triangle too: the scene's own rays do not show it.
     let library = wrong(8).unwrap();
     let flags = [
-        "spawn",
+        "offset",
         "-n",
         "300",
         "--scalar",

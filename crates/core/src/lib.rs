@@ -21,12 +21,12 @@
 #[doc(hidden)]
 pub use serde;
 
-/// An enum whose values have names: in text, in files and in records.
+/// An enum whose values have names: in text, in files and in records. Old names are read too, and never written.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! named {
     ($methods:vis names $(#[$about:meta])* $visible:vis enum $type:ident {
-        $($(#[doc = $doc:literal])* $value:ident = $name:literal,)*
+        $($(#[doc = $doc:literal])* $value:ident = $name:literal $(| $old_name:literal)*,)*
     }) => {
         $(#[$about])*
         $visible enum $type {
@@ -53,10 +53,13 @@ macro_rules! named {
                 text.trim().trim_end_matches('.')
             }
 
-            /// The value of a name.
+            /// The value of a name, or of one that it had once.
             #[allow(dead_code)]
             $methods fn named(name: &str) -> Option<$type> {
-                $type::ALL.into_iter().find(|value| value.name() == name)
+                match name {
+                    $($name $(| $old_name)* => Some($type::$value),)*
+                    _ => None,
+                }
             }
 
             /// The value of a name; an error says after the word in which it stands what names there are.

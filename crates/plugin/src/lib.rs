@@ -8,7 +8,7 @@
 
 use hairline_core::{arith, case, contract, kernel, truth};
 use hairline_files as files;
-use hairline_study::{corpus, plot, spawn};
+use hairline_study::{corpus, plot};
 
 mod binary;
 mod exchange;

@@ -3,8 +3,9 @@
 use super::check_floats;
 use super::kernel::Function;
 use hairline::internals::contract::Contract;
+use hairline::internals::record::{FindingPart, PlanFlags, Record};
 use hairline::internals::report::page::Paged;
-use hairline::internals::report::{FindingPart, Format, PlanFlags, Record, Style, severity};
+use hairline::internals::report::{Format, Style, severity};
 use hairline::{Entry, Error, Gives, KernelInfo, Outcome, Request};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;

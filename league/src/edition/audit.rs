@@ -4,7 +4,7 @@ use crate::Entrant;
 use hairline::internals::arith::Float;
 use hairline::internals::case::Case;
 use hairline::internals::corpus::lines::AnyCase;
-use hairline::internals::report::{
+use hairline::internals::record::{
     Example, FindingKind, FindingPart, KernelResult, Promised, Record,
 };
 use serde::{Deserialize, Serialize};

@@ -3,7 +3,7 @@
 use crate::page::{Pages, slug, table};
 use crate::program;
 use hairline::internals::kernel::{Dimension, Entry, Gate, KERNELS, PRESETS, Tunable, all};
-use hairline::internals::report::{KernelResult, Record};
+use hairline::internals::record::{KernelResult, Record};
 use hairline_league::edition::EntrantResult;
 use maud::{Markup, html};
 use serde_json::Value;

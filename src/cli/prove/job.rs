@@ -1,7 +1,5 @@
 //! One kernel in one scalar: what is proved of it, as parts of the record.
 
-use super::record::{GatePart, KernelPart, LimitPart, WitnessPart};
-use super::verdicts::VerdictPart;
 use super::witnesses::StoredWitness;
 use crate::arith::Float;
 use crate::audit::{EpsilonChoice, EpsilonText, Observer, Row};
@@ -13,6 +11,7 @@ use crate::prove::{
     Symmetry, Triangles, USELESS, VERDICTS, about_edges, statements, useful_scenes,
 };
 use crate::record::{ProofPart, ProvedGate};
+use crate::report::proofs::{GatePart, KernelPart, LimitPart, VerdictPart, WitnessPart};
 use rayon::prelude::*;
 
 /// The settings that are the same for all kernels.

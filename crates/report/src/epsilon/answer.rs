@@ -362,7 +362,7 @@ pub(super) fn conflict(
             "the numbers are too far apart for such triangles: use f64, or move the scene to the origin".to_owned()
         }
         (_, _, "t") => {
-            "start shadow rays off the surface, with no t_min for them (`hairline spawn` finds how far)".to_owned()
+            "start shadow rays off the surface, with no t_min for them (`hairline offset` finds how far)".to_owned()
         }
         _ if part.scalar == "f64" => "these numbers cost least; no value meets both beside the others".to_owned(),
         _ => "these numbers cost least; to meet both takes wider numbers (f64) or another kernel"

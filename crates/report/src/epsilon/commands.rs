@@ -44,10 +44,10 @@ pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<Stri
     let has_t = record.has_scene()
         && part.knobs.iter().any(|knob| knob.role == "t")
         && !is_coarse(record, part);
-    let spawn = has_t.then(|| command("spawn", ""));
+    let offset = has_t.then(|| command("offset", ""));
     [command("audit", &same_rays)]
         .into_iter()
-        .chain(spawn)
+        .chain(offset)
         .collect()
 }
 

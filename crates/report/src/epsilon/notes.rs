@@ -243,7 +243,7 @@ fn instead(record: &SceneResult, part: &SceneKernelPart, kind: WrongKind) -> Str
         );
     }
     if kind == WrongKind::SelfHit {
-        return "start shadow rays off the surface (`hairline spawn` finds how far)".to_owned();
+        return "start shadow rays off the surface (`hairline offset` finds how far)".to_owned();
     }
     (if is_narrow {
         "use f64 or another kernel"

@@ -1,7 +1,7 @@
 //! The findings of a study of epsilons, as its record holds them.
 
-use crate::SegmentsPart;
 pub(super) use crate::family::Stratum;
+use crate::segments::SegmentsPart;
 use hairline_record::{Rate, Record};
 pub(super) use hairline_study::epsilon::{RayCount, Rays, WrongKind};
 use std::collections::BTreeMap;

@@ -175,9 +175,10 @@ pub(super) fn meaning(
     match (knob.role.as_str(), knob.dimension) {
         ("t", [1, -1]) => {
             let least = format!("{}{}", human(epsilon), unit_of_t(record));
-            let instead = match record.has_scene() {
-                true => "; a moved start needs none: see spawn",
-                false => "",
+            let instead = if record.has_scene() {
+                " (for shadow rays see `offset`)"
+            } else {
+                ""
             };
             Some(format!("nothing nearer than {least} is hit{instead}"))
         }

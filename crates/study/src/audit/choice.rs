@@ -220,7 +220,7 @@ fn unknown_gate(name: &str, entries: &[&'static Entry]) -> Error {
     let advice = match name {
         "t_min" | "t-min" | "tmin" => {
             "; a least t that your code counts is chosen by `hairline epsilon --scene` (as t_min), and \
-            `hairline spawn --scheme t-min=VALUE` tries it on shadow rays"
+            `hairline offset --scheme t-min=VALUE` tries it on shadow rays"
                 .to_owned()
         }
         _ => advice,

@@ -5,8 +5,8 @@ use crate::request::{Audit, Cases, Curve};
 use hairline::internals::audit::{self, Plan, Row, Source, Unobserved};
 use hairline::internals::case::{Parameters, Scene};
 use hairline::internals::family::{FAMILIES, Family, STRATA};
+use hairline::internals::record::{Context, PlanFlags, Record, build};
 use hairline::internals::report::page::{Paged, elements};
-use hairline::internals::report::{Context, PlanFlags, Record, build};
 use serde::Serialize;
 
 /// The most cases of a family in one request: some minutes on a slow machine.

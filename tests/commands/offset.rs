@@ -1,4 +1,4 @@
-//! `hairline spawn`: the screen, the record, and what is wrong usage.
+//! `hairline offset`: the screen, the record, and what is wrong usage.
 
 use crate::json_schema;
 use crate::program::{ends, flat, scratch};
@@ -10,15 +10,15 @@ use std::path::Path;
 use std::process::Command;
 
 fn json(folder: &std::path::Path, more: &[&str]) -> Value {
-    let mut all = vec!["spawn", "--format", "json", "-q"];
+    let mut all = vec!["offset", "--format", "json", "-q"];
     all.extend(more);
     json_schema::result(&ends(folder, &all, 0).0)
 }
 
 #[test]
 fn the_screen_says_what_to_use_and_its_command_works() {
-    let folder = scratch("spawn-screen");
-    let (screen, error) = ends(&folder, &["spawn", "--scene", "room", "-n", "4000"], 0);
+    let folder = scratch("offset-screen");
+    let (screen, error) = ends(&folder, &["offset", "--scene", "room", "-n", "4000"], 0);
     assert_eq!(error, "");
     let lines: Vec<&str> = screen.lines().collect();
     assert!(lines.len() <= 60, "{} lines", lines.len());
@@ -39,7 +39,7 @@ fn the_screen_says_what_to_use_and_its_command_works() {
     }
     let whole = ends(
         &folder,
-        &["spawn", "--scene", "room", "-n", "2000", "--details"],
+        &["offset", "--scene", "room", "-n", "2000", "--details"],
         0,
     )
     .0;
@@ -66,18 +66,18 @@ fn the_screen_says_what_to_use_and_its_command_works() {
 /// A kernel that hits nothing shows nothing of the end of a segment, and no end is advised for it.
 #[test]
 fn no_end_of_a_segment_is_advised_where_the_kernel_hits_no_surface() {
-    let folder = scratch("spawn-no-end");
+    let folder = scratch("offset-no-end");
     let tiny = "extent=1e-4,edge=1e-5,distance=0..1e-4";
-    let (screen, _) = ends(&folder, &["spawn", "--scene", tiny, "-n", "2000", "-q"], 0);
+    let (screen, _) = ends(&folder, &["offset", "--scene", tiny, "-n", "2000", "-q"], 0);
     assert!(screen.contains("No end is advised: "), "{screen}");
     assert!(!screen.contains("use  t_max"), "{screen}");
 }
 
 #[test]
 fn an_offset_that_jumps_over_the_scene_is_not_recommended() {
-    let folder = scratch("spawn-high");
+    let folder = scratch("offset-high");
     let far = [
-        "spawn",
+        "offset",
         "--scene",
         "room",
         "--scheme",
@@ -96,7 +96,7 @@ fn an_offset_that_jumps_over_the_scene_is_not_recommended() {
     let (few, _) = ends(
         &folder,
         &[
-            "spawn", "--scene", "room", "-n", "20", "--point", "uv", "-q",
+            "offset", "--scene", "room", "-n", "20", "--point", "uv", "-q",
         ],
         0,
     );
@@ -105,7 +105,7 @@ fn an_offset_that_jumps_over_the_scene_is_not_recommended() {
 
 #[test]
 fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_threads() {
-    let folder = scratch("spawn-record");
+    let folder = scratch("offset-record");
     let far = [
         "--scene",
         "extent=10,center=1e5,edge=1",
@@ -191,7 +191,7 @@ fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_
 
 #[test]
 fn first_rays_at_a_mesh_leave_its_own_triangles() {
-    let folder = scratch("spawn-mesh");
+    let folder = scratch("offset-mesh");
     let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/meshes/icosphere.obj");
     let mine = folder.join("a.obj");
     fs::copy(mesh, &mine).unwrap();
@@ -247,27 +247,27 @@ fn first_rays_at_a_mesh_leave_its_own_triangles() {
             .collect();
         ends(&folder, &words, 0);
     }
-    let (screen, _) = ends(&folder, &[&["spawn"], &flags[..], &["-q"]].concat(), 0);
+    let (screen, _) = ends(&folder, &[&["offset"], &flags[..], &["-q"]].concat(), 0);
     assert!(
         screen.starts_with("Where new rays must start in a.obj\n(extent="),
         "{screen}"
     );
     let (_, error) = ends(
         &folder,
-        &["spawn", "--mesh", "a.obj", "--scene", "room", "-q"],
+        &["offset", "--mesh", "a.obj", "--scene", "room", "-q"],
         2,
     );
     assert!(
         error.contains("'room' is no word for the scene of a mesh"),
         "{error}"
     );
-    let (_, error) = ends(&folder, &["spawn", "--mesh", "b.obj", "-q"], 74);
+    let (_, error) = ends(&folder, &["offset", "--mesh", "b.obj", "-q"], 74);
     assert!(error.contains("b.obj"), "{error}");
 }
 
 #[test]
 fn the_recommended_offset_holds_on_every_kind_of_plane() {
-    let folder = scratch("spawn-planes");
+    let folder = scratch("offset-planes");
     let place = [
         "--scene",
         "extent=1000,edge=100..1000,distance=0..1000",
@@ -307,7 +307,7 @@ fn the_recommended_offset_holds_on_every_kind_of_plane() {
     }
     let (screen, _) = ends(
         &folder,
-        &[&["spawn", "-q", "--details"], &place[..]].concat(),
+        &[&["offset", "-q", "--details"], &place[..]].concat(),
         0,
     );
     assert!(screen.contains("\nmore wrong sides elsewhere "), "{screen}");
@@ -323,7 +323,7 @@ fn the_recommended_offset_holds_on_every_kind_of_plane() {
 
 #[test]
 fn schemes_points_and_walls_are_those_named() {
-    let folder = scratch("spawn-named");
+    let folder = scratch("offset-named");
     let flags = [
         "--scheme",
         "normal=1e-3,none,t-min=0.5",
@@ -392,7 +392,7 @@ fn schemes_points_and_walls_are_those_named() {
 
 #[test]
 fn bad_input_gets_one_clear_line() {
-    let folder = scratch("spawn-bad");
+    let folder = scratch("offset-bad");
     let flags: [(&[&str], i32, &str); 26] = [
         (
             &["--scene", "extent=1,edge=2"],
@@ -482,24 +482,24 @@ fn bad_input_gets_one_clear_line() {
         (&["--format", "svg"], 2, "there are text, json"),
     ];
     for (flags, code, part) in flags {
-        let (out, error) = ends(&folder, &[&["spawn", "-n", "10"], flags].concat(), code);
+        let (out, error) = ends(&folder, &[&["offset", "-n", "10"], flags].concat(), code);
         assert!(
             out.is_empty() && error.lines().count() == 1,
             "{flags:?}: {error}"
         );
         assert!(error.contains(part), "{flags:?}: {error}");
     }
-    ends(&folder, &["spawn", "-n", "0"], 2);
+    ends(&folder, &["offset", "-n", "0"], 2);
     ends(
         &folder,
-        &["spawn", "-n", "10", "-q", "-o", "/nowhere/at/all"],
+        &["offset", "-n", "10", "-q", "-o", "/nowhere/at/all"],
         74,
     );
 }
 
 #[test]
 fn neighbours_are_passed_where_they_are_folded_up_steeply_enough() {
-    let folder = scratch("spawn-fold");
+    let folder = scratch("offset-fold");
     let passed = |fold: &str| {
         let flags = [
             "--scheme",
@@ -535,7 +535,7 @@ fn neighbours_are_passed_where_they_are_folded_up_steeply_enough() {
 
 #[test]
 fn a_derived_bound_is_larger_than_any_that_was_needed() {
-    let folder = scratch("spawn-derived");
+    let folder = scratch("offset-derived");
     let scenes = [
         ("unit", "f32", "5000"),
         ("city", "f64", "1000"),
@@ -567,7 +567,7 @@ fn a_derived_bound_is_larger_than_any_that_was_needed() {
 
 #[test]
 fn no_bound_is_derived_where_the_squared_lengths_of_normals_leave_the_range() {
-    let folder = scratch("spawn-underived");
+    let folder = scratch("offset-underived");
     // In f32 they overflow, and `normal=` at the bound is wrong for half of the starts.
     let scene = "extent=1e11,edge=5e10,distance=0..1e11";
     for (scalar, is_derived) in [("f32", false), ("f64", true)] {
@@ -598,8 +598,8 @@ fn an_offset_in_c_over_a_pipe_does_as_the_same_in_rust() {
     if !has("cc") {
         return;
     }
-    let folder = scratch("spawn-pipe");
-    let source = "#include \"hairline_spawn.h\"
+    let folder = scratch("offset-pipe");
+    let source = "#include \"hairline_offset.h\"
 static hairline_start hairline_start_of(const hairline_hit *hit) {
     hairline_start start = {{0, 0, 0}, 0};
     for (int i = 0; i < 3; i++) {
@@ -647,7 +647,7 @@ static hairline_start hairline_start_of(const hairline_hit *hit) {
     }
     // The command on the screen runs it again, and it stands beside the published ones.
     let command = [
-        "spawn",
+        "offset",
         "--scheme-cmd",
         "mine=./mine",
         "-n",
@@ -682,7 +682,7 @@ static hairline_start hairline_start_of(const hairline_hit *hit) {
 #[cfg(unix)]
 #[test]
 fn an_offset_over_a_pipe_that_answers_wrongly_ends_the_run() {
-    let folder = scratch("spawn-broken");
+    let folder = scratch("offset-broken");
     for (command, part) in [
         (
             "x=sh -c 'while read x; do echo 1 2; done'",
@@ -700,7 +700,7 @@ fn an_offset_over_a_pipe_that_answers_wrongly_ends_the_run() {
         ("x=true", "scheme 'x': it"),
     ] {
         let flags = [
-            "spawn",
+            "offset",
             "--scheme",
             "x",
             "--scheme-cmd",

@@ -104,7 +104,7 @@ impl Scheme {
 /// The schemes that a program added.
 static ADDED: RwLock<Vec<Scheme>> = RwLock::new(Vec::new());
 
-/// Adds a scheme for the rest of the process; `hairline spawn` then knows its name. An error if the name
+/// Adds a scheme for the rest of the process; `hairline offset` then knows its name. An error if the name
 /// is taken or no word.
 pub fn register(scheme: Scheme) -> Result<(), String> {
     let name = scheme.name.clone();

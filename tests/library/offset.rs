@@ -7,9 +7,9 @@ use hairline::internals::case::{Case, Parameters, Scene};
 use hairline::internals::contract::Contract;
 use hairline::internals::family::Stratum;
 use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo, Scalar, find};
-use hairline::internals::spawn::{
-    HitPoint, Plane, PointKind, Scheme, SpawnPlan, SpawnSums, SpawnTrial, SpawnTrials, Start, all,
-    default_schemes, least, new_ray, parse, register, run,
+use hairline::internals::offset::{
+    HitPoint, OffsetPlan, OffsetSums, OffsetTrial, OffsetTrials, Plane, PointKind, Scheme, Start,
+    all, default_schemes, least, new_ray, parse, register, run,
 };
 use num_bigint::BigInt;
 use num_rational::BigRational as Rational;
@@ -43,7 +43,7 @@ fn float(x: &Rational) -> f64 {
 }
 
 /// The start's exact point o + t_min·d: above the plane if positive, times the normal's length.
-fn rise<F: Float>(trial: &SpawnTrial<F>, start: &Start<F>) -> Rational {
+fn rise<F: Float>(trial: &OffsetTrial<F>, start: &Start<F>) -> Rational {
     let [a, b, c] = trial.hit.vertices.map(exact3);
     let (o, d) = (exact3(start.origin), exact3(trial.hit.direction));
     let t = exact(start.t_min);
@@ -54,7 +54,7 @@ fn rise<F: Float>(trial: &SpawnTrial<F>, start: &Start<F>) -> Rational {
 }
 
 /// The same in longest edges.
-fn height<F: Float>(trial: &SpawnTrial<F>, start: &Start<F>) -> f64 {
+fn height<F: Float>(trial: &OffsetTrial<F>, start: &Start<F>) -> f64 {
     let [a, b, c] = trial.hit.vertices.map(exact3);
     let edges = [minus(&b, &a), minus(&c, &a), minus(&c, &b)];
     let longest = edges.iter().map(|e| dot(e, e)).max().unwrap();
@@ -83,9 +83,9 @@ fn first_rays(scene: &Scene, seed: u64) -> Source {
     Source::of_stratum(Stratum::Interior, None, parameters, seed, u64::MAX)
 }
 
-fn plan<'a>(row: &'a Row, scene: &'a Scene, schemes: &'a [Scheme], count: u64) -> SpawnPlan<'a> {
+fn plan<'a>(row: &'a Row, scene: &'a Scene, schemes: &'a [Scheme], count: u64) -> OffsetPlan<'a> {
     let kind = PointKind::Weights;
-    SpawnPlan {
+    OffsetPlan {
         row,
         scene,
         mesh: None,
@@ -248,13 +248,13 @@ fn sides_are_those_of_rationals<F: Scalar>(text: &str, kernel: &str, count: u64)
         .filter(|s| s.offset::<F>().is_some())
         .collect();
     for kind in PointKind::ALL {
-        let plan = SpawnPlan {
+        let plan = OffsetPlan {
             kind,
             ..plan(&row, &scene, &schemes, count)
         };
         let sums = run::<F>(&plan, &Unobserved);
         let epsilons = row.epsilons::<F>();
-        let trials = SpawnTrials::on(
+        let trials = OffsetTrials::on(
             row.entry,
             &epsilons,
             kind,
@@ -313,7 +313,7 @@ fn sides_and_heights_are_those_of_a_determinant_in_rationals() {
 fn new_rays_leave_to_the_side_that_the_first_ray_came_from() {
     let (row, scene) = (row("moller-trumbore"), scene("room"));
     let epsilons = row.epsilons::<f32>();
-    let of = SpawnTrials::on(
+    let of = OffsetTrials::on(
         row.entry,
         &epsilons,
         PointKind::Ray,
@@ -359,7 +359,7 @@ fn new_rays_leave_to_the_side_that_the_first_ray_came_from() {
 fn least_is_least<F: Scalar>(text: &str) {
     let (row, scene) = (row("moller-trumbore"), scene(text));
     let epsilons = row.epsilons::<F>();
-    let of = SpawnTrials::on(
+    let of = OffsetTrials::on(
         row.entry,
         &epsilons,
         PointKind::Weights,
@@ -469,7 +469,7 @@ fn triangles_of_any_size_and_none_do_no_harm() {
         [(0, Case::new([0.25, 0.25, 1.0], direction, vertices))]
     };
     let of = |vertices, direction| {
-        SpawnTrials::of(
+        OffsetTrials::of(
             (&entry, &[]),
             PointKind::Weights,
             1,
@@ -477,7 +477,7 @@ fn triangles_of_any_size_and_none_do_no_harm() {
             None,
         )
     };
-    let counts = |of: &SpawnTrials<f32>| [of.trials.len() as u64, of.without_side, of.not_finite];
+    let counts = |of: &OffsetTrials<f32>| [of.trials.len() as u64, of.without_side, of.not_finite];
     let down = [0.0, 0.0, -1.0];
     let right = |size: f32| [[0.0, 0.0, 0.0], [size, 0.0, 0.0], [0.0, size, 0.0]];
     // A point, a segment, a ray along the plane, and numbers that are none have no side.
@@ -511,7 +511,7 @@ fn triangles_of_any_size_and_none_do_no_harm() {
 fn sums_do_not_depend_on_the_number_of_threads() {
     let (row, scene, schemes) = (row("moller-trumbore"), scene("city"), default_schemes());
     let plan = plan(&row, &scene, &schemes, 5000);
-    let on = |threads| -> SpawnSums {
+    let on = |threads| -> OffsetSums {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
@@ -520,7 +520,7 @@ fn sums_do_not_depend_on_the_number_of_threads() {
     };
     let alone = on(1);
     assert_eq!(alone, on(4));
-    assert!(alone != run::<f32>(&SpawnPlan { seed: 2, ..plan }, &Unobserved));
+    assert!(alone != run::<f32>(&OffsetPlan { seed: 2, ..plan }, &Unobserved));
 }
 
 /// Share on the wrong side and median height of each scheme at points from u and v.
@@ -528,7 +528,7 @@ fn facts(kernel: &str, text: &str, schemes: &[&str]) -> Vec<(f64, f64)> {
     let (row, scene) = (row(kernel), scene(text));
     let schemes: Vec<Scheme> = schemes.iter().map(|name| parse(name).unwrap()).collect();
     let sums = run::<f32>(&plan(&row, &scene, &schemes, 20_000), &Unobserved);
-    let fact = |of: &hairline::internals::spawn::OfScheme| {
+    let fact = |of: &hairline::internals::offset::OfScheme| {
         let median = of.in_edges.quantile(0.5).unwrap_or(0.0);
         (of.wrong as f64 / of.rays as f64, median)
     };
@@ -580,14 +580,14 @@ fn published_facts_come_out() {
 
 #[test]
 fn waechter_binder_is_wrong_on_a_large_triangle_where_pbrt_is_not() {
-    // The only one of 10^7: hairline spawn --scene extent=1e3,edge=900 -n 10000000
+    // The only one of 10^7: hairline offset --scene extent=1e3,edge=900 -n 10000000
     let (row, scene, index) = (
         row("moller-trumbore"),
         scene("extent=1e3,edge=900"),
         4_467_797,
     );
     let (kind, epsilons) = (PointKind::Weights, row.epsilons::<f32>());
-    let of = SpawnTrials::on(
+    let of = OffsetTrials::on(
         row.entry,
         &epsilons,
         kind,

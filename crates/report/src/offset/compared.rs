@@ -1,14 +1,14 @@
-//! The part of what `spawn` found that is compared with another run: how often each offset went wrong, and which is to be used.
+//! The part of what `offset` found that is compared with another run: how often each offset went wrong, and which is to be used.
 
-use super::record::{PointsPart, SchemePart, SpawnResult, WrongPart};
-use crate::record::{Comparable, NamedRate, NamedValue, Rate, Study};
-use crate::report::SegmentsPart;
+use super::record::{OffsetResult, PointsPart, SchemePart, WrongPart};
+use crate::segments::SegmentsPart;
+use hairline_record::{Comparable, NamedRate, NamedValue, Rate, Study};
 
-impl Comparable for SpawnResult {
-    const STUDY: Study = Study::Spawn;
+impl Comparable for OffsetResult {
+    const STUDY: Study = Study::Offset;
 
     fn question(&self) -> String {
-        let SpawnResult {
+        let OffsetResult {
             scene,
             mesh,
             wall,
@@ -24,7 +24,7 @@ impl Comparable for SpawnResult {
     }
 
     fn cases(&self) -> String {
-        let SpawnResult {
+        let OffsetResult {
             seed,
             pilot_seed,
             count,

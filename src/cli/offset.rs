@@ -1,9 +1,4 @@
-//! `hairline spawn`: how new rays must start so that they do not hit the surface that they leave.
-
-mod choice;
-mod compared;
-mod page;
-mod record;
+//! `hairline offset`: how new rays must start so that they do not hit the surface that they leave.
 
 use super::before::{one_scalar, refuse_wrong_values, set_threads};
 use super::exit::{Failure, Status};
@@ -17,26 +12,27 @@ use crate::case::Scene;
 use crate::epsilon::fresh_seed;
 use crate::kernel::Scalar;
 use crate::mesh::SceneMesh;
+use crate::offset::{
+    OffsetPlan, OffsetSums, PointKind, Scheme, SegmentPlan, default_schemes, needs_t, parse,
+    register,
+};
 use crate::plugin::{KernelProgram, OffsetCommand};
 use crate::record::{Context, Record, provenance_of};
-use crate::report::{Format, SegmentsPart};
-use crate::spawn::{
-    PointKind, Scheme, SegmentPlan, SpawnPlan, SpawnSums, default_schemes, needs_t, parse, register,
+use crate::report::offset::{
+    DerivedPart, OffsetResult, PointsPart, least_without_failure, made_for,
 };
+use crate::report::{Format, SegmentsPart};
 use crate::studied::Studied;
-use choice::{least_without_failure, made_for};
 use clap::Args;
 use clap::builder::ArgPredicate;
-pub use record::SpawnResult;
-use record::{DerivedPart, PointsPart};
 use std::sync::Arc;
 
-/// The flags of `spawn`: the run, and how it is reported.
+/// The flags of `offset`: the run, and how it is reported.
 #[derive(Args)]
 #[command(mut_arg("kernel", |kernel| {
     kernel.help("A kernel, or several separated by commas [default: moller-trumbore, or only your own if there are some]")
 }))]
-pub struct SpawnArguments {
+pub struct OffsetArguments {
     #[command(flatten)]
     kernels: KernelArguments,
 
@@ -72,7 +68,7 @@ pub struct SpawnArguments {
     )]
     scheme: Vec<String>,
 
-    /// An offset of your own as a command that answers hit points over its pipes (docs/guide/spawn.md), with a
+    /// An offset of your own as a command that answers hit points over its pipes (docs/guide/offset.md), with a
     /// name: mine=./mine; may be repeated
     #[arg(long, value_name = "NAME=COMMAND")]
     scheme_cmd: Vec<String>,
@@ -139,7 +135,7 @@ const PASSES_OF_SEGMENTS: u64 = 2;
 const DEFAULT_KERNEL: &str = "moller-trumbore";
 
 /// Runs the command.
-pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
+pub fn run(arguments: &OffsetArguments) -> Result<Status, Failure> {
     let outputs = arguments.output.pairs(Format::OF_PAGE)?;
     let threads = set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
@@ -161,10 +157,10 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let schemes = arguments.schemes()?;
     // Schemes are chosen and made on other rays than those that are reported.
     let pilot_seed = fresh_seed(arguments.seed);
-    let mut studies: Vec<(SpawnPlan<'_>, &str)> = Vec::new();
+    let mut studies: Vec<(OffsetPlan<'_>, &str)> = Vec::new();
     for row in &rows {
         for &kind in kinds.iter().filter(|kind| kind.is_given_by(row.entry)) {
-            let plan = SpawnPlan {
+            let plan = OffsetPlan {
                 row,
                 scene: &scenes[0],
                 mesh: mesh.as_ref(),
@@ -197,7 +193,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let runs = studies.len() as u64 * passes + kernels as u64 * PASSES_OF_SEGMENTS;
     let total = runs * scenes.len() as u64 * arguments.count;
     let progress = Progress::new(total, "first rays", arguments.output.quiet);
-    let study = |(plan, name): &(SpawnPlan<'_>, &str)| in_named_scalar!(*name, F => arguments.study::<F>(plan, &scenes, &progress));
+    let study = |(plan, name): &(OffsetPlan<'_>, &str)| in_named_scalar!(*name, F => arguments.study::<F>(plan, &scenes, &progress));
     let points = studies.iter().map(study).collect();
     let segments = arguments.segments(&rows, scalars, &scenes, mesh.as_ref(), &progress);
     progress.finish();
@@ -206,7 +202,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
             return Err(Failure::bad_input(format!("scheme '{name}': {fault}")));
         }
     }
-    let result = SpawnResult {
+    let result = OffsetResult {
         scene: scene.to_string(),
         mesh: arguments.mesh.clone(),
         unit: unit.to_owned(),
@@ -254,31 +250,31 @@ fn number_below(flag: &str, text: &str, limit: f64, expected: &str) -> Result<f6
 }
 
 /// A plan in each of some scenes.
-fn on_each<'a>(scenes: &'a [Scene], plan: &SpawnPlan<'a>) -> Vec<SpawnPlan<'a>> {
+fn on_each<'a>(scenes: &'a [Scene], plan: &OffsetPlan<'a>) -> Vec<OffsetPlan<'a>> {
     scenes
         .iter()
-        .map(|scene| SpawnPlan { scene, ..*plan })
+        .map(|scene| OffsetPlan { scene, ..*plan })
         .collect()
 }
 
-impl SpawnArguments {
+impl OffsetArguments {
     /// Runs the schemes of a plan on its rays in each scene, the first of which the table is about, makes others for what is
     /// seen there, and runs all on the rays that are reported.
     fn study<F: Studied>(
         &self,
-        plan: &SpawnPlan<'_>,
+        plan: &OffsetPlan<'_>,
         scenes: &[Scene],
         progress: &Progress,
     ) -> PointsPart {
         let gives_t = plan.row.entry.info.gives.t;
         let is_for = |s: &&Scheme| s.offset::<F>().is_some() && (gives_t || !needs_t(&s.name));
         let mut schemes: Vec<Scheme> = plan.schemes.iter().filter(is_for).cloned().collect();
-        let run = |plans: &[SpawnPlan<'_>]| -> Vec<SpawnSums> {
-            plans.iter().map(|plan| F::spawn(plan, progress)).collect()
+        let run = |plans: &[OffsetPlan<'_>]| -> Vec<OffsetSums> {
+            plans.iter().map(|plan| F::offset(plan, progress)).collect()
         };
         let pilots = run(&on_each(
             scenes,
-            &SpawnPlan {
+            &OffsetPlan {
                 schemes: &schemes,
                 ..*plan
             },
@@ -287,7 +283,7 @@ impl SpawnArguments {
         if self.makes_schemes() {
             let made = made_for(&pilots, derived.as_ref().map(|derived| derived.normal));
             let all = made.concat();
-            let tried = SpawnPlan {
+            let tried = OffsetPlan {
                 schemes: &all,
                 with_least: false,
                 ..*plan
@@ -298,7 +294,7 @@ impl SpawnArguments {
         let made: Vec<usize> = (given..schemes.len()).collect();
         let mut plans = on_each(
             scenes,
-            &SpawnPlan {
+            &OffsetPlan {
                 schemes: &schemes,
                 seed: self.seed,
                 ..*plan

@@ -1,12 +1,12 @@
 //! The record of `hairline prove`: what `--format json` writes, and what the text is made from.
 
-use super::leaks::Leak;
 use super::verdicts::VerdictPart;
 use crate::prove::{Domain, Supposed};
-use crate::record::{Comparable, NamedRate, NamedValue, Record, Study};
+use hairline_record::{Comparable, NamedRate, NamedValue, Record, Study};
 
 /// The record of a run, with what a page says beside it.
 pub struct Report {
+    /// The record.
     pub record: Record<ProofResult>,
     /// The scene's words, if it has some.
     pub scene: Option<String>,
@@ -19,29 +19,45 @@ pub struct Report {
 /// The proofs of some kernels.
 #[apply(part!)]
 pub struct ProofResult {
+    /// The inputs of which it holds.
     pub domain: DomainPart,
+    /// Every gate of every kernel, in each scalar.
     pub gates: Vec<GatePart>,
+    /// Every kernel as a whole, in each scalar.
     pub kernels: Vec<KernelPart>,
 }
 
+/// The inputs of which proofs hold: the most that absolute values of coordinates may be, and limits of divisors.
 #[apply(part!)]
 pub struct DomainPart {
+    /// Of the edge vectors b-a, c-a and c-b.
     pub edge: f64,
+    /// Of the vectors from the origin of the ray to the vertices.
     pub reach: f64,
+    /// Of the origin and of the vertices themselves.
     pub world: f64,
+    /// Of the direction.
     pub direction: f64,
+    /// Of t_min and t_max.
     pub extent: f64,
+    /// The least that the largest coordinate of a direction may be, where a kernel divides by it.
     pub largest_of_direction_at_least: f64,
+    /// The least that every other divisor may be.
     pub divisor_at_least: f64,
+    /// The most that a quotient may be.
     pub quotient_at_most: f64,
 }
 
 /// One gate of one kernel in one scalar.
 #[apply(part!)]
 pub struct GatePart {
+    /// The kernel's name.
     pub kernel: String,
+    /// `f32` or `f64`.
     pub scalar: String,
+    /// The gate's name.
     pub gate: String,
+    /// The formula of what it compares.
     pub compares: String,
     /// No computed number is farther from the exact one.
     pub bound: Option<f64>,
@@ -49,6 +65,7 @@ pub struct GatePart {
     pub bound_units: Option<f64>,
     /// Why there is no bound.
     pub why: Option<String>,
+    /// The largest error that a search found.
     pub witness: Option<WitnessPart>,
     /// bound / witness
     pub factor: Option<f64>,
@@ -58,35 +75,48 @@ pub struct GatePart {
     pub limits: Vec<LimitPart>,
     /// The largest computed number of a ray that is exactly parallel, of those known.
     pub parallel_passes: Option<WitnessPart>,
+    /// What follows, in sentences.
     pub statements: Vec<String>,
 }
 
 /// At least or at most so large is a number that a kernel divides by, or gets by dividing.
 #[apply(part!)]
 pub struct LimitPart {
+    /// As the kernel's source calls it.
     pub number: String,
+    /// The least that it may be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_least: Option<f64>,
+    /// The most that it may be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_most: Option<f64>,
 }
 
+/// Inputs that a search found.
 #[apply(part!)]
 pub struct WitnessPart {
+    /// The error, or the number that is computed of them.
     pub value: f64,
+    /// The same in units of 2^-p.
     pub units: f64,
+    /// Their bits, in hexadecimal.
     pub inputs: Vec<String>,
 }
 
 /// The statements about a kernel as a whole.
 #[apply(part!)]
 pub struct KernelPart {
+    /// The kernel's name.
     pub kernel: String,
+    /// `f32` or `f64`.
     pub scalar: String,
+    /// How many ways there are through its branches.
     pub paths: usize,
     /// None of a kernel without epsilons.
     pub verdicts: Option<VerdictPart>,
+    /// If rays can slip through an edge that two triangles share, in a sentence.
     pub edges: String,
+    /// True if it is proved that none can.
     pub watertight: bool,
     /// A ray that both triangles of an edge refuse, if one was found; looked for where one kernel is chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -195,4 +225,13 @@ impl DomainPart {
             quotient_at_most: domain.quotient.to_f64(),
         }
     }
+}
+
+/// A ray that crosses a surface of two triangles and hits neither.
+#[apply(part!)]
+pub struct Leak {
+    /// The case's name.
+    pub case: String,
+    /// The command that shows it.
+    pub command: String,
 }

@@ -1,4 +1,4 @@
-//! The findings of `spawn`, as its record holds them.
+//! The findings of `offset`, as its record holds them.
 
 use super::choice::{best, derived_name, is_too_high};
 use crate::arith::three_digits;
@@ -6,16 +6,16 @@ use crate::audit::{Trials, quoted, words};
 use crate::case::Matrix;
 use crate::corpus::lines::{StoredCase, write_case};
 use crate::kernel::Scalar;
-use crate::record::{Rate, or_infinite};
-use crate::report::SegmentsPart;
-use crate::spawn::{
-    Heights, Lengths, OfScheme, PointKind, ROOM, Scheme, SpawnPlan, SpawnSums, derived_normal,
+use crate::segments::SegmentsPart;
+use hairline_record::{Rate, or_infinite};
+use hairline_study::offset::{
+    Heights, Lengths, OfScheme, OffsetPlan, OffsetSums, PointKind, ROOM, Scheme, derived_normal,
     least_weight, new_ray,
 };
 
 /// Everything that was found.
 #[apply(part!)]
-pub struct SpawnResult {
+pub struct OffsetResult {
     /// The scene's words.
     pub scene: String,
     /// The path of the mesh that it is, if it is one.
@@ -74,7 +74,7 @@ pub struct PointsPart {
     pub schemes: Vec<SchemePart>,
 }
 
-/// A distance along the normal from a derivation by hand (docs/guide/spawn.md), which no certificate stands for.
+/// A distance along the normal from a derivation by hand (docs/guide/offset.md), which no certificate stands for.
 #[apply(part!)]
 pub struct DerivedPart {
     /// This distance and every larger one have no wrong start, on any ray of the scene.
@@ -203,8 +203,8 @@ impl PointsPart {
     /// Plans and sums by kind of plane. `preferred` are places of schemes that come first where they are about as low
     /// as any; `place` are the flags that name the scene or the mesh.
     pub fn new<F: Scalar>(
-        plans: &[SpawnPlan<'_>],
-        [pilots, runs]: [&[SpawnSums]; 2],
+        plans: &[OffsetPlan<'_>],
+        [pilots, runs]: [&[OffsetSums]; 2],
         preferred: &[usize],
         derived: Option<DerivedPart>,
         place: &str,
@@ -246,7 +246,7 @@ impl PointsPart {
             best: best.map(|best| {
                 let scheme = plan.schemes[best].name.clone();
                 let command = format!(
-                    "hairline spawn {flags} {place} {} --point {} --scalar {}",
+                    "hairline offset {flags} {place} {} --point {} --scalar {}",
                     plan.schemes[best].flags,
                     plan.kind.name(),
                     F::NAME
@@ -272,7 +272,7 @@ impl DerivedPart {
     /// The derived bound of a plan, rounded up; none if what the row's gates let through may have any weights, or a
     /// pilot saw others than that. It assumes nothing of how a plane lies, so it holds on every kind of plane; but it
     /// assumes that triangles are not thin, and those of a mesh may be.
-    pub fn of<F: Scalar>(plan: &SpawnPlan<'_>, pilots: &[SpawnSums]) -> Option<DerivedPart> {
+    pub fn of<F: Scalar>(plan: &OffsetPlan<'_>, pilots: &[OffsetSums]) -> Option<DerivedPart> {
         let is_covered =
             plan.kind == PointKind::Weights && plan.mesh.is_none() && plan.instance.is_none();
         let of_weights = is_covered.then(|| least_weight(plan.row))?;
@@ -287,7 +287,7 @@ impl DerivedPart {
     }
 
     /// True if every hit point of these runs has such weights, but for rounding.
-    fn covers(&self, runs: &[SpawnSums]) -> bool {
+    fn covers(&self, runs: &[OffsetSums]) -> bool {
         runs.iter()
             .all(|sums| self.least_weight - ROOM <= sums.least_weight)
     }
@@ -328,11 +328,11 @@ impl HeightsPart {
 
 impl SchemePart {
     /// The results of the scheme at a place.
-    fn new<F: Scalar>(plans: &[SpawnPlan<'_>], runs: &[SpawnSums], place: usize) -> SchemePart {
+    fn new<F: Scalar>(plans: &[OffsetPlan<'_>], runs: &[OffsetSums], place: usize) -> SchemePart {
         let (scheme, sums) = (&plans[0].schemes[place], &runs[0].schemes[place]);
         let over_least = &sums.over_least;
         let rate = |count| Rate::new(sums.trials(count), true);
-        let on_plane = |(plan, sums): (&SpawnPlan<'_>, &SpawnSums)| {
+        let on_plane = |(plan, sums): (&OffsetPlan<'_>, &OffsetSums)| {
             SchemePlanePart::new::<F>(plan, &sums.schemes[place], place)
         };
         let mut of_planes = plans.iter().zip(runs).map(on_plane);
@@ -355,7 +355,7 @@ impl SchemePart {
 }
 
 impl SchemePlanePart {
-    fn new<F: Scalar>(plan: &SpawnPlan<'_>, sums: &OfScheme, place: usize) -> SchemePlanePart {
+    fn new<F: Scalar>(plan: &OffsetPlan<'_>, sums: &OfScheme, place: usize) -> SchemePlanePart {
         let rate = |count| Rate::new(sums.trials(count), true);
         let wrong_at = |index| WrongPart::new::<F>(plan, &plan.schemes[place], index);
         SchemePlanePart {
@@ -372,7 +372,7 @@ impl SchemePlanePart {
 }
 
 impl WrongPart {
-    fn new<F: Scalar>(plan: &SpawnPlan<'_>, scheme: &Scheme, index: u64) -> Option<WrongPart> {
+    fn new<F: Scalar>(plan: &OffsetPlan<'_>, scheme: &Scheme, index: u64) -> Option<WrongPart> {
         let case = new_ray::<F>(plan, scheme, index)?;
         let line = write_case(&StoredCase {
             is_secondary: true,

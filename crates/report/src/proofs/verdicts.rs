@@ -3,15 +3,17 @@
 use crate::arith::Float;
 use crate::audit::{self, shell_word};
 use crate::case::Case;
+use crate::page::Row;
 use crate::prove::{Depth, Judged, May, Scale, Searched, USELESS, Witness, above, below, case_of};
-use crate::report::page::Row;
 
 /// The verdicts at some epsilons.
 #[apply(part!)]
 pub struct VerdictPart {
     /// As `--epsilon` takes them; none if no gate takes one.
     pub epsilons: Option<String>,
+    /// Misses of triangles that the ray crosses.
     pub misses: DepthPart,
+    /// Hits of triangles that the ray passes by.
     pub hits: DepthPart,
     /// The numbers that edge gates multiply barycentric coordinates by.
     pub scales: Vec<ScalePart>,
@@ -41,22 +43,30 @@ pub struct DepthPart {
     pub useful: String,
 }
 
+/// The worst verdict that a search found.
 #[apply(part!)]
 pub struct KnownPart {
+    /// How far inside or outside, as a share of the longest edge.
     pub share: f64,
     /// The command that shows it.
     pub command: String,
 }
 
+/// A number that an edge gate multiplies a barycentric coordinate by.
 #[apply(part!)]
 pub struct ScalePart {
+    /// As the kernel's source calls it.
     pub number: String,
+    /// It is never smaller.
     pub at_least: f64,
 }
 
+/// A gate that is at no edge.
 #[apply(part!)]
 pub struct OtherPart {
+    /// Its name.
     pub gate: String,
+    /// The wrong decisions that it may make, in words.
     pub may: String,
     /// True if it never refuses a hit.
     #[serde(skip)]

@@ -1,8 +1,8 @@
 //! Proofs as a page: of one kernel the sentences that people ask for first, then its gates; of several a table.
 
 use super::record::{GatePart, KernelPart, ProofResult, Report};
+use crate::page::{Block, Command, Head, Item, Items, Page, Paged, Row, Table, Tone};
 use crate::prove::{USELESS, above, units};
-use crate::report::page::{Block, Command, Head, Item, Items, Page, Paged, Row, Table, Tone};
 
 impl Paged for Report {
     fn page(&self) -> Page {

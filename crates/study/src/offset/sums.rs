@@ -88,7 +88,7 @@ impl OfScheme {
 
 /// All that a run counts.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct SpawnSums {
+pub struct OffsetSums {
     /// Hit points.
     pub hits: u64,
     /// First rays on which the kernel reported no hit.
@@ -109,8 +109,8 @@ pub struct SpawnSums {
     pub schemes: Vec<OfScheme>,
 }
 
-impl Merge for SpawnSums {
-    fn merge(&mut self, other: SpawnSums) {
+impl Merge for OffsetSums {
+    fn merge(&mut self, other: OffsetSums) {
         self.hits += other.hits;
         self.missed += other.missed;
         self.without_side += other.without_side;

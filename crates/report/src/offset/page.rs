@@ -1,18 +1,18 @@
-//! The record of `spawn` as a page: for each kind of hit point what to use, three rows that argue for it, and
+//! The record of `offset` as a page: for each kind of hit point what to use, three rows that argue for it, and
 //! everything else folded.
 
 use super::choice::derived_name;
-use super::record::{BestPart, DerivedPart, PointsPart, SchemePart, SpawnResult};
+use super::record::{BestPart, DerivedPart, OffsetResult, PointsPart, SchemePart};
 use crate::arith::Float;
 use crate::case::{Scene, SceneKind, ShortNumber};
+use crate::elsewhere::{self, ComparedRates};
 use crate::kernel::{self, Role};
-use crate::record::{Rate, group_digits, interval_of, percent};
-use crate::report::elsewhere::{self, ComparedRates};
-use crate::report::page::{Block, Command, Head, Page, Paged, Row, Table, Use};
-use crate::report::short_length as size;
-use crate::spawn::describe;
+use crate::page::{Block, Command, Head, Page, Paged, Row, Table, Use};
+use crate::segments::short_length as size;
+use hairline_record::{Rate, group_digits, interval_of, percent};
+use hairline_study::offset::describe;
 
-impl Paged for SpawnResult {
+impl Paged for OffsetResult {
     fn page(&self) -> Page {
         let mut blocks = Vec::new();
         let mut points: Vec<&str> = self.points.iter().map(|part| part.point.as_str()).collect();
@@ -63,7 +63,7 @@ impl Paged for SpawnResult {
         };
         let title = format!("Where new rays must start in {scene}{unit}{placed}");
         Page {
-            command: "spawn",
+            command: "offset",
             title,
             blocks,
             ..Page::default()
@@ -80,7 +80,7 @@ fn expression(point: &str) -> &'static str {
 }
 
 /// One kind of hit point of one kernel in one scalar.
-fn of_points(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
+fn of_points(record: &OffsetResult, part: &PointsPart) -> Vec<Block> {
     let set = if part.set == "source" {
         String::new()
     } else {
@@ -110,7 +110,7 @@ fn of_points(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
 }
 
 /// The offset to use, or a sentence that nothing here is good.
-fn answer(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
+fn answer(record: &OffsetResult, part: &PointsPart) -> Vec<Block> {
     let hits = group_digits(part.hits);
     let Some(best) = &part.best else {
         return vec![Block::text(match part.hits {
@@ -171,7 +171,7 @@ fn answer(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
 
 /// True if the squared length of the normal of the scene's largest triangles, the fourth power of an edge, is beyond the
 /// range of the scalar.
-fn has_endless_normals(record: &SpawnResult, part: &PointsPart) -> bool {
+fn has_endless_normals(record: &OffsetResult, part: &PointsPart) -> bool {
     let largest = if part.scalar == f32::NAME {
         f64::from(f32::MAX)
     } else {
@@ -246,7 +246,7 @@ fn height(height: Option<f64>) -> String {
 }
 
 /// Some offsets; with everything that is counted, or in short.
-fn table(record: &SpawnResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Table {
+fn table(record: &OffsetResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Table {
     type Shown = Box<dyn Fn(&SchemePart) -> String>;
     let mut columns: Vec<(Head, Shown)> = vec![
         (
@@ -330,7 +330,7 @@ fn on_worst_kind(scheme: &SchemePart) -> String {
 }
 
 /// The shares of wrong sides on other kinds of planes, of the schemes that are worse there.
-fn of_elsewhere(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
+fn of_elsewhere(record: &OffsetResult, part: &PointsPart) -> Vec<Block> {
     let rows = part.schemes.iter().map(|scheme| ComparedRates {
         label: scheme.name.clone(),
         rates: [&scheme.wrong]
@@ -348,7 +348,7 @@ fn of_elsewhere(record: &SpawnResult, part: &PointsPart) -> Vec<Block> {
 }
 
 /// How far off the hit points themselves are, the derived bound, and what is left out.
-fn least(record: &SpawnResult, part: &PointsPart) -> Vec<String> {
+fn least(record: &OffsetResult, part: &PointsPart) -> Vec<String> {
     let least = &part.least;
     let unit = if record.unit.is_empty() {
         String::new()
@@ -379,7 +379,7 @@ fn least(record: &SpawnResult, part: &PointsPart) -> Vec<String> {
             false => String::new(),
         };
         notes.push(format!(
-            "derived bound: {}{unit} or more, for {} (by hand: docs/guide/spawn.md){range}",
+            "derived bound: {}{unit} or more, for {} (by hand: docs/guide/offset.md){range}",
             derived_name(derived.normal),
             weights(derived)
         ));
@@ -405,7 +405,7 @@ fn least(record: &SpawnResult, part: &PointsPart) -> Vec<String> {
 }
 
 /// The words of the first screen.
-fn words(record: &SpawnResult) -> [(&'static str, String); 4] {
+fn words(record: &OffsetResult) -> [(&'static str, String); 4] {
     [
         ("n", "the unit normal on the side that the first ray came from; u: half an ulp of 1".to_owned()),
         (
@@ -430,7 +430,7 @@ fn words(record: &SpawnResult) -> [(&'static str, String); 4] {
 }
 
 /// The rest.
-fn how_to_read(record: &SpawnResult) -> Vec<Block> {
+fn how_to_read(record: &OffsetResult) -> Vec<Block> {
     let fold = record.fold;
     let terms = [
         ("behind", "half of the starts (or 99 %) are not above the plane".to_owned()),
@@ -457,7 +457,7 @@ fn how_to_read(record: &SpawnResult) -> Vec<Block> {
 }
 
 /// The kinds of planes and rays in words, where there are several.
-fn kinds(record: &SpawnResult) -> Option<(&'static str, String)> {
+fn kinds(record: &OffsetResult) -> Option<(&'static str, String)> {
     let kinds = record
         .planes
         .iter()

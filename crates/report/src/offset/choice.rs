@@ -2,7 +2,7 @@
 
 use crate::arith::two_digits;
 use crate::case::ShortNumber;
-use crate::spawn::{Lengths, OfScheme, Scheme, SpawnSums, parse};
+use hairline_study::offset::{Lengths, OfScheme, OffsetSums, Scheme, parse};
 
 /// Offsets that are made for a scene are 2, 4, … times the largest that was needed in the pilot.
 const DOUBLINGS: u32 = 10;
@@ -10,8 +10,8 @@ const DOUBLINGS: u32 = 10;
 /// Distances along the normal, and others that follow the coordinates. Of the first the derived one, if there is one;
 /// of others each is the double of the one before, from twice the largest smallest safe offset that a pilot saw on any
 /// kind of plane.
-pub fn made_for(pilots: &[SpawnSums], derived: Option<f64>) -> [Vec<Scheme>; 2] {
-    let largest = |of: fn(&SpawnSums) -> &Lengths| {
+pub fn made_for(pilots: &[OffsetSums], derived: Option<f64>) -> [Vec<Scheme>; 2] {
+    let largest = |of: fn(&OffsetSums) -> &Lengths| {
         pilots
             .iter()
             .map(|pilot| of(pilot).largest())
@@ -40,7 +40,7 @@ pub fn derived_name(derived: f64) -> String {
 }
 
 /// The first scheme of each list that never fails, on any kind of plane; the last of the list if all fail.
-pub fn least_without_failure(made: [Vec<Scheme>; 2], tried: &[SpawnSums]) -> Vec<Scheme> {
+pub fn least_without_failure(made: [Vec<Scheme>; 2], tried: &[OffsetSums]) -> Vec<Scheme> {
     let mut places = 0..;
     let mut chosen = Vec::new();
     for schemes in made {
@@ -72,7 +72,7 @@ const AS_LOW: f64 = 4.0;
 /// scene were made on, and in the runs: one that is `derived`; else the first of some preferred ones that is about as low
 /// as any; else the lowest. Heights are those on the first kind of plane.
 pub fn best(
-    [pilots, runs]: [&[SpawnSums]; 2],
+    [pilots, runs]: [&[OffsetSums]; 2],
     preferred: &[usize],
     derived: Option<usize>,
 ) -> Option<usize> {

@@ -5,8 +5,8 @@ use super::neighbour::Neighbour;
 use super::plane::Plane;
 use super::published::{along, largest};
 use super::scheme::Scheme;
-use super::sums::{OfScheme, SpawnSums};
-use super::trial::{PointKind, SpawnTrial, SpawnTrials};
+use super::sums::{OfScheme, OffsetSums};
+use super::trial::{OffsetTrial, OffsetTrials, PointKind};
 use crate::arith::{Float, ordered_midpoint};
 use crate::audit::{Row, Source};
 use crate::case::{Case, Matrix, Parameters, Scene};
@@ -22,7 +22,7 @@ use std::sync::Arc;
 
 /// The plan of a run.
 #[derive(Clone, Copy)]
-pub struct SpawnPlan<'a> {
+pub struct OffsetPlan<'a> {
     /// The kernel and its epsilons.
     pub row: &'a Row,
     /// Where triangles and first rays come from.
@@ -51,30 +51,30 @@ pub struct SpawnPlan<'a> {
 const CHUNK: u64 = 1024;
 
 /// Runs a plan; the sums are the same whatever the number of threads.
-pub fn run<F: Scalar>(plan: &SpawnPlan<'_>, observer: &dyn Observer) -> SpawnSums {
+pub fn run<F: Scalar>(plan: &OffsetPlan<'_>, observer: &dyn Observer) -> OffsetSums {
     let empty = || {
         let schemes = vec![OfScheme::default(); plan.schemes.len()];
-        SpawnSums {
+        OffsetSums {
             schemes,
-            ..SpawnSums::default()
+            ..OffsetSums::default()
         }
     };
     let source = plan.source();
-    let add = |sums: &mut SpawnSums, indices| {
+    let add = |sums: &mut OffsetSums, indices| {
         add_chunk::<F>((plan, &source), plan.trials(&source, indices), sums)
     };
     engine::sum(0..plan.count, CHUNK, observer, empty, add)
 }
 
 /// The new ray of a scheme that leaves the first ray of an index, with its triangle.
-pub fn new_ray<F: Scalar>(plan: &SpawnPlan<'_>, scheme: &Scheme, index: u64) -> Option<Case<F>> {
+pub fn new_ray<F: Scalar>(plan: &OffsetPlan<'_>, scheme: &Scheme, index: u64) -> Option<Case<F>> {
     let trials = plan.trials::<F>(&plan.source(), index..index + 1).trials;
     let (trial, offset) = (trials.first()?, scheme.offset::<F>()?);
     let Start { origin, t_min } = offset.start(&trial.hit);
     Some(trial.case(origin, t_min))
 }
 
-impl SpawnPlan<'_> {
+impl OffsetPlan<'_> {
     /// True if the kernel can tell a self-hit: one that takes whole lines and reports no t cannot.
     pub fn tells_self_hits(&self) -> bool {
         self.row.entry.info.gives.t || self.row.contract.extent != Extent::Line
@@ -82,7 +82,7 @@ impl SpawnPlan<'_> {
 
     /// The first rays: towards the insides of triangles.
     pub fn source(&self) -> Source {
-        let SpawnPlan {
+        let OffsetPlan {
             scene,
             mesh,
             seed,
@@ -100,11 +100,11 @@ impl SpawnPlan<'_> {
         }
     }
 
-    fn trials<F: Scalar>(&self, source: &Source, indices: Range<u64>) -> SpawnTrials<F> {
-        let SpawnPlan {
+    fn trials<F: Scalar>(&self, source: &Source, indices: Range<u64>) -> OffsetTrials<F> {
+        let OffsetPlan {
             row, kind, seed, ..
         } = *self;
-        SpawnTrials::on(row.entry, &row.epsilons::<F>(), kind, source, seed, indices)
+        OffsetTrials::on(row.entry, &row.epsilons::<F>(), kind, source, seed, indices)
     }
 }
 
@@ -133,7 +133,7 @@ struct MeasuredTrial<F: Float> {
 }
 
 impl<F: Float> MeasuredTrial<F> {
-    fn of(trial: &SpawnTrial<F>, fold: f64, with_least: bool) -> MeasuredTrial<F> {
+    fn of(trial: &OffsetTrial<F>, fold: f64, with_least: bool) -> MeasuredTrial<F> {
         let hit = &trial.hit;
         let (plane, side) = (
             Plane::new(trial.object, trial.instance),
@@ -172,7 +172,7 @@ impl<F: Float> MeasuredTrial<F> {
     }
 
     /// How high a start lies, on the side to which the ray leaves.
-    fn height(&self, trial: &SpawnTrial<F>, start: &Start<F>) -> f64 {
+    fn height(&self, trial: &OffsetTrial<F>, start: &Start<F>) -> f64 {
         let origin = self.side * self.plane.height(start.origin);
         if start.t_min.is_zero() {
             return origin;
@@ -182,11 +182,11 @@ impl<F: Float> MeasuredTrial<F> {
 }
 
 fn add_chunk<F: Scalar>(
-    (plan, source): (&SpawnPlan<'_>, &Source),
-    trials: SpawnTrials<F>,
-    sums: &mut SpawnSums,
+    (plan, source): (&OffsetPlan<'_>, &Source),
+    trials: OffsetTrials<F>,
+    sums: &mut OffsetSums,
 ) {
-    let SpawnTrials {
+    let OffsetTrials {
         trials,
         missed,
         without_side,

@@ -35,7 +35,7 @@ impl PointKind {
 
 /// A hit point that a new ray leaves.
 #[derive(Clone, Debug)]
-pub struct SpawnTrial<F: Float> {
+pub struct OffsetTrial<F: Float> {
     /// The index of the first ray in its family.
     pub index: u64,
     /// The data of the hit that a scheme may know.
@@ -48,7 +48,7 @@ pub struct SpawnTrial<F: Float> {
     pub instance: Option<Instance<F>>,
 }
 
-impl<F: Float> SpawnTrial<F> {
+impl<F: Float> OffsetTrial<F> {
     /// The new ray from an origin, with the triangle as the object has it.
     pub fn case(&self, origin: [F; 3], t_min: F) -> Case<F> {
         Case::new(origin, self.hit.direction, self.object).on(t_min, F::infinity())
@@ -62,9 +62,9 @@ impl<F: Float> SpawnTrial<F> {
 
 /// The hit points of one kind on some first rays, and the first rays without one.
 #[derive(Clone, Debug)]
-pub struct SpawnTrials<F: Float> {
+pub struct OffsetTrials<F: Float> {
     /// The hit points.
-    pub trials: Vec<SpawnTrial<F>>,
+    pub trials: Vec<OffsetTrial<F>>,
     /// First rays on which the kernel reported no hit.
     pub missed: u64,
     /// Hits whose triangle has no area, or whose plane the first ray does not cross: no side is right.
@@ -73,7 +73,7 @@ pub struct SpawnTrials<F: Float> {
     pub not_finite: u64,
 }
 
-impl<F: Scalar> SpawnTrials<F> {
+impl<F: Scalar> OffsetTrials<F> {
     /// The trials of a kernel at some epsilons on the first rays of a source.
     pub fn on(
         entry: &Entry,
@@ -82,10 +82,10 @@ impl<F: Scalar> SpawnTrials<F> {
         source: &Source,
         seed: u64,
         indices: Range<u64>,
-    ) -> SpawnTrials<F> {
+    ) -> OffsetTrials<F> {
         let made = indices.map(|index| (index, source.make::<F>(index).cases()[0]));
         let made: Vec<_> = made.collect();
-        SpawnTrials::of((entry, epsilons), kind, seed, &made, source.instance())
+        OffsetTrials::of((entry, epsilons), kind, seed, &made, source.instance())
     }
 
     /// The trials of a kernel at some epsilons on given first rays, which are of the world if there is an instance.
@@ -95,8 +95,8 @@ impl<F: Scalar> SpawnTrials<F> {
         seed: u64,
         first_rays: &[(u64, Case<F>)],
         instance: Option<Instance<F>>,
-    ) -> SpawnTrials<F> {
-        let mut all = SpawnTrials {
+    ) -> OffsetTrials<F> {
+        let mut all = OffsetTrials {
             trials: Vec::new(),
             missed: 0,
             without_side: 0,
@@ -124,7 +124,7 @@ impl<F: Scalar> SpawnTrials<F> {
             let object = [case.triangle.a, case.triangle.b, case.triangle.c].map(Into::into);
             let hit = hit_point((entry, kind), case, instance, &verdict, direction, is_front);
             if hit.point.iter().all(|x| x.is_finite()) {
-                all.trials.push(SpawnTrial {
+                all.trials.push(OffsetTrial {
                     index: *index,
                     hit,
                     is_front,
