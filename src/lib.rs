@@ -79,7 +79,7 @@ pub use contract::{
     Sides,
 };
 
-pub use arith::{Float, Real, Vector};
+pub use arith::{Float, Real, ScalarName, Vector};
 pub use kernel::{
     Dimension, Entry, EpsilonSet, Failure, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role,
     Scalar, Sink, Subject, Test, Tunable, Verdict, find,

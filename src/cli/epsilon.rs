@@ -4,13 +4,13 @@ use super::before::{
     note_secondary_rays, refuse_wrong_values, scalars_in_use, scalars_with_cases, set_threads,
 };
 use super::exit::{Failure, Status};
-use super::flags::{refuse_twice, scalar_names, scalars_of};
+use super::flags::{refuse_twice, scalars_of};
 use super::output::{OutputArguments, paired_outputs};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::SourceArguments;
-use crate::arith::smallest_normal;
+use crate::arith::{ScalarName, smallest_normal};
 use crate::audit::Row;
 use crate::case::Scene;
 use crate::engine::Unobserved;
@@ -424,7 +424,7 @@ impl EpsilonArguments {
             found.dedup();
             found
         }
-        for name in scalar_names(scalars) {
+        for name in ScalarName::among(scalars) {
             let found = in_named_scalar!(name, F => subnormal::<F>(rows, &self.at));
             if !found.is_empty() && !self.output.quiet {
                 eprintln!(

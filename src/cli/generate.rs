@@ -2,9 +2,9 @@
 
 use super::before::total_indices;
 use super::exit::{Failure, Status};
-use super::flags::scalar_names;
 use super::output::write_result;
 use super::sources::SourceArguments;
+use crate::arith::ScalarName;
 use crate::audit::Source;
 use crate::kernel::Scalar;
 use crate::plugin::text;
@@ -30,7 +30,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<Status, Failure> {
     write_result(&arguments.output, |out| {
         let mut cases = 0;
         for source in &sources {
-            for name in scalar_names(scalars) {
+            for name in ScalarName::among(scalars) {
                 cases += in_named_scalar!(name, F => write_cases::<F>(out, source))?;
             }
         }

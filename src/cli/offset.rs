@@ -7,6 +7,7 @@ use super::output::OutputArguments;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{about_scene, mesh_scene, note_left_out};
+use crate::arith::ScalarName;
 use crate::audit::{Row, shell_word};
 use crate::case::Scene;
 use crate::epsilon::fresh_seed;
@@ -157,7 +158,7 @@ pub fn run(arguments: &OffsetArguments) -> Result<Status, Failure> {
     let schemes = arguments.schemes()?;
     // Schemes are chosen and made on other rays than those that are reported.
     let pilot_seed = fresh_seed(arguments.seed);
-    let mut studies: Vec<(OffsetPlan<'_>, &str)> = Vec::new();
+    let mut studies: Vec<(OffsetPlan<'_>, ScalarName)> = Vec::new();
     for row in &rows {
         for &kind in kinds.iter().filter(|kind| kind.is_given_by(row.entry)) {
             let plan = OffsetPlan {
@@ -173,7 +174,7 @@ pub fn run(arguments: &OffsetArguments) -> Result<Status, Failure> {
                 seed: pilot_seed,
                 count: arguments.count,
             };
-            let runs = |name: &&str| in_named_scalar!(*name, F => has::<F>(&schemes));
+            let runs = |name: &ScalarName| in_named_scalar!(*name, F => has::<F>(&schemes));
             studies.extend(
                 scalars_of(row.entry, scalars)
                     .filter(runs)
@@ -193,7 +194,7 @@ pub fn run(arguments: &OffsetArguments) -> Result<Status, Failure> {
     let runs = studies.len() as u64 * passes + kernels as u64 * PASSES_OF_SEGMENTS;
     let total = runs * scenes.len() as u64 * arguments.count;
     let progress = Progress::new(total, "first rays", arguments.output.quiet);
-    let study = |(plan, name): &(OffsetPlan<'_>, &str)| in_named_scalar!(*name, F => arguments.study::<F>(plan, &scenes, &progress));
+    let study = |(plan, name): &(OffsetPlan<'_>, ScalarName)| in_named_scalar!(*name, F => arguments.study::<F>(plan, &scenes, &progress));
     let points = studies.iter().map(study).collect();
     let segments = arguments.segments(&rows, scalars, &scenes, mesh.as_ref(), &progress);
     progress.finish();

@@ -260,7 +260,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     }
     if let [entry] = entries[..] {
         for kernel in result.kernels.iter_mut().filter(|kernel| kernel.may_leak) {
-            kernel.leak = in_named_scalar!(&kernel.scalar[..], F => leak::<F>(entry));
+            kernel.leak = in_named_scalar!(kernel.scalar, F => leak::<F>(entry));
         }
     }
     let seconds = started.elapsed().as_secs_f64();

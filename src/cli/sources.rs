@@ -2,10 +2,9 @@
 
 use super::before::note_missed_angles;
 use super::exit::Failure;
-use super::flags::{
-    RUNNING, again, case_count, chosen_scalars, find_family, refuse_twice, scalar_names,
-};
+use super::flags::{RUNNING, again, case_count, chosen_scalars, find_family, refuse_twice};
 use super::input::{corpus_files, corpus_sets, read_mesh};
+use crate::arith::ScalarName;
 use crate::audit::{CorpusSet, Source, Stock};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
 use crate::epsilon::StudiedRays;
@@ -466,14 +465,14 @@ pub fn mesh_scene(
     Scene::default().of_mesh(words).map_err(about_scene)?;
     let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
     let mesh = SceneMesh::new(Surface::new(family, scalars));
-    for name in scalar_names(scalars) {
+    for name in ScalarName::among(scalars) {
         if in_named_scalar!(name, F => mesh.face_count::<F>()) == 0 {
             let message = format!("no triangle has an area in {name}");
             return Err(InputError::of(path, message).into());
         }
     }
     let scene = mesh.scene().of_mesh(words).map_err(about_scene)?;
-    for name in scalar_names(scalars) {
+    for name in ScalarName::among(scalars) {
         let held = in_named_scalar!(name, F => scene.check_range_in::<F>());
         held.map_err(|error| InputError::of(path, error))?;
     }

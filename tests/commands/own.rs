@@ -1,7 +1,6 @@
 //! Kernels of one's own: in the registry, in every command's tables, and from a test.
 
 use crate::tools::not_tested;
-use hairline::Error;
 use hairline::internals::arith::{Real, Vector};
 use hairline::internals::audit::{self, EpsilonChoice};
 use hairline::internals::case::{Case, Parameters, Ray, Triangle};
@@ -10,6 +9,7 @@ use hairline::internals::kernel::{
     Entry, EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Scalar, Sink, all, find,
     register,
 };
+use hairline::{Error, ScalarName};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Signed volumes, in every arithmetic, with an epsilon on the determinant.
@@ -115,7 +115,11 @@ fn a_kernel_in_one_scalar_runs_in_that_one_alone() {
         .run()
         .unwrap();
     let results = &outcome.record.result.results;
-    assert!(results.iter().all(|result| result.scalar == "f64"));
+    assert!(
+        results
+            .iter()
+            .all(|result| result.scalar == ScalarName::F64)
+    );
     let count = |family: &str| {
         let result = results
             .iter()
@@ -166,7 +170,14 @@ fn rows_of_different_scalars_keep_their_places() {
         .iter()
         .map(|cell| (cell.row, cell.scalar, cell.tally.total().hits))
         .collect();
-    assert_eq!(hits, [(1, "f32", 0), (2, "f32", 10), (0, "f64", 10)]);
+    assert_eq!(
+        hits,
+        [
+            (1, ScalarName::F32, 0),
+            (2, ScalarName::F32, 10),
+            (0, ScalarName::F64, 10)
+        ]
+    );
 }
 
 #[test]
@@ -369,7 +380,7 @@ fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
     let found = hairline::internals::record::disagreements(&outcome.record.result);
     let panics = found.iter().find(|found| {
         let key = &found.key;
-        (key.scalar.as_str(), key.class.as_str(), key.finding.name()) == ("f32", "polygon", "panic")
+        (key.scalar.name(), key.class.as_str(), key.finding.name()) == ("f32", "polygon", "panic")
     });
     let panics = panics.expect("panics on polygons");
     assert_eq!(

@@ -8,7 +8,7 @@ use crate::setup::Setup;
 use crate::source::Source;
 use hairline_core::engine::{Merge, Observer, sum};
 use hairline_core::kernel::{Scalar, Subject, verdicts_of};
-use hairline_core::{Extent, Verdict};
+use hairline_core::{Extent, ScalarName, Verdict};
 use std::cell::OnceCell;
 use std::ops::Range;
 
@@ -152,7 +152,7 @@ pub struct Row {
     /// The source of its cases, as it prints itself.
     pub source: String,
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    pub scalar: ScalarName,
     /// The counts.
     pub tally: Tally,
 }

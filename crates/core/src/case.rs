@@ -20,7 +20,9 @@ pub use scene::{
 };
 pub use target::{Target, Triangles};
 
-use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};
+use crate::arith::{
+    Exact, ExactVector, Float, Real, ScalarName, Triple, Vector, scale_by_power_of_two,
+};
 use crate::error::Error;
 use std::fmt;
 use std::str::FromStr;
@@ -305,8 +307,8 @@ pub struct CaseId {
     pub family: String,
     /// The family's version: it changes whenever its cases do.
     pub version: u32,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar of its numbers.
+    pub scalar: ScalarName,
     /// How the case was transformed.
     pub parameters: Parameters,
     /// The seed of the set.
@@ -348,6 +350,11 @@ impl FromStr for CaseId {
             .try_into()
             .map_err(|_| shape())?;
         let (family, version) = family.split_once('@').ok_or_else(shape)?;
+        let other_scalar = || {
+            Error(format!(
+                "'{text}': its scalar is '{scalar}', expected f32 or f64"
+            ))
+        };
         let (index, triangle) = match index.split_once('.') {
             Some((index, k)) => (index, Some(k.parse().map_err(|_| shape())?)),
             None => (index, None),
@@ -355,7 +362,7 @@ impl FromStr for CaseId {
         Ok(CaseId {
             family: family.to_owned(),
             version: version.parse().map_err(|_| shape())?,
-            scalar: scalar.to_owned(),
+            scalar: ScalarName::named(scalar).ok_or_else(other_scalar)?,
             parameters: parameters.parse()?,
             seed: seed.parse().map_err(|_| shape())?,
             index: index.parse().map_err(|_| shape())?,

@@ -104,17 +104,20 @@ macro_rules! either_scalar {
     };
 }
 
-/// Does something in the scalar of a name, which is one of the two.
+/// Does something in the scalar of a [`ScalarName`](crate::arith::ScalarName).
 #[macro_export]
 #[doc(hidden)]
 macro_rules! in_named_scalar {
     ($name:expr, $scalar:ident => $do:expr) => {
-        if $name == <f32 as $crate::arith::Float>::NAME {
-            type $scalar = f32;
-            $do
-        } else {
-            type $scalar = f64;
-            $do
+        match $name {
+            $crate::arith::ScalarName::F32 => {
+                type $scalar = f32;
+                $do
+            }
+            $crate::arith::ScalarName::F64 => {
+                type $scalar = f64;
+                $do
+            }
         }
     };
 }
@@ -152,7 +155,7 @@ pub use contract::{
     Sides,
 };
 
-pub use arith::{Float, Real, Vector};
+pub use arith::{Float, Real, ScalarName, Vector};
 pub use kernel::{
     Dimension, Entry, EpsilonSet, Failure, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role,
     Scalar, Sink, Subject, Test, Tunable, Verdict, find,

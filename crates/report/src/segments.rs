@@ -2,7 +2,7 @@
 
 use super::elsewhere::{self, ComparedRates};
 use super::page::{Block, Head, Row, Table, Use};
-use crate::arith::two_digits;
+use crate::arith::{ScalarName, two_digits};
 use crate::case::{Scene, ShortNumber};
 use crate::engine::Observer;
 use crate::studied::Studied;
@@ -24,8 +24,8 @@ pub struct SegmentsPart {
     pub kernel: String,
     /// The name of its epsilons.
     pub set: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// How many segments, on planes of the first kind.
     pub segments: u64,
     /// The results of each end.
@@ -103,7 +103,7 @@ impl SegmentsPart {
         SegmentsPart {
             kernel: plan.row.entry.info.name.to_owned(),
             set: plan.row.set.clone(),
-            scalar: F::NAME.to_owned(),
+            scalar: F::NAME,
             segments: runs[0].segments,
             ends: ends.iter().enumerate().map(of_end).collect(),
         }

@@ -6,7 +6,7 @@
 
 #![cfg_attr(not(feature = "pictures"), allow(dead_code, unused_imports))]
 
-#[macro_use(either_scalar, named)]
+#[macro_use(either_scalar, in_named_scalar, named)]
 extern crate hairline_core;
 use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, suggest, truth};
 use hairline_files as files;

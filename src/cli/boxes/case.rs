@@ -1,5 +1,6 @@
 //! A box and a ray by name: the id of a family's case, or JSON.
 
+use crate::arith::ScalarName;
 use crate::cli::exit::Failure;
 use hairline_boxes::{BoxCase, Made, Source, case_of};
 use hairline_core::Float;
@@ -16,7 +17,7 @@ pub enum AnyBoxCase {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WrittenCase {
-    scalar: String,
+    scalar: ScalarName,
     origin: [f64; 3],
     direction: [f64; 3],
     min: [f64; 3],
@@ -42,7 +43,7 @@ fn written<F: Made>(case: &BoxCase<F>) -> String {
     let [origin, direction, min, max] = wide.vectors();
     let t_max = wide.ray.t_max;
     let written = WrittenCase {
-        scalar: F::NAME.to_owned(),
+        scalar: F::NAME,
         origin,
         direction,
         min,
@@ -61,28 +62,22 @@ pub fn case_named(name: &str) -> Result<AnyBoxCase, Failure> {
             let fields = "scalar, origin, direction, min, max, and t_min and t_max if it has them";
             Failure::usage(format!("the case in JSON: {error}; expected {fields}"))
         })?;
-        return match case.scalar.as_str() {
-            "f32" => Ok(AnyBoxCase::F32(read(&case))),
-            "f64" => Ok(AnyBoxCase::F64(read(&case))),
-            _ => Err(Failure::usage(
-                "the case in JSON: scalar is \"f32\" or \"f64\"",
-            )),
-        };
+        return Ok(match case.scalar {
+            ScalarName::F32 => AnyBoxCase::F32(read(&case)),
+            ScalarName::F64 => AnyBoxCase::F64(read(&case)),
+        });
     }
-    let id: CaseId = name.parse().map_err(|_| {
+    let id: CaseId = name.parse().map_err(|error| {
         let message = format!(
-            "'{name}' is no case: expected an id as corner@1/f32/-/1/17, or JSON as \
+            "{error}; expected an id as corner@1/f32/-/1/17, or JSON as \
              {{\"scalar\":\"f32\",\"origin\":[2,0,1],\"direction\":[-1,1,0],\"min\":[0,0,0],\"max\":[1,1,1]}}"
         );
         Failure::usage(message)
     })?;
     let wrong = |message: String| Failure::usage(format!("'{name}': {message}"));
-    match id.scalar.as_str() {
-        "f32" => case_of(&id).map(AnyBoxCase::F32).map_err(wrong),
-        "f64" => case_of(&id).map(AnyBoxCase::F64).map_err(wrong),
-        other => Err(wrong(format!(
-            "its scalar is '{other}', expected f32 or f64"
-        ))),
+    match id.scalar {
+        ScalarName::F32 => case_of(&id).map(AnyBoxCase::F32).map_err(wrong),
+        ScalarName::F64 => case_of(&id).map(AnyBoxCase::F64).map_err(wrong),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::case::name;
 use super::record::label;
 use super::select::{CaseArguments, TestArguments};
+use crate::arith::ScalarName;
 use crate::cli::before::set_threads;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::OutputArguments;
@@ -79,7 +80,7 @@ struct AdviceRow {
     #[serde(skip)]
     name: &'static str,
     gate: &'static str,
-    scalar: &'static str,
+    scalar: ScalarName,
     must_hit: u64,
     must_miss: u64,
     /// Lost at every epsilon of this gate.
@@ -251,7 +252,7 @@ fn row(row: &AdviceRow) -> Row {
     };
     let cells = [
         Cell::from(row.gate.to_owned()),
-        Cell::from(row.scalar.to_owned()),
+        Cell::from(row.scalar.to_string()),
         count(row.lost_at_zero + row.lost_anyway),
         count(row.lost_at_own + row.lost_anyway),
         Cell::from(row.needed()),

@@ -3,6 +3,7 @@
 use super::case::{AnyBoxCase, case_named};
 use super::record::label;
 use super::select::TestArguments;
+use crate::arith::ScalarName;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::OutputArguments;
 use crate::report::Format;
@@ -49,7 +50,7 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
 #[derive(Serialize)]
 struct Explained {
     case: String,
-    scalar: &'static str,
+    scalar: ScalarName,
     /// The numbers of the case, by name.
     numbers: Vec<(&'static str, String)>,
     truth: String,

@@ -1,5 +1,6 @@
 //! The findings of an audit of slab tests, and their page.
 
+use crate::arith::ScalarName;
 use crate::audit::Trials;
 use crate::record::{Comparable, NamedRate, Rate, Study, number_of, percent};
 use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row as TableRow, Table, Tone};
@@ -37,7 +38,7 @@ pub struct BoxesRow {
     /// Its epsilons, by gate.
     epsilons: Vec<(String, String)>,
     /// `f32` or `f64`.
-    scalar: String,
+    scalar: ScalarName,
     /// The family, or the scene.
     source: String,
     /// Misses of boxes that it must hit.
@@ -76,7 +77,7 @@ impl BoxesRow {
             test: setup.entry.info.name.to_owned(),
             label: label(setup),
             epsilons: gates.zip(values).collect(),
-            scalar: row.scalar.to_owned(),
+            scalar: row.scalar,
             source: row.source.clone(),
             lost: rate(&tally.false_misses, tally.must_hit),
             false_hits: rate(&tally.false_hits, tally.must_miss),
@@ -137,7 +138,7 @@ struct Sum<'a> {
 
 impl<'a> Sum<'a> {
     /// Its lost rays in a scalar, or in both.
-    fn lost(&self, scalar: Option<&str>) -> Rate {
+    fn lost(&self, scalar: Option<ScalarName>) -> Rate {
         let is_in = |row: &&&BoxesRow| scalar.is_none_or(|scalar| row.scalar == scalar);
         Rate::sum(self.rows.iter().filter(is_in).map(|row| &row.lost))
     }
@@ -176,10 +177,10 @@ impl<'a> Sum<'a> {
         listed(&named, NAMED)
     }
 
-    fn cells(&self, scalars: &[&str], tells_sources: bool) -> Vec<Cell> {
+    fn cells(&self, scalars: &[ScalarName], tells_sources: bool) -> Vec<Cell> {
         let mut cells = Vec::new();
         for scalar in scalars {
-            let lost = self.lost(Some(scalar));
+            let lost = self.lost(Some(*scalar));
             cells.push(Cell {
                 text: share(&lost),
                 is_broken: 0 < lost.count,
@@ -229,9 +230,9 @@ impl BoxesResult {
     }
 
     /// The scalars that were run.
-    fn scalars(&self) -> Vec<&'static str> {
-        let is_run = |scalar: &&str| self.rows.iter().any(|row| row.scalar == *scalar);
-        ["f32", "f64"].into_iter().filter(is_run).collect()
+    fn scalars(&self) -> Vec<ScalarName> {
+        let is_run = |scalar: &ScalarName| self.rows.iter().any(|row| row.scalar == *scalar);
+        ScalarName::ALL.into_iter().filter(is_run).collect()
     }
 
     /// The rows of each slab test, those that lose least first.
@@ -252,7 +253,7 @@ impl BoxesResult {
         let tells_sources = 1 < self.sources.len();
         let about = "the share of the rays that a test has to hit, by its own promise about the ends of a ray";
         let mut heads = vec![Head::of("lost in").about(about)];
-        heads.extend(scalars.iter().map(|scalar| Head::of(*scalar)));
+        heads.extend(scalars.iter().map(|scalar| Head::of(scalar.name())));
         if tells_sources {
             heads.push(Head::text("most of these families").optional());
         }
@@ -282,7 +283,8 @@ impl BoxesResult {
             [source] => source.clone(),
             many => format!("each of {} families", many.len()),
         };
-        let drawn = format!("{rays} of {sources} in {}", self.scalars().join(" and "));
+        let scalars: Vec<&str> = self.scalars().into_iter().map(ScalarName::name).collect();
+        let drawn = format!("{rays} of {sources} in {}", scalars.join(" and "));
         if self.asks_nothing() {
             return format!("No ray has to be hit, so nothing is said of {all}: {drawn}");
         }
@@ -372,7 +374,7 @@ fn detail(row: &BoxesRow) -> Block {
         0 => String::new(),
         count => format!("; {count} without a verdict"),
     };
-    let (label, scalar, source) = (&row.label, &row.scalar, &row.source);
+    let (label, scalar, source) = (&row.label, row.scalar, &row.source);
     let lost = row.lost.counts();
     Block::text(format!(
         "{label}, {scalar}, {source}: {lost} lost{false_hits}{failed}: {command}"
@@ -393,7 +395,7 @@ impl Comparable for BoxesResult {
     fn counted(&self) -> Vec<NamedRate> {
         let mut counted = Vec::new();
         for row in &self.rows {
-            let (label, scalar, source) = (&row.label, &row.scalar, &row.source);
+            let (label, scalar, source) = (&row.label, row.scalar, &row.source);
             let named = |what: &str, rate: &Rate| NamedRate {
                 what: format!("{label}, {scalar}, {source}: {what}"),
                 rate: rate.clone(),

@@ -3,6 +3,7 @@
 use super::code::Code;
 use super::language::{Dialect, Language};
 use super::nodes::names;
+use crate::arith::ScalarName;
 use crate::arith::recorded::{Operation, Place};
 use crate::contract::Extent;
 use crate::prove::repair::{Guarded, Margin, Scale};
@@ -11,7 +12,7 @@ use crate::prove::repair::{Guarded, Margin, Scale};
 pub fn source(guarded: &Guarded, language: Language, shares: Option<&str>) -> String {
     let dialect = Dialect {
         language,
-        is_f32: guarded.scalar == "f32",
+        is_f32: guarded.scalar == ScalarName::F32,
     };
     let Scale {
         slack, tiny, far, ..
@@ -222,7 +223,7 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
             ..
         } = self;
         let scalar = self.guarded.scalar;
-        let upper = scalar.to_uppercase();
+        let upper = scalar.name().to_uppercase();
         let guard = format!("HAIRLINE_{}_H", name.to_uppercase());
         let (most, infinity) = if self.dialect.is_f32 {
             ("FLT_MAX", "HUGE_VALF")

@@ -11,10 +11,11 @@ mod smaller;
 
 use super::before::{scalars_in_use, total_indices};
 use super::exit::{Failure, Status};
-use super::flags::{case_count, chosen_scalars, find_kernel, scalar_names};
+use super::flags::{case_count, chosen_scalars, find_kernel};
 use super::output::{write_page, write_result};
 use super::progress::Progress;
 use super::sources::{about_scene, mesh_scene};
+use crate::arith::ScalarName;
 use crate::audit::{EpsilonChoice, Source, shell_word};
 use crate::case::{Parameters, Scene};
 use crate::family::{FAMILIES, Family, Stratum};
@@ -126,7 +127,7 @@ pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
     }
     let mut written = 0;
     for entry in entries {
-        for name in scalar_names(scalars) {
+        for name in ScalarName::among(scalars) {
             match in_named_scalar!(name, F => Guarded::new::<F>(entry)) {
                 Ok(guarded) => {
                     arguments.write(&guarded, &sources)?;
@@ -234,7 +235,7 @@ impl RepairArguments {
             flags: self.flags_of_rays(),
         };
         let mut blocks = Vec::new();
-        for name in scalar_names(scalars) {
+        for name in ScalarName::among(scalars) {
             let (asks, guarded) = in_named_scalar!(name, F => match Guarded::new::<F>(entry) {
                 Ok(guarded) => {
                     let asks = Asks::count::<F>(&guarded, &sources);
@@ -246,7 +247,7 @@ impl RepairArguments {
                 Err(why) => (None, format!("It cannot be guarded: {why}.")),
             });
             blocks.push(Block::Heading(format!("{} in {name}", row.label())));
-            let total = total_indices(&rays.sources, [name == "f32", name == "f64"])?;
+            let total = total_indices(&rays.sources, name.alone())?;
             let progress = Progress::new(total, "rays", self.quiet);
             blocks.extend(
                 in_named_scalar!(name, F => smaller::blocks::<F>(&row, &rays, guarded, &progress)),
@@ -277,7 +278,8 @@ impl RepairArguments {
         let Some(language) = self.emit else {
             return Ok(());
         };
-        if guarded.scalar == "f64" && matches!(language, Language::Wgsl | Language::Hlsl) {
+        if guarded.scalar == ScalarName::F64 && matches!(language, Language::Wgsl | Language::Hlsl)
+        {
             return Err(Failure::usage(
                 "WGSL has no f64, and HLSL no functions of it: --scalar f32",
             ));

@@ -53,7 +53,7 @@ impl Family {
         CaseId {
             family: self.name.to_owned(),
             version: self.version,
-            scalar: F::NAME.to_owned(),
+            scalar: F::NAME,
             parameters: Parameters::default(),
             seed,
             index,

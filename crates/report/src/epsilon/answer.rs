@@ -6,7 +6,7 @@ use super::words::{
     bound, flag, human, interval, label, least_normal, least_t, of_unit, share, short_error,
     unit_of, unit_of_t, where_of,
 };
-use crate::arith::two_digits;
+use crate::arith::{ScalarName, two_digits};
 use crate::page::{Row, Use};
 use hairline_record::Rate;
 use hairline_record::{group_digits, number_of};
@@ -261,7 +261,7 @@ fn errors(error: &ErrorPart) -> String {
 }
 
 /// True if a value is the least that no machine flushes to zero: then every value above zero will do.
-fn is_least(value: &str, scalar: &str) -> bool {
+fn is_least(value: &str, scalar: ScalarName) -> bool {
     let least = least_normal(scalar);
     value
         .parse::<f64>()
@@ -308,7 +308,7 @@ pub(super) fn limit_rows<'a>(
             count: &part.counts[limit.count],
             is_proved: false,
             bound: match value {
-                Some(value) if limit.is_lower && is_least(value, &part.scalar) => "> 0".to_owned(),
+                Some(value) if limit.is_lower && is_least(value, part.scalar) => "> 0".to_owned(),
                 _ => interval(limit, &unit_of(record, knob)),
             },
             most: format!("1 in {}", group_digits(limit.one_in)),
@@ -364,7 +364,7 @@ pub(super) fn conflict(
         (_, _, "t") => {
             "start shadow rays off the surface, with no t_min for them (`hairline offset` finds how far)".to_owned()
         }
-        _ if part.scalar == "f64" => "these numbers cost least; no value meets both beside the others".to_owned(),
+        _ if part.scalar == ScalarName::F64 => "these numbers cost least; no value meets both beside the others".to_owned(),
         _ => "these numbers cost least; to meet both takes wider numbers (f64) or another kernel"
             .to_owned(),
     };

@@ -30,7 +30,7 @@ pub fn scene_record(
     for (part, nanoseconds) in &kernels {
         let times = provenance
             .kernel_nanoseconds
-            .entry(part.scalar.clone())
+            .entry(part.scalar)
             .or_default();
         times.insert(part.kernel.clone(), *nanoseconds);
     }
@@ -138,7 +138,7 @@ pub fn kernel_part<F: Scalar>(
     SceneKernelPart {
         kernel: info.name.to_owned(),
         selector: setting.row.entry.selector(),
-        scalar: F::NAME.to_owned(),
+        scalar: F::NAME,
         contract: setting.row.contract.describe(),
         contract_flag: (*contract != info.contract).then(|| contract.words(Some(&info.contract))),
         has_edge_epsilon: info

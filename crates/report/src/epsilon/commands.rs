@@ -24,7 +24,7 @@ pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<Stri
     };
     let seed = record.fresh_seed;
     let command = |name: &str, more: &str| {
-        let (kernel, scalar) = (&part.selector, &part.scalar);
+        let (kernel, scalar) = (&part.selector, part.scalar);
         format!("hairline {name} {kernel}{with} {of_audit} --scalar {scalar} --seed {seed}{more}")
     };
     // A t that keeps rays from their own surface is right where the exact answer for the rounded start is a hit.

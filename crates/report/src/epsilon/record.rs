@@ -1,5 +1,6 @@
 //! The findings of a study of epsilons, as its record holds them.
 
+use crate::arith::ScalarName;
 pub(super) use crate::family::Stratum;
 use crate::segments::SegmentsPart;
 use hairline_record::{Rate, Record};
@@ -94,8 +95,8 @@ pub struct SceneKernelPart {
     pub kernel: String,
     /// The flag that chooses it.
     pub selector: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The contract that the kernel is judged by.
     pub contract: String,
     /// The contract in the words of `--contract`; absent if it is the kernel's own.

@@ -1,7 +1,7 @@
 //! The names that people use for the strata and kinds of a scene, its numbers and its units; and what they mean.
 
 use super::record::*;
-use crate::arith::{Float, smallest_normal};
+use crate::arith::{Float, ScalarName, smallest_normal};
 use crate::case::ShortNumber;
 use crate::kernel::Role;
 use crate::page::Block;
@@ -369,15 +369,15 @@ pub fn shortest<F: Float>(epsilon: F) -> String {
 }
 
 /// True if an epsilon is below the normal numbers of its scalar.
-fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
+fn is_subnormal(scalar: ScalarName, epsilon: &str) -> bool {
     epsilon
         .parse()
         .is_ok_and(|e: f64| e != 0.0 && e.abs() < least_normal(scalar))
 }
 
 /// The smallest normal number of the scalar of a name.
-pub(super) fn least_normal(scalar: &str) -> f64 {
-    if scalar == f32::NAME {
+pub(super) fn least_normal(scalar: ScalarName) -> f64 {
+    if scalar == ScalarName::F32 {
         smallest_normal::<f32>()
     } else {
         smallest_normal::<f64>()
@@ -437,7 +437,7 @@ pub(super) fn how_to_read(record: &SceneResult) -> Vec<Block> {
         }
         let values = part.limits.iter().filter_map(|limit| limit.value.as_ref());
         let subnormal = values
-            .filter(|value| is_subnormal(&part.scalar, value))
+            .filter(|value| is_subnormal(part.scalar, value))
             .map(|value| {
                 format!(
                     "{value} is a subnormal number, which machines that flush to zero take for 0"

@@ -6,7 +6,7 @@ use super::near::{Nearby, add_relations};
 use super::nearest::nearest;
 use super::verdict::{Together, group_verdict, number, plain, short, verdict_of};
 use super::{ExplainedGate, ExplainedRow, Explanation, InstancePart, TogetherPart, TrianglePart};
-use crate::arith::{Exact, Float};
+use crate::arith::{Exact, Float, ScalarName};
 use crate::audit::{
     Attribution, Errors, Row, attribute, attribute_by_running, exact_severity, polygon_verdict,
 };
@@ -230,10 +230,14 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
     let (kernel, set) = (row.entry.info.name.to_owned(), row.set.clone());
     let contract = row.contract.describe();
     let Some(subject) = F::subject(row.entry) else {
-        let others = ["f32", "f64"].into_iter().zip(row.entry.scalars());
-        let others = others.filter(|(_, runs)| *runs).map(|(scalar, _)| scalar);
-        let others = others.collect::<Vec<_>>().join(", ");
-        let said = format!("does not run in {} (it does in {others})", F::NAME);
+        let others: Vec<&str> = ScalarName::among(row.entry.scalars())
+            .map(ScalarName::name)
+            .collect();
+        let said = format!(
+            "does not run in {} (it does in {})",
+            F::NAME,
+            others.join(", ")
+        );
         return ExplainedRow {
             kernel,
             set,

@@ -10,6 +10,7 @@ mod other_epsilon;
 mod page;
 mod verdict;
 
+use crate::arith::ScalarName;
 pub use build::explain;
 pub use nearest::misused_formula;
 pub use verdict::Together;
@@ -26,7 +27,7 @@ pub struct Explanation {
     /// Its id or name, or `this case`.
     pub case: String,
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    pub scalar: ScalarName,
     /// Each triangle with the ray.
     pub triangles: Vec<TrianglePart>,
     /// The rows on all triangles together; none of a single one.

@@ -7,6 +7,7 @@ use super::lines::{RowLine, notes};
 use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid, rays_in};
 use super::standing::{Standing, standings};
 use super::{close_up, extremes, ranking, relations};
+use crate::arith::ScalarName;
 use crate::case::SceneKind;
 use crate::elsewhere::{self, ComparedRates};
 use crate::kernel;
@@ -32,7 +33,7 @@ pub(super) fn blocks(
     let mut blocks = vec![Block::Text(rest), Block::Text(head(record))];
     blocks.extend(notes(record));
     blocks.extend(shared_in_scenes(record).map(Block::text));
-    for scalar in &record.result.plan.scalars {
+    for scalar in record.result.plan.scalars.iter().copied() {
         let cases = cases_in(record, scalar);
         if 0 < cases && is_all_invalid(&RowView::all(record, scalar), cases) {
             blocks.push(Block::Text(format!("{scalar}: {ALL_INVALID}")));
@@ -69,13 +70,13 @@ fn diagnosed(record: &Record, answer: (String, String)) -> (String, String) {
 /// Which kernels ran, and on how many cases.
 fn head(record: &Record) -> String {
     let (result, provenance) = (&record.result, &record.provenance);
-    let counted = |scalar: &String| [cases_in(record, scalar), rays_in(record, scalar)];
+    let counted = |scalar: ScalarName| [cases_in(record, scalar), rays_in(record, scalar)];
     // Usually as many in each scalar.
     let mut counts: Vec<([u64; 2], Vec<&str>)> = Vec::new();
-    for scalar in &result.plan.scalars {
+    for scalar in result.plan.scalars.iter().copied() {
         match counts.last_mut() {
-            Some((count, names)) if *count == counted(scalar) => names.push(scalar),
-            _ => counts.push((counted(scalar), vec![scalar])),
+            Some((count, names)) if *count == counted(scalar) => names.push(scalar.name()),
+            _ => counts.push((counted(scalar), vec![scalar.name()])),
         }
     }
     let counts = counts.iter().map(|([cases, rays], names)| {

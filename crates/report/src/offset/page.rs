@@ -3,7 +3,7 @@
 
 use super::choice::derived_name;
 use super::record::{BestPart, DerivedPart, OffsetResult, PointsPart, SchemePart};
-use crate::arith::Float;
+use crate::arith::ScalarName;
 use crate::case::{Scene, SceneKind, ShortNumber};
 use crate::elsewhere::{self, ComparedRates};
 use crate::kernel::{self, Role};
@@ -172,7 +172,7 @@ fn answer(record: &OffsetResult, part: &PointsPart) -> Vec<Block> {
 /// True if the squared length of the normal of the scene's largest triangles, the fourth power of an edge, is beyond the
 /// range of the scalar.
 fn has_endless_normals(record: &OffsetResult, part: &PointsPart) -> bool {
-    let largest = if part.scalar == f32::NAME {
+    let largest = if part.scalar == ScalarName::F32 {
         f64::from(f32::MAX)
     } else {
         f64::MAX

@@ -1,7 +1,7 @@
 //! The findings of `offset`, as its record holds them.
 
 use super::choice::{best, derived_name, is_too_high};
-use crate::arith::three_digits;
+use crate::arith::{ScalarName, three_digits};
 use crate::audit::{Trials, quoted, words};
 use crate::case::Matrix;
 use crate::corpus::lines::{StoredCase, write_case};
@@ -52,8 +52,8 @@ pub struct PointsPart {
     pub set: String,
     /// The flags that choose the kernel and its epsilons.
     pub flags: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// `uv` or `ray`.
     pub point: String,
     /// How many hit points.
@@ -230,7 +230,7 @@ impl PointsPart {
         PointsPart {
             kernel: plan.row.entry.info.name.to_owned(),
             set: plan.row.set.clone(),
-            scalar: F::NAME.to_owned(),
+            scalar: F::NAME,
             point: plan.kind.name().to_owned(),
             hits: sums.hits,
             missed: sums.missed,

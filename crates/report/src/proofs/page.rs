@@ -1,6 +1,7 @@
 //! Proofs as a page: of one kernel the sentences that people ask for first, then its gates; of several a table.
 
 use super::record::{GatePart, KernelPart, ProofResult, Report};
+use crate::arith::ScalarName;
 use crate::page::{Block, Command, Head, Item, Items, Page, Paged, Row, Table, Tone};
 use crate::prove::{USELESS, above, units};
 
@@ -19,7 +20,7 @@ fn of_all(report: &Report) -> Page {
     let record = &report.record.result;
     let mut blocks = vec![Block::Text(domain(report))];
     let mut details = Vec::new();
-    for scalar in ["f32", "f64"] {
+    for scalar in ScalarName::ALL {
         let kernels = record
             .kernels
             .iter()
@@ -29,7 +30,7 @@ fn of_all(report: &Report) -> Page {
             .collect();
         if !verdicts.is_empty() {
             let heads = [
-                scalar,
+                scalar.name(),
                 "miss inside",
                 "known",
                 "factor",
@@ -245,7 +246,7 @@ fn conclusion(kernel: &KernelPart) -> Option<String> {
 
 /// The gates of a kernel: how wrong what each compares can be.
 fn table(kernel: &KernelPart, gates: &[&GatePart]) -> Table {
-    let mut heads = vec![Head::of(format!("u = {}", unit(&kernel.scalar)))];
+    let mut heads = vec![Head::of(format!("u = {}", unit(kernel.scalar)))];
     heads.extend(numbers());
     heads.push(Head::text("refuses where").optional());
     let row = |gate: &&GatePart| {
@@ -270,8 +271,12 @@ fn cells(gate: &GatePart) -> [String; 3] {
     ]
 }
 
-fn unit(scalar: &str) -> &'static str {
-    if scalar == "f32" { "2^-24" } else { "2^-53" }
+fn unit(scalar: ScalarName) -> &'static str {
+    if scalar == ScalarName::F32 {
+        "2^-24"
+    } else {
+        "2^-53"
+    }
 }
 
 const SUPPOSED: &str = "A bound supposes, and its witness keeps, only what the gate's numbers use. Powers of two scale \

@@ -1,6 +1,7 @@
 //! The record of `hairline prove`: what `--format json` writes, and what the text is made from.
 
 use super::verdicts::VerdictPart;
+use crate::arith::ScalarName;
 use crate::prove::{Domain, Supposed};
 use hairline_record::{Comparable, NamedRate, NamedValue, Record, Study};
 
@@ -53,8 +54,8 @@ pub struct DomainPart {
 pub struct GatePart {
     /// The kernel's name.
     pub kernel: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The gate's name.
     pub gate: String,
     /// The formula of what it compares.
@@ -108,8 +109,8 @@ pub struct WitnessPart {
 pub struct KernelPart {
     /// The kernel's name.
     pub kernel: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// How many ways there are through its branches.
     pub paths: usize,
     /// None of a kernel without epsilons.

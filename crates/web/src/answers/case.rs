@@ -1,8 +1,8 @@
 //! One case: all that is known of it, and the verdicts around it.
 
-use super::scalars_of;
 use crate::kernel::numbers;
 use crate::request::{Explain, Map};
+use hairline::ScalarName;
 use hairline::internals::audit::{Row, Unobserved};
 use hairline::internals::case::{AnyScalar, CaseId};
 use hairline::internals::corpus::lines::{self, AnyCase, StoredCase, bare_case};
@@ -19,8 +19,7 @@ use serde_json::value::RawValue;
 pub struct Explained {
     title: String,
     html: String,
-    /// `f32` or `f64`.
-    scalar: &'static str,
+    scalar: ScalarName,
     triangles: Vec<Triangle>,
 }
 
@@ -82,9 +81,9 @@ fn found(text: &str) -> Result<AnyScalar<Found<f32>, Found<f64>>, String> {
             "'{id}' is a case of a mesh or an instance: `hairline explain` takes it"
         ));
     }
-    match scalars_of(&id.scalar)? {
-        [true, _] => cases_of(&id).map(AnyScalar::F32),
-        _ => cases_of(&id).map(AnyScalar::F64),
+    match id.scalar {
+        ScalarName::F32 => cases_of(&id).map(AnyScalar::F32),
+        ScalarName::F64 => cases_of(&id).map(AnyScalar::F64),
     }
 }
 
