@@ -5,6 +5,7 @@ mod case;
 mod epsilon;
 mod explain;
 mod list;
+mod published;
 mod record;
 mod select;
 
@@ -28,7 +29,7 @@ enum BoxesCommand {
     Epsilon(epsilon::EpsilonArguments),
     /// Show one box and ray: the exact truth, and the answer of each test
     Explain(explain::ExplainArguments),
-    /// List the slab tests with their sources, or the families of boxes
+    /// List the slab tests with their sources, the families of boxes, or published cases
     List(list::ListArguments),
 }
 

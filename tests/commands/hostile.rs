@@ -202,6 +202,7 @@ fn commands(digest: &str) -> Vec<(Vec<String>, &'static [&'static str])> {
         ("boxes epsilon -n 20 -k ize --epsilon HOSTILE", PLAIN),
         ("boxes explain HOSTILE", PLAIN),
         ("boxes explain {HOSTILE", PLAIN),
+        ("boxes explain @HOSTILE", PLAIN),
         ("explain HOSTILE", PLAIN),
         ("explain MARKUP --corpus markup.jsonl", PAGE),
         (

@@ -1,5 +1,6 @@
-//! A box and a ray by name: the id of a family's case, or JSON.
+//! A box and a ray by name: the id of a family's case, a published case, or JSON.
 
+use super::published;
 use crate::cli::exit::Failure;
 use hairline_boxes::{BoxCase, Made, Source, case_of};
 use hairline_core::Float;
@@ -15,18 +16,21 @@ pub enum AnyBoxCase {
 /// A case in JSON. Numbers are the nearest doubles; those of `f32` are rounded once more, which leaves a float alone.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct WrittenCase {
+pub struct WrittenCase {
     scalar: String,
-    origin: [f64; 3],
-    direction: [f64; 3],
-    min: [f64; 3],
-    max: [f64; 3],
+    origin: WrittenVector,
+    direction: WrittenVector,
+    min: WrittenVector,
+    max: WrittenVector,
     #[serde(default)]
     t_min: f64,
     /// Infinite if it is not said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     t_max: Option<f64>,
 }
+
+/// JSON has no NaN: it is `null`.
+type WrittenVector = [Option<f64>; 3];
 
 /// The name of a case: its id, or if it has none the case in JSON.
 pub fn name<F: Made>(source: &Source, seed: u64, index: u64) -> String {
@@ -39,7 +43,7 @@ pub fn name<F: Made>(source: &Source, seed: u64, index: u64) -> String {
 /// A case in JSON.
 fn written<F: Made>(case: &BoxCase<F>) -> String {
     let wide = case.widen();
-    let [origin, direction, min, max] = wide.vectors();
+    let [origin, direction, min, max] = wide.vectors().map(|vector| vector.map(Some));
     let t_max = wide.ray.t_max;
     let written = WrittenCase {
         scalar: F::NAME.to_owned(),
@@ -61,17 +65,14 @@ pub fn case_named(name: &str) -> Result<AnyBoxCase, Failure> {
             let fields = "scalar, origin, direction, min, max, and t_min and t_max if it has them";
             Failure::usage(format!("the case in JSON: {error}; expected {fields}"))
         })?;
-        return match case.scalar.as_str() {
-            "f32" => Ok(AnyBoxCase::F32(read(&case))),
-            "f64" => Ok(AnyBoxCase::F64(read(&case))),
-            _ => Err(Failure::usage(
-                "the case in JSON: scalar is \"f32\" or \"f64\"",
-            )),
-        };
+        return case.read();
+    }
+    if let Some(published) = name.strip_prefix('@') {
+        return published::find(published)?.case.read();
     }
     let id: CaseId = name.parse().map_err(|_| {
         let message = format!(
-            "'{name}' is no case: expected an id as corner@1/f32/-/1/17, or JSON as \
+            "'{name}' is no case: expected an id as corner@1/f32/-/1/17, a published case as @bvh-107, or JSON as \
              {{\"scalar\":\"f32\",\"origin\":[2,0,1],\"direction\":[-1,1,0],\"min\":[0,0,0],\"max\":[1,1,1]}}"
         );
         Failure::usage(message)
@@ -86,10 +87,24 @@ pub fn case_named(name: &str) -> Result<AnyBoxCase, Failure> {
     }
 }
 
-fn read<F: Float>(case: &WrittenCase) -> BoxCase<F> {
-    let vector = |numbers: [f64; 3]| numbers.map(F::from_f64);
-    let corners = [vector(case.min), vector(case.max)];
-    let t_max = case.t_max.unwrap_or(f64::INFINITY);
-    BoxCase::new(vector(case.origin), vector(case.direction), corners)
-        .on(F::from_f64(case.t_min), F::from_f64(t_max))
+impl WrittenCase {
+    /// The case in its scalar.
+    fn read(&self) -> Result<AnyBoxCase, Failure> {
+        match self.scalar.as_str() {
+            "f32" => Ok(AnyBoxCase::F32(self.numbers())),
+            "f64" => Ok(AnyBoxCase::F64(self.numbers())),
+            _ => Err(Failure::usage(
+                "the case in JSON: scalar is \"f32\" or \"f64\"",
+            )),
+        }
+    }
+
+    fn numbers<F: Float>(&self) -> BoxCase<F> {
+        let number = |x: Option<f64>| F::from_f64(x.unwrap_or(f64::NAN));
+        let vector = |numbers: WrittenVector| numbers.map(number);
+        let corners = [vector(self.min), vector(self.max)];
+        let case = BoxCase::new(vector(self.origin), vector(self.direction), corners);
+        let t_max = self.t_max.unwrap_or(f64::INFINITY);
+        case.on(F::from_f64(self.t_min), F::from_f64(t_max))
+    }
 }
