@@ -70,7 +70,7 @@ struct Explained {
     #[serde(skip)]
     has_negative_start: bool,
     answers: Vec<Answer>,
-    /// What the test that the guide recommends says.
+    /// The answer of the test that the guide recommends.
     recommended: Option<Answer>,
 }
 

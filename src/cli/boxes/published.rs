@@ -12,7 +12,7 @@ const REPORTS: &str = include_str!("published.jsonl");
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Published {
-    /// What it is called here, without the `@`.
+    /// Its name, without the `@`.
     pub name: String,
     /// The thread, and its year.
     pub source: String,
