@@ -5,7 +5,7 @@ use crate::cli::exit::Failure;
 use hairline_boxes::{BoxCase, Made, Source, case_of};
 use hairline_core::Float;
 use hairline_core::case::CaseId;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// A case of either scalar.
 pub enum AnyBoxCase {
@@ -14,7 +14,7 @@ pub enum AnyBoxCase {
 }
 
 /// A case in JSON. Numbers are the nearest doubles; those of `f32` are rounded once more, which leaves a float alone.
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WrittenCase {
     scalar: String,
@@ -25,7 +25,7 @@ pub struct WrittenCase {
     #[serde(default)]
     t_min: f64,
     /// Infinite if it is not said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     t_max: Option<f64>,
 }
 
@@ -36,25 +36,8 @@ type WrittenVector = [Option<f64>; 3];
 pub fn name<F: Made>(source: &Source, seed: u64, index: u64) -> String {
     match source {
         Source::Family(family) => family.id::<F>(seed, index).to_string(),
-        Source::Scene(_) => written(&source.case::<F>(seed, index)),
+        Source::Scene(_) => source.case::<F>(seed, index).json(),
     }
-}
-
-/// A case in JSON.
-fn written<F: Made>(case: &BoxCase<F>) -> String {
-    let wide = case.widen();
-    let [origin, direction, min, max] = wide.vectors().map(|vector| vector.map(Some));
-    let t_max = wide.ray.t_max;
-    let written = WrittenCase {
-        scalar: F::NAME.to_owned(),
-        origin,
-        direction,
-        min,
-        max,
-        t_min: wide.ray.t_min,
-        t_max: t_max.is_finite().then_some(t_max),
-    };
-    serde_json::to_string(&written).unwrap_or_default()
 }
 
 /// The case of a name.

@@ -4,6 +4,7 @@ use super::case::name;
 use super::record::label;
 use super::select::{CaseArguments, TestArguments};
 use crate::cli::before::set_threads;
+use crate::cli::epsilon::tells_margins;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::OutputArguments;
 use crate::cli::progress::Progress;
@@ -44,6 +45,7 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     };
     let progress = Progress::without_end(arguments.output.quiet);
     for setup in &setups {
+        tells_margins(setup.entry, "hairline boxes audit").map_err(Failure::usage)?;
         for (place, gate) in setup.gates().iter().enumerate() {
             if gate.epsilon == Tunable::Fixed {
                 continue;
@@ -57,6 +59,10 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
         }
     }
     progress.finish();
+    if advice.rows.is_empty() {
+        let message = "no chosen slab test takes an epsilon in a chosen scalar";
+        return Err(Failure::usage(message));
+    }
     arguments.output.write(outputs, &advice)?;
     Ok(Status::Success)
 }
@@ -74,9 +80,9 @@ struct Advice {
 #[derive(Serialize)]
 struct AdviceRow {
     test: String,
-    /// Its name alone, without that of its epsilons.
+    /// The flag that chooses it.
     #[serde(skip)]
-    name: &'static str,
+    selector: String,
     gate: &'static str,
     scalar: &'static str,
     must_hit: u64,
@@ -109,7 +115,7 @@ impl Advice {
         let gate = &setup.gates()[gate];
         let mut row = AdviceRow {
             test: label(setup),
-            name: setup.entry.info.name,
+            selector: setup.entry.selector(),
             gate: gate.name,
             scalar: F::NAME,
             must_hit: 0,
@@ -226,7 +232,7 @@ impl Paged for Advice {
             blocks.push(Block::Commands(
                 "next",
                 vec![Command {
-                    line: format!("hairline boxes explain '{case}' --kernel {}", row.name),
+                    line: format!("hairline boxes explain '{case}' {}", row.selector),
                     what: "the ray that needs it",
                 }],
             ));

@@ -133,9 +133,16 @@ fn answer<F: Made + Scalar>(case: &BoxCase<F>, truth: &Truth, setup: &Setup) -> 
     let epsilons: Vec<F> = setup.epsilons()?;
     let mut verdict = [Verdict::miss(None)];
     verdicts_of(subject, &[*case], &epsilons, &mut verdict);
-    let mut margins = vec![F::zero(); setup.gates().len()];
-    subject.margins(setup.entry.info, &[*case], &mut margins, &mut []);
-    let gates = setup.gates().iter().map(|gate| gate.name.to_owned());
+    let gates = if subject.tells_margins() {
+        setup.gates()
+    } else {
+        &[]
+    };
+    let mut margins = vec![F::zero(); gates.len()];
+    if !gates.is_empty() {
+        subject.margins(setup.entry.info, &[*case], &mut margins, &mut []);
+    }
+    let gates = gates.iter().map(|gate| gate.name.to_owned());
     let says = match (verdict[0].failure, verdict[0].hit) {
         (Some(_), _) => "fails",
         (None, true) => "hit",

@@ -31,6 +31,9 @@ pub struct BoxesResult {
 pub struct BoxesRow {
     /// The slab test.
     test: String,
+    /// The flag that brings it along, if it is not built in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    flag: Option<String>,
     /// Its name with that of its epsilons, if they are not its only published ones.
     label: String,
     /// Its epsilons, by gate.
@@ -73,6 +76,7 @@ impl BoxesRow {
         let worst = tally.false_hits.worst;
         BoxesRow {
             test: setup.entry.info.name.to_owned(),
+            flag: (!setup.is_built_in()).then(|| setup.entry.selector()),
             label: label(setup),
             epsilons: gates.zip(values).collect(),
             scalar: row.scalar.to_owned(),
@@ -106,7 +110,9 @@ impl BoxesRow {
 
     /// The command that shows a case, at the epsilons of this row.
     fn explain(&self, case: &str) -> String {
-        let mut command = format!("hairline boxes explain '{case}' --kernel {}", self.test);
+        let named = || format!("--kernel {}", self.test);
+        let selector = self.flag.clone().unwrap_or_else(named);
+        let mut command = format!("hairline boxes explain '{case}' {selector}");
         if self.label != self.test {
             for (gate, value) in &self.epsilons {
                 command += &format!(" --epsilon '{gate}={value}'");
@@ -123,7 +129,7 @@ pub fn label(setup: &Setup) -> String {
     match setup.set {
         _ if is_only => info.name.to_owned(),
         "source" => info.name.to_owned(),
-        "own" => format!("{} (as given)", info.name),
+        "given" => format!("{} (as given)", info.name),
         set => format!("{} ({set})", info.name),
     }
 }

@@ -2,9 +2,10 @@
 
 use crate::cli::exit::Failure;
 use crate::cli::flags::{RUNNING, chosen_scalars, unknown};
+use crate::cli::plugins::PluginArguments;
 use crate::kernel::EpsilonText;
 use clap::Args;
-use hairline_boxes::{FAMILIES, Family, Scene, Setup, Source, TABLE, find_family};
+use hairline_boxes::{BoxEntry, FAMILIES, Family, Scene, Setup, Source, TABLE, find_family};
 
 /// Which slab tests, with which epsilons.
 #[derive(Args)]
@@ -26,6 +27,9 @@ pub struct TestArguments {
         allow_hyphen_values = true
     )]
     epsilon: Vec<String>,
+
+    #[command(flatten)]
+    plugins: PluginArguments,
 }
 
 impl TestArguments {
@@ -44,8 +48,10 @@ impl TestArguments {
         Ok(setups)
     }
 
-    fn entries(&self) -> Result<Vec<&'static hairline_boxes::BoxEntry>, Failure> {
-        if self.tests.is_empty() || self.tests == ["all"] {
+    /// The tests of the user's own and the named ones; without any name those of the user's own alone, if there are some.
+    fn entries(&self) -> Result<Vec<&'static BoxEntry>, Failure> {
+        let mut entries = self.plugins.slab_tests()?;
+        if self.tests == ["all"] || self.tests.is_empty() && entries.is_empty() {
             return Ok(TABLE.all());
         }
         let names = || TABLE.all().into_iter().map(|entry| entry.info.name);
@@ -53,7 +59,10 @@ impl TestArguments {
             let wrong = || unknown("slab test", name, names(), "hairline boxes list tests");
             TABLE.find(name).ok_or_else(wrong)
         };
-        self.tests.iter().map(find).collect()
+        for entry in self.tests.iter().map(find) {
+            entries.push(entry?);
+        }
+        Ok(entries)
     }
 
     fn with_epsilons(&self, setup: Setup) -> Result<Setup, Failure> {
