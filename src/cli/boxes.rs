@@ -8,6 +8,7 @@ mod list;
 mod published;
 mod record;
 mod select;
+mod written;
 
 pub use record::BoxesResult;
 

@@ -34,7 +34,7 @@ pub struct AuditArguments {
 pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
     let outputs = arguments.output.pairs(Format::OF_PAGE)?;
     let setups = arguments.tests.setups()?;
-    let sources = arguments.cases.sources()?;
+    let sources = arguments.cases.sources(arguments.output.quiet)?;
     let scalars = arguments.cases.scalars()?;
     let (count, seed) = (arguments.cases.count, arguments.cases.seed);
     let threads = set_threads(arguments.cases.threads)?;

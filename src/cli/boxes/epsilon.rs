@@ -34,7 +34,7 @@ pub struct EpsilonArguments {
 pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     let outputs = arguments.output.pairs(Format::OF_PAGE)?;
     let setups = arguments.tests.setups()?;
-    let sources = arguments.cases.sources()?;
+    let sources = arguments.cases.sources(arguments.output.quiet)?;
     let scalars = arguments.cases.scalars()?;
     set_threads(arguments.cases.threads)?;
     let mut advice = Advice {

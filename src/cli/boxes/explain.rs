@@ -1,9 +1,10 @@
 //! `hairline boxes explain`.
 
-use super::case::{AnyBoxCase, case_named};
+use super::case::case_named;
 use super::published;
 use super::record::label;
 use super::select::TestArguments;
+use super::written::AnyBoxCase;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::OutputArguments;
 use crate::report::Format;

@@ -1,6 +1,6 @@
 //! Boxes and rays of other people's reports, by name: `@libigl-2270`.
 
-use super::case::WrittenCase;
+use super::written::WrittenCase;
 use crate::cli::exit::Failure;
 use crate::cli::flags::unknown;
 use serde::Deserialize;

@@ -48,6 +48,9 @@ pub struct BoxesRow {
     false_hits: Rate,
     /// Cases on which it gave no verdict.
     failed: u64,
+    /// Pairs of neighbours of which it lost a ray in both, among those of which it must hit one at least.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    lost_in_both: Option<Rate>,
     /// The first case that it lost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     first_lost: Option<String>,
@@ -84,6 +87,10 @@ impl BoxesRow {
             lost: rate(&tally.false_misses, tally.must_hit),
             false_hits: rate(&tally.false_hits, tally.must_miss),
             failed: tally.failed.count,
+            lost_in_both: source.is_of_pairs().then(|| {
+                let trials = Trials::independent(tally.lost_pairs, tally.owed_pairs);
+                Rate::new(trials, true)
+            }),
             first_lost: tally.false_misses.first.map(name),
             farthest: worst.map(|worst| Farthest {
                 share: worst.severity,
@@ -205,6 +212,13 @@ impl<'a> Sum<'a> {
         far.max_by(|(_, a), (_, b)| a.share.total_cmp(&b.share))
     }
 
+    /// One sentence on rays that it loses in both of two neighbours.
+    fn lost_in_both(&self) -> Option<String> {
+        let both = Rate::sum(self.rows.iter().filter_map(|row| row.lost_in_both.as_ref()));
+        let (label, counts) = (&self.label, both.counts());
+        (0 < both.count).then(|| format!("{label} loses {counts} rays at a wall in both neighbours, so a traversal goes through"))
+    }
+
     /// One sentence on its cases without a verdict.
     fn failures(&self) -> Option<String> {
         let failed = self.failed();
@@ -300,6 +314,7 @@ impl BoxesResult {
     /// Sentences on what the table does not show.
     fn notes(&self, sums: &[Sum]) -> Vec<String> {
         let mut notes: Vec<String> = sums.iter().filter_map(Sum::failures).collect();
+        notes.extend(sums.iter().filter_map(Sum::lost_in_both));
         for sum in sums {
             if let Some((row, farthest)) = sum.far() {
                 let (label, share) = (&sum.label, farthest.share);
