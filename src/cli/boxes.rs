@@ -2,6 +2,7 @@
 
 mod audit;
 mod case;
+mod check;
 mod epsilon;
 mod explain;
 mod list;
@@ -26,6 +27,8 @@ pub struct BoxesArguments {
 enum BoxesCommand {
     /// Run slab tests on hard boxes, and report which lose rays
     Audit(audit::AuditArguments),
+    /// Compare a run with the known wrong answers in a file, and fail if a test got worse
+    Check(check::CheckArguments),
     /// Show which growth or padding loses no ray of a scene or of families
     Epsilon(epsilon::EpsilonArguments),
     /// Show one box and ray: the exact truth, and the answer of each test
@@ -38,6 +41,7 @@ enum BoxesCommand {
 pub fn run(arguments: &BoxesArguments) -> Result<Status, Failure> {
     match &arguments.command {
         BoxesCommand::Audit(arguments) => audit::run(arguments),
+        BoxesCommand::Check(arguments) => check::run(arguments),
         BoxesCommand::Epsilon(arguments) => epsilon::run(arguments),
         BoxesCommand::Explain(arguments) => explain::run(arguments),
         BoxesCommand::List(arguments) => list::run(arguments),

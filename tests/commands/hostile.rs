@@ -203,6 +203,8 @@ fn commands(digest: &str) -> Vec<(Vec<String>, &'static [&'static str])> {
         ("boxes audit -n 20 --kernel-lib HOSTILE", PLAIN),
         ("boxes audit -n 20 --kernel-cmd HELLO-name", PLAIN),
         ("boxes epsilon -n 20 -k ize --epsilon HOSTILE", PLAIN),
+        ("boxes check -n 20 -k ize --known unknown.toml", PLAIN),
+        ("boxes check -n 20 -k ize --known HOSTILE", PLAIN),
         ("boxes explain HOSTILE", PLAIN),
         ("boxes explain {HOSTILE", PLAIN),
         ("boxes explain @HOSTILE", PLAIN),

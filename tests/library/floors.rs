@@ -34,7 +34,7 @@ const ROOMS: [Room; 8] = [
     room("crates/study/src", None, 161_300),
     room("crates/explore/src", Some("explore"), 28_700),
     room("crates/plugin/src", Some("plugin"), 20_400),
-    room("src", None, 258_000),
+    room("src", None, 259_300),
 ];
 
 /// The crates' sources, the lowest first.

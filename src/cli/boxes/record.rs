@@ -421,6 +421,11 @@ impl Comparable for BoxesResult {
             };
             counted.push(named("lost", &row.lost));
             counted.push(named("false hits", &row.false_hits));
+            if let Some(rate) = &row.lost_in_both {
+                counted.push(named("lost in both neighbours", rate));
+            }
+            let failed = Trials::independent(row.failed, self.count);
+            counted.push(named("no verdict", &Rate::new(failed, 0 < row.failed)));
         }
         counted
     }
