@@ -12,7 +12,7 @@ use super::select::KernelArguments;
 use super::sources::SourceArguments;
 use crate::arith::{ScalarName, smallest_normal};
 use crate::audit::Row;
-use crate::case::Scene;
+use crate::case::{Scene, Target};
 use crate::engine::Unobserved;
 use crate::epsilon::{
     COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Pass, RayCount, Setting, StudiedRays,
@@ -381,7 +381,7 @@ impl EpsilonArguments {
     fn knobs(&self, row: &Row) -> Result<Vec<Knob>, String> {
         let info = row.entry.info;
         let name = info.name;
-        tells_margins(row.entry)?;
+        tells_margins(row.entry, "hairline audit")?;
         let all = Knob::all(row);
         let names: Vec<&str> = all.iter().map(|knob| knob.gate(info.gates).name).collect();
         if let Some(unknown) = self
@@ -436,14 +436,14 @@ impl EpsilonArguments {
     }
 }
 
-/// An error if a kernel takes too long to be asked for its margins.
-fn tells_margins(entry: &Entry) -> Result<(), String> {
+/// An error if a kernel takes too long to be asked for its margins; `audit` is the command that runs it at one epsilon.
+pub fn tells_margins<T: Target>(entry: &Entry<T>, audit: &str) -> Result<(), String> {
     if entry.tells_margins() {
         return Ok(());
     }
     Err(format!(
         "{}: a command is too slow to be asked at many epsilons a case (a --kernel-lib is not, nor is a command \
-         that answers for margins: docs/protocol.md); `hairline audit --epsilon GATE=VALUE` runs it at one",
+         that answers for margins: docs/protocol.md); `{audit} --epsilon GATE=VALUE` runs it at one",
         entry.info.name
     ))
 }

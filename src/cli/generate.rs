@@ -50,7 +50,7 @@ fn write_cases<F: Scalar>(out: &mut dyn Write, source: &Source) -> io::Result<u6
             let id = source
                 .id::<F>(index, several.then_some(k))
                 .replace(char::is_whitespace, "_");
-            out.write_all(text::case_line(id, case).as_bytes())?;
+            out.write_all(text::case_line(id, &case.numbers()).as_bytes())?;
             written += 1;
         }
         // An audit asks about these if the kernel reports none of a group.
@@ -60,7 +60,7 @@ fn write_cases<F: Scalar>(out: &mut dyn Write, source: &Source) -> io::Result<u6
         }
         for (k, case) in around.iter().enumerate() {
             let id = format!("{}/around.{k}", source.id::<F>(index, None));
-            out.write_all(text::case_line(id, case).as_bytes())?;
+            out.write_all(text::case_line(id, &case.numbers()).as_bytes())?;
             written += 1;
         }
     }

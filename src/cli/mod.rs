@@ -54,11 +54,13 @@ use exit::{Failure, Status};
 use help::EXAMPLES;
 
 use crate::arith::FloatEnvironment;
+use crate::case::Triangles;
 use crate::kernel::{self, Entry};
-use crate::plugin;
+use crate::plugin::{self, Asked};
 use crate::printable::is_obeyed;
 use clap::builder::Styles;
 use clap::{Arg, ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use hairline_boxes::Boxes;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -124,6 +126,9 @@ enum Chosen {
     /// Load a library and answer cases from standard input: what --kernel-lib starts
     #[command(name = plugin::HOST_COMMAND, hide = true)]
     KernelHost {
+        /// The target of its kernel
+        #[arg(value_parser = [Triangles::FORM.judges, Boxes::FORM.judges])]
+        judges: String,
         /// The library
         file: PathBuf,
         /// Ask the first whole batch again and again before its answer counts, for so many milliseconds at most
@@ -285,8 +290,18 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Chosen::Help(arguments) => help::run(&arguments, self::command()),
         Chosen::Completions(arguments) => help::completions(&arguments, self::command()),
         Chosen::Man(arguments) => help::man(&arguments, self::command()),
-        Chosen::KernelHost { file, long_run } => {
-            return plugin::serve(&file, Duration::from_millis(long_run));
+        Chosen::KernelHost {
+            judges,
+            file,
+            long_run,
+        } => {
+            let is_of_boxes = judges == Boxes::FORM.judges;
+            let form = if is_of_boxes {
+                Boxes::FORM
+            } else {
+                Triangles::FORM
+            };
+            return plugin::serve(&form, &file, Duration::from_millis(long_run));
         }
     };
     plugins::finish();

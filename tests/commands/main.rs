@@ -5,6 +5,9 @@
 mod action;
 mod attribution;
 mod boxes;
+mod boxes_check;
+mod boxes_own;
+mod boxes_published;
 mod case_forms;
 mod check;
 mod claims;

@@ -1465,7 +1465,7 @@ fn a_command_that_dies_or_is_silent_on_a_case_is_a_finding() {
     const FEW: u64 = 200; // a shell reads byte by byte
     let unlucky = (0..FEW).filter(|index| {
         let made = interior.make::<f64>(&Parameters::default(), 1, *index);
-        let line = hairline::internals::plugin::text::case_line(0, &made.cases()[0]);
+        let line = hairline::internals::plugin::text::case_line(0, &made.cases()[0].numbers());
         line.split(' ').nth(3).unwrap().contains("77")
     });
     let unlucky = unlucky.count() as u64;

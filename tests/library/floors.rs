@@ -28,16 +28,16 @@ const fn room(source: &'static str, alone: Option<&'static str>, most_tokens: us
 /// The crates, the lowest first.
 const ROOMS: [Room; 11] = [
     room("crates/core/src", None, 81_000),
-    room("crates/boxes/src", Some("boxes"), 28_300),
+    room("crates/boxes/src", Some("boxes"), 30_300),
     room("crates/files/src", Some("files"), 24_200),
     room("crates/prove/src", Some("prove"), 96_700),
     room("crates/study/src", None, 161_400),
     room("crates/explore/src", Some("explore"), 28_700),
-    room("crates/plugin/src", Some("plugin"), 19_300),
+    room("crates/plugin/src", Some("plugin"), 20_400),
     room("crates/record/src", Some("record"), 21_300),
     room("crates/report/src", Some("report"), 96_000),
     room("crates/expect/src", Some("expect"), 17_000),
-    room("src", None, 121_800),
+    room("src", None, 125_000),
 ];
 
 /// The crates' sources, the lowest first.

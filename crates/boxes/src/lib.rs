@@ -27,6 +27,7 @@ mod integers;
 mod family;
 mod kernel;
 mod oracle;
+mod tree;
 
 mod judge;
 mod setup;
@@ -48,4 +49,5 @@ pub use oracle::{Layers, check, truth, truth_counted, truth_in_integers};
 pub use search::{Found, Search, search};
 pub use setup::Setup;
 pub use source::{Scene, Source};
+pub use tree::Tree;
 pub use truth::{Class, Meeting, Origin, Overlap, Truth};

@@ -1,5 +1,6 @@
 //! `hairline boxes list`.
 
+use super::published::{Published, published};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::write_page;
 use crate::report::page::{Block, Item, Items, Page};
@@ -19,6 +20,8 @@ enum Listed {
     Tests,
     /// Families of boxes with their promises
     Families,
+    /// Boxes and rays of other people's reports, for `explain @NAME`
+    Published,
 }
 
 /// Runs the command.
@@ -35,12 +38,29 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
             };
             Block::Terms(FAMILIES.iter().map(term).collect())
         }
+        Listed::Published => {
+            let items: Vec<Item> = published().into_iter().map(report).collect();
+            let most = items.len();
+            Block::Items(Items { items, most })
+        }
     };
     write_page(Page {
         blocks: vec![block],
         ..Page::default()
     })?;
     Ok(Status::Success)
+}
+
+fn report(report: Published) -> Item {
+    Item {
+        text: format!("@{}", report.name),
+        notes: vec![
+            report.source,
+            report.about,
+            format!("numbers: {}", report.numbers),
+        ],
+        ..Item::default()
+    }
 }
 
 fn item(entry: &'static BoxEntry) -> Item {

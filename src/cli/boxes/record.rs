@@ -33,6 +33,9 @@ pub struct BoxesResult {
 pub struct BoxesRow {
     /// The slab test.
     test: String,
+    /// The flag that brings it along, if it is not built in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    flag: Option<String>,
     /// Its name with that of its epsilons, if they are not its only published ones.
     label: String,
     /// Its epsilons, by gate.
@@ -47,6 +50,9 @@ pub struct BoxesRow {
     false_hits: Rate,
     /// Cases on which it gave no verdict.
     failed: u64,
+    /// Pairs of neighbours of which it lost a ray in both, among those of which it must hit one at least.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    lost_in_both: Option<Rate>,
     /// The first case that it lost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     first_lost: Option<String>,
@@ -75,6 +81,7 @@ impl BoxesRow {
         let worst = tally.false_hits.worst;
         BoxesRow {
             test: setup.entry.info.name.to_owned(),
+            flag: (!setup.is_built_in()).then(|| setup.entry.selector()),
             label: label(setup),
             epsilons: gates.zip(values).collect(),
             scalar: row.scalar,
@@ -82,6 +89,10 @@ impl BoxesRow {
             lost: rate(&tally.false_misses, tally.must_hit),
             false_hits: rate(&tally.false_hits, tally.must_miss),
             failed: tally.failed.count,
+            lost_in_both: source.is_of_pairs().then(|| {
+                let trials = Trials::independent(tally.lost_pairs, tally.owed_pairs);
+                Rate::new(trials, true)
+            }),
             first_lost: tally.false_misses.first.map(name),
             farthest: worst.map(|worst| Farthest {
                 share: worst.severity,
@@ -108,7 +119,9 @@ impl BoxesRow {
 
     /// The command that shows a case, at the epsilons of this row.
     fn explain(&self, case: &str) -> String {
-        let mut command = format!("hairline boxes explain '{case}' --kernel {}", self.test);
+        let named = || format!("--kernel {}", self.test);
+        let selector = self.flag.clone().unwrap_or_else(named);
+        let mut command = format!("hairline boxes explain '{case}' {selector}");
         if self.label != self.test {
             for (gate, value) in &self.epsilons {
                 command += &format!(" --epsilon '{gate}={value}'");
@@ -125,7 +138,7 @@ pub fn label(setup: &Setup) -> String {
     match setup.set {
         _ if is_only => info.name.to_owned(),
         "source" => info.name.to_owned(),
-        "own" => format!("{} (as given)", info.name),
+        "given" => format!("{} (as given)", info.name),
         set => format!("{} ({set})", info.name),
     }
 }
@@ -199,6 +212,13 @@ impl<'a> Sum<'a> {
         let all = rows.filter_map(|row| Some((row, row.farthest.as_ref()?)));
         let far = all.filter(|(_, farthest)| ROUNDED < farthest.share);
         far.max_by(|(_, a), (_, b)| a.share.total_cmp(&b.share))
+    }
+
+    /// One sentence on rays that it loses in both of two neighbours.
+    fn lost_in_both(&self) -> Option<String> {
+        let both = Rate::sum(self.rows.iter().filter_map(|row| row.lost_in_both.as_ref()));
+        let (label, counts) = (&self.label, both.counts());
+        (0 < both.count).then(|| format!("{label} loses {counts} rays at a wall in both neighbours, so a traversal goes through"))
     }
 
     /// One sentence on its cases without a verdict.
@@ -297,6 +317,7 @@ impl BoxesResult {
     /// Sentences on what the table does not show.
     fn notes(&self, sums: &[Sum]) -> Vec<String> {
         let mut notes: Vec<String> = sums.iter().filter_map(Sum::failures).collect();
+        notes.extend(sums.iter().filter_map(Sum::lost_in_both));
         for sum in sums {
             if let Some((row, farthest)) = sum.far() {
                 let (label, share) = (&sum.label, farthest.share);
@@ -403,6 +424,11 @@ impl Comparable for BoxesResult {
             };
             counted.push(named("lost", &row.lost));
             counted.push(named("false hits", &row.false_hits));
+            if let Some(rate) = &row.lost_in_both {
+                counted.push(named("lost in both neighbours", rate));
+            }
+            let failed = Trials::independent(row.failed, self.count);
+            counted.push(named("no verdict", &Rate::new(failed, 0 < row.failed)));
         }
         counted
     }
