@@ -157,7 +157,10 @@ fn of_kernel(info: &KernelInfo) -> Item {
         format!("contract: {}", info.contract.describe()),
     ];
     for (i, gate) in info.gates.iter().enumerate() {
-        let refuses = gate.refuses;
+        let refuses = match gate.printed {
+            Some(printed) => format!("{} (printed {printed})", gate.refuses),
+            None => gate.refuses.to_owned(),
+        };
         if gate.epsilon == Tunable::Fixed {
             notes.push(format!(
                 "test {}: refuses where {refuses}; takes no epsilon",

@@ -192,6 +192,11 @@ impl RunArguments {
         let flags = PlanFlags {
             kernels: self.kernels.flags(),
             sources: self.source_flags(),
+            // No epsilon is chosen in instances.
+            epsilon: self
+                .instance
+                .is_none()
+                .then(|| self.sources.epsilon_flags().join(" ")),
         };
         let run = Execution {
             plan,

@@ -94,18 +94,32 @@ pub struct SourceArguments {
 impl SourceArguments {
     /// The flags again, as a shell takes them.
     pub fn flags(&self) -> Vec<String> {
+        self.flags_of(&self.family)
+    }
+
+    fn flags_of(&self, families: &[String]) -> Vec<String> {
         let scalar = (self.scalar != ["f32", "f64"]).then(|| self.scalar.join(","));
         let count = (self.count != COUNT).then(|| self.count.to_string());
         let seed = (self.seed != SEED).then(|| self.seed.to_string());
         let [scalar, count, seed] = [("--scalar", scalar), ("-n", count), ("--seed", seed)]
             .map(|(flag, it)| again(flag, &it));
-        [scalar, self.case_flags(), count, seed].concat()
+        [scalar, self.case_flags(families), count, seed].concat()
+    }
+
+    /// Those with which `hairline epsilon` studies such cases: it takes a scene whole.
+    pub fn epsilon_flags(&self) -> Vec<String> {
+        let families = if self.scene.is_some() {
+            &[]
+        } else {
+            &self.family[..]
+        };
+        self.flags_of(families)
     }
 
     /// Those of them that say which cases, but for how many of them, of which seed and scalar.
-    fn case_flags(&self) -> Vec<String> {
+    fn case_flags(&self, families: &[String]) -> Vec<String> {
         let switch = |flag: &str, is_given: bool| Vec::from_iter(is_given.then(|| flag.to_owned()));
-        let family = (!self.family.is_empty()).then(|| self.family.join(","));
+        let family = (!families.is_empty()).then(|| families.join(","));
         let flags = [
             again("--family", &family),
             again("--scene", &self.scene),
@@ -148,7 +162,7 @@ impl SourceArguments {
                     return Err(Failure::usage(message));
                 }
             }
-            let flags = self.case_flags().join(" ");
+            let flags = self.case_flags(&self.family).join(" ");
             return Ok(StudiedRays {
                 sources: self.sources(quiet)?,
                 flags,

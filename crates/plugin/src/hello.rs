@@ -240,6 +240,7 @@ impl Hello {
             name: leak(&epsilon.name),
             role: epsilon.role.unwrap_or(Role::Other),
             refuses: leak(&epsilon.refuses),
+            printed: None,
             dimension: epsilon.dimension,
             epsilon: epsilon.tunable,
         };

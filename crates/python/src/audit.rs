@@ -33,6 +33,8 @@ pub struct Asked {
     allow: BTreeMap<String, f64>,
     /// The flags that choose the cases on a command line.
     sources: String,
+    /// Those with which `hairline epsilon` studies such cases.
+    epsilon: String,
 }
 
 /// The outcome of an audit.
@@ -53,6 +55,7 @@ pub fn audit(py: Python<'_>, answers: Py<PyAny>, asked: Asked) -> PyResult<Audit
     let flags = PlanFlags {
         kernels: asked.selector.clone(),
         sources: asked.sources.clone(),
+        epsilon: Some(asked.epsilon.clone()),
     };
     let request = request(asked, function).map_err(PyValueError::new_err)?;
     let mut outcome = running(py, function, &answers, || request.run())?;

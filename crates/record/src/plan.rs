@@ -157,9 +157,19 @@ pub struct PlanFlags {
     pub kernels: String,
     /// Those that choose cases.
     pub sources: String,
+    /// Those with which `hairline epsilon` studies such cases; none where it knows none like them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub epsilon: Option<String>,
 }
 
 impl PlanFlags {
+    /// All of them.
+    pub(crate) fn all(&self) -> Vec<&str> {
+        let mut all = vec![&*self.kernels, &*self.sources];
+        all.extend(self.epsilon.as_deref());
+        all
+    }
+
     /// The command that runs some kernels on the plan's cases.
     pub fn command(&self, kernels: &str) -> String {
         let words = ["hairline audit", kernels, &self.sources];

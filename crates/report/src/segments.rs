@@ -233,10 +233,9 @@ impl SegmentsPart {
                 others.join("; t_max = ")
             ));
         }
-        let text = format!("t_max = {}", best.end);
         vec![Block::Use(Use {
             lead: "use".to_owned(),
-            text,
+            parts: vec![format!("t_max = {}", best.end)],
             notes,
         })]
     }

@@ -166,7 +166,6 @@ fn listing(row: &Row, plain: &[Gate], change: Option<Change>, is_fused: bool) ->
         } else {
             gate.refuses
         };
-        let refuses = refuses.split(" (printed").next().unwrap_or_default();
         if change == Some(Change::Fallback) && gate.role == Role::Edge {
             let what = "the least number below == 0";
             lines.push(format!(

@@ -12,7 +12,7 @@ use super::words::{label, share};
 use crate::case::{Scene, SceneKind};
 use crate::elsewhere::{self, ComparedRates};
 use crate::family::Stratum;
-use crate::page::{Block, Command, Head, Row, Table};
+use crate::page::{Block, Head, Row, Table};
 use crate::segments::SegmentsPart;
 use hairline_study::epsilon::Rays;
 
@@ -76,19 +76,7 @@ pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> Vec<Blo
         true => Vec::new(),
         false => commands(record, part),
     };
-    let command = |line: String| {
-        let is_offset = line.starts_with("hairline offset");
-        let what = if is_offset {
-            "an offset in place of t_min"
-        } else {
-            ""
-        };
-        Command { line, what }
-    };
-    blocks.push(Block::Commands(
-        "next",
-        next.into_iter().map(command).collect(),
-    ));
+    blocks.push(Block::Commands("next", next));
     blocks
 }
 

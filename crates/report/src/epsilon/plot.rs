@@ -22,7 +22,7 @@ pub fn write(record: &SceneResult, out: &mut dyn Write) -> io::Result<()> {
     for part in &record.kernels {
         let mut heading = vec![(title(record, part), "this"), (scene(record), "soft")];
         for used in used(record, part) {
-            let parts = used.text.split("  and  ").enumerate();
+            let parts = used.parts.iter().enumerate();
             let words = [used.lead.as_str(), "and"];
             heading.extend(parts.map(|(k, part)| (format!("{} {part}", words[k.min(1)]), "")));
         }

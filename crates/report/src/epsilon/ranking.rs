@@ -153,7 +153,7 @@ fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
         } else {
             "no numbers are good; least bad:"
         };
-        format!("{lead} {}", used.text)
+        format!("{lead} {}", used.parts.join("  and  "))
     });
     let names: Vec<&str> = like.iter().map(|(part, _)| part.kernel.as_str()).collect();
     let alike = format!("as often wrong with the same numbers: {}", names.join(", "));

@@ -80,16 +80,8 @@ fn constant(
 ) -> String {
     let name = name(knob);
     let compared = form.map_or(name.clone(), |form| form.replacen('e', &name, 1));
-    let comparison = match &knob.refuses {
-        // `abs(det) < e (printed det > -e && det < e)`
-        Some(refuses) => {
-            let printed = refuses
-                .split_once("(printed ")
-                .map_or(refuses.as_str(), |(_, printed)| {
-                    printed.trim_end_matches(')')
-                });
-            format!("refuse where {}", with_name(printed, &compared))
-        }
+    let comparison = match knob.printed.as_ref().or(knob.refuses.as_ref()) {
+        Some(refuses) => format!("refuse where {}", with_name(refuses, &compared)),
         None => format!("count a hit only where t >= {compared}"),
     };
     // C, GLSL and Rust all want a point or an exponent in a float.
@@ -129,6 +121,7 @@ fn with_name(comparison: &str, name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::{Dimension, Role};
 
     #[test]
     fn an_epsilon_has_its_name_where_the_comparison_has_it() {
@@ -137,9 +130,10 @@ mod tests {
         let knob = KnobPart {
             name: "parallel".to_owned(),
             is_gate: true,
-            role: "parallel".to_owned(),
-            refuses: Some("abs(det) < e (printed det > -e && det < e)".to_owned()),
-            dimension: [2, 1],
+            role: Role::Parallel,
+            refuses: Some("abs(det) < e".to_owned()),
+            printed: Some("det > -e && det < e".to_owned()),
+            dimension: Dimension::DETERMINANT,
             form: None,
         };
         let of = |language, scalar| constant(language, scalar, &knob, "5e-10", None);

@@ -3,7 +3,7 @@
 use super::record::*;
 use crate::arith::{Float, ScalarName, smallest_normal};
 use crate::case::ShortNumber;
-use crate::kernel::Role;
+use crate::kernel::{Dimension, Role};
 use crate::page::Block;
 use hairline_record::Rate;
 use hairline_record::group_digits;
@@ -169,11 +169,11 @@ pub(super) fn meaning(
 ) -> Option<String> {
     let value: f64 = epsilon.parse().ok().filter(|value| *value != 0.0)?;
     let unit = spaced(&record.unit);
-    if !record.has_scene() && knob.dimension != [0, 0] {
+    if !record.has_scene() && knob.dimension.has_unit() {
         return None;
     }
-    match (knob.role.as_str(), knob.dimension) {
-        ("t", [1, -1]) => {
+    match (knob.role, knob.dimension) {
+        (Role::T, Dimension::T) => {
             let least = format!("{}{}", human(epsilon), unit_of_t(record));
             let instead = if record.has_scene() {
                 " (for shadow rays see `offset`)"
@@ -182,7 +182,7 @@ pub(super) fn meaning(
             };
             Some(format!("nothing nearer than {least} is hit{instead}"))
         }
-        ("parallel", [2, 1]) if record.unit_directions && 0.0 < value => {
+        (Role::Parallel, Dimension::DETERMINANT) if record.unit_directions && 0.0 < value => {
             if let Some(shape) = part.least_shape {
                 return Some(match value / shape {
                     small if small < 1.0 => {
@@ -210,13 +210,15 @@ pub(super) fn meaning(
                 _ => format!("the smallest triangles {flattest} are never hit"),
             })
         }
-        ("parallel", [0, 1]) if record.unit_directions && 0.0 < value && value < 1.0 => {
+        (Role::Parallel, Dimension::DIRECTION)
+            if record.unit_directions && 0.0 < value && value < 1.0 =>
+        {
             Some(format!(
                 "every triangle is missed at angles below {}",
                 degrees(value)
             ))
         }
-        ("edge", [0, 0]) => {
+        (Role::Edge, Dimension::NONE) => {
             let size = human(&format!("{:e}", value.abs()));
             let most = human(&format!("{:.0e}", value.abs() * record.edge[1]));
             let largest = match record.has_scene() {
@@ -225,13 +227,13 @@ pub(super) fn meaning(
             };
             Some(match value < 0.0 {
                 true => format!(
-                    "rays up to {size} of a triangle's size beside it hit it (corners: twice{largest}); at edges both"
+                    "rays up to {size} of a triangle's size beside it hit it (corners: twice{largest}); so both faces of an edge are hit"
                 ),
                 false => format!("rays up to {size} of a triangle's size inside it miss it"),
             })
         }
         // An absolute number beside what the smallest triangles have.
-        ("edge", [length, _]) if 0 < length => {
+        (Role::Edge, Dimension { length, .. }) if 0 < length => {
             let share = value.abs() / record.edge[0].powi(i32::from(length));
             let size = human(&format!("{share:.0e}"));
             let whose = format!(
@@ -339,9 +341,10 @@ pub(super) fn number(text: Option<&String>) -> Option<f64> {
 
 /// The unit of a knob.
 pub(super) fn unit_of(record: &SceneResult, knob: &KnobPart) -> String {
-    match (knob.role.as_str(), record.unit_directions) {
-        ("t", true) => spaced(&record.unit),
-        _ => String::new(),
+    if knob.role == Role::T && record.unit_directions {
+        spaced(&record.unit)
+    } else {
+        String::new()
     }
 }
 

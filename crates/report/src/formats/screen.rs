@@ -345,21 +345,9 @@ fn next(record: &Record, best: Option<&RowPart>, lines: &[RowLine]) -> Vec<Comma
             what: "one kernel",
         });
     }
-    // No epsilon is chosen in instances.
-    if let Some(tuned) = tuned.filter(|_| !all_sources.contains(" --instance ")) {
-        // `epsilon` knows no rays at a mesh's edges, and takes a scene whole.
-        let sources = all_sources
-            .split(" --directions")
-            .next()
-            .unwrap_or_default();
-        let sources = if sources.contains(" --scene ") {
-            without_families(sources)
-        } else {
-            sources.to_owned()
-        };
-        let line = format!("hairline epsilon {}{sources}", tuned.selector);
+    if let (Some(tuned), Some(sources)) = (tuned, &flags.epsilon) {
         commands.push(Command {
-            line,
+            line: format!("hairline epsilon {}{}", tuned.selector, spaced(sources)),
             what: "choose an epsilon",
         });
     }
@@ -369,14 +357,4 @@ fn next(record: &Record, best: Option<&RowPart>, lines: &[RowLine]) -> Vec<Comma
         what: "gate a CI; writes files",
     });
     commands
-}
-
-/// Flags without the families among them.
-fn without_families(flags: &str) -> String {
-    let words: Vec<&str> = flags.split(' ').collect();
-    let is_of_family = |i: &usize| words[*i] == "--family" || 0 < *i && words[i - 1] == "--family";
-    let kept = (0..words.len())
-        .filter(|i| !is_of_family(i))
-        .map(|i| words[i]);
-    kept.collect::<Vec<_>>().join(" ")
 }

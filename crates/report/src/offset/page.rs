@@ -164,7 +164,7 @@ fn answer(record: &OffsetResult, part: &PointsPart) -> Vec<Block> {
     let text = format!("{}{}", best.scheme, describe(&best.scheme));
     vec![Block::Use(Use {
         lead: "use".to_owned(),
-        text,
+        parts: vec![text],
         notes,
     })]
 }

@@ -251,8 +251,7 @@ fn table(kernel: &KernelPart, gates: &[&GatePart]) -> Table {
     heads.push(Head::text("refuses where").optional());
     let row = |gate: &&GatePart| {
         let [bound, known, factor] = cells(gate);
-        let compares = gate.compares.split(" (printed").next().unwrap_or_default();
-        Row::new(&gate.gate, [bound, known, factor, compares.to_owned()])
+        Row::new(&gate.gate, [bound, known, factor, gate.compares.clone()])
     };
     Table::new(heads, gates.iter().map(row).collect())
 }

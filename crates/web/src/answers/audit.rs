@@ -47,6 +47,7 @@ pub fn audit(asked: &Audit) -> Result<AuditAnswer, String> {
     let flags = PlanFlags {
         kernels: row.flags(),
         sources: asked.cases.flags(),
+        epsilon: Some(asked.cases.epsilon_flags()),
     };
     let mut record = record(vec![row], &asked.cases, [EXAMPLES, ATTRIBUTED, MEASURED])?;
     record.provenance.plan_flags = Some(flags).filter(|_| is_known);
