@@ -70,7 +70,7 @@ mod named_file;
 pub mod cli;
 
 pub use case::{Case, Parameters, Ray, Triangle};
-pub use hairline_core::{Error, truth};
+pub use hairline_core::{Error, ErrorKind, truth};
 pub use oracle::{Batch, Layers, UnequalColumns, truths, truths_of_rows};
 pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 

@@ -401,7 +401,7 @@ impl ProveArguments {
             });
         };
         let choice = EpsilonChoice::parse(text)
-            .map_err(|error| Failure::usage(format!("--epsilon: {}", error.0)))?;
+            .map_err(|error| Failure::usage(format!("--epsilon: {error}")))?;
         // As an audit would refuse them.
         choice.rows(entries, None)?;
         Ok(Epsilons::Given(choice.given().to_vec()))

@@ -1,6 +1,7 @@
 //! Kernels of one's own: in the registry, in every command's tables, and from a test.
 
 use crate::tools::not_tested;
+use hairline::ErrorKind;
 use hairline::internals::arith::{Real, Vector};
 use hairline::internals::audit::{self, EpsilonChoice};
 use hairline::internals::case::{Case, Parameters, Ray, Triangle};
@@ -400,14 +401,29 @@ fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
 #[test]
 fn names_and_epsilons_that_there_are_none_of_are_errors() {
     let kernel = Entry::of::<Volumes>();
-    let error = |error: Result<_, Error>| error.map(|_: hairline::Outcome| ()).unwrap_err().0;
+    let error = |error: Result<_, Error>| error.map(|_: hairline::Outcome| ()).unwrap_err();
     let family = error(hairline::audit(&kernel).families(["edge-nera"]).run());
+    let line = "unknown family 'edge-nera'; did you mean 'edge-near'?";
     assert_eq!(
-        family,
-        "unknown family 'edge-nera'; did you mean 'edge-near'?"
+        (family.kind(), family.to_string()),
+        (ErrorKind::UnknownName, line.to_owned())
     );
     let gate = error(hairline::audit(&kernel).epsilons(&[("paralel", "0")]).run());
+    assert_eq!(gate.kind(), ErrorKind::UnknownName);
+    let gate = gate.to_string();
     assert!(gate.contains("did you mean 'parallel'?"), "{gate}");
+    let kinds = [
+        (&[("parallel", "1e-60")][..], ErrorKind::OutOfRange),
+        (&[("parallel", "much")], ErrorKind::Syntax),
+        (&[("edge", "0"), ("edge", "0")], ErrorKind::Repeated),
+    ];
+    for (epsilons, kind) in kinds {
+        let error = error(hairline::audit(&kernel).epsilons(epsilons).run());
+        assert_eq!(error.kind(), kind, "{error}");
+    }
+    let unwritable = Error::of_file("x", std::io::ErrorKind::PermissionDenied.into());
+    assert_eq!(unwritable.kind(), ErrorKind::File);
+    assert!(std::error::Error::source(&unwritable).is_some());
     let given = EpsilonChoice::Given(vec![("parallel".to_owned(), "1e-2".to_owned())]);
     let leaked: &'static Entry = Box::leak(Box::new(kernel));
     assert_eq!(

@@ -146,7 +146,7 @@ pub mod kernel;
 pub mod oracle;
 
 pub use case::{Case, Parameters, Ray, Triangle};
-pub use error::Error;
+pub use error::{Error, ErrorKind};
 pub use oracle::{Batch, Layers, UnequalColumns, truth, truths, truths_of_rows};
 pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 

@@ -142,7 +142,7 @@ fn running<T: Send>(
     function.finish()?;
     worked
         .map_err(|_| PyRuntimeError::new_err("hairline itself failed: please report it"))?
-        .map_err(|Error(message)| PyValueError::new_err(message))
+        .map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 #[pymethods]

@@ -101,7 +101,7 @@ pub fn arguments<'py, F: Scalar + Element>(
 pub fn case<'py>(py: Python<'py>, id: &str) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let id: CaseId = id
         .parse()
-        .map_err(|hairline::Error(line)| PyValueError::new_err(line))?;
+        .map_err(|error: hairline::Error| PyValueError::new_err(error.to_string()))?;
     if id.parameters.mesh.is_some() || id.parameters.instance.is_some() {
         let words = "is a case of a mesh or an instance: `hairline explain` takes it";
         return Err(PyValueError::new_err(format!("'{id}' {words}")));

@@ -94,9 +94,7 @@ fn record(
     [examples, attribute, measured]: [usize; 3],
 ) -> Result<Record, String> {
     let scalars = scalars_of(&cases.scalar)?;
-    rows.iter()
-        .try_for_each(|row| row.check_in(scalars))
-        .map_err(|error| error.0)?;
+    rows.iter().try_for_each(|row| row.check_in(scalars))?;
     if rows
         .iter()
         .any(|row| !(0..2).any(|i| scalars[i] && row.entry.scalars()[i]))

@@ -27,7 +27,7 @@ pub struct MeshAnswer {
 pub fn mesh(asked: &Mesh, file: &[u8]) -> Result<MeshAnswer, String> {
     let scalars = scalars_of(&asked.scalar)?;
     let row = asked.kernel.row()?;
-    row.check_in(scalars).map_err(|error| error.0)?;
+    row.check_in(scalars)?;
     if !(1..=64).contains(&asked.directions) {
         return Err(format!("directions: {} is not 1 to 64", asked.directions));
     }
