@@ -413,7 +413,7 @@ fn names_and_epsilons_that_there_are_none_of_are_errors() {
     let gate = gate.to_string();
     assert!(gate.contains("did you mean 'parallel'?"), "{gate}");
     let kinds = [
-        (&[("parallel", "1e-60")][..], ErrorKind::OutOfRange),
+        (&[("parallel", "1e-400")][..], ErrorKind::OutOfRange),
         (&[("parallel", "much")], ErrorKind::Syntax),
         (&[("edge", "0"), ("edge", "0")], ErrorKind::Repeated),
     ];
