@@ -6,6 +6,7 @@ use crate::kernel::EpsilonText;
 use crate::kernel::{Entry, Gate, KERNELS, PRESETS, Preset, PresetEntry, Tunable, find};
 use crate::suggest::did_you_mean;
 use hairline_core::{Error, ErrorKind};
+use std::collections::BTreeSet;
 
 /// How a plan's epsilons are chosen.
 #[derive(Clone, Debug)]
@@ -19,7 +20,7 @@ pub enum EpsilonChoice {
 }
 
 impl EpsilonChoice {
-    /// From `gate=value,...`; no gate twice.
+    /// From `gate=value,...`.
     pub fn parse(text: &str) -> Result<EpsilonChoice, Error> {
         let pairs = text.split(',').map(|pair| {
             let (gate, value) = pair.split_once('=').ok_or_else(|| {
@@ -28,11 +29,19 @@ impl EpsilonChoice {
             Ok((gate.trim().to_owned(), value.trim().to_owned()))
         });
         let pairs: Vec<(String, String)> = pairs.collect::<Result<_, Error>>()?;
-        if let Some(i) = (1..pairs.len()).find(|&i| pairs[..i].iter().any(|p| p.0 == pairs[i].0)) {
-            let line = format!("gate '{}' is given twice", pairs[i].0);
-            return Err(Error::new(ErrorKind::Repeated, line));
-        }
         Ok(EpsilonChoice::Given(pairs))
+    }
+
+    /// An error if a gate is given twice.
+    fn check_names(&self) -> Result<(), Error> {
+        let mut seen = BTreeSet::new();
+        for (gate, _) in self.given() {
+            if !seen.insert(gate) {
+                let line = format!("gate '{gate}' is given twice");
+                return Err(Error::new(ErrorKind::Repeated, line));
+            }
+        }
+        Ok(())
     }
 
     /// The rows of some kernels under this choice; a contract in words ([`Contract::from_words`])
@@ -42,6 +51,7 @@ impl EpsilonChoice {
         entries: &[&'static Entry],
         contract: Option<&str>,
     ) -> Result<Vec<Row>, Error> {
+        self.check_names()?;
         let words = contract.unwrap_or("own");
         let (mut rows, mut left_over) = (Vec::new(), None);
         // Each given epsilon must reach a gate of some kernel.
