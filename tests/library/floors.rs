@@ -28,13 +28,13 @@ const fn room(source: &'static str, alone: Option<&'static str>, most_tokens: us
 /// The crates, the lowest first.
 const ROOMS: [Room; 8] = [
     room("crates/core/src", None, 81_000),
-    room("crates/boxes/src", Some("boxes"), 30_300),
+    room("crates/boxes/src", Some("boxes"), 31_700),
     room("crates/files/src", Some("files"), 24_200),
     room("crates/prove/src", Some("prove"), 96_700),
     room("crates/study/src", None, 161_300),
     room("crates/explore/src", Some("explore"), 28_700),
     room("crates/plugin/src", Some("plugin"), 20_400),
-    room("src", None, 259_300),
+    room("src", None, 260_300),
 ];
 
 /// The crates' sources, the lowest first.
