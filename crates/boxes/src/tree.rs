@@ -26,7 +26,8 @@ impl Tree {
         let faces: Vec<[Point; 2]> = triangles.iter().map(|corners| around(corners)).collect();
         let mut order: Vec<usize> = (0..faces.len()).collect();
         let mut nodes = Vec::new();
-        let mut waiting = VecDeque::from([0..faces.len()]);
+        let mut waiting = VecDeque::new();
+        waiting.push_back(0..faces.len());
         while let Some(range) = waiting.pop_front() {
             if range.len() < 2 {
                 continue;
