@@ -6,6 +6,7 @@ mod check;
 mod epsilon;
 mod explain;
 mod list;
+mod prove;
 mod published;
 mod record;
 mod select;
@@ -33,6 +34,8 @@ enum BoxesCommand {
     Epsilon(epsilon::EpsilonArguments),
     /// Show one box and ray: the exact truth, and the answer of each test
     Explain(explain::ExplainArguments),
+    /// Prove which growth loses no ray, for the three formulas of t
+    Prove(prove::ProveArguments),
     /// List the slab tests with their sources, the families of boxes, or published cases
     List(list::ListArguments),
 }
@@ -44,6 +47,7 @@ pub fn run(arguments: &BoxesArguments) -> Result<Status, Failure> {
         BoxesCommand::Check(arguments) => check::run(arguments),
         BoxesCommand::Epsilon(arguments) => epsilon::run(arguments),
         BoxesCommand::Explain(arguments) => explain::run(arguments),
+        BoxesCommand::Prove(arguments) => prove::run(arguments),
         BoxesCommand::List(arguments) => list::run(arguments),
     }
 }

@@ -205,6 +205,8 @@ fn commands(digest: &str) -> Vec<(Vec<String>, &'static [&'static str])> {
         ("boxes epsilon -n 20 -k ize --epsilon HOSTILE", PLAIN),
         ("boxes check -n 20 -k ize --known unknown.toml", PLAIN),
         ("boxes check -n 20 -k ize --known HOSTILE", PLAIN),
+        ("boxes prove", PAGE),
+        ("boxes prove --least HOSTILE", PLAIN),
         ("boxes explain HOSTILE", PLAIN),
         ("boxes explain {HOSTILE", PLAIN),
         ("boxes explain @HOSTILE", PLAIN),

@@ -7,6 +7,7 @@ mod attribution;
 mod boxes;
 mod boxes_check;
 mod boxes_own;
+mod boxes_prove;
 mod boxes_published;
 mod case_forms;
 mod check;

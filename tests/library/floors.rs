@@ -28,7 +28,7 @@ const fn room(source: &'static str, alone: Option<&'static str>, most_tokens: us
 /// The crates, the lowest first.
 const ROOMS: [Room; 11] = [
     room("crates/core/src", None, 81_000),
-    room("crates/boxes/src", Some("boxes"), 30_300),
+    room("crates/boxes/src", Some("boxes"), 31_700),
     room("crates/files/src", Some("files"), 24_200),
     room("crates/prove/src", Some("prove"), 96_700),
     room("crates/study/src", None, 161_400),
@@ -37,7 +37,7 @@ const ROOMS: [Room; 11] = [
     room("crates/record/src", Some("record"), 21_300),
     room("crates/report/src", Some("report"), 96_000),
     room("crates/expect/src", Some("expect"), 17_000),
-    room("src", None, 125_000),
+    room("src", None, 126_000),
 ];
 
 /// The crates' sources, the lowest first.

@@ -105,7 +105,7 @@ impl fmt::Display for Source {
         match self {
             Source::Family(family) => f.pad(family.name),
             Source::Scene(scene) => write!(f, "extent={:e},size={:e}", scene.extent, scene.size),
-            Source::Mesh(tree) => tree.fmt(f),
+            Source::Mesh(tree) => f.pad(&tree.name),
         }
     }
 }

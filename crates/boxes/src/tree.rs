@@ -5,21 +5,17 @@ use crate::case::{BoxCase, each_axis};
 use hairline_core::Float;
 use hairline_core::case::Draw;
 use std::collections::VecDeque;
-use std::fmt;
 
 type Point = [f64; 3];
 
 /// The boxes of a mesh.
 pub struct Tree {
-    name: String,
+    pub(crate) name: String,
     /// A box a face.
     faces: Vec<[Point; 2]>,
     /// A box a node with more than one face, the largest first.
     nodes: Vec<[Point; 2]>,
 }
-
-/// How often the origin of a ray is drawn again if it is the target.
-const TRIES: usize = 8;
 
 impl Tree {
     /// From a name and triangles. An error if there are none.
@@ -30,7 +26,8 @@ impl Tree {
         let faces: Vec<[Point; 2]> = triangles.iter().map(|corners| around(corners)).collect();
         let mut order: Vec<usize> = (0..faces.len()).collect();
         let mut nodes = Vec::new();
-        let mut waiting = VecDeque::from([0..faces.len()]);
+        let mut waiting = VecDeque::new();
+        waiting.push_back(0..faces.len());
         while let Some(range) = waiting.pop_front() {
             if range.len() < 2 {
                 continue;
@@ -48,38 +45,25 @@ impl Tree {
     /// Case `index` of a seed's set: a box of a face, or of a node, the large ones more often.
     pub fn case<F: Float>(&self, seed: u64, index: u64) -> BoxCase<F> {
         let mut draw = Draw::new("boxes of a mesh", seed, index);
-        let share = draw.unit();
-        let bounds = match self.nodes.as_slice() {
-            nodes if !nodes.is_empty() && draw.coin() => nodes[place(share * share, nodes.len())],
-            _ => self.faces[place(share, self.faces.len())],
+        let bounds = if draw.coin() || self.nodes.is_empty() {
+            self.faces[draw.below(self.faces.len())]
+        } else {
+            let share = draw.unit() * draw.unit();
+            self.nodes[(share * self.nodes.len() as f64) as usize]
         };
-        let mut sight = Sight::at(&mut draw, bounds);
-        for _ in 0..TRIES {
-            if sight.origin != sight.target {
-                break;
-            }
-            sight = Sight::at(&mut draw, bounds);
-        }
-        sight.case(&mut draw)
+        aimed(&mut draw, bounds)
     }
 }
 
-/// The place of a share of a list.
-fn place(share: f64, length: usize) -> usize {
-    let place = (share * length as f64) as usize;
-    place.min(length - 1)
-}
-
-/// The box around some points.
+/// The box around some points, one at least.
 fn around(points: &[Point]) -> [Point; 2] {
-    let least = |axis: usize| points.iter().map(|x| x[axis]).fold(f64::INFINITY, f64::min);
-    let most = |axis: usize| {
-        points
-            .iter()
-            .map(|x| -x[axis])
-            .fold(f64::INFINITY, f64::min)
-    };
-    [each_axis(least), each_axis(|axis| -most(axis))]
+    let mut min = points[0];
+    let mut max = min;
+    for point in points {
+        min = each_axis(|i| min[i].min(point[i]));
+        max = each_axis(|i| max[i].max(point[i]));
+    }
+    [min, max]
 }
 
 /// Puts the faces with the smaller centres first, half of them; how many these are.
@@ -101,55 +85,35 @@ fn cut(faces: &[[Point; 2]], members: &mut [usize]) -> usize {
     middle
 }
 
-/// A ray from a point to another, and a box that it is aimed at.
-struct Sight<F> {
-    min: [F; 3],
-    max: [F; 3],
-    origin: [F; 3],
-    target: [F; 3],
-}
-
-impl<F: Float> Sight<F> {
-    /// At a corner, an edge, a face or the inside, from inside or from up to four sizes away, on some axes straight.
-    fn at(draw: &mut Draw, [min, max]: [Point; 2]) -> Sight<F> {
-        let size = each_axis(|i| max[i] - min[i]);
-        let largest = size.into_iter().fold(0.0, f64::max);
-        let is_inside = draw.below(3) == 0;
-        let number = F::from_f64;
-        let mut sight = Sight {
-            min: min.map(number),
-            max: max.map(number),
-            origin: min.map(number),
-            target: min.map(number),
+/// A ray at a corner, an edge, a face or the inside of a box, from inside or from up to four sizes away, on some axes straight.
+fn aimed<F: Float>(draw: &mut Draw, bounds: [Point; 2]) -> BoxCase<F> {
+    let [min, max] = bounds;
+    let size = each_axis(|i| max[i] - min[i]);
+    let largest = size.into_iter().fold(0.0, f64::max);
+    let is_inside = draw.below(3) == 0;
+    // A bit an axis; never all three.
+    let straight = if draw.coin() { 0 } else { draw.below(7) };
+    let mut target = min;
+    let mut origin = min;
+    for i in 0..3 {
+        target[i] = match draw.below(3) {
+            0 => min[i],
+            1 => max[i],
+            _ => min[i] + draw.unit() * size[i],
         };
-        for i in 0..3 {
-            let within = number(min[i] + draw.unit() * size[i]);
-            sight.target[i] = match draw.below(3) {
-                0 => sight.min[i],
-                1 => sight.max[i],
-                _ => within,
-            };
-            let beside = 8.0 * draw.unit() - 4.0;
-            let inside = number(min[i] + draw.unit() * size[i]);
-            let outside = number(min[i] + beside * largest);
-            sight.origin[i] = match draw.below(8) {
-                0 => sight.target[i],
-                _ if is_inside => inside,
-                _ => outside,
-            };
-        }
-        sight
+        let share = draw.unit();
+        origin[i] = if straight >> i & 1 == 1 {
+            target[i]
+        } else if is_inside {
+            min[i] + share * size[i]
+        } else {
+            min[i] + (8.0 * share - 4.0) * largest
+        };
     }
-
-    fn case(&self, draw: &mut Draw) -> BoxCase<F> {
-        let length = F::from_f64(0.25 + 3.75 * draw.unit());
-        let direction = each_axis(|i| (self.target[i] - self.origin[i]) * length);
-        BoxCase::new(self.origin, direction, [self.min, self.max])
-    }
-}
-
-impl fmt::Display for Tree {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(&self.name)
-    }
+    let rounded = |point: Point| point.map(F::from_f64);
+    let at = rounded(target);
+    let from = rounded(origin);
+    let length = F::from_f64(0.25 + 3.75 * draw.unit());
+    let direction = each_axis(|i| (at[i] - from[i]) * length);
+    BoxCase::new(from, direction, bounds.map(rounded))
 }

@@ -1,7 +1,7 @@
 //! `hairline boxes explain`.
 
 use super::case::case_named;
-use super::published;
+use super::published::{self, Published};
 use super::record::label;
 use super::select::TestArguments;
 use super::written::AnyBoxCase;
@@ -44,8 +44,7 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
         AnyBoxCase::F64(case) => explain(&arguments.case, &case, &setups),
     };
     if let Some(name) = arguments.case.strip_prefix('@') {
-        let report = published::find(name)?;
-        explained.published = Some([report.source, report.about, report.numbers]);
+        explained.published = Some(published::find(name)?);
     }
     arguments.output.write(outputs, &explained)?;
     Ok(Status::Success)
@@ -55,8 +54,7 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
 #[derive(Serialize)]
 struct Explained {
     case: String,
-    /// The source, the complaint and the origin of the numbers of a published case.
-    published: Option<[String; 3]>,
+    published: Option<Published>,
     scalar: ScalarName,
     /// The numbers of the case, by name.
     numbers: Vec<(&'static str, String)>,
@@ -75,13 +73,9 @@ struct Explained {
     recommended: Option<Answer>,
 }
 
-/// The test that loses no ray, short of overflow and underflow: docs/guide/boxes.md.
-const RECOMMENDED: [&str; 2] = ["ize", "gamma3"];
-
+/// The test that loses no ray, short of overflow and underflow, with the growth that its analysis allows: docs/guide/boxes.md.
 fn recommended() -> Option<Setup> {
-    let [name, set] = RECOMMENDED;
-    let published = Setup::published(TABLE.find(name)?);
-    published.into_iter().find(|setup| setup.set == set)
+    Setup::published(TABLE.find("ize")?).pop()
 }
 
 /// The answer of one slab test.
@@ -245,10 +239,10 @@ fn decimal(fraction: &str) -> String {
 impl Paged for Explained {
     fn page(&self) -> Page {
         let mut terms: Vec<(&str, String)> = Vec::new();
-        if let Some([source, about, numbers]) = &self.published {
-            terms.push(("report", source.clone()));
-            terms.push(("about", about.clone()));
-            terms.push(("numbers", numbers.clone()));
+        if let Some(report) = &self.published {
+            terms.push(("report", report.source.clone()));
+            terms.push(("about", report.about.clone()));
+            terms.push(("numbers", report.numbers.clone()));
         }
         terms.push(("truth", self.truth.clone()));
         if let Some([enter, exit]) = &self.line {

@@ -27,28 +27,25 @@ enum Listed {
 /// Runs the command.
 pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
     let block = match arguments.what {
-        Listed::Tests => {
-            let items: Vec<Item> = TABLE.all().into_iter().map(item).collect();
-            let most = items.len();
-            Block::Items(Items { items, most })
-        }
+        Listed::Tests => items(TABLE.all().into_iter().map(item).collect()),
         Listed::Families => {
             let term = |family: &hairline_boxes::Family| {
                 (family.name.to_owned(), family.promise.to_owned())
             };
             Block::Terms(FAMILIES.iter().map(term).collect())
         }
-        Listed::Published => {
-            let items: Vec<Item> = published().into_iter().map(report).collect();
-            let most = items.len();
-            Block::Items(Items { items, most })
-        }
+        Listed::Published => items(published().into_iter().map(report).collect()),
     };
     write_page(Page {
         blocks: vec![block],
         ..Page::default()
     })?;
     Ok(Status::Success)
+}
+
+fn items(items: Vec<Item>) -> Block {
+    let most = items.len();
+    Block::Items(Items { items, most })
 }
 
 fn report(report: Published) -> Item {

@@ -3,13 +3,13 @@
 use super::written::WrittenCase;
 use crate::cli::exit::Failure;
 use crate::cli::flags::unknown;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// One report a line. `tests/commands/boxes_published.rs` has the truth of each, worked out by hand.
 const REPORTS: &str = include_str!("published.jsonl");
 
 /// A report with its case.
-#[derive(Deserialize)]
+#[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Published {
     /// Its name, without the `@`.
@@ -21,6 +21,7 @@ pub struct Published {
     /// The complaint, in a line.
     pub about: String,
     /// The box and the ray.
+    #[serde(skip_serializing)]
     pub case: WrittenCase,
 }
 
