@@ -34,7 +34,7 @@ struct Guarded<'p, 'a> {
 /// Reads and checks everything after the heading. Returns how many margins there are.
 pub fn check<'a>(format: Format, reader: &mut Reader<'a>) -> Outcome<usize> {
     let form = "guarded line, ray or interval, and both or front";
-    let promise = reader.read(form, promise)?;
+    let promise = reader.read(form, Promise::parse)?;
     let program = Program::of_operations(format, reader)?;
     let signs = Signs::new(promise, &program);
     let mut guarded = Guarded {
@@ -52,16 +52,6 @@ pub fn check<'a>(format: Format, reader: &mut Reader<'a>) -> Outcome<usize> {
         "found more lines after the end",
     )?;
     Ok(guarded.margins.len())
-}
-
-fn promise(words: &[&str]) -> Option<Promise> {
-    let &[extent, sides] = words else { return None };
-    let has_extent = ["line", "ray", "interval"].contains(&extent);
-    let has_sides = ["both", "front"].contains(&sides);
-    (has_extent && has_sides).then(|| Promise {
-        extent: extent.to_owned(),
-        is_front: sides == "front",
-    })
 }
 
 impl<'a> Guarded<'_, 'a> {

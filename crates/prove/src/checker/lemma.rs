@@ -1,6 +1,5 @@
 //! Lemmas: which rule proves the bound of an operation, and the rule of sums.
 
-use super::format::Bound;
 use super::formula::Formula;
 use super::number::{ERROR_DIGITS, SIZE_DIGITS, round_up};
 use super::operations::index;
@@ -53,7 +52,7 @@ impl Heading {
 }
 
 /// Reads and checks a lemma.
-pub fn read(program: &mut Program, reader: &mut Reader) -> Outcome<()> {
+pub fn read<'a>(program: &mut Program<'a>, reader: &mut Reader<'a>) -> Outcome<()> {
     let form = "lemma OPERATION sum, unit or quotient, sum-of-quotients or rest-of-quotients, \
                 each of these perhaps with -by-reciprocal, for an operation without a lemma that is no neg or abs";
     let heading = reader.read(form, |words| Heading::parse(words, program))?;
@@ -66,7 +65,11 @@ pub fn read(program: &mut Program, reader: &mut Reader) -> Outcome<()> {
 }
 
 /// The lemma that its rule proves.
-fn proved(program: &Program, heading: &Heading, reader: &mut Reader) -> Outcome<Lemma> {
+fn proved<'a: 'p, 'p>(
+    program: &'p Program<'p>,
+    heading: &Heading,
+    reader: &mut Reader<'a>,
+) -> Outcome<Lemma> {
     let Heading {
         place,
         by_reciprocal,
@@ -88,22 +91,24 @@ fn proved(program: &Program, heading: &Heading, reader: &mut Reader) -> Outcome<
 
 /// The lemma of a sum of products: "Formulas without divisions" in the guide. The computed number has two bounds, one
 /// from the operands' computed sizes, and one from its size and its error.
-fn sum(program: &Program, place: usize, reader: &mut Reader) -> Outcome<Lemma> {
+fn sum<'a: 'p, 'p>(
+    program: &'p Program<'p>,
+    place: usize,
+    reader: &mut Reader<'a>,
+) -> Outcome<Lemma> {
     let formula = Formula::read(program, None, reader)?;
     ensure(
         formula.place() == Some(place),
         format!("found another last step, expected operation {place}"),
     )?;
-    let shown = formula.maximum(&program.format, reader)?;
-    let size = round_up(&shown.size, SIZE_DIGITS);
-    let error = round_up(&shown.error, ERROR_DIGITS);
-    let computed = shown.computed.min(&size + &error);
+    let shown = formula.maximum(reader)?;
+    let mut bound = shown.bound;
+    bound.size = round_up(&bound.size, SIZE_DIGITS);
+    bound.error = round_up(&bound.error, ERROR_DIGITS);
+    let by_error = &bound.size + &bound.error;
+    bound.computed = bound.computed.min(by_error);
     Ok(Lemma {
-        bound: Bound {
-            size,
-            computed,
-            error,
-        },
+        bound,
         before: shown.before,
         unit: None,
     })

@@ -2,7 +2,7 @@
 
 use super::domain::INPUTS;
 use super::format::Format;
-use super::number::{power, whole};
+use super::number::whole;
 use super::reader::{Outcome, Reader};
 use num_bigint::BigInt;
 
@@ -24,38 +24,71 @@ pub struct Term {
     pub right: Option<usize>,
 }
 
+impl Operation<'_> {
+    /// The name and the operands, which together say what is computed.
+    pub fn parts(&self) -> (&str, &[usize]) {
+        (self.name, &self.operands)
+    }
+
+    /// True if it is one of the inputs, or a number that is a float.
+    fn has_value(&self, format: &Format) -> bool {
+        if self.name == "input" {
+            return (0..INPUTS as i64).contains(&self.value);
+        }
+        let size = BigInt::from(self.value.unsigned_abs());
+        let most = BigInt::from(1) << format.parameters.digits;
+        size <= most
+    }
+
+    /// True if there is such an operation, with so many operands.
+    fn is_known(&self) -> bool {
+        match self.parts() {
+            ("abs" | "sqrt", operands) => operands.len() == 1,
+            ("div", operands) => operands.len() == 2,
+            (name, operands) => terms(name, operands).is_some(),
+        }
+    }
+}
+
 impl Term {
-    fn plus(left: usize, right: Option<usize>) -> Term {
-        Term {
-            is_negative: false,
-            left,
-            right,
-        }
-    }
-
-    fn minus(left: usize, right: Option<usize>) -> Term {
-        Term {
-            is_negative: true,
-            left,
-            right,
-        }
-    }
-
     /// The numbers that it multiplies.
     pub fn factors(&self) -> impl Iterator<Item = usize> + Clone {
         [self.left].into_iter().chain(self.right)
+    }
+
+    fn negated(self) -> Term {
+        Term {
+            is_negative: !self.is_negative,
+            ..self
+        }
+    }
+}
+
+fn alone(number: usize) -> Term {
+    Term {
+        is_negative: false,
+        left: number,
+        right: None,
+    }
+}
+
+fn product(left: usize, right: usize) -> Term {
+    Term {
+        is_negative: false,
+        left,
+        right: Some(right),
     }
 }
 
 /// The terms that an operation adds up; none for operations that are not sums.
 pub fn terms(name: &str, operands: &[usize]) -> Option<Vec<Term>> {
     let terms = match (name, operands) {
-        ("neg", &[a]) => vec![Term::minus(a, None)],
-        ("add", &[a, b]) => vec![Term::plus(a, None), Term::plus(b, None)],
-        ("sub", &[a, b]) => vec![Term::plus(a, None), Term::minus(b, None)],
-        ("mul", &[a, b]) => vec![Term::plus(a, Some(b))],
-        ("fma", &[a, b, c]) => vec![Term::plus(a, Some(b)), Term::plus(c, None)],
-        ("minor", &[a, b, c, d]) => vec![Term::plus(a, Some(b)), Term::minus(c, Some(d))],
+        ("neg", &[a]) => vec![alone(a).negated()],
+        ("add", &[a, b]) => vec![alone(a), alone(b)],
+        ("sub", &[a, b]) => vec![alone(a), alone(b).negated()],
+        ("mul", &[a, b]) => vec![product(a, b)],
+        ("fma", &[a, b, c]) => vec![product(a, b), alone(c)],
+        ("minor", &[a, b, c, d]) => vec![product(a, b), product(c, d).negated()],
         _ => return None,
     };
     Some(terms)
@@ -94,34 +127,16 @@ fn parsed<'a>(words: &[&'a str], next: usize, format: &Format) -> Option<Operati
     if whole(place) != Some(next) {
         return None;
     }
+    let mut operation = Operation {
+        name,
+        operands: vec![],
+        value: 0,
+    };
     if ["input", "number"].contains(&name) {
         let &[word] = operands else { return None };
-        let value = whole(word)?;
-        return is_value(name, value, format).then_some(Operation {
-            name,
-            operands: vec![],
-            value,
-        });
+        operation.value = whole(word)?;
+        return operation.has_value(format).then_some(operation);
     }
-    let operands = indices(operands, next)?;
-    let is_known = match (name, operands.len()) {
-        ("abs" | "sqrt", 1) => true,
-        ("div", 2) => true,
-        _ => terms(name, &operands).is_some(),
-    };
-    is_known.then_some(Operation {
-        name,
-        operands,
-        value: 0,
-    })
-}
-
-/// True if it is one of the inputs, or a number that is a float.
-fn is_value(name: &str, value: i64, format: &Format) -> bool {
-    if name == "input" {
-        return (0..INPUTS as i64).contains(&value);
-    }
-    let size = BigInt::from(value.unsigned_abs());
-    let most = power(format.parameters.digits).to_integer();
-    size <= most
+    operation.operands = indices(operands, next)?;
+    operation.is_known().then_some(operation)
 }

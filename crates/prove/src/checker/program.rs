@@ -235,7 +235,13 @@ impl<'a> Program<'a> {
 
     /// True if an operation is the number 1.
     pub fn is_one(&self, place: usize) -> bool {
-        self.name(place) == "number" && self.operations[place].value == 1
+        self.number(place) == Some(1)
+    }
+
+    /// The number that an operation is, if it is one.
+    pub fn number(&self, place: usize) -> Option<i64> {
+        let operation = &self.operations[place];
+        (operation.name == "number").then_some(operation.value)
     }
 
     pub fn name(&self, place: usize) -> &'a str {

@@ -6,11 +6,11 @@
 //! and t_max·D - T, each times powers of D, of N·N, and of one coordinate of N and of d. Then every combination of
 //! signs that can occur is tried.
 
-use super::modular::{PRIME, inverse, times};
-use super::points::{Assumed, COUNT, Case, FAR, Factors, NEAR, POINTS, Point, SQUARE, SUM, T};
-use super::points::{U, is_small, product, products, seed, value};
+use super::modular::{inverse, negative, times};
+use super::points::{Assumed, COUNT, Case, Factors, KnownSigns, POINTS, Point, SQUARE, SUM, U};
+use super::points::{Power, is_small, product, products, seed};
 use super::program::Program;
-use super::promise::{Promise, can_be};
+use super::promise::Promise;
 use super::reader::{Outcome, ensure};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -52,17 +52,17 @@ struct Monomial {
 
 impl Monomial {
     /// The monomial of a product of known numbers. N·N is positive, so it counts for nothing.
-    fn of(factors: &Factors, is_negative: bool) -> Monomial {
+    fn of(factors: &[Power], is_negative: bool) -> Monomial {
         let mut monomial = Monomial {
             is_negative,
             odd: vec![],
             even: vec![],
         };
         for factor in factors {
-            if factor.exponent == 0 || factor.known == SQUARE {
+            let is_odd = factor.exponent % 2 == 1;
+            if factor.known == SQUARE {
                 continue;
-            }
-            if factor.exponent % 2 == 1 {
+            } else if is_odd {
                 monomial.odd.push(factor.known);
             } else {
                 monomial.even.push(factor.known);
@@ -71,7 +71,7 @@ impl Monomial {
         monomial
     }
 
-    fn sign(&self, signs: &[i8; COUNT]) -> i8 {
+    fn sign(&self, signs: &KnownSigns) -> i8 {
         let mut sign = if self.is_negative { -1 } else { 1 };
         for known in &self.odd {
             sign *= signs[*known];
@@ -123,7 +123,7 @@ struct Asked {
 /// The known numbers of a case, with one combination of their signs.
 struct Combination<'m> {
     monomials: &'m BTreeMap<usize, Monomial>,
-    signs: [i8; COUNT],
+    signs: KnownSigns,
 }
 
 impl Combination<'_> {
@@ -131,6 +131,19 @@ impl Combination<'_> {
     fn sign(&self, place: usize) -> Option<i8> {
         let monomial = self.monomials.get(&place)?;
         Some(monomial.sign(&self.signs))
+    }
+
+    fn may_meet(&self, conditions: &Conditions) -> bool {
+        let may_hold = self.may_hold_all(conditions.known);
+        may_hold && conditions.gates.iter().all(|gate| self.may_pass(gate))
+    }
+
+    fn may_pass(&self, gate: &[Pattern]) -> bool {
+        gate.iter().any(|pattern| self.may_hold_all(pattern))
+    }
+
+    fn may_hold_all(&self, pattern: &[Literal]) -> bool {
+        pattern.iter().all(|literal| self.may_hold(literal))
     }
 
     fn may_hold(&self, literal: &Literal) -> bool {
@@ -146,7 +159,12 @@ impl Combination<'_> {
                 None => return true,
             }
         }
-        product == if literal.is_negative { -1 } else { 1 }
+        let expected = if literal.is_negative { -1 } else { 1 };
+        product == expected
+    }
+
+    fn may_be_all(&self, assumptions: &[Assumed]) -> bool {
+        assumptions.iter().all(|assumed| self.may_be(assumed))
     }
 
     fn may_be(&self, assumed: &Assumed) -> bool {
@@ -155,14 +173,6 @@ impl Combination<'_> {
             Some(sign) => sign >= 0,
             None => true,
         }
-    }
-
-    fn may_hold_all(&self, pattern: &[Literal]) -> bool {
-        pattern.iter().all(|literal| self.may_hold(literal))
-    }
-
-    fn may_pass(&self, gate: &[Pattern]) -> bool {
-        gate.iter().any(|pattern| self.may_hold_all(pattern))
     }
 
     /// Goes on to the next combination of these numbers' signs; false after the last one.
@@ -223,7 +233,7 @@ impl Signs {
         &self,
         program: &Program,
         conditions: &Conditions,
-        test: impl Fn(&[i8; COUNT]) -> Outcome<()>,
+        test: impl Fn(&KnownSigns) -> Outcome<()>,
     ) -> Outcome<()> {
         let mut places = conditions.places();
         let sized = inner(program, &places);
@@ -238,55 +248,56 @@ impl Signs {
                     inner: assumed(&sized, bits),
                     axes: *axes,
                 };
-                let mut monomials = BTreeMap::new();
-                for place in &places {
-                    if let Some(monomial) = self.known_monomial(program, *place, &case) {
-                        monomials.insert(*place, monomial);
+                let monomials = self.monomials(program, &places, &case);
+                let used = self.used(&monomials);
+                let mut combination = Combination {
+                    monomials: &monomials,
+                    signs: [-1; COUNT],
+                };
+                loop {
+                    let occurs = self.promise.can_be(&combination.signs);
+                    if occurs
+                        && combination.may_be_all(&case.inner)
+                        && combination.may_meet(conditions)
+                    {
+                        test(&combination.signs)?;
+                    }
+                    if !combination.next(&used) {
+                        break;
                     }
                 }
-                self.with_signs(&monomials, &case.inner, conditions, &test)?;
             }
         }
         Ok(())
     }
 
-    fn with_signs(
+    /// The known numbers among some operations.
+    fn monomials(
         &self,
-        monomials: &BTreeMap<usize, Monomial>,
-        inner: &[Assumed],
-        conditions: &Conditions,
-        test: &impl Fn(&[i8; COUNT]) -> Outcome<()>,
-    ) -> Outcome<()> {
-        let extent = self.promise.extent.as_str();
+        program: &Program,
+        places: &BTreeSet<usize>,
+        case: &Case,
+    ) -> BTreeMap<usize, Monomial> {
+        let mut monomials = BTreeMap::new();
+        for place in places {
+            if let Some(monomial) = self.known_monomial(program, *place, case) {
+                monomials.insert(*place, monomial);
+            }
+        }
+        monomials
+    }
+
+    /// The numbers whose signs are tried: those of the promise, and those of which operations are made.
+    fn used(&self, monomials: &BTreeMap<usize, Monomial>) -> BTreeSet<usize> {
         let mut used = BTreeSet::from_iter(U..=SUM);
-        match extent {
-            "ray" => used.extend([T]),
-            "interval" => used.extend([NEAR, FAR]),
-            _ => {}
+        for end in self.promise.ends {
+            used.insert(end.number);
         }
         for monomial in monomials.values() {
             used.extend(&monomial.odd);
             used.extend(&monomial.even);
         }
-        let mut combination = Combination {
-            monomials,
-            signs: [-1; COUNT],
-        };
-        loop {
-            if can_be(&combination.signs, extent == "interval")
-                && inner.iter().all(|assumed| combination.may_be(assumed))
-                && combination.may_hold_all(conditions.known)
-                && conditions
-                    .gates
-                    .iter()
-                    .all(|gate| combination.may_pass(gate))
-            {
-                test(&combination.signs)?;
-            }
-            if !combination.next(&used) {
-                return Ok(());
-            }
-        }
+        used
     }
 
     /// A number's sign, which is found once.
@@ -312,11 +323,11 @@ impl Signs {
         }
         let mut values = Vec::new();
         for point in &self.points {
-            values.push(value(program, place, point, case));
+            values.push(case.value(program, place, point));
         }
         let ratio = times(values[1], inverse(values[0]));
         for factors in self.products.get(&ratio)? {
-            if let Some(is_negative) = self.ratio(&values, |point| product(factors, point)) {
+            if let Some(is_negative) = self.ratio(&values, factors) {
                 return Some(Monomial::of(factors, is_negative));
             }
         }
@@ -324,19 +335,18 @@ impl Signs {
     }
 
     /// True if the values are one negative number times the product, false if a positive one; none if neither.
-    fn ratio(&self, values: &[u64], product: impl Fn(&Point) -> u64) -> Option<bool> {
-        let first = product(&self.points[0]);
-        for (value, point) in values.iter().zip(&self.points).skip(1) {
-            if times(*value, first) != times(values[0], product(point)) {
+    fn ratio(&self, values: &[u64], factors: &[Power]) -> Option<bool> {
+        let first = product(factors, &self.points[0]);
+        for (value, point) in values.iter().zip(&self.points) {
+            let here = product(factors, point);
+            if times(*value, first) != times(values[0], here) {
                 return None;
             }
         }
         let ratio = times(values[0], inverse(first));
-        if ratio == 0 {
-            None
-        } else if is_small_ratio(ratio) {
+        if is_small_ratio(ratio) {
             Some(false)
-        } else if is_small_ratio(PRIME - ratio) {
+        } else if is_small_ratio(negative(ratio)) {
             Some(true)
         } else {
             None

@@ -216,11 +216,11 @@ fn bounds_and_higher_orders_are_what_the_guide_says() {
 
         let expected = stated(format, &formula.steps, &corners, None);
         let expected: Vec<Bound> = expected.into_iter().map(|stated| stated.bound).collect();
-        let bounds = formula.run(format, &corners, None).bounds;
+        let bounds = formula.bounds(format, &corners);
         assert_eq!(bounds, expected);
 
         let all = stated(format, &formula.steps, &corners, Some(&expected));
-        let rest = formula.run(format, &corners, Some(&bounds)).rest;
+        let rest = formula.rest(format, &bounds);
         assert_eq!(rest, all[all.len() - 1].rest);
         with_rest += usize::from(!rest.is_zero());
     }
