@@ -17,21 +17,21 @@ use steps::Step;
 
 /// The variables and the steps of a lemma.
 pub struct Formula<'p> {
-    program: &'p Program<'p>,
+    program: &'p Program,
     variables: Vec<Variable>,
     /// The variables that are coordinates of one unit vector in which the last step is linear.
     unit: Vec<usize>,
     /// True if one of the variables is a quotient, whose rule has steps for the proof alone.
     has_quotient: bool,
-    steps: Vec<Step<'p>>,
+    steps: Vec<Step>,
 }
 
 impl<'p> Formula<'p> {
     /// Reads a formula; with the quotient, in the lemmas that have one.
-    pub fn read<'a: 'p>(
-        program: &'p Program<'p>,
+    pub fn read(
+        program: &'p Program,
         quotient: Option<Quotient>,
-        reader: &mut Reader<'a>,
+        reader: &mut Reader,
     ) -> Outcome<Self> {
         let variables = variables::read(program, quotient, reader)?;
         let mut formula = Formula::of_variables(program, variables);
@@ -54,7 +54,7 @@ impl<'p> Formula<'p> {
         Ok(formula)
     }
 
-    fn of_variables(program: &'p Program<'p>, variables: Vec<Variable>) -> Self {
+    fn of_variables(program: &'p Program, variables: Vec<Variable>) -> Self {
         let mut unit = Vec::new();
         for (v, variable) in variables.iter().enumerate() {
             if variable.unit.is_some() {
@@ -70,7 +70,7 @@ impl<'p> Formula<'p> {
         }
     }
 
-    fn read_steps<'a: 'p>(&mut self, reader: &mut Reader<'a>) -> Outcome<()> {
+    fn read_steps(&mut self, reader: &mut Reader) -> Outcome<()> {
         while reader.is_next("step") {
             let form = "step OPERATION KIND OPERANDS";
             let words = reader.read(form, |words| Some(words.to_vec()))?;

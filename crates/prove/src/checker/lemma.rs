@@ -52,7 +52,7 @@ impl Heading {
 }
 
 /// Reads and checks a lemma.
-pub fn read<'a>(program: &mut Program<'a>, reader: &mut Reader<'a>) -> Outcome<()> {
+pub fn read(program: &mut Program, reader: &mut Reader) -> Outcome<()> {
     let form = "lemma OPERATION sum, unit or quotient, sum-of-quotients or rest-of-quotients, \
                 each of these perhaps with -by-reciprocal, for an operation without a lemma that is no neg or abs";
     let heading = reader.read(form, |words| Heading::parse(words, program))?;
@@ -65,11 +65,7 @@ pub fn read<'a>(program: &mut Program<'a>, reader: &mut Reader<'a>) -> Outcome<(
 }
 
 /// The lemma that its rule proves.
-fn proved<'a: 'p, 'p>(
-    program: &'p Program<'p>,
-    heading: &Heading,
-    reader: &mut Reader<'a>,
-) -> Outcome<Lemma> {
+fn proved(program: &Program, heading: &Heading, reader: &mut Reader) -> Outcome<Lemma> {
     let Heading {
         place,
         by_reciprocal,
@@ -91,11 +87,7 @@ fn proved<'a: 'p, 'p>(
 
 /// The lemma of a sum of products: "Formulas without divisions" in the guide. The computed number has two bounds, one
 /// from the operands' computed sizes, and one from its size and its error.
-fn sum<'a: 'p, 'p>(
-    program: &'p Program<'p>,
-    place: usize,
-    reader: &mut Reader<'a>,
-) -> Outcome<Lemma> {
+fn sum(program: &Program, place: usize, reader: &mut Reader) -> Outcome<Lemma> {
     let formula = Formula::read(program, None, reader)?;
     ensure(
         formula.place() == Some(place),

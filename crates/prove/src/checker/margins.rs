@@ -64,13 +64,13 @@ struct Counted {
 }
 
 /// The margins of a program's numbers.
-pub struct Margins<'p, 'a> {
-    program: &'p Program<'a>,
+pub struct Margins<'p> {
+    program: &'p Program,
     counts: HashMap<Counted, Count>,
 }
 
-impl<'p, 'a> Margins<'p, 'a> {
-    pub fn new(program: &'p Program<'a>) -> Margins<'p, 'a> {
+impl<'p> Margins<'p> {
+    pub fn new(program: &'p Program) -> Margins<'p> {
         Margins {
             program,
             counts: HashMap::new(),

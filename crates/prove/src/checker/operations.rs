@@ -4,14 +4,33 @@ use super::domain::INPUTS;
 use super::format::Format;
 use super::number::whole;
 use super::reader::{Outcome, Reader};
-use num_bigint::BigInt;
 
 /// Longer programs and formulas are refused.
 pub const MOST_ROWS: usize = 1 << 12;
 
+/// The names of operations, and of steps of a formula.
+const NAMES: [&str; 12] = [
+    "input",
+    "number",
+    "variables",
+    "neg",
+    "abs",
+    "add",
+    "sub",
+    "mul",
+    "div",
+    "sqrt",
+    "fma",
+    "minor",
+];
+
+pub fn known_name(word: &str) -> Option<&'static str> {
+    NAMES.into_iter().find(|name| *name == word)
+}
+
 /// An input's or a number's value is `value`; everything else has operands.
-pub struct Operation<'a> {
-    pub name: &'a str,
+pub struct Operation {
+    pub name: &'static str,
     pub operands: Vec<usize>,
     pub value: i64,
 }
@@ -24,27 +43,19 @@ pub struct Term {
     pub right: Option<usize>,
 }
 
-impl Operation<'_> {
+impl Operation {
     /// The name and the operands, which together say what is computed.
     pub fn parts(&self) -> (&str, &[usize]) {
         (self.name, &self.operands)
     }
 
-    /// True if it is one of the inputs, or a number that is a float.
-    fn has_value(&self, format: &Format) -> bool {
-        if self.name == "input" {
-            return (0..INPUTS as i64).contains(&self.value);
-        }
-        let size = BigInt::from(self.value.unsigned_abs());
-        let most = BigInt::from(1) << format.parameters.digits;
-        size <= most
-    }
-
-    /// True if there is such an operation, with so many operands.
-    fn is_known(&self) -> bool {
+    /// True if it is an input, a number that is a float, or has as many operands as its name demands.
+    fn is_right(&self, format: &Format) -> bool {
         match self.parts() {
-            ("abs" | "sqrt", operands) => operands.len() == 1,
-            ("div", operands) => operands.len() == 2,
+            ("input", []) => (0..INPUTS as i64).contains(&self.value),
+            ("number", []) => format.has(self.value),
+            ("abs" | "sqrt", [_]) => true,
+            ("div", [_, _]) => true,
             (name, operands) => terms(name, operands).is_some(),
         }
     }
@@ -110,7 +121,7 @@ pub fn index(word: &str, end: usize) -> Option<usize> {
 }
 
 /// Reads the lines of operations.
-pub fn read<'a>(format: &Format, reader: &mut Reader<'a>) -> Outcome<Vec<Operation<'a>>> {
+pub fn read(format: &Format, reader: &mut Reader) -> Outcome<Vec<Operation>> {
     let mut operations = Vec::new();
     while reader.is_next("op") && operations.len() < MOST_ROWS {
         let next = operations.len();
@@ -122,21 +133,20 @@ pub fn read<'a>(format: &Format, reader: &mut Reader<'a>) -> Outcome<Vec<Operati
 }
 
 /// The operation of a line, which must be the next one.
-fn parsed<'a>(words: &[&'a str], next: usize, format: &Format) -> Option<Operation<'a>> {
+fn parsed(words: &[&str], next: usize, format: &Format) -> Option<Operation> {
     let (&[place, name], operands) = words.split_first_chunk()?;
     if whole(place) != Some(next) {
         return None;
     }
     let mut operation = Operation {
-        name,
+        name: known_name(name)?,
         operands: vec![],
         value: 0,
     };
-    if ["input", "number"].contains(&name) {
-        let &[word] = operands else { return None };
-        operation.value = whole(word)?;
-        return operation.has_value(format).then_some(operation);
+    match (name, operands) {
+        ("input" | "number", &[value]) => operation.value = whole(value)?,
+        ("input" | "number", _) => return None,
+        _ => operation.operands = indices(operands, next)?,
     }
-    operation.operands = indices(operands, next)?;
-    operation.is_known().then_some(operation)
+    operation.is_right(format).then_some(operation)
 }

@@ -31,8 +31,8 @@ impl Summand {
 
 /// The normal form of an operation, of which the first summand is positive.
 #[derive(PartialEq, Eq, Hash)]
-struct Form<'a> {
-    name: &'a str,
+struct Form {
+    name: &'static str,
     summands: Vec<Summand>,
 }
 
@@ -56,9 +56,9 @@ impl Edge {
 }
 
 /// The forms that are known so far, each with its name.
-struct Forms<'p, 'a> {
-    program: &'p Program<'a>,
-    names: HashMap<Form<'a>, usize>,
+struct Forms<'p> {
+    program: &'p Program,
+    names: HashMap<Form, usize>,
 }
 
 /// Checks that a number is made of two of the triangle's vertices, and has one form and opposite signs if they are
@@ -135,7 +135,7 @@ fn factors(program: &Program, place: usize) -> Option<[usize; 2]> {
     program.operands(place).try_into().ok()
 }
 
-impl<'a> Forms<'_, 'a> {
+impl Forms<'_> {
     /// True if a number is x(p)*y(q) - x(q)*y(p): the factors of one product are made of one vertex each, and with the
     /// vertices exchanged they are those of the other.
     ///

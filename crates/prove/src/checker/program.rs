@@ -18,10 +18,10 @@ pub struct Variant {
 }
 
 /// The program of one number, the last one.
-pub struct Program<'a> {
+pub struct Program {
     pub format: Format,
     pub domain: Domain,
-    pub operations: Vec<Operation<'a>>,
+    pub operations: Vec<Operation>,
     /// Pairs of inputs: without their signs, the first is at most the second.
     pub orders: BTreeSet<(usize, usize)>,
     pub limits: Limits,
@@ -72,9 +72,9 @@ pub struct Fraction {
     pub divisor: usize,
 }
 
-impl<'a> Program<'a> {
+impl Program {
     /// Reads operations alone.
-    pub fn of_operations(format: Format, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
+    pub fn of_operations(format: Format, reader: &mut Reader) -> Outcome<Program> {
         let operations = operations::read(&format, reader)?;
         Ok(Program {
             format,
@@ -88,7 +88,7 @@ impl<'a> Program<'a> {
     }
 
     /// Reads the operations and the suppositions of the proof.
-    pub fn read(format: Format, domain: Domain, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
+    pub fn read(format: Format, domain: Domain, reader: &mut Reader) -> Outcome<Program> {
         reader.read_word("program")?;
         let mut program = Program::of_operations(format, reader)?;
         program.domain = domain;
@@ -244,7 +244,7 @@ impl<'a> Program<'a> {
         (operation.name == "number").then_some(operation.value)
     }
 
-    pub fn name(&self, place: usize) -> &'a str {
+    pub fn name(&self, place: usize) -> &'static str {
         self.operations[place].name
     }
 

@@ -19,7 +19,7 @@ pub fn fraction(program: &Program, place: usize, by_reciprocal: bool) -> Outcome
 
 /// The divisor of a quotient, or of two.
 pub struct Divisor<'p> {
-    program: &'p Program<'p>,
+    program: &'p Program,
     place: usize,
     /// The least size of the computed divisor: φ - E_d in the guide.
     least: Number,
@@ -34,7 +34,7 @@ pub struct Divisor<'p> {
 
 impl<'p> Divisor<'p> {
     /// An error if the computed divisor may be rounded to zero.
-    pub fn new(program: &'p Program<'p>, place: usize) -> Outcome<Self> {
+    pub fn new(program: &'p Program, place: usize) -> Outcome<Self> {
         let Format { unit, tiny, .. } = &program.format;
         let error = &program.bound(place)?.error;
         let least = program.floor(place) - error;
@@ -94,11 +94,11 @@ pub fn rounded(format: &Format, size: Number, error: Number, before: &Number) ->
 }
 
 /// The bound of a quotient: C, the roundings that its formula leaves out, and those of the division.
-pub fn bound<'a: 'p, 'p>(
-    program: &'p Program<'p>,
+pub fn bound(
+    program: &Program,
     place: usize,
     by_reciprocal: bool,
-    reader: &mut Reader<'a>,
+    reader: &mut Reader,
 ) -> Outcome<Bound> {
     let format = &program.format;
     let Fraction { numerator, divisor } = fraction(program, place, by_reciprocal)?;

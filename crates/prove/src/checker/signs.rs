@@ -13,7 +13,7 @@ use super::program::Program;
 use super::promise::Promise;
 use super::reader::{Outcome, ensure};
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap};
 
 /// More signs inside absolute values are not tried.
 const MOST_SIZED: usize = 8;
@@ -83,6 +83,9 @@ impl Monomial {
     }
 }
 
+/// The signs of operations that are made of known numbers.
+type Monomials = HashMap<usize, Monomial>;
+
 /// The conditions of an answer: all literals hold, and a pattern of each gate.
 struct Conditions<'c> {
     known: &'c [Literal],
@@ -103,7 +106,8 @@ impl Conditions<'_> {
 }
 
 /// The signs that can occur together.
-pub struct Signs {
+pub struct Signs<'p> {
+    program: &'p Program,
     promise: Promise,
     points: Vec<Point>,
     products: HashMap<u64, Vec<Factors>>,
@@ -122,7 +126,7 @@ struct Asked {
 
 /// The known numbers of a case, with one combination of their signs.
 struct Combination<'m> {
-    monomials: &'m BTreeMap<usize, Monomial>,
+    monomials: &'m Monomials,
     signs: KnownSigns,
 }
 
@@ -189,14 +193,15 @@ impl Combination<'_> {
     }
 }
 
-impl Signs {
-    pub fn new(promise: Promise, program: &Program) -> Signs {
+impl<'p> Signs<'p> {
+    pub fn new(promise: Promise, program: &'p Program) -> Signs<'p> {
         let seed = seed(program);
         let mut points = Vec::new();
         for i in 1..=POINTS as u64 {
             points.push(Point::new(seed.wrapping_add(i << 32)));
         }
         Signs {
+            program,
             promise,
             products: products(&points),
             points,
@@ -206,9 +211,9 @@ impl Signs {
     }
 
     /// An error if these conditions hold for some ray that should hit.
-    pub fn ensure_miss(&self, program: &Program, known: &[Literal]) -> Outcome<()> {
+    pub fn ensure_miss(&self, known: &[Literal]) -> Outcome<()> {
         let conditions = Conditions { known, gates: &[] };
-        self.every(program, &conditions, |signs| {
+        self.every(&conditions, |signs| {
             ensure(
                 !self.promise.is_closed_hit(signs),
                 "rejects rays that may hit",
@@ -217,13 +222,11 @@ impl Signs {
     }
 
     /// An error if every gate accepts some ray that does not surely hit the inside of the triangle.
-    pub fn ensure_hit(&self, program: &Program, sure: &[Literal], gates: &[Gate]) -> Outcome<()> {
+    pub fn ensure_hit(&self, sure: &[Literal], gates: &[Gate]) -> Outcome<()> {
         let conditions = Conditions { known: sure, gates };
-        self.every(program, &conditions, |signs| {
-            match self.promise.wrong_hit(signs) {
-                Some(what) => Err(format!("its gates accept rays that {what}")),
-                None => Ok(()),
-            }
+        self.every(&conditions, |signs| match self.promise.wrong_hit(signs) {
+            Some(what) => Err(format!("its gates accept rays that {what}")),
+            None => Ok(()),
         })
     }
 
@@ -231,12 +234,11 @@ impl Signs {
     /// inside absolute values. So no ray that meets the conditions is left out.
     fn every(
         &self,
-        program: &Program,
         conditions: &Conditions,
         test: impl Fn(&KnownSigns) -> Outcome<()>,
     ) -> Outcome<()> {
         let mut places = conditions.places();
-        let sized = inner(program, &places);
+        let sized = self.inner(&places);
         ensure(
             sized.len() <= MOST_SIZED,
             format!("needs the signs of more than {MOST_SIZED} numbers inside absolute values"),
@@ -248,7 +250,7 @@ impl Signs {
                     inner: assumed(&sized, bits),
                     axes: *axes,
                 };
-                let monomials = self.monomials(program, &places, &case);
+                let monomials = self.monomials(&places, &case);
                 let used = self.used(&monomials);
                 let mut combination = Combination {
                     monomials: &monomials,
@@ -271,16 +273,29 @@ impl Signs {
         Ok(())
     }
 
+    /// The numbers inside absolute values of which some numbers are made.
+    fn inner(&self, places: &BTreeSet<usize>) -> BTreeSet<usize> {
+        let mut found = BTreeSet::new();
+        let mut seen = BTreeSet::new();
+        let mut open = Vec::from_iter(places.clone());
+        while let Some(place) = open.pop() {
+            if !seen.insert(place) {
+                continue;
+            }
+            let operands = self.program.operands(place);
+            if self.program.name(place) == "abs" {
+                found.extend(operands);
+            }
+            open.extend(operands);
+        }
+        found
+    }
+
     /// The known numbers among some operations.
-    fn monomials(
-        &self,
-        program: &Program,
-        places: &BTreeSet<usize>,
-        case: &Case,
-    ) -> BTreeMap<usize, Monomial> {
-        let mut monomials = BTreeMap::new();
+    fn monomials(&self, places: &BTreeSet<usize>, case: &Case) -> Monomials {
+        let mut monomials = Monomials::new();
         for place in places {
-            if let Some(monomial) = self.known_monomial(program, *place, case) {
+            if let Some(monomial) = self.known_monomial(*place, case) {
                 monomials.insert(*place, monomial);
             }
         }
@@ -288,7 +303,7 @@ impl Signs {
     }
 
     /// The numbers whose signs are tried: those of the promise, and those of which operations are made.
-    fn used(&self, monomials: &BTreeMap<usize, Monomial>) -> BTreeSet<usize> {
+    fn used(&self, monomials: &Monomials) -> BTreeSet<usize> {
         let mut used = BTreeSet::from_iter(U..=SUM);
         for end in self.promise.ends {
             used.insert(end.number);
@@ -301,15 +316,14 @@ impl Signs {
     }
 
     /// A number's sign, which is found once.
-    fn known_monomial(&self, program: &Program, place: usize, case: &Case) -> Option<Monomial> {
+    fn known_monomial(&self, place: usize, case: &Case) -> Option<Monomial> {
         let asked = Asked {
             place,
             case: case.clone(),
         };
         let mut known = self.known.borrow_mut();
-        let found = known
-            .entry(asked)
-            .or_insert_with(|| self.monomial(program, place, case));
+        let entry = known.entry(asked);
+        let found = entry.or_insert_with(|| self.monomial(place, case));
         found.clone()
     }
 
@@ -317,13 +331,13 @@ impl Signs {
     ///
     /// Two polynomials of small degree and small coefficients that agree at all points are equal, but for a chance below
     /// 2^-200, because the points depend on the whole program.
-    fn monomial(&self, program: &Program, place: usize, case: &Case) -> Option<Monomial> {
-        if !is_small(program, place) {
+    fn monomial(&self, place: usize, case: &Case) -> Option<Monomial> {
+        if !is_small(self.program, place) {
             return None;
         }
         let mut values = Vec::new();
         for point in &self.points {
-            values.push(case.value(program, place, point));
+            values.push(case.value(self.program, place, point));
         }
         let ratio = times(values[1], inverse(values[0]));
         for factors in self.products.get(&ratio)? {
@@ -356,7 +370,8 @@ impl Signs {
 
 /// True if it is a whole number up to 64, or the inverse of one.
 fn is_small_ratio(x: u64) -> bool {
-    (1..=64).contains(&x) || (1..=64).contains(&inverse(x))
+    let small = 1..=64;
+    small.contains(&x) || small.contains(&inverse(x))
 }
 
 /// The signs that a combination's bits say of the numbers inside absolute values.
@@ -369,24 +384,6 @@ fn assumed(sized: &BTreeSet<usize>, bits: u32) -> Vec<Assumed> {
         });
     }
     all
-}
-
-/// The numbers inside absolute values of which some numbers are made.
-fn inner(program: &Program, places: &BTreeSet<usize>) -> BTreeSet<usize> {
-    let mut found = BTreeSet::new();
-    let mut seen = BTreeSet::new();
-    let mut open: Vec<usize> = places.iter().copied().collect();
-    while let Some(place) = open.pop() {
-        if !seen.insert(place) {
-            continue;
-        }
-        let operands = program.operands(place);
-        if program.name(place) == "abs" {
-            found.extend(operands);
-        }
-        open.extend(operands);
-    }
-    found
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::variables::Quotient;
 
 /// Two quotients that have lemmas, and what is known of their sum in exact arithmetic.
 struct Pair<'p> {
-    program: &'p Program<'p>,
+    program: &'p Program,
     u: usize,
     v: usize,
     by_reciprocal: bool,
@@ -21,11 +21,11 @@ struct Pair<'p> {
 }
 
 /// The bound of u + v.
-pub fn sum<'a: 'p, 'p>(
-    program: &'p Program<'p>,
+pub fn sum(
+    program: &Program,
     place: usize,
     by_reciprocal: bool,
-    reader: &mut Reader<'a>,
+    reader: &mut Reader,
 ) -> Outcome<Bound> {
     let [u, v] = operands(program, place, "add")?;
     let mut pair = Pair {
@@ -47,11 +47,11 @@ pub fn sum<'a: 'p, 'p>(
 ///
 /// The sum of both is 1 less this number. So it lies between 1 - `quotient` and 1 + X, if this number is supposed to be
 /// at least -X; else it is at most 1 + `quotient` in size.
-pub fn rest<'a: 'p, 'p>(
-    program: &'p Program<'p>,
+pub fn rest(
+    program: &Program,
     place: usize,
     by_reciprocal: bool,
-    reader: &mut Reader<'a>,
+    reader: &mut Reader,
 ) -> Outcome<Bound> {
     let [remainder, v] = operands(program, place, "sub")?;
     let [one, u] = operands(program, remainder, "sub")?;
@@ -106,7 +106,7 @@ impl<'p> Pair<'p> {
     ///
     /// The formula is n + m - q*d, q being u + v. It is 0 in exact arithmetic, and the errors that n, m and d have in
     /// common count once in it, as for one quotient. The roundings that it leaves out are added, then those of u and v.
-    fn error<'a: 'p>(&self, reader: &mut Reader<'a>) -> Outcome<Number> {
+    fn error(&self, reader: &mut Reader) -> Outcome<Number> {
         let u = fraction(self.program, self.u, self.by_reciprocal)?;
         let v = fraction(self.program, self.v, self.by_reciprocal)?;
         ensure(self.u != self.v && u.divisor == v.divisor, UNFIT)?;

@@ -79,7 +79,7 @@ impl Orders {
     }
 }
 
-impl Step<'_> {
+impl Step {
     /// The error that the operands bring.
     fn brought(&self, above: &[Orders]) -> Orders {
         let mut brought = Orders::default();

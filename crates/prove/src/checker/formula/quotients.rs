@@ -4,7 +4,7 @@ use super::super::operations::Term;
 use super::{Formula, Step};
 use num_traits::Zero;
 
-impl Step<'_> {
+impl Step {
     fn leave_out(&mut self) {
         self.rounds = false;
         self.left_out = true;

@@ -3,7 +3,7 @@
 use super::super::domain::{INPUTS, Leaf};
 use super::super::format::{Bound, F32};
 use super::super::number::{integer, whole};
-use super::super::operations::{Term, index, indices, terms};
+use super::super::operations::{Term, index, indices, known_name, terms};
 use super::super::variables::Variable;
 use super::Formula;
 
@@ -15,10 +15,10 @@ pub struct SignedVariable {
 
 /// A step, and its summands: variables, a constant, and earlier steps.
 #[derive(Default)]
-pub struct Step<'a> {
+pub struct Step {
     /// The operation that it stands for; none of steps that only a proof needs.
     pub place: Option<usize>,
-    pub name: &'a str,
+    pub name: &'static str,
     pub variables: Vec<SignedVariable>,
     pub constant: i64,
     pub terms: Vec<Term>,
@@ -33,7 +33,7 @@ pub struct Step<'a> {
     pub left_out: bool,
 }
 
-impl Step<'_> {
+impl Step {
     /// The earlier steps that it uses.
     pub fn operands(&self) -> impl Iterator<Item = usize> {
         self.terms.iter().flat_map(Term::factors)
@@ -41,21 +41,21 @@ impl Step<'_> {
 }
 
 /// A step, or the words that say what was expected in its place.
-type Checked<'a> = Result<Step<'a>, &'static str>;
+type Checked = Result<Step, &'static str>;
 
 const UNKNOWN: &str = "an operation of the program";
 
 /// The steps that a quotient's formula has for its proof alone.
 const PROOF_ONLY: [&str; 5] = ["variables", "number", "add", "mul", "sub"];
 
-impl<'p> Formula<'p> {
+impl Formula<'_> {
     /// The next step, from the words of its line.
-    pub fn step(&self, words: &[&'p str]) -> Checked<'p> {
+    pub fn step(&self, words: &[&str]) -> Checked {
         let chunk = words.split_first_chunk();
         let (&[place, name], operands) = chunk.ok_or("more words")?;
         let is_for_proof = self.has_quotient && PROOF_ONLY.contains(&name);
         let mut step = Step {
-            name,
+            name: known_name(name).unwrap_or_default(),
             ..Step::default()
         };
         if place != "-" || !is_for_proof {
@@ -74,7 +74,7 @@ impl<'p> Formula<'p> {
     ///
     /// A difference of two inputs is rounded once, and it has the bound of that difference from the domain: the sum of
     /// variables is only another way to write its exact value.
-    fn sum_of_variables(&self, mut step: Step<'p>, words: &[&str]) -> Checked<'p> {
+    fn sum_of_variables(&self, mut step: Step, words: &[&str]) -> Checked {
         for word in words {
             let signed = self.signed_variable(word);
             let signed = signed.ok_or("variables, each with its sign")?;
@@ -142,7 +142,7 @@ impl<'p> Formula<'p> {
     }
 
     /// A sum of earlier steps or of their products.
-    fn sum_of_terms(&self, mut step: Step<'p>, words: &[&str]) -> Checked<'p> {
+    fn sum_of_terms(&self, mut step: Step, words: &[&str]) -> Checked {
         let operands = indices(words, self.steps.len()).ok_or("earlier steps")?;
         step.terms = terms(step.name, &operands).ok_or("a step that adds or multiplies")?;
         if !self.is_of_program(&step) {
@@ -204,7 +204,7 @@ impl<'p> Formula<'p> {
     }
 
     /// A number of the program, or the number 1 for the proof alone.
-    fn constant(&self, mut step: Step<'p>, words: &[&str]) -> Checked<'p> {
+    fn constant(&self, mut step: Step, words: &[&str]) -> Checked {
         const EXPECTED: &str = "the program's number";
         let &[word] = words else {
             return Err(EXPECTED);
