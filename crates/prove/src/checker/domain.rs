@@ -39,6 +39,10 @@ pub struct Leaf {
 }
 
 impl Leaf {
+    pub fn of(input: usize) -> Leaf {
+        Leaf { input, less: None }
+    }
+
     /// Adds a multiple of it to a sum of inputs.
     pub fn add_to(self, sum: &mut [i64; INPUTS], factor: i64) {
         sum[self.input] += factor;

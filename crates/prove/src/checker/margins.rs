@@ -120,7 +120,7 @@ impl<'p> Margins<'p> {
             }
             return Ok(count);
         }
-        match (self.program.name(place), self.program.operands(place)) {
+        match self.program.operations[place].parts() {
             ("number", _) => Ok(Count {
                 underflows: 0,
                 ..Count::INPUT

@@ -107,7 +107,7 @@ fn squares(program: &Program, root: usize) -> Option<Vec<usize>> {
     let mut squares = Vec::new();
     let mut open = program.operands(root).to_vec();
     while let Some(place) = open.pop() {
-        match (program.name(place), program.operands(place)) {
+        match program.operations[place].parts() {
             ("mul", &[a, b]) if a == b => squares.push(a),
             ("fma", &[a, b, c]) if a == b => {
                 squares.push(a);
