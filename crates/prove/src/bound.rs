@@ -26,6 +26,17 @@ pub struct Bound {
     pub error: Dyadic,
 }
 
+impl Bound {
+    /// The bound of a number of this size without an error.
+    pub(super) fn exactly(size: Dyadic) -> Bound {
+        Bound {
+            size,
+            computed: size,
+            error: Dyadic::ZERO,
+        }
+    }
+}
+
 /// One step of a proof: a number, its formula, and what follows.
 #[derive(Clone, Debug)]
 pub struct Lemma {
@@ -145,70 +156,38 @@ impl<'a> Prover<'a> {
     }
 
     fn prove(&mut self, place: Place) -> Result<Bound, String> {
-        let (rule, formula, maximum, bound);
-        if let Some((vector, length)) = self.unit(place) {
-            let floor = self.floor(length);
-            rule = Rule::Unit {
-                vector,
-                length,
-                floor,
-            };
-            (formula, maximum, bound) = (
-                Formula::default(),
-                Maximum::default(),
-                self.bound_of_unit(vector, floor.size())?,
-            );
-        } else if let Some((numerator, divisor, twice)) = self.quotient(place) {
-            let floor = self.floor(divisor);
-            // A reciprocal is known by its divisor.
-            let is_known = numerator.is_some() || self.domain.measures.is_none();
-            let most = if is_known { self.most(place) } else { None };
-            let below = self.below(place);
-            let limits = (floor, most, below);
-            (formula, maximum, bound) = self.divide(numerator, divisor, twice, limits)?;
-            let most = most.unwrap_or(Limit::Own(bound.size));
-            rule = Rule::Quotient {
-                ratio: Ratio::One,
-                twice,
-                divisor,
-                floor,
-                most,
-                below,
-            };
-        } else if let Some(both) = self.quotients(place) {
-            let (ratio, divisor, twice) = (both.ratio, both.divisor, both.twice);
-            let (floor, most, below) = (self.floor(divisor), self.most(place), self.below(place));
-            (formula, maximum, bound) = self.divide_both(place, (floor, most, below))?;
-            let most = most.unwrap_or(Limit::Own(bound.size));
-            rule = Rule::Quotient {
-                ratio,
-                twice,
-                divisor,
-                floor,
-                most,
-                below,
-            };
-        } else if let Operation::Sqrt(_) = self.operation(place) {
-            return Err("its root is used otherwise than to divide a vector by its length".into());
-        } else {
-            rule = Rule::Sum;
-            (formula, maximum) = self.formula(place)?;
-            bound = bound_of_sum(&formula, &maximum);
-        }
-        if [bound.error, bound.size, bound.computed]
-            .iter()
-            .any(|x| !x.is_number())
-        {
+        let lemma = self.lemma(place)?;
+        let bound = lemma.bound.clone();
+        let numbers = [bound.error, bound.size, bound.computed];
+        if !numbers.into_iter().all(Dyadic::is_number) {
             return Err("its bound needs more digits than there are".to_owned());
         }
-        self.lemmas.push(Lemma {
+        self.lemmas.push(lemma);
+        Ok(bound)
+    }
+
+    fn lemma(&mut self, place: Place) -> Result<Lemma, String> {
+        if let Some(unit) = self.unit(place) {
+            return self.lemma_of_unit(place, unit);
+        }
+        if let Some(fraction) = self.quotient(place) {
+            return self.divide(place, fraction);
+        }
+        if let Some(both) = self.quotients(place) {
+            return self.divide_both(place, both);
+        }
+        if let Operation::Sqrt(_) = self.operation(place) {
+            return Err("its root is used otherwise than to divide a vector by its length".into());
+        }
+        let (formula, maximum) = self.formula(place)?;
+        let bound = bound_of_sum(&formula, &maximum);
+        Ok(Lemma {
             place,
-            rule,
+            rule: Rule::Sum,
             formula,
             maximum,
-            bound: bound.clone(),
-        });
-        Ok(bound)
+            bound,
+        })
     }
 
     /// An error if a computed number may be infinite.
@@ -253,10 +232,8 @@ impl<'a> Prover<'a> {
             Rule::Sum => {}
             Rule::Unit { vector, .. } => needs.extend(vector),
             Rule::Quotient { divisor, .. } => {
-                let numerator = self
-                    .quotient(lemma.place)
-                    .and_then(|(numerator, ..)| numerator);
-                needs.extend(numerator);
+                let fraction = self.quotient(lemma.place);
+                needs.extend(fraction.and_then(|fraction| fraction.numerator));
                 if let Some(both) = self.quotients(lemma.place) {
                     needs.extend(both.parts.into_iter().chain(both.rest));
                 }
@@ -275,14 +252,14 @@ impl<'a> Prover<'a> {
     pub fn orders(&self, place: Place) -> BTreeSet<(u8, u8)> {
         let places = parts(&self.path.operations, place);
         let mut orders = BTreeSet::new();
-        for (numerator, divisor, _) in places.filter_map(|place| self.quotient(place)) {
-            let Operation::Input(d) = self.operation(divisor) else {
+        for fraction in places.into_iter().filter_map(|place| self.quotient(place)) {
+            let Operation::Input(d) = self.operation(fraction.divisor) else {
                 continue;
             };
-            if let Some(Operation::Input(n)) = numerator.map(|n| self.operation(n)) {
+            if let Some(Operation::Input(n)) = fraction.numerator.map(|n| self.operation(n)) {
                 orders.insert((n, d));
             }
-            if self.is_largest_of_direction(divisor) {
+            if self.is_largest_of_direction(fraction.divisor) {
                 orders.extend((3..6).map(|axis| (axis, d)));
             }
         }

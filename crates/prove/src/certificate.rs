@@ -77,7 +77,7 @@ pub fn domain(domain: &Domain) -> String {
 
 /// The operations of a number, one a line.
 pub fn operations(path: &Path, place: Place) -> String {
-    text_of(&cone(&path.operations, place).0)
+    text_of(&cone(&path.operations, place).operations)
 }
 
 fn text_of(operations: &[Operation]) -> String {
@@ -87,9 +87,11 @@ fn text_of(operations: &[Operation]) -> String {
 
 /// One program: the operations of a number, what its proof supposes, the lemmas in order, and what they show.
 pub fn program(path: &Path, lemmas: &[Lemma], claim: &Claim) -> String {
-    let (operations, places) = cone(&path.operations, claim.place);
-    let writer = Writer { places: &places };
-    let mut text = format!("program\n{}", text_of(&operations));
+    let cone = cone(&path.operations, claim.place);
+    let writer = Writer {
+        places: &cone.places,
+    };
+    let mut text = format!("program\n{}", text_of(&cone.operations));
     let orders = claim.orders.iter().map(|(a, b)| format!("order {a} {b}"));
     let also = claim.also.iter().map(|names| format!("also {names}"));
     for line in orders.chain(writer.limits(lemmas)).chain(also) {

@@ -292,6 +292,11 @@ impl From<Dyadic> for Big {
     }
 }
 
+/// A whole number.
+pub fn whole(x: i64) -> Big {
+    Big::from_integer(x.into())
+}
+
 /// The smallest e with x <= 2^e, for a positive x.
 pub fn ceil_log2(x: &Big) -> i32 {
     let bits = |n: &BigInt| n.bits() as i32;

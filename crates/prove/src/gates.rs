@@ -266,10 +266,9 @@ pub fn compared(path: &Path) -> impl Iterator<Item = (&Compared, Place)> {
             .map(move |place| (compared, unsigned(path, *place)))
     });
     all.filter(move |(_, place)| {
-        let (program, _) = cone(&path.operations, *place);
-        program
-            .iter()
-            .any(|operation| 1 < operation.operands().len())
+        let program = cone(&path.operations, *place).operations;
+        let mut operands = program.iter().map(Operation::operands);
+        operands.any(|operands| 1 < operands.len())
     })
 }
 
@@ -280,23 +279,21 @@ type Key = (usize, Vec<Operation>, BTreeSet<(u8, u8)>, Vec<Limit>);
 /// The program of a number as a key, and its own names.
 fn key(prover: &Prover, gate: usize, place: Place) -> (Key, Names) {
     let operations = &prover.path.operations;
-    let (program, places) = cone(operations, place);
-    let names = Names::of(&program);
-    let program = program
-        .into_iter()
-        .map(|operation| names.operation(operation))
-        .collect();
+    let cone = cone(operations, place);
+    let names = Names::of(&cone.operations);
+    let renamed = |operation| names.operation(operation);
+    let program = cone.operations.into_iter().map(renamed).collect();
     let orders = prover.orders(place).into_iter();
     let orders = orders
         .map(|(a, b)| (names.input(a), names.input(b)))
         .collect();
     let mut quotients: Vec<(Place, Place)> = (0..)
-        .zip(places)
+        .zip(cone.places)
         .filter_map(|(old, new)| Some((new?, old)))
         .collect();
     quotients.sort_unstable();
     let limits = quotients.into_iter().flat_map(|(_, place)| {
-        let divisor = prover.quotient(place).map(|(_, divisor, _)| divisor);
+        let divisor = prover.quotient(place).map(|fraction| fraction.divisor);
         let limits = divisor.map(|divisor| [Some(prover.floor(divisor)), prover.most(place)]);
         limits.into_iter().flatten().flatten()
     });

@@ -34,6 +34,7 @@ mod statement;
 mod summary;
 #[cfg(test)]
 mod tests;
+mod unit;
 mod verdict;
 mod watertight;
 mod witness;

@@ -179,7 +179,7 @@ impl<'a> Meanings<'a> {
 
     /// The meaning of a number, if it has one.
     pub fn of(&mut self, path: usize, place: Place) -> Option<Meaning> {
-        let program = cone(&self.proof.paths[path].operations, place).0;
+        let program = cone(&self.proof.paths[path].operations, place).operations;
         if let Some(known) = self.known.get(&program) {
             return *known;
         }

@@ -165,7 +165,7 @@ impl<'a> Samples<'a> {
             let sample = Sample::of(&inputs);
             (inputs, sample)
         });
-        let (operations, _) = cone(&self.path.operations, place);
+        let operations = cone(&self.path.operations, place).operations;
         let mut values = Vec::new();
         run(
             &operations,

@@ -7,51 +7,66 @@ use crate::arith::recorded::{Operation, Place};
 pub fn run<R: Real>(operations: &[Operation], last: Place, inputs: &[R; 17], values: &mut Vec<R>) {
     values.clear();
     for operation in &operations[..=last as usize] {
-        let of = |place: Place| values[place as usize].clone();
-        let value = match *operation {
-            Operation::Input(i) => inputs[usize::from(i)].clone(),
-            Operation::Number(value) => R::number(f64::from(value)),
-            Operation::Add(a, b) => of(a) + &of(b),
-            Operation::Sub(a, b) => of(a) - &of(b),
-            Operation::Mul(a, b) => of(a) * &of(b),
-            Operation::Div(a, b) => of(a) / &of(b),
-            Operation::Neg(a) => -of(a),
-            Operation::Abs(a) => of(a).abs(),
-            Operation::Sqrt(a) => of(a).sqrt(),
-            Operation::Fma(a, b, c) => R::fused(&of(a), &of(b), &of(c)),
-            Operation::Minor(a, b, c, d) => {
-                R::difference_of_products(&of(a), &of(b), &of(c), &of(d))
-            }
-        };
-        values.push(value);
+        let on_values = operation.with(|place| values[place as usize].clone());
+        values.push(result(on_values, inputs));
     }
 }
 
-/// The program of one number alone: the operations that it needs, each after its operands in their order, and where
-/// each went. So two paths on which a number is computed in the same way have the same program of it.
-pub fn cone(operations: &[Operation], last: Place) -> (Vec<Operation>, Vec<Option<Place>>) {
-    let mut renamed = vec![None; operations.len()];
-    let mut kept = Vec::new();
+fn result<R: Real>(operation: Operation<R>, inputs: &[R; 17]) -> R {
+    use Operation::*;
+    match operation {
+        Input(i) => inputs[usize::from(i)].clone(),
+        Number(value) => R::number(f64::from(value)),
+        Add(a, b) => a + &b,
+        Sub(a, b) => a - &b,
+        Mul(a, b) => a * &b,
+        Div(a, b) => a / &b,
+        Neg(a) => -a,
+        Abs(a) => a.abs(),
+        Sqrt(a) => a.sqrt(),
+        Fma(a, b, c) => R::fused(&a, &b, &c),
+        Minor(a, b, c, d) => R::difference_of_products(&a, &b, &c, &d),
+    }
+}
+
+/// The program of one number alone.
+pub struct Cone {
+    /// The operations that it needs, each after its operands in their order. So two paths on which a number is computed in
+    /// the same way have the same program of it.
+    pub operations: Vec<Operation>,
+    /// For each operation of the path, its place here.
+    pub places: Vec<Option<Place>>,
+}
+
+pub fn cone(operations: &[Operation], last: Place) -> Cone {
+    let mut places = vec![None; operations.len()];
+    let mut needed = Vec::new();
     let mut open = vec![last];
     while let Some(place) = open.last().copied() {
         let operation = operations[place as usize];
-        let is_open = |operand: &Place| renamed[*operand as usize].is_none();
-        if let Some(operand) = operation.operands().into_iter().find(is_open) {
+        let mut operands = operation.operands().into_iter();
+        if let Some(operand) = operands.find(|operand| places[*operand as usize].is_none()) {
             open.push(operand);
             continue;
         }
         open.pop();
-        let of = |place: Place| -> Place { renamed[place as usize].expect("operands come first") };
-        kept.push(operation.with(of));
-        renamed[place as usize] = Some(kept.len() as Place - 1);
+        places[place as usize] = Some(needed.len() as Place);
+        needed.push(operation.with(|place| places[place as usize].expect("operands come first")));
     }
-    (kept, renamed)
+    Cone {
+        operations: needed,
+        places,
+    }
 }
 
 /// The numbers that a number is made of, and itself.
-pub fn parts(operations: &[Operation], place: Place) -> impl Iterator<Item = Place> + use<> {
-    let (_, places) = cone(operations, place);
-    (0..)
-        .zip(places)
-        .filter_map(|(place, needed)| needed.map(|_| place))
+pub fn parts(operations: &[Operation], place: Place) -> Vec<Place> {
+    let cone = cone(operations, place);
+    let mut parts = Vec::new();
+    for (part, needed) in (0..).zip(cone.places) {
+        if needed.is_some() {
+            parts.push(part);
+        }
+    }
+    parts
 }

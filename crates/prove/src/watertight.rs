@@ -127,7 +127,7 @@ fn is_sound(path: &Path, place: Place) -> bool {
         Operation::Div(_, part) | Operation::Sqrt(part) => depends(part, VERTICES),
         _ => false,
     };
-    !depends(place, ENDS) && !parts(&path.operations, place).any(is_critical)
+    !depends(place, ENDS) && !parts(&path.operations, place).into_iter().any(is_critical)
 }
 
 /// True if some gates accept surely, at an epsilon of 0, if the three edges' values are 0 or have the sign of `side`.
@@ -290,7 +290,8 @@ fn inputs(path: &Path, place: Place) -> Vec<u8> {
         Operation::Input(i) => Some(i),
         _ => None,
     };
-    parts(&path.operations, place).filter_map(of_part).collect()
+    let parts = parts(&path.operations, place).into_iter();
+    parts.filter_map(of_part).collect()
 }
 
 /// The comparison of a path, and its answer.

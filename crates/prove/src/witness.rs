@@ -3,7 +3,7 @@
 use super::depth::Judge;
 use super::gates::Quantity;
 use super::measures::{Angle, Sample, Samples};
-use super::run::{cone, run};
+use super::run::{Cone, cone, run};
 use super::{Domain, Dyadic, Leaf, Measures, Proof, Rule, Source};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Bounded, Exact, Float, Real};
@@ -105,11 +105,13 @@ impl<'a, F: Searched> Search<'a, F> {
         let path = &proof.paths[quantity.path];
         // A verdict in the unit domain is held to what is printed of all that the kernel divides.
         let is_whole = judge.is_some() && domain.measures.is_none();
-        let (mut cone, renamed) = if is_whole {
+        let cone = if is_whole {
             whole(path)
         } else {
             cone(&path.operations, quantity.place)
         };
+        let renamed = cone.places;
+        let mut cone = cone.operations;
         let mut conditions = if is_whole {
             divisions(path, &domain)
         } else {
@@ -319,10 +321,10 @@ impl<'a, F: Searched> Search<'a, F> {
 }
 
 /// The program of a path, as a cone is given.
-fn whole(path: &Path) -> (Vec<Operation>, Vec<Option<Place>>) {
+fn whole(path: &Path) -> Cone {
     let operations = path.operations.clone();
     let places = (0..operations.len() as Place).map(Some).collect();
-    (operations, places)
+    Cone { operations, places }
 }
 
 /// The conditions of a domain on all divisors, quotients and roots of a path.
