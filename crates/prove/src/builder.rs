@@ -227,8 +227,9 @@ impl<'p, 'a> Builder<'p, 'a> {
 
     /// The sum of variables that a leaf is.
     fn sum(&mut self, leaf: Leaf) -> Vec<(usize, i8)> {
-        let (sum, is_new) = self.forms.sum(leaf, self.formula.variables.len());
-        if is_new {
+        let next = self.formula.variables.len();
+        let form = self.forms.sum(leaf, next);
+        if form.is_new {
             let (source, size) = match leaf {
                 Leaf::Point(point, axis) if self.is_boxed => {
                     (Source::Boxed(point, axis), self.prover.domain.half_box())
@@ -238,7 +239,7 @@ impl<'p, 'a> Builder<'p, 'a> {
             self.formula.variables.push(size);
             self.formula.sources.push(source);
         }
-        sum
+        form.sum
     }
 
     fn leaf(&mut self, leaf: Leaf) -> Result<usize, String> {

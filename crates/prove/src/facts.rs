@@ -2,7 +2,7 @@
 
 use super::Proof;
 use super::meaning::{Meaning, Meanings, Scale, What};
-use super::watertight::signed;
+use super::watertight::{Unsigned, signed};
 use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
 use crate::kernel::{Acceptance, Compared, Path, Refuse};
 
@@ -87,7 +87,7 @@ impl Reader<'_, '_> {
 
     /// A number that is large enough.
     fn fact(&mut self, gate: usize, place: Place, is_strict: bool) -> Option<Fact> {
-        let (minus, place) = signed(self.path, place);
+        let Unsigned { is_negative, place } = signed(self.path, place);
         let program = *self.proof.programs.get(&(gate, self.index, place))?;
         let Meaning {
             what,
@@ -99,7 +99,7 @@ impl Reader<'_, '_> {
             program,
             what,
             scale,
-            is_plus: minus == is_minus,
+            is_plus: is_negative == is_minus,
             is_strict,
         })
     }
@@ -111,7 +111,8 @@ impl Reader<'_, '_> {
         (comparison, answer): (Comparison, bool),
     ) -> Option<Vec<Fact>> {
         let is_zero = |place: Place| {
-            self.path.operations[signed(self.path, place).1 as usize] == Operation::Number(0)
+            let unsigned = signed(self.path, place).place;
+            self.path.operations[unsigned as usize] == Operation::Number(0)
         };
         // x >= 0 or x > 0 where it is large.
         let (place, is_large, is_strict) = match (comparison, answer) {
