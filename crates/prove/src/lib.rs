@@ -36,6 +36,7 @@ mod summary;
 mod tests;
 mod unit;
 mod verdict;
+mod walk;
 mod watertight;
 mod witness;
 
