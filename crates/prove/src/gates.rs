@@ -109,6 +109,11 @@ impl Quantity {
         self.lemmas.iter().flat_map(of_lemma).flatten().collect()
     }
 
+    /// The error of its bound, if it has one.
+    pub fn error(&self) -> Option<Dyadic> {
+        self.bound.as_ref().ok().map(|bound| bound.error)
+    }
+
     /// The suppositions of its bound.
     pub fn uses(&self) -> Uses {
         Uses::of(&self.lemmas)
@@ -233,27 +238,25 @@ impl Proof {
     /// The numbers that the gates at edges compare.
     pub(super) fn of_edges(&self, entry: &Entry) -> impl Iterator<Item = &Quantity> {
         let gates = entry.info.gates;
-        self.quantities
-            .iter()
-            .filter(|quantity| gates[quantity.gate].role == Role::Edge)
+        let quantities = self.quantities.iter();
+        quantities.filter(|quantity| gates[quantity.gate].role == Role::Edge)
     }
 
     /// The quantity of a gate with the largest error; an error in one sentence if one has no bound.
     pub fn gate(&self, gate: usize) -> Option<Result<&Quantity, String>> {
-        let of_gate = || {
-            self.quantities
-                .iter()
-                .filter(|quantity| quantity.gate == gate)
-        };
-        if let Some(Err(why)) = of_gate()
-            .map(|quantity| &quantity.bound)
-            .find(|b| b.is_err())
-        {
-            return Some(Err(why.clone()));
+        for quantity in self.of_gate(gate) {
+            if let Err(why) = &quantity.bound {
+                return Some(Err(why.clone()));
+            }
         }
-        of_gate()
-            .max_by_key(|q| q.bound.as_ref().map(|bound| bound.error).ok())
-            .map(Ok)
+        let quantities = self.of_gate(gate);
+        quantities.max_by_key(|quantity| quantity.error()).map(Ok)
+    }
+
+    /// The numbers that a gate compares.
+    pub(super) fn of_gate(&self, gate: usize) -> impl Iterator<Item = &Quantity> {
+        let quantities = self.quantities.iter();
+        quantities.filter(move |quantity| quantity.gate == gate)
     }
 }
 

@@ -21,6 +21,7 @@ mod gates;
 mod judged;
 mod meaning;
 mod measures;
+mod mirrors;
 mod names;
 mod order;
 mod permanent;

@@ -2,7 +2,7 @@
 //! whatever order a program computes it.
 
 use super::order::largest_axes;
-use super::run::{cone, run};
+use super::run::{cone, values};
 use super::{Dyadic, Scene};
 use crate::arith::recorded::{Comparison, Place};
 use crate::arith::{Exact, Real, Triple, Vector};
@@ -97,19 +97,12 @@ fn inputs(path: &Path, i: u64) -> [f64; 17] {
     let mut turned = drawn;
     (9..12).for_each(|i| turned.swap(i, i + 3));
     let has_signs = |inputs: &[f64; 17]| {
-        let mut values = Vec::new();
-        run(
-            &path.operations,
-            path.operations.len() as Place - 1,
-            inputs,
-            &mut values,
-        );
-        path.decisions
-            .iter()
-            .all(|(comparison, answer)| match *comparison {
-                Comparison::Negative(place) => (values[place as usize] < 0.0) == *answer,
-                _ => true,
-            })
+        let values = values(&path.operations, inputs);
+        let mut decisions = path.decisions.iter();
+        decisions.all(|(comparison, answer)| match *comparison {
+            Comparison::Negative(place) => (values[place as usize] < 0.0) == *answer,
+            _ => true,
+        })
     };
     if !has_signs(&drawn) && has_signs(&turned) {
         turned
@@ -121,14 +114,8 @@ fn inputs(path: &Path, i: u64) -> [f64; 17] {
 impl<'a> Samples<'a> {
     pub fn new(path: &'a Path) -> Samples<'a> {
         let sample = |i: u64| {
-            let mut values = Vec::new();
             let inputs = inputs(path, i);
-            run(
-                &path.operations,
-                path.operations.len() as Place - 1,
-                &inputs,
-                &mut values,
-            );
+            let values = values(&path.operations, &inputs);
             (values, Sample::of(&inputs))
         };
         let values = (0..SAMPLES).map(sample).collect();
@@ -166,14 +153,8 @@ impl<'a> Samples<'a> {
             (inputs, sample)
         });
         let operations = cone(&self.path.operations, place).operations;
-        let mut values = Vec::new();
-        run(
-            &operations,
-            operations.len() as Place - 1,
-            inputs,
-            &mut values,
-        );
-        let value = values.pop().expect("its own value");
+        let value = values(&operations, inputs).pop();
+        let value = value.expect("its own value");
         (value.abs() - other(sample).abs()).is_zero()
     }
 

@@ -12,6 +12,14 @@ pub fn run<R: Real>(operations: &[Operation], last: Place, inputs: &[R; 17], val
     }
 }
 
+/// The values of all operations of a program.
+pub fn values<R: Real>(operations: &[Operation], inputs: &[R; 17]) -> Vec<R> {
+    let mut values = Vec::new();
+    let last = operations.len() as Place - 1;
+    run(operations, last, inputs, &mut values);
+    values
+}
+
 fn result<R: Real>(operation: Operation<R>, inputs: &[R; 17]) -> R {
     use Operation::*;
     match operation {

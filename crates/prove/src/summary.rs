@@ -110,7 +110,7 @@ pub fn bound_of_gate<F: Scalar>(entry: &Entry, gate: usize, domain: Domain) -> O
     let proof = Proof::of::<F>(entry, Some(gate), domain).ok()?;
     let is_margin = proof.quantities.iter().all(|quantity| quantity.is_margin);
     let worst = proof.gate(gate).filter(|_| is_margin)?.ok()?;
-    worst.bound.as_ref().map(|bound| bound.error).ok()
+    worst.error()
 }
 
 /// How hard to search, and from where.
@@ -135,8 +135,8 @@ impl Effort {
             .quantities
             .iter()
             .filter(|it| it.program == quantity.program);
-        let bound = quantity.error();
-        let share = bound / parts.map(Quantity::error).sum::<f64>().max(bound);
+        let bound = error(quantity);
+        let share = bound / parts.map(error).sum::<f64>().max(bound);
         Effort {
             evaluations: (self.evaluations as f64 * share) as u64,
             ..self
@@ -144,13 +144,9 @@ impl Effort {
     }
 }
 
-impl Quantity {
-    /// Its bound, or 0.
-    fn error(&self) -> f64 {
-        self.bound
-            .as_ref()
-            .map_or(0.0, |bound| bound.error.to_f64())
-    }
+/// The bound of a quantity's error, or 0.
+fn error(quantity: &Quantity) -> f64 {
+    quantity.error().map_or(0.0, Dyadic::to_f64)
 }
 
 impl<F: Searched + Scalar> Summary<F> {
@@ -173,7 +169,7 @@ impl<F: Searched + Scalar> Summary<F> {
             .enumerate()
             .filter_map(|(index, gate)| {
                 let bound = proof.gate(index)?;
-                let of_gate = || proof.quantities.iter().filter(move |q| q.gate == index);
+                let of_gate = || proof.of_gate(index);
                 let uses = Uses::of(of_gate().flat_map(|quantity| &quantity.lemmas));
                 let mut limits: Vec<Supposed> = of_gate().flat_map(Quantity::limits).collect();
                 // The weakest of each.
@@ -202,7 +198,7 @@ impl<F: Searched + Scalar> Summary<F> {
                     let found = quantities.filter_map(|quantity| {
                     let effort = effort.shared(&proof, quantity);
                     let found = worst::<F>((&proof, quantity), goal, None, known, effort)?;
-                    let bound = quantity.error();
+                    let bound = error(quantity);
                     // Both are rounded to floats.
                     if goal == Goal::Error && found.score > bound * (1.0 + 1e-12) {
                         let Witness { score, .. } = found;
@@ -215,7 +211,7 @@ impl<F: Searched + Scalar> Summary<F> {
                 });
                     found.max_by(|a, b| a.score.total_cmp(&b.score))
                 });
-                let bound = bound.map(|q| q.bound.as_ref().expect("it has one").error);
+                let bound = bound.map(|quantity| quantity.error().expect("it has one"));
                 Some(GateSummary {
                     index,
                     gate: *gate,

@@ -377,19 +377,11 @@ fn others(
         let mut may = None;
         let is_fixed =
             |it: &Compared| it.gate == gate && matches!(it.accepts, Acceptance::Fixed(..));
-        if proof
-            .paths
-            .iter()
-            .flat_map(|path| &path.compared)
-            .any(is_fixed)
-        {
+        let mut compared = proof.paths.iter().flat_map(|path| &path.compared);
+        if compared.any(is_fixed) {
             return None;
         }
-        for quantity in proof
-            .quantities
-            .iter()
-            .filter(|quantity| quantity.gate == gate)
-        {
+        for quantity in proof.of_gate(gate) {
             let Meaning { what, scale, .. } = meanings.of(quantity.path, quantity.place)?;
             for domain in parts {
                 let error = error(proof, quantity.program, domain).ok()?;
