@@ -1,7 +1,7 @@
 //! Bounds of a program's rounding errors in a domain: formulas where nothing is divided, and quotients,
 //! coordinates of unit vectors and whatever meets itself as variables of their own.
 
-use super::dyadic::round_up;
+use super::dyadic::{Big, round_up};
 use super::formula::{DIGITS, Formula, Maximum, Source};
 use super::measures::{Limit, Samples};
 use super::order::{is_at_most, unsigned};
@@ -27,6 +27,11 @@ pub struct Bound {
 }
 
 impl Bound {
+    /// The bound of a number within the error of the exact one.
+    pub(super) fn largest(&self) -> Big {
+        Big::from(self.size) + Big::from(self.error)
+    }
+
     /// The bound of a number of this size without an error.
     pub(super) fn exactly(size: Dyadic) -> Bound {
         Bound {

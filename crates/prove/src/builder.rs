@@ -72,13 +72,13 @@ impl Prover<'_> {
 
 /// The largest size of a quotient, and how far below zero it may be, if that is supposed.
 #[derive(Clone, Copy)]
-pub(super) struct Ends {
+pub struct Ends {
     pub size: Dyadic,
     pub below: Option<Dyadic>,
 }
 
 /// A quotient's formula.
-pub(super) struct OfQuotient {
+pub struct OfQuotient {
     pub formula: Formula,
     pub maximum: Maximum,
     /// For each numerator, true if its last rounding is left out.

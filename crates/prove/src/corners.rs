@@ -12,6 +12,7 @@ use super::formula::{DIGITS, Formula, Maximum, Step};
 use super::walk::Walk;
 use super::{Dyadic, Format};
 use num_traits::Zero;
+use std::ops::Add;
 
 /// A formula of more variables has no bound.
 const MOST_VARIABLES: usize = 32;
@@ -77,22 +78,23 @@ impl Formula {
         let all = self.effects(&choices, format);
         let mut chosen = vec![0; choices.len()];
         let mut first = largest(&all, &chosen);
-        for k in (0..choices.len()).rev() {
+        for (k, step) in choices.iter().enumerate().rev() {
+            let least = first.sum(&chosen);
             chosen[k] = 1;
             // Where that is no less at the corner that counts, it is no less.
-            if all[first.at].sum(&chosen) < first.sum {
+            if first.sum(&chosen) < least {
                 let tried = largest(&all, &chosen);
-                if tried.sum < first.sum {
+                if tried.sum(&chosen) < least {
                     first = tried;
-                    self.relative[choices[k]] = true;
+                    self.relative[*step] = true;
                     continue;
                 }
             }
             chosen[k] = 0;
         }
         First {
-            sum: first.sum,
-            corner: all[first.at].corner,
+            sum: first.sum(&chosen),
+            corner: first.corner,
         }
     }
 
@@ -137,7 +139,7 @@ impl Formula {
             alone = alone.max(here.alone);
             is_short &= here.alone.is_number();
             is_short &= here.axes.iter().all(|sum| sum.is_number());
-            let found: f64 = here.axes.iter().map(|sum| sum.to_f64().powi(2)).sum();
+            let found: f64 = here.axes.iter().copied().map(square).sum();
             if is_short && near * (1.0 - 1e-9) <= found {
                 let mut exact = Big::zero();
                 for sum in here.axes {
@@ -167,13 +169,13 @@ impl Formula {
             for (i, bound) in self.bounds.iter().enumerate() {
                 let mut fixed = 0.0;
                 let mut relative = 0.0;
-                for (axis, all) in axes.iter().enumerate() {
-                    let At { value, slope } = all[i];
+                for (axis, walk) in axes.iter().enumerate() {
+                    let slope = walk.slopes[i];
                     // Of what is linear, the bound of its error is one of the whole vector.
                     if !linear[i] || axis == 0 {
-                        fixed += (slope * bound.error).to_f64().powi(2);
+                        fixed += square(slope * bound.error);
                     }
-                    relative += (slope * value * format.unit()).to_f64().powi(2);
+                    relative += square(slope * walk.values[i] * format.unit());
                 }
                 by_size[i] = by_size[i].max(fixed);
                 in_proportion[i] = in_proportion[i].max(relative);
@@ -185,7 +187,7 @@ impl Formula {
     }
 
     /// The sums of effects at a corner.
-    fn effects_at(&self, axes: &[Vec<At>], linear: &[bool], format: Format) -> OfUnit {
+    fn effects_at(&self, axes: &[Walk], linear: &[bool], format: Format) -> OfUnit {
         let mut effects = OfUnit {
             alone: Dyadic::ZERO,
             axes: vec![Dyadic::ZERO; axes.len()],
@@ -195,38 +197,30 @@ impl Formula {
                 continue;
             }
             if linear[i] && !self.relative[i] {
-                let slope = axes[0][i].slope.abs();
+                let slope = axes[0].slopes[i].abs();
                 effects.alone = effects.alone + slope * bound.error;
                 continue;
             }
-            for (axis, sum) in axes.iter().zip(&mut effects.axes) {
-                let At { value, slope } = axis[i];
-                *sum = *sum
-                    + if self.relative[i] {
-                        (slope * value).abs() * format.unit()
-                    } else {
-                        slope.abs() * bound.error
-                    };
+            for (walk, sum) in axes.iter().zip(&mut effects.axes) {
+                let slope = walk.slopes[i].abs();
+                let error = if self.relative[i] {
+                    walk.values[i].abs() * format.unit()
+                } else {
+                    bound.error
+                };
+                *sum = *sum + slope * error;
             }
         }
         effects
     }
 
     /// Visits the corners, with all steps where the unit vector is each of the axes.
-    fn each_corner(&self, mut visit: impl FnMut(u64, &[Vec<At>])) {
-        let mut walk = Walk::new(self);
-        let mut axes = vec![Vec::new(); self.unit.len().max(1)];
+    fn each_corner(&self, mut visit: impl FnMut(u64, &[Walk])) {
+        let mut axes = vec![Walk::new(self); self.unit.len()];
         for corner in self.corners() {
-            for (axis, all) in axes.iter_mut().enumerate() {
+            for (axis, walk) in axes.iter_mut().enumerate() {
                 walk.evaluate(corner, axis);
                 walk.differentiate();
-                all.clear();
-                for (value, slope) in walk.values.iter().zip(&walk.slopes) {
-                    all.push(At {
-                        value: *value,
-                        slope: *slope,
-                    });
-                }
             }
             visit(corner, &axes);
         }
@@ -271,20 +265,18 @@ impl Formula {
         let linear = self.linear_steps().filter(|_| !self.unit.is_empty());
         let linear = linear.unwrap_or(vec![false; self.steps.len()]);
         let mut sizes = vec![Dyadic::ZERO; self.steps.len()];
-        let mut walk = Walk::new(self);
+        let mut axes = vec![Walk::new(self); self.unit.len().max(1)];
         for corner in self.corners() {
-            let mut squares = vec![Dyadic::ZERO; sizes.len()];
-            for axis in 0..self.unit.len().max(1) {
+            for (axis, walk) in axes.iter_mut().enumerate() {
                 walk.evaluate(corner, axis);
-                for (i, value) in walk.values.iter().enumerate() {
-                    if linear[i] {
-                        squares[i] = squares[i] + *value * *value;
-                    }
-                }
             }
             for (i, size) in sizes.iter_mut().enumerate() {
-                let value = walk.values[i].abs();
-                *size = (*size).max(if linear[i] { squares[i] } else { value });
+                let mut here = axes[0].values[i].abs();
+                if linear[i] {
+                    let squares = axes.iter().map(|walk| walk.values[i] * walk.values[i]);
+                    here = squares.fold(Dyadic::ZERO, Dyadic::add);
+                }
+                *size = (*size).max(here);
             }
         }
         for (size, is_linear) in sizes.iter_mut().zip(linear) {
@@ -321,31 +313,17 @@ impl Effects {
     }
 }
 
-struct Largest {
-    sum: Dyadic,
-    at: usize,
+/// The first corner with the largest sum.
+fn largest<'e>(all: &'e [Effects], chosen: &[usize]) -> &'e Effects {
+    // Of equal ones the last is taken.
+    let backwards = all.iter().rev();
+    let largest = backwards.max_by_key(|effects| effects.sum(chosen));
+    largest.expect("a corner")
 }
 
-/// The largest sum, and the first place where it is.
-fn largest(all: &[Effects], chosen: &[usize]) -> Largest {
-    let mut largest = Largest {
-        sum: all[0].sum(chosen),
-        at: 0,
-    };
-    for (at, effects) in all.iter().enumerate() {
-        let sum = effects.sum(chosen);
-        if largest.sum < sum {
-            largest = Largest { sum, at };
-        }
-    }
-    largest
-}
-
-/// A step at a corner and an axis.
-#[derive(Clone)]
-struct At {
-    value: Dyadic,
-    slope: Dyadic,
+/// The square of an effect, roughly.
+fn square(x: Dyadic) -> f64 {
+    x.to_f64().powi(2)
 }
 
 /// The effects of all errors at a corner of a formula with a unit vector.

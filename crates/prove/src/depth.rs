@@ -20,16 +20,16 @@ const NEAR: f64 = 1.0 / 1024.0;
 
 /// A kernel at some epsilons, whose verdicts are looked at in a domain.
 pub struct Judge<'a, F> {
-    pub(super) gated: &'a dyn Gated<F>,
-    pub(super) epsilons: &'a [F],
+    pub gated: &'a dyn Gated<F>,
+    pub epsilons: &'a [F],
     /// The numbers that the edge gates multiply barycentric coordinates by.
-    pub(super) scales: Vec<Scale>,
+    pub scales: Vec<Scale>,
 }
 
 impl<F: Float> Judge<'_, F> {
     /// On a case of the domain whose t is between its ends, how wrong the verdict is, and true if it is of the wanted kind. Where it is
     /// not, the score counts what the verdict lacks of it twice, so that a search finds large errors first.
-    pub(super) fn score<R: Real>(
+    pub fn score<R: Real>(
         &self,
         inputs: &[F; 17],
         is_hit: bool,
@@ -82,7 +82,7 @@ impl<F: Float> Judge<'_, F> {
     }
 
     /// The least size of the numbers that the edge gates multiply barycentric coordinates by.
-    pub(super) fn scale(&self, sample: &Sample<f64>) -> f64 {
+    pub fn scale(&self, sample: &Sample<f64>) -> f64 {
         let mut least = f64::INFINITY;
         for scale in &self.scales {
             least = least.min(scale.of(sample).abs());
@@ -92,7 +92,7 @@ impl<F: Float> Judge<'_, F> {
 
     /// How far from the nearest edge, as a share of the longest one, a number's error moves what it decides there; 0 if it
     /// decides something else.
-    pub(super) fn weight(&self, value: f64, sample: &Sample<f64>) -> f64 {
+    pub fn weight(&self, value: f64, sample: &Sample<f64>) -> f64 {
         let scale = self.scale(sample);
         let is_near = value.abs() < NEAR * scale;
         if !is_near {
@@ -112,7 +112,7 @@ impl<F: Float> Judge<'_, F> {
     }
 
     /// Moves a ray so that it passes near where an edge's gate decides, or near a vertex.
-    pub(super) fn move_to_boundary(&self, inputs: &mut [F; 17], draw: &mut Draw) {
+    pub fn move_to_boundary(&self, inputs: &mut [F; 17], draw: &mut Draw) {
         let sample = Sample::of(&inputs.map(F::to_f64));
         // Often the nearest edge, so that the ray's origin stays near where it is.
         let is_nearest = draw.coin();

@@ -8,7 +8,7 @@ use crate::kernel::{Acceptance, Compared, Path, Refuse};
 
 /// A number on one side of what a gate compares it with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Fact {
+pub struct Fact {
     pub program: usize,
     pub what: What,
     pub scale: Scale,
@@ -20,14 +20,14 @@ pub(super) struct Fact {
 /// An edge gate: each way to be accepted, and for either sign of the scale the numbers of which one is too small where it
 /// refuses; none if it may refuse although all are large.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Form {
+pub struct Form {
     pub gate: usize,
     pub ways: Vec<Vec<Fact>>,
     pub refuses: [Option<Vec<Fact>>; 2],
 }
 
 /// Reads what the gates of one path compare.
-pub(super) struct Reader<'a, 'b> {
+pub struct Reader<'a, 'b> {
     pub proof: &'a Proof,
     pub index: usize,
     pub path: &'a Path,

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 /// Where the line meets the plane, or how the ray lies to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum What {
+pub enum What {
     /// Nothing but the scale.
     One,
     /// The barycentric coordinate of a vertex.
@@ -47,7 +47,7 @@ pub enum Scale {
 
 /// The exact value of a number: `what` times `scale`, or the negative of that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Meaning {
+pub struct Meaning {
     pub what: What,
     pub scale: Scale,
     pub is_minus: bool,
@@ -161,7 +161,7 @@ fn product<R: Real>(what: What, scale: Scale, sample: &Sample<R>) -> R {
 }
 
 /// The meanings of a proof's numbers, each program looked at once.
-pub(super) struct Meanings<'a> {
+pub struct Meanings<'a> {
     proof: &'a Proof,
     samples: Vec<OnceCell<Samples<'a>>>,
     known: HashMap<Vec<Operation>, Option<Meaning>>,

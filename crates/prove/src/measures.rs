@@ -52,7 +52,7 @@ impl Limit {
 }
 
 /// A number that a scene knows.
-pub(super) struct Known<R> {
+pub struct Known<R> {
     pub name: &'static str,
     pub limit: Dyadic,
     pub value: R,
@@ -60,7 +60,7 @@ pub(super) struct Known<R> {
 
 /// The rays that a search looks at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Angle {
+pub enum Angle {
     /// Those that meet the plane at the scene's least angle or more.
     OfScene,
     /// Those that are parallel to the plane.
@@ -69,7 +69,7 @@ pub(super) enum Angle {
 
 /// The use of a number in a program.
 #[derive(Clone, Copy)]
-pub(super) enum Kind {
+pub enum Kind {
     Divisor,
     Quotient,
 }
@@ -80,7 +80,7 @@ const SAMPLES: u64 = 3;
 
 /// Values of all numbers of a path's program at some inputs.
 #[derive(Debug)]
-pub(super) struct Samples<'a> {
+pub struct Samples<'a> {
     path: &'a Path,
     pub values: Vec<(Vec<f64>, Sample<f64>)>,
     /// The exact inputs of one of them, once they are needed.
@@ -356,7 +356,7 @@ impl Measures {
 }
 
 /// Binary digits of what a scene says; the corners are computed with them exactly.
-pub(super) const DIGITS: u32 = 10;
+pub const DIGITS: u32 = 10;
 
 fn above(x: f64) -> Dyadic {
     Dyadic::from_f64(x).expect("finite").round_up(DIGITS)

@@ -21,12 +21,12 @@ pub struct Fraction {
 }
 
 /// Two quotients by one divisor that a number is made of.
-pub(super) struct Quotients {
+pub struct Quotients {
     ratio: Ratio,
     pub parts: [Place; 2],
     numerators: [Place; 2],
-    divisor: Place,
-    twice: bool,
+    /// One of both.
+    fraction: Fraction,
     /// 1 less the first one, if the number is that less the second one.
     pub rest: Option<Place>,
 }
@@ -41,14 +41,21 @@ struct Limits {
     below: Option<Dyadic>,
 }
 
-/// The change of a quotient by one rounding that is left out: a share of its size, and a number where it underflows.
-struct LeftOut {
+/// A divisor.
+struct Divisor {
+    place: Place,
+    /// The least size.
+    floor: Big,
+    /// The least size of the computed divisor.
+    least: Big,
+    /// The change of a quotient by one rounding that is left out: a share of its size,
     share: Big,
+    /// and a number where it underflows.
     tiny: Big,
 }
 
-impl LeftOut {
-    fn of(&self, size: &Big) -> Big {
+impl Divisor {
+    fn left_out(&self, size: &Big) -> Big {
         &self.share * size + &self.tiny
     }
 }
@@ -150,15 +157,14 @@ impl Prover<'_> {
             ratio,
             parts,
             numerators: [first.numerator?, second.numerator?],
-            divisor: first.divisor,
-            twice: first.twice,
+            fraction: first,
             rest,
         })
     }
 
-    /// The least size of a computed divisor.
-    fn least(&mut self, divisor: Place, floor: Limit) -> Result<Big, String> {
-        let error = self.bound(divisor)?.error;
+    /// An error if the divisor may be computed as zero.
+    fn divisor(&mut self, place: Place, floor: Limit) -> Result<Divisor, String> {
+        let error = self.bound(place)?.error;
         // Else another coordinate may be larger by more than 1 %: 2E is that share of the floor.
         let least = error * Dyadic::new(200, 0);
         if matches!(floor, Limit::Scene(LARGEST, size) if size < least) {
@@ -166,13 +172,23 @@ impl Prover<'_> {
                 "rounding may hide which coordinate of (b-a)×(c-a) is the largest".to_owned(),
             );
         }
-        let least = Big::from(floor.size()) - Big::from(error);
+        let floor = Big::from(floor.size());
+        let least = &floor - Big::from(error);
         if least <= whole(2) * self.tiny() {
             return Err(
                 "divisors may be so small in this domain that rounding makes one zero".to_owned(),
             );
         }
-        Ok(least)
+        let tiny = self.tiny() / &least;
+        let epsilon = self.unit_roundoff() + &tiny;
+        let rest = whole(1) - &epsilon;
+        Ok(Divisor {
+            place,
+            floor,
+            least,
+            share: epsilon / rest,
+            tiny,
+        })
     }
 
     pub(super) fn tiny(&self) -> Big {
@@ -183,39 +199,27 @@ impl Prover<'_> {
         self.format.unit().into()
     }
 
-    fn left_out(&self, least: &Big) -> LeftOut {
-        let tiny = self.tiny() / least;
-        let one = self.unit_roundoff() + &tiny;
-        let share = &one / (whole(1) - &one);
-        LeftOut { share, tiny }
-    }
-
     /// The change of a quotient of this size by the rounding of its divisor's reciprocal.
     fn of_reciprocal(&self, size: &Big, numerator: &Bound) -> Big {
         self.unit_roundoff() * size + self.tiny() * Big::from(numerator.computed)
     }
 
     /// The error of the quotient of the numbers before their last roundings, if these are left out.
-    fn error_of_quotient(
-        &mut self,
-        of: &OfQuotient,
-        divisor: Place,
-        floor: Limit,
-        least: &Big,
-    ) -> Result<Big, String> {
+    fn error_of_quotient(&mut self, of: &OfQuotient, by: &Divisor) -> Result<Big, String> {
         let closest = if of.leaves_out_divisor {
-            Big::from(floor.size()) - self.error_before_rounding(divisor)?
+            &by.floor - self.error_before_rounding(by.place)?
         } else {
-            least.clone()
+            by.least.clone()
         };
         Ok(of.maximum.error() / closest)
     }
 
     /// The lemma of a number that is made of two quotients by one divisor, whose error is one for both.
     pub(super) fn divide_both(&mut self, place: Place, both: Quotients) -> Result<Lemma, String> {
-        let divisor = both.divisor;
+        let fraction = both.fraction;
+        let Fraction { divisor, twice, .. } = fraction;
         let limits = self.limits(place, divisor);
-        let least = self.least(divisor, limits.floor)?;
+        let by = self.divisor(divisor, limits.floor)?;
         let bounds = [self.bound(both.parts[0])?, self.bound(both.parts[1])?];
         let rest = both.rest.map(|rest| self.bound(rest)).transpose()?;
         let sizes = Big::from(bounds[0].size) + Big::from(bounds[1].size);
@@ -231,20 +235,19 @@ impl Prover<'_> {
             sum = ends_of_sum(&sizes, most, limits.below);
         }
         let of = self.formula_of_quotient(&both.numerators, divisor, sum)?;
-        let left_out = self.left_out(&least);
-        let mut error = self.error_of_quotient(&of, divisor, limits.floor, &least)?;
+        let mut error = self.error_of_quotient(&of, &by)?;
         if of.leaves_out_divisor {
             let largest = Big::from(sum.size) + &error;
-            error += left_out.of(&largest);
+            error += by.left_out(&largest);
         }
         for (i, bound) in bounds.iter().enumerate() {
             // Of the quotient of the numbers before they are rounded, or after.
-            let mut largest = Big::from(bound.size) + Big::from(bound.error) + &left_out.tiny;
-            largest *= whole(1) + &left_out.share + &left_out.share;
+            let mut largest = bound.largest() + &by.tiny;
+            largest *= whole(1) + &by.share + &by.share;
             if of.leaves_out_numerators[i] {
-                error += left_out.of(&largest);
+                error += by.left_out(&largest);
             }
-            if both.twice {
+            if twice {
                 let numerator = self.bound(both.numerators[i])?;
                 let change = self.of_reciprocal(&largest, &numerator);
                 error += &change;
@@ -253,12 +256,11 @@ impl Prover<'_> {
             error += Big::from(self.format.half_ulp_of(&largest));
         }
         if let Some(rest) = rest {
-            let largest = Big::from(rest.size) + Big::from(rest.error);
-            error += Big::from(self.format.half_ulp_of(&largest));
+            error += Big::from(self.format.half_ulp_of(&rest.largest()));
         }
         let rounded = Big::from(size) + &error;
         let bound = self.bound_of_rounded(size, error, &rounded)?;
-        Ok(limits.lemma(place, both.ratio, divisor, both.twice, of, bound))
+        Ok(limits.lemma(place, both.ratio, fraction, of, bound))
     }
 
     /// The lemma of a quotient.
@@ -273,7 +275,7 @@ impl Prover<'_> {
             // A reciprocal is known by its divisor.
             limits.most = None;
         }
-        let least = self.least(divisor, limits.floor)?;
+        let by = self.divisor(divisor, limits.floor)?;
         let below = self.bound(divisor)?;
         let above = match numerator {
             Some(numerator) => self.bound(numerator)?,
@@ -282,7 +284,7 @@ impl Prover<'_> {
         // The path compares computed numbers, which says nothing of the exact ones unless they are equal.
         let is_exact = above.error.is_zero() && below.error.is_zero();
         let is_at_most_one = is_exact && self.is_ordered(numerator, divisor);
-        let limit = Big::from(above.size) / Big::from(limits.floor.size());
+        let limit = Big::from(above.size) / &by.floor;
         let size = if is_at_most_one {
             limited(&whole(1), None)
         } else {
@@ -296,13 +298,13 @@ impl Prover<'_> {
         let of = self.formula_of_quotient(numerator.as_slice(), divisor, ends)?;
         // The quotient of the numbers before their last roundings against the exact one, then these roundings,
         // then those of the division.
-        let mut error = self.error_of_quotient(&of, divisor, limits.floor, &least)?;
+        let mut error = self.error_of_quotient(&of, &by)?;
         let mut left_out = of.leaves_out_numerators.clone();
         left_out.push(of.leaves_out_divisor);
         left_out.retain(|is_left_out| *is_left_out);
         if !left_out.is_empty() {
             let largest = whole(left_out.len() as i64) * (Big::from(size) + &error);
-            error += self.left_out(&least).of(&largest);
+            error += by.left_out(&largest);
         }
         let mut rounded = Big::from(size) + &error;
         if twice {
@@ -311,7 +313,7 @@ impl Prover<'_> {
             rounded += change;
         }
         let largest = Big::from(Dyadic::power(self.format.largest));
-        if twice && largest * least <= whole(1) {
+        if twice && largest * by.least <= whole(1) {
             return Err(
                 "divisors may be so small in this domain that a reciprocal overflows".to_owned(),
             );
@@ -321,7 +323,7 @@ impl Prover<'_> {
             rounded = whole(1);
         }
         let bound = self.bound_of_rounded(size, error, &rounded)?;
-        Ok(limits.lemma(place, Ratio::One, divisor, twice, of, bound))
+        Ok(limits.lemma(place, Ratio::One, fraction, of, bound))
     }
 
     /// True if the numerator is at most as large as the divisor, by the decisions of the path about inputs.
@@ -370,8 +372,7 @@ impl Limits {
         self,
         place: Place,
         ratio: Ratio,
-        divisor: Place,
-        twice: bool,
+        fraction: Fraction,
         of: OfQuotient,
         bound: Bound,
     ) -> Lemma {
@@ -379,8 +380,8 @@ impl Limits {
             place,
             rule: Rule::Quotient {
                 ratio,
-                twice,
-                divisor,
+                twice: fraction.twice,
+                divisor: fraction.divisor,
                 floor: self.floor,
                 most: self.most.unwrap_or(Limit::Own(bound.size)),
                 below: self.below,

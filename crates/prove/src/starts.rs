@@ -242,7 +242,7 @@ fn size_within(bound: f64, draw: &mut Draw) -> f64 {
 }
 
 /// Makes the direction one of the edges, so that it lies in the plane if the difference is exact.
-pub(super) fn make_parallel<F: Float>(inputs: &mut Inputs<F>, draw: &mut Draw) {
+pub fn make_parallel<F: Float>(inputs: &mut Inputs<F>, draw: &mut Draw) {
     let (from, to) = draw.pick(&[(6, 9), (6, 12), (9, 12)]);
     for axis in 0..3 {
         inputs[3 + axis] = inputs[to + axis] - inputs[from + axis];

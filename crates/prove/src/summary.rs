@@ -238,7 +238,7 @@ impl<F: Searched + Scalar> Summary<F> {
 }
 
 /// The worst inputs for a number of a proof that are known, or that a search finds.
-pub(super) fn worst<F: Searched>(
+pub fn worst<F: Searched>(
     (proof, quantity): (&Proof, &Quantity),
     goal: Goal,
     judge: Option<&Judge<F>>,

@@ -9,7 +9,7 @@ use num_traits::{Signed, Zero};
 
 /// A vector that is divided by its length.
 #[derive(Clone, Copy)]
-pub(super) struct Unit {
+pub struct Unit {
     pub vector: [Place; 3],
     pub length: Place,
 }

@@ -5,6 +5,7 @@ use super::Dyadic;
 use super::formula::{Formula, Step};
 use crate::arith::recorded::{Operation, Term};
 
+#[derive(Clone)]
 pub struct Walk<'a> {
     formula: &'a Formula,
     /// The terms of each step.
@@ -34,14 +35,13 @@ impl Walk<'_> {
         }
     }
 
-    /// The values at a corner, the unit vector being an axis. A step without a changed variable stays as it was.
+    /// The values at a corner, the unit vector being an axis, always the same in one walk. A step without a changed variable
+    /// stays as it was.
     pub fn evaluate(&mut self, corner: u64, axis: usize) {
-        let changed = self.at.map_or(u64::MAX, |at| at ^ corner);
-        let is_first = self.at.is_none();
-        let has_unit = !self.formula.unit.is_empty();
-        self.at = if has_unit { None } else { Some(corner) };
+        let before = self.at.replace(corner);
         for i in 0..self.values.len() {
-            if is_first || self.supports[i] & changed != 0 {
+            let changes = |at: u64| self.supports[i] & (at ^ corner) != 0;
+            if before.is_none_or(changes) {
                 self.values[i] = self.value(i, corner, axis);
             }
         }
