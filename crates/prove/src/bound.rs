@@ -12,6 +12,9 @@ use crate::kernel::Path;
 use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap};
 
+/// A value, or in one sentence why there is none.
+pub type Proven<T> = Result<T, String>;
+
 /// Binary digits that the size of a lemma's number keeps: products of sizes stay short.
 pub const SIZE_DIGITS: u32 = 12;
 
@@ -118,7 +121,7 @@ pub struct Prover<'a> {
     pub(super) path: &'a Path,
     pub(super) domain: Domain,
     pub(super) format: Format,
-    bounds: HashMap<Place, Result<Bound, String>>,
+    bounds: HashMap<Place, Proven<Bound>>,
     /// The recogniser of known numbers, once it is asked.
     samples: OnceCell<Samples<'a>>,
     /// The lemmas so far, each after those that it uses.
@@ -148,7 +151,7 @@ impl<'a> Prover<'a> {
     }
 
     /// The bound of a number, or why there is none.
-    pub fn bound(&mut self, place: Place) -> Result<Bound, String> {
+    pub fn bound(&mut self, place: Place) -> Proven<Bound> {
         if let Operation::Neg(inner) | Operation::Abs(inner) = self.operation(place) {
             return self.bound(inner);
         }
@@ -160,7 +163,7 @@ impl<'a> Prover<'a> {
         found
     }
 
-    fn prove(&mut self, place: Place) -> Result<Bound, String> {
+    fn prove(&mut self, place: Place) -> Proven<Bound> {
         let lemma = self.lemma(place)?;
         let bound = lemma.bound.clone();
         let numbers = [bound.error, bound.size, bound.computed];
@@ -171,7 +174,7 @@ impl<'a> Prover<'a> {
         Ok(bound)
     }
 
-    fn lemma(&mut self, place: Place) -> Result<Lemma, String> {
+    fn lemma(&mut self, place: Place) -> Proven<Lemma> {
         if let Some(unit) = self.unit(place) {
             return self.lemma_of_unit(place, unit);
         }
@@ -196,7 +199,7 @@ impl<'a> Prover<'a> {
     }
 
     /// An error if a computed number may be infinite.
-    pub(super) fn check_range(&self, size: Dyadic) -> Result<(), String> {
+    pub(super) fn check_range(&self, size: Dyadic) -> Proven<()> {
         if size < Dyadic::power(self.format.largest) {
             Ok(())
         } else {

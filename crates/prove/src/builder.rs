@@ -1,6 +1,6 @@
 //! A number's program as a formula: inputs and numbers with lemmas of their own are its variables.
 
-use super::bound::{Bound, Prover};
+use super::bound::{Bound, Proven, Prover};
 use super::forms::{Forms, Leaf};
 use super::formula::{Formula, Maximum, Source, Step};
 use super::{Domain, Dyadic, Format};
@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 
 impl Prover<'_> {
     /// The formula of a number, and what its corners say.
-    pub(super) fn formula(&mut self, place: Place) -> Result<(Formula, Maximum), String> {
+    pub(super) fn formula(&mut self, place: Place) -> Proven<(Formula, Maximum)> {
         let mut builder = Builder::new(self);
         builder.expand(place)?;
         builder.finish()
@@ -21,7 +21,7 @@ impl Prover<'_> {
         numerators: &[Place],
         divisor: Place,
         ends: Ends,
-    ) -> Result<OfQuotient, String> {
+    ) -> Proven<OfQuotient> {
         // Where quotients have a sign, the corners of a box of points are some of those of a box of differences.
         let Domain { edge, reach, .. } = self.domain;
         let is_boxed = ends.below.is_some() && edge == reach;
@@ -37,7 +37,7 @@ impl Prover<'_> {
         numerators: &[Place],
         divisor: Place,
         ends: Ends,
-    ) -> Result<OfQuotient, String> {
+    ) -> Proven<OfQuotient> {
         let mut builder = Builder::new(self);
         builder.is_boxed = is_boxed;
         let mut all = Vec::new();
@@ -110,7 +110,7 @@ impl<'p, 'a> Builder<'p, 'a> {
     }
 
     /// The formula and its corners; the last step is the result.
-    fn finish(mut self) -> Result<(Formula, Maximum), String> {
+    fn finish(mut self) -> Proven<(Formula, Maximum)> {
         self.find_unit_vector();
         let maximum = self.formula.maximum(self.prover.format)?;
         for bound in &self.formula.bounds {
@@ -212,7 +212,7 @@ impl<'p, 'a> Builder<'p, 'a> {
     }
 
     /// A number that is a variable here; its lemma says the rest.
-    fn cut(&mut self, place: Place) -> Result<usize, String> {
+    fn cut(&mut self, place: Place) -> Proven<usize> {
         let bound = self.prover.bound(place)?;
         let is_part = self.prover.unit(place).is_some();
         let source = if is_part {
@@ -242,7 +242,7 @@ impl<'p, 'a> Builder<'p, 'a> {
         form.sum
     }
 
-    fn leaf(&mut self, leaf: Leaf) -> Result<usize, String> {
+    fn leaf(&mut self, leaf: Leaf) -> Proven<usize> {
         let size = leaf.bound(&self.prover.domain);
         let sum = match leaf {
             Leaf::Difference(p, q, axis) if self.is_boxed => {
@@ -271,7 +271,7 @@ impl<'p, 'a> Builder<'p, 'a> {
         Ok(step)
     }
 
-    fn expand(&mut self, place: Place) -> Result<usize, String> {
+    fn expand(&mut self, place: Place) -> Proven<usize> {
         if let Some(step) = self.steps.get(&place) {
             return Ok(*step);
         }
@@ -290,7 +290,7 @@ impl<'p, 'a> Builder<'p, 'a> {
         Ok(step)
     }
 
-    fn operation(&mut self, place: Place, operation: Operation) -> Result<usize, String> {
+    fn operation(&mut self, place: Place, operation: Operation) -> Proven<usize> {
         match operation {
             Operation::Input(_) => unreachable!("inputs are leaves"),
             Operation::Number(value) => return Ok(self.number(value)),
@@ -316,7 +316,7 @@ impl<'p, 'a> Builder<'p, 'a> {
 
     /// Two factors without a variable in common: if there is one, the second factor becomes a variable of
     /// its own.
-    fn factors(&mut self, a: Place, b: Place) -> Result<[usize; 2], String> {
+    fn factors(&mut self, a: Place, b: Place) -> Proven<[usize; 2]> {
         let first = self.expand(a)?;
         let before = (self.formula.clone(), self.steps.clone(), self.forms.clone());
         let second = self.expand(b)?;

@@ -5,7 +5,7 @@
 use super::bound::Ratio;
 use super::forms::Leaf;
 use super::formula::{Formula, Maximum, Source, Step};
-use super::run::cone;
+use super::run::{Cone, cone};
 use super::watertight::symmetry_of;
 use super::{Bound, Domain, Dyadic, Format, Lemma, Limit, Names, Rule, Symmetry};
 use crate::arith::recorded::{Comparison, Operation, Place};
@@ -88,9 +88,7 @@ fn text_of(operations: &[Operation]) -> String {
 /// One program: the operations of a number, what its proof supposes, the lemmas in order, and what they show.
 pub fn program(path: &Path, lemmas: &[Lemma], claim: &Claim) -> String {
     let cone = cone(&path.operations, claim.place);
-    let writer = Writer {
-        places: &cone.places,
-    };
+    let writer = Writer { cone: &cone };
     let mut text = format!("program\n{}", text_of(&cone.operations));
     let orders = claim.orders.iter().map(|(a, b)| format!("order {a} {b}"));
     let also = claim.also.iter().map(|names| format!("also {names}"));
@@ -146,13 +144,12 @@ fn with_operands<P: Display>(name: &str, operands: Vec<P>) -> String {
 
 /// Writes the lemmas of a number.
 struct Writer<'a> {
-    /// Where each operation of the path went.
-    places: &'a [Option<Place>],
+    cone: &'a Cone,
 }
 
 impl Writer<'_> {
     fn at(&self, place: Place) -> Place {
-        self.places[place as usize].expect("a proof of a number uses what it is made of")
+        self.cone.at(place)
     }
 
     /// The limits of divisors and quotients that stand in place of the domain's.

@@ -270,12 +270,7 @@ mod tests {
                 let mut draw = Draw::new("amplitude", 1, 0);
                 for _ in 0..5 {
                     let inputs = search.start(Goal::Error, &mut draw);
-                    run(
-                        &search.operations,
-                        search.last(),
-                        &inputs,
-                        &mut search.computed,
-                    );
+                    run(&search.operations, &inputs, &mut search.computed);
                     let expected = by_differences(&search, &inputs);
                     let found = search.amplitude();
                     let apart = (found - expected).abs();
@@ -298,7 +293,7 @@ mod tests {
             let result = |by: f64| {
                 let (mut inputs, mut values) = (*inputs, Vec::new());
                 inputs[16] = value * (1.0 + by);
-                run(&operations, search.last(), &inputs, &mut values);
+                run(&operations, &inputs, &mut values);
                 values[search.place as usize]
             };
             let slope = (result(1e-6) - result(-1e-6)) / (2e-6 * value);

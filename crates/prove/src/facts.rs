@@ -19,7 +19,7 @@ pub struct Fact {
 
 /// An edge gate: each way to be accepted, and for either sign of the scale the numbers of which one is too small where it
 /// refuses; none if it may refuse although all are large.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Form {
     pub gate: usize,
     pub ways: Vec<Vec<Fact>>,

@@ -75,7 +75,7 @@ pub struct Form {
 /// Which sum of variables each input is. Along each axis, differences connect the points; as long as they
 /// close no circle, each of them is a variable of its own, and a difference that closes one is a sum of the
 /// others.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Forms {
     /// By axis and point. Component 0 holds the points whose coordinates are used as they are, which are differences to
     /// the ground.
@@ -86,7 +86,7 @@ pub struct Forms {
 }
 
 /// The component that a point belongs to, and where it lies in it.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 struct Position {
     component: usize,
     sum: Sum,

@@ -1,6 +1,6 @@
 //! The bounds of all gates of a kernel: every path, every quantity, each program once.
 
-use super::bound::{Lemma, Prover};
+use super::bound::{Lemma, Proven, Prover};
 use super::forms::Leaf;
 use super::formula::Source;
 use super::names::Names;
@@ -45,7 +45,7 @@ pub struct Quantity {
     /// The domain of its bound.
     pub domain: Domain,
     /// Its bound, or why there is none.
-    pub bound: Result<Bound, String>,
+    pub bound: Proven<Bound>,
     /// The lemmas of the bound, its own last.
     pub lemmas: Vec<Lemma>,
 }
@@ -243,7 +243,7 @@ impl Proof {
     }
 
     /// The quantity of a gate with the largest error; an error in one sentence if one has no bound.
-    pub fn gate(&self, gate: usize) -> Option<Result<&Quantity, String>> {
+    pub fn gate(&self, gate: usize) -> Option<Proven<&Quantity>> {
         for quantity in self.of_gate(gate) {
             if let Err(why) = &quantity.bound {
                 return Some(Err(why.clone()));

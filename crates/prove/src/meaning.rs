@@ -46,7 +46,7 @@ pub enum Scale {
 }
 
 /// The exact value of a number: `what` times `scale`, or the negative of that.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy)]
 pub struct Meaning {
     pub what: What,
     pub scale: Scale,

@@ -59,7 +59,7 @@ pub struct Known<R> {
 }
 
 /// The rays that a search looks at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq)]
 pub enum Angle {
     /// Those that meet the plane at the scene's least angle or more.
     OfScene,

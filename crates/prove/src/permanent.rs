@@ -20,6 +20,7 @@
 //!
 //! The last sum cannot change a sign. For the sign only the roundings before it count.
 
+use super::bound::Proven;
 use super::dyadic::{Big, round_up};
 use super::forms::Leaf;
 use super::formula::DIGITS;
@@ -106,7 +107,7 @@ impl Relative {
 }
 
 /// A number on the way: its roundings, and sizes in the domain.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 struct Node {
     roundings: Roundings,
     /// Those before its own rounding, if it is a sum.
@@ -136,12 +137,7 @@ impl Node {
 /// The form of a number relative to its permanent; an error in one sentence if it has none: it is
 /// divided by a number that may cancel, or is a root. The domain says how large numbers are that
 /// multiply an underflow; the factor does not depend on it.
-pub fn relative(
-    path: &Path,
-    place: Place,
-    domain: Domain,
-    format: Format,
-) -> Result<Relative, String> {
+pub fn relative(path: &Path, place: Place, domain: Domain, format: Format) -> Proven<Relative> {
     let mut forms = Forms {
         path,
         format,
@@ -169,7 +165,7 @@ struct Forms<'a> {
 }
 
 impl Forms<'_> {
-    fn node(&mut self, place: Place) -> Result<Node, String> {
+    fn node(&mut self, place: Place) -> Proven<Node> {
         if let Some(node) = &self.nodes[place as usize] {
             return Ok(node.clone());
         }
@@ -178,7 +174,7 @@ impl Forms<'_> {
         Ok(node)
     }
 
-    fn made(&mut self, place: Place) -> Result<Node, String> {
+    fn made(&mut self, place: Place) -> Proven<Node> {
         let operation = self.path.operations[place as usize];
         if let Some(leaf) = Leaf::of(operation, &self.path.operations) {
             let roundings = if leaf.is_difference() {
@@ -203,10 +199,7 @@ impl Forms<'_> {
                     Some(b) => self.product(a, b),
                     None => self.node(a),
                 };
-                let terms = operation
-                    .terms()
-                    .map(term)
-                    .collect::<Result<Vec<Node>, String>>()?;
+                let terms = operation.terms().map(term).collect::<Proven<Vec<Node>>>()?;
                 let sharp = terms
                     .iter()
                     .all(|x| x.sharp && x.roundings == Roundings::default());
@@ -277,7 +270,7 @@ impl Forms<'_> {
     }
 
     /// An exact product of computed numbers.
-    fn product(&mut self, a: Place, b: Place) -> Result<Node, String> {
+    fn product(&mut self, a: Place, b: Place) -> Proven<Node> {
         let (a, b) = (self.node(a)?, self.node(b)?);
         let computed = |x: &Node| x.roundings.power(self.format) * &x.permanent;
         // The computed b is at most its permanent with its errors.

@@ -1,6 +1,6 @@
 //! Bounds of quotients.
 
-use super::bound::{Bound, Lemma, Prover, Ratio, Rule, SIZE_DIGITS};
+use super::bound::{Bound, Lemma, Proven, Prover, Ratio, Rule, SIZE_DIGITS};
 use super::builder::{Ends, OfQuotient};
 use super::dyadic::{Big, round_up, whole};
 use super::formula::DIGITS;
@@ -10,7 +10,7 @@ use super::{Domain, Dyadic};
 use crate::arith::recorded::{Operation, Place};
 
 /// A quotient.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Fraction {
     /// None is the number 1.
     pub numerator: Option<Place>,
@@ -163,7 +163,7 @@ impl Prover<'_> {
     }
 
     /// An error if the divisor may be computed as zero.
-    fn divisor(&mut self, place: Place, floor: Limit) -> Result<Divisor, String> {
+    fn divisor(&mut self, place: Place, floor: Limit) -> Proven<Divisor> {
         let error = self.bound(place)?.error;
         // Else another coordinate may be larger by more than 1 %: 2E is that share of the floor.
         let least = error * Dyadic::new(200, 0);
@@ -205,7 +205,7 @@ impl Prover<'_> {
     }
 
     /// The error of the quotient of the numbers before their last roundings, if these are left out.
-    fn error_of_quotient(&mut self, of: &OfQuotient, by: &Divisor) -> Result<Big, String> {
+    fn error_of_quotient(&mut self, of: &OfQuotient, by: &Divisor) -> Proven<Big> {
         let closest = if of.leaves_out_divisor {
             &by.floor - self.error_before_rounding(by.place)?
         } else {
@@ -215,7 +215,7 @@ impl Prover<'_> {
     }
 
     /// The lemma of a number that is made of two quotients by one divisor, whose error is one for both.
-    pub(super) fn divide_both(&mut self, place: Place, both: Quotients) -> Result<Lemma, String> {
+    pub(super) fn divide_both(&mut self, place: Place, both: Quotients) -> Proven<Lemma> {
         let fraction = both.fraction;
         let Fraction { divisor, twice, .. } = fraction;
         let limits = self.limits(place, divisor);
@@ -264,7 +264,7 @@ impl Prover<'_> {
     }
 
     /// The lemma of a quotient.
-    pub(super) fn divide(&mut self, place: Place, fraction: Fraction) -> Result<Lemma, String> {
+    pub(super) fn divide(&mut self, place: Place, fraction: Fraction) -> Proven<Lemma> {
         let Fraction {
             numerator,
             divisor,
@@ -336,7 +336,7 @@ impl Prover<'_> {
     }
 
     /// The error of a number before its last operation rounds, where that is known to be smaller.
-    pub(super) fn error_before_rounding(&mut self, place: Place) -> Result<Big, String> {
+    pub(super) fn error_before_rounding(&mut self, place: Place) -> Proven<Big> {
         let error = Big::from(self.bound(place)?.error);
         let unsigned = unsigned(self.path, place);
         let mut lemmas = self.lemmas.iter();
@@ -355,7 +355,7 @@ impl Prover<'_> {
     }
 
     /// One more rounding of a number of the given size before it.
-    fn bound_of_rounded(&self, size: Dyadic, error: Big, rounded: &Big) -> Result<Bound, String> {
+    fn bound_of_rounded(&self, size: Dyadic, error: Big, rounded: &Big) -> Proven<Bound> {
         let rounding = Big::from(self.format.half_ulp_of(rounded));
         let computed = round_up(rounded, self.format.digits);
         self.check_range(computed)?;

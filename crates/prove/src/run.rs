@@ -3,10 +3,10 @@
 use crate::arith::Real;
 use crate::arith::recorded::{Operation, Place};
 
-/// Runs a program up to a place.
-pub fn run<R: Real>(operations: &[Operation], last: Place, inputs: &[R; 17], values: &mut Vec<R>) {
+/// Runs a program.
+pub fn run<R: Real>(operations: &[Operation], inputs: &[R; 17], values: &mut Vec<R>) {
     values.clear();
-    for operation in &operations[..=last as usize] {
+    for operation in operations {
         let on_values = operation.with(|place| values[place as usize].clone());
         values.push(result(on_values, inputs));
     }
@@ -15,8 +15,7 @@ pub fn run<R: Real>(operations: &[Operation], last: Place, inputs: &[R; 17], val
 /// The values of all operations of a program.
 pub fn values<R: Real>(operations: &[Operation], inputs: &[R; 17]) -> Vec<R> {
     let mut values = Vec::new();
-    let last = operations.len() as Place - 1;
-    run(operations, last, inputs, &mut values);
+    run(operations, inputs, &mut values);
     values
 }
 
@@ -46,35 +45,41 @@ pub struct Cone {
     pub places: Vec<Option<Place>>,
 }
 
-pub fn cone(operations: &[Operation], last: Place) -> Cone {
-    let mut places = vec![None; operations.len()];
-    let mut needed = Vec::new();
-    let mut open = vec![last];
-    while let Some(place) = open.last().copied() {
-        let operation = operations[place as usize];
-        let mut operands = operation.operands().into_iter();
-        if let Some(operand) = operands.find(|operand| places[*operand as usize].is_none()) {
-            open.push(operand);
-            continue;
+impl Cone {
+    /// Adds an operation after its operands, unless it is there.
+    fn add(&mut self, place: Place, all: &[Operation]) {
+        if self.places[place as usize].is_some() {
+            return;
         }
-        open.pop();
-        places[place as usize] = Some(needed.len() as Place);
-        needed.push(operation.with(|place| places[place as usize].expect("operands come first")));
+        let operation = all[place as usize];
+        for operand in operation.operands() {
+            self.add(operand, all);
+        }
+        let renamed = operation.with(|operand| self.at(operand));
+        let next = self.operations.len() as Place;
+        self.places[place as usize] = Some(next);
+        self.operations.push(renamed);
     }
-    Cone {
-        operations: needed,
-        places,
+
+    /// The place of an operation of the path that is needed.
+    pub fn at(&self, place: Place) -> Place {
+        self.places[place as usize].expect("a number needs what it is made of")
     }
+}
+
+pub fn cone(operations: &[Operation], last: Place) -> Cone {
+    let mut cone = Cone {
+        operations: Vec::new(),
+        places: vec![None; operations.len()],
+    };
+    cone.add(last, operations);
+    cone
 }
 
 /// The numbers that a number is made of, and itself.
 pub fn parts(operations: &[Operation], place: Place) -> Vec<Place> {
     let cone = cone(operations, place);
-    let mut parts = Vec::new();
-    for (part, needed) in (0..).zip(cone.places) {
-        if needed.is_some() {
-            parts.push(part);
-        }
-    }
+    let mut parts: Vec<Place> = (0..=place).collect();
+    parts.retain(|part| cone.places[*part as usize].is_some());
     parts
 }

@@ -1,5 +1,6 @@
 //! A scene in numbers that a person knows, and the domain that it is.
 
+use super::bound::Proven;
 use super::dyadic::{Big, root_up};
 use super::measures::{Angle, DIGITS, Sample};
 use super::{Domain, Dyadic, Measures};
@@ -32,7 +33,7 @@ pub type Shape = (f64, f64);
 
 impl Scene {
     /// A scene as samples are drawn from it. An error in one sentence if its directions have any length.
-    pub fn of(scene: &case::Scene) -> Result<Scene, String> {
+    pub fn of(scene: &case::Scene) -> Proven<Scene> {
         if scene.direction != DirectionLength::Unit {
             return Err("proofs suppose |d| <= 1: write direction=unit".to_owned());
         }
@@ -50,7 +51,7 @@ impl Scene {
     }
 
     /// The domain; an error in one sentence if there is none.
-    pub fn domain(&self) -> Result<Domain, String> {
+    pub fn domain(&self) -> Proven<Domain> {
         let Scene {
             coordinates,
             edge: [shortest, longest],

@@ -44,18 +44,21 @@ impl<F: Searched> Search<'_, F> {
         let at_b = cotangent_of_angle(least_angle, draw);
         let height = size / (at_a + at_b);
         let e1 = size * along;
-        let e2 = height * at_a * along + height * across;
+        let foot = height * at_a * along;
+        let e2 = foot + height * across;
         let sine = if draw.below(4) == 0 {
             draw.unit()
         } else {
             slightly_more(measures.sine.to_f64(), draw).min(1.0)
         };
-        let toward = along * draw.symmetric::<f64>() + across * draw.symmetric::<f64>();
-        let in_plane = toward.normalize_or_zero();
+        let ahead = along * symmetric(draw);
+        let aside = across * symmetric(draw);
+        let in_plane = (ahead + aside).normalize_or_zero();
         let direction = in_plane * (1.0 - sine * sine).sqrt() + normal * sine;
         let u = draw.unit();
         let v = draw.unit();
-        let target = a + e1 * (u * (1.0 - v)) + e2 * v;
+        let of_e1 = e1 * (u * (1.0 - v));
+        let target = a + of_e1 + e2 * v;
         let farthest = (scene.distance - size).max(scene.distance / 2.0);
         let distance = near_either_end(farthest, draw).abs();
         let origin = target - direction * distance;
@@ -91,10 +94,9 @@ impl<F: Searched> Search<'_, F> {
 
     fn inputs_of(&self, vectors: [DVec3; 5]) -> Inputs<F> {
         let mut inputs = [F::zero(); 17];
-        for (i, vector) in vectors.iter().enumerate() {
-            for axis in 0..3 {
-                inputs[3 * i + axis] = F::from_f64(vector[axis]);
-            }
+        let coordinates = vectors.map(|vector| vector.to_array());
+        for (i, x) in coordinates.as_flattened().iter().enumerate() {
+            inputs[i] = F::from_f64(*x);
         }
         inputs[15..].copy_from_slice(&self.domain.interval());
         inputs
@@ -108,26 +110,30 @@ impl<F: Searched> Search<'_, F> {
         let world = domain.world.to_f64();
         let scale = power_of_half(30, draw);
         let is_at_corner = draw.coin();
+        let lemma = self.quantity.lemmas.last();
         let corner = Corner {
-            lemma: self.quantity.lemmas.last().filter(|_| is_at_corner),
+            lemma: lemma.filter(|_| is_at_corner),
         };
         let mut inputs = [0.0; 17];
         for axis in 0..3 {
-            let a = world * draw.symmetric::<f64>() * scale;
+            let a = world * symmetric(draw) * scale;
             inputs[input(1, axis)] = a;
             for (point, bound) in [(2, edge), (3, edge), (0, reach)] {
                 let x = size_within(bound, draw);
-                inputs[input(point, axis)] = a + corner.difference(x, point, 1, axis);
+                let from_a = corner.difference(x, point, 1, axis);
+                inputs[input(point, axis)] = a + from_a;
             }
             // Where only vectors from the origin count, they are drawn around it.
-            let is_from_origin = corner.is_negative(Leaf::Difference(1, 0, axis)).is_some();
+            let of_a = Leaf::Difference(1, 0, axis);
+            let is_from_origin = corner.is_negative(of_a).is_some();
             if is_from_origin || !self.quantity.uses().edge {
-                let origin = world * draw.symmetric::<f64>() * scale;
+                let origin = world * symmetric(draw) * scale;
                 inputs[axis] = origin;
                 for point in 1..=3 {
                     let x = size_within(reach, draw);
                     let difference = Leaf::Difference(point, 0, axis);
-                    inputs[input(point, axis)] = origin + corner.signed(x, difference);
+                    let from_origin = corner.signed(x, difference);
+                    inputs[input(point, axis)] = origin + from_origin;
                 }
             }
             let x = size_within(domain.direction.to_f64(), draw);
@@ -189,7 +195,12 @@ fn vector(draw: &mut Draw, coordinate: impl Fn(&mut Draw) -> f64) -> DVec3 {
 }
 
 fn anywhere(draw: &mut Draw) -> DVec3 {
-    vector(draw, |draw| draw.symmetric::<f64>())
+    vector(draw, symmetric)
+}
+
+/// A number between -1 and 1.
+fn symmetric(draw: &mut Draw) -> f64 {
+    draw.symmetric()
 }
 
 /// 2 to minus a whole number below `end`.
@@ -233,12 +244,12 @@ fn cotangent_of_angle(least: f64, draw: &mut Draw) -> f64 {
 }
 
 fn size_within(bound: f64, draw: &mut Draw) -> f64 {
-    let size = match draw.below(3) {
-        0 => bound * draw.unit(),
-        1 => bound * (1.0 - draw.unit() * 0.01),
-        _ => bound * (1.0 - draw.unit() * 2f64.powi(-12)),
+    let share = match draw.below(3) {
+        0 => draw.unit(),
+        1 => 1.0 - draw.unit() * 0.01,
+        _ => 1.0 - draw.unit() * 2f64.powi(-12),
     };
-    of_either_sign(size, draw)
+    of_either_sign(bound * share, draw)
 }
 
 /// Makes the direction one of the edges, so that it lies in the plane if the difference is exact.

@@ -1,5 +1,6 @@
 //! Everything that is proved of a kernel, and the worst that is known, gate by gate.
 
+use super::bound::Proven;
 use super::depth::Judge;
 use super::gates::{Proof, Quantity, Supposed, Uses};
 use super::permanent::{Relative, relative};
@@ -36,7 +37,7 @@ pub struct GateSummary<F> {
     /// The gate itself.
     pub gate: Gate,
     /// The bound of the error of what it compares, or why there is none.
-    pub bound: Result<Dyadic, String>,
+    pub bound: Proven<Dyadic>,
     /// The error relative to the permanent of what it compares, if it has one: the largest of its quantities.
     pub relative: Option<Relative>,
     /// The suppositions of the bound.
@@ -80,7 +81,7 @@ pub fn format_of<F: Float>() -> Format {
 }
 
 /// The recorded paths of a kernel; an error in one sentence if it has no program.
-pub fn paths_of<F: Scalar>(entry: &Entry) -> Result<Vec<Path>, String> {
+pub fn paths_of<F: Scalar>(entry: &Entry) -> Proven<Vec<Path>> {
     let subject = F::subject(entry).ok_or("it does not run in this scalar")?;
     subject
         .gated()
@@ -90,11 +91,7 @@ pub fn paths_of<F: Scalar>(entry: &Entry) -> Result<Vec<Path>, String> {
 
 impl Proof {
     /// The proof of a kernel, of all gates or of one; an error in one sentence if it has no program.
-    pub fn of<F: Scalar>(
-        entry: &Entry,
-        gate: Option<usize>,
-        domain: Domain,
-    ) -> Result<Proof, String> {
+    pub fn of<F: Scalar>(entry: &Entry, gate: Option<usize>, domain: Domain) -> Proven<Proof> {
         Ok(Proof::new(
             paths_of::<F>(entry)?,
             gate,
@@ -158,7 +155,7 @@ impl<F: Searched + Scalar> Summary<F> {
         parts: &[Domain],
         known: &[Inputs<F>],
         effort: Effort,
-    ) -> Result<Summary<F>, String> {
+    ) -> Proven<Summary<F>> {
         let format = format_of::<F>();
         let proof = Proof::of::<F>(entry, None, domain)?.split(parts, format);
         let mut contradiction = None;

@@ -4,6 +4,7 @@
 //! An edge gate compares λ·s with e: λ is a barycentric coordinate, s a scale that is at least σ. Its error is at most β. So it
 //! refuses only where λ < (e + β)/σ, and accepts only where λ ≥ -(β - e)/σ. A height is no longer than the longest edge.
 
+use super::bound::Proven;
 use super::facts::{Fact, Form, Reader};
 use super::meaning::{Meaning, Meanings, Scale, What};
 use super::{Domain, Lemma, Proof, Rule, Source, Step};
@@ -15,7 +16,7 @@ use std::collections::{BTreeSet, HashSet};
 pub const USELESS: f64 = 0.5;
 
 /// How far from its triangle's boundary a wrong verdict can be, or why nothing is known.
-pub type Depth = Result<Farthest, String>;
+pub type Depth = Proven<Farthest>;
 
 /// A distance between the line of a triangle's edge and where the ray's line meets the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -98,7 +99,7 @@ pub fn verdicts(
                 .form(compared)
                 .ok_or(format!("what gate '{name}' compares is not read"))
         };
-        match gates.map(forms_of).collect::<Result<Vec<Form>, String>>() {
+        match gates.map(forms_of).collect::<Proven<Vec<Form>>>() {
             Ok(found) => forms.insert((found, path.hits)),
             Err(why) => {
                 let (misses, hits) = (Err(why.clone()), Err(why));
@@ -111,7 +112,7 @@ pub fn verdicts(
             }
         };
     }
-    let farthest = |share_of: &dyn Fn(&Domain) -> Result<[f64; 2], String>| {
+    let farthest = |share_of: &dyn Fn(&Domain) -> Proven<[f64; 2]>| {
         let mut most = Farthest::default();
         for domain in parts {
             let [share, apart] = share_of(domain)?;
@@ -219,7 +220,7 @@ const WIDE: f64 = 1.0 + 1.0 / 512.0;
 
 impl Bounds<'_> {
     /// The error of a number in a proof over the least size of its scale.
-    fn share(&self, proof: &Proof, fact: &Fact) -> Result<f64, String> {
+    fn share(&self, proof: &Proof, fact: &Fact) -> Proven<f64> {
         let error = error(proof, fact.program, self.domain)?;
         Ok(error / fact.scale.least(self.domain))
     }
@@ -229,7 +230,7 @@ impl Bounds<'_> {
     }
 
     /// The farthest inside that a gate of a path refuses, on the sides that the contract has.
-    fn inside(&self, (forms, hits): &Forms, sides: Sides) -> Result<f64, String> {
+    fn inside(&self, (forms, hits): &Forms, sides: Sides) -> Proven<f64> {
         if !hits {
             return Err("something refuses that is no gate".to_owned());
         }
@@ -258,7 +259,7 @@ impl Bounds<'_> {
     }
 
     /// The farthest outside an edge, and from the triangle, that a path's gates let through.
-    fn outside(&self, forms: &[Form]) -> Result<[f64; 2], String> {
+    fn outside(&self, forms: &[Form]) -> Proven<[f64; 2]> {
         let ways = forms
             .iter()
             .fold(vec![Vec::new()], |all: Vec<Vec<(usize, Fact)>>, form| {
@@ -280,7 +281,7 @@ impl Bounds<'_> {
     }
 
     /// The same of one way to be accepted, where the scale is positive or negative.
-    fn outside_on(&self, way: &[(usize, Fact)], side: bool) -> Result<[f64; 2], String> {
+    fn outside_on(&self, way: &[(usize, Fact)], side: bool) -> Proven<[f64; 2]> {
         let is_impossible = way.iter().any(|(gate, x)| {
             way.iter().any(|(_, y)| {
                 let is_negative =
@@ -294,7 +295,7 @@ impl Bounds<'_> {
             return Ok([0.0; 2]);
         }
         // Of each weight the least that is known, and its error: on this side, or on the other one.
-        let known = |proof: &Proof, is_side: bool| -> Result<Option<[(f64, f64); 3]>, String> {
+        let known = |proof: &Proof, is_side: bool| -> Proven<Option<[(f64, f64); 3]>> {
             let mut all = [None; 3];
             for (gate, fact) in way.iter().filter(|(_, fact)| fact.is_side(side) == is_side) {
                 if let What::Weight(vertex) = fact.what {
@@ -347,7 +348,7 @@ impl Bounds<'_> {
 }
 
 /// The bound of a program's error in a domain.
-fn error(proof: &Proof, program: usize, domain: &Domain) -> Result<f64, String> {
+fn error(proof: &Proof, program: usize, domain: &Domain) -> Proven<f64> {
     let mut of_program = proof
         .quantities
         .iter()

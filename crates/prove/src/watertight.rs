@@ -61,7 +61,7 @@ pub fn symmetry(paths: &[Path], is_edge: impl Fn(usize) -> bool) -> Symmetry {
 }
 
 /// The common formula or images of all edges that one ray may meet.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 struct Met {
     /// The formula, as it is of an edge from a to b; none if there are several, or if it is not the negative of itself
     /// with its ends exchanged.

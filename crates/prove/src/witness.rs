@@ -188,7 +188,7 @@ impl<'a, F: Searched> Search<'a, F> {
         goal: Goal,
         near: &mut Vec<F::Near>,
     ) -> Option<f64> {
-        run(&self.operations, self.last(), inputs, &mut self.computed);
+        run(&self.operations, inputs, &mut self.computed);
         let computed = &self.computed;
         let holds = |(comparison, answer): &(Comparison, bool)| {
             let of = |place: Place| &computed[place as usize];
@@ -249,11 +249,6 @@ impl<'a, F: Searched> Search<'a, F> {
         counts.then_some(score)
     }
 
-    /// Its last operation.
-    pub(super) fn last(&self) -> Place {
-        self.operations.len() as Place - 1
-    }
-
     /// True in the domain, given how a number times a sign compares with a bound; false where that is not known.
     fn holds(
         &self,
@@ -292,7 +287,7 @@ impl<'a, F: Searched> Search<'a, F> {
     ) -> Option<(f64, bool)> {
         let is_verdict = matches!(goal, Goal::Missed | Goal::Hit);
         let numbers = inputs.map(&number);
-        run(&self.operations, self.last(), &numbers, values);
+        run(&self.operations, &numbers, values);
         let signed = |place: Place, sign: f64| {
             let value = values[place as usize].clone();
             if sign < 0.0 { -value } else { value }

@@ -5,7 +5,7 @@ use super::reader::Outcome;
 use num_traits::{Signed, Zero};
 
 /// The numbers that describe a format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Parameters {
     pub digits: i64,
     /// The exponent of the smallest subnormal number.

@@ -58,7 +58,7 @@ pub struct Unit {
 }
 
 /// The length that a vector is divided by.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Length {
     pub place: usize,
     /// True if the vector is multiplied by the length's rounded reciprocal.

@@ -19,7 +19,7 @@ use std::collections::{BTreeSet, HashMap};
 const MOST_SIZED: usize = 8;
 
 /// A condition: the signs of `signs` have a product that is negative, or not, and no number is zero.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Literal {
     pub is_negative: bool,
     pub signs: Vec<usize>,
@@ -42,7 +42,7 @@ impl Literal {
 }
 
 /// A number's sign: that of the product of some known ones, or its opposite.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 struct Monomial {
     is_negative: bool,
     odd: Vec<usize>,

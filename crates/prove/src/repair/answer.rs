@@ -191,12 +191,7 @@ impl<F: Float> Run<'_, F> {
             ..
         } = self;
         let margins = guarded.sizes();
-        run(
-            &guarded.operations,
-            guarded.operations.len() as Place - 1,
-            inputs,
-            values,
-        );
+        run(&guarded.operations, inputs, values);
         sizes.clear();
         for (place, operation) in (0..).zip(&guarded.operations) {
             let of = |place: Place| sizes[place as usize];

@@ -1,6 +1,7 @@
 //! How far from zero a computed sum of products must be for its sign to be right, at every scale. docs/guide/repair.md
 //! has the rule and why it holds.
 
+use super::super::bound::Proven;
 use super::super::dyadic::{Big, round_up};
 use super::super::forms::Leaf;
 use super::super::{Dyadic, Format};
@@ -110,7 +111,7 @@ impl Margins<'_> {
         }
     }
 
-    fn count(&self, place: Place, is_size: bool, known: &mut Known) -> Result<Count, String> {
+    fn count(&self, place: Place, is_size: bool, known: &mut Known) -> Proven<Count> {
         if let Some(known) = known.get(&(place, is_size)) {
             return Ok(*known);
         }
@@ -156,7 +157,7 @@ impl Margins<'_> {
     }
 
     /// The margin of a number; an error in one sentence if it has none.
-    pub fn of(&self, place: Place) -> Result<Margin, String> {
+    pub fn of(&self, place: Place) -> Proven<Margin> {
         let mut known = Known::new();
         let count = self.count(place, false, &mut known)?;
         let size = self.count(place, true, &mut known)?;

@@ -1,5 +1,6 @@
 //! The decisions of a kernel, path by path, as decisions that are only made where rounding cannot change them.
 
+use super::super::bound::Proven;
 use super::fraction::{Arena, Literal, Numbers};
 use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
 use crate::kernel::{Acceptance, Path};
@@ -184,10 +185,12 @@ pub struct Builder<'a> {
 
 impl Builder<'_> {
     /// The steps after so many decisions and gates of some paths, which agree so far.
-    pub fn steps(&mut self, set: &[usize], made: usize, gates: usize) -> Result<Step, String> {
+    pub fn steps(&mut self, set: &[usize], made: usize, gates: usize) -> Proven<Step> {
         let path = &self.paths[set[0]];
         let gate = path.compared.get(gates);
-        if let Some(compared) = gate.filter(|compared| compared.decisions == made) {
+        if let Some(compared) = gate
+            && compared.decisions == made
+        {
             let patterns = self.patterns(set[0], &compared.accepts);
             let next = self.steps(set, made, gates + 1)?;
             return Ok(Step::Gate(compared.gate, patterns, Box::new(next)));
@@ -250,7 +253,7 @@ impl Builder<'_> {
     }
 
     /// A test without an epsilon: the next decisions are its own.
-    fn fixed(&mut self, set: &[usize], made: usize, gates: usize) -> Result<Step, String> {
+    fn fixed(&mut self, set: &[usize], made: usize, gates: usize) -> Proven<Step> {
         let mut patterns = [Vec::new(), Vec::new()];
         let mut next = None;
         let mut rest = set.to_vec();
@@ -302,17 +305,16 @@ impl Builder<'_> {
         match accepts {
             Acceptance::Clauses(_, clauses) => {
                 let mut numbers = Numbers::new(&mut self.arena, &self.paths[path]);
-                let mut positive = |place: &Place| numbers.difference(*place, None);
-                let mut pattern = |clause: &Vec<Place>| clause.iter().map(&mut positive).collect();
-                let clauses: Vec<Pattern> = clauses.iter().map(&mut pattern).collect();
-                let mut rejects: Vec<Pattern> = vec![Vec::new()];
-                for clause in &clauses {
-                    let with =
-                        |known: &Pattern, it: &Literal| [&known[..], &[it.negated()]].concat();
-                    let all = |known| clause.iter().map(move |it| with(known, it));
-                    rejects = rejects.iter().flat_map(all).collect();
+                let mut accepts = Vec::new();
+                for clause in clauses {
+                    let mut pattern = Vec::new();
+                    for place in clause {
+                        pattern.push(numbers.difference(*place, None));
+                    }
+                    accepts.push(pattern);
                 }
-                [clauses, rejects].map(|patterns| simplified(self.possible(patterns)))
+                let rejects = one_negated_of_each(&accepts);
+                [accepts, rejects].map(|patterns| simplified(self.possible(patterns)))
             }
             Acceptance::Rounded(outcomes) => [true, false].map(|accepts| {
                 let of_kind = outcomes.iter().filter(|outcome| outcome.accepts == accepts);
@@ -337,12 +339,10 @@ impl Builder<'_> {
             Comparison::Negative(a) => numbers.difference(a, None).negated(),
             Comparison::Zero(_) if answer => return None,
             Comparison::Zero(a) => {
-                let Literal { signs, nonzero, .. } = numbers.difference(a, None);
-                let nonzero = [signs, nonzero].concat();
                 return Some(Literal {
                     is_negative: false,
                     signs: vec![],
-                    nonzero,
+                    nonzero: numbers.difference(a, None).places().collect(),
                 });
             }
         };
@@ -364,6 +364,23 @@ impl Builder<'_> {
 /// True if a comparison holds where the two numbers are equal.
 fn is_equality(comparison: &Comparison) -> bool {
     matches!(comparison, Comparison::Zero(_) | Comparison::AtMost(..))
+}
+
+/// The patterns that take a literal of each clause, and have its opposite.
+fn one_negated_of_each(clauses: &[Pattern]) -> Vec<Pattern> {
+    let mut all = vec![Pattern::new()];
+    for clause in clauses {
+        let mut longer = Vec::new();
+        for known in &all {
+            for literal in clause {
+                let mut pattern = known.clone();
+                pattern.push(literal.negated());
+                longer.push(pattern);
+            }
+        }
+        all = longer;
+    }
+    all
 }
 
 /// The same condition with fewer patterns.
