@@ -78,35 +78,40 @@ pub struct Supposed {
     pub limit: Dyadic,
 }
 
+impl Supposed {
+    fn of(limit: Limit, is_most: bool) -> Option<Supposed> {
+        let name = match limit {
+            Limit::Own(_) => return None,
+            Limit::Scene(name, _) => name,
+            Limit::Domain(_) if is_most => "any quotient",
+            Limit::Domain(_) => "any other divisor",
+        };
+        Some(Supposed {
+            is_most,
+            name,
+            limit: limit.size(),
+        })
+    }
+}
+
 impl Quantity {
     /// The limits of divisors and of quotients that its bound supposes.
     pub fn limits(&self) -> Vec<Supposed> {
-        let supposed = |is_most: bool, limit: Limit| {
-            let (name, limit) = match limit {
-                Limit::Own(_) => return None,
-                Limit::Scene(name, size) => (name, size),
-                Limit::Domain(size) if is_most => ("any quotient", size),
-                Limit::Domain(size) => ("any other divisor", size),
-            };
-            Some(Supposed {
-                is_most,
-                name,
-                limit,
-            })
-        };
-        let of_lemma = |lemma: &Lemma| match lemma.rule {
-            Rule::Sum => [None, None],
-            Rule::Unit { floor, .. } => [supposed(false, floor), None],
-            Rule::Quotient { floor, most, .. } => {
-                // Else the largest numerator over the least divisor is smaller.
-                let most = Some(most).filter(|most| most.size() <= lemma.bound.size);
-                [
-                    supposed(false, floor),
-                    most.and_then(|most| supposed(true, most)),
-                ]
+        let mut all = Vec::new();
+        for lemma in &self.lemmas {
+            match lemma.rule {
+                Rule::Sum => {}
+                Rule::Unit { floor, .. } => all.extend(Supposed::of(floor, false)),
+                Rule::Quotient { floor, most, .. } => {
+                    all.extend(Supposed::of(floor, false));
+                    // Else the largest numerator over the least divisor is smaller.
+                    if most.size() <= lemma.bound.size {
+                        all.extend(Supposed::of(most, true));
+                    }
+                }
             }
-        };
-        self.lemmas.iter().flat_map(of_lemma).flatten().collect()
+        }
+        all
     }
 
     /// The error of its bound, if it has one.
@@ -211,27 +216,23 @@ impl Proof {
             paths, quantities, ..
         } = &mut self;
         let divides = |quantity: &Quantity| quantity.bound.is_err() || quantity.uses().floor;
-        let prove = |quantity: &Quantity| {
-            let path = &paths[quantity.path];
-            let tries = domains.iter().filter(|_| divides(quantity)).map(|domain| {
-                let mut prover = Prover::new(path, *domain, format);
-                let bound = prover.bound(quantity.place);
-                let lemmas = prover.lemmas_of(quantity.place);
-                Quantity {
-                    domain: *domain,
-                    bound,
-                    lemmas,
-                    ..quantity.clone()
-                }
-            });
-            let found: Vec<Quantity> = tries.collect();
-            if found.is_empty() {
-                vec![quantity.clone()]
-            } else {
-                found
+        let mut all = Vec::new();
+        for quantity in quantities.drain(..) {
+            if domains.is_empty() || !divides(&quantity) {
+                all.push(quantity);
+                continue;
             }
-        };
-        *quantities = quantities.iter().flat_map(prove).collect();
+            for domain in domains {
+                let mut prover = Prover::new(&paths[quantity.path], *domain, format);
+                all.push(Quantity {
+                    domain: *domain,
+                    bound: prover.bound(quantity.place),
+                    lemmas: prover.lemmas_of(quantity.place),
+                    ..quantity.clone()
+                });
+            }
+        }
+        *quantities = all;
         self
     }
 

@@ -171,20 +171,20 @@ impl<'a> Samples<'a> {
 
     /// The limit of the first of the known numbers that a number is, up to its sign.
     pub fn find(&self, place: Place, measures: &Measures, kind: Kind) -> Option<Limit> {
-        let of = |(_, sample): &(Vec<f64>, Sample<f64>)| measures.known(kind, sample, &self.axes);
-        let mut lists: Vec<Vec<Known<f64>>> = self.values.iter().map(of).collect();
-        let is_same = |at: &usize| {
+        let mut lists = Vec::new();
+        for (_, sample) in &self.values {
+            lists.push(measures.known(kind, sample, &self.axes));
+        }
+        for (at, Known { name, limit, .. }) in lists[0].iter().enumerate() {
             let exact = |sample: &Sample<Exact>| {
-                measures
-                    .known(kind, sample, &self.axes)
-                    .swap_remove(*at)
-                    .value
+                let mut known = measures.known(kind, sample, &self.axes);
+                known.swap_remove(at).value
             };
-            self.may_be(place, |i| lists[i][*at].value) && self.is_exactly(place, exact)
-        };
-        let found = (0..lists[0].len()).find(is_same)?;
-        let Known { name, limit, .. } = lists[0].swap_remove(found);
-        Some(Limit::Scene(name, limit))
+            if self.may_be(place, |i| lists[i][at].value) && self.is_exactly(place, exact) {
+                return Some(Limit::Scene(name, *limit));
+            }
+        }
+        None
     }
 }
 

@@ -123,12 +123,11 @@ struct Node {
 impl Node {
     /// A number of this size that is not rounded.
     fn exact(size: Dyadic) -> Node {
-        let (roundings, permanent) = (Roundings::default(), Big::from(size));
         Node {
-            roundings,
+            roundings: Roundings::default(),
             before: None,
             sharp: true,
-            permanent,
+            permanent: size.into(),
             underflow: Big::zero(),
         }
     }
@@ -177,18 +176,12 @@ impl Forms<'_> {
     fn made(&mut self, place: Place) -> Proven<Node> {
         let operation = self.path.operations[place as usize];
         if let Some(leaf) = Leaf::of(operation, &self.path.operations) {
-            let roundings = if leaf.is_difference() {
-                Roundings::ONE
-            } else {
-                Roundings::default()
-            };
-            let before = leaf.is_difference().then(Roundings::default);
-            let exact = Node::exact(leaf.bound(&self.prover.domain));
-            return Ok(Node {
-                roundings,
-                before,
-                ..exact
-            });
+            let mut node = Node::exact(leaf.bound(&self.prover.domain));
+            if leaf.is_difference() {
+                node.before = Some(node.roundings);
+                node.roundings = Roundings::ONE;
+            }
+            return Ok(node);
         }
         match operation {
             Operation::Input(_) => unreachable!("inputs are leaves"),
@@ -200,21 +193,16 @@ impl Forms<'_> {
                     None => self.node(a),
                 };
                 let terms = operation.terms().map(term).collect::<Proven<Vec<Node>>>()?;
-                let sharp = terms
-                    .iter()
-                    .all(|x| x.sharp && x.roundings == Roundings::default());
+                let is_exact = |x: &Node| x.sharp && x.roundings == Roundings::default();
+                let sharp = terms.iter().all(is_exact);
                 let has_product = operation.terms().any(|(_, _, b)| b.is_some());
                 let is_sum = 1 < terms.len();
-                let exact = terms
-                    .into_iter()
-                    .reduce(|a, b| sum(&a, &b))
-                    .expect("a term");
-                let rounded = self.rounded(exact, i128::from(has_product));
-                Ok(Node {
-                    sharp,
-                    before: rounded.before.filter(|_| is_sum),
-                    ..rounded
-                })
+                let exact = terms.into_iter().reduce(|a, b| sum(&a, &b));
+                let exact = exact.expect("a term");
+                let mut rounded = self.rounded(exact, i128::from(has_product));
+                rounded.sharp = sharp;
+                rounded.before = rounded.before.filter(|_| is_sum);
+                Ok(rounded)
             }
             Operation::Minor(a, b, c, d) => {
                 let (p, q) = (self.product(a, b)?, self.product(c, d)?);
@@ -253,17 +241,12 @@ impl Forms<'_> {
                         "it is divided by a number, or of a number, that may cancel".to_owned()
                     );
                 }
-                let exact = Node::exact(self.prover.bound(place)?.size);
-                let roundings = n.roundings.and(d.roundings);
-                let quotient = Node {
-                    roundings,
-                    sharp: false,
-                    ..exact
-                };
-                Ok(Node {
-                    before: None,
-                    ..self.rounded(quotient, 1)
-                })
+                let mut quotient = Node::exact(self.prover.bound(place)?.size);
+                quotient.roundings = n.roundings.and(d.roundings);
+                quotient.sharp = false;
+                let mut rounded = self.rounded(quotient, 1);
+                rounded.before = None;
+                Ok(rounded)
             }
             Operation::Sqrt(_) => Err("it has a root".to_owned()),
         }

@@ -22,8 +22,8 @@ pub fn values<R: Real>(operations: &[Operation], inputs: &[R; 17]) -> Vec<R> {
 fn result<R: Real>(operation: Operation<R>, inputs: &[R; 17]) -> R {
     use Operation::*;
     match operation {
-        Input(i) => inputs[usize::from(i)].clone(),
-        Number(value) => R::number(f64::from(value)),
+        Input(i) => inputs[i as usize].clone(),
+        Number(value) => R::number(value.into()),
         Add(a, b) => a + &b,
         Sub(a, b) => a - &b,
         Mul(a, b) => a * &b,
@@ -79,7 +79,7 @@ pub fn cone(operations: &[Operation], last: Place) -> Cone {
 /// The numbers that a number is made of, and itself.
 pub fn parts(operations: &[Operation], place: Place) -> Vec<Place> {
     let cone = cone(operations, place);
-    let mut parts: Vec<Place> = (0..=place).collect();
+    let mut parts = Vec::from_iter(0..=place);
     parts.retain(|part| cone.places[*part as usize].is_some());
     parts
 }

@@ -37,8 +37,8 @@ impl<F: Searched> Search<'_, F> {
         let other = anywhere(draw);
         let normal = along.cross(other).normalize_or_zero();
         let across = normal.cross(along);
-        let longest = measures.longest.to_f64().min(scene.edge[1]);
-        let size = slightly_less(longest, 8, draw);
+        let longest = measures.longest.to_f64();
+        let size = slightly_less(longest.min(scene.edge[1]), 8, draw);
         let least_angle = scene.min_angle.to_radians();
         let at_a = cotangent_of_angle(least_angle, draw);
         let at_b = cotangent_of_angle(least_angle, draw);
@@ -54,12 +54,14 @@ impl<F: Searched> Search<'_, F> {
         let ahead = along * symmetric(draw);
         let aside = across * symmetric(draw);
         let in_plane = (ahead + aside).normalize_or_zero();
-        let direction = in_plane * (1.0 - sine * sine).sqrt() + normal * sine;
+        let cosine = (1.0 - sine * sine).sqrt();
+        let direction = in_plane * cosine + normal * sine;
         let u = draw.unit();
         let v = draw.unit();
         let of_e1 = e1 * (u * (1.0 - v));
         let target = a + of_e1 + e2 * v;
-        let farthest = (scene.distance - size).max(scene.distance / 2.0);
+        let half = scene.distance / 2.0;
+        let farthest = half.max(scene.distance - size);
         let distance = near_either_end(farthest, draw).abs();
         let origin = target - direction * distance;
         self.inputs_of([origin, direction, a, a + e1, a + e2])
@@ -69,7 +71,8 @@ impl<F: Searched> Search<'_, F> {
     /// sides: there |N·d| is large.
     fn aimed_in_a_box(&self, draw: &mut Draw) -> Inputs<F> {
         let domain = &self.domain;
-        let side = domain.edge.min(domain.reach).min(domain.world).to_f64();
+        let least = domain.edge.min(domain.reach).min(domain.world);
+        let side = least.to_f64();
         let low = vector(draw, |draw| -side * draw.unit());
         let mut vertices = [DVec3::ZERO; 3];
         for vertex in &mut vertices {
@@ -77,10 +80,13 @@ impl<F: Searched> Search<'_, F> {
         }
         let most = domain.direction.to_f64();
         let direction = most * vector(draw, |draw| 2.0 * near_a_side(draw) - 1.0);
-        let target = vertices[0].lerp(vertices[1], draw.unit());
+        let share = draw.unit();
+        let target = vertices[0].lerp(vertices[1], share);
         // Where the ray enters the box, or a little later.
-        let enters = DVec3::select(direction.cmplt(DVec3::ZERO), low + side, low);
-        let longest = ((target - enters) / direction).min_element();
+        let is_backwards = direction.cmplt(DVec3::ZERO);
+        let enters = DVec3::select(is_backwards, low + side, low);
+        let times = (target - enters) / direction;
+        let longest = times.min_element();
         let [start, end] = domain.interval::<f64>();
         let time = slightly_less(longest.clamp(start, end), 8, draw);
         let origin = target - direction * time;
@@ -136,7 +142,8 @@ impl<F: Searched> Search<'_, F> {
                     inputs[input(point, axis)] = origin + from_origin;
                 }
             }
-            let x = size_within(domain.direction.to_f64(), draw);
+            let most = domain.direction.to_f64();
+            let x = size_within(most, draw);
             inputs[3 + axis] = corner.signed(x, Leaf::Direction(axis));
         }
         let extent = domain.extent.to_f64();
@@ -205,7 +212,8 @@ fn symmetric(draw: &mut Draw) -> f64 {
 
 /// 2 to minus a whole number below `end`.
 fn power_of_half(end: usize, draw: &mut Draw) -> f64 {
-    2f64.powi(-(draw.below(end) as i32))
+    let halvings = draw.below(end) as i32;
+    2f64.powi(-halvings)
 }
 
 /// A number between 0 and `most`, the nearer to it the larger the halvings that are drawn.
@@ -235,8 +243,9 @@ fn near_a_side(draw: &mut Draw) -> f64 {
 
 /// An angle of a triangle at an end of its first edge, often slightly more than the least.
 fn cotangent_of_angle(least: f64, draw: &mut Draw) -> f64 {
+    let more = (1.05 - least).max(0.0);
     let angle = if draw.below(4) == 0 {
-        least + draw.unit() * (1.05 - least).max(0.0)
+        least + draw.unit() * more
     } else {
         slightly_more(least, draw)
     };

@@ -128,10 +128,8 @@ impl Effort {
 
     /// The parts of a domain share the evaluations: most of them where most may be wrong.
     pub(super) fn shared(self, proof: &Proof, quantity: &Quantity) -> Effort {
-        let parts = proof
-            .quantities
-            .iter()
-            .filter(|it| it.program == quantity.program);
+        let quantities = proof.quantities.iter();
+        let parts = quantities.filter(|it| it.program == quantity.program);
         let bound = error(quantity);
         let share = bound / parts.map(error).sum::<f64>().max(bound);
         Effort {
@@ -244,13 +242,9 @@ pub fn worst<F: Searched>(
 ) -> Option<Witness<F>> {
     let mut search = Search::<F>::new(proof, quantity, judge);
     let known = scaled(known, &quantity.domain, judge.is_some());
-    let witness = |inputs: Inputs<F>, score: f64| Witness { inputs, score };
-    let from_known = known.iter().filter_map(|inputs| {
-        search
-            .exact(inputs, goal)
-            .map(|score| witness(*inputs, score))
-    });
-    let mut known: Vec<Witness<F>> = from_known.collect();
+    let witness = |(inputs, score)| Witness { inputs, score };
+    let exact = |inputs| Some(witness((inputs, search.exact(&inputs, goal)?)));
+    let mut known: Vec<Witness<F>> = known.into_iter().filter_map(exact).collect();
     known.sort_by(|a, b| b.score.total_cmp(&a.score));
     let best = known.first().copied();
     if effort.evaluations == 0 {
@@ -259,10 +253,8 @@ pub fn worst<F: Searched>(
     let mut draw = Draw::new("prove", effort.seed, quantity.place.into());
     let known: Vec<Inputs<F>> = known.iter().map(|witness| witness.inputs).collect();
     let found = search.climb(goal, effort.evaluations, &mut draw, &known);
-    let found = found.map(|(inputs, score)| witness(inputs, score));
-    best.into_iter()
-        .chain(found)
-        .max_by(|a, b| a.score.total_cmp(&b.score))
+    let all = best.into_iter().chain(found.map(witness));
+    all.max_by(|a, b| a.score.total_cmp(&b.score))
 }
 
 /// Known inputs of the unit domain, moved into another one by a power of two, which changes no rounding. Rays whose verdicts
