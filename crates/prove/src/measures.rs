@@ -356,12 +356,12 @@ impl Measures {
 }
 
 /// Binary digits of what a scene says; the corners are computed with them exactly.
-pub const DIGITS: u32 = 10;
+const DIGITS: u32 = 10;
 
-fn above(x: f64) -> Dyadic {
+pub fn above(x: f64) -> Dyadic {
     Dyadic::from_f64(x).expect("finite").round_up(DIGITS)
 }
 
-fn below(x: f64) -> Dyadic {
+pub fn below(x: f64) -> Dyadic {
     Dyadic::from_f64(x).expect("finite").round_down(DIGITS)
 }

@@ -2,7 +2,7 @@
 
 use super::bound::Proven;
 use super::dyadic::{Big, root_up};
-use super::measures::{Angle, DIGITS, Sample};
+use super::measures::{Angle, Sample, above, below};
 use super::{Domain, Dyadic, Measures};
 use crate::arith::{Triple, Vector};
 use crate::case::{self, DirectionLength};
@@ -114,11 +114,7 @@ impl Scene {
             ..
         } = *self;
         // Slightly more, for what rounding took from the numbers themselves.
-        let up = |x: f64| {
-            Dyadic::from_f64(x * (1.0 + 1e-9))
-                .expect("finite")
-                .round_up(DIGITS)
-        };
+        let up = |x: f64| above(x * (1.0 + 1e-9));
         // A difference of coordinates is at most twice the largest of them.
         let reach = distance.min(2.0 * coordinates);
         // Divisors are det = N·d, N·N, |N|, the largest coordinate of N, and N·d over it or over |N|.
@@ -137,11 +133,7 @@ impl Scene {
             1.0 / (shortest * sine(min_angle))
         };
         let slope = slope.min(longest / shape);
-        let down = |x: f64| {
-            Dyadic::from_f64(x * 0.999_999)
-                .expect("finite")
-                .round_down(DIGITS)
-        };
+        let down = |x: f64| below(x * 0.999_999);
         let measures = Measures {
             area: down(shape),
             sine: down(sine(grazing)),
@@ -203,10 +195,8 @@ impl Scene {
         let minor = |i: usize, j: usize| {
             (&b[i] - &a[i]) * (&c[j] - &a[j]) - (&b[j] - &a[j]) * (&c[i] - &a[i])
         };
-        let square: Big = [minor(1, 2), minor(2, 0), minor(0, 1)]
-            .iter()
-            .map(|x| x * x)
-            .sum();
+        let normal = [minor(1, 2), minor(2, 0), minor(0, 1)];
+        let square: Big = normal.iter().map(|x| x * x).sum();
         root_up(&square, 53).to_f64()
     }
 
@@ -222,12 +212,10 @@ impl Scene {
             ..
         } = sample;
         let slack = 4.0 * epsilon;
-        let coordinates = vertices
-            .iter()
-            .chain([origin])
-            .flat_map(|point| [0, 1, 2].map(|axis| point.at(axis)));
-        if coordinates.map(f64::abs).any(|x| self.coordinates < x) {
-            return false;
+        for point in vertices.iter().chain([origin]) {
+            if (0..3).any(|axis| self.coordinates < point.at(axis).abs()) {
+                return false;
+            }
         }
         let distances = vertices.iter().map(|vertex| length(&vertex.minus(origin)));
         if distances.fold(0.0, f64::max) > self.distance * (1.0 + slack) {

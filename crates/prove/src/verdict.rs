@@ -7,7 +7,7 @@
 use super::bound::Proven;
 use super::facts::{Fact, Form, Reader};
 use super::meaning::{Meaning, Meanings, Scale, What};
-use super::{Domain, Lemma, Proof, Rule, Source, Step};
+use super::{Domain, Lemma, Proof, Quantity, Rule, Source, Step};
 use crate::contract::Sides;
 use crate::kernel::{Acceptance, Compared, Entry, Role};
 use std::collections::{BTreeSet, HashSet};
@@ -80,11 +80,9 @@ pub fn verdicts(
     let is_edge = |gate: usize| entry.info.gates[gate].role == Role::Edge;
     let mut forms: HashSet<Forms> = HashSet::new();
     for (index, path) in proof.paths.iter().enumerate() {
-        let gates = path
-            .compared
-            .iter()
-            .filter(|compared| is_edge(compared.gate));
-        let forms_of = |compared: &Compared| {
+        let compared = path.compared.iter();
+        let gates = compared.filter(|compared| is_edge(compared.gate));
+        let form = |compared: &Compared| {
             let name = entry.info.gates[compared.gate].name;
             if !compared.is_margin() && epsilons[compared.gate] != 0.0 {
                 return Err(format!("gate '{name}' rounds with its epsilon"));
@@ -95,17 +93,15 @@ pub fn verdicts(
                 path,
                 meanings: &mut meanings,
             };
-            reader
-                .form(compared)
-                .ok_or(format!("what gate '{name}' compares is not read"))
+            let form = reader.form(compared);
+            form.ok_or(format!("what gate '{name}' compares is not read"))
         };
-        match gates.map(forms_of).collect::<Proven<Vec<Form>>>() {
+        match gates.map(form).collect::<Proven<Vec<Form>>>() {
             Ok(found) => forms.insert((found, path.hits)),
             Err(why) => {
-                let (misses, hits) = (Err(why.clone()), Err(why));
                 return Verdicts {
-                    misses,
-                    hits,
+                    misses: Err(why.clone()),
+                    hits: Err(why),
                     others,
                     scales: Vec::new(),
                 };
@@ -149,10 +145,8 @@ pub fn verdicts(
         let mut shares = forms.iter().map(|forms| bounds.outside(&forms.0));
         shares.try_fold([0.0; 2], |most, share| Ok(larger(most, share?)))
     });
-    let facts = forms
-        .iter()
-        .flat_map(|(forms, _)| forms)
-        .flat_map(|form| form.ways.concat());
+    let forms = forms.iter().flat_map(|(forms, _)| forms);
+    let facts = forms.flat_map(|form| form.ways.concat());
     let scales: BTreeSet<Scale> = facts.map(|fact| fact.scale).collect();
     let least = |scale: Scale| {
         let least = parts.iter().map(|domain| scale.least(domain));
@@ -195,14 +189,14 @@ fn larger([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
 pub fn supposes_weights(entry: &Entry, proof: &Proof) -> bool {
     let mut meanings = Meanings::new(proof);
     proof.of_edges(entry).any(|quantity| {
-        let is_weight = |lemma: &Lemma| {
+        let mut lemmas = quantity.lemmas.iter();
+        lemmas.any(|lemma| {
+            if !matches!(lemma.rule, Rule::Quotient { .. }) {
+                return false;
+            }
             let meaning = meanings.of(quantity.path, lemma.place);
             meaning.is_some_and(|it| matches!(it.what, What::Weight(_) | What::Rest(_)))
-        };
-        let lemmas = quantity.lemmas.iter();
-        lemmas
-            .filter(|lemma| matches!(lemma.rule, Rule::Quotient { .. }))
-            .any(is_weight)
+        })
     })
 }
 
@@ -260,17 +254,18 @@ impl Bounds<'_> {
 
     /// The farthest outside an edge, and from the triangle, that a path's gates let through.
     fn outside(&self, forms: &[Form]) -> Proven<[f64; 2]> {
-        let ways = forms
-            .iter()
-            .fold(vec![Vec::new()], |all: Vec<Vec<(usize, Fact)>>, form| {
-                let more = |way: &Vec<(usize, Fact)>, facts: &Vec<Fact>| {
-                    let facts = facts.iter().map(|fact| (form.gate, *fact));
-                    way.iter().copied().chain(facts).collect()
-                };
-                all.iter()
-                    .flat_map(|way| form.ways.iter().map(move |facts| more(way, facts)))
-                    .collect()
-            });
+        let mut ways: Vec<Vec<(usize, Fact)>> = vec![Vec::new()];
+        for form in forms {
+            let mut longer = Vec::new();
+            for way in &ways {
+                for facts in &form.ways {
+                    let mut way = way.clone();
+                    way.extend(facts.iter().map(|fact| (form.gate, *fact)));
+                    longer.push(way);
+                }
+            }
+            ways = longer;
+        }
         let mut most = [0.0; 2];
         for way in &ways {
             for side in [true, false] {
@@ -349,18 +344,14 @@ impl Bounds<'_> {
 
 /// The bound of a program's error in a domain.
 fn error(proof: &Proof, program: usize, domain: &Domain) -> Proven<f64> {
-    let mut of_program = proof
-        .quantities
-        .iter()
-        .filter(|it| it.program == program)
-        .peekable();
-    let first = of_program.peek().expect("it has one").bound.as_ref();
-    let own = of_program
-        .find(|it| it.domain == *domain)
-        .map(|it| it.bound.as_ref());
-    own.unwrap_or(first)
-        .map(|bound| bound.error.to_f64())
-        .map_err(|why| format!("no bound: {why}"))
+    let mut of_program: Vec<&Quantity> = proof.quantities.iter().collect();
+    of_program.retain(|it| it.program == program);
+    let mut quantities = of_program.iter();
+    let own = quantities.find(|it| it.domain == *domain);
+    match &own.unwrap_or(&of_program[0]).bound {
+        Ok(bound) => Ok(bound.error.to_f64()),
+        Err(why) => Err(format!("no bound: {why}")),
+    }
 }
 
 /// The wrong decisions of gates that are not about edges.
@@ -371,8 +362,6 @@ fn others(
     epsilons: &[f64],
     parts: &[Domain],
 ) -> Vec<Other> {
-    let gates = entry.info.gates.iter().enumerate();
-    let others = gates.filter(|(_, gate)| gate.role != Role::Edge);
     let mut may = |gate: usize| -> Option<May> {
         let e = epsilons[gate];
         let mut may = None;
@@ -404,10 +393,12 @@ fn others(
         }
         may
     };
+    let mut others = Vec::new();
+    for (gate, info) in entry.info.gates.iter().enumerate() {
+        if info.role != Role::Edge {
+            let may = may(gate).unwrap_or(May::Unknown);
+            others.push(Other { gate, may });
+        }
+    }
     others
-        .map(|(gate, _)| Other {
-            gate,
-            may: may(gate).unwrap_or(May::Unknown),
-        })
-        .collect()
 }
