@@ -296,10 +296,12 @@ fn key(prover: &Prover, gate: usize, place: Place) -> (Key, Names) {
         .filter_map(|(old, new)| Some((new?, old)))
         .collect();
     quotients.sort_unstable();
-    let limits = quotients.into_iter().flat_map(|(_, place)| {
-        let divisor = prover.quotient(place).map(|fraction| fraction.divisor);
-        let limits = divisor.map(|divisor| [Some(prover.floor(divisor)), prover.most(place)]);
-        limits.into_iter().flatten().flatten()
-    });
-    ((gate, program, orders, limits.collect()), names)
+    let mut limits = Vec::new();
+    for (_, place) in quotients {
+        if let Some(fraction) = prover.quotient(place) {
+            limits.push(prover.floor(fraction.divisor));
+            limits.extend(prover.most(place));
+        }
+    }
+    ((gate, program, orders, limits), names)
 }

@@ -211,7 +211,7 @@ fn symmetric(draw: &mut Draw) -> f64 {
 }
 
 /// 2 to minus a whole number below `end`.
-fn power_of_half(end: usize, draw: &mut Draw) -> f64 {
+pub fn power_of_half(end: usize, draw: &mut Draw) -> f64 {
     let halvings = draw.below(end) as i32;
     2f64.powi(-halvings)
 }

@@ -4,7 +4,7 @@ use super::depth::Judge;
 use super::gates::Quantity;
 use super::measures::{Angle, Sample, Samples};
 use super::run::{Cone, cone, run};
-use super::{Domain, Dyadic, Leaf, Measures, Proof, Rule, Source};
+use super::{Domain, Dyadic, Leaf, Proof, Rule, Source};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Bounded, Exact, Float, Real};
 use crate::kernel::Path;
@@ -208,15 +208,11 @@ impl<'a, F: Searched> Search<'a, F> {
         } else {
             Angle::OfScene
         };
-        let is_of_scene = |measures: Measures| {
-            measures.hold(
-                &Sample::of(&inputs.map(F::to_f64)),
-                angle,
-                F::EPSILON.to_f64(),
-            )
-        };
-        if !self.domain.measures.is_none_or(is_of_scene) {
-            return None;
+        if let Some(measures) = self.domain.measures {
+            let sample = Sample::of(&inputs.map(F::to_f64));
+            if !measures.hold(&sample, angle, F::EPSILON.to_f64()) {
+                return None;
+            }
         }
         let compare = |x: &F::Near, bound: f64| F::approximate(x)?.partial_cmp(&bound);
         let rules = (F::near, compare, F::approximate);
@@ -228,10 +224,8 @@ impl<'a, F: Searched> Search<'a, F> {
     /// The exact score of inputs, in the domain by exact arithmetic; none if they are outside.
     pub fn exact(&mut self, inputs: &Inputs<F>, goal: Goal) -> Option<f64> {
         self.score(inputs, goal, &mut Vec::new())?;
-        let has_root = self
-            .operations
-            .iter()
-            .any(|it| matches!(it, Operation::Sqrt(_)));
+        let mut operations = self.operations.iter();
+        let has_root = operations.any(|it| matches!(it, Operation::Sqrt(_)));
         let (score, counts) = if has_root {
             // Exact numbers with roots grow too long; these know their own errors.
             let number = |x: F| Bounded::new(x.to_f64());
@@ -353,17 +347,21 @@ fn divisions(path: &Path, domain: &Domain) -> Vec<Condition> {
 }
 
 /// The pairs of all points, and the axes, that are in one box in a quantity's proof.
-fn boxed(quantity: &Quantity) -> impl Iterator<Item = (usize, usize, usize)> {
+fn boxed(quantity: &Quantity) -> Vec<(usize, usize, usize)> {
     let is_boxed = |point: usize, axis: usize| {
-        let mut sources = quantity
-            .lemmas
-            .iter()
-            .flat_map(|lemma| &lemma.formula.sources);
+        let lemmas = quantity.lemmas.iter();
+        let mut sources = lemmas.flat_map(|lemma| &lemma.formula.sources);
         sources.any(|source| *source == Source::Boxed(point, axis))
     };
-    let pairs = (0..4).flat_map(|p| (p + 1..4).map(move |q| (p, q)));
-    let all = pairs.flat_map(|(p, q)| (0..3).map(move |axis| (p, q, axis)));
-    all.filter(move |(p, q, axis)| is_boxed(*p, *axis) && is_boxed(*q, *axis))
+    let mut all = Vec::new();
+    for (p, q) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+        for axis in 0..3 {
+            if is_boxed(p, axis) && is_boxed(q, axis) {
+                all.push((p, q, axis));
+            }
+        }
+    }
+    all
 }
 
 /// True if a coordinate is used otherwise than in a difference of points.
