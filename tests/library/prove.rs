@@ -109,16 +109,11 @@ fn a_search_is_reproducible_and_stays_in_its_domain() {
         let (inputs, score) = found().unwrap();
         assert_eq!(found(), Some((inputs, score)));
         // The error in f64, which is exact enough for f32.
-        let operations = &proof.paths[quantity.path].operations;
-        let (mut computed, mut exact) = (Vec::new(), Vec::new());
-        run(operations, quantity.place, &inputs, &mut computed);
-        run(
-            operations,
-            quantity.place,
-            &inputs.map(f64::from),
-            &mut exact,
-        );
         let last = quantity.place as usize;
+        let operations = &proof.paths[quantity.path].operations[..=last];
+        let (mut computed, mut exact) = (Vec::new(), Vec::new());
+        run(operations, &inputs, &mut computed);
+        run(operations, &inputs.map(f64::from), &mut exact);
         let error = (f64::from(computed[last]) - exact[last]).abs();
         assert!((error - score).abs() <= 1e-12, "{error} {score}");
         for axis in 0..3 {
@@ -147,12 +142,7 @@ fn numbers<F: Float>(witness: &serde_json::Value) -> [F; 17] {
 fn taken<F: Searched + Scalar>(paths: &[Path], inputs: &[F; 17]) -> (usize, Vec<f64>) {
     let is_taken = |path: &&Path| {
         let mut values = Vec::new();
-        run(
-            &path.operations,
-            path.operations.len() as u32 - 1,
-            inputs,
-            &mut values,
-        );
+        run(&path.operations, inputs, &mut values);
         let of = |place: u32| values[place as usize];
         path.decisions.iter().all(|(comparison, answer)| {
             *answer
@@ -168,12 +158,7 @@ fn taken<F: Searched + Scalar>(paths: &[Path], inputs: &[F; 17]) -> (usize, Vec<
     let path = &paths[index];
     let mut values = Vec::new();
     let floats = inputs.map(|x| x.to_f64());
-    run(
-        &path.operations,
-        path.operations.len() as u32 - 1,
-        &floats,
-        &mut values,
-    );
+    run(&path.operations, &floats, &mut values);
     (index, values)
 }
 
@@ -281,7 +266,7 @@ fn edge_values_are_exact_negatives_where_it_is_said() {
             for _ in 0..2000 {
                 let inputs: [f32; 17] = std::array::from_fn(|_| draw.symmetric());
                 let value = |values: &mut Vec<f32>, inputs: &[f32; 17]| {
-                    run(operations, quantity.place, inputs, values);
+                    run(operations, inputs, values);
                     values[last]
                 };
                 let here = value(&mut one, &inputs);

@@ -1,7 +1,7 @@
 //! Bounds of a program's rounding errors in a domain: formulas where nothing is divided, and quotients,
 //! coordinates of unit vectors and whatever meets itself as variables of their own.
 
-use super::dyadic::round_up;
+use super::dyadic::{Big, round_up};
 use super::formula::{DIGITS, Formula, Maximum, Source};
 use super::measures::{Limit, Samples};
 use super::order::{is_at_most, unsigned};
@@ -11,6 +11,9 @@ use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;
 use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap};
+
+/// A value, or in one sentence why there is none.
+pub type Proven<T> = Result<T, String>;
 
 /// Binary digits that the size of a lemma's number keeps: products of sizes stay short.
 pub const SIZE_DIGITS: u32 = 12;
@@ -24,6 +27,22 @@ pub struct Bound {
     pub computed: Dyadic,
     /// The bound of the difference of both.
     pub error: Dyadic,
+}
+
+impl Bound {
+    /// The bound of a number within the error of the exact one.
+    pub(super) fn largest(&self) -> Big {
+        Big::from(self.size) + Big::from(self.error)
+    }
+
+    /// The bound of a number of this size without an error.
+    pub(super) fn exactly(size: Dyadic) -> Bound {
+        Bound {
+            size,
+            computed: size,
+            error: Dyadic::ZERO,
+        }
+    }
 }
 
 /// One step of a proof: a number, its formula, and what follows.
@@ -102,7 +121,7 @@ pub struct Prover<'a> {
     pub(super) path: &'a Path,
     pub(super) domain: Domain,
     pub(super) format: Format,
-    bounds: HashMap<Place, Result<Bound, String>>,
+    bounds: HashMap<Place, Proven<Bound>>,
     /// The recogniser of known numbers, once it is asked.
     samples: OnceCell<Samples<'a>>,
     /// The lemmas so far, each after those that it uses.
@@ -132,7 +151,7 @@ impl<'a> Prover<'a> {
     }
 
     /// The bound of a number, or why there is none.
-    pub fn bound(&mut self, place: Place) -> Result<Bound, String> {
+    pub fn bound(&mut self, place: Place) -> Proven<Bound> {
         if let Operation::Neg(inner) | Operation::Abs(inner) = self.operation(place) {
             return self.bound(inner);
         }
@@ -144,75 +163,43 @@ impl<'a> Prover<'a> {
         found
     }
 
-    fn prove(&mut self, place: Place) -> Result<Bound, String> {
-        let (rule, formula, maximum, bound);
-        if let Some((vector, length)) = self.unit(place) {
-            let floor = self.floor(length);
-            rule = Rule::Unit {
-                vector,
-                length,
-                floor,
-            };
-            (formula, maximum, bound) = (
-                Formula::default(),
-                Maximum::default(),
-                self.bound_of_unit(vector, floor.size())?,
-            );
-        } else if let Some((numerator, divisor, twice)) = self.quotient(place) {
-            let floor = self.floor(divisor);
-            // A reciprocal is known by its divisor.
-            let is_known = numerator.is_some() || self.domain.measures.is_none();
-            let most = if is_known { self.most(place) } else { None };
-            let below = self.below(place);
-            let limits = (floor, most, below);
-            (formula, maximum, bound) = self.divide(numerator, divisor, twice, limits)?;
-            let most = most.unwrap_or(Limit::Own(bound.size));
-            rule = Rule::Quotient {
-                ratio: Ratio::One,
-                twice,
-                divisor,
-                floor,
-                most,
-                below,
-            };
-        } else if let Some(both) = self.quotients(place) {
-            let (ratio, divisor, twice) = (both.ratio, both.divisor, both.twice);
-            let (floor, most, below) = (self.floor(divisor), self.most(place), self.below(place));
-            (formula, maximum, bound) = self.divide_both(place, (floor, most, below))?;
-            let most = most.unwrap_or(Limit::Own(bound.size));
-            rule = Rule::Quotient {
-                ratio,
-                twice,
-                divisor,
-                floor,
-                most,
-                below,
-            };
-        } else if let Operation::Sqrt(_) = self.operation(place) {
-            return Err("its root is used otherwise than to divide a vector by its length".into());
-        } else {
-            rule = Rule::Sum;
-            (formula, maximum) = self.formula(place)?;
-            bound = bound_of_sum(&formula, &maximum);
-        }
-        if [bound.error, bound.size, bound.computed]
-            .iter()
-            .any(|x| !x.is_number())
-        {
+    fn prove(&mut self, place: Place) -> Proven<Bound> {
+        let lemma = self.lemma(place)?;
+        let bound = lemma.bound.clone();
+        let numbers = [bound.error, bound.size, bound.computed];
+        if !numbers.into_iter().all(Dyadic::is_number) {
             return Err("its bound needs more digits than there are".to_owned());
         }
-        self.lemmas.push(Lemma {
-            place,
-            rule,
-            formula,
-            maximum,
-            bound: bound.clone(),
-        });
+        self.lemmas.push(lemma);
         Ok(bound)
     }
 
+    fn lemma(&mut self, place: Place) -> Proven<Lemma> {
+        if let Some(unit) = self.unit(place) {
+            return self.lemma_of_unit(place, unit);
+        }
+        if let Some(fraction) = self.quotient(place) {
+            return self.divide(place, fraction);
+        }
+        if let Some(both) = self.quotients(place) {
+            return self.divide_both(place, both);
+        }
+        if let Operation::Sqrt(_) = self.operation(place) {
+            return Err("its root is used otherwise than to divide a vector by its length".into());
+        }
+        let (formula, maximum) = self.formula(place)?;
+        let bound = bound_of_sum(&formula, &maximum);
+        Ok(Lemma {
+            place,
+            rule: Rule::Sum,
+            formula,
+            maximum,
+            bound,
+        })
+    }
+
     /// An error if a computed number may be infinite.
-    pub(super) fn check_range(&self, size: Dyadic) -> Result<(), String> {
+    pub(super) fn check_range(&self, size: Dyadic) -> Proven<()> {
         if size < Dyadic::power(self.format.largest) {
             Ok(())
         } else {
@@ -253,10 +240,8 @@ impl<'a> Prover<'a> {
             Rule::Sum => {}
             Rule::Unit { vector, .. } => needs.extend(vector),
             Rule::Quotient { divisor, .. } => {
-                let numerator = self
-                    .quotient(lemma.place)
-                    .and_then(|(numerator, ..)| numerator);
-                needs.extend(numerator);
+                let fraction = self.quotient(lemma.place);
+                needs.extend(fraction.and_then(|fraction| fraction.numerator));
                 if let Some(both) = self.quotients(lemma.place) {
                     needs.extend(both.parts.into_iter().chain(both.rest));
                 }
@@ -275,14 +260,14 @@ impl<'a> Prover<'a> {
     pub fn orders(&self, place: Place) -> BTreeSet<(u8, u8)> {
         let places = parts(&self.path.operations, place);
         let mut orders = BTreeSet::new();
-        for (numerator, divisor, _) in places.filter_map(|place| self.quotient(place)) {
-            let Operation::Input(d) = self.operation(divisor) else {
+        for fraction in places.into_iter().filter_map(|place| self.quotient(place)) {
+            let Operation::Input(d) = self.operation(fraction.divisor) else {
                 continue;
             };
-            if let Some(Operation::Input(n)) = numerator.map(|n| self.operation(n)) {
+            if let Some(Operation::Input(n)) = fraction.numerator.map(|n| self.operation(n)) {
                 orders.insert((n, d));
             }
-            if self.is_largest_of_direction(divisor) {
+            if self.is_largest_of_direction(fraction.divisor) {
                 orders.extend((3..6).map(|axis| (axis, d)));
             }
         }

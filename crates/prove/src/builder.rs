@@ -1,6 +1,6 @@
 //! A number's program as a formula: inputs and numbers with lemmas of their own are its variables.
 
-use super::bound::{Bound, Prover};
+use super::bound::{Bound, Proven, Prover};
 use super::forms::{Forms, Leaf};
 use super::formula::{Formula, Maximum, Source, Step};
 use super::{Domain, Dyadic, Format};
@@ -9,29 +9,26 @@ use std::collections::{HashMap, HashSet};
 
 impl Prover<'_> {
     /// The formula of a number, and what its corners say.
-    pub(super) fn formula(&mut self, place: Place) -> Result<(Formula, Maximum), String> {
+    pub(super) fn formula(&mut self, place: Place) -> Proven<(Formula, Maximum)> {
         let mut builder = Builder::new(self);
         builder.expand(place)?;
         builder.finish()
     }
 
-    /// numerator - quotient * divisor, the quotient of this size, and down to minus the other one if it is given. No
-    /// numerator is one; two are added up. And of which of all, the divisor last, the last rounding is left out.
+    /// numerator - quotient * divisor. No numerator is one; two are added up.
     pub(super) fn formula_of_quotient(
         &mut self,
         numerators: &[Place],
         divisor: Place,
-        size: (Dyadic, Option<Dyadic>),
-    ) -> Result<(Formula, Maximum, Vec<bool>), String> {
+        ends: Ends,
+    ) -> Proven<OfQuotient> {
         // Where quotients have a sign, the corners of a box of points are some of those of a box of differences.
         let Domain { edge, reach, .. } = self.domain;
-        let is_boxed = size.1.is_some() && edge == reach;
-        let boxed = is_boxed.then(|| self.formula_of_fraction(true, numerators, divisor, size));
-        let boxed = boxed.and_then(Result::ok);
-        boxed.map_or_else(
-            || self.formula_of_fraction(false, numerators, divisor, size),
-            Ok,
-        )
+        let is_boxed = ends.below.is_some() && edge == reach;
+        if is_boxed && let Ok(boxed) = self.formula_of_fraction(true, numerators, divisor, ends) {
+            return Ok(boxed);
+        }
+        self.formula_of_fraction(false, numerators, divisor, ends)
     }
 
     fn formula_of_fraction(
@@ -39,8 +36,8 @@ impl Prover<'_> {
         is_boxed: bool,
         numerators: &[Place],
         divisor: Place,
-        (size, below): (Dyadic, Option<Dyadic>),
-    ) -> Result<(Formula, Maximum, Vec<bool>), String> {
+        ends: Ends,
+    ) -> Proven<OfQuotient> {
         let mut builder = Builder::new(self);
         builder.is_boxed = is_boxed;
         let mut all = Vec::new();
@@ -53,21 +50,40 @@ impl Prover<'_> {
             [n] => n,
             _ => builder.push(Step::Of(Operation::Add(all[0], all[1])), None),
         };
-        let q = builder.variable(Source::Quotient, exactly(size));
+        let q = builder.variable(Source::Quotient, Bound::exactly(ends.size));
         let v = builder.formula.variables.len() - 1;
-        builder.formula.below = below.map(|below| (v, below));
+        builder.formula.below = ends.below.map(|below| (v, below));
         let product = builder.push(Step::Of(Operation::Mul(q, d)), None);
         builder.push(Step::Of(Operation::Sub(n, product)), None);
-        let of = if all.is_empty() {
-            vec![n, d]
-        } else {
-            all.into_iter().chain([d]).collect()
-        };
-        let left_out = of.into_iter().map(|step| builder.leave_out(step)).collect();
-        builder
-            .finish()
-            .map(|(formula, maximum)| (formula, maximum, left_out))
+        let mut leaves_out_numerators = Vec::new();
+        for numerator in all {
+            leaves_out_numerators.push(builder.leave_out(numerator));
+        }
+        let leaves_out_divisor = builder.leave_out(d);
+        let (formula, maximum) = builder.finish()?;
+        Ok(OfQuotient {
+            formula,
+            maximum,
+            leaves_out_numerators,
+            leaves_out_divisor,
+        })
     }
+}
+
+/// The largest size of a quotient, and how far below zero it may be, if that is supposed.
+#[derive(Clone, Copy)]
+pub struct Ends {
+    pub size: Dyadic,
+    pub below: Option<Dyadic>,
+}
+
+/// A quotient's formula.
+pub struct OfQuotient {
+    pub formula: Formula,
+    pub maximum: Maximum,
+    /// For each numerator, true if its last rounding is left out.
+    pub leaves_out_numerators: Vec<bool>,
+    pub leaves_out_divisor: bool,
 }
 
 /// Expands a number into a formula.
@@ -94,7 +110,7 @@ impl<'p, 'a> Builder<'p, 'a> {
     }
 
     /// The formula and its corners; the last step is the result.
-    fn finish(mut self) -> Result<(Formula, Maximum), String> {
+    fn finish(mut self) -> Proven<(Formula, Maximum)> {
         self.find_unit_vector();
         let maximum = self.formula.maximum(self.prover.format)?;
         for bound in &self.formula.bounds {
@@ -111,51 +127,45 @@ impl<'p, 'a> Builder<'p, 'a> {
             rounds,
             ..
         } = &mut self.formula;
-        if steps
-            .iter()
-            .flat_map(Step::operands)
-            .filter(|operand| *operand == step)
-            .count()
-            != 1
-        {
+        let operands = steps.iter().flat_map(Step::operands);
+        let uses = operands.filter(|operand| *operand == step).count();
+        if uses != 1 {
             return false;
         }
         if let Step::Of(Operation::Neg(inner)) = steps[step] {
             return self.leave_out(inner);
         }
-        given[step]
-            .iter_mut()
-            .filter(|_| rounds[step])
-            .for_each(|bound| bound.error = Dyadic::ZERO);
+        if let Some(bound) = &mut given[step]
+            && rounds[step]
+        {
+            bound.error = Dyadic::ZERO;
+        }
         std::mem::replace(&mut rounds[step], false)
     }
 
     /// Coordinates of a unit vector are variables like others, unless the formula is linear in one such vector.
     fn find_unit_vector(&mut self) {
-        let Formula { sources, .. } = &self.formula;
-        let part = |source: &Source| match *source {
-            Source::Part(place) => self.prover.quotient(place),
-            _ => None,
-        };
+        let mut unit = Vec::new();
+        let mut coordinates = HashSet::new();
         // One arithmetic for all coordinates: a product by a reciprocal has an error of the length in common.
-        let lengths = sources
-            .iter()
-            .filter_map(part)
-            .map(|(_, length, twice)| (length, twice));
-        let coordinates = sources
-            .iter()
-            .filter_map(part)
-            .map(|(coordinate, ..)| coordinate);
-        let is_one = lengths.collect::<HashSet<(Place, bool)>>().len() == 1
-            && coordinates.clone().collect::<HashSet<_>>().len() == coordinates.count();
-        self.formula.unit = (0..sources.len())
-            .filter(|v| matches!(sources[*v], Source::Part(_)))
-            .collect();
-        if !is_one || self.formula.linear_steps().is_none() {
-            for v in std::mem::take(&mut self.formula.unit) {
-                if let Source::Part(place) = self.formula.sources[v] {
-                    self.formula.sources[v] = Source::Cut(place);
-                }
+        let mut lengths = HashSet::new();
+        for (v, source) in self.formula.sources.iter().enumerate() {
+            let Source::Part(place) = *source else {
+                continue;
+            };
+            let fraction = self.prover.quotient(place).expect("a part");
+            unit.push(v);
+            coordinates.insert(fraction.numerator);
+            lengths.insert((fraction.divisor, fraction.twice));
+        }
+        let is_one = lengths.len() == 1 && coordinates.len() == unit.len();
+        self.formula.unit = unit;
+        if is_one && self.formula.linear_steps().is_some() {
+            return;
+        }
+        for v in std::mem::take(&mut self.formula.unit) {
+            if let Source::Part(place) = self.formula.sources[v] {
+                self.formula.sources[v] = Source::Cut(place);
             }
         }
     }
@@ -187,7 +197,10 @@ impl<'p, 'a> Builder<'p, 'a> {
 
     fn number(&mut self, value: i32) -> usize {
         let size = Dyadic::new(i128::from(value).abs(), 0);
-        self.push(Step::Of(Operation::Number(value)), Some(exactly(size)))
+        self.push(
+            Step::Of(Operation::Number(value)),
+            Some(Bound::exactly(size)),
+        )
     }
 
     /// A new variable with an error of its own.
@@ -199,7 +212,7 @@ impl<'p, 'a> Builder<'p, 'a> {
     }
 
     /// A number that is a variable here; its lemma says the rest.
-    fn cut(&mut self, place: Place) -> Result<usize, String> {
+    fn cut(&mut self, place: Place) -> Proven<usize> {
         let bound = self.prover.bound(place)?;
         let is_part = self.prover.unit(place).is_some();
         let source = if is_part {
@@ -214,8 +227,9 @@ impl<'p, 'a> Builder<'p, 'a> {
 
     /// The sum of variables that a leaf is.
     fn sum(&mut self, leaf: Leaf) -> Vec<(usize, i8)> {
-        let (sum, is_new) = self.forms.sum(leaf, self.formula.variables.len());
-        if is_new {
+        let next = self.formula.variables.len();
+        let form = self.forms.sum(leaf, next);
+        if form.is_new {
             let (source, size) = match leaf {
                 Leaf::Point(point, axis) if self.is_boxed => {
                     (Source::Boxed(point, axis), self.prover.domain.half_box())
@@ -225,10 +239,10 @@ impl<'p, 'a> Builder<'p, 'a> {
             self.formula.variables.push(size);
             self.formula.sources.push(source);
         }
-        sum
+        form.sum
     }
 
-    fn leaf(&mut self, leaf: Leaf) -> Result<usize, String> {
+    fn leaf(&mut self, leaf: Leaf) -> Proven<usize> {
         let size = leaf.bound(&self.prover.domain);
         let sum = match leaf {
             Leaf::Difference(p, q, axis) if self.is_boxed => {
@@ -250,14 +264,14 @@ impl<'p, 'a> Builder<'p, 'a> {
                 error: format.half_ulp_of(&size.into()),
             }
         } else {
-            exactly(size)
+            Bound::exactly(size)
         };
         let step = self.push(Step::Variables(sum), Some(given));
         self.formula.rounds[step] = leaf.is_difference();
         Ok(step)
     }
 
-    fn expand(&mut self, place: Place) -> Result<usize, String> {
+    fn expand(&mut self, place: Place) -> Proven<usize> {
         if let Some(step) = self.steps.get(&place) {
             return Ok(*step);
         }
@@ -276,7 +290,7 @@ impl<'p, 'a> Builder<'p, 'a> {
         Ok(step)
     }
 
-    fn operation(&mut self, place: Place, operation: Operation) -> Result<usize, String> {
+    fn operation(&mut self, place: Place, operation: Operation) -> Proven<usize> {
         match operation {
             Operation::Input(_) => unreachable!("inputs are leaves"),
             Operation::Number(value) => return Ok(self.number(value)),
@@ -302,7 +316,7 @@ impl<'p, 'a> Builder<'p, 'a> {
 
     /// Two factors without a variable in common: if there is one, the second factor becomes a variable of
     /// its own.
-    fn factors(&mut self, a: Place, b: Place) -> Result<[usize; 2], String> {
+    fn factors(&mut self, a: Place, b: Place) -> Proven<[usize; 2]> {
         let first = self.expand(a)?;
         let before = (self.formula.clone(), self.steps.clone(), self.forms.clone());
         let second = self.expand(b)?;
@@ -312,14 +326,5 @@ impl<'p, 'a> Builder<'p, 'a> {
         (self.formula, self.steps, self.forms) = before;
         self.supports.truncate(self.formula.steps.len());
         Ok([first, self.cut(b)?])
-    }
-}
-
-/// A number of this size without an error.
-fn exactly(size: Dyadic) -> Bound {
-    Bound {
-        size,
-        computed: size,
-        error: Dyadic::ZERO,
     }
 }

@@ -5,9 +5,9 @@
 use super::bound::Ratio;
 use super::forms::Leaf;
 use super::formula::{Formula, Maximum, Source, Step};
-use super::run::cone;
+use super::run::{Cone, cone};
 use super::watertight::symmetry_of;
-use super::{Domain, Dyadic, Format, Lemma, Limit, Names, Rule, Symmetry};
+use super::{Bound, Domain, Dyadic, Format, Lemma, Limit, Names, Rule, Symmetry};
 use crate::arith::ScalarName;
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::kernel::{Gate, Path, Role};
@@ -78,7 +78,7 @@ pub fn domain(domain: &Domain) -> String {
 
 /// The operations of a number, one a line.
 pub fn operations(path: &Path, place: Place) -> String {
-    text_of(&cone(&path.operations, place).0)
+    text_of(&cone(&path.operations, place).operations)
 }
 
 fn text_of(operations: &[Operation]) -> String {
@@ -88,9 +88,9 @@ fn text_of(operations: &[Operation]) -> String {
 
 /// One program: the operations of a number, what its proof supposes, the lemmas in order, and what they show.
 pub fn program(path: &Path, lemmas: &[Lemma], claim: &Claim) -> String {
-    let (operations, places) = cone(&path.operations, claim.place);
-    let writer = Writer { places: &places };
-    let mut text = format!("program\n{}", text_of(&operations));
+    let cone = cone(&path.operations, claim.place);
+    let writer = Writer { cone: &cone };
+    let mut text = format!("program\n{}", text_of(&cone.operations));
     let orders = claim.orders.iter().map(|(a, b)| format!("order {a} {b}"));
     let also = claim.also.iter().map(|names| format!("also {names}"));
     for line in orders.chain(writer.limits(lemmas)).chain(also) {
@@ -108,142 +108,162 @@ pub fn program(path: &Path, lemmas: &[Lemma], claim: &Claim) -> String {
 
 /// An operation in words.
 pub(super) fn operation_text<P: Copy + Display>(operation: &Operation<P>) -> String {
-    match *operation {
-        Operation::Input(i) => format!("input {i}"),
-        Operation::Number(value) => format!("number {value}"),
-        Operation::Add(a, b) => format!("add {a} {b}"),
-        Operation::Sub(a, b) => format!("sub {a} {b}"),
-        Operation::Mul(a, b) => format!("mul {a} {b}"),
-        Operation::Div(a, b) => format!("div {a} {b}"),
-        Operation::Neg(a) => format!("neg {a}"),
-        Operation::Abs(a) => format!("abs {a}"),
-        Operation::Sqrt(a) => format!("sqrt {a}"),
-        Operation::Fma(a, b, c) => format!("fma {a} {b} {c}"),
-        Operation::Minor(a, b, c, d) => format!("minor {a} {b} {c} {d}"),
-    }
+    let name = match operation {
+        Operation::Input(i) => return format!("input {i}"),
+        Operation::Number(value) => return format!("number {value}"),
+        Operation::Add(..) => "add",
+        Operation::Sub(..) => "sub",
+        Operation::Mul(..) => "mul",
+        Operation::Div(..) => "div",
+        Operation::Neg(_) => "neg",
+        Operation::Abs(_) => "abs",
+        Operation::Sqrt(_) => "sqrt",
+        Operation::Fma(..) => "fma",
+        Operation::Minor(..) => "minor",
+    };
+    with_operands(name, operation.operands())
 }
 
 /// A comparison in words.
 pub(super) fn comparison_text(comparison: &Comparison) -> String {
-    match comparison {
-        Comparison::Less(a, b) => format!("less {a} {b}"),
-        Comparison::AtMost(a, b) => format!("at-most {a} {b}"),
-        Comparison::Zero(a) => format!("zero {a}"),
-        Comparison::Negative(a) => format!("negative {a}"),
+    let name = match comparison {
+        Comparison::Less(..) => "less",
+        Comparison::AtMost(..) => "at-most",
+        Comparison::Zero(_) => "zero",
+        Comparison::Negative(_) => "negative",
+    };
+    with_operands(name, comparison.places())
+}
+
+fn with_operands<P: Display>(name: &str, operands: Vec<P>) -> String {
+    let mut text = name.to_owned();
+    for operand in operands {
+        text.push_str(&format!(" {operand}"));
     }
+    text
 }
 
 /// Writes the lemmas of a number.
 struct Writer<'a> {
-    /// Where each operation of the path went.
-    places: &'a [Option<Place>],
+    cone: &'a Cone,
 }
 
 impl Writer<'_> {
     fn at(&self, place: Place) -> Place {
-        self.places[place as usize].expect("a proof of a number uses what it is made of")
+        self.cone.at(place)
     }
 
     /// The limits of divisors and quotients that stand in place of the domain's.
     fn limits(&self, lemmas: &[Lemma]) -> BTreeSet<String> {
-        let line = |word: &str, place: Place, limit: Limit| match limit {
-            Limit::Domain(_) => None,
-            Limit::Scene(_, size) | Limit::Own(size) => {
-                Some(format!("{word} {} {size}", self.at(place)))
+        let mut limits = BTreeSet::new();
+        for lemma in lemmas {
+            match lemma.rule {
+                Rule::Sum => {}
+                Rule::Unit { length, floor, .. } => {
+                    limits.extend(self.limit("at-least", length, floor));
+                }
+                Rule::Quotient {
+                    divisor,
+                    floor,
+                    most,
+                    below,
+                    ..
+                } => {
+                    limits.extend(self.limit("at-least", divisor, floor));
+                    limits.extend(self.limit("at-most", lemma.place, most));
+                    let below = below.map(Limit::Own);
+                    limits.extend(below.and_then(|it| self.limit("down-to", lemma.place, it)));
+                }
             }
-        };
-        let down_to = |place: Place, x: Dyadic| format!("down-to {} {x}", self.at(place));
-        let of_lemma = |lemma: &Lemma| match lemma.rule {
-            Rule::Sum => [None, None, None],
-            Rule::Unit { length, floor, .. } => [line("at-least", length, floor), None, None],
-            Rule::Quotient {
-                divisor,
-                floor,
-                most,
-                below,
-                ..
-            } => [
-                line("at-least", divisor, floor),
-                line("at-most", lemma.place, most),
-                below.map(|x| down_to(lemma.place, x)),
-            ],
-        };
-        lemmas.iter().flat_map(of_lemma).flatten().collect()
+        }
+        limits
+    }
+
+    fn limit(&self, word: &str, place: Place, limit: Limit) -> Option<String> {
+        if let Limit::Domain(_) = limit {
+            return None;
+        }
+        Some(format!("{word} {} {}", self.at(place), limit.size()))
     }
 
     fn lemma(&self, lemma: &Lemma) -> String {
-        let rule = match lemma.rule {
-            Rule::Sum => "sum".to_owned(),
-            Rule::Quotient { twice, ratio, .. } => {
-                let what = match ratio {
-                    Ratio::One => "quotient",
-                    Ratio::Sum => "sum-of-quotients",
-                    Ratio::Rest => "rest-of-quotients",
-                };
-                format!("{what}{}", if twice { "-by-reciprocal" } else { "" })
-            }
-            Rule::Unit { .. } => "unit".to_owned(),
-        };
-        let mut text = format!("lemma {} {rule}\n", self.at(lemma.place));
-        text.push_str(&self.formula(&lemma.formula, &lemma.maximum));
-        let bound = &lemma.bound;
-        writeln!(
-            text,
-            "size {}\ncomputed {}\nerror {}",
-            bound.size, bound.computed, bound.error
-        )
-        .expect("a string");
-        text
+        let mut rule = match lemma.rule {
+            Rule::Sum => "sum",
+            Rule::Unit { .. } => "unit",
+            Rule::Quotient { ratio, .. } => match ratio {
+                Ratio::One => "quotient",
+                Ratio::Sum => "sum-of-quotients",
+                Ratio::Rest => "rest-of-quotients",
+            },
+        }
+        .to_owned();
+        if let Rule::Quotient { twice: true, .. } = lemma.rule {
+            rule.push_str("-by-reciprocal");
+        }
+        let mut lines = vec![format!("lemma {} {rule}", self.at(lemma.place))];
+        lines.extend(self.formula(&lemma.formula, &lemma.maximum));
+        let Bound {
+            size,
+            computed,
+            error,
+        } = &lemma.bound;
+        lines.push(format!("size {size}"));
+        lines.push(format!("computed {computed}"));
+        lines.push(format!("error {error}\n"));
+        lines.join("\n")
     }
 
-    fn formula(&self, formula: &Formula, maximum: &Maximum) -> String {
-        let mut text = String::new();
+    fn formula(&self, formula: &Formula, maximum: &Maximum) -> Vec<String> {
+        let mut lines = Vec::new();
         for source in &formula.sources {
-            let source = match *source {
-                Source::Leaf(Leaf::Point(p, axis)) => format!("point {p} {axis}"),
-                Source::Leaf(Leaf::Difference(p, q, axis)) => format!("difference {p} {q} {axis}"),
-                Source::Leaf(Leaf::Direction(axis)) => format!("direction {axis}"),
-                Source::Leaf(Leaf::End(end)) => format!("end {end}"),
-                Source::Boxed(p, axis) => format!("boxed {p} {axis}"),
-                Source::Cut(place) => format!("cut {}", self.at(place)),
-                Source::Part(place) => format!("part {}", self.at(place)),
-                Source::Quotient => "quotient".to_owned(),
-            };
-            writeln!(text, "variable {source}").expect("a string");
+            let source = self.source(source);
+            lines.push(format!("variable {source}"));
         }
         for (i, step) in formula.steps.iter().enumerate() {
-            writeln!(text, "step {}", self.step(formula, i, step)).expect("a string");
+            let place = formula.places[i].map(|place| self.at(place).to_string());
+            let place = place.unwrap_or("-".to_owned());
+            lines.push(format!("step {place} {}", step_text(step)));
         }
-        let relative = formula.relative.iter().enumerate().filter(|(_, yes)| **yes);
-        let relative: Vec<String> = relative.map(|(i, _)| i.to_string()).collect();
+        let mut relative: Vec<usize> = (0..formula.steps.len()).collect();
+        relative.retain(|i| formula.relative[*i]);
         if !relative.is_empty() {
-            writeln!(text, "relative {}", relative.join(" ")).expect("a string");
+            lines.push(with_operands("relative", relative));
         }
         if !formula.steps.is_empty() {
-            let corner = maximum
-                .corner
-                .iter()
-                .map(|minus| if *minus { '-' } else { '+' });
-            writeln!(text, "corner {}", corner.collect::<String>()).expect("a string");
-            writeln!(text, "first {}", maximum.first).expect("a string");
-            writeln!(text, "rest {}", maximum.rest).expect("a string");
+            let corner: String = maximum.corner.iter().map(|minus| sign(*minus)).collect();
+            lines.push(format!("corner {corner}"));
+            lines.push(format!("first {}", maximum.first));
+            lines.push(format!("rest {}", maximum.rest));
         }
-        text
+        lines
     }
 
-    fn step(&self, formula: &Formula, i: usize, step: &Step) -> String {
-        let place = formula.places[i].map_or("-".to_owned(), |place| self.at(place).to_string());
-        let operation = match *step {
-            Step::Variables(ref sum) => {
-                let term =
-                    |(v, sign): &(usize, i8)| format!("{}{v}", if *sign < 0 { '-' } else { '+' });
-                format!(
-                    "variables {}",
-                    sum.iter().map(term).collect::<Vec<_>>().join(" ")
-                )
-            }
-            Step::Of(ref operation) => operation_text(operation),
-        };
-        format!("{place} {operation}")
+    fn source(&self, source: &Source) -> String {
+        match *source {
+            Source::Leaf(Leaf::Point(p, axis)) => format!("point {p} {axis}"),
+            Source::Leaf(Leaf::Difference(p, q, axis)) => format!("difference {p} {q} {axis}"),
+            Source::Leaf(Leaf::Direction(axis)) => format!("direction {axis}"),
+            Source::Leaf(Leaf::End(end)) => format!("end {end}"),
+            Source::Boxed(p, axis) => format!("boxed {p} {axis}"),
+            Source::Cut(place) => format!("cut {}", self.at(place)),
+            Source::Part(place) => format!("part {}", self.at(place)),
+            Source::Quotient => "quotient".to_owned(),
+        }
     }
+}
+
+fn step_text(step: &Step) -> String {
+    match step {
+        Step::Variables(sum) => {
+            let terms = sum
+                .iter()
+                .map(|(v, factor)| format!("{}{v}", sign(*factor < 0)));
+            with_operands("variables", terms.collect())
+        }
+        Step::Of(operation) => operation_text(operation),
+    }
+}
+
+fn sign(is_negative: bool) -> char {
+    if is_negative { '-' } else { '+' }
 }

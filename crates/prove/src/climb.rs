@@ -2,7 +2,7 @@
 
 use super::depth::Judge;
 use super::measures::Sample;
-use super::starts::make_parallel;
+use super::starts::{make_parallel, power_of_half};
 use super::witness::{Goal, Inputs, Search, Searched};
 use crate::arith::recorded::{Operation, Place};
 use crate::case::Draw;
@@ -139,9 +139,9 @@ impl<F: Searched> Search<'_, F> {
         for _ in 0..steps {
             let mut tried = inputs;
             for _ in 0..1 + draw.below(4) {
-                let i = draw.below(if self.quantity.uses().extent { 17 } else { 15 });
-                let by = draw.symmetric::<f64>() * 2f64.powi(-(draw.below(12) as i32));
-                let scale = self.domain.reach.max(self.domain.edge).to_f64();
+                let i = self.any_input(draw);
+                let by = draw.symmetric::<f64>() * power_of_half(12, draw);
+                let scale = self.scale();
                 tried[i] = match draw.below(6) {
                     0 => -tried[i],
                     _ => tried[i] + F::from_f64(by * scale),
@@ -212,16 +212,26 @@ impl<F: Searched> Search<'_, F> {
         sum
     }
 
+    fn any_input(&self, draw: &mut Draw) -> usize {
+        let has_ends = self.quantity.uses().extent;
+        draw.below(if has_ends { 17 } else { 15 })
+    }
+
+    /// The largest difference of coordinates.
+    fn scale(&self) -> f64 {
+        self.domain.reach.max(self.domain.edge).to_f64()
+    }
+
     fn change(&self, inputs: &mut Inputs<F>, draw: &mut Draw) {
-        let i = draw.below(if self.quantity.uses().extent { 17 } else { 15 });
+        let i = self.any_input(draw);
         let x = inputs[i];
         inputs[i] = match draw.below(8) {
             0..3 => x.offset_ulps(draw.integer(-3, 3)),
             3 => x.offset_ulps(draw.integer(-300, 300)),
             4 => {
                 let exponent = -draw.integer(0, i64::from(F::DIGITS) + 6);
-                let scale = self.domain.reach.max(self.domain.edge).to_f64();
-                x + F::from_f64(scale * draw.symmetric::<f64>() * 2f64.powi(exponent as i32))
+                let share = draw.symmetric::<f64>() * 2f64.powi(exponent as i32);
+                x + F::from_f64(self.scale() * share)
             }
             5 => -x,
             6 => {
@@ -232,7 +242,7 @@ impl<F: Searched> Search<'_, F> {
             }
             _ => {
                 // The other points along the same axis move along.
-                let by = F::from_f64(draw.symmetric::<f64>() * 2f64.powi(-(draw.below(40) as i32)));
+                let by = F::from_f64(draw.symmetric::<f64>() * power_of_half(40, draw));
                 if !(3..6).contains(&i) && i < 15 {
                     for j in [0, 6, 9, 12].map(|j| j + i % 3) {
                         if j != i {
@@ -270,12 +280,7 @@ mod tests {
                 let mut draw = Draw::new("amplitude", 1, 0);
                 for _ in 0..5 {
                     let inputs = search.start(Goal::Error, &mut draw);
-                    run(
-                        &search.operations,
-                        search.last(),
-                        &inputs,
-                        &mut search.computed,
-                    );
+                    run(&search.operations, &inputs, &mut search.computed);
                     let expected = by_differences(&search, &inputs);
                     let found = search.amplitude();
                     let apart = (found - expected).abs();
@@ -298,7 +303,7 @@ mod tests {
             let result = |by: f64| {
                 let (mut inputs, mut values) = (*inputs, Vec::new());
                 inputs[16] = value * (1.0 + by);
-                run(&operations, search.last(), &inputs, &mut values);
+                run(&operations, &inputs, &mut values);
                 values[search.place as usize]
             };
             let slope = (result(1e-6) - result(-1e-6)) / (2e-6 * value);

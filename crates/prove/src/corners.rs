@@ -5,21 +5,14 @@
 //! the other variables, where n is the first, the second and the third axis. By Cauchy and Schwarz a step that
 //! is linear in n is at most the root of the sum of the squares there. So are the effects of errors, each sum
 //! of them being at most Σ|n_i| times that sum at axis i.
-//!
-//! A *mirror* is a set of variables whose change of sign keeps each step or changes its sign. Then each slope keeps its
-//! size too, and so do all effects of errors: of corners that a mirror joins, one is enough. In d·(e1×e2), for instance,
-//! the signs of d, of e1, of e2 and of all x and all y are free: 16 corners of 512 are left.
-//!
-//! A step's sign depends on a set of variables: it changes with an odd number of them. A product's set is the symmetric
-//! difference of its factors' sets. Terms that are added up must have one set: for mirrors, the difference of two of them
-//! is an equation modulo 2. A zero has no sign, is computed as 0 and demands nothing.
 
 use super::bound::SIZE_DIGITS;
 use super::dyadic::{Big, root_up};
 use super::formula::{DIGITS, Formula, Maximum, Step};
+use super::walk::Walk;
 use super::{Dyadic, Format};
-use crate::arith::recorded::{Operation, Term};
 use num_traits::Zero;
+use std::ops::Add;
 
 /// A formula of more variables has no bound.
 const MOST_VARIABLES: usize = 32;
@@ -44,163 +37,192 @@ impl Formula {
                 "its formula has variables of {tried} signs, and {MOST_SIGNS} can be tried"
             ));
         }
-        let too_long = || "its bound needs more digits than there are".to_owned();
+        let largest = self.largest(format, tried <= MOST_TO_CHOOSE);
+        largest.ok_or_else(|| "its bound needs more digits than there are".to_owned())
+    }
+
+    /// The maximum; none if a number is too long.
+    fn largest(&mut self, format: Format, may_choose: bool) -> Option<Maximum> {
         let sizes = self.corner_sizes();
-        if sizes.iter().any(|size| !size.is_number()) {
-            return Err(too_long());
+        if !sizes.iter().all(|size| size.is_number()) {
+            return None;
         }
         self.bounds = self.higher_order(format, Some(&sizes)).1;
-        let (first, at) = if self.unit.is_empty() {
-            self.first_in_box(format, tried <= MOST_TO_CHOOSE && self.below.is_none())
+        let first = if self.unit.is_empty() {
+            self.first_in_box(format, may_choose && self.below.is_none())
         } else {
-            self.first_of_unit(format).ok_or_else(too_long)?
+            self.first_of_unit(format)?
         };
-        let corner = (0..count).map(|v| at >> v & 1 == 1).collect();
         let rest = self.higher_order(format, None).0;
-        if first.is_number() && rest.is_number() {
-            Ok(Maximum {
-                first,
-                rest,
-                corner,
-            })
-        } else {
-            Err(too_long())
+        if !first.sum.is_number() || !rest.is_number() {
+            return None;
         }
+        let mut corner = Vec::new();
+        for v in 0..self.variables.len() {
+            corner.push(first.corner >> v & 1 == 1);
+        }
+        Some(Maximum {
+            first: first.sum,
+            rest,
+            corner,
+        })
     }
 
     /// The largest first order, and the first corner that has it.
-    fn first_in_box(&mut self, format: Format, may_choose: bool) -> (Dyadic, u64) {
-        let mut walk = Walk::new(self);
-        let rounds: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
-        let choices = if may_choose && 1 < rounds.len() {
-            rounds
-        } else {
-            vec![]
-        };
-        // By corner, what the steps that round contribute either way; and what the others contribute.
-        let mut effects: Vec<Vec<[Dyadic; 2]>> = Vec::new();
-        let mut others = Vec::new();
-        let corners: Vec<u64> = self.corners().collect();
-        for corner in corners.iter().copied() {
-            walk.evaluate(corner, 0);
-            walk.differentiate();
-            let effect = |i: usize| {
-                let slope = walk.slopes[i].abs();
-                [
-                    slope * self.bounds[i].error,
-                    slope * walk.values[i].abs() * format.unit(),
-                ]
-            };
-            effects.push(choices.iter().map(|i| effect(*i)).collect());
-            let is_other = |i: &usize| choices.is_empty() || !self.rounds[*i];
-            let rest = (0..self.steps.len()).filter(is_other).map(|i| effect(i)[0]);
-            others.push(rest.fold(Dyadic::ZERO, Dyadic::plus_up));
+    fn first_in_box(&mut self, format: Format, may_choose: bool) -> First {
+        let mut choices: Vec<usize> = (0..self.steps.len()).collect();
+        choices.retain(|i| self.rounds[*i]);
+        if !may_choose || choices.len() < 2 {
+            choices.clear();
         }
+        let all = self.effects(&choices, format);
         let mut chosen = vec![0; choices.len()];
-        let sum = |at: usize, chosen: &[usize]| {
-            let parts = effects[at].iter().zip(chosen).map(|(both, i)| both[*i]);
-            parts.fold(others[at], Dyadic::plus_up)
-        };
-        let largest = |chosen: &[usize]| {
-            let sums = (0..corners.len()).map(|at| (sum(at, chosen), at));
-            // The first corner of the largest sum.
-            sums.reduce(|a, b| if a.0 < b.0 { b } else { a })
-                .expect("one corner")
-        };
-        let (mut first, mut at) = largest(&chosen);
-        for k in (0..choices.len()).rev() {
+        let mut first = largest(&all, &chosen);
+        for (k, step) in choices.iter().enumerate().rev() {
+            let least = first.sum(&chosen);
             chosen[k] = 1;
             // Where that is no less at the corner that counts, it is no less.
-            let tried = Some(&chosen).filter(|chosen| sum(at, chosen) < first);
-            match tried
-                .map(|chosen| largest(chosen))
-                .filter(|tried| tried.0 < first)
-            {
-                Some(less) => {
-                    (first, at) = less;
-                    self.relative[choices[k]] = true;
+            if first.sum(&chosen) < least {
+                let tried = largest(&all, &chosen);
+                if tried.sum(&chosen) < least {
+                    first = tried;
+                    self.relative[*step] = true;
+                    continue;
                 }
-                None => chosen[k] = 0,
             }
+            chosen[k] = 0;
         }
-        (first, corners[at])
+        First {
+            sum: first.sum(&chosen),
+            corner: first.corner,
+        }
     }
 
-    /// The same of a formula that is linear in a unit vector; none if a number is too long.
-    fn first_of_unit(&mut self, format: Format) -> Option<(Dyadic, u64)> {
-        let linear = self.linear_steps()?;
-        // Of each step that rounds, the largest squares of its effects by either bound.
-        let mut either = vec![[0.0f64; 2]; self.steps.len()];
-        self.each_corner(|_, at_axes| {
-            for (i, either) in either.iter_mut().enumerate() {
-                // Of what is linear, the bound of its error is one of the whole vector.
-                let effect = |(axis, pairs): (usize, &Vec<(Dyadic, Dyadic)>)| {
-                    let (value, slope) = pairs[i];
-                    let is_counted = !linear[i] || axis == 0;
-                    let by_size = if is_counted {
-                        slope * self.bounds[i].error
-                    } else {
-                        Dyadic::ZERO
-                    };
-                    [by_size, slope * value * format.unit()].map(|x| x.to_f64().powi(2))
-                };
-                let squares = at_axes.iter().enumerate().map(effect);
-                let sum = squares.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-                *either = [either[0].max(sum[0]), either[1].max(sum[1])];
+    /// The effects of the steps at every corner, of some of them by either bound of their errors.
+    fn effects(&self, choices: &[usize], format: Format) -> Vec<Effects> {
+        let mut walk = Walk::new(self);
+        let mut all = Vec::new();
+        for corner in self.corners() {
+            walk.evaluate(corner, 0);
+            walk.differentiate();
+            let mut here = Effects {
+                corner,
+                either: vec![],
+                others: Dyadic::ZERO,
+            };
+            for (i, bound) in self.bounds.iter().enumerate() {
+                let slope = walk.slopes[i].abs();
+                let by_size = slope * bound.error;
+                if choices.contains(&i) {
+                    let in_proportion = slope * walk.values[i].abs() * format.unit();
+                    here.either.push([by_size, in_proportion]);
+                } else {
+                    here.others = here.others.plus_up(by_size);
+                }
             }
-        });
-        for (i, [by_size, in_proportion]) in either.into_iter().enumerate() {
-            self.relative[i] = self.rounds[i] && in_proportion < by_size;
+            all.push(here);
         }
-        // What does not depend on the vector, and the squares of what does, axis by axis.
-        let (mut alone, mut squares, mut near, mut at) = (Dyadic::ZERO, Big::zero(), 0.0, 0);
+        all
+    }
+
+    /// The largest first order of a formula that is linear in a unit vector; none if a number is too long.
+    fn first_of_unit(&mut self, format: Format) -> Option<First> {
+        let linear = self.linear_steps()?;
+        self.choose_by_squares(&linear, format);
+        let mut alone = Dyadic::ZERO;
+        let mut squares = Big::zero();
+        let mut near = 0.0;
+        let mut first = 0;
         let mut is_short = true;
-        self.each_corner(|corner, at_axes| {
-            let mut here = Dyadic::ZERO;
-            let mut sums = vec![Dyadic::ZERO; at_axes.len()];
-            for i in (0..self.steps.len()).filter(|i| !self.is_part(*i)) {
-                for (axis, sum) in at_axes.iter().zip(&mut sums) {
-                    let (value, slope) = axis[i];
-                    match (self.relative[i], linear[i]) {
-                        (true, _) => *sum = *sum + (slope * value).abs() * format.unit(),
-                        (_, false) => *sum = *sum + slope.abs() * self.bounds[i].error,
-                        _ => {}
-                    }
-                }
-                if linear[i] && !self.relative[i] {
-                    here = here + at_axes[0][i].1.abs() * self.bounds[i].error;
-                }
-            }
-            alone = alone.max(here);
-            is_short &= here.is_number() && sums.iter().all(|sum| sum.is_number());
-            let found: f64 = sums.iter().map(|sum| sum.to_f64().powi(2)).sum();
+        self.each_corner(|corner, axes| {
+            let here = self.effects_at(axes, &linear, format);
+            alone = alone.max(here.alone);
+            is_short &= here.alone.is_number();
+            is_short &= here.axes.iter().all(|sum| sum.is_number());
+            let found: f64 = here.axes.iter().copied().map(square).sum();
             if is_short && near * (1.0 - 1e-9) <= found {
-                let exact = |sum: &Dyadic| Big::from(*sum) * Big::from(*sum);
-                let exact: Big = sums.iter().map(exact).sum();
+                let mut exact = Big::zero();
+                for sum in here.axes {
+                    exact += Big::from(sum) * Big::from(sum);
+                }
                 if squares < exact {
-                    (squares, near, at) = (exact, found, corner);
+                    squares = exact;
+                    near = found;
+                    first = corner;
                 }
             }
         });
         // The vector's own error, in the place of the vector.
         let part = (0..self.steps.len()).find(|i| self.is_part(*i))?;
         let own = self.bounds[part].error * self.bounds.last()?.size;
-        is_short.then(|| (alone + root_up(&squares, DIGITS) + own, at))
+        is_short.then(|| First {
+            sum: alone + root_up(&squares, DIGITS) + own,
+            corner: first,
+        })
     }
 
-    /// Visits the corners, with value and slope of each step, or each triple of them where the unit vector
-    /// is an axis.
-    fn each_corner(&self, mut visit: impl FnMut(u64, &[Vec<(Dyadic, Dyadic)>])) {
-        let mut walk = Walk::new(self);
-        let mut at_axes = vec![Vec::new(); self.unit.len().max(1)];
+    /// Chooses, for each step that rounds, the bound of its error that makes the largest squares of its effects smaller.
+    fn choose_by_squares(&mut self, linear: &[bool], format: Format) {
+        let mut by_size = vec![0f64; linear.len()];
+        let mut in_proportion = by_size.clone();
+        self.each_corner(|_, axes| {
+            for (i, bound) in self.bounds.iter().enumerate() {
+                let mut fixed = 0.0;
+                let mut relative = 0.0;
+                for (axis, walk) in axes.iter().enumerate() {
+                    let slope = walk.slopes[i];
+                    // Of what is linear, the bound of its error is one of the whole vector.
+                    if !linear[i] || axis == 0 {
+                        fixed += square(slope * bound.error);
+                    }
+                    relative += square(slope * walk.values[i] * format.unit());
+                }
+                by_size[i] = by_size[i].max(fixed);
+                in_proportion[i] = in_proportion[i].max(relative);
+            }
+        });
+        for i in 0..linear.len() {
+            self.relative[i] = self.rounds[i] && in_proportion[i] < by_size[i];
+        }
+    }
+
+    /// The sums of effects at a corner.
+    fn effects_at(&self, axes: &[Walk], linear: &[bool], format: Format) -> OfUnit {
+        let mut effects = OfUnit {
+            alone: Dyadic::ZERO,
+            axes: vec![Dyadic::ZERO; axes.len()],
+        };
+        for (i, bound) in self.bounds.iter().enumerate() {
+            if self.is_part(i) {
+                continue;
+            }
+            if linear[i] && !self.relative[i] {
+                let slope = axes[0].slopes[i].abs();
+                effects.alone = effects.alone + slope * bound.error;
+                continue;
+            }
+            for (walk, sum) in axes.iter().zip(&mut effects.axes) {
+                let slope = walk.slopes[i].abs();
+                let error = if self.relative[i] {
+                    walk.values[i].abs() * format.unit()
+                } else {
+                    bound.error
+                };
+                *sum = *sum + slope * error;
+            }
+        }
+        effects
+    }
+
+    /// Visits the corners, with all steps where the unit vector is each of the axes.
+    fn each_corner(&self, mut visit: impl FnMut(u64, &[Walk])) {
+        let mut axes = vec![Walk::new(self); self.unit.len()];
         for corner in self.corners() {
-            for (axis, pairs) in at_axes.iter_mut().enumerate() {
+            for (axis, walk) in axes.iter_mut().enumerate() {
                 walk.evaluate(corner, axis);
                 walk.differentiate();
-                pairs.clear();
-                pairs.extend(walk.values.iter().copied().zip(walk.slopes.iter().copied()));
             }
-            visit(corner, &at_axes);
+            visit(corner, &axes);
         }
     }
 
@@ -210,33 +232,6 @@ impl Formula {
         let next =
             move |corner: &u64| Some(corner.wrapping_sub(tried) & tried).filter(|next| *next != 0);
         std::iter::successors(Some(0), next)
-    }
-
-    /// The variables whose signs have to be tried, as bits: the lowest one of each independent equation. Every corner
-    /// is joined to one of them by a mirror, which is the first in the order of counting. Signs of unit vectors are
-    /// not tried.
-    pub(super) fn signs_to_try(&self) -> u64 {
-        let unit = self.unit.iter().fold(0u64, |bits, v| bits | 1 << v);
-        let mut signs: Vec<Option<u64>> = Vec::with_capacity(self.steps.len());
-        let mut equations = Equations {
-            unit,
-            by_lowest: [0; 64],
-        };
-        // Its two ends are no mirror images.
-        let fixed = self.below.map_or(0, |(v, _)| 1 << v);
-        for step in &self.steps {
-            let of = |i: usize| signs[i];
-            let term = |(_, a, b): Term<usize>| Some(of(a)? ^ b.map_or(Some(0), of)?);
-            signs.push(match *step {
-                Step::Variables(ref sum) => {
-                    equations.alike(sum.iter().map(|(v, _)| Some(1 << v & !fixed)))
-                }
-                Step::Of(Operation::Number(value)) => (value != 0).then_some(0),
-                _ => equations.alike(step.terms().map(term)),
-            });
-        }
-        let lowest = (0..64).filter(|v| equations.by_lowest[*v] != 0);
-        lowest.fold(fixed, |bits, v| bits | 1 << v) & !unit
     }
 
     /// True if a step is a coordinate of the unit vector.
@@ -249,15 +244,20 @@ impl Formula {
     pub fn linear_steps(&self) -> Option<Vec<bool>> {
         let mut linear: Vec<bool> = Vec::with_capacity(self.steps.len());
         for (i, step) in self.steps.iter().enumerate() {
-            let of = |i: usize| linear[i];
-            if step.terms().any(|(_, a, b)| of(a) && b.is_some_and(of)) {
+            let mut degrees = Vec::new();
+            for (_, a, b) in step.terms() {
+                let of_second = b.is_some_and(|b| linear[b]);
+                degrees.push(u8::from(linear[a]) + u8::from(of_second));
+            }
+            let own = u8::from(self.is_part(i));
+            let first = *degrees.first().unwrap_or(&own);
+            if 1 < first || degrees.iter().any(|degree| *degree != first) {
                 return None;
             }
-            let mut terms = step.terms().map(|(_, a, b)| of(a) || b.is_some_and(of));
-            let first = terms.next().unwrap_or_else(|| self.is_part(i));
-            linear.push(terms.all(|term| term == first).then_some(first)?);
+            linear.push(first == 1);
         }
-        linear.last().is_some_and(|last| *last).then_some(linear)
+        let is_last_linear = *linear.last()?;
+        is_last_linear.then_some(linear)
     }
 
     /// The largest size of each step at the corners, which is its largest size in the box.
@@ -265,175 +265,71 @@ impl Formula {
         let linear = self.linear_steps().filter(|_| !self.unit.is_empty());
         let linear = linear.unwrap_or(vec![false; self.steps.len()]);
         let mut sizes = vec![Dyadic::ZERO; self.steps.len()];
-        let mut walk = Walk::new(self);
+        let mut axes = vec![Walk::new(self); self.unit.len().max(1)];
         for corner in self.corners() {
-            let mut squares = vec![Dyadic::ZERO; self.unit.len().min(1) * sizes.len()];
-            for axis in 0..self.unit.len().max(1) {
+            for (axis, walk) in axes.iter_mut().enumerate() {
                 walk.evaluate(corner, axis);
-                for (square, value) in squares.iter_mut().zip(&walk.values) {
-                    *square = *square + *value * *value;
-                }
             }
             for (i, size) in sizes.iter_mut().enumerate() {
-                *size = (*size).max(if linear[i] {
-                    squares[i]
-                } else {
-                    walk.values[i].abs()
-                });
+                let mut here = axes[0].values[i].abs();
+                if linear[i] {
+                    let squares = axes.iter().map(|walk| walk.values[i] * walk.values[i]);
+                    here = squares.fold(Dyadic::ZERO, Dyadic::add);
+                }
+                *size = (*size).max(here);
             }
         }
-        let root = |(size, linear): (Dyadic, bool)| {
-            if linear && size.is_number() {
-                root_up(&Big::from(size), SIZE_DIGITS)
-            } else {
-                size
+        for (size, is_linear) in sizes.iter_mut().zip(linear) {
+            if is_linear && size.is_number() {
+                *size = root_up(&Big::from(*size), SIZE_DIGITS);
             }
-        };
-        sizes.into_iter().zip(linear).map(root).collect()
+        }
+        sizes
     }
 }
 
-/// From corner to corner: the exact value of each step there, and the derivative of the result by each.
-struct Walk<'a> {
-    formula: &'a Formula,
-    /// The terms of each step.
-    terms: Vec<Vec<Term<usize>>>,
-    /// The variables in each step, as bits.
-    supports: Vec<u64>,
-    values: Vec<Dyadic>,
-    slopes: Vec<Dyadic>,
-    /// The corner of the values, if there is one.
-    at: Option<u64>,
+/// The first order at its largest, and the first corner where it is.
+struct First {
+    sum: Dyadic,
+    corner: u64,
 }
 
-impl Walk<'_> {
-    fn new(formula: &Formula) -> Walk<'_> {
-        let terms = formula
-            .steps
-            .iter()
-            .map(|step| step.terms().collect())
-            .collect();
-        let zeros = vec![Dyadic::ZERO; formula.steps.len()];
-        let (supports, values) = (formula.supports(), zeros.clone());
-        Walk {
-            formula,
-            terms,
-            supports,
-            values,
-            slopes: zeros,
-            at: None,
-        }
-    }
+/// The effects of all errors at a corner.
+struct Effects {
+    corner: u64,
+    /// The effects of the steps that have a choice, by each bound of their errors.
+    either: Vec<[Dyadic; 2]>,
+    /// The sum of all others.
+    others: Dyadic,
+}
 
-    /// The values at a corner, the unit vector being an axis.
-    fn evaluate(&mut self, corner: u64, axis: usize) {
-        let Walk {
-            formula,
-            terms,
-            supports,
-            values,
-            at,
-            ..
-        } = self;
-        let Formula {
-            steps,
-            unit,
-            variables,
-            below,
-            ..
-        } = formula;
-        let variable = |v: usize| {
-            if unit.contains(&v) && unit[axis] != v {
-                return Dyadic::ZERO;
-            }
-            match (corner >> v & 1 == 1, *below) {
-                (true, Some((of, below))) if of == v => -below,
-                (is_minus, _) => negative_if(is_minus, variables[v]),
-            }
-        };
-        // A step without a changed variable stays as it was.
-        let changed = at.map(|at| at ^ corner);
-        *at = Some(corner).filter(|_| unit.is_empty());
-        for (i, step) in steps.iter().enumerate() {
-            if changed.is_some_and(|changed| supports[i] & changed == 0) {
-                continue;
-            }
-            let term = |&(is_minus, a, b): &Term<usize>| {
-                negative_if(is_minus, b.map_or(values[a], |b| values[a] * values[b]))
-            };
-            values[i] = match step {
-                Step::Variables(sum) => sum.iter().fold(Dyadic::ZERO, |total, (v, sign)| {
-                    total + negative_if(*sign < 0, variable(*v))
-                }),
-                Step::Of(Operation::Number(value)) => Dyadic::new((*value).into(), 0),
-                _ => terms[i]
-                    .iter()
-                    .map(term)
-                    .reduce(|a, b| a + b)
-                    .expect("a term"),
-            };
+impl Effects {
+    fn sum(&self, chosen: &[usize]) -> Dyadic {
+        let mut sum = self.others;
+        for (both, choice) in self.either.iter().zip(chosen) {
+            sum = sum.plus_up(both[*choice]);
         }
-    }
-
-    /// The derivatives at the corner of the values.
-    fn differentiate(&mut self) {
-        let Walk {
-            terms,
-            values,
-            slopes,
-            ..
-        } = self;
-        slopes.fill(Dyadic::ZERO);
-        *slopes.last_mut().expect("a step") = Dyadic::ONE;
-        for (i, terms) in terms.iter().enumerate().rev() {
-            let slope = slopes[i];
-            if slope.is_zero() {
-                continue;
-            }
-            let mut add = |to: usize, amount: Dyadic| slopes[to] = slopes[to] + amount;
-            for &(is_minus, a, b) in terms {
-                let slope = negative_if(is_minus, slope);
-                add(a, b.map_or(slope, |b| slope * values[b]));
-                b.into_iter().for_each(|b| add(b, slope * values[a]));
-            }
-        }
+        sum
     }
 }
 
-fn negative_if(negative: bool, x: Dyadic) -> Dyadic {
-    if negative { -x } else { x }
+/// The first corner with the largest sum.
+fn largest<'e>(all: &'e [Effects], chosen: &[usize]) -> &'e Effects {
+    // Of equal ones the last is taken.
+    let backwards = all.iter().rev();
+    let largest = backwards.max_by_key(|effects| effects.sum(chosen));
+    largest.expect("a corner")
 }
 
-/// Independent equations modulo 2, each at its lowest variable, those of the unit vector coming first.
-struct Equations {
-    unit: u64,
-    by_lowest: [u64; 64],
+/// The square of an effect, roughly.
+fn square(x: Dyadic) -> f64 {
+    x.to_f64().powi(2)
 }
 
-impl Equations {
-    /// Demands that terms change their signs alike. Returns with which variables they do, if not all are zero.
-    fn alike(&mut self, terms: impl IntoIterator<Item = Option<u64>>) -> Option<u64> {
-        let mut terms = terms.into_iter().flatten();
-        let first = terms.next()?;
-        for term in terms {
-            self.insert(term ^ first);
-        }
-        Some(first)
-    }
-
-    fn insert(&mut self, mut equation: u64) {
-        while equation != 0 {
-            let first = if equation & self.unit == 0 {
-                equation
-            } else {
-                equation & self.unit
-            };
-            let known = &mut self.by_lowest[first.trailing_zeros() as usize];
-            if *known == 0 {
-                *known = equation;
-                return;
-            }
-            equation ^= *known;
-        }
-    }
+/// The effects of all errors at a corner of a formula with a unit vector.
+struct OfUnit {
+    /// The sum of those that do not depend on the vector.
+    alone: Dyadic,
+    /// The sum of those that do, axis by axis.
+    axes: Vec<Dyadic>,
 }

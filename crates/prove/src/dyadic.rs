@@ -247,25 +247,20 @@ impl PartialOrd for Dyadic {
 
 impl Ord for Dyadic {
     fn cmp(&self, other: &Dyadic) -> Ordering {
-        match (self.is_number(), other.is_number()) {
-            (false, false) => return Ordering::Equal,
-            (false, true) => return Ordering::Greater,
-            (true, false) => return Ordering::Less,
-            _ => {}
+        if !self.is_number() || !other.is_number() {
+            return other.is_number().cmp(&self.is_number());
         }
         let signs = self.mantissa.signum().cmp(&other.mantissa.signum());
         if signs != Ordering::Equal || self.mantissa == 0 {
             return signs;
         }
-        let top = |x: &Dyadic| x.exponent + 128 - x.mantissa.unsigned_abs().leading_zeros() as i32;
-        let sizes = if top(self) == top(other) {
-            // Of the same binary order: aligned at the top, both fit.
-            let at_top =
-                |x: &Dyadic| x.mantissa.unsigned_abs() << x.mantissa.unsigned_abs().leading_zeros();
-            at_top(self).cmp(&at_top(other))
-        } else {
-            top(self).cmp(&top(other))
+        // The exponent of the leading digit, and the digits aligned there: so both fit.
+        let size = |x: &Dyadic| {
+            let digits = x.mantissa.unsigned_abs();
+            let zeros = digits.leading_zeros();
+            (x.exponent - zeros as i32, digits << zeros)
         };
+        let sizes = size(self).cmp(&size(other));
         if self.mantissa < 0 {
             sizes.reverse()
         } else {
@@ -290,6 +285,11 @@ impl From<Dyadic> for Big {
             Big::from(mantissa * power)
         }
     }
+}
+
+/// A whole number.
+pub fn whole(x: i64) -> Big {
+    Big::from_integer(x.into())
 }
 
 /// The smallest e with x <= 2^e, for a positive x.

@@ -2,13 +2,13 @@
 
 use super::Proof;
 use super::meaning::{Meaning, Meanings, Scale, What};
-use super::watertight::signed;
-use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
+use super::watertight::{Unsigned, signed};
+use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::kernel::{Acceptance, Compared, Path, Refuse};
 
 /// A number on one side of what a gate compares it with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Fact {
+pub struct Fact {
     pub program: usize,
     pub what: What,
     pub scale: Scale,
@@ -19,15 +19,15 @@ pub(super) struct Fact {
 
 /// An edge gate: each way to be accepted, and for either sign of the scale the numbers of which one is too small where it
 /// refuses; none if it may refuse although all are large.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Form {
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub struct Form {
     pub gate: usize,
     pub ways: Vec<Vec<Fact>>,
     pub refuses: [Option<Vec<Fact>>; 2],
 }
 
 /// Reads what the gates of one path compare.
-pub(super) struct Reader<'a, 'b> {
+pub struct Reader<'a, 'b> {
     pub proof: &'a Proof,
     pub index: usize,
     pub path: &'a Path,
@@ -42,40 +42,41 @@ impl Reader<'_, '_> {
             Acceptance::Fixed(..) => return None,
             Acceptance::Clauses(refuse, clauses) => {
                 let is_strict = matches!(refuse, Refuse::AtMost | Refuse::UnlessAbove);
-                let clause = |places: &Vec<Place>| {
-                    let facts = places
-                        .iter()
-                        .map(|place| self.fact(gate, *place, is_strict));
-                    facts.collect::<Option<Vec<Fact>>>()
-                };
-                let ways = clauses.iter().map(clause).collect::<Option<Vec<_>>>()?;
+                let mut ways = Vec::new();
+                for places in clauses {
+                    let facts = places.iter();
+                    let facts = facts.map(|place| self.fact(gate, *place, is_strict));
+                    ways.push(facts.collect::<Option<Vec<Fact>>>()?);
+                }
                 let refuses = [true, false].map(|side| {
-                    ways.iter()
-                        .find(|way| way.iter().all(|fact| fact.is_side(side)))
-                        .cloned()
+                    let is_side = |way: &&Vec<Fact>| way.iter().all(|fact| fact.is_side(side));
+                    ways.iter().find(is_side).cloned()
                 });
                 (ways, refuses)
             }
             Acceptance::Rounded(outcomes) => {
-                let facts = |outcome: &Outcome| {
-                    let facts = outcome
-                        .answers
-                        .iter()
-                        .map(|answer| self.facts(gate, *answer));
-                    Some((outcome.accepts, facts.collect::<Option<Vec<_>>>()?.concat()))
-                };
-                let all = outcomes.iter().map(facts).collect::<Option<Vec<_>>>()?;
-                let ways = |accepts: bool| {
-                    let ways = all.iter().filter(move |(it, _)| *it == accepts);
-                    ways.map(|(_, facts)| facts.clone())
-                };
+                let mut ways = Vec::new();
+                let mut refusals = Vec::new();
+                for outcome in outcomes {
+                    let answers = outcome.answers.iter();
+                    let facts = answers.map(|answer| self.facts(gate, *answer));
+                    let facts = facts.collect::<Option<Vec<_>>>()?.concat();
+                    let kind = if outcome.accepts {
+                        &mut ways
+                    } else {
+                        &mut refusals
+                    };
+                    kind.push(facts);
+                }
                 let refuses = [true, false].map(|side| {
                     // Each refusal takes a number that is not on this side.
-                    let against = |way: Vec<Fact>| way.into_iter().find(|it| !it.is_side(side));
-                    let against: Option<Vec<Fact>> = ways(false).map(against).collect();
-                    Some(against?.into_iter().map(Fact::negative).collect())
+                    let against = |way: &Vec<Fact>| {
+                        let fact = way.iter().find(|fact| !fact.is_side(side));
+                        fact.map(|fact| fact.negative())
+                    };
+                    refusals.iter().map(against).collect()
                 });
-                (ways(true).collect(), refuses)
+                (ways, refuses)
             }
         };
         Some(Form {
@@ -87,7 +88,7 @@ impl Reader<'_, '_> {
 
     /// A number that is large enough.
     fn fact(&mut self, gate: usize, place: Place, is_strict: bool) -> Option<Fact> {
-        let (minus, place) = signed(self.path, place);
+        let Unsigned { is_negative, place } = signed(self.path, place);
         let program = *self.proof.programs.get(&(gate, self.index, place))?;
         let Meaning {
             what,
@@ -99,7 +100,7 @@ impl Reader<'_, '_> {
             program,
             what,
             scale,
-            is_plus: minus == is_minus,
+            is_plus: is_negative == is_minus,
             is_strict,
         })
     }
@@ -111,7 +112,8 @@ impl Reader<'_, '_> {
         (comparison, answer): (Comparison, bool),
     ) -> Option<Vec<Fact>> {
         let is_zero = |place: Place| {
-            self.path.operations[signed(self.path, place).1 as usize] == Operation::Number(0)
+            let unsigned = signed(self.path, place).place;
+            self.path.operations[unsigned as usize] == Operation::Number(0)
         };
         // x >= 0 or x > 0 where it is large.
         let (place, is_large, is_strict) = match (comparison, answer) {

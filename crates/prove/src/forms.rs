@@ -19,18 +19,17 @@ pub enum Leaf {
 impl Leaf {
     /// The leaf that an operation is.
     pub fn of(operation: Operation, operations: &[Operation]) -> Option<Leaf> {
-        match operation {
-            Operation::Input(i) => Some(Leaf::input(i.into())),
-            Operation::Sub(a, b) => {
-                let point = |place: u32| match operations[place as usize] {
-                    Operation::Input(i) => match Leaf::input(i.into()) {
-                        Leaf::Point(point, axis) => Some((point, axis)),
-                        _ => None,
-                    },
-                    _ => None,
-                };
-                let ((p, axis), (q, other)) = (point(a)?, point(b)?);
-                (axis == other && p != q).then_some(Leaf::Difference(p, q, axis))
+        let (a, b) = match operation {
+            Operation::Input(i) => return Some(Leaf::input(i.into())),
+            Operation::Sub(a, b) => (operations[a as usize], operations[b as usize]),
+            _ => return None,
+        };
+        let (Operation::Input(a), Operation::Input(b)) = (a, b) else {
+            return None;
+        };
+        match (Leaf::input(a.into()), Leaf::input(b.into())) {
+            (Leaf::Point(p, axis), Leaf::Point(q, other)) if axis == other && p != q => {
+                Some(Leaf::Difference(p, q, axis))
             }
             _ => None,
         }
@@ -66,17 +65,41 @@ impl Leaf {
 /// A sum of variables with signs.
 type Sum = Vec<(usize, i8)>;
 
+/// The sum of variables that a leaf is.
+pub struct Form {
+    pub sum: Sum,
+    /// True if it is a new variable.
+    pub is_new: bool,
+}
+
 /// Which sum of variables each input is. Along each axis, differences connect the points; as long as they
 /// close no circle, each of them is a variable of its own, and a difference that closes one is a sum of the
 /// others.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Forms {
-    /// By axis and point: the component that it belongs to, and where it lies in it. Component 0 holds the
-    /// points whose coordinates are used as they are, which are differences to the ground.
-    positions: [[Option<(usize, Sum)>; 5]; 3],
+    /// By axis and point. Component 0 holds the points whose coordinates are used as they are, which are differences to
+    /// the ground.
+    positions: [[Option<Position>; 5]; 3],
     components: usize,
     /// The variables of directions and ends.
     others: Vec<(Leaf, usize)>,
+}
+
+/// The component that a point belongs to, and where it lies in it.
+#[derive(Clone)]
+struct Position {
+    component: usize,
+    sum: Sum,
+}
+
+impl Position {
+    /// The position of a point that is farther by a sum, or nearer if the factor is -1.
+    fn moved(&self, by: &Sum, factor: i8) -> Position {
+        Position {
+            component: self.component,
+            sum: plus(&self.sum, by, factor),
+        }
+    }
 }
 
 /// The point from which coordinates are counted.
@@ -85,58 +108,76 @@ const GROUND: usize = 4;
 impl Forms {
     /// Without any input yet.
     pub fn new() -> Forms {
-        let positions = [(); 3].map(|()| [None, None, None, None, Some((0, Vec::new()))]);
+        let ground = Position {
+            component: 0,
+            sum: vec![],
+        };
+        let positions = [None, None, None, None, Some(ground)];
         Forms {
-            positions,
+            positions: [(); 3].map(|()| positions.clone()),
             components: 0,
             others: Vec::new(),
         }
     }
 
-    /// The sum that a leaf is, and whether it is a new variable, numbered `next`.
-    pub fn sum(&mut self, leaf: Leaf, next: usize) -> (Sum, bool) {
+    /// The sum that a leaf is, where a new variable has the number `next`.
+    pub fn sum(&mut self, leaf: Leaf, next: usize) -> Form {
         match leaf {
-            Leaf::Difference(p, q, axis) => self.difference(p, q, axis, next),
-            Leaf::Point(p, axis) => self.difference(p, GROUND, axis, next),
-            _ => match self.others.iter().find(|(known, _)| *known == leaf) {
-                Some((_, variable)) => (vec![(*variable, 1)], false),
-                None => {
-                    self.others.push((leaf, next));
-                    (vec![(next, 1)], true)
-                }
-            },
+            Leaf::Difference(p, q, axis) => return self.difference(p, q, axis, next),
+            Leaf::Point(p, axis) => return self.difference(p, GROUND, axis, next),
+            Leaf::Direction(_) | Leaf::End(_) => {}
+        }
+        let mut others = self.others.iter();
+        let known = others.find(|(known, _)| *known == leaf).copied();
+        if known.is_none() {
+            self.others.push((leaf, next));
+        }
+        let variable = known.map_or(next, |(_, variable)| variable);
+        Form {
+            sum: vec![(variable, 1)],
+            is_new: known.is_none(),
         }
     }
 
-    fn difference(&mut self, p: usize, q: usize, axis: usize, next: usize) -> (Sum, bool) {
+    fn difference(&mut self, p: usize, q: usize, axis: usize, next: usize) -> Form {
         let variable = vec![(next, 1)];
         let positions = &mut self.positions[axis];
         match (positions[p].clone(), positions[q].clone()) {
-            (Some((i, a)), Some((j, b))) if i == j => return (plus(&a, &b, -1), false),
-            (Some((0, a)), Some((j, b))) => {
-                // q moves to p - v.
-                let by = plus(&plus(&a, &variable, -1), &b, -1);
-                self.shift(axis, j, 0, &by);
+            (Some(p), Some(q)) if p.component == q.component => {
+                return Form {
+                    sum: plus(&p.sum, &q.sum, -1),
+                    is_new: false,
+                };
             }
-            (Some((i, a)), Some((j, b))) => {
-                let by = plus(&plus(&b, &variable, 1), &a, -1);
-                self.shift(axis, i, j, &by);
+            (Some(p), Some(q)) if p.component == 0 => {
+                self.join(axis, &q, &p.moved(&variable, -1));
             }
-            (Some((i, a)), None) => positions[q] = Some((i, plus(&a, &variable, -1))),
-            (None, Some((j, b))) => positions[p] = Some((j, plus(&b, &variable, 1))),
+            (Some(p), Some(q)) => self.join(axis, &p, &q.moved(&variable, 1)),
+            (Some(p), None) => positions[q] = Some(p.moved(&variable, -1)),
+            (None, Some(q)) => positions[p] = Some(q.moved(&variable, 1)),
             (None, None) => {
                 self.components += 1;
-                positions[q] = Some((self.components, Vec::new()));
-                positions[p] = Some((self.components, variable.clone()));
+                let origin = Position {
+                    component: self.components,
+                    sum: vec![],
+                };
+                positions[p] = Some(origin.moved(&variable, 1));
+                positions[q] = Some(origin);
             }
         }
-        (variable, true)
+        Form {
+            sum: variable,
+            is_new: true,
+        }
     }
 
-    fn shift(&mut self, axis: usize, from: usize, to: usize, by: &Sum) {
+    /// Moves a component so that one of its points, which is at `from`, comes to another component, at `to`.
+    fn join(&mut self, axis: usize, from: &Position, to: &Position) {
+        let by = plus(&to.sum, &from.sum, -1);
         for position in self.positions[axis].iter_mut().flatten() {
-            if position.0 == from {
-                *position = (to, plus(&position.1, by, 1));
+            if position.component == from.component {
+                position.component = to.component;
+                position.sum = plus(&position.sum, &by, 1);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The bounds of all gates of a kernel: every path, every quantity, each program once.
 
-use super::bound::{Lemma, Prover};
+use super::bound::{Lemma, Proven, Prover};
 use super::forms::Leaf;
 use super::formula::Source;
 use super::names::Names;
@@ -45,7 +45,7 @@ pub struct Quantity {
     /// The domain of its bound.
     pub domain: Domain,
     /// Its bound, or why there is none.
-    pub bound: Result<Bound, String>,
+    pub bound: Proven<Bound>,
     /// The lemmas of the bound, its own last.
     pub lemmas: Vec<Lemma>,
 }
@@ -78,35 +78,45 @@ pub struct Supposed {
     pub limit: Dyadic,
 }
 
+impl Supposed {
+    fn of(limit: Limit, is_most: bool) -> Option<Supposed> {
+        let name = match limit {
+            Limit::Own(_) => return None,
+            Limit::Scene(name, _) => name,
+            Limit::Domain(_) if is_most => "any quotient",
+            Limit::Domain(_) => "any other divisor",
+        };
+        Some(Supposed {
+            is_most,
+            name,
+            limit: limit.size(),
+        })
+    }
+}
+
 impl Quantity {
     /// The limits of divisors and of quotients that its bound supposes.
     pub fn limits(&self) -> Vec<Supposed> {
-        let supposed = |is_most: bool, limit: Limit| {
-            let (name, limit) = match limit {
-                Limit::Own(_) => return None,
-                Limit::Scene(name, size) => (name, size),
-                Limit::Domain(size) if is_most => ("any quotient", size),
-                Limit::Domain(size) => ("any other divisor", size),
-            };
-            Some(Supposed {
-                is_most,
-                name,
-                limit,
-            })
-        };
-        let of_lemma = |lemma: &Lemma| match lemma.rule {
-            Rule::Sum => [None, None],
-            Rule::Unit { floor, .. } => [supposed(false, floor), None],
-            Rule::Quotient { floor, most, .. } => {
-                // Else the largest numerator over the least divisor is smaller.
-                let most = Some(most).filter(|most| most.size() <= lemma.bound.size);
-                [
-                    supposed(false, floor),
-                    most.and_then(|most| supposed(true, most)),
-                ]
+        let mut all = Vec::new();
+        for lemma in &self.lemmas {
+            match lemma.rule {
+                Rule::Sum => {}
+                Rule::Unit { floor, .. } => all.extend(Supposed::of(floor, false)),
+                Rule::Quotient { floor, most, .. } => {
+                    all.extend(Supposed::of(floor, false));
+                    // Else the largest numerator over the least divisor is smaller.
+                    if most.size() <= lemma.bound.size {
+                        all.extend(Supposed::of(most, true));
+                    }
+                }
             }
-        };
-        self.lemmas.iter().flat_map(of_lemma).flatten().collect()
+        }
+        all
+    }
+
+    /// The error of its bound, if it has one.
+    pub fn error(&self) -> Option<Dyadic> {
+        self.bound.as_ref().ok().map(|bound| bound.error)
     }
 
     /// The suppositions of its bound.
@@ -206,54 +216,48 @@ impl Proof {
             paths, quantities, ..
         } = &mut self;
         let divides = |quantity: &Quantity| quantity.bound.is_err() || quantity.uses().floor;
-        let prove = |quantity: &Quantity| {
-            let path = &paths[quantity.path];
-            let tries = domains.iter().filter(|_| divides(quantity)).map(|domain| {
-                let mut prover = Prover::new(path, *domain, format);
-                let bound = prover.bound(quantity.place);
-                let lemmas = prover.lemmas_of(quantity.place);
-                Quantity {
-                    domain: *domain,
-                    bound,
-                    lemmas,
-                    ..quantity.clone()
-                }
-            });
-            let found: Vec<Quantity> = tries.collect();
-            if found.is_empty() {
-                vec![quantity.clone()]
-            } else {
-                found
+        let mut all = Vec::new();
+        for quantity in quantities.drain(..) {
+            if domains.is_empty() || !divides(&quantity) {
+                all.push(quantity);
+                continue;
             }
-        };
-        *quantities = quantities.iter().flat_map(prove).collect();
+            for domain in domains {
+                let mut prover = Prover::new(&paths[quantity.path], *domain, format);
+                all.push(Quantity {
+                    domain: *domain,
+                    bound: prover.bound(quantity.place),
+                    lemmas: prover.lemmas_of(quantity.place),
+                    ..quantity.clone()
+                });
+            }
+        }
+        *quantities = all;
         self
     }
 
     /// The numbers that the gates at edges compare.
     pub(super) fn of_edges(&self, entry: &Entry) -> impl Iterator<Item = &Quantity> {
         let gates = entry.info.gates;
-        self.quantities
-            .iter()
-            .filter(|quantity| gates[quantity.gate].role == Role::Edge)
+        let quantities = self.quantities.iter();
+        quantities.filter(|quantity| gates[quantity.gate].role == Role::Edge)
     }
 
     /// The quantity of a gate with the largest error; an error in one sentence if one has no bound.
-    pub fn gate(&self, gate: usize) -> Option<Result<&Quantity, String>> {
-        let of_gate = || {
-            self.quantities
-                .iter()
-                .filter(|quantity| quantity.gate == gate)
-        };
-        if let Some(Err(why)) = of_gate()
-            .map(|quantity| &quantity.bound)
-            .find(|b| b.is_err())
-        {
-            return Some(Err(why.clone()));
+    pub fn gate(&self, gate: usize) -> Option<Proven<&Quantity>> {
+        for quantity in self.of_gate(gate) {
+            if let Err(why) = &quantity.bound {
+                return Some(Err(why.clone()));
+            }
         }
-        of_gate()
-            .max_by_key(|q| q.bound.as_ref().map(|bound| bound.error).ok())
-            .map(Ok)
+        let quantities = self.of_gate(gate);
+        quantities.max_by_key(|quantity| quantity.error()).map(Ok)
+    }
+
+    /// The numbers that a gate compares.
+    pub(super) fn of_gate(&self, gate: usize) -> impl Iterator<Item = &Quantity> {
+        let quantities = self.quantities.iter();
+        quantities.filter(move |quantity| quantity.gate == gate)
     }
 }
 
@@ -266,10 +270,9 @@ pub fn compared(path: &Path) -> impl Iterator<Item = (&Compared, Place)> {
             .map(move |place| (compared, unsigned(path, *place)))
     });
     all.filter(move |(_, place)| {
-        let (program, _) = cone(&path.operations, *place);
-        program
-            .iter()
-            .any(|operation| 1 < operation.operands().len())
+        let program = cone(&path.operations, *place).operations;
+        let mut operands = program.iter().map(Operation::operands);
+        operands.any(|operands| 1 < operands.len())
     })
 }
 
@@ -280,25 +283,25 @@ type Key = (usize, Vec<Operation>, BTreeSet<(u8, u8)>, Vec<Limit>);
 /// The program of a number as a key, and its own names.
 fn key(prover: &Prover, gate: usize, place: Place) -> (Key, Names) {
     let operations = &prover.path.operations;
-    let (program, places) = cone(operations, place);
-    let names = Names::of(&program);
-    let program = program
-        .into_iter()
-        .map(|operation| names.operation(operation))
-        .collect();
+    let cone = cone(operations, place);
+    let names = Names::of(&cone.operations);
+    let renamed = |operation| names.operation(operation);
+    let program = cone.operations.into_iter().map(renamed).collect();
     let orders = prover.orders(place).into_iter();
     let orders = orders
         .map(|(a, b)| (names.input(a), names.input(b)))
         .collect();
     let mut quotients: Vec<(Place, Place)> = (0..)
-        .zip(places)
+        .zip(cone.places)
         .filter_map(|(old, new)| Some((new?, old)))
         .collect();
     quotients.sort_unstable();
-    let limits = quotients.into_iter().flat_map(|(_, place)| {
-        let divisor = prover.quotient(place).map(|(_, divisor, _)| divisor);
-        let limits = divisor.map(|divisor| [Some(prover.floor(divisor)), prover.most(place)]);
-        limits.into_iter().flatten().flatten()
-    });
-    ((gate, program, orders, limits.collect()), names)
+    let mut limits = Vec::new();
+    for (_, place) in quotients {
+        if let Some(fraction) = prover.quotient(place) {
+            limits.push(prover.floor(fraction.divisor));
+            limits.extend(prover.most(place));
+        }
+    }
+    ((gate, program, orders, limits), names)
 }

@@ -4,7 +4,7 @@
 use super::depth::Judge;
 use super::gates::Proof;
 use super::summary::{Effort, Summary, Witness, format_of, worst};
-use super::verdict::{USELESS, Verdicts, supposes_weights, verdicts};
+use super::verdict::{Farthest, USELESS, Verdicts, supposes_weights, verdicts};
 use super::witness::{Goal, Inputs, Searched};
 use super::{Domain, Dyadic, Scene};
 use crate::kernel::{Entry, Role, Scalar};
@@ -70,26 +70,24 @@ impl<F: Searched + Scalar> Judged<F> {
                 let effort = effort.shared(proof, quantity);
                 worst::<F>((proof, quantity), goal, Some(&judge), known, effort)
             });
-            found
-                .filter(|found| 0.0 < found.score)
-                .max_by(|a, b| a.score.total_cmp(&b.score))
+            let wrong = found.filter(|found| 0.0 < found.score);
+            wrong.max_by(|a, b| a.score.total_cmp(&b.score))
         });
         let bounds = [
             ("false miss", &verdicts.misses),
             ("false hit", &verdicts.hits),
         ];
-        let contradiction = bounds
-            .into_iter()
-            .zip(&known)
-            .find_map(|((what, bound), known)| {
-                let (share, score) = (bound.as_ref().ok()?.share, known.as_ref()?.score);
-                let message = || {
-                    format!(
-                        "a {what} is known {score:e} of an edge away, and {share:e} is its bound"
-                    )
-                };
-                (share * (1.0 + 1e-12) < score).then(message)
-            });
+        let mut contradiction = None;
+        for ((what, bound), known) in bounds.into_iter().zip(&known) {
+            let (Ok(Farthest { share, .. }), Some(Witness { score, .. })) = (bound, known) else {
+                continue;
+            };
+            if share * (1.0 + 1e-12) < *score {
+                contradiction.get_or_insert(format!(
+                    "a {what} is known {score:e} of an edge away, and {share:e} is its bound"
+                ));
+            }
+        }
         Some(Judged {
             verdicts,
             known,
@@ -101,16 +99,12 @@ impl<F: Searched + Scalar> Judged<F> {
 /// True if the bounds of edge gates say something about false misses in a scene.
 fn is_useful<F: Searched + Scalar>(entry: &Entry, scene: &Scene, epsilons: &[f64]) -> bool {
     let share = || {
-        let (domain, format) = (scene.domain().ok()?, format_of::<F>());
+        let domain = scene.domain().ok()?;
         let parts = scene.parts(&scene.shapes());
-        let edge = entry
-            .info
-            .gates
-            .iter()
-            .position(|gate| gate.role == Role::Edge)?;
-        let proof = Proof::of::<F>(entry, Some(edge), domain)
-            .ok()?
-            .split(&parts, format);
+        let mut gates = entry.info.gates.iter();
+        let edge = gates.position(|gate| gate.role == Role::Edge)?;
+        let proof = Proof::of::<F>(entry, Some(edge), domain).ok()?;
+        let proof = proof.split(&parts, format_of::<F>());
         verdicts(entry, [&proof; 3], epsilons, &parts).misses.ok()
     };
     share().is_some_and(|it| it.share < USELESS)

@@ -21,6 +21,7 @@ mod gates;
 mod judged;
 mod meaning;
 mod measures;
+mod mirrors;
 mod names;
 mod order;
 mod permanent;
@@ -34,7 +35,9 @@ mod statement;
 mod summary;
 #[cfg(test)]
 mod tests;
+mod unit;
 mod verdict;
+mod walk;
 mod watertight;
 mod witness;
 

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 /// Where the line meets the plane, or how the ray lies to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum What {
+pub enum What {
     /// Nothing but the scale.
     One,
     /// The barycentric coordinate of a vertex.
@@ -46,8 +46,8 @@ pub enum Scale {
 }
 
 /// The exact value of a number: `what` times `scale`, or the negative of that.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Meaning {
+#[derive(Clone, Copy)]
+pub struct Meaning {
     pub what: What,
     pub scale: Scale,
     pub is_minus: bool,
@@ -161,7 +161,7 @@ fn product<R: Real>(what: What, scale: Scale, sample: &Sample<R>) -> R {
 }
 
 /// The meanings of a proof's numbers, each program looked at once.
-pub(super) struct Meanings<'a> {
+pub struct Meanings<'a> {
     proof: &'a Proof,
     samples: Vec<OnceCell<Samples<'a>>>,
     known: HashMap<Vec<Operation>, Option<Meaning>>,
@@ -179,7 +179,7 @@ impl<'a> Meanings<'a> {
 
     /// The meaning of a number, if it has one.
     pub fn of(&mut self, path: usize, place: Place) -> Option<Meaning> {
-        let program = cone(&self.proof.paths[path].operations, place).0;
+        let program = cone(&self.proof.paths[path].operations, place).operations;
         if let Some(known) = self.known.get(&program) {
             return *known;
         }

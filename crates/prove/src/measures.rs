@@ -2,7 +2,7 @@
 //! whatever order a program computes it.
 
 use super::order::largest_axes;
-use super::run::{cone, run};
+use super::run::{cone, values};
 use super::{Dyadic, Scene};
 use crate::arith::recorded::{Comparison, Place};
 use crate::arith::{Exact, Real, Triple, Vector};
@@ -52,15 +52,15 @@ impl Limit {
 }
 
 /// A number that a scene knows.
-pub(super) struct Known<R> {
+pub struct Known<R> {
     pub name: &'static str,
     pub limit: Dyadic,
     pub value: R,
 }
 
 /// The rays that a search looks at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Angle {
+#[derive(Clone, Copy, PartialEq)]
+pub enum Angle {
     /// Those that meet the plane at the scene's least angle or more.
     OfScene,
     /// Those that are parallel to the plane.
@@ -69,7 +69,7 @@ pub(super) enum Angle {
 
 /// The use of a number in a program.
 #[derive(Clone, Copy)]
-pub(super) enum Kind {
+pub enum Kind {
     Divisor,
     Quotient,
 }
@@ -80,7 +80,7 @@ const SAMPLES: u64 = 3;
 
 /// Values of all numbers of a path's program at some inputs.
 #[derive(Debug)]
-pub(super) struct Samples<'a> {
+pub struct Samples<'a> {
     path: &'a Path,
     pub values: Vec<(Vec<f64>, Sample<f64>)>,
     /// The exact inputs of one of them, once they are needed.
@@ -97,19 +97,12 @@ fn inputs(path: &Path, i: u64) -> [f64; 17] {
     let mut turned = drawn;
     (9..12).for_each(|i| turned.swap(i, i + 3));
     let has_signs = |inputs: &[f64; 17]| {
-        let mut values = Vec::new();
-        run(
-            &path.operations,
-            path.operations.len() as Place - 1,
-            inputs,
-            &mut values,
-        );
-        path.decisions
-            .iter()
-            .all(|(comparison, answer)| match *comparison {
-                Comparison::Negative(place) => (values[place as usize] < 0.0) == *answer,
-                _ => true,
-            })
+        let values = values(&path.operations, inputs);
+        let mut decisions = path.decisions.iter();
+        decisions.all(|(comparison, answer)| match *comparison {
+            Comparison::Negative(place) => (values[place as usize] < 0.0) == *answer,
+            _ => true,
+        })
     };
     if !has_signs(&drawn) && has_signs(&turned) {
         turned
@@ -121,14 +114,8 @@ fn inputs(path: &Path, i: u64) -> [f64; 17] {
 impl<'a> Samples<'a> {
     pub fn new(path: &'a Path) -> Samples<'a> {
         let sample = |i: u64| {
-            let mut values = Vec::new();
             let inputs = inputs(path, i);
-            run(
-                &path.operations,
-                path.operations.len() as Place - 1,
-                &inputs,
-                &mut values,
-            );
+            let values = values(&path.operations, &inputs);
             (values, Sample::of(&inputs))
         };
         let values = (0..SAMPLES).map(sample).collect();
@@ -165,15 +152,9 @@ impl<'a> Samples<'a> {
             let sample = Sample::of(&inputs);
             (inputs, sample)
         });
-        let (operations, _) = cone(&self.path.operations, place);
-        let mut values = Vec::new();
-        run(
-            &operations,
-            operations.len() as Place - 1,
-            inputs,
-            &mut values,
-        );
-        let value = values.pop().expect("its own value");
+        let operations = cone(&self.path.operations, place).operations;
+        let value = values(&operations, inputs).pop();
+        let value = value.expect("its own value");
         (value.abs() - other(sample).abs()).is_zero()
     }
 
@@ -190,20 +171,20 @@ impl<'a> Samples<'a> {
 
     /// The limit of the first of the known numbers that a number is, up to its sign.
     pub fn find(&self, place: Place, measures: &Measures, kind: Kind) -> Option<Limit> {
-        let of = |(_, sample): &(Vec<f64>, Sample<f64>)| measures.known(kind, sample, &self.axes);
-        let mut lists: Vec<Vec<Known<f64>>> = self.values.iter().map(of).collect();
-        let is_same = |at: &usize| {
+        let mut lists = Vec::new();
+        for (_, sample) in &self.values {
+            lists.push(measures.known(kind, sample, &self.axes));
+        }
+        for (at, Known { name, limit, .. }) in lists[0].iter().enumerate() {
             let exact = |sample: &Sample<Exact>| {
-                measures
-                    .known(kind, sample, &self.axes)
-                    .swap_remove(*at)
-                    .value
+                let mut known = measures.known(kind, sample, &self.axes);
+                known.swap_remove(at).value
             };
-            self.may_be(place, |i| lists[i][*at].value) && self.is_exactly(place, exact)
-        };
-        let found = (0..lists[0].len()).find(is_same)?;
-        let Known { name, limit, .. } = lists[0].swap_remove(found);
-        Some(Limit::Scene(name, limit))
+            if self.may_be(place, |i| lists[i][at].value) && self.is_exactly(place, exact) {
+                return Some(Limit::Scene(name, *limit));
+            }
+        }
+        None
     }
 }
 
@@ -375,12 +356,12 @@ impl Measures {
 }
 
 /// Binary digits of what a scene says; the corners are computed with them exactly.
-pub(super) const DIGITS: u32 = 10;
+const DIGITS: u32 = 10;
 
-fn above(x: f64) -> Dyadic {
+pub fn above(x: f64) -> Dyadic {
     Dyadic::from_f64(x).expect("finite").round_up(DIGITS)
 }
 
-fn below(x: f64) -> Dyadic {
+pub fn below(x: f64) -> Dyadic {
     Dyadic::from_f64(x).expect("finite").round_down(DIGITS)
 }

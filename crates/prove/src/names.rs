@@ -2,7 +2,6 @@
 //! a program holds under other names too.
 
 use crate::arith::recorded::Operation;
-use std::array::from_fn;
 use std::fmt::{self, Display};
 
 /// Other names: the axis for each axis, and the vertex for each vertex.
@@ -16,7 +15,8 @@ impl Names {
     /// The names under which a program needs the axes, and the vertices, in their order. So two programs are the same
     /// but for names if they are equal under these.
     pub fn of(program: &[Operation]) -> Names {
-        let (mut axes, mut vertices) = (Vec::new(), Vec::new());
+        let mut axes = Vec::new();
+        let mut vertices = Vec::new();
         for operation in program {
             if let Operation::Input(i @ ..15) = *operation {
                 axes.push(i % 3);
@@ -31,11 +31,10 @@ impl Names {
 
     /// The input under these names.
     pub fn input(self, input: u8) -> u8 {
-        match (input / 3, input % 3) {
-            (point @ 0..2, axis) => 3 * point + self.axes[usize::from(axis)],
-            (point @ 2..5, axis) => {
-                6 + 3 * self.vertices[usize::from(point - 2)] + self.axes[usize::from(axis)]
-            }
+        let axis = self.axes[usize::from(input % 3)];
+        match input / 3 {
+            point @ 0..2 => 3 * point + axis,
+            point @ 2..5 => 6 + 3 * self.vertices[usize::from(point - 2)] + axis,
             _ => input,
         }
     }
@@ -50,14 +49,7 @@ impl Names {
 
     /// From these names to others.
     pub fn to(self, other: Names) -> Names {
-        let from = |one: [u8; 3], other: [u8; 3]| {
-            one.map(|name| {
-                other
-                    .iter()
-                    .position(|known| *known == name)
-                    .expect("all names") as u8
-            })
-        };
+        let from = |one: [u8; 3], other: [u8; 3]| one.map(|name| place_of(name, &other));
         Names {
             axes: from(self.axes, other.axes),
             vertices: from(self.vertices, other.vertices),
@@ -79,6 +71,11 @@ impl Display for Names {
     }
 }
 
+fn place_of(name: u8, names: &[u8]) -> u8 {
+    let place = names.iter().position(|known| *known == name);
+    place.expect("all names") as u8
+}
+
 /// The place of 0, 1 and 2 in the order in which they come first; those that do not come are last.
 fn in_order(seen: &[u8]) -> [u8; 3] {
     let mut order = Vec::new();
@@ -87,10 +84,5 @@ fn in_order(seen: &[u8]) -> [u8; 3] {
             order.push(name);
         }
     }
-    from_fn(|i| {
-        order
-            .iter()
-            .position(|name| usize::from(*name) == i)
-            .expect("all three") as u8
-    })
+    [0, 1, 2].map(|name| place_of(name, &order))
 }

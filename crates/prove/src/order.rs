@@ -11,30 +11,57 @@ pub fn unsigned(path: &Path, place: Place) -> Place {
     }
 }
 
-/// The facts x <= y (or x < y, if true) of a path about the sizes of some numbers, by their names.
-fn facts<T: Copy>(path: &Path, name: impl Fn(Place) -> Option<T>) -> Vec<(T, T, bool)> {
-    let of_size = |place: Place| match path.operations[place as usize] {
-        Operation::Abs(inner) => name(inner),
-        _ => None,
-    };
-    let fact = |(comparison, answer): &(Comparison, bool)| match (*comparison, *answer) {
-        (Comparison::Less(a, b), true) => Some((a, b, true)),
-        (Comparison::Less(a, b), false) => Some((b, a, false)),
-        (Comparison::AtMost(a, b), true) => Some((a, b, false)),
-        (Comparison::AtMost(a, b), false) => Some((b, a, true)),
-        _ => None,
-    };
-    let named = |(a, b, strict): (Place, Place, bool)| Some((of_size(a)?, of_size(b)?, strict));
-    path.decisions
-        .iter()
-        .filter_map(fact)
-        .filter_map(named)
-        .collect()
+/// A fact about the sizes of two numbers: the first is at most the second, or less.
+#[derive(Clone, Copy)]
+struct Fact<T> {
+    smaller: T,
+    larger: T,
+    is_strict: bool,
+}
+
+impl Fact<Place> {
+    /// The fact that a decision states.
+    fn of(comparison: Comparison, answer: bool) -> Option<Fact<Place>> {
+        let (a, b, is_less) = match comparison {
+            Comparison::Less(a, b) => (a, b, true),
+            Comparison::AtMost(a, b) => (a, b, false),
+            _ => return None,
+        };
+        let [smaller, larger] = if answer { [a, b] } else { [b, a] };
+        Some(Fact {
+            smaller,
+            larger,
+            is_strict: is_less == answer,
+        })
+    }
+
+    /// The fact by the names of the numbers whose sizes it is about.
+    fn named<T>(&self, path: &Path, name: impl Fn(Place) -> Option<T>) -> Option<Fact<T>> {
+        let of_size = |place: Place| match path.operations[place as usize] {
+            Operation::Abs(inner) => name(inner),
+            _ => None,
+        };
+        Some(Fact {
+            smaller: of_size(self.smaller)?,
+            larger: of_size(self.larger)?,
+            is_strict: self.is_strict,
+        })
+    }
+}
+
+/// The facts of a path about the sizes of some numbers, by their names.
+fn facts<T>(path: &Path, name: impl Fn(Place) -> Option<T>) -> Vec<Fact<T>> {
+    let mut facts = Vec::new();
+    for (comparison, answer) in &path.decisions {
+        let fact = Fact::of(*comparison, *answer);
+        facts.extend(fact.and_then(|fact| fact.named(path, &name)));
+    }
+    facts
 }
 
 /// The facts about inputs. Nothing follows about computed numbers: one of them may be NaN, and the path compares them,
 /// not the exact ones.
-fn facts_of_inputs(path: &Path) -> Vec<(u8, u8, bool)> {
+fn facts_of_inputs(path: &Path) -> Vec<Fact<u8>> {
     facts(path, |place| match path.operations[place as usize] {
         Operation::Input(i) => Some(i),
         _ => None,
@@ -50,25 +77,28 @@ pub fn is_at_most(path: &Path, a: u8, b: u8) -> bool {
 /// not say it, and all if no vector takes the path. Given which numbers are coordinates of that vector.
 pub fn largest_axes(path: &Path, axis: impl Fn(Place) -> Option<usize>) -> Vec<usize> {
     let facts = facts(path, axis);
-    (0..3)
-        .filter(|k| (0..3).all(|other| follows(&facts, other, *k)))
-        .collect()
+    let mut axes = vec![0, 1, 2];
+    axes.retain(|axis| (0..3).all(|other| follows(&facts, other, *axis)));
+    axes
 }
 
 /// True if a <= b follows from facts.
-fn follows<T: Copy + PartialEq>(facts: &[(T, T, bool)], a: T, b: T) -> bool {
-    let mut seen = vec![a];
-    let is_new = |seen: &[T], (x, y, _): &(T, T, bool)| seen.contains(x) && !seen.contains(y);
-    while let Some((_, next, _)) = facts.iter().find(|fact| is_new(&seen, fact)) {
-        seen.push(*next);
+fn follows<T: Copy + PartialEq>(facts: &[Fact<T>], a: T, b: T) -> bool {
+    let mut above = vec![a];
+    loop {
+        let is_new =
+            |fact: &&Fact<T>| above.contains(&fact.smaller) && !above.contains(&fact.larger);
+        match facts.iter().find(is_new) {
+            Some(fact) => above.push(fact.larger),
+            None => return above.contains(&b),
+        }
     }
-    seen.contains(&b)
 }
 
 /// True if the decisions of a path contradict each other, so that no input takes it.
 pub fn is_impossible(path: &Path) -> bool {
     let facts = facts_of_inputs(path);
-    facts
-        .iter()
-        .any(|(a, b, strict)| *strict && follows(&facts, *b, *a))
+    let is_contradicted =
+        |fact: &Fact<u8>| fact.is_strict && follows(&facts, fact.larger, fact.smaller);
+    facts.iter().any(is_contradicted)
 }

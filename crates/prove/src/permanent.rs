@@ -20,6 +20,7 @@
 //!
 //! The last sum cannot change a sign. For the sign only the roundings before it count.
 
+use super::bound::Proven;
 use super::dyadic::{Big, round_up};
 use super::forms::Leaf;
 use super::formula::DIGITS;
@@ -106,7 +107,7 @@ impl Relative {
 }
 
 /// A number on the way: its roundings, and sizes in the domain.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 struct Node {
     roundings: Roundings,
     /// Those before its own rounding, if it is a sum.
@@ -122,12 +123,11 @@ struct Node {
 impl Node {
     /// A number of this size that is not rounded.
     fn exact(size: Dyadic) -> Node {
-        let (roundings, permanent) = (Roundings::default(), Big::from(size));
         Node {
-            roundings,
+            roundings: Roundings::default(),
             before: None,
             sharp: true,
-            permanent,
+            permanent: size.into(),
             underflow: Big::zero(),
         }
     }
@@ -136,12 +136,7 @@ impl Node {
 /// The form of a number relative to its permanent; an error in one sentence if it has none: it is
 /// divided by a number that may cancel, or is a root. The domain says how large numbers are that
 /// multiply an underflow; the factor does not depend on it.
-pub fn relative(
-    path: &Path,
-    place: Place,
-    domain: Domain,
-    format: Format,
-) -> Result<Relative, String> {
+pub fn relative(path: &Path, place: Place, domain: Domain, format: Format) -> Proven<Relative> {
     let mut forms = Forms {
         path,
         format,
@@ -169,7 +164,7 @@ struct Forms<'a> {
 }
 
 impl Forms<'_> {
-    fn node(&mut self, place: Place) -> Result<Node, String> {
+    fn node(&mut self, place: Place) -> Proven<Node> {
         if let Some(node) = &self.nodes[place as usize] {
             return Ok(node.clone());
         }
@@ -178,21 +173,15 @@ impl Forms<'_> {
         Ok(node)
     }
 
-    fn made(&mut self, place: Place) -> Result<Node, String> {
+    fn made(&mut self, place: Place) -> Proven<Node> {
         let operation = self.path.operations[place as usize];
         if let Some(leaf) = Leaf::of(operation, &self.path.operations) {
-            let roundings = if leaf.is_difference() {
-                Roundings::ONE
-            } else {
-                Roundings::default()
-            };
-            let before = leaf.is_difference().then(Roundings::default);
-            let exact = Node::exact(leaf.bound(&self.prover.domain));
-            return Ok(Node {
-                roundings,
-                before,
-                ..exact
-            });
+            let mut node = Node::exact(leaf.bound(&self.prover.domain));
+            if leaf.is_difference() {
+                node.before = Some(node.roundings);
+                node.roundings = Roundings::ONE;
+            }
+            return Ok(node);
         }
         match operation {
             Operation::Input(_) => unreachable!("inputs are leaves"),
@@ -203,25 +192,17 @@ impl Forms<'_> {
                     Some(b) => self.product(a, b),
                     None => self.node(a),
                 };
-                let terms = operation
-                    .terms()
-                    .map(term)
-                    .collect::<Result<Vec<Node>, String>>()?;
-                let sharp = terms
-                    .iter()
-                    .all(|x| x.sharp && x.roundings == Roundings::default());
+                let terms = operation.terms().map(term).collect::<Proven<Vec<Node>>>()?;
+                let is_exact = |x: &Node| x.sharp && x.roundings == Roundings::default();
+                let sharp = terms.iter().all(is_exact);
                 let has_product = operation.terms().any(|(_, _, b)| b.is_some());
                 let is_sum = 1 < terms.len();
-                let exact = terms
-                    .into_iter()
-                    .reduce(|a, b| sum(&a, &b))
-                    .expect("a term");
-                let rounded = self.rounded(exact, i128::from(has_product));
-                Ok(Node {
-                    sharp,
-                    before: rounded.before.filter(|_| is_sum),
-                    ..rounded
-                })
+                let exact = terms.into_iter().reduce(|a, b| sum(&a, &b));
+                let exact = exact.expect("a term");
+                let mut rounded = self.rounded(exact, i128::from(has_product));
+                rounded.sharp = sharp;
+                rounded.before = rounded.before.filter(|_| is_sum);
+                Ok(rounded)
             }
             Operation::Minor(a, b, c, d) => {
                 let (p, q) = (self.product(a, b)?, self.product(c, d)?);
@@ -260,24 +241,19 @@ impl Forms<'_> {
                         "it is divided by a number, or of a number, that may cancel".to_owned()
                     );
                 }
-                let exact = Node::exact(self.prover.bound(place)?.size);
-                let roundings = n.roundings.and(d.roundings);
-                let quotient = Node {
-                    roundings,
-                    sharp: false,
-                    ..exact
-                };
-                Ok(Node {
-                    before: None,
-                    ..self.rounded(quotient, 1)
-                })
+                let mut quotient = Node::exact(self.prover.bound(place)?.size);
+                quotient.roundings = n.roundings.and(d.roundings);
+                quotient.sharp = false;
+                let mut rounded = self.rounded(quotient, 1);
+                rounded.before = None;
+                Ok(rounded)
             }
             Operation::Sqrt(_) => Err("it has a root".to_owned()),
         }
     }
 
     /// An exact product of computed numbers.
-    fn product(&mut self, a: Place, b: Place) -> Result<Node, String> {
+    fn product(&mut self, a: Place, b: Place) -> Proven<Node> {
         let (a, b) = (self.node(a)?, self.node(b)?);
         let computed = |x: &Node| x.roundings.power(self.format) * &x.permanent;
         // The computed b is at most its permanent with its errors.

@@ -1,24 +1,63 @@
-//! Bounds of quotients, and of unit vectors: of vectors that are divided by their lengths.
+//! Bounds of quotients.
 
-use super::bound::{Bound, Prover, Ratio, Rule, SIZE_DIGITS};
-use super::dyadic::{Big, root_up, round_up};
-use super::formula::{DIGITS, Formula, Maximum};
+use super::bound::{Bound, Lemma, Proven, Prover, Ratio, Rule, SIZE_DIGITS};
+use super::builder::{Ends, OfQuotient};
+use super::dyadic::{Big, round_up, whole};
+use super::formula::DIGITS;
 use super::measures::{Kind, LARGEST, Limit};
 use super::order::{is_at_most, unsigned};
 use super::{Domain, Dyadic};
 use crate::arith::recorded::{Operation, Place};
-use num_traits::{Signed, Zero};
 
-/// Two quotients by one divisor that a number is made of.
-pub(super) struct Quotients {
-    pub ratio: Ratio,
-    pub parts: [Place; 2],
-    pub numerators: [Place; 2],
+/// A quotient.
+#[derive(Clone, Copy)]
+pub struct Fraction {
+    /// None is the number 1.
+    pub numerator: Option<Place>,
+    /// The divisor.
     pub divisor: Place,
     /// By a reciprocal and a product.
     pub twice: bool,
+}
+
+/// Two quotients by one divisor that a number is made of.
+pub struct Quotients {
+    ratio: Ratio,
+    pub parts: [Place; 2],
+    numerators: [Place; 2],
+    /// One of both.
+    fraction: Fraction,
     /// 1 less the first one, if the number is that less the second one.
     pub rest: Option<Place>,
+}
+
+/// The limits of a divisor and of a quotient.
+struct Limits {
+    /// The least size of the divisor.
+    floor: Limit,
+    /// The largest size of the quotient, if it is known.
+    most: Option<Limit>,
+    /// How far below zero the quotient may be, if that is supposed.
+    below: Option<Dyadic>,
+}
+
+/// A divisor.
+struct Divisor {
+    place: Place,
+    /// The least size.
+    floor: Big,
+    /// The least size of the computed divisor.
+    least: Big,
+    /// The change of a quotient by one rounding that is left out: a share of its size,
+    share: Big,
+    /// and a number where it underflows.
+    tiny: Big,
+}
+
+impl Divisor {
+    fn left_out(&self, size: &Big) -> Big {
+        &self.share * size + &self.tiny
+    }
 }
 
 impl Prover<'_> {
@@ -48,22 +87,50 @@ impl Prover<'_> {
         }
     }
 
-    /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.
-    pub(super) fn quotient(&self, place: Place) -> Option<(Option<Place>, Place, bool)> {
-        let is_one = |place: &Place| self.operation(*place) == Operation::Number(1);
-        let reciprocal = |place: Place| match self.operation(place) {
-            Operation::Div(one, divisor) if is_one(&one) => Some(divisor),
-            _ => None,
-        };
+    /// How far below zero a quotient may be, if that is supposed and less than its size.
+    fn below(&self, quotient: Place) -> Option<Dyadic> {
+        let below = self.domain.below;
+        let is_less = below < self.domain.quotient;
+        (is_less && self.samples().is_share(quotient)).then_some(below)
+    }
+
+    fn limits(&self, quotient: Place, divisor: Place) -> Limits {
+        Limits {
+            floor: self.floor(divisor),
+            most: self.most(quotient),
+            below: self.below(quotient),
+        }
+    }
+
+    /// The fraction that a number is, if it is a quotient.
+    pub(super) fn quotient(&self, place: Place) -> Option<Fraction> {
         match self.operation(place) {
-            Operation::Div(numerator, divisor) => {
-                Some((Some(numerator).filter(|it| !is_one(it)), divisor, false))
+            Operation::Div(numerator, divisor) => Some(Fraction {
+                numerator: Some(numerator).filter(|it| !self.is_one(*it)),
+                divisor,
+                twice: false,
+            }),
+            Operation::Mul(a, b) => {
+                let by_last = self.times_reciprocal(a, b);
+                by_last.or_else(|| self.times_reciprocal(b, a))
             }
-            Operation::Mul(a, b) => reciprocal(b)
-                .map(|divisor| (Some(a), divisor, true))
-                .or_else(|| reciprocal(a).map(|divisor| (Some(b), divisor, true))),
             _ => None,
         }
+    }
+
+    fn times_reciprocal(&self, numerator: Place, reciprocal: Place) -> Option<Fraction> {
+        let Operation::Div(one, divisor) = self.operation(reciprocal) else {
+            return None;
+        };
+        self.is_one(one).then_some(Fraction {
+            numerator: Some(numerator),
+            divisor,
+            twice: true,
+        })
+    }
+
+    fn is_one(&self, place: Place) -> bool {
+        self.operation(place) == Operation::Number(1)
     }
 
     /// The two quotients by one divisor that a number is made of, if it is and something is known of its size.
@@ -71,44 +138,33 @@ impl Prover<'_> {
         let (ratio, parts, rest) = match self.operation(place) {
             Operation::Add(a, b) => (Ratio::Sum, [a, b], None),
             Operation::Sub(rest, b) => match self.operation(rest) {
-                Operation::Sub(one, a) if self.operation(one) == Operation::Number(1) => {
-                    (Ratio::Rest, [a, b], Some(rest))
-                }
+                Operation::Sub(one, a) if self.is_one(one) => (Ratio::Rest, [a, b], Some(rest)),
                 _ => return None,
             },
             _ => return None,
         };
-        let [(first, divisor, twice), (second, other, also)] =
-            [self.quotient(parts[0])?, self.quotient(parts[1])?];
+        let first = self.quotient(parts[0])?;
+        let second = self.quotient(parts[1])?;
         let is_known = || match self.domain.measures {
             None => self.samples().is_share(place),
             Some(_) => self.most(place).is_some(),
         };
-        let is_fit = (divisor, twice) == (other, also) && parts[0] != parts[1] && is_known();
-        let numerators = [first?, second?];
-        is_fit.then_some(Quotients {
+        let has_one_divisor = first.divisor == second.divisor && first.twice == second.twice;
+        if !has_one_divisor || parts[0] == parts[1] || !is_known() {
+            return None;
+        }
+        Some(Quotients {
             ratio,
             parts,
-            numerators,
-            divisor,
-            twice,
+            numerators: [first.numerator?, second.numerator?],
+            fraction: first,
             rest,
         })
     }
 
-    /// How far below zero a quotient may be, if that is supposed and less than its size.
-    pub(super) fn below(&self, quotient: Place) -> Option<Dyadic> {
-        let Domain {
-            below,
-            quotient: most,
-            ..
-        } = self.domain;
-        (below < most && self.samples().is_share(quotient)).then_some(below)
-    }
-
-    /// The least size of a computed divisor.
-    fn least(&mut self, divisor: Place, floor: Limit) -> Result<Big, String> {
-        let error = self.bound(divisor)?.error;
+    /// An error if the divisor may be computed as zero.
+    fn divisor(&mut self, place: Place, floor: Limit) -> Proven<Divisor> {
+        let error = self.bound(place)?.error;
         // Else another coordinate may be larger by more than 1 %: 2E is that share of the floor.
         let least = error * Dyadic::new(200, 0);
         if matches!(floor, Limit::Scene(LARGEST, size) if size < least) {
@@ -116,271 +172,244 @@ impl Prover<'_> {
                 "rounding may hide which coordinate of (b-a)×(c-a) is the largest".to_owned(),
             );
         }
-        let least = Big::from(floor.size()) - Big::from(error);
-        if least <= Big::from(self.format.tiny() * Dyadic::new(2, 0)) {
+        let floor = Big::from(floor.size());
+        let least = &floor - Big::from(error);
+        if least <= whole(2) * self.tiny() {
             return Err(
                 "divisors may be so small in this domain that rounding makes one zero".to_owned(),
             );
         }
-        Ok(least)
+        let tiny = self.tiny() / &least;
+        let epsilon = self.unit_roundoff() + &tiny;
+        let rest = whole(1) - &epsilon;
+        Ok(Divisor {
+            place,
+            floor,
+            least,
+            share: epsilon / rest,
+            tiny,
+        })
     }
 
-    /// The bound of a number that is made of two quotients by one divisor, whose error is one for both.
-    pub(super) fn divide_both(
-        &mut self,
-        place: Place,
-        (floor, most, below): (Limit, Option<Limit>, Option<Dyadic>),
-    ) -> Result<(Formula, Maximum, Bound), String> {
-        let Quotients {
-            parts,
-            numerators,
-            divisor,
-            twice,
-            rest,
-            ..
-        } = self.quotients(place).expect("it is made of two");
-        let least = self.least(divisor, floor)?;
-        let floor = floor.size();
-        let bounds = [self.bound(parts[0])?, self.bound(parts[1])?];
-        let rest = rest.map(|rest| self.bound(rest)).transpose()?;
-        let both = Big::from(bounds[0].size) + Big::from(bounds[1].size);
-        let most = most.map(Limit::size);
-        let limited = |x: &Big, most: Option<Dyadic>| {
-            round_up(
-                &most.map_or(x.clone(), |most| x.clone().min(most.into())),
-                SIZE_DIGITS,
-            )
-        };
-        // The number's size, and that of the sum of both, which it may be 1 less.
-        let (size, sum) = if rest.is_some() {
-            let lower = most.zip(below).map(|(most, _)| most - Dyadic::ONE);
-            let upper = most.map(|most| below.unwrap_or(most) + Dyadic::ONE);
-            let upper = upper.map(|upper| lower.map_or(upper, |lower| upper.max(lower)));
-            (
-                limited(&(&both + Big::from(Dyadic::ONE)), most),
-                (limited(&both, upper), lower),
-            )
+    pub(super) fn tiny(&self) -> Big {
+        self.format.tiny().into()
+    }
+
+    pub(super) fn unit_roundoff(&self) -> Big {
+        self.format.unit().into()
+    }
+
+    /// The change of a quotient of this size by the rounding of its divisor's reciprocal.
+    fn of_reciprocal(&self, size: &Big, numerator: &Bound) -> Big {
+        self.unit_roundoff() * size + self.tiny() * Big::from(numerator.computed)
+    }
+
+    /// The error of the quotient of the numbers before their last roundings, if these are left out.
+    fn error_of_quotient(&mut self, of: &OfQuotient, by: &Divisor) -> Proven<Big> {
+        let closest = if of.leaves_out_divisor {
+            &by.floor - self.error_before_rounding(by.place)?
         } else {
-            let size = limited(&both, most);
-            (size, (size, below))
+            by.least.clone()
         };
-        let (formula, maximum, left_out) = self.formula_of_quotient(&numerators, divisor, sum)?;
-        let tiny = Big::from(self.format.tiny());
-        let one = Big::from(self.format.unit()) + &tiny / &least;
-        let share = &one / (Big::from(Dyadic::ONE) - &one);
-        let mut error = maximum.error();
-        if left_out[2] {
-            error /= Big::from(floor) - self.error_before_rounding(divisor)?;
-            error = &error + &share * (Big::from(sum.0) + &error) + &tiny / &least;
-        } else {
-            error /= &least;
+        Ok(of.maximum.error() / closest)
+    }
+
+    /// The lemma of a number that is made of two quotients by one divisor, whose error is one for both.
+    pub(super) fn divide_both(&mut self, place: Place, both: Quotients) -> Proven<Lemma> {
+        let fraction = both.fraction;
+        let Fraction { divisor, twice, .. } = fraction;
+        let limits = self.limits(place, divisor);
+        let by = self.divisor(divisor, limits.floor)?;
+        let bounds = [self.bound(both.parts[0])?, self.bound(both.parts[1])?];
+        let rest = both.rest.map(|rest| self.bound(rest)).transpose()?;
+        let sizes = Big::from(bounds[0].size) + Big::from(bounds[1].size);
+        let most = limits.most.map(Limit::size);
+        let mut size = limited(&sizes, most);
+        // The sum of both, which the number may be 1 less.
+        let mut sum = Ends {
+            size,
+            below: limits.below,
+        };
+        if rest.is_some() {
+            size = limited(&(whole(1) + &sizes), most);
+            sum = ends_of_sum(&sizes, most, limits.below);
+        }
+        let of = self.formula_of_quotient(&both.numerators, divisor, sum)?;
+        let mut error = self.error_of_quotient(&of, &by)?;
+        if of.leaves_out_divisor {
+            let largest = Big::from(sum.size) + &error;
+            error += by.left_out(&largest);
         }
         for (i, bound) in bounds.iter().enumerate() {
             // Of the quotient of the numbers before they are rounded, or after.
-            let mut largest = Big::from(bound.size) + Big::from(bound.error) + &tiny / &least;
-            largest *= Big::from(Dyadic::ONE) + &share + &share;
-            if left_out[i] {
-                error += &share * &largest + &tiny / &least;
+            let mut largest = bound.largest() + &by.tiny;
+            largest *= whole(1) + &by.share + &by.share;
+            if of.leaves_out_numerators[i] {
+                error += by.left_out(&largest);
             }
             if twice {
-                let above = Big::from(self.bound(numerators[i])?.computed);
-                let reciprocal = Big::from(self.format.unit()) * &largest + &tiny * above;
-                error += &reciprocal;
-                largest += reciprocal;
+                let numerator = self.bound(both.numerators[i])?;
+                let change = self.of_reciprocal(&largest, &numerator);
+                error += &change;
+                largest += change;
             }
             error += Big::from(self.format.half_ulp_of(&largest));
         }
         if let Some(rest) = rest {
-            let largest = Big::from(rest.size) + Big::from(rest.error);
-            error += Big::from(self.format.half_ulp_of(&largest));
+            error += Big::from(self.format.half_ulp_of(&rest.largest()));
         }
         let rounded = Big::from(size) + &error;
-        self.bound_of_rounded(size, error, &rounded)
-            .map(|bound| (formula, maximum, bound))
+        let bound = self.bound_of_rounded(size, error, &rounded)?;
+        Ok(limits.lemma(place, both.ratio, fraction, of, bound))
     }
 
-    /// The bound of a quotient, and the formula that it follows from. Given the least size of the divisor, the
-    /// largest of the quotient if it is known, and how far it may be below zero.
-    pub(super) fn divide(
-        &mut self,
-        numerator: Option<Place>,
-        divisor: Place,
-        twice: bool,
-        (floor, most, down_to): (Limit, Option<Limit>, Option<Dyadic>),
-    ) -> Result<(Formula, Maximum, Bound), String> {
-        let least = self.least(divisor, floor)?;
-        let (below, floor) = (self.bound(divisor)?, floor.size());
+    /// The lemma of a quotient.
+    pub(super) fn divide(&mut self, place: Place, fraction: Fraction) -> Proven<Lemma> {
+        let Fraction {
+            numerator,
+            divisor,
+            twice,
+        } = fraction;
+        let mut limits = self.limits(place, divisor);
+        if numerator.is_none() && self.domain.measures.is_some() {
+            // A reciprocal is known by its divisor.
+            limits.most = None;
+        }
+        let by = self.divisor(divisor, limits.floor)?;
+        let below = self.bound(divisor)?;
         let above = match numerator {
             Some(numerator) => self.bound(numerator)?,
-            None => Bound {
-                size: Dyadic::ONE,
-                computed: Dyadic::ONE,
-                error: Dyadic::ZERO,
-            },
+            None => Bound::exactly(Dyadic::ONE),
         };
-        let limit = Big::from(above.size) / Big::from(floor);
         // The path compares computed numbers, which says nothing of the exact ones unless they are equal.
-        let at_most_one = above.error.is_zero()
-            && below.error.is_zero()
-            && matches!(
-                (numerator.map(|n| self.operation(n)), self.operation(divisor)),
-                (Some(Operation::Input(n)), Operation::Input(d)) if is_at_most(self.path, n, d)
-            );
-        let size = match numerator {
-            Some(_) if at_most_one => Big::from(Dyadic::ONE),
-            Some(_) => most.map_or(limit.clone(), |most| limit.min(Big::from(most.size()))),
-            None => limit,
+        let is_exact = above.error.is_zero() && below.error.is_zero();
+        let is_at_most_one = is_exact && self.is_ordered(numerator, divisor);
+        let limit = Big::from(above.size) / &by.floor;
+        let size = if is_at_most_one {
+            limited(&whole(1), None)
+        } else {
+            let most = limits.most.filter(|_| numerator.is_some());
+            limited(&limit, most.map(Limit::size))
         };
-        let size = round_up(&size, SIZE_DIGITS);
-        let (formula, maximum, left_out) =
-            self.formula_of_quotient(numerator.as_slice(), divisor, (size, down_to))?;
+        let ends = Ends {
+            size,
+            below: limits.below,
+        };
+        let of = self.formula_of_quotient(numerator.as_slice(), divisor, ends)?;
         // The quotient of the numbers before their last roundings against the exact one, then these roundings,
         // then those of the division.
-        let closest = match left_out[left_out.len() - 1] {
-            true => Big::from(floor) - self.error_before_rounding(divisor)?,
-            false => least.clone(),
-        };
-        let mut before = maximum.error() / closest;
-        let left_out = left_out.into_iter().filter(|yes| *yes).count() as i128;
-        if left_out > 0 {
-            let tiny = Big::from(self.format.tiny()) / &least;
-            let one = Big::from(self.format.unit()) + &tiny;
-            let share =
-                &one / (Big::from(Dyadic::ONE) - &one) * Big::from(Dyadic::new(left_out, 0));
-            before = &before + share * (Big::from(size) + &before) + tiny;
+        let mut error = self.error_of_quotient(&of, &by)?;
+        let mut left_out = of.leaves_out_numerators.clone();
+        left_out.push(of.leaves_out_divisor);
+        left_out.retain(|is_left_out| *is_left_out);
+        if !left_out.is_empty() {
+            let largest = whole(left_out.len() as i64) * (Big::from(size) + &error);
+            error += by.left_out(&largest);
         }
-        let quotient = Big::from(size) + &before;
-        let mut error = before;
-        let mut rounded = quotient.clone();
+        let mut rounded = Big::from(size) + &error;
         if twice {
-            let tiny = Big::from(self.format.tiny()) * Big::from(above.computed);
-            let reciprocal = Big::from(self.format.unit()) * quotient + tiny;
-            error += &reciprocal;
-            rounded += reciprocal;
+            let change = self.of_reciprocal(&rounded, &above);
+            error += &change;
+            rounded += change;
         }
         let largest = Big::from(Dyadic::power(self.format.largest));
-        if twice && largest * least <= Big::from(Dyadic::ONE) {
+        if twice && largest * by.least <= whole(1) {
             return Err(
                 "divisors may be so small in this domain that a reciprocal overflows".to_owned(),
             );
         }
-        if at_most_one && !twice {
+        if is_at_most_one && !twice {
             // The quotient of two floats that is at most one is rounded to at most one.
-            rounded = Big::from(Dyadic::ONE);
+            rounded = whole(1);
         }
-        self.bound_of_rounded(size, error, &rounded)
-            .map(|bound| (formula, maximum, bound))
+        let bound = self.bound_of_rounded(size, error, &rounded)?;
+        Ok(limits.lemma(place, Ratio::One, fraction, of, bound))
+    }
+
+    /// True if the numerator is at most as large as the divisor, by the decisions of the path about inputs.
+    fn is_ordered(&self, numerator: Option<Place>, divisor: Place) -> bool {
+        let numerator = numerator.map(|numerator| self.operation(numerator));
+        match (numerator, self.operation(divisor)) {
+            (Some(Operation::Input(n)), Operation::Input(d)) => is_at_most(self.path, n, d),
+            _ => false,
+        }
+    }
+
+    /// The error of a number before its last operation rounds, where that is known to be smaller.
+    pub(super) fn error_before_rounding(&mut self, place: Place) -> Proven<Big> {
+        let error = Big::from(self.bound(place)?.error);
+        let unsigned = unsigned(self.path, place);
+        let mut lemmas = self.lemmas.iter();
+        let lemma = lemmas.find(|lemma| lemma.place == unsigned);
+        let lemma = lemma.expect("it has a bound");
+        if lemma.rule != Rule::Sum {
+            return Ok(error);
+        }
+        let formula = &lemma.formula;
+        let last = formula.steps.len() - 1;
+        if !formula.rounds[last] || formula.relative[last] {
+            return Ok(error);
+        }
+        let rounding = formula.bounds[last].error;
+        Ok(lemma.maximum.error() - Big::from(rounding))
     }
 
     /// One more rounding of a number of the given size before it.
-    fn bound_of_rounded(&self, size: Dyadic, error: Big, rounded: &Big) -> Result<Bound, String> {
-        let error = round_up(
-            &(error + Big::from(self.format.half_ulp_of(rounded))),
-            DIGITS,
-        );
+    fn bound_of_rounded(&self, size: Dyadic, error: Big, rounded: &Big) -> Proven<Bound> {
+        let rounding = Big::from(self.format.half_ulp_of(rounded));
         let computed = round_up(rounded, self.format.digits);
         self.check_range(computed)?;
         Ok(Bound {
             size,
             computed,
-            error,
+            error: round_up(&(error + rounding), DIGITS),
         })
     }
+}
 
-    /// The vector and its length, if the number is a coordinate of the vector divided by it.
-    pub(super) fn unit(&self, place: Place) -> Option<([Place; 3], Place)> {
-        let (numerator, length, _) = self.quotient(place)?;
-        let Operation::Sqrt(inner) = self.operation(length) else {
-            return None;
-        };
-        let vector = self.squares(inner)?;
-        vector.contains(&numerator?).then_some((vector, length))
+impl Limits {
+    fn lemma(
+        self,
+        place: Place,
+        ratio: Ratio,
+        fraction: Fraction,
+        of: OfQuotient,
+        bound: Bound,
+    ) -> Lemma {
+        Lemma {
+            place,
+            rule: Rule::Quotient {
+                ratio,
+                twice: fraction.twice,
+                divisor: fraction.divisor,
+                floor: self.floor,
+                most: self.most.unwrap_or(Limit::Own(bound.size)),
+                below: self.below,
+            },
+            formula: of.formula,
+            maximum: of.maximum,
+            bound,
+        }
     }
+}
 
-    /// The bounds of each coordinate of a unit vector. The error is that of the whole vector, by Euclid. Its
-    /// length is at least the floor.
-    pub(super) fn bound_of_unit(
-        &mut self,
-        vector: [Place; 3],
-        floor: Dyadic,
-    ) -> Result<Bound, String> {
-        let (mut before, mut sizes) = (Big::zero(), Big::zero());
-        for place in vector {
-            let error = self.error_before_rounding(place)?;
-            before += &error * &error;
-            let computed = Big::from(self.bound(place)?.computed);
-            sizes += &computed * &computed;
-        }
-        let (before, size) = (Big::from(root_up(&before, DIGITS)), root_up(&sizes, DIGITS));
-        let whole = |n: i128| Big::from(Dyadic::new(n, 0));
-        let (one, two, floor) = (whole(1), whole(2), Big::from(floor));
-        let (unit, tiny) = (Big::from(self.format.unit()), Big::from(self.format.tiny()));
-        // Of the vector: each coordinate's last rounding is in proportion to the coordinate.
-        let shift = &before + &unit * (&before + &floor) + &two * &tiny;
-        let least = &floor - &shift;
-        if !least.is_positive() || whole(6) * &tiny > &unit * &unit * &least * &least {
-            return Err(
-                "lengths may be so small in this domain that rounding makes one zero".to_owned(),
-            );
-        }
-        // The squares, their sum, and the reciprocal of the root.
-        let longest = Big::from(size) * (&one + &two * &unit);
-        let largest = Big::from(Dyadic::power(self.format.largest));
-        let third = &one - whole(3) * &unit;
-        if &longest * &longest >= largest || &largest * &least * &third <= one {
-            return Err("the square of a length or its reciprocal may overflow".to_owned());
-        }
-        let turn = &shift / (&floor - &shift / &two);
-        let stretch = whole(4) * &unit / third;
-        let before = &stretch * &stretch + (&one + &stretch) * &turn * &turn;
-        let before = Big::from(root_up(&before, DIGITS)) + Big::from(size) * &tiny;
-        let rounded = one + &before;
-        let error = before + unit * &rounded + two * tiny;
-        let computed = round_up(&rounded, self.format.digits);
-        self.check_range(computed)?;
-        Ok(Bound {
-            size: Dyadic::ONE,
-            computed,
-            error: round_up(&error, DIGITS),
-        })
+/// A size that may have another bound, with a lemma's digits.
+fn limited(size: &Big, most: Option<Dyadic>) -> Dyadic {
+    let mut least = size.clone();
+    if let Some(most) = most {
+        least = least.min(most.into());
     }
+    round_up(&least, SIZE_DIGITS)
+}
 
-    /// The error of a number before its last operation rounds, where that is known to be smaller.
-    pub(super) fn error_before_rounding(&mut self, place: Place) -> Result<Big, String> {
-        let error = Big::from(self.bound(place)?.error);
-        let place = unsigned(self.path, place);
-        let lemma = self
-            .lemmas
-            .iter()
-            .find(|lemma| lemma.place == place)
-            .expect("it has a bound");
-        let formula = &lemma.formula;
-        let last = match lemma.rule {
-            Rule::Sum => formula.steps.len() - 1,
-            _ => return Ok(error),
-        };
-        if !formula.rounds[last] || formula.relative[last] {
-            return Ok(error);
-        }
-        Ok(lemma.maximum.error() - Big::from(formula.bounds[last].error))
-    }
-
-    /// Squares that are added up to a number, if that is what it is.
-    fn squares(&self, place: Place) -> Option<[Place; 3]> {
-        let mut squares = Vec::new();
-        let mut open = vec![place];
-        while let Some(place) = open.pop() {
-            match self.operation(place) {
-                Operation::Mul(a, b) if a == b => squares.push(a),
-                Operation::Fma(a, b, c) if a == b => {
-                    squares.push(a);
-                    open.push(c);
-                }
-                Operation::Add(a, b) => open.extend([a, b]),
-                _ => return None,
-            }
-        }
-        squares.sort_unstable();
-        squares.try_into().ok()
+/// The ends of the sum of two quotients, of which both sizes add up to `sizes`, if 1 less that sum is limited.
+fn ends_of_sum(sizes: &Big, most: Option<Dyadic>, below: Option<Dyadic>) -> Ends {
+    let lower = below.and(most).map(|most| most - Dyadic::ONE);
+    let upper = most.map(|most| below.unwrap_or(most) + Dyadic::ONE);
+    // None is less than any number.
+    let largest = upper.max(lower);
+    Ends {
+        size: limited(sizes, largest),
+        below: lower,
     }
 }

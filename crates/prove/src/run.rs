@@ -3,55 +3,83 @@
 use crate::arith::Real;
 use crate::arith::recorded::{Operation, Place};
 
-/// Runs a program up to a place.
-pub fn run<R: Real>(operations: &[Operation], last: Place, inputs: &[R; 17], values: &mut Vec<R>) {
+/// Runs a program.
+pub fn run<R: Real>(operations: &[Operation], inputs: &[R; 17], values: &mut Vec<R>) {
     values.clear();
-    for operation in &operations[..=last as usize] {
-        let of = |place: Place| values[place as usize].clone();
-        let value = match *operation {
-            Operation::Input(i) => inputs[usize::from(i)].clone(),
-            Operation::Number(value) => R::number(f64::from(value)),
-            Operation::Add(a, b) => of(a) + &of(b),
-            Operation::Sub(a, b) => of(a) - &of(b),
-            Operation::Mul(a, b) => of(a) * &of(b),
-            Operation::Div(a, b) => of(a) / &of(b),
-            Operation::Neg(a) => -of(a),
-            Operation::Abs(a) => of(a).abs(),
-            Operation::Sqrt(a) => of(a).sqrt(),
-            Operation::Fma(a, b, c) => R::fused(&of(a), &of(b), &of(c)),
-            Operation::Minor(a, b, c, d) => {
-                R::difference_of_products(&of(a), &of(b), &of(c), &of(d))
-            }
-        };
-        values.push(value);
+    for operation in operations {
+        let on_values = operation.with(|place| values[place as usize].clone());
+        values.push(result(on_values, inputs));
     }
 }
 
-/// The program of one number alone: the operations that it needs, each after its operands in their order, and where
-/// each went. So two paths on which a number is computed in the same way have the same program of it.
-pub fn cone(operations: &[Operation], last: Place) -> (Vec<Operation>, Vec<Option<Place>>) {
-    let mut renamed = vec![None; operations.len()];
-    let mut kept = Vec::new();
-    let mut open = vec![last];
-    while let Some(place) = open.last().copied() {
-        let operation = operations[place as usize];
-        let is_open = |operand: &Place| renamed[*operand as usize].is_none();
-        if let Some(operand) = operation.operands().into_iter().find(is_open) {
-            open.push(operand);
-            continue;
-        }
-        open.pop();
-        let of = |place: Place| -> Place { renamed[place as usize].expect("operands come first") };
-        kept.push(operation.with(of));
-        renamed[place as usize] = Some(kept.len() as Place - 1);
+/// The values of all operations of a program.
+pub fn values<R: Real>(operations: &[Operation], inputs: &[R; 17]) -> Vec<R> {
+    let mut values = Vec::new();
+    run(operations, inputs, &mut values);
+    values
+}
+
+fn result<R: Real>(operation: Operation<R>, inputs: &[R; 17]) -> R {
+    use Operation::*;
+    match operation {
+        Input(i) => inputs[i as usize].clone(),
+        Number(value) => R::number(value.into()),
+        Add(a, b) => a + &b,
+        Sub(a, b) => a - &b,
+        Mul(a, b) => a * &b,
+        Div(a, b) => a / &b,
+        Neg(a) => -a,
+        Abs(a) => a.abs(),
+        Sqrt(a) => a.sqrt(),
+        Fma(a, b, c) => R::fused(&a, &b, &c),
+        Minor(a, b, c, d) => R::difference_of_products(&a, &b, &c, &d),
     }
-    (kept, renamed)
+}
+
+/// The program of one number alone.
+pub struct Cone {
+    /// The operations that it needs, each after its operands in their order. So two paths on which a number is computed in
+    /// the same way have the same program of it.
+    pub operations: Vec<Operation>,
+    /// For each operation of the path, its place here.
+    pub places: Vec<Option<Place>>,
+}
+
+impl Cone {
+    /// Adds an operation after its operands, unless it is there.
+    fn add(&mut self, place: Place, all: &[Operation]) {
+        if self.places[place as usize].is_some() {
+            return;
+        }
+        let operation = all[place as usize];
+        for operand in operation.operands() {
+            self.add(operand, all);
+        }
+        let renamed = operation.with(|operand| self.at(operand));
+        let next = self.operations.len() as Place;
+        self.places[place as usize] = Some(next);
+        self.operations.push(renamed);
+    }
+
+    /// The place of an operation of the path that is needed.
+    pub fn at(&self, place: Place) -> Place {
+        self.places[place as usize].expect("a number needs what it is made of")
+    }
+}
+
+pub fn cone(operations: &[Operation], last: Place) -> Cone {
+    let mut cone = Cone {
+        operations: Vec::new(),
+        places: vec![None; operations.len()],
+    };
+    cone.add(last, operations);
+    cone
 }
 
 /// The numbers that a number is made of, and itself.
-pub fn parts(operations: &[Operation], place: Place) -> impl Iterator<Item = Place> + use<> {
-    let (_, places) = cone(operations, place);
-    (0..)
-        .zip(places)
-        .filter_map(|(place, needed)| needed.map(|_| place))
+pub fn parts(operations: &[Operation], place: Place) -> Vec<Place> {
+    let cone = cone(operations, place);
+    let mut parts = Vec::from_iter(0..=place);
+    parts.retain(|part| cone.places[*part as usize].is_some());
+    parts
 }

@@ -1,7 +1,8 @@
 //! A scene in numbers that a person knows, and the domain that it is.
 
+use super::bound::Proven;
 use super::dyadic::{Big, root_up};
-use super::measures::{Angle, DIGITS, Sample};
+use super::measures::{Angle, Sample, above, below};
 use super::{Domain, Dyadic, Measures};
 use crate::arith::{Triple, Vector};
 use crate::case::{self, DirectionLength};
@@ -32,7 +33,7 @@ pub type Shape = (f64, f64);
 
 impl Scene {
     /// A scene as samples are drawn from it. An error in one sentence if its directions have any length.
-    pub fn of(scene: &case::Scene) -> Result<Scene, String> {
+    pub fn of(scene: &case::Scene) -> Proven<Scene> {
         if scene.direction != DirectionLength::Unit {
             return Err("proofs suppose |d| <= 1: write direction=unit".to_owned());
         }
@@ -50,7 +51,7 @@ impl Scene {
     }
 
     /// The domain; an error in one sentence if there is none.
-    pub fn domain(&self) -> Result<Domain, String> {
+    pub fn domain(&self) -> Proven<Domain> {
         let Scene {
             coordinates,
             edge: [shortest, longest],
@@ -113,11 +114,7 @@ impl Scene {
             ..
         } = *self;
         // Slightly more, for what rounding took from the numbers themselves.
-        let up = |x: f64| {
-            Dyadic::from_f64(x * (1.0 + 1e-9))
-                .expect("finite")
-                .round_up(DIGITS)
-        };
+        let up = |x: f64| above(x * (1.0 + 1e-9));
         // A difference of coordinates is at most twice the largest of them.
         let reach = distance.min(2.0 * coordinates);
         // Divisors are det = N·d, N·N, |N|, the largest coordinate of N, and N·d over it or over |N|.
@@ -136,11 +133,7 @@ impl Scene {
             1.0 / (shortest * sine(min_angle))
         };
         let slope = slope.min(longest / shape);
-        let down = |x: f64| {
-            Dyadic::from_f64(x * 0.999_999)
-                .expect("finite")
-                .round_down(DIGITS)
-        };
+        let down = |x: f64| below(x * 0.999_999);
         let measures = Measures {
             area: down(shape),
             sine: down(sine(grazing)),
@@ -202,10 +195,8 @@ impl Scene {
         let minor = |i: usize, j: usize| {
             (&b[i] - &a[i]) * (&c[j] - &a[j]) - (&b[j] - &a[j]) * (&c[i] - &a[i])
         };
-        let square: Big = [minor(1, 2), minor(2, 0), minor(0, 1)]
-            .iter()
-            .map(|x| x * x)
-            .sum();
+        let normal = [minor(1, 2), minor(2, 0), minor(0, 1)];
+        let square: Big = normal.iter().map(|x| x * x).sum();
         root_up(&square, 53).to_f64()
     }
 
@@ -221,12 +212,10 @@ impl Scene {
             ..
         } = sample;
         let slack = 4.0 * epsilon;
-        let coordinates = vertices
-            .iter()
-            .chain([origin])
-            .flat_map(|point| [0, 1, 2].map(|axis| point.at(axis)));
-        if coordinates.map(f64::abs).any(|x| self.coordinates < x) {
-            return false;
+        for point in vertices.iter().chain([origin]) {
+            if (0..3).any(|axis| self.coordinates < point.at(axis).abs()) {
+                return false;
+            }
         }
         let distances = vertices.iter().map(|vertex| length(&vertex.minus(origin)));
         if distances.fold(0.0, f64::max) > self.distance * (1.0 + slack) {

@@ -2,7 +2,7 @@
 //! bound in a mesh.
 
 use super::summary::{format_of, paths_of};
-use super::{Domain, Dyadic, Format, Proof};
+use super::{Domain, Dyadic, Format, Proof, Quantity};
 use crate::kernel::{Entry, Path, Scalar};
 use std::collections::HashMap;
 
@@ -81,7 +81,7 @@ impl BySize {
         };
         let proof = Proof::new(self.paths.clone(), Some(self.gate), domain, self.format);
         let quantity = proof.gate(self.gate).and_then(Result::ok);
-        let bound = quantity.and_then(|q| q.bound.as_ref().ok().map(|bound| bound.error));
+        let bound = quantity.and_then(Quantity::error);
         self.known.insert(place, bound);
         bound
     }

@@ -1,5 +1,6 @@
 //! Everything that is proved of a kernel, and the worst that is known, gate by gate.
 
+use super::bound::Proven;
 use super::depth::Judge;
 use super::gates::{Proof, Quantity, Supposed, Uses};
 use super::permanent::{Relative, relative};
@@ -36,7 +37,7 @@ pub struct GateSummary<F> {
     /// The gate itself.
     pub gate: Gate,
     /// The bound of the error of what it compares, or why there is none.
-    pub bound: Result<Dyadic, String>,
+    pub bound: Proven<Dyadic>,
     /// The error relative to the permanent of what it compares, if it has one: the largest of its quantities.
     pub relative: Option<Relative>,
     /// The suppositions of the bound.
@@ -80,7 +81,7 @@ pub fn format_of<F: Float>() -> Format {
 }
 
 /// The recorded paths of a kernel; an error in one sentence if it has no program.
-pub fn paths_of<F: Scalar>(entry: &Entry) -> Result<Vec<Path>, String> {
+pub fn paths_of<F: Scalar>(entry: &Entry) -> Proven<Vec<Path>> {
     let subject = F::subject(entry).ok_or("it does not run in this scalar")?;
     subject
         .gated()
@@ -90,11 +91,7 @@ pub fn paths_of<F: Scalar>(entry: &Entry) -> Result<Vec<Path>, String> {
 
 impl Proof {
     /// The proof of a kernel, of all gates or of one; an error in one sentence if it has no program.
-    pub fn of<F: Scalar>(
-        entry: &Entry,
-        gate: Option<usize>,
-        domain: Domain,
-    ) -> Result<Proof, String> {
+    pub fn of<F: Scalar>(entry: &Entry, gate: Option<usize>, domain: Domain) -> Proven<Proof> {
         Ok(Proof::new(
             paths_of::<F>(entry)?,
             gate,
@@ -110,7 +107,7 @@ pub fn bound_of_gate<F: Scalar>(entry: &Entry, gate: usize, domain: Domain) -> O
     let proof = Proof::of::<F>(entry, Some(gate), domain).ok()?;
     let is_margin = proof.quantities.iter().all(|quantity| quantity.is_margin);
     let worst = proof.gate(gate).filter(|_| is_margin)?.ok()?;
-    worst.bound.as_ref().map(|bound| bound.error).ok()
+    worst.error()
 }
 
 /// How hard to search, and from where.
@@ -131,12 +128,10 @@ impl Effort {
 
     /// The parts of a domain share the evaluations: most of them where most may be wrong.
     pub(super) fn shared(self, proof: &Proof, quantity: &Quantity) -> Effort {
-        let parts = proof
-            .quantities
-            .iter()
-            .filter(|it| it.program == quantity.program);
-        let bound = quantity.error();
-        let share = bound / parts.map(Quantity::error).sum::<f64>().max(bound);
+        let quantities = proof.quantities.iter();
+        let parts = quantities.filter(|it| it.program == quantity.program);
+        let bound = error(quantity);
+        let share = bound / parts.map(error).sum::<f64>().max(bound);
         Effort {
             evaluations: (self.evaluations as f64 * share) as u64,
             ..self
@@ -144,13 +139,9 @@ impl Effort {
     }
 }
 
-impl Quantity {
-    /// Its bound, or 0.
-    fn error(&self) -> f64 {
-        self.bound
-            .as_ref()
-            .map_or(0.0, |bound| bound.error.to_f64())
-    }
+/// The bound of a quantity's error, or 0.
+fn error(quantity: &Quantity) -> f64 {
+    quantity.error().map_or(0.0, Dyadic::to_f64)
 }
 
 impl<F: Searched + Scalar> Summary<F> {
@@ -162,7 +153,7 @@ impl<F: Searched + Scalar> Summary<F> {
         parts: &[Domain],
         known: &[Inputs<F>],
         effort: Effort,
-    ) -> Result<Summary<F>, String> {
+    ) -> Proven<Summary<F>> {
         let format = format_of::<F>();
         let proof = Proof::of::<F>(entry, None, domain)?.split(parts, format);
         let mut contradiction = None;
@@ -173,7 +164,7 @@ impl<F: Searched + Scalar> Summary<F> {
             .enumerate()
             .filter_map(|(index, gate)| {
                 let bound = proof.gate(index)?;
-                let of_gate = || proof.quantities.iter().filter(move |q| q.gate == index);
+                let of_gate = || proof.of_gate(index);
                 let uses = Uses::of(of_gate().flat_map(|quantity| &quantity.lemmas));
                 let mut limits: Vec<Supposed> = of_gate().flat_map(Quantity::limits).collect();
                 // The weakest of each.
@@ -202,7 +193,7 @@ impl<F: Searched + Scalar> Summary<F> {
                     let found = quantities.filter_map(|quantity| {
                     let effort = effort.shared(&proof, quantity);
                     let found = worst::<F>((&proof, quantity), goal, None, known, effort)?;
-                    let bound = quantity.error();
+                    let bound = error(quantity);
                     // Both are rounded to floats.
                     if goal == Goal::Error && found.score > bound * (1.0 + 1e-12) {
                         let Witness { score, .. } = found;
@@ -215,7 +206,7 @@ impl<F: Searched + Scalar> Summary<F> {
                 });
                     found.max_by(|a, b| a.score.total_cmp(&b.score))
                 });
-                let bound = bound.map(|q| q.bound.as_ref().expect("it has one").error);
+                let bound = bound.map(|quantity| quantity.error().expect("it has one"));
                 Some(GateSummary {
                     index,
                     gate: *gate,
@@ -242,7 +233,7 @@ impl<F: Searched + Scalar> Summary<F> {
 }
 
 /// The worst inputs for a number of a proof that are known, or that a search finds.
-pub(super) fn worst<F: Searched>(
+pub fn worst<F: Searched>(
     (proof, quantity): (&Proof, &Quantity),
     goal: Goal,
     judge: Option<&Judge<F>>,
@@ -251,13 +242,9 @@ pub(super) fn worst<F: Searched>(
 ) -> Option<Witness<F>> {
     let mut search = Search::<F>::new(proof, quantity, judge);
     let known = scaled(known, &quantity.domain, judge.is_some());
-    let witness = |inputs: Inputs<F>, score: f64| Witness { inputs, score };
-    let from_known = known.iter().filter_map(|inputs| {
-        search
-            .exact(inputs, goal)
-            .map(|score| witness(*inputs, score))
-    });
-    let mut known: Vec<Witness<F>> = from_known.collect();
+    let witness = |(inputs, score)| Witness { inputs, score };
+    let exact = |inputs| Some(witness((inputs, search.exact(&inputs, goal)?)));
+    let mut known: Vec<Witness<F>> = known.into_iter().filter_map(exact).collect();
     known.sort_by(|a, b| b.score.total_cmp(&a.score));
     let best = known.first().copied();
     if effort.evaluations == 0 {
@@ -266,10 +253,8 @@ pub(super) fn worst<F: Searched>(
     let mut draw = Draw::new("prove", effort.seed, quantity.place.into());
     let known: Vec<Inputs<F>> = known.iter().map(|witness| witness.inputs).collect();
     let found = search.climb(goal, effort.evaluations, &mut draw, &known);
-    let found = found.map(|(inputs, score)| witness(inputs, score));
-    best.into_iter()
-        .chain(found)
-        .max_by(|a, b| a.score.total_cmp(&b.score))
+    let all = best.into_iter().chain(found.map(witness));
+    all.max_by(|a, b| a.score.total_cmp(&b.score))
 }
 
 /// Known inputs of the unit domain, moved into another one by a power of two, which changes no rounding. Rays whose verdicts

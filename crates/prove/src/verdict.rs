@@ -4,9 +4,10 @@
 //! An edge gate compares λ·s with e: λ is a barycentric coordinate, s a scale that is at least σ. Its error is at most β. So it
 //! refuses only where λ < (e + β)/σ, and accepts only where λ ≥ -(β - e)/σ. A height is no longer than the longest edge.
 
+use super::bound::Proven;
 use super::facts::{Fact, Form, Reader};
 use super::meaning::{Meaning, Meanings, Scale, What};
-use super::{Domain, Lemma, Proof, Rule, Source, Step};
+use super::{Domain, Lemma, Proof, Quantity, Rule, Source, Step};
 use crate::contract::Sides;
 use crate::kernel::{Acceptance, Compared, Entry, Role};
 use std::collections::{BTreeSet, HashSet};
@@ -15,7 +16,7 @@ use std::collections::{BTreeSet, HashSet};
 pub const USELESS: f64 = 0.5;
 
 /// How far from its triangle's boundary a wrong verdict can be, or why nothing is known.
-pub type Depth = Result<Farthest, String>;
+pub type Depth = Proven<Farthest>;
 
 /// A distance between the line of a triangle's edge and where the ray's line meets the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -79,11 +80,9 @@ pub fn verdicts(
     let is_edge = |gate: usize| entry.info.gates[gate].role == Role::Edge;
     let mut forms: HashSet<Forms> = HashSet::new();
     for (index, path) in proof.paths.iter().enumerate() {
-        let gates = path
-            .compared
-            .iter()
-            .filter(|compared| is_edge(compared.gate));
-        let forms_of = |compared: &Compared| {
+        let compared = path.compared.iter();
+        let gates = compared.filter(|compared| is_edge(compared.gate));
+        let form = |compared: &Compared| {
             let name = entry.info.gates[compared.gate].name;
             if !compared.is_margin() && epsilons[compared.gate] != 0.0 {
                 return Err(format!("gate '{name}' rounds with its epsilon"));
@@ -94,24 +93,22 @@ pub fn verdicts(
                 path,
                 meanings: &mut meanings,
             };
-            reader
-                .form(compared)
-                .ok_or(format!("what gate '{name}' compares is not read"))
+            let form = reader.form(compared);
+            form.ok_or(format!("what gate '{name}' compares is not read"))
         };
-        match gates.map(forms_of).collect::<Result<Vec<Form>, String>>() {
+        match gates.map(form).collect::<Proven<Vec<Form>>>() {
             Ok(found) => forms.insert((found, path.hits)),
             Err(why) => {
-                let (misses, hits) = (Err(why.clone()), Err(why));
                 return Verdicts {
-                    misses,
-                    hits,
+                    misses: Err(why.clone()),
+                    hits: Err(why),
                     others,
                     scales: Vec::new(),
                 };
             }
         };
     }
-    let farthest = |share_of: &dyn Fn(&Domain) -> Result<[f64; 2], String>| {
+    let farthest = |share_of: &dyn Fn(&Domain) -> Proven<[f64; 2]>| {
         let mut most = Farthest::default();
         for domain in parts {
             let [share, apart] = share_of(domain)?;
@@ -148,10 +145,8 @@ pub fn verdicts(
         let mut shares = forms.iter().map(|forms| bounds.outside(&forms.0));
         shares.try_fold([0.0; 2], |most, share| Ok(larger(most, share?)))
     });
-    let facts = forms
-        .iter()
-        .flat_map(|(forms, _)| forms)
-        .flat_map(|form| form.ways.concat());
+    let forms = forms.iter().flat_map(|(forms, _)| forms);
+    let facts = forms.flat_map(|form| form.ways.concat());
     let scales: BTreeSet<Scale> = facts.map(|fact| fact.scale).collect();
     let least = |scale: Scale| {
         let least = parts.iter().map(|domain| scale.least(domain));
@@ -194,14 +189,14 @@ fn larger([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
 pub fn supposes_weights(entry: &Entry, proof: &Proof) -> bool {
     let mut meanings = Meanings::new(proof);
     proof.of_edges(entry).any(|quantity| {
-        let is_weight = |lemma: &Lemma| {
+        let mut lemmas = quantity.lemmas.iter();
+        lemmas.any(|lemma| {
+            if !matches!(lemma.rule, Rule::Quotient { .. }) {
+                return false;
+            }
             let meaning = meanings.of(quantity.path, lemma.place);
             meaning.is_some_and(|it| matches!(it.what, What::Weight(_) | What::Rest(_)))
-        };
-        let lemmas = quantity.lemmas.iter();
-        lemmas
-            .filter(|lemma| matches!(lemma.rule, Rule::Quotient { .. }))
-            .any(is_weight)
+        })
     })
 }
 
@@ -219,7 +214,7 @@ const WIDE: f64 = 1.0 + 1.0 / 512.0;
 
 impl Bounds<'_> {
     /// The error of a number in a proof over the least size of its scale.
-    fn share(&self, proof: &Proof, fact: &Fact) -> Result<f64, String> {
+    fn share(&self, proof: &Proof, fact: &Fact) -> Proven<f64> {
         let error = error(proof, fact.program, self.domain)?;
         Ok(error / fact.scale.least(self.domain))
     }
@@ -229,7 +224,7 @@ impl Bounds<'_> {
     }
 
     /// The farthest inside that a gate of a path refuses, on the sides that the contract has.
-    fn inside(&self, (forms, hits): &Forms, sides: Sides) -> Result<f64, String> {
+    fn inside(&self, (forms, hits): &Forms, sides: Sides) -> Proven<f64> {
         if !hits {
             return Err("something refuses that is no gate".to_owned());
         }
@@ -258,18 +253,19 @@ impl Bounds<'_> {
     }
 
     /// The farthest outside an edge, and from the triangle, that a path's gates let through.
-    fn outside(&self, forms: &[Form]) -> Result<[f64; 2], String> {
-        let ways = forms
-            .iter()
-            .fold(vec![Vec::new()], |all: Vec<Vec<(usize, Fact)>>, form| {
-                let more = |way: &Vec<(usize, Fact)>, facts: &Vec<Fact>| {
-                    let facts = facts.iter().map(|fact| (form.gate, *fact));
-                    way.iter().copied().chain(facts).collect()
-                };
-                all.iter()
-                    .flat_map(|way| form.ways.iter().map(move |facts| more(way, facts)))
-                    .collect()
-            });
+    fn outside(&self, forms: &[Form]) -> Proven<[f64; 2]> {
+        let mut ways: Vec<Vec<(usize, Fact)>> = vec![Vec::new()];
+        for form in forms {
+            let mut longer = Vec::new();
+            for way in &ways {
+                for facts in &form.ways {
+                    let mut way = way.clone();
+                    way.extend(facts.iter().map(|fact| (form.gate, *fact)));
+                    longer.push(way);
+                }
+            }
+            ways = longer;
+        }
         let mut most = [0.0; 2];
         for way in &ways {
             for side in [true, false] {
@@ -280,7 +276,7 @@ impl Bounds<'_> {
     }
 
     /// The same of one way to be accepted, where the scale is positive or negative.
-    fn outside_on(&self, way: &[(usize, Fact)], side: bool) -> Result<[f64; 2], String> {
+    fn outside_on(&self, way: &[(usize, Fact)], side: bool) -> Proven<[f64; 2]> {
         let is_impossible = way.iter().any(|(gate, x)| {
             way.iter().any(|(_, y)| {
                 let is_negative =
@@ -294,7 +290,7 @@ impl Bounds<'_> {
             return Ok([0.0; 2]);
         }
         // Of each weight the least that is known, and its error: on this side, or on the other one.
-        let known = |proof: &Proof, is_side: bool| -> Result<Option<[(f64, f64); 3]>, String> {
+        let known = |proof: &Proof, is_side: bool| -> Proven<Option<[(f64, f64); 3]>> {
             let mut all = [None; 3];
             for (gate, fact) in way.iter().filter(|(_, fact)| fact.is_side(side) == is_side) {
                 if let What::Weight(vertex) = fact.what {
@@ -347,19 +343,15 @@ impl Bounds<'_> {
 }
 
 /// The bound of a program's error in a domain.
-fn error(proof: &Proof, program: usize, domain: &Domain) -> Result<f64, String> {
-    let mut of_program = proof
-        .quantities
-        .iter()
-        .filter(|it| it.program == program)
-        .peekable();
-    let first = of_program.peek().expect("it has one").bound.as_ref();
-    let own = of_program
-        .find(|it| it.domain == *domain)
-        .map(|it| it.bound.as_ref());
-    own.unwrap_or(first)
-        .map(|bound| bound.error.to_f64())
-        .map_err(|why| format!("no bound: {why}"))
+fn error(proof: &Proof, program: usize, domain: &Domain) -> Proven<f64> {
+    let mut of_program: Vec<&Quantity> = proof.quantities.iter().collect();
+    of_program.retain(|it| it.program == program);
+    let mut quantities = of_program.iter();
+    let own = quantities.find(|it| it.domain == *domain);
+    match &own.unwrap_or(&of_program[0]).bound {
+        Ok(bound) => Ok(bound.error.to_f64()),
+        Err(why) => Err(format!("no bound: {why}")),
+    }
 }
 
 /// The wrong decisions of gates that are not about edges.
@@ -370,26 +362,16 @@ fn others(
     epsilons: &[f64],
     parts: &[Domain],
 ) -> Vec<Other> {
-    let gates = entry.info.gates.iter().enumerate();
-    let others = gates.filter(|(_, gate)| gate.role != Role::Edge);
     let mut may = |gate: usize| -> Option<May> {
         let e = epsilons[gate];
         let mut may = None;
         let is_fixed =
             |it: &Compared| it.gate == gate && matches!(it.accepts, Acceptance::Fixed(..));
-        if proof
-            .paths
-            .iter()
-            .flat_map(|path| &path.compared)
-            .any(is_fixed)
-        {
+        let mut compared = proof.paths.iter().flat_map(|path| &path.compared);
+        if compared.any(is_fixed) {
             return None;
         }
-        for quantity in proof
-            .quantities
-            .iter()
-            .filter(|quantity| quantity.gate == gate)
-        {
+        for quantity in proof.of_gate(gate) {
             let Meaning { what, scale, .. } = meanings.of(quantity.path, quantity.place)?;
             for domain in parts {
                 let error = error(proof, quantity.program, domain).ok()?;
@@ -411,10 +393,12 @@ fn others(
         }
         may
     };
+    let mut others = Vec::new();
+    for (gate, info) in entry.info.gates.iter().enumerate() {
+        if info.role != Role::Edge {
+            let may = may(gate).unwrap_or(May::Unknown);
+            others.push(Other { gate, may });
+        }
+    }
     others
-        .map(|(gate, _)| Other {
-            gate,
-            may: may(gate).unwrap_or(May::Unknown),
-        })
-        .collect()
 }

@@ -37,38 +37,31 @@ pub fn symmetry(paths: &[Path], is_edge: impl Fn(usize) -> bool) -> Symmetry {
     let mut forms = Forms::default();
     let mut met: HashMap<Vec<Decision>, Met> = HashMap::new();
     for path in paths {
-        let gates: Vec<&Compared> = path
-            .compared
-            .iter()
-            .filter(|compared| is_edge(compared.gate))
-            .collect();
-        let edges = three_edges(path, &gates).filter(|edges| {
-            path.hits
-                && [1, -1]
-                    .iter()
-                    .all(|side| accept_all(path, &gates, edges, *side))
-        });
-        let Some(edges) = edges else {
+        let mut gates: Vec<&Compared> = path.compared.iter().collect();
+        gates.retain(|compared| is_edge(compared.gate));
+        let Some(edges) = three_edges(path, &gates) else {
             return Symmetry::None;
         };
+        let accept = |side| accept_all(path, &gates, &edges, side);
+        if !path.hits || !accept(1) || !accept(-1) {
+            return Symmetry::None;
+        }
         let of_ray = of_the_ray(&mut forms, path);
         for place in edges {
-            let form = Some(of_edge(&mut forms, path, place)).filter(|_| is_opposite(path, place));
+            let form = of_edge(&mut forms, path, place);
             let of_edge = Met {
-                form,
+                form: is_opposite(path, place).then_some(form),
                 images: images(&mut forms, path, place),
             };
             met.entry(of_ray.clone()).or_insert(of_edge).join(of_edge);
         }
     }
-    met.values()
-        .map(Met::symmetry)
-        .min()
-        .unwrap_or(Symmetry::None)
+    let least = met.values().map(Met::symmetry).min();
+    least.unwrap_or(Symmetry::None)
 }
 
 /// The common formula or images of all edges that one ray may meet.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 struct Met {
     /// The formula, as it is of an edge from a to b; none if there are several, or if it is not the negative of itself
     /// with its ends exchanged.
@@ -84,12 +77,12 @@ impl Met {
     }
 
     fn symmetry(&self) -> Symmetry {
-        match self {
-            Met {
-                images: Some(_), ..
-            } => Symmetry::ExactSigns,
-            Met { form: Some(_), .. } => Symmetry::Negatives,
-            _ => Symmetry::None,
+        if self.images.is_some() {
+            Symmetry::ExactSigns
+        } else if self.form.is_some() {
+            Symmetry::Negatives
+        } else {
+            Symmetry::None
         }
     }
 }
@@ -99,7 +92,7 @@ impl Met {
 fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
     let mut edges = [None; 3];
     for place in gates.iter().flat_map(|compared| &compared.quantities) {
-        let (_, place) = signed(path, *place);
+        let place = signed(path, *place).place;
         if path.operations[place as usize] == Operation::Number(0) {
             continue;
         }
@@ -118,79 +111,122 @@ fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
 /// True if a number does not depend on t_min or t_max, which differ from triangle to triangle as hits are found, and no
 /// vertex is in a divisor, where 0 divided by 0 would be refused on both sides of an edge, or under a root.
 fn is_sound(path: &Path, place: Place) -> bool {
-    let depends = |place: Place, on: Range<u8>| {
-        inputs(path, place)
-            .into_iter()
-            .any(|input| on.contains(&input))
-    };
-    let is_critical = |place: Place| match path.operations[place as usize] {
-        Operation::Div(_, part) | Operation::Sqrt(part) => depends(part, VERTICES),
+    let is_critical = |part: &Place| match path.operations[*part as usize] {
+        Operation::Div(_, part) | Operation::Sqrt(part) => depends(path, part, VERTICES),
         _ => false,
     };
-    !depends(place, ENDS) && !parts(&path.operations, place).any(is_critical)
+    let parts = parts(&path.operations, place);
+    !depends(path, place, ENDS) && !parts.iter().any(is_critical)
+}
+
+/// True if a number is made of some of these inputs.
+fn depends(path: &Path, place: Place, on: Range<u8>) -> bool {
+    let mut inputs = inputs(path, place).into_iter();
+    inputs.any(|input| on.contains(&input))
 }
 
 /// True if some gates accept surely, at an epsilon of 0, if the three edges' values are 0 or have the sign of `side`.
 fn accept_all(path: &Path, gates: &[&Compared], edges: &[Place; 3], side: i8) -> bool {
-    (0..8).all(|which: u8| {
-        let value = |place: Place| {
-            let (minus, place) = signed(path, place);
-            let edge = edges.iter().position(|edge| *edge == place);
-            let sign = edge.map_or(0, |edge| if which >> edge & 1 == 1 { side } else { 0 });
-            (edge.is_some(), if minus { -sign } else { sign })
+    (0..8).all(|which| {
+        let values = EdgeValues {
+            path,
+            edges,
+            which,
+            side,
         };
         gates
             .iter()
-            .all(|compared| accepts_surely(&compared.accepts, value))
+            .all(|compared| values.are_accepted(&compared.accepts))
     })
 }
 
-/// True if a gate accepts at an epsilon of 0, given for each number if it is an edge's value (else it is 0), and its
-/// sign.
-fn accepts_surely(acceptance: &Acceptance, value: impl Fn(Place) -> (bool, i8)) -> bool {
-    let sign = |place: Place| value(place).1;
-    // None if the answer may be either.
-    let answer = |comparison: &Comparison| match *comparison {
-        Comparison::Less(a, b) | Comparison::AtMost(a, b) if value(a).0 && value(b).0 => None,
-        Comparison::Less(a, b) => Some(sign(a) < sign(b)),
-        Comparison::AtMost(a, b) => Some(sign(a) <= sign(b)),
-        Comparison::Zero(a) => Some(sign(a) == 0),
-        // Of a zero the sign bit may be set.
-        Comparison::Negative(a) => Some(sign(a) < 0).filter(|_| sign(a) != 0),
-    };
-    match acceptance {
-        Acceptance::Fixed(..) => false,
-        Acceptance::Clauses(refuse, clauses) => {
-            let least = match refuse {
-                Refuse::Below | Refuse::UnlessAtLeast => 0,
-                Refuse::AtMost | Refuse::UnlessAbove => 1,
-            };
-            clauses
-                .iter()
-                .any(|clause| clause.iter().all(|place| least <= sign(*place)))
+/// Signs of the three edges' values.
+struct EdgeValues<'a> {
+    path: &'a Path,
+    edges: &'a [Place; 3],
+    /// The edges whose values have the sign of `side`, as bits; all others are 0.
+    which: u8,
+    side: i8,
+}
+
+impl EdgeValues<'_> {
+    /// The sign of an edge's value, which may be under negations; none of other numbers.
+    fn of_edge(&self, place: Place) -> Option<i8> {
+        let signed = signed(self.path, place);
+        let edge = self.edges.iter().position(|edge| *edge == signed.place)?;
+        let is_zero = self.which >> edge & 1 == 0;
+        Some(match (is_zero, signed.is_negative) {
+            (true, _) => 0,
+            (false, true) => -self.side,
+            (false, false) => self.side,
+        })
+    }
+
+    /// The sign of a number, which is 0 if it is no edge's value.
+    fn sign(&self, place: Place) -> i8 {
+        self.of_edge(place).unwrap_or(0)
+    }
+
+    /// The answer to a comparison; none if it may be either.
+    fn answer(&self, comparison: &Comparison) -> Option<bool> {
+        let are_edges = |a, b| self.of_edge(a).is_some() && self.of_edge(b).is_some();
+        match *comparison {
+            Comparison::Less(a, b) | Comparison::AtMost(a, b) if are_edges(a, b) => None,
+            Comparison::Less(a, b) => Some(self.sign(a) < self.sign(b)),
+            Comparison::AtMost(a, b) => Some(self.sign(a) <= self.sign(b)),
+            Comparison::Zero(a) => Some(self.sign(a) == 0),
+            // Of a zero the sign bit may be set.
+            Comparison::Negative(a) if self.sign(a) == 0 => None,
+            Comparison::Negative(a) => Some(self.sign(a) < 0),
         }
-        Acceptance::Rounded(outcomes) => {
-            let may_happen = |outcome: &&Outcome| {
-                let mut answers = outcome.answers.iter();
-                answers.all(|(comparison, given)| answer(comparison).is_none_or(|it| it == *given))
-            };
-            outcomes
+    }
+
+    fn may_happen(&self, outcome: &Outcome) -> bool {
+        for (comparison, given) in &outcome.answers {
+            if self.answer(comparison) == Some(!given) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// True if a gate accepts them at an epsilon of 0.
+    fn are_accepted(&self, acceptance: &Acceptance) -> bool {
+        match acceptance {
+            Acceptance::Fixed(..) => false,
+            Acceptance::Clauses(refuse, clauses) => {
+                let least = match refuse {
+                    Refuse::Below | Refuse::UnlessAtLeast => 0,
+                    Refuse::AtMost | Refuse::UnlessAbove => 1,
+                };
+                let holds =
+                    |clause: &Vec<Place>| clause.iter().all(|place| least <= self.sign(*place));
+                clauses.iter().any(holds)
+            }
+            Acceptance::Rounded(outcomes) => outcomes
                 .iter()
-                .filter(may_happen)
-                .all(|outcome| outcome.accepts)
+                .all(|outcome| outcome.accepts || !self.may_happen(outcome)),
         }
     }
 }
 
-/// A number without the signs around it, and whether they make it the negative.
-pub(super) fn signed(path: &Path, place: Place) -> (bool, Place) {
-    match path.operations[place as usize] {
-        Operation::Neg(inner) => {
-            let (minus, place) = signed(path, inner);
-            (!minus, place)
-        }
-        _ => (false, place),
+/// A number without the signs around it.
+pub struct Unsigned {
+    /// True if they make it the negative.
+    pub is_negative: bool,
+    pub place: Place,
+}
+
+pub fn signed(path: &Path, place: Place) -> Unsigned {
+    let mut found = Unsigned {
+        is_negative: false,
+        place,
+    };
+    while let Operation::Neg(inner) = path.operations[found.place as usize] {
+        found.is_negative = !found.is_negative;
+        found.place = inner;
     }
+    found
 }
 
 /// The two vertices that an edge's value is made of, the second one after the first in the order a, b, c, a.
@@ -218,9 +254,9 @@ fn is_opposite(path: &Path, place: Place) -> bool {
         return false;
     };
     let mut forms = Forms::default();
-    let (sign, form) = forms.of(path, place, &|i| i);
-    let (other_sign, other) = forms.of(path, place, &|i| exchanged(i, p, q));
-    form == other && sign != other_sign
+    let here = forms.of(path, place, &|i| i);
+    let there = forms.of(path, place, &|i| exchanged(i, p, q));
+    here == there.negated()
 }
 
 /// An input where two vertices are exchanged.
@@ -234,10 +270,11 @@ fn exchanged(input: u8, p: usize, q: usize) -> u8 {
 
 /// An input where vertices have other names.
 fn renamed(input: u8, name: impl Fn(usize) -> usize) -> u8 {
-    match VERTICES.contains(&input) {
-        true => (3 * name(usize::from(input / 3))) as u8 + input % 3,
-        false => input,
+    if !VERTICES.contains(&input) {
+        return input;
     }
+    let vertex = name(usize::from(input / 3)) as u8;
+    3 * vertex + input % 3
 }
 
 /// If a number is x(p)·y(q) - x(q)·y(p) of two vertices p and q, with both products rounded or neither: x and y, as they
@@ -252,8 +289,8 @@ fn images(forms: &mut Forms, path: &Path, place: Place) -> Option<[Signed; 2]> {
         },
         _ => return None,
     };
-    let of = |place: Place| <[usize; 1]>::try_from(vertices(path, place)).ok();
-    let ([p], [q]) = (of(first[0])?, of(first[1])?);
+    let p = only_vertex(path, first[0])?;
+    let q = only_vertex(path, first[1])?;
     let mut there = first.map(|place| forms.of(path, place, &|i| exchanged(i, p, q)));
     let mut here = second.map(|place| forms.of(path, place, &|i| i));
     there.sort_unstable();
@@ -261,8 +298,8 @@ fn images(forms: &mut Forms, path: &Path, place: Place) -> Option<[Signed; 2]> {
     if p == q || there != here {
         return None;
     }
-    let [x, y] = [(first[0], p), (first[1], q)]
-        .map(|(place, vertex)| forms.of(path, place, &|i| exchanged(i, vertex, FIRST_VERTEX)));
+    let x = forms.of(path, first[0], &|i| exchanged(i, p, FIRST_VERTEX));
+    let y = forms.of(path, first[1], &|i| exchanged(i, q, FIRST_VERTEX));
     // Written from the edge's first end to its second.
     let is_along = ends(path, place).is_some_and(|(from, _)| from == p);
     Some(if is_along { [x, y] } else { [y, x] })
@@ -277,11 +314,21 @@ const ENDS: Range<u8> = 15..17;
 
 /// The vertices that a number is made of: a, b and c as 2, 3 and 4.
 fn vertices(path: &Path, place: Place) -> Vec<usize> {
-    let inputs = inputs(path, place).into_iter();
-    let found = inputs
-        .filter(|i| VERTICES.contains(i))
-        .map(|i| usize::from(i) / 3);
-    found.collect::<BTreeSet<_>>().into_iter().collect()
+    let mut vertices = BTreeSet::new();
+    for input in inputs(path, place) {
+        if VERTICES.contains(&input) {
+            vertices.insert(usize::from(input) / 3);
+        }
+    }
+    vertices.into_iter().collect()
+}
+
+/// The vertex that a number is made of, if it is one.
+fn only_vertex(path: &Path, place: Place) -> Option<usize> {
+    match vertices(path, place)[..] {
+        [vertex] => Some(vertex),
+        _ => None,
+    }
 }
 
 /// The inputs that a number is made of.
@@ -290,7 +337,8 @@ fn inputs(path: &Path, place: Place) -> Vec<u8> {
         Operation::Input(i) => Some(i),
         _ => None,
     };
-    parts(&path.operations, place).filter_map(of_part).collect()
+    let parts = parts(&path.operations, place).into_iter();
+    parts.filter_map(of_part).collect()
 }
 
 /// The comparison of a path, and its answer.
@@ -309,32 +357,39 @@ fn of_edge(forms: &mut Forms, path: &Path, place: Place) -> Signed {
 
 /// The decisions of a path before its first comparison that depends on more than the ray's line.
 fn of_the_ray(forms: &mut Forms, path: &Path) -> Vec<Decision> {
-    // t_max is no part of it: it shrinks from triangle to triangle as hits are found.
-    let depends = |i: u8| 6 <= i;
-    let is_of_ray = |(comparison, _): &&(Comparison, bool)| {
-        comparison
-            .places()
-            .iter()
-            .all(|place| !inputs(path, *place).into_iter().any(depends))
-    };
-    let of_ray: Vec<_> = path
-        .decisions
-        .iter()
-        .take_while(is_of_ray)
-        .copied()
-        .collect();
-    let decision = |(comparison, answer): (Comparison, bool)| {
-        let places = comparison.places().into_iter();
-        let forms = places.map(|place| forms.of(path, place, &|i| i)).collect();
-        (discriminant(&comparison), forms, answer)
-    };
-    of_ray.into_iter().map(decision).collect()
+    let mut of_ray = Vec::new();
+    for (comparison, answer) in &path.decisions {
+        let mut values = Vec::new();
+        for place in comparison.places() {
+            // t_max is no part of the ray: it shrinks from triangle to triangle as hits are found.
+            if depends(path, place, VERTICES) || depends(path, place, ENDS) {
+                return of_ray;
+            }
+            values.push(forms.of(path, place, &|i| i));
+        }
+        of_ray.push((discriminant(comparison), values, *answer));
+    }
+    of_ray
 }
 
 /// A formula without order or sign, by number.
 type Form = usize;
-/// A sign (true is minus) and a formula.
-type Signed = (bool, Form);
+
+/// The value of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+struct Signed {
+    is_negative: bool,
+    form: Form,
+}
+
+impl Signed {
+    fn negated(self) -> Signed {
+        Signed {
+            is_negative: !self.is_negative,
+            form: self.form,
+        }
+    }
+}
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Shape {
@@ -343,7 +398,7 @@ enum Shape {
     /// Without its sign.
     Size(Form),
     Quotient(Form, Form),
-    Root(Form),
+    Root(Signed),
     /// A sum that is rounded once, of products and single numbers; true of each that has the other sign than the first.
     Terms(Vec<Term<Form>>),
 }
@@ -355,32 +410,24 @@ struct Forms {
 }
 
 impl Forms {
-    /// The sign (true is minus) and the form of a number, its inputs renamed.
+    /// The value of a number, its inputs renamed.
     fn of(&mut self, path: &Path, place: Place, rename: &dyn Fn(u8) -> u8) -> Signed {
-        let mut values: Vec<(bool, Form)> = Vec::new();
+        let mut values: Vec<Signed> = Vec::new();
         for operation in &path.operations[..=place as usize] {
-            let of = |place: Place| values[place as usize];
-            let term = |(is_minus, a, b): Term<Place>| {
-                let (s, a) = of(a);
-                match b.map(of) {
-                    Some((t, b)) => (is_minus ^ s ^ t, a.min(b), Some(a.max(b))),
-                    None => (is_minus ^ s, a, None),
-                }
-            };
-            let value = match *operation {
-                Operation::Input(i) => (false, self.number(Shape::Input(rename(i)))),
-                Operation::Number(value) => (value < 0, self.number(Shape::Number(value.abs()))),
-                Operation::Neg(a) => (!of(a).0, of(a).1),
-                Operation::Abs(a) => (false, self.number(Shape::Size(of(a).1))),
-                Operation::Sqrt(a) => {
-                    let (sign, a) = of(a);
-                    (false, self.number(Shape::Root(2 * a + usize::from(sign))))
-                }
-                Operation::Div(a, b) => {
-                    let ((s, a), (t, b)) = (of(a), of(b));
-                    (s ^ t, self.number(Shape::Quotient(a, b)))
-                }
-                _ => self.sum(operation.terms().map(term).collect()),
+            let value = match operation.with(|place| values[place as usize]) {
+                Operation::Input(i) => self.positive(Shape::Input(rename(i))),
+                Operation::Number(value) => Signed {
+                    is_negative: value < 0,
+                    ..self.positive(Shape::Number(value.abs()))
+                },
+                Operation::Neg(a) => a.negated(),
+                Operation::Abs(a) => self.positive(Shape::Size(a.form)),
+                Operation::Sqrt(a) => self.positive(Shape::Root(a)),
+                Operation::Div(a, b) => Signed {
+                    is_negative: a.is_negative ^ b.is_negative,
+                    ..self.positive(Shape::Quotient(a.form, b.form))
+                },
+                sum => self.sum(sum.terms().map(without_order).collect()),
             };
             values.push(value);
         }
@@ -389,13 +436,33 @@ impl Forms {
 
     fn sum(&mut self, mut terms: Vec<Term<Form>>) -> Signed {
         terms.sort_by_key(|(_, a, b)| (*a, *b));
-        let sign = terms[0].0;
-        terms.iter_mut().for_each(|term| term.0 ^= sign);
-        (sign, self.number(Shape::Terms(terms)))
+        let (is_negative, ..) = terms[0];
+        for term in &mut terms {
+            term.0 ^= is_negative;
+        }
+        Signed {
+            is_negative,
+            ..self.positive(Shape::Terms(terms))
+        }
     }
 
-    fn number(&mut self, shape: Shape) -> Form {
+    fn positive(&mut self, shape: Shape) -> Signed {
         let next = self.known.len();
-        *self.known.entry(shape).or_insert(next)
+        Signed {
+            is_negative: false,
+            form: *self.known.entry(shape).or_insert(next),
+        }
+    }
+}
+
+/// A term of a sum with its sign, and with its factors in the order of their forms.
+fn without_order((is_negative, a, b): Term<Signed>) -> Term<Form> {
+    match b {
+        Some(b) => (
+            is_negative ^ a.is_negative ^ b.is_negative,
+            a.form.min(b.form),
+            Some(a.form.max(b.form)),
+        ),
+        None => (is_negative ^ a.is_negative, a.form, None),
     }
 }

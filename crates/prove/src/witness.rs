@@ -3,8 +3,8 @@
 use super::depth::Judge;
 use super::gates::Quantity;
 use super::measures::{Angle, Sample, Samples};
-use super::run::{cone, run};
-use super::{Domain, Dyadic, Leaf, Measures, Proof, Rule, Source};
+use super::run::{Cone, cone, run};
+use super::{Domain, Dyadic, Leaf, Proof, Rule, Source};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Bounded, Exact, Float, Real};
 use crate::kernel::Path;
@@ -105,11 +105,13 @@ impl<'a, F: Searched> Search<'a, F> {
         let path = &proof.paths[quantity.path];
         // A verdict in the unit domain is held to what is printed of all that the kernel divides.
         let is_whole = judge.is_some() && domain.measures.is_none();
-        let (mut cone, renamed) = if is_whole {
+        let cone = if is_whole {
             whole(path)
         } else {
             cone(&path.operations, quantity.place)
         };
+        let renamed = cone.places;
+        let mut cone = cone.operations;
         let mut conditions = if is_whole {
             divisions(path, &domain)
         } else {
@@ -186,7 +188,7 @@ impl<'a, F: Searched> Search<'a, F> {
         goal: Goal,
         near: &mut Vec<F::Near>,
     ) -> Option<f64> {
-        run(&self.operations, self.last(), inputs, &mut self.computed);
+        run(&self.operations, inputs, &mut self.computed);
         let computed = &self.computed;
         let holds = |(comparison, answer): &(Comparison, bool)| {
             let of = |place: Place| &computed[place as usize];
@@ -206,15 +208,11 @@ impl<'a, F: Searched> Search<'a, F> {
         } else {
             Angle::OfScene
         };
-        let is_of_scene = |measures: Measures| {
-            measures.hold(
-                &Sample::of(&inputs.map(F::to_f64)),
-                angle,
-                F::EPSILON.to_f64(),
-            )
-        };
-        if !self.domain.measures.is_none_or(is_of_scene) {
-            return None;
+        if let Some(measures) = self.domain.measures {
+            let sample = Sample::of(&inputs.map(F::to_f64));
+            if !measures.hold(&sample, angle, F::EPSILON.to_f64()) {
+                return None;
+            }
         }
         let compare = |x: &F::Near, bound: f64| F::approximate(x)?.partial_cmp(&bound);
         let rules = (F::near, compare, F::approximate);
@@ -226,10 +224,8 @@ impl<'a, F: Searched> Search<'a, F> {
     /// The exact score of inputs, in the domain by exact arithmetic; none if they are outside.
     pub fn exact(&mut self, inputs: &Inputs<F>, goal: Goal) -> Option<f64> {
         self.score(inputs, goal, &mut Vec::new())?;
-        let has_root = self
-            .operations
-            .iter()
-            .any(|it| matches!(it, Operation::Sqrt(_)));
+        let mut operations = self.operations.iter();
+        let has_root = operations.any(|it| matches!(it, Operation::Sqrt(_)));
         let (score, counts) = if has_root {
             // Exact numbers with roots grow too long; these know their own errors.
             let number = |x: F| Bounded::new(x.to_f64());
@@ -245,11 +241,6 @@ impl<'a, F: Searched> Search<'a, F> {
             self.measure(inputs, goal, &mut Vec::new(), rules)?
         };
         counts.then_some(score)
-    }
-
-    /// Its last operation.
-    pub(super) fn last(&self) -> Place {
-        self.operations.len() as Place - 1
     }
 
     /// True in the domain, given how a number times a sign compares with a bound; false where that is not known.
@@ -290,7 +281,7 @@ impl<'a, F: Searched> Search<'a, F> {
     ) -> Option<(f64, bool)> {
         let is_verdict = matches!(goal, Goal::Missed | Goal::Hit);
         let numbers = inputs.map(&number);
-        run(&self.operations, self.last(), &numbers, values);
+        run(&self.operations, &numbers, values);
         let signed = |place: Place, sign: f64| {
             let value = values[place as usize].clone();
             if sign < 0.0 { -value } else { value }
@@ -319,10 +310,10 @@ impl<'a, F: Searched> Search<'a, F> {
 }
 
 /// The program of a path, as a cone is given.
-fn whole(path: &Path) -> (Vec<Operation>, Vec<Option<Place>>) {
+fn whole(path: &Path) -> Cone {
     let operations = path.operations.clone();
     let places = (0..operations.len() as Place).map(Some).collect();
-    (operations, places)
+    Cone { operations, places }
 }
 
 /// The conditions of a domain on all divisors, quotients and roots of a path.
@@ -356,17 +347,21 @@ fn divisions(path: &Path, domain: &Domain) -> Vec<Condition> {
 }
 
 /// The pairs of all points, and the axes, that are in one box in a quantity's proof.
-fn boxed(quantity: &Quantity) -> impl Iterator<Item = (usize, usize, usize)> {
+fn boxed(quantity: &Quantity) -> Vec<(usize, usize, usize)> {
     let is_boxed = |point: usize, axis: usize| {
-        let mut sources = quantity
-            .lemmas
-            .iter()
-            .flat_map(|lemma| &lemma.formula.sources);
+        let lemmas = quantity.lemmas.iter();
+        let mut sources = lemmas.flat_map(|lemma| &lemma.formula.sources);
         sources.any(|source| *source == Source::Boxed(point, axis))
     };
-    let pairs = (0..4).flat_map(|p| (p + 1..4).map(move |q| (p, q)));
-    let all = pairs.flat_map(|(p, q)| (0..3).map(move |axis| (p, q, axis)));
-    all.filter(move |(p, q, axis)| is_boxed(*p, *axis) && is_boxed(*q, *axis))
+    let mut all = Vec::new();
+    for (p, q) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+        for axis in 0..3 {
+            if is_boxed(p, axis) && is_boxed(q, axis) {
+                all.push((p, q, axis));
+            }
+        }
+    }
+    all
 }
 
 /// True if a coordinate is used otherwise than in a difference of points.

@@ -284,12 +284,7 @@ const SAMPLE: [f64; 17] = [
 pub fn names(guarded: &Guarded) -> Vec<String> {
     let operations = &guarded.operations;
     let mut values = Vec::new();
-    run(
-        operations,
-        operations.len() as Place - 1,
-        &SAMPLE,
-        &mut values,
-    );
+    run(operations, &SAMPLE, &mut values);
     let known = known();
     let (mut taken, mut names) = (HashSet::new(), Vec::new());
     for (place, operation) in operations.iter().enumerate() {

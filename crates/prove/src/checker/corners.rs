@@ -66,7 +66,6 @@ pub struct Problem<T> {
 }
 
 /// The largest sum of effects, and the first corner that has it.
-#[derive(Debug, PartialEq, Eq)]
 pub struct Found {
     /// The sum of the effects that do not depend on a unit vector; all of them if there is none.
     pub sum: BigInt,

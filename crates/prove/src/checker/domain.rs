@@ -38,6 +38,20 @@ pub struct Leaf {
     pub less: Option<usize>,
 }
 
+impl Leaf {
+    pub fn of(input: usize) -> Leaf {
+        Leaf { input, less: None }
+    }
+
+    /// Adds a multiple of it to a sum of inputs.
+    pub fn add_to(self, sum: &mut [i64; INPUTS], factor: i64) {
+        sum[self.input] += factor;
+        if let Some(less) = self.less {
+            sum[less] -= factor;
+        }
+    }
+}
+
 /// True if an input is a coordinate of a point: of the origin, a, b or c.
 pub fn is_of_point(input: usize) -> bool {
     matches!(input, 0..3 | 6..15)

@@ -1,11 +1,11 @@
 //! The format of a program's floats, and the bounds of one rounding: "One rounding" in the guide.
 
-use super::number::{Number, ceil_log2, power, show, up_to};
+use super::number::{Number, ceil_log2, integer, power, show, up_to};
 use super::reader::Outcome;
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 
 /// The numbers that describe a format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Parameters {
     pub digits: i64,
     /// The exponent of the smallest subnormal number.
@@ -65,6 +65,11 @@ impl Format {
             unit: power(-parameters.digits),
             tiny: power(parameters.smallest - 1),
         }
+    }
+
+    /// True if a whole number is a float, with at most as many digits.
+    pub fn has(&self, value: i64) -> bool {
+        integer(value).abs() <= power(self.parameters.digits)
     }
 
     /// True if it is f32 or f64, the formats in which a `minor` is defined.

@@ -16,33 +16,27 @@ use std::collections::HashSet;
 use steps::Step;
 
 /// The variables and the steps of a lemma.
-pub struct Formula<'a> {
+pub struct Formula<'p> {
+    program: &'p Program,
     variables: Vec<Variable>,
     /// The variables that are coordinates of one unit vector in which the last step is linear.
     unit: Vec<usize>,
-    steps: Vec<Step<'a>>,
+    /// True if one of the variables is a quotient, whose rule has steps for the proof alone.
+    has_quotient: bool,
+    steps: Vec<Step>,
 }
 
-impl<'a> Formula<'a> {
+impl<'p> Formula<'p> {
     /// Reads a formula; with the quotient, in the lemmas that have one.
     pub fn read(
-        program: &Program,
+        program: &'p Program,
         quotient: Option<Quotient>,
-        reader: &mut Reader<'a>,
+        reader: &mut Reader,
     ) -> Outcome<Self> {
         let variables = variables::read(program, quotient, reader)?;
-        let mut unit = Vec::new();
-        for (v, variable) in variables.iter().enumerate() {
-            if variable.unit.is_some() {
-                unit.push(v);
-            }
-        }
-        let mut formula = Formula {
-            variables,
-            unit,
-            steps: vec![],
-        };
-        formula.read_steps(program, quotient.is_some(), reader)?;
+        let mut formula = Formula::of_variables(program, variables);
+        formula.has_quotient = quotient.is_some();
+        formula.read_steps(reader)?;
         ensure(
             formula.is_whole(),
             "found steps that the last one does not use, or none",
@@ -51,7 +45,7 @@ impl<'a> Formula<'a> {
             formula.unit.is_empty() || formula.is_linear(formula.steps.len() - 1),
             "found a last step without a part, expected one with parts",
         )?;
-        if quotient.is_some() {
+        if formula.has_quotient {
             formula.leave_out_roundings();
         }
         if reader.is_next("relative") {
@@ -60,22 +54,31 @@ impl<'a> Formula<'a> {
         Ok(formula)
     }
 
-    fn read_steps(
-        &mut self,
-        program: &Program,
-        in_quotient: bool,
-        reader: &mut Reader<'a>,
-    ) -> Outcome<()> {
+    fn of_variables(program: &'p Program, variables: Vec<Variable>) -> Self {
+        let mut unit = Vec::new();
+        for (v, variable) in variables.iter().enumerate() {
+            if variable.unit.is_some() {
+                unit.push(v);
+            }
+        }
+        Formula {
+            program,
+            variables,
+            unit,
+            has_quotient: false,
+            steps: vec![],
+        }
+    }
+
+    fn read_steps(&mut self, reader: &mut Reader) -> Outcome<()> {
         while reader.is_next("step") {
             let form = "step OPERATION KIND OPERANDS";
             let words = reader.read(form, |words| Some(words.to_vec()))?;
-            match self.step(&words, program, in_quotient) {
-                Ok(step) => self.steps.push(step),
-                Err(expected) => {
-                    let line = words.join(" ");
-                    return Err(format!("found `step {line}`, expected {expected}"));
-                }
-            }
+            let step = self.step(&words).map_err(|expected| {
+                let line = words.join(" ");
+                format!("found `step {line}`, expected {expected}")
+            })?;
+            self.steps.push(step);
             ensure(
                 self.steps.len() <= MOST_ROWS,
                 format!("found more than {MOST_ROWS} steps"),

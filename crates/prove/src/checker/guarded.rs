@@ -23,18 +23,18 @@ struct Way {
     sure: Pattern,
 }
 
-struct Guarded<'p, 'a> {
-    program: &'p Program<'a>,
+struct Guarded<'p> {
+    program: &'p Program,
     /// The numbers that have a margin.
     margins: HashSet<usize>,
-    signs: Signs,
+    signs: Signs<'p>,
     steps: usize,
 }
 
 /// Reads and checks everything after the heading. Returns how many margins there are.
-pub fn check<'a>(format: Format, reader: &mut Reader<'a>) -> Outcome<usize> {
+pub fn check(format: Format, reader: &mut Reader) -> Outcome<usize> {
     let form = "guarded line, ray or interval, and both or front";
-    let promise = reader.read(form, promise)?;
+    let promise = reader.read(form, Promise::parse)?;
     let program = Program::of_operations(format, reader)?;
     let signs = Signs::new(promise, &program);
     let mut guarded = Guarded {
@@ -54,17 +54,7 @@ pub fn check<'a>(format: Format, reader: &mut Reader<'a>) -> Outcome<usize> {
     Ok(guarded.margins.len())
 }
 
-fn promise(words: &[&str]) -> Option<Promise> {
-    let &[extent, sides] = words else { return None };
-    let has_extent = ["line", "ray", "interval"].contains(&extent);
-    let has_sides = ["both", "front"].contains(&sides);
-    (has_extent && has_sides).then(|| Promise {
-        extent: extent.to_owned(),
-        is_front: sides == "front",
-    })
-}
-
-impl<'a> Guarded<'_, 'a> {
+impl Guarded<'_> {
     fn read_margins(&mut self, reader: &mut Reader) -> Outcome<()> {
         let mut margins = Margins::new(self.program);
         while reader.is_next("margin") {
@@ -111,7 +101,7 @@ impl<'a> Guarded<'_, 'a> {
     }
 
     /// Reads and checks the decisions after a way, each with its branches.
-    fn step(&mut self, way: &Way, reader: &mut Reader<'a>) -> Outcome<()> {
+    fn step(&mut self, way: &Way, reader: &mut Reader) -> Outcome<()> {
         self.steps += 1;
         ensure(self.steps < MOST_STEPS, "found too many steps")?;
         if reader.is_next("choice") {
@@ -127,14 +117,14 @@ impl<'a> Guarded<'_, 'a> {
             self.gate(way, reader)
         } else if reader.is_next("found") {
             reader.read_word("found")?;
-            self.signs.ensure_hit(self.program, &way.sure, &way.gates)
+            self.signs.ensure_hit(&way.sure, &way.gates)
         } else {
             reader.read_word("ask")
         }
     }
 
     /// The branches in which a condition surely holds, and its opposite. Otherwise the kernel asks.
-    fn sign(&mut self, way: &Way, reader: &mut Reader<'a>) -> Outcome<()> {
+    fn sign(&mut self, way: &Way, reader: &mut Reader) -> Outcome<()> {
         let literal = reader.read("sign CONDITION", |words| {
             let &[word] = words else { return None };
             self.literal(word)
@@ -149,7 +139,7 @@ impl<'a> Guarded<'_, 'a> {
     }
 
     /// A gate: wherever it misses no hit is possible. After it, one of its patterns of acceptance holds.
-    fn gate(&mut self, way: &Way, reader: &mut Reader<'a>) -> Outcome<()> {
+    fn gate(&mut self, way: &Way, reader: &mut Reader) -> Outcome<()> {
         let name = reader.read("gate NAME", |words| {
             let &[name] = words else { return None };
             Some(name)
@@ -161,7 +151,7 @@ impl<'a> Guarded<'_, 'a> {
         while reader.is_next("miss") {
             let mut known = way.sure.clone();
             known.extend(self.pattern("miss CONDITIONS", reader)?);
-            let outcome = self.signs.ensure_miss(self.program, &known);
+            let outcome = self.signs.ensure_miss(&known);
             outcome.map_err(|why| format!("gate '{name}' {why}"))?;
         }
         let mut passed = way.clone();

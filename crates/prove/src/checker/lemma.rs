@@ -1,6 +1,5 @@
 //! Lemmas: which rule proves the bound of an operation, and the rule of sums.
 
-use super::format::Bound;
 use super::formula::Formula;
 use super::number::{ERROR_DIGITS, SIZE_DIGITS, round_up};
 use super::operations::index;
@@ -94,16 +93,14 @@ fn sum(program: &Program, place: usize, reader: &mut Reader) -> Outcome<Lemma> {
         formula.place() == Some(place),
         format!("found another last step, expected operation {place}"),
     )?;
-    let shown = formula.maximum(&program.format, reader)?;
-    let size = round_up(&shown.size, SIZE_DIGITS);
-    let error = round_up(&shown.error, ERROR_DIGITS);
-    let computed = shown.computed.min(&size + &error);
+    let shown = formula.maximum(reader)?;
+    let mut bound = shown.bound;
+    bound.size = round_up(&bound.size, SIZE_DIGITS);
+    bound.error = round_up(&bound.error, ERROR_DIGITS);
+    let by_error = &bound.size + &bound.error;
+    bound.computed = bound.computed.min(by_error);
     Ok(Lemma {
-        bound: Bound {
-            size,
-            computed,
-            error,
-        },
+        bound,
         before: shown.before,
         unit: None,
     })

@@ -64,13 +64,13 @@ struct Counted {
 }
 
 /// The margins of a program's numbers.
-pub struct Margins<'p, 'a> {
-    program: &'p Program<'a>,
+pub struct Margins<'p> {
+    program: &'p Program,
     counts: HashMap<Counted, Count>,
 }
 
-impl<'p, 'a> Margins<'p, 'a> {
-    pub fn new(program: &'p Program<'a>) -> Margins<'p, 'a> {
+impl<'p> Margins<'p> {
+    pub fn new(program: &'p Program) -> Margins<'p> {
         Margins {
             program,
             counts: HashMap::new(),
@@ -120,7 +120,7 @@ impl<'p, 'a> Margins<'p, 'a> {
             }
             return Ok(count);
         }
-        match (self.program.name(place), self.program.operands(place)) {
+        match self.program.operations[place].parts() {
             ("number", _) => Ok(Count {
                 underflows: 0,
                 ..Count::INPUT

@@ -17,6 +17,16 @@ pub fn plus(a: u64, b: u64) -> u64 {
     (a + b) % PRIME
 }
 
+pub fn negative(x: u64) -> u64 {
+    minus(0, x)
+}
+
+/// A whole number.
+pub fn number(value: i64) -> u64 {
+    let size = value.unsigned_abs() % PRIME;
+    if value < 0 { negative(size) } else { size }
+}
+
 /// The power of a number, for small exponents.
 pub fn raised(x: u64, exponent: u64) -> u64 {
     let mut product = 1;
@@ -51,14 +61,17 @@ pub fn cross(p: Vector, q: Vector) -> Vector {
     from_fn(|axis| {
         let j = (axis + 1) % 3;
         let k = (axis + 2) % 3;
-        minus(times(p[j], q[k]), times(p[k], q[j]))
+        let ahead = times(p[j], q[k]);
+        let back = times(p[k], q[j]);
+        minus(ahead, back)
     })
 }
 
 pub fn dot(p: Vector, q: Vector) -> u64 {
     let mut sum = 0;
     for axis in 0..3 {
-        sum = plus(sum, times(p[axis], q[axis]));
+        let product = times(p[axis], q[axis]);
+        sum = plus(sum, product);
     }
     sum
 }

@@ -25,8 +25,8 @@ pub fn number(word: &str) -> Option<Number> {
     if mantissa < 0 || !is_near {
         return None;
     }
-    let mantissa = Number::from(BigInt::from(mantissa));
-    let found = shifted(&mantissa, exponent);
+    let mantissa = BigInt::from(mantissa);
+    let found = shifted(&mantissa.into(), exponent);
     (show(&found) == word).then_some(found)
 }
 
@@ -45,14 +45,16 @@ pub fn show(x: &Number) -> String {
     }
 }
 
+/// A whole number.
+pub fn integer(value: i64) -> Number {
+    Number::from_integer(value.into())
+}
+
 /// A power of two.
 pub fn power(exponent: i64) -> Number {
     let power = BigInt::one() << exponent.unsigned_abs();
-    if exponent < 0 {
-        Number::new_raw(BigInt::one(), power)
-    } else {
-        Number::from(power)
-    }
+    let found = Number::from(power);
+    if exponent < 0 { found.recip() } else { found }
 }
 
 /// x * 2^exponent. Only factors of two are common to numerator and denominator.
@@ -61,12 +63,13 @@ pub fn shifted(x: &Number, exponent: i64) -> Number {
         return x.clone();
     }
     let size = exponent.unsigned_abs();
+    let halved = if exponent < 0 { x.numer() } else { x.denom() };
+    let common = twos(halved).min(size);
+    let left = size - common;
     if exponent < 0 {
-        let common = twos(x.numer()).min(size);
-        Number::new_raw(x.numer() >> common, x.denom() << (size - common))
+        Number::new_raw(x.numer() >> common, x.denom() << left)
     } else {
-        let common = twos(x.denom()).min(size);
-        Number::new_raw(x.numer() << (size - common), x.denom() >> common)
+        Number::new_raw(x.numer() << left, x.denom() >> common)
     }
 }
 
@@ -93,11 +96,13 @@ pub fn split(x: &Number) -> Binary {
 
 /// The smallest e with x <= 2^e, for a positive x.
 pub fn ceil_log2(x: &Number) -> i64 {
-    let mut e = x.numer().bits() as i64 - x.denom().bits() as i64 - 1;
-    while power(e) < *x {
-        e += 1;
+    let of_numerator = x.numer().bits() as i64;
+    let of_denominator = x.denom().bits() as i64;
+    let mut exponent = of_numerator - of_denominator - 1;
+    while power(exponent) < *x {
+        exponent += 1;
     }
-    e
+    exponent
 }
 
 /// The smallest multiple of 2^last that is at least x.
@@ -120,11 +125,12 @@ pub fn root_up(x: &Number, digits: i64) -> Number {
     }
     // The root lies in (2^(e-1), 2^e].
     let e = (ceil_log2(x) + 1).div_euclid(2);
-    let scaled = shifted(x, 2 * (digits - e)).ceil().to_integer();
+    let places = digits - e;
+    let scaled = shifted(x, 2 * places).ceil().to_integer();
     let mut root = scaled.sqrt();
     if &root * &root < scaled {
         root += 1;
     }
-    let root = shifted(&Number::from(root), e - digits);
-    round_up(&root, digits)
+    let found = shifted(&root.into(), -places);
+    round_up(&found, digits)
 }

@@ -2,16 +2,35 @@
 
 use super::domain::INPUTS;
 use super::format::Format;
-use super::number::{power, whole};
+use super::number::whole;
 use super::reader::{Outcome, Reader};
-use num_bigint::BigInt;
 
 /// Longer programs and formulas are refused.
 pub const MOST_ROWS: usize = 1 << 12;
 
+/// The names of operations, and of steps of a formula.
+const NAMES: [&str; 12] = [
+    "input",
+    "number",
+    "variables",
+    "neg",
+    "abs",
+    "add",
+    "sub",
+    "mul",
+    "div",
+    "sqrt",
+    "fma",
+    "minor",
+];
+
+pub fn known_name(word: &str) -> Option<&'static str> {
+    NAMES.into_iter().find(|name| *name == word)
+}
+
 /// An input's or a number's value is `value`; everything else has operands.
-pub struct Operation<'a> {
-    pub name: &'a str,
+pub struct Operation {
+    pub name: &'static str,
     pub operands: Vec<usize>,
     pub value: i64,
 }
@@ -24,38 +43,63 @@ pub struct Term {
     pub right: Option<usize>,
 }
 
+impl Operation {
+    /// The name and the operands, which together say what is computed.
+    pub fn parts(&self) -> (&str, &[usize]) {
+        (self.name, &self.operands)
+    }
+
+    /// True if it is an input, a number that is a float, or has as many operands as its name demands.
+    fn is_right(&self, format: &Format) -> bool {
+        match self.parts() {
+            ("input", []) => (0..INPUTS as i64).contains(&self.value),
+            ("number", []) => format.has(self.value),
+            ("abs" | "sqrt", [_]) => true,
+            ("div", [_, _]) => true,
+            (name, operands) => terms(name, operands).is_some(),
+        }
+    }
+}
+
 impl Term {
-    fn plus(left: usize, right: Option<usize>) -> Term {
-        Term {
-            is_negative: false,
-            left,
-            right,
-        }
-    }
-
-    fn minus(left: usize, right: Option<usize>) -> Term {
-        Term {
-            is_negative: true,
-            left,
-            right,
-        }
-    }
-
     /// The numbers that it multiplies.
     pub fn factors(&self) -> impl Iterator<Item = usize> + Clone {
         [self.left].into_iter().chain(self.right)
+    }
+
+    fn negated(self) -> Term {
+        Term {
+            is_negative: !self.is_negative,
+            ..self
+        }
+    }
+}
+
+fn alone(number: usize) -> Term {
+    Term {
+        is_negative: false,
+        left: number,
+        right: None,
+    }
+}
+
+fn product(left: usize, right: usize) -> Term {
+    Term {
+        is_negative: false,
+        left,
+        right: Some(right),
     }
 }
 
 /// The terms that an operation adds up; none for operations that are not sums.
 pub fn terms(name: &str, operands: &[usize]) -> Option<Vec<Term>> {
     let terms = match (name, operands) {
-        ("neg", &[a]) => vec![Term::minus(a, None)],
-        ("add", &[a, b]) => vec![Term::plus(a, None), Term::plus(b, None)],
-        ("sub", &[a, b]) => vec![Term::plus(a, None), Term::minus(b, None)],
-        ("mul", &[a, b]) => vec![Term::plus(a, Some(b))],
-        ("fma", &[a, b, c]) => vec![Term::plus(a, Some(b)), Term::plus(c, None)],
-        ("minor", &[a, b, c, d]) => vec![Term::plus(a, Some(b)), Term::minus(c, Some(d))],
+        ("neg", &[a]) => vec![alone(a).negated()],
+        ("add", &[a, b]) => vec![alone(a), alone(b)],
+        ("sub", &[a, b]) => vec![alone(a), alone(b).negated()],
+        ("mul", &[a, b]) => vec![product(a, b)],
+        ("fma", &[a, b, c]) => vec![product(a, b), alone(c)],
+        ("minor", &[a, b, c, d]) => vec![product(a, b), product(c, d).negated()],
         _ => return None,
     };
     Some(terms)
@@ -77,7 +121,7 @@ pub fn index(word: &str, end: usize) -> Option<usize> {
 }
 
 /// Reads the lines of operations.
-pub fn read<'a>(format: &Format, reader: &mut Reader<'a>) -> Outcome<Vec<Operation<'a>>> {
+pub fn read(format: &Format, reader: &mut Reader) -> Outcome<Vec<Operation>> {
     let mut operations = Vec::new();
     while reader.is_next("op") && operations.len() < MOST_ROWS {
         let next = operations.len();
@@ -89,39 +133,20 @@ pub fn read<'a>(format: &Format, reader: &mut Reader<'a>) -> Outcome<Vec<Operati
 }
 
 /// The operation of a line, which must be the next one.
-fn parsed<'a>(words: &[&'a str], next: usize, format: &Format) -> Option<Operation<'a>> {
+fn parsed(words: &[&str], next: usize, format: &Format) -> Option<Operation> {
     let (&[place, name], operands) = words.split_first_chunk()?;
     if whole(place) != Some(next) {
         return None;
     }
-    if ["input", "number"].contains(&name) {
-        let &[word] = operands else { return None };
-        let value = whole(word)?;
-        return is_value(name, value, format).then_some(Operation {
-            name,
-            operands: vec![],
-            value,
-        });
-    }
-    let operands = indices(operands, next)?;
-    let is_known = match (name, operands.len()) {
-        ("abs" | "sqrt", 1) => true,
-        ("div", 2) => true,
-        _ => terms(name, &operands).is_some(),
-    };
-    is_known.then_some(Operation {
-        name,
-        operands,
+    let mut operation = Operation {
+        name: known_name(name)?,
+        operands: vec![],
         value: 0,
-    })
-}
-
-/// True if it is one of the inputs, or a number that is a float.
-fn is_value(name: &str, value: i64, format: &Format) -> bool {
-    if name == "input" {
-        return (0..INPUTS as i64).contains(&value);
+    };
+    match (name, operands) {
+        ("input" | "number", &[value]) => operation.value = whole(value)?,
+        ("input" | "number", _) => return None,
+        _ => operation.operands = indices(operands, next)?,
     }
-    let size = BigInt::from(value.unsigned_abs());
-    let most = power(format.parameters.digits).to_integer();
-    size <= most
+    operation.is_right(format).then_some(operation)
 }

@@ -1,11 +1,12 @@
 //! Inputs modulo a prime, and the numbers there that a guarded kernel may be made from.
 
 use super::domain::INPUTS;
-use super::modular::{PRIME, Vector, cross, difference, dot, inverse, minus, plus, raised, times};
+use super::modular::{PRIME, raised, times};
+use super::modular::{Vector, cross, difference, dot, inverse, minus, negative, number, plus};
+use super::operations::Operation;
 use super::program::Program;
 use std::array::from_fn;
 use std::collections::HashMap;
-use std::ops::{Range, RangeInclusive};
 
 /// The numbers that have a sign of their own.
 pub const U: usize = 0;
@@ -24,6 +25,9 @@ pub const COUNT: usize = 16;
 /// N·N, which is positive.
 pub const SQUARE: usize = 16;
 
+/// A sign for each number that has one of its own.
+pub type KnownSigns = [i8; COUNT];
+
 pub const POINTS: usize = 5;
 
 /// Inputs, and the known numbers there.
@@ -35,9 +39,8 @@ pub struct Point {
 impl Point {
     pub fn new(seed: u64) -> Point {
         let mut state = seed;
-        let inputs: [u64; INPUTS] = from_fn(|_| next_random(&mut state) % PRIME);
         let mut point = Point {
-            inputs,
+            inputs: from_fn(|_| next_random(&mut state) % PRIME),
             known: [0; COUNT + 1],
         };
         point.compute_known();
@@ -65,7 +68,9 @@ impl Point {
         let w = dot(direction, cross(to_b, to_a));
         let t = dot(normal, to_a);
         let sum = plus(plus(u, v), w);
-        let determinant = minus(0, sum);
+        let determinant = negative(sum);
+        let to_near = times(self.inputs[15], determinant);
+        let to_far = times(self.inputs[16], determinant);
         let known = &mut self.known;
         known[U] = u;
         known[V] = v;
@@ -75,8 +80,8 @@ impl Point {
         known[WU] = plus(w, u);
         known[SUM] = sum;
         known[T] = t;
-        known[NEAR] = minus(t, times(self.inputs[15], determinant));
-        known[FAR] = minus(times(self.inputs[16], determinant), t);
+        known[NEAR] = minus(t, to_near);
+        known[FAR] = minus(to_far, t);
         known[N..N + 3].copy_from_slice(&normal);
         known[D..D + 3].copy_from_slice(&direction);
         known[SQUARE] = dot(normal, normal);
@@ -128,18 +133,32 @@ struct Polynomial {
 }
 
 impl Polynomial {
+    const INPUT: Polynomial = Polynomial {
+        degree: 1,
+        coefficients: 1,
+    };
+
+    fn constant(size: u64) -> Polynomial {
+        Polynomial {
+            degree: 0,
+            coefficients: size,
+        }
+    }
+
     /// The bounds of a sum of two; none if they are too large for this machine's integers.
     fn plus(self, other: Polynomial) -> Option<Polynomial> {
+        let coefficients = self.coefficients.checked_add(other.coefficients)?;
         Some(Polynomial {
             degree: self.degree.max(other.degree),
-            coefficients: self.coefficients.checked_add(other.coefficients)?,
+            coefficients,
         })
     }
 
     fn times(self, other: Polynomial) -> Option<Polynomial> {
+        let coefficients = self.coefficients.checked_mul(other.coefficients)?;
         Some(Polynomial {
             degree: self.degree + other.degree,
-            coefficients: self.coefficients.checked_mul(other.coefficients)?,
+            coefficients,
         })
     }
 
@@ -151,31 +170,22 @@ impl Polynomial {
 /// True if a number is a polynomial within these bounds.
 pub fn is_small(program: &Program, last: usize) -> bool {
     let mut all = Vec::new();
-    for place in 0..=last {
-        let found = polynomial(program, place, &all);
+    for operation in &program.operations[..=last] {
+        let found = polynomial(operation, &all);
         all.push(found.filter(Polynomial::is_small));
     }
     all[last].is_some()
 }
 
-fn polynomial(program: &Program, place: usize, all: &[Option<Polynomial>]) -> Option<Polynomial> {
-    match (program.name(place), program.operands(place)) {
-        ("input", _) => Some(Polynomial {
-            degree: 1,
-            coefficients: 1,
-        }),
-        ("number", _) => Some(Polynomial {
-            degree: 0,
-            coefficients: program.operations[place].value.unsigned_abs(),
-        }),
-        ("add" | "sub", &[a, b]) => all[a]?.plus(all[b]?),
-        ("mul", &[a, b]) => all[a]?.times(all[b]?),
-        ("neg" | "abs", &[a]) => all[a],
+fn polynomial(operation: &Operation, above: &[Option<Polynomial>]) -> Option<Polynomial> {
+    match operation.parts() {
+        ("input", _) => Some(Polynomial::INPUT),
+        ("number", _) => Some(Polynomial::constant(operation.value.unsigned_abs())),
+        ("add" | "sub", &[a, b]) => above[a]?.plus(above[b]?),
+        ("mul", &[a, b]) => above[a]?.times(above[b]?),
+        ("neg" | "abs", &[a]) => above[a],
         // No number with a margin is made from it.
-        _ => Some(Polynomial {
-            degree: 0,
-            coefficients: 0,
-        }),
+        _ => Some(Polynomial::constant(0)),
     }
 }
 
@@ -186,11 +196,11 @@ pub struct Power {
     pub exponent: u64,
 }
 
-/// Known numbers and their powers.
-pub type Factors = [Power; 5];
+/// Powers of known numbers.
+pub type Factors = Vec<Power>;
 
 /// The value of a product at a point.
-pub fn product(factors: &Factors, point: &Point) -> u64 {
+pub fn product(factors: &[Power], point: &Point) -> u64 {
     let mut product = 1;
     for factor in factors {
         let power = raised(point.known[factor.known], factor.exponent);
@@ -213,38 +223,36 @@ pub fn products(points: &[Point]) -> HashMap<u64, Vec<Factors>> {
 
 /// At most one of the weights, their pairs, T and the ends, times powers of D, of N·N, and of one coordinate of N and d.
 fn every_product() -> Vec<Factors> {
-    let mut mains = powers(U..U + 1, 0..=0);
-    mains.extend(powers(U..SUM, 1..=1));
-    mains.extend(powers(T..N, 1..=1));
-    let mut all = Vec::new();
-    for main in mains {
-        for of_sum in powers(SUM..SUM + 1, 0..=3) {
-            for of_square in powers(SQUARE..SQUARE + 1, 0..=2) {
-                for normal in none_or_powers(N, 2) {
-                    for along in none_or_powers(D, 4) {
-                        all.push([main, of_sum, of_square, normal, along]);
-                    }
-                }
+    let choices = [
+        powers((U..SUM).chain(T..N), 1),
+        powers([SUM], 3),
+        powers([SQUARE], 2),
+        powers(N..D, 2),
+        powers(D..COUNT, 4),
+    ];
+    let mut all = vec![Factors::new()];
+    for choice in choices {
+        let mut longer = Vec::new();
+        for factors in &all {
+            for power in &choice {
+                let mut product = factors.clone();
+                product.extend(power);
+                longer.push(product);
             }
         }
+        all = longer;
     }
     all
 }
 
-fn powers(numbers: Range<usize>, exponents: RangeInclusive<u64>) -> Vec<Power> {
-    let mut all = Vec::new();
+/// None of these numbers, or one of them to a power.
+fn powers(numbers: impl IntoIterator<Item = usize>, most: u64) -> Vec<Option<Power>> {
+    let mut all = vec![None];
     for known in numbers {
-        for exponent in exponents.clone() {
-            all.push(Power { known, exponent });
+        for exponent in 1..=most {
+            all.push(Some(Power { known, exponent }));
         }
     }
-    all
-}
-
-/// No coordinate of a vector, or one of three to a power.
-fn none_or_powers(first: usize, most: u64) -> Vec<Power> {
-    let mut all = powers(first..first + 1, 0..=0);
-    all.extend(powers(first..first + 3, 1..=most));
     all
 }
 
@@ -262,30 +270,31 @@ pub struct Case {
     pub axes: [usize; 3],
 }
 
-/// A number's value at a point, in a case.
-pub fn value(program: &Program, last: usize, point: &Point, case: &Case) -> u64 {
-    let mut values = Vec::new();
-    for place in 0..=last {
-        let own = program.operations[place].value;
-        let value = match (program.name(place), program.operands(place)) {
-            ("input", _) => point.inputs[case.input(own as usize)],
-            ("number", _) if own < 0 => minus(0, own.unsigned_abs() % PRIME),
-            ("number", _) => own.unsigned_abs() % PRIME,
-            ("add", &[a, b]) => plus(values[a], values[b]),
-            ("sub", &[a, b]) => minus(values[a], values[b]),
-            ("mul", &[a, b]) => times(values[a], values[b]),
-            ("neg", &[a]) => minus(0, values[a]),
-            ("abs", &[a]) if case.is_negative(a) => minus(0, values[a]),
-            ("abs", &[a]) => values[a],
+impl Case {
+    /// A number's value at a point.
+    pub fn value(&self, program: &Program, last: usize, point: &Point) -> u64 {
+        let mut values = Vec::new();
+        for operation in &program.operations[..=last] {
+            values.push(self.result(operation, &values, point));
+        }
+        values[last]
+    }
+
+    fn result(&self, operation: &Operation, above: &[u64], point: &Point) -> u64 {
+        match operation.parts() {
+            ("input", _) => point.inputs[self.input(operation.value as usize)],
+            ("number", _) => number(operation.value),
+            ("add", &[a, b]) => plus(above[a], above[b]),
+            ("sub", &[a, b]) => minus(above[a], above[b]),
+            ("mul", &[a, b]) => times(above[a], above[b]),
+            ("neg", &[a]) => negative(above[a]),
+            ("abs", &[a]) if self.is_negative(a) => negative(above[a]),
+            ("abs", &[a]) => above[a],
             // No number with a margin is made from it.
             _ => 0,
-        };
-        values.push(value);
+        }
     }
-    values[last]
-}
 
-impl Case {
     /// The input in place of an input, under these names of the axes.
     fn input(&self, input: usize) -> usize {
         match input {

@@ -18,10 +18,10 @@ pub struct Variant {
 }
 
 /// The program of one number, the last one.
-pub struct Program<'a> {
+pub struct Program {
     pub format: Format,
     pub domain: Domain,
-    pub operations: Vec<Operation<'a>>,
+    pub operations: Vec<Operation>,
     /// Pairs of inputs: without their signs, the first is at most the second.
     pub orders: BTreeSet<(usize, usize)>,
     pub limits: Limits,
@@ -58,7 +58,7 @@ pub struct Unit {
 }
 
 /// The length that a vector is divided by.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Length {
     pub place: usize,
     /// True if the vector is multiplied by the length's rounded reciprocal.
@@ -72,9 +72,9 @@ pub struct Fraction {
     pub divisor: usize,
 }
 
-impl<'a> Program<'a> {
+impl Program {
     /// Reads operations alone.
-    pub fn of_operations(format: Format, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
+    pub fn of_operations(format: Format, reader: &mut Reader) -> Outcome<Program> {
         let operations = operations::read(&format, reader)?;
         Ok(Program {
             format,
@@ -88,7 +88,7 @@ impl<'a> Program<'a> {
     }
 
     /// Reads the operations and the suppositions of the proof.
-    pub fn read(format: Format, domain: Domain, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
+    pub fn read(format: Format, domain: Domain, reader: &mut Reader) -> Outcome<Program> {
         reader.read_word("program")?;
         let mut program = Program::of_operations(format, reader)?;
         program.domain = domain;
@@ -108,8 +108,10 @@ impl<'a> Program<'a> {
                 let &[smaller, larger] = words else {
                     return None;
                 };
-                let order = (index(smaller, INPUTS)?, index(larger, INPUTS)?);
-                let is_new = order.0 != order.1 && !self.orders.contains(&order);
+                let smaller = index(smaller, INPUTS)?;
+                let larger = index(larger, INPUTS)?;
+                let order = (smaller, larger);
+                let is_new = smaller != larger && !self.orders.contains(&order);
                 is_new.then_some(order)
             })?;
             self.orders.insert(order);
@@ -173,23 +175,21 @@ impl<'a> Program<'a> {
         let mut text = String::new();
         for (place, operation) in self.operations.iter().enumerate() {
             text.push_str(&format!("op {place} {}", operation.name));
-            match operation.name {
-                "input" => {
-                    let input = names.input(operation.value as usize);
-                    text.push_str(&format!(" {input}"));
-                }
-                "number" => text.push_str(&format!(" {}", operation.value)),
-                _ => {
-                    for operand in &operation.operands {
-                        text.push_str(&format!(" {operand}"));
-                    }
-                }
+            let numbers = match operation.name {
+                "input" => vec![names.input(operation.value as usize) as i64],
+                "number" => vec![operation.value],
+                _ => operation.operands.iter().map(|i| *i as i64).collect(),
+            };
+            for number in numbers {
+                text.push_str(&format!(" {number}"));
             }
             text.push('\n');
         }
         let mut orders = BTreeSet::new();
         for (smaller, larger) in &self.orders {
-            orders.insert((names.input(*smaller), names.input(*larger)));
+            let smaller = names.input(*smaller);
+            let larger = names.input(*larger);
+            orders.insert((smaller, larger));
         }
         Variant {
             operations: text,
@@ -208,15 +208,9 @@ impl<'a> Program<'a> {
 
     /// The fraction that an operation computes, if it is a quotient or a product with a reciprocal.
     pub fn fraction(&self, place: usize) -> Option<Fraction> {
-        let &[left, right] = self.operands(place) else {
-            return None;
-        };
-        match self.name(place) {
-            "div" => Some(Fraction {
-                numerator: left,
-                divisor: right,
-            }),
-            "mul" => {
+        match self.operations[place].parts() {
+            ("div", &[numerator, divisor]) => Some(Fraction { numerator, divisor }),
+            ("mul", &[left, right]) => {
                 let by_right = self.times_reciprocal(left, right);
                 by_right.or_else(|| self.times_reciprocal(right, left))
             }
@@ -226,19 +220,25 @@ impl<'a> Program<'a> {
 
     /// The fraction of a number times another operation, if that one is a reciprocal.
     fn times_reciprocal(&self, numerator: usize, reciprocal: usize) -> Option<Fraction> {
-        let &[one, divisor] = self.operands(reciprocal) else {
+        let ("div", &[one, divisor]) = self.operations[reciprocal].parts() else {
             return None;
         };
-        let is_reciprocal = self.name(reciprocal) == "div" && self.is_one(one);
+        let is_reciprocal = self.is_one(one);
         is_reciprocal.then_some(Fraction { numerator, divisor })
     }
 
     /// True if an operation is the number 1.
     pub fn is_one(&self, place: usize) -> bool {
-        self.name(place) == "number" && self.operations[place].value == 1
+        self.number(place) == Some(1)
     }
 
-    pub fn name(&self, place: usize) -> &'a str {
+    /// The number that an operation is, if it is one.
+    pub fn number(&self, place: usize) -> Option<i64> {
+        let operation = &self.operations[place];
+        (operation.name == "number").then_some(operation.value)
+    }
+
+    pub fn name(&self, place: usize) -> &'static str {
         self.operations[place].name
     }
 
@@ -254,20 +254,16 @@ impl<'a> Program<'a> {
 
     /// The leaf that an operation is: an input, or a difference of two points along an axis.
     pub fn leaf(&self, place: usize) -> Option<Leaf> {
-        if self.name(place) != "sub" {
-            let input = self.input(place)?;
-            return Some(Leaf { input, less: None });
-        }
-        let &[left, right] = self.operands(place) else {
-            return None;
+        let ("sub", &[left, right]) = self.operations[place].parts() else {
+            return self.input(place).map(Leaf::of);
         };
         let input = self.input(left)?;
-        let other = self.input(right)?;
-        let are_points = is_of_point(input) && is_of_point(other);
-        let is_difference = are_points && input % 3 == other % 3 && input != other;
+        let less = self.input(right)?;
+        let are_points = is_of_point(input) && is_of_point(less);
+        let is_difference = are_points && input % 3 == less % 3 && input != less;
         is_difference.then_some(Leaf {
             input,
-            less: Some(other),
+            less: Some(less),
         })
     }
 
@@ -287,12 +283,8 @@ impl<'a> Program<'a> {
         if !is_of_direction(input) {
             return false;
         }
-        for other in 3..6 {
-            if other != input && !self.orders.contains(&(other, input)) {
-                return false;
-            }
-        }
-        true
+        let is_above = |other| other == input || self.orders.contains(&(other, input));
+        (3..6).all(is_above)
     }
 
     /// How far below zero a quotient may be, if that is supposed.
@@ -313,11 +305,8 @@ impl<'a> Program<'a> {
     /// The lemma of a number, or of the number in its neg or abs: a change of sign is exact.
     pub fn lemma(&self, place: usize) -> Outcome<&Lemma> {
         let mut inner = place;
-        while let Some(operation) = self.operations.get(inner) {
-            if !["neg", "abs"].contains(&operation.name) {
-                break;
-            }
-            inner = operation.operands[0];
+        while let Some(("neg" | "abs", &[a])) = self.operations.get(inner).map(Operation::parts) {
+            inner = a;
         }
         let missing = || format!("found operation {place}, expected one with a lemma above");
         self.lemmas.get(&inner).ok_or_else(missing)

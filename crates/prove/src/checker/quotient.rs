@@ -2,11 +2,10 @@
 
 use super::format::{Bound, Format};
 use super::formula::Formula;
-use super::number::{ERROR_DIGITS, Number, SIZE_DIGITS, round_up};
+use super::number::{ERROR_DIGITS, Number, SIZE_DIGITS, integer, round_up};
 use super::program::{Fraction, Program};
 use super::reader::{Outcome, Reader, ensure};
 use super::variables::Quotient;
-use num_traits::One;
 
 pub const UNFIT: &str = "found a rule that does not fit its operation";
 
@@ -18,46 +17,69 @@ pub fn fraction(program: &Program, place: usize, by_reciprocal: bool) -> Outcome
     Ok(fraction)
 }
 
-/// The least size of a computed divisor: of an exact one, less its error. It must not be rounded to zero.
-pub fn least(program: &Program, divisor: usize) -> Outcome<Number> {
-    let least = program.floor(divisor) - &program.bound(divisor)?.error;
-    let tiny = &program.format.tiny;
-    ensure(
-        least > tiny + tiny,
-        "found a divisor that may be rounded to zero, expected a larger floor",
-    )?;
-    Ok(least)
-}
-
-/// The least size of the divisor that a formula uses: if its last rounding is left out, the divisor is as it was before.
-pub fn closest(program: &Program, formula: &Formula, divisor: usize) -> Outcome<Number> {
-    if formula.leaves_out(program, divisor) {
-        Ok(program.floor(divisor) - &program.lemma(divisor)?.before)
-    } else {
-        least(program, divisor)
-    }
-}
-
-/// The change of a quotient by one rounding that is left out: at most this share of its size, and this number.
-///
-/// With e = u + tiny, the rounding is a factor between 1 - e and 1 + e of numerator or divisor, or the numerator
-/// underflows. (1 + e)/(1 - e) is 1 + 2e/(1 - e), so of each rounding e/(1 - e) is enough.
-pub struct LeftOut {
+/// The divisor of a quotient, or of two.
+pub struct Divisor<'p> {
+    program: &'p Program,
+    place: usize,
+    /// The least size of the computed divisor: φ - E_d in the guide.
+    least: Number,
+    /// The change of a quotient by one rounding that is left out, as a share of its size: ε/(1 - ε) in the guide.
+    ///
+    /// The rounding is a factor between 1 - ε and 1 + ε of numerator or divisor, or the numerator underflows.
+    /// (1 + ε)/(1 - ε) is 1 + 2ε/(1 - ε), so of each rounding ε/(1 - ε) is enough.
     pub share: Number,
+    /// The change of a quotient by an underflow that is left out.
     pub tiny: Number,
 }
 
-impl LeftOut {
-    pub fn by(format: &Format, least: &Number) -> LeftOut {
-        let tiny = &format.tiny / least;
-        let e = &format.unit + &tiny;
-        let share = &e / (Number::one() - &e);
-        LeftOut { share, tiny }
+impl<'p> Divisor<'p> {
+    /// An error if the computed divisor may be rounded to zero.
+    pub fn new(program: &'p Program, place: usize) -> Outcome<Self> {
+        let Format { unit, tiny, .. } = &program.format;
+        let error = &program.bound(place)?.error;
+        let least = program.floor(place) - error;
+        ensure(
+            least > tiny + tiny,
+            "found a divisor that may be rounded to zero, expected a larger floor",
+        )?;
+        let tiny = tiny / &least;
+        let epsilon = unit + &tiny;
+        let rest = integer(1) - &epsilon;
+        Ok(Divisor {
+            program,
+            place,
+            least,
+            share: epsilon / rest,
+            tiny,
+        })
+    }
+
+    /// C in the guide: the error of n*/d*.
+    ///
+    /// n*/d* - n/d is (n* - q*d*)/d*. The formula n - q*d is 0 in exact arithmetic, so its error bounds the numerator.
+    pub fn error(&self, formula: &Formula, reader: &mut Reader) -> Outcome<Number> {
+        let closest = self.closest(formula)?;
+        let shown = formula.maximum(reader)?;
+        Ok(shown.bound.error / closest)
+    }
+
+    /// The least size of d*: if its last rounding is left out, the divisor is as it was before.
+    fn closest(&self, formula: &Formula) -> Outcome<Number> {
+        if !formula.leaves_out(self.place) {
+            return Ok(self.least.clone());
+        }
+        let lemma = self.program.lemma(self.place)?;
+        Ok(self.program.floor(self.place) - &lemma.before)
+    }
+
+    /// The change of a quotient of this size by a rounding that is left out, and by an underflow.
+    pub fn left_out(&self, size: &Number) -> Number {
+        &self.share * size + &self.tiny
     }
 }
 
-/// The change of a quotient of this size if the divisor's reciprocal is rounded before it is multiplied: the reciprocal
-/// is off by a relative u, and by a tiny number if it underflows.
+/// R in the guide: the change of a quotient of this size if the divisor's reciprocal is rounded before it is multiplied.
+/// The reciprocal is off by a relative u, and by a tiny number if it underflows.
 pub fn of_reciprocal(format: &Format, size: &Number, numerator: &Bound) -> Number {
     &format.unit * size + &format.tiny * &numerator.computed
 }
@@ -66,14 +88,12 @@ pub fn of_reciprocal(format: &Format, size: &Number, numerator: &Bound) -> Numbe
 pub fn rounded(format: &Format, size: Number, error: Number, before: &Number) -> Outcome<Bound> {
     let mut bound = format.rounded(size, before);
     format.finite(&bound.computed)?;
-    bound.error = round_up(&(error + bound.error), ERROR_DIGITS);
+    bound.error += error;
+    bound.error = round_up(&bound.error, ERROR_DIGITS);
     Ok(bound)
 }
 
-/// The bound of a quotient.
-///
-/// n*/d* - n/d is (n* - q*d*)/d*. The formula n - q*d is 0 in exact arithmetic, so its error bounds the numerator, and d*
-/// is at least as large as the `closest` divisor. Then the roundings that the formula leaves out are added.
+/// The bound of a quotient: C, the roundings that its formula leaves out, and those of the division.
 pub fn bound(
     program: &Program,
     place: usize,
@@ -82,27 +102,26 @@ pub fn bound(
 ) -> Outcome<Bound> {
     let format = &program.format;
     let Fraction { numerator, divisor } = fraction(program, place, by_reciprocal)?;
-    let mut numerators = vec![numerator];
-    let mut above = Bound::exactly(&Number::one());
-    if !by_reciprocal && program.is_one(numerator) {
-        numerators.clear();
+    let is_inverse = program.is_one(numerator) && !by_reciprocal;
+    let numerators = if is_inverse { vec![] } else { vec![numerator] };
+    let above = if is_inverse {
+        Bound::exactly(&integer(1))
     } else {
-        above = program.bound(numerator)?.clone();
-    }
-    let least = least(program, divisor)?;
+        program.bound(numerator)?.clone()
+    };
+    let by = Divisor::new(program, divisor)?;
     if by_reciprocal {
         // The reciprocal must not overflow, although the product may be small.
-        format.finite(&round_up(&least.recip(), ERROR_DIGITS))?;
+        let reciprocal = by.least.recip();
+        format.finite(&round_up(&reciprocal, ERROR_DIGITS))?;
     }
     let is_ordered = is_ordered(program, numerator, divisor);
-    let size = if is_ordered {
-        Number::one()
-    } else if numerators.is_empty() {
-        program.floor(divisor).recip()
-    } else {
-        let size = &above.size / program.floor(divisor);
-        size.min(program.most(place).clone())
-    };
+    let mut size = &above.size / program.floor(divisor);
+    if is_ordered {
+        size = integer(1);
+    } else if !is_inverse {
+        size = size.min(program.most(place).clone());
+    }
     let size = round_up(&size, SIZE_DIGITS);
     let quotient = Quotient {
         size: &size,
@@ -113,17 +132,14 @@ pub fn bound(
         formula.is_quotient_of(&numerators, divisor),
         "found other last steps, expected numerator - quotient * divisor",
     )?;
-    let closest = closest(program, &formula, divisor)?;
-    let mut error = formula.maximum(format, reader)?.error / closest;
-    let mut count = i64::from(formula.leaves_out(program, divisor));
-    for numerator in numerators {
-        count += i64::from(formula.leaves_out(program, numerator));
-    }
-    if count > 0 {
-        let left_out = LeftOut::by(format, &least);
+    let mut error = by.error(&formula, reader)?;
+    let mut operands = numerators;
+    operands.push(divisor);
+    operands.retain(|operand| formula.leaves_out(*operand));
+    if !operands.is_empty() {
+        let count = integer(operands.len() as i64);
         let largest = &size + &error;
-        error += left_out.share * Number::from_integer(count.into()) * largest;
-        error += left_out.tiny;
+        error += by.left_out(&(count * largest));
     }
     let mut before = &size + &error;
     if by_reciprocal {
@@ -133,7 +149,7 @@ pub fn bound(
     } else if is_ordered {
         // |n| <= |d|, both without errors, and rounding is monotone: it is rounded to at most 1. With a reciprocal that
         // is a subnormal number the product can be rounded above 1.
-        before = Number::one();
+        before = integer(1);
     }
     rounded(format, size, error, &before)
 }

@@ -32,10 +32,7 @@ impl<'a> Reader<'a> {
             return Ok(value);
         }
         let found = match line {
-            Some(line) => {
-                let start: String = line.chars().take(MOST_SHOWN).collect();
-                format!("`{start}`")
-            }
+            Some(line) => format!("`{line:.MOST_SHOWN$}`"),
             None => "the end of the file".to_owned(),
         };
         Err(format!("found {found}, expected `{form}`"))

@@ -6,20 +6,20 @@
 //! and t_max·D - T, each times powers of D, of N·N, and of one coordinate of N and of d. Then every combination of
 //! signs that can occur is tried.
 
-use super::modular::{PRIME, inverse, times};
-use super::points::{Assumed, COUNT, Case, FAR, Factors, NEAR, POINTS, Point, SQUARE, SUM, T};
-use super::points::{U, is_small, product, products, seed, value};
+use super::modular::{inverse, negative, times};
+use super::points::{Assumed, COUNT, Case, Factors, KnownSigns, POINTS, Point, SQUARE, SUM, U};
+use super::points::{Power, is_small, product, products, seed};
 use super::program::Program;
-use super::promise::{Promise, can_be};
+use super::promise::Promise;
 use super::reader::{Outcome, ensure};
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap};
 
 /// More signs inside absolute values are not tried.
 const MOST_SIZED: usize = 8;
 
 /// A condition: the signs of `signs` have a product that is negative, or not, and no number is zero.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Literal {
     pub is_negative: bool,
     pub signs: Vec<usize>,
@@ -42,7 +42,7 @@ impl Literal {
 }
 
 /// A number's sign: that of the product of some known ones, or its opposite.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 struct Monomial {
     is_negative: bool,
     odd: Vec<usize>,
@@ -52,17 +52,17 @@ struct Monomial {
 
 impl Monomial {
     /// The monomial of a product of known numbers. N·N is positive, so it counts for nothing.
-    fn of(factors: &Factors, is_negative: bool) -> Monomial {
+    fn of(factors: &[Power], is_negative: bool) -> Monomial {
         let mut monomial = Monomial {
             is_negative,
             odd: vec![],
             even: vec![],
         };
         for factor in factors {
-            if factor.exponent == 0 || factor.known == SQUARE {
+            let is_odd = factor.exponent % 2 == 1;
+            if factor.known == SQUARE {
                 continue;
-            }
-            if factor.exponent % 2 == 1 {
+            } else if is_odd {
                 monomial.odd.push(factor.known);
             } else {
                 monomial.even.push(factor.known);
@@ -71,7 +71,7 @@ impl Monomial {
         monomial
     }
 
-    fn sign(&self, signs: &[i8; COUNT]) -> i8 {
+    fn sign(&self, signs: &KnownSigns) -> i8 {
         let mut sign = if self.is_negative { -1 } else { 1 };
         for known in &self.odd {
             sign *= signs[*known];
@@ -82,6 +82,9 @@ impl Monomial {
         sign
     }
 }
+
+/// The signs of operations that are made of known numbers.
+type Monomials = HashMap<usize, Monomial>;
 
 /// The conditions of an answer: all literals hold, and a pattern of each gate.
 struct Conditions<'c> {
@@ -103,7 +106,8 @@ impl Conditions<'_> {
 }
 
 /// The signs that can occur together.
-pub struct Signs {
+pub struct Signs<'p> {
+    program: &'p Program,
     promise: Promise,
     points: Vec<Point>,
     products: HashMap<u64, Vec<Factors>>,
@@ -122,8 +126,8 @@ struct Asked {
 
 /// The known numbers of a case, with one combination of their signs.
 struct Combination<'m> {
-    monomials: &'m BTreeMap<usize, Monomial>,
-    signs: [i8; COUNT],
+    monomials: &'m Monomials,
+    signs: KnownSigns,
 }
 
 impl Combination<'_> {
@@ -131,6 +135,19 @@ impl Combination<'_> {
     fn sign(&self, place: usize) -> Option<i8> {
         let monomial = self.monomials.get(&place)?;
         Some(monomial.sign(&self.signs))
+    }
+
+    fn may_meet(&self, conditions: &Conditions) -> bool {
+        let may_hold = self.may_hold_all(conditions.known);
+        may_hold && conditions.gates.iter().all(|gate| self.may_pass(gate))
+    }
+
+    fn may_pass(&self, gate: &[Pattern]) -> bool {
+        gate.iter().any(|pattern| self.may_hold_all(pattern))
+    }
+
+    fn may_hold_all(&self, pattern: &[Literal]) -> bool {
+        pattern.iter().all(|literal| self.may_hold(literal))
     }
 
     fn may_hold(&self, literal: &Literal) -> bool {
@@ -146,7 +163,12 @@ impl Combination<'_> {
                 None => return true,
             }
         }
-        product == if literal.is_negative { -1 } else { 1 }
+        let expected = if literal.is_negative { -1 } else { 1 };
+        product == expected
+    }
+
+    fn may_be_all(&self, assumptions: &[Assumed]) -> bool {
+        assumptions.iter().all(|assumed| self.may_be(assumed))
     }
 
     fn may_be(&self, assumed: &Assumed) -> bool {
@@ -155,14 +177,6 @@ impl Combination<'_> {
             Some(sign) => sign >= 0,
             None => true,
         }
-    }
-
-    fn may_hold_all(&self, pattern: &[Literal]) -> bool {
-        pattern.iter().all(|literal| self.may_hold(literal))
-    }
-
-    fn may_pass(&self, gate: &[Pattern]) -> bool {
-        gate.iter().any(|pattern| self.may_hold_all(pattern))
     }
 
     /// Goes on to the next combination of these numbers' signs; false after the last one.
@@ -179,14 +193,15 @@ impl Combination<'_> {
     }
 }
 
-impl Signs {
-    pub fn new(promise: Promise, program: &Program) -> Signs {
+impl<'p> Signs<'p> {
+    pub fn new(promise: Promise, program: &'p Program) -> Signs<'p> {
         let seed = seed(program);
         let mut points = Vec::new();
         for i in 1..=POINTS as u64 {
             points.push(Point::new(seed.wrapping_add(i << 32)));
         }
         Signs {
+            program,
             promise,
             products: products(&points),
             points,
@@ -196,9 +211,9 @@ impl Signs {
     }
 
     /// An error if these conditions hold for some ray that should hit.
-    pub fn ensure_miss(&self, program: &Program, known: &[Literal]) -> Outcome<()> {
+    pub fn ensure_miss(&self, known: &[Literal]) -> Outcome<()> {
         let conditions = Conditions { known, gates: &[] };
-        self.every(program, &conditions, |signs| {
+        self.every(&conditions, |signs| {
             ensure(
                 !self.promise.is_closed_hit(signs),
                 "rejects rays that may hit",
@@ -207,13 +222,11 @@ impl Signs {
     }
 
     /// An error if every gate accepts some ray that does not surely hit the inside of the triangle.
-    pub fn ensure_hit(&self, program: &Program, sure: &[Literal], gates: &[Gate]) -> Outcome<()> {
+    pub fn ensure_hit(&self, sure: &[Literal], gates: &[Gate]) -> Outcome<()> {
         let conditions = Conditions { known: sure, gates };
-        self.every(program, &conditions, |signs| {
-            match self.promise.wrong_hit(signs) {
-                Some(what) => Err(format!("its gates accept rays that {what}")),
-                None => Ok(()),
-            }
+        self.every(&conditions, |signs| match self.promise.wrong_hit(signs) {
+            Some(what) => Err(format!("its gates accept rays that {what}")),
+            None => Ok(()),
         })
     }
 
@@ -221,12 +234,11 @@ impl Signs {
     /// inside absolute values. So no ray that meets the conditions is left out.
     fn every(
         &self,
-        program: &Program,
         conditions: &Conditions,
-        test: impl Fn(&[i8; COUNT]) -> Outcome<()>,
+        test: impl Fn(&KnownSigns) -> Outcome<()>,
     ) -> Outcome<()> {
         let mut places = conditions.places();
-        let sized = inner(program, &places);
+        let sized = self.inner(&places);
         ensure(
             sized.len() <= MOST_SIZED,
             format!("needs the signs of more than {MOST_SIZED} numbers inside absolute values"),
@@ -238,67 +250,80 @@ impl Signs {
                     inner: assumed(&sized, bits),
                     axes: *axes,
                 };
-                let mut monomials = BTreeMap::new();
-                for place in &places {
-                    if let Some(monomial) = self.known_monomial(program, *place, &case) {
-                        monomials.insert(*place, monomial);
+                let monomials = self.monomials(&places, &case);
+                let used = self.used(&monomials);
+                let mut combination = Combination {
+                    monomials: &monomials,
+                    signs: [-1; COUNT],
+                };
+                loop {
+                    let occurs = self.promise.can_be(&combination.signs);
+                    if occurs
+                        && combination.may_be_all(&case.inner)
+                        && combination.may_meet(conditions)
+                    {
+                        test(&combination.signs)?;
+                    }
+                    if !combination.next(&used) {
+                        break;
                     }
                 }
-                self.with_signs(&monomials, &case.inner, conditions, &test)?;
             }
         }
         Ok(())
     }
 
-    fn with_signs(
-        &self,
-        monomials: &BTreeMap<usize, Monomial>,
-        inner: &[Assumed],
-        conditions: &Conditions,
-        test: &impl Fn(&[i8; COUNT]) -> Outcome<()>,
-    ) -> Outcome<()> {
-        let extent = self.promise.extent.as_str();
+    /// The numbers inside absolute values of which some numbers are made.
+    fn inner(&self, places: &BTreeSet<usize>) -> BTreeSet<usize> {
+        let mut found = BTreeSet::new();
+        let mut seen = BTreeSet::new();
+        let mut open = Vec::from_iter(places.clone());
+        while let Some(place) = open.pop() {
+            if !seen.insert(place) {
+                continue;
+            }
+            let operands = self.program.operands(place);
+            if self.program.name(place) == "abs" {
+                found.extend(operands);
+            }
+            open.extend(operands);
+        }
+        found
+    }
+
+    /// The known numbers among some operations.
+    fn monomials(&self, places: &BTreeSet<usize>, case: &Case) -> Monomials {
+        let mut monomials = Monomials::new();
+        for place in places {
+            if let Some(monomial) = self.known_monomial(*place, case) {
+                monomials.insert(*place, monomial);
+            }
+        }
+        monomials
+    }
+
+    /// The numbers whose signs are tried: those of the promise, and those of which operations are made.
+    fn used(&self, monomials: &Monomials) -> BTreeSet<usize> {
         let mut used = BTreeSet::from_iter(U..=SUM);
-        match extent {
-            "ray" => used.extend([T]),
-            "interval" => used.extend([NEAR, FAR]),
-            _ => {}
+        for end in self.promise.ends {
+            used.insert(end.number);
         }
         for monomial in monomials.values() {
             used.extend(&monomial.odd);
             used.extend(&monomial.even);
         }
-        let mut combination = Combination {
-            monomials,
-            signs: [-1; COUNT],
-        };
-        loop {
-            if can_be(&combination.signs, extent == "interval")
-                && inner.iter().all(|assumed| combination.may_be(assumed))
-                && combination.may_hold_all(conditions.known)
-                && conditions
-                    .gates
-                    .iter()
-                    .all(|gate| combination.may_pass(gate))
-            {
-                test(&combination.signs)?;
-            }
-            if !combination.next(&used) {
-                return Ok(());
-            }
-        }
+        used
     }
 
     /// A number's sign, which is found once.
-    fn known_monomial(&self, program: &Program, place: usize, case: &Case) -> Option<Monomial> {
+    fn known_monomial(&self, place: usize, case: &Case) -> Option<Monomial> {
         let asked = Asked {
             place,
             case: case.clone(),
         };
         let mut known = self.known.borrow_mut();
-        let found = known
-            .entry(asked)
-            .or_insert_with(|| self.monomial(program, place, case));
+        let entry = known.entry(asked);
+        let found = entry.or_insert_with(|| self.monomial(place, case));
         found.clone()
     }
 
@@ -306,17 +331,17 @@ impl Signs {
     ///
     /// Two polynomials of small degree and small coefficients that agree at all points are equal, but for a chance below
     /// 2^-200, because the points depend on the whole program.
-    fn monomial(&self, program: &Program, place: usize, case: &Case) -> Option<Monomial> {
-        if !is_small(program, place) {
+    fn monomial(&self, place: usize, case: &Case) -> Option<Monomial> {
+        if !is_small(self.program, place) {
             return None;
         }
         let mut values = Vec::new();
         for point in &self.points {
-            values.push(value(program, place, point, case));
+            values.push(case.value(self.program, place, point));
         }
         let ratio = times(values[1], inverse(values[0]));
         for factors in self.products.get(&ratio)? {
-            if let Some(is_negative) = self.ratio(&values, |point| product(factors, point)) {
+            if let Some(is_negative) = self.ratio(&values, factors) {
                 return Some(Monomial::of(factors, is_negative));
             }
         }
@@ -324,19 +349,18 @@ impl Signs {
     }
 
     /// True if the values are one negative number times the product, false if a positive one; none if neither.
-    fn ratio(&self, values: &[u64], product: impl Fn(&Point) -> u64) -> Option<bool> {
-        let first = product(&self.points[0]);
-        for (value, point) in values.iter().zip(&self.points).skip(1) {
-            if times(*value, first) != times(values[0], product(point)) {
+    fn ratio(&self, values: &[u64], factors: &[Power]) -> Option<bool> {
+        let first = product(factors, &self.points[0]);
+        for (value, point) in values.iter().zip(&self.points) {
+            let here = product(factors, point);
+            if times(*value, first) != times(values[0], here) {
                 return None;
             }
         }
         let ratio = times(values[0], inverse(first));
-        if ratio == 0 {
-            None
-        } else if is_small_ratio(ratio) {
+        if is_small_ratio(ratio) {
             Some(false)
-        } else if is_small_ratio(PRIME - ratio) {
+        } else if is_small_ratio(negative(ratio)) {
             Some(true)
         } else {
             None
@@ -346,7 +370,8 @@ impl Signs {
 
 /// True if it is a whole number up to 64, or the inverse of one.
 fn is_small_ratio(x: u64) -> bool {
-    (1..=64).contains(&x) || (1..=64).contains(&inverse(x))
+    let small = 1..=64;
+    small.contains(&x) || small.contains(&inverse(x))
 }
 
 /// The signs that a combination's bits say of the numbers inside absolute values.
@@ -359,24 +384,6 @@ fn assumed(sized: &BTreeSet<usize>, bits: u32) -> Vec<Assumed> {
         });
     }
     all
-}
-
-/// The numbers inside absolute values of which some numbers are made.
-fn inner(program: &Program, places: &BTreeSet<usize>) -> BTreeSet<usize> {
-    let mut found = BTreeSet::new();
-    let mut seen = BTreeSet::new();
-    let mut open: Vec<usize> = places.iter().copied().collect();
-    while let Some(place) = open.pop() {
-        if !seen.insert(place) {
-            continue;
-        }
-        let operands = program.operands(place);
-        if program.name(place) == "abs" {
-            found.extend(operands);
-        }
-        open.extend(operands);
-    }
-    found
 }
 
 #[cfg(test)]

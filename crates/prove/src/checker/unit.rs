@@ -1,10 +1,10 @@
 //! The rule of unit vectors: a coordinate of a vector that is divided by its length. The guide has it in "Unit vectors".
 
 use super::format::{Bound, Format};
-use super::number::{ERROR_DIGITS, Number, root_up, round_up, shifted};
-use super::program::{Fraction, Lemma, Length, Program, Unit};
+use super::number::{ERROR_DIGITS, Number, integer, root_up, round_up, shifted};
+use super::program::{Lemma, Length, Program, Unit};
 use super::reader::{Outcome, ensure};
-use num_traits::{One, Signed, Zero};
+use num_traits::Signed;
 
 /// The vector before it is divided.
 struct Vector {
@@ -19,15 +19,14 @@ struct Vector {
 /// The lemma of a coordinate of a unit vector. Its error is that of the whole vector.
 pub fn lemma(program: &Program, place: usize) -> Outcome<Lemma> {
     const EXPECTED: &str = "found another operation, expected a part of a vector by its length";
-    let Fraction {
-        numerator,
-        divisor: length,
-    } = program.fraction(place).ok_or(EXPECTED)?;
+    let fraction = program.fraction(place).ok_or(EXPECTED)?;
+    let coordinate = fraction.numerator;
+    let length = fraction.divisor;
     let coordinates = squares(program, length).ok_or(EXPECTED)?;
-    let is_vector = coordinates.len() == 3 && coordinates.contains(&numerator);
+    let is_vector = coordinates.len() == 3 && coordinates.contains(&coordinate);
     ensure(is_vector, EXPECTED)?;
-    let mut before = Number::zero();
-    let mut size = Number::zero();
+    let mut before = integer(0);
+    let mut size = integer(0);
     for coordinate in coordinates {
         let lemma = program.lemma(coordinate)?;
         before += square(&lemma.before);
@@ -46,10 +45,7 @@ pub fn lemma(program: &Program, place: usize) -> Outcome<Lemma> {
     Ok(Lemma {
         before: bound.error.clone(),
         bound,
-        unit: Some(Unit {
-            coordinate: numerator,
-            length,
-        }),
+        unit: Some(Unit { coordinate, length }),
     })
 }
 
@@ -57,48 +53,46 @@ impl Vector {
     /// The bound that the coordinates of the unit vector share. In the guide's letters: A is `shift`, D is `turn`, the
     /// angle's part of the error, Theta is `stretch`, the length's part, and G is `before`.
     fn bound_of_unit(&self, format: &Format) -> Outcome<Bound> {
-        let one = Number::one();
-        let unit = &format.unit;
-        let twice_tiny = times(2, &format.tiny);
+        let Format { unit, tiny, .. } = format;
+        let twice_tiny = tiny * integer(2);
         let before_and_floor = &self.before + &self.floor;
         let shift = &self.before + unit * before_and_floor + &twice_tiny;
         let least = &self.floor - &shift;
         // The share of what underflows in the squares is so small that the root moves by 2u at most.
-        let share = unit * unit * square(&least);
+        let share = square(unit) * square(&least);
         ensure(
-            least.is_positive() && times(6, &format.tiny) <= share,
+            least.is_positive() && tiny * integer(6) <= share,
             "found a length that may be rounded to zero, expected a larger floor",
         )?;
-        let third = &one - times(3, unit);
-        self.ensure_finite(format, &least, &third)?;
+        let third = integer(1) - unit * integer(3);
+        self.ensure_finite(format, &(&least * &third))?;
         // Dunkl and Williams: unit vectors are no farther apart than 2‖x - y‖ over the sum of both lengths.
-        let turn = &shift / (&self.floor - shifted(&shift, -1));
-        let stretch = times(4, unit) / third;
+        let half_of_lengths = &self.floor - shifted(&shift, -1);
+        let turn = shift / half_of_lengths;
+        let stretch = unit * integer(4) / third;
         // An error of the length is at a right angle to one of the direction.
-        let squared = square(&stretch) + (&one + &stretch) * square(&turn);
-        let before = root_up(&squared, ERROR_DIGITS) + &self.size * &format.tiny;
-        let longest = &one + &before;
-        let error = &before + unit * &longest + twice_tiny;
+        let of_turn = (integer(1) + &stretch) * square(&turn);
+        let squared = square(&stretch) + of_turn;
+        let before = root_up(&squared, ERROR_DIGITS) + &self.size * tiny;
+        let longest = integer(1) + &before;
+        let error = before + unit * &longest + twice_tiny;
         let computed = format.float_up(&longest);
         format.finite(&computed)?;
         Ok(Bound {
-            size: one,
+            size: integer(1),
             computed,
             error: round_up(&error, ERROR_DIGITS),
         })
     }
 
-    /// An error if a square, their sum or the reciprocal of the length may overflow.
-    fn ensure_finite(&self, format: &Format, least: &Number, third: &Number) -> Outcome<()> {
-        let longest = &self.size * (Number::one() + times(2, &format.unit));
-        let reciprocal = (least * third).recip();
+    /// An error if a square, their sum or the reciprocal of the computed length may overflow.
+    fn ensure_finite(&self, format: &Format, shortest: &Number) -> Outcome<()> {
+        let factor = integer(1) + &format.unit * integer(2);
+        let longest = &self.size * factor;
+        let reciprocal = shortest.recip();
         format.finite(&round_up(&square(&longest), ERROR_DIGITS))?;
         format.finite(&round_up(&reciprocal, ERROR_DIGITS))
     }
-}
-
-fn times(n: i64, x: &Number) -> Number {
-    Number::from_integer(n.into()) * x
 }
 
 fn square(x: &Number) -> Number {
@@ -113,7 +107,7 @@ fn squares(program: &Program, root: usize) -> Option<Vec<usize>> {
     let mut squares = Vec::new();
     let mut open = program.operands(root).to_vec();
     while let Some(place) = open.pop() {
-        match (program.name(place), program.operands(place)) {
+        match program.operations[place].parts() {
             ("mul", &[a, b]) if a == b => squares.push(a),
             ("fma", &[a, b, c]) if a == b => {
                 squares.push(a);

@@ -141,16 +141,15 @@ pub fn read(
 fn described(words: &[&str], in_quotient: bool) -> Option<Kind> {
     let (kind, numbers) = words.split_first()?;
     let numbers = indices(numbers, MOST_ROWS)?;
-    let input = |input| Leaf { input, less: None };
     let found = match (*kind, &numbers[..]) {
-        ("point", &[point @ 0..4, axis @ 0..3]) => Kind::Leaf(input(coordinate(point, axis))),
-        ("boxed", &[point @ 0..4, axis @ 0..3]) => Kind::Boxed(input(coordinate(point, axis))),
-        ("difference", &[point @ 0..4, other @ 0..4, axis @ 0..3]) => Kind::Leaf(Leaf {
-            input: coordinate(point, axis),
-            less: Some(coordinate(other, axis)),
+        ("point", &[point, axis]) => Kind::Leaf(coordinate(point, axis)?),
+        ("boxed", &[point, axis]) => Kind::Boxed(coordinate(point, axis)?),
+        ("difference", &[point, other, axis]) => Kind::Leaf(Leaf {
+            input: coordinate(point, axis)?.input,
+            less: Some(coordinate(other, axis)?.input),
         }),
-        ("direction", &[axis @ 0..3]) => Kind::Leaf(input(3 + axis)),
-        ("end", &[end @ 0..2]) => Kind::Leaf(input(15 + end)),
+        ("direction", &[axis @ 0..3]) => Kind::Leaf(Leaf::of(3 + axis)),
+        ("end", &[end @ 0..2]) => Kind::Leaf(Leaf::of(15 + end)),
         ("cut", &[place]) => Kind::Cut(place),
         ("part", &[place]) => Kind::Part(place),
         ("quotient", &[]) if in_quotient => Kind::Quotient,
@@ -159,11 +158,12 @@ fn described(words: &[&str], in_quotient: bool) -> Option<Kind> {
     Some(found)
 }
 
-/// A coordinate of the origin, a, b or c, as an input.
-fn coordinate(point: usize, axis: usize) -> usize {
-    match point {
-        0 => axis,
-        _ => 3 + 3 * point + axis,
+/// A coordinate of the origin, a, b or c.
+fn coordinate(point: usize, axis: usize) -> Option<Leaf> {
+    match (point, axis) {
+        (0, 0..3) => Some(Leaf::of(axis)),
+        (1..4, 0..3) => Some(Leaf::of(3 + 3 * point + axis)),
+        _ => None,
     }
 }
 
@@ -176,7 +176,10 @@ fn with_bound(kind: Kind, program: &Program, quotient: Option<Quotient>) -> Outc
         down_to: None,
     };
     match kind {
-        Kind::Leaf(leaf) => variable.bound = Bound::exactly(program.domain.bound(leaf)),
+        Kind::Leaf(leaf) => {
+            let size = program.domain.bound(leaf);
+            variable.bound = Bound::exactly(size);
+        }
         // All points lie in an interval as long as the largest difference. "Quotients that are not below zero": its
         // middle may be moved to 0, which changes no difference.
         Kind::Boxed(_) => {
@@ -203,10 +206,6 @@ fn is_other_part(unit: Option<Unit>, above: &[Variable]) -> bool {
     let Some(unit) = unit else {
         return false;
     };
-    for other in above.iter().filter_map(|variable| variable.unit) {
-        if other.coordinate == unit.coordinate || other.length != unit.length {
-            return false;
-        }
-    }
-    true
+    let mut others = above.iter().filter_map(|variable| variable.unit);
+    others.all(|other| other.coordinate != unit.coordinate && other.length == unit.length)
 }

@@ -51,13 +51,12 @@ impl Guarded {
         }
         inputs[15] = if clamped[0] { -far } else { near };
         inputs[16] = if clamped[1] { far } else { end };
-        let (values, sizes) = (Vec::new(), Vec::new());
         let mut run = Run {
             guarded: self,
             inputs,
             clamped,
-            values,
-            sizes,
+            values: Vec::new(),
+            sizes: Vec::new(),
         };
         run.compute();
         run.answer(&self.steps)
@@ -67,10 +66,10 @@ impl Guarded {
     pub fn uses_end(&self, place: Place, end: u8) -> bool {
         match self.operations[place as usize] {
             Operation::Input(i) => i == 15 + end,
-            operation => operation
-                .operands()
-                .iter()
-                .any(|operand| self.uses_end(*operand, end)),
+            operation => {
+                let mut operands = operation.operands().into_iter();
+                operands.any(|operand| self.uses_end(operand, end))
+            }
         }
     }
 }
@@ -145,35 +144,31 @@ impl<F: Float> Run<'_, F> {
         let guarded = self.guarded;
         // An end that another number stands for proves no miss.
         let is_far = |end: u8| {
-            pattern
-                .iter()
-                .flat_map(Literal::places)
-                .any(|place| guarded.uses_end(place, end))
+            let mut places = pattern.iter().flat_map(Literal::places);
+            places.any(|place| guarded.uses_end(place, end))
         };
         let is_unknown = (0..2).any(|end| self.clamped[usize::from(end)] && is_far(end));
         !is_unknown && pattern.iter().all(|literal| self.holds(literal))
     }
 
     fn holds(&self, literal: &Literal) -> bool {
-        let is_negative = literal
-            .signs
-            .iter()
-            .fold(0, |sum, place| sum ^ i8::from(self.sign(*place) < 0))
-            == 1;
-        literal.places().all(|place| self.sign(place) != 0) && is_negative == literal.is_negative
+        let mut product = if literal.is_negative { -1 } else { 1 };
+        for place in &literal.signs {
+            product *= self.sign(*place);
+        }
+        let mut nonzero = literal.nonzero.iter();
+        product == 1 && nonzero.all(|place| self.sign(*place) != 0)
     }
 
     /// -1 or 1 if the sign is right, else 0.
     fn sign(&self, place: Place) -> i8 {
         let margin = self.guarded.margins[&place];
         let x = self.value(place);
-        let least = match margin.factor.is_zero() {
-            true => F::zero(),
-            false => {
-                let size = self.sizes[place as usize];
-                float::<F>(margin.factor) * size + float::<F>(self.guarded.scale.tiny)
-            }
-        };
+        let mut least = F::zero();
+        if !margin.factor.is_zero() {
+            let size = self.sizes[place as usize];
+            least = float::<F>(margin.factor) * size + float::<F>(self.guarded.scale.tiny);
+        }
         i8::from(x > least && x.is_finite()) - i8::from(x < -least && x.is_finite())
     }
 
@@ -191,19 +186,17 @@ impl<F: Float> Run<'_, F> {
             ..
         } = self;
         let margins = guarded.sizes();
-        run(
-            &guarded.operations,
-            guarded.operations.len() as Place - 1,
-            inputs,
-            values,
-        );
+        run(&guarded.operations, inputs, values);
         sizes.clear();
         for (place, operation) in (0..).zip(&guarded.operations) {
             let of = |place: Place| sizes[place as usize];
             let slack = float::<F>(guarded.scale.slack);
-            let factor = |place: Place| match margins.needs_slack(place) {
-                true => of(place) + slack,
-                false => of(place),
+            let factor = |place: Place| {
+                if margins.needs_slack(place) {
+                    of(place) + slack
+                } else {
+                    of(place)
+                }
             };
             sizes.push(match *operation {
                 _ if guarded.is_leaf(place) => Real::abs(&values[place as usize]),

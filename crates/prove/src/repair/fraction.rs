@@ -63,10 +63,12 @@ impl Arena {
     }
 
     fn product(&mut self, a: Place, b: Place) -> Place {
-        match () {
-            () if self.is_number(a, 1) => b,
-            () if self.is_number(b, 1) => a,
-            () => self.push(Operation::Mul(a, b)),
+        if self.is_number(a, 1) {
+            b
+        } else if self.is_number(b, 1) {
+            a
+        } else {
+            self.push(Operation::Mul(a, b))
         }
     }
 
@@ -145,7 +147,8 @@ impl<'a> Numbers<'a> {
             let b = self.fraction(b);
             found = self.sum(b, found, true);
         }
-        let (mut signs, mut nonzero) = (Vec::new(), Vec::new());
+        let mut signs = Vec::new();
+        let mut nonzero = Vec::new();
         let mut is_negative = self
             .arena
             .factors(found.numerator, &mut signs, &mut nonzero);

@@ -1,6 +1,7 @@
 //! How far from zero a computed sum of products must be for its sign to be right, at every scale. docs/guide/repair.md
 //! has the rule and why it holds.
 
+use super::super::bound::Proven;
 use super::super::dyadic::{Big, round_up};
 use super::super::forms::Leaf;
 use super::super::{Dyadic, Format};
@@ -110,7 +111,7 @@ impl Margins<'_> {
         }
     }
 
-    fn count(&self, place: Place, is_size: bool, known: &mut Known) -> Result<Count, String> {
+    fn count(&self, place: Place, is_size: bool, known: &mut Known) -> Proven<Count> {
         if let Some(known) = known.get(&(place, is_size)) {
             return Ok(*known);
         }
@@ -131,19 +132,14 @@ impl Margins<'_> {
             Operation::Neg(a) | Operation::Abs(a) => of(a)?,
             Operation::Add(a, b) | Operation::Sub(a, b) => of(a)?.sum(of(b)?),
             Operation::Mul(a, b) => {
-                let mut factor = |place: Place| {
-                    let Count {
-                        terms, underflows, ..
-                    } = of(place)?;
-                    let more = u32::from(is_size && self.needs_slack(place));
-                    let underflows = underflows + more;
-                    Ok::<_, String>(Count {
-                        terms: terms + more,
-                        underflows,
-                        ..of(place)?
-                    })
-                };
-                factor(a)?.product(factor(b)?)
+                let mut factors = [of(a)?, of(b)?];
+                for (place, factor) in [a, b].into_iter().zip(&mut factors) {
+                    if is_size && self.needs_slack(place) {
+                        factor.terms += 1;
+                        factor.underflows += 1;
+                    }
+                }
+                factors[0].product(factors[1])
             }
             Operation::Div(..) => return Err("it has a quotient of other numbers".to_owned()),
             Operation::Sqrt(_) => return Err("it has a root".to_owned()),
@@ -156,13 +152,13 @@ impl Margins<'_> {
     }
 
     /// The margin of a number; an error in one sentence if it has none.
-    pub fn of(&self, place: Place) -> Result<Margin, String> {
+    pub fn of(&self, place: Place) -> Proven<Margin> {
         let mut known = Known::new();
         let count = self.count(place, false, &mut known)?;
         let size = self.count(place, true, &mut known)?;
         let format = self.scale.format;
-        let is_leaf = Leaf::of(self.operations[place as usize], self.operations).is_some();
-        if is_leaf {
+        let operation = self.operations[place as usize];
+        if Leaf::of(operation, self.operations).is_some() {
             return Ok(Margin {
                 roundings: 0,
                 factor: Dyadic::ZERO,
@@ -171,11 +167,8 @@ impl Margins<'_> {
         if 500 < count.underflows + size.underflows {
             return Err("it has too many terms".to_owned());
         }
-        let last = u32::from(matches!(
-            self.operations[place as usize],
-            Operation::Add(..) | Operation::Sub(..)
-        ));
-        let roundings = count.all() - last;
+        let is_sum = matches!(operation, Operation::Add(..) | Operation::Sub(..));
+        let roundings = count.all() - u32::from(is_sum);
         // (1 + 2^-place)^count; the numerator is odd.
         let power = |place: u32, count: u32| {
             let one_and_unit: BigInt = (BigInt::one() << place) + 1;

@@ -1,5 +1,6 @@
 //! The decisions of a kernel, path by path, as decisions that are only made where rounding cannot change them.
 
+use super::super::bound::Proven;
 use super::fraction::{Arena, Literal, Numbers};
 use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
 use crate::kernel::{Acceptance, Path};
@@ -38,25 +39,28 @@ impl Step {
     /// Shows every place in it.
     pub fn each(&mut self, visit: &mut impl FnMut(&mut Place)) {
         match self {
-            Step::Choice(comparison, ..) => each_of(comparison, visit),
-            Step::Sign(literal, ..) => each_literal(literal, visit),
-            Step::Gate(_, patterns, _) => {
-                patterns
-                    .iter_mut()
-                    .flatten()
-                    .flatten()
-                    .for_each(|it| each_literal(it, visit));
+            Step::Choice(comparison, yes, no) => {
+                each_of(comparison, visit);
+                yes.each(visit);
+                no.each(visit);
             }
-            Step::Axes(axes, _) => axes.each(visit),
-            Step::Hit(values) => values.iter_mut().flatten().for_each(&mut *visit),
+            Step::Sign(literal, yes, no) => {
+                each_literal(literal, visit);
+                yes.each(visit);
+                no.each(visit);
+            }
+            Step::Gate(_, patterns, next) => {
+                for literal in patterns.iter_mut().flatten().flatten() {
+                    each_literal(literal, visit);
+                }
+                next.each(visit);
+            }
+            Step::Axes(axes, next) => {
+                axes.each(visit);
+                next.each(visit);
+            }
+            Step::Hit(values) => values.iter_mut().flatten().for_each(visit),
             Step::Ask => {}
-        }
-        match self {
-            Step::Choice(_, yes, no) | Step::Sign(_, yes, no) => {
-                [yes, no].into_iter().for_each(|step| step.each(visit));
-            }
-            Step::Gate(.., next) | Step::Axes(_, next) => next.each(visit),
-            Step::Hit(_) | Step::Ask => {}
         }
     }
 
@@ -71,10 +75,11 @@ impl Step {
 
     /// The step and all that may follow, each before what follows it.
     pub fn all(&self) -> Vec<&Step> {
-        [self]
-            .into_iter()
-            .chain(self.next().into_iter().flat_map(Step::all))
-            .collect()
+        let mut all = vec![self];
+        for next in self.next() {
+            all.extend(next.all());
+        }
+        all
     }
 
     /// The conditions on signs that it looks at.
@@ -88,7 +93,8 @@ impl Step {
 
     /// The step under other names of the axes.
     fn renamed(&self, axes: [u8; 3], arena: &mut Arena) -> Step {
-        let (mut step, mut known) = (self.clone(), HashMap::new());
+        let mut step = self.clone();
+        let mut known = HashMap::new();
         step.each(&mut |place| *place = renamed(*place, axes, &mut known, arena));
         step
     }
@@ -141,11 +147,8 @@ impl Axes {
 }
 
 fn each_literal(literal: &mut Literal, visit: &mut impl FnMut(&mut Place)) {
-    literal
-        .signs
-        .iter_mut()
-        .chain(&mut literal.nonzero)
-        .for_each(visit);
+    literal.signs.iter_mut().for_each(&mut *visit);
+    literal.nonzero.iter_mut().for_each(visit);
 }
 
 fn each_of(comparison: &mut Comparison, visit: &mut impl FnMut(&mut Place)) {
@@ -182,10 +185,12 @@ pub struct Builder<'a> {
 
 impl Builder<'_> {
     /// The steps after so many decisions and gates of some paths, which agree so far.
-    pub fn steps(&mut self, set: &[usize], made: usize, gates: usize) -> Result<Step, String> {
+    pub fn steps(&mut self, set: &[usize], made: usize, gates: usize) -> Proven<Step> {
         let path = &self.paths[set[0]];
         let gate = path.compared.get(gates);
-        if let Some(compared) = gate.filter(|compared| compared.decisions == made) {
+        if let Some(compared) = gate
+            && compared.decisions == made
+        {
             let patterns = self.patterns(set[0], &compared.accepts);
             let next = self.steps(set, made, gates + 1)?;
             return Ok(Step::Gate(compared.gate, patterns, Box::new(next)));
@@ -218,40 +223,37 @@ impl Builder<'_> {
         if yes == no {
             return Ok(*no);
         }
-        let places = comparison
-            .places()
-            .into_iter()
-            .map(|place| path.operations[place as usize]);
-        let compared: Vec<Operation> = places.filter(|it| *it != Operation::Number(0)).collect();
-        // One number, and that is computed.
-        if compared.len() < 2 && !compared.iter().all(|it| matches!(it, Operation::Input(_))) {
-            let literal = self.literal(set[0], comparison, true);
-            return Ok(literal.map_or(Step::Ask, |literal| Step::Sign(literal, yes, no)));
+        let mut compared = Vec::new();
+        for place in comparison.places() {
+            compared.push(path.operations[place as usize]);
         }
-        let mut numbers = Numbers::new(&mut self.arena, path);
-        Ok(Step::Choice(
-            comparison.with(|place| numbers.plain(place)),
-            yes,
-            no,
-        ))
+        compared.retain(|operation| *operation != Operation::Number(0));
+        let are_inputs = compared.iter().all(|it| matches!(it, Operation::Input(_)));
+        let is_one_computed = compared.len() < 2 && !are_inputs;
+        if !is_one_computed {
+            let mut numbers = Numbers::new(&mut self.arena, path);
+            let plain = comparison.with(|place| numbers.plain(place));
+            return Ok(Step::Choice(plain, yes, no));
+        }
+        Ok(match self.literal(set[0], comparison, true) {
+            Some(literal) => Step::Sign(literal, yes, no),
+            None => Step::Ask,
+        })
     }
 
     /// The end of a path on which every gate accepts.
     fn end(&mut self, path: usize) -> Step {
         let path = &self.paths[path];
         let mut numbers = Numbers::new(&mut self.arena, path);
-        if path.hits {
-            Step::Hit(
-                path.values
-                    .map(|place| place.map(|place| numbers.plain(place))),
-            )
-        } else {
-            Step::Ask
+        if !path.hits {
+            return Step::Ask;
         }
+        let plain = |place: Option<Place>| Some(numbers.plain(place?));
+        Step::Hit(path.values.map(plain))
     }
 
     /// A test without an epsilon: the next decisions are its own.
-    fn fixed(&mut self, set: &[usize], made: usize, gates: usize) -> Result<Step, String> {
+    fn fixed(&mut self, set: &[usize], made: usize, gates: usize) -> Proven<Step> {
         let mut patterns = [Vec::new(), Vec::new()];
         let mut next = None;
         let mut rest = set.to_vec();
@@ -268,27 +270,22 @@ impl Builder<'_> {
             let Acceptance::Fixed(asked, accepts) = &compared.accepts else {
                 unreachable!("its gate is fixed")
             };
-            if own
-                .iter()
-                .any(|(comparison, _)| !asked.contains(comparison))
-            {
+            if !own.iter().all(|(comparison, _)| asked.contains(comparison)) {
                 return Err(
                     "a test without an epsilon has comparisons that are not its own".to_owned(),
                 );
             }
-            // Where two numbers are equal no margin is left.
-            if own
+            let (equalities, signs): (Vec<_>, Vec<_>) = own
                 .iter()
-                .any(|(comparison, answer)| is_equality(comparison) && *answer)
-            {
+                .partition(|(comparison, _)| is_equality(comparison));
+            // Where two numbers are equal no margin is left.
+            if equalities.iter().any(|(_, is_equal)| *is_equal) {
                 continue;
             }
-            let signs = own
+            let literals = signs
                 .iter()
-                .filter(|(comparison, _)| !is_equality(comparison));
-            let pattern =
-                signs.map(|(comparison, answer)| self.literal(first, *comparison, *answer));
-            if let Some(pattern) = pattern.collect() {
+                .map(|(comparison, answer)| self.literal(first, *comparison, *answer));
+            if let Some(pattern) = literals.collect() {
                 patterns[usize::from(!accepts)].push(pattern);
             }
             if *accepts {
@@ -308,17 +305,16 @@ impl Builder<'_> {
         match accepts {
             Acceptance::Clauses(_, clauses) => {
                 let mut numbers = Numbers::new(&mut self.arena, &self.paths[path]);
-                let mut positive = |place: &Place| numbers.difference(*place, None);
-                let mut pattern = |clause: &Vec<Place>| clause.iter().map(&mut positive).collect();
-                let clauses: Vec<Pattern> = clauses.iter().map(&mut pattern).collect();
-                let mut rejects: Vec<Pattern> = vec![Vec::new()];
-                for clause in &clauses {
-                    let with =
-                        |known: &Pattern, it: &Literal| [&known[..], &[it.negated()]].concat();
-                    let all = |known| clause.iter().map(move |it| with(known, it));
-                    rejects = rejects.iter().flat_map(all).collect();
+                let mut accepts = Vec::new();
+                for clause in clauses {
+                    let mut pattern = Vec::new();
+                    for place in clause {
+                        pattern.push(numbers.difference(*place, None));
+                    }
+                    accepts.push(pattern);
                 }
-                [clauses, rejects].map(|patterns| simplified(self.possible(patterns)))
+                let rejects = one_negated_of_each(&accepts);
+                [accepts, rejects].map(|patterns| simplified(self.possible(patterns)))
             }
             Acceptance::Rounded(outcomes) => [true, false].map(|accepts| {
                 let of_kind = outcomes.iter().filter(|outcome| outcome.accepts == accepts);
@@ -343,12 +339,10 @@ impl Builder<'_> {
             Comparison::Negative(a) => numbers.difference(a, None).negated(),
             Comparison::Zero(_) if answer => return None,
             Comparison::Zero(a) => {
-                let Literal { signs, nonzero, .. } = numbers.difference(a, None);
-                let nonzero = [signs, nonzero].concat();
                 return Some(Literal {
                     is_negative: false,
                     signs: vec![],
-                    nonzero,
+                    nonzero: numbers.difference(a, None).places().collect(),
                 });
             }
         };
@@ -370,6 +364,23 @@ impl Builder<'_> {
 /// True if a comparison holds where the two numbers are equal.
 fn is_equality(comparison: &Comparison) -> bool {
     matches!(comparison, Comparison::Zero(_) | Comparison::AtMost(..))
+}
+
+/// The patterns that take a literal of each clause, and have its opposite.
+fn one_negated_of_each(clauses: &[Pattern]) -> Vec<Pattern> {
+    let mut all = vec![Pattern::new()];
+    for clause in clauses {
+        let mut longer = Vec::new();
+        for known in &all {
+            for literal in clause {
+                let mut pattern = known.clone();
+                pattern.push(literal.negated());
+                longer.push(pattern);
+            }
+        }
+        all = longer;
+    }
+    all
 }
 
 /// The same condition with fewer patterns.

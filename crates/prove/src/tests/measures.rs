@@ -196,7 +196,7 @@ fn a_scene_does_not_know_what_is_nearly_a_number_that_it_knows() {
     let floor = |run: &dyn Fn() -> Recorded| {
         let (path, place): (_, Place) = recorded(|| Recorded::one() / run());
         let prover = Prover::new(&path, domain, Format::F64);
-        let (_, divisor, _) = prover.quotient(place).unwrap();
+        let divisor = prover.quotient(place).unwrap().divisor;
         prover.floor(divisor)
     };
     assert!(

@@ -159,6 +159,7 @@ mod tests {
             name: "t_min".to_owned(),
             is_gate: false,
             refuses: None,
+            printed: None,
             ..knob.clone()
         };
         let text = constant(SnippetLanguage::Glsl, ScalarName::F32, &least, "0", None);

@@ -5,112 +5,124 @@ use super::super::number::{ERROR_DIGITS, Number, round_up};
 use super::{Formula, Step};
 use num_traits::Zero;
 
-/// The bounds of all steps, and the higher orders of the last one.
-pub struct Run {
-    pub bounds: Vec<Bound>,
-    pub rest: Number,
-}
-
-/// A bound of a step's error, in two summands.
+/// A step's size and a bound of its error, in two summands: s, f and r in "Higher order".
+#[derive(Default)]
 struct Orders {
+    size: Number,
     /// The terms of first order.
     first: Number,
-    /// All others.
+    /// All others, with every number at its largest size and nothing cancelled.
     rest: Number,
 }
 
 impl Formula<'_> {
-    /// The bounds of the steps, with sizes from the corners, or as they are known from an earlier run; and the higher
-    /// orders of the last step, with every number at its largest size and nothing cancelled.
-    ///
-    /// A relative step's own error is bounded by u times its exact size only where bounds are known.
-    pub fn run(&self, format: &Format, sizes: &[Number], known: Option<&[Bound]>) -> Run {
-        let mut bounds: Vec<Bound> = Vec::new();
-        let mut all: Vec<Orders> = Vec::new();
-        for (k, step) in self.steps.iter().enumerate() {
-            let Orders { first, rest } = step.brought(&bounds, &all);
-            let before = &first + &rest;
-            let bound = match (known, &step.given) {
-                (Some(known), _) => known[k].clone(),
-                (None, Some(given)) => given.clone(),
-                (None, None) => step.bound(format, &bounds, &sizes[k], &before),
+    /// The bounds of the steps, with sizes from the corners: "Sizes and h".
+    pub fn bounds(&self, sizes: &[Number]) -> Vec<Bound> {
+        let format = &self.program.format;
+        let mut bounds = Vec::new();
+        let mut all = Vec::new();
+        for (step, corner) in self.steps.iter().zip(sizes) {
+            let mut orders = step.brought(&all);
+            let bound = match &step.given {
+                Some(given) => given.clone(),
+                None => step.bound(format, &bounds, corner, &orders),
             };
-            let own = if known.is_some() && step.relative {
-                // fl(z) is off by at most u|z| and a tiny number, and z by at most `before` from the exact value.
-                Orders {
-                    first: &format.unit * &bound.size,
-                    rest: &format.unit * before + &format.tiny,
-                }
-            } else {
-                Orders {
-                    first: bound.error.clone(),
-                    rest: Number::zero(),
-                }
-            };
+            orders.size = bound.size.clone();
+            orders.first += &bound.error;
+            all.push(orders);
             bounds.push(bound);
-            all.push(Orders {
-                first: first + own.first,
-                rest: rest + own.rest,
-            });
         }
-        let last = all.pop();
-        let rest = last.map_or(Number::zero(), |orders| orders.rest);
-        Run { bounds, rest }
+        bounds
+    }
+
+    /// The higher orders of the last step: "Higher order".
+    pub fn rest(&self, bounds: &[Bound]) -> Number {
+        let mut all = Vec::new();
+        for (step, bound) in self.steps.iter().zip(bounds) {
+            let mut orders = step.brought(&all);
+            orders.size = bound.size.clone();
+            if step.relative {
+                orders.add_relative(&self.program.format);
+            } else {
+                orders.first += &bound.error;
+            }
+            all.push(orders);
+        }
+        let last = all.pop().unwrap_or_default();
+        last.rest
     }
 }
 
-impl Step<'_> {
-    /// The error that the operands bring. A sum adds theirs. The error of a product is
-    /// (|a| + f_a + r_a)(|b| + f_b + r_b) less the exact product, in which the terms with one f are the first order.
-    fn brought(&self, bounds: &[Bound], above: &[Orders]) -> Orders {
-        let mut first = Number::zero();
-        let mut rest = Number::zero();
+impl Orders {
+    fn error(&self) -> Number {
+        &self.first + &self.rest
+    }
+
+    /// Adds the error of a rounding as a share: fl(z) is off by at most u|z| and a tiny number, and z from the exact value
+    /// by at most the error so far.
+    fn add_relative(&mut self, format: &Format) {
+        let error = self.error();
+        self.first += &format.unit * &self.size;
+        self.rest += &format.unit * error;
+        self.rest += &format.tiny;
+    }
+
+    /// Adds the error of a product, (|a| + f_a + r_a)(|b| + f_b + r_b) less the exact product. The terms with one f and no r
+    /// are the first order.
+    fn add_product(&mut self, a: &Orders, b: &Orders) {
+        let largest_b = &b.size + b.error();
+        self.first += &a.size * &b.first;
+        self.first += &a.first * &b.size;
+        self.rest += &a.first * &b.first;
+        self.rest += &a.rest * largest_b;
+        self.rest += (&a.size + &a.first) * &b.rest;
+    }
+}
+
+impl Step {
+    /// The error that the operands bring.
+    fn brought(&self, above: &[Orders]) -> Orders {
+        let mut brought = Orders::default();
         for term in &self.terms {
-            let a = &above[term.left];
-            let Some(right) = term.right else {
-                first += &a.first;
-                rest += &a.rest;
-                continue;
-            };
-            let b = &above[right];
-            let size_a = &bounds[term.left].size;
-            let size_b = &bounds[right].size;
-            first += size_a * &b.first;
-            first += &a.first * size_b;
-            rest += &a.first * &b.first;
-            rest += &a.rest * (size_b + &b.first + &b.rest);
-            rest += (size_a + &a.first) * &b.rest;
+            let left = &above[term.left];
+            if let Some(right) = term.right {
+                brought.add_product(left, &above[right]);
+            } else {
+                brought.first += &left.first;
+                brought.rest += &left.rest;
+            }
         }
-        Orders { first, rest }
+        brought
     }
 
     /// The bound that follows from the operands' bounds, the size at the corners, and the error that operands bring.
     ///
     /// The exact size has two bounds, one of each kind, and so has the computed number before it is rounded. The smaller
     /// one holds.
-    fn bound(&self, format: &Format, above: &[Bound], corner: &Number, brought: &Number) -> Bound {
-        let of_sizes: Number = self.products(|operand| &above[operand].size).iter().sum();
-        let size = of_sizes.min(corner.clone());
-        let products = self.products(|operand| &above[operand].computed);
-        let of_computed: Number = products.iter().sum();
-        let before = of_computed.min(&size + brought);
-        if self.place.is_none() || self.name == "neg" || self.left_out {
-            return Bound {
-                size,
-                computed: format.float_up(&before),
-                error: Number::zero(),
-            };
-        }
+    fn bound(&self, format: &Format, above: &[Bound], corner: &Number, brought: &Orders) -> Bound {
+        let exact = self.products(|operand| &above[operand].size);
+        let computed = self.products(|operand| &above[operand].computed);
+        let by_operands: Number = exact.iter().sum();
+        let size = by_operands.min(corner.clone());
+        let by_operands: Number = computed.iter().sum();
+        let before = by_operands.min(&size + brought.error());
         let mut bound = format.rounded(size, &before);
-        if self.name == "minor" {
-            if format.parameters == F32 {
-                // It is rounded to f64 before it is rounded to f32.
-                bound.error += Format::of(F64).half_ulp(&before);
-            } else {
-                widen(&mut bound, &products, format);
-            }
+        if self.is_exact() {
+            bound.error.set_zero();
+        } else if self.name != "minor" {
+            return bound;
+        } else if format.parameters == F32 {
+            // It is rounded to f64 before it is rounded to f32.
+            bound.error += Format::of(F64).half_ulp(&before);
+        } else {
+            widen(&mut bound, &computed, format);
         }
         bound
+    }
+
+    /// True if nothing is rounded, or the rounding is left out.
+    fn is_exact(&self) -> bool {
+        self.place.is_none() || self.name == "neg" || self.left_out
     }
 
     /// The products of its terms, of numbers that bound the operands.
@@ -127,7 +139,7 @@ impl Step<'_> {
     }
 }
 
-/// The bound of a `minor` in f64, a difference of two products in wider arithmetic as the guide has it.
+/// The bound of a `minor` in f64: "A difference of two products in wider arithmetic" in the guide.
 ///
 /// It is (p - q) + (e - g), with the rounded products p and q and the remainders e and g. Both remainders are off by half
 /// the smallest number, and each of the three sums is rounded. p - q is a float, so the last sum is off by |e - g| at most.
@@ -144,6 +156,7 @@ fn widen(bound: &mut Bound, products: &[Number], format: &Format) {
     error += &remainder;
     error += format.half_ulp(&remainders);
     error += twice_tiny;
+    let computed = format.float_up(&rounded) + remainder;
     bound.error = round_up(&error, ERROR_DIGITS);
-    bound.computed = format.float_up(&(format.float_up(&rounded) + remainder));
+    bound.computed = format.float_up(&computed);
 }

@@ -48,8 +48,10 @@ impl Formula<'_> {
         let mut fixed = 0;
         for (v, variable) in self.variables.iter().enumerate() {
             let [upper, lower] = variable.ends();
-            let exponent = split(&upper).exponent.min(split(&lower).exponent);
-            ends.push([integer(&upper, exponent), integer(&lower, exponent)]);
+            let of_upper = split(&upper).exponent;
+            let of_lower = split(&lower).exponent;
+            let exponent = of_upper.min(of_lower);
+            ends.push([mantissa(&upper, exponent), mantissa(&lower, exponent)]);
             scales.variables.push(exponent);
             if variable.down_to.is_some() {
                 fixed |= 1 << v;
@@ -119,6 +121,6 @@ fn signed_power(is_negative: bool, exponent: i64) -> BigInt {
 }
 
 /// A number over 2^exponent, where that is an integer.
-pub fn integer(x: &Number, exponent: i64) -> BigInt {
+pub fn mantissa(x: &Number, exponent: i64) -> BigInt {
     shifted(x, -exponent).to_integer()
 }

@@ -1,9 +1,18 @@
 //! The formula of a quotient: its last steps, and the roundings that are left out. See "Quotients" in the guide.
 
 use super::super::operations::Term;
-use super::super::program::Program;
 use super::{Formula, Step};
 use num_traits::Zero;
+
+impl Step {
+    fn leave_out(&mut self) {
+        self.rounds = false;
+        self.left_out = true;
+        if let Some(bound) = &mut self.given {
+            bound.error.set_zero();
+        }
+    }
+}
 
 impl Formula<'_> {
     /// Leaves out the last rounding of numerator and of divisor, each if no other step uses it. It may be under negations,
@@ -18,19 +27,21 @@ impl Formula<'_> {
             }
         }
         for operand in self.operands_of_quotient() {
-            let mut inner = operand;
-            while self.steps[inner].name == "neg" && uses[inner] == 1 {
-                inner = self.steps[inner].terms[0].left;
-            }
+            let inner = self.without_signs(operand, &uses);
             let step = &mut self.steps[inner];
             if step.rounds && uses[inner] == 1 {
-                step.rounds = false;
-                step.left_out = true;
-                if let Some(bound) = &mut step.given {
-                    bound.error.set_zero();
-                }
+                step.leave_out();
             }
         }
+    }
+
+    /// The step under negations that are used once.
+    fn without_signs(&self, step: usize, uses: &[usize]) -> usize {
+        let mut inner = step;
+        while self.steps[inner].name == "neg" && uses[inner] == 1 {
+            inner = self.steps[inner].terms[0].left;
+        }
+        inner
     }
 
     /// The steps that the last two use, n - q*d and q*d: numerator and divisor are among them. Two numerators are added up
@@ -50,10 +61,10 @@ impl Formula<'_> {
     }
 
     /// True if the last rounding of an operation, which may be under negations, is left out.
-    pub fn leaves_out(&self, program: &Program, place: usize) -> bool {
+    pub fn leaves_out(&self, place: usize) -> bool {
         let mut inner = place;
-        while program.name(inner) == "neg" {
-            inner = program.operands(inner)[0];
+        while self.program.name(inner) == "neg" {
+            inner = self.program.operands(inner)[0];
         }
         let is_it = |step: &Step| step.left_out && step.place == Some(inner);
         self.steps.iter().any(is_it)
@@ -77,19 +88,17 @@ impl Formula<'_> {
         if (factors.left, below.left) != (count, count + 1) {
             return false;
         }
-        let is_difference = is_alone(above) && is_alone(below);
-        let has_signs = !above.is_negative && below.is_negative;
-        let is_of_divisor = factors
-            .right
-            .is_some_and(|right| self.steps[right].place == Some(divisor));
         let mut expected = vec![count, count + 1, count + 2];
         if numerators.len() != 1 {
             expected.insert(0, above.left);
         }
+        let has_signs = !above.is_negative && below.is_negative;
+        let right = factors.right.map(|right| self.steps[right].place);
         quotient.variables.len() == 1
-            && is_difference
+            && is_alone(above)
+            && is_alone(below)
             && has_signs
-            && is_of_divisor
+            && right == Some(Some(divisor))
             && self.is_numerator(above.left, numerators)
             && self.proof_only() == expected
     }
@@ -100,14 +109,17 @@ impl Formula<'_> {
         match numerators {
             [] => step.name == "number",
             [numerator] => step.place == Some(*numerator),
-            _ => {
-                let mut places = Vec::new();
-                for operand in step.operands() {
-                    places.extend(self.steps[operand].place);
-                }
-                step.name == "add" && places == numerators
-            }
+            _ => step.name == "add" && self.places(step) == numerators,
         }
+    }
+
+    /// The operations for which the operands of a step stand.
+    pub fn places(&self, step: &Step) -> Vec<usize> {
+        let mut places = Vec::new();
+        for operand in step.operands() {
+            places.extend(self.steps[operand].place);
+        }
+        places
     }
 
     /// The steps that stand for no operation.

@@ -2,12 +2,10 @@
 
 use super::super::domain::{INPUTS, Leaf};
 use super::super::format::{Bound, F32};
-use super::super::number::{Number, whole};
-use super::super::operations::{Operation, Term, index, indices, terms};
-use super::super::program::Program;
+use super::super::number::{integer, whole};
+use super::super::operations::{Term, index, indices, known_name, terms};
 use super::super::variables::Variable;
 use super::Formula;
-use num_bigint::BigInt;
 
 /// A variable with its sign.
 pub struct SignedVariable {
@@ -17,10 +15,10 @@ pub struct SignedVariable {
 
 /// A step, and its summands: variables, a constant, and earlier steps.
 #[derive(Default)]
-pub struct Step<'a> {
+pub struct Step {
     /// The operation that it stands for; none of steps that only a proof needs.
     pub place: Option<usize>,
-    pub name: &'a str,
+    pub name: &'static str,
     pub variables: Vec<SignedVariable>,
     pub constant: i64,
     pub terms: Vec<Term>,
@@ -35,7 +33,7 @@ pub struct Step<'a> {
     pub left_out: bool,
 }
 
-impl Step<'_> {
+impl Step {
     /// The earlier steps that it uses.
     pub fn operands(&self) -> impl Iterator<Item = usize> {
         self.terms.iter().flat_map(Term::factors)
@@ -43,31 +41,32 @@ impl Step<'_> {
 }
 
 /// A step, or the words that say what was expected in its place.
-type Checked<'a> = Result<Step<'a>, &'static str>;
+type Checked = Result<Step, &'static str>;
 
 const UNKNOWN: &str = "an operation of the program";
 
 /// The steps that a quotient's formula has for its proof alone.
 const PROOF_ONLY: [&str; 5] = ["variables", "number", "add", "mul", "sub"];
 
-impl<'a> Formula<'a> {
+impl Formula<'_> {
     /// The next step, from the words of its line.
-    pub fn step(&self, words: &[&'a str], program: &Program, in_quotient: bool) -> Checked<'a> {
+    pub fn step(&self, words: &[&str]) -> Checked {
         let chunk = words.split_first_chunk();
         let (&[place, name], operands) = chunk.ok_or("more words")?;
-        let place = match place {
-            "-" if in_quotient && PROOF_ONLY.contains(&name) => None,
-            word => Some(index(word, program.operations.len()).ok_or(UNKNOWN)?),
-        };
-        let step = Step {
-            place,
-            name,
+        let is_for_proof = self.has_quotient && PROOF_ONLY.contains(&name);
+        let mut step = Step {
+            name: known_name(name).unwrap_or_default(),
             ..Step::default()
         };
+        if place != "-" || !is_for_proof {
+            let count = self.program.operations.len();
+            let place = index(place, count).ok_or(UNKNOWN)?;
+            step.place = Some(place);
+        }
         match name {
-            "variables" => self.sum_of_variables(step, operands, program),
-            "number" => constant(step, operands, program),
-            _ => self.sum_of_terms(step, operands, program),
+            "variables" => self.sum_of_variables(step, operands),
+            "number" => self.constant(step, operands),
+            _ => self.sum_of_terms(step, operands),
         }
     }
 
@@ -75,12 +74,7 @@ impl<'a> Formula<'a> {
     ///
     /// A difference of two inputs is rounded once, and it has the bound of that difference from the domain: the sum of
     /// variables is only another way to write its exact value.
-    fn sum_of_variables(
-        &self,
-        mut step: Step<'a>,
-        words: &[&str],
-        program: &Program,
-    ) -> Checked<'a> {
+    fn sum_of_variables(&self, mut step: Step, words: &[&str]) -> Checked {
         for word in words {
             let signed = self.signed_variable(word);
             let signed = signed.ok_or("variables, each with its sign")?;
@@ -91,22 +85,18 @@ impl<'a> Formula<'a> {
             step.given = Some(variable.bound.clone());
             return Ok(step);
         }
-        let leaf = step.place.and_then(|place| program.leaf(place));
-        let leaf = leaf.filter(|leaf| self.is_sum(*leaf, &step.variables));
+        let leaf = self.leaf(&step);
         let leaf = leaf.ok_or("variables that are, or add up to, this operation")?;
-        let size = program.domain.bound(leaf);
+        let size = self.program.domain.bound(leaf);
         if leaf.less.is_some() {
             step.rounds = true;
-            step.given = Some(program.format.rounded(size.clone(), size));
-            return Ok(step);
+            step.given = Some(self.program.format.rounded(size.clone(), size));
+        } else if self.has_boxed(&step) {
+            // The box of all points was moved, so a point itself is not where its variable is.
+            return Err("a difference of points in a box");
+        } else {
+            step.given = Some(Bound::exactly(size));
         }
-        // The box of all points was moved, so a point itself is not where its variable is.
-        for signed in &step.variables {
-            if self.variables[signed.variable].is_boxed() {
-                return Err("a difference of points in a box");
-            }
-        }
-        step.given = Some(Bound::exactly(size));
         Ok(step)
     }
 
@@ -121,6 +111,11 @@ impl<'a> Formula<'a> {
         })
     }
 
+    fn has_boxed(&self, step: &Step) -> bool {
+        let mut summands = step.variables.iter();
+        summands.any(|signed| self.variables[signed.variable].is_boxed())
+    }
+
     /// The one variable of a step, if it stands for the step's operation, or if both stand for none: a quotient.
     fn variable_alone(&self, step: &Step) -> Option<&Variable> {
         let [signed] = &step.variables[..] else {
@@ -133,63 +128,73 @@ impl<'a> Formula<'a> {
         (variable.place() == step.place).then_some(variable)
     }
 
-    /// True if the variables add up to a leaf, input by input.
-    fn is_sum(&self, leaf: Leaf, sum: &[SignedVariable]) -> bool {
+    /// The leaf that a step's operation is, if the variables add up to it, input by input.
+    fn leaf(&self, step: &Step) -> Option<Leaf> {
+        let leaf = self.program.leaf(step.place?)?;
         let mut left = [0; INPUTS];
-        add(&mut left, leaf, -1);
-        for signed in sum {
-            let Some(summand) = self.variables[signed.variable].leaf() else {
-                return false;
-            };
+        leaf.add_to(&mut left, -1);
+        for signed in &step.variables {
+            let summand = self.variables[signed.variable].leaf()?;
             let sign = if signed.is_negative { -1 } else { 1 };
-            add(&mut left, summand, sign);
+            summand.add_to(&mut left, sign);
         }
-        left == [0; INPUTS]
+        (left == [0; INPUTS]).then_some(leaf)
     }
 
-    /// A sum of earlier steps or of their products, whose factors have no variable in common.
-    ///
-    /// So each step is affine in each variable. If it depends on the unit vector, it is linear in it, because all terms
-    /// have exactly one factor that is.
-    fn sum_of_terms(&self, mut step: Step<'a>, words: &[&str], program: &Program) -> Checked<'a> {
+    /// A sum of earlier steps or of their products.
+    fn sum_of_terms(&self, mut step: Step, words: &[&str]) -> Checked {
         let operands = indices(words, self.steps.len()).ok_or("earlier steps")?;
         step.terms = terms(step.name, &operands).ok_or("a step that adds or multiplies")?;
-        if let Some(place) = step.place
-            && !self.is_operation(step.name, &operands, &program.operations[place])
-        {
+        if !self.is_of_program(&step) {
             return Err("the operation of the program with its operands");
         }
-        for term in &step.terms {
-            let left = self.steps[term.left].support;
-            let right = term.right.map_or(0, |right| self.steps[right].support);
-            if left & right != 0 {
-                return Err("factors without a variable in common");
-            }
-            step.support |= left | right;
-        }
-        let degree = self.degree(&step.terms[0]);
-        for term in &step.terms {
-            if 1 < degree || self.degree(term) != degree {
-                return Err("terms that are all linear in parts, or all without one");
-            }
+        step.support = self.support(&step.terms)?;
+        if !self.are_alike(&step.terms) {
+            return Err("terms that are all linear in parts, or all without one");
         }
         let is_minor = step.name == "minor";
-        if is_minor && !program.format.has_minor() {
+        if is_minor && !self.program.format.has_minor() {
             return Err("no minor in this format");
         }
         // In f64 a difference of products is rounded more than once.
-        let rounds_often = is_minor && program.format.parameters != F32;
-        step.rounds = step.place.is_some() && step.name != "neg" && !rounds_often;
+        let rounds_often = is_minor && self.program.format.parameters != F32;
+        let is_exact = step.place.is_none() || step.name == "neg";
+        step.rounds = !is_exact && !rounds_often;
         Ok(step)
     }
 
-    /// True if steps stand for the operands of an operation with this name.
-    fn is_operation(&self, name: &str, steps: &[usize], operation: &Operation) -> bool {
-        let mut places = Vec::new();
-        for step in steps {
-            places.extend(self.steps[*step].place);
+    /// True if a step is for the proof alone, or its operands stand for those of its operation, in their order.
+    fn is_of_program(&self, step: &Step) -> bool {
+        let Some(place) = step.place else {
+            return true;
+        };
+        let operation = &self.program.operations[place];
+        operation.name == step.name && operation.operands == self.places(step)
+    }
+
+    /// The variables of all terms. The factors of a product have none in common, so each step is affine in each variable.
+    fn support(&self, terms: &[Term]) -> Result<usize, &'static str> {
+        let mut all = 0;
+        for term in terms {
+            let mut of_term = 0;
+            for factor in term.factors() {
+                let support = self.steps[factor].support;
+                if of_term & support != 0 {
+                    return Err("factors without a variable in common");
+                }
+                of_term |= support;
+            }
+            all |= of_term;
         }
-        operation.name == name && operation.operands == places
+        Ok(all)
+    }
+
+    /// True if all terms have one factor that is linear in parts, or all have none. So a step that depends on the unit
+    /// vector is linear in it.
+    fn are_alike(&self, terms: &[Term]) -> bool {
+        let degree = self.degree(&terms[0]);
+        let has_degree = |term: &Term| self.degree(term) == degree;
+        degree <= 1 && terms.iter().all(has_degree)
     }
 
     /// How many factors of a term are linear in parts.
@@ -197,34 +202,23 @@ impl<'a> Formula<'a> {
         let linear = term.factors().filter(|step| self.is_linear(*step));
         linear.count()
     }
-}
 
-/// Adds a leaf to a sum of inputs.
-fn add(sum: &mut [i64; INPUTS], leaf: Leaf, sign: i64) {
-    sum[leaf.input] += sign;
-    if let Some(less) = leaf.less {
-        sum[less] -= sign;
-    }
-}
-
-/// A number of the program, or the number 1 for the proof alone.
-fn constant<'a>(mut step: Step<'a>, words: &[&str], program: &Program) -> Checked<'a> {
-    const EXPECTED: &str = "the program's number";
-    let &[word] = words else {
-        return Err(EXPECTED);
-    };
-    step.constant = whole(word).ok_or(EXPECTED)?;
-    let is_right = match step.place {
-        Some(place) => {
-            let operation = &program.operations[place];
-            operation.name == "number" && operation.value == step.constant
+    /// A number of the program, or the number 1 for the proof alone.
+    fn constant(&self, mut step: Step, words: &[&str]) -> Checked {
+        const EXPECTED: &str = "the program's number";
+        let &[word] = words else {
+            return Err(EXPECTED);
+        };
+        let right = match step.place {
+            Some(place) => self.program.number(place),
+            None => Some(1),
+        };
+        step.constant = whole(word).ok_or(EXPECTED)?;
+        if right != Some(step.constant) {
+            return Err(EXPECTED);
         }
-        None => step.constant == 1,
-    };
-    if !is_right {
-        return Err(EXPECTED);
+        let size = integer(step.constant.abs());
+        step.given = Some(Bound::exactly(&size));
+        Ok(step)
     }
-    let size = Number::from(BigInt::from(step.constant.abs()));
-    step.given = Some(Bound::exactly(&size));
-    Ok(step)
 }

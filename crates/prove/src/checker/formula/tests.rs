@@ -120,7 +120,7 @@ fn stated(
     all
 }
 
-fn step<'a>(name: &'a str, terms: Vec<Term>, given: Option<Bound>) -> Step<'a> {
+fn step(name: &'static str, terms: Vec<Term>, given: Option<Bound>) -> Step {
     Step {
         place: Some(0),
         name,
@@ -135,6 +135,15 @@ fn step<'a>(name: &'a str, terms: Vec<Term>, given: Option<Bound>) -> Step<'a> {
     }
 }
 
+fn empty_program(parameters: Parameters) -> Program {
+    let mut reader = Reader {
+        lines: "".lines().peekable(),
+        line: 0,
+        work: 0,
+    };
+    Program::of_operations(Format::of(parameters), &mut reader).expect("no line")
+}
+
 /// A number near 2^exponent; zero once in a while.
 fn near(draw: &mut Draw, exponent: i64) -> Number {
     if draw.below(12) == 0 {
@@ -145,7 +154,7 @@ fn near(draw: &mut Draw, exponent: i64) -> Number {
 }
 
 /// Variables, whose errors are a good part of them, and what is made of them.
-fn random_steps(draw: &mut Draw, format: &Format, scale: i64) -> Vec<Step<'static>> {
+fn random_steps(draw: &mut Draw, format: &Format, scale: i64) -> Vec<Step> {
     let mut steps: Vec<Step> = Vec::new();
     for _ in 0..4 {
         let below = draw.below(4) as i64;
@@ -195,19 +204,17 @@ fn bounds_and_higher_orders_are_what_the_guide_says() {
         smallest: -40,
         largest: 100,
     };
-    let formats = [small, F32, F64].map(Format::of);
+    let programs = [small, F32, F64].map(empty_program);
     let mut with_rest = 0;
     for _ in 0..4000 {
-        let format = &formats[draw.below(3)];
+        let program = &programs[draw.below(3)];
+        let format = &program.format;
         let smallest = format.parameters.smallest;
         // Some products are subnormal numbers or less, or all numbers are.
         let scale = draw.pick(&[0, 0, smallest / 2 + 5, smallest + 4]);
         let steps = random_steps(&mut draw, format, scale);
-        let formula = Formula {
-            variables: vec![],
-            unit: vec![],
-            steps,
-        };
+        let mut formula = Formula::of_variables(program, vec![]);
+        formula.steps = steps;
         let corners: Vec<Number> = formula
             .steps
             .iter()
@@ -216,11 +223,11 @@ fn bounds_and_higher_orders_are_what_the_guide_says() {
 
         let expected = stated(format, &formula.steps, &corners, None);
         let expected: Vec<Bound> = expected.into_iter().map(|stated| stated.bound).collect();
-        let bounds = formula.run(format, &corners, None).bounds;
+        let bounds = formula.bounds(&corners);
         assert_eq!(bounds, expected);
 
         let all = stated(format, &formula.steps, &corners, Some(&expected));
-        let rest = formula.run(format, &corners, Some(&bounds)).rest;
+        let rest = formula.rest(&bounds);
         assert_eq!(rest, all[all.len() - 1].rest);
         with_rest += usize::from(!rest.is_zero());
     }

@@ -1,20 +1,19 @@
 //! The meaning of signs, and the points that tell two polynomials apart.
 
 use super::super::format::{F32, Format};
-use super::super::points::{UV, V, VW, W, WU};
+use super::super::modular::PRIME;
+use super::super::points::{FAR, NEAR, T, UV, V, VW, W, WU};
 use super::super::reader::Reader;
 use super::*;
 
 fn promise(extent: &str, is_front: bool) -> Promise {
-    Promise {
-        extent: extent.to_owned(),
-        is_front,
-    }
+    let sides = if is_front { "front" } else { "both" };
+    Promise::parse(&[extent, sides]).expect("a promise")
 }
 
 /// Signs of a ray that hits the inside of the front, between the ends, with some of them changed. There the weights and
 /// their sums are positive and D is negative, so T is negative after 0.
-fn signs(changes: &[(usize, i8)]) -> [i8; COUNT] {
+fn signs(changes: &[(usize, i8)]) -> KnownSigns {
     let mut signs = [1; COUNT];
     for number in [T, NEAR, FAR] {
         signs[number] = -1;
@@ -105,22 +104,27 @@ fn signs_that_occur_can_be() {
             for (sign, number) in signs.iter_mut().zip(numbers) {
                 *sign = i32::signum(number) as i8;
             }
-            assert!(can_be(&signs, true) && can_be(&signs, false), "{numbers:?}");
+            for extent in ["line", "ray", "interval"] {
+                let promise = promise(extent, false);
+                assert!(promise.can_be(&signs), "{extent} {numbers:?}");
+            }
         }
     }
     // Two weights of one sign have a sum of this sign, and both ends of an interval at least one t.
-    for (impossible, is_interval) in [
-        (&[(UV, -1)][..], false),
-        (&[(VW, 0)], false),
-        (&[(WU, -1)], false),
-        (&[(SUM, -1)], false),
-        (&[(U, 0), (UV, -1)], false),
-        (&[(NEAR, 1), (FAR, 1)], true),
-        (&[(NEAR, 0), (FAR, 1)], true),
+    for (impossible, extent) in [
+        (&[(UV, -1)][..], "line"),
+        (&[(VW, 0)], "line"),
+        (&[(WU, -1)], "line"),
+        (&[(SUM, -1)], "line"),
+        (&[(U, 0), (UV, -1)], "line"),
+        (&[(NEAR, 1), (FAR, 1)], "interval"),
+        (&[(NEAR, 0), (FAR, 1)], "interval"),
     ] {
-        assert!(!can_be(&signs(impossible), is_interval), "{impossible:?}");
+        let promise = promise(extent, false);
+        assert!(!promise.can_be(&signs(impossible)), "{impossible:?}");
     }
-    assert!(can_be(&signs(&[(NEAR, 1), (FAR, 1)]), false));
+    let ray = promise("ray", false);
+    assert!(ray.can_be(&signs(&[(NEAR, 1), (FAR, 1)])));
 }
 
 /// Two polynomials that differ agree at a point with a chance below 2^-54, at all points after the first below 2^-200.
@@ -141,14 +145,14 @@ fn polynomials_are_compared_at_every_point() {
         .iter()
         .map(|point| times(3, of_point(point)))
         .collect();
-    assert_eq!(known.ratio(&values, of_point), Some(false));
+    assert_eq!(known.ratio(&values, factors), Some(false));
     let negative: Vec<u64> = values.iter().map(|value| PRIME - value).collect();
-    assert_eq!(known.ratio(&negative, of_point), Some(true));
+    assert_eq!(known.ratio(&negative, factors), Some(true));
     for i in 0..values.len() {
         let mut other = values.clone();
         other[i] = times(2, other[i]);
         assert_eq!(
-            known.ratio(&other, of_point),
+            known.ratio(&other, factors),
             None,
             "another value at point {i}"
         );
