@@ -26,11 +26,12 @@ const fn room(source: &'static str, alone: Option<&'static str>, most_tokens: us
 }
 
 /// The crates, the lowest first.
-const ROOMS: [Room; 11] = [
+const ROOMS: [Room; 12] = [
     room("crates/core/src", None, 81_000),
+    room("crates/checker/src", Some("checker"), 31_000),
     room("crates/boxes/src", Some("boxes"), 31_700),
     room("crates/files/src", Some("files"), 24_200),
-    room("crates/prove/src", Some("prove"), 96_700),
+    room("crates/prove/src", Some("prove"), 66_000),
     room("crates/study/src", None, 161_400),
     room("crates/explore/src", Some("explore"), 28_700),
     room("crates/plugin/src", Some("plugin"), 20_400),

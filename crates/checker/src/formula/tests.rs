@@ -4,7 +4,7 @@ use super::super::format::{Bound, F32, F64, Format, Parameters};
 use super::super::number::{ERROR_DIGITS, Number, power, round_up};
 use super::super::operations::{Term, terms};
 use super::*;
-use crate::case::Draw;
+use hairline_core::case::Draw;
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 

@@ -3,6 +3,8 @@
 //! It shares no code with the prover, reads only the text, and computes with integers and rationals. A
 //! number that a rule determines must be exactly that number: one unit more or less is refused.
 
+#![forbid(unsafe_code)]
+
 mod corners;
 mod domain;
 mod format;

@@ -2,7 +2,7 @@
 
 use super::super::mirrors::signs_to_try;
 use super::*;
-use crate::case::Draw;
+use hairline_core::case::Draw;
 use num_traits::Zero;
 
 type Rows = Vec<Row<BigInt>>;
