@@ -26,7 +26,7 @@ const fn room(source: &'static str, alone: Option<&'static str>, most_tokens: us
 }
 
 /// The crates, the lowest first.
-const ROOMS: [Room; 12] = [
+const ROOMS: [Room; 13] = [
     room("crates/core/src", None, 81_000),
     room("crates/checker/src", Some("checker"), 31_000),
     room("crates/boxes/src", Some("boxes"), 31_700),
@@ -38,7 +38,8 @@ const ROOMS: [Room; 12] = [
     room("crates/record/src", Some("record"), 21_300),
     room("crates/report/src", Some("report"), 96_000),
     room("crates/expect/src", Some("expect"), 17_000),
-    room("src", None, 126_000),
+    room("crates/repair/src", Some("repair"), 16_000),
+    room("src", None, 110_000),
 ];
 
 /// The crates' sources, the lowest first.
@@ -233,6 +234,7 @@ fn crates_that_say_so_have_floors_of_their_own() {
         "crates/explore/src",
         "crates/record/src",
         "crates/report/src",
+        "crates/repair/src",
     ] {
         let (floors, mut uses) = (floors_within(source), uses_within(&[source]));
         assert!(5 < uses.len(), "{source}: {uses:?}");

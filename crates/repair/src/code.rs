@@ -1,8 +1,8 @@
 //! A guarded kernel as source code.
 
-use super::language::Dialect;
-use super::nodes::{AXES, Node, Nodes, Scope};
 use crate::arith::recorded::{Comparison, Place};
+use crate::language::Dialect;
+use crate::nodes::{AXES, Node, Nodes, Scope};
 use crate::prove::repair::{Axes, Guarded, Literal, Pattern, Step};
 use std::collections::BTreeSet;
 

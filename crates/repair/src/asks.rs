@@ -6,7 +6,7 @@ use crate::family::Family;
 use crate::kernel::Scalar;
 use crate::prove::Searched;
 use crate::prove::repair::{Answer, Guarded};
-use crate::report::page::{Block, Head, Row, Table};
+use hairline_report::page::{Block, Head, Row, Table};
 
 /// How many rays got each answer: hit, miss, ask.
 #[derive(Clone, Copy, Debug, Default)]

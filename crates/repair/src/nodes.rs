@@ -1,8 +1,8 @@
 //! The numbers of a guarded kernel, their sizes, the expressions of both, and names from what they are.
 
-use super::language::Dialect;
 use crate::arith::Vector;
 use crate::arith::recorded::{Operation, Place};
+use crate::language::Dialect;
 use crate::prove::repair::Guarded;
 use crate::prove::{Leaf, Sample, run};
 use std::collections::{BTreeSet, HashMap, HashSet};

@@ -1,14 +1,6 @@
 //! `hairline repair`: small changes to a kernel and what they mend; and a kernel that says hit, miss or ask, as source code
 //! with a proof.
 
-mod asks;
-mod candidates;
-mod code;
-mod frame;
-mod language;
-mod nodes;
-mod smaller;
-
 use super::before::{scalars_in_use, total_indices};
 use super::exit::{Failure, Status};
 use super::flags::{case_count, chosen_scalars, find_kernel};
@@ -22,12 +14,17 @@ use crate::family::{FAMILIES, Family, Stratum};
 use crate::kernel::{self, Entry};
 use crate::prove::repair::Guarded;
 use crate::report::page::{Block, Page};
-use asks::Asks;
 use clap::Args;
-use frame::{function_name, source};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use hairline_core::Error;
-use language::Language;
-use smaller::RepairRays;
+use hairline_repair::smaller::{self, RepairRays};
+use hairline_repair::{Asks, Language, function_name, source};
+
+fn languages() -> impl TypedValueParser<Value = Language> {
+    let value = |language: Language| PossibleValue::new(language.name()).help(language.about());
+    let names = PossibleValuesParser::new(Language::ALL.map(value));
+    names.map(|name| Language::named(&name).expect("one of the names"))
+}
 
 /// The kernel, and what to write.
 #[derive(Args)]
@@ -46,7 +43,7 @@ pub struct RepairArguments {
     scalar: Vec<String>,
 
     /// Write the kernel that says hit, miss or ask in this language, instead of small changes
-    #[arg(long, value_name = "LANGUAGE")]
+    #[arg(long, value_name = "LANGUAGE", value_parser = languages())]
     emit: Option<Language>,
 
     /// Epsilons of your own copy of the kernel, as parallel=1e-7; what --emit writes has none

@@ -1,14 +1,14 @@
 //! Small changes to a kernel: which of them mend what is wrong with it, and what they cost.
 
-use super::candidates::{Candidate, ProvedDepths, candidates, patch, proved};
 use crate::audit::{
     self, Audit, CasePlace, Observer, Octave, Plan, Row, Shard, Source, SourceCell,
 };
+use crate::candidates::{Candidate, ProvedDepths, candidates, patch, proved};
 use crate::judge::{Class, Finding};
 use crate::kernel::{Change, Scalar, Verdict, verdicts_of};
 use crate::prove::{Searched, above};
-use crate::record::group_digits;
-use crate::report::page::{Block, Command, Head, Item, Items, Row as TableRow, Table};
+use hairline_record::group_digits;
+use hairline_report::page::{Block, Command, Head, Item, Items, Row as TableRow, Table};
 use std::marker::PhantomData;
 
 /// How far off, how, and where: the source and the place in it.
@@ -326,7 +326,9 @@ impl<F: Searched + Scalar> TriedChanges<F> {
 
 /// The rays on which changes are tried.
 pub struct RepairRays {
+    /// Where they come from.
     pub sources: Vec<Source>,
+    /// True if they are a scene's.
     pub is_scene: bool,
     /// The flags of `audit` that run the same, each after a space.
     pub flags: String,

@@ -1,20 +1,23 @@
 //! The languages that guarded kernels are written in.
 
-/// A language.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Language {
-    /// C99, C++17, and CUDA.
-    C,
-    /// The same in a file that CUDA includes.
-    Cuda,
-    /// Rust.
-    Rust,
-    /// The OpenGL shading language, 4.00 and later.
-    Glsl,
-    /// The WebGPU shading language.
-    Wgsl,
-    /// The high-level shading language of Direct3D.
-    Hlsl,
+named! {
+    pub names
+    /// A language.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Language {
+        /// C99, C++17, and CUDA.
+        C = "c",
+        /// The same in a file that CUDA includes.
+        Cuda = "cuda",
+        /// Rust.
+        Rust = "rust",
+        /// The OpenGL shading language, 4.00 and later.
+        Glsl = "glsl",
+        /// The WebGPU shading language.
+        Wgsl = "wgsl",
+        /// The high-level shading language of Direct3D.
+        Hlsl = "hlsl",
+    }
 }
 
 use Language::{C, Cuda, Glsl, Hlsl, Rust, Wgsl};

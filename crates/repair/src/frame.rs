@@ -1,11 +1,11 @@
 //! The frame of the body of a guarded kernel: a header comment, its function, and the functions that it calls.
 
-use super::code::Code;
-use super::language::{Dialect, Language};
-use super::nodes::names;
 use crate::arith::ScalarName;
 use crate::arith::recorded::{Operation, Place};
+use crate::code::Code;
 use crate::contract::Extent;
+use crate::language::{Dialect, Language};
+use crate::nodes::names;
 use crate::prove::repair::{Guarded, Margin, Scale};
 
 /// The source of a guarded kernel; the shares of rays on which it asks, if they were counted.
