@@ -74,10 +74,8 @@ impl<F: Searched> Search<'_, F> {
                     *score = self.score(inputs, goal, &mut near).unwrap_or(*score);
                 }
                 let started = current.filter(|_| self.judge.is_none());
-                best = best
-                    .into_iter()
-                    .chain(started)
-                    .max_by(|(_, a), (_, b)| a.total_cmp(b));
+                let all = best.into_iter().chain(started);
+                best = all.max_by(|(_, a), (_, b)| a.total_cmp(b));
                 stale = 0;
                 highest = current.map_or(f64::INFINITY, |(_, score)| score);
                 continue;

@@ -1,7 +1,6 @@
 //! The answers of a guarded kernel: its program run on floats.
 
-use super::super::run::run;
-use super::super::{Dyadic, Searched};
+use super::super::{Dyadic, Searched, run::run};
 use super::{Axes, Guarded, Literal, Pattern, Step};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Float, Real};

@@ -1,10 +1,12 @@
 //! How far from zero a computed sum of products must be for its sign to be right, at every scale. docs/guide/repair.md
 //! has the rule and why it holds.
 
-use super::super::bound::Proven;
-use super::super::dyadic::{Big, round_up};
-use super::super::forms::Leaf;
-use super::super::{Dyadic, Format};
+use super::super::{
+    Dyadic, Format,
+    bound::Proven,
+    dyadic::{Big, round_up},
+    forms::Leaf,
+};
 use crate::arith::recorded::{Operation, Place};
 use num_bigint::BigInt;
 use num_traits::One;
