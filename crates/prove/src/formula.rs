@@ -137,7 +137,8 @@ impl Formula {
         // Of each step: its size, its terms of first order, and the rest.
         let mut terms: Vec<[Big; 3]> = Vec::with_capacity(self.steps.len());
         let mut bounds: Vec<Bound> = Vec::with_capacity(self.steps.len());
-        let (unit, tiny) = (Big::from(format.unit()), Big::from(format.tiny()));
+        let unit = Big::from(format.unit());
+        let tiny = Big::from(format.tiny());
         for (i, step) in self.steps.iter().enumerate() {
             let [mut first, mut rest] = [Big::zero(), Big::zero()];
             for (_, a, b) in step.terms() {

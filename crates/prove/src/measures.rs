@@ -140,7 +140,8 @@ impl<'a> Samples<'a> {
     /// True if a number may be another one up to its sign, given that one's values.
     pub fn may_be(&self, place: Place, other: impl Fn(usize) -> f64) -> bool {
         self.values.iter().enumerate().all(|(i, (values, _))| {
-            let (x, y) = (values[place as usize].abs(), other(i).abs());
+            let x = values[place as usize].abs();
+            let y = other(i).abs();
             (x - y).abs() <= 1e-9 * y
         })
     }
@@ -276,7 +277,8 @@ impl Measures {
         let Measures { area, sine, .. } = *self;
         let normal = &sample.normal;
         let square = normal.dot(normal);
-        let (volume, length) = (sample.volume(), square.sqrt());
+        let volume = sample.volume();
+        let length = square.sqrt();
         let known = |name, limit: Dyadic, value| Known {
             name,
             limit: limit.round_down(DIGITS),

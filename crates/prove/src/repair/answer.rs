@@ -37,7 +37,8 @@ impl Guarded {
     /// The answer to a case in its scalar.
     pub fn answer<F: Searched>(&self, case: &Case<F>) -> Answer<F> {
         let far = float::<F>(self.scale.far);
-        let (near, end) = (case.ray.t_min, case.ray.t_max);
+        let near = case.ray.t_min;
+        let end = case.ray.t_max;
         let is_interval = self.info.contract.extent == Extent::Interval;
         if is_interval && !(near <= end && near <= far && end >= -far) {
             return Answer::Ask;
@@ -75,7 +76,8 @@ impl Guarded {
 
 impl<F: Float> Run<'_, F> {
     fn answer(mut self, steps: &Step) -> Answer<F> {
-        let (mut step, mut is_open) = (steps, false);
+        let mut step = steps;
+        let mut is_open = false;
         loop {
             step = match step {
                 Step::Choice(comparison, yes, no) => {

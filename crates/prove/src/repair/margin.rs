@@ -176,7 +176,8 @@ impl Margins<'_> {
             let one_and_unit: BigInt = (BigInt::one() << place) + 1;
             Big::new_raw(one_and_unit.pow(count), BigInt::one() << (place * count))
         };
-        let (unit, share) = (format.digits, format.digits + 8);
+        let unit = format.digits;
+        let share = format.digits + 8;
         let error = power(unit, roundings) * power(share, count.shares) - Big::one();
         let factor = error * power(unit, size.all() + 3) * power(share, size.shares);
         Ok(Margin {

@@ -1,4 +1,5 @@
-//! A formula in integers: every value is an integer times a power of two that does not depend on the corner.
+//! A formula in integers, for the search through the corners ("Corners" in the guide): every value is an integer times a
+//! power of two that does not depend on the corner.
 
 use super::super::{
     corners::{Multiple, Problem, Product, Row},

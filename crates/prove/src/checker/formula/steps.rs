@@ -176,7 +176,8 @@ impl Formula<'_> {
         operation.name == step.name && operation.operands == self.places(step)
     }
 
-    /// The variables of all terms. The factors of a product have none in common, so each step is affine in each variable.
+    /// The variables of all terms. The factors of a product have none in common, so each step is affine in each variable:
+    /// "Formulas without divisions" in the guide.
     fn support(&self, terms: &[Term]) -> Result<usize, &'static str> {
         let mut all = 0;
         for term in terms {
@@ -194,7 +195,7 @@ impl Formula<'_> {
     }
 
     /// True if all terms have one factor that is linear in parts, or all have none. So a step that depends on the unit
-    /// vector is linear in it.
+    /// vector is linear in it: "Formulas that are linear in a unit vector" in the guide.
     fn are_alike(&self, terms: &[Term]) -> bool {
         let degree = self.degree(&terms[0]);
         let has_degree = |term: &Term| self.degree(term) == degree;
