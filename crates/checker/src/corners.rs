@@ -79,11 +79,9 @@ pub struct Found {
 
 /// A set of variables as bits.
 pub fn set_of(variables: &[usize]) -> usize {
-    let mut set = 0;
-    for variable in variables {
-        set |= 1 << variable;
-    }
-    set
+    variables
+        .iter()
+        .fold(0, |set, variable| set | 1 << variable)
 }
 
 /// The result of every corner of the box that differs in the tried variables; none if numbers are too long.

@@ -57,7 +57,7 @@ impl Count {
 }
 
 /// A number, or its size, which is computed too.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(PartialEq, Eq, Hash)]
 struct Counted {
     place: usize,
     of_size: bool,

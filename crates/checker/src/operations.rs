@@ -36,7 +36,6 @@ pub struct Operation {
 }
 
 /// A signed number, or a signed product of two.
-#[derive(Clone)]
 pub struct Term {
     pub is_negative: bool,
     pub left: usize,
@@ -63,7 +62,7 @@ impl Operation {
 
 impl Term {
     /// The numbers that it multiplies.
-    pub fn factors(&self) -> impl Iterator<Item = usize> + Clone {
+    pub fn factors(&self) -> impl Iterator<Item = usize> {
         [self.left].into_iter().chain(self.right)
     }
 

@@ -23,7 +23,7 @@ impl Value {
 }
 
 /// A summand of a form: a sign, and the forms of its factors, in order.
-#[derive(Clone, PartialEq, Eq, Hash)]
+#[derive(PartialEq, Eq, Hash)]
 struct Summand {
     is_negative: bool,
     factors: Vec<usize>,

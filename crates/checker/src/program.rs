@@ -153,7 +153,7 @@ impl Program {
     }
 
     /// True if the lemma of some quotient uses an order: because it is that of its operands, or because it is part of
-    /// why the divisor is the largest coordinate of the direction.
+    /// why the divisor is the largest coordinate of the direction. "Paths and decisions" in the guide says why.
     fn uses_order(&self, smaller: usize, larger: usize) -> bool {
         for place in self.lemmas.keys() {
             let Some(fraction) = self.fraction(*place) else {
@@ -278,7 +278,7 @@ impl Program {
         }
     }
 
-    /// True if an input is the largest coordinate of the direction, by the orders with both others.
+    /// True if an input is the largest coordinate of the direction, by the orders with both others: "Paths and decisions".
     fn is_largest(&self, input: usize) -> bool {
         if !is_of_direction(input) {
             return false;
@@ -287,7 +287,7 @@ impl Program {
         (3..6).all(is_above)
     }
 
-    /// How far below zero a quotient may be, if that is supposed.
+    /// How far below zero a quotient may be, if that is supposed: "Quotients that are not below zero" in the guide.
     pub fn down_to(&self, quotient: usize) -> Option<&Number> {
         self.limits.down_to.get(&quotient)
     }

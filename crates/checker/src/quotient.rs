@@ -54,7 +54,7 @@ impl<'p> Divisor<'p> {
         })
     }
 
-    /// C in the guide: the error of n*/d*.
+    /// C in the guide's "Quotients": the error of n*/d*.
     ///
     /// n*/d* - n/d is (n* - q*d*)/d*. The formula n - q*d is 0 in exact arithmetic, so its error bounds the numerator.
     pub fn error(&self, formula: &Formula, reader: &mut Reader) -> Outcome<Number> {

@@ -45,10 +45,8 @@ impl<'a> Reader<'a> {
 
     /// True if the next line begins with this word.
     pub fn is_next(&mut self, word: &str) -> bool {
-        match self.lines.peek() {
-            Some(line) => line.split(' ').next() == Some(word),
-            None => false,
-        }
+        let line = self.lines.peek().unwrap_or(&"");
+        line.split(' ').next() == Some(word)
     }
 
     /// Reads a line that states this number.

@@ -131,13 +131,12 @@ pub struct Prover<'a> {
 impl<'a> Prover<'a> {
     /// Nothing is proved yet.
     pub fn new(path: &'a Path, domain: Domain, format: Format) -> Prover<'a> {
-        let (bounds, samples) = (HashMap::new(), OnceCell::new());
         Prover {
             path,
             domain,
             format,
-            bounds,
-            samples,
+            bounds: HashMap::new(),
+            samples: OnceCell::new(),
             lemmas: Vec::new(),
         }
     }

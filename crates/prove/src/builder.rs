@@ -214,11 +214,9 @@ impl<'p, 'a> Builder<'p, 'a> {
     /// A number that is a variable here; its lemma says the rest.
     fn cut(&mut self, place: Place) -> Proven<usize> {
         let bound = self.prover.bound(place)?;
-        let is_part = self.prover.unit(place).is_some();
-        let source = if is_part {
-            Source::Part(place)
-        } else {
-            Source::Cut(place)
+        let source = match self.prover.unit(place) {
+            Some(_) => Source::Part(place),
+            None => Source::Cut(place),
         };
         let step = self.variable(source, bound);
         self.formula.places[step] = Some(place);

@@ -33,7 +33,8 @@ impl<F: Searched> Search<'_, F> {
         let mut near = Vec::new();
         let mut best: Option<(Inputs<F>, f64)> = None;
         let mut current: Option<(Inputs<F>, f64)> = None;
-        let (mut stale, mut left) = (0, evaluations);
+        let mut stale = 0;
+        let mut left = evaluations;
         let mut highest = f64::INFINITY;
         let patience = if self.judge.is_some() { SHORT } else { STALE };
         while 0 < left {
@@ -74,10 +75,8 @@ impl<F: Searched> Search<'_, F> {
                     *score = self.score(inputs, goal, &mut near).unwrap_or(*score);
                 }
                 let started = current.filter(|_| self.judge.is_none());
-                best = best
-                    .into_iter()
-                    .chain(started)
-                    .max_by(|(_, a), (_, b)| a.total_cmp(b));
+                let all = best.into_iter().chain(started);
+                best = all.max_by(|(_, a), (_, b)| a.total_cmp(b));
                 stale = 0;
                 highest = current.map_or(f64::INFINITY, |(_, score)| score);
                 continue;
@@ -185,7 +184,8 @@ impl<F: Searched> Search<'_, F> {
         slopes[self.place as usize] = 1.0;
         let mut sum = 0.0;
         for (place, operation) in self.operations.iter().enumerate().rev() {
-            let (slope, result) = (slopes[place], values[place]);
+            let slope = slopes[place];
+            let result = values[place];
             let of = |place: Place| values[place as usize];
             let mut add = |place: Place, x: f64| slopes[place as usize] += x;
             match *operation {

@@ -136,7 +136,8 @@ impl Dyadic {
         if exact.is_number() || !self.is_number() || !other.is_number() {
             return exact;
         }
-        let (large, small) = (self.max(other).round_up(60), self.min(other).round_up(60));
+        let large = self.max(other).round_up(60);
+        let small = self.min(other).round_up(60);
         let rounded = large + small;
         if rounded.is_number() {
             return rounded;

@@ -137,7 +137,8 @@ impl Formula {
         // Of each step: its size, its terms of first order, and the rest.
         let mut terms: Vec<[Big; 3]> = Vec::with_capacity(self.steps.len());
         let mut bounds: Vec<Bound> = Vec::with_capacity(self.steps.len());
-        let (unit, tiny) = (Big::from(format.unit()), Big::from(format.tiny()));
+        let unit = Big::from(format.unit());
+        let tiny = Big::from(format.tiny());
         for (i, step) in self.steps.iter().enumerate() {
             let [mut first, mut rest] = [Big::zero(), Big::zero()];
             for (_, a, b) in step.terms() {
@@ -184,20 +185,20 @@ impl Formula {
         before: Big,
         format: Format,
     ) -> Bound {
-        let term = |(_, a, b): Term<usize>| match (&bounds[a], b.map(|b| &bounds[b])) {
-            (a, Some(b)) => (
-                a.size * b.size,
-                Big::from(a.computed) * Big::from(b.computed),
-            ),
-            (a, None) => (a.size, Big::from(a.computed)),
-        };
-        let (sizes, all): (Vec<Dyadic>, Vec<Big>) = self.steps[i].terms().map(term).unzip();
+        let mut by_operands = Dyadic::ZERO;
+        let mut all = Vec::new();
+        for (_, a, b) in self.steps[i].terms() {
+            let mut size = bounds[a].size;
+            let mut computed = Big::from(bounds[a].computed);
+            if let Some(b) = b {
+                size = size * bounds[b].size;
+                computed *= Big::from(bounds[b].computed);
+            }
+            by_operands = by_operands + size;
+            all.push(computed);
+        }
         // A number of the corners, even where the products and sums need more digits than there are.
-        let size = sizes
-            .into_iter()
-            .reduce(|a, b| a + b)
-            .expect("what is given")
-            .min(corner);
+        let size = by_operands.min(corner);
         let is_minor = matches!(self.steps[i], Step::Of(Operation::Minor(..)));
         if is_minor && format == Format::F64 {
             return minor_in_f64(size, &all);

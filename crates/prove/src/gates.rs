@@ -160,22 +160,20 @@ impl Uses {
 impl Proof {
     /// Proves what can be proved of recorded paths, of all gates or of one.
     pub fn new(paths: Vec<Path>, gate: Option<usize>, domain: Domain, format: Format) -> Proof {
-        let paths: Vec<Path> = paths
-            .into_iter()
-            .filter(|path| !is_impossible(path))
-            .collect();
+        let mut paths = paths;
+        paths.retain(|path| !is_impossible(path));
         let mut quantities: Vec<Quantity> = Vec::new();
         let mut known: HashMap<Key, (usize, Names)> = HashMap::new();
         let mut programs = HashMap::new();
         for (index, path) in paths.iter().enumerate() {
             let mut prover = Prover::new(path, domain, format);
-            let is_wanted =
-                |(compared, _): &(&Compared, Place)| gate.is_none_or(|gate| compared.gate == gate);
-            for (compared, place) in compared(path).filter(is_wanted) {
+            for (compared, place) in compared(path) {
+                if gate.is_some_and(|gate| compared.gate != gate) {
+                    continue;
+                }
                 let (key, names) = key(&prover, compared.gate, place);
-                let program = known
-                    .get(&key)
-                    .map_or(quantities.len(), |(known, _)| *known);
+                let known_program = known.get(&key).map(|(known, _)| *known);
+                let program = known_program.unwrap_or(quantities.len());
                 programs.insert((compared.gate, index, place), program);
                 if let Some((known, from)) = known.get(&key) {
                     let Quantity { also, .. } = &mut quantities[*known];
@@ -262,18 +260,19 @@ impl Proof {
 }
 
 /// The numbers that a path's gates compare and that are computed, without the signs around them.
-pub fn compared(path: &Path) -> impl Iterator<Item = (&Compared, Place)> {
-    let all = path.compared.iter().flat_map(move |compared| {
-        compared
-            .quantities
-            .iter()
-            .map(move |place| (compared, unsigned(path, *place)))
-    });
-    all.filter(move |(_, place)| {
-        let program = cone(&path.operations, *place).operations;
-        let mut operands = program.iter().map(Operation::operands);
-        operands.any(|operands| 1 < operands.len())
-    })
+pub fn compared(path: &Path) -> Vec<(&Compared, Place)> {
+    let mut all = Vec::new();
+    for compared in &path.compared {
+        for place in &compared.quantities {
+            let place = unsigned(path, *place);
+            let program = cone(&path.operations, place).operations;
+            let mut operands = program.iter().map(Operation::operands);
+            if operands.any(|operands| 1 < operands.len()) {
+                all.push((compared, place));
+            }
+        }
+    }
+    all
 }
 
 /// A gate and the program of what it compares, under the names of axes and vertices that the program needs first; the

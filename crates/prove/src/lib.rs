@@ -23,6 +23,7 @@ mod meaning;
 mod measures;
 mod mirrors;
 mod names;
+mod normal;
 mod order;
 mod permanent;
 mod quotient;

@@ -91,9 +91,9 @@ pub struct Samples<'a> {
 
 /// Short numbers, so that exact arithmetic is fast. The triangle faces the ray as a path's signs say, if they do.
 fn inputs(path: &Path, i: u64) -> [f64; 17] {
+    const ONE: i64 = 1 << 20;
     let mut draw = Draw::new("measures", 1, i);
-    let drawn: [f64; 17] =
-        std::array::from_fn(|_| draw.integer(-(1 << 20), 1 << 20) as f64 / f64::from(1 << 20));
+    let drawn = [(); 17].map(|()| draw.integer(-ONE, ONE) as f64 / ONE as f64);
     let mut turned = drawn;
     (9..12).for_each(|i| turned.swap(i, i + 3));
     let has_signs = |inputs: &[f64; 17]| {
@@ -140,7 +140,8 @@ impl<'a> Samples<'a> {
     /// True if a number may be another one up to its sign, given that one's values.
     pub fn may_be(&self, place: Place, other: impl Fn(usize) -> f64) -> bool {
         self.values.iter().enumerate().all(|(i, (values, _))| {
-            let (x, y) = (values[place as usize].abs(), other(i).abs());
+            let x = values[place as usize].abs();
+            let y = other(i).abs();
             (x - y).abs() <= 1e-9 * y
         })
     }
@@ -276,7 +277,8 @@ impl Measures {
         let Measures { area, sine, .. } = *self;
         let normal = &sample.normal;
         let square = normal.dot(normal);
-        let (volume, length) = (sample.volume(), square.sqrt());
+        let volume = sample.volume();
+        let length = square.sqrt();
         let known = |name, limit: Dyadic, value| Known {
             name,
             limit: limit.round_down(DIGITS),
@@ -325,31 +327,23 @@ impl Measures {
         for k in axes.iter().copied() {
             let over = |name, limit, value: R| known(name, limit, value / normal.at(k));
             for i in (0..3).filter(|i| *i != k) {
-                let name = "|N_i/N_k|";
-                all.push(over(name, above(LARGER), normal.at(i)));
-                let name = "|e_i/N_k|";
-                all.extend(
-                    edges
-                        .each_ref()
-                        .map(|e| over(name, slope * above(ROOT), e.at(i))),
-                );
+                all.push(over("|N_i/N_k|", above(LARGER), normal.at(i)));
+                for edge in edges {
+                    all.push(over("|e_i/N_k|", slope * above(ROOT), edge.at(i)));
+                }
             }
-            let name = "|N·a/N_k|";
-            all.push(over(name, world * above(3.03), a.dot(normal)));
+            all.push(over("|N·a/N_k|", world * above(3.03), a.dot(normal)));
             // p×q = p×(q-p).
-            let name = "|(p×q)_k/N_k|";
+            let most = world * slope * above(2.0 * ROOT);
             for (p, q) in [(a, b), (a, c), (b, c)] {
-                all.push(over(
-                    name,
-                    world * slope * above(2.0 * ROOT),
-                    p.cross(q).at(k),
-                ));
+                all.push(over("|(p×q)_k/N_k|", most, p.cross(q).at(k)));
             }
         }
-        let name = "|(e×N)_i/N·N|";
         for i in 0..3 {
-            let of = |edge: &Triple<R>| edge.cross(normal).at(i) / &square;
-            all.extend(edges.each_ref().map(|edge| known(name, slope, of(edge))));
+            for edge in edges {
+                let value = edge.cross(normal).at(i) / &square;
+                all.push(known("|(e×N)_i/N·N|", slope, value));
+            }
         }
         all
     }

@@ -60,15 +60,14 @@ impl Names {
 impl Display for Names {
     /// `yzx abc`: y in place of x.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let letters = |first: u8, names: [u8; 3]| names.map(|name| char::from(first + name));
-        let text = [letters(b'x', self.axes), letters(b'a', self.vertices)];
-        write!(
-            f,
-            "{} {}",
-            String::from_iter(text[0]),
-            String::from_iter(text[1])
-        )
+        let axes = letters(b'x', self.axes);
+        let vertices = letters(b'a', self.vertices);
+        write!(f, "{axes} {vertices}")
     }
+}
+
+fn letters(first: u8, names: [u8; 3]) -> String {
+    String::from_iter(names.map(|name| char::from(first + name)))
 }
 
 fn place_of(name: u8, names: &[u8]) -> u8 {

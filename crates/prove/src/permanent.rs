@@ -205,7 +205,8 @@ impl Forms<'_> {
                 Ok(rounded)
             }
             Operation::Minor(a, b, c, d) => {
-                let (p, q) = (self.product(a, b)?, self.product(c, d)?);
+                let p = self.product(a, b)?;
+                let q = self.product(c, d)?;
                 let (sum, before) = (sum(&p, &q), p.roundings.or(q.roundings));
                 let wider = Roundings {
                     of_format: 0,

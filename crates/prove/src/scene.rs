@@ -183,7 +183,8 @@ impl Scene {
     /// Twice the area of a triangle, to a millionth of it. Zero only if it has none.
     pub fn twice_area(vertices: &[[f64; 3]; 3]) -> f64 {
         let [a, b, c] = vertices.map(glam::DVec3::from);
-        let (u, v) = (b - a, c - a);
+        let u = b - a;
+        let v = c - a;
         // Each of three coordinates is two products of differences: six roundings.
         let error = 6.0 * f64::EPSILON * u.abs().max_element() * v.abs().max_element();
         let area = u.cross(v).length();

@@ -53,7 +53,8 @@ impl BySize {
     pub fn largest(&mut self, epsilon: f64) -> Option<Dyadic> {
         let epsilon = Dyadic::from_f64(epsilon)?;
         let mut holds = |place: i32| self.at(place).is_some_and(|bound| bound < epsilon);
-        let (mut low, mut high) = (-ORDERS * STEPS, ORDERS * STEPS);
+        let mut low = -ORDERS * STEPS;
+        let mut high = ORDERS * STEPS;
         if !holds(low) {
             return None;
         }

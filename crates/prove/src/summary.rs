@@ -157,40 +157,35 @@ impl<F: Searched + Scalar> Summary<F> {
         let format = format_of::<F>();
         let proof = Proof::of::<F>(entry, None, domain)?.split(parts, format);
         let mut contradiction = None;
-        let gates = entry
-            .info
-            .gates
-            .iter()
-            .enumerate()
-            .filter_map(|(index, gate)| {
-                let bound = proof.gate(index)?;
-                let of_gate = || proof.of_gate(index);
-                let uses = Uses::of(of_gate().flat_map(|quantity| &quantity.lemmas));
-                let mut limits: Vec<Supposed> = of_gate().flat_map(Quantity::limits).collect();
-                // The weakest of each.
-                limits.sort_unstable();
-                limits.dedup_by(|later, kept| {
-                    let is_same = (kept.is_most, kept.name) == (later.is_most, later.name);
-                    if is_same && kept.is_most {
-                        kept.limit = later.limit;
-                    }
-                    is_same
-                });
-                let mut seen = HashSet::new();
-                let once =
-                    of_gate().filter(|quantity| seen.insert((quantity.path, quantity.place)));
-                let forms = once.map(|quantity| {
-                    let path = &proof.paths[quantity.path];
-                    relative(path, quantity.place, domain, format).ok()
-                });
-                let forms: Option<Vec<Relative>> = forms.collect();
-                let relative =
-                    forms.and_then(|forms| forms.into_iter().max_by_key(|form| form.factor));
-                let is_margin = of_gate().all(|quantity| quantity.is_margin);
-                let witnesses = GOALS.map(|goal| {
-                    let wanted = goal == Goal::Error || gate.role == Role::Parallel;
-                    let quantities = of_gate().filter(|q| wanted && q.bound.is_ok());
-                    let found = quantities.filter_map(|quantity| {
+        let of_kernel = entry.info.gates.iter().enumerate();
+        let gates = of_kernel.filter_map(|(index, gate)| {
+            let bound = proof.gate(index)?;
+            let of_gate = || proof.of_gate(index);
+            let uses = Uses::of(of_gate().flat_map(|quantity| &quantity.lemmas));
+            let mut limits: Vec<Supposed> = of_gate().flat_map(Quantity::limits).collect();
+            // The weakest of each.
+            limits.sort_unstable();
+            limits.dedup_by(|later, kept| {
+                let is_same = (kept.is_most, kept.name) == (later.is_most, later.name);
+                if is_same && kept.is_most {
+                    kept.limit = later.limit;
+                }
+                is_same
+            });
+            let mut seen = HashSet::new();
+            let once = of_gate().filter(|quantity| seen.insert((quantity.path, quantity.place)));
+            let forms = once.map(|quantity| {
+                let path = &proof.paths[quantity.path];
+                relative(path, quantity.place, domain, format).ok()
+            });
+            let forms: Option<Vec<Relative>> = forms.collect();
+            let relative = forms.unwrap_or_default().into_iter();
+            let relative = relative.max_by_key(|form| form.factor);
+            let is_margin = of_gate().all(|quantity| quantity.is_margin);
+            let witnesses = GOALS.map(|goal| {
+                let wanted = goal == Goal::Error || gate.role == Role::Parallel;
+                let quantities = of_gate().filter(|q| wanted && q.bound.is_ok());
+                let found = quantities.filter_map(|quantity| {
                     let effort = effort.shared(&proof, quantity);
                     let found = worst::<F>((&proof, quantity), goal, None, known, effort)?;
                     let bound = error(quantity);
@@ -204,20 +199,20 @@ impl<F: Searched + Scalar> Summary<F> {
                     }
                     Some(found)
                 });
-                    found.max_by(|a, b| a.score.total_cmp(&b.score))
-                });
-                let bound = bound.map(|quantity| quantity.error().expect("it has one"));
-                Some(GateSummary {
-                    index,
-                    gate: *gate,
-                    bound,
-                    relative,
-                    uses,
-                    limits,
-                    is_margin,
-                    witnesses,
-                })
+                found.max_by(|a, b| a.score.total_cmp(&b.score))
             });
+            let bound = bound.map(|quantity| quantity.error().expect("it has one"));
+            Some(GateSummary {
+                index,
+                gate: *gate,
+                bound,
+                relative,
+                uses,
+                limits,
+                is_margin,
+                witnesses,
+            })
+        });
         let gates: Vec<GateSummary<F>> = gates.collect();
         let is_edge = |gate: usize| entry.info.gates[gate].role == Role::Edge;
         let symmetry = symmetry(&proof.paths, is_edge);

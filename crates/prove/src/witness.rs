@@ -291,10 +291,8 @@ impl<'a, F: Searched> Search<'a, F> {
         }) {
             return None;
         }
-        let (exact, computed) = (
-            &values[self.place as usize],
-            self.computed[self.place as usize],
-        );
+        let exact = &values[self.place as usize];
+        let computed = self.computed[self.place as usize];
         match goal {
             Goal::Error => Some((float(&(exact.clone() - &number(computed)).abs())?, true)),
             Goal::Zero => {
@@ -367,11 +365,9 @@ fn boxed(quantity: &Quantity) -> Vec<(usize, usize, usize)> {
 /// True if a coordinate is used otherwise than in a difference of points.
 fn is_used_alone(path: &Path, renamed: &[Option<Place>], place: usize) -> bool {
     path.operations.iter().enumerate().any(|(user, operation)| {
-        renamed[user].is_some()
-            && operation.operands().contains(&(place as Place))
-            && !matches!(
-                Leaf::of(*operation, &path.operations),
-                Some(Leaf::Difference(..))
-            )
+        let leaf = Leaf::of(*operation, &path.operations);
+        let is_difference = leaf.is_some_and(Leaf::is_difference);
+        let uses = operation.operands().contains(&(place as Place));
+        renamed[user].is_some() && uses && !is_difference
     })
 }

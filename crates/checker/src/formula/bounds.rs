@@ -1,7 +1,9 @@
 //! The bounds of a formula's steps, from those of their operands: "Sizes and h" and "Higher order" in the guide.
 
-use super::super::format::{Bound, F32, F64, Format};
-use super::super::number::{ERROR_DIGITS, Number, round_up};
+use super::super::{
+    format::{Bound, F32, F64, Format},
+    number::{ERROR_DIGITS, Number, round_up},
+};
 use super::{Formula, Step};
 use num_traits::Zero;
 

@@ -1,10 +1,12 @@
 //! The largest sum of the effects of a formula's rounding errors, as its corners show it: "First order" and "Corners" in
 //! the guide.
 
-use super::super::corners::{Weight, search};
-use super::super::format::Bound;
-use super::super::number::{ERROR_DIGITS, Number, SIZE_DIGITS, root_up, round_up, shifted, split};
-use super::super::reader::{Outcome, Reader, ensure};
+use super::super::{
+    corners::{Weight, search},
+    format::Bound,
+    number::{ERROR_DIGITS, Number, SIZE_DIGITS, root_up, round_up, shifted, split},
+    reader::{Outcome, Reader, ensure},
+};
 use super::Formula;
 use super::integers::{Scaled, mantissa};
 use num_traits::Zero;
@@ -44,8 +46,7 @@ impl Formula<'_> {
         let first = self.first(&mut scaled, &bounds)?;
         self.read_corner(first.corner, reader)?;
         reader.demand("first", &first.sum)?;
-        let rest = self.rest(&bounds);
-        let rest = round_up(&rest, ERROR_DIGITS);
+        let rest = round_up(&self.rest(&bounds), ERROR_DIGITS);
         reader.demand("rest", &rest)?;
         let error = first.sum + rest;
         let mut bound = bounds.pop().expect("a step");

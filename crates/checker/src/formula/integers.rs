@@ -1,10 +1,13 @@
-//! A formula in integers: every value is an integer times a power of two that does not depend on the corner.
+//! A formula in integers, for the search through the corners ("Corners" in the guide): every value is an integer times a
+//! power of two that does not depend on the corner.
 
-use super::super::corners::{Multiple, Problem, Product, Row};
-use super::super::mirrors::signs_to_try;
-use super::super::number::{Number, shifted, split};
-use super::super::operations::Term;
-use super::super::variables::Variable;
+use super::super::{
+    corners::{Multiple, Problem, Product, Row},
+    mirrors::signs_to_try,
+    number::{Number, shifted, split},
+    operations::Term,
+    variables::Variable,
+};
 use super::{Formula, Step};
 use num_bigint::BigInt;
 

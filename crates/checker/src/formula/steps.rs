@@ -1,10 +1,12 @@
 //! The steps of a formula, and how a line of one is checked against the program.
 
-use super::super::domain::{INPUTS, Leaf};
-use super::super::format::{Bound, F32};
-use super::super::number::{integer, whole};
-use super::super::operations::{Term, index, indices, known_name, terms};
-use super::super::variables::Variable;
+use super::super::{
+    domain::{INPUTS, Leaf},
+    format::{Bound, F32},
+    number::{integer, whole},
+    operations::{Term, index, indices, known_name, terms},
+    variables::Variable,
+};
 use super::Formula;
 
 /// A variable with its sign.
@@ -76,8 +78,9 @@ impl Formula<'_> {
     /// variables is only another way to write its exact value.
     fn sum_of_variables(&self, mut step: Step, words: &[&str]) -> Checked {
         for word in words {
-            let signed = self.signed_variable(word);
-            let signed = signed.ok_or("variables, each with its sign")?;
+            let Some(signed) = self.signed_variable(word) else {
+                return Err("variables, each with its sign");
+            };
             step.support |= 1 << signed.variable;
             step.variables.push(signed);
         }
@@ -85,8 +88,9 @@ impl Formula<'_> {
             step.given = Some(variable.bound.clone());
             return Ok(step);
         }
-        let leaf = self.leaf(&step);
-        let leaf = leaf.ok_or("variables that are, or add up to, this operation")?;
+        let Some(leaf) = self.leaf(&step) else {
+            return Err("variables that are, or add up to, this operation");
+        };
         let size = self.program.domain.bound(leaf);
         if leaf.less.is_some() {
             step.rounds = true;
@@ -172,7 +176,8 @@ impl Formula<'_> {
         operation.name == step.name && operation.operands == self.places(step)
     }
 
-    /// The variables of all terms. The factors of a product have none in common, so each step is affine in each variable.
+    /// The variables of all terms. The factors of a product have none in common, so each step is affine in each variable:
+    /// "Formulas without divisions" in the guide.
     fn support(&self, terms: &[Term]) -> Result<usize, &'static str> {
         let mut all = 0;
         for term in terms {
@@ -190,7 +195,7 @@ impl Formula<'_> {
     }
 
     /// True if all terms have one factor that is linear in parts, or all have none. So a step that depends on the unit
-    /// vector is linear in it.
+    /// vector is linear in it: "Formulas that are linear in a unit vector" in the guide.
     fn are_alike(&self, terms: &[Term]) -> bool {
         let degree = self.degree(&terms[0]);
         let has_degree = |term: &Term| self.degree(term) == degree;

@@ -1,7 +1,6 @@
 //! The answers of a guarded kernel: its program run on floats.
 
-use super::super::run::run;
-use super::super::{Dyadic, Searched};
+use super::super::{Dyadic, Searched, run::run};
 use super::{Axes, Guarded, Literal, Pattern, Step};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Float, Real};
@@ -38,7 +37,8 @@ impl Guarded {
     /// The answer to a case in its scalar.
     pub fn answer<F: Searched>(&self, case: &Case<F>) -> Answer<F> {
         let far = float::<F>(self.scale.far);
-        let (near, end) = (case.ray.t_min, case.ray.t_max);
+        let near = case.ray.t_min;
+        let end = case.ray.t_max;
         let is_interval = self.info.contract.extent == Extent::Interval;
         if is_interval && !(near <= end && near <= far && end >= -far) {
             return Answer::Ask;
@@ -76,7 +76,8 @@ impl Guarded {
 
 impl<F: Float> Run<'_, F> {
     fn answer(mut self, steps: &Step) -> Answer<F> {
-        let (mut step, mut is_open) = (steps, false);
+        let mut step = steps;
+        let mut is_open = false;
         loop {
             step = match step {
                 Step::Choice(comparison, yes, no) => {

@@ -235,7 +235,8 @@ impl<'a> Numbers<'a> {
                 self.sum(product, c, false)
             }
             Minor(a, b, c, d) => {
-                let (p, q) = (self.multiplied(a, b), self.multiplied(c, d));
+                let p = self.multiplied(a, b);
+                let q = self.multiplied(c, d);
                 self.sum(p, q, true)
             }
             Div(a, b) => {

@@ -1,10 +1,12 @@
 //! How far from zero a computed sum of products must be for its sign to be right, at every scale. docs/guide/repair.md
 //! has the rule and why it holds.
 
-use super::super::bound::Proven;
-use super::super::dyadic::{Big, round_up};
-use super::super::forms::Leaf;
-use super::super::{Dyadic, Format};
+use super::super::{
+    Dyadic, Format,
+    bound::Proven,
+    dyadic::{Big, round_up},
+    forms::Leaf,
+};
 use crate::arith::recorded::{Operation, Place};
 use num_bigint::BigInt;
 use num_traits::One;
@@ -174,7 +176,8 @@ impl Margins<'_> {
             let one_and_unit: BigInt = (BigInt::one() << place) + 1;
             Big::new_raw(one_and_unit.pow(count), BigInt::one() << (place * count))
         };
-        let (unit, share) = (format.digits, format.digits + 8);
+        let unit = format.digits;
+        let share = format.digits + 8;
         let error = power(unit, roundings) * power(share, count.shares) - Big::one();
         let factor = error * power(unit, size.all() + 3) * power(share, size.shares);
         Ok(Margin {

@@ -111,10 +111,9 @@ impl Guarded {
             .each(&mut |place| is_used[*place as usize] = true);
         for place in (0..self.operations.len()).rev() {
             if is_used[place] {
-                let operands = self.operations[place].operands();
-                operands
-                    .into_iter()
-                    .for_each(|operand| is_used[operand as usize] = true);
+                for operand in self.operations[place].operands() {
+                    is_used[operand as usize] = true;
+                }
             }
         }
         let mut moved = Vec::with_capacity(is_used.len());

@@ -31,7 +31,7 @@ fn a_margin_counts_no_fewer_roundings_than_the_permanent() {
     let entry = find("scalar-triple").unwrap();
     let guarded = Guarded::new::<f64>(entry).unwrap();
     let path = &paths_of::<f64>(entry).unwrap()[0];
-    let (_, place) = compared(path).next().unwrap();
+    let (_, place) = compared(path)[0];
     let permanent = relative(path, place, Domain::UNIT, Format::F64).unwrap();
     let margins: Vec<u32> = guarded
         .margins
