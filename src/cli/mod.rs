@@ -91,7 +91,7 @@ enum Chosen {
     Repair(Box<repair::RepairArguments>),
     /// Show one case: its exact truth, and why a kernel was wrong
     Explain(explain::ExplainArguments),
-    /// Show which rays slab tests lose
+    /// Judge ray-box tests
     Boxes(boxes::BoxesArguments),
     /// Draw where a kernel is wrong around a case, a pixel a float
     Map(Box<map::MapArguments>),

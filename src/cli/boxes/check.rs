@@ -93,9 +93,8 @@ pub fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
             let text = now.text();
             write_result(file, |out| out.write_all(text.as_bytes()))?;
             if !arguments.run.output.quiet {
-                let lines = text.lines().filter(|line| line.starts_with('"'));
-                let counts = number_of(lines.count() as u64, "count", "counts");
-                eprintln!("{file}: {counts} of wrong answers are known");
+                let known = text.lines().filter(|line| line.starts_with('"')).count();
+                eprintln!("{file}: {known} counts of wrong answers are known");
             }
             return Ok(Status::Success);
         }

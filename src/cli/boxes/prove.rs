@@ -104,13 +104,13 @@ impl Proof {
             Some(units) => (format!("growth=-{units}*EPSILON"), (2 * units).to_string()),
             None => ("none is enough".to_owned(), "–".to_owned()),
         };
-        let verdict = match (self.fault(), self.in_epsilons) {
+        let words = match (self.fault(), self.in_epsilons) {
             (Some(fault), _) => format!("not proved, since this fails: {fault}"),
             (None, Some(_)) => "proved for these sizes".to_owned(),
             (None, None) => "shown by a ray, if sizes have no bounds".to_owned(),
         };
         let verdict = Cell {
-            text: verdict,
+            text: words,
             is_broken: self.fault().is_some(),
             share: None,
         };
@@ -154,7 +154,7 @@ impl Paged for Proofs {
         let mut blocks = vec![
             Block::Table(Table::new(heads, rows)),
             Block::text(format!(
-                "These sizes: coordinates are 0 or from {least:e} to {extent:e}, components of directions 0 or from {slow:e} to \
+                "These sizes: t_min is not below 0, coordinates are 0 or from {least:e} to {extent:e}, components of directions 0 or from {slow:e} to \
                  {fast:e}. That nothing overflows or underflows then is checked. docs/design/boxes-proof.md has the steps."
             )),
         ];

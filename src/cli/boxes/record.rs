@@ -1,19 +1,16 @@
 //! The findings of an audit of slab tests, and their page.
 
+mod sum;
+
 use crate::arith::ScalarName;
 use crate::audit::Trials;
-use crate::record::{Comparable, NamedRate, Rate, Study, number_of, percent};
-use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row as TableRow, Table, Tone};
-use crate::report::{alike, listed};
+use crate::record::{Comparable, NamedRate, Rate, Study, number_of};
+use crate::report::alike;
+use crate::report::page::{Block, Command, Head, Page, Paged, Row as TableRow, Table, Tone};
 use hairline_boxes::{Made, Row, Setup, Source, Wrong};
 use hairline_core::kernel::Scalar;
 use std::collections::BTreeSet;
-
-/// How many sources of lost rays a line names.
-const NAMED: usize = 2;
-
-/// A false hit by less than this share of the largest coordinate may be rounding, in either scalar.
-const ROUNDED: f64 = 1e-3;
+use sum::Sum;
 
 /// The counts of slab tests on boxes.
 #[apply(part!)]
@@ -143,101 +140,6 @@ pub fn label(setup: &Setup) -> String {
     }
 }
 
-/// A slab test on all sources.
-struct Sum<'a> {
-    label: String,
-    rows: Vec<&'a BoxesRow>,
-}
-
-impl<'a> Sum<'a> {
-    /// Its lost rays in a scalar, or in both.
-    fn lost(&self, scalar: Option<ScalarName>) -> Rate {
-        let is_in = |row: &&&BoxesRow| scalar.is_none_or(|scalar| row.scalar == scalar);
-        Rate::sum(self.rows.iter().filter(is_in).map(|row| &row.lost))
-    }
-
-    /// Cases without a verdict.
-    fn failed(&self) -> u64 {
-        self.rows.iter().map(|row| row.failed).sum()
-    }
-
-    /// True if it lost a ray, or gave no verdict.
-    fn is_losing(&self) -> bool {
-        self.rows.iter().any(|row| row.is_losing())
-    }
-
-    /// The share of rays that it loses, by which the table is ordered.
-    fn order(&self) -> f64 {
-        self.lost(None).rate.unwrap_or(0.0)
-    }
-
-    /// The sources on which it loses most, with their shares in both scalars.
-    fn sources(&self) -> String {
-        let rows = self.rows.iter().copied();
-        let mut shares = Vec::new();
-        for (first, others) in alike(rows, |one, other| one.source == other.source) {
-            let all = others.iter().chain([&first]).map(|row| &row.lost);
-            let lost = Rate::sum(all);
-            if 0 < lost.count {
-                shares.push((&first.source, lost.rate.unwrap_or(0.0)));
-            }
-        }
-        shares.sort_by(|(_, a), (_, b)| b.total_cmp(a));
-        let named: Vec<String> = shares
-            .into_iter()
-            .map(|(source, share)| format!("{source} {}", percent(share)))
-            .collect();
-        listed(&named, NAMED)
-    }
-
-    fn cells(&self, scalars: &[ScalarName], tells_sources: bool) -> Vec<Cell> {
-        let mut cells = Vec::new();
-        for scalar in scalars {
-            let lost = self.lost(Some(*scalar));
-            cells.push(Cell {
-                text: share(&lost),
-                is_broken: 0 < lost.count,
-                share: lost.rate,
-            });
-        }
-        if tells_sources {
-            cells.push(self.sources().into());
-        }
-        cells
-    }
-
-    /// The false hit that passes its box by most, if that is more than rounding explains.
-    fn far(&self) -> Option<(&'a BoxesRow, &'a Farthest)> {
-        let rows = self.rows.iter().copied();
-        let all = rows.filter_map(|row| Some((row, row.farthest.as_ref()?)));
-        let far = all.filter(|(_, farthest)| ROUNDED < farthest.share);
-        far.max_by(|(_, a), (_, b)| a.share.total_cmp(&b.share))
-    }
-
-    /// One sentence on rays that it loses in both of two neighbours.
-    fn lost_in_both(&self) -> Option<String> {
-        let both = Rate::sum(self.rows.iter().filter_map(|row| row.lost_in_both.as_ref()));
-        let (label, counts) = (&self.label, both.counts());
-        (0 < both.count).then(|| format!("{label} loses {counts} rays at a wall in both neighbours, so a traversal goes through"))
-    }
-
-    /// One sentence on its cases without a verdict.
-    fn failures(&self) -> Option<String> {
-        let failed = self.failed();
-        let count = number_of(failed, "case", "cases");
-        (0 < failed).then(|| format!("{} gives no verdict on {count}", self.label))
-    }
-}
-
-/// `0`, or a share; a dash where there was no ray that it had to hit.
-fn share(rate: &Rate) -> String {
-    match (rate.of, rate.count) {
-        (0, _) => "–".to_owned(),
-        (_, 0) => "0".to_owned(),
-        _ => percent(rate.rate.unwrap_or(0.0)),
-    }
-}
-
 impl BoxesResult {
     /// True if any slab test lost a ray, or gave no verdict.
     pub fn is_losing(&self) -> bool {
@@ -317,7 +219,13 @@ impl BoxesResult {
     /// Sentences on what the table does not show.
     fn notes(&self, sums: &[Sum]) -> Vec<String> {
         let mut notes: Vec<String> = sums.iter().filter_map(Sum::failures).collect();
-        notes.extend(sums.iter().filter_map(Sum::lost_in_both));
+        let lost: Vec<String> = sums.iter().filter_map(Sum::lost_in_both).collect();
+        if !lost.is_empty() {
+            notes.push(format!(
+                "Rays that a traversal loses at a wall of two neighbours, because neither is hit: {}",
+                lost.join(", ")
+            ));
+        }
         for sum in sums {
             if let Some((row, farthest)) = sum.far() {
                 let (label, share) = (&sum.label, farthest.share);

@@ -162,7 +162,7 @@ fn tree(path: &str, is_quiet: bool) -> Result<Tree, Failure> {
     let file = printable(&file.to_string_lossy());
     let faces = number_of(mesh.triangles.len() as u64, "face", "faces");
     let name = format!("{file} ({faces}, {})", &mesh.digest[..8]);
-    let triangles: Vec<[[f64; 3]; 3]> = (0..mesh.triangles.len())
+    let triangles: Vec<_> = (0..mesh.triangles.len())
         .map(|i| mesh.vertices(i))
         .collect();
     Tree::new(name, &triangles).map_err(Failure::bad_input)
