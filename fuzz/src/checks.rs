@@ -11,7 +11,7 @@ use hairline::internals::epsilon::{
 use hairline::internals::explore::inputs::{Input, of_kernel};
 use hairline::internals::explore::{Signature, mutate};
 use hairline::internals::judge::{self, Obligation};
-use hairline::internals::kernel::{Scalar, Subject, Tunable, Verdict, refused_by};
+use hairline::internals::kernel::{KernelIn, Scalar, Tunable, Verdict, refused_by};
 use hairline::internals::oracle::{self, Batch, Layers};
 use hairline::internals::truth::Truth;
 use std::fmt;
@@ -96,7 +96,7 @@ fn in_lanes<F: Float>(some: &[Case<F>], i: usize) -> Case<F> {
     }
 }
 
-fn verdict<F: Float>(subject: &dyn Subject<F>, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {
+fn verdict<F: Float>(subject: &dyn KernelIn<F>, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {
     let mut verdict = [Verdict::miss(None)];
     subject.run(std::slice::from_ref(case), epsilons, &mut verdict);
     verdict[0]

@@ -7,7 +7,7 @@ pub use moller_trumbore::{GATES, GATES_CULLING, GATES_INTERVAL, MollerTrumbore, 
 
 use hairline::internals::arith::Float;
 use hairline::internals::case::Case;
-use hairline::internals::kernel::{Entry, Gated, Generic, Kernel, Scalar, Subject, Test, Verdict};
+use hairline::internals::kernel::{Entry, Gated, Generic, Kernel, Scalar, KernelIn, Test, Verdict};
 use std::marker::PhantomData;
 
 /// A published function with the model of it. At the epsilons of its source the function itself runs;
@@ -28,7 +28,7 @@ pub fn with_f64<K: Kernel>(entry: Entry, function: impl Test<f64> + 'static) -> 
     entry.with_f64(modelled::<K, f64>(function))
 }
 
-fn modelled<K: Kernel, F: Scalar>(function: impl Test<F> + 'static) -> &'static dyn Subject<F> {
+fn modelled<K: Kernel, F: Scalar>(function: impl Test<F> + 'static) -> &'static dyn KernelIn<F> {
     let source = K::INFO.epsilon_sets[0]
         .values
         .iter()
@@ -52,7 +52,7 @@ fn number<F: Float>(text: &str) -> F {
     }
 }
 
-impl<F: Scalar, K: Kernel, T: Test<F>> Subject<F> for Modelled<K, T, F> {
+impl<F: Scalar, K: Kernel, T: Test<F>> KernelIn<F> for Modelled<K, T, F> {
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         if epsilons != self.source {
             return Generic::<K>::SUBJECT.run(cases, epsilons, verdicts);

@@ -19,7 +19,7 @@ use crate::epsilon::{
     contract_with, counts, counts_of, fresh_seed, own_epsilons,
 };
 use crate::family::STRATA;
-use crate::kernel::{Entry, Scalar, Subject};
+use crate::kernel::{Entry, KernelIn, Scalar};
 use crate::offset::SegmentPlan;
 use crate::record::Context;
 use crate::report::SegmentsPart;
@@ -449,7 +449,7 @@ pub fn tells_margins<T: Target>(entry: &Entry<T>, audit: &str) -> Result<(), Str
 }
 
 /// An error if a kernel failed on too many cases while its margins were looked for, or for good.
-fn found_margins<F: Scalar>(name: &str, subject: &dyn Subject<F>) -> Result<(), Failure> {
+fn found_margins<F: Scalar>(name: &str, subject: &dyn KernelIn<F>) -> Result<(), Failure> {
     plugins::check()?;
     match subject.margins_gave_up() {
         None => Ok(()),

@@ -7,13 +7,13 @@ use hairline::internals::contract::{Contract, NAMED};
 use hairline::internals::family::{FAMILIES, find};
 use hairline::internals::judge::{Class, Finding, Obligation, judge, obligation};
 use hairline::internals::kernel::{
-    self, Gate, Generic, Hit, KERNELS, Kernel, KernelInfo, Role, Scalar, Sink, Subject, Tunable,
+    self, Gate, Generic, Hit, KERNELS, Kernel, KernelIn, KernelInfo, Role, Scalar, Sink, Tunable,
     Verdict,
 };
 use hairline::internals::oracle::truth;
 use std::collections::BTreeMap;
 
-fn run<F: Scalar>(kernel: &dyn Subject<F>, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {
+fn run<F: Scalar>(kernel: &dyn KernelIn<F>, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {
     let mut verdict = [Verdict::miss(None)];
     kernel.run(std::slice::from_ref(case), epsilons, &mut verdict);
     verdict[0]
@@ -192,9 +192,9 @@ fn strict_edges_under_a_closed_contract_are_a_convention() {
 }
 
 /// A kernel that does not show its formula.
-struct Hidden(&'static dyn Subject<f64>);
+struct Hidden(&'static dyn KernelIn<f64>);
 
-impl Subject<f64> for Hidden {
+impl KernelIn<f64> for Hidden {
     fn run(&self, cases: &[Case<f64>], epsilons: &[f64], verdicts: &mut [Verdict<f64>]) {
         self.0.run(cases, epsilons, verdicts);
     }

@@ -5,7 +5,7 @@ use hairline::internals::arith::{Arithmetic, Float, scale_by_power_of_two};
 use hairline::internals::case::{Case, Draw, Parameters};
 use hairline::internals::family::FAMILIES;
 use hairline::internals::kernel::{
-    Entry, KERNELS, Scalar, Subject, Tunable, Verdict, in_arithmetic, open_epsilons, refused_by,
+    Entry, KERNELS, KernelIn, Scalar, Tunable, Verdict, in_arithmetic, open_epsilons, refused_by,
 };
 
 /// Indices of each family, wild cases, and epsilon sets for each case and kernel.
@@ -13,7 +13,7 @@ const INDICES: u64 = 100;
 const WILD: u64 = 20_000;
 const EPSILON_SETS: usize = 6;
 
-fn run<F: Scalar>(kernel: &dyn Subject<F>, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {
+fn run<F: Scalar>(kernel: &dyn KernelIn<F>, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {
     let mut verdict = [Verdict::miss(None)];
     kernel.run(std::slice::from_ref(case), epsilons, &mut verdict);
     verdict[0]
@@ -216,9 +216,9 @@ fn kernels_treat_a_nan_as_declared<F: Scalar>() {
 }
 
 /// A kernel whose gates nobody sees.
-struct Closed<F: 'static>(&'static dyn Subject<F>);
+struct Closed<F: 'static>(&'static dyn KernelIn<F>);
 
-impl<F: Float> Subject<F> for Closed<F> {
+impl<F: Float> KernelIn<F> for Closed<F> {
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         self.0.run(cases, epsilons, verdicts);
     }

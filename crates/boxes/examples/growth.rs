@@ -2,7 +2,8 @@
 //! `cargo run --release -p hairline-boxes --example growth -- 100000 2000 20000` (cases, starts, steps).
 
 use hairline_boxes::{
-    BoxCase, Made, Question, Scene, Search, Setup, Source, TABLE, epsilon, find_family, search,
+    BoxCase, FamilyScalar, Question, Scene, Search, Setup, Source, TABLE, epsilon, find_family,
+    search,
 };
 use hairline_core::engine::Unobserved;
 use hairline_core::kernel::{EpsilonText, Scalar};
@@ -10,11 +11,11 @@ use hairline_core::kernel::{EpsilonText, Scalar};
 const GROWTHS: [&str; 4] = ["0", "-EPSILON", "-2*EPSILON", "-3*EPSILON"];
 
 /// The units in the last place by which an epsilon makes the far end larger.
-fn units<F: Made>(epsilon: F) -> f64 {
+fn units<F: FamilyScalar>(epsilon: F) -> f64 {
     (((F::one() - epsilon) - F::one()) / F::EPSILON).to_f64()
 }
 
-fn print<F: Made + Scalar>(counts: [u64; 3]) {
+fn print<F: FamilyScalar + Scalar>(counts: [u64; 3]) {
     let [count, starts, steps] = counts;
     let mut sources: Vec<Source> = [
         "corner",

@@ -4,7 +4,7 @@
 #[path = "../tests/reference/mod.rs"]
 mod reference;
 
-use hairline_boxes::{FAMILIES, Made, check};
+use hairline_boxes::{FAMILIES, FamilyScalar, check};
 use hairline_core::engine::{Merge, Unobserved, sum};
 use std::ops::Range;
 use std::process::ExitCode;
@@ -22,7 +22,7 @@ impl Merge for Differences {
     }
 }
 
-fn compare<F: Made>(index: u64, found: &mut Differences) {
+fn compare<F: FamilyScalar>(index: u64, found: &mut Differences) {
     // Half of them of families, half of cases that are hard to decide.
     let case = if index % 4 < 2 {
         FAMILIES[index as usize / 4 % FAMILIES.len()].case::<F>(2, index)

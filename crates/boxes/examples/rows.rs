@@ -1,10 +1,10 @@
 //! Prints an audit of all slab tests on all families: `cargo run --release -p hairline-boxes --example rows -- 20000`.
 
-use hairline_boxes::{FAMILIES, KERNELS, Made, Row, Setup, Source, audit};
+use hairline_boxes::{FAMILIES, FamilyScalar, KERNELS, Row, Setup, Source, audit};
 use hairline_core::engine::Unobserved;
 use hairline_core::kernel::Scalar;
 
-fn print<F: Made + Scalar>(count: u64) {
+fn print<F: FamilyScalar + Scalar>(count: u64) {
     let setups: Vec<Setup> = KERNELS.iter().flat_map(Setup::published).collect();
     let sources: Vec<Source> = FAMILIES.iter().map(Source::Family).collect();
     for Row {

@@ -1,13 +1,13 @@
 //! An audit: slab tests against families, in counts that add up in any order.
 
 use crate::case::{BoxCase, Boxes};
-use crate::family::Made;
+use crate::family::FamilyScalar;
 use crate::judge::{Finding, Obligation, severity};
 use crate::oracle::truth;
 use crate::setup::Setup;
 use crate::source::Source;
 use hairline_core::engine::{Merge, Observer, sum};
-use hairline_core::kernel::{Scalar, Subject, verdicts_of};
+use hairline_core::kernel::{KernelIn, Scalar, verdicts_of};
 use hairline_core::{Extent, ScalarName, Verdict};
 use std::cell::OnceCell;
 use std::ops::Range;
@@ -114,7 +114,7 @@ impl Tally {
         (owed > 0).then(|| wrong as f64 / owed as f64)
     }
 
-    fn add<F: Made>(&mut self, judged: &Judged<F>, verdict: &Verdict<F>, extent: Extent) {
+    fn add<F: FamilyScalar>(&mut self, judged: &Judged<F>, verdict: &Verdict<F>, extent: Extent) {
         let Judged {
             index, obligation, ..
         } = *judged;
@@ -133,7 +133,7 @@ impl Tally {
 }
 
 /// A case with what a setup owes on it.
-struct Judged<'a, F: Made> {
+struct Judged<'a, F: FamilyScalar> {
     case: &'a BoxCase<F>,
     index: u64,
     obligation: Obligation,
@@ -143,7 +143,7 @@ struct Judged<'a, F: Made> {
 /// The severity of a wrong verdict on a case, by extent. It is rational, and most slab tests are wrong on the same cases.
 type Severities = [OnceCell<Option<f64>>; 3];
 
-impl<F: Made> Judged<'_, F> {
+impl<F: FamilyScalar> Judged<'_, F> {
     fn severity(&self, extent: Extent) -> Option<f64> {
         let known = &self.severities[extent as usize];
         *known.get_or_init(|| severity(self.case, extent))
@@ -175,7 +175,7 @@ impl Merge for Tallies {
 }
 
 /// Every setup on the first cases of every source, in a scalar. A setup that does not run in it has no row.
-pub fn audit<F: Made + Scalar>(
+pub fn audit<F: FamilyScalar + Scalar>(
     setups: &[Setup],
     sources: &[Source],
     count: u64,
@@ -202,13 +202,13 @@ pub fn audit<F: Made + Scalar>(
 }
 
 /// A setup in one scalar.
-struct Running<'a, F: Made> {
+struct Running<'a, F: FamilyScalar> {
     setup: &'a Setup,
-    subject: &'static dyn Subject<F, Boxes>,
+    subject: &'static dyn KernelIn<F, Boxes>,
     epsilons: Vec<F>,
 }
 
-impl<'a, F: Made + Scalar> Running<'a, F> {
+impl<'a, F: FamilyScalar + Scalar> Running<'a, F> {
     fn new(setup: &'a Setup) -> Option<Running<'a, F>> {
         Some(Running {
             setup,
@@ -218,7 +218,7 @@ impl<'a, F: Made + Scalar> Running<'a, F> {
     }
 }
 
-fn add_chunk<F: Made + Scalar>(
+fn add_chunk<F: FamilyScalar + Scalar>(
     tallies: &mut Tallies,
     running: &[Running<F>],
     source: &Source,

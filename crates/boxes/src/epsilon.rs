@@ -4,13 +4,13 @@
 //! largest epsilon that loses none of them, and a second one counts what it lets through that must be missed.
 
 use crate::case::Boxes;
-use crate::family::Made;
+use crate::family::FamilyScalar;
 use crate::judge::Obligation;
 use crate::oracle::truth;
 use crate::setup::Setup;
 use crate::source::Source;
 use hairline_core::engine::{Merge, Observer, sum};
-use hairline_core::kernel::{Scalar, Subject};
+use hairline_core::kernel::{KernelIn, Scalar};
 use std::ops::Range;
 
 /// How many cases go through at once.
@@ -62,7 +62,7 @@ pub struct Largest<F> {
 
 /// The largest epsilon of a gate that loses nothing. An error if the slab test does not run in this scalar, or has no such
 /// gate.
-pub fn epsilon<F: Made + Scalar>(
+pub fn epsilon<F: FamilyScalar + Scalar>(
     question: &Question,
     observer: &dyn Observer,
 ) -> Result<Answer<F>, String> {
@@ -90,9 +90,9 @@ pub fn epsilon<F: Made + Scalar>(
 }
 
 /// A setup that shows the margins of one of its gates.
-struct Measured<'a, F: Made> {
+struct Measured<'a, F: FamilyScalar> {
     question: &'a Question<'a>,
-    subject: &'static dyn Subject<F, Boxes>,
+    subject: &'static dyn KernelIn<F, Boxes>,
     gate: usize,
     epsilons: Vec<F>,
 }
@@ -107,7 +107,7 @@ struct MeasuredCase<F> {
     own: F,
 }
 
-impl<'a, F: Made + Scalar> Measured<'a, F> {
+impl<'a, F: FamilyScalar + Scalar> Measured<'a, F> {
     fn new(question: &'a Question<'a>) -> Result<Measured<'a, F>, String> {
         let setup = question.setup;
         let not_a_number = || {
@@ -165,7 +165,7 @@ struct Losses<F> {
     largest: Option<Largest<F>>,
 }
 
-impl<F: Made> Losses<F> {
+impl<F: FamilyScalar> Losses<F> {
     fn add(&mut self, case: &MeasuredCase<F>) {
         if case.obligation != Obligation::Hit {
             return;
@@ -190,7 +190,7 @@ impl<F: Made> Losses<F> {
 }
 
 /// The smaller epsilon of two; of equals that of the lower index.
-fn stricter<F: Made>(one: Largest<F>, other: Largest<F>) -> Largest<F> {
+fn stricter<F: FamilyScalar>(one: Largest<F>, other: Largest<F>) -> Largest<F> {
     let is_lower = other.epsilon < one.epsilon;
     let is_as_low = other.epsilon == one.epsilon;
     if is_lower || (is_as_low && other.index < one.index) {
@@ -199,7 +199,7 @@ fn stricter<F: Made>(one: Largest<F>, other: Largest<F>) -> Largest<F> {
     one
 }
 
-impl<F: Made> Merge for Losses<F> {
+impl<F: FamilyScalar> Merge for Losses<F> {
     fn merge(&mut self, other: Losses<F>) {
         self.must_hit += other.must_hit;
         self.lost_anyway += other.lost_anyway;
@@ -222,7 +222,7 @@ struct FalseHits {
 }
 
 impl FalseHits {
-    fn add<F: Made>(&mut self, case: &MeasuredCase<F>, largest: Option<F>) {
+    fn add<F: FamilyScalar>(&mut self, case: &MeasuredCase<F>, largest: Option<F>) {
         if case.obligation != Obligation::Miss {
             return;
         }

@@ -43,7 +43,7 @@ pub use case::{Bounds, BoxCase, Boxes, NUMBERS};
 pub use define::{Definition, Range, define};
 pub use distance::{Padding, padding};
 pub use epsilon::{Answer, Largest, Question, epsilon};
-pub use family::{FAMILIES, Family, Made, case_of, find_family};
+pub use family::{FAMILIES, Family, FamilyScalar, case_of, find_family};
 pub use judge::{Finding, Obligation, severity};
 pub use kernel::{BoxEntry, KERNELS, TABLE};
 pub use oracle::{Layers, check, truth, truth_counted, truth_in_integers};

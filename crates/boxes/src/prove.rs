@@ -2,12 +2,12 @@
 //! argument. What it presumes of a program's numbers is checked here, exactly, and so is a ray that a smaller growth loses.
 
 use crate::case::{BoxCase, Boxes};
-use crate::family::Made;
+use crate::family::FamilyScalar;
 use crate::kernel::TABLE;
 use crate::oracle::truth;
 use hairline_core::Verdict;
 use hairline_core::arith::{scale_by_power_of_two, smallest_normal};
-use hairline_core::kernel::{Scalar, Subject};
+use hairline_core::kernel::{KernelIn, Scalar};
 use num_rational::BigRational as Rational;
 use num_traits::{One, pow};
 
@@ -40,7 +40,7 @@ impl Domain {
 
 /// The answer for a formula in a scalar.
 #[derive(Clone, Debug)]
-pub struct Growth<F: Made> {
+pub struct Growth<F: FamilyScalar> {
     /// The slab test with this formula.
     pub test: &'static str,
     /// The growth that is enough, as a number of units in the last place of 1; none if no growth is.
@@ -123,14 +123,14 @@ const FORMS: [Form; 3] = [
 const TINY: f64 = f64::from_bits((1023 - 100) << 52);
 
 /// The least growth of the far end for each formula.
-pub fn least_growths<F: Made + Scalar>(domain: &Domain) -> Vec<Growth<F>> {
+pub fn least_growths<F: FamilyScalar + Scalar>(domain: &Domain) -> Vec<Growth<F>> {
     FORMS
         .iter()
         .filter_map(|form| least_growth(form, domain))
         .collect()
 }
 
-fn least_growth<F: Made + Scalar>(form: &Form, domain: &Domain) -> Option<Growth<F>> {
+fn least_growth<F: FamilyScalar + Scalar>(form: &Form, domain: &Domain) -> Option<Growth<F>> {
     let subject = F::subject(TABLE.find(form.test)?)?;
     let [single, double] = form.witnesses;
     let witness = ray::<F>(if F::DIGITS < 53 { single } else { double });
@@ -158,7 +158,7 @@ fn least_growth<F: Made + Scalar>(form: &Form, domain: &Domain) -> Option<Growth
 }
 
 /// A ray that enters a box on the first axis and leaves it on the second.
-fn ray<F: Made>([enters, leaves]: [[f64; 3]; 2]) -> BoxCase<F> {
+fn ray<F: FamilyScalar>([enters, leaves]: [[f64; 3]; 2]) -> BoxCase<F> {
     let number = F::from_f64;
     let [near, first, into] = enters.map(number);
     let [far, second, out] = leaves.map(number);
@@ -169,7 +169,11 @@ fn ray<F: Made>([enters, leaves]: [[f64; 3]; 2]) -> BoxCase<F> {
 }
 
 /// True if a test hits a ray with a growth of so many units in the last place of 1.
-fn is_hit<F: Made>(subject: &dyn Subject<F, Boxes>, case: &BoxCase<F>, units: u32) -> bool {
+fn is_hit<F: FamilyScalar>(
+    subject: &dyn KernelIn<F, Boxes>,
+    case: &BoxCase<F>,
+    units: u32,
+) -> bool {
     let growth = F::from_f64(-f64::from(units)) * F::EPSILON;
     let mut verdict = [Verdict::miss(None)];
     subject.run(&[*case], &[growth], &mut verdict);
@@ -181,7 +185,7 @@ fn exact(x: f64) -> Rational {
     Rational::from_float(x).unwrap_or_else(Rational::one)
 }
 
-impl<F: Made> Growth<F> {
+impl<F: FamilyScalar> Growth<F> {
     fn add(&mut self, holds: bool, what: &str) {
         self.conditions.push((what.to_owned(), holds));
     }

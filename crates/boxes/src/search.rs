@@ -5,14 +5,14 @@
 //! slab is cut off where the line enters the last of the others.
 
 use crate::case::{BoxCase, Boxes, NUMBERS};
-use crate::family::Made;
+use crate::family::FamilyScalar;
 use crate::judge::Obligation;
 use crate::oracle::truth;
 use crate::setup::Setup;
 use crate::source::Source;
 use hairline_core::case::Draw;
 use hairline_core::engine::{Merge, Observer, sum};
-use hairline_core::kernel::{Scalar, Subject};
+use hairline_core::kernel::{KernelIn, Scalar};
 use std::ops::Range;
 
 /// No number of a search but 0 is smaller: 2^-20.
@@ -37,7 +37,7 @@ pub struct Search<'a> {
 
 /// The case with the lowest margin.
 #[derive(Clone, Copy, Debug)]
-pub struct Found<F: Made> {
+pub struct Found<F: FamilyScalar> {
     /// The margin: the largest epsilon at which the case is hit.
     pub margin: F,
     /// The case.
@@ -47,16 +47,16 @@ pub struct Found<F: Made> {
 }
 
 /// The best of a search so far.
-struct Best<F: Made>(Option<Found<F>>);
+struct Best<F: FamilyScalar>(Option<Found<F>>);
 
-impl<F: Made> Merge for Best<F> {
+impl<F: FamilyScalar> Merge for Best<F> {
     fn merge(&mut self, other: Best<F>) {
         self.0 = self.0.into_iter().chain(other.0).reduce(lower);
     }
 }
 
 /// The lower margin of two; of equals that of the lower start.
-fn lower<F: Made>(one: Found<F>, other: Found<F>) -> Found<F> {
+fn lower<F: FamilyScalar>(one: Found<F>, other: Found<F>) -> Found<F> {
     let is_lower = other.margin < one.margin;
     let is_as_low = other.margin == one.margin;
     if is_lower || (is_as_low && other.start < one.start) {
@@ -67,7 +67,7 @@ fn lower<F: Made>(one: Found<F>, other: Found<F>) -> Found<F> {
 
 /// The case that needs the most growth, as far as a search finds it; none if no start must be hit. An error if the slab
 /// test does not run in this scalar, or has no gate.
-pub fn search<F: Made + Scalar>(
+pub fn search<F: FamilyScalar + Scalar>(
     search: &Search,
     observer: &dyn Observer,
 ) -> Result<Option<Found<F>>, String> {
@@ -86,12 +86,12 @@ pub fn search<F: Made + Scalar>(
     Ok(best.0)
 }
 
-struct Climber<'a, F: Made> {
+struct Climber<'a, F: FamilyScalar> {
     search: &'a Search<'a>,
-    subject: &'static dyn Subject<F, Boxes>,
+    subject: &'static dyn KernelIn<F, Boxes>,
 }
 
-impl<F: Made> Climber<'_, F> {
+impl<F: FamilyScalar> Climber<'_, F> {
     fn climb(&self, start: u64) -> Option<Found<F>> {
         let Search {
             source,
@@ -146,7 +146,7 @@ impl<F: Made> Climber<'_, F> {
 }
 
 /// True if all numbers are so far from the ends of the floats that nothing overflows or underflows.
-fn is_ordinary<F: Made>(case: &BoxCase<F>) -> bool {
+fn is_ordinary<F: FamilyScalar>(case: &BoxCase<F>) -> bool {
     let vectors = case.vectors();
     vectors.as_flattened().iter().all(|x| {
         let size = x.to_f64().abs();
@@ -155,7 +155,7 @@ fn is_ordinary<F: Made>(case: &BoxCase<F>) -> bool {
 }
 
 /// One to three numbers moved, by one place or by up to a whole binade.
-fn changed<F: Made>(draw: &mut Draw, case: &BoxCase<F>) -> BoxCase<F> {
+fn changed<F: FamilyScalar>(draw: &mut Draw, case: &BoxCase<F>) -> BoxCase<F> {
     let mut vectors = case.vectors();
     let numbers = vectors.as_flattened_mut();
     let changes = 1 + draw.below(3);
@@ -169,7 +169,7 @@ fn changed<F: Made>(draw: &mut Draw, case: &BoxCase<F>) -> BoxCase<F> {
 
 /// A case whose line leaves one slab about where it enters the last of the others: its far plane is put there, and some
 /// places further out.
-fn cut_off<F: Made>(case: &BoxCase<F>, leaves: usize, outwards: i64) -> BoxCase<F> {
+fn cut_off<F: FamilyScalar>(case: &BoxCase<F>, leaves: usize, outwards: i64) -> BoxCase<F> {
     let [origin, direction, min, max] = case.widen().vectors();
     let mut t = 0.0;
     for i in (0..3).filter(|i| *i != leaves && direction[*i] != 0.0) {

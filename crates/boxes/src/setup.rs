@@ -2,7 +2,7 @@
 
 use crate::case::Boxes;
 use crate::kernel::KERNELS;
-use hairline_core::kernel::{Entry, EpsilonText, Scalar, Subject, Tunable};
+use hairline_core::kernel::{Entry, EpsilonText, KernelIn, Scalar, Tunable};
 use hairline_core::{Contract, Float, Gate};
 use std::fmt;
 
@@ -85,7 +85,7 @@ impl Setup {
     }
 
     /// The slab test in a scalar. An error if it does not run in it.
-    pub fn subject<F: Scalar>(&self) -> Result<&'static dyn Subject<F, Boxes>, String> {
+    pub fn subject<F: Scalar>(&self) -> Result<&'static dyn KernelIn<F, Boxes>, String> {
         F::subject(self.entry).ok_or_else(|| {
             let name = self.entry.info.name;
             format!("{name} does not run in {}", F::NAME)

@@ -1,7 +1,7 @@
 //! Where the cases of a run come from: a family, a scene of a program's own sizes, or the boxes of a mesh.
 
 use crate::case::{BoxCase, each_axis};
-use crate::family::{Family, Made};
+use crate::family::{Family, FamilyScalar};
 use crate::tree::Tree;
 use hairline_core::Float;
 use hairline_core::case::Draw;
@@ -85,7 +85,7 @@ impl Source {
     }
 
     /// Case `index` of a seed's set.
-    pub fn case<F: Made>(&self, seed: u64, index: u64) -> BoxCase<F> {
+    pub fn case<F: FamilyScalar>(&self, seed: u64, index: u64) -> BoxCase<F> {
         match self {
             Source::Family(family) => family.case(seed, index),
             Source::Scene(scene) => scene.case(seed, index),
@@ -94,7 +94,7 @@ impl Source {
     }
 
     /// The cases of some indices.
-    pub fn cases<F: Made>(&self, seed: u64, indices: Range<u64>) -> Vec<BoxCase<F>> {
+    pub fn cases<F: FamilyScalar>(&self, seed: u64, indices: Range<u64>) -> Vec<BoxCase<F>> {
         let cases = indices.map(|index| self.case(seed, index));
         cases.collect()
     }

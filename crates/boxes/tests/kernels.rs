@@ -2,7 +2,8 @@
 //! other machines and closures compute them.
 
 use hairline_boxes::{
-    BoxCase, Boxes, FAMILIES, KERNELS, Made, Obligation, Setup, TABLE, define, padding, truth,
+    BoxCase, Boxes, FAMILIES, FamilyScalar, KERNELS, Obligation, Setup, TABLE, define, padding,
+    truth,
 };
 use hairline_core::arith::Exact;
 use hairline_core::kernel::{Entry, Scalar, refused_by, verdicts_of};
@@ -10,12 +11,12 @@ use hairline_core::{Contract, EpsilonSet, Failure, Hit, KernelInfo, Verdict};
 use num_rational::BigRational;
 
 /// Cases of all families.
-fn cases<F: Made>(each: u64) -> Vec<BoxCase<F>> {
+fn cases<F: FamilyScalar>(each: u64) -> Vec<BoxCase<F>> {
     let of_family = |family: &'static hairline_boxes::Family| (0..each).map(|i| family.case(3, i));
     FAMILIES.iter().flat_map(of_family).collect()
 }
 
-fn verdicts<F: Made + Scalar>(
+fn verdicts<F: FamilyScalar + Scalar>(
     entry: &Entry<Boxes>,
     cases: &[BoxCase<F>],
     epsilons: &[F],
@@ -55,7 +56,7 @@ fn names_are_unique_and_each_set_has_one_epsilon_a_gate() {
     }
 }
 
-fn margins_say_what_runs_do<F: Made + Scalar>() {
+fn margins_say_what_runs_do<F: FamilyScalar + Scalar>() {
     let cases = cases::<F>(60);
     let growths = [0.0, -1.0, -2.0, -3.0, -1e3, 1.0, 1e3]
         .map(F::from_f64)

@@ -1,7 +1,7 @@
 //! The least growth of a far end: the constants of docs/design/boxes-proof.md in exact rationals, the rays that a smaller growth
 //! loses, the bound on boxes that are drawn to break it, and the hypothesis.
 
-use hairline_boxes::{BoxCase, Domain, Growth, Made, TABLE, least_growths, truth};
+use hairline_boxes::{BoxCase, Domain, FamilyScalar, Growth, TABLE, least_growths, truth};
 use hairline_core::Verdict;
 use hairline_core::case::Draw;
 use hairline_core::kernel::Scalar;
@@ -12,7 +12,7 @@ fn ordinary() -> Domain {
     Domain::new([1e-6, 1e6], [1e-6, 1e6]).unwrap()
 }
 
-fn least_growth<F: Made + Scalar>(test: &str, domain: &Domain) -> Growth<F> {
+fn least_growth<F: FamilyScalar + Scalar>(test: &str, domain: &Domain) -> Growth<F> {
     let mut all = least_growths::<F>(domain).into_iter();
     all.find(|growth| growth.test == test).unwrap()
 }
@@ -21,7 +21,7 @@ fn exact(x: f64) -> Rational {
     Rational::from_float(x).unwrap()
 }
 
-fn hits<F: Made + Scalar>(test: &str, case: &BoxCase<F>, growth: f64) -> bool {
+fn hits<F: FamilyScalar + Scalar>(test: &str, case: &BoxCase<F>, growth: f64) -> bool {
     let mut verdict = [Verdict::miss(None)];
     let subject = F::subject(TABLE.find(test).unwrap()).unwrap();
     subject.run(&[*case], &[F::from_f64(-growth)], &mut verdict);
@@ -57,7 +57,7 @@ fn the_constants_of_the_page_hold_in_both_scalars_for_two_and_three_roundings() 
     }
 }
 
-fn smaller_ones_lose<F: Made + Scalar>() {
+fn smaller_ones_lose<F: FamilyScalar + Scalar>() {
     for (test, units) in [("divided", 2), ("multiplied", 3)] {
         let growth = least_growth::<F>(test, &ordinary());
         assert_eq!(growth.enough, Some(units));

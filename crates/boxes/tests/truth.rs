@@ -3,13 +3,13 @@
 mod reference;
 
 use hairline_boxes::{
-    BoxCase, Class, FAMILIES, Layers, Made, Origin, Overlap, Truth, case_of, check, define, truth,
-    truth_counted,
+    BoxCase, Class, FAMILIES, FamilyScalar, Layers, Origin, Overlap, Truth, case_of, check, define,
+    truth, truth_counted,
 };
 use hairline_core::case::CaseId;
 use reference::hard_case;
 
-fn layers_are_the_definition_and_the_integers<F: Made>(count: u64) {
+fn layers_are_the_definition_and_the_integers<F: FamilyScalar>(count: u64) {
     let mut layers = Layers::default();
     let mut kinds = [0; 8];
     for index in 0..count {
@@ -65,7 +65,7 @@ fn families_keep_their_promises_and_ids_make_their_cases_again() {
 }
 
 /// A digest of many cases: it changes with any of them.
-fn digest<F: Made>(name: &str) -> u64 {
+fn digest<F: FamilyScalar>(name: &str) -> u64 {
     let family = hairline_boxes::find_family(name).unwrap();
     let mut digest = 0u64;
     for index in 0..200 {

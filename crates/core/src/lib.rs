@@ -157,8 +157,8 @@ pub use contract::{
 
 pub use arith::{Float, Real, ScalarName, Vector};
 pub use kernel::{
-    Dimension, Entry, EpsilonSet, Failure, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role,
-    Scalar, Sink, Subject, Test, Tunable, Verdict, find,
+    Dimension, Entry, EpsilonSet, Failure, Gate, Gives, Hit, Kernel, KernelIn, KernelInfo, Refuse,
+    Role, Scalar, Sink, Test, Tunable, Verdict, find,
 };
 
 #[cfg(doctest)]

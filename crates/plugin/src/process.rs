@@ -1,4 +1,4 @@
-//! A kernel in processes of its own, as a [`Subject`]: one process a turn, which receives batches. If a
+//! A kernel in processes of its own, as a [`KernelIn`]: one process a turn, which receives batches. If a
 //! batch ends its process the cases run again one by one, to find the one that does it.
 
 #![forbid(unsafe_code)]
@@ -16,7 +16,7 @@ use super::running::{self, KernelProgram, Lost, Running};
 use super::stderr::MOST_LINES;
 use super::turns::Turns;
 use crate::arith::{Float, FloatEnvironment};
-use crate::kernel::{Failure, Hit, KernelInfo, Subject, Verdict, open_epsilons, values_of};
+use crate::kernel::{Failure, Hit, KernelIn, KernelInfo, Verdict, open_epsilons, values_of};
 use crate::plot::{group_digits, number_of};
 use std::marker::PhantomData;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -266,7 +266,7 @@ impl<T: Asked> Process<T> {
     }
 }
 
-impl<F: Float, T: Asked> Subject<F, T> for Process<T> {
+impl<F: Float, T: Asked> KernelIn<F, T> for Process<T> {
     fn run(&self, cases: &[T::Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         self.run_timed(cases, epsilons, verdicts);
     }
@@ -327,7 +327,7 @@ impl<F: Float, T: Asked> Subject<F, T> for Process<T> {
                 }
             }
         } else {
-            Subject::run(self, cases, &[], &mut verdicts);
+            KernelIn::run(self, cases, &[], &mut verdicts);
         }
         let pairs = values.iter_mut().zip(&verdicts);
         pairs.for_each(|(place, verdict)| *place = values_of(info, verdict));

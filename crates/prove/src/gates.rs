@@ -69,7 +69,7 @@ pub struct Uses {
 
 /// A limit that a bound supposes in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Supposed {
+pub struct Assumption {
     /// True if the size of the number is at most the limit; false if it is at least that.
     pub is_most: bool,
     /// The number.
@@ -78,15 +78,15 @@ pub struct Supposed {
     pub limit: Dyadic,
 }
 
-impl Supposed {
-    fn of(limit: Limit, is_most: bool) -> Option<Supposed> {
+impl Assumption {
+    fn of(limit: Limit, is_most: bool) -> Option<Assumption> {
         let name = match limit {
             Limit::Own(_) => return None,
             Limit::Scene(name, _) => name,
             Limit::Domain(_) if is_most => "any quotient",
             Limit::Domain(_) => "any other divisor",
         };
-        Some(Supposed {
+        Some(Assumption {
             is_most,
             name,
             limit: limit.size(),
@@ -96,17 +96,17 @@ impl Supposed {
 
 impl Quantity {
     /// The limits of divisors and of quotients that its bound supposes.
-    pub fn limits(&self) -> Vec<Supposed> {
+    pub fn limits(&self) -> Vec<Assumption> {
         let mut all = Vec::new();
         for lemma in &self.lemmas {
             match lemma.rule {
                 Rule::Sum => {}
-                Rule::Unit { floor, .. } => all.extend(Supposed::of(floor, false)),
+                Rule::Unit { floor, .. } => all.extend(Assumption::of(floor, false)),
                 Rule::Quotient { floor, most, .. } => {
-                    all.extend(Supposed::of(floor, false));
+                    all.extend(Assumption::of(floor, false));
                     // Else the largest numerator over the least divisor is smaller.
                     if most.size() <= lemma.bound.size {
-                        all.extend(Supposed::of(most, true));
+                        all.extend(Assumption::of(most, true));
                     }
                 }
             }

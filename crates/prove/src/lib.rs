@@ -48,7 +48,7 @@ pub use domain::{Domain, Format};
 pub use dyadic::Dyadic;
 pub use forms::Leaf;
 pub use formula::{Formula, Maximum, Source, Step};
-pub use gates::{Proof, Quantity, Supposed, Uses, compared};
+pub use gates::{Assumption, Proof, Quantity, Uses, compared};
 pub use judged::{Judged, VERDICTS, useful_scenes};
 pub use meaning::Scale;
 pub use measures::{Limit, Measures, Sample};
@@ -62,6 +62,8 @@ pub use statement::{Published, Triangles, about_edges, above, below, statements,
 pub use summary::{
     Effort, GOALS, GateSummary, Summary, Witness, bound_of_gate, format_of, paths_of,
 };
-pub use verdict::{Depth, Farthest, May, Other, USELESS, Verdicts, supposes_weights, verdicts};
+pub use verdict::{
+    Depth, Farthest, Other, USELESS, Verdicts, WrongDecisions, supposes_weights, verdicts,
+};
 pub use watertight::Symmetry;
 pub use witness::{Goal, Inputs, Search, Searched};

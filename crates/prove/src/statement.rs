@@ -3,7 +3,7 @@
 use super::sizes::BySize;
 use super::summary::{GateSummary, Summary, Witness};
 use super::witness::Searched;
-use super::{Domain, Relative, Scene, Shape, Supposed, Symmetry};
+use super::{Assumption, Domain, Relative, Scene, Shape, Symmetry};
 use crate::kernel::{Entry, Role, Scalar};
 
 /// An epsilon, and where it comes from.
@@ -120,9 +120,9 @@ pub fn statements<F: Searched + Scalar>(
 }
 
 /// The limits that a bound in a scene supposes, and what the letters in them mean.
-fn supposed(limits: &[Supposed]) -> String {
+fn supposed(limits: &[Assumption]) -> String {
     let texts = limits.iter().map(
-        |Supposed {
+        |Assumption {
              is_most,
              name,
              limit,

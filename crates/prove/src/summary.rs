@@ -2,7 +2,7 @@
 
 use super::bound::Proven;
 use super::depth::Judge;
-use super::gates::{Proof, Quantity, Supposed, Uses};
+use super::gates::{Assumption, Proof, Quantity, Uses};
 use super::permanent::{Relative, relative};
 use super::watertight::{Symmetry, symmetry};
 use super::witness::{Goal, Inputs, Search, Searched};
@@ -43,7 +43,7 @@ pub struct GateSummary<F> {
     /// The suppositions of the bound.
     pub uses: Uses,
     /// In a scene, the limits of divisors and of quotients that it supposes.
-    pub limits: Vec<Supposed>,
+    pub limits: Vec<Assumption>,
     /// True if what it compares is compared with the epsilon itself; false if with zero, at an epsilon of 0.
     pub is_margin: bool,
     /// The worst inputs known for each goal, in the order of [`GOALS`].
@@ -162,7 +162,7 @@ impl<F: Searched + Scalar> Summary<F> {
             let bound = proof.gate(index)?;
             let of_gate = || proof.of_gate(index);
             let uses = Uses::of(of_gate().flat_map(|quantity| &quantity.lemmas));
-            let mut limits: Vec<Supposed> = of_gate().flat_map(Quantity::limits).collect();
+            let mut limits: Vec<Assumption> = of_gate().flat_map(Quantity::limits).collect();
             // The weakest of each.
             limits.sort_unstable();
             limits.dedup_by(|later, kept| {

@@ -48,12 +48,12 @@ pub struct Other {
     /// The gate.
     pub gate: usize,
     /// Where.
-    pub may: May,
+    pub may: WrongDecisions,
 }
 
 /// Where a gate that is not about edges may decide wrongly.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum May {
+pub enum WrongDecisions {
     /// It never refuses a hit of the domain.
     Never,
     /// It may refuse a hit where the size of a number of this name is below this.
@@ -362,7 +362,7 @@ fn others(
     epsilons: &[f64],
     parts: &[Domain],
 ) -> Vec<Other> {
-    let mut may = |gate: usize| -> Option<May> {
+    let mut may = |gate: usize| -> Option<WrongDecisions> {
         let e = epsilons[gate];
         let mut may = None;
         let is_fixed =
@@ -377,15 +377,21 @@ fn others(
                 let error = error(proof, quantity.program, domain).ok()?;
                 let least = scale.least(domain);
                 may = Some(match (what, may) {
-                    (What::One, Some(May::Refuse(name, x))) => May::Refuse(name, x.max(e + error)),
-                    (What::One, before) if e + error < least => before.unwrap_or(May::Never),
-                    (What::One, _) => May::Refuse(scale.name(), e + error),
+                    (What::One, Some(WrongDecisions::Refuse(name, x))) => {
+                        WrongDecisions::Refuse(name, x.max(e + error))
+                    }
+                    (What::One, before) if e + error < least => {
+                        before.unwrap_or(WrongDecisions::Never)
+                    }
+                    (What::One, _) => WrongDecisions::Refuse(scale.name(), e + error),
                     (What::Weight(_) | What::Rest(_), _) => return None,
                     (_, before) => {
                         let [early, late] = [e + error, error - e].map(|x| x.max(0.0) / least);
                         match before {
-                            Some(May::Ends(x, y)) => May::Ends(x.max(early), y.max(late)),
-                            _ => May::Ends(early, late),
+                            Some(WrongDecisions::Ends(x, y)) => {
+                                WrongDecisions::Ends(x.max(early), y.max(late))
+                            }
+                            _ => WrongDecisions::Ends(early, late),
                         }
                     }
                 });
@@ -396,7 +402,7 @@ fn others(
     let mut others = Vec::new();
     for (gate, info) in entry.info.gates.iter().enumerate() {
         if info.role != Role::Edge {
-            let may = may(gate).unwrap_or(May::Unknown);
+            let may = may(gate).unwrap_or(WrongDecisions::Unknown);
             others.push(Other { gate, may });
         }
     }

@@ -30,7 +30,7 @@ pub enum Symmetry {
 /// recognised.
 pub fn symmetry(paths: &[Path], is_edge: impl Fn(usize) -> bool) -> Symmetry {
     let mut forms = Forms::default();
-    let mut met: HashMap<Vec<Decision>, Met> = HashMap::new();
+    let mut met: HashMap<Vec<Decision>, EdgesOfRay> = HashMap::new();
     for path in paths {
         let mut gates: Vec<&Compared> = path.compared.iter().collect();
         gates.retain(|compared| is_edge(compared.gate));
@@ -44,20 +44,20 @@ pub fn symmetry(paths: &[Path], is_edge: impl Fn(usize) -> bool) -> Symmetry {
         let of_ray = of_the_ray(&mut forms, path);
         for place in edges {
             let form = of_edge(&mut forms, path, place);
-            let of_edge = Met {
+            let of_edge = EdgesOfRay {
                 form: is_opposite(path, place).then_some(form),
                 images: images(&mut forms, path, place),
             };
             met.entry(of_ray.clone()).or_insert(of_edge).join(of_edge);
         }
     }
-    let least = met.values().map(Met::symmetry).min();
+    let least = met.values().map(EdgesOfRay::symmetry).min();
     least.unwrap_or(Symmetry::None)
 }
 
 /// The common formula or images of all edges that one ray may meet.
 #[derive(Clone, Copy)]
-struct Met {
+struct EdgesOfRay {
     /// The formula, as it is of an edge from a to b; none if there are several, or if it is not the negative of itself
     /// with its ends exchanged.
     form: Option<Signed>,
@@ -65,8 +65,8 @@ struct Met {
     images: Option<[Signed; 2]>,
 }
 
-impl Met {
-    fn join(&mut self, other: Met) {
+impl EdgesOfRay {
+    fn join(&mut self, other: EdgesOfRay) {
         self.form = self.form.filter(|form| other.form == Some(*form));
         self.images = self.images.filter(|images| other.images == Some(*images));
     }

@@ -2,7 +2,7 @@
 
 use hairline::internals::case::CaseId;
 use hairline::internals::family::cases_of;
-use hairline::{Case, Float, Scalar, ScalarName, Subject, Verdict};
+use hairline::{Case, Float, Scalar, ScalarName, KernelIn, Verdict};
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -112,7 +112,7 @@ pub fn case<'py>(py: Python<'py>, id: &str) -> PyResult<Vec<Bound<'py, PyAny>>> 
     }
 }
 
-impl<F: Float + Scalar + Element> Subject<F> for &'static Function {
+impl<F: Float + Scalar + Element> KernelIn<F> for &'static Function {
     fn run(&self, cases: &[Case<F>], _: &[F], verdicts: &mut [Verdict<F>]) {
         verdicts.fill(Verdict::miss(None));
         Python::attach(|py| {

@@ -6,7 +6,7 @@ use hairline::internals::contract::Contract;
 use hairline::internals::kernel::Tunable;
 use hairline::{
     Case, Dimension, Entry, EpsilonSet, Failure, Float, Gate, Gives, KernelInfo, Role, Scalar,
-    Subject, Verdict,
+    KernelIn, Verdict,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -123,7 +123,7 @@ impl Own {
 /// The kernel that JavaScript has at the time.
 struct Page;
 
-impl<F: Scalar> Subject<F> for Page {
+impl<F: Scalar> KernelIn<F> for Page {
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         let numbers: Vec<[f64; 17]> = cases.iter().map(numbers).collect();
         let epsilons: Vec<f64> = epsilons.iter().map(|epsilon| epsilon.to_f64()).collect();

@@ -9,7 +9,7 @@ use crate::cli::progress::Progress;
 use crate::record::{Context, Record, provenance_of};
 use crate::report::Format;
 use clap::Args;
-use hairline_boxes::{Made, Setup, Source, audit};
+use hairline_boxes::{FamilyScalar, Setup, Source, audit};
 use hairline_core::kernel::Scalar;
 use std::slice;
 use std::time::Instant;
@@ -100,7 +100,7 @@ struct AuditRun<'a> {
 }
 
 impl AuditRun<'_> {
-    fn rows_of<F: Made + Scalar>(&self, source: &Source) -> Vec<BoxesRow> {
+    fn rows_of<F: FamilyScalar + Scalar>(&self, source: &Source) -> Vec<BoxesRow> {
         let sources = slice::from_ref(source);
         let found = audit::<F>(self.setups, sources, self.count, self.seed, self.progress);
         found

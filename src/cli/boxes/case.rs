@@ -3,12 +3,12 @@
 use super::published;
 use super::written::{AnyBoxCase, WrittenCase};
 use crate::cli::exit::Failure;
-use hairline_boxes::{Made, Source, case_of};
+use hairline_boxes::{FamilyScalar, Source, case_of};
 use hairline_core::ScalarName;
 use hairline_core::case::CaseId;
 
 /// The name of a case: its id, or if it has none the case in JSON.
-pub fn name<F: Made>(source: &Source, seed: u64, index: u64) -> String {
+pub fn name<F: FamilyScalar>(source: &Source, seed: u64, index: u64) -> String {
     match source {
         Source::Family(family) => family.id::<F>(seed, index).to_string(),
         Source::Scene(_) | Source::Mesh(_) => source.case::<F>(seed, index).json(),

@@ -14,7 +14,7 @@ use crate::record::{group_digits, number_of};
 use crate::report::Format;
 use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Tone};
 use clap::Args;
-use hairline_boxes::{Answer, Made, Question, Setup, Source, epsilon};
+use hairline_boxes::{Answer, FamilyScalar, Question, Setup, Source, epsilon};
 use hairline_core::Float;
 use hairline_core::kernel::Scalar;
 use serde::Serialize;
@@ -104,7 +104,7 @@ struct AdviceRow {
 }
 
 impl Advice {
-    fn add<F: Made + Scalar>(
+    fn add<F: FamilyScalar + Scalar>(
         &mut self,
         setup: &Setup,
         gate: usize,

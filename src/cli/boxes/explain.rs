@@ -11,8 +11,8 @@ use crate::report::Format;
 use crate::report::page::{Block, Cell, Head, Page, Paged, Row, Table, Tone};
 use clap::Args;
 use hairline_boxes::{
-    BoxCase, Class, Definition, Finding, Made, Meeting, Obligation, Origin, Overlap, Range, Setup,
-    TABLE, Truth, define, padding,
+    BoxCase, Class, Definition, FamilyScalar, Finding, Meeting, Obligation, Origin, Overlap, Range,
+    Setup, TABLE, Truth, define, padding,
 };
 use hairline_core::kernel::{Scalar, verdicts_of};
 use hairline_core::{Extent, ScalarName, Verdict};
@@ -91,7 +91,7 @@ struct Answer {
     margins: Vec<(String, f64)>,
 }
 
-fn explain<F: Made + Scalar>(name: &str, case: &BoxCase<F>, setups: &[Setup]) -> Explained {
+fn explain<F: FamilyScalar + Scalar>(name: &str, case: &BoxCase<F>, setups: &[Setup]) -> Explained {
     let defined = define(case);
     let [origin, direction, min, max] = case.vectors();
     let vector = |[x, y, z]: [F; 3]| format!("{x:?} {y:?} {z:?}");
@@ -123,7 +123,11 @@ fn explain<F: Made + Scalar>(name: &str, case: &BoxCase<F>, setups: &[Setup]) ->
     }
 }
 
-fn answer<F: Made + Scalar>(case: &BoxCase<F>, truth: &Truth, setup: &Setup) -> Option<Answer> {
+fn answer<F: FamilyScalar + Scalar>(
+    case: &BoxCase<F>,
+    truth: &Truth,
+    setup: &Setup,
+) -> Option<Answer> {
     let subject = F::subject(setup.entry)?;
     let epsilons: Vec<F> = setup.epsilons()?;
     let mut verdict = [Verdict::miss(None)];
@@ -156,7 +160,7 @@ fn answer<F: Made + Scalar>(case: &BoxCase<F>, truth: &Truth, setup: &Setup) -> 
 }
 
 /// The judgement of a verdict, with the reason where it is not the closed box and the closed interval that decide.
-fn judged<F: Made>(truth: &Truth, setup: &Setup, verdict: &Verdict<F>) -> &'static str {
+fn judged<F: FamilyScalar>(truth: &Truth, setup: &Setup, verdict: &Verdict<F>) -> &'static str {
     let contract = &setup.contract;
     let obligation = Obligation::new(truth, contract);
     if obligation == Obligation::Free && verdict.failure.is_none() {

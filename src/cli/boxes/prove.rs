@@ -5,7 +5,7 @@ use crate::cli::output::OutputArguments;
 use crate::report::Format;
 use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Tone};
 use clap::Args;
-use hairline_boxes::{Domain, Made, least_growths};
+use hairline_boxes::{Domain, FamilyScalar, least_growths};
 use hairline_core::ScalarName;
 use hairline_core::kernel::Scalar;
 use serde::Serialize;
@@ -79,7 +79,7 @@ impl Proofs {
         self.rows.iter().all(|proof| proof.fault().is_none())
     }
 
-    fn add<F: Made + Scalar>(&mut self, domain: &Domain) {
+    fn add<F: FamilyScalar + Scalar>(&mut self, domain: &Domain) {
         for growth in least_growths::<F>(domain) {
             self.rows.push(Proof {
                 test: growth.test,

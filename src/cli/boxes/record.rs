@@ -7,7 +7,7 @@ use crate::audit::Trials;
 use crate::record::{Comparable, NamedRate, Rate, Study, number_of};
 use crate::report::alike;
 use crate::report::page::{Block, Command, Head, Page, Paged, Row as TableRow, Table, Tone};
-use hairline_boxes::{Made, Row, Setup, Source, Wrong};
+use hairline_boxes::{FamilyScalar, Row, Setup, Source, Wrong};
 use hairline_core::kernel::Scalar;
 use std::collections::BTreeSet;
 use sum::Sum;
@@ -69,7 +69,7 @@ struct Farthest {
 
 impl BoxesRow {
     /// From a row of an audit.
-    pub fn new<F: Made + Scalar>(row: &Row, source: &Source, seed: u64) -> BoxesRow {
+    pub fn new<F: FamilyScalar + Scalar>(row: &Row, source: &Source, seed: u64) -> BoxesRow {
         let Row { setup, tally, .. } = row;
         let name = |index: u64| super::case::name::<F>(source, seed, index);
         let gates = setup.gates().iter().map(|gate| gate.name.to_owned());

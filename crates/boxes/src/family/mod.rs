@@ -30,18 +30,18 @@ pub struct Family {
 type Make<F> = fn(&mut Draw, bool) -> BoxCase<F>;
 
 /// A scalar that families make cases in.
-pub trait Made: Float {
+pub trait FamilyScalar: Float {
     /// The function with which a family makes cases.
     fn made(family: &Family) -> Make<Self>;
 }
 
-impl Made for f32 {
+impl FamilyScalar for f32 {
     fn made(family: &Family) -> Make<f32> {
         family.f32
     }
 }
 
-impl Made for f64 {
+impl FamilyScalar for f64 {
     fn made(family: &Family) -> Make<f64> {
         family.f64
     }
@@ -49,7 +49,7 @@ impl Made for f64 {
 
 impl Family {
     /// Case `index` of a seed's set.
-    pub fn case<F: Made>(&self, seed: u64, index: u64) -> BoxCase<F> {
+    pub fn case<F: FamilyScalar>(&self, seed: u64, index: u64) -> BoxCase<F> {
         let is_second = self.is_of_pairs && index % 2 == 1;
         // Both of a pair have one stream.
         let stream = index - u64::from(is_second);
@@ -57,7 +57,7 @@ impl Family {
     }
 
     /// The name of a case, from which it is made again.
-    pub fn id<F: Made>(&self, seed: u64, index: u64) -> CaseId {
+    pub fn id<F: FamilyScalar>(&self, seed: u64, index: u64) -> CaseId {
         CaseId {
             family: self.name.to_owned(),
             version: self.version,
@@ -76,7 +76,7 @@ impl Family {
 }
 
 /// The case of an id; an error says what is wrong with the id.
-pub fn case_of<F: Made>(id: &CaseId) -> Result<BoxCase<F>, String> {
+pub fn case_of<F: FamilyScalar>(id: &CaseId) -> Result<BoxCase<F>, String> {
     let family = find_family(&id.family)?;
     if family.version != id.version {
         let (name, version) = (family.name, family.version);

@@ -1,7 +1,7 @@
 //! A third reference for the truth, which shares no formula with the other two: it tries every t that could be an end of
 //! what the line and the box have in common, in integers; and cases that are hard to decide.
 
-use hairline_boxes::{BoxCase, Class, FAMILIES, Made, Meeting, Origin, Overlap, Truth};
+use hairline_boxes::{BoxCase, Class, FAMILIES, FamilyScalar, Meeting, Origin, Overlap, Truth};
 use hairline_core::arith::decompose;
 use hairline_core::case::Draw;
 use num_bigint::BigInt;
@@ -171,7 +171,7 @@ pub fn truth(case: &BoxCase<f64>) -> Truth {
 }
 
 /// A case on a small grid, a family's case with a nudged number, or numbers of any exponent; some of them invalid.
-pub fn hard_case<F: Made>(seed: u64, index: u64) -> BoxCase<F> {
+pub fn hard_case<F: FamilyScalar>(seed: u64, index: u64) -> BoxCase<F> {
     let mut draw = Draw::new("hard boxes", seed, index);
     let case = match index % 4 {
         0 => on_a_grid(&mut draw),
@@ -198,7 +198,7 @@ pub fn hard_case<F: Made>(seed: u64, index: u64) -> BoxCase<F> {
     }
 }
 
-fn on_a_grid<F: Made>(draw: &mut Draw) -> BoxCase<F> {
+fn on_a_grid<F: FamilyScalar>(draw: &mut Draw) -> BoxCase<F> {
     let number = |x: i64| F::from_f64(x as f64);
     let min = draw.lattice_point(2);
     let max = min.map(|x| x + draw.integer(-1, 3).max(i64::from(draw.below(20) > 0) - 1));
@@ -207,7 +207,7 @@ fn on_a_grid<F: Made>(draw: &mut Draw) -> BoxCase<F> {
     BoxCase::new(origin, direction, [min.map(number), max.map(number)])
 }
 
-fn nudged<F: Made>(draw: &mut Draw, seed: u64, index: u64) -> BoxCase<F> {
+fn nudged<F: FamilyScalar>(draw: &mut Draw, seed: u64, index: u64) -> BoxCase<F> {
     let family = &FAMILIES[draw.below(FAMILIES.len())];
     let case = family.case::<F>(seed, index);
     let mut vectors = case.vectors();
@@ -219,7 +219,7 @@ fn nudged<F: Made>(draw: &mut Draw, seed: u64, index: u64) -> BoxCase<F> {
     BoxCase::new(origin, direction, [min, max]).on(case.ray.t_min, case.ray.t_max)
 }
 
-fn any_exponents<F: Made>(draw: &mut Draw) -> BoxCase<F> {
+fn any_exponents<F: FamilyScalar>(draw: &mut Draw) -> BoxCase<F> {
     let mut point = || -> [F; 3] {
         [(); 3].map(|()| match draw.below(8) {
             0 => F::zero(),

@@ -1,7 +1,7 @@
 //! A kernel with a small change around it, under a name such as `moller-trumbore+sorted`: what a program can mend without
 //! writing its kernel anew.
 
-use super::{Gate, Gated, Role, Subject, Verdict};
+use super::{Gate, Gated, KernelIn, Role, Verdict};
 use crate::arith::Float;
 use crate::case::{Case, Triangle};
 use crate::truth::Facing;
@@ -30,7 +30,7 @@ named! {
 pub(super) struct Changed<F: Float> {
     pub change: Change,
     pub gates: &'static [Gate],
-    pub kernel: &'static dyn Subject<F>,
+    pub kernel: &'static dyn KernelIn<F>,
 }
 
 /// The largest size of some coordinates.
@@ -141,7 +141,7 @@ fn renamed<F: Float>(verdict: &mut Verdict<F>, order: [usize; 3]) {
     };
 }
 
-impl<F: Float> Subject<F> for Changed<F> {
+impl<F: Float> KernelIn<F> for Changed<F> {
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         let mut sized = epsilons.to_vec();
         for (case, verdict) in cases.iter().zip(verdicts) {
@@ -176,9 +176,9 @@ impl<F: Float> Subject<F> for Changed<F> {
 }
 
 /// A kernel for floats that computes in double.
-pub(super) struct InDouble(pub &'static dyn Subject<f64>);
+pub(super) struct InDouble(pub &'static dyn KernelIn<f64>);
 
-impl Subject<f32> for InDouble {
+impl KernelIn<f32> for InDouble {
     fn run(&self, cases: &[Case<f32>], epsilons: &[f32], verdicts: &mut [Verdict<f32>]) {
         let epsilons: Vec<f64> = epsilons.iter().map(|x| f64::from(*x)).collect();
         for (case, verdict) in cases.iter().zip(verdicts) {
@@ -211,12 +211,12 @@ impl Subject<f32> for InDouble {
 
 /// A kernel for floats that answers in double where the number that decides at an edge is exactly 0.
 pub(super) struct WithFallback {
-    pub kernel: &'static dyn Subject<f32>,
+    pub kernel: &'static dyn KernelIn<f32>,
     pub gated: &'static dyn Gated<f32>,
     pub in_double: InDouble,
 }
 
-impl Subject<f32> for WithFallback {
+impl KernelIn<f32> for WithFallback {
     fn run(&self, cases: &[Case<f32>], epsilons: &[f32], verdicts: &mut [Verdict<f32>]) {
         self.kernel.run(cases, epsilons, verdicts);
         let gates = self.gated.info().gates;

@@ -1,6 +1,6 @@
 //! Kernels that are written once for every arithmetic, as subjects of either scalar.
 
-use super::subject::Subject;
+use super::subject::KernelIn;
 use super::{Deciding, Kernel, KernelInfo, Verdict};
 use crate::arith::{Arithmetic, Float};
 use crate::case::{Ray, Target, Triangles};
@@ -8,7 +8,7 @@ use std::marker::PhantomData;
 #[cfg(feature = "margins")]
 use {super::Hit, super::margins::each_case, super::subject::Gated};
 
-/// A [`Kernel`], written for every arithmetic, as a [`Subject`] of either scalar, in some [`Arithmetic`]. Without
+/// A [`Kernel`], written for every arithmetic, as a [`KernelIn`] of either scalar, in some [`Arithmetic`]. Without
 /// rounding it is the same kernel in all of them.
 pub struct Generic<K, T: Target = Triangles> {
     pub(super) arithmetic: Arithmetic,
@@ -25,7 +25,7 @@ impl<T: Target, K: Kernel<T>> Generic<K, T> {
     };
 }
 
-impl<F: Float, T: Target, K: Kernel<T>> Subject<F, T> for Generic<K, T> {
+impl<F: Float, T: Target, K: Kernel<T>> KernelIn<F, T> for Generic<K, T> {
     fn run(&self, cases: &[T::Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         #[cfg(feature = "margins")]
         if self.arithmetic != Arithmetic::IEEE {
@@ -76,7 +76,7 @@ impl<F: Float, T: Target, K: Kernel<T>> Subject<F, T> for Generic<K, T> {
         &self,
         arithmetic: Arithmetic,
         info: &'static KernelInfo,
-    ) -> Option<&'static dyn Subject<F, T>> {
+    ) -> Option<&'static dyn KernelIn<F, T>> {
         Some(Box::leak(Box::new(Generic::<K, T> {
             arithmetic,
             info,

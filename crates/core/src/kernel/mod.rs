@@ -60,7 +60,7 @@ pub use registry::{
 };
 pub use runs::{ExactRun, Measured, TrackedRun};
 pub use subject::verdicts_of;
-pub use subject::{Gated, Subject, Test};
+pub use subject::{Gated, KernelIn, Test};
 pub use verdict::{Failure, Verdict};
 
 use crate::arith::{Real, Vector};

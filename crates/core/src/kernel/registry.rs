@@ -2,7 +2,7 @@
 
 use super::changed::{Change, Changed, InDouble, WithFallback, has_size, sized};
 use super::subject::{Own, Test};
-use super::{Gate, Generic, Kernel, KernelInfo, Role, Subject};
+use super::{Gate, Generic, Kernel, KernelIn, KernelInfo, Role};
 use crate::arith::{Arithmetic, Float};
 use crate::case::{Target, Triangles};
 use crate::contract::{Contract, Extent, Sides};
@@ -16,8 +16,8 @@ pub struct Entry<T: Target = Triangles> {
     pub info: &'static KernelInfo,
     /// The flag that chooses it on a command line, if not `--kernel` with its name.
     flag: Option<&'static str>,
-    f32: Option<&'static dyn Subject<f32, T>>,
-    f64: Option<&'static dyn Subject<f64, T>>,
+    f32: Option<&'static dyn KernelIn<f32, T>>,
+    f64: Option<&'static dyn KernelIn<f64, T>>,
 }
 
 impl<T: Target> Entry<T> {
@@ -70,7 +70,7 @@ impl<T: Target> Entry<T> {
     }
 
     /// The same with a subject in `f32`.
-    pub const fn with_f32(self, subject: &'static dyn Subject<f32, T>) -> Entry<T> {
+    pub const fn with_f32(self, subject: &'static dyn KernelIn<f32, T>) -> Entry<T> {
         Entry {
             f32: Some(subject),
             ..self
@@ -78,7 +78,7 @@ impl<T: Target> Entry<T> {
     }
 
     /// The same with a subject in `f64`.
-    pub const fn with_f64(self, subject: &'static dyn Subject<f64, T>) -> Entry<T> {
+    pub const fn with_f64(self, subject: &'static dyn KernelIn<f64, T>) -> Entry<T> {
         Entry {
             f64: Some(subject),
             ..self
@@ -99,7 +99,7 @@ impl<T: Target> Entry<T> {
         f32 || self.f64.is_some_and(|subject| subject.gated().is_some())
     }
 
-    /// True if a study of epsilons can ask it for margins: see [`Subject::tells_margins`].
+    /// True if a study of epsilons can ask it for margins: see [`KernelIn::tells_margins`].
     pub fn tells_margins(&self) -> bool {
         self.f32.is_none_or(|subject| subject.tells_margins())
             && self.f64.is_none_or(|subject| subject.tells_margins())
@@ -368,8 +368,8 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
     fn leaked<F: Float>(
         change: Change,
         gates: &'static [Gate],
-        kernel: &'static dyn Subject<F>,
-    ) -> &'static dyn Subject<F> {
+        kernel: &'static dyn KernelIn<F>,
+    ) -> &'static dyn KernelIn<F> {
         Box::leak(Box::new(Changed {
             change,
             gates,
@@ -378,7 +378,7 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
     }
     let subjects = |_| match change {
         Change::Double => {
-            let in_double: &'static dyn Subject<f32> = Box::leak(Box::new(InDouble(entry.f64?)));
+            let in_double: &'static dyn KernelIn<f32> = Box::leak(Box::new(InDouble(entry.f64?)));
             Some((Some(in_double), None))
         }
         Change::Fallback => {
@@ -388,7 +388,7 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
                 gated: kernel.gated()?,
                 in_double,
             };
-            let fallback: &'static dyn Subject<f32> = Box::leak(Box::new(fallback));
+            let fallback: &'static dyn KernelIn<f32> = Box::leak(Box::new(fallback));
             Some((Some(fallback), None))
         }
         _ => Some((
@@ -401,8 +401,8 @@ pub fn changed(entry: &'static Entry, change: Change) -> Option<&'static Entry> 
 
 /// The same kernel in both scalars, in another form.
 type Subjects<T> = (
-    Option<&'static dyn Subject<f32, T>>,
-    Option<&'static dyn Subject<f64, T>>,
+    Option<&'static dyn KernelIn<f32, T>>,
+    Option<&'static dyn KernelIn<f64, T>>,
 );
 
 /// The form of a kernel that stands behind a `+` in a name.
@@ -468,17 +468,17 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 /// A scalar that kernels are registered in.
 pub trait Scalar: Float {
     /// The kernel of a row, if it runs in this scalar.
-    fn subject<T: Target>(entry: &Entry<T>) -> Option<&'static dyn Subject<Self, T>>;
+    fn subject<T: Target>(entry: &Entry<T>) -> Option<&'static dyn KernelIn<Self, T>>;
 }
 
 impl Scalar for f32 {
-    fn subject<T: Target>(entry: &Entry<T>) -> Option<&'static dyn Subject<f32, T>> {
+    fn subject<T: Target>(entry: &Entry<T>) -> Option<&'static dyn KernelIn<f32, T>> {
         entry.f32
     }
 }
 
 impl Scalar for f64 {
-    fn subject<T: Target>(entry: &Entry<T>) -> Option<&'static dyn Subject<f64, T>> {
+    fn subject<T: Target>(entry: &Entry<T>) -> Option<&'static dyn KernelIn<f64, T>> {
         entry.f64
     }
 }

@@ -66,7 +66,7 @@ impl<T: Target, K: Kernel<T>> Generic<K, T> {
             .collect()
     }
 
-    /// [`Subject::run`](super::Subject::run).
+    /// [`KernelIn::run`](super::KernelIn::run).
     pub(super) fn run_emulated<F: Float>(
         &self,
         cases: &[T::Case<F>],
@@ -82,7 +82,7 @@ impl<T: Target, K: Kernel<T>> Generic<K, T> {
         }
     }
 
-    /// [`Subject::run_polygon`](super::Subject::run_polygon).
+    /// [`KernelIn::run_polygon`](super::KernelIn::run_polygon).
     pub(super) fn run_polygon_emulated<F: Float>(
         &self,
         vertices: &[F::Vector],

@@ -12,7 +12,7 @@ use std::slice;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A kernel in one scalar: all that an audit needs.
-pub trait Subject<F: Float, T: Target = Triangles>: Sync {
+pub trait KernelIn<F: Float, T: Target = Triangles>: Sync {
     /// The verdict on each case; `epsilons` has one entry a gate, `verdicts` one a case.
     fn run(&self, cases: &[T::Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]);
 
@@ -49,11 +49,11 @@ pub trait Subject<F: Float, T: Target = Triangles>: Sync {
         &self,
         _arithmetic: Arithmetic,
         _info: &'static KernelInfo,
-    ) -> Option<&'static dyn Subject<F, T>> {
+    ) -> Option<&'static dyn KernelIn<F, T>> {
         None
     }
 
-    /// True if [`Subject::margins`] is quick enough to be used.
+    /// True if [`KernelIn::margins`] is quick enough to be used.
     fn tells_margins(&self) -> bool {
         true
     }
@@ -98,8 +98,8 @@ pub trait Subject<F: Float, T: Target = Triangles>: Sync {
     }
 }
 
-/// [`Subject::margins`] of a kernel that does not show its gates: found by running it.
-fn margins_by_running<F: Float, T: Target, S: Subject<F, T> + ?Sized>(
+/// [`KernelIn::margins`] of a kernel that does not show its gates: found by running it.
+fn margins_by_running<F: Float, T: Target, S: KernelIn<F, T> + ?Sized>(
     subject: &S,
     info: &KernelInfo,
     cases: &[T::Case<F>],
@@ -129,7 +129,7 @@ fn margins_by_running<F: Float, T: Target, S: Subject<F, T> + ?Sized>(
 /// Runs a kernel on all cases; a panic is the verdict on the case at which it happens. Returns the
 /// nanoseconds in it, if it measures them itself.
 pub fn verdicts_of<F: Float, T: Target>(
-    subject: &dyn Subject<F, T>,
+    subject: &dyn KernelIn<F, T>,
     cases: &[T::Case<F>],
     epsilons: &[F],
     verdicts: &mut [Verdict<F>],
@@ -169,7 +169,7 @@ pub trait Gated<F: Float, T: Target = Triangles>: Sync {
     /// The run without rounding.
     fn run_exact(&self, case: &T::Case<F>, epsilons: &[F]) -> ExactRun;
 
-    /// The run of [`Subject::run`] with its exceptions.
+    /// The run of [`KernelIn::run`] with its exceptions.
     fn run_tracked(&self, case: &T::Case<F>, epsilons: &[F]) -> TrackedRun<F>;
 
     /// Its straight-line programs, one a path; an error in one sentence if they cannot be recorded.
@@ -196,7 +196,7 @@ where
     }
 }
 
-/// A [`Test`] as a [`Subject`].
+/// A [`Test`] as a [`KernelIn`].
 pub(super) struct Own<C> {
     test: C,
     /// Cases without margins, because it panics at some epsilon.
@@ -212,7 +212,7 @@ impl<C> Own<C> {
     }
 }
 
-impl<F: Float, T: Target, C: Test<F, T>> Subject<F, T> for Own<C> {
+impl<F: Float, T: Target, C: Test<F, T>> KernelIn<F, T> for Own<C> {
     fn run(&self, cases: &[T::Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         for (case, verdict) in cases.iter().zip(verdicts) {
             *verdict = Verdict::of(self.test.test(case, epsilons), None);

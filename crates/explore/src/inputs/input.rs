@@ -5,7 +5,7 @@ use super::construction::construct;
 use crate::arith::Float;
 use crate::audit::{EpsilonText, Row};
 use crate::case::{AnyScalar, Case, Draw};
-use crate::kernel::{Entry, Gated, KERNELS, Scalar, Subject, Tunable};
+use crate::kernel::{Entry, Gated, KERNELS, KernelIn, Scalar, Tunable};
 use crate::moves::mutate;
 
 /// The most gates whose epsilons an input can hold.
@@ -132,7 +132,7 @@ impl<F: Scalar> Input<F> {
 }
 
 /// A built-in kernel and its gates: all of those have both scalars, and show their gates.
-pub fn of_kernel<F: Scalar>(entry: &Entry) -> (&'static dyn Subject<F>, &'static dyn Gated<F>) {
+pub fn of_kernel<F: Scalar>(entry: &Entry) -> (&'static dyn KernelIn<F>, &'static dyn Gated<F>) {
     let subject = F::subject(entry).expect("a built-in kernel has both scalars");
     (
         subject,

@@ -1,7 +1,7 @@
 //! The limits of a scene for numbers that kernels divide by and get: true of its triangles, and known in the kernels.
 
 use super::super::measures::{Kind, Known, Sample};
-use super::super::{Domain, Format, Limit, Prover, Scene, Supposed};
+use super::super::{Assumption, Domain, Format, Limit, Prover, Scene};
 use super::{difference, recorded};
 use crate::arith::recorded::{Place, Recorded};
 use crate::arith::{Real, Vector};
@@ -117,7 +117,7 @@ fn a_scene_knows_what_the_kernels_divide_by() {
         let entry = kernel::find(name).unwrap();
         let summary = Summary::<f64>::new(entry, domain, &[], &[], effort).unwrap();
         let limits = summary.gates.iter().flat_map(|gate| gate.limits.clone());
-        let mut names: Vec<&str> = limits.map(|Supposed { name, .. }| name).collect();
+        let mut names: Vec<&str> = limits.map(|Assumption { name, .. }| name).collect();
         names.sort_unstable();
         names.dedup();
         all.push((name, names));

@@ -8,7 +8,7 @@ use crate::case::Case;
 use crate::contract::{Extent, Sides};
 use crate::epsilon::shortest;
 use crate::judge::{Finding, asked, judge};
-use crate::kernel::{self, Entry, Role, Scalar, Subject, Tunable, Verdict};
+use crate::kernel::{self, Entry, KernelIn, Role, Scalar, Tunable, Verdict};
 use crate::lists::listed;
 use crate::oracle;
 use crate::truth::{Facing, Truth};
@@ -99,7 +99,7 @@ fn is_right<F: Scalar>(
     case: &Case<F>,
     is_secondary: bool,
     row: &Row,
-    subject: Option<&dyn Subject<F>>,
+    subject: Option<&dyn KernelIn<F>>,
     epsilons: &[F],
 ) -> bool {
     let Some(subject) = subject else { return false };
@@ -145,7 +145,7 @@ pub(super) fn of_line<F: Scalar>(
 /// A note on what lets a hit on invalid input pass: the contract, and comparisons that are false of a NaN.
 pub(super) fn of_invalid<F: Scalar>(
     truth: &Truth,
-    subject: &dyn Subject<F>,
+    subject: &dyn KernelIn<F>,
     verdict: &Verdict<F>,
 ) -> Option<String> {
     if *truth != Truth::Invalid || !verdict.hit {

@@ -18,7 +18,7 @@ use crate::family::Grouping;
 use crate::judge::{
     ALLOWANCE, Finding, Obligation, ValueErrors, asked, judge, polygon_obligation, polygon_truth,
 };
-use crate::kernel::{Gated, Gives, Scalar, Subject, Tunable, Verdict};
+use crate::kernel::{Gated, Gives, KernelIn, Scalar, Tunable, Verdict};
 use crate::oracle::{self, Definition};
 use crate::truth::{ExactValues, Feature, Truth};
 use num_traits::ToPrimitive;
@@ -331,7 +331,7 @@ fn in_words(cause: Option<Attribution>, shows_gates: bool) -> String {
 fn add_epsilons<F: Scalar>(
     part: &mut ExplainedRow,
     case: &Case<F>,
-    subject: &dyn Subject<F>,
+    subject: &dyn KernelIn<F>,
     verdict: &Verdict<F>,
     row: &Row,
 ) {

@@ -4,7 +4,7 @@ use super::ExplainedRow;
 use crate::arith::Float;
 use crate::audit::{Attribution, Relations, Row};
 use crate::case::{Case, Draw};
-use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
+use crate::kernel::{KernelIn, Scalar, Verdict, verdicts_of};
 
 /// How many cases are drawn around the given one.
 const DRAWN: usize = 1_000;
@@ -79,7 +79,7 @@ pub(super) fn add_relations(
 
 /// The verdicts of a row's kernel.
 pub(super) fn run<F: Scalar>(
-    subject: &dyn Subject<F>,
+    subject: &dyn KernelIn<F>,
     cases: &[Case<F>],
     row: &Row,
 ) -> Vec<Verdict<F>> {

@@ -6,7 +6,7 @@ use crate::case::{Case, Instance};
 use crate::contract::Across;
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, group_obligation, may_be_elsewhere};
-use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
+use crate::kernel::{KernelIn, Scalar, Verdict, verdicts_of};
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
 use std::slice;
@@ -91,7 +91,7 @@ pub(super) fn plain(text: &str) -> String {
 
 /// The verdict of a kernel.
 pub(super) fn verdict_of<F: Scalar>(
-    subject: &dyn Subject<F>,
+    subject: &dyn KernelIn<F>,
     case: &Case<F>,
     epsilons: &[F],
 ) -> Verdict<F> {
@@ -105,7 +105,7 @@ pub(super) fn verdict_of<F: Scalar>(
 pub(super) fn group_verdict<F: Scalar>(
     group: Together<F>,
     row: &Row,
-    subject: &dyn Subject<F>,
+    subject: &dyn KernelIn<F>,
 ) -> Result<(usize, &'static str, bool), String> {
     let (cases, truths) = &group.asked(group.cases);
     let mut verdicts = vec![Verdict::miss(None); cases.len()];

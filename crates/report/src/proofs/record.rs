@@ -2,7 +2,7 @@
 
 use super::verdicts::VerdictPart;
 use crate::arith::ScalarName;
-use crate::prove::{Domain, Supposed};
+use crate::prove::{Assumption, Domain};
 use hairline_record::{Comparable, NamedRate, NamedValue, Record, Study};
 
 /// The record of a run, with what a page says beside it.
@@ -192,11 +192,11 @@ impl Comparable for ProofResult {
 impl LimitPart {
     /// In floats.
     pub fn new(
-        &Supposed {
+        &Assumption {
             is_most,
             name,
             limit,
-        }: &Supposed,
+        }: &Assumption,
     ) -> LimitPart {
         let limit = Some(limit.to_f64());
         let (at_least, at_most) = if is_most {

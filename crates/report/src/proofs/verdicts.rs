@@ -4,7 +4,9 @@ use crate::arith::Float;
 use crate::audit::{self, shell_word};
 use crate::case::Case;
 use crate::page::Row;
-use crate::prove::{Depth, Judged, May, Scale, Searched, USELESS, Witness, above, below, case_of};
+use crate::prove::{
+    Depth, Judged, Scale, Searched, USELESS, Witness, WrongDecisions, above, below, case_of,
+};
 
 /// The verdicts at some epsilons.
 #[apply(part!)]
@@ -101,7 +103,7 @@ impl VerdictPart {
         let other = |it: &crate::prove::Other| OtherPart {
             gate: row.entry.info.gates[it.gate].name.to_owned(),
             may: may(&it.may),
-            is_never: it.may == May::Never,
+            is_never: it.may == WrongDecisions::Never,
         };
         let mut part = VerdictPart {
             epsilons: row.epsilon_argument(),
@@ -198,21 +200,21 @@ impl DepthPart {
     }
 }
 
-fn may(may: &May) -> String {
+fn may(may: &WrongDecisions) -> String {
     match may {
-        May::Never => "never refuses a hit here.".to_owned(),
-        May::Refuse(name, most) => {
+        WrongDecisions::Never => "never refuses a hit here.".to_owned(),
+        WrongDecisions::Refuse(name, most) => {
             format!(
                 "may also refuse hits where {name} is below {}.",
                 above(*most)
             )
         }
-        May::Ends(early, late) => format!(
+        WrongDecisions::Ends(early, late) => format!(
             "may also refuse hits whose t is nearer to an end than {}, and let through what is {} beyond.",
             above(*early),
             above(*late)
         ),
-        May::Unknown => "may also refuse hits: what it compares is not read.".to_owned(),
+        WrongDecisions::Unknown => "may also refuse hits: what it compares is not read.".to_owned(),
     }
 }
 

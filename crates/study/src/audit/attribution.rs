@@ -9,7 +9,7 @@ use crate::case::Case;
 use crate::contract::Contract;
 use crate::judge::{Answer, Finding, Obligation, exact_values_are_near, judge, judge_answer};
 use crate::kernel::{
-    ExactRun, Gives, KernelInfo, Subject, TrackedRun, Tunable, Verdict, verdicts_of,
+    ExactRun, Gives, KernelIn, KernelInfo, TrackedRun, Tunable, Verdict, verdicts_of,
 };
 use crate::truth::Truth;
 use std::slice;
@@ -72,7 +72,7 @@ impl Attribution {
 /// Why a kernel's verdict on a case differs from its obligation; none if it does not, or if the kernel
 /// does not run in exact arithmetic.
 pub fn attribute<F: Float>(
-    subject: &dyn Subject<F>,
+    subject: &dyn KernelIn<F>,
     case: &Case<F>,
     epsilons: &[F],
     truth: &Truth,
@@ -91,7 +91,7 @@ pub fn attribute<F: Float>(
 
 /// The same with the run without rounding from elsewhere, which is asked for where it is needed.
 pub fn attribute_with<F: Float>(
-    subject: &dyn Subject<F>,
+    subject: &dyn KernelIn<F>,
     case: &Case<F>,
     epsilons: &[F],
     truth: &Truth,
@@ -144,7 +144,7 @@ pub fn attribute_with<F: Float>(
 /// Why a kernel that does not show its formula is wrong on a case, as far as a run with every epsilon 0 tells; none
 /// if it takes no epsilons.
 pub fn attribute_by_running<F: Float>(
-    subject: &dyn Subject<F>,
+    subject: &dyn KernelIn<F>,
     info: &KernelInfo,
     case: &Case<F>,
     epsilons: &[F],

@@ -15,7 +15,7 @@ use crate::judge::{
     self, Class, Distances, Finding, Obligation, RelatedValues, ValueErrors, polygon_obligation,
     polygon_truth,
 };
-use crate::kernel::{Failure, Scalar, Subject, Verdict};
+use crate::kernel::{Failure, KernelIn, Scalar, Verdict};
 use crate::truth::Feature;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -211,7 +211,7 @@ fn add_rays<F: Scalar>(
 
 /// A kernel's verdict on a polygon, given as its fan.
 pub fn polygon_verdict<F: Scalar>(
-    subject: &dyn Subject<F>,
+    subject: &dyn KernelIn<F>,
     cases: &[Case<F>],
     epsilons: &[F],
 ) -> Verdict<F> {

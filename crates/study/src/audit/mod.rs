@@ -58,7 +58,7 @@ pub use group_count::JudgedGroup;
 pub use histogram::{Histogram, Octave};
 pub use interval::{Interval, clopper_pearson};
 pub use judging::polygon_verdict;
-pub use places::{PlaceFault, Seen};
+pub use places::{FaultCount, PlaceFault};
 pub use plan::Plan;
 pub use relations::{Related, Relations};
 pub use row::flags;

@@ -17,7 +17,7 @@ pub enum PlaceFault {
 
 /// How often something is wrong at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Seen {
+pub struct FaultCount {
     /// How many rays show it.
     pub rays: u32,
     /// The index of the first of them.
@@ -30,7 +30,7 @@ type PlaceKey = (PlaceFault, u64, u32);
 /// The first places in the order of their keys. What is kept does not depend on the order in which rays are
 /// added: a place that is dropped has a limit's worth of places before it, and so it has in every sum.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Places(#[serde(with = "super::forms::pairs")] BTreeMap<PlaceKey, Seen>);
+pub struct Places(#[serde(with = "super::forms::pairs")] BTreeMap<PlaceKey, FaultCount>);
 
 impl Places {
     /// Adds a ray.
@@ -38,7 +38,7 @@ impl Places {
         let key = (wrong, mix(u64::from(target)), target);
         self.add_seen(
             key,
-            Seen {
+            FaultCount {
                 rays: 1,
                 first: index,
             },
@@ -53,16 +53,16 @@ impl Places {
         }
     }
 
-    fn add_seen(&mut self, key: PlaceKey, seen: Seen, limit: usize) {
+    fn add_seen(&mut self, key: PlaceKey, seen: FaultCount, limit: usize) {
         let is_full = limit <= self.0.len();
         if is_full && self.0.last_key_value().is_none_or(|(last, _)| *last < key) {
             return;
         }
-        let sum = self.0.entry(key).or_insert(Seen {
+        let sum = self.0.entry(key).or_insert(FaultCount {
             rays: 0,
             first: u64::MAX,
         });
-        *sum = Seen {
+        *sum = FaultCount {
             rays: sum.rays + seen.rays,
             first: sum.first.min(seen.first),
         };
@@ -72,7 +72,7 @@ impl Places {
     }
 
     /// Each fault with a number to merge several by, its target, and how often it was seen.
-    pub fn iter(&self) -> impl Iterator<Item = ((PlaceFault, u64), u32, Seen)> + '_ {
+    pub fn iter(&self) -> impl Iterator<Item = ((PlaceFault, u64), u32, FaultCount)> + '_ {
         self.0
             .iter()
             .map(|((wrong, order, target), seen)| ((*wrong, *order), *target, *seen))

@@ -4,7 +4,7 @@ use super::row::Row;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::engine::Observer;
-use crate::kernel::{KernelInfo, Scalar, Subject, Verdict, verdicts_of};
+use crate::kernel::{KernelIn, KernelInfo, Scalar, Verdict, verdicts_of};
 
 /// The rows whose kernels run in a scalar.
 pub(super) struct Rows<F: 'static> {
@@ -18,7 +18,7 @@ pub(super) struct Rows<F: 'static> {
 pub(super) struct RowIn<F: 'static> {
     /// The row's place in the plan.
     pub number: usize,
-    pub subject: &'static dyn Subject<F>,
+    pub subject: &'static dyn KernelIn<F>,
     pub info: &'static KernelInfo,
     /// True of a kernel of one's own, whose mistakes are not known.
     pub is_own: bool,

@@ -5,7 +5,7 @@ use super::corpus_set::CorpusSet;
 use super::row::quoted;
 use crate::arith::Float;
 use crate::case::{Case, Instance, Matrix, Parameters, SceneKind, Toward};
-use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum, add_ring};
+use crate::family::{CaseGroup, Family, Grouping, LATTICE_SIZE, MeshFamily, Stratum, add_ring};
 use crate::kernel::Scalar;
 use crate::mesh::{Aim, AimedPart, SceneMesh, Surface, Targets};
 use crate::oracle::{self, Layers};
@@ -342,23 +342,23 @@ impl Source {
     }
 
     /// The cases of an index. Of an instance the rays are of the world and the triangles of the object.
-    pub fn make<F: Scalar>(&self, index: u64) -> Made<F> {
+    pub fn make<F: Scalar>(&self, index: u64) -> CaseGroup<F> {
         let Source {
             parameters, seed, ..
         } = self;
         let mut made = match &self.stock {
             Stock::Whole(family) => family.make_in_order(parameters, index),
             Stock::Family(family) => family.make(parameters, *seed, index),
-            Stock::Mesh(family) => Made::One(family.make(parameters, *seed, index)),
+            Stock::Mesh(family) => CaseGroup::One(family.make(parameters, *seed, index)),
             Stock::MeshPart(_, part) => {
                 let mut cases = Vec::new();
                 let targets = self.targets::<F>().expect("a scalar of the run");
                 targets.make(*part, index, &mut cases);
-                Made::Group(cases)
+                CaseGroup::Group(cases)
             }
             Stock::SceneMesh(mesh, stratum) => mesh.make(*stratum, parameters, *seed, index),
             // Stored rays are of the world, as they are.
-            Stock::Corpus(set) => return Made::One(set.get(index).1),
+            Stock::Corpus(set) => return CaseGroup::One(set.get(index).1),
         };
         if let Some(instance) = self.instance() {
             made.cases_mut()

@@ -41,9 +41,9 @@ pub(super) struct PreparedTrial {
 pub(super) type PreparedPart = (usize, usize, u64, u64);
 
 /// The rays of one seed that were prepared first.
-pub struct Store<F: Float>(Mutex<Kept<F>>);
+pub struct Store<F: Float>(Mutex<StoredRays<F>>);
 
-struct Kept<F: Float> {
+struct StoredRays<F: Float> {
     seed: u64,
     cases: usize,
     parts: BTreeMap<PreparedPart, Arc<Prepared<F>>>,
@@ -51,7 +51,7 @@ struct Kept<F: Float> {
 
 impl<F: Float> Default for Store<F> {
     fn default() -> Store<F> {
-        Store(Mutex::new(Kept {
+        Store(Mutex::new(StoredRays {
             seed: 0,
             cases: 0,
             parts: BTreeMap::new(),
@@ -71,7 +71,7 @@ impl<F: Float> Store<F> {
         {
             let mut kept = kept();
             if kept.seed != seed {
-                *kept = Kept {
+                *kept = StoredRays {
                     seed,
                     cases: 0,
                     parts: BTreeMap::new(),

@@ -21,13 +21,13 @@ use crate::family::Stratum;
 use crate::kernel::{Role, Scalar, find};
 
 /// One trial of a pass.
-pub(super) struct Kept {
+pub(super) struct StoredStudy {
     pub count: usize,
     margins: Vec<KnobMargins<f32>>,
     pub errors: HitErrors,
 }
 
-struct All(Vec<Kept>);
+struct All(Vec<StoredStudy>);
 
 impl Merge for All {
     fn merge(&mut self, other: All) {
@@ -84,10 +84,10 @@ impl Tuned {
         }
     }
 
-    pub fn all(&self, seed: u64, number: u64) -> Vec<Kept> {
+    pub fn all(&self, seed: u64, number: u64) -> Vec<StoredStudy> {
         let keep = |all: &mut All, trial: Trial<'_, f32>| {
             let margins = trial.margins.to_vec();
-            all.0.push(Kept {
+            all.0.push(StoredStudy {
                 count: trial.count,
                 margins,
                 errors: errors_of(&trial),
@@ -112,7 +112,7 @@ impl Tuned {
     }
 }
 
-impl Kept {
+impl StoredStudy {
     pub fn is_hit(&self, epsilons: &[f32]) -> bool {
         self.margins
             .iter()

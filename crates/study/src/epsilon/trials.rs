@@ -10,7 +10,7 @@ use crate::case::{Case, Parameters, Scene};
 use crate::engine::{self, Merge, Observer, Unobserved};
 use crate::family::{Grouping, Pixel, Stratum, add_ring, pixel, pixel_draw};
 use crate::judge::{Class, Obligation};
-use crate::kernel::{Hit, Scalar, Subject};
+use crate::kernel::{Hit, KernelIn, Scalar};
 use crate::mesh::SceneMesh;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -74,7 +74,7 @@ pub struct Setting<'a, F: Float> {
     /// The kernel, its contract, and the epsilons of the gates that are no knobs.
     pub row: &'a Row,
     /// The same kernel in the scalar.
-    pub subject: &'static dyn Subject<F>,
+    pub subject: &'static dyn KernelIn<F>,
     /// At most [`MOST_KNOBS`].
     pub knobs: &'a [Knob],
     /// The kinds and rays whose wrong answers are counted.

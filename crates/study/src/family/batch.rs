@@ -4,7 +4,7 @@
 
 use super::control::{combination, interior_weights, is_steep};
 use super::integer::shuffle;
-use super::{Kept, Made, Recipe};
+use super::{CaseGroup, Promise, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -84,10 +84,10 @@ impl Recipe for MixedBatch {
     const NAME: &'static str = "mixed-batch";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "four in a row share two vertices or the ray but for its interval, and every eighth has a NaN or an infinity; the others are transversal, at t > 0";
-    const KEEPS: Kept =
-        Kept::Truths(|truth| *truth == Truth::Invalid || truth.crossing().is_some());
+    const KEEPS: Promise =
+        Promise::Truths(|truth| *truth == Truth::Invalid || truth.crossing().is_some());
 
-    fn make<F: Scalar>(draw: &mut Draw, index: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, index: u64) -> CaseGroup<F> {
         // Neighbours have this stream in common, whatever the seed is.
         let mut shared = Draw::new(Self::NAME, 0, index / SHARING);
         let lane = shared.below(LANES as usize) as u64;
@@ -114,11 +114,11 @@ impl Recipe for MixedBatch {
         };
         // Of two groups in a row, one has a number that is not finite.
         if index % LANES != lane {
-            return Made::One(case);
+            return CaseGroup::One(case);
         }
         let mut vectors = case.vectors();
         vectors[draw.below(5)][draw.below(3)] = F::from_f64(spoils);
         let [origin, direction, a, b, c] = vectors;
-        Made::One(Case::new(origin, direction, [a, b, c]))
+        CaseGroup::One(Case::new(origin, direction, [a, b, c]))
     }
 }

@@ -4,7 +4,7 @@ use super::control::{combination, is_steep, well_shaped};
 use super::integer::{
     IntegerCase, LatticePoint, normal, shuffle, transversal, triangle_with_edge_point,
 };
-use super::{Kept, Made, Recipe};
+use super::{CaseGroup, Promise, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -42,11 +42,11 @@ impl Recipe for EdgeExact {
     const NAME: &'static str = "edge-exact";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, at t > 0, exactly on an open edge";
-    const KEEPS: Kept = Kept::Crossings(|crossing| {
+    const KEEPS: Promise = Promise::Crossings(|crossing| {
         crossing.t_sign == Ordering::Greater && crossing.feature.is_edge()
     });
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let reach = reach(draw);
         let (triangle, point) = triangle_with_edge_point(draw, reach);
         through(draw, triangle, point, reach).made()
@@ -57,11 +57,11 @@ impl Recipe for VertexExact {
     const NAME: &'static str = "vertex-exact";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, at t > 0, exactly on a vertex";
-    const KEEPS: Kept = Kept::Crossings(|crossing| {
+    const KEEPS: Promise = Promise::Crossings(|crossing| {
         crossing.t_sign == Ordering::Greater && crossing.feature.is_vertex()
     });
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let reach = reach(draw);
         let (triangle, _) = triangle_with_edge_point(draw, reach);
         let vertex = draw.pick(&triangle);
@@ -74,10 +74,10 @@ impl Recipe for EdgeNear {
     const VERSION: u32 = 2;
     const PROMISE: &'static str =
         "transversal, at t > 0, some ulps about an edge: both truths occur";
-    const KEEPS: Kept = Kept::Crossings(|crossing| crossing.t_sign == Ordering::Greater);
+    const KEEPS: Promise = Promise::Crossings(|crossing| crossing.t_sign == Ordering::Greater);
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        Made::One(near(draw, |draw| {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
+        CaseGroup::One(near(draw, |draw| {
             let s = 0.0625 + 0.875 * draw.unit();
             draw.pick(&[[0.0, s, 1.0 - s], [s, 0.0, 1.0 - s], [s, 1.0 - s, 0.0]])
         }))
@@ -89,10 +89,10 @@ impl Recipe for VertexNear {
     const VERSION: u32 = 2;
     const PROMISE: &'static str =
         "transversal, at t > 0, some ulps about a vertex: both truths occur";
-    const KEEPS: Kept = Kept::Crossings(|crossing| crossing.t_sign == Ordering::Greater);
+    const KEEPS: Promise = Promise::Crossings(|crossing| crossing.t_sign == Ordering::Greater);
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        Made::One(near(draw, |draw| {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
+        CaseGroup::One(near(draw, |draw| {
             draw.pick(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
         }))
     }

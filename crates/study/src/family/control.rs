@@ -2,7 +2,7 @@
 //! from every boundary.
 
 use super::integer::shuffle;
-use super::{Corners, Kept, Made, Recipe};
+use super::{CaseGroup, Corners, Promise, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -16,12 +16,12 @@ impl Recipe for Interior {
     const NAME: &'static str = "interior";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, at t > 0, in the interior";
-    const KEEPS: Kept = Kept::Crossings(|crossing| {
+    const KEEPS: Promise = Promise::Crossings(|crossing| {
         crossing.feature == Feature::Interior && crossing.t_sign == Ordering::Greater
     });
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        Made::One(aimed(draw, &mut interior_weights))
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
+        CaseGroup::One(aimed(draw, &mut interior_weights))
     }
 }
 
@@ -29,12 +29,12 @@ impl Recipe for Outside {
     const NAME: &'static str = "outside";
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, at t > 0, outside the triangle";
-    const KEEPS: Kept = Kept::Crossings(|crossing| {
+    const KEEPS: Promise = Promise::Crossings(|crossing| {
         crossing.feature == Feature::Outside && crossing.t_sign == Ordering::Greater
     });
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        Made::One(aimed(draw, &mut outside_weights))
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
+        CaseGroup::One(aimed(draw, &mut outside_weights))
     }
 }
 

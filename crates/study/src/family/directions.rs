@@ -2,7 +2,7 @@
 
 use super::control::{aimed, interior_weights};
 use super::integer::{IntegerCase, LatticePoint, normal, shuffle, triangle_with_edge_point};
-use super::{Made, Recipe};
+use super::{CaseGroup, Recipe};
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -15,7 +15,7 @@ impl Recipe for DirectionLengthFamily {
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, the direction scaled by 2^-60 to 2^60";
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let case = aimed::<F>(draw, &mut |draw| {
             let s = draw.unit();
             if draw.coin() {
@@ -27,7 +27,7 @@ impl Recipe for DirectionLengthFamily {
         let exponent = draw.integer(-60, 60) as i32;
         let [origin, direction, a, b, c] = case.vectors();
         let scale = |x: F| F::from_f64(scale_by_power_of_two(x.to_f64(), exponent));
-        Made::One(Case::new(origin, direction.map(scale), [a, b, c]))
+        CaseGroup::One(Case::new(origin, direction.map(scale), [a, b, c]))
     }
 }
 
@@ -36,7 +36,7 @@ impl Recipe for AxisAligned {
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, along an axis, zeros and negative zeros throughout";
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let (triangle, edge_point) = loop {
             let (triangle, point) = triangle_with_edge_point(draw, 64);
             if normal(triangle) != LatticePoint::ZERO {
@@ -66,7 +66,7 @@ impl Recipe for AxisAligned {
             direction,
             triangle: triangle.map(|p| p - base),
         };
-        Made::One(with_signed_zeros(draw, case.case()))
+        CaseGroup::One(with_signed_zeros(draw, case.case()))
     }
 }
 

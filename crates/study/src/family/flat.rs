@@ -4,7 +4,7 @@ use super::integer::{
     IntegerCase, LatticePoint, normal, shuffle, transversal, triangle_with_edge_point,
 };
 use super::scene::{Stratum, grazing_sine};
-use super::{Kept, Made, Recipe};
+use super::{CaseGroup, Promise, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw, Parameters};
 use crate::kernel::Scalar;
@@ -55,9 +55,9 @@ impl Recipe for ParallelOff {
     const NAME: &'static str = "parallel-off";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "D = 0 exactly, the line off the plane, down to one ulp off";
-    const KEEPS: Kept = Kept::Truths(|truth| *truth == Truth::Parallel);
+    const KEEPS: Promise = Promise::Truths(|truth| *truth == Truth::Parallel);
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         if draw.coin() {
             // On axis-aligned planes, some ulps off.
             let axes = axes(draw);
@@ -67,7 +67,7 @@ impl Recipe for ParallelOff {
             let off = height.offset_ulps(if draw.coin() { ulps } else { -ulps });
             let origin = placed(axes, draw.symmetric(), draw.symmetric(), off);
             let direction = placed(axes, draw.symmetric(), draw.symmetric(), F::zero());
-            return Made::One(Case::new(origin, direction, triangle));
+            return CaseGroup::One(Case::new(origin, direction, triangle));
         }
         let (triangle, point) = triangle_with_edge_point(draw, 64);
         let triangle = shuffle(draw, triangle);
@@ -87,9 +87,9 @@ impl Recipe for Coplanar {
     const VERSION: u32 = 2;
     const PROMISE: &'static str =
         "in the plane: through the interior, along an edge, through or touching a vertex, missing";
-    const KEEPS: Kept = Kept::Truths(|truth| matches!(truth, Truth::Coplanar(_)));
+    const KEEPS: Promise = Promise::Truths(|truth| matches!(truth, Truth::Coplanar(_)));
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let (triangle, edge_point) = triangle_with_edge_point(draw, 64);
         let [a, b, c] = triangle;
         let triangle = shuffle(draw, triangle);
@@ -117,7 +117,7 @@ impl Recipe for Grazing {
     const PROMISE: &'static str =
         "transversal, sines from 1/2 down to below an ulp of 1, half of them on generic planes";
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         if draw.coin() {
             return Stratum::Grazing.make(&Parameters::default(), draw);
         }
@@ -131,7 +131,7 @@ impl Recipe for Grazing {
             let fall = F::from_f64(grazing_sine::<F>(draw));
             let [dx, dy] = [draw.symmetric::<F>(), draw.symmetric()];
             let origin = placed(axes, x - dx * steps, y - dy * steps, -(fall * steps));
-            return Made::One(Case::new(origin, placed(axes, dx, dy, fall), triangle));
+            return CaseGroup::One(Case::new(origin, placed(axes, dx, dy, fall), triangle));
         }
         // A lattice direction in the plane, 2^k times, plus a small one off it: D is that one's.
         let (triangle, point) = triangle_with_edge_point(draw, 64);

@@ -1,6 +1,6 @@
 //! Small integer vectors, which the exact families share: every sum and product of them is exact.
 
-use super::Made;
+use super::CaseGroup;
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use glam::I64Vec3;
@@ -35,8 +35,8 @@ impl IntegerCase {
         )
     }
 
-    pub fn made<F: Float>(&self) -> Made<F> {
-        Made::One(self.case())
+    pub fn made<F: Float>(&self) -> CaseGroup<F> {
+        CaseGroup::One(self.case())
     }
 }
 

@@ -1,7 +1,7 @@
 //! `behind`, `interval-ends`: hits that the interval decides.
 
 use super::integer::{IntegerCase, normal, shuffle, transversal, triangle_with_edge_point};
-use super::{Kept, Made, Recipe};
+use super::{CaseGroup, Promise, Recipe};
 use crate::case::Draw;
 use crate::kernel::Scalar;
 use crate::truth::{Feature, Place};
@@ -30,11 +30,11 @@ impl Recipe for Behind {
     const NAME: &'static str = "behind";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, in the closed triangle, at negative t";
-    const KEEPS: Kept = Kept::Crossings(|crossing| {
+    const KEEPS: Promise = Promise::Crossings(|crossing| {
         crossing.t_sign == Ordering::Less && crossing.feature != Feature::Outside
     });
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let t = -draw.integer(1, 4);
         at(draw, t).made()
     }
@@ -45,9 +45,9 @@ impl Recipe for IntervalEnds {
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, in the closed triangle: before, at, between and beyond the ends of intervals of every kind";
     const HAS_OWN_INTERVAL: bool = true;
-    const KEEPS: Kept = Kept::Crossings(|crossing| crossing.feature != Feature::Outside);
+    const KEEPS: Promise = Promise::Crossings(|crossing| crossing.feature != Feature::Outside);
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let t = draw.integer(-4, 4);
         let case = at(draw, t).case::<F>();
         let t = t as f64;
@@ -61,7 +61,7 @@ impl Recipe for IntervalEnds {
             Place::AtMax => [t - gap, t],
             Place::Beyond => [t - gap - gap, t - gap],
         };
-        Made::One(case.on(F::from_f64(t_min), F::from_f64(t_max)))
+        CaseGroup::One(case.on(F::from_f64(t_min), F::from_f64(t_max)))
     }
 }
 

@@ -2,7 +2,7 @@
 //! is. Sums and products on it are exact in every scalar.
 
 use super::integer::{IntegerCase, LatticePoint};
-use super::{Kept, Made, Recipe};
+use super::{CaseGroup, Promise, Recipe};
 use crate::case::Draw;
 use crate::kernel::Scalar;
 
@@ -14,11 +14,11 @@ pub(super) struct Lattice;
 impl Recipe for Lattice {
     const NAME: &'static str = "lattice";
     const PROMISE: &'static str = "all coordinates in {-1, 0, 1}, default interval";
-    const KEEPS: Kept = Kept::Truths(|_| true);
+    const KEEPS: Promise = Promise::Truths(|_| true);
 
     const HAS_OWN_INTERVAL: bool = true;
 
-    fn make<F: Scalar>(_: &mut Draw, index: u64) -> Made<F> {
+    fn make<F: Scalar>(_: &mut Draw, index: u64) -> CaseGroup<F> {
         let mut rest = index;
         let [origin, direction, a, b, c] = std::array::from_fn(|_| {
             LatticePoint::from_array(std::array::from_fn(|_| {

@@ -54,26 +54,26 @@ use std::any::Any;
 
 /// The triangles that one index of a family makes: one, or a group that shares a ray.
 #[derive(Clone, Debug)]
-pub enum Made<F: Float> {
+pub enum CaseGroup<F: Float> {
     /// One case.
     One(Case<F>),
     /// One ray, several triangles.
     Group(Vec<Case<F>>),
 }
 
-impl<F: Float> Made<F> {
+impl<F: Float> CaseGroup<F> {
     /// The cases, in order.
     pub fn cases(&self) -> &[Case<F>] {
         match self {
-            Made::One(case) => std::slice::from_ref(case),
-            Made::Group(cases) => cases,
+            CaseGroup::One(case) => std::slice::from_ref(case),
+            CaseGroup::Group(cases) => cases,
         }
     }
 
     pub(crate) fn cases_mut(&mut self) -> &mut [Case<F>] {
         match self {
-            Made::One(case) => std::slice::from_mut(case),
-            Made::Group(cases) => cases,
+            CaseGroup::One(case) => std::slice::from_mut(case),
+            CaseGroup::Group(cases) => cases,
         }
     }
 }
@@ -109,18 +109,18 @@ trait Recipe {
     const PROMISE: &'static str;
     const GROUPING: Grouping = Grouping::Single;
     /// The promise: crossings, unless a family says otherwise.
-    const KEEPS: Kept = Kept::Crossings(|_| true);
+    const KEEPS: Promise = Promise::Crossings(|_| true);
     /// Case `index` of the set; `draw` is its own stream.
-    fn make<F: Scalar>(draw: &mut Draw, index: u64) -> Made<F>;
+    fn make<F: Scalar>(draw: &mut Draw, index: u64) -> CaseGroup<F>;
     /// True if the interval is part of the question; otherwise it is drawn ([`drawn_interval`]).
     const HAS_OWN_INTERVAL: bool = false;
     /// Finishes a case after the parameters are applied.
-    fn finish<F: Scalar>(_draw: &mut Draw, _parameters: &Parameters, _made: &mut Made<F>) {}
+    fn finish<F: Scalar>(_draw: &mut Draw, _parameters: &Parameters, _made: &mut CaseGroup<F>) {}
 }
 
 /// The promise about the truths of one index.
 #[derive(Clone, Copy)]
-enum Kept {
+enum Promise {
     /// Each is a crossing of this sort.
     Crossings(fn(&Crossing) -> bool),
     /// Each is of this sort.
@@ -143,13 +143,13 @@ pub struct Family {
     pub grouping: Grouping,
     /// The number of its cases, if there are finitely many.
     pub size: Option<u64>,
-    keeps: Kept,
+    keeps: Promise,
     make_f32: Generator<f32>,
     make_f64: Generator<f64>,
 }
 
 /// Makes the case of an index in one scalar.
-type Generator<F> = fn(&Parameters, &mut Draw, u64) -> Made<F>;
+type Generator<F> = fn(&Parameters, &mut Draw, u64) -> CaseGroup<F>;
 
 const fn row<R: Recipe>(question: Question) -> Family {
     Family {
@@ -166,7 +166,11 @@ const fn row<R: Recipe>(question: Question) -> Family {
 }
 
 /// A recipe's cases, put through the parameters.
-fn made<R: Recipe, F: Scalar>(parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<F> {
+fn made<R: Recipe, F: Scalar>(
+    parameters: &Parameters,
+    draw: &mut Draw,
+    index: u64,
+) -> CaseGroup<F> {
     let mut made = R::make::<F>(draw, index);
     for case in made.cases_mut() {
         apply(parameters, case);
@@ -255,7 +259,7 @@ pub fn cases_of<F: Scalar>(id: &CaseId) -> Result<(Vec<Case<F>>, Grouping), Stri
     {
         return Err(format!("'{id}': family '{name}' has no case of that index"));
     }
-    let made: Made<F> = match in_order {
+    let made: CaseGroup<F> = match in_order {
         Some(_) => family.make_in_order(&id.parameters, id.index),
         None => family.make(&id.parameters, id.seed, id.index),
     };
@@ -283,7 +287,7 @@ pub fn chosen_triangle<F: Float>(
 
 impl Family {
     /// Case `index` of the set of a seed, put through the parameters.
-    pub fn make<F: Scalar>(&self, parameters: &Parameters, seed: u64, index: u64) -> Made<F> {
+    pub fn make<F: Scalar>(&self, parameters: &Parameters, seed: u64, index: u64) -> CaseGroup<F> {
         let mut draw = Draw::new(self.name, seed, index);
         let index = self
             .size
@@ -292,7 +296,7 @@ impl Family {
     }
 
     /// Case `index` in the natural order of a finite family.
-    pub fn make_in_order<F: Scalar>(&self, parameters: &Parameters, index: u64) -> Made<F> {
+    pub fn make_in_order<F: Scalar>(&self, parameters: &Parameters, index: u64) -> CaseGroup<F> {
         self.generator::<F>()(parameters, &mut Draw::new(self.name, 0, index), index)
     }
 
@@ -308,9 +312,11 @@ impl Family {
     /// True if the truths of one index keep the promise.
     pub fn keeps(&self, truths: &[Truth]) -> bool {
         match self.keeps {
-            Kept::Crossings(is_kept) => truths.iter().all(|it| it.crossing().is_some_and(is_kept)),
-            Kept::Truths(is_kept) => truths.iter().all(is_kept),
-            Kept::Together(are_kept) => are_kept(truths),
+            Promise::Crossings(is_kept) => {
+                truths.iter().all(|it| it.crossing().is_some_and(is_kept))
+            }
+            Promise::Truths(is_kept) => truths.iter().all(is_kept),
+            Promise::Together(are_kept) => are_kept(truths),
         }
     }
 

@@ -5,7 +5,7 @@ use super::control::{combination, is_steep, well_shaped};
 use super::integer::{
     IntegerCase, LatticePoint, float, lattice_point, normal, triangle_with_edge_point, turned,
 };
-use super::{Corners, Grouping, Kept, Made, Recipe};
+use super::{CaseGroup, Corners, Grouping, Promise, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -20,10 +20,10 @@ impl Recipe for SharedEdgeFamily {
     const PROMISE: &'static str =
         "two triangles on one edge, both transversal: crossings and folds, exact and near";
     const GROUPING: Grouping = Grouping::SharedEdge;
-    const KEEPS: Kept = Kept::Together(are_two_crossings);
+    const KEEPS: Promise = Promise::Together(are_two_crossings);
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        Made::Group(if draw.coin() {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
+        CaseGroup::Group(if draw.coin() {
             exact_pair(draw)
         } else {
             near_pair(draw)
@@ -89,10 +89,10 @@ impl Recipe for Fan {
     const PROMISE: &'static str =
         "a closed fan around a vertex, all transversal and facing alike, the line in its inside";
     const GROUPING: Grouping = Grouping::Fan;
-    const KEEPS: Kept =
-        Kept::Together(|truths| face_alike(truths) && truths.iter().any(meets_line));
+    const KEEPS: Promise =
+        Promise::Together(|truths| face_alike(truths) && truths.iter().any(meets_line));
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let size = draw.pick(&[4, 64]);
         let center = lattice_point(draw, 8 * size);
         let mut ring: Vec<LatticePoint> = Vec::with_capacity(8);
@@ -125,7 +125,7 @@ impl Recipe for Fan {
             let corners = turned(draw, [center, from, to]);
             Case::new(origin, float(direction), corners.map(|p| float(p * 2)))
         };
-        Made::Group((0..ring.len()).map(case).collect())
+        CaseGroup::Group((0..ring.len()).map(case).collect())
     }
 }
 

@@ -9,7 +9,7 @@ use super::exact_ray::exact_ray;
 use super::integer::shuffle;
 use super::neighbours::{are_two_crossings, turned_cases};
 use super::scene::any_direction;
-use super::{Grouping, Kept, Made, Recipe};
+use super::{CaseGroup, Grouping, Promise, Recipe};
 use crate::arith::Float;
 use crate::case::Draw;
 use crate::kernel::Scalar;
@@ -24,9 +24,9 @@ impl Recipe for Noise {
     const PROMISE: &'static str =
         "two transversal triangles on one edge, with coordinates of about 1 and of about 2^-53";
     const GROUPING: Grouping = Grouping::SharedEdge;
-    const KEEPS: Kept = Kept::Together(are_two_crossings);
+    const KEEPS: Promise = Promise::Together(are_two_crossings);
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let axes = shuffle(draw, [0, 1, 2]);
         let noisy_count = 1 + draw.below(2);
         let noisy = &axes[..noisy_count];
@@ -51,7 +51,7 @@ impl Recipe for Noise {
             direction[axis] = q[axis];
         }
         let triangles = [[p, q, first], [q, p, second]];
-        Made::Group(turned_cases(draw, origin, direction, &triangles))
+        CaseGroup::Group(turned_cases(draw, origin, direction, &triangles))
     }
 }
 

@@ -5,7 +5,7 @@ use super::control::{combination, interior_weights, is_steep, well_shaped};
 use super::integer::{IntegerCase, normal, shuffle, transversal, triangle_with_edge_point};
 use super::ring::corners;
 use super::scene::{any_direction, hit_point, rounded};
-use super::{Grouping, Kept, Made, Recipe, apply_to_direction};
+use super::{CaseGroup, Grouping, Promise, Recipe, apply_to_direction};
 use crate::case::{Case, Draw, Parameters};
 use crate::kernel::{Scalar, find};
 use crate::truth::Feature;
@@ -27,11 +27,11 @@ impl Recipe for OriginOn {
     const NAME: &'static str = "origin-on";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, t = 0, on the face, an edge or a vertex";
-    const KEEPS: Kept = Kept::Crossings(|crossing| {
+    const KEEPS: Promise = Promise::Crossings(|crossing| {
         crossing.t_sign == Ordering::Equal && crossing.feature != Feature::Outside
     });
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let reach = draw.pick(&[64, 4096]);
         let ([a, b, c], edge_point) = triangle_with_edge_point(draw, reach);
         // Twice the triangle has a lattice point inside: the middle of c and the edge point.
@@ -54,7 +54,7 @@ impl Recipe for OriginNear {
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, the origin some ulps before or behind the triangle";
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         loop {
             let triangle = well_shaped::<F>(draw);
             let s = draw.unit();
@@ -68,7 +68,7 @@ impl Recipe for OriginNear {
             let origin = nudged(draw, point, ulps);
             let direction = draw.point();
             if is_steep(direction, triangle) {
-                return Made::One(Case::new(origin, direction, triangle));
+                return CaseGroup::One(Case::new(origin, direction, triangle));
             }
         }
     }
@@ -82,15 +82,15 @@ impl Recipe for SecondaryRay {
     const GROUPING: Grouping = Grouping::SecondaryRay;
 
     /// The first ray: its hit point is where the case's ray starts.
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let triangle = well_shaped::<F>(draw);
         let target = combination(triangle, interior_weights(draw).map(F::from_f64));
         let origin = draw.point::<F>();
-        Made::One(Case::new(origin, toward(origin, target), triangle))
+        CaseGroup::One(Case::new(origin, toward(origin, target), triangle))
     }
 
-    fn finish<F: Scalar>(draw: &mut Draw, parameters: &Parameters, made: &mut Made<F>) {
-        let Made::One(case) = made else { return };
+    fn finish<F: Scalar>(draw: &mut Draw, parameters: &Parameters, made: &mut CaseGroup<F>) {
+        let CaseGroup::One(case) = made else { return };
         let triangle = corners(case);
         let point = find(draw.pick(&FIRST_HIT)).and_then(|kernel| hit_point(draw, case, kernel));
         // A kernel that misses leaves the middle of the triangle.

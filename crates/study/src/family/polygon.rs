@@ -3,7 +3,7 @@
 
 use super::integer::{IntegerCase, LatticePoint, independent, lattice_point, transversal};
 use super::neighbours::face_alike;
-use super::{Grouping, Kept, Made, Recipe};
+use super::{CaseGroup, Grouping, Promise, Recipe};
 use crate::case::Draw;
 use crate::kernel::Scalar;
 
@@ -27,10 +27,10 @@ impl Recipe for Polygon {
     const PROMISE: &'static str =
         "a planar convex polygon of 4 to 8 vertices in its fan's triangles, all transversal";
     const GROUPING: Grouping = Grouping::Polygon;
-    const KEEPS: Kept =
-        Kept::Together(|truths| (2..=6).contains(&truths.len()) && face_alike(truths));
+    const KEEPS: Promise =
+        Promise::Together(|truths| (2..=6).contains(&truths.len()) && face_alike(truths));
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let corners = draw.integer(4, 8) as usize;
         let skip = draw.below(8);
         let outline: Vec<[i64; 2]> = (0..corners).map(|i| OCTAGON[(skip + i) % 8]).collect();
@@ -64,6 +64,6 @@ impl Recipe for Polygon {
             }
             .case()
         };
-        Made::Group((1..corners - 1).map(case).collect())
+        CaseGroup::Group((1..corners - 1).map(case).collect())
     }
 }

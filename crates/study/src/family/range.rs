@@ -4,7 +4,7 @@
 use super::boundary::{middle, toward};
 use super::control::{aimed, interior_weights};
 use super::integer::shuffle;
-use super::{Kept, Made, Recipe};
+use super::{CaseGroup, Promise, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -36,7 +36,7 @@ impl Coordinates {
         [self.draw(draw), self.draw(draw), self.draw(draw)]
     }
 
-    fn made<F: Float>(&self, draw: &mut Draw) -> Made<F> {
+    fn made<F: Float>(&self, draw: &mut Draw) -> CaseGroup<F> {
         let origin = self.vector(draw);
         let corners = [(); 3].map(|()| self.vector(draw));
         let [p, q, _] = shuffle(draw, corners);
@@ -47,9 +47,9 @@ impl Coordinates {
             _ => self.vector(draw),
         };
         if is_usable(direction) {
-            Made::One(Case::new(origin, direction, corners))
+            CaseGroup::One(Case::new(origin, direction, corners))
         } else {
-            Made::One(Case::new(origin, [F::one(); 3], corners))
+            CaseGroup::One(Case::new(origin, [F::one(); 3], corners))
         }
     }
 }
@@ -69,9 +69,9 @@ impl Recipe for MixedScale {
     const NAME: &'static str = "mixed-scale";
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "finite, each exponent drawn independently in -30..30";
-    const KEEPS: Kept = Kept::Truths(is_valid);
+    const KEEPS: Promise = Promise::Truths(is_valid);
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let coordinates = Coordinates {
             least_exponent: -30,
             most_exponent: 30,
@@ -85,9 +85,9 @@ impl Recipe for RangeEnds {
     const NAME: &'static str = "range-ends";
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "finite, subnormals and values near the largest float";
-    const KEEPS: Kept = Kept::Truths(is_valid);
+    const KEEPS: Promise = Promise::Truths(is_valid);
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let lowest = i64::from(F::MIN_EXPONENT);
         let highest = i64::from(F::MAX_EXPONENT);
         let digits = i64::from(F::DIGITS);
@@ -111,13 +111,13 @@ impl Recipe for Invalid {
     const NAME: &'static str = "invalid";
     const HAS_OWN_INTERVAL: bool = true;
     const PROMISE: &'static str = "a NaN, an infinity, a zero direction or an impossible interval";
-    const KEEPS: Kept = Kept::Truths(|truth| *truth == Truth::Invalid);
+    const KEEPS: Promise = Promise::Truths(|truth| *truth == Truth::Invalid);
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let case = aimed::<F>(draw, &mut interior_weights);
         let nan = F::from_f64(f64::NAN);
         let kind = draw.below(8);
-        Made::One(match kind {
+        CaseGroup::One(match kind {
             0 => case.on(F::one(), F::zero()),
             1 => case.on(draw.pick(&[nan, F::zero()]), nan),
             2 => without_direction(&case),

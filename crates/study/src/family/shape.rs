@@ -6,7 +6,7 @@ use super::integer::{
     IntegerCase, LatticePoint, independent, lattice_point, normal, shuffle, transversal,
 };
 use super::scene::{RayAxes, any_direction, rounded, wide};
-use super::{Kept, Made, Recipe};
+use super::{CaseGroup, Promise, Recipe};
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
@@ -23,11 +23,11 @@ impl Recipe for Sliver {
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, needles and caps of aspect 2^4 to 2^40, on generic planes in half of the cases";
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         match draw.below(4) {
-            0 => Made::One(level(draw)),
+            0 => CaseGroup::One(level(draw)),
             1 => tilted(draw).made(),
-            _ => Made::One(generic(draw)),
+            _ => CaseGroup::One(generic(draw)),
         }
     }
 }
@@ -116,9 +116,9 @@ impl Recipe for Degenerate {
     const NAME: &'static str = "degenerate";
     const VERSION: u32 = 2;
     const PROMISE: &'static str = "the triangle is a segment or a point";
-    const KEEPS: Kept = Kept::Truths(|truth| matches!(truth, Truth::Degenerate(_)));
+    const KEEPS: Promise = Promise::Truths(|truth| matches!(truth, Truth::Degenerate(_)));
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let a = lattice_point(draw, 16);
         let step = lattice_point(draw, 4);
         let at = |k: i64| -> LatticePoint { a + step * k };

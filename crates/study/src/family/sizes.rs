@@ -5,7 +5,7 @@ use super::control::{aimed, interior_weights, is_steep};
 use super::integer::{
     LatticePoint, float, lattice_point, normal, shuffle, transversal, triangle_with_edge_point,
 };
-use super::{Made, Recipe, apply};
+use super::{CaseGroup, Recipe, apply};
 use crate::arith::Float;
 use crate::case::{Case, Draw, Parameters};
 use crate::kernel::Scalar;
@@ -15,7 +15,7 @@ pub(super) struct Huge;
 pub(super) struct Far;
 
 /// Interior, boundary and outside, scaled; the direction is scaled in half of the cases.
-fn scaled<F: Float>(draw: &mut Draw, scale: i32) -> Made<F> {
+fn scaled<F: Float>(draw: &mut Draw, scale: i32) -> CaseGroup<F> {
     let mut case = aimed::<F>(draw, &mut |draw| {
         let s = draw.unit();
         let weights = match draw.below(4) {
@@ -31,7 +31,7 @@ fn scaled<F: Float>(draw: &mut Draw, scale: i32) -> Made<F> {
         ..Parameters::default()
     };
     apply(&parameters, &mut case);
-    Made::One(case)
+    CaseGroup::One(case)
 }
 
 impl Recipe for Tiny {
@@ -39,7 +39,7 @@ impl Recipe for Tiny {
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, triangles of size 2^-40";
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         scaled(draw, -40)
     }
 }
@@ -49,7 +49,7 @@ impl Recipe for Huge {
     const VERSION: u32 = 3;
     const PROMISE: &'static str = "transversal, triangles of size 2^40";
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         scaled(draw, 40)
     }
 }
@@ -60,7 +60,7 @@ impl Recipe for Far {
     const PROMISE: &'static str =
         "transversal, triangles some hundred ulps wide, far from the origin";
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         // All on the integer grid of a large offset, which is exact below 2^DIGITS.
         let ([a, b, c], edge_point) = triangle_with_edge_point(draw, 64);
         let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| p * 2);
@@ -77,9 +77,9 @@ impl Recipe for Far {
             let start = float(base).map(|x: F| -x);
             let direction = toward(start, goal);
             if is_steep(direction, [a, b, c]) {
-                return Made::One(Case::new(start, direction, [a, b, c]));
+                return CaseGroup::One(Case::new(start, direction, [a, b, c]));
             }
         }
-        Made::One(Case::new(float(origin + base), float(direction), [a, b, c]))
+        CaseGroup::One(Case::new(float(origin + base), float(direction), [a, b, c]))
     }
 }

@@ -8,7 +8,7 @@ use super::control::is_steep;
 use super::exact_ray::exact_ray;
 use super::neighbours::{face_alike, meets_line, turned_cases};
 use super::scene::{Corners, HEXAGON, RayAxes, any_direction, rounded, wide};
-use super::{Grouping, Kept, Made, Recipe};
+use super::{CaseGroup, Grouping, Promise, Recipe};
 use crate::arith::Float;
 use crate::case::Draw;
 use crate::kernel::Scalar;
@@ -20,10 +20,10 @@ impl Recipe for VertexFan {
     const PROMISE: &'static str = "a closed fan of three to six triangles, all transversal and facing alike, the line \
                                    through its vertex where floats allow it";
     const GROUPING: Grouping = Grouping::Fan;
-    const KEEPS: Kept =
-        Kept::Together(|truths| face_alike(truths) && truths.iter().any(meets_line));
+    const KEEPS: Promise =
+        Promise::Together(|truths| face_alike(truths) && truths.iter().any(meets_line));
 
-    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         loop {
             let centre = draw.point::<F>();
             let way = any_direction(draw);
@@ -33,7 +33,7 @@ impl Recipe for VertexFan {
             let rim = rim(draw, centre);
             let triangles = fan(centre, &rim);
             if is_one_sheet(direction, &triangles) {
-                return Made::Group(turned_cases(draw, origin, direction, &triangles));
+                return CaseGroup::Group(turned_cases(draw, origin, direction, &triangles));
             }
         }
     }

@@ -7,7 +7,7 @@ use crate::case::Case;
 use crate::contract::Contract;
 use crate::engine::{self, Observer};
 use crate::judge::{Obligation, asked, judge, obligation};
-use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
+use crate::kernel::{KernelIn, Scalar, Verdict, verdicts_of};
 use crate::oracle::{self, Layers};
 use crate::truth::{Crossing, Feature, Truth};
 use hairline_core::{Error, ErrorKind};
@@ -117,7 +117,7 @@ pub fn case_at<F: Float>(case: &Case<F>, grid: &Grid<F>, pixel: [usize; 2]) -> C
 fn pixels<F: Float>(
     cases: &[Case<F>],
     row: &Row,
-    subject: &dyn Subject<F>,
+    subject: &dyn KernelIn<F>,
     epsilons: &[F],
 ) -> Vec<RayPixel> {
     let mut verdicts = vec![Verdict::miss(None); cases.len()];

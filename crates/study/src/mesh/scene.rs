@@ -6,7 +6,7 @@ use super::topology::{SharedEdge, Topology};
 use crate::arith::{Float, three_digits};
 use crate::case::{Case, DirectionLength, Draw, Parameters, Ray, Scene, Triangle};
 use crate::family::{
-    Corners, Made, Pair, Parallel, RayAxes, Ring, Stratum, TriangleSource, along_axis, circle,
+    CaseGroup, Corners, Pair, Parallel, RayAxes, Ring, Stratum, TriangleSource, along_axis, circle,
     flat_along, in_plane, rounded, wide,
 };
 use crate::files::is_without_area;
@@ -106,7 +106,7 @@ impl SceneMesh {
         parameters: &Parameters,
         seed: u64,
         index: u64,
-    ) -> Made<F> {
+    ) -> CaseGroup<F> {
         let scene = parameters.scene.clone().unwrap_or_default();
         stratum.make_at(&self.triangles::<F>(&scene), parameters, seed, index)
     }

@@ -1,6 +1,6 @@
 //! The best point of a grid against its definition, and the counts that it is chosen by.
 
-use super::super::tests::{KERNELS, Kept, Tuned};
+use super::super::tests::{KERNELS, StoredStudy, Tuned};
 use super::*;
 use crate::audit::Unobserved;
 use crate::case::Draw;
@@ -59,8 +59,9 @@ fn the_counts_of_a_pass_are_those_of_its_trials_one_by_one() {
             let (point, cell) = (at(&values, &places), joint.cell_of(&places));
             let counted = |sums: &[i64]| sums.get(cell).copied().unwrap_or(0) as usize;
             for (c, count) in tuned.counts.iter().enumerate() {
-                let of: Vec<&Kept> = all.iter().filter(|kept| kept.count == c).collect();
-                let hits: Vec<&&Kept> = of.iter().filter(|kept| kept.is_hit(&point)).collect();
+                let of: Vec<&StoredStudy> = all.iter().filter(|kept| kept.count == c).collect();
+                let hits: Vec<&&StoredStudy> =
+                    of.iter().filter(|kept| kept.is_hit(&point)).collect();
                 let off = hits
                     .iter()
                     .filter(|kept| max_error.is_exceeded(&kept.errors))

@@ -45,7 +45,8 @@ fn a_study_tries_everything_on_fresh_rays() {
         for tried in &study.tried {
             let mut cost = 0.0;
             for (c, count) in tuned.counts.iter().enumerate() {
-                let hits: Vec<&Kept> = of(c).filter(|kept| kept.is_hit(&tried.epsilons)).collect();
+                let hits: Vec<&StoredStudy> =
+                    of(c).filter(|kept| kept.is_hit(&tried.epsilons)).collect();
                 let all = of(c).count();
                 let wrong = if tuned.is_lost(c) {
                     all - hits.len()
@@ -87,7 +88,7 @@ fn a_study_tries_everything_on_fresh_rays() {
                 let rays = fresh.iter().filter(|kept| is_crack && kept.count == c);
                 let accepts =
                     |m: &&KnobMargins<f32>| tried.epsilons.iter().zip(*m).all(|(e, m)| e <= m);
-                let double = |kept: &&Kept| 1 < kept.margins.iter().filter(accepts).count();
+                let double = |kept: &&StoredStudy| 1 < kept.margins.iter().filter(accepts).count();
                 let counted = (rays.clone().filter(double).count(), rays.count());
                 assert_eq!(
                     (found.count as usize, found.of as usize),
@@ -141,7 +142,7 @@ fn a_study_tries_everything_on_fresh_rays() {
             },
         );
         for (k, c, is_lower, value, trials, price) in moved.chain(proofs) {
-            let left = |kept: &&Kept| is_lower || kept.is_hit_with(&study.best, k, f32::MIN);
+            let left = |kept: &&StoredStudy| is_lower || kept.is_hit_with(&study.best, k, f32::MIN);
             let lost = of(c)
                 .filter(left)
                 .filter(|kept| !kept.is_hit_with(&study.best, k, value));

@@ -1,6 +1,6 @@
 //! Rays at a point inside a triangle, beside it, of an edge and at a vertex.
 
-use super::super::Made;
+use super::super::CaseGroup;
 use super::Setup;
 use super::draw::{RayAxes, any_direction, beside, inside, point_of, ray, wide};
 use super::planes::{AXES, turn};
@@ -40,12 +40,12 @@ pub fn interior_case<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Case<F>
     aimed(setup, draw, inside)
 }
 
-pub fn interior<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    Made::One(aimed(setup, draw, inside))
+pub fn interior<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> {
+    CaseGroup::One(aimed(setup, draw, inside))
 }
 
-pub fn outside<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    Made::One(aimed(setup, draw, beside))
+pub fn outside<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> {
+    CaseGroup::One(aimed(setup, draw, beside))
 }
 
 /// A ray at the point of a triangle that has certain weights.
@@ -63,7 +63,7 @@ fn aimed<F: Float>(
     Case::new(start, direction, triangle)
 }
 
-pub fn edges<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
+pub fn edges<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> {
     let Pair {
         ends: [p, q],
         triangles,
@@ -73,18 +73,18 @@ pub fn edges<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
     let target = wide(p) + (wide(q) - wide(p)) * along;
     let toward = aim(draw, setup.scene, triangles[0]);
     let (start, direction) = ray(draw, setup.scene, target, toward);
-    Made::Group(
+    CaseGroup::Group(
         triangles
             .map(|triangle| Case::new(start, direction, triangle))
             .into(),
     )
 }
 
-pub fn vertices<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
+pub fn vertices<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> {
     let Ring { center, triangles } = setup.triangles.fan(draw);
     let toward = aim(draw, setup.scene, triangles[0]);
     let (start, direction) = ray(draw, setup.scene, wide(center), toward);
-    Made::Group(
+    CaseGroup::Group(
         triangles
             .into_iter()
             .map(|triangle| Case::new(start, direction, triangle))

@@ -1,6 +1,6 @@
 //! Rays almost and exactly parallel to the plane of a triangle.
 
-use super::super::Made;
+use super::super::CaseGroup;
 use super::Setup;
 use super::draw::{
     RayAxes, any_direction, beside, between, between_powers, in_plane, inside, point_of, ray,
@@ -11,8 +11,8 @@ use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Draw, Scene};
 use glam::DVec3;
 
-pub fn grazing<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    Made::One(grazing_ray(setup, draw).0)
+pub fn grazing<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> {
+    CaseGroup::One(grazing_ray(setup, draw).0)
 }
 
 /// The case, and the sine that it has instead if no ray has the one that was drawn.
@@ -87,7 +87,7 @@ pub fn grazing_sine<F: Float>(draw: &mut Draw) -> f64 {
     if draw.coin() { sine } else { -sine }
 }
 
-pub fn parallel<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
+pub fn parallel<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> {
     let Parallel {
         triangle,
         direction,
@@ -107,5 +107,5 @@ pub fn parallel<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
         let still = (0..3).filter(|axis| direction[*axis].is_zero());
         still.for_each(|axis| start[axis] = triangle[0][axis]);
     }
-    Made::One(Case::new(start, direction, triangle))
+    CaseGroup::One(Case::new(start, direction, triangle))
 }

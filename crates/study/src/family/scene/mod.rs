@@ -22,7 +22,7 @@ pub(super) use triangles::HEXAGON;
 pub(crate) use triangles::{Corners, Pair, Parallel, Ring, TriangleSource, along_axis, flat_along};
 
 use super::drawn_interval::draw_interval;
-use super::{Family, Grouping, Kept, Made, Question};
+use super::{CaseGroup, Family, Grouping, Promise, Question};
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, DirectionLength, Draw, Parameters, Scene, SceneInterval};
 use crate::kernel::Scalar;
@@ -68,7 +68,7 @@ impl Stratum {
         parameters: &Parameters,
         seed: u64,
         index: u64,
-    ) -> Made<F> {
+    ) -> CaseGroup<F> {
         self.make_of(Some(triangles), parameters, &mut self.draw(seed, index))
     }
 
@@ -78,7 +78,7 @@ impl Stratum {
     }
 
     /// The same at triangles drawn from the scene's numbers.
-    pub(super) fn make<F: Scalar>(self, parameters: &Parameters, draw: &mut Draw) -> Made<F> {
+    pub(super) fn make<F: Scalar>(self, parameters: &Parameters, draw: &mut Draw) -> CaseGroup<F> {
         self.make_of(None, parameters, draw)
     }
 
@@ -88,7 +88,7 @@ impl Stratum {
         triangles: Option<&dyn TriangleSource<F>>,
         parameters: &Parameters,
         draw: &mut Draw,
-    ) -> Made<F> {
+    ) -> CaseGroup<F> {
         let mut scene = parameters.scene.clone().unwrap_or_default();
         // A stream of its own: the first numbers of the other are those of the triangles.
         let mut lengths = Draw::new("scene-lengths", draw.clone().bits(), 0);
@@ -131,7 +131,7 @@ impl Stratum {
         }
     }
 
-    fn maker<F: Scalar>(self) -> fn(&Setup<'_, F>, &mut Draw) -> Made<F> {
+    fn maker<F: Scalar>(self) -> fn(&Setup<'_, F>, &mut Draw) -> CaseGroup<F> {
         match self {
             Stratum::Interior => interior,
             Stratum::Edges => edges,
@@ -212,7 +212,7 @@ macro_rules! stratum {
             question: Question::$question,
             grouping: Grouping::$grouping,
             size: None,
-            keeps: Kept::Truths($keeps),
+            keeps: Promise::Truths($keeps),
             make_f32: |parameters, draw, _| Stratum::$stratum.make(parameters, draw),
             make_f64: |parameters, draw, _| Stratum::$stratum.make(parameters, draw),
         }

@@ -2,7 +2,7 @@
 
 use super::super::control::combination;
 use super::super::ring::corners;
-use super::super::{Corners, Made, toward, unit};
+use super::super::{CaseGroup, Corners, toward, unit};
 use super::Setup;
 use super::aimed::{aim, interior_case};
 use super::draw::{between, direction, point_of, rounded, wide};
@@ -14,18 +14,18 @@ use std::slice;
 /// The kernel at whose hit points shadow rays start, unless the parameters name another.
 const DEFAULT_SHADOW_KERNEL: &str = "moller-trumbore";
 
-pub fn shadow<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
+pub fn shadow<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> {
     let HitPoint { point, triangle } = hit(setup, draw);
     let unit_way = aim(draw, setup.scene, triangle);
     let distance = between(draw, setup.scene.distance);
     let way = unit_way * distance;
     let direction = direction(setup.scene, way, unit_way);
-    Made::One(Case::new(point, direction, triangle))
+    CaseGroup::One(Case::new(point, direction, triangle))
 }
 
 /// From a rounded point to a hit point, as programs ask what stands between the two: a unit vector and the rounded distance,
 /// or their difference and t_max = 1.
-pub fn segment<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
+pub fn segment<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> {
     let HitPoint { point, triangle } = hit(setup, draw);
     let unit_way = aim(draw, setup.scene, triangle);
     let drawn_length = between(draw, setup.scene.distance);
@@ -41,7 +41,7 @@ pub fn segment<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
         }
     };
     let case = Case::new(start, direction, triangle);
-    Made::One(case.on(F::zero(), t_max))
+    CaseGroup::One(case.on(F::zero(), t_max))
 }
 
 /// A point on a triangle from which rays start.
