@@ -51,7 +51,7 @@ fn plan(families: &[&'static Family], count: u64, scalars: [bool; 2]) -> Plan {
 }
 
 fn line<F: Scalar>(name: &str, families: &[&'static Family], count: u64) {
-    let plan = plan(families, count, [F::NAME == "f32", F::NAME == "f64"]);
+    let plan = plan(families, count, F::NAME.alone());
     let chunks: Vec<Vec<Case<F>>> = families
         .iter()
         .flat_map(|family| {

@@ -89,7 +89,7 @@ impl Symmetric for f64 {}
 fn any_float<F: Float>(draw: &mut Draw) -> f64 {
     loop {
         let bits = draw.bits();
-        let x = if F::NAME == "f32" {
+        let x = if F::NAME == f32::NAME {
             f64::from(f32::from_bits(bits as u32))
         } else {
             f64::from_bits(bits)

@@ -1,4 +1,5 @@
-/* hairline.h: a ray-triangle kernel as a shared library, for `hairline audit --kernel-lib FILE`.
+/* hairline.h: a ray-triangle kernel as a shared library, for `hairline audit --kernel-lib FILE`, or a
+ * ray-box test, for `hairline boxes audit --kernel-lib FILE`.
  *
  * Build it as  cc -O2 -shared -fPIC -o libmine.so mine.c  and define the functions at
  * the end of this file, with C linkage. hairline loads the library in a process of its own. There a
@@ -11,7 +12,7 @@
  * hairline_processes says otherwise.
  *
  * The first call in each process, of each function for cases that there is, is one plain case, a hit in
- * the middle of its triangle. Its verdict is not judged, and what starts slowly, such as a GPU's context,
+ * the middle of its triangle or box. Its verdict is not judged, and what starts slowly, such as a GPU's context,
  * may take long in it (--kernel-start SECONDS, 60 by default).
  */
 #ifndef HAIRLINE_H
@@ -37,6 +38,16 @@ typedef struct {
 typedef struct {
     double origin[3], direction[3], a[3], b[3], c[3], t_min, t_max;
 } hairline_case_f64;
+
+/* A question about boxes: does the ray, t_min <= t <= t_max, meet the box of all points from min to max, its
+ * faces, edges and corners included? A box may be flat, or a point. If min > max on an axis it has no points. */
+typedef struct {
+    float origin[3], direction[3], min[3], max[3], t_min, t_max;
+} hairline_box_case_f32;
+
+typedef struct {
+    double origin[3], direction[3], min[3], max[3], t_min, t_max;
+} hairline_box_case_f64;
 
 #define HAIRLINE_FRONT 1
 #define HAIRLINE_BACK 2
@@ -83,8 +94,8 @@ typedef struct {
     const hairline_epsilon *epsilons; /* this many; NULL if none */
 } hairline_kernel;
 
-/* What the library defines: the first two, and one or both of those that answer cases. hairline_processes is
- * optional. */
+/* What the library defines: the first two, and one or both of those that answer cases, of triangles or of boxes
+ * (a library may have all four). hairline_processes is optional. */
 
 /* Returns HAIRLINE_ABI. */
 uint32_t hairline_abi(void);
@@ -104,6 +115,13 @@ void hairline_test_f32(const hairline_case_f32 *cases, size_t count, const float
                        hairline_verdict_f32 *verdicts);
 void hairline_test_f64(const hairline_case_f64 *cases, size_t count, const double *epsilons,
                        hairline_verdict_f64 *verdicts);
+
+/* The same for boxes. Only `hit` of a verdict counts. The contract's words mean for a box what docs/protocol.md says;
+ * `extent=interval,sides=both,boundary=closed` is that of a test before what is in the box is looked at. */
+void hairline_test_boxes_f32(const hairline_box_case_f32 *cases, size_t count, const float *epsilons,
+                             hairline_verdict_f32 *verdicts);
+void hairline_test_boxes_f64(const hairline_box_case_f64 *cases, size_t count, const double *epsilons,
+                             hairline_verdict_f64 *verdicts);
 
 #ifdef __cplusplus
 }

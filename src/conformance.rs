@@ -22,7 +22,7 @@ use crate::family::{FAMILIES, Family, Stratum, find};
 use crate::kernel::{Entry, kept};
 use crate::record::{Context, build};
 use crate::suggest::did_you_mean;
-use hairline_core::Error;
+use hairline_core::{Error, ErrorKind};
 use outcome::ALLOWED;
 use std::collections::BTreeMap;
 
@@ -224,16 +224,15 @@ impl Request {
             if !ALLOWED.contains(&finding.as_str()) || !(0.0..=1.0).contains(share) {
                 let names = ALLOWED.join(", ");
                 let what = format!("allow({finding:?}, {share:?})");
-                return Err(Error(format!(
-                    "{what}: expected one of {names}, and a share from 0 to 1"
-                )));
+                let line = format!("{what}: expected one of {names}, and a share from 0 to 1");
+                return Err(Error::new(ErrorKind::OutOfRange, line));
             }
         }
         #[cfg(feature = "cli")]
         if !self.allowed.is_empty() && self.expectations.is_some() {
             let message = "allow: the file of expectations says what may be wrong; it may have \
                            `rates` by family";
-            return Err(Error(message.to_owned()));
+            return Err(Error::new(ErrorKind::Conflict, message));
         }
         let rows = self.rows()?;
         let parameters = Parameters {
@@ -299,13 +298,13 @@ impl Request {
         let rows = self.rows()?;
         let first = rows
             .first()
-            .ok_or_else(|| Error("the kernel has no epsilons".to_owned()))?;
+            .ok_or_else(|| Error::new(ErrorKind::Unsupported, "the kernel has no epsilons"))?;
         explained::mapped(first, case)
     }
 
     fn rows(&self) -> Result<Vec<Row>, Error> {
         let band = self.band.as_deref().map(str::parse).transpose();
-        let band = band.map_err(|error| Error(format!("band: {error}")))?;
+        let band = band.map_err(|error: Error| error.about("band"))?;
         let mut rows = self.epsilons.rows(&[self.entry], None)?;
         for row in &mut rows {
             row.contract = self.contract.unwrap_or(row.contract);
@@ -330,7 +329,8 @@ impl Request {
             family.ok_or_else(|| {
                 let names = all.iter().map(|family| family.name);
                 let advice = did_you_mean(name, names, "hairline list families");
-                Error(format!("unknown family '{name}'{advice}"))
+                let line = format!("unknown family '{name}'{advice}");
+                Error::new(ErrorKind::UnknownName, line)
             })
         };
         names.iter().map(known).collect()
@@ -341,7 +341,7 @@ impl Request {
         let Some(words) = &self.scene else {
             return Ok(self.parameters.scene.clone());
         };
-        let about = |error| Error(format!("scene: {error}"));
+        let about = |error: String| Error::syntax(error).about("scene");
         let (scene, _) = Scene::parse(words).map_err(about)?;
         let (_, why) = scene.held_in(self.entry.scalars()).map_err(about)?;
         why.map_or(Ok(Some(scene.to_try_kernels(words))), |why| Err(about(why)))

@@ -11,7 +11,7 @@ macro_rules! open {
 
 open!(
     arith, audit, case, contract, corpus, epsilon, explore, family, files, judge, kernel, map,
-    mesh, oracle, prove, report, selfcheck, spawn, truth, vectors,
+    mesh, oracle, prove, record, report, selfcheck, offset, truth, vectors,
 );
 
 #[cfg(feature = "cli")]

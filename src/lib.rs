@@ -47,7 +47,7 @@ use hairline_record as record;
 use hairline_report as report;
 use hairline_study::{audit, corpus, family, judge, mesh};
 #[cfg(feature = "studies")]
-use hairline_study::{epsilon, map, selfcheck, spawn, studied};
+use hairline_study::{epsilon, map, offset, selfcheck, studied};
 
 #[cfg(feature = "studies")]
 #[macro_use(part)]
@@ -70,7 +70,7 @@ mod named_file;
 pub mod cli;
 
 pub use case::{Case, Parameters, Ray, Triangle};
-pub use hairline_core::{Error, truth};
+pub use hairline_core::{Error, ErrorKind, truth};
 pub use oracle::{Batch, Layers, UnequalColumns, truths, truths_of_rows};
 pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 
@@ -79,16 +79,16 @@ pub use contract::{
     Sides,
 };
 
-pub use arith::{Float, Real, Vector};
+pub use arith::{Float, Real, ScalarName, Vector};
 pub use kernel::{
     Dimension, Entry, EpsilonSet, Failure, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role,
     Scalar, Sink, Subject, Test, Tunable, Verdict, find,
 };
 
 pub use conformance::{Outcome, Request, audit};
-pub use record::{Example, FindingKind, FindingPart, Rate, SeverityPart};
 #[cfg(feature = "studies")]
-pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
+pub use offset::{HitPoint, Offset, Scheme, Start, register as register_scheme};
+pub use record::{Example, FindingKind, FindingPart, Rate, SeverityPart};
 
 #[cfg(feature = "proptest")]
 pub use hairline_explore::{prop_assert_conforms, prop_assert_conforms_together, strategy};

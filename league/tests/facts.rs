@@ -1,5 +1,6 @@
 //! Findings that are about more than one verdict, in numbers that can be checked by hand.
 
+use hairline::ScalarName;
 use hairline::internals::case::Case;
 use hairline::internals::contract::{Contract, Extent};
 use hairline::internals::kernel::{Entry, Hit, KernelInfo, Scalar, Verdict};
@@ -208,7 +209,7 @@ fn across(entry: &Entry, family: &str) -> [u64; 3] {
         .unwrap();
     let results = outcome.record.result.results.into_iter();
     let part = results
-        .filter(|r| r.scalar == "f64")
+        .filter(|r| r.scalar == ScalarName::F64)
         .find_map(|r| r.across)
         .unwrap();
     [part.cracks.count, part.doubles.count, part.cracks.of]
@@ -292,7 +293,7 @@ fn parrys_branch_by_the_sign_of_d_mends_starts_in_the_plane_and_changes_nothing_
         let results = outcome.record.result.results.into_iter();
         let total = results
             .into_iter()
-            .find(|result| result.scalar == "f32")
+            .find(|result| result.scalar == ScalarName::F32)
             .unwrap()
             .total;
         [total.false_misses.count, total.false_hits.count]
@@ -363,7 +364,7 @@ fn obvhs_weights_compared_as_numbers_leave_fewer_cracks() {
             .unwrap();
         let results = outcome.record.result.results.into_iter();
         let part = results
-            .filter(|r| r.scalar == "f32")
+            .filter(|r| r.scalar == ScalarName::F32)
             .find_map(|r| r.across)
             .unwrap();
         [part.cracks.count, part.cracks.of]

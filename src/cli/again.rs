@@ -2,6 +2,7 @@
 //! worse nor better.
 
 use super::plugins;
+use crate::arith::ScalarName;
 use crate::audit::{self, Plan, Shard, Stock};
 use crate::case::CaseId;
 use crate::engine::Unobserved;
@@ -36,10 +37,10 @@ pub fn compare(
         .results
         .retain(|part| !is_unsteady(&Key::of(part, "", FindingKind::Crash)));
     steady.totals.retain(|row| {
-        let place = [&row.kernel, &row.set, &row.scalar];
+        let place = (&row.kernel, &row.set, row.scalar);
         unsteady
             .iter()
-            .all(|found| [&found.kernel, &found.set, &found.scalar] != place)
+            .all(|found| (&found.kernel, &found.set, found.scalar) != place)
     });
     let expected = expected.clone().without(is_unsteady);
     let mut conformance = expect::compare(&steady, target, &expected, file);
@@ -75,7 +76,7 @@ fn unsteady(plan: &Plan, result: &ResultPart, conformance: &mut Conformance) -> 
         if !(0..times).any(|_| is_other()) {
             continue;
         }
-        let place = [&key.kernel, &key.set, &key.scalar, &key.family].map(Clone::clone);
+        let place = key.place().map(str::to_owned);
         let again = whole
             .entry(place)
             .or_insert_with(|| run(&plan, Shard::WHOLE));
@@ -122,7 +123,10 @@ fn part(plan: &Plan, found: &Deviation) -> Option<(Plan, u64, u64)> {
         };
         (count, index.filter(|index| *index < count)?)
     });
-    let scalars = [found.scalar == "f32", found.scalar == "f64"];
+    let scalars = [
+        found.scalar == ScalarName::F32,
+        found.scalar == ScalarName::F64,
+    ];
     let (rows, sources) = (vec![row.clone()], vec![source.clone()]);
     Some((Plan::new(rows, sources, scalars, 1), index, count))
 }

@@ -2,8 +2,8 @@
 //! stored rays.
 
 use super::exit::{Failure, Status};
-use super::flags::{chosen_scalars, scalar_names};
-use crate::arith::Float;
+use super::flags::chosen_scalars;
+use crate::arith::{Float, ScalarName};
 use crate::audit::{self, CorpusSet, Plan, Row, Source, Stock};
 use crate::case::{Parameters, Scene};
 use crate::contract::Direction;
@@ -130,7 +130,7 @@ pub fn note_missed_angles(scene: &Scene, mesh: Option<&SceneMesh>, scalars: [boo
             );
         }
     }
-    for name in scalar_names(scalars) {
+    for name in ScalarName::among(scalars) {
         in_named_scalar!(name, F => note::<F>(scene, mesh, seed));
     }
 }
@@ -149,7 +149,7 @@ pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Fail
 pub fn count_indices(sources: &[Source], scalars: [bool; 2]) -> u64 {
     let count =
         |name| -> u64 { in_named_scalar!(name, F => sources.iter().map(Source::count::<F>).sum()) };
-    scalar_names(scalars).map(count).sum()
+    ScalarName::among(scalars).map(count).sum()
 }
 
 /// The scalars in which the sources have a case.

@@ -1,9 +1,9 @@
 //! The case that a command line names: an id, the name of a stored case, or JSON.
 
 use super::exit::Failure;
-use super::flags::{find_family, find_kernel, is_f32, placed, unknown};
+use super::flags::{find_family, find_kernel, placed, unknown};
 use super::input::{corpus_files, name_of, read_corpus, read_mesh};
-use crate::arith::Float;
+use crate::arith::ScalarName;
 use crate::case::{AnyScalar, Case, CaseId, Instance};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::family::{self, Family, Grouping, MeshFamily, Stratum};
@@ -112,9 +112,9 @@ impl CaseArguments {
                 "{error}; for the name of a stored case add --corpus FILE"
             ))
         })?;
-        match is_f32(&id.scalar, &format!(" in '{id}'"))? {
-            true => in_world(&id, self.mesh.as_deref()).map(Cases::F32),
-            false => in_world(&id, self.mesh.as_deref()).map(Cases::F64),
+        match id.scalar {
+            ScalarName::F32 => in_world(&id, self.mesh.as_deref()).map(Cases::F32),
+            ScalarName::F64 => in_world(&id, self.mesh.as_deref()).map(Cases::F64),
         }
     }
 
@@ -291,7 +291,7 @@ fn of_scene_mesh<F: Scalar>(
     stratum: Stratum,
 ) -> Result<Group<F>, Failure> {
     let grouping = family_of(id, &id.family)?.grouping;
-    let scalars = [F::NAME == f32::NAME, F::NAME == f64::NAME];
+    let scalars = F::NAME.alone();
     let mesh = SceneMesh::new(Surface::new(Arc::new(family), scalars));
     if mesh.count::<F>(stratum, 1) == 0 {
         let message = format!("'{id}': the mesh has nothing that such rays are aimed at");

@@ -1,7 +1,7 @@
 //! `hairline corpus`: verify or make the stored cases.
 
 use super::exit::{Failure, Status};
-use super::flags::{find_family, is_f32};
+use super::flags::{find_family, find_scalar};
 use super::input::{MANIFEST, corpus_files, open, read_corpus};
 use super::output::{write_json_lines, write_lines, write_result};
 use super::progress::Progress;
@@ -77,7 +77,7 @@ pub fn run(arguments: &CorpusArguments) -> Result<Status, Failure> {
         } => {
             let family = find_family(name)?;
             let (seed, count) = (*seed, *count);
-            is_f32(scalar, "")?;
+            let scalar = find_scalar(scalar)?;
             let progress = Progress::of_output(count, "cases", output);
             write_result(
                 output,

@@ -4,13 +4,13 @@ use super::boxes::BoxesResult;
 use super::exit::{Failure, Status};
 use super::input::RecordText;
 use super::output::OutputArguments;
-use super::prove::ProofResult;
-use super::spawn::SpawnResult;
 use super::verify::VerifyResult;
 use crate::expect::{RecordComparison, difference, difference_of};
 use crate::record::{Comparable, Record, Study};
 use crate::report::Format;
 use crate::report::epsilon::SceneResult;
+use crate::report::offset::OffsetResult;
+use crate::report::proofs::ProofResult;
 use clap::Args;
 
 /// The arguments of `diff`: the records to compare, and how to report.
@@ -44,7 +44,7 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
             difference(&old.result, &new.result)
         }
         Study::Epsilon => of_one_study::<SceneResult>(old, new)?,
-        Study::Spawn => of_one_study::<SpawnResult>(old, new)?,
+        Study::Offset => of_one_study::<OffsetResult>(old, new)?,
         Study::Prove => of_one_study::<ProofResult>(old, new)?,
         Study::Verify => of_one_study::<VerifyResult>(old, new)?,
         Study::Boxes => of_one_study::<BoxesResult>(old, new)?,
@@ -94,7 +94,7 @@ mod tests {
     enum AnyRecord {
         Audit(Record<ResultPart>),
         Epsilon(Record<SceneResult>),
-        Spawn(Record<SpawnResult>),
+        Offset(Record<OffsetResult>),
         Prove(Record<ProofResult>),
         Verify(Record<VerifyResult>),
         Boxes(Record<BoxesResult>),

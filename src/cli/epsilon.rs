@@ -4,15 +4,15 @@ use super::before::{
     note_secondary_rays, refuse_wrong_values, scalars_in_use, scalars_with_cases, set_threads,
 };
 use super::exit::{Failure, Status};
-use super::flags::{refuse_twice, scalar_names, scalars_of};
+use super::flags::{refuse_twice, scalars_of};
 use super::output::{OutputArguments, paired_outputs};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::SourceArguments;
-use crate::arith::smallest_normal;
+use crate::arith::{ScalarName, smallest_normal};
 use crate::audit::Row;
-use crate::case::Scene;
+use crate::case::{Scene, Target};
 use crate::engine::Unobserved;
 use crate::epsilon::{
     COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Pass, RayCount, Setting, StudiedRays,
@@ -20,10 +20,10 @@ use crate::epsilon::{
 };
 use crate::family::STRATA;
 use crate::kernel::{Entry, Scalar, Subject};
+use crate::offset::SegmentPlan;
 use crate::record::Context;
 use crate::report::SegmentsPart;
 use crate::report::epsilon::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
-use crate::spawn::SegmentPlan;
 use crate::studied::Studied;
 use crate::suggest::nearest_name;
 use clap::parser::ValueSource;
@@ -381,7 +381,7 @@ impl EpsilonArguments {
     fn knobs(&self, row: &Row) -> Result<Vec<Knob>, String> {
         let info = row.entry.info;
         let name = info.name;
-        tells_margins(row.entry)?;
+        tells_margins(row.entry, "hairline audit")?;
         let all = Knob::all(row);
         let names: Vec<&str> = all.iter().map(|knob| knob.gate(info.gates).name).collect();
         if let Some(unknown) = self
@@ -424,7 +424,7 @@ impl EpsilonArguments {
             found.dedup();
             found
         }
-        for name in scalar_names(scalars) {
+        for name in ScalarName::among(scalars) {
             let found = in_named_scalar!(name, F => subnormal::<F>(rows, &self.at));
             if !found.is_empty() && !self.output.quiet {
                 eprintln!(
@@ -436,14 +436,14 @@ impl EpsilonArguments {
     }
 }
 
-/// An error if a kernel takes too long to be asked for its margins.
-fn tells_margins(entry: &Entry) -> Result<(), String> {
+/// An error if a kernel takes too long to be asked for its margins; `audit` is the command that runs it at one epsilon.
+pub fn tells_margins<T: Target>(entry: &Entry<T>, audit: &str) -> Result<(), String> {
     if entry.tells_margins() {
         return Ok(());
     }
     Err(format!(
         "{}: a command is too slow to be asked at many epsilons a case (a --kernel-lib is not, nor is a command \
-         that answers for margins: docs/protocol.md); `hairline audit --epsilon GATE=VALUE` runs it at one",
+         that answers for margins: docs/protocol.md); `{audit} --epsilon GATE=VALUE` runs it at one",
         entry.info.name
     ))
 }

@@ -88,7 +88,7 @@ impl Failure {
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Failure {
-        Failure::usage(error.0)
+        Failure::usage(error.to_string())
     }
 }
 

@@ -1,7 +1,7 @@
 //! The parts that the flags of several commands share: headings of the help, names in tables, numbers.
 
 use super::exit::Failure;
-use crate::arith::Float;
+use crate::arith::{Float, ScalarName};
 use crate::audit::shell_word;
 use crate::case::{Instance, Matrix};
 use crate::family::{self, FAMILIES, Family};
@@ -65,15 +65,10 @@ pub fn find_kernel(name: &str) -> Result<&'static Entry, Failure> {
     kernel::find(name).ok_or_else(wrong)
 }
 
-/// True if a name is that of `f32`, false if that of `f64`; `place` says where it stands.
-pub fn is_f32(name: &str, place: &str) -> Result<bool, Failure> {
-    match name {
-        "f32" => Ok(true),
-        "f64" => Ok(false),
-        _ => Err(Failure::usage(format!(
-            "unknown scalar '{name}'{place}: there are f32 and f64"
-        ))),
-    }
+/// The scalar of a name.
+pub fn find_scalar(name: &str) -> Result<ScalarName, Failure> {
+    let unknown = || Failure::usage(format!("unknown scalar '{name}': there are f32 and f64"));
+    ScalarName::named(name).ok_or_else(unknown)
 }
 
 /// The value of a flag, if it is given.
@@ -118,23 +113,15 @@ pub fn refuse_twice<T: PartialEq + Display>(flag: &str, named: &[T]) -> Result<(
 pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
     let mut scalars = [false; 2];
     for name in names {
-        scalars[usize::from(!is_f32(name, "")?)] = true;
+        scalars[find_scalar(name)? as usize] = true;
     }
     Ok(scalars)
 }
 
-/// The names of the chosen scalars.
-pub fn scalar_names(chosen: [bool; 2]) -> impl Iterator<Item = &'static str> {
-    [f32::NAME, f64::NAME]
-        .into_iter()
-        .zip(chosen)
-        .filter(|(_, is)| *is)
-        .map(|(name, _)| name)
-}
-
-/// The names of the chosen scalars in which a kernel runs.
-pub fn scalars_of(entry: &Entry, chosen: [bool; 2]) -> impl Iterator<Item = &'static str> {
-    scalar_names(chosen).filter(|name| entry.scalars()[usize::from(*name == f64::NAME)])
+/// The chosen scalars in which a kernel runs.
+pub fn scalars_of(entry: &Entry, chosen: [bool; 2]) -> impl Iterator<Item = ScalarName> {
+    let runs = entry.scalars();
+    ScalarName::among([chosen[0] && runs[0], chosen[1] && runs[1]])
 }
 
 /// Reads the matrix of `--instance`: twelve numbers, row by row.
@@ -168,7 +155,7 @@ pub fn placed<F: Float>(matrix: Matrix<F>) -> Result<Instance<F>, Failure> {
 pub fn matrix_in(text: Option<&str>, scalars: [bool; 2]) -> Result<Option<Matrix<f64>>, Failure> {
     let Some(text) = text else { return Ok(None) };
     let wide = matrix(text)?;
-    for name in scalar_names(scalars) {
+    for name in ScalarName::among(scalars) {
         in_named_scalar!(name, F => placed(wide.map(|row| row.map(F::from_f64))).map(drop)?);
     }
     Ok(Some(wide))

@@ -2,9 +2,9 @@
 
 use super::before::total_indices;
 use super::exit::{Failure, Status};
-use super::flags::scalar_names;
 use super::output::write_result;
 use super::sources::SourceArguments;
+use crate::arith::ScalarName;
 use crate::audit::Source;
 use crate::kernel::Scalar;
 use crate::plugin::text;
@@ -30,7 +30,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<Status, Failure> {
     write_result(&arguments.output, |out| {
         let mut cases = 0;
         for source in &sources {
-            for name in scalar_names(scalars) {
+            for name in ScalarName::among(scalars) {
                 cases += in_named_scalar!(name, F => write_cases::<F>(out, source))?;
             }
         }
@@ -50,7 +50,7 @@ fn write_cases<F: Scalar>(out: &mut dyn Write, source: &Source) -> io::Result<u6
             let id = source
                 .id::<F>(index, several.then_some(k))
                 .replace(char::is_whitespace, "_");
-            out.write_all(text::case_line(id, case).as_bytes())?;
+            out.write_all(text::case_line(id, &case.numbers()).as_bytes())?;
             written += 1;
         }
         // An audit asks about these if the kernel reports none of a group.
@@ -60,7 +60,7 @@ fn write_cases<F: Scalar>(out: &mut dyn Write, source: &Source) -> io::Result<u6
         }
         for (k, case) in around.iter().enumerate() {
             let id = format!("{}/around.{k}", source.id::<F>(index, None));
-            out.write_all(text::case_line(id, case).as_bytes())?;
+            out.write_all(text::case_line(id, &case.numbers()).as_bytes())?;
             written += 1;
         }
     }

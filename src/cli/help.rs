@@ -5,8 +5,8 @@ use super::output::{write_page, write_result};
 use crate::contract::NAMED;
 use crate::family;
 use crate::kernel::{self, Change};
+use crate::offset::PUBLISHED;
 use crate::report::page::{Block, Page};
-use crate::spawn::PUBLISHED;
 use crate::suggest::did_you_mean;
 use clap::Args;
 use clap_complete::Shell;
@@ -25,8 +25,8 @@ pub const EXAMPLES: &[(&str, &str)] = &[
         "hairline epsilon --kernel moller-trumbore --scene room",
     ),
     (
-        "spawn",
-        "hairline spawn --kernel moller-trumbore --scene room",
+        "offset",
+        "hairline offset --kernel moller-trumbore --scene room",
     ),
     (
         "prove",

@@ -8,8 +8,8 @@ use crate::audit::{ASPECTS, Aspect, coverage};
 use crate::contract::NAMED;
 use crate::family::{FAMILIES, Family, STRATA};
 use crate::kernel::{self, Change, Dimension, KernelInfo, PRESETS, Preset, Tunable};
+use crate::offset::{PUBLISHED, PublishedScheme, describe};
 use crate::report::page::{Block, Head, Item, Items, Page, Row, Table};
-use crate::spawn::{PUBLISHED, PublishedScheme, describe};
 use clap::{Args, ValueEnum};
 
 /// The arguments of `list`.
@@ -157,7 +157,10 @@ fn of_kernel(info: &KernelInfo) -> Item {
         format!("contract: {}", info.contract.describe()),
     ];
     for (i, gate) in info.gates.iter().enumerate() {
-        let refuses = gate.refuses;
+        let refuses = match gate.printed {
+            Some(printed) => format!("{} (printed {printed})", gate.refuses),
+            None => gate.refuses.to_owned(),
+        };
         if gate.epsilon == Tunable::Fixed {
             notes.push(format!(
                 "test {}: refuses where {refuses}; takes no epsilon",

@@ -5,10 +5,11 @@ mod summary;
 use super::before::set_threads;
 use super::case::CaseArguments;
 use super::exit::{Failure, Status};
-use super::flags::{is_f32, unknown};
+use super::flags::{find_scalar, unknown};
 use super::output::{format_of, paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
+use crate::arith::ScalarName;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
@@ -172,10 +173,12 @@ impl MapArguments {
         let names = Spot::ALL.map(Spot::name);
         let spot =
             Spot::named(name).ok_or_else(|| unknown("spot", name, names, "hairline map --help"))?;
-        Ok(match is_f32(self.scalar.as_deref().unwrap_or("f32"), "")? {
-            true => AnyCase::F32(spot.case()),
-            false => AnyCase::F64(spot.case()),
-        })
+        Ok(
+            match find_scalar(self.scalar.as_deref().unwrap_or("f32"))? {
+                ScalarName::F32 => AnyCase::F32(spot.case()),
+                ScalarName::F64 => AnyCase::F64(spot.case()),
+            },
+        )
     }
 
     /// The formats that are named, or that the outputs' names end in.

@@ -33,6 +33,7 @@ mod list;
 mod map;
 mod merge;
 mod mesh;
+mod offset;
 mod output;
 mod plugins;
 mod progress;
@@ -43,7 +44,6 @@ mod select;
 mod selfcheck;
 mod settings;
 mod sources;
-mod spawn;
 mod truth;
 mod vectors;
 mod verify;
@@ -54,11 +54,13 @@ use exit::{Failure, Status};
 use help::EXAMPLES;
 
 use crate::arith::FloatEnvironment;
+use crate::case::Triangles;
 use crate::kernel::{self, Entry};
-use crate::plugin;
+use crate::plugin::{self, Asked};
 use crate::printable::is_obeyed;
 use clap::builder::Styles;
 use clap::{Arg, ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use hairline_boxes::Boxes;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -79,7 +81,8 @@ enum Chosen {
     /// Recommend epsilons for a scene, a mesh or families of cases
     Epsilon(Box<epsilon::EpsilonArguments>),
     /// Show which offset shadow rays need to leave their own surface
-    Spawn(Box<spawn::SpawnArguments>),
+    #[command(alias = "spawn")]
+    Offset(Box<offset::OffsetArguments>),
     /// Report where rays slip through the edges and vertices of a mesh
     Mesh(Box<mesh::MeshArguments>),
     /// Prove what a kernel can never do wrong, whatever the floats
@@ -123,6 +126,9 @@ enum Chosen {
     /// Load a library and answer cases from standard input: what --kernel-lib starts
     #[command(name = plugin::HOST_COMMAND, hide = true)]
     KernelHost {
+        /// The target of its kernel
+        #[arg(value_parser = [Triangles::FORM.judges, Boxes::FORM.judges])]
+        judges: String,
         /// The library
         file: PathBuf,
         /// Ask the first whole batch again and again before its answer counts, for so many milliseconds at most
@@ -136,7 +142,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
     (
         "Choose an epsilon",
         &[
-            "audit", "epsilon", "spawn", "prove", "repair", "mesh", "explain", "map", "list",
+            "audit", "epsilon", "offset", "prove", "repair", "mesh", "explain", "map", "list",
         ],
     ),
     ("Test boxes", &["boxes"]),
@@ -263,7 +269,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     let outcome = match command {
         Chosen::Audit(arguments) => audit::run(&arguments),
         Chosen::Epsilon(arguments) => epsilon::run(&arguments, own),
-        Chosen::Spawn(arguments) => spawn::run(&arguments),
+        Chosen::Offset(arguments) => offset::run(&arguments),
         Chosen::Mesh(arguments) => mesh::run(&arguments),
         Chosen::Prove(arguments) => prove::run(&arguments),
         Chosen::Repair(arguments) => repair::run(&arguments),
@@ -284,8 +290,18 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Chosen::Help(arguments) => help::run(&arguments, self::command()),
         Chosen::Completions(arguments) => help::completions(&arguments, self::command()),
         Chosen::Man(arguments) => help::man(&arguments, self::command()),
-        Chosen::KernelHost { file, long_run } => {
-            return plugin::serve(&file, Duration::from_millis(long_run));
+        Chosen::KernelHost {
+            judges,
+            file,
+            long_run,
+        } => {
+            let is_of_boxes = judges == Boxes::FORM.judges;
+            let form = if is_of_boxes {
+                Boxes::FORM
+            } else {
+                Triangles::FORM
+            };
+            return plugin::serve(&form, &file, Duration::from_millis(long_run));
         }
     };
     plugins::finish();

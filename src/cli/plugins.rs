@@ -4,9 +4,10 @@ use super::exit::{Failure, Status};
 use super::flags::{again, refuse_twice};
 use crate::audit::quoted;
 use crate::files::hex;
-use crate::kernel::{self, Entry, Scalar};
-use crate::plugin::{HOST_COMMAND, KernelProgram, LoadError, ProcessLimits, load};
+use crate::kernel::{Entry, Scalar, TRIANGLES, Table};
+use crate::plugin::{Asked, HOST_COMMAND, KernelProgram, LoadError, ProcessLimits, load};
 use clap::Args;
+use hairline_boxes::Boxes;
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -173,36 +174,48 @@ impl PluginArguments {
         &self,
         known: &BTreeMap<String, String>,
     ) -> Result<Vec<&'static Entry>, Failure> {
+        self.entries_in(&TRIANGLES, known)
+    }
+
+    /// Starts slab tests and puts them into the table of boxes.
+    pub fn slab_tests(&self) -> Result<Vec<&'static Entry<Boxes>>, Failure> {
+        self.entries_in(&hairline_boxes::TABLE, &BTreeMap::new())
+    }
+
+    fn entries_in<T: Asked>(
+        &self,
+        table: &Table<T>,
+        known: &BTreeMap<String, String>,
+    ) -> Result<Vec<&'static Entry<T>>, Failure> {
         let limits = self.limits()?;
         refuse_twice("--kernel-lib", &self.kernel_lib)?;
         refuse_twice("--kernel-cmd", &self.kernel_cmd)?;
         let started = |flag: &str, what: &String, program: fn(&str) -> _| {
             let selector = format!("{flag} {}", quoted(what));
             // It is started once for the whole run.
-            if let Some(entry) = kernel::all()
-                .into_iter()
-                .find(|it| it.selector() == selector)
-            {
+            let started = |entry: &&'static Entry<T>| entry.selector() == selector;
+            if let Some(entry) = table.all().into_iter().find(started) {
                 return Ok(entry);
             }
-            let entry = load(program(what)?, limits, selector).map_err(|error| match error {
-                LoadError::Start(error) => {
-                    let message = format!("{what}: it cannot be started: {error}");
-                    Failure::Message(Status::InputOutput, message)
-                }
-                LoadError::Hello(message) => Failure::bad_input(format!("{what}: {message}")),
-            })?;
+            let entry =
+                load::<T>(program(what)?, limits, selector).map_err(|error| match error {
+                    LoadError::Start(error) => {
+                        let message = format!("{what}: it cannot be started: {error}");
+                        Failure::Message(Status::InputOutput, message)
+                    }
+                    LoadError::Hello(message) => Failure::bad_input(format!("{what}: {message}")),
+                })?;
             let entry = match known.get(entry.info.name) {
                 Some(flag) => entry.chosen_by(flag.clone().leak()),
                 None => entry,
             };
             let taken = |message| Failure::bad_input(format!("{what}: {message}"));
-            kernel::register(entry).map_err(taken)
+            table.register(entry).map_err(taken)
         };
         let libraries = self
             .kernel_lib
             .iter()
-            .map(|path| started("--kernel-lib", path, host_of));
+            .map(|path| started("--kernel-lib", path, host_of::<T>));
         let commands = self
             .kernel_cmd
             .iter()
@@ -255,7 +268,7 @@ pub fn started_by(words: Vec<String>) {
 }
 
 /// This program again, as the process that loads a library.
-fn host_of(path: &str) -> Result<KernelProgram, Failure> {
+fn host_of<T: Asked>(path: &str) -> Result<KernelProgram, Failure> {
     if !cfg!(unix) {
         let message = "--kernel-lib needs a Unix system; --kernel-cmd works everywhere";
         return Err(Failure::usage(message));
@@ -270,9 +283,11 @@ fn host_of(path: &str) -> Result<KernelProgram, Failure> {
     };
     let long_run = LONG_RUN.load(Ordering::Relaxed);
     let long_run = (0 < long_run).then(|| format!("--long-run={long_run}").into());
-    let words = this
-        .into_iter()
-        .chain([HOST_COMMAND.into(), whole.into_os_string()]);
+    let words = this.into_iter().chain([
+        HOST_COMMAND.into(),
+        T::FORM.judges.into(),
+        whole.into_os_string(),
+    ]);
     let words = words.chain(long_run);
     let words = words
         .map(|word| word.into_string().ok())
@@ -290,7 +305,12 @@ fn parsed(line: &str) -> Result<KernelProgram, Failure> {
 
 /// An error if the verdicts of a kernel are worth nothing.
 pub fn check() -> Result<(), Failure> {
-    for entry in kernel::all() {
+    check_table(&TRIANGLES)?;
+    check_table(&hairline_boxes::TABLE)
+}
+
+fn check_table<T: Asked>(table: &Table<T>) -> Result<(), Failure> {
+    for entry in table.all() {
         let f32 = f32::subject(entry).and_then(|subject| subject.gave_up());
         let f64 = || f64::subject(entry).and_then(|subject| subject.gave_up());
         if let Some(message) = f32.or_else(f64) {
@@ -305,7 +325,12 @@ pub fn check() -> Result<(), Failure> {
 
 /// Ends the kernels' processes, and prints what should be known of them beside their verdicts.
 pub fn finish() {
-    for entry in kernel::all() {
+    finish_table(&TRIANGLES);
+    finish_table(&hairline_boxes::TABLE);
+}
+
+fn finish_table<T: Asked>(table: &Table<T>) {
+    for entry in table.all() {
         entry.finish();
         for note in entry.notes() {
             eprintln!("note: kernel '{}': {note}", entry.info.name);

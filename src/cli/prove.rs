@@ -4,11 +4,8 @@ pub mod check;
 pub mod demand;
 mod job;
 mod leaks;
-mod page;
-mod record;
 mod scenes;
 mod sizes;
-mod verdicts;
 mod witnesses;
 
 use super::exit::{Failure, Status};
@@ -24,12 +21,11 @@ use crate::named_file::SizeLimit;
 use crate::prove::certificate::{self, Claim};
 use crate::prove::{Domain, Effort, Quantity, Scene, Searched, Shape, Summary};
 use crate::record::{Context, ProofPart, Record, number_of, provenance_of};
+use crate::report::proofs::{DomainPart, GatePart, ProofResult, Report};
 use crate::report::{Format, write_json};
 use clap::Args;
 use job::{Epsilons, Job, Parts};
 use leaks::leak;
-pub use record::ProofResult;
-use record::{DomainPart, GatePart, Report};
 use scenes::{degrees, mesh_scene, range, scene_text};
 use sizes::DemandedSize;
 use std::time::Instant;
@@ -264,7 +260,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     }
     if let [entry] = entries[..] {
         for kernel in result.kernels.iter_mut().filter(|kernel| kernel.may_leak) {
-            kernel.leak = in_named_scalar!(&kernel.scalar[..], F => leak::<F>(entry));
+            kernel.leak = in_named_scalar!(kernel.scalar, F => leak::<F>(entry));
         }
     }
     let seconds = started.elapsed().as_secs_f64();
@@ -405,7 +401,7 @@ impl ProveArguments {
             });
         };
         let choice = EpsilonChoice::parse(text)
-            .map_err(|error| Failure::usage(format!("--epsilon: {}", error.0)))?;
+            .map_err(|error| Failure::usage(format!("--epsilon: {error}")))?;
         // As an audit would refuse them.
         choice.rows(entries, None)?;
         Ok(Epsilons::Given(choice.given().to_vec()))

@@ -4,13 +4,14 @@ use super::before::{
     count_indices, note_secondary_rays, scalars_in_use, set_threads, total_indices,
 };
 use super::exit::{Failure, Status};
-use super::flags::{OUTPUT, RUNNING, again, matrix_in, parsed, scalar_names};
+use super::flags::{OUTPUT, RUNNING, again, matrix_in, parsed};
 use super::output::{OutputArguments, write_failure};
 use super::plugins;
 use super::progress::Progress;
 use super::prove;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, rays_at_each};
+use crate::arith::ScalarName;
 use crate::audit::{self, Audit, Plan, Shard, Source};
 use crate::record::{
     Context, Illustrations, PartialPart, PlanFlags, Record, build, drawing, group_digits,
@@ -191,6 +192,11 @@ impl RunArguments {
         let flags = PlanFlags {
             kernels: self.kernels.flags(),
             sources: self.source_flags(),
+            // No epsilon is chosen in instances.
+            epsilon: self
+                .instance
+                .is_none()
+                .then(|| self.sources.epsilon_flags().join(" ")),
         };
         let run = Execution {
             plan,
@@ -237,7 +243,9 @@ impl Execution<'_> {
                 "sources of cases",
             );
             let threads = number_of(threads as u64, "thread", "threads");
-            let scalars: Vec<&str> = scalar_names(plan.scalars).collect();
+            let scalars: Vec<&str> = ScalarName::among(plan.scalars)
+                .map(ScalarName::name)
+                .collect();
             eprintln!(
                 "{rows} on {sources} in {}: {} rays{}, {threads}",
                 scalars.join(" and "),

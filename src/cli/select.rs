@@ -234,7 +234,6 @@ impl KernelArguments {
         let Some(text) = &self.epsilon else {
             return Ok(EpsilonChoice::Source);
         };
-        EpsilonChoice::parse(text)
-            .map_err(|error| Failure::usage(format!("--epsilon: {}", error.0)))
+        EpsilonChoice::parse(text).map_err(|error| Failure::usage(format!("--epsilon: {error}")))
     }
 }

@@ -3,6 +3,7 @@
 use super::exit::{Failure, Status};
 use super::output::write_lines;
 use super::progress::Progress;
+use crate::arith::ScalarName;
 use crate::family::{FAMILIES, LATTICE_SIZE};
 use crate::oracle::Layers;
 use crate::selfcheck::{Check, Reference, lattice, thresholds};
@@ -93,9 +94,13 @@ pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
             f64::check_range(reference, seed, n, p)
         });
         for row in FAMILIES {
-            let of = |scalar: &str| set(&format!("{} {scalar}", row.name));
-            add(of("f32"), &|| f32::check_family(row, reference, seed, n, p));
-            add(of("f64"), &|| f64::check_family(row, reference, seed, n, p));
+            let of = |scalar: ScalarName| set(&format!("{} {scalar}", row.name));
+            add(of(ScalarName::F32), &|| {
+                f32::check_family(row, reference, seed, n, p)
+            });
+            add(of(ScalarName::F64), &|| {
+                f64::check_family(row, reference, seed, n, p)
+            });
         }
     }
     progress.finish();

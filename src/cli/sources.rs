@@ -2,10 +2,9 @@
 
 use super::before::note_missed_angles;
 use super::exit::Failure;
-use super::flags::{
-    RUNNING, again, case_count, chosen_scalars, find_family, refuse_twice, scalar_names,
-};
+use super::flags::{RUNNING, again, case_count, chosen_scalars, find_family, refuse_twice};
 use super::input::{corpus_files, corpus_sets, read_mesh};
+use crate::arith::ScalarName;
 use crate::audit::{CorpusSet, Source, Stock};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
 use crate::epsilon::StudiedRays;
@@ -95,18 +94,32 @@ pub struct SourceArguments {
 impl SourceArguments {
     /// The flags again, as a shell takes them.
     pub fn flags(&self) -> Vec<String> {
+        self.flags_of(&self.family)
+    }
+
+    fn flags_of(&self, families: &[String]) -> Vec<String> {
         let scalar = (self.scalar != ["f32", "f64"]).then(|| self.scalar.join(","));
         let count = (self.count != COUNT).then(|| self.count.to_string());
         let seed = (self.seed != SEED).then(|| self.seed.to_string());
         let [scalar, count, seed] = [("--scalar", scalar), ("-n", count), ("--seed", seed)]
             .map(|(flag, it)| again(flag, &it));
-        [scalar, self.case_flags(), count, seed].concat()
+        [scalar, self.case_flags(families), count, seed].concat()
+    }
+
+    /// Those with which `hairline epsilon` studies such cases: it takes a scene whole.
+    pub fn epsilon_flags(&self) -> Vec<String> {
+        let families = if self.scene.is_some() {
+            &[]
+        } else {
+            &self.family[..]
+        };
+        self.flags_of(families)
     }
 
     /// Those of them that say which cases, but for how many of them, of which seed and scalar.
-    fn case_flags(&self) -> Vec<String> {
+    fn case_flags(&self, families: &[String]) -> Vec<String> {
         let switch = |flag: &str, is_given: bool| Vec::from_iter(is_given.then(|| flag.to_owned()));
-        let family = (!self.family.is_empty()).then(|| self.family.join(","));
+        let family = (!families.is_empty()).then(|| families.join(","));
         let flags = [
             again("--family", &family),
             again("--scene", &self.scene),
@@ -149,7 +162,7 @@ impl SourceArguments {
                     return Err(Failure::usage(message));
                 }
             }
-            let flags = self.case_flags().join(" ");
+            let flags = self.case_flags(&self.family).join(" ");
             return Ok(StudiedRays {
                 sources: self.sources(quiet)?,
                 flags,
@@ -466,14 +479,14 @@ pub fn mesh_scene(
     Scene::default().of_mesh(words).map_err(about_scene)?;
     let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
     let mesh = SceneMesh::new(Surface::new(family, scalars));
-    for name in scalar_names(scalars) {
+    for name in ScalarName::among(scalars) {
         if in_named_scalar!(name, F => mesh.face_count::<F>()) == 0 {
             let message = format!("no triangle has an area in {name}");
             return Err(InputError::of(path, message).into());
         }
     }
     let scene = mesh.scene().of_mesh(words).map_err(about_scene)?;
-    for name in scalar_names(scalars) {
+    for name in ScalarName::among(scalars) {
         let held = in_named_scalar!(name, F => scene.check_range_in::<F>());
         held.map_err(|error| InputError::of(path, error))?;
     }

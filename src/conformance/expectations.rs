@@ -4,7 +4,7 @@ use crate::expect::{self, BlessError};
 use crate::files::InputError;
 use crate::named_file::{self, SizeLimit};
 use crate::record::Record;
-use hairline_core::Error;
+use hairline_core::{Error, ErrorKind};
 use std::fs::File;
 use std::path::Path;
 use std::{env, fs, io};
@@ -22,7 +22,7 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), Error> {
         "worse" => [true, true],
         _ => {
             let message = format!("{VARIABLE}: expected 1 or worse, not '{wish}'");
-            return Err(Error(message));
+            return Err(Error::syntax(message));
         }
     };
     let text = |name: &str| {
@@ -31,14 +31,15 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), Error> {
         text.map_err(|error| InputError::reading(name, None, &error))
     };
     let _lock = blesses.then(|| locked(file));
-    let said = |error: InputError| Error(error.to_string());
+    let said = |error: InputError| Error::new(ErrorKind::Data, error.to_string());
     let old = expect::open(file, true, record, blesses, text).map_err(said)?;
     if old.is_none() && !blesses {
-        return Err(Error(format!(
+        let line = format!(
             "{file}: there is no such file. `{VARIABLE}=1 cargo test` writes it and {}; review and \
              commit both",
             expect::lock_of(file)
-        )));
+        );
+        return Err(Error::new(ErrorKind::File, line));
     }
     let (is_new, old) = (old.is_none(), old.unwrap_or_default());
     let target = record.provenance.target.clone();
@@ -46,16 +47,19 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), Error> {
     let may_be_written = is_new || accepts_worse || !compared.is_worse();
     if blesses && may_be_written {
         let written = expect::blessed(record, &old, &compared, file).map_err(|error| {
-            Error(match error {
-                BlessError::Outside(count) => format!(
-                    "{file}: {count} expectations of kernels, scalars or families that this test does not \
-                     run would be lost: give each test a file of its own"
-                ),
-                BlessError::Unread(error) => error.to_string(),
-            })
+            match error {
+                BlessError::Outside(count) => {
+                    let line = format!(
+                        "{file}: {count} expectations of kernels, scalars or families that this test does not \
+                         run would be lost: give each test a file of its own"
+                    );
+                    Error::new(ErrorKind::Conflict, line)
+                }
+                BlessError::Unread(error) => said(error),
+            }
         })?;
         for (name, text) in &written.texts {
-            write(name, text).map_err(|error| Error(format!("{name}: {error}")))?;
+            write(name, text).map_err(|error| Error::of_file(name, error))?;
         }
         compared = expect::compare(&record.result, &target, &written.expectations, Some(file));
     } else if blesses {

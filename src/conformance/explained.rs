@@ -7,7 +7,7 @@ use crate::family::{around, cases_of};
 use crate::map;
 use crate::report::Format;
 use crate::report::explain::{Together, explain};
-use hairline_core::Error;
+use hairline_core::{Error, ErrorKind};
 
 /// The environment variable that names the case.
 pub const VARIABLE: &str = "HAIRLINE_CASE";
@@ -17,7 +17,7 @@ pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, Error>) -> Option<String>
     let case = std::env::var(VARIABLE).ok()?;
     let rows = match rows() {
         Ok(rows) => rows,
-        Err(Error(text)) => return Some(text),
+        Err(error) => return Some(error.to_string()),
     };
     let text = explained(&rows, &case);
     Some(text.unwrap_or_else(|message| format!("{VARIABLE}: {message}")))
@@ -27,7 +27,7 @@ pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, Error>) -> Option<String>
 pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, Error> {
     let id = named(name)?;
     let explanation = in_named_scalar!(id.scalar, F => {
-        let (cases, grouping) = cases_of::<F>(&id)?;
+        let (cases, grouping) = cases_of::<F>(&id).map_err(no_cases)?;
         let neighbours = around(&cases, grouping);
         let group = Together {
             cases: &cases,
@@ -46,19 +46,25 @@ pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, Error> {
 pub(super) fn mapped(row: &Row, name: &str) -> Result<String, Error> {
     let id = named(name)?;
     let drawn = in_named_scalar!(id.scalar, F => {
-        let (cases, _) = cases_of::<F>(&id)?;
-        let case = cases.first().ok_or_else(|| format!("'{id}' has no triangle"))?;
+        let (cases, _) = cases_of::<F>(&id).map_err(no_cases)?;
+        let case = cases.first().ok_or_else(|| {
+            Error::new(ErrorKind::Nothing, format!("'{id}' has no triangle"))
+        })?;
         let grid = map::grid_of_case(case, map::CaseVector::Origin, None, None, [128; 2])?;
         map::of_kernel(case, row, &grid, &Unobserved)?
     });
     Ok(map::svg_document(&drawn))
 }
 
+fn no_cases(line: String) -> Error {
+    Error::new(ErrorKind::UnknownName, line)
+}
+
 fn named(name: &str) -> Result<CaseId, Error> {
     let id: CaseId = name.parse()?;
     if id.parameters.instance.is_some() {
         let message = format!("'{id}' is a case of an instance: `hairline explain` takes it");
-        return Err(Error(message));
+        return Err(Error::new(ErrorKind::Unsupported, message));
     }
     Ok(id)
 }

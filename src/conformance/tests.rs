@@ -34,13 +34,13 @@ fn what_is_allowed_passes_up_to_its_share_and_no_further() {
     let outcome = request.run().unwrap();
     assert!(!outcome.conforms());
     let results = &outcome.record.result.results;
-    let most = |rate: fn(&crate::report::Counts) -> f64| {
+    let most = |rate: fn(&crate::record::Counts) -> f64| {
         results
             .iter()
             .map(|result| rate(&result.total))
             .fold(0.0, f64::max)
     };
-    let share = |rate: &crate::report::Rate| rate.count as f64 / rate.of as f64;
+    let share = |rate: &crate::record::Rate| rate.count as f64 / rate.of as f64;
     let [misses, hits] = [
         most(|c| c.false_misses.rate.unwrap()),
         most(|c| c.false_hits.rate.unwrap()),

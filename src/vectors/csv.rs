@@ -18,7 +18,7 @@ pub fn rows(test: &VectorTest) -> String {
             test.id.clone(),
             i.to_string(),
             count.clone(),
-            test.scalar.to_owned(),
+            test.scalar.to_string(),
         ];
         row.extend(
             test.group

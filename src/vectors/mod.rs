@@ -12,7 +12,7 @@ mod source;
 
 pub use source::{VectorTopic, core, numbered};
 
-use crate::arith::Float;
+use crate::arith::{Float, ScalarName};
 use crate::case::Case;
 use crate::contract::{Boundary, Contract, Demand, Extent};
 use crate::corpus::lines::AnyCase;
@@ -59,7 +59,7 @@ pub struct VectorTest {
     /// The things that may go wrong, in words that each file explains.
     pub flags: Vec<&'static str>,
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    pub scalar: ScalarName,
     /// Origin, direction, t_min and t_max.
     ray: [EitherFloat; 8],
     /// The ray with each triangle.

@@ -4,7 +4,7 @@ import { describe, test } from "node:test";
 import { AXE, THEMES, cutText, out, visit } from "./visit.mjs";
 
 const url = (name) => `file://${out(name)}.html`;
-const PAGES = ["audit", "check", "scene", "spawn", "prove", "icosphere", "torus"];
+const PAGES = ["audit", "check", "scene", "offset", "prove", "icosphere", "torus"];
 
 const openAll = (page) => page.evaluate(() => {
   for (const part of document.querySelectorAll("details")) part.open = true;

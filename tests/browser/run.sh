@@ -17,7 +17,7 @@ for mesh in icosphere torus; do
         --format html,json -o "out/$mesh.html" -o "out/$mesh.json"
 done
 "$hairline" epsilon --quiet --kernel moller-trumbore --scene room --scalar f32 -n 10000 --format html -o out/scene.html
-"$hairline" spawn --quiet --scene room --scalar f32 -n 2000 --format html -o out/spawn.html
+"$hairline" offset --quiet --scene room --scalar f32 -n 2000 --format html -o out/offset.html
 "$hairline" prove --quiet --kernel moller-trumbore,plane-unit-normal --format html -o out/prove.html
 test -d node_modules || npm ci
 node --test --test-reporter=spec page.test.mjs mesh.test.mjs

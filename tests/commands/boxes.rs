@@ -80,8 +80,8 @@ fn an_audit_counts_what_each_test_loses_and_its_commands_show_it() {
     let record = json(&out);
     assert_eq!(record["study"], "boxes");
     let rows = record["result"]["rows"].as_array().unwrap();
-    // Four tests with their epsilons, twenty families, two scalars.
-    assert_eq!(rows.len(), 4 * 20 * 2);
+    // Four tests with their epsilons, twenty-one families, two scalars.
+    assert_eq!(rows.len(), 4 * 21 * 2);
     for row in rows {
         let Some(case) = row["first_lost"].as_str() else {
             assert_eq!(row["lost"]["count"], 0);
@@ -294,4 +294,109 @@ fn a_judgement_says_which_promise_it_is_by() {
         error.contains("its scalar is 'f128', expected f32 or f64"),
         "{error}"
     );
+}
+
+#[test]
+fn a_ray_in_a_wall_is_lost_by_some_tests_in_one_neighbour_and_by_some_in_both() {
+    let folder = scratch("boxes-neighbours");
+    let run = [
+        "boxes",
+        "audit",
+        "-q",
+        "-n",
+        "400",
+        "-f",
+        "neighbour",
+        "-k",
+        "bvh,embree-robust,kay-kajiya",
+        "--scalar",
+        "f32",
+    ];
+    let (out, _) = ends(&folder, &[&run[..], &["--format", "json"]].concat(), 0);
+    let record = json(&out);
+    let rows = record["result"]["rows"].as_array().unwrap();
+    // An own count: the answers to both of each pair, as `explain` shows them.
+    let mut lost = 0;
+    for pair in 0..30 {
+        let is_lost = |index: u64| {
+            let case = format!("neighbour@1/f32/-/1/{index}");
+            let explain = ["boxes", "explain", &case, "-k", "bvh", "--format", "json"];
+            json(&ends(&folder, &explain, 0).0)["answers"][0]["says"] == "miss"
+        };
+        lost += u64::from(is_lost(2 * pair) && is_lost(2 * pair + 1));
+    }
+    let thirty = [&run[..3], &["-n", "60", "-f", "neighbour", "-k", "bvh"]].concat();
+    let thirty = [&thirty[..], &["--scalar", "f32", "--format", "json"]].concat();
+    let few = json(&ends(&folder, &thirty, 0).0)["result"]["rows"][0]["lost_in_both"].clone();
+    assert_eq!([&few["count"], &few["of"]], [lost, 30]);
+    let both = |row: &Value| row["lost_in_both"]["count"].as_u64().unwrap();
+    let counts: Vec<u64> = rows.iter().map(both).collect();
+    assert!(0 < counts[0] && counts[1..] == [0, 0], "{counts:?}");
+    assert!(0 < rows[1]["lost"]["count"].as_u64().unwrap());
+    let (screen, _) = ends_flat(&folder, &run, 0);
+    let sentence = format!(
+        "bvh loses {} of 200 rays at a wall in both neighbours",
+        counts[0]
+    );
+    assert!(screen.contains(sentence), "{screen}");
+}
+
+#[test]
+fn the_boxes_of_a_mesh_are_asked_about_in_each_format() {
+    let folder = scratch("boxes-mesh");
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 2\nf 1 2 3\nf 2 4 3\n";
+    std::fs::write(folder.join("two.obj"), obj).unwrap();
+    let stl = "solid two\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n\
+               facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 2\nvertex 0 1 0\nendloop\nendfacet\nendsolid two\n";
+    std::fs::write(folder.join("two.stl"), stl).unwrap();
+    let audit = |file: &str| {
+        let run = [
+            "boxes",
+            "audit",
+            "-q",
+            "-n",
+            "1000",
+            "-k",
+            "ize,bvh,fused",
+            "--mesh",
+            file,
+        ];
+        let (out, _) = ends(&folder, &[&run[..], &["--format", "json"]].concat(), 0);
+        let (screen, _) = ends_flat(&folder, &run, 0);
+        assert!(screen.contains("(2 faces, "), "{screen}");
+        json(&out)["result"]["rows"].clone()
+    };
+    let [obj, stl] = ["two.obj", "two.stl"].map(audit);
+    let rows = obj.as_array().unwrap();
+    for (row, other) in rows.iter().zip(stl.as_array().unwrap()) {
+        assert_eq!(row["lost"], other["lost"]);
+        assert_eq!(row["false_hits"], other["false_hits"]);
+        let Some(case) = row["first_lost"].as_str() else {
+            continue;
+        };
+        let test = row["test"].as_str().unwrap();
+        let explain = ["boxes", "explain", case, "-k", test, "--format", "json"];
+        let (out, _) = ends(&folder, &explain, 0);
+        assert_eq!(json(&out)["answers"][0]["judged"], "wrong: the ray is lost");
+    }
+    let bvh = rows.iter().find(|row| row["test"] == "bvh").unwrap();
+    assert!(bvh["first_lost"].is_string());
+    // A growth for these boxes, and bad files in one line.
+    let run = [
+        "boxes", "epsilon", "-q", "-n", "1000", "-k", "divided", "--mesh", "two.obj",
+    ];
+    ends(&folder, &run, 0);
+    std::fs::write(folder.join("none.obj"), "v 0 0 0\n").unwrap();
+    std::fs::write(folder.join("bad.obj"), "v 0 0\n").unwrap();
+    for (file, code, message) in [
+        ("none.obj", 65, "none.obj"),
+        ("bad.obj", 65, "bad.obj:1"),
+        ("absent.obj", 74, "absent.obj"),
+    ] {
+        let (_, error) = ends(&folder, &["boxes", "audit", "-q", "--mesh", file], code);
+        assert!(error.contains(message), "{error}");
+        assert_eq!(error.lines().count(), 1, "{error}");
+    }
+    let both = ["boxes", "audit", "--mesh", "two.obj", "-f", "edge"];
+    ends(&folder, &both, 2);
 }

@@ -43,7 +43,7 @@ fn hold(folder: &str, command: &[&str], claims: &[Claim]) {
             "{flags:?}: {part}\n{screen}"
         );
         assert!(
-            command[0] != "spawn" || !screen.contains("prove"),
+            command[0] != "offset" || !screen.contains("prove"),
             "{flags:?}\n{screen}"
         );
     }
@@ -56,8 +56,8 @@ const BOUND: &str = "derived bound";
 #[test]
 fn an_offset_has_a_bound_only_where_the_flags_leave_the_weights_in_its_range() {
     hold(
-        "claims-spawn",
-        &["spawn", "-n", "300", "-q"],
+        "claims-offset",
+        &["offset", "-n", "300", "-q"],
         &[
             says(&[], INSIDE),
             withholds(&["--point", "ray"], BOUND),
@@ -144,7 +144,7 @@ done
         );
         fs::write(folder.join("mine.sh"), script).unwrap();
         let flags = [
-            "spawn",
+            "offset",
             "-n",
             "200",
             "-q",

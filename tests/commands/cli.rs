@@ -799,11 +799,16 @@ fn help_knows_commands_and_the_words_of_the_screens() {
         );
     }
     assert!(out(&["man"]).starts_with(".ie"), "roff");
-    assert!(out(&["man", "spawn"]).contains("\\-\\-scheme"));
-    let output = hairline(&["man", "spwan"]);
+    assert!(out(&["man", "offset"]).contains("\\-\\-scheme"));
+    assert_eq!(
+        out(&["spawn", "--help"]),
+        out(&["offset", "--help"]),
+        "its old name"
+    );
+    let output = hairline(&["man", "ofset"]);
     assert_eq!(code(&output), 2);
     assert!(
-        text(&output.stderr).contains("did you mean 'spawn'?"),
+        text(&output.stderr).contains("did you mean 'offset'?"),
         "{}",
         text(&output.stderr)
     );

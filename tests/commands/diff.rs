@@ -2,7 +2,7 @@
 
 use crate::program;
 
-use hairline::internals::report::Record;
+use hairline::internals::record::Record;
 use program::{ends, flat, resealed, scratch, with_value};
 use serde_json::json;
 use std::fs;
@@ -249,8 +249,8 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
             vec!["--seed", "2"],
         ),
         (
-            "spawn",
-            vec!["spawn", "--scene", "room", "-n", "2000"],
+            "offset",
+            vec!["offset", "--scene", "room", "-n", "2000"],
             vec!["--seed", "2"],
         ),
         ("prove", vec!["prove"], vec!["--seed", "2"]),
@@ -265,7 +265,7 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
         let (json, _) = ends(&folder, &["diff", &one, &two, "--format", "json"], 0);
         compared.push(serde_json::from_str::<serde_json::Value>(&json).unwrap());
     }
-    let [epsilon, spawn, prove] = &compared[..] else {
+    let [epsilon, offset, prove] = &compared[..] else {
         panic!("three")
     };
     // Other rays of the same scene, with epsilons of its own.
@@ -278,7 +278,7 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
             .all(|it| it["change"].is_null())
     );
     assert!(10 < epsilon["compared"].as_u64().unwrap(), "{epsilon}");
-    assert!(0 < spawn["compared"].as_u64().unwrap(), "{spawn}");
+    assert!(0 < offset["compared"].as_u64().unwrap(), "{offset}");
     assert_eq!(prove["chosen"].as_array().unwrap().len(), 0);
     // A bound and a rate that are higher.
     let read = |file: &str| fs::read_to_string(folder.join(file)).unwrap();
@@ -301,23 +301,23 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
         &["diff", "--exit-code", "prove-3.json", "prove-1.json"],
         0,
     );
-    let spawn = read("spawn-1.json");
-    let parsed: serde_json::Value = serde_json::from_str(&spawn).unwrap();
+    let offset = read("offset-1.json");
+    let parsed: serde_json::Value = serde_json::from_str(&offset).unwrap();
     let rate = &parsed["result"]["points"][0]["schemes"][0]["wrong"];
     assert_ne!(rate["count"], rate["of"]);
     let wrong = ["points", "schemes", "wrong"];
     let all = with_value(
-        &spawn,
+        &offset,
         &[&wrong[..], &["count"]].concat(),
         &rate["of"].to_string(),
     );
     write_edited(
-        "spawn-3.json",
+        "offset-3.json",
         &with_value(&all, &[&wrong[..], &["rate"]].concat(), "1.0"),
     );
     let (told, _) = ends(
         &folder,
-        &["diff", "--exit-code", "spawn-1.json", "spawn-3.json"],
+        &["diff", "--exit-code", "offset-1.json", "offset-3.json"],
         1,
     );
     assert!(
@@ -325,7 +325,7 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
         "{told}"
     );
     // Another scene, mesh or domain is another question.
-    write("city.json", &["spawn", "--scene", "city", "-n", "100"]);
+    write("city.json", &["offset", "--scene", "city", "-n", "100"]);
     write("domain.json", &["prove", "--scene", "room", "-n", "0"]);
     for name in ["far", "needles"] {
         let mesh = format!("{}/corpora/meshes/{name}.obj", env!("CARGO_MANIFEST_DIR"));
@@ -336,7 +336,7 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
     }
     ends(&folder, &["diff", "--exit-code", "far.json", "far.json"], 0);
     for (old, new) in [
-        ("spawn-1.json", "city.json"),
+        ("offset-1.json", "city.json"),
         ("prove-1.json", "domain.json"),
         ("far.json", "needles.json"),
     ] {
@@ -346,15 +346,24 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
             "{error}"
         );
     }
-    let (_, error) = ends(&folder, &["diff", "spawn-1.json", "prove-1.json"], 65);
-    let expected = "prove-1.json: a record of `hairline prove`, expected one of `hairline spawn`";
+    let (_, error) = ends(&folder, &["diff", "offset-1.json", "prove-1.json"], 65);
+    let expected = "prove-1.json: a record of `hairline prove`, expected one of `hairline offset`";
     assert!(error.contains(expected), "{error}");
-    let (_, error) = ends(&folder, &["check", "--record", "spawn-1.json"], 65);
+    let (_, error) = ends(&folder, &["check", "--record", "offset-1.json"], 65);
     assert!(
-        error.contains("spawn-1.json: a record of `hairline spawn`"),
+        error.contains("offset-1.json: a record of `hairline offset`"),
         "{error}"
     );
-    let text = fs::read_to_string(folder.join("spawn-1.json")).unwrap();
+    let text = fs::read_to_string(folder.join("offset-1.json")).unwrap();
+    // Records of the command's old name.
+    let [now, once] = ["offset", "spawn"].map(|name| format!("\"study\": \"{name}\""));
+    assert!(text.contains(&now), "{text}");
+    fs::write(folder.join("spawn.json"), text.replace(&now, &once)).unwrap();
+    ends(
+        &folder,
+        &["diff", "--exit-code", "spawn.json", "offset-1.json"],
+        0,
+    );
     fs::write(
         folder.join("old.json"),
         text.replacen("record/2", "record/1", 1),
@@ -370,7 +379,7 @@ fn records_of_every_study_are_compared_and_those_of_two_are_not() {
         text.replacen("\"hits\": ", "\"hits\": 1", 1),
     )
     .unwrap();
-    let (_, error) = ends(&folder, &["diff", "changed.json", "spawn-1.json"], 65);
+    let (_, error) = ends(&folder, &["diff", "changed.json", "offset-1.json"], 65);
     assert!(
         error.contains("changed.json: its result is not the one"),
         "{error}"

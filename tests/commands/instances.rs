@@ -403,18 +403,18 @@ fn what_takes_no_instance_says_so() {
 
 #[test]
 fn new_rays_leave_the_exact_plane_of_an_instance() {
-    let folder = scratch("instances-spawn");
+    let folder = scratch("instances-offset");
     let schemes = [
         "--scene",
         "unit,plane=generic",
         "--scheme",
         "normal=1e-6,normal=1e-4,pbrt-v4",
     ];
-    let spawned = |more: &[&str]| -> Value {
-        let flags = ["spawn", "-q", "-n", "2000", "--format", "json"];
+    let new_rays = |more: &[&str]| -> Value {
+        let flags = ["offset", "-q", "-n", "2000", "--format", "json"];
         json_schema::result(&ends(&folder, &[&flags[..], &schemes, more].concat(), 0).0)
     };
-    let plain = spawned(&[]);
+    let plain = new_rays(&[]);
     let counts = |record: &Value| {
         let of_scheme = |scheme: &Value| {
             let names = [
@@ -443,9 +443,9 @@ fn new_rays_leave_the_exact_plane_of_an_instance() {
             .flat_map(of_points)
             .collect::<Vec<_>>()
     };
-    assert_eq!(counts(&plain), counts(&spawned(&["--instance", IDENTITY])));
+    assert_eq!(counts(&plain), counts(&new_rays(&["--instance", IDENTITY])));
     // Turned inside out without rounding, every start is as high over the front or the back as before.
-    let mirrored = spawned(&["--instance", "-1 0 0 0  0 1 0 0  0 0 1 0"]);
+    let mirrored = new_rays(&["--instance", "-1 0 0 0  0 1 0 0  0 0 1 0"]);
     for (i, scheme) in plain["points"][1]["schemes"]
         .as_array()
         .unwrap()
@@ -458,7 +458,7 @@ fn new_rays_leave_the_exact_plane_of_an_instance() {
     }
     // Far off most offsets of a millionth are too small, and some starts that are right are not so for the object.
     let turned = "0.36 0.48 -0.8 1000  -0.8 0.6 0 0  0.48 0.64 0.6 0";
-    let far = spawned(&["--instance", turned]);
+    let far = new_rays(&["--instance", turned]);
     let of = |record: &Value, i: usize, name: &str| {
         record["points"][0]["schemes"][i][name]["count"]
             .as_u64()
@@ -478,7 +478,7 @@ fn new_rays_leave_the_exact_plane_of_an_instance() {
     assert!(flat(&ends(&folder, &["explain", id, "-k", "plucker"], 0).0).contains(" world "));
     let error = ends(
         &folder,
-        &["spawn", "--instance", "0 0 0 0 0 0 0 0 0 0 0 0"],
+        &["offset", "--instance", "0 0 0 0 0 0 0 0 0 0 0 0"],
         2,
     )
     .1;

@@ -5,6 +5,10 @@
 mod action;
 mod attribution;
 mod boxes;
+mod boxes_check;
+mod boxes_own;
+mod boxes_prove;
+mod boxes_published;
 mod case_forms;
 mod check;
 mod claims;
@@ -28,6 +32,7 @@ mod mesh;
 mod mesh_files;
 mod mesh_page;
 mod numbers;
+mod offset;
 mod own;
 mod plugin;
 mod program;
@@ -48,7 +53,6 @@ mod screen;
 mod secondary;
 mod shards;
 mod shrink;
-mod spawn;
 #[cfg(unix)]
 mod terminal;
 mod tools;

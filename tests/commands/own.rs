@@ -1,7 +1,7 @@
 //! Kernels of one's own: in the registry, in every command's tables, and from a test.
 
 use crate::tools::not_tested;
-use hairline::Error;
+use hairline::ErrorKind;
 use hairline::internals::arith::{Real, Vector};
 use hairline::internals::audit::{self, EpsilonChoice};
 use hairline::internals::case::{Case, Parameters, Ray, Triangle};
@@ -10,6 +10,7 @@ use hairline::internals::kernel::{
     Entry, EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Scalar, Sink, all, find,
     register,
 };
+use hairline::{Error, ScalarName};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Signed volumes, in every arithmetic, with an epsilon on the determinant.
@@ -115,7 +116,11 @@ fn a_kernel_in_one_scalar_runs_in_that_one_alone() {
         .run()
         .unwrap();
     let results = &outcome.record.result.results;
-    assert!(results.iter().all(|result| result.scalar == "f64"));
+    assert!(
+        results
+            .iter()
+            .all(|result| result.scalar == ScalarName::F64)
+    );
     let count = |family: &str| {
         let result = results
             .iter()
@@ -166,7 +171,14 @@ fn rows_of_different_scalars_keep_their_places() {
         .iter()
         .map(|cell| (cell.row, cell.scalar, cell.tally.total().hits))
         .collect();
-    assert_eq!(hits, [(1, "f32", 0), (2, "f32", 10), (0, "f64", 10)]);
+    assert_eq!(
+        hits,
+        [
+            (1, ScalarName::F32, 0),
+            (2, ScalarName::F32, 10),
+            (0, ScalarName::F64, 10)
+        ]
+    );
 }
 
 #[test]
@@ -366,10 +378,10 @@ fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
         .map(|(i, _)| i)
         .collect();
     assert!(pentagons.len() > 10);
-    let found = hairline::internals::report::disagreements(&outcome.record.result);
+    let found = hairline::internals::record::disagreements(&outcome.record.result);
     let panics = found.iter().find(|found| {
         let key = &found.key;
-        (key.scalar.as_str(), key.class.as_str(), key.finding.name()) == ("f32", "polygon", "panic")
+        (key.scalar.name(), key.class.as_str(), key.finding.name()) == ("f32", "polygon", "panic")
     });
     let panics = panics.expect("panics on polygons");
     assert_eq!(
@@ -389,14 +401,29 @@ fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
 #[test]
 fn names_and_epsilons_that_there_are_none_of_are_errors() {
     let kernel = Entry::of::<Volumes>();
-    let error = |error: Result<_, Error>| error.map(|_: hairline::Outcome| ()).unwrap_err().0;
+    let error = |error: Result<_, Error>| error.map(|_: hairline::Outcome| ()).unwrap_err();
     let family = error(hairline::audit(&kernel).families(["edge-nera"]).run());
+    let line = "unknown family 'edge-nera'; did you mean 'edge-near'?";
     assert_eq!(
-        family,
-        "unknown family 'edge-nera'; did you mean 'edge-near'?"
+        (family.kind(), family.to_string()),
+        (ErrorKind::UnknownName, line.to_owned())
     );
     let gate = error(hairline::audit(&kernel).epsilons(&[("paralel", "0")]).run());
+    assert_eq!(gate.kind(), ErrorKind::UnknownName);
+    let gate = gate.to_string();
     assert!(gate.contains("did you mean 'parallel'?"), "{gate}");
+    let kinds = [
+        (&[("parallel", "1e-400")][..], ErrorKind::OutOfRange),
+        (&[("parallel", "much")], ErrorKind::Syntax),
+        (&[("edge", "0"), ("edge", "0")], ErrorKind::Repeated),
+    ];
+    for (epsilons, kind) in kinds {
+        let error = error(hairline::audit(&kernel).epsilons(epsilons).run());
+        assert_eq!(error.kind(), kind, "{error}");
+    }
+    let unwritable = Error::of_file("x", std::io::ErrorKind::PermissionDenied.into());
+    assert_eq!(unwritable.kind(), ErrorKind::File);
+    assert!(std::error::Error::source(&unwritable).is_some());
     let given = EpsilonChoice::Given(vec![("parallel".to_owned(), "1e-2".to_owned())]);
     let leaked: &'static Entry = Box::leak(Box::new(kernel));
     assert_eq!(

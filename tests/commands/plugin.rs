@@ -1465,7 +1465,7 @@ fn a_command_that_dies_or_is_silent_on_a_case_is_a_finding() {
     const FEW: u64 = 200; // a shell reads byte by byte
     let unlucky = (0..FEW).filter(|index| {
         let made = interior.make::<f64>(&Parameters::default(), 1, *index);
-        let line = hairline::internals::plugin::text::case_line(0, &made.cases()[0]);
+        let line = hairline::internals::plugin::text::case_line(0, &made.cases()[0].numbers());
         line.split(' ').nth(3).unwrap().contains("77")
     });
     let unlucky = unlucky.count() as u64;
@@ -1768,7 +1768,7 @@ fn ten_ways_to_be_wrong_are_noticed_by_check() {
     }
     // No epsilon and no offset is advised where plain hits have wrong values.
     let library = wrong(1).unwrap();
-    for command in [&["epsilon", "--scene", "room"][..], &["spawn"]] {
+    for command in [&["epsilon", "--scene", "room"][..], &["offset"]] {
         let flags = [
             command,
             &["-n", "100", "--scalar", "f64", "--kernel-lib", &library],
@@ -1784,7 +1784,7 @@ fn ten_ways_to_be_wrong_are_noticed_by_check() {
     // A kernel that hits beside the triangle too: the scene's own rays do not show it.
     let library = wrong(8).unwrap();
     let flags = [
-        "spawn",
+        "offset",
         "-n",
         "300",
         "--scalar",

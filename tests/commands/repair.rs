@@ -167,7 +167,7 @@ fn is_alike<F: Scalar + Searched>(
     numbers: impl Fn(&[u8]) -> Vec<f64>,
 ) {
     let folder = scratch(&format!("repair-bits-{kernel}-{}", F::NAME));
-    let file = emitted(&folder, kernel, F::NAME);
+    let file = emitted(&folder, kernel, F::NAME.name());
     let name = file.file_stem().unwrap().to_str().unwrap();
     let (real, source, program) = (
         if F::DIGITS == 24 { "float" } else { "double" },

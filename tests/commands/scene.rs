@@ -68,10 +68,10 @@ fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
     );
     let published = "hairline audit --kernel moller-trumbore --scene room --scalar f32 -n 4000";
     assert!(5.0 * share(audit) < share(published), "{screen}");
-    let mut spawns = lines
+    let mut offsets = lines
         .iter()
-        .filter(|line| line.starts_with("      hairline spawn "));
-    let words: Vec<&str> = spawns
+        .filter(|line| line.starts_with("      hairline offset "));
+    let words: Vec<&str> = offsets
         .next_back()
         .unwrap()
         .split_whitespace()
@@ -186,7 +186,7 @@ fn a_scalar_that_cannot_hold_the_scene_is_left_out_with_a_word() {
     ];
     for command in [
         &["epsilon", "--kernel", "cramer"][..],
-        &["spawn", "--scalar", "f32,f64"],
+        &["offset", "--scalar", "f32,f64"],
     ] {
         let (out, error) = ends(&folder, &[command, &far].concat(), 0);
         let why = "left out: triangles of edge 0.01 nearly collapse at coordinates of 2000005, where the numbers of f32";

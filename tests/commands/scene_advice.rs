@@ -418,9 +418,9 @@ fn a_mesh_is_audited_as_it_was_studied_and_its_edges_are_well_within_their_limit
         "f32",
     ];
     let (screen, _) = ends(&folder, &[&words[..], &["-n", "1000", "-q"]].concat(), 0);
-    let spawn = next(&screen, "spawn");
-    assert!(spawn.contains(" --mesh "), "{spawn}");
-    let words: Vec<&str> = spawn.split(' ').collect();
+    let offset = next(&screen, "offset");
+    assert!(offset.contains(" --mesh "), "{offset}");
+    let words: Vec<&str> = offset.split(' ').collect();
     ends(&folder, &[&words[..], &["-n", "1000", "-q"]].concat(), 0);
 }
 

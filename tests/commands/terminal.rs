@@ -94,7 +94,7 @@ fn every_screen_fits_a_terminal() {
             ],
             52,
         ),
-        (&["spawn", "-n", "300", "--scalar", "f32"], 64),
+        (&["offset", "-n", "300", "--scalar", "f32"], 64),
         (
             &["explain", "edge-near@2/f32/-/1/41", "--kernel", "cramer"],
             40,

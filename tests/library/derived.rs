@@ -4,8 +4,8 @@ use hairline::internals::arith::three_digits;
 use hairline::internals::audit::{EpsilonChoice, Row};
 use hairline::internals::case::{Case, Draw, Scene};
 use hairline::internals::kernel::find;
+use hairline::internals::offset::{OffsetTrials, PointKind, derived_normal, least_weight, parse};
 use hairline::internals::oracle;
-use hairline::internals::spawn::{PointKind, SpawnTrials, derived_normal, least_weight, parse};
 use hairline::internals::truth::Place;
 
 fn row(kernel: &str, epsilon: &str) -> Row {
@@ -29,10 +29,10 @@ fn far_beside(index: u64, reach: f64) -> Case<f32> {
 }
 
 /// The wrong starts among those of `normal=` at a distance.
-fn wrong(trials: &SpawnTrials<f32>, distance: f64) -> usize {
+fn wrong(trials: &OffsetTrials<f32>, distance: f64) -> usize {
     let scheme = parse(&format!("normal={distance:e}")).unwrap();
     let offset = scheme.offset::<f32>().unwrap();
-    let is_wrong = |trial: &&hairline::internals::spawn::SpawnTrial<f32>| {
+    let is_wrong = |trial: &&hairline::internals::offset::OffsetTrial<f32>| {
         let start = offset.start(&trial.hit);
         let truth = oracle::truth(&trial.case(start.origin, start.t_min));
         truth
@@ -50,7 +50,7 @@ fn a_derived_bound_follows_the_weights_that_an_edge_gate_lets_through() {
         let least = least_weight(&row).unwrap();
         assert_eq!(least, edge.min(1.0 + 2.0 * edge));
         let rays: Vec<_> = (0..20_000).map(|i| (i, far_beside(i, -edge))).collect();
-        let trials = SpawnTrials::of(
+        let trials = OffsetTrials::of(
             (row.entry, &row.epsilons::<f32>()),
             PointKind::Weights,
             1,
@@ -103,6 +103,6 @@ fn the_bound_is_that_of_the_guide() {
     let units = |least: f64| derived_normal::<f32>(&unit, least).unwrap() / u;
     assert_eq!((units(0.0) * 10.0).round(), 106.0);
     assert_eq!(((units(-1.0) - units(0.0)) * 10.0).round(), 353.0);
-    let guide = include_str!("../../docs/guide/spawn.md");
+    let guide = include_str!("../../docs/guide/offset.md");
     assert!(guide.contains("10.6 u M") && !guide.contains("10.7 u"));
 }

@@ -5,10 +5,10 @@ use hairline::internals::audit::{EpsilonChoice, Unobserved};
 use hairline::internals::case::{Case, Parameters, PlaneKind, Scene};
 use hairline::internals::family::Stratum;
 use hairline::internals::kernel::{Scalar, find};
-use hairline::internals::oracle;
-use hairline::internals::spawn::{
-    PointKind, Scheme, SpawnPlan, SpawnTrials, derived_normal, parse, run,
+use hairline::internals::offset::{
+    OffsetPlan, OffsetTrials, PointKind, Scheme, derived_normal, parse, run,
 };
+use hairline::internals::oracle;
 use hairline::internals::truth::{Feature, Truth};
 use num_rational::BigRational as Rational;
 use num_traits::{One, ToPrimitive};
@@ -300,7 +300,7 @@ fn waechter_binder_fails_at_points_o_plus_t_d_on_a_floor_at_height_0() {
         .unwrap()
         .remove(0);
     let (kind, epsilons) = (PointKind::Ray, row.epsilons::<f32>());
-    let of = SpawnTrials::of((row.entry, &epsilons), kind, 1, &[(0, first)], None);
+    let of = OffsetTrials::of((row.entry, &epsilons), kind, 1, &[(0, first)], None);
     let [trial] = of.trials.as_slice() else {
         panic!("{of:?}")
     };
@@ -326,7 +326,7 @@ fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does()
     let run = |scene: &Scene, kind: PointKind, schemes: &[Scheme]| {
         let (mesh, instance, wall, fold) = (None, None, 0.01, 45.0);
         let (row, with_least, seed, count) = (&row, false, 1, 20_000);
-        let plan = SpawnPlan {
+        let plan = OffsetPlan {
             row,
             scene,
             mesh,

@@ -1,5 +1,6 @@
 //! Known facts about the kernels come out of a run.
 
+use hairline::ScalarName;
 use hairline::internals::arith::Float;
 use hairline::internals::audit::{
     Audit, EpsilonChoice, Observer, Plan, Row, Source, Stock, Tally, run,
@@ -64,7 +65,7 @@ static LATTICE: LazyLock<(Plan, Audit)> = LazyLock::new(|| {
     audit_of([rows(&kernels, None), two_sided].concat(), source)
 });
 
-fn tally<'a>((plan, audit): &'a (Plan, Audit), scalar: &str, label: &str) -> &'a Tally {
+fn tally<'a>((plan, audit): &'a (Plan, Audit), scalar: ScalarName, label: &str) -> &'a Tally {
     let found = audit
         .cells
         .iter()
@@ -96,18 +97,18 @@ fn false_misses_over_the_whole_lattice_are_those_known() {
         ("plucker (source)", 0, 0),
     ] {
         assert_eq!(
-            false_misses(tally(run, "f32", label)),
+            false_misses(tally(run, ScalarName::F32, label)),
             in_f32,
             "{label} in f32"
         );
         assert_eq!(
-            false_misses(tally(run, "f64", label)),
+            false_misses(tally(run, ScalarName::F64, label)),
             in_f64,
             "{label} in f64"
         );
     }
     // All three products are zero on a coplanar line, so scalar-triple hits with NaN coordinates.
-    for scalar in ["f32", "f64"] {
+    for scalar in ScalarName::ALL {
         let coplanar = of_class(tally(run, scalar, "scalar-triple (source)"), "coplanar");
         assert_eq!(coplanar.hits, coplanar.cases);
         assert_eq!(coplanar.of(Finding::BadValue), coplanar.cases);
@@ -116,7 +117,7 @@ fn false_misses_over_the_whole_lattice_are_those_known() {
 
 #[test]
 fn scalar_triple_two_sided_misses_every_exact_edge_of_the_lattice() {
-    for scalar in ["f32", "f64"] {
+    for scalar in ScalarName::ALL {
         let found = tally(&LATTICE, scalar, "scalar-triple-two-sided (source)");
         for class in ["edge/front/within", "edge/back/within", "edge/front/before"] {
             let edges = of_class(found, class);
@@ -132,7 +133,7 @@ fn scalar_triple_two_sided_misses_every_exact_edge_of_the_lattice() {
 
 #[test]
 fn havel_herout_treats_lattice_edges_differently_by_side() {
-    let found = tally(&LATTICE, "f32", "havel-herout (source)");
+    let found = tally(&LATTICE, ScalarName::F32, "havel-herout (source)");
     let share = |class: &str| {
         let count = of_class(found, class);
         count.hits as f64 / count.cases as f64
@@ -154,7 +155,7 @@ fn havel_herout_treats_lattice_edges_differently_by_side() {
 fn a_positive_edge_epsilon_loses_exact_edges() {
     let kernels = ["plane-unit-normal"];
     let run = audit(&kernels, "edge-exact", 5000);
-    for scalar in ["f32", "f64"] {
+    for scalar in ScalarName::ALL {
         let zero = tally(&run, scalar, "plane-unit-normal (zero)").total();
         let positive = tally(&run, scalar, "plane-unit-normal (1e-6)").total();
         assert!(
@@ -171,7 +172,7 @@ fn a_positive_edge_epsilon_loses_exact_edges() {
 #[test]
 fn an_absolute_determinant_epsilon_loses_tiny_triangles() {
     let run = audit(&["plane-inside-out"], "tiny", 5000);
-    for scalar in ["f32", "f64"] {
+    for scalar in ScalarName::ALL {
         let zero = tally(&run, scalar, "plane-inside-out (zero)").total();
         let positive = tally(&run, scalar, "plane-inside-out (1e-6)").total();
         assert_eq!(
@@ -188,7 +189,7 @@ fn woop_leaves_no_crack_but_misses_triangle_by_triangle() {
     let label = "woop-watertight (source)";
     for name in ["shared-edge", "fan"] {
         let run = audit(&["woop-watertight"], name, 50_000);
-        let groups = &tally(&run, "f32", label).groups;
+        let groups = &tally(&run, ScalarName::F32, label).groups;
         assert!(groups.crossings > 10_000);
         assert_eq!(groups.cracks, 0, "{name}");
         if name == "shared-edge" {
@@ -196,7 +197,7 @@ fn woop_leaves_no_crack_but_misses_triangle_by_triangle() {
         }
     }
     let run = audit(&["woop-watertight"], "edge-near", 20_000);
-    assert!(false_misses(tally(&run, "f32", label)) > 0);
+    assert!(false_misses(tally(&run, ScalarName::F32, label)) > 0);
 }
 
 #[test]
@@ -276,7 +277,7 @@ fn convex_polygon_is_plane_inside_out_on_triangles_and_right_on_lattice_polygons
         );
     }
     let run = audit(&["convex-polygon"], "polygon", 5000);
-    let polygons = &tally(&run, "f64", "convex-polygon (zero)").polygons;
+    let polygons = &tally(&run, ScalarName::F64, "convex-polygon (zero)").polygons;
     assert!(polygons.count.must_hit > 1000 && polygons.count.must_miss > 500);
     assert_eq!(polygons.count.findings.iter().sum::<u64>(), 0);
 }

@@ -253,7 +253,7 @@ fn impossible_grids_are_refused() {
     let refused = |coordinates, step, size| {
         grid_of_case(&case, CaseVector::A, coordinates, step, size)
             .unwrap_err()
-            .0
+            .to_string()
     };
     assert!(refused(Some([1, 1]), None, [8, 8]).contains("two different"));
     assert!(refused(Some([1, 3]), None, [8, 8]).contains("3 coordinates"));
@@ -295,7 +295,10 @@ fn a_png_has_the_colours_of_both_panels() {
     }
     for scale in [0, 1 << 13, usize::MAX] {
         assert!(
-            map::png(&map, scale).unwrap_err().0.contains("2^26"),
+            map::png(&map, scale)
+                .unwrap_err()
+                .to_string()
+                .contains("2^26"),
             "{scale}"
         );
     }

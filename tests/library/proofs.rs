@@ -1,5 +1,6 @@
 //! The checker of certificates accepts what the prover writes and nothing that differs from it in a number.
 
+use hairline::ScalarName;
 use hairline::internals::arith::Real;
 use hairline::internals::arith::recorded::Operation;
 use hairline::internals::kernel::{self, Path, Scalar};
@@ -16,8 +17,8 @@ fn path<F: Scalar>(kernel: &str) -> Path {
 }
 
 /// A certificate of bounds of some numbers.
-fn certificate_of(path: &Path, scalar: &str, domain: Domain, places: &[u32]) -> String {
-    let format = if scalar == "f32" {
+fn certificate_of(path: &Path, scalar: ScalarName, domain: Domain, places: &[u32]) -> String {
+    let format = if scalar == ScalarName::F32 {
         Format::F32
     } else {
         Format::F64
@@ -53,9 +54,9 @@ fn is_quotient(operation: &Operation) -> bool {
 }
 
 /// Everything that the gates of a kernel compare and that has a bound.
-fn quantities<F: Scalar>(kernel: &str, scalar: &str) -> String {
+fn quantities<F: Scalar>(kernel: &str, scalar: ScalarName) -> String {
     let path = path::<F>(kernel);
-    let format = if scalar == "f32" {
+    let format = if scalar == ScalarName::F32 {
         Format::F32
     } else {
         Format::F64
@@ -104,7 +105,7 @@ fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
     vec![
         (
             "triple",
-            certificate_of(&triple, "f64", Domain::UNIT, triple_places),
+            certificate_of(&triple, ScalarName::F64, Domain::UNIT, triple_places),
             &[
                 "edge",
                 "world",
@@ -116,22 +117,22 @@ fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
         ),
         (
             "plane",
-            certificate_of(&plane, "f32", Domain::UNIT, &plane_places),
+            certificate_of(&plane, ScalarName::F32, Domain::UNIT, &plane_places),
             &["reach", "world", "extent", "direction-floor", "quotient"],
         ),
         (
             "woop",
-            certificate_of(&woop, "f32", low, &sheared),
+            certificate_of(&woop, ScalarName::F32, low, &sheared),
             &["edge", "world", "extent", "floor", "quotient"],
         ),
         (
             "baldwin",
-            certificate_of(&baldwin, "f32", Domain::UNIT, &baldwin_places),
+            certificate_of(&baldwin, ScalarName::F32, Domain::UNIT, &baldwin_places),
             &["reach", "direction", "extent", "direction-floor"],
         ),
         (
             "weights",
-            certificate_of(&weights, "f32", Domain::UNIT, &[both]),
+            certificate_of(&weights, ScalarName::F32, Domain::UNIT, &[both]),
             &["world", "extent", "direction-floor"],
         ),
     ]
@@ -177,8 +178,8 @@ fn what_the_prover_writes_is_accepted() {
         "cramer",
     ] {
         for text in [
-            quantities::<f32>(kernel, "f32"),
-            quantities::<f64>(kernel, "f64"),
+            quantities::<f32>(kernel, ScalarName::F32),
+            quantities::<f64>(kernel, ScalarName::F64),
         ] {
             let proved = check(&text).unwrap_or_else(|refusal| panic!("{kernel}: {refusal}"));
             assert_eq!(proved.len(), text.matches("\nclaim ").count());
@@ -194,7 +195,7 @@ fn what_the_prover_writes_is_accepted() {
         quotient: Dyadic::power(3),
         ..Domain::UNIT
     };
-    let text = certificate_of(&cramer, "f32", domain, &[rest]);
+    let text = certificate_of(&cramer, ScalarName::F32, domain, &[rest]);
     assert!(
         text.contains("rest-of-quotients") && text.contains("\ndown-to "),
         "{text}"
@@ -203,7 +204,7 @@ fn what_the_prover_writes_is_accepted() {
 }
 
 /// The bounds of the first operation of a kernel that multiplies twice and subtracts in wider arithmetic.
-fn wide_difference<F: Scalar>(scalar: &str) -> String {
+fn wide_difference<F: Scalar>(scalar: ScalarName) -> String {
     let entry = kernel::find("woop-watertight").unwrap();
     let paths = F::subject(entry).unwrap().gated().unwrap().paths().unwrap();
     let place = |path: &Path| {
@@ -219,7 +220,10 @@ fn wide_difference<F: Scalar>(scalar: &str) -> String {
 
 #[test]
 fn a_difference_of_products_is_rounded_twice_in_f64() {
-    let [single, double] = [wide_difference::<f32>("f32"), wide_difference::<f64>("f64")];
+    let [single, double] = [
+        wide_difference::<f32>(ScalarName::F32),
+        wide_difference::<f64>(ScalarName::F64),
+    ];
     let [single, double] = [check(&single), check(&double)];
     let [single, double] = [single, double].map(|proved| proved.unwrap().remove(0).bound.error);
     // Apart from that, the errors differ by 2^-29.
@@ -375,7 +379,7 @@ fn a_bound_whose_way_overflows_is_refused() {
     let place = path.operations.iter().position(is_product).unwrap() as u32;
     // The prover may refuse it too.
     if Prover::new(&path, domain, Format::F32).bound(place).is_ok() {
-        let text = certificate_of(&path, "f32", domain, &[place]);
+        let text = certificate_of(&path, ScalarName::F32, domain, &[place]);
         assert!(
             refusal(&text).ends_with("which may overflow"),
             "{}",
@@ -407,7 +411,7 @@ fn a_unit_vector_whose_way_overflows_is_refused() {
     };
     // The squares of the normal are at most 12, of the small one much less; but its reciprocal may be above 64.
     for (domain, largest) in [(Domain::UNIT, 4), (small, 7)] {
-        let text = certificate_of(&path, "f32", domain, &[place]);
+        let text = certificate_of(&path, ScalarName::F32, domain, &[place]);
         let accepted = check(&with_largest(&text, largest));
         assert!(accepted.is_ok(), "{accepted:?}");
         let message = refusal(&with_largest(&text, largest - 1));

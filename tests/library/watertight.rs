@@ -397,7 +397,7 @@ fn surface(mesh: &Mesh) -> Arc<Surface> {
 /// By row, what was found at the edges and at the vertices of a mesh.
 fn found<F: Scalar>(mesh: &Mesh, rows: &[Row], directions: u64) -> Vec<[Aimed; 2]> {
     let sources = Source::parts_of(&surface(mesh), &Parameters::default(), 1, directions).into();
-    let scalars = [f32::NAME, f64::NAME].map(|name| name == F::NAME);
+    let scalars = F::NAME.alone();
     let plan = Plan {
         places: 9,
         ..Plan::new(rows.to_vec(), sources, scalars, 5)

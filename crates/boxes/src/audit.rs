@@ -8,7 +8,7 @@ use crate::setup::Setup;
 use crate::source::Source;
 use hairline_core::engine::{Merge, Observer, sum};
 use hairline_core::kernel::{Scalar, Subject, verdicts_of};
-use hairline_core::{Extent, Verdict};
+use hairline_core::{Extent, ScalarName, Verdict};
 use std::cell::OnceCell;
 use std::ops::Range;
 
@@ -32,6 +32,10 @@ pub struct Tally {
     pub false_misses: Wrong,
     /// Cases without a verdict.
     pub failed: Wrong,
+    /// Pairs of neighbours of which one must be hit at least.
+    pub owed_pairs: u64,
+    /// Those of them that it lost in both.
+    pub lost_pairs: u64,
 }
 
 /// Wrong verdicts of one kind.
@@ -96,6 +100,8 @@ impl Merge for Tally {
         self.false_hits.merge(other.false_hits);
         self.false_misses.merge(other.false_misses);
         self.failed.merge(other.failed);
+        self.owed_pairs += other.owed_pairs;
+        self.lost_pairs += other.lost_pairs;
     }
 }
 
@@ -152,7 +158,7 @@ pub struct Row {
     /// The source of its cases, as it prints itself.
     pub source: String,
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    pub scalar: ScalarName,
     /// The counts.
     pub tally: Tally,
 }
@@ -226,6 +232,7 @@ fn add_chunk<F: Made + Scalar>(
     let mut verdicts = vec![Verdict::miss(None); cases.len()];
     for (running, tally) in running.iter().zip(&mut tallies.0) {
         let contract = &running.setup.contract;
+        let owed = |truth| Obligation::new(truth, contract) == Obligation::Hit;
         verdicts_of(running.subject, &cases, &running.epsilons, &mut verdicts);
         for (index, case) in cases.iter().enumerate() {
             let judged = Judged {
@@ -235,6 +242,14 @@ fn add_chunk<F: Made + Scalar>(
                 severities: &severities[index],
             };
             tally.add(&judged, &verdicts[index], contract.extent);
+        }
+        if source.is_of_pairs() {
+            for (truths, verdicts) in truths.chunks(2).zip(verdicts.chunks(2)) {
+                let is_owed = truths.iter().any(owed);
+                let is_lost = verdicts.iter().all(|verdict| !verdict.hit);
+                tally.owed_pairs += u64::from(is_owed);
+                tally.lost_pairs += u64::from(is_owed && is_lost);
+            }
         }
     }
 }

@@ -108,6 +108,24 @@ impl<F: Float> BoxCase<F> {
         case.on(t_min, t_max)
     }
 
+    /// JSON that reads back to the same finite numbers: the shortest decimals of doubles.
+    pub fn json(&self) -> String {
+        let wide = self.widen();
+        let [origin, direction, min, max] = wide.vectors();
+        let mut json = format!(
+            r#"{{"scalar":"{}","origin":{origin:?},"direction":{direction:?},"min":{min:?},"max":{max:?}"#,
+            F::NAME
+        );
+        let Ray { t_min, t_max, .. } = wide.ray;
+        if t_min != 0.0 {
+            json += &format!(r#","t_min":{t_min:?}"#);
+        }
+        if t_max.is_finite() {
+            json += &format!(r#","t_max":{t_max:?}"#);
+        }
+        json + "}"
+    }
+
     /// The bit patterns of all numbers, in hexadecimal.
     pub fn hex(&self) -> String {
         let hex = |vector: [F; 3]| vector.map(F::hex).join(",");

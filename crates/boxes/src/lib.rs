@@ -27,6 +27,7 @@ mod integers;
 mod family;
 mod kernel;
 mod oracle;
+mod tree;
 
 mod judge;
 mod setup;
@@ -34,6 +35,7 @@ mod source;
 
 mod audit;
 mod epsilon;
+mod prove;
 mod search;
 
 pub use audit::{Row, Tally, Worst, Wrong, audit};
@@ -45,7 +47,9 @@ pub use family::{FAMILIES, Family, Made, case_of, find_family};
 pub use judge::{Finding, Obligation, severity};
 pub use kernel::{BoxEntry, KERNELS, TABLE};
 pub use oracle::{Layers, check, truth, truth_counted, truth_in_integers};
+pub use prove::{Domain, Growth, least_growths};
 pub use search::{Found, Search, search};
 pub use setup::Setup;
 pub use source::{Scene, Source};
+pub use tree::Tree;
 pub use truth::{Class, Meeting, Origin, Overlap, Truth};

@@ -1,6 +1,7 @@
 //! A slab test as it is run: with epsilons and a contract.
 
 use crate::case::Boxes;
+use crate::kernel::KERNELS;
 use hairline_core::kernel::{Entry, EpsilonText, Scalar, Subject, Tunable};
 use hairline_core::{Contract, Float, Gate};
 use std::fmt;
@@ -10,7 +11,7 @@ use std::fmt;
 pub struct Setup {
     /// The slab test.
     pub entry: &'static Entry<Boxes>,
-    /// The name of its epsilons: that of a published set, or `own`.
+    /// The name of its epsilons: that of a published set, or `given`.
     pub set: &'static str,
     /// Its epsilons, one a gate.
     pub values: Vec<EpsilonText>,
@@ -53,13 +54,20 @@ impl Setup {
             ));
         }
         self.values[place] = value;
-        self.set = "own";
+        self.set = "given";
         Ok(self)
     }
 
     /// This setup, judged by another contract.
     pub fn judged_by(self, contract: Contract) -> Setup {
         Setup { contract, ..self }
+    }
+
+    /// True if it is one of this crate's slab tests.
+    pub fn is_built_in(&self) -> bool {
+        let name = self.entry.info.name;
+        let base = name.split('+').next();
+        KERNELS.iter().any(|entry| Some(entry.info.name) == base)
     }
 
     /// The gates of the slab test.

@@ -1,7 +1,8 @@
-//! Where the cases of a run come from: a family, or a scene of a program's own sizes.
+//! Where the cases of a run come from: a family, a scene of a program's own sizes, or the boxes of a mesh.
 
 use crate::case::{BoxCase, each_axis};
 use crate::family::{Family, Made};
+use crate::tree::Tree;
 use hairline_core::Float;
 use hairline_core::case::Draw;
 use std::fmt;
@@ -14,6 +15,8 @@ pub enum Source {
     Family(&'static Family),
     /// A scene.
     Scene(Scene),
+    /// The boxes of a mesh.
+    Mesh(&'static Tree),
 }
 
 /// The sizes of a program's boxes: rays start anywhere in the world and are aimed at corners, edges and faces of boxes.
@@ -76,11 +79,17 @@ fn within<F: Float>(draw: &mut Draw, most: f64) -> [F; 3] {
 }
 
 impl Source {
+    /// True if the cases of each even index and the next one are two neighbours and one ray.
+    pub fn is_of_pairs(&self) -> bool {
+        matches!(self, Source::Family(family) if family.is_of_pairs)
+    }
+
     /// Case `index` of a seed's set.
     pub fn case<F: Made>(&self, seed: u64, index: u64) -> BoxCase<F> {
         match self {
             Source::Family(family) => family.case(seed, index),
             Source::Scene(scene) => scene.case(seed, index),
+            Source::Mesh(tree) => tree.case(seed, index),
         }
     }
 
@@ -96,6 +105,7 @@ impl fmt::Display for Source {
         match self {
             Source::Family(family) => f.pad(family.name),
             Source::Scene(scene) => write!(f, "extent={:e},size={:e}", scene.extent, scene.size),
+            Source::Mesh(tree) => f.pad(&tree.name),
         }
     }
 }

@@ -20,8 +20,10 @@ pub use scene::{
 };
 pub use target::{Target, Triangles};
 
-use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};
-use crate::error::Error;
+use crate::arith::{
+    Exact, ExactVector, Float, Real, ScalarName, Triple, Vector, scale_by_power_of_two,
+};
+use crate::error::{Error, ErrorKind};
 use std::fmt;
 use std::str::FromStr;
 
@@ -233,36 +235,38 @@ impl FromStr for Parameters {
         for word in text.split(',').filter(|word| *word != "-") {
             let (key, value) = word.split_once('=').unwrap_or((word, ""));
             let mut scene = parameters.scene.clone().unwrap_or_default();
-            if scene.set(key, value)? {
+            if scene.set(key, value).map_err(Error::syntax)? {
                 parameters.scene = Some(scene);
                 continue;
             }
             match key {
-                "scale" => parameters.scale = parse_power_of_two(value)?,
+                "scale" => parameters.scale = parse_power_of_two(value).map_err(Error::syntax)?,
                 "scale-direction" => parameters.scale_direction = true,
-                "offset" => parameters.offset = parse_offset(value)?,
+                "offset" => parameters.offset = parse_offset(value).map_err(Error::syntax)?,
                 "unit" => parameters.unit_direction = true,
                 "mesh" => parameters.mesh = Some(value.to_owned()),
                 "kernel" => parameters.kernel = Some(value.to_owned()),
-                "instance" => parameters.instance = Some(instance::parsed(value)?),
+                "instance" => {
+                    parameters.instance = Some(instance::parsed(value).map_err(Error::syntax)?)
+                }
                 _ => {
                     let known = "scale=2^k, scale-direction, offset=x:y:z, unit, mesh=digest, \
                                  the words of a scene, kernel=name, instance=12 numbers";
-                    return Err(Error(format!(
-                        "unknown parameter '{key}'; there are {known}"
-                    )));
+                    let line = format!("unknown parameter '{key}'; there are {known}");
+                    return Err(Error::new(ErrorKind::UnknownName, line));
                 }
             }
         }
+        let out_of_range = |line| Error::new(ErrorKind::OutOfRange, line);
         if let Some(scene) = &parameters.scene {
-            scene.check()?;
+            scene.check().map_err(out_of_range)?;
             if parameters.mesh.is_none() {
-                scene.check_fit()?;
+                scene.check_fit().map_err(out_of_range)?;
             }
             let scales = parameters.scale != 0 || parameters.scale_direction;
             if scales || !parameters.keep_truth() {
                 let message = "a scene has sizes of its own: no scale, offset or unit";
-                return Err(Error(message.to_owned()));
+                return Err(Error::new(ErrorKind::Conflict, message));
             }
         }
         Ok(parameters)
@@ -305,8 +309,8 @@ pub struct CaseId {
     pub family: String,
     /// The family's version: it changes whenever its cases do.
     pub version: u32,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar of its numbers.
+    pub scalar: ScalarName,
     /// How the case was transformed.
     pub parameters: Parameters,
     /// The seed of the set.
@@ -338,7 +342,7 @@ impl FromStr for CaseId {
 
     fn from_str(text: &str) -> Result<Self, Error> {
         let shape = || {
-            Error(format!(
+            Error::syntax(format!(
                 "'{text}' is not a case id: family@version/scalar/parameters/seed/index, as tiny@2/f32/-/1/135"
             ))
         };
@@ -348,6 +352,11 @@ impl FromStr for CaseId {
             .try_into()
             .map_err(|_| shape())?;
         let (family, version) = family.split_once('@').ok_or_else(shape)?;
+        let other_scalar = || {
+            Error::syntax(format!(
+                "'{text}': its scalar is '{scalar}', expected f32 or f64"
+            ))
+        };
         let (index, triangle) = match index.split_once('.') {
             Some((index, k)) => (index, Some(k.parse().map_err(|_| shape())?)),
             None => (index, None),
@@ -355,7 +364,7 @@ impl FromStr for CaseId {
         Ok(CaseId {
             family: family.to_owned(),
             version: version.parse().map_err(|_| shape())?,
-            scalar: scalar.to_owned(),
+            scalar: ScalarName::named(scalar).ok_or_else(other_scalar)?,
             parameters: parameters.parse()?,
             seed: seed.parse().map_err(|_| shape())?,
             index: index.parse().map_err(|_| shape())?,

@@ -82,7 +82,7 @@ impl FromStr for Band {
             .ok()
             .filter(|size: &f64| *size > 0.0 && size.is_finite());
         size.map(|size| Band { size, unit }).ok_or_else(|| {
-            Error(format!("'{text}' is not a band: write a distance above 0, in longest edges as 1e-6 or in ulps as 4ulps"))
+            Error::syntax(format!("'{text}' is not a band: write a distance above 0, in longest edges as 1e-6 or in ulps as 4ulps"))
         })
     }
 }

@@ -21,12 +21,12 @@
 #[doc(hidden)]
 pub use serde;
 
-/// An enum whose values have names: in text, in files and in records.
+/// An enum whose values have names: in text, in files and in records. Old names are read too, and never written.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! named {
     ($methods:vis names $(#[$about:meta])* $visible:vis enum $type:ident {
-        $($(#[doc = $doc:literal])* $value:ident = $name:literal,)*
+        $($(#[doc = $doc:literal])* $value:ident = $name:literal $(| $old_name:literal)*,)*
     }) => {
         $(#[$about])*
         $visible enum $type {
@@ -53,10 +53,13 @@ macro_rules! named {
                 text.trim().trim_end_matches('.')
             }
 
-            /// The value of a name.
+            /// The value of a name, or of one that it had once.
             #[allow(dead_code)]
             $methods fn named(name: &str) -> Option<$type> {
-                $type::ALL.into_iter().find(|value| value.name() == name)
+                match name {
+                    $($name $(| $old_name)* => Some($type::$value),)*
+                    _ => None,
+                }
             }
 
             /// The value of a name; an error says after the word in which it stands what names there are.
@@ -101,17 +104,20 @@ macro_rules! either_scalar {
     };
 }
 
-/// Does something in the scalar of a name, which is one of the two.
+/// Does something in the scalar of a [`ScalarName`](crate::arith::ScalarName).
 #[macro_export]
 #[doc(hidden)]
 macro_rules! in_named_scalar {
     ($name:expr, $scalar:ident => $do:expr) => {
-        if $name == <f32 as $crate::arith::Float>::NAME {
-            type $scalar = f32;
-            $do
-        } else {
-            type $scalar = f64;
-            $do
+        match $name {
+            $crate::arith::ScalarName::F32 => {
+                type $scalar = f32;
+                $do
+            }
+            $crate::arith::ScalarName::F64 => {
+                type $scalar = f64;
+                $do
+            }
         }
     };
 }
@@ -140,7 +146,7 @@ pub mod kernel;
 pub mod oracle;
 
 pub use case::{Case, Parameters, Ray, Triangle};
-pub use error::Error;
+pub use error::{Error, ErrorKind};
 pub use oracle::{Batch, Layers, UnequalColumns, truth, truths, truths_of_rows};
 pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 
@@ -149,7 +155,7 @@ pub use contract::{
     Sides,
 };
 
-pub use arith::{Float, Real, Vector};
+pub use arith::{Float, Real, ScalarName, Vector};
 pub use kernel::{
     Dimension, Entry, EpsilonSet, Failure, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role,
     Scalar, Sink, Subject, Test, Tunable, Verdict, find,

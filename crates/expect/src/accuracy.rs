@@ -90,7 +90,7 @@ pub(super) fn errors_of(result: &ResultPart) -> LockedErrors {
             [
                 row.kernel.clone(),
                 row.set.clone(),
-                row.scalar.clone(),
+                row.scalar.to_string(),
                 value.clone(),
             ]
         };
@@ -139,7 +139,7 @@ pub(super) fn error_changes(result: &ResultPart, known: &LockedTarget) -> Vec<Er
 }
 
 fn is_same_row(one: &RowTotal, other: &RowTotal) -> bool {
-    (&one.kernel, &one.set, &one.scalar) == (&other.kernel, &other.set, &other.scalar)
+    (&one.kernel, &one.set, one.scalar) == (&other.kernel, &other.set, other.scalar)
 }
 
 /// The trend of an error; none if it is the same.

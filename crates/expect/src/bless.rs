@@ -123,7 +123,7 @@ fn reviewed(lock: &Lock, record: &Record, old: &Expectations, compared: &Conform
             let old = old.entries.get(key);
             let why = old.and_then(|old| old.why.as_deref());
             let url = old.and_then(|old| old.url.as_deref());
-            let line = [Some(&*key.scalar), Some(key.finding.name()), why, url];
+            let line = [Some(key.scalar.name()), Some(key.finding.name()), why, url];
             let (kind, amount) = match old.map(|old| &old.amount) {
                 Some(Amount::Rate(rate)) if !exceeded.contains(key) => (1, format!("{rate:?}")),
                 _ => (0, count.to_string()),

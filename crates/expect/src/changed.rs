@@ -4,6 +4,7 @@ use crate::audit::Digest;
 use crate::case::{Case, CaseId, Parameters};
 use crate::family;
 use crate::kernel::Scalar;
+use hairline_core::ScalarName;
 use hairline_record::{Example, Key, ResultPart};
 
 /// The change of a case.
@@ -49,11 +50,11 @@ pub fn changed_case(
     if key.family.starts_with("corpus:") {
         return None;
     }
-    let is_source = |scalar: &str, family: &str| scalar == key.scalar && family == key.family;
+    let is_source = |scalar: ScalarName, family: &str| scalar == key.scalar && family == key.family;
     let source = result
         .sources
         .iter()
-        .find(|source| is_source(&source.scalar, &source.family))?;
+        .find(|source| is_source(source.scalar, &source.family))?;
     let place = has.beyond(&has_not, source.indices).min()?;
     let mut id: CaseId = example.case.parse().ok()?;
     // Of a family of single cases another triangle is none: several places were taken for one.

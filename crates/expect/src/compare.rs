@@ -271,7 +271,7 @@ fn deviation(
     Deviation {
         kernel: key.kernel.clone(),
         set: key.set.clone(),
-        scalar: key.scalar.clone(),
+        scalar: key.scalar,
         family: key.family.clone(),
         class: key.class.clone(),
         finding: key.finding,

@@ -7,6 +7,7 @@ use crate::case::SceneKind;
 use crate::family::{FAMILIES, STRATA};
 use crate::kernel;
 use crate::suggest::nearest_name;
+use hairline_core::ScalarName;
 use hairline_files::InputError;
 use hairline_record::{ALL_CLASSES, FindingKind, Key};
 use serde::Deserialize;
@@ -182,7 +183,11 @@ impl ExpectationsReader<'_> {
         let kinds: Vec<&str> = FindingKind::FOUND.iter().map(|kind| kind.name()).collect();
         let families = FAMILIES.iter().chain(STRATA);
         let families: Vec<&str> = families.map(|family| family.name).collect();
-        self.check("scalar", (scalar.get_ref(), scalar.span()), &["f32", "f64"])?;
+        self.check(
+            "scalar",
+            (scalar.get_ref(), scalar.span()),
+            &ScalarName::ALL.map(ScalarName::name),
+        )?;
         self.check("finding", (finding.get_ref(), finding.span()), &kinds)?;
         let wrong = |message: String| self.error(&spanned.span(), message);
         let count = |(family, count): (&String, &u64)| match *count {
@@ -210,7 +215,7 @@ impl ExpectationsReader<'_> {
             let key = Key {
                 kernel: row.kernel.get_ref().clone(),
                 set: row.set.clone(),
-                scalar: scalar.get_ref().clone(),
+                scalar: ScalarName::named(scalar.get_ref()).expect("checked above"),
                 family,
                 class: ALL_CLASSES.to_owned(),
                 finding: FindingKind::named(finding.get_ref()).expect("checked above"),

@@ -4,6 +4,7 @@
 use super::accuracy::{HitErrors, LockedErrors, errors_of};
 use super::{Amount, Expectations};
 use crate::audit::Digest;
+use hairline_core::ScalarName;
 use hairline_files::InputError;
 use hairline_record::{FindingKind, Key, ResultPart, RowPart, disagreements};
 use std::collections::BTreeMap;
@@ -141,6 +142,8 @@ impl LockedTarget {
         Digest::try_from(digest.clone()).map_err(|_| "the digest of a set of cases".to_owned())?;
         let finding = FindingKind::named(&finding)
             .ok_or_else(|| format!("a kind of finding, not '{finding}'"))?;
+        let scalar = ScalarName::named(&scalar)
+            .ok_or_else(|| format!("a scalar, f32 or f64, not '{scalar}'"))?;
         let key = Key {
             kernel,
             set,

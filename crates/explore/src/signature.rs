@@ -1,6 +1,7 @@
 //! The signature of a finding: two findings with the same signature are of the same kind.
 
 use super::objective::verdict_and_finding;
+use crate::arith::ScalarName;
 use crate::audit::{Attribution, Row, attribute_with};
 use crate::case::Case;
 use crate::judge::{Class, Finding, asked};
@@ -14,7 +15,7 @@ pub struct Signature {
     /// The kernel.
     pub kernel: &'static str,
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    pub scalar: ScalarName,
     /// The epsilons, as `--epsilon` takes them; none if no gate takes one.
     pub epsilons: Option<String>,
     /// The finding.

@@ -3,7 +3,7 @@
 use super::objective::verdict_and_finding;
 use super::signature::Signature;
 use super::simplify::odd_and_exponent;
-use crate::arith::Float;
+use crate::arith::{Float, ScalarName};
 use crate::audit::Row;
 use crate::case::{Case, rust_case, rust_list};
 use crate::judge::Finding;
@@ -44,7 +44,10 @@ fn {name}() {{
 pub fn c_snippet<F: Scalar>(row: &Row, case: &Case<F>, signature: &Signature) -> String {
     let epsilons: Vec<F> = row.epsilons();
     let (truth, ..) = verdict_and_finding(row, &epsilons, case);
-    let scalar = if F::NAME == "f32" { "float" } else { "double" };
+    let scalar = match F::NAME {
+        ScalarName::F32 => "float",
+        ScalarName::F64 => "double",
+    };
     let mut text = format!(
         "/* {signature}.\n   Contract: {}.\n   Truth: {truth}. */\n",
         row.contract.describe()
@@ -84,7 +87,10 @@ fn asked(finding: Finding) -> &'static str {
 /// An exact hexadecimal literal: `-0x3p-1f`.
 fn c_number<F: Float>(x: F) -> String {
     let sign = if x.is_sign_negative() { "-" } else { "" };
-    let suffix = if F::NAME == "f32" { "f" } else { "" };
+    let suffix = match F::NAME {
+        ScalarName::F32 => "f",
+        ScalarName::F64 => "",
+    };
     match odd_and_exponent(x) {
         Some((digits, exponent)) => format!("{sign}0x{digits:x}p{exponent}{suffix}"),
         None if x.is_zero() => format!("{sign}0x0p0{suffix}"),

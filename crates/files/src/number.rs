@@ -78,7 +78,7 @@ fn finite<F: Float>(text: &str) -> Result<Option<F>, String> {
         Some(digits) => hexadecimal(digits),
         None if text.starts_with(|c: char| c.is_ascii_digit() || c == '.') => {
             let suffix = text
-                .strip_suffix(F::NAME)
+                .strip_suffix(F::NAME.name())
                 .map(|rest| rest.trim_end_matches('_'));
             let decimal = suffix.or_else(|| text.strip_suffix(['f', 'F']));
             let decimal = decimal.filter(|rest| !rest.ends_with(['e', 'E']));

@@ -4,7 +4,6 @@
 #![forbid(unsafe_code)]
 
 use crate::arith::{Float, FloatEnvironment};
-use crate::case::Case;
 use crate::kernel::{Failure, Verdict};
 use crate::truth::Facing;
 
@@ -28,9 +27,6 @@ const TOOK: [u8; 4] = *b"HLT1";
 pub(super) const BATCH_HEAD: usize = 16;
 /// Bytes of an answer's head: [`ANSWER`], number of verdicts.
 pub(super) const ANSWER_HEAD: usize = 8;
-/// Numbers in a case: origin, direction, a, b, c, t_min, t_max.
-pub(super) const CASE_NUMBERS: usize = 17;
-
 /// Bytes of a verdict: hit and facing as 32-bit integers, then t, u, v.
 pub(super) const fn verdict_bytes<F: Float>() -> usize {
     8 + 3 * size_of::<F>()
@@ -48,10 +44,11 @@ pub(super) fn float<F: Float>(bytes: &[u8]) -> F {
     F::from_bits(u64::from_le_bytes(bits))
 }
 
-/// Writes a batch, of [`BATCH`] or [`MARGINS`]: the head, the epsilons, the cases.
-pub(super) fn write_batch<F: Float>(
+/// Writes a batch, of [`BATCH`] or [`MARGINS`]: the head, the epsilons, the numbers of the cases, so many a case.
+pub(super) fn write_batch<F: Float, N: AsRef<[F]>>(
     kind: [u8; 4],
-    cases: &[Case<F>],
+    width: usize,
+    cases: impl ExactSizeIterator<Item = N>,
     epsilons: &[F],
     bytes: &mut Vec<u8>,
 ) {
@@ -63,12 +60,9 @@ pub(super) fn write_batch<F: Float>(
     epsilons.iter().for_each(|epsilon| push(bytes, *epsilon));
     let start = bytes.len();
     let size = size_of::<F>();
-    bytes.resize(start + cases.len() * CASE_NUMBERS * size, 0);
-    for (record, case) in bytes[start..]
-        .chunks_exact_mut(CASE_NUMBERS * size)
-        .zip(cases)
-    {
-        for (place, number) in record.chunks_exact_mut(size).zip(case.numbers()) {
+    bytes.resize(start + cases.len() * width * size, 0);
+    for (record, case) in bytes[start..].chunks_exact_mut(width * size).zip(cases) {
+        for (place, number) in record.chunks_exact_mut(size).zip(case.as_ref()) {
             place.copy_from_slice(&number.to_bits().to_le_bytes()[..size]);
         }
     }
@@ -148,12 +142,14 @@ pub(super) fn verdict<F: Float>(bytes: &[u8]) -> Result<Verdict<F>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Case;
 
     #[test]
     fn records_have_the_layout_of_the_header() {
         let case = Case::<f32>::new([1.0; 3], [0.0, 0.0, -1.0], [[0.0; 3]; 3]).on(-1.0, 2.0);
         let mut bytes = b"what was in it".to_vec();
-        write_batch(BATCH, &[case], &[0.5], &mut bytes);
+        let numbers = [case.numbers()].into_iter();
+        write_batch(BATCH, 17, numbers, &[0.5], &mut bytes);
         assert_eq!(bytes.len(), 16 + 4 + 68);
         assert_eq!(
             bytes[..20],
@@ -163,7 +159,8 @@ mod tests {
         assert_eq!(bytes[80..], *b"\0\0\x80\xbf\0\0\0\x40");
         assert_eq!((verdict_bytes::<f32>(), verdict_bytes::<f64>()), (20, 32));
         let mut wide = Vec::new();
-        write_batch(MARGINS, &[case.widen()], &[], &mut wide);
+        let numbers = [case.widen().numbers()].into_iter();
+        write_batch(MARGINS, 17, numbers, &[], &mut wide);
         assert_eq!(
             (wide.len(), wide[..5].to_vec()),
             (16 + 136, b"HLM1\x40".to_vec())

@@ -2,12 +2,12 @@
 
 #![forbid(unsafe_code)]
 
+use super::asked::Asked;
 use super::binary::{self, Before};
 use super::hello::shown;
 use super::running::{Lost, Running};
 use super::text;
 use crate::arith::{Float, FloatEnvironment};
-use crate::case::Case;
 use crate::kernel::Verdict;
 
 /// The remarks of a process besides its verdicts.
@@ -20,9 +20,9 @@ pub(super) struct Said {
 }
 
 /// Asks in lines of text.
-pub(super) fn in_text<F: Float>(
+pub(super) fn in_text<F: Float, T: Asked>(
     running: &mut Running,
-    cases: &[Case<F>],
+    cases: &[T::Case<F>],
     epsilons: &[F],
     verdicts: &mut [Verdict<F>],
 ) -> Result<Said, Lost> {
@@ -31,7 +31,7 @@ pub(super) fn in_text<F: Float>(
         lines.push_str(&text::epsilons_line(epsilons));
     }
     for (id, case) in cases.iter().enumerate() {
-        lines.push_str(&text::case_line(id, case));
+        lines.push_str(&text::case_line(id, T::numbers(case).as_ref()));
     }
     let count = cases.len() as u64;
     lines.push_str(&text::end_line(count));
@@ -61,9 +61,9 @@ pub(super) fn in_text<F: Float>(
 }
 
 /// Asks in the binary encoding; for the margins too, if there is room for them.
-pub(super) fn in_binary<F: Float>(
+pub(super) fn in_binary<F: Float, T: Asked>(
     running: &mut Running,
-    cases: &[Case<F>],
+    cases: &[T::Case<F>],
     epsilons: &[F],
     verdicts: &mut [Verdict<F>],
     margins: &mut [F],
@@ -74,7 +74,9 @@ pub(super) fn in_binary<F: Float>(
         binary::MARGINS
     };
     let mut bytes = running.spare();
-    binary::write_batch(kind, cases, epsilons, &mut bytes);
+    let width = T::FORM.plain.len();
+    let numbers = cases.iter().map(T::numbers);
+    binary::write_batch(kind, width, numbers, epsilons, &mut bytes);
     running.send(bytes);
     let mut said = Said::default();
     let head = loop {

@@ -3,16 +3,21 @@
 #![forbid(unsafe_code)]
 
 use super::PROTOCOL;
+use super::asked::{Asked, Form};
 use crate::arith::FloatEnvironment;
-use crate::contract::Contract;
+use crate::case::Triangles;
+use crate::contract::{Contract, Demand};
 use crate::files::number;
 use crate::kernel::{Dimension, EpsilonSet, Gate, Gives, KernelInfo, Role, Tunable};
+use hairline_boxes::Boxes;
 
 /// A kernel's announcement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hello {
     name: String,
     source: String,
+    /// The word of its target.
+    judges: &'static str,
     contract: Contract,
     gives: [bool; 3],
     epsilons: Vec<HelloEpsilon>,
@@ -43,6 +48,8 @@ struct HelloEpsilon {
 pub struct HelloLines {
     /// The first words of the lines so far.
     said: Vec<String>,
+    /// The words of its contract.
+    promise: String,
     hello: Hello,
 }
 
@@ -51,6 +58,7 @@ impl Default for HelloLines {
         let hello = Hello {
             name: String::new(),
             source: "not told".to_owned(),
+            judges: TRIANGLES,
             contract: Contract::CLOSED_RAY,
             gives: [false; 3],
             epsilons: Vec::new(),
@@ -62,6 +70,7 @@ impl Default for HelloLines {
         };
         HelloLines {
             said: Vec::new(),
+            promise: String::new(),
             hello,
         }
     }
@@ -80,8 +89,17 @@ impl HelloLines {
             _ if self.said.is_empty() => first_line(line, word, rest)?,
             "name" => hello.name = rest.to_owned(),
             "source" => hello.source = rest.to_owned(),
+            "judges" => {
+                let known = [TRIANGLES, BOXES];
+                let judged = known.into_iter().find(|known| *known == rest);
+                hello.judges = judged.ok_or_else(|| {
+                    let rest = shown(rest);
+                    format!("judges: '{rest}' is none of {}", known.join(", "))
+                })?;
+            }
             "contract" => {
                 hello.contract = rest.parse().map_err(|error| format!("contract: {error}"))?;
+                self.promise = rest.to_owned();
             }
             "gives" => hello.gives = subset(rest, "gives", ["t", "uv", "facing"])?,
             "scalars" => hello.scalars = subset(rest, "scalars", ["f32", "f64"])?,
@@ -106,7 +124,7 @@ impl HelloLines {
             "epsilon" => hello.epsilons.push(epsilon(rest)?),
             "ready" => return self.finish().map(Some),
             _ => {
-                let known = "name, source, contract, gives, scalars, encoding, floats, margins, processes, epsilon, ready, error";
+                let known = "name, source, judges, contract, gives, scalars, encoding, floats, margins, processes, epsilon, ready, error";
                 return Err(format!("'{}' is none of {known}", shown(line)));
             }
         }
@@ -153,11 +171,41 @@ impl HelloLines {
         if !self.has("contract") {
             return missing("contract");
         }
-        Ok(hello.clone())
+        let mut hello = hello.clone();
+        if hello.judges == BOXES {
+            hello.contract = self.promise_of_boxes(hello.contract);
+        }
+        Ok(hello)
+    }
+
+    /// A box stands for what is in it: if flat, or if a ray runs in a face, it is a hit unless the words say otherwise.
+    fn promise_of_boxes(&self, contract: Contract) -> Contract {
+        let demand = |word: &str, said: Demand| match self.promise.contains(word) {
+            true => said,
+            false => Demand::Hit,
+        };
+        let coplanar = demand("coplanar=", contract.coplanar);
+        let degenerate = demand("degenerate=", contract.degenerate);
+        contract.with_flat(coplanar, degenerate)
     }
 }
 
+/// The words of the targets.
+const TRIANGLES: &str = Triangles::FORM.judges;
+const BOXES: &str = Boxes::FORM.judges;
+
 impl Hello {
+    /// An error if it judges another target.
+    pub fn is_of(&self, form: &Form) -> Result<(), String> {
+        if self.judges == form.judges {
+            return Ok(());
+        }
+        let (judges, asked) = (self.judges, form.judges);
+        Err(format!(
+            "it judges {judges}, and this command asks about {asked} ('judges {asked}' in its hello says that it judges them)"
+        ))
+    }
+
     /// True if it takes epsilons.
     pub fn has_epsilons(&self) -> bool {
         !self.epsilons.is_empty()
@@ -192,6 +240,7 @@ impl Hello {
             name: leak(&epsilon.name),
             role: epsilon.role.unwrap_or(Role::Other),
             refuses: leak(&epsilon.refuses),
+            printed: None,
             dimension: epsilon.dimension,
             epsilon: epsilon.tunable,
         };

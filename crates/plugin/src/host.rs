@@ -9,12 +9,11 @@
 mod guard;
 mod library;
 
+use super::asked::Form;
 use super::binary::{
-    ANSWER, BATCH, BATCH_HEAD, Before, CASE_NUMBERS, MARGINS, float, push, verdict_bytes,
-    write_batch,
+    ANSWER, BATCH, BATCH_HEAD, Before, MARGINS, float, push, verdict_bytes, write_batch,
 };
 use crate::arith::{Float, FloatEnvironment};
-use crate::case::Case;
 use crate::files::number;
 use crate::kernel::{Failure, by_running};
 use guard::{Buffer, watch};
@@ -29,12 +28,13 @@ use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Loads a library and answers batches from standard input until it ends; returns the exit code.
+/// Loads a library whose kernel judges a target, and answers batches from standard input until it ends; returns the exit code.
 ///
 /// A library that is asked more than once may be wrong after many calls. So for `long_run`, if it is not 0, the first whole
 /// batch is asked again and again before its answer counts.
-pub fn serve(path: &Path, long_run: Duration) -> u8 {
+pub fn serve(form: &Form, path: &Path, long_run: Duration) -> u8 {
     let mut job = LibraryJob {
+        form,
         path,
         long_run,
         code: 1,
@@ -62,6 +62,7 @@ pub fn serve(path: &Path, long_run: Duration) -> u8 {
 
 /// The job of a library's thread.
 struct LibraryJob<'a> {
+    form: &'a Form,
     path: &'a Path,
     long_run: Duration,
     code: u8,
@@ -74,17 +75,17 @@ type UnwindingStart = extern "C-unwind" fn(*mut c_void) -> *mut c_void;
 extern "C-unwind" fn on_thread(job: *mut c_void) -> *mut c_void {
     // SAFETY: `serve` passes its job, and waits.
     let job = unsafe { &mut *job.cast::<LibraryJob>() };
-    job.code = serve_here(job.path, job.long_run);
+    job.code = serve_here(job);
     std::ptr::null_mut()
 }
 
-fn serve_here(path: &Path, long_run: Duration) -> u8 {
+fn serve_here(job: &LibraryJob) -> u8 {
     match Protocol::take() {
         Err(error) => {
             eprintln!("hairline: {error}");
             1
         }
-        Ok(mut protocol) => match protocol.serve(path, long_run) {
+        Ok(mut protocol) => match protocol.serve(job) {
             Ok(()) => 0,
             Err(message) => {
                 let _ = writeln!(protocol.output, "error {}", one_line(&message));
@@ -116,9 +117,9 @@ impl Protocol {
         }
     }
 
-    fn serve(&mut self, path: &Path, long_run: Duration) -> Result<(), String> {
+    fn serve(&mut self, job: &LibraryJob) -> Result<(), String> {
         limit_damage();
-        let library = Library::open(path)?;
+        let library = Library::open(job.path, job.form)?;
         let hello = library.hello()?;
         let mut floats = FloatEnvironment::now();
         let announced = format!("{hello}floats {}\nmargins\n", floats.bits());
@@ -131,7 +132,7 @@ impl Protocol {
         first_call::<f32>(&library, &hello, &mut room).map_err(failed)?;
         first_call::<f64>(&library, &hello, &mut room).map_err(failed)?;
         self.output.write_all(b"ready\n").map_err(failed)?;
-        let mut long_run = Some(long_run).filter(|limit| !limit.is_zero());
+        let mut long_run = Some(job.long_run).filter(|limit| !limit.is_zero());
         while let Some(batch) =
             HostBatch::read(&mut self.input, &library, &mut room).map_err(failed)?
         {
@@ -214,10 +215,12 @@ struct HostBatch {
     size: usize,
     /// The number of cases.
     count: usize,
+    /// The numbers of a case.
+    width: usize,
     with_margins: bool,
 }
 
-/// Answers a plain case, a hit in the middle of its triangle, and forgets the verdict: a library may take long for its
+/// Answers a plain case, a hit in the middle, and forgets the verdict: a library may take long for its
 /// first call, and that is no case's fault.
 fn first_call<F: Float>(library: &Library, hello: &str, room: &mut Room) -> io::Result<()> {
     let is_there = if size_of::<F>() == 4 {
@@ -228,9 +231,8 @@ fn first_call<F: Float>(library: &Library, hello: &str, room: &mut Room) -> io::
     if is_there.is_none() {
         return Ok(());
     }
-    let vector = |numbers: [f64; 3]| numbers.map(F::from_f64);
-    let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(vector);
-    let plain = Case::new(vector([0.3, 0.3, 1.0]), vector([0.0, 0.0, -1.0]), triangle);
+    let numbers = library.form.plain.iter();
+    let plain: Vec<F> = numbers.map(|number| F::from_f64(*number)).collect();
     // An invalid value is refused by who reads the hello.
     let value = |line: &str| number::parse(line.split(' ').nth(2)?).ok();
     let epsilons = hello.lines().filter(|line| line.starts_with("epsilon "));
@@ -238,7 +240,9 @@ fn first_call<F: Float>(library: &Library, hello: &str, room: &mut Room) -> io::
         .map(|line| value(line).unwrap_or(F::zero()))
         .collect();
     let mut bytes = Vec::new();
-    write_batch(BATCH, &[plain], &epsilons, &mut bytes);
+    let width = plain.len();
+    let cases = [plain].into_iter();
+    write_batch(BATCH, width, cases, &epsilons, &mut bytes);
     if let Some(batch) = HostBatch::read(&mut &bytes[..], library, room)? {
         batch.make_room(room)?;
         batch.call(room);
@@ -280,7 +284,8 @@ impl HostBatch {
             return Err(io::Error::other("not a batch"));
         };
         let (size, count) = (word(4) / 8, word(8));
-        let lengths = [word(12) * size, count * CASE_NUMBERS * size];
+        let width = library.form.plain.len();
+        let lengths = [word(12) * size, count * width * size];
         for (buffer, length) in [&mut room.epsilons, &mut room.cases]
             .into_iter()
             .zip(lengths)
@@ -293,6 +298,7 @@ impl HostBatch {
             test,
             size,
             count,
+            width,
             with_margins,
         }))
     }
@@ -392,7 +398,7 @@ impl HostBatch {
         verdict.bytes().fill(0xff);
         // SAFETY: the i-th case is one of the batch, and all pointers are as include/hairline.h promises.
         unsafe {
-            let case = cases.start().add(i * CASE_NUMBERS * self.size);
+            let case = cases.start().add(i * self.width * self.size);
             (self.test)(case.cast(), 1, room.start().cast(), verdict.start().cast());
         }
         let hit = &verdict.as_bytes()[..4];

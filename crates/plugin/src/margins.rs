@@ -2,9 +2,9 @@
 
 #![forbid(unsafe_code)]
 
+use super::asked::Asked;
 use super::running::Lost;
 use crate::arith::Float;
-use crate::case::Case;
 use crate::kernel::{Failure, KernelInfo, Verdict};
 
 /// Cases on which processes failed while they were asked for margins.
@@ -19,11 +19,11 @@ pub(super) struct MarginFailures {
 
 impl MarginFailures {
     /// Adds one.
-    pub fn add<F: Float>(&mut self, failure: Failure, case: &Case<F>) {
+    pub fn add(&mut self, failure: Failure, case: &str) {
         self.count += 1;
         let first = self
             .first
-            .get_or_insert_with(|| format!("{failure} on {}", case.hex()));
+            .get_or_insert_with(|| format!("{failure} on {case}"));
         if MOST_MARGIN_FAILURES < self.count {
             self.gave_up = Some(format!(
                 "it fails at some epsilons, from the smallest to the largest number, on more than \
@@ -44,13 +44,13 @@ impl MarginFailures {
 /// The margins of some cases, with their verdicts at the epsilons that let the most through, as `ask` gets them.
 /// NaN where a process fails, which `failed` is told: no finding, because nobody asked for these epsilons. An
 /// error says what answer was none.
-pub(super) fn find<F: Float>(
+pub(super) fn find<F: Float, T: Asked>(
     (info, open): (&KernelInfo, &[F]),
-    cases: &[Case<F>],
+    cases: &[T::Case<F>],
     verdicts: &mut [Verdict<F>],
     margins: &mut [F],
-    ask: &impl Fn(&[Case<F>], &mut [Verdict<F>], &mut [F]) -> Result<(), Lost>,
-    failed: &impl Fn(Failure, &Case<F>),
+    ask: &impl Fn(&[T::Case<F>], &mut [Verdict<F>], &mut [F]) -> Result<(), Lost>,
+    failed: &impl Fn(Failure, &T::Case<F>),
 ) -> Result<(), String> {
     match ask(cases, verdicts, margins) {
         Ok(()) => check(info, open, verdicts, margins),
@@ -65,7 +65,7 @@ pub(super) fn find<F: Float>(
             let one_by_one = cases.chunks(1).zip(verdicts.chunks_mut(1));
             let mut one_by_one = one_by_one.zip(margins.chunks_mut(open.len()));
             one_by_one.try_for_each(|((case, verdict), margins)| {
-                find((info, open), case, verdict, margins, ask, failed)
+                find::<F, T>((info, open), case, verdict, margins, ask, failed)
             })
         }
     }

@@ -7,6 +7,7 @@ mod start;
 
 pub use start::{LoadError, load};
 
+use super::asked::Asked;
 use super::binary;
 use super::exchange;
 use super::hello::Hello;
@@ -15,10 +16,9 @@ use super::running::{self, KernelProgram, Lost, Running};
 use super::stderr::MOST_LINES;
 use super::turns::Turns;
 use crate::arith::{Float, FloatEnvironment};
-use crate::case::Case;
-use crate::corpus::lines::bare_case;
 use crate::kernel::{Failure, Hit, KernelInfo, Subject, Verdict, open_epsilons, values_of};
 use crate::plot::{group_digits, number_of};
+use std::marker::PhantomData;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -50,7 +50,8 @@ const ENDED: u64 = 3;
 /// How often in ten milliseconds each words of a kernel are waited for.
 const LISTENED: usize = 10;
 
-struct Process {
+struct Process<T> {
+    target: PhantomData<T>,
     program: KernelProgram,
     limits: ProcessLimits,
     hello: Hello,
@@ -85,7 +86,7 @@ impl ProcessState {
     }
 }
 
-impl Process {
+impl<T: Asked> Process<T> {
     fn state(&self) -> MutexGuard<'_, ProcessState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -94,7 +95,7 @@ impl Process {
     /// margins too, if there is room for them. Returns the nanoseconds in the kernel, if the process says.
     fn ask<F: Float>(
         &self,
-        cases: &[Case<F>],
+        cases: &[T::Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
         margins: &mut [F],
@@ -106,9 +107,9 @@ impl Process {
         };
         let since = Instant::now();
         let said = if self.hello.binary {
-            exchange::in_binary(&mut running, cases, epsilons, verdicts, margins)
+            exchange::in_binary::<F, T>(&mut running, cases, epsilons, verdicts, margins)
         } else {
-            exchange::in_text(&mut running, cases, epsilons, verdicts)
+            exchange::in_text::<F, T>(&mut running, cases, epsilons, verdicts)
         };
         self.turns.add_work(since.elapsed());
         let said = said?;
@@ -157,7 +158,7 @@ impl Process {
     }
 
     /// Gets the verdict on one case.
-    fn ask_one<F: Float>(&self, case: &Case<F>, epsilons: &[F]) -> Result<Verdict<F>, String> {
+    fn ask_one<F: Float>(&self, case: &T::Case<F>, epsilons: &[F]) -> Result<Verdict<F>, String> {
         let mut verdict = [Verdict::miss(None)];
         let mut ask = || self.ask(std::slice::from_ref(case), epsilons, &mut verdict, &mut []);
         let mut said = ask();
@@ -175,12 +176,12 @@ impl Process {
         match said {
             Ok(_) => Ok(verdict[0]),
             Err(Lost::Garbled(message)) => Err(message),
-            Err(Lost::Failed(failure)) => self.pinned(failure, case),
+            Err(Lost::Failed(failure)) => self.pinned::<F>(failure, case),
         }
     }
 
     /// The verdict on a case that ends a process when it runs alone; an error if there are too many.
-    fn pinned<F: Float>(&self, failure: Failure, case: &Case<F>) -> Result<Verdict<F>, String> {
+    fn pinned<F: Float>(&self, failure: Failure, case: &T::Case<F>) -> Result<Verdict<F>, String> {
         let mut state = self.state();
         state.failures += 1;
         let (failures, most) = (state.failures, self.limits.failures);
@@ -192,7 +193,7 @@ impl Process {
                 let (name, number) = (self.hello.name(), state.timeouts);
                 (self.limits.tell)(&format!(
                     "kernel '{name}': no answer within {silence} s, {number} of {patience}: {}",
-                    bare_case(*case)
+                    T::shown(case)
                 ));
             }
         }
@@ -208,8 +209,9 @@ impl Process {
         }
         let first = state.first.get_or_insert_with(|| {
             format!(
-                "{failure} on '{}', as `hairline explain` takes it",
-                bare_case(*case)
+                "{failure} on '{}', as `{}` takes it",
+                T::shown(case),
+                T::FORM.explain
             )
         });
         let first = first.clone();
@@ -237,7 +239,7 @@ impl Process {
                 "it touches memory outside its buffers; if it does so on many cases, are its structs those of \
                  include/hairline.h (in f{} {} bytes a case, {} a verdict)?",
                 8 * size_of::<F>(),
-                binary::CASE_NUMBERS * size_of::<F>(),
+                T::FORM.plain.len() * size_of::<F>(),
                 binary::verdict_bytes::<F>(),
             ));
         }
@@ -248,7 +250,7 @@ impl Process {
     fn pin_all<F: Float>(
         &self,
         of_batch: Failure,
-        cases: &[Case<F>],
+        cases: &[T::Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
     ) -> Result<(), String> {
@@ -264,14 +266,14 @@ impl Process {
     }
 }
 
-impl<F: Float> Subject<F> for Process {
-    fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+impl<F: Float, T: Asked> Subject<F, T> for Process<T> {
+    fn run(&self, cases: &[T::Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         self.run_timed(cases, epsilons, verdicts);
     }
 
     fn run_timed(
         &self,
-        cases: &[Case<F>],
+        cases: &[T::Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
     ) -> Option<u64> {
@@ -295,7 +297,7 @@ impl<F: Float> Subject<F> for Process {
     fn margins(
         &self,
         info: &KernelInfo,
-        cases: &[Case<F>],
+        cases: &[T::Case<F>],
         margins: &mut [F],
         values: &mut [Option<Hit<F>>],
     ) {
@@ -303,10 +305,12 @@ impl<F: Float> Subject<F> for Process {
         if self.hello.has_epsilons() {
             let _turn = self.turns.take();
             let (open, width) = (open_epsilons(info), info.gates.len());
-            let ask = |cases: &[Case<F>], verdicts: &mut [Verdict<F>], margins: &mut [F]| {
+            let ask = |cases: &[T::Case<F>], verdicts: &mut [Verdict<F>], margins: &mut [F]| {
                 self.ask(cases, &open, verdicts, margins).map(|_| ())
             };
-            let failed = |failure, case: &Case<F>| self.state().margins.add(failure, case);
+            let failed = |failure, case: &T::Case<F>| {
+                self.state().margins.add(failure, &T::shown(case));
+            };
             let margins = margins.chunks_mut(MARGINS_AT_ONCE * width);
             let parts = cases
                 .chunks(MARGINS_AT_ONCE)
@@ -316,7 +320,8 @@ impl<F: Float> Subject<F> for Process {
                     margins.fill(F::from_f64(f64::NAN));
                     continue;
                 }
-                let found = margins::find((info, &open), cases, verdicts, margins, &ask, &failed);
+                let found =
+                    margins::find::<F, T>((info, &open), cases, verdicts, margins, &ask, &failed);
                 if let Err(message) = found {
                     self.state().gave_up.get_or_insert(message);
                 }
@@ -366,17 +371,19 @@ impl<F: Float> Subject<F> for Process {
     }
 }
 
-impl Process {
+impl<T: Asked> Process<T> {
     fn try_run<F: Float>(
         &self,
-        cases: &[Case<F>],
+        cases: &[T::Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
     ) -> Result<Option<u64>, String> {
         match (self.ask(cases, epsilons, verdicts, &mut []), cases) {
             (Ok(took), _) => return Ok(took),
             (Err(Lost::Garbled(message)), _) => return Err(message),
-            (Err(Lost::Failed(failure)), [case]) => verdicts[0] = self.pinned(failure, case)?,
+            (Err(Lost::Failed(failure)), [case]) => {
+                verdicts[0] = self.pinned::<F>(failure, case)?
+            }
             (Err(Lost::Failed(failure)), _) => {
                 if failure == Failure::Timeout && self.limits.timeouts < u64::MAX {
                     (self.limits.tell)(&format!(

@@ -4,7 +4,6 @@
 
 pub(super) use super::hello::shown;
 use crate::arith::Float;
-use crate::case::Case;
 use crate::files::number;
 use crate::kernel::Verdict;
 use crate::truth::Facing;
@@ -15,11 +14,11 @@ pub fn number<F: Float>(value: F) -> String {
     number::write(value).trim_matches('"').to_owned()
 }
 
-/// `case ID SCALAR`, then origin, direction, a, b, c, t_min, t_max.
-pub fn case_line<F: Float>(id: impl Display, case: &Case<F>) -> String {
+/// `case ID SCALAR`, then the numbers of a case: origin, direction, a, b, c (or min, max of a box), t_min, t_max.
+pub fn case_line<F: Float>(id: impl Display, numbers: &[F]) -> String {
     let mut line = format!("case {id} {}", F::NAME);
-    for value in case.numbers() {
-        let _ = write!(line, " {}", number(value));
+    for value in numbers {
+        let _ = write!(line, " {}", number(*value));
     }
     line.push('\n');
     line
@@ -134,6 +133,7 @@ fn with_value<F: Float>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Case;
 
     #[test]
     fn a_case_is_a_line_of_twenty_words() {
@@ -147,7 +147,7 @@ mod tests {
             ],
         );
         assert_eq!(
-            case_line("fan@1/f32/-/1/5.2", &case),
+            case_line("fan@1/f32/-/1/5.2", &case.numbers()),
             "case fan@1/f32/-/1/5.2 f32 0.10000000149011612 -0.0 nan 0 0 -1 1.401298464324817e-45 \
              3.0000000054977558e38 0.5 4 0 -inf 0 4 0 0 inf\n"
         );

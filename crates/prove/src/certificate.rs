@@ -8,6 +8,7 @@ use super::formula::{Formula, Maximum, Source, Step};
 use super::run::{Cone, cone};
 use super::watertight::symmetry_of;
 use super::{Bound, Domain, Dyadic, Format, Lemma, Limit, Names, Rule, Symmetry};
+use crate::arith::ScalarName;
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::kernel::{Gate, Path, Role};
 use std::collections::BTreeSet;
@@ -47,7 +48,7 @@ pub fn symmetry_at(gate: &Gate, path: &Path, place: Place) -> Symmetry {
 }
 
 /// The first lines: the kernel's name, its arithmetic included, `f32` or `f64`, and the format of the floats.
-pub fn heading(kernel: &str, scalar: &str, format: Format) -> String {
+pub fn heading(kernel: &str, scalar: ScalarName, format: Format) -> String {
     let Format {
         digits,
         smallest,

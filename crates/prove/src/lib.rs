@@ -3,12 +3,12 @@
 
 #![forbid(unsafe_code)]
 
+pub use hairline_checker as checker;
 use hairline_core::{arith, case, contract, kernel};
 
 mod bound;
 mod builder;
 pub mod certificate;
-pub mod checker;
 mod climb;
 mod corners;
 mod depth;

@@ -135,7 +135,9 @@ def audit(
     if count < 1 or seed < 0:
         raise ValueError("count is 1 or more, seed 0 or more")
     short = "f32" if dtype == np.float32 else "f64"
-    sources = ["--scalar", short, *(["--scene", scene] if scene else []), *(["--family", ",".join(families)] if families else [])]
+    in_scene = ["--scene", scene] if scene else []
+    of_families = ["--family", ",".join(families)] if families else []
+    counted = ["-n", str(count), *([] if seed == 1 else ["--seed", str(seed)])]
     answers = Answers(kernel, vectorized, dtype)
     if answers.less and contract == "closed-ray":
         does = {"sides=front": "misses a plain triangle from the back", "extent=line": "hits what lies behind the ray's start"}
@@ -155,7 +157,9 @@ def audit(
         "seed": seed,
         "band": band,
         "allow": dict(allow or {}),
-        "sources": shlex.join([*sources, "-n", str(count), *([] if seed == 1 else ["--seed", str(seed)])]),
+        "sources": shlex.join(["--scalar", short, *in_scene, *of_families, *counted]),
+        # It takes a scene whole.
+        "epsilon": shlex.join(["--scalar", short, *(in_scene or of_families), *counted]),
     }))
 
 

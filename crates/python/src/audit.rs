@@ -3,8 +3,9 @@
 use super::check_floats;
 use super::kernel::Function;
 use hairline::internals::contract::Contract;
+use hairline::internals::record::{FindingPart, PlanFlags, Record};
 use hairline::internals::report::page::Paged;
-use hairline::internals::report::{FindingPart, Format, PlanFlags, Record, Style, severity};
+use hairline::internals::report::{Format, Style, severity};
 use hairline::{Entry, Error, Gives, KernelInfo, Outcome, Request};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -32,6 +33,8 @@ pub struct Asked {
     allow: BTreeMap<String, f64>,
     /// The flags that choose the cases on a command line.
     sources: String,
+    /// Those with which `hairline epsilon` studies such cases.
+    epsilon: String,
 }
 
 /// The outcome of an audit.
@@ -52,6 +55,7 @@ pub fn audit(py: Python<'_>, answers: Py<PyAny>, asked: Asked) -> PyResult<Audit
     let flags = PlanFlags {
         kernels: asked.selector.clone(),
         sources: asked.sources.clone(),
+        epsilon: Some(asked.epsilon.clone()),
     };
     let request = request(asked, function).map_err(PyValueError::new_err)?;
     let mut outcome = running(py, function, &answers, || request.run())?;
@@ -138,7 +142,7 @@ fn running<T: Send>(
     function.finish()?;
     worked
         .map_err(|_| PyRuntimeError::new_err("hairline itself failed: please report it"))?
-        .map_err(|Error(message)| PyValueError::new_err(message))
+        .map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 #[pymethods]

@@ -2,7 +2,7 @@
 
 use hairline::internals::case::CaseId;
 use hairline::internals::family::cases_of;
-use hairline::{Case, Float, Scalar, Subject, Verdict};
+use hairline::{Case, Float, Scalar, ScalarName, Subject, Verdict};
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -101,17 +101,14 @@ pub fn arguments<'py, F: Scalar + Element>(
 pub fn case<'py>(py: Python<'py>, id: &str) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let id: CaseId = id
         .parse()
-        .map_err(|hairline::Error(line)| PyValueError::new_err(line))?;
+        .map_err(|error: hairline::Error| PyValueError::new_err(error.to_string()))?;
     if id.parameters.mesh.is_some() || id.parameters.instance.is_some() {
         let words = "is a case of a mesh or an instance: `hairline explain` takes it";
         return Err(PyValueError::new_err(format!("'{id}' {words}")));
     }
-    match id.scalar.as_str() {
-        "f32" => arguments(py, &cases_of::<f32>(&id).map_err(PyValueError::new_err)?.0),
-        "f64" => arguments(py, &cases_of::<f64>(&id).map_err(PyValueError::new_err)?.0),
-        other => Err(PyValueError::new_err(format!(
-            "'{id}': unknown scalar '{other}'"
-        ))),
+    match id.scalar {
+        ScalarName::F32 => arguments(py, &cases_of::<f32>(&id).map_err(PyValueError::new_err)?.0),
+        ScalarName::F64 => arguments(py, &cases_of::<f64>(&id).map_err(PyValueError::new_err)?.0),
     }
 }
 

@@ -1,6 +1,6 @@
 //! From the sums of a run to a record.
 
-use crate::arith::Float;
+use crate::arith::ScalarName;
 use crate::audit::{
     Audit, CLASSES, CasePlace, CorpusSet, EpsilonText, Examples, GroupCount, Plan, PolygonCount,
     Row, Severity, Source, SourceCell, SourceSummary, Stock, Tally, Trials, exact_severity,
@@ -76,13 +76,11 @@ pub fn row_part(row: &Row) -> RowPart {
 }
 
 pub fn plan_part(plan: &Plan) -> PlanPart {
-    let names = [f32::NAME, f64::NAME];
-    let scalars = names.iter().zip(plan.scalars).filter(|(_, wanted)| *wanted);
     let part = PlanPart {
         hash: String::new(),
         rows: plan.rows.iter().map(row_part).collect(),
         sources: plan.sources.iter().map(planned_source).collect(),
-        scalars: scalars.map(|(name, _)| (*name).to_owned()).collect(),
+        scalars: ScalarName::among(plan.scalars).collect(),
     };
     #[cfg(feature = "studies")]
     let part = part.hashed();
@@ -159,7 +157,7 @@ fn source_part(plan: &Plan, summary: &SourceSummary) -> SourcePart {
     let source = &plan.sources[summary.source];
     let id = |index| in_named_scalar!(summary.scalar, F => source.id::<F>(index, None));
     SourcePart {
-        scalar: summary.scalar.to_owned(),
+        scalar: summary.scalar,
         family: source.name(),
         sample: source.is_sample(),
         promises: source.promises(),
@@ -230,7 +228,7 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &SourceCell) -> KernelResult {
     });
     let grouping = source.grouping();
     KernelResult {
-        scalar: cell.scalar.to_owned(),
+        scalar: cell.scalar,
         kernel: row.entry.info.name.to_owned(),
         set: row.set.clone(),
         family: source.name(),
@@ -443,15 +441,12 @@ fn ends_note(row: &Row) -> Option<String> {
 fn provenance(plan: &Plan, audit: &Audit, context: &Context) -> Provenance {
     let mut provenance = provenance_of(context);
     provenance.kernel_notes = kernel_notes(&plan.rows);
-    let mut cases: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
+    let mut cases: BTreeMap<ScalarName, (u64, u64)> = BTreeMap::new();
     for summary in &audit.sources {
         let sum = cases.entry(summary.scalar).or_default();
         sum.0 += summary.oracle_nanoseconds;
         sum.1 += summary.cases;
-        let layers = provenance
-            .oracle_layers
-            .entry(summary.scalar.to_owned())
-            .or_default();
+        let layers = provenance.oracle_layers.entry(summary.scalar).or_default();
         for (name, count) in summary.layers.named() {
             *layers.entry(name.to_owned()).or_default() += count;
         }
@@ -460,18 +455,15 @@ fn provenance(plan: &Plan, audit: &Audit, context: &Context) -> Provenance {
     for (scalar, (time, count)) in &cases {
         provenance
             .oracle_nanoseconds
-            .insert((*scalar).to_owned(), per(*time, *count));
+            .insert(*scalar, per(*time, *count));
     }
-    let mut times: BTreeMap<(&str, usize), u64> = BTreeMap::new();
+    let mut times: BTreeMap<(ScalarName, usize), u64> = BTreeMap::new();
     for cell in &audit.cells {
         *times.entry((cell.scalar, cell.row)).or_default() += cell.nanoseconds;
     }
     for ((scalar, row), time) in times {
-        let by_row = provenance
-            .kernel_nanoseconds
-            .entry(scalar.to_owned())
-            .or_default();
-        by_row.insert(plan.rows[row].label(), per(time, cases[scalar].1));
+        let by_row = provenance.kernel_nanoseconds.entry(scalar).or_default();
+        by_row.insert(plan.rows[row].label(), per(time, cases[&scalar].1));
     }
     provenance
 }

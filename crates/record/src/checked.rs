@@ -190,7 +190,7 @@ fn without_flags(command: &str, row: &RowPart) -> Option<String> {
 impl Provenance {
     /// An error in one line if its flags start a program that no row of the plan is of, or write a file.
     fn check_programs(&self, rows: &[RowPart]) -> Result<(), String> {
-        let Some(PlanFlags { kernels, sources }) = &self.plan_flags else {
+        let Some(flags) = &self.plan_flags else {
             return Ok(());
         };
         // A selector may stand there without the quotes that it does not need.
@@ -198,9 +198,7 @@ impl Provenance {
             .iter()
             .flat_map(|row| [row.selector.clone(), row.selector.replace('\'', "")]);
         let known = forms.filter(|form| !form.is_empty());
-        let rest = known.fold(format!("{kernels} {sources}"), |rest, form| {
-            rest.replace(&form, "")
-        });
+        let rest = known.fold(flags.all().join(" "), |rest, form| rest.replace(&form, ""));
         let mut words = rest.split(' ');
         let acts = |word: &str| {
             word.contains("--kernel-lib")
@@ -225,11 +223,8 @@ impl Provenance {
                 self.target
             ));
         }
-        if let Some(PlanFlags { kernels, sources }) = &self.plan_flags
-            && let Some(wrong) = [kernels, sources]
-                .into_iter()
-                .find(|words| !is_one_command(words))
-        {
+        let flags = self.plan_flags.as_ref().map(PlanFlags::all);
+        if let Some(wrong) = flags.into_iter().flatten().find(|it| !is_one_command(it)) {
             return Err(format!("provenance.plan_flags: {wrong:?} are no flags"));
         }
         self.parts.iter().try_for_each(Provenance::check)

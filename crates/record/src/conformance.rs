@@ -1,5 +1,6 @@
 //! The part of a record that says how a run compares with what was expected of it.
 
+use crate::arith::ScalarName;
 use crate::key::Key;
 use crate::kind::FindingKind;
 use crate::number::{group_digits, number_of};
@@ -199,8 +200,8 @@ pub enum Method {
 pub struct Unproved {
     /// The kernel's name.
     pub kernel: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The gate, or `watertight`.
     pub gate: String,
     /// The demand: a bound in units of u, or `true`.
@@ -217,7 +218,7 @@ impl Unproved {
         Key {
             kernel: self.kernel.clone(),
             set: "any epsilon".to_owned(),
-            scalar: self.scalar.clone(),
+            scalar: self.scalar,
             family: "proof".to_owned(),
             class: self.gate.clone(),
             finding: FindingKind::Unproved,
@@ -257,8 +258,8 @@ pub struct Deviation {
     pub kernel: String,
     /// The name of its epsilons.
     pub set: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The source's name in tables.
     pub family: String,
     /// The class of the truth.
@@ -293,7 +294,7 @@ impl Deviation {
         Key {
             kernel: self.kernel.clone(),
             set: self.set.clone(),
-            scalar: self.scalar.clone(),
+            scalar: self.scalar,
             family: self.family.clone(),
             class: self.class.clone(),
             finding: self.finding,

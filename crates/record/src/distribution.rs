@@ -1,6 +1,6 @@
 //! The parts of a record that are distributions: causes, severities, errors of values.
 
-use crate::arith::Float;
+use crate::arith::ScalarName;
 use crate::audit::{
     Accuracy, Attribution, Audit, Causes, Histogram, Plan, Related, Relations, Severities,
 };
@@ -73,8 +73,8 @@ fn distribution(histogram: &Histogram) -> Distribution {
 /// The distributions of each row in each scalar, over all sources.
 pub fn totals(plan: &Plan, audit: &Audit) -> Vec<RowTotal> {
     let mut totals = Vec::new();
-    for (scalar, wanted) in [f32::NAME, f64::NAME].into_iter().zip(plan.scalars) {
-        for (number, row) in plan.rows.iter().enumerate().filter(|_| wanted) {
+    for scalar in ScalarName::among(plan.scalars) {
+        for (number, row) in plan.rows.iter().enumerate() {
             let mut all: BTreeMap<Finding, Severities> = BTreeMap::new();
             let mut values = Accuracy::default();
             let mut related = Relations::default();
@@ -88,7 +88,7 @@ pub fn totals(plan: &Plan, audit: &Audit) -> Vec<RowTotal> {
                 }
             }
             totals.push(RowTotal {
-                scalar: scalar.to_owned(),
+                scalar,
                 kernel: row.entry.info.name.to_owned(),
                 set: row.set.clone(),
                 severity: severities(&all),

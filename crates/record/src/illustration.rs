@@ -1,5 +1,6 @@
 //! Proofs that a page shows beside a run: no part of its result.
 
+use crate::arith::ScalarName;
 use std::collections::BTreeMap;
 
 /// The proofs about the kernels; only where they were asked for.
@@ -15,8 +16,8 @@ pub struct Illustrations {
 pub struct ProofPart {
     /// The kernel's name.
     pub kernel: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// Says in a sentence if, and how far, it is watertight.
     pub edges: String,
     /// By gate that compares a number.

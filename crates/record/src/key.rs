@@ -1,5 +1,6 @@
 //! Names of disagreements.
 
+use crate::arith::ScalarName;
 use crate::kind::FindingKind;
 use crate::result::KernelResult;
 use std::fmt;
@@ -11,8 +12,8 @@ pub struct Key {
     pub kernel: String,
     /// The name of its epsilons.
     pub set: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The source's name in tables.
     pub family: String,
     /// The class of the truth; `group` for triangles together, `polygon` for whole polygons.
@@ -30,7 +31,7 @@ impl Key {
         Key {
             kernel: result.kernel.clone(),
             set: result.set.clone(),
-            scalar: result.scalar.clone(),
+            scalar: result.scalar,
             family: result.family.clone(),
             class: class.to_owned(),
             finding,
@@ -52,7 +53,7 @@ impl Key {
 
     /// The kernel, its epsilons, the scalar and the family.
     pub fn place(&self) -> [&str; 4] {
-        [&self.kernel, &self.set, &self.scalar, &self.family]
+        [&self.kernel, &self.set, self.scalar.name(), &self.family]
     }
 
     /// `kernel (set)`.

@@ -1,5 +1,6 @@
 //! The mesh whose edges and vertices an audit asks about.
 
+use crate::arith::ScalarName;
 use std::collections::BTreeMap;
 
 /// The mesh as it was read.
@@ -28,8 +29,8 @@ pub struct MeshPart {
 /// A mesh in one scalar.
 #[apply(part!)]
 pub struct MeshScalar {
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The topology of the mesh in this scalar.
     pub topology: TopologyPart,
     /// The distance of two neighbouring numbers of the scalar at the largest coordinate.

@@ -1,5 +1,6 @@
 //! The plan of a run, and where and how it was run.
 
+use crate::arith::ScalarName;
 use crate::audit::{RowSpec, flags};
 use crate::case::{CaseId, Parameters};
 use crate::kernel;
@@ -15,7 +16,7 @@ pub struct PlanPart {
     /// Sources, each by the id of its set.
     pub sources: Vec<PlannedSource>,
     /// `f32`, `f64`.
-    pub scalars: Vec<String>,
+    pub scalars: Vec<ScalarName>,
 }
 
 impl PlanPart {
@@ -121,11 +122,11 @@ pub struct Provenance {
     /// Wall-clock seconds.
     pub seconds: f64,
     /// By scalar: nanoseconds a case in the oracle.
-    pub oracle_nanoseconds: BTreeMap<String, f64>,
+    pub oracle_nanoseconds: BTreeMap<ScalarName, f64>,
     /// By scalar: how often each layer of the oracle decided.
-    pub oracle_layers: BTreeMap<String, BTreeMap<String, u64>>,
+    pub oracle_layers: BTreeMap<ScalarName, BTreeMap<String, u64>>,
     /// By scalar and row label: nanoseconds a ray in the kernel.
-    pub kernel_nanoseconds: BTreeMap<String, BTreeMap<String, f64>>,
+    pub kernel_nanoseconds: BTreeMap<ScalarName, BTreeMap<String, f64>>,
     /// By kernel: what should be known of its process beside the verdicts.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub kernel_notes: BTreeMap<String, Vec<String>>,
@@ -143,8 +144,8 @@ pub struct Provenance {
 
 impl Provenance {
     /// The nanoseconds that a ray took in a kernel, by the label of its row.
-    pub fn nanoseconds(&self, scalar: &str, kernel: &str) -> Option<f64> {
-        self.kernel_nanoseconds.get(scalar)?.get(kernel).copied()
+    pub fn nanoseconds(&self, scalar: ScalarName, kernel: &str) -> Option<f64> {
+        self.kernel_nanoseconds.get(&scalar)?.get(kernel).copied()
     }
 }
 
@@ -156,9 +157,19 @@ pub struct PlanFlags {
     pub kernels: String,
     /// Those that choose cases.
     pub sources: String,
+    /// Those with which `hairline epsilon` studies such cases; none where it knows none like them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub epsilon: Option<String>,
 }
 
 impl PlanFlags {
+    /// All of them.
+    pub(crate) fn all(&self) -> Vec<&str> {
+        let mut all = vec![&*self.kernels, &*self.sources];
+        all.extend(self.epsilon.as_deref());
+        all
+    }
+
     /// The command that runs some kernels on the plan's cases.
     pub fn command(&self, kernels: &str) -> String {
         let words = ["hairline audit", kernels, &self.sources];

@@ -1,5 +1,6 @@
 //! What an audit found: counts of each kernel row on each source in each scalar.
 
+use crate::arith::ScalarName;
 use crate::audit::Trials;
 use crate::finding::{
     AcrossPart, Distribution, FindingPart, PolygonPart, RelationPart, SeverityDistribution,
@@ -50,8 +51,8 @@ impl ResultPart {
 /// Distributions of one kernel row in one scalar, over all sources.
 #[apply(part!)]
 pub struct RowTotal {
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The kernel's name.
     pub kernel: String,
     /// The name of its epsilons.
@@ -73,8 +74,8 @@ pub struct RowTotal {
 /// The summary of a source in one scalar.
 #[apply(part!)]
 pub struct SourcePart {
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The name in tables.
     pub family: String,
     /// True if its rates are of a random sample.
@@ -97,8 +98,8 @@ pub struct SourcePart {
 /// One kernel row on one source in one scalar.
 #[apply(part!)]
 pub struct KernelResult {
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The kernel's name.
     pub kernel: String,
     /// The name of its epsilons.
@@ -131,7 +132,7 @@ pub struct KernelResult {
 impl KernelResult {
     /// The kernel, its epsilons, the scalar and the family.
     pub fn place(&self) -> [&str; 4] {
-        [&self.kernel, &self.set, &self.scalar, &self.family]
+        [&self.kernel, &self.set, self.scalar.name(), &self.family]
     }
 
     /// The command that shows one of its groups of triangles again by its id, on a kernel row.

@@ -16,7 +16,7 @@ named! {
         /// Epsilons on the rays of a scene, or on other cases.
         Epsilon = "epsilon",
         /// Starts of new rays.
-        Spawn = "spawn",
+        Offset = "offset" | "spawn",
         /// Bounds that hold for every float of a domain.
         Prove = "prove",
         /// A product's answers to the test vectors.

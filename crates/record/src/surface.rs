@@ -97,7 +97,7 @@ fn scalar<F: Scalar>(surface: &Surface, plan: &Plan) -> Option<MeshScalar> {
         scalar: PhantomData,
     };
     Some(MeshScalar {
-        scalar: F::NAME.to_owned(),
+        scalar: F::NAME,
         topology: builder.topology(topology),
         spacing: F::from_f64(reach(surface.mesh())).ulp().to_f64(),
         smallest: smallest(surface.mesh()),

@@ -15,15 +15,15 @@ extern crate macro_rules_attribute;
 use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, truth};
 use hairline_explore as explore;
 use hairline_prove as prove;
-use hairline_study::{audit, corpus, family, judge, map, plot, spawn, studied};
+use hairline_study::{audit, corpus, family, judge, map, plot, studied};
 
 // The floors, from the ground up: each module uses only those above it in this list.
+mod chart;
 mod format;
 mod lists;
 
 pub mod page;
 
-mod chart;
 pub mod elsewhere;
 
 mod segments;
@@ -32,6 +32,8 @@ pub mod epsilon;
 pub mod explain;
 
 pub mod mesh;
+pub mod offset;
+pub mod proofs;
 
 pub mod formats;
 

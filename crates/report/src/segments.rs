@@ -1,14 +1,14 @@
-//! Where segments to a hit point end: the far end of a shadow ray, for `spawn` and `epsilon`.
+//! Where segments to a hit point end: the far end of a shadow ray, for `offset` and `epsilon`.
 
 use super::elsewhere::{self, ComparedRates};
 use super::page::{Block, Head, Row, Table, Use};
-use crate::arith::two_digits;
+use crate::arith::{ScalarName, two_digits};
 use crate::case::{Scene, ShortNumber};
 use crate::engine::Observer;
-use crate::spawn::{SegmentEnd, SegmentPlan, SegmentSums};
 use crate::studied::Studied;
 use hairline_record::{NamedRate, Rate};
 use hairline_record::{group_digits, percent};
+use hairline_study::offset::{SegmentEnd, SegmentPlan, SegmentSums};
 
 /// Shares that are shown besides the ones that are made for the scene: from the scalar's own precision on, ten times as
 /// large each.
@@ -24,8 +24,8 @@ pub struct SegmentsPart {
     pub kernel: String,
     /// The name of its epsilons.
     pub set: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// How many segments, on planes of the first kind.
     pub segments: u64,
     /// The results of each end.
@@ -103,7 +103,7 @@ impl SegmentsPart {
         SegmentsPart {
             kernel: plan.row.entry.info.name.to_owned(),
             set: plan.row.set.clone(),
-            scalar: F::NAME.to_owned(),
+            scalar: F::NAME,
             segments: runs[0].segments,
             ends: ends.iter().enumerate().map(of_end).collect(),
         }
@@ -233,10 +233,9 @@ impl SegmentsPart {
                 others.join("; t_max = ")
             ));
         }
-        let text = format!("t_max = {}", best.end);
         vec![Block::Use(Use {
             lead: "use".to_owned(),
-            text,
+            parts: vec![format!("t_max = {}", best.end)],
             notes,
         })]
     }
@@ -291,7 +290,7 @@ impl SegmentsPart {
         let safe = self.safe();
         let end = match safe.first() {
             Some(best) => format!("end at t_max = {}", best.end),
-            None => "end before p (`hairline spawn`)".to_owned(),
+            None => "end before p (`hairline offset`)".to_owned(),
         };
         Some(format!(
             "Shadow rays to a point p of a surface: {end} (at t_max = 1 the surface blocks {at_target} of them)."

@@ -6,7 +6,7 @@
 
 #![cfg_attr(not(feature = "pictures"), allow(dead_code, unused_imports))]
 
-#[macro_use(either_scalar, named)]
+#[macro_use(either_scalar, in_named_scalar, named)]
 extern crate hairline_core;
 use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, suggest, truth};
 use hairline_files as files;
@@ -29,9 +29,9 @@ pub mod epsilon;
 #[cfg(feature = "studies")]
 pub mod map;
 #[cfg(feature = "studies")]
-pub mod selfcheck;
+pub mod offset;
 #[cfg(feature = "studies")]
-pub mod spawn;
+pub mod selfcheck;
 
 #[cfg(feature = "studies")]
 pub mod studied;
@@ -40,4 +40,4 @@ pub mod studied;
 pub use hairline_core::kernel::Scalar;
 pub use hairline_core::{Case, Contract};
 #[cfg(feature = "studies")]
-pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
+pub use offset::{HitPoint, Offset, Scheme, Start, register as register_scheme};

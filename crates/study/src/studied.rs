@@ -3,8 +3,8 @@
 
 use crate::epsilon::{self, Costs, MaxError, Pass, SceneStudy, Setting};
 use crate::family::Family;
+use crate::offset;
 use crate::selfcheck::{self, Check, Reference};
-use crate::spawn;
 use crate::{case::Scene, engine::Observer};
 
 /// A trait of functions of both scalars, each of them the one at a path.
@@ -43,14 +43,14 @@ studied! {
         scenes: &[Scene],
         pass: Pass<'_>,
     ) -> ();
-    spawn::run::<Self>: fn spawn(
-        plan: &spawn::SpawnPlan<'_>,
+    offset::run::<Self>: fn offset(
+        plan: &offset::OffsetPlan<'_>,
         observer: &dyn Observer,
-    ) -> spawn::SpawnSums;
-    spawn::run_segments::<Self>: fn segments(
-        plan: &spawn::SegmentPlan<'_>,
+    ) -> offset::OffsetSums;
+    offset::run_segments::<Self>: fn segments(
+        plan: &offset::SegmentPlan<'_>,
         observer: &dyn Observer,
-    ) -> spawn::SegmentSums;
+    ) -> offset::SegmentSums;
     selfcheck::family::<Self>: fn check_family(
         family: &Family,
         reference: Reference,

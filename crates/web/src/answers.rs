@@ -10,12 +10,12 @@ pub use audit::{audit, curve};
 pub use case::{explain, map, truth};
 pub use mesh::mesh;
 
-use hairline::Float;
+use hairline::ScalarName;
 
 /// True for each of `f32` and `f64` that a name is.
 fn scalars_of(name: &str) -> Result<[bool; 2], String> {
-    match [f32::NAME, f64::NAME].map(|known| known == name) {
-        [false, false] => Err(format!("unknown scalar '{name}': there are f32 and f64")),
-        scalars => Ok(scalars),
-    }
+    let unknown = || format!("unknown scalar '{name}': there are f32 and f64");
+    ScalarName::named(name)
+        .map(ScalarName::alone)
+        .ok_or_else(unknown)
 }

@@ -53,12 +53,12 @@ impl Chosen {
     pub fn rows(&self, epsilons: Option<&str>) -> Result<Vec<Row>, String> {
         let entry = self.entry()?;
         let choice = match epsilons.filter(|text| !text.is_empty()) {
-            Some(text) => EpsilonChoice::parse(text).map_err(|error| error.0)?,
+            Some(text) => EpsilonChoice::parse(text)?,
             None => EpsilonChoice::Source,
         };
         choice
             .rows(&[entry], self.contract.as_deref())
-            .map_err(|error| error.0)
+            .map_err(String::from)
     }
 
     fn entry(&self) -> Result<&'static Entry, String> {
@@ -89,6 +89,7 @@ impl Own {
             name: leak(name),
             role: Role::of_gate(name).unwrap_or(Role::Other),
             refuses: "as the kernel compares it with e",
+            printed: None,
             dimension: Dimension::new(0, 0),
             epsilon: Tunable::Signed,
         };

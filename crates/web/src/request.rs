@@ -49,12 +49,24 @@ pub struct Cases {
 impl Cases {
     /// The flags that choose them on a command line.
     pub fn flags(&self) -> String {
+        self.flags_of(&self.families)
+    }
+
+    /// Those with which `hairline epsilon` studies such cases: it takes a scene whole.
+    pub fn epsilon_flags(&self) -> String {
+        match self.scene {
+            Some(_) => self.flags_of(&[]),
+            None => self.flags(),
+        }
+    }
+
+    fn flags_of(&self, families: &[String]) -> String {
         let Cases {
             scalar,
             scene,
-            families,
             count,
             seed,
+            ..
         } = self;
         let scene = scene
             .as_ref()

@@ -1,10 +1,11 @@
 //! What one audit says of an entrant.
 
 use crate::Entrant;
+use hairline::ScalarName;
 use hairline::internals::arith::Float;
 use hairline::internals::case::Case;
 use hairline::internals::corpus::lines::AnyCase;
-use hairline::internals::report::{
+use hairline::internals::record::{
     Example, FindingKind, FindingPart, KernelResult, Promised, Record,
 };
 use serde::{Deserialize, Serialize};
@@ -150,7 +151,7 @@ impl EntrantResult {
         if plan.kernel != entrant.name {
             return Err(wrong(&format!("its kernel calls itself '{}'", plan.kernel)));
         }
-        let results = |scalar: &str| -> Vec<&KernelResult> {
+        let results = |scalar: ScalarName| -> Vec<&KernelResult> {
             record
                 .result
                 .results
@@ -158,9 +159,9 @@ impl EntrantResult {
                 .filter(|result| result.scalar == scalar)
                 .collect()
         };
-        let scalars = ["f32", "f64"]
+        let scalars = ScalarName::ALL
             .into_iter()
-            .filter(|scalar| !results(scalar).is_empty());
+            .filter(|scalar| !results(*scalar).is_empty());
         let words = |list: &[&str]| list.iter().map(|word| (*word).to_owned()).collect();
         let provenance = &record.provenance;
         Ok(EntrantResult {
@@ -183,11 +184,11 @@ impl EntrantResult {
             audited: format!("{day}, {}, {}", provenance.target, provenance.tool),
             scalars: scalars
                 .map(|scalar| {
-                    let times = provenance.kernel_nanoseconds.get(scalar);
+                    let times = provenance.kernel_nanoseconds.get(&scalar);
                     let time = times.and_then(|times| times.values().next()).copied();
                     (
-                        scalar.to_owned(),
-                        scalar_result(entrant, scalar, &results(scalar), time),
+                        scalar.to_string(),
+                        scalar_result(entrant, scalar.name(), &results(scalar), time),
                     )
                 })
                 .collect(),

@@ -2,8 +2,9 @@
 
 use crate::page::{Pages, slug, table};
 use crate::program;
+use hairline::ScalarName;
 use hairline::internals::kernel::{Dimension, Entry, Gate, KERNELS, PRESETS, Tunable, all};
-use hairline::internals::report::{KernelResult, Record};
+use hairline::internals::record::{KernelResult, Record};
 use hairline_league::edition::EntrantResult;
 use maud::{Markup, html};
 use serde_json::Value;
@@ -447,9 +448,9 @@ impl Costs {
                 &rays(),
             ];
             let record: Record = program::json(&arguments)?;
-            let cost = |scalar: &str| Cost {
+            let cost = |scalar: ScalarName| Cost {
                 scene,
-                scalar: scalar.to_owned(),
+                scalar: scalar.to_string(),
                 shares: COLUMNS.map(|Column { family, count, .. }| {
                     let is_of =
                         |part: &&KernelResult| part.scalar == scalar && part.family == family;
@@ -461,7 +462,7 @@ impl Costs {
                         .map_or([0, 0], count)
                 }),
             };
-            self.0.insert(key.clone(), ["f32", "f64"].map(cost).into());
+            self.0.insert(key.clone(), ScalarName::ALL.map(cost).into());
         }
         Ok(self.0[&key].clone())
     }

@@ -1,6 +1,6 @@
 //! The audit of one entrant, in a process of the program that knows it.
 
-use hairline::internals::report::Record;
+use hairline::internals::record::Record;
 use hairline_league::edition::{self, EntrantResult};
 use hairline_league::{Entrant, Run};
 use std::path::Path;

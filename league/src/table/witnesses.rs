@@ -35,7 +35,7 @@ pub fn write(folder: &str, results: &[EntrantResult]) -> Result<(), String> {
 /// A line of a corpus file, with what the kernel shows on the case.
 fn line(kernel: &str, scalar: &str, depth: &Depth) -> Result<String, String> {
     let wrong = |message: &str| format!("{kernel} {}: {message}", depth.case);
-    let row = Row::named(kernel, None, "own").map_err(|error| wrong(&error.0))?;
+    let row = Row::named(kernel, None, "own").map_err(|error| wrong(&error.to_string()))?;
     let mut find = Find::of(&row, depth.case(scalar)).ok_or(wrong("it shows nothing"))?;
     find.found.from = Some(depth.case.clone());
     Ok(write_case(&find.stored()))

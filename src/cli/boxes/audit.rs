@@ -16,66 +16,79 @@ use std::time::Instant;
 
 /// Which slab tests, on which boxes, and how to report.
 #[derive(Args)]
-pub struct AuditArguments {
+pub struct RunArguments {
     #[command(flatten)]
     tests: TestArguments,
 
     #[command(flatten)]
     cases: CaseArguments,
 
+    #[command(flatten)]
+    pub output: OutputArguments,
+}
+
+/// A run, and what it says to a build.
+#[derive(Args)]
+pub struct AuditArguments {
+    #[command(flatten)]
+    run: RunArguments,
+
     /// Exit with 1 if a test loses a ray that it has to hit; hits of boxes that a ray passes by only cost time
     #[arg(long)]
     exit_code: bool,
-
-    #[command(flatten)]
-    output: OutputArguments,
 }
 
 /// Runs the command.
 pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
-    let outputs = arguments.output.pairs(Format::OF_PAGE)?;
-    let setups = arguments.tests.setups()?;
-    let sources = arguments.cases.sources()?;
-    let scalars = arguments.cases.scalars()?;
-    let (count, seed) = (arguments.cases.count, arguments.cases.seed);
-    let threads = set_threads(arguments.cases.threads)?;
-    let start = Instant::now();
-    let runs = scalars.iter().filter(|is_chosen| **is_chosen).count() * sources.len();
-    let progress = Progress::new(runs as u64 * count, "boxes", arguments.output.quiet);
-    let run = AuditRun {
-        setups: &setups,
-        count,
-        seed,
-        progress: &progress,
-    };
-    let mut rows = Vec::new();
-    for source in &sources {
-        if scalars[0] {
-            rows.extend(run.rows_of::<f32>(source));
-        }
-        if scalars[1] {
-            rows.extend(run.rows_of::<f64>(source));
-        }
-    }
-    progress.finish();
-    let result = BoxesResult {
-        count,
-        seed,
-        sources: sources.iter().map(ToString::to_string).collect(),
-        rows,
-    };
-    let is_losing = result.is_losing();
-    let provenance = provenance_of(&Context {
-        seconds: start.elapsed().as_secs_f64(),
-        threads,
-    });
-    let record = Record::new(result, provenance).sealed();
-    arguments.output.write(outputs, &record)?;
-    Ok(if arguments.exit_code && is_losing {
+    let outputs = arguments.run.output.pairs(Format::OF_PAGE)?;
+    let record = arguments.run.record()?;
+    arguments.run.output.write(outputs, &record)?;
+    Ok(if arguments.exit_code && record.result.is_losing() {
         Status::Disagreements
     } else {
         Status::Success
     })
+}
+
+impl RunArguments {
+    /// The record of the run.
+    pub fn record(&self) -> Result<Record<BoxesResult>, Failure> {
+        let setups = self.tests.setups()?;
+        let sources = self.cases.sources(self.output.quiet)?;
+        let scalars = self.cases.scalars()?;
+        let (count, seed) = (self.cases.count, self.cases.seed);
+        let threads = set_threads(self.cases.threads)?;
+        let start = Instant::now();
+        let runs = scalars.iter().filter(|is_chosen| **is_chosen).count() * sources.len();
+        let progress = Progress::new(runs as u64 * count, "boxes", self.output.quiet);
+        let run = AuditRun {
+            setups: &setups,
+            count,
+            seed,
+            progress: &progress,
+        };
+        let mut rows = Vec::new();
+        for source in &sources {
+            if scalars[0] {
+                rows.extend(run.rows_of::<f32>(source));
+            }
+            if scalars[1] {
+                rows.extend(run.rows_of::<f64>(source));
+            }
+        }
+        progress.finish();
+        let result = BoxesResult {
+            count,
+            seed,
+            sources: sources.iter().map(ToString::to_string).collect(),
+            rows,
+        };
+        let provenance = provenance_of(&Context {
+            seconds: start.elapsed().as_secs_f64(),
+            threads,
+        });
+        Ok(Record::new(result, provenance).sealed())
+    }
 }
 
 /// The run of all sources.

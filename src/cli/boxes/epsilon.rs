@@ -3,7 +3,9 @@
 use super::case::name;
 use super::record::label;
 use super::select::{CaseArguments, TestArguments};
+use crate::arith::ScalarName;
 use crate::cli::before::set_threads;
+use crate::cli::epsilon::tells_margins;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::OutputArguments;
 use crate::cli::progress::Progress;
@@ -34,7 +36,7 @@ pub struct EpsilonArguments {
 pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     let outputs = arguments.output.pairs(Format::OF_PAGE)?;
     let setups = arguments.tests.setups()?;
-    let sources = arguments.cases.sources()?;
+    let sources = arguments.cases.sources(arguments.output.quiet)?;
     let scalars = arguments.cases.scalars()?;
     set_threads(arguments.cases.threads)?;
     let mut advice = Advice {
@@ -45,6 +47,7 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     };
     let progress = Progress::without_end(arguments.output.quiet);
     for setup in &setups {
+        tells_margins(setup.entry, "hairline boxes audit").map_err(Failure::usage)?;
         for (place, gate) in setup.gates().iter().enumerate() {
             if gate.epsilon == Tunable::Fixed {
                 continue;
@@ -58,6 +61,10 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
         }
     }
     progress.finish();
+    if advice.rows.is_empty() {
+        let message = "no chosen slab test takes an epsilon in a chosen scalar";
+        return Err(Failure::usage(message));
+    }
     arguments.output.write(outputs, &advice)?;
     Ok(Status::Success)
 }
@@ -75,11 +82,11 @@ struct Advice {
 #[derive(Serialize)]
 struct AdviceRow {
     test: String,
-    /// Its name alone, without that of its epsilons.
+    /// The flag that chooses it.
     #[serde(skip)]
-    name: &'static str,
+    selector: String,
     gate: &'static str,
-    scalar: &'static str,
+    scalar: ScalarName,
     must_hit: u64,
     must_miss: u64,
     /// Lost at every epsilon of this gate.
@@ -110,7 +117,7 @@ impl Advice {
         let gate = &setup.gates()[gate];
         let mut row = AdviceRow {
             test: label(setup),
-            name: setup.entry.info.name,
+            selector: setup.entry.selector(),
             gate: gate.name,
             scalar: F::NAME,
             must_hit: 0,
@@ -227,7 +234,7 @@ impl Paged for Advice {
             blocks.push(Block::Commands(
                 "next",
                 vec![Command {
-                    line: format!("hairline boxes explain '{case}' --kernel {}", row.name),
+                    line: format!("hairline boxes explain '{case}' {}", row.selector),
                     what: "the ray that needs it",
                 }],
             ));
@@ -251,7 +258,7 @@ fn row(row: &AdviceRow) -> Row {
     };
     let cells = [
         Cell::from(row.gate.to_owned()),
-        Cell::from(row.scalar.to_owned()),
+        Cell::from(row.scalar.to_string()),
         count(row.lost_at_zero + row.lost_anyway),
         count(row.lost_at_own + row.lost_anyway),
         Cell::from(row.needed()),

@@ -1,8 +1,10 @@
 //! `hairline boxes explain`.
 
-use super::case::{AnyBoxCase, case_named};
+use super::case::case_named;
+use super::published::{self, Published};
 use super::record::label;
 use super::select::TestArguments;
+use super::written::AnyBoxCase;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::OutputArguments;
 use crate::report::Format;
@@ -10,10 +12,10 @@ use crate::report::page::{Block, Cell, Head, Page, Paged, Row, Table, Tone};
 use clap::Args;
 use hairline_boxes::{
     BoxCase, Class, Definition, Finding, Made, Meeting, Obligation, Origin, Overlap, Range, Setup,
-    Truth, define, padding,
+    TABLE, Truth, define, padding,
 };
 use hairline_core::kernel::{Scalar, verdicts_of};
-use hairline_core::{Extent, Verdict};
+use hairline_core::{Extent, ScalarName, Verdict};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 use serde::Serialize;
@@ -22,7 +24,7 @@ use std::cmp::Ordering;
 /// Which box and ray, and which slab tests.
 #[derive(Args)]
 pub struct ExplainArguments {
-    /// The id of a family's case, as corner@1/f32/-/1/17, or a box and a ray as JSON
+    /// The id of a family's case, as corner@1/f32/-/1/17, a published case, as @bvh-107, or a box and a ray as JSON
     #[arg(value_name = "CASE")]
     case: String,
 
@@ -37,10 +39,13 @@ pub struct ExplainArguments {
 pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
     let outputs = arguments.output.pairs(Format::OF_PAGE)?;
     let setups = arguments.tests.setups()?;
-    let explained = match case_named(&arguments.case)? {
+    let mut explained = match case_named(&arguments.case)? {
         AnyBoxCase::F32(case) => explain(&arguments.case, &case, &setups),
         AnyBoxCase::F64(case) => explain(&arguments.case, &case, &setups),
     };
+    if let Some(name) = arguments.case.strip_prefix('@') {
+        explained.published = Some(published::find(name)?);
+    }
     arguments.output.write(outputs, &explained)?;
     Ok(Status::Success)
 }
@@ -49,7 +54,8 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
 #[derive(Serialize)]
 struct Explained {
     case: String,
-    scalar: &'static str,
+    published: Option<Published>,
+    scalar: ScalarName,
     /// The numbers of the case, by name.
     numbers: Vec<(&'static str, String)>,
     truth: String,
@@ -63,6 +69,13 @@ struct Explained {
     #[serde(skip)]
     has_negative_start: bool,
     answers: Vec<Answer>,
+    /// The answer of the test that the guide recommends.
+    recommended: Option<Answer>,
+}
+
+/// The test that loses no ray, short of overflow and underflow, with the growth that its analysis allows: docs/guide/boxes.md.
+fn recommended() -> Option<Setup> {
+    Setup::published(TABLE.find("ize")?).pop()
 }
 
 /// The answer of one slab test.
@@ -86,6 +99,7 @@ fn explain<F: Made + Scalar>(name: &str, case: &BoxCase<F>, setups: &[Setup]) ->
     let line = defined.line.as_ref();
     Explained {
         case: name.to_owned(),
+        published: None,
         scalar: F::NAME,
         numbers: vec![
             ("origin", vector(origin)),
@@ -105,6 +119,7 @@ fn explain<F: Made + Scalar>(name: &str, case: &BoxCase<F>, setups: &[Setup]) ->
             .iter()
             .filter_map(|setup| answer(case, &defined.truth, setup))
             .collect(),
+        recommended: recommended().and_then(|setup| answer(case, &defined.truth, &setup)),
     }
 }
 
@@ -113,9 +128,16 @@ fn answer<F: Made + Scalar>(case: &BoxCase<F>, truth: &Truth, setup: &Setup) -> 
     let epsilons: Vec<F> = setup.epsilons()?;
     let mut verdict = [Verdict::miss(None)];
     verdicts_of(subject, &[*case], &epsilons, &mut verdict);
-    let mut margins = vec![F::zero(); setup.gates().len()];
-    subject.margins(setup.entry.info, &[*case], &mut margins, &mut []);
-    let gates = setup.gates().iter().map(|gate| gate.name.to_owned());
+    let gates = if subject.tells_margins() {
+        setup.gates()
+    } else {
+        &[]
+    };
+    let mut margins = vec![F::zero(); gates.len()];
+    if !gates.is_empty() {
+        subject.margins(setup.entry.info, &[*case], &mut margins, &mut []);
+    }
+    let gates = gates.iter().map(|gate| gate.name.to_owned());
     let says = match (verdict[0].failure, verdict[0].hit) {
         (Some(_), _) => "fails",
         (None, true) => "hit",
@@ -216,7 +238,13 @@ fn decimal(fraction: &str) -> String {
 
 impl Paged for Explained {
     fn page(&self) -> Page {
-        let mut terms: Vec<(&str, String)> = vec![("truth", self.truth.clone())];
+        let mut terms: Vec<(&str, String)> = Vec::new();
+        if let Some(report) = &self.published {
+            terms.push(("report", report.source.clone()));
+            terms.push(("about", report.about.clone()));
+            terms.push(("numbers", report.numbers.clone()));
+        }
+        terms.push(("truth", self.truth.clone()));
         if let Some([enter, exit]) = &self.line {
             let (enter, exit) = (decimal(enter), decimal(exit));
             terms.push(("line", format!("in the box from t = {enter} to {exit}")));
@@ -236,6 +264,12 @@ impl Paged for Explained {
         if self.has_negative_start {
             let note = "t_min is below 0: a far end below 0 does not grow here, as it does in pbrt's and Embree's sources";
             terms.push(("note", note.to_owned()));
+        }
+        if let Some(Answer {
+            test, says, judged, ..
+        }) = &self.recommended
+        {
+            terms.push(("advised", format!("{test} says {says}: {judged}")));
         }
         for (name, numbers) in &self.numbers {
             terms.push((name, numbers.clone()));

@@ -1,5 +1,6 @@
 //! The findings of an audit of slab tests, and their page.
 
+use crate::arith::ScalarName;
 use crate::audit::Trials;
 use crate::record::{Comparable, NamedRate, Rate, Study, number_of, percent};
 use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row as TableRow, Table, Tone};
@@ -32,12 +33,15 @@ pub struct BoxesResult {
 pub struct BoxesRow {
     /// The slab test.
     test: String,
+    /// The flag that brings it along, if it is not built in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    flag: Option<String>,
     /// Its name with that of its epsilons, if they are not its only published ones.
     label: String,
     /// Its epsilons, by gate.
     epsilons: Vec<(String, String)>,
     /// `f32` or `f64`.
-    scalar: String,
+    scalar: ScalarName,
     /// The family, or the scene.
     source: String,
     /// Misses of boxes that it must hit.
@@ -46,6 +50,9 @@ pub struct BoxesRow {
     false_hits: Rate,
     /// Cases on which it gave no verdict.
     failed: u64,
+    /// Pairs of neighbours of which it lost a ray in both, among those of which it must hit one at least.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    lost_in_both: Option<Rate>,
     /// The first case that it lost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     first_lost: Option<String>,
@@ -74,13 +81,18 @@ impl BoxesRow {
         let worst = tally.false_hits.worst;
         BoxesRow {
             test: setup.entry.info.name.to_owned(),
+            flag: (!setup.is_built_in()).then(|| setup.entry.selector()),
             label: label(setup),
             epsilons: gates.zip(values).collect(),
-            scalar: row.scalar.to_owned(),
+            scalar: row.scalar,
             source: row.source.clone(),
             lost: rate(&tally.false_misses, tally.must_hit),
             false_hits: rate(&tally.false_hits, tally.must_miss),
             failed: tally.failed.count,
+            lost_in_both: source.is_of_pairs().then(|| {
+                let trials = Trials::independent(tally.lost_pairs, tally.owed_pairs);
+                Rate::new(trials, true)
+            }),
             first_lost: tally.false_misses.first.map(name),
             farthest: worst.map(|worst| Farthest {
                 share: worst.severity,
@@ -107,7 +119,9 @@ impl BoxesRow {
 
     /// The command that shows a case, at the epsilons of this row.
     fn explain(&self, case: &str) -> String {
-        let mut command = format!("hairline boxes explain '{case}' --kernel {}", self.test);
+        let named = || format!("--kernel {}", self.test);
+        let selector = self.flag.clone().unwrap_or_else(named);
+        let mut command = format!("hairline boxes explain '{case}' {selector}");
         if self.label != self.test {
             for (gate, value) in &self.epsilons {
                 command += &format!(" --epsilon '{gate}={value}'");
@@ -124,7 +138,7 @@ pub fn label(setup: &Setup) -> String {
     match setup.set {
         _ if is_only => info.name.to_owned(),
         "source" => info.name.to_owned(),
-        "own" => format!("{} (as given)", info.name),
+        "given" => format!("{} (as given)", info.name),
         set => format!("{} ({set})", info.name),
     }
 }
@@ -137,7 +151,7 @@ struct Sum<'a> {
 
 impl<'a> Sum<'a> {
     /// Its lost rays in a scalar, or in both.
-    fn lost(&self, scalar: Option<&str>) -> Rate {
+    fn lost(&self, scalar: Option<ScalarName>) -> Rate {
         let is_in = |row: &&&BoxesRow| scalar.is_none_or(|scalar| row.scalar == scalar);
         Rate::sum(self.rows.iter().filter(is_in).map(|row| &row.lost))
     }
@@ -176,10 +190,10 @@ impl<'a> Sum<'a> {
         listed(&named, NAMED)
     }
 
-    fn cells(&self, scalars: &[&str], tells_sources: bool) -> Vec<Cell> {
+    fn cells(&self, scalars: &[ScalarName], tells_sources: bool) -> Vec<Cell> {
         let mut cells = Vec::new();
         for scalar in scalars {
-            let lost = self.lost(Some(scalar));
+            let lost = self.lost(Some(*scalar));
             cells.push(Cell {
                 text: share(&lost),
                 is_broken: 0 < lost.count,
@@ -198,6 +212,13 @@ impl<'a> Sum<'a> {
         let all = rows.filter_map(|row| Some((row, row.farthest.as_ref()?)));
         let far = all.filter(|(_, farthest)| ROUNDED < farthest.share);
         far.max_by(|(_, a), (_, b)| a.share.total_cmp(&b.share))
+    }
+
+    /// One sentence on rays that it loses in both of two neighbours.
+    fn lost_in_both(&self) -> Option<String> {
+        let both = Rate::sum(self.rows.iter().filter_map(|row| row.lost_in_both.as_ref()));
+        let (label, counts) = (&self.label, both.counts());
+        (0 < both.count).then(|| format!("{label} loses {counts} rays at a wall in both neighbours, so a traversal goes through"))
     }
 
     /// One sentence on its cases without a verdict.
@@ -229,9 +250,9 @@ impl BoxesResult {
     }
 
     /// The scalars that were run.
-    fn scalars(&self) -> Vec<&'static str> {
-        let is_run = |scalar: &&str| self.rows.iter().any(|row| row.scalar == *scalar);
-        ["f32", "f64"].into_iter().filter(is_run).collect()
+    fn scalars(&self) -> Vec<ScalarName> {
+        let is_run = |scalar: &ScalarName| self.rows.iter().any(|row| row.scalar == *scalar);
+        ScalarName::ALL.into_iter().filter(is_run).collect()
     }
 
     /// The rows of each slab test, those that lose least first.
@@ -252,7 +273,7 @@ impl BoxesResult {
         let tells_sources = 1 < self.sources.len();
         let about = "the share of the rays that a test has to hit, by its own promise about the ends of a ray";
         let mut heads = vec![Head::of("lost in").about(about)];
-        heads.extend(scalars.iter().map(|scalar| Head::of(*scalar)));
+        heads.extend(scalars.iter().map(|scalar| Head::of(scalar.name())));
         if tells_sources {
             heads.push(Head::text("most of these families").optional());
         }
@@ -282,7 +303,8 @@ impl BoxesResult {
             [source] => source.clone(),
             many => format!("each of {} families", many.len()),
         };
-        let drawn = format!("{rays} of {sources} in {}", self.scalars().join(" and "));
+        let scalars: Vec<&str> = self.scalars().into_iter().map(ScalarName::name).collect();
+        let drawn = format!("{rays} of {sources} in {}", scalars.join(" and "));
         if self.asks_nothing() {
             return format!("No ray has to be hit, so nothing is said of {all}: {drawn}");
         }
@@ -295,6 +317,7 @@ impl BoxesResult {
     /// Sentences on what the table does not show.
     fn notes(&self, sums: &[Sum]) -> Vec<String> {
         let mut notes: Vec<String> = sums.iter().filter_map(Sum::failures).collect();
+        notes.extend(sums.iter().filter_map(Sum::lost_in_both));
         for sum in sums {
             if let Some((row, farthest)) = sum.far() {
                 let (label, share) = (&sum.label, farthest.share);
@@ -372,7 +395,7 @@ fn detail(row: &BoxesRow) -> Block {
         0 => String::new(),
         count => format!("; {count} without a verdict"),
     };
-    let (label, scalar, source) = (&row.label, &row.scalar, &row.source);
+    let (label, scalar, source) = (&row.label, row.scalar, &row.source);
     let lost = row.lost.counts();
     Block::text(format!(
         "{label}, {scalar}, {source}: {lost} lost{false_hits}{failed}: {command}"
@@ -393,7 +416,7 @@ impl Comparable for BoxesResult {
     fn counted(&self) -> Vec<NamedRate> {
         let mut counted = Vec::new();
         for row in &self.rows {
-            let (label, scalar, source) = (&row.label, &row.scalar, &row.source);
+            let (label, scalar, source) = (&row.label, row.scalar, &row.source);
             let named = |what: &str, rate: &Rate| NamedRate {
                 what: format!("{label}, {scalar}, {source}: {what}"),
                 rate: rate.clone(),
@@ -401,6 +424,11 @@ impl Comparable for BoxesResult {
             };
             counted.push(named("lost", &row.lost));
             counted.push(named("false hits", &row.false_hits));
+            if let Some(rate) = &row.lost_in_both {
+                counted.push(named("lost in both neighbours", rate));
+            }
+            let failed = Trials::independent(row.failed, self.count);
+            counted.push(named("no verdict", &Rate::new(failed, 0 < row.failed)));
         }
         counted
     }

@@ -2,9 +2,14 @@
 
 use crate::cli::exit::Failure;
 use crate::cli::flags::{RUNNING, chosen_scalars, unknown};
+use crate::cli::input::read_mesh;
+use crate::cli::plugins::PluginArguments;
 use crate::kernel::EpsilonText;
+use crate::printable::printable;
+use crate::record::number_of;
 use clap::Args;
-use hairline_boxes::{FAMILIES, Family, Scene, Setup, Source, TABLE, find_family};
+use hairline_boxes::{BoxEntry, FAMILIES, Family, Scene, Setup, Source, TABLE, Tree, find_family};
+use std::path::Path;
 
 /// Which slab tests, with which epsilons.
 #[derive(Args)]
@@ -26,6 +31,9 @@ pub struct TestArguments {
         allow_hyphen_values = true
     )]
     epsilon: Vec<String>,
+
+    #[command(flatten)]
+    plugins: PluginArguments,
 }
 
 impl TestArguments {
@@ -44,8 +52,10 @@ impl TestArguments {
         Ok(setups)
     }
 
-    fn entries(&self) -> Result<Vec<&'static hairline_boxes::BoxEntry>, Failure> {
-        if self.tests.is_empty() || self.tests == ["all"] {
+    /// The tests of the user's own and the named ones; without any name those of the user's own alone, if there are some.
+    fn entries(&self) -> Result<Vec<&'static BoxEntry>, Failure> {
+        let mut entries = self.plugins.slab_tests()?;
+        if self.tests == ["all"] || self.tests.is_empty() && entries.is_empty() {
             return Ok(TABLE.all());
         }
         let names = || TABLE.all().into_iter().map(|entry| entry.info.name);
@@ -53,7 +63,10 @@ impl TestArguments {
             let wrong = || unknown("slab test", name, names(), "hairline boxes list tests");
             TABLE.find(name).ok_or_else(wrong)
         };
-        self.tests.iter().map(find).collect()
+        for entry in self.tests.iter().map(find) {
+            entries.push(entry?);
+        }
+        Ok(entries)
     }
 
     fn with_epsilons(&self, setup: Setup) -> Result<Setup, Failure> {
@@ -93,7 +106,12 @@ pub struct CaseArguments {
     #[arg(long, value_name = "LENGTH", requires = "extent")]
     size: Option<f64>,
 
-    /// How many rays of each family, or of these sizes
+    /// The boxes of a mesh in place of families: those of its faces and of the nodes of a hierarchy over them (OBJ, PLY, STL or
+    /// glTF)
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["family", "extent"])]
+    mesh: Option<String>,
+
+    /// How many rays of each family, of these sizes, or of the mesh
     #[arg(short = 'n', long, default_value_t = 10_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub count: u64,
 
@@ -112,7 +130,11 @@ pub struct CaseArguments {
 
 impl CaseArguments {
     /// Where the cases come from.
-    pub fn sources(&self) -> Result<Vec<Source>, Failure> {
+    pub fn sources(&self, is_quiet: bool) -> Result<Vec<Source>, Failure> {
+        if let Some(path) = &self.mesh {
+            let tree = tree(path, is_quiet)?;
+            return Ok(vec![Source::Mesh(Box::leak(Box::new(tree)))]);
+        }
         if let (Some(extent), Some(size)) = (self.extent, self.size) {
             let scene = Scene::new(extent, size).map_err(Failure::usage)?;
             return Ok(vec![Source::Scene(scene)]);
@@ -131,6 +153,19 @@ impl CaseArguments {
         }
         chosen_scalars(&self.scalar)
     }
+}
+
+/// The boxes of a mesh, by the name of its file, the number of its faces and a digest.
+fn tree(path: &str, is_quiet: bool) -> Result<Tree, Failure> {
+    let mesh = read_mesh(path, is_quiet)?;
+    let file = Path::new(path).file_name().unwrap_or_default();
+    let file = printable(&file.to_string_lossy());
+    let faces = number_of(mesh.triangles.len() as u64, "face", "faces");
+    let name = format!("{file} ({faces}, {})", &mesh.digest[..8]);
+    let triangles: Vec<[[f64; 3]; 3]> = (0..mesh.triangles.len())
+        .map(|i| mesh.vertices(i))
+        .collect();
+    Tree::new(name, &triangles).map_err(Failure::bad_input)
 }
 
 fn found_family(name: &str) -> Result<&'static Family, Failure> {

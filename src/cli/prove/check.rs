@@ -2,6 +2,7 @@
 
 use super::ProveArguments;
 use super::sizes::{DemandedSize, is_within, why_not};
+use crate::arith::ScalarName;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::input::read_text;
 use crate::cli::output::write_result;
@@ -49,8 +50,9 @@ fn checked(file: &str, demands: &[DemandedSize]) -> Result<String, Failure> {
     let bounds = number_of(proved.len() as u64, "bound", "bounds");
     let all: Vec<&Proved> = proved.iter().collect();
     let gates = largest_errors(&all);
-    let (kernel, name, scalar, entry) = kernel_of(&text);
-    let recorded = entry.map(|entry| in_named_scalar!(scalar, F => Recorded::new::<F>(entry)));
+    let (kernel, name, both) = kernel_of(&text);
+    let recorded =
+        both.map(|(entry, scalar)| in_named_scalar!(scalar, F => Recorded::new::<F>(entry)));
     let mut is_whole = false;
     let within: Vec<Proved> = proved
         .iter()
@@ -85,7 +87,7 @@ fn checked(file: &str, demands: &[DemandedSize]) -> Result<String, Failure> {
     }
     // Signs do not depend on the domain.
     let is_edge = |claim: &&Proved| {
-        let mut gates = entry.iter().flat_map(|entry| entry.info.gates);
+        let mut gates = both.iter().flat_map(|(entry, _)| entry.info.gates);
         gates.any(|gate| gate.name == claim.gate && gate.role == Role::Edge)
     };
     let mut of_edges = proved.iter().filter(is_edge).peekable();
@@ -151,29 +153,25 @@ fn gates_without(all: &[Proved], claims: &[Proved]) -> BTreeSet<String> {
     without.map(|claim| claim.gate.clone()).collect()
 }
 
-/// The kernel of a certificate that the checker has read, with its scalar: both, its name, its scalar, and itself.
-fn kernel_of(text: &str) -> (&str, &str, &str, Option<&'static Entry>) {
+/// The kernel of a certificate that the checker has read: its name with its scalar, its name, and both themselves; none of
+/// another format, which is no kernel's.
+fn kernel_of(text: &str) -> (&str, &str, Option<(&'static Entry, ScalarName)>) {
     let kernel = text
         .lines()
         .nth(1)
         .unwrap_or_default()
         .trim_start_matches("kernel ");
     let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
-    // Another format is no kernel's.
-    (
-        kernel,
-        name,
-        scalar,
-        kernel::find(name).filter(|_| scalar != "float"),
-    )
+    let both = kernel::find(name).zip(ScalarName::named(scalar));
+    (kernel, name, both)
 }
 
 /// The same of the certificate of a guarded kernel.
 fn guarded(file: &str, text: &str) -> Result<String, Failure> {
     let margins = checker::check_guarded(text)
         .map_err(|refusal| InputError::at(file, refusal.line, refusal.message))?;
-    let (kernel, name, scalar, entry) = kernel_of(text);
-    let made = entry.map(|entry| in_named_scalar!(scalar, F => Guarded::new::<F>(entry)));
+    let (kernel, name, both) = kernel_of(text);
+    let made = both.map(|(entry, scalar)| in_named_scalar!(scalar, F => Guarded::new::<F>(entry)));
     let whose = match made {
         Some(Ok(made)) if made.certificate() == text => {
             "`hairline repair` writes the same proof here"

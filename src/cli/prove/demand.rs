@@ -1,8 +1,9 @@
 //! The demands of `check` for proofs: `[proved]` in hairline.toml.
 
 use super::super::exit::Failure;
-use super::super::flags::{find_kernel, is_f32};
+use super::super::flags::{find_kernel, find_scalar};
 use super::ensure_gate;
+use crate::arith::ScalarName;
 use crate::audit::Row;
 use crate::kernel::{Entry, Role, Scalar};
 use crate::prove::{Domain, Effort, Searched, Summary, Symmetry};
@@ -13,7 +14,7 @@ use crate::record::{Unproved, WATERTIGHT};
 struct Demand<'a> {
     text: &'a str,
     entry: &'static Entry,
-    scalar: &'a str,
+    scalar: ScalarName,
     gate: &'a str,
     value: &'a str,
     most: f64,
@@ -30,7 +31,7 @@ pub fn unproved(demands: &[String], rows: &[Row]) -> Result<Vec<Unproved>, Failu
         let kernel = demand.entry.info.name;
         unproved.extend(why.map(|why| Unproved {
             kernel: kernel.to_owned(),
-            scalar: demand.scalar.to_owned(),
+            scalar: demand.scalar,
             gate: demand.gate.to_owned(),
             demanded: demand.value.to_owned(),
             why,
@@ -54,7 +55,7 @@ impl Demand<'_> {
             .try_into()
             .map_err(|_| wrong())?;
         let entry = find_kernel(name)?;
-        is_f32(scalar, "").map_err(|_| wrong())?;
+        let scalar = find_scalar(scalar).map_err(|_| wrong())?;
         let most = match (gate, value) {
             (WATERTIGHT, "true") => 0.0,
             (WATERTIGHT, _) => return Err(wrong()),

@@ -1,11 +1,8 @@
 //! One kernel in one scalar: what is proved of it, as parts of the record.
 
-use super::record::{GatePart, KernelPart, LimitPart, WitnessPart};
-use super::verdicts::VerdictPart;
 use super::witnesses::StoredWitness;
-use crate::arith::Float;
+use crate::arith::{Float, ScalarName};
 use crate::audit::{EpsilonChoice, EpsilonText, Observer, Row};
-use crate::cli::flags::scalar_names;
 use crate::cli::progress::Progress;
 use crate::kernel::{Entry, PRESETS, Scalar};
 use crate::prove::{
@@ -13,6 +10,7 @@ use crate::prove::{
     Symmetry, Triangles, USELESS, VERDICTS, about_edges, statements, useful_scenes,
 };
 use crate::record::{ProofPart, ProvedGate};
+use crate::report::proofs::{GatePart, KernelPart, LimitPart, VerdictPart, WitnessPart};
 use rayon::prelude::*;
 
 /// The settings that are the same for all kernels.
@@ -116,11 +114,11 @@ impl Job<'_> {
     ) -> Vec<Parts> {
         let of = |entry: &&'static Entry| {
             let entry = *entry;
-            scalar_names(scalars).map(move |name| (entry, name))
+            ScalarName::among(scalars).map(move |name| (entry, name))
         };
-        let tasks: Vec<(&'static Entry, &str)> = entries.iter().flat_map(of).collect();
+        let tasks: Vec<(&'static Entry, ScalarName)> = entries.iter().flat_map(of).collect();
         let progress = Progress::new(tasks.len() as u64, "proofs", quiet);
-        let run = |(entry, name): &(&'static Entry, &str)| {
+        let run = |(entry, name): &(&'static Entry, ScalarName)| {
             let parts = in_named_scalar!(*name, F => self.run::<F>(entry));
             progress.advance(1);
             parts
@@ -199,7 +197,7 @@ impl Job<'_> {
             let published = self.epsilons.of::<F>(entry, gate);
             GatePart {
                 kernel: name.to_owned(),
-                scalar: F::NAME.to_owned(),
+                scalar: F::NAME,
                 gate: gate.gate.name.to_owned(),
                 compares: gate.gate.refuses.to_owned(),
                 bound: gate.bound.as_ref().ok().map(|bound| bound.to_f64()),
@@ -227,7 +225,7 @@ impl Job<'_> {
                 let witness = witness.filter(|witness| witness.score > 0.0)?;
                 Some(StoredWitness {
                     kernel: name.to_owned(),
-                    scalar: F::NAME.to_owned(),
+                    scalar: F::NAME,
                     gate: gate.to_owned(),
                     goal: goal.name().to_owned(),
                     inputs: witness.inputs.iter().map(|x| x.hex()).collect(),
@@ -239,7 +237,7 @@ impl Job<'_> {
             kernel: Some(KernelPart {
                 verdicts,
                 kernel: name.to_owned(),
-                scalar: F::NAME.to_owned(),
+                scalar: F::NAME,
                 paths: summary.proof.paths.len(),
                 edges: about_edges(summary.symmetry).to_owned(),
                 watertight: summary.symmetry == Symmetry::ExactSigns,

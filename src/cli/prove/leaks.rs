@@ -5,18 +5,10 @@ use crate::case::Parameters;
 use crate::contract::Direction;
 use crate::family;
 use crate::kernel::{Entry, Role, Scalar, Tunable};
+use crate::report::proofs::Leak;
 
 /// How many rays are tried, most of them within a few ulps of the edge.
 const TRIES: u64 = 20_000;
-
-/// A ray that crosses a surface of two triangles and hits neither.
-#[apply(part!)]
-pub struct Leak {
-    /// The case's name.
-    pub case: String,
-    /// The command that shows it.
-    pub command: String,
-}
 
 /// The first ray of the family `shared-edge` that crosses both triangles together, by the exact truth, and that the
 /// gates of edges refuse in both, at an epsilon of 0.
@@ -43,7 +35,7 @@ pub fn leak<F: Scalar>(entry: &'static Entry) -> Option<Leak> {
     };
     let seed = 1;
     let source = Source::of(family, parameters.clone(), seed, TRIES);
-    let scalars = [F::NAME == "f32", F::NAME == "f64"];
+    let scalars = F::NAME.alone();
     let (rows, sources) = (vec![row.clone()], vec![source]);
     let plan = Plan::new(rows, sources, scalars, 64);
     let cells = audit::run(&plan, &Unobserved).cells;

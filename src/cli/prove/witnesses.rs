@@ -1,6 +1,6 @@
 //! The stored witnesses: `corpora/proofs/witnesses.ndjson`.
 
-use crate::arith::Float;
+use crate::arith::{Float, ScalarName};
 use crate::cli::exit::Failure;
 use crate::files::InputError;
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,7 @@ pub const KNOWN: &str = include_str!("../../../corpora/proofs/witnesses.ndjson")
 #[serde(deny_unknown_fields)]
 pub struct StoredWitness {
     pub kernel: String,
-    pub scalar: String,
+    pub scalar: ScalarName,
     pub gate: String,
     /// The goal that it is a witness for: see `GOALS`.
     pub goal: String,
@@ -34,19 +34,15 @@ impl StoredWitness {
 
     /// Its place in the file.
     fn key(&self) -> [&str; 4] {
-        [&self.kernel, &self.scalar, &self.gate, &self.goal]
+        [&self.kernel, self.scalar.name(), &self.gate, &self.goal]
     }
 
     /// The nearest numbers of either scalar: a place to search from.
     pub fn nearest<F: Float>(&self) -> Option<[F; 17]> {
-        match self.scalar == f32::NAME {
-            true => self
-                .numbers::<f32>()
-                .map(|numbers| numbers.map(|x| F::from_f64(x.into()))),
-            false => self
-                .numbers::<f64>()
-                .map(|numbers| numbers.map(F::from_f64)),
-        }
+        in_named_scalar!(self.scalar, G => {
+            let numbers = self.numbers::<G>()?;
+            Some(numbers.map(|x| F::from_f64(x.to_f64())))
+        })
     }
 }
 
@@ -71,15 +67,15 @@ pub fn read_witnesses(text: &str, path: &str) -> Result<Vec<StoredWitness>, Fail
 /// Puts found witnesses in the place of those of the same kernels and scalars; how many are others than before. A stored one that is
 /// still a witness was found again: it was tried.
 pub fn merge(stored: &mut Vec<StoredWitness>, found: Vec<StoredWitness>) -> usize {
-    let run: BTreeSet<(String, String)> = found
+    let run: BTreeSet<(String, ScalarName)> = found
         .iter()
-        .map(|it| (it.kernel.clone(), it.scalar.clone()))
+        .map(|it| (it.kernel.clone(), it.scalar))
         .collect();
     let changed = found
         .iter()
         .filter(|witness| !stored.contains(witness))
         .count();
-    stored.retain(|it| !run.contains(&(it.kernel.clone(), it.scalar.clone())));
+    stored.retain(|it| !run.contains(&(it.kernel.clone(), it.scalar)));
     stored.extend(found);
     stored.sort_by(|a, b| a.key().cmp(&b.key()));
     changed

@@ -1,6 +1,6 @@
 //! A second world of another design: meshes, rays and a truth that share no code with the families, the meshes or the
 //! oracle. What happens in it is compared with what hairline says of a scene whose numbers fit: rates by stratum, the
-//! table of `spawn`, and the cost of recommended epsilons. So a family that never draws what real meshes have is noticed.
+//! table of `offset`, and the cost of recommended epsilons. So a family that never draws what real meshes have is noticed.
 //!
 //! `HAIRLINE_WORLD=whole` draws 25 times as many rays, and prints every comparison.
 
@@ -18,7 +18,7 @@ use costs::Recommended;
 use counts::{Tuned, by_plane, read, scene_of, theirs, theirs_at};
 use dice::Dice;
 use hairline::internals::kernel::Scalar;
-use hairline::internals::spawn::{PUBLISHED, PointKind, Scheme, default_schemes};
+use hairline::internals::offset::{PUBLISHED, PointKind, Scheme, default_schemes};
 use meshes::{MESHES, Mesh};
 use rays::{Aim, shots};
 
@@ -206,7 +206,7 @@ const STARTS: &[Allowed] = &[
 ];
 
 #[test]
-fn new_rays_start_wrong_as_often_as_spawn_says() {
+fn new_rays_start_wrong_as_often_as_offset_says() {
     // Other tests of this binary may add schemes of their own.
     let name = |scheme: &Scheme| scheme.name.split('=').next().unwrap().to_owned();
     let is_published = |scheme: &Scheme| {

@@ -9,7 +9,7 @@ use hairline::internals::arith::Float;
 use hairline::internals::audit::Unobserved;
 use hairline::internals::case::Scene;
 use hairline::internals::kernel::{Scalar, Verdict};
-use hairline::internals::spawn::{HitPoint, PointKind, Scheme, SpawnPlan, Start, run};
+use hairline::internals::offset::{HitPoint, OffsetPlan, PointKind, Scheme, Start, run};
 use std::collections::BTreeMap;
 
 /// A hit point of the second world, and on which side of its triangle's plane the new ray is to start.
@@ -117,7 +117,7 @@ pub fn theirs<F: Scalar>(
     count: u64,
 ) -> Vec<Rate> {
     let row = &tuned.row;
-    let plan = SpawnPlan {
+    let plan = OffsetPlan {
         row,
         scene,
         mesh: None,

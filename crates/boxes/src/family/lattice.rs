@@ -200,6 +200,31 @@ pub fn in_face(draw: &mut Draw) -> Lattice {
     Lattice::through(point, direction, block, t)
 }
 
+/// Two neighbours that share a wall, and a ray that meets both at one t: it runs in the wall, or goes through an edge of it
+/// into one of them.
+pub fn neighbour(draw: &mut Draw, is_second: bool) -> Lattice {
+    let mut block = Block::drawn(draw);
+    let mut point = block.inside(draw);
+    let mut direction = any_direction(draw);
+    let axis = draw.below(3);
+    let wall = point[axis];
+    if draw.coin() {
+        direction[axis] = 0;
+    } else {
+        let side = (axis + 1) % 3;
+        let plane = block.plane(draw, side);
+        point[side] = plane.at;
+        plane.turn_inward(&mut direction[side]);
+    }
+    let t = ahead(draw);
+    if is_second {
+        block.min[axis] = wall;
+    } else {
+        block.max[axis] = wall;
+    }
+    Lattice::through(point, direction, block, t)
+}
+
 /// A direction with one or two zeros.
 fn axis_direction(draw: &mut Draw) -> Integers {
     let mut direction = any_direction(draw);

@@ -19,33 +19,41 @@ pub struct Family {
     pub version: u32,
     /// About the truth of its cases, in one line.
     pub promise: &'static str,
+    /// True if the cases of each even index and the next one are two neighbours and one ray.
+    pub is_of_pairs: bool,
     keeps: fn(&Truth) -> bool,
-    f32: fn(&mut Draw) -> BoxCase<f32>,
-    f64: fn(&mut Draw) -> BoxCase<f64>,
+    f32: Make<f32>,
+    f64: Make<f64>,
 }
+
+/// Makes a case from a stream, or the second of two.
+type Make<F> = fn(&mut Draw, bool) -> BoxCase<F>;
 
 /// A scalar that families make cases in.
 pub trait Made: Float {
-    /// The case that a family makes from a stream.
-    fn made(family: &Family, draw: &mut Draw) -> BoxCase<Self>;
+    /// The function with which a family makes cases.
+    fn made(family: &Family) -> Make<Self>;
 }
 
 impl Made for f32 {
-    fn made(family: &Family, draw: &mut Draw) -> BoxCase<f32> {
-        (family.f32)(draw)
+    fn made(family: &Family) -> Make<f32> {
+        family.f32
     }
 }
 
 impl Made for f64 {
-    fn made(family: &Family, draw: &mut Draw) -> BoxCase<f64> {
-        (family.f64)(draw)
+    fn made(family: &Family) -> Make<f64> {
+        family.f64
     }
 }
 
 impl Family {
     /// Case `index` of a seed's set.
     pub fn case<F: Made>(&self, seed: u64, index: u64) -> BoxCase<F> {
-        F::made(self, &mut Draw::new(self.name, seed, index))
+        let is_second = self.is_of_pairs && index % 2 == 1;
+        // Both of a pair have one stream.
+        let stream = index - u64::from(is_second);
+        F::made(self)(&mut Draw::new(self.name, seed, stream), is_second)
     }
 
     /// The name of a case, from which it is made again.
@@ -53,7 +61,7 @@ impl Family {
         CaseId {
             family: self.name.to_owned(),
             version: self.version,
-            scalar: F::NAME.to_owned(),
+            scalar: F::NAME,
             parameters: Parameters::default(),
             seed,
             index,
@@ -102,7 +110,7 @@ macro_rules! family {
     ($name:literal, lattice::$make:ident, $promise:literal, $keeps:expr) => {
         family!(
             $name,
-            |draw| lattice::$make(draw).placed(draw),
+            (|draw: &mut Draw| lattice::$make(draw).placed(draw)),
             $promise,
             $keeps
         )
@@ -112,9 +120,10 @@ macro_rules! family {
             name: $name,
             version: 1,
             promise: $promise,
+            is_of_pairs: false,
             keeps: $keeps,
-            f32: $make,
-            f64: $make,
+            f32: |draw, _| $make(draw),
+            f64: |draw, _| $make(draw),
         }
     };
 }
@@ -222,7 +231,7 @@ pub static FAMILIES: &[Family] = &[
     ),
     family!(
         "denormal",
-        |draw| lattice::meeting(draw).denormal(draw),
+        (|draw: &mut Draw| lattice::meeting(draw).denormal(draw)),
         "meets a box of subnormal size, ahead",
         is_ahead
     ),
@@ -244,6 +253,15 @@ pub static FAMILIES: &[Family] = &[
         "the box has no points",
         |truth| *truth == Truth::Empty
     ),
+    Family {
+        name: "neighbour",
+        version: 1,
+        promise: "one of two neighbours, both met at one t ahead: at a wall that they share",
+        is_of_pairs: true,
+        keeps: is_ahead,
+        f32: |draw, is_second| lattice::neighbour(draw, is_second).placed(draw),
+        f64: |draw, is_second| lattice::neighbour(draw, is_second).placed(draw),
+    },
 ];
 
 fn meeting(truth: &Truth) -> Option<Meeting> {

@@ -4,12 +4,48 @@ use super::{Real, Vector};
 use glam::{DVec3, Vec3};
 use std::fmt::{Display, LowerExp};
 
+named! {
+    pub names
+    /// A scalar that kernels are judged in, where text or a record names it; [`Float`] is its numbers.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum ScalarName {
+        /// IEEE 754 binary32.
+        F32 = "f32",
+        /// IEEE 754 binary64.
+        F64 = "f64",
+    }
+}
+
+impl ScalarName {
+    /// Those that are chosen, where `f32` and `f64` are each chosen or not.
+    pub fn among(are_chosen: [bool; 2]) -> impl Iterator<Item = ScalarName> + Clone {
+        let all = ScalarName::ALL.into_iter().zip(are_chosen);
+        all.filter_map(|(scalar, is_chosen)| is_chosen.then_some(scalar))
+    }
+
+    /// The choice of this one alone, `f32` before `f64`.
+    pub fn alone(self) -> [bool; 2] {
+        ScalarName::ALL.map(|scalar| scalar == self)
+    }
+}
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for ScalarName {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "ScalarName".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({ "type": "string", "enum": ScalarName::ALL })
+    }
+}
+
 /// An IEEE 754 binary float that kernels are judged in: `f32` or `f64`.
 pub trait Float: Real + Copy + PartialOrd + Display + LowerExp + Default {
     /// The glam vector of this scalar.
     type Vector: Vector<Real = Self> + Copy + From<[Self; 3]> + Into<[Self; 3]>;
-    /// `f32` or `f64`, as reports name it.
-    const NAME: &'static str;
+    /// `f32` or `f64`, as text and records name it.
+    const NAME: ScalarName;
     /// Bits in the significand, the hidden one included.
     const DIGITS: u32;
     /// Exponent of the smallest positive number: it is 2 to this power.
@@ -153,7 +189,7 @@ fn wide_f64(a: f64, b: f64, c: f64, d: f64) -> f64 {
 }
 
 macro_rules! float {
-    ($scalar:ident, $vector:ident, $bits:ident, $signed:ident, $wide:expr) => {
+    ($scalar:ident, $name:ident, $vector:ident, $bits:ident, $signed:ident, $wide:expr) => {
         impl Real for $scalar {
             #[inline(always)]
             fn zero() -> Self {
@@ -243,7 +279,7 @@ macro_rules! float {
 
         impl Float for $scalar {
             type Vector = $vector;
-            const NAME: &'static str = stringify!($scalar);
+            const NAME: ScalarName = ScalarName::$name;
             const DIGITS: u32 = $scalar::MANTISSA_DIGITS;
             const MIN_EXPONENT: i32 = $scalar::MIN_EXP - $scalar::MANTISSA_DIGITS as i32;
             const MAX_EXPONENT: i32 = $scalar::MAX_EXP - 1;
@@ -337,8 +373,8 @@ macro_rules! float {
     };
 }
 
-float!(f32, Vec3, u32, i32, wide_f32);
-float!(f64, DVec3, u64, i64, wide_f64);
+float!(f32, F32, Vec3, u32, i32, wide_f32);
+float!(f64, F64, DVec3, u64, i64, wide_f64);
 
 #[cfg(test)]
 mod tests {

@@ -64,7 +64,9 @@ pub use digits::{three_digits, two_digits};
 pub use emulated::{Emulated, Notes};
 pub use environment::FloatEnvironment;
 pub use exact::Exact;
-pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two, smallest_normal};
+pub use float::{
+    Float, ScalarName, decompose, ordered_midpoint, scale_by_power_of_two, smallest_normal,
+};
 pub use fraction::Fraction;
 pub use tracked::{Exceptions, Tracked, tracked};
 pub use triple::{ExactVector, Triple};

@@ -1,7 +1,7 @@
 //! A case in other forms: as bit patterns, and back; in one of the two scalars; and as source code in Rust.
 
 use super::Case;
-use crate::arith::Float;
+use crate::arith::{Float, ScalarName};
 
 impl<F: Float> Case<F> {
     /// The bit patterns of origin, direction, a, b, c, t_min and t_max, in hexadecimal.
@@ -62,7 +62,7 @@ pub enum AnyScalar<A, B> {
 
 impl<A, B> AnyScalar<A, B> {
     /// The scalar's name.
-    pub fn scalar(&self) -> &'static str {
+    pub fn scalar(&self) -> ScalarName {
         match self {
             AnyScalar::F32(_) => f32::NAME,
             AnyScalar::F64(_) => f64::NAME,
@@ -71,7 +71,7 @@ impl<A, B> AnyScalar<A, B> {
 
     /// For `f32` and for `f64`, true if it is of that scalar.
     pub fn scalars(&self) -> [bool; 2] {
-        [f32::NAME, f64::NAME].map(|name| name == self.scalar())
+        self.scalar().alone()
     }
 }
 

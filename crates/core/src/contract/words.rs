@@ -1,7 +1,7 @@
 //! Contracts in words, as `--contract`, settings, and the hello of a kernel have them.
 
 use super::{Across, Boundary, Contract, Demand, Direction, Extent, NAMED, Sides};
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::suggest::nearest_name;
 use std::str::FromStr;
 
@@ -41,13 +41,14 @@ impl Contract {
                         format!(": write {names}, or extent=ray,sides=both,boundary=closed")
                     }
                 };
-                return Err(Error(format!("'{}' is no contract{advice}", words[0])));
+                let line = format!("'{}' is no contract{advice}", words[0]);
+                return Err(Error::new(ErrorKind::UnknownName, line));
             }
             if let Some(key) = ["extent", "sides", "boundary"]
                 .into_iter()
                 .find(|key| !has(key))
             {
-                return Err(Error(format!("'{text}' does not say {key}=…")));
+                return Err(Error::syntax(format!("'{text}' does not say {key}=…")));
             }
         }
         let mut contract = named.unwrap_or(Contract::of_kernel(
@@ -56,7 +57,7 @@ impl Contract {
             Boundary::Closed,
         ));
         for word in &words[usize::from(named.is_some())..] {
-            contract.change(word)?;
+            contract.change(word).map_err(Error::syntax)?;
         }
         Ok(contract)
     }
@@ -313,7 +314,7 @@ mod tests {
                 "'no-self-hit=yes' is none of ",
             ),
         ] {
-            let Error(error) = read(text).unwrap_err();
+            let error = read(text).unwrap_err().to_string();
             assert!(error.starts_with(message), "{text}: {error}");
         }
         let _: Box<dyn std::error::Error> = read("own").unwrap_err().into();

@@ -5,6 +5,7 @@
 //! one evaluation gives the verdict at every epsilon.
 
 use crate::arith::Real;
+use serde::{Deserialize, Serialize};
 
 /// When a gate refuses a quantity `x` under an epsilon. The form says what a NaN does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +64,8 @@ impl Refuse {
 
 /// The powers of length and of |d| in a margin. An absolute epsilon on anything but (0, 0) is a
 /// different test at every scale.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "[i8; 2]", into = "[i8; 2]")]
 pub struct Dimension {
     /// Power of length.
     pub length: i8,
@@ -71,7 +73,28 @@ pub struct Dimension {
     pub direction: i8,
 }
 
+impl From<[i8; 2]> for Dimension {
+    fn from([length, direction]: [i8; 2]) -> Dimension {
+        Dimension { length, direction }
+    }
+}
+
+impl From<Dimension> for [i8; 2] {
+    fn from(dimension: Dimension) -> [i8; 2] {
+        [dimension.length, dimension.direction]
+    }
+}
+
 impl Dimension {
+    /// A plain number.
+    pub const NONE: Dimension = Dimension::new(0, 0);
+    /// A t: a length in units of the direction.
+    pub const T: Dimension = Dimension::new(1, -1);
+    /// A determinant: twice the area of what is seen of the triangle, times |d|.
+    pub const DETERMINANT: Dimension = Dimension::new(2, 1);
+    /// A share of |d|.
+    pub const DIRECTION: Dimension = Dimension::new(0, 1);
+
     /// `(length, direction)`.
     pub const fn new(length: i8, direction: i8) -> Dimension {
         Dimension { length, direction }
@@ -79,7 +102,7 @@ impl Dimension {
 
     /// True if a margin scales with a length or with the direction; false if it is a plain number.
     pub fn has_unit(self) -> bool {
-        self != Dimension::new(0, 0)
+        self != Dimension::NONE
     }
 }
 
@@ -120,6 +143,8 @@ pub struct Gate {
     pub role: Role,
     /// The refusal in the source's notation, with `e` for the epsilon.
     pub refuses: &'static str,
+    /// The refusal as the source prints it, where it says the same in other words.
+    pub printed: Option<&'static str>,
     /// The margin's dimension.
     pub dimension: Dimension,
     /// The epsilons that it takes.
@@ -145,6 +170,7 @@ impl Gate {
             name: role.name(),
             role,
             refuses,
+            printed: None,
             dimension,
             epsilon: Tunable::Signed,
         }
@@ -169,6 +195,14 @@ impl Gate {
         Gate {
             epsilon: Tunable::Fixed,
             ..Gate::signed(role, refuses, 0, 0)
+        }
+    }
+
+    /// The gate as its source prints it.
+    pub const fn printed(self, text: &'static str) -> Gate {
+        Gate {
+            printed: Some(text),
+            ..self
         }
     }
 

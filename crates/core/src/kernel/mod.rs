@@ -55,8 +55,8 @@ pub use preset::{PRESETS, Preset, PresetEntry};
 pub use recording::{Acceptance, Compared, Path};
 pub use registry::kept;
 pub use registry::{
-    Entry, KERNELS, Scalar, Table, all, changed, check_name, find, forms, in_arithmetic, register,
-    unnamed,
+    Entry, KERNELS, Scalar, TRIANGLES, Table, all, changed, check_name, find, forms, in_arithmetic,
+    register, unnamed,
 };
 pub use runs::{ExactRun, Measured, TrackedRun};
 pub use subject::verdicts_of;

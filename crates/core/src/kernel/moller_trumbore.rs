@@ -30,12 +30,7 @@ const SETS: &[EpsilonSet] = &[EpsilonSet {
 }];
 
 const DIVIDED: [Gate; 2] = [
-    Gate::non_negative(
-        Role::Parallel,
-        "abs(det) < e (printed det > -e && det < e)",
-        2,
-        1,
-    ),
+    Gate::non_negative(Role::Parallel, "abs(det) < e", 2, 1).printed("det > -e && det < e"),
     Gate::signed(Role::Edge, "u < e, 1-u < e, v < e, 1-(u+v) < e", 0, 0),
 ];
 

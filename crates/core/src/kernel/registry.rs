@@ -302,7 +302,7 @@ pub static KERNELS: &[Entry] = &[
 ];
 
 /// The kernels of triangles.
-static TRIANGLES: Table<Triangles> = Table::new(KERNELS);
+pub static TRIANGLES: Table<Triangles> = Table::new(KERNELS);
 
 /// Every kernel: the added ones, then the built-in ones in the order of reports.
 pub fn all() -> Vec<&'static Entry> {

@@ -261,6 +261,7 @@ mod tests {
             name: "parallel",
             role: Role::Parallel,
             refuses: "det < e",
+            printed: None,
             dimension: Dimension::new(2, 1),
             epsilon: Tunable::NonNegative,
         }];

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::audit::Trials;
+use hairline_core::ScalarName;
 
 fn entry(amount: Amount) -> ExpectedEntry {
     ExpectedEntry {
@@ -109,8 +110,8 @@ fn a_rate_is_a_bound_that_a_sample_must_clearly_exceed() {
 }
 
 fn key(kernel: &str, finding: FindingKind) -> Key {
-    let [kernel, set, scalar, family, class] =
-        [kernel, "source", "f32", "tiny", "interior"].map(str::to_owned);
+    let [kernel, set, family, class] = [kernel, "source", "tiny", "interior"].map(str::to_owned);
+    let scalar = ScalarName::F32;
     Key {
         kernel,
         set,
@@ -152,7 +153,7 @@ fn what_has_no_expectation_is_unexpected_unless_its_row_has_some_and_it_is_rare(
             ..key("mine", FindingKind::FalseHit)
         },
         Key {
-            scalar: "f64".to_owned(),
+            scalar: ScalarName::F64,
             ..key("mine", FindingKind::FalseHit)
         },
     ];
@@ -200,7 +201,7 @@ fn an_expectation_outside_the_plan_is_left_out() {
     assert!(is_left_out(
         &plan,
         &Key {
-            scalar: "f64".to_owned(),
+            scalar: ScalarName::F64,
             ..key()
         }
     ));
@@ -277,7 +278,8 @@ fn a_case_is_shown_that_is_new_or_right_now_and_none_that_may_still_be_wrong() {
 }
 
 fn key_of_class(class: &str, finding: FindingKind) -> Key {
-    let [kernel, set, scalar, family] = ["k", "source", "f32", "edges"].map(str::to_owned);
+    let [kernel, set, family] = ["k", "source", "edges"].map(str::to_owned);
+    let scalar = ScalarName::F32;
     Key {
         kernel,
         set,

@@ -64,9 +64,9 @@ impl Find {
             .ok_or("missing field 'found': it is no find")?;
         let wrong = |message: String| format!("found: {message}");
         let row = Row::named(&found.kernel, found.epsilons.as_deref(), &found.contract)
-            .map_err(|error| wrong(error.0))?;
+            .map_err(|error| wrong(error.into()))?;
         row.check_in(stored.case.scalars())
-            .map_err(|error| wrong(error.0))?;
+            .map_err(|error| wrong(error.into()))?;
         let said = format!("'{}', as hairline {} found", found.signature, found.version);
         let find = Find::of(&row, stored.case)
             .ok_or_else(|| wrong(format!("nothing wrong is shown, not {said}")))?;

@@ -161,7 +161,7 @@ impl<F: Scalar> Island<F> {
             let bits = individual.case.bits().to_vec();
             SavedIndividual {
                 kernel,
-                scalar: F::NAME.to_owned(),
+                scalar: F::NAME,
                 epsilons,
                 contract,
                 bits,

@@ -3,6 +3,7 @@
 use super::find::Find;
 use super::island::{Island, Newcomer};
 use super::state::{CampaignState, SavedIndividual};
+use crate::arith::ScalarName;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
@@ -127,10 +128,9 @@ impl Campaign {
             .iter()
             .enumerate()
             .try_for_each(|(i, individual)| {
-                let restored = match individual.scalar.as_str() {
-                    "f32" => restore(&mut self.f32, individual),
-                    "f64" => restore(&mut self.f64, individual),
-                    other => Err(format!("unknown scalar '{other}'")),
+                let restored = match individual.scalar {
+                    ScalarName::F32 => restore(&mut self.f32, individual),
+                    ScalarName::F64 => restore(&mut self.f64, individual),
                 };
                 restored.map_err(|message| format!("population[{i}]: {message}"))
             })

@@ -1,5 +1,6 @@
 //! The state that a campaign saves now and then: counters and population. It reads the known kinds from its finds.
 
+use crate::arith::ScalarName;
 use serde::{Deserialize, Serialize};
 
 /// Counters and population between two rounds.
@@ -24,8 +25,8 @@ pub struct CampaignState {
 pub struct SavedIndividual {
     /// The kernel.
     pub kernel: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The epsilons, as `--epsilon` takes them.
     pub epsilons: Option<String>,
     /// The contract, as `--contract` takes it.

@@ -153,7 +153,7 @@ fn parse_goal(name: &str, case: &AnyCase) -> Result<WorstGoal, String> {
         .try_into()
         .map_err(|_| shape())?;
     let [kernel, scalar, epsilons, target, domain] = parts;
-    if scalar != case.scalar() {
+    if scalar != case.scalar().name() {
         return Err(format!(
             "'{name}' is of {scalar}, its case of {}",
             case.scalar()

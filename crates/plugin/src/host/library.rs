@@ -1,6 +1,7 @@
 //! A shared library with the functions of include/hairline.h, and what it says of itself.
 
 use super::super::PROTOCOL;
+use super::super::asked::Form;
 use super::guard::CurrentException;
 use libloading::os::unix;
 use std::ffi::{CStr, c_char, c_void};
@@ -33,19 +34,21 @@ struct CKernel {
     epsilons: *const CEpsilon,
 }
 
-/// `hairline_test_f32` and `hairline_test_f64`: cases, count, epsilons, verdicts.
+/// `hairline_test_f32` and the others: cases, count, epsilons, verdicts.
 pub(super) type TestFunction =
     unsafe extern "C-unwind" fn(*const c_void, usize, *const c_void, *mut c_void);
 
 /// A loaded library; it stays loaded until the process ends.
-pub(super) struct Library {
+pub(super) struct Library<'a> {
     library: ManuallyDrop<unix::Library>,
+    /// How cases go to it.
+    pub form: &'a Form,
     pub f32: Option<TestFunction>,
     pub f64: Option<TestFunction>,
 }
 
-impl Library {
-    pub fn open(path: &Path) -> Result<Library, String> {
+impl<'a> Library<'a> {
+    pub fn open(path: &Path, form: &'a Form) -> Result<Library<'a>, String> {
         // SAFETY: what the library's constructors do is what this process is for.
         let opened = unsafe { unix::Library::open(Some(path), unix::RTLD_NOW | unix::RTLD_LOCAL) };
         let library = ManuallyDrop::new(opened.map_err(|error| {
@@ -55,6 +58,7 @@ impl Library {
         })?);
         let mut library = Library {
             library,
+            form,
             f32: None,
             f64: None,
         };
@@ -72,11 +76,11 @@ impl Library {
         }
         // SAFETY: by include/hairline.h these symbols have this type.
         unsafe {
-            library.f32 = library.symbol::<TestFunction>("hairline_test_f32");
-            library.f64 = library.symbol::<TestFunction>("hairline_test_f64");
+            library.f32 = library.symbol::<TestFunction>(form.functions[0]);
+            library.f64 = library.symbol::<TestFunction>(form.functions[1]);
         }
         if library.f32.is_none() && library.f64.is_none() {
-            return Err("it has neither hairline_test_f32 nor hairline_test_f64".to_owned());
+            return Err(format!("it has neither {}", form.functions.join(" nor ")));
         }
         Ok(library)
     }
@@ -112,6 +116,7 @@ impl Library {
         let [name, source, contract] =
             unsafe { [kernel.name, kernel.source, kernel.contract].map(|text| text_of(text)) };
         let mut hello = format!("hairline-kernel {PROTOCOL}\nencoding binary\n");
+        hello += &format!("judges {}\n", self.form.judges);
         hello += &format!("name {}\n", name.ok_or("its name is NULL")?);
         hello += &format!("contract {}\n", contract.ok_or("its contract is NULL")?);
         hello += &source.map_or_else(String::new, |source| format!("source {source}\n"));

@@ -3,12 +3,14 @@
 #![forbid(unsafe_code)]
 
 use super::{Process, ProcessLimits, ProcessState};
+use crate::asked::Asked;
 use crate::binary::{self, Before};
 use crate::hello::{Hello, HelloLines};
 use crate::kernel::{Entry, Failure};
 use crate::running::{KernelProgram, Lost, Running};
 use crate::turns::Turns;
 use std::io;
+use std::marker::PhantomData;
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -23,14 +25,15 @@ pub enum LoadError {
 
 /// Starts a kernel's process and reads its hello. The entry lives as long as this process; `flag`
 /// chooses it on a command line.
-pub fn load(
+pub fn load<T: Asked>(
     program: KernelProgram,
     limits: ProcessLimits,
     flag: String,
-) -> Result<Entry, LoadError> {
+) -> Result<Entry<T>, LoadError> {
     let since = Instant::now();
     let running = program.start(limits.start).map_err(LoadError::Start)?;
     let (hello, running) = greet(running, &program, &limits).map_err(LoadError::Hello)?;
+    hello.is_of(&T::FORM).map_err(LoadError::Hello)?;
     let turns = Turns::new(hello.processes, since.elapsed());
     let mut notes = hello.notes();
     if !hello.floats.is_default() {
@@ -54,14 +57,15 @@ pub fn load(
         ..ProcessState::default()
     });
     let kernel = Process {
+        target: PhantomData,
         program,
         limits,
         hello,
         turns,
         state,
     };
-    let kernel: &'static Process = Box::leak(Box::new(kernel));
-    let mut entry = Entry::new(info).chosen_by(flag.leak());
+    let kernel: &'static Process<T> = Box::leak(Box::new(kernel));
+    let mut entry = Entry::described(info).chosen_by(flag.leak());
     if scalars[0] {
         entry = entry.with_f32(kernel);
     }

@@ -15,6 +15,7 @@ use super::checker;
 use super::forms::Leaf;
 use super::order::is_impossible;
 use super::summary::{format_of, paths_of};
+use crate::arith::ScalarName;
 use crate::arith::recorded::{Operation, Place};
 use crate::contract::{Contract, Demand, Extent, Sides};
 use crate::kernel::{Entry, KernelInfo, Scalar};
@@ -36,7 +37,7 @@ pub struct Guarded {
     /// The constants of its margins.
     pub scale: Scale,
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    pub scalar: ScalarName,
 }
 
 impl Guarded {

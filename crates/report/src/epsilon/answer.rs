@@ -6,7 +6,8 @@ use super::words::{
     bound, flag, human, interval, label, least_normal, least_t, of_unit, share, short_error,
     unit_of, unit_of_t, where_of,
 };
-use crate::arith::two_digits;
+use crate::arith::{ScalarName, two_digits};
+use crate::kernel::Role;
 use crate::page::{Row, Use};
 use hairline_record::Rate;
 use hairline_record::{group_digits, number_of};
@@ -89,7 +90,7 @@ fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
 pub(super) fn used(record: &SceneResult, part: &SceneKernelPart) -> Vec<Use> {
     let fixed = Use {
         lead: lead(record, part, &part.tried[0]).to_owned(),
-        text: fixed(record, part),
+        parts: fixed(record, part),
         notes: notes(record, part),
     };
     let Some(relative) = &part.relative else {
@@ -132,15 +133,14 @@ pub(super) fn is_scale_free_better(record: &SceneResult, part: &SceneKernelPart)
 }
 
 /// Numbers to paste.
-fn fixed(record: &SceneResult, part: &SceneKernelPart) -> String {
+fn fixed(record: &SceneResult, part: &SceneKernelPart) -> Vec<String> {
     let epsilons = &part.tried[0].epsilons;
     let t = least_t(part, epsilons).map(|e| match part.takes_interval {
         _ if e.parse() == Ok(0.0) => "no least t: t_min = 0 costs least".to_owned(),
         true => format!("t_min = {}{} on every ray", human(e), unit_of_t(record)),
         false => format!("count a hit only if t >= {}{}", human(e), unit_of_t(record)),
     });
-    let parts: Vec<String> = flag(part, epsilons).into_iter().chain(t).collect();
-    parts.join("  and  ")
+    flag(part, epsilons).into_iter().chain(t).collect()
 }
 
 /// The column of what is recommended, where there is no form without a unit.
@@ -261,7 +261,7 @@ fn errors(error: &ErrorPart) -> String {
 }
 
 /// True if a value is the least that no machine flushes to zero: then every value above zero will do.
-fn is_least(value: &str, scalar: &str) -> bool {
+fn is_least(value: &str, scalar: ScalarName) -> bool {
     let least = least_normal(scalar);
     value
         .parse::<f64>()
@@ -289,7 +289,7 @@ fn scale_free(record: &SceneResult, part: &SceneKernelPart, relative: &TriedPart
     notes.extend(accuracy(record));
     Use {
         lead: lead(record, part, relative).to_owned(),
-        text: forms.collect::<Vec<_>>().join(", "),
+        parts: vec![forms.collect::<Vec<_>>().join(", ")],
         notes,
     }
 }
@@ -308,7 +308,7 @@ pub(super) fn limit_rows<'a>(
             count: &part.counts[limit.count],
             is_proved: false,
             bound: match value {
-                Some(value) if limit.is_lower && is_least(value, &part.scalar) => "> 0".to_owned(),
+                Some(value) if limit.is_lower && is_least(value, part.scalar) => "> 0".to_owned(),
                 _ => interval(limit, &unit_of(record, knob)),
             },
             most: format!("1 in {}", group_digits(limit.one_in)),
@@ -351,20 +351,20 @@ pub(super) fn conflict(
     conflict: &ConflictPart,
 ) -> String {
     let knob = &part.knobs[part.limits[conflict.lower].knob];
-    let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {
+    let instead = match (&conflict.scale_free, &knob.form, knob.role) {
         // With directions of unit length a share of |d| is the number itself.
         (Some([from, to]), Some(form), _)
-            if knob.dimension[0] != 0 || !record.unit_directions =>
+            if knob.dimension.length != 0 || !record.unit_directions =>
         {
             format!("{form} in its place is within both limits, with e from {from} to {to}")
         }
-        (_, _, "t") if is_coarse(record, part) => {
+        (_, _, Role::T) if is_coarse(record, part) => {
             "the numbers are too far apart for such triangles: use f64, or move the scene to the origin".to_owned()
         }
-        (_, _, "t") => {
-            "start shadow rays off the surface, with no t_min for them (`hairline spawn` finds how far)".to_owned()
+        (_, _, Role::T) => {
+            "start shadow rays off the surface, with no t_min for them (`hairline offset` finds how far)".to_owned()
         }
-        _ if part.scalar == "f64" => "these numbers cost least; no value meets both beside the others".to_owned(),
+        _ if part.scalar == ScalarName::F64 => "these numbers cost least; no value meets both beside the others".to_owned(),
         _ => "these numbers cost least; to meet both takes wider numbers (f64) or another kernel"
             .to_owned(),
     };

@@ -30,7 +30,7 @@ pub fn scene_record(
     for (part, nanoseconds) in &kernels {
         let times = provenance
             .kernel_nanoseconds
-            .entry(part.scalar.clone())
+            .entry(part.scalar)
             .or_default();
         times.insert(part.kernel.clone(), *nanoseconds);
     }
@@ -98,16 +98,16 @@ pub fn kernel_part<F: Scalar>(
 ) -> SceneKernelPart {
     let info = setting.row.entry.info;
     let knob_part = |knob: &Knob| {
-        let dimension = knob.gate(info.gates).dimension;
+        let gate = knob.gate(info.gates);
+        let dimension = gate.dimension;
+        let is_gate = matches!(knob, Knob::Gate(_));
         KnobPart {
-            name: knob.gate(info.gates).name.to_owned(),
-            is_gate: matches!(knob, Knob::Gate(_)),
-            role: knob.gate(info.gates).role.name().to_owned(),
-            refuses: match knob {
-                Knob::Gate(gate) => Some(info.gates[*gate].refuses.to_owned()),
-                Knob::LeastT => None,
-            },
-            dimension: [dimension.length, dimension.direction],
+            name: gate.name.to_owned(),
+            is_gate,
+            role: gate.role,
+            refuses: is_gate.then(|| gate.refuses.to_owned()),
+            printed: gate.printed.map(str::to_owned),
+            dimension,
             form: scale_free_form(dimension),
         }
     };
@@ -138,7 +138,7 @@ pub fn kernel_part<F: Scalar>(
     SceneKernelPart {
         kernel: info.name.to_owned(),
         selector: setting.row.entry.selector(),
-        scalar: F::NAME.to_owned(),
+        scalar: F::NAME,
         contract: setting.row.contract.describe(),
         contract_flag: (*contract != info.contract).then(|| contract.words(Some(&info.contract))),
         has_edge_epsilon: info

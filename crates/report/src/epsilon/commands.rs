@@ -4,34 +4,36 @@ use super::notes::{has_default_costs, is_coarse};
 use super::record::{NamedNumber, SceneKernelPart, SceneResult};
 use crate::audit::shell_word;
 use crate::case::{SCENES, ShortNumber};
+use crate::kernel::Role;
+use crate::page::Command;
 use hairline_study::epsilon::COUNT;
 
 /// Commands that show more of what is recommended.
-pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<String> {
+pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<Command> {
     let best = &part.tried[0].epsilons;
     let of_audit = of_scene(record);
     let chosen = part.knobs.iter().zip(best).filter(|(knob, _)| knob.is_gate);
     let chosen = chosen
         .map(|(knob, value)| (&knob.name, value))
         .chain(&part.others);
-    let all: Vec<String> = chosen
+    let epsilons: Vec<String> = chosen
         .map(|(gate, value)| format!("{gate}={value}"))
         .collect();
-    let with = if all.is_empty() {
+    let with = if epsilons.is_empty() {
         String::new()
     } else {
-        format!(" --epsilon {}", all.join(","))
+        format!(" --epsilon {}", epsilons.join(","))
     };
     let seed = record.fresh_seed;
-    let command = |name: &str, more: &str| {
-        let (kernel, scalar) = (&part.selector, &part.scalar);
-        format!("hairline {name} {kernel}{with} {of_audit} --scalar {scalar} --seed {seed}{more}")
+    let line = |name: &str| {
+        let (kernel, scalar) = (&part.selector, part.scalar);
+        format!("hairline {name} {kernel}{with} {of_audit} --scalar {scalar} --seed {seed}")
     };
     // A t that keeps rays from their own surface is right where the exact answer for the rounded start is a hit.
     let guards_start = part
         .knobs
         .iter()
-        .any(|knob| knob.is_gate && knob.role == "t");
+        .any(|knob| knob.is_gate && knob.role == Role::T);
     let own = part.contract_flag.as_deref();
     let contract = match (own, guards_start) {
         (None, false) => String::new(),
@@ -40,15 +42,20 @@ pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<Stri
         }
         _ => format!(" --contract {},no-self-hit", own.unwrap_or("own")),
     };
-    let same_rays = format!(" -n {}{contract}", record.count);
+    let mut all = vec![Command {
+        line: format!("{} -n {}{contract}", line("audit"), record.count),
+        what: "",
+    }];
     let has_t = record.has_scene()
-        && part.knobs.iter().any(|knob| knob.role == "t")
+        && part.knobs.iter().any(|knob| knob.role == Role::T)
         && !is_coarse(record, part);
-    let spawn = has_t.then(|| command("spawn", ""));
-    [command("audit", &same_rays)]
-        .into_iter()
-        .chain(spawn)
-        .collect()
+    if has_t {
+        all.push(Command {
+            line: line("offset"),
+            what: "an offset in place of t_min",
+        });
+    }
+    all
 }
 
 /// The scene as `--scene` takes it.

@@ -9,11 +9,11 @@ use super::plot::{footer, panels};
 use super::record::{SceneKernelPart, SceneResult};
 use super::standing::{coarse, of_given, standing, telling};
 use super::words::{label, share};
-use crate::SegmentsPart;
 use crate::case::{Scene, SceneKind};
 use crate::elsewhere::{self, ComparedRates};
 use crate::family::Stratum;
-use crate::page::{Block, Command, Head, Row, Table};
+use crate::page::{Block, Head, Row, Table};
+use crate::segments::SegmentsPart;
 use hairline_study::epsilon::Rays;
 
 /// So many rows argue for what to use.
@@ -76,19 +76,7 @@ pub(super) fn of_kernel(record: &SceneResult, part: &SceneKernelPart) -> Vec<Blo
         true => Vec::new(),
         false => commands(record, part),
     };
-    let command = |line: String| {
-        let is_spawn = line.starts_with("hairline spawn");
-        let what = if is_spawn {
-            "an offset in place of t_min"
-        } else {
-            ""
-        };
-        Command { line, what }
-    };
-    blocks.push(Block::Commands(
-        "next",
-        next.into_iter().map(command).collect(),
-    ));
+    blocks.push(Block::Commands("next", next));
     blocks
 }
 

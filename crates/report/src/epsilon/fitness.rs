@@ -2,6 +2,7 @@
 
 use super::record::{SceneKernelPart, SceneResult};
 use super::words::{human, spaced};
+use crate::arith::ScalarName;
 
 /// The smallest triangle is so many of a scalar's steps long, or longer, where its numbers are fine enough: then
 /// rounding moves a vertex by less than can be seen.
@@ -10,7 +11,7 @@ const FINE: f64 = 1000.0;
 /// The numbers of a scalar where triangles are.
 pub(crate) struct Grain<'a> {
     /// `f32` or `f64`.
-    pub scalar: &'a str,
+    pub scalar: ScalarName,
     /// The distance of two neighbouring numbers at the largest coordinate.
     pub spacing: f64,
     /// The smallest triangle's longest edge.
@@ -40,7 +41,11 @@ impl Grain<'_> {
             return format!("{scalar} is fit for this {place}: {numbers}, {smallest}.");
         }
         let parts = (smallest / spacing).round().max(1.0);
-        let wider = if scalar == "f32" { "use f64, or " } else { "" };
+        let wider = if scalar == ScalarName::F32 {
+            "use f64, or "
+        } else {
+            ""
+        };
         format!(
             "{scalar} is coarse for this {place}: {numbers}, 1/{parts} of the smallest triangle's longest edge: \
              {wider}move the origin to the camera."
@@ -49,12 +54,9 @@ impl Grain<'_> {
 }
 
 fn grain<'a>(record: &'a SceneResult, part: &'a SceneKernelPart) -> Grain<'a> {
-    let SceneKernelPart {
-        scalar, spacing, ..
-    } = part;
     Grain {
-        scalar,
-        spacing: *spacing,
+        scalar: part.scalar,
+        spacing: part.spacing,
         smallest: record.edge[0],
         unit: &record.unit,
     }

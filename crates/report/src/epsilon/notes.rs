@@ -2,7 +2,7 @@
 
 use super::record::*;
 use super::words::{human, least_normal, meaning, share, spaced};
-use crate::arith::Float;
+use crate::arith::ScalarName;
 use crate::case::ShortNumber;
 use hairline_record::Rate;
 use hairline_record::number_of;
@@ -213,18 +213,18 @@ pub(super) fn is_coarse(record: &SceneResult, part: &SceneKernelPart) -> bool {
 
 /// True if products of three of the smallest triangle's lengths lose digits, because the scalar has none so small.
 fn is_tiny(record: &SceneResult, part: &SceneKernelPart) -> bool {
-    let epsilon = if part.scalar == f32::NAME {
+    let epsilon = if part.scalar == ScalarName::F32 {
         f32::EPSILON.into()
     } else {
         f64::EPSILON
     };
-    record.edge[0].powi(3) * epsilon < least_normal(&part.scalar)
+    record.edge[0].powi(3) * epsilon < least_normal(part.scalar)
 }
 
 /// The advice where no numbers are good.
 fn instead(record: &SceneResult, part: &SceneKernelPart, kind: WrongKind) -> String {
     let unit = spaced(&record.unit);
-    let is_narrow = part.scalar == "f32";
+    let is_narrow = part.scalar == ScalarName::F32;
     if is_coarse(record, part) {
         return format!(
             "coordinates reach {:.0e}{unit}, where the numbers of {} are {}{unit} apart: {}bring scene and rays nearer to 0",
@@ -243,7 +243,7 @@ fn instead(record: &SceneResult, part: &SceneKernelPart, kind: WrongKind) -> Str
         );
     }
     if kind == WrongKind::SelfHit {
-        return "start shadow rays off the surface (`hairline spawn` finds how far)".to_owned();
+        return "start shadow rays off the surface (`hairline offset` finds how far)".to_owned();
     }
     (if is_narrow {
         "use f64 or another kernel"

@@ -4,6 +4,7 @@
 use super::answer::{LimitRow, RECOMMENDED, column, limit_rows, scene, title, used};
 use super::record::*;
 use super::words::{human, label, unit_of};
+use crate::arith::ScalarName;
 use crate::audit::Trials;
 use crate::chart::{Chart, ChartMark, LINE, WIDTH, file, text_at, wrapped};
 use crate::page::{Drawing, Picture};
@@ -21,7 +22,7 @@ pub fn write(record: &SceneResult, out: &mut dyn Write) -> io::Result<()> {
     for part in &record.kernels {
         let mut heading = vec![(title(record, part), "this"), (scene(record), "soft")];
         for used in used(record, part) {
-            let parts = used.text.split("  and  ").enumerate();
+            let parts = used.parts.iter().enumerate();
             let words = [used.lead.as_str(), "and"];
             heading.extend(parts.map(|(k, part)| (format!("{} {part}", words[k.min(1)]), "")));
         }
@@ -180,7 +181,7 @@ impl<'a> Draft<'a> {
             .filter_map(|row| Some(number(row.value?)));
         let special = self.tried.iter().map(|(value, _)| *value).chain(limits);
         // What is next to zero needs no decades of its own.
-        let least = if self.part.scalar == "f32" {
+        let least = if self.part.scalar == ScalarName::F32 {
             1e-30
         } else {
             1e-200

@@ -9,6 +9,7 @@ use super::record::{
     RayCount, Rays, SceneKernelPart, SceneRecord, SceneResult, Stratum, TriedPart, WrongKind,
 };
 use super::words::{how_to_read, of_unit, share};
+use crate::arith::ScalarName;
 use crate::lists::alike;
 use crate::page::{Block, Command, Head, Page, Row, Table};
 use hairline_record::Rate;
@@ -36,7 +37,7 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
         None => record.sources.join(", "),
     };
     let mut blocks: Vec<Block> = few_rays(record).map(Block::Text).into_iter().collect();
-    let all = ["f32", "f64"].map(|scalar| (scalar, ranked(record, scalar)));
+    let all = ScalarName::ALL.map(|scalar| (scalar, ranked(record, scalar)));
     let scalars = all.iter().filter(|(_, rows)| !rows.is_empty()).count();
     // About as many lines as a screen has.
     let most = if scalars == 1 { 6 } else { 3 };
@@ -48,7 +49,7 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
                 .then(|| Block::text(fitness(record, best.0.0))),
         );
         let heads = [
-            *scalar,
+            scalar.name(),
             "cost",
             "leaks",
             "lost inside",
@@ -104,7 +105,7 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
 }
 
 /// The kernels of a scalar, the cheapest first, each with those that were wrong as often with the same numbers.
-fn ranked<'a>(record: &'a SceneResult, scalar: &str) -> Vec<(Best<'a>, Vec<Best<'a>>)> {
+fn ranked<'a>(record: &'a SceneResult, scalar: ScalarName) -> Vec<(Best<'a>, Vec<Best<'a>>)> {
     let best = |part: &'a SceneKernelPart| match &part.relative {
         Some(relative) if is_scale_free_better(record, part) => relative,
         _ => &part.tried[0],
@@ -142,7 +143,7 @@ fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
         cell(|count| count.kind == WrongKind::SelfHit),
         whole
             .provenance
-            .nanoseconds(&part.scalar, &part.kernel)
+            .nanoseconds(part.scalar, &part.kernel)
             .map_or("-".to_owned(), |time| format!("{time:.0}")),
     ];
     let used = used(&whole.result, part).into_iter().next();
@@ -152,7 +153,7 @@ fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
         } else {
             "no numbers are good; least bad:"
         };
-        format!("{lead} {}", used.text)
+        format!("{lead} {}", used.parts.join("  and  "))
     });
     let names: Vec<&str> = like.iter().map(|(part, _)| part.kernel.as_str()).collect();
     let alike = format!("as often wrong with the same numbers: {}", names.join(", "));

@@ -1,7 +1,9 @@
 //! The findings of a study of epsilons, as its record holds them.
 
-use crate::SegmentsPart;
+use crate::arith::ScalarName;
 pub(super) use crate::family::Stratum;
+use crate::kernel::{Dimension, Role};
+use crate::segments::SegmentsPart;
 use hairline_record::{Rate, Record};
 pub(super) use hairline_study::epsilon::{RayCount, Rays, WrongKind};
 use std::collections::BTreeMap;
@@ -94,8 +96,8 @@ pub struct SceneKernelPart {
     pub kernel: String,
     /// The flag that chooses it.
     pub selector: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// The scalar.
+    pub scalar: ScalarName,
     /// The contract that the kernel is judged by.
     pub contract: String,
     /// The contract in the words of `--contract`; absent if it is the kernel's own.
@@ -155,12 +157,17 @@ pub struct KnobPart {
     pub name: String,
     /// True if it is a gate's epsilon, which `--epsilon` takes.
     pub is_gate: bool,
-    /// The role of the number: `parallel`, `t`, `edge` or `other`.
-    pub role: String,
+    /// The cases that it is there to refuse: `parallel`, `t`, `edge` or `other`.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub role: Role,
     /// The condition under which the gate refuses, with the number as `e`; none for `t_min`.
     pub refuses: Option<String>,
+    /// The same as the kernel's source prints it, where it has other words for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub printed: Option<String>,
     /// The powers of length and of |d| in what is compared with it.
-    pub dimension: [i8; 2],
+    #[cfg_attr(feature = "schema", schemars(with = "[i8; 2]"))]
+    pub dimension: Dimension,
     /// The form without a unit, if it has one: `e * L^2 * |d|`.
     pub form: Option<String>,
 }

@@ -4,6 +4,7 @@ use super::answer::is_scale_free_better;
 use super::record::*;
 use super::standing::standing;
 use super::words::of_unit;
+use crate::arith::ScalarName;
 use std::io::{self, Write};
 
 /// A language of kernels.
@@ -47,7 +48,7 @@ pub(super) fn write(
             writeln!(
                 out,
                 "{}",
-                constant(language, &part.scalar, knob, value, form)
+                constant(language, part.scalar, knob, value, form)
             )?;
         }
         if follows {
@@ -72,23 +73,15 @@ fn name(knob: &KnobPart) -> String {
 /// One number with its comparison, as the kernel's listing has it; with what it is multiplied by, if its form says.
 fn constant(
     language: SnippetLanguage,
-    scalar: &str,
+    scalar: ScalarName,
     knob: &KnobPart,
     value: &str,
     form: Option<&String>,
 ) -> String {
     let name = name(knob);
     let compared = form.map_or(name.clone(), |form| form.replacen('e', &name, 1));
-    let comparison = match &knob.refuses {
-        // `abs(det) < e (printed det > -e && det < e)`
-        Some(refuses) => {
-            let printed = refuses
-                .split_once("(printed ")
-                .map_or(refuses.as_str(), |(_, printed)| {
-                    printed.trim_end_matches(')')
-                });
-            format!("refuse where {}", with_name(printed, &compared))
-        }
+    let comparison = match knob.printed.as_ref().or(knob.refuses.as_ref()) {
+        Some(refuses) => format!("refuse where {}", with_name(refuses, &compared)),
         None => format!("count a hit only where t >= {compared}"),
     };
     // C, GLSL and Rust all want a point or an exponent in a float.
@@ -99,10 +92,10 @@ fn constant(
         format!("{value}.0")
     };
     let constant = match (language, scalar) {
-        (SnippetLanguage::C, "f32") => format!("static const float {name} = {number}f;"),
+        (SnippetLanguage::C, ScalarName::F32) => format!("static const float {name} = {number}f;"),
         (SnippetLanguage::C, _) => format!("static const double {name} = {number};"),
         (SnippetLanguage::Rust, scalar) => format!("const {name}: {scalar} = {number};"),
-        (SnippetLanguage::Glsl, "f32") => format!("const float {name} = {number};"),
+        (SnippetLanguage::Glsl, ScalarName::F32) => format!("const float {name} = {number};"),
         (SnippetLanguage::Glsl, _) => format!("const double {name} = {number}lf;"),
     };
     format!("{constant}  // {comparison}")
@@ -128,6 +121,7 @@ fn with_name(comparison: &str, name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::{Dimension, Role};
 
     #[test]
     fn an_epsilon_has_its_name_where_the_comparison_has_it() {
@@ -136,31 +130,39 @@ mod tests {
         let knob = KnobPart {
             name: "parallel".to_owned(),
             is_gate: true,
-            role: "parallel".to_owned(),
-            refuses: Some("abs(det) < e (printed det > -e && det < e)".to_owned()),
-            dimension: [2, 1],
+            role: Role::Parallel,
+            refuses: Some("abs(det) < e".to_owned()),
+            printed: Some("det > -e && det < e".to_owned()),
+            dimension: Dimension::DETERMINANT,
             form: None,
         };
         let of = |language, scalar| constant(language, scalar, &knob, "5e-10", None);
         let comparison = "  // refuse where det > -PARALLEL_EPSILON && det < PARALLEL_EPSILON";
         assert_eq!(
-            of(SnippetLanguage::C, "f32"),
+            of(SnippetLanguage::C, ScalarName::F32),
             format!("static const float PARALLEL_EPSILON = 5e-10f;{comparison}")
         );
         assert_eq!(
-            of(SnippetLanguage::Rust, "f64"),
+            of(SnippetLanguage::Rust, ScalarName::F64),
             format!("const PARALLEL_EPSILON: f64 = 5e-10;{comparison}")
         );
         let form = "e * L^4".to_owned();
-        let text = constant(SnippetLanguage::C, "f32", &knob, "-2e-3", Some(&form));
+        let text = constant(
+            SnippetLanguage::C,
+            ScalarName::F32,
+            &knob,
+            "-2e-3",
+            Some(&form),
+        );
         assert!(text.ends_with("det < PARALLEL_EPSILON * L^4"), "{text}");
         let least = KnobPart {
             name: "t_min".to_owned(),
             is_gate: false,
             refuses: None,
+            printed: None,
             ..knob.clone()
         };
-        let text = constant(SnippetLanguage::Glsl, "f32", &least, "0", None);
+        let text = constant(SnippetLanguage::Glsl, ScalarName::F32, &least, "0", None);
         assert_eq!(
             text,
             "const float T_MIN = 0.0;  // count a hit only where t >= T_MIN"

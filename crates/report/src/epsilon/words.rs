@@ -1,9 +1,9 @@
 //! The names that people use for the strata and kinds of a scene, its numbers and its units; and what they mean.
 
 use super::record::*;
-use crate::arith::{Float, smallest_normal};
+use crate::arith::{Float, ScalarName, smallest_normal};
 use crate::case::ShortNumber;
-use crate::kernel::Role;
+use crate::kernel::{Dimension, Role};
 use crate::page::Block;
 use hairline_record::Rate;
 use hairline_record::group_digits;
@@ -169,19 +169,20 @@ pub(super) fn meaning(
 ) -> Option<String> {
     let value: f64 = epsilon.parse().ok().filter(|value| *value != 0.0)?;
     let unit = spaced(&record.unit);
-    if !record.has_scene() && knob.dimension != [0, 0] {
+    if !record.has_scene() && knob.dimension.has_unit() {
         return None;
     }
-    match (knob.role.as_str(), knob.dimension) {
-        ("t", [1, -1]) => {
+    match (knob.role, knob.dimension) {
+        (Role::T, Dimension::T) => {
             let least = format!("{}{}", human(epsilon), unit_of_t(record));
-            let instead = match record.has_scene() {
-                true => "; a moved start needs none: see spawn",
-                false => "",
+            let instead = if record.has_scene() {
+                " (for shadow rays see `offset`)"
+            } else {
+                ""
             };
             Some(format!("nothing nearer than {least} is hit{instead}"))
         }
-        ("parallel", [2, 1]) if record.unit_directions && 0.0 < value => {
+        (Role::Parallel, Dimension::DETERMINANT) if record.unit_directions && 0.0 < value => {
             if let Some(shape) = part.least_shape {
                 return Some(match value / shape {
                     small if small < 1.0 => {
@@ -209,13 +210,15 @@ pub(super) fn meaning(
                 _ => format!("the smallest triangles {flattest} are never hit"),
             })
         }
-        ("parallel", [0, 1]) if record.unit_directions && 0.0 < value && value < 1.0 => {
+        (Role::Parallel, Dimension::DIRECTION)
+            if record.unit_directions && 0.0 < value && value < 1.0 =>
+        {
             Some(format!(
                 "every triangle is missed at angles below {}",
                 degrees(value)
             ))
         }
-        ("edge", [0, 0]) => {
+        (Role::Edge, Dimension::NONE) => {
             let size = human(&format!("{:e}", value.abs()));
             let most = human(&format!("{:.0e}", value.abs() * record.edge[1]));
             let largest = match record.has_scene() {
@@ -224,13 +227,13 @@ pub(super) fn meaning(
             };
             Some(match value < 0.0 {
                 true => format!(
-                    "rays up to {size} of a triangle's size beside it hit it (corners: twice{largest}); at edges both"
+                    "rays up to {size} of a triangle's size beside it hit it (corners: twice{largest}); so both faces of an edge are hit"
                 ),
                 false => format!("rays up to {size} of a triangle's size inside it miss it"),
             })
         }
         // An absolute number beside what the smallest triangles have.
-        ("edge", [length, _]) if 0 < length => {
+        (Role::Edge, Dimension { length, .. }) if 0 < length => {
             let share = value.abs() / record.edge[0].powi(i32::from(length));
             let size = human(&format!("{share:.0e}"));
             let whose = format!(
@@ -338,9 +341,10 @@ pub(super) fn number(text: Option<&String>) -> Option<f64> {
 
 /// The unit of a knob.
 pub(super) fn unit_of(record: &SceneResult, knob: &KnobPart) -> String {
-    match (knob.role.as_str(), record.unit_directions) {
-        ("t", true) => spaced(&record.unit),
-        _ => String::new(),
+    if knob.role == Role::T && record.unit_directions {
+        spaced(&record.unit)
+    } else {
+        String::new()
     }
 }
 
@@ -368,15 +372,15 @@ pub fn shortest<F: Float>(epsilon: F) -> String {
 }
 
 /// True if an epsilon is below the normal numbers of its scalar.
-fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
+fn is_subnormal(scalar: ScalarName, epsilon: &str) -> bool {
     epsilon
         .parse()
         .is_ok_and(|e: f64| e != 0.0 && e.abs() < least_normal(scalar))
 }
 
 /// The smallest normal number of the scalar of a name.
-pub(super) fn least_normal(scalar: &str) -> f64 {
-    if scalar == f32::NAME {
+pub(super) fn least_normal(scalar: ScalarName) -> f64 {
+    if scalar == ScalarName::F32 {
         smallest_normal::<f32>()
     } else {
         smallest_normal::<f64>()
@@ -436,7 +440,7 @@ pub(super) fn how_to_read(record: &SceneResult) -> Vec<Block> {
         }
         let values = part.limits.iter().filter_map(|limit| limit.value.as_ref());
         let subnormal = values
-            .filter(|value| is_subnormal(&part.scalar, value))
+            .filter(|value| is_subnormal(part.scalar, value))
             .map(|value| {
                 format!(
                     "{value} is a subnormal number, which machines that flush to zero take for 0"

@@ -6,7 +6,7 @@ use super::near::{Nearby, add_relations};
 use super::nearest::nearest;
 use super::verdict::{Together, group_verdict, number, plain, short, verdict_of};
 use super::{ExplainedGate, ExplainedRow, Explanation, InstancePart, TogetherPart, TrianglePart};
-use crate::arith::{Exact, Float};
+use crate::arith::{Exact, Float, ScalarName};
 use crate::audit::{
     Attribution, Errors, Row, attribute, attribute_by_running, exact_severity, polygon_verdict,
 };
@@ -74,7 +74,7 @@ fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
         ..StoredCase::of(*case)
     };
     let line = lines::write_case(&stored);
-    let truth = oracle::define(case).truth;
+    let Definition { truth, exact, .. } = oracle::define(case);
     // In the plane of the triangle there is no such distance.
     let from_boundary = exact_severity(case, Extent::Interval)
         .filter(|_| truth.crossing().is_some())
@@ -89,9 +89,24 @@ fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
             Some(reason) => format!("{truth}: {reason}"),
             None => truth.to_string(),
         },
+        fractions: fractions(&exact),
         inputs,
         interval: [case.ray.t_min, case.ray.t_max].map(|t| [number(t), t.hex()]),
     }
+}
+
+/// Those of t, u and v that are no integers, by name.
+fn fractions(exact: &ExactValues) -> Vec<(&'static str, f64)> {
+    let values = [("t", &exact.t), ("u", &exact.u), ("v", &exact.v)];
+    let mut fractions = Vec::new();
+    for (name, value) in values {
+        let Some(value) = value.as_ref().filter(|value| !value.is_integer()) else {
+            continue;
+        };
+        let number = value.to_f64().filter(|number| number.is_finite());
+        fractions.extend(number.map(|number| (name, number)));
+    }
+    fractions
 }
 
 /// The answers of the rows held against the exact instance in the world.
@@ -192,15 +207,15 @@ fn polygon_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart
         .instance
         .map_or(row.entry.info.gives, |_| Gives::NOTHING);
     let finding = judge(asked, union, gives, &verdict);
-    let judged = answered(owed, &verdict, finding).judged();
-    let (said, judged) = judged.split_once("; ").unwrap_or(("", &judged));
+    let answer = answered(owed, &verdict, finding);
+    let corners = cases.len() + 2;
     Some(TogetherPart {
         row: row.label(),
         said: format!(
-            "the polygon of {} corners as a whole: {said}",
-            cases.len() + 2
+            "the polygon of {corners} corners as a whole: {}",
+            answer.said
         ),
-        judged: judged.to_owned(),
+        judged: answer.judgement(),
         advice: String::new(),
         is_wrong: finding.is_some(),
     })
@@ -221,6 +236,7 @@ fn answered<F>(owed: Obligation, verdict: &Verdict<F>, finding: Option<Finding>)
         said,
         asked,
         finding: finding.map(Finding::name),
+        runs: true,
         ..ExplainedRow::default()
     }
 }
@@ -230,10 +246,14 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
     let (kernel, set) = (row.entry.info.name.to_owned(), row.set.clone());
     let contract = row.contract.describe();
     let Some(subject) = F::subject(row.entry) else {
-        let others = ["f32", "f64"].into_iter().zip(row.entry.scalars());
-        let others = others.filter(|(_, runs)| *runs).map(|(scalar, _)| scalar);
-        let others = others.collect::<Vec<_>>().join(", ");
-        let said = format!("does not run in {} (it does in {others})", F::NAME);
+        let others: Vec<&str> = ScalarName::among(row.entry.scalars())
+            .map(ScalarName::name)
+            .collect();
+        let said = format!(
+            "does not run in {} (it does in {})",
+            F::NAME,
+            others.join(", ")
+        );
         return ExplainedRow {
             kernel,
             set,
@@ -268,7 +288,10 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
             Some(_) => attribute(subject, case, &epsilons, &truth, asked),
             None => attribute_by_running(subject, info, case, &epsilons, &truth, asked),
         };
-        part.why = Some(in_words(cause, subject.gated().is_some()).to_owned());
+        part.why = Some(in_words(cause, subject.gated().is_some()));
+        part.cause = cause
+            .map_or("cannot be told", Attribution::in_short)
+            .to_owned();
         part.advice = advice(case, is_secondary, row, (finding, cause), &verdict);
         if subject.gated().is_none()
             && let Some(nearby) = Nearby::of(case, row)
@@ -289,17 +312,18 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> Explain
     part
 }
 
-fn in_words(cause: Option<Attribution>, shows_gates: bool) -> &'static str {
-    match (cause, shows_gates) {
+fn in_words(cause: Option<Attribution>, shows_gates: bool) -> String {
+    let why_not = match (cause, shows_gates) {
         (Some(Attribution::Epsilon), false) => {
-            "epsilon (with every epsilon 0 it is right, and wrong with these)"
+            return "epsilon (with every epsilon 0 it is right, and wrong with these)".to_owned();
         }
-        (Some(cause), _) => cause.describe(),
-        (None, true) => "cannot be told: it does not run in exact arithmetic",
+        (Some(cause), _) => return cause.describe(),
+        (None, true) => "it does not run in exact arithmetic",
         (None, false) => {
-            "cannot be told: it does not show its formula, and has no epsilons at which it could be run otherwise"
+            "it does not show its formula, and has no epsilons at which it could be run otherwise"
         }
-    }
+    };
+    format!("cannot be told: {why_not}")
 }
 
 /// The epsilons that the kernel was given, where it does not show its gates, and the margins that runs at other
@@ -343,6 +367,7 @@ fn add_epsilons<F: Scalar>(
             margin: accepted,
             decision: decides.then_some("refuses"),
             decides,
+            is_fixed: margin.to_f64().is_infinite(),
             ..ExplainedGate::default()
         });
     }
@@ -381,6 +406,7 @@ fn add_gates<F: Scalar>(
             decision: Some(word(margin >= e)),
             exactly,
             decides: verdict.refused_by == Some(i as u8),
+            is_fixed: gate.epsilon != Tunable::Fixed && margin.to_f64().is_infinite(),
         });
     }
     part.without_rounding = Some(if exact_run.hit() { "hit" } else { "miss" });

@@ -10,6 +10,7 @@ mod other_epsilon;
 mod page;
 mod verdict;
 
+use crate::arith::ScalarName;
 pub use build::explain;
 pub use nearest::misused_formula;
 pub use verdict::Together;
@@ -26,7 +27,7 @@ pub struct Explanation {
     /// Its id or name, or `this case`.
     pub case: String,
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    pub scalar: ScalarName,
     /// Each triangle with the ray.
     pub triangles: Vec<TrianglePart>,
     /// The rows on all triangles together; none of a single one.
@@ -51,6 +52,9 @@ pub struct TrianglePart {
     /// The exact answer in words.
     #[serde(skip)]
     pub in_words: String,
+    /// Those of the exact t, u and v that are no integers, by name: the nearest doubles.
+    #[serde(skip)]
+    pub fractions: Vec<(&'static str, f64)>,
     /// The vectors in numbers and in bits, each with its name.
     #[serde(skip)]
     pub inputs: Vec<[String; 5]>,
@@ -93,6 +97,12 @@ pub struct ExplainedRow {
     pub without_rounding: Option<&'static str>,
     /// The cause, if it is wrong.
     pub why: Option<String>,
+    /// The same in a word or two.
+    #[serde(skip)]
+    pub cause: String,
+    /// True if the kernel runs in the scalar of the case.
+    #[serde(skip)]
+    pub runs: bool,
     /// The changes that make it right here, each tried.
     pub advice: Vec<String>,
     /// The values of a hit, and how far they are off.
@@ -118,6 +128,9 @@ pub struct ExplainedGate {
     pub decision: Option<&'static str>,
     /// The decision without rounding.
     pub exactly: Option<&'static str>,
+    /// True if its decision is the same at every epsilon.
+    #[serde(skip)]
+    pub is_fixed: bool,
     /// True if this gate made the verdict.
     pub decides: bool,
 }
@@ -145,6 +158,11 @@ impl ExplainedRow {
 
     /// The verdict beside what is asked, in words.
     pub fn judged(&self) -> String {
+        format!("{}; {}", self.said, self.judgement())
+    }
+
+    /// The contract's demand, and if it is kept.
+    pub fn judgement(&self) -> String {
         let judged = self
             .finding
             .map_or("as it should".to_owned(), str::to_uppercase);
@@ -152,10 +170,7 @@ impl ExplainedRow {
             Some("wrong-value" | "bad-value") => ", and of a hit right values",
             _ => "",
         };
-        format!(
-            "{}; its contract asks {}{of_hits}: {judged}",
-            self.said, self.asked
-        )
+        format!("its contract asks {}{of_hits}: {judged}", self.asked)
     }
 
     /// The gate that made the verdict.

@@ -70,7 +70,8 @@ pub(super) fn add_relations(
 ) {
     match cause {
         None | Some(Attribution::NotEpsilon) if !relations.is_empty() => {
-            part.why = Some(relations.join("; "));
+            part.cause = relations.join("; ");
+            part.why = Some(part.cause.clone());
         }
         _ => part.notes.extend(relations),
     }

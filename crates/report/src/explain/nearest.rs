@@ -135,10 +135,7 @@ fn here<F: Scalar>(
         .map(|i| row.entry.info.gates[usize::from(i)]);
     let does = match gate {
         None => "hits".to_owned(),
-        Some(gate) => {
-            let compares = gate.refuses.split(" (printed").next().unwrap_or_default();
-            format!("refuses by its gate {} ({compares})", gate.name)
-        }
+        Some(gate) => format!("refuses by its gate {} ({})", gate.name, gate.refuses),
     };
     if answer.hit != verdict.hit {
         return Some(format!(

@@ -246,22 +246,11 @@ fn in_world(instance: &InstancePart) -> String {
 
 /// The exact values, where there are any: fractions are approximated.
 fn exact(triangle: &TrianglePart) -> String {
-    let truth = &triangle.truth;
-    let values = [
-        ("t", &truth.t_exact),
-        ("u", &truth.u_exact),
-        ("v", &truth.v_exact),
-    ];
-    let number = |text: &str| -> Option<f64> {
-        let (p, q) = text.split_once('/')?;
-        Some(p.parse::<f64>().ok()? / q.parse::<f64>().ok()?)
-    };
-    let values = values.iter().filter_map(|(name, value)| {
-        let text = value.as_ref()?.as_ref()?;
-        let number = number(text).filter(|number| number.is_finite())?;
-        Some(format!("{name} = {}", verdict::number(number)))
-    });
-    let values: Vec<String> = values.collect();
+    let values: Vec<String> = triangle
+        .fractions
+        .iter()
+        .map(|(name, value)| format!("{name} = {}", verdict::number(*value)))
+        .collect();
     if values.is_empty() {
         String::new()
     } else {
@@ -270,9 +259,10 @@ fn exact(triangle: &TrianglePart) -> String {
 }
 
 fn sentence(row: &ExplainedRow) -> String {
-    match row.said.starts_with("does not run") {
-        true => format!("{}: {}", row.label(), row.said),
-        false => format!("{}: {}", row.label(), row.judged()),
+    if row.runs {
+        format!("{}: {}", row.label(), row.judged())
+    } else {
+        format!("{}: {}", row.label(), row.said)
     }
 }
 
@@ -336,11 +326,7 @@ fn gates(row: &ExplainedRow, is_first: bool) -> Table {
     let text = |value: &Option<String>| value.as_deref().map_or("-".to_owned(), plain);
     let table_row = |gate: &ExplainedGate| {
         let mut decision = gate.decision.unwrap_or("-").to_owned();
-        if gate
-            .margin
-            .as_deref()
-            .is_some_and(|margin| margin.ends_with("inf"))
-        {
+        if gate.is_fixed {
             decision += " at every e";
         }
         let is_wrong = matches!((gate.decision, gate.exactly), (Some(a), Some(b)) if a != b);
@@ -399,11 +385,6 @@ fn all_rows(rows: &[ExplainedRow]) -> Table {
             (_, Some(finding)) => finding.to_uppercase(),
             _ => "right".to_owned(),
         };
-        let cause = row
-            .why
-            .as_ref()
-            .and_then(|why| why.split(" (").next())
-            .unwrap_or_default();
         let gate = row.decisive().map_or("", |gate| gate.gate);
         let is_broken = row.finding.is_some();
         let cells: [Cell; 4] = [
@@ -414,7 +395,7 @@ fn all_rows(rows: &[ExplainedRow]) -> Table {
                 share: None,
             },
             gate.to_owned().into(),
-            cause.to_owned().into(),
+            row.cause.clone().into(),
         ];
         Row::new(row.label(), cells)
     };

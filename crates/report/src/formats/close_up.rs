@@ -85,7 +85,7 @@ fn gates(line: &RowLine) -> Vec<String> {
 fn table(columns: &[Column], lines: &[&RowLine]) -> Table {
     let scalars = || lines.iter().map(|line| line.row.scalar);
     let mut heads = vec![Head::of(if lines.len() == 1 {
-        lines[0].row.scalar
+        lines[0].row.scalar.name()
     } else {
         "cases"
     })];

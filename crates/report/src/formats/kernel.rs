@@ -171,7 +171,7 @@ fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
     };
     let heads = [all]
         .into_iter()
-        .chain(views.iter().map(|view| view.scalar.to_owned()));
+        .chain(views.iter().map(|view| view.scalar.to_string()));
     let mut rows = Vec::new();
     for (name, get) in COUNTED {
         let pools: Vec<Pool> = views.iter().map(|view| view.total(get)).collect();
@@ -187,7 +187,7 @@ fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
     }
     let label = part.label();
     let time = |view: &RowView| {
-        let times = record.provenance.kernel_nanoseconds.get(view.scalar)?;
+        let times = record.provenance.kernel_nanoseconds.get(&view.scalar)?;
         times.get(&label).map(|time| format!("{time:.1}"))
     };
     let is_emulated = part.kernel.contains('+');

@@ -2,6 +2,7 @@
 
 use super::columns::{AcrossColumn, Column, ColumnCell, kinds};
 use super::row_view::{RateOf, RowView, cases_in};
+use crate::arith::ScalarName;
 use crate::page::Block;
 use hairline_record::group_digits;
 use hairline_record::*;
@@ -26,7 +27,7 @@ impl RowLine<'_> {
 /// Every row in every scalar that has cases.
 pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<RowLine<'a>> {
     let own = kinds(record)[0];
-    let in_scalar = |scalar: &'a String| {
+    let in_scalar = |scalar: ScalarName| {
         let rows = RowView::all(record, scalar).into_iter();
         rows.map(move |row| RowLine {
             cells: columns
@@ -38,9 +39,9 @@ pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<RowLine<'
             row,
         })
     };
-    let scalars = record.result.plan.scalars.iter();
+    let scalars = record.result.plan.scalars.iter().copied();
     scalars
-        .filter(|scalar| 0 < cases_in(record, scalar))
+        .filter(|scalar| 0 < cases_in(record, *scalar))
         .flat_map(in_scalar)
         .collect()
 }
@@ -78,7 +79,7 @@ pub(super) fn notes(record: &Record) -> Vec<Block> {
              direction as given, u is the weight of b, v that of c.",
         ),
     ];
-    let scalars = record.result.plan.scalars.iter();
+    let scalars = record.result.plan.scalars.iter().copied();
     for row in scalars.flat_map(|scalar| RowView::all(record, scalar)) {
         let label = format!("{}, {}", row.part.label(), row.scalar);
         for (rate, with) in values {

@@ -3,6 +3,7 @@
 use super::columns::{Column, short_percent};
 use super::lines::RowLine;
 use super::standing::{Standing, share, standings};
+use crate::arith::ScalarName;
 use crate::lists::{alike, listed};
 use crate::page::{Block, Cell, Head, Row, Table};
 use hairline_record::group_digits;
@@ -142,20 +143,14 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
 
 /// The table, and what its columns hold.
 pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]) -> Vec<Block> {
-    let scalars: Vec<&str> = record
-        .result
-        .plan
-        .scalars
-        .iter()
-        .map(String::as_str)
-        .collect();
+    let scalars = &record.result.plan.scalars;
     let worse = match scalars.len() {
         1 => "",
         _ => " in the worse of the scalars",
     };
     let others =
         format!("Other cells: % wrong{worse} on rays aimed at hard places, not of your pixels.");
-    let table = table(record, "kernel", columns, standings, &scalars);
+    let table = table(record, "kernel", columns, standings, scalars);
     vec![Block::Table(table.at_most(MOST)), Block::Text(others)]
 }
 
@@ -177,7 +172,7 @@ fn table(
     head: &str,
     columns: &[Column],
     standings: &[Standing],
-    scalars: &[&str],
+    scalars: &[ScalarName],
 ) -> Table {
     let place = |column: &Column| ORDER.iter().position(|name| *name == column.label());
     let mut order: Vec<usize> = (0..columns.len()).collect();
@@ -243,8 +238,9 @@ fn table(
             });
         }
         for scalar in scalars {
-            let times = record.provenance.kernel_nanoseconds.get(*scalar);
-            let time = times.and_then(|times| times.get(&standing.part.label()));
+            let time = record
+                .provenance
+                .nanoseconds(*scalar, &standing.part.label());
             cells.push(
                 time.map_or("-".to_owned(), |time| format!("{time:.0}"))
                     .into(),

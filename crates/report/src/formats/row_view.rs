@@ -1,6 +1,7 @@
 //! A record by kernel row, as the text walks through it.
 
 use super::pool::Pool;
+use crate::arith::ScalarName;
 use hairline_record::counts_alone;
 use hairline_record::group_digits;
 use hairline_record::*;
@@ -44,7 +45,7 @@ pub(super) const WRONG: [(FindingKind, RateOf); 2] = [
 /// All families of one kernel row in one scalar.
 pub(super) struct RowView<'a> {
     pub(super) part: &'a RowPart,
-    pub(super) scalar: &'a str,
+    pub(super) scalar: ScalarName,
     pub(super) total: Option<&'a RowTotal>,
     pub(super) results: Vec<&'a KernelResult>,
     pub(super) sources: &'a [SourcePart],
@@ -52,7 +53,7 @@ pub(super) struct RowView<'a> {
 
 impl<'a> RowView<'a> {
     /// Every row of a record in a scalar.
-    pub(super) fn all(record: &'a Record, scalar: &'a str) -> Vec<RowView<'a>> {
+    pub(super) fn all(record: &'a Record, scalar: ScalarName) -> Vec<RowView<'a>> {
         let ResultPart {
             plan,
             sources,
@@ -144,7 +145,7 @@ pub(super) fn failures(rows: &[&RowView]) -> Vec<String> {
 }
 
 /// The rays of a record in a scalar: a case is a ray and one of its triangles.
-pub(super) fn rays_in(record: &Record, scalar: &str) -> u64 {
+pub(super) fn rays_in(record: &Record, scalar: ScalarName) -> u64 {
     let sources = record
         .result
         .sources
@@ -154,7 +155,7 @@ pub(super) fn rays_in(record: &Record, scalar: &str) -> u64 {
 }
 
 /// The cases of a record in a scalar.
-pub(super) fn cases_in(record: &Record, scalar: &str) -> u64 {
+pub(super) fn cases_in(record: &Record, scalar: ScalarName) -> u64 {
     let sources = record
         .result
         .sources

@@ -7,6 +7,7 @@ use super::lines::{RowLine, notes};
 use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid, rays_in};
 use super::standing::{Standing, standings};
 use super::{close_up, extremes, ranking, relations};
+use crate::arith::ScalarName;
 use crate::case::SceneKind;
 use crate::elsewhere::{self, ComparedRates};
 use crate::kernel;
@@ -32,7 +33,7 @@ pub(super) fn blocks(
     let mut blocks = vec![Block::Text(rest), Block::Text(head(record))];
     blocks.extend(notes(record));
     blocks.extend(shared_in_scenes(record).map(Block::text));
-    for scalar in &record.result.plan.scalars {
+    for scalar in record.result.plan.scalars.iter().copied() {
         let cases = cases_in(record, scalar);
         if 0 < cases && is_all_invalid(&RowView::all(record, scalar), cases) {
             blocks.push(Block::Text(format!("{scalar}: {ALL_INVALID}")));
@@ -69,13 +70,13 @@ fn diagnosed(record: &Record, answer: (String, String)) -> (String, String) {
 /// Which kernels ran, and on how many cases.
 fn head(record: &Record) -> String {
     let (result, provenance) = (&record.result, &record.provenance);
-    let counted = |scalar: &String| [cases_in(record, scalar), rays_in(record, scalar)];
+    let counted = |scalar: ScalarName| [cases_in(record, scalar), rays_in(record, scalar)];
     // Usually as many in each scalar.
     let mut counts: Vec<([u64; 2], Vec<&str>)> = Vec::new();
-    for scalar in &result.plan.scalars {
+    for scalar in result.plan.scalars.iter().copied() {
         match counts.last_mut() {
-            Some((count, names)) if *count == counted(scalar) => names.push(scalar),
-            _ => counts.push((counted(scalar), vec![scalar])),
+            Some((count, names)) if *count == counted(scalar) => names.push(scalar.name()),
+            _ => counts.push((counted(scalar), vec![scalar.name()])),
         }
     }
     let counts = counts.iter().map(|([cases, rays], names)| {
@@ -344,21 +345,9 @@ fn next(record: &Record, best: Option<&RowPart>, lines: &[RowLine]) -> Vec<Comma
             what: "one kernel",
         });
     }
-    // No epsilon is chosen in instances.
-    if let Some(tuned) = tuned.filter(|_| !all_sources.contains(" --instance ")) {
-        // `epsilon` knows no rays at a mesh's edges, and takes a scene whole.
-        let sources = all_sources
-            .split(" --directions")
-            .next()
-            .unwrap_or_default();
-        let sources = if sources.contains(" --scene ") {
-            without_families(sources)
-        } else {
-            sources.to_owned()
-        };
-        let line = format!("hairline epsilon {}{sources}", tuned.selector);
+    if let (Some(tuned), Some(sources)) = (tuned, &flags.epsilon) {
         commands.push(Command {
-            line,
+            line: format!("hairline epsilon {}{}", tuned.selector, spaced(sources)),
             what: "choose an epsilon",
         });
     }
@@ -368,14 +357,4 @@ fn next(record: &Record, best: Option<&RowPart>, lines: &[RowLine]) -> Vec<Comma
         what: "gate a CI; writes files",
     });
     commands
-}
-
-/// Flags without the families among them.
-fn without_families(flags: &str) -> String {
-    let words: Vec<&str> = flags.split(' ').collect();
-    let is_of_family = |i: &usize| words[*i] == "--family" || 0 < *i && words[i - 1] == "--family";
-    let kept = (0..words.len())
-        .filter(|i| !is_of_family(i))
-        .map(|i| words[i]);
-    kept.collect::<Vec<_>>().join(" ")
 }

@@ -206,6 +206,7 @@ fn signed(number: i64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arith::ScalarName;
     use crate::page::html::tests::{conformance, deviation};
 
     #[test]
@@ -235,7 +236,7 @@ mod tests {
         // Nothing of it is in the run.
         all.stale[1].found.of = 0;
         let mut other = of("tiny", FindingKind::Crack, Some(0), 1);
-        other.scalar = "f64".to_owned();
+        other.scalar = ScalarName::F64;
         all.stale.push(other);
         let expected = "k (k) f32: bad-value 0 (axis-aligned +3, fan -3); false-hit -20 (far -20); false-miss +1,222 (tiny +1,223, far -5, fan +3, 1 more)";
         assert_eq!(net_lines(&all), [expected, "k (k) f64: crack +1 (tiny +1)"]);

@@ -1,5 +1,6 @@
 //! The rows of an audit of a mesh: what a kernel did at the edges, together with what it did at the vertices.
 
+use crate::arith::ScalarName;
 use hairline_record::Rate;
 use hairline_record::*;
 use hairline_study::mesh::AimedPart;
@@ -7,7 +8,7 @@ use hairline_study::mesh::AimedPart;
 /// A kernel row in one scalar.
 pub(super) struct MeshRow<'a> {
     pub part: &'a RowPart,
-    pub scalar: &'a str,
+    pub scalar: ScalarName,
     /// At the edges, and at the vertices.
     pub at: [AtPart<'a>; 2],
 }
@@ -46,7 +47,7 @@ impl<'a> AtPart<'a> {
 /// The rows by scalar, in the order of the plan.
 pub(super) fn rows<'a>(result: &'a ResultPart) -> Vec<MeshRow<'a>> {
     let row = |edges: &'a KernelResult| {
-        let [kernel, set, scalar, _] = edges.place();
+        let [kernel, set, ..] = edges.place();
         let mut of_row = result
             .results
             .iter()
@@ -56,7 +57,7 @@ pub(super) fn rows<'a>(result: &'a ResultPart) -> Vec<MeshRow<'a>> {
         let part = result.plan.rows.iter().find(is_part)?;
         Some(MeshRow {
             part,
-            scalar,
+            scalar: edges.result.scalar,
             at: [edges, vertices],
         })
     };

@@ -82,7 +82,7 @@ pub fn page(record: &Record, mesh: &MeshPart) -> Page {
 
 fn grain(of: &MeshScalar) -> Grain<'_> {
     Grain {
-        scalar: &of.scalar,
+        scalar: of.scalar,
         spacing: of.spacing,
         smallest: of.smallest,
         unit: "",

@@ -59,8 +59,8 @@ impl MarkdownWriter {
             Block::Text(text) if text.is_empty() => String::new(),
             Block::Text(text) => format!("\n{}\n", words(text)),
             Block::Notes(notes) => list(notes),
-            Block::Use(Use { lead, text, notes }) => {
-                let parts: Vec<String> = text.split("  and  ").map(code).collect();
+            Block::Use(Use { lead, parts, notes }) => {
+                let parts: Vec<String> = parts.iter().map(|part| code(part)).collect();
                 format!(
                     "\n**{}** {}\n{}",
                     words(lead),

@@ -81,8 +81,8 @@ pub enum Block {
 pub struct Use {
     /// `use`, `or`, `not`.
     pub lead: String,
-    /// The text to paste; `  and  ` stands between parts.
-    pub text: String,
+    /// The texts to paste, all of which it takes.
+    pub parts: Vec<String>,
     /// Its meaning, a sentence each.
     pub notes: Vec<String>,
 }

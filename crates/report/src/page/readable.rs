@@ -24,7 +24,7 @@ fn make_block_readable(block: &mut Block) {
         Block::Notes(notes) => notes.iter_mut().for_each(make_printable),
         Block::Use(paste) => {
             make_printable(&mut paste.lead);
-            make_pasteable(&mut paste.text);
+            paste.parts.iter_mut().for_each(make_pasteable);
             paste.notes.iter_mut().for_each(make_printable);
         }
         Block::Table(table) => make_table_readable(table),

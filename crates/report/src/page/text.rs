@@ -89,7 +89,8 @@ impl TextWriter<'_> {
             Block::Notes(notes) => notes
                 .iter()
                 .try_for_each(|note| indented(note, ["  ", "    "], width, out)),
-            Block::Use(Use { lead, text, notes }) => {
+            Block::Use(Use { lead, parts, notes }) => {
+                let text = parts.join("  and  ");
                 writeln!(out, "  {bold}{lead:<3}{plain}  {text}")?;
                 let indent = "       ";
                 notes
@@ -226,7 +227,7 @@ mod tests {
             blocks: vec![
                 Block::Use(Use {
                     lead: "use".to_owned(),
-                    text: "--epsilon parallel=1e-12345678".to_owned(),
+                    parts: vec!["--epsilon parallel=1e-12345678".to_owned()],
                     notes: vec!["what it means to you".to_owned()],
                 }),
                 Block::Table(table),

@@ -36,27 +36,36 @@ named! {
 }
 
 impl Attribution {
-    /// The name, and what it means.
-    pub fn describe(self) -> &'static str {
+    /// A word or two for a table.
+    pub fn in_short(self) -> &'static str {
         match self {
+            Attribution::NotEpsilon => "not its epsilons",
+            other => other.name(),
+        }
+    }
+
+    /// In short, and what it means.
+    pub fn describe(self) -> String {
+        let meaning = match self {
             Attribution::Convention => {
-                "convention (without rounding and with every epsilon 0 it is still wrong)"
+                "without rounding and with every epsilon 0 it is still wrong"
             }
             Attribution::Epsilon => {
-                "epsilon (without rounding it is right with every epsilon 0, and wrong with these)"
+                "without rounding it is right with every epsilon 0, and wrong with these"
             }
-            Attribution::Rounding => "rounding (without rounding it is right, epsilons and all)",
+            Attribution::Rounding => "without rounding it is right, epsilons and all",
             Attribution::Range => {
-                "range (without rounding it is right; a number behind the decision overflowed or underflowed)"
+                "without rounding it is right; a number behind the decision overflowed or underflowed"
             }
             Attribution::NotEpsilon => {
-                "not its epsilons (with every epsilon 0 it is wrong too; whether its formula or rounding is to \
-                 blame only the formula tells, and it does not show that)"
+                "with every epsilon 0 it is wrong too; whether its formula or rounding is to blame only the formula \
+                 tells, and it does not show that"
             }
             Attribution::Transform => {
-                "transform (on the ray that it got it is right: the instance's rounded inverse moved that ray)"
+                "on the ray that it got it is right: the instance's rounded inverse moved that ray"
             }
-        }
+        };
+        format!("{} ({meaning})", self.in_short())
     }
 }
 

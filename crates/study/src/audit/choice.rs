@@ -5,7 +5,8 @@ use crate::contract::Contract;
 use crate::kernel::EpsilonText;
 use crate::kernel::{Entry, Gate, KERNELS, PRESETS, Preset, PresetEntry, Tunable, find};
 use crate::suggest::did_you_mean;
-use hairline_core::Error;
+use hairline_core::{Error, ErrorKind};
+use std::collections::BTreeSet;
 
 /// How a plan's epsilons are chosen.
 #[derive(Clone, Debug)]
@@ -19,19 +20,28 @@ pub enum EpsilonChoice {
 }
 
 impl EpsilonChoice {
-    /// From `gate=value,...`; no gate twice.
+    /// From `gate=value,...`.
     pub fn parse(text: &str) -> Result<EpsilonChoice, Error> {
         let pairs = text.split(',').map(|pair| {
-            let (gate, value) = pair
-                .split_once('=')
-                .ok_or_else(|| Error(format!("'{pair}' is not GATE=VALUE, as parallel=1e-6")))?;
+            let (gate, value) = pair.split_once('=').ok_or_else(|| {
+                Error::syntax(format!("'{pair}' is not GATE=VALUE, as parallel=1e-6"))
+            })?;
             Ok((gate.trim().to_owned(), value.trim().to_owned()))
         });
         let pairs: Vec<(String, String)> = pairs.collect::<Result<_, Error>>()?;
-        if let Some(i) = (1..pairs.len()).find(|&i| pairs[..i].iter().any(|p| p.0 == pairs[i].0)) {
-            return Err(Error(format!("gate '{}' is given twice", pairs[i].0)));
-        }
         Ok(EpsilonChoice::Given(pairs))
+    }
+
+    /// An error if a gate is given twice.
+    fn check_names(&self) -> Result<(), Error> {
+        let mut seen = BTreeSet::new();
+        for (gate, _) in self.given() {
+            if !seen.insert(gate) {
+                let line = format!("gate '{gate}' is given twice");
+                return Err(Error::new(ErrorKind::Repeated, line));
+            }
+        }
+        Ok(())
     }
 
     /// The rows of some kernels under this choice; a contract in words ([`Contract::from_words`])
@@ -41,6 +51,7 @@ impl EpsilonChoice {
         entries: &[&'static Entry],
         contract: Option<&str>,
     ) -> Result<Vec<Row>, Error> {
+        self.check_names()?;
         let words = contract.unwrap_or("own");
         let (mut rows, mut left_over) = (Vec::new(), None);
         // Each given epsilon must reach a gate of some kernel.
@@ -151,7 +162,8 @@ fn find_preset(name: &str) -> Result<&'static Preset, Error> {
         .ok_or_else(|| {
             let names = PRESETS.iter().map(|preset| preset.name);
             let advice = did_you_mean(name, names, "hairline list presets");
-            Error(format!("unknown epsilon preset '{name}'{advice}"))
+            let line = format!("unknown epsilon preset '{name}'{advice}");
+            Error::new(ErrorKind::UnknownName, line)
         })
 }
 
@@ -174,15 +186,16 @@ fn unfit(name: &str, left_over: &PresetEntry, entries: &[&'static Entry]) -> Err
         false => format!("; it fits {}", others.join(", ")),
     };
     let (form, gate) = (left_over.form, left_over.gate);
-    Error(format!(
+    let line = format!(
         "preset '{name}' refuses where {form}, and no gate of {of} is a '{gate}' of that dimension{advice}"
-    ))
+    );
+    Error::new(ErrorKind::Unsupported, line)
 }
 
 /// An epsilon that a gate can take.
 fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, Error> {
     let epsilon = EpsilonText::of(text).ok_or_else(|| {
-        Error(format!(
+        Error::syntax(format!(
             "'{text}' is not an epsilon for gate '{}'",
             gate.name
         ))
@@ -194,19 +207,22 @@ fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, Error> 
             Some(_) if plain != text => format!("; write {plain}, without a suffix"),
             _ => String::new(),
         };
-        return Err(Error(format!(
+        return Err(Error::syntax(format!(
             "'{text}' is not an epsilon for gate '{name}': expected a finite decimal number or k*EPSILON{advice}"
         )));
     };
     match gate.epsilon {
-        Tunable::Fixed => Err(Error(format!(
-            "gate '{}' of {kernel} takes no epsilon",
-            gate.name
-        ))),
-        Tunable::NonNegative if value < 0.0 => Err(Error(format!(
-            "gate '{}' of {kernel} refuses where {}: below 0 that is the same as 0, so {text} means nothing",
-            gate.name, gate.refuses
-        ))),
+        Tunable::Fixed => {
+            let line = format!("gate '{}' of {kernel} takes no epsilon", gate.name);
+            Err(Error::new(ErrorKind::Unsupported, line))
+        }
+        Tunable::NonNegative if value < 0.0 => {
+            let line = format!(
+                "gate '{}' of {kernel} refuses where {}: below 0 that is the same as 0, so {text} means nothing",
+                gate.name, gate.refuses
+            );
+            Err(Error::new(ErrorKind::OutOfRange, line))
+        }
         _ => Ok(epsilon),
     }
 }
@@ -220,12 +236,13 @@ fn unknown_gate(name: &str, entries: &[&'static Entry]) -> Error {
     let advice = match name {
         "t_min" | "t-min" | "tmin" => {
             "; a least t that your code counts is chosen by `hairline epsilon --scene` (as t_min), and \
-            `hairline spawn --scheme t-min=VALUE` tries it on shadow rays"
+            `hairline offset --scheme t-min=VALUE` tries it on shadow rays"
                 .to_owned()
         }
         _ => advice,
     };
-    Error(format!("no selected kernel has a gate '{name}'{advice}"))
+    let line = format!("no selected kernel has a gate '{name}'{advice}");
+    Error::new(ErrorKind::UnknownName, line)
 }
 
 impl Row {
@@ -233,9 +250,10 @@ impl Row {
     /// has them), and a contract in the words of [`Contract::from_words`].
     pub fn named(kernel: &str, epsilons: Option<&str>, contract: &str) -> Result<Row, Error> {
         let unknown = || {
-            Error(format!(
+            let line = format!(
                 "unknown kernel '{kernel}': one of your own is known by its --kernel-lib or --kernel-cmd"
-            ))
+            );
+            Error::new(ErrorKind::UnknownName, line)
         };
         let entry = find(kernel).ok_or_else(unknown)?;
         let choice = match epsilons {
@@ -301,8 +319,9 @@ mod tests {
 
     #[test]
     fn bad_epsilons_are_refused_with_a_reason() {
-        let message =
-            |names: &[&str], pairs: &[(&str, &str)]| rows(names, given(pairs)).err().unwrap().0;
+        let message = |names: &[&str], pairs: &[(&str, &str)]| {
+            rows(names, given(pairs)).err().unwrap().to_string()
+        };
         assert!(
             message(&["moller-trumbore"], &[("paralel", "0")]).contains("did you mean 'parallel'?")
         );
@@ -324,7 +343,7 @@ mod tests {
     #[test]
     fn an_epsilon_that_a_scalar_has_not_is_refused_there() {
         let row = |text: &str| rows(&["moller-trumbore"], given(&[("parallel", text)])).unwrap();
-        let in_f32 = |text: &str| row(text)[0].check::<f32>().map_err(|error| error.0);
+        let in_f32 = |text: &str| row(text)[0].check::<f32>().map_err(String::from);
         assert!(
             in_f32("1e39")
                 .unwrap_err()
@@ -350,7 +369,10 @@ mod tests {
             [f32::EPSILON, f32::EPSILON, 0.0]
         );
         let bullet = EpsilonChoice::Preset("bullet".to_owned());
-        let error = rows(&["moller-trumbore"], bullet).err().unwrap().0;
+        let error = rows(&["moller-trumbore"], bullet)
+            .err()
+            .unwrap()
+            .to_string();
         assert!(
             error.contains("no gate of moller-trumbore is a 'edge-over-n2'"),
             "{error}"
@@ -360,7 +382,10 @@ mod tests {
     #[test]
     fn a_preset_is_taken_whole_or_not_at_all() {
         let godot = || EpsilonChoice::Preset("godot".to_owned());
-        let error = rows(&["moller-trumbore"], godot()).err().unwrap().0;
+        let error = rows(&["moller-trumbore"], godot())
+            .err()
+            .unwrap()
+            .to_string();
         assert_eq!(
             error,
             "preset 'godot' refuses where !(t > e), and no gate of moller-trumbore is a 't' of that dimension; it \
@@ -433,7 +458,7 @@ mod tests {
                 .row()
                 .err()
                 .unwrap()
-                .0
+                .to_string()
                 .starts_with("unknown kernel 'x': one of your own")
         );
     }

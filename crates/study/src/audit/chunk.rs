@@ -2,8 +2,8 @@
 
 use super::aimed::AimedRay;
 use super::digest::CasePlace;
-use super::forms::ScalarName;
 use super::source::Source;
+use crate::arith::ScalarName;
 use crate::case::{Case, Instance};
 use crate::contract::Contract;
 use crate::engine::Observer;
@@ -25,7 +25,6 @@ pub struct SourceSummary {
     /// The source's place in the plan.
     pub source: usize,
     /// `f32` or `f64`.
-    #[serde(with = "super::forms::scalar_name")]
     pub scalar: ScalarName,
     /// Indices made.
     pub indices: u64,
@@ -43,7 +42,7 @@ pub struct SourceSummary {
 
 impl SourceSummary {
     /// A summary without cases.
-    pub fn new(source: usize, scalar: &'static str) -> SourceSummary {
+    pub fn new(source: usize, scalar: ScalarName) -> SourceSummary {
         SourceSummary {
             source,
             scalar,

@@ -1,26 +1,5 @@
 //! How values are written that serde or JSON has no form for.
 
-/// `f32` or `f64`. Written out, serde would take it for text to borrow from its input.
-pub(super) type ScalarName = &'static str;
-
-/// A scalar by its name.
-pub(super) mod scalar_name {
-    use crate::arith::Float;
-    use serde::{Deserialize, Deserializer, Serializer, de};
-
-    pub fn serialize<S: Serializer>(name: &&'static str, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(name)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<&'static str, D::Error> {
-        let text = String::deserialize(from)?;
-        let known = [f32::NAME, f64::NAME]
-            .into_iter()
-            .find(|name| *name == text);
-        known.ok_or_else(|| de::Error::custom(format!("unknown scalar '{text}'")))
-    }
-}
-
 /// A float by its bits: JSON has no infinity.
 pub(super) mod bits {
     use serde::{Deserialize, Deserializer, Serializer};

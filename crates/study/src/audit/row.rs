@@ -5,7 +5,7 @@ use crate::arith::Float;
 use crate::contract::Contract;
 use crate::kernel::{Entry, EpsilonText, Gate, Tunable};
 use crate::printable::is_obeyed;
-use hairline_core::Error;
+use hairline_core::{Error, ErrorKind};
 use serde::{Deserialize, Serialize};
 
 /// A kernel with its epsilons: a row of every table.
@@ -65,9 +65,9 @@ impl Row {
                 "beyond the range of"
             };
             let (name, gate, scalar) = (self.entry.info.name, gate.name, F::NAME);
-            return Err(Error(format!(
-                "gate '{gate}' of {name}: {text} is {wrong} {scalar} (see --scalar)"
-            )));
+            let line =
+                format!("gate '{gate}' of {name}: {text} is {wrong} {scalar} (see --scalar)");
+            return Err(Error::new(ErrorKind::OutOfRange, line));
         }
         Ok(())
     }

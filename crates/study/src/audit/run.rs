@@ -2,12 +2,12 @@
 
 use super::causes::{self, Causes};
 use super::chunk::{Chunk, SourceSummary};
-use super::forms::ScalarName;
 use super::plan::Plan;
 use super::rows::Rows;
 use super::shard::Shard;
 use super::source::Source;
 use super::tally::{ClassCount, Tally};
+use crate::arith::ScalarName;
 use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
 use crate::judge::{self, Class, Demands, Finding, GroupTruth};
@@ -25,7 +25,6 @@ pub struct SourceCell {
     /// The source's place in the plan.
     pub source: usize,
     /// `f32` or `f64`.
-    #[serde(with = "super::forms::scalar_name")]
     pub scalar: ScalarName,
     /// The counts and findings.
     pub tally: Tally,
@@ -41,7 +40,7 @@ impl SourceCell {
     fn new(
         row: usize,
         source: usize,
-        scalar: &'static str,
+        scalar: ScalarName,
         tally: Tally,
         nanoseconds: u64,
     ) -> SourceCell {

@@ -6,7 +6,6 @@ use super::run::Audit;
 use super::source::{Source, Stock};
 use crate::family;
 use crate::judge::Class;
-use hairline_core::Error;
 use serde::{Deserialize, Serialize};
 
 /// A plan with names for what is built in, and paths for what is not.
@@ -82,7 +81,7 @@ impl StoredPlan {
                 .iter()
                 .map(RowSpec::row)
                 .collect::<Result<_, _>>()
-                .map_err(|e| e.0)?,
+                .map_err(String::from)?,
             scalars: self.scalars,
             examples: self.examples,
             attribute: self.attribute,
@@ -133,7 +132,7 @@ impl StoredSource {
             StoredStock::Whole(name) => Stock::Whole(found(name)?),
             stock => open(stock)?,
         };
-        let parameters = self.parameters.parse().map_err(|Error(line)| line)?;
+        let parameters = self.parameters.parse().map_err(String::from)?;
         Ok(Source {
             stock,
             parameters,

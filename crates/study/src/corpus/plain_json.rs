@@ -43,7 +43,7 @@ pub fn read<F: Float>(text: &str, case: fn(Case<F>) -> AnyCase) -> Option<Stored
     let [origin, direction, a, b, c] =
         [origin, direction, a, b, c].map(|vector| vector.map(|RoundedOnce(number)| number));
     let case = case(Case::new(origin, direction, [a, b, c]));
-    (scalar == F::NAME).then(|| StoredCase {
+    (scalar == F::NAME.name()).then(|| StoredCase {
         name,
         ..StoredCase::of(case)
     })

@@ -55,6 +55,7 @@ impl Knob {
                 name: LEAST_T,
                 role: Role::T,
                 refuses: "t < e",
+                printed: None,
                 dimension: Dimension::new(1, -1),
                 epsilon: Tunable::NonNegative,
             },
@@ -122,6 +123,7 @@ mod tests {
                 name: "gate",
                 role,
                 refuses: "",
+                printed: None,
                 dimension,
                 epsilon,
             }

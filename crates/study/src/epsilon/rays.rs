@@ -230,6 +230,7 @@ mod tests {
                     name: role.name(),
                     role: *role,
                     refuses: "",
+                    printed: None,
                     dimension,
                     epsilon,
                 }

@@ -2,6 +2,7 @@
 //! meshes beside it.
 
 use super::{FAMILIES, Family};
+use crate::arith::ScalarName;
 use crate::case::Parameters;
 use crate::corpus::lines::LONGEST_LINE;
 use crate::files::text_lines::TextLines;
@@ -30,7 +31,7 @@ pub struct SetLine {
     /// The family's version.
     pub version: u32,
     /// `f32` or `f64`.
-    pub scalar: String,
+    pub scalar: ScalarName,
     /// The parameters of the cases, as in case ids.
     pub parameters: String,
     /// The seed.
@@ -69,7 +70,7 @@ fn set_line<F: Scalar>(family: &Family) -> SetLine {
     SetLine {
         family: family.name.to_owned(),
         version: family.version,
-        scalar: F::NAME.to_owned(),
+        scalar: F::NAME,
         parameters: parameters.to_string(),
         seed: 1,
         count: SET_SIZE,
@@ -136,19 +137,6 @@ fn digest_again(line: &SetLine) -> Result<String, String> {
         ));
     }
     let parameters: Parameters = line.parameters.parse()?;
-    match line.scalar.as_str() {
-        "f32" => Ok(set_digest::<f32>(
-            family,
-            &parameters,
-            line.seed,
-            line.count,
-        )),
-        "f64" => Ok(set_digest::<f64>(
-            family,
-            &parameters,
-            line.seed,
-            line.count,
-        )),
-        other => Err(format!("unknown scalar '{other}'")),
-    }
+    let (seed, count) = (line.seed, line.count);
+    Ok(in_named_scalar!(line.scalar, F => set_digest::<F>(family, &parameters, seed, count)))
 }

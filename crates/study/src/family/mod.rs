@@ -327,11 +327,10 @@ fn id_of<F: Float>(
     seed: u64,
     index: u64,
 ) -> CaseId {
-    let (family, scalar) = (family.to_owned(), F::NAME.to_owned());
     CaseId {
-        family,
+        family: family.to_owned(),
         version,
-        scalar,
+        scalar: F::NAME,
         parameters,
         seed,
         index,

@@ -16,7 +16,7 @@ use crate::judge::{asked, judge};
 use crate::kernel::{Scalar, Verdict, verdicts_of};
 use crate::oracle::{self, Definition};
 use crate::truth::Truth;
-use hairline_core::Error;
+use hairline_core::{Error, ErrorKind};
 
 const WIDTH: f64 = 640.0;
 const SIDE: f64 = 298.0;
@@ -45,8 +45,10 @@ struct DrawingTexts {
 impl DrawingTexts {
     fn new<F: Scalar>(case: &Case<F>, row: &Row) -> Result<DrawingTexts, Error> {
         let name = row.entry.info.name;
-        let subject = F::subject(row.entry)
-            .ok_or_else(|| Error(format!("kernel '{name}' does not run in {}", F::NAME)))?;
+        let subject = F::subject(row.entry).ok_or_else(|| {
+            let line = format!("kernel '{name}' does not run in {}", F::NAME);
+            Error::new(ErrorKind::Unsupported, line)
+        })?;
         let mut verdict = [Verdict::miss(None)];
         verdicts_of(
             subject,

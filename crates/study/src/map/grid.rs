@@ -1,7 +1,7 @@
 //! Which floats the pixels of a map stand for: two coordinates of one point, each in equal steps.
 
 use crate::arith::{Float, scale_by_power_of_two};
-use hairline_core::Error;
+use hairline_core::{Error, ErrorKind};
 
 /// How far the neighbouring pixels of an axis are apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,21 +84,22 @@ impl<F: Float> Grid<F> {
         extent: F,
     ) -> Result<Grid<F>, Error> {
         if coordinates[0] == coordinates[1] || coordinates.iter().any(|&i| i >= values.len()) {
-            return Err(Error(format!(
-                "axes are two different ones of a point's {} coordinates",
-                values.len()
-            )));
+            let count = values.len();
+            let line = format!("axes are two different ones of a point's {count} coordinates");
+            return Err(Error::new(ErrorKind::OutOfRange, line));
         }
         if ![width, height]
             .iter()
             .all(|side| (1..=MOST_PIXELS).contains(side))
         {
-            return Err(Error(format!(
+            let line = format!(
                 "a map of {width}x{height} pixels is not possible: each side has 1 to {MOST_PIXELS}"
-            )));
+            );
+            return Err(Error::new(ErrorKind::OutOfRange, line));
         }
         if step == Some(PixelStep::Ulps(0)) {
-            return Err(Error("a step is at least 1 ulp".to_owned()));
+            let line = "a step is at least 1 ulp";
+            return Err(Error::new(ErrorKind::OutOfRange, line));
         }
         let axis = |coordinate: usize, count| {
             let centre = values[coordinate];

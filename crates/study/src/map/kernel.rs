@@ -10,7 +10,7 @@ use crate::judge::{Obligation, asked, judge, obligation};
 use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
 use crate::oracle::{self, Layers};
 use crate::truth::{Crossing, Feature, Truth};
-use hairline_core::Error;
+use hairline_core::{Error, ErrorKind};
 
 named! {
     pub names
@@ -82,8 +82,10 @@ pub fn of_kernel<F: Scalar>(
     observer: &dyn Observer,
 ) -> Result<Map, Error> {
     let name = row.entry.info.name;
-    let subject = F::subject(row.entry)
-        .ok_or_else(|| Error(format!("kernel '{name}' does not run in {}", F::NAME)))?;
+    let subject = F::subject(row.entry).ok_or_else(|| {
+        let line = format!("kernel '{name}' does not run in {}", F::NAME);
+        Error::new(ErrorKind::Unsupported, line)
+    })?;
     let epsilons = row.epsilons::<F>();
     let [width, height] = grid.size();
     let line = |&y: &usize| {

@@ -41,7 +41,7 @@ pub use self::png::png;
 pub use self::spot::{Spot, standard};
 pub use self::svg::{svg, svg_document};
 
-use crate::arith::Float;
+use crate::arith::{Float, ScalarName};
 use crate::files::number;
 use crate::judge::{Finding, Obligation};
 use crate::truth::Truth;
@@ -51,7 +51,7 @@ pub struct Map {
     /// The kernel that was run: `moller-trumbore (source)`.
     pub subject: String,
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    pub scalar: ScalarName,
     /// The measure of what is right: the contract.
     pub measure: String,
     /// To the right, and upwards.

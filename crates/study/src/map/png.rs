@@ -1,7 +1,7 @@
 //! A map as PNG: the computed panel, a gap, the exact panel, each pixel a square.
 
 use super::{Ink, Map};
-use hairline_core::Error;
+use hairline_core::{Error, ErrorKind};
 use png::{BitDepth, ColorType, Encoder};
 
 /// The most dots of a picture.
@@ -20,9 +20,10 @@ pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, Error> {
         .saturating_add(GAP);
     let high = height.saturating_mul(scale);
     if !(1..=MOST_DOTS).contains(&wide.saturating_mul(high)) {
-        return Err(Error(format!(
+        let line = format!(
             "{width}x{height} pixels of {scale}x{scale} dots are no picture of 1 to 2^26 dots"
-        )));
+        );
+        return Err(Error::new(ErrorKind::OutOfRange, line));
     }
     let mut dots = Vec::with_capacity(wide * high);
     for y in 0..height {
@@ -53,7 +54,10 @@ pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, Error> {
             .write_image_data(&dots)
             .and_then(|()| writer.finish())
     });
-    written.map_err(|error| Error(format!("the picture cannot be encoded: {error}")))?;
+    written.map_err(|error| {
+        let line = format!("the picture cannot be encoded: {error}");
+        Error::new(ErrorKind::OutOfRange, line)
+    })?;
     Ok(bytes)
 }
 

@@ -1,5 +1,6 @@
 //! The choices: kernels, families, scenes, contracts.
 
+use hairline::ScalarName;
 use hairline::internals::case::SCENES;
 use hairline::internals::corpus::lines::bare_case;
 use hairline::internals::family::FAMILIES;
@@ -18,7 +19,7 @@ pub struct About {
     /// The colours of a map, by number.
     inks: Vec<String>,
     /// By scalar: the standard cases of maps as JSON.
-    spots: BTreeMap<&'static str, Vec<(&'static str, String)>>,
+    spots: BTreeMap<ScalarName, Vec<(&'static str, String)>>,
 }
 
 #[derive(Serialize)]

@@ -5,8 +5,8 @@ use crate::request::{Audit, Cases, Curve};
 use hairline::internals::audit::{self, Plan, Row, Source, Unobserved};
 use hairline::internals::case::{Parameters, Scene};
 use hairline::internals::family::{FAMILIES, Family, STRATA};
+use hairline::internals::record::{Context, PlanFlags, Record, build};
 use hairline::internals::report::page::{Paged, elements};
-use hairline::internals::report::{Context, PlanFlags, Record, build};
 use serde::Serialize;
 
 /// The most cases of a family in one request: some minutes on a slow machine.
@@ -47,6 +47,7 @@ pub fn audit(asked: &Audit) -> Result<AuditAnswer, String> {
     let flags = PlanFlags {
         kernels: row.flags(),
         sources: asked.cases.flags(),
+        epsilon: Some(asked.cases.epsilon_flags()),
     };
     let mut record = record(vec![row], &asked.cases, [EXAMPLES, ATTRIBUTED, MEASURED])?;
     record.provenance.plan_flags = Some(flags).filter(|_| is_known);
@@ -93,9 +94,7 @@ fn record(
     [examples, attribute, measured]: [usize; 3],
 ) -> Result<Record, String> {
     let scalars = scalars_of(&cases.scalar)?;
-    rows.iter()
-        .try_for_each(|row| row.check_in(scalars))
-        .map_err(|error| error.0)?;
+    rows.iter().try_for_each(|row| row.check_in(scalars))?;
     if rows
         .iter()
         .any(|row| !(0..2).any(|i| scalars[i] && row.entry.scalars()[i]))

@@ -1,8 +1,8 @@
 //! One case: all that is known of it, and the verdicts around it.
 
-use super::scalars_of;
 use crate::kernel::numbers;
 use crate::request::{Explain, Map};
+use hairline::ScalarName;
 use hairline::internals::audit::{Row, Unobserved};
 use hairline::internals::case::{AnyScalar, CaseId};
 use hairline::internals::corpus::lines::{self, AnyCase, StoredCase, bare_case};
@@ -19,8 +19,7 @@ use serde_json::value::RawValue;
 pub struct Explained {
     title: String,
     html: String,
-    /// `f32` or `f64`.
-    scalar: &'static str,
+    scalar: ScalarName,
     triangles: Vec<Triangle>,
 }
 
@@ -82,9 +81,9 @@ fn found(text: &str) -> Result<AnyScalar<Found<f32>, Found<f64>>, String> {
             "'{id}' is a case of a mesh or an instance: `hairline explain` takes it"
         ));
     }
-    match scalars_of(&id.scalar)? {
-        [true, _] => cases_of(&id).map(AnyScalar::F32),
-        _ => cases_of(&id).map(AnyScalar::F64),
+    match id.scalar {
+        ScalarName::F32 => cases_of(&id).map(AnyScalar::F32),
+        ScalarName::F64 => cases_of(&id).map(AnyScalar::F64),
     }
 }
 
@@ -106,7 +105,7 @@ pub fn explain(asked: &Explain) -> Result<Explained, String> {
 }
 
 fn explained<F: Scalar>(name: &str, found: Found<F>, row: Row) -> Result<Explained, String> {
-    row.check::<F>().map_err(|error| error.0)?;
+    row.check::<F>()?;
     let (cases, grouping) = found;
     let group = Together {
         cases: &cases,
@@ -152,7 +151,7 @@ pub fn map(asked: &Map) -> Result<Mapped, String> {
 }
 
 fn mapped<F: Scalar>(asked: &Map, case: &Case<F>, row: &Row) -> Result<Mapped, String> {
-    row.check::<F>().map_err(|error| error.0)?;
+    row.check::<F>()?;
     let part =
         CaseVector::named(&asked.vary).ok_or_else(|| format!("there is no '{}'", asked.vary))?;
     if !asked.zoom.is_power_of_two() || (1 << 24) < asked.zoom {
@@ -161,7 +160,7 @@ fn mapped<F: Scalar>(asked: &Map, case: &Case<F>, row: &Row) -> Result<Mapped, S
             asked.zoom
         ));
     }
-    let mut grid = map::grid_of_case(case, part, None, None, asked.size).map_err(|e| e.0)?;
+    let mut grid = map::grid_of_case(case, part, None, None, asked.size)?;
     for (axis, shift) in grid.axes.iter_mut().zip(asked.shift) {
         axis.step = match axis.step {
             PixelStep::Ulps(ulps) => PixelStep::Ulps(ulps.saturating_mul(asked.zoom)),
@@ -184,7 +183,7 @@ fn mapped<F: Scalar>(asked: &Map, case: &Case<F>, row: &Row) -> Result<Mapped, S
             case: bare_case(at),
         });
     }
-    let map = map::of_kernel(case, row, &grid, &Unobserved).map_err(|error| error.0)?;
+    let map = map::of_kernel(case, row, &grid, &Unobserved)?;
     let [width, height] = map.size();
     let digits = |ink: &dyn Fn(usize) -> map::Ink| -> String {
         (0..width * height)

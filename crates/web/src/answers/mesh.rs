@@ -7,8 +7,8 @@ use hairline::internals::case::Parameters;
 use hairline::internals::family::MeshFamily;
 use hairline::internals::files::mesh::read;
 use hairline::internals::mesh::Surface;
+use hairline::internals::record::{Context, Record, build, drawing, places};
 use hairline::internals::report::page::{Paged, elements};
-use hairline::internals::report::{Context, Record, build, drawing, places};
 use serde::Serialize;
 use std::io;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ pub struct MeshAnswer {
 pub fn mesh(asked: &Mesh, file: &[u8]) -> Result<MeshAnswer, String> {
     let scalars = scalars_of(&asked.scalar)?;
     let row = asked.kernel.row()?;
-    row.check_in(scalars).map_err(|error| error.0)?;
+    row.check_in(scalars)?;
     if !(1..=64).contains(&asked.directions) {
         return Err(format!("directions: {} is not 1 to 64", asked.directions));
     }

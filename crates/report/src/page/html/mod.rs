@@ -303,10 +303,10 @@ fn block(block: &Block) -> Markup {
     match block {
         Block::Text(text) => html! { @if !text.is_empty() { p { (shortened(text, LONGEST)) } } },
         Block::Notes(notes) => list(notes),
-        Block::Use(Use { lead, text, notes }) => html! {
+        Block::Use(Use { lead, parts, notes }) => html! {
             p.use {
                 b { (lead) } " "
-                @for (i, part) in text.split("  and  ").enumerate() { @if 0 < i { " and " } (code(part)) }
+                @for (i, part) in parts.iter().enumerate() { @if 0 < i { " and " } (code(part)) }
             }
             (list(notes))
         },

@@ -2,6 +2,7 @@
 
 use super::super::Paged;
 use super::*;
+use crate::arith::ScalarName;
 use hairline_record::{
     ComparisonVerdict, Conformance, Counts, Deviation, ErrorChange, Example, FindingKind,
     FindingPart, Illustrations, KernelResult, Method, NetChange, PlanPart, PlannedSource,
@@ -72,7 +73,7 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
         contract: "ray".to_owned(),
     };
     let result = |kernel: &String, family: &String| KernelResult {
-        scalar: "f32".to_owned(),
+        scalar: ScalarName::F32,
         kernel: kernel.clone(),
         set: "source".to_owned(),
         family: family.clone(),
@@ -91,7 +92,7 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
         count: 100,
     };
     let summary = |family: &String| SourcePart {
-        scalar: "f32".to_owned(),
+        scalar: ScalarName::F32,
         family: family.clone(),
         sample: true,
         promises: true,
@@ -110,7 +111,7 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
             hash: "0123".to_owned(),
             rows: kernels.iter().map(row).collect(),
             sources: families.iter().map(source).collect(),
-            scalars: vec!["f32".to_owned()],
+            scalars: vec![ScalarName::F32],
         },
         partial: None,
         sources: families.iter().take(1).map(summary).collect(),
@@ -130,7 +131,7 @@ pub fn deviation(text: &str, url: &str) -> Deviation {
     Deviation {
         kernel: text.to_owned(),
         set: text.to_owned(),
-        scalar: "f32".to_owned(),
+        scalar: ScalarName::F32,
         family: text.to_owned(),
         class: "group".to_owned(),
         finding: FindingKind::Crack,
@@ -164,7 +165,7 @@ pub fn conformance(deviations: Vec<Deviation>) -> Conformance {
         unsteady: Vec::new(),
         unproved: vec![Unproved {
             kernel: HOSTILE.to_owned(),
-            scalar: HOSTILE.to_owned(),
+            scalar: ScalarName::F32,
             gate: HOSTILE.to_owned(),
             demanded: HOSTILE.to_owned(),
             why: HOSTILE.to_owned(),
@@ -208,7 +209,7 @@ fn hostile() -> Record {
     record.illustrations = Some(Illustrations {
         proofs: vec![ProofPart {
             kernel: name.clone(),
-            scalar: name.clone(),
+            scalar: ScalarName::F64,
             edges: name.clone(),
             gates: [(
                 name.clone(),

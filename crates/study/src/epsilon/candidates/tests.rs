@@ -13,6 +13,7 @@ fn the_largest_value_is_that_of_the_largest_triangle_or_the_longest_way() {
             name: "",
             role,
             refuses: "",
+            printed: None,
             dimension,
             epsilon: Tunable::Signed,
         }

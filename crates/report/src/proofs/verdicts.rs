@@ -1,0 +1,228 @@
+//! A kernel's verdicts: how far from its triangle a ray can pass that is judged wrongly, as a record and in sentences.
+
+use crate::arith::Float;
+use crate::audit::{self, shell_word};
+use crate::case::Case;
+use crate::page::Row;
+use crate::prove::{Depth, Judged, May, Scale, Searched, USELESS, Witness, above, below, case_of};
+
+/// The verdicts at some epsilons.
+#[apply(part!)]
+pub struct VerdictPart {
+    /// As `--epsilon` takes them; none if no gate takes one.
+    pub epsilons: Option<String>,
+    /// Misses of triangles that the ray crosses.
+    pub misses: DepthPart,
+    /// Hits of triangles that the ray passes by.
+    pub hits: DepthPart,
+    /// The numbers that edge gates multiply barycentric coordinates by.
+    pub scales: Vec<ScalePart>,
+    /// Where other gates may decide wrongly.
+    pub others: Vec<OtherPart>,
+    /// The sentences that people ask for first.
+    pub sentences: Vec<String>,
+}
+
+/// How far from the boundary of its triangle a wrong verdict can be, in the triangle's plane.
+#[apply(part!)]
+pub struct DepthPart {
+    /// At most, as a share of the triangle's longest edge: inside or outside the line of some edge.
+    pub share: Option<f64>,
+    /// The distance of a hit from the triangle, which is more beyond a vertex.
+    pub apart: Option<f64>,
+    /// The same as a length of the scene.
+    pub length: Option<f64>,
+    /// Why nothing is known.
+    pub why: Option<String>,
+    /// The worst that is known.
+    pub known: Option<KnownPart>,
+    /// share / known.share
+    pub factor: Option<f64>,
+    /// In a scene where nothing follows: with which changes something would.
+    #[serde(skip)]
+    pub useful: String,
+}
+
+/// The worst verdict that a search found.
+#[apply(part!)]
+pub struct KnownPart {
+    /// How far inside or outside, as a share of the longest edge.
+    pub share: f64,
+    /// The command that shows it.
+    pub command: String,
+}
+
+/// A number that an edge gate multiplies a barycentric coordinate by.
+#[apply(part!)]
+pub struct ScalePart {
+    /// As the kernel's source calls it.
+    pub number: String,
+    /// It is never smaller.
+    pub at_least: f64,
+}
+
+/// A gate that is at no edge.
+#[apply(part!)]
+pub struct OtherPart {
+    /// Its name.
+    pub gate: String,
+    /// The wrong decisions that it may make, in words.
+    pub may: String,
+    /// True if it never refuses a hit.
+    #[serde(skip)]
+    pub is_never: bool,
+}
+
+impl VerdictPart {
+    /// The verdicts of a row.
+    pub fn new<F: Searched>(judged: &Judged<F>, row: &audit::Row, useful: String) -> VerdictPart {
+        let verdicts = &judged.verdicts;
+        let depth = |bound: &Depth, known: &Option<Witness<F>>| {
+            let found = bound.as_ref().ok();
+            DepthPart {
+                share: found.map(|it| it.share),
+                apart: found.map(|it| it.apart),
+                length: found.and_then(|it| it.length),
+                why: bound.as_ref().err().cloned(),
+                known: known.as_ref().map(|known| KnownPart {
+                    share: known.score,
+                    command: row.explain_command(&shell_word(&text_of(&case_of(&known.inputs)))),
+                }),
+                factor: found
+                    .zip(known.as_ref())
+                    .map(|(it, known)| it.share / known.score),
+                useful: useful.clone(),
+            }
+        };
+        let scale = |(scale, least): &(Scale, f64)| ScalePart {
+            number: scale.name().to_owned(),
+            at_least: *least,
+        };
+        let other = |it: &crate::prove::Other| OtherPart {
+            gate: row.entry.info.gates[it.gate].name.to_owned(),
+            may: may(&it.may),
+            is_never: it.may == May::Never,
+        };
+        let mut part = VerdictPart {
+            epsilons: row.epsilon_argument(),
+            misses: depth(&verdicts.misses, &judged.known[0]),
+            hits: depth(&verdicts.hits, &judged.known[1]),
+            scales: verdicts.scales.iter().map(scale).collect(),
+            others: verdicts.others.iter().map(other).collect(),
+            sentences: Vec::new(),
+        };
+        part.sentences = part.in_words();
+        part
+    }
+
+    /// A row of the table of all kernels.
+    pub fn row(&self, kernel: &str) -> Row {
+        let number = |x: Option<String>| x.unwrap_or_else(|| "-".to_owned());
+        let cells = [&self.misses, &self.hits].map(|depth| {
+            let known = depth.known.as_ref();
+            [
+                number(depth.share.map(above)),
+                number(known.map(|it| below(it.share))),
+                number(depth.factor.map(|x| format!("{x:.2}"))),
+            ]
+        });
+        let mut whys: Vec<&String> = [&self.misses.why, &self.hits.why]
+            .into_iter()
+            .flatten()
+            .collect();
+        whys.dedup();
+        let below = whys
+            .into_iter()
+            .map(|why| format!("nothing is proved: {why}"))
+            .collect();
+        Row {
+            below,
+            ..Row::new(kernel, cells.concat())
+        }
+    }
+
+    fn in_words(&self) -> Vec<String> {
+        let is_limited = |it: &&ScalePart| it.number != "1" && self.misses.length.is_none();
+        let limits = self.scales.iter().filter(is_limited);
+        let limits = limits.map(|it| format!("{} is at least {}", it.number, below(it.at_least)));
+        let mut limits: Vec<String> = limits.collect();
+        limits.dedup();
+        let where_ = if limits.is_empty() {
+            String::new()
+        } else {
+            format!("Where {}, N = (b-a)×(c-a): ", limits.join(" and "))
+        };
+        let mut all = vec![
+            format!("{where_}{}", self.misses.sentence("false miss", "inside")),
+            self.hits.sentence("false hit", "outside"),
+        ];
+        let others = self.others.iter().filter(|other| !other.is_never);
+        all.extend(others.map(|other| format!("Gate {} {}", other.gate, other.may)));
+        all
+    }
+}
+
+impl DepthPart {
+    fn sentence(&self, what: &str, side: &str) -> String {
+        let known = self.known.as_ref().map_or(String::new(), |known| {
+            format!("; one {} {side} is known", below(known.share))
+        });
+        match (self.share, &self.why) {
+            (Some(share), _) if USELESS <= share => {
+                format!(
+                    "Nothing useful follows for {what}es: the bound is half of a triangle's longest edge {side}, or \
+                     more{known}.{}",
+                    self.useful
+                )
+                .replace("hites", "hits")
+            }
+            (Some(0.0), _) => format!("No {what} at an edge."),
+            (Some(share), _) => {
+                let factor =
+                    self.factor.map_or(String::new(), |factor| format!(" (factor {factor:.2})"));
+                let length = self.length.map_or(String::new(), |length| {
+                    format!(", nor than {} as a length of the scene", above(length))
+                });
+                let apart = self.apart.filter(|apart| share < *apart).map_or(String::new(), |x| {
+                    format!(" (beyond a vertex at most {} from the triangle)", above(x))
+                });
+                format!(
+                    "No {what} is farther {side} an edge than {} of the triangle's longest edge{length}{known}{factor}{apart}.",
+                    above(share)
+                )
+            }
+            (None, why) => {
+                format!("Nothing is proved of a {what}: {}.", why.as_deref().unwrap_or_default())
+            }
+        }
+    }
+}
+
+fn may(may: &May) -> String {
+    match may {
+        May::Never => "never refuses a hit here.".to_owned(),
+        May::Refuse(name, most) => {
+            format!(
+                "may also refuse hits where {name} is below {}.",
+                above(*most)
+            )
+        }
+        May::Ends(early, late) => format!(
+            "may also refuse hits whose t is nearer to an end than {}, and let through what is {} beyond.",
+            above(*early),
+            above(*late)
+        ),
+        May::Unknown => "may also refuse hits: what it compares is not read.".to_owned(),
+    }
+}
+
+/// A case as `explain` takes it.
+fn text_of<F: Float>(case: &Case<F>) -> String {
+    let [origin, direction, a, b, c] = case.vectors();
+    format!(
+        "{{scalar:{},origin:{origin:?},direction:{direction:?},a:{a:?},b:{b:?},c:{c:?},t_max:{:?}}}",
+        F::NAME,
+        case.ray.t_max
+    )
+    .replace(' ', "")
+}
