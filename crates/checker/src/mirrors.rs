@@ -27,12 +27,11 @@ impl Equations {
 
     /// The variable that an equation decides about. The unit vector's coordinates have no signs to try, so they come first.
     fn lowest(&self, equation: usize) -> usize {
-        let of_unit = equation & self.of_unit;
-        if of_unit == 0 {
-            equation.trailing_zeros() as usize
-        } else {
-            of_unit.trailing_zeros() as usize
+        let mut candidates = equation & self.of_unit;
+        if candidates == 0 {
+            candidates = equation;
         }
+        candidates.trailing_zeros() as usize
     }
 
     /// The variables that the equations decide about.

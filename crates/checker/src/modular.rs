@@ -70,8 +70,7 @@ pub fn cross(p: Vector, q: Vector) -> Vector {
 pub fn dot(p: Vector, q: Vector) -> u64 {
     let mut sum = 0;
     for axis in 0..3 {
-        let product = times(p[axis], q[axis]);
-        sum = plus(sum, product);
+        sum = plus(sum, times(p[axis], q[axis]));
     }
     sum
 }

@@ -1,8 +1,9 @@
 //! Inputs modulo a prime, and the numbers there that a guarded kernel may be made from.
 
 use super::domain::INPUTS;
-use super::modular::{PRIME, raised, times};
-use super::modular::{Vector, cross, difference, dot, inverse, minus, negative, number, plus};
+use super::modular::{
+    PRIME, Vector, cross, difference, dot, inverse, minus, negative, number, plus, raised, times,
+};
 use super::operations::Operation;
 use super::program::Program;
 use std::array::from_fn;

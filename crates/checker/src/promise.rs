@@ -63,7 +63,8 @@ impl Promise {
     /// The reason why a hit of rays with these signs is wrong; none if it is inside the triangle, between the ends and on
     /// a side that counts.
     pub fn wrong_hit(&self, signs: &KnownSigns) -> Option<&'static str> {
-        if on_an_edge(signs) || !is_in_closed_triangle(signs) {
+        let is_on_an_edge = signs[U..=W].contains(&0);
+        if is_on_an_edge || !is_in_closed_triangle(signs) {
             return Some("do not pass through the inside of the triangle");
         }
         if !self.counts_side(signs) {
@@ -102,12 +103,7 @@ impl End {
 /// True if no two weights have opposite signs.
 fn is_in_closed_triangle(signs: &KnownSigns) -> bool {
     let weights = &signs[U..=W];
-    let is_mixed = weights.contains(&1) && weights.contains(&-1);
-    !is_mixed
-}
-
-fn on_an_edge(signs: &KnownSigns) -> bool {
-    signs[U..=W].contains(&0)
+    !(weights.contains(&1) && weights.contains(&-1))
 }
 
 /// True if t_min < t_max is possible: the distances from both ends add up to the length between them.

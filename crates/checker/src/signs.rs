@@ -7,8 +7,10 @@
 //! signs that can occur is tried.
 
 use super::modular::{inverse, negative, times};
-use super::points::{Assumed, COUNT, Case, Factors, KnownSigns, POINTS, Point, SQUARE, SUM, U};
-use super::points::{Power, is_small, product, products, seed};
+use super::points::{
+    Assumed, COUNT, Case, Factors, KnownSigns, POINTS, Point, Power, SQUARE, SUM, U, is_small,
+    product, products, seed,
+};
 use super::program::Program;
 use super::promise::Promise;
 use super::reader::{Outcome, ensure};

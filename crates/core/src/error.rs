@@ -14,7 +14,7 @@ pub struct Error {
     source: Option<Arc<dyn std::error::Error + Send + Sync>>,
 }
 
-/// What a program can tell of an [`Error`] without reading its line.
+/// The kinds of an [`Error`], which a program can tell without reading its line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
@@ -34,7 +34,7 @@ pub enum ErrorKind {
     Nothing,
     /// A file cannot be read or written; [`source`](std::error::Error::source) says why.
     File,
-    /// What stands in a file is not what was expected.
+    /// A file holds something else than was expected.
     Data,
 }
 
@@ -62,7 +62,7 @@ impl Error {
         }
     }
 
-    /// What it is about.
+    /// The kind.
     pub fn kind(&self) -> ErrorKind {
         self.kind
     }

@@ -7,8 +7,10 @@ use super::super::{
     number::{ERROR_DIGITS, Number, SIZE_DIGITS, root_up, round_up, shifted, split},
     reader::{Outcome, Reader, ensure},
 };
-use super::Formula;
-use super::integers::{Scaled, mantissa};
+use super::{
+    Formula,
+    integers::{Scaled, mantissa},
+};
 use num_traits::Zero;
 
 /// Work is counted in corners times steps.
