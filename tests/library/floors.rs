@@ -27,18 +27,18 @@ const fn room(source: &'static str, alone: Option<&'static str>, most_tokens: us
 
 /// The crates, the lowest first.
 const ROOMS: [Room; 13] = [
-    room("crates/core/src", None, 81_000),
+    room("crates/core/src", None, 81_800),
     room("crates/checker/src", Some("checker"), 31_000),
     room("crates/boxes/src", Some("boxes"), 31_700),
     room("crates/files/src", Some("files"), 24_200),
     room("crates/prove/src", Some("prove"), 65_410),
     room("crates/study/src", None, 161_400),
-    room("crates/explore/src", Some("explore"), 28_700),
+    room("crates/explore/src", Some("explore"), 28_800),
     room("crates/plugin/src", Some("plugin"), 20_400),
     room("crates/record/src", Some("record"), 21_300),
     room("crates/report/src", Some("report"), 96_000),
     room("crates/expect/src", Some("expect"), 17_000),
-    room("crates/repair/src", Some("repair"), 16_000),
+    room("crates/repair/src", Some("repair"), 16_600),
     room("src", None, 110_000),
 ];
 

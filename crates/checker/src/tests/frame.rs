@@ -124,6 +124,11 @@ fn operations() {
                 FIRST,
             ),
             (
+                "an input has a number",
+                &[("op 0 input 6", "op 0 input")],
+                FIRST,
+            ),
+            (
                 "a number is a float",
                 &[("op 0 input 6", "op 0 number 16777217")],
                 FIRST,
