@@ -7,7 +7,7 @@ pub use moller_trumbore::{GATES, GATES_CULLING, GATES_INTERVAL, MollerTrumbore, 
 
 use hairline::internals::arith::Float;
 use hairline::internals::case::Case;
-use hairline::internals::kernel::{Entry, Gated, Generic, Kernel, Scalar, KernelIn, Test, Verdict};
+use hairline::internals::kernel::{Entry, Gated, Generic, Kernel, KernelIn, Scalar, Test, Verdict};
 use std::marker::PhantomData;
 
 /// A published function with the model of it. At the epsilons of its source the function itself runs;

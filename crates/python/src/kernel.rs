@@ -2,7 +2,7 @@
 
 use hairline::internals::case::CaseId;
 use hairline::internals::family::cases_of;
-use hairline::{Case, Float, Scalar, ScalarName, KernelIn, Verdict};
+use hairline::{Case, Float, KernelIn, Scalar, ScalarName, Verdict};
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

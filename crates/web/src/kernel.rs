@@ -5,8 +5,8 @@ use hairline::internals::audit::{EpsilonChoice, Row};
 use hairline::internals::contract::Contract;
 use hairline::internals::kernel::Tunable;
 use hairline::{
-    Case, Dimension, Entry, EpsilonSet, Failure, Float, Gate, Gives, KernelInfo, Role, Scalar,
-    KernelIn, Verdict,
+    Case, Dimension, Entry, EpsilonSet, Failure, Float, Gate, Gives, KernelIn, KernelInfo, Role,
+    Scalar, Verdict,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
