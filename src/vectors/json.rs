@@ -15,17 +15,18 @@ pub const SCHEMA: &str = "ray-triangle-vectors-1";
 /// The most characters of an exact fraction that is written.
 const LONGEST_FRACTION: usize = 60;
 
-/// A file of the core set, with its name.
+/// The name of a file of the core set, and its text.
 pub fn topic_file(topic: &VectorTopic, tests: &[VectorTest]) -> (String, String) {
-    let used = |name: &str| tests.iter().any(|test| test.flags.contains(&name));
-    let flags = FLAGS.iter().filter(|(name, _)| used(name));
-    let flags: Vec<String> = flags
-        .map(|(name, effect)| format!("\n\"{name}\":{}", json!(effect)))
-        .collect();
-    let lines: Vec<String> = tests
-        .iter()
-        .map(|test| format!("\n{}", line(test)))
-        .collect();
+    let mut flags = Vec::new();
+    for (name, effect) in FLAGS.iter() {
+        if tests.iter().any(|test| test.flags.contains(name)) {
+            flags.push(format!("\n\"{name}\":{}", json!(effect)));
+        }
+    }
+    let mut lines = Vec::new();
+    for test in tests {
+        lines.push(format!("\n{}", line(test)));
+    }
     let text = format!(
         "{{\n\"schema\":\"{SCHEMA}\",\n\"topic\":\"{}\",\n\"about\":{},\n\"licence\":\"CC0-1.0\",\n\"flags\":{{{}\n}},\n\"tests\":[{}\n]\n}}\n",
         topic.name,
@@ -41,28 +42,25 @@ pub fn line(test: &VectorTest) -> String {
     let mut fields = Fields(Vec::new());
     fields.add("id", json!(test.id));
     fields.add("comment", json!(test.comment));
-    fields.0.extend(
-        test.source
-            .as_ref()
-            .map(|source| ("source", json!(source).to_string())),
-    );
+    if let Some(source) = &test.source {
+        fields.add("source", json!(source));
+    }
     fields.add("flags", json!(test.flags));
     fields.add("scalar", json!(test.scalar));
-    let text = |numbers: &[EitherFloat]| numbers.iter().map(EitherFloat::text).collect::<Vec<_>>();
-    fields.add("origin", json!(text(&test.ray[..3])));
-    fields.add("direction", json!(text(&test.ray[3..6])));
+    fields.add("origin", json!(texts(&test.ray[..3])));
+    fields.add("direction", json!(texts(&test.ray[3..6])));
     fields.add("t_min", json!(test.ray[6].text()));
     fields.add("t_max", json!(test.ray[7].text()));
     match &test.group {
         None => {
             let triangle = &test.triangles[0];
             for (name, vertex) in ["a", "b", "c"].into_iter().zip(triangle.numbers.chunks(3)) {
-                fields.add(name, json!(text(vertex)));
+                fields.add(name, json!(texts(vertex)));
             }
             fields.add("bits", json!(test.bits()));
             fields.triangle(triangle);
         }
-        Some(group) => fields.group(test, group, text),
+        Some(group) => fields.group(test, group),
     }
     object(fields.0)
 }
@@ -75,6 +73,7 @@ impl Fields {
         self.0.push((name, value.to_string()));
     }
 
+    /// The right results for a triangle, with the exact values if the line crosses its plane.
     fn triangle(&mut self, triangle: &TestTriangle) {
         self.add("result", json!(word(result(&triangle.truth))));
         self.add("closed", json!(word(triangle.closed())));
@@ -92,6 +91,7 @@ impl Fields {
         for (name, value) in ["t", "u", "v", "margin"].into_iter().zip(values) {
             self.0.push((name, double(value)));
         }
+        // The margin is written as a double alone.
         for (name, value) in ["t_exact", "u_exact", "v_exact"].into_iter().zip(values) {
             let text = fraction_text(value);
             if text.len() <= LONGEST_FRACTION {
@@ -101,36 +101,38 @@ impl Fields {
     }
 
     /// The vertices once each, and triangles of their indices.
-    fn group(
-        &mut self,
-        test: &VectorTest,
-        group: &TestGroup,
-        text: impl Fn(&[EitherFloat]) -> Vec<String>,
-    ) {
+    fn group(&mut self, test: &VectorTest, group: &TestGroup) {
         let mut vertices: Vec<&[EitherFloat]> = Vec::new();
-        let mut index = |vertex| {
-            let same = |other: &&[EitherFloat]| patterns(other) == patterns(vertex);
-            vertices.iter().position(same).unwrap_or_else(|| {
-                vertices.push(vertex);
-                vertices.len() - 1
-            })
-        };
-        let triangles: Vec<Vec<usize>> = test
-            .triangles
-            .iter()
-            .map(|triangle| triangle.numbers.chunks(3).map(&mut index).collect())
-            .collect();
-        let vertices: Vec<Vec<String>> = vertices.into_iter().map(text).collect();
+        let mut triangles = Vec::new();
+        for triangle in &test.triangles {
+            let mut indices = Vec::new();
+            for vertex in triangle.numbers.chunks(3) {
+                let known = vertices
+                    .iter()
+                    .position(|other| patterns(other) == patterns(vertex));
+                indices.push(known.unwrap_or(vertices.len()));
+                if known.is_none() {
+                    vertices.push(vertex);
+                }
+            }
+            triangles.push(indices);
+        }
+        let vertices: Vec<Vec<String>> = vertices.into_iter().map(texts).collect();
         self.add("vertices", json!(vertices));
         self.add("triangles", json!(triangles));
         self.add("bits", json!(test.bits()));
         self.add("result", json!(group.result()));
-        self.add("closed", json!(group.counts[0]));
-        self.add("open", json!(group.counts[1]));
+        let [closed, open] = group.counts;
+        self.add("closed", json!(closed));
+        self.add("open", json!(open));
         self.add("parity", json!(group.parity()));
         let places: Vec<&str> = test.triangles.iter().map(|it| place(&it.truth)).collect();
         self.add("where", json!(places));
     }
+}
+
+fn texts(numbers: &[EitherFloat]) -> Vec<String> {
+    numbers.iter().map(EitherFloat::text).collect()
 }
 
 fn patterns(vertex: &[EitherFloat]) -> Vec<&str> {

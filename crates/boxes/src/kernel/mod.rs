@@ -65,7 +65,7 @@ pub type BoxEntry = Entry<Boxes>;
 /// The table of slab tests: it finds them by name, in other arithmetics too, and takes those of a program.
 pub static TABLE: Table<Boxes> = Table::new(KERNELS);
 
-/// The epsilons of sources without growth, by the number of other gates.
+/// The epsilons of a source that has none: `PLAIN[n]` is for n gates besides the last comparison.
 const PLAIN: [&[EpsilonSet]; 3] = [
     &[EpsilonSet {
         name: "source",
@@ -91,6 +91,7 @@ const fn contract(extent: Extent, ends: Boundary) -> Contract {
     }
 }
 
+/// The description of a slab test.
 const fn info(
     name: &'static str,
     source: &'static str,

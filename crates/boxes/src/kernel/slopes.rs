@@ -24,10 +24,7 @@ impl Kernel<Boxes> for EisemannSlopes {
             Gate::fixed(Role::T, "o beyond far"),
             Gate::fixed(Role::Parallel, "d == 0 && (o < min || o > max)"),
         ],
-        &[EpsilonSet {
-            name: "source",
-            values: &["0", "0", "0"],
-        }],
+        PLAIN[2],
     );
 
     stores_box!();
@@ -38,11 +35,12 @@ impl Kernel<Boxes> for EisemannSlopes {
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
+        let is_parallel = |i: usize| ray.direction.at(i).is_zero();
         for i in 0..3 {
             let origin = ray.origin.at(i);
             let is_below = origin.is_less(&bounds.min.at(i));
             let is_above = bounds.max.at(i).is_less(&origin);
-            if ray.direction.at(i).is_zero() {
+            if is_parallel(i) {
                 sink.fixed(PARALLEL, !is_below && !is_above)?;
             } else if is_forward(ray, i) {
                 sink.fixed(END, !is_above)?;
@@ -52,12 +50,11 @@ impl Kernel<Boxes> for EisemannSlopes {
         }
         for leaves in 0..3 {
             for enters in 0..3 {
-                let is_parallel = |i: usize| ray.direction.at(i).is_zero();
                 if leaves == enters || is_parallel(leaves) || is_parallel(enters) {
                     continue;
                 }
-                let inside = inside(bounds, ray, leaves, enters);
-                sink.one(EDGE, Refuse::Below, &inside)?;
+                let depth = depth(bounds, ray, leaves, enters);
+                sink.one(EDGE, Refuse::Below, &depth)?;
             }
         }
         Some(Hit {
@@ -68,13 +65,13 @@ impl Kernel<Boxes> for EisemannSlopes {
     }
 }
 
-/// How far the line is beyond the near plane of one slab where it leaves another.
+/// How far the line is beyond the near plane of the slab `enters` where it leaves the slab `leaves`.
 #[inline(always)]
-fn inside<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, leaves: usize, enters: usize) -> V::Real {
+fn depth<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, leaves: usize, enters: usize) -> V::Real {
     let inverse = V::Real::one() / ray.direction.at(leaves);
     let slope = ray.direction.at(enters) * &inverse;
-    let product = slope.clone() * ray.origin.at(leaves);
-    let offset = ray.origin.at(enters) - product;
+    // The gate's c.
+    let offset = ray.origin.at(enters) - slope.clone() * ray.origin.at(leaves);
     let far = if is_forward(ray, leaves) {
         bounds.max.at(leaves)
     } else {
@@ -86,6 +83,7 @@ fn inside<V: Vector>(bounds: &Bounds<V>, ray: &Ray<V>, leaves: usize, enters: us
     -(slope * far - bounds.max.at(enters) + offset)
 }
 
+/// True if the ray goes up along an axis, so that it meets the plane at min first.
 #[inline(always)]
 fn is_forward<V: Vector>(ray: &Ray<V>, i: usize) -> bool {
     V::Real::zero().is_less(&ray.direction.at(i))

@@ -6,10 +6,11 @@ use num_bigint::BigInt;
 /// A search on its way from corner to corner.
 pub struct Search<'p, T> {
     problem: &'p Problem<T>,
+    /// The coordinates of the unit vector, as bits.
     of_unit: usize,
-    /// The corner that was visited last.
-    last: Option<usize>,
-    /// The values of the steps at the last corner and axis.
+    /// The corner of the latest visit; none before the first.
+    visited: Option<usize>,
+    /// The values of the steps there, at the axis tried last.
     values: Vec<T>,
     /// The derivatives of the last step by each step, there.
     slopes: Vec<T>,
@@ -19,8 +20,11 @@ pub struct Search<'p, T> {
     lengths: Vec<BigInt>,
     /// The largest of these sums so far.
     longest: Vec<BigInt>,
+    /// The largest sum so far of the effects that do not depend on the unit vector.
     best: T,
+    /// The largest sum so far of the squares of the others, axis by axis.
     squares: BigInt,
+    /// The first corner with these squares; without a unit vector, with the best sum.
     corner: usize,
 }
 
@@ -28,6 +32,7 @@ pub struct Search<'p, T> {
 struct Effects<T> {
     /// The effects that do not depend on the unit vector; all effects if there is none.
     alone: T,
+    /// All others, which are linear in the unit vector.
     of_axis: T,
 }
 
@@ -37,7 +42,7 @@ impl<'p, T: Integer> Search<'p, T> {
         Search {
             problem,
             of_unit: set_of(&problem.unit),
-            last: None,
+            visited: None,
             values: vec![T::zero(); steps],
             slopes: vec![T::zero(); steps],
             sizes: vec![T::zero(); steps],
@@ -51,7 +56,7 @@ impl<'p, T: Integer> Search<'p, T> {
 
     /// Finds the sizes and the effects at a corner. Of corners with the largest effects, the first is kept.
     pub fn visit(&mut self, corner: usize) {
-        let has_unit = !self.problem.unit.is_empty();
+        let has_unit = self.has_unit();
         let axes = self.problem.unit.len().max(1);
         let mut alone = T::zero();
         let mut squares = BigInt::ZERO;
@@ -68,9 +73,8 @@ impl<'p, T: Integer> Search<'p, T> {
             if has_unit {
                 squares += square(&effects.of_axis);
             }
-            if axis == 0 {
-                alone = effects.alone;
-            }
+            // The same at every axis.
+            alone = effects.alone;
         }
         if has_unit {
             self.keep_longest();
@@ -87,6 +91,15 @@ impl<'p, T: Integer> Search<'p, T> {
         }
     }
 
+    fn has_unit(&self) -> bool {
+        self.of_unit != 0
+    }
+
+    /// True if a step depends on the unit vector, in which it is linear then.
+    fn is_linear(&self, row: &Row<T>) -> bool {
+        row.support & self.of_unit != 0
+    }
+
     fn keep_longest(&mut self) {
         for (longest, length) in self.longest.iter_mut().zip(&self.lengths) {
             if *longest < *length {
@@ -99,23 +112,25 @@ impl<'p, T: Integer> Search<'p, T> {
     /// nothing that changed.
     fn evaluate(&mut self, corner: usize, axis: usize) {
         for (k, row) in self.problem.rows.iter().enumerate() {
-            if let Some(last) = self.last {
-                let changed = (corner ^ last) | self.of_unit;
+            if let Some(visited) = self.visited {
+                let changed = (corner ^ visited) | self.of_unit;
                 if row.support & changed == 0 {
                     continue;
                 }
             }
             let value = self.value(row, corner, axis);
-            if row.support & self.of_unit != 0 {
+            if self.is_linear(row) {
                 self.lengths[k] += square(&value);
             } else if self.sizes[k] < value.abs() {
                 self.sizes[k] = value.abs();
             }
             self.values[k] = value;
         }
-        self.last = Some(corner);
+        self.visited = Some(corner);
     }
 
+    /// The value of a step, from those of earlier steps. Of the unit vector's coordinates that of the axis is at its upper
+    /// end, as no corner has its bit, and the others are 0.
     fn value(&self, row: &Row<T>, corner: usize, axis: usize) -> T {
         let mut sum = row.constant.clone();
         for multiple in &row.variables {
@@ -140,7 +155,7 @@ impl<'p, T: Integer> Search<'p, T> {
         sum
     }
 
-    /// Computes the derivatives from the last step back to the first, by the chain rule.
+    /// Computes the slopes from the last step back to the first, by the chain rule.
     fn differentiate(&mut self) {
         let last = self.slopes.len() - 1;
         self.slopes.fill(T::zero());
@@ -160,12 +175,11 @@ impl<'p, T: Integer> Search<'p, T> {
         }
     }
 
-    /// Adds up |slope|·h, or |slope·value|·u for relative steps.
+    /// Adds up |slope|·weight, or |slope·value|·weight for relative steps.
     ///
     /// The slope by a step that is linear in the unit vector is free of it, and so is the effect of a fixed error. Every
     /// other effect is linear in the unit vector, and counts for the axis.
     fn effects(&self) -> Effects<T> {
-        let has_unit = !self.problem.unit.is_empty();
         let mut alone = T::zero();
         let mut of_axis = T::zero();
         for (k, weight) in self.problem.weights.iter().enumerate() {
@@ -174,8 +188,8 @@ impl<'p, T: Integer> Search<'p, T> {
             if weight.is_relative {
                 effect *= &self.values[k].abs();
             }
-            let is_linear = self.problem.rows[k].support & self.of_unit != 0;
-            if has_unit && (weight.is_relative || !is_linear) {
+            let is_linear = self.is_linear(&self.problem.rows[k]);
+            if self.has_unit() && (weight.is_relative || !is_linear) {
                 of_axis += effect;
             } else {
                 alone += effect;
@@ -188,6 +202,7 @@ impl<'p, T: Integer> Search<'p, T> {
         let mut sizes = Vec::new();
         for (size, longest) in self.sizes.into_iter().zip(self.longest) {
             let size: BigInt = size.into();
+            // One of the two is 0.
             sizes.push(size.max(longest));
         }
         Found {

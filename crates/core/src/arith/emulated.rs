@@ -26,8 +26,16 @@ pub struct Rounded<F, N> {
     value: F,
     arithmetic: Arithmetic,
     notes: N,
-    /// If this is a product that may still be fused: its factors, and what is noted of them.
-    product: Option<([F; 2], N)>,
+    /// If this is a product that may still be fused.
+    product: Option<Factors<F, N>>,
+}
+
+/// The factors of a product, and the notes on both.
+#[derive(Clone, Copy, Debug)]
+struct Factors<F, N> {
+    a: F,
+    b: F,
+    notes: N,
 }
 
 /// The notes of a number on all operations that made it.
@@ -94,7 +102,11 @@ impl<F: Float, N: Notes> Rounded<F, N> {
     #[inline]
     fn made(operation: RoundedOperation<F>, arithmetic: Arithmetic, before: N) -> Self {
         let product = match operation {
-            RoundedOperation::Product(a, b) if arithmetic.fused => Some(([a, b], before)),
+            RoundedOperation::Product(a, b) if arithmetic.fused => Some(Factors {
+                a,
+                b,
+                notes: before,
+            }),
             _ => None,
         };
         let value = operation.run(arithmetic);
@@ -107,23 +119,20 @@ impl<F: Float, N: Notes> Rounded<F, N> {
         }
     }
 
+    /// Fuses a product into the sum, of two the left one.
     #[inline(never)]
     fn sum(&self, other: &Self) -> Self {
-        let (operation, before) = match (self.product, other.product) {
-            (Some(([a, b], before)), _) => (
-                RoundedOperation::Fused(a, b, other.value),
-                before.and(other.notes),
-            ),
-            (None, Some(([a, b], before))) => (
-                RoundedOperation::Fused(a, b, self.value),
-                self.notes.and(before),
-            ),
-            (None, None) => (
-                RoundedOperation::Sum(self.value, other.value),
-                self.notes.and(other.notes),
-            ),
+        let arithmetic = self.arithmetic.and(other.arithmetic);
+        let (product, term) = match self.product {
+            Some(product) => (Some(product), other),
+            None => (other.product, self),
         };
-        Rounded::made(operation, self.arithmetic.and(other.arithmetic), before)
+        if let Some(Factors { a, b, notes }) = product {
+            let operation = RoundedOperation::Fused(a, b, term.value);
+            return Rounded::made(operation, arithmetic, notes.and(term.notes));
+        }
+        let operation = RoundedOperation::Sum(self.value, other.value);
+        Rounded::made(operation, arithmetic, self.notes.and(other.notes))
     }
 
     fn difference(&self, other: &Self) -> Self {
@@ -132,7 +141,10 @@ impl<F: Float, N: Notes> Rounded<F, N> {
 
     #[inline]
     fn negation(&self) -> Self {
-        let product = self.product.map(|([a, b], notes)| ([-a, b], notes));
+        let product = self.product.map(|product| Factors {
+            a: -product.a,
+            ..product
+        });
         Rounded {
             value: -self.value,
             product,
@@ -214,13 +226,14 @@ impl<F: Float, N: Notes> Real for Rounded<F, N> {
             ..self.clone()
         }
     }
-    /// Products in wider arithmetic are exact in every one of them; operands and result are flushed.
+    /// The wider arithmetic is the same on every machine: only operands and result are flushed.
     fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
-        let all = [a, b, c, d];
-        let arithmetic = all
-            .iter()
-            .fold(Arithmetic::IEEE, |both, x| both.and(x.arithmetic));
-        let before = all.iter().fold(N::default(), |both, x| both.and(x.notes));
+        let mut arithmetic = Arithmetic::IEEE;
+        let mut before = N::default();
+        for operand in [a, b, c, d] {
+            arithmetic = arithmetic.and(operand.arithmetic);
+            before = before.and(operand.notes);
+        }
         let operation = RoundedOperation::Minor(a.value, b.value, c.value, d.value);
         Rounded::made(operation, arithmetic, before)
     }

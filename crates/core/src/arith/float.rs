@@ -50,7 +50,7 @@ pub trait Float: Real + Copy + PartialOrd + Display + LowerExp + Default {
     const DIGITS: u32;
     /// Exponent of the smallest positive number: it is 2 to this power.
     const MIN_EXPONENT: i32;
-    /// Exponent of the largest finite number: it is below 2 to this power plus one.
+    /// Exponent of the largest finite number: it is at least 2 to this power, and less than twice that.
     const MAX_EXPONENT: i32;
     /// The distance from 1 to the next number above.
     const EPSILON: Self;
@@ -68,7 +68,8 @@ pub trait Float: Real + Copy + PartialOrd + Display + LowerExp + Default {
     fn place(self) -> i64;
     /// The float at a place; positive zero at place 0.
     fn from_place(place: i64) -> Self;
-    /// The distance between the neighbours of `|self|`'s binade: the unit in the last place.
+    /// The unit in the last place: the distance from `|self|` to the next larger number, or from the largest number
+    /// to the one before. NaN of infinities and of a NaN.
     fn ulp(self) -> Self;
     /// The bit pattern in hexadecimal, all digits.
     fn hex(self) -> String;
@@ -95,26 +96,25 @@ pub fn ordered_midpoint<F: Float>(low: F, high: F) -> Option<F> {
     (middle != low && middle != high).then(|| F::from_place(middle))
 }
 
-/// Two numbers of which the lower is accepted and the higher is not, near a guess. The scalar's
-/// lowest finite number is accepted and its largest is not.
+/// A number that is accepted and a higher one that is not, near a guess: from there the search takes steps of 1, 2, 4 …
+/// places. The scalar's lowest finite number is accepted and its largest is not.
 fn bracket<F: Float>(guess: F, accepts: &impl Fn(&F) -> bool) -> (F, F) {
     let largest = F::infinity().offset_ulps(-1);
     if !guess.is_finite() {
         return (-largest, largest);
     }
-    let up = accepts(&guess);
-    let (mut at, mut step) = (guess, 1i64);
+    let end = largest.place();
+    let goes_up = accepts(&guess);
+    let mut step: i64 = if goes_up { 1 } else { -1 };
+    let mut at = guess;
     loop {
-        let place = if up {
-            at.place().saturating_add(step).min(largest.place())
-        } else {
-            at.place().saturating_sub(step).max((-largest).place())
-        };
+        let place = at.place().saturating_add(step).clamp(-end, end);
         let next = F::from_place(place);
-        if accepts(&next) != up {
-            return if up { (at, next) } else { (next, at) };
+        if accepts(&next) != goes_up {
+            return if goes_up { (at, next) } else { (next, at) };
         }
-        (at, step) = (next, step.saturating_mul(2));
+        at = next;
+        step = step.saturating_mul(2);
     }
 }
 
@@ -131,7 +131,7 @@ pub fn scale_by_power_of_two(mut value: f64, mut exponent: i32) -> f64 {
         value *= power_of_two(1000);
         exponent -= 1000;
     }
-    // Downwards the large step comes last, so that only one product rounds.
+    // Downwards the large step comes last, so that only one product rounds. Only an infinity comes here again.
     while exponent < -1000 && value.abs() > power_of_two(1000 - 52) {
         value *= power_of_two(-900);
         exponent += 900;
@@ -165,11 +165,9 @@ pub fn decompose(value: f64) -> (i64, i64) {
         return (0, 0);
     }
     let zeros = digits.trailing_zeros();
-    let odd = digits >> zeros;
-    (
-        if value < 0.0 { -odd } else { odd },
-        exponent + i64::from(zeros),
-    )
+    let size = digits >> zeros;
+    let odd = if value < 0.0 { -size } else { size };
+    (odd, exponent + i64::from(zeros))
 }
 
 /// `a*b - c*d` through `f64`, where the products of two `f32` are exact: Woop's fallback.
@@ -189,7 +187,7 @@ fn wide_f64(a: f64, b: f64, c: f64, d: f64) -> f64 {
 }
 
 macro_rules! float {
-    ($scalar:ident, $name:ident, $vector:ident, $bits:ident, $signed:ident, $wide:expr) => {
+    ($scalar:ident, $name:ident, $vector:ident, $bits:ident, $wide:expr) => {
         impl Real for $scalar {
             #[inline(always)]
             fn zero() -> Self {
@@ -304,8 +302,7 @@ macro_rules! float {
                 text.parse().ok()
             }
             fn place(self) -> i64 {
-                let magnitude =
-                    i64::from(($scalar::to_bits(self) & !$scalar::to_bits(-0.0)) as $signed);
+                let magnitude = $scalar::to_bits(self.abs()) as i64;
                 if self.is_sign_negative() {
                     -magnitude
                 } else {
@@ -373,8 +370,8 @@ macro_rules! float {
     };
 }
 
-float!(f32, F32, Vec3, u32, i32, wide_f32);
-float!(f64, F64, DVec3, u64, i64, wide_f64);
+float!(f32, F32, Vec3, u32, wide_f32);
+float!(f64, F64, DVec3, u64, wide_f64);
 
 #[cfg(test)]
 mod tests {

@@ -29,10 +29,9 @@ impl Fraction {
 
     /// The same value.
     pub fn from_rational(value: &BigRational) -> Fraction {
-        let (numerator, denominator) = (value.numer().clone(), value.denom().clone());
         Fraction {
-            numerator,
-            denominator,
+            numerator: value.numer().clone(),
+            denominator: value.denom().clone(),
             exponent: 0,
         }
     }
@@ -59,9 +58,8 @@ impl Fraction {
         let exponent = self.exponent.min(other.exponent);
         let align = |f: &Fraction| &f.numerator << (f.exponent - exponent);
         if self.denominator == other.denominator {
-            let numerator = align(self) + align(other);
             return Fraction {
-                numerator,
+                numerator: align(self) + align(other),
                 denominator: self.denominator.clone(),
                 exponent,
             };
@@ -88,27 +86,23 @@ impl Fraction {
         }
     }
 
-    /// As a float in 2^±63 (or 0) and a power of two.
+    /// A float `digits` of a size between 2^-63 and 2^63, or 0, and a power: the value is about `digits * 2^power`.
+    ///
+    /// The leading bits of numerator and denominator keep the quotient within a few ulps.
     pub(super) fn significand(&self) -> (f64, i64) {
-        // 63 leading bits of each keep the quotient within a few ulps.
-        let leading = |n: &BigInt| {
-            let shift = n.bits().saturating_sub(63);
-            let digits = (n >> shift).to_f64().unwrap_or(f64::NAN);
-            (digits * (-63f64).exp2(), shift as i64 + 63)
-        };
-        let ((n, i), (d, j)) = (leading(&self.numerator), leading(&self.denominator));
-        (n / d, i - j + self.exponent)
+        let (above, power_above) = leading(&self.numerator);
+        let (below, power_below) = leading(&self.denominator);
+        (above / below, power_above - power_below + self.exponent)
     }
 
     /// The square root, as a float and a power of two.
     pub(super) fn root_significand(&self) -> (f64, i64) {
-        let (digits, exponent) = self.significand();
-        let rest = if exponent.rem_euclid(2) == 1 {
-            2.0
-        } else {
-            1.0
-        };
-        ((digits * rest).sqrt(), exponent.div_euclid(2))
+        let (mut digits, power) = self.significand();
+        let is_odd = power.rem_euclid(2) == 1;
+        if is_odd {
+            digits *= 2.0;
+        }
+        (digits.sqrt(), power.div_euclid(2))
     }
 
     /// `1 / self`; `self` is not zero.
@@ -128,4 +122,11 @@ impl Fraction {
     pub(super) fn is_zero(&self) -> bool {
         self.sign() == Ordering::Equal
     }
+}
+
+/// The 63 leading bits of an integer, as a float of a size of at most 1 and a power of two.
+fn leading(n: &BigInt) -> (f64, i64) {
+    let shift = n.bits().saturating_sub(63);
+    let digits = (n >> shift).to_f64().unwrap_or(f64::NAN);
+    (digits * (-63f64).exp2(), shift as i64 + 63)
 }

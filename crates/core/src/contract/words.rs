@@ -23,117 +23,83 @@ impl Contract {
     /// Errors: one line that says which word is wrong and what is known.
     pub fn from_words(text: &str, own: Option<&Contract>) -> Result<Contract, Error> {
         let words: Vec<&str> = text.split(',').map(str::trim).collect();
-        let named = match own.filter(|_| words[0] == "own") {
-            Some(own) => Some(*own),
-            None => NAMED
-                .iter()
-                .find(|named| named.name == words[0])
-                .map(|named| named.contract),
+        let (mut contract, changes) = match named(words[0], own) {
+            Some(named) => (named, &words[1..]),
+            None => (Contract::without_name(text, &words)?, &words[..]),
         };
-        let has = |key: &str| words.iter().any(|word| word.split('=').next() == Some(key));
-        if named.is_none() {
-            if !words[0].contains('=') {
-                let names: Vec<&str> = NAMED.iter().map(|named| named.name).collect();
-                let advice = match nearest_name(words[0], names.iter().copied()) {
-                    Some(near) => format!("; did you mean '{near}'?"),
-                    None => {
-                        let names = names.join(", ");
-                        format!(": write {names}, or extent=ray,sides=both,boundary=closed")
-                    }
-                };
-                let line = format!("'{}' is no contract{advice}", words[0]);
-                return Err(Error::new(ErrorKind::UnknownName, line));
-            }
-            if let Some(key) = ["extent", "sides", "boundary"]
-                .into_iter()
-                .find(|key| !has(key))
-            {
-                return Err(Error::syntax(format!("'{text}' does not say {key}=…")));
-            }
-        }
-        let mut contract = named.unwrap_or(Contract::of_kernel(
-            Extent::Ray,
-            Sides::Both,
-            Boundary::Closed,
-        ));
-        for word in &words[usize::from(named.is_some())..] {
+        for word in changes {
             contract.change(word).map_err(Error::syntax)?;
         }
         Ok(contract)
     }
 
+    /// The contract that words without a name begin from, if they give all that has no default.
+    fn without_name(text: &str, words: &[&str]) -> Result<Contract, Error> {
+        if !words[0].contains('=') {
+            return Err(unknown(words[0]));
+        }
+        for key in ["extent", "sides", "boundary"] {
+            let mut keys = words.iter().map(|word| word.split('=').next());
+            if !keys.any(|given| given == Some(key)) {
+                return Err(Error::syntax(format!("'{text}' does not say {key}=…")));
+            }
+        }
+        Ok(Contract::of_kernel(
+            Extent::Ray,
+            Sides::Both,
+            Boundary::Closed,
+        ))
+    }
+
     /// The shortest words that [`Contract::from_words`] reads as this contract: `own` if it is the
     /// kernel's own (where that is known to the reader), a name, or what differs from either.
     pub fn words(&self, own: Option<&Contract>) -> String {
+        let all = self.all_words();
+        let own = own.map(|own| ("own", *own));
         let named = NAMED.iter().map(|named| (named.name, named.contract));
-        let known = own.map(|own| ("own", *own)).into_iter().chain(named);
-        let changes = |(name, base): (&str, Contract)| {
-            std::iter::once(name.to_owned())
-                .chain(self.changes_from(&base))
-                .collect::<Vec<_>>()
-        };
-        // What a base promises and this contract does not, no word takes back.
-        let possible = known.filter(|(_, base)| {
-            (self.no_self_hit || !base.no_self_hit) && (self.band.is_some() || base.band.is_none())
-        });
-        let shortest = possible.map(changes).min_by_key(Vec::len);
+        let mut possible = Vec::new();
+        for (name, base) in own.into_iter().chain(named) {
+            // No word takes back a base's `no-self-hit` or its band.
+            let keeps_self_hit = self.no_self_hit || !base.no_self_hit;
+            let keeps_band = self.band.is_some() || base.band.is_none();
+            if !keeps_self_hit || !keeps_band {
+                continue;
+            }
+            let of_base = base.all_words();
+            let mut words = vec![name.to_owned()];
+            words.extend(all.iter().filter(|word| !of_base.contains(word)).cloned());
+            possible.push(words);
+        }
+        let shortest = possible.into_iter().min_by_key(Vec::len);
         shortest.unwrap_or_default().join(",")
     }
 
-    /// The `key=value` words that turn another contract into this one.
-    fn changes_from(&self, base: &Contract) -> Vec<String> {
-        let mut words = Vec::new();
-        let mut change = |same: bool, key: &str, value: &str| {
-            if !same {
-                words.push(format!("{key}={value}"));
-            }
-        };
-        change(self.extent == base.extent, "extent", self.extent.name());
-        change(self.sides == base.sides, "sides", self.sides.name());
-        change(
-            self.boundary == base.boundary,
-            "boundary",
-            self.boundary.name(),
-        );
-        change(self.ends == base.ends, "ends", self.ends.name());
-        change(
-            self.coplanar == base.coplanar,
-            "coplanar",
-            self.coplanar.name(),
-        );
-        change(
-            self.degenerate == base.degenerate,
-            "degenerate",
-            self.degenerate.name(),
-        );
-        change(self.invalid == base.invalid, "invalid", self.invalid.name());
+    /// A word for each part of the contract. Equal parts have equal words, so contracts differ in the words that are not
+    /// in common.
+    fn all_words(&self) -> Vec<String> {
         let direction = match self.direction {
             Direction::Any => "any".to_owned(),
             Direction::Unit { ulps } => format!("unit:{ulps}"),
         };
-        change(self.direction == base.direction, "direction", &direction);
-        change(self.across == base.across, "across", self.across.name());
-        if let Some(band) = self.band {
-            change(self.band == base.band, "band", &band.to_string());
-        }
-        let determinant = format!("{:e}", self.least_determinant);
-        change(
-            self.least_determinant == base.least_determinant,
-            "determinant",
-            &determinant,
-        );
         let values = match self.value_tolerance {
             f64::INFINITY => "free".to_owned(),
             edges => format!("{edges:e}"),
         };
-        change(
-            self.value_tolerance == base.value_tolerance,
-            "values",
-            &values,
-        );
-        if self.no_self_hit && !base.no_self_hit {
-            words.push("no-self-hit".to_owned());
-        }
+        let mut words = vec![
+            format!("extent={}", self.extent),
+            format!("sides={}", self.sides),
+            format!("boundary={}", self.boundary),
+            format!("ends={}", self.ends),
+            format!("coplanar={}", self.coplanar),
+            format!("degenerate={}", self.degenerate),
+            format!("invalid={}", self.invalid),
+            format!("direction={direction}"),
+            format!("across={}", self.across),
+        ];
+        words.extend(self.band.map(|band| format!("band={band}")));
+        words.push(format!("determinant={:e}", self.least_determinant));
+        words.push(format!("values={values}"));
+        words.extend(self.no_self_hit.then(|| "no-self-hit".to_owned()));
         words
     }
 
@@ -153,14 +119,14 @@ impl Contract {
             "coplanar" => self.coplanar = Demand::chosen(&shown, value)?,
             "degenerate" => self.degenerate = Demand::chosen(&shown, value)?,
             "invalid" => self.invalid = Demand::chosen(&shown, value)?,
+            "direction" if value == "any" => self.direction = Direction::Any,
             "direction" => {
-                let unit = value
+                let ulps = value
                     .strip_prefix("unit:")
                     .and_then(|ulps| ulps.parse().ok());
-                self.direction = match (value, unit) {
-                    ("any", _) => Direction::Any,
-                    (_, Some(ulps)) => Direction::Unit { ulps },
-                    _ => return Err(format!("'{word}': there are any, unit:ULPS")),
+                let advice = format!("'{word}': there are any, unit:ULPS");
+                self.direction = Direction::Unit {
+                    ulps: ulps.ok_or(advice)?,
                 };
             }
             "across" => self.across = Across::chosen(&shown, value)?,
@@ -169,16 +135,12 @@ impl Contract {
                 let advice = format!("'{word}': write a number from 0 up, as 1e-8");
                 self.least_determinant = number.ok_or(advice)?;
             }
+            "values" if value == "free" => self.value_tolerance = f64::INFINITY,
             "values" => {
-                self.value_tolerance = match (value, number) {
-                    ("free", _) => f64::INFINITY,
-                    (_, Some(edges)) => edges,
-                    _ => {
-                        return Err(format!(
-                            "'{word}': write free, or a distance in longest edges from 0 up, as 1e-3"
-                        ));
-                    }
-                };
+                let advice = format!(
+                    "'{word}': write free, or a distance in longest edges from 0 up, as 1e-3"
+                );
+                self.value_tolerance = number.ok_or(advice)?;
             }
             "no-self-hit" if word == key => self.no_self_hit = true,
             _ => {
@@ -188,6 +150,31 @@ impl Contract {
         }
         Ok(())
     }
+}
+
+/// The contract of this name: the kernel's own, or one that all know.
+fn named(name: &str, own: Option<&Contract>) -> Option<Contract> {
+    match own {
+        Some(own) if name == "own" => Some(*own),
+        _ => {
+            let named = NAMED.iter().find(|named| named.name == name)?;
+            Some(named.contract)
+        }
+    }
+}
+
+/// The error that says that no contract has this name, and what to write.
+fn unknown(name: &str) -> Error {
+    let names: Vec<&str> = NAMED.iter().map(|named| named.name).collect();
+    let advice = match nearest_name(name, names.iter().copied()) {
+        Some(near) => format!("; did you mean '{near}'?"),
+        None => {
+            let names = names.join(", ");
+            format!(": write {names}, or extent=ray,sides=both,boundary=closed")
+        }
+    };
+    let line = format!("'{name}' is no contract{advice}");
+    Error::new(ErrorKind::UnknownName, line)
 }
 
 #[cfg(test)]

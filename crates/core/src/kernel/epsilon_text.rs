@@ -16,25 +16,26 @@ pub enum EpsilonText {
 impl EpsilonText {
     /// In a scalar; none if the text is no finite number of it.
     pub fn value<F: Float>(&self) -> Option<F> {
-        match self {
-            EpsilonText::Decimal(text) => F::parse(text),
-            EpsilonText::MachineEpsilon(factor) => Some(F::EPSILON * F::from_f64(*factor)),
-        }
-        .filter(F::is_finite)
+        let value = match self {
+            EpsilonText::Decimal(text) => F::parse(text)?,
+            EpsilonText::MachineEpsilon(factor) => F::EPSILON * F::from_f64(*factor),
+        };
+        value.is_finite().then_some(value)
     }
 
     /// In a scalar; none if it is too large there, or so small that it is 0.
     pub fn fitting<F: Float>(&self) -> Option<F> {
-        self.value()
-            .filter(|value: &F| !value.is_zero() || self.is_zero())
+        let value: F = self.value()?;
+        let is_lost = value.is_zero() && !self.is_zero();
+        (!is_lost).then_some(value)
     }
 
     /// True if it is written as zero.
     fn is_zero(&self) -> bool {
         match self {
             EpsilonText::Decimal(text) => {
-                let mut digits = text.chars().take_while(|c| !matches!(c, 'e' | 'E'));
-                !digits.any(|c| matches!(c, '1'..='9'))
+                let mut significand = text.chars().take_while(|c| !matches!(c, 'e' | 'E'));
+                significand.all(|c| !matches!(c, '1'..='9'))
             }
             EpsilonText::MachineEpsilon(factor) => *factor == 0.0,
         }
@@ -42,16 +43,15 @@ impl EpsilonText {
 
     /// `EPSILON`, `-EPSILON` or `k*EPSILON`; decimal text otherwise, not checked. None if k is no number.
     pub fn of(text: &str) -> Option<EpsilonText> {
-        let Some(factor) = text.strip_suffix("EPSILON") else {
+        let Some(before) = text.strip_suffix("EPSILON") else {
             return Some(EpsilonText::Decimal(text.to_owned()));
         };
-        Some(EpsilonText::MachineEpsilon(
-            match factor.strip_suffix('*').unwrap_or(factor) {
-                "" => 1.0,
-                "-" => -1.0,
-                factor => factor.parse().ok()?,
-            },
-        ))
+        let factor = match before.strip_suffix('*').unwrap_or(before) {
+            "" => 1.0,
+            "-" => -1.0,
+            number => number.parse().ok()?,
+        };
+        Some(EpsilonText::MachineEpsilon(factor))
     }
 }
 

@@ -17,9 +17,10 @@ pub(super) struct HavelHerout;
 
 const T: usize = 0;
 const U: usize = 1;
+/// V is the vector.
 const V_: usize = 2;
 
-/// The planes n, n1 and n2 with their offsets.
+/// The triangle's plane, n·p = d, and those that give the weights: u = n1·p + d1, v = n2·p + d2.
 pub(super) struct Planes<V: Vector> {
     n: V,
     d: V::Real,
@@ -59,18 +60,18 @@ impl Kernel for HavelHerout {
 
     #[inline(always)]
     fn prepare<V: Vector>(Triangle { a, b, c }: &Triangle<V>) -> Planes<V> {
-        let (ab, ac) = (b.minus(a), c.minus(a));
+        let [ab, ac] = [b.minus(a), c.minus(a)];
         let n = ab.cross(&ac);
         let scale = V::Real::one() / n.dot(&n);
-        let (n1, n2) = (ac.cross(&n).times(&scale), n.cross(&ab).times(&scale));
-        let (d, d1, d2) = (n.dot(a), -n1.dot(a), -n2.dot(a));
+        let n1 = ac.cross(&n).times(&scale);
+        let n2 = n.cross(&ab).times(&scale);
         Planes {
+            d: n.dot(a),
+            d1: -n1.dot(a),
+            d2: -n2.dot(a),
             n,
-            d,
             n1,
-            d1,
             n2,
-            d2,
         }
     }
 
@@ -91,23 +92,22 @@ impl Kernel for HavelHerout {
         let det = dpps(n, &ray.direction, zero.clone());
         let minus_n = n.times(&-V::Real::one());
         let dett = dpps(&minus_n, &ray.origin, d.clone());
+        // Zero for det = 0 even if t_max is infinite.
         let far = if det.is_zero() {
             det.clone()
         } else {
             ray.t_max.clone() * &det
         };
-        let same_bits = |x: &V::Real, y: &V::Real| x.is_sign_negative() == y.is_sign_negative();
+        let same_signs = |x: &V::Real, y: &V::Real| x.is_sign_negative() == y.is_sign_negative();
         let from_near = dett.clone() - end_times(&ray.t_min, &det);
-        sink.fixed(T, same_bits(&from_near, &(far - &dett)))?;
+        sink.fixed(T, same_signs(&from_near, &(far - &dett)))?;
         let detp = ray.origin.times(&det).plus_scaled(&ray.direction, &dett);
         let detp_w = det.clone() + dett.clone() * &zero;
         let detu = dpps(&detp, n1, detp_w.clone() * d1);
-        sink.fixed(U, same_bits(&detu, &(det.clone() - &detu)))?;
+        sink.fixed(U, same_signs(&detu, &(det.clone() - &detu)))?;
         let detv = dpps(&detp, n2, detp_w * d2);
-        sink.fixed(
-            V_,
-            same_bits(&detv, &(det.clone() - (detu.clone() + &detv))),
-        )?;
+        let rest = det.clone() - (detu.clone() + &detv);
+        sink.fixed(V_, same_signs(&detv, &rest))?;
         let inv_det = V::Real::one() / &det;
         Some(Hit {
             t: Some(dett * &inv_det),

@@ -73,10 +73,10 @@ fn plane<V: Vector>(v0: &V, v1: &V, v2: &V) -> (V, V::Real) {
     (n, d)
 }
 
-/// The values of N·R and of an edge that the listing refuses.
+/// The listing's refusals of N·R and of an edge.
 const BELOW: [Refuse; 2] = [Refuse::Below; 2];
 
-/// The listing from its parallel test on, for any polygon, with the refusals of N·R and of an edge.
+/// The listing from its parallel test on, for any polygon.
 #[inline(always)]
 fn inside_out<V: Vector, S: Sink<V::Real>>(
     vertices: &[V],
@@ -92,19 +92,11 @@ fn inside_out<V: Vector, S: Sink<V::Real>>(
     sink.one(T, Refuse::Below, &t)?;
     let p = ray.origin.clone().plus_scaled(&ray.direction, &t);
     for (i, from) in vertices.iter().enumerate() {
-        let to = if i + 1 < vertices.len() {
-            &vertices[i + 1]
-        } else {
-            &vertices[0]
-        };
+        let to = vertices.get(i + 1).unwrap_or(&vertices[0]);
         let c = to.minus(from).cross(&p.minus(from));
         sink.one(EDGE, edge, &n.dot(&c))?;
     }
-    Some(Hit {
-        t: Some(t),
-        uv: None,
-        facing: None,
-    })
+    Some(Hit::at(t))
 }
 
 impl Kernel for PlaneInsideOut {
@@ -162,6 +154,7 @@ impl Kernel for PlaneInsideOutStrict {
     const INFO: KernelInfo = KernelInfo {
         contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Open),
         gates: &[
+            // Signed, since `<=` refuses a zero at an epsilon of 0, and not at a negative one.
             Gate::signed(Role::Parallel, "abs(N·d) <= e, N = (b-a)×(c-a)", 2, 1),
             Gate::signed(Role::T, "t < e", 1, -1),
             Gate::signed(Role::Edge, "!(N·((b-a)×(p-a)) > e), and cyclic", 4, 0),

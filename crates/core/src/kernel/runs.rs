@@ -33,9 +33,10 @@ impl ExactRun {
 
     /// True if it is a hit.
     pub fn hit(&self) -> bool {
-        self.passed.iter().all(|passes| *passes)
+        self.refused_by().is_none()
     }
 
+    /// The run in which these gates passed, with the values that its hit would report.
     pub(super) fn of<R: Real>(passed: Vec<bool>, values: Option<Hit<R>>) -> ExactRun {
         let finite = values
             .as_ref()
@@ -66,16 +67,18 @@ impl<F: Float> TrackedRun<F> {
         epsilons: &[F],
         arithmetic: Arithmetic,
     ) -> TrackedRun<F> {
-        let number = |x: F| Tracked::new(x, arithmetic);
-        let (ray, shape) = T::lift(case, number);
-        let epsilons: Vec<_> = epsilons.iter().map(|e| number(*e)).collect();
+        let track = |x: F| Tracked::new(x, arithmetic);
+        let (ray, shape) = T::lift(case, track);
+        let epsilons: Vec<_> = epsilons.iter().map(|e| track(*e)).collect();
         let mut sink = Deciding::new(&epsilons);
         let (hit, decision) = tracked(|| K::test(&K::prepare(&shape), &ray, &mut sink));
-        let numbers = hit.iter().flat_map(Hit::numbers);
-        let values = numbers.fold(Exceptions::default(), |all, x| all.and(x.notes()));
-        let verdict = Verdict::of(hit.map(|hit| hit.map(|x| x.value())), sink.refused_by);
+        let mut values = Exceptions::default();
+        for number in hit.iter().flat_map(Hit::numbers) {
+            values = values.and(number.notes());
+        }
+        let hit = hit.map(|hit| hit.map(|number| number.value()));
         TrackedRun {
-            verdict,
+            verdict: Verdict::of(hit, sink.refused_by),
             decision,
             values,
         }

@@ -1,4 +1,5 @@
-//! The built-in formula that answers as a kernel does which does not show its own: what it does on the case is a likely cause.
+//! The built-in formula that answers as a kernel does whose own is not shown: what the formula does on a case is a likely cause
+//! of the kernel's mistake there.
 
 use super::near::{Nearby, run};
 use super::other_epsilon::other_epsilon;
@@ -14,9 +15,10 @@ use hairline_record::group_digits;
 /// The ending of a name that says that products are fused into sums.
 const FUSED: &str = "+fma";
 
-/// The fewest hits of both by which a formula is known, and the share of them with the same values.
+/// The fewest hits of both by which a formula is known.
 const FEWEST_HITS: usize = 50;
-const SAME: f64 = 0.9;
+/// The least share of them with the same values.
+const LEAST_SAME: f64 = 0.9;
 
 /// The answers of a formula beside a kernel's.
 struct FormulaBeside {
@@ -29,6 +31,45 @@ struct FormulaBeside {
     agreed: usize,
 }
 
+impl FormulaBeside {
+    /// The answers of a formula to the cases nearby; none if it does not run in this scalar.
+    fn named<F: Scalar>(name: &str, kernel: &Row, nearby: &Nearby<F>) -> Option<FormulaBeside> {
+        let row = Row::named(name, None, &kernel.contract.words(None)).ok()?;
+        let answers = run(F::subject(row.entry)?, &nearby.drawn, &row);
+        let gives_uv = row.entry.info.gives.uv && kernel.entry.info.gives.uv;
+        let mut beside = FormulaBeside {
+            row,
+            hits: 0,
+            same: 0,
+            agreed: 0,
+        };
+        for (one, other) in nearby.answers.iter().zip(&answers) {
+            if one.hit == other.hit {
+                beside.agreed += 1;
+            }
+            if one.hit && other.hit {
+                beside.hits += 1;
+                if has_same_values(one, other, gives_uv) {
+                    beside.same += 1;
+                }
+            }
+        }
+        Some(beside)
+    }
+
+    /// True if the hits are enough to know the kernel by.
+    fn is_known(&self) -> bool {
+        FEWEST_HITS <= self.hits && LEAST_SAME * self.hits as f64 <= self.same as f64
+    }
+}
+
+/// True if two hits have the same t, and the same u and v where both give them, bit for bit.
+fn has_same_values<F: Float>(one: &Verdict<F>, other: &Verdict<F>, gives_uv: bool) -> bool {
+    let is_same = |x: F, y: F| x.to_bits() == y.to_bits();
+    let has_same_uv = || is_same(one.u, other.u) && is_same(one.v, other.v);
+    is_same(one.t, other.t) && (!gives_uv || has_same_uv())
+}
+
 /// A note on the built-in formula that is nearest to a wrong kernel, and on what it does on the case; none if none is near.
 pub(super) fn nearest<F: Scalar>(
     case: &Case<F>,
@@ -37,22 +78,22 @@ pub(super) fn nearest<F: Scalar>(
     verdict: &Verdict<F>,
     nearby: &Nearby<F>,
 ) -> Option<String> {
-    let nearest = nearest_formula(row, nearby)?;
+    let formula = nearest_formula(row, nearby)?;
     let FormulaBeside {
         hits, same, agreed, ..
-    } = nearest;
-    let text = format!(
-        "{} of {} cases like this one it answers as {} does, and on {same} of {hits} hits of both with the same bits",
-        group_digits(agreed as u64),
-        group_digits(nearby.drawn.len() as u64),
-        in_words(nearest.row.entry.info.name),
-    );
-    let other = other_epsilon(row, &nearest.row, nearby);
-    let other = other.map_or(String::new(), |words| {
-        format!("; it would on all with {words}")
-    });
-    let here = here(case, is_secondary, &nearest.row, verdict)?;
-    Some(format!("compared, not proved: on {text}{other}; {here}"))
+    } = formula;
+    let agreed = group_digits(agreed as u64);
+    let drawn = group_digits(nearby.drawn.len() as u64);
+    let name = in_words(formula.row.entry.info.name);
+    let other = match other_epsilon(row, &formula.row, nearby) {
+        Some(other) => format!("; it would on all with {other}"),
+        None => String::new(),
+    };
+    let answer = answer_here(case, is_secondary, &formula.row, verdict)?;
+    Some(format!(
+        "compared, not proved: on {agreed} of {drawn} cases like this one it answers as {name} does, and on {same} of {hits} \
+         hits of both with the same bits{other}; {answer}"
+    ))
 }
 
 /// The built-in formula that a wrong kernel computes with another epsilon or with fused products, as its answers to cases like
@@ -66,10 +107,8 @@ pub fn misused_formula<F: Scalar>(case: &Case<F>, row: &Row) -> Option<String> {
         return None;
     }
     let how = other.map_or(String::new(), |other| format!(" with {other}"));
-    let (same, hits) = (
-        group_digits(formula.same as u64),
-        group_digits(formula.hits as u64),
-    );
+    let same = group_digits(formula.same as u64);
+    let hits = group_digits(formula.hits as u64);
     Some(format!(
         "it computes {}{how}: {same} of {hits} hits have its bits",
         in_words(name)
@@ -82,35 +121,16 @@ fn nearest_formula<F: Scalar>(row: &Row, nearby: &Nearby<F>) -> Option<FormulaBe
     if !row.entry.info.gives.t {
         return None;
     }
-    let contract = row.contract.words(None);
-    let names = KERNELS.iter().rev().map(|entry| entry.info.name);
-    let fused = names.clone().map(|name| format!("{name}{FUSED}"));
-    // Of equals the last is taken: one without fused products, and the first of the table.
-    let beside = fused.chain(names.map(str::to_owned)).filter_map(|name| {
-        let other = Row::named(&name, None, &contract).ok()?;
-        let others = run(F::subject(other.entry)?, &nearby.drawn, &other);
-        let gives_uv = other.entry.info.gives.uv && row.entry.info.gives.uv;
-        let pairs = || nearby.answers.iter().zip(&others);
-        let both = || pairs().filter(|(one, other)| one.hit && other.hit);
-        let is_same = |(one, other): &(&Verdict<F>, &Verdict<F>)| {
-            let values = |it: &Verdict<F>| {
-                if gives_uv {
-                    [it.t, it.u, it.v]
-                } else {
-                    [it.t; 3]
-                }
-            };
-            values(one).map(Float::to_bits) == values(other).map(Float::to_bits)
-        };
-        Some(FormulaBeside {
-            row: other,
-            hits: both().count(),
-            same: both().filter(is_same).count(),
-            agreed: pairs().filter(|(one, other)| one.hit == other.hit).count(),
-        })
-    });
-    let most = beside.max_by_key(|it| (it.same, it.agreed));
-    most.filter(|it| FEWEST_HITS <= it.hits && SAME * it.hits as f64 <= it.same as f64)
+    let mut all = Vec::new();
+    // Of equals `max_by_key` takes the last: one without fused products, and the first of the table.
+    for ending in [FUSED, ""] {
+        for entry in KERNELS.iter().rev() {
+            let name = format!("{}{ending}", entry.info.name);
+            all.extend(FormulaBeside::named(&name, row, nearby));
+        }
+    }
+    let nearest = all.into_iter().max_by_key(|it| (it.same, it.agreed))?;
+    nearest.is_known().then_some(nearest)
 }
 
 /// The name of a formula: `moller-trumbore with fused products`.
@@ -121,21 +141,22 @@ fn in_words(name: &str) -> String {
     }
 }
 
-/// The answer of a formula on the case.
-fn here<F: Scalar>(
+/// The answer of a formula to the case, beside the kernel's verdict.
+fn answer_here<F: Scalar>(
     case: &Case<F>,
     is_secondary: bool,
     row: &Row,
     verdict: &Verdict<F>,
 ) -> Option<String> {
-    let (subject, epsilons) = (F::subject(row.entry)?, row.epsilons::<F>());
+    let subject = F::subject(row.entry)?;
+    let epsilons: Vec<F> = row.epsilons();
     let answer = verdict_of(subject, case, &epsilons);
-    let gate = answer
-        .refused_by
-        .map(|i| row.entry.info.gates[usize::from(i)]);
-    let does = match gate {
+    let does = match answer.refused_by {
         None => "hits".to_owned(),
-        Some(gate) => format!("refuses by its gate {} ({})", gate.name, gate.refuses),
+        Some(i) => {
+            let gate = row.entry.info.gates[usize::from(i)];
+            format!("refuses by its gate {} ({})", gate.name, gate.refuses)
+        }
     };
     if answer.hit != verdict.hit {
         return Some(format!(
