@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 /// A search on its way from corner to corner.
 pub struct Search<'p, T> {
     problem: &'p Problem<T>,
-    /// The coordinates of the unit vector, as bits.
+    /// The coordinates of the unit vector, as bits; 0 if there is none.
     of_unit: usize,
     /// The corner of the latest visit; none before the first.
     visited: Option<usize>,
@@ -56,7 +56,7 @@ impl<'p, T: Integer> Search<'p, T> {
 
     /// Finds the sizes and the effects at a corner. Of corners with the largest effects, the first is kept.
     pub fn visit(&mut self, corner: usize) {
-        let has_unit = self.has_unit();
+        let has_unit = self.of_unit != 0;
         let axes = self.problem.unit.len().max(1);
         let mut alone = T::zero();
         let mut squares = BigInt::ZERO;
@@ -89,10 +89,6 @@ impl<'p, T: Integer> Search<'p, T> {
             self.squares = squares;
             self.corner = corner;
         }
-    }
-
-    fn has_unit(&self) -> bool {
-        self.of_unit != 0
     }
 
     /// True if a step depends on the unit vector, in which it is linear then.
@@ -189,7 +185,7 @@ impl<'p, T: Integer> Search<'p, T> {
                 effect *= &self.values[k].abs();
             }
             let is_linear = self.is_linear(&self.problem.rows[k]);
-            if self.has_unit() && (weight.is_relative || !is_linear) {
+            if self.of_unit != 0 && (weight.is_relative || !is_linear) {
                 of_axis += effect;
             } else {
                 alone += effect;
