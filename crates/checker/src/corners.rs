@@ -174,10 +174,9 @@ impl Problem<BigInt> {
 impl Row<BigInt> {
     fn without_signs(&self) -> Row<BigInt> {
         let mut row = self.mapped(|factor| Some(factor.abs())).expect("a size");
-        row.constant = match self.support {
-            0 => not_zero(&self.constant),
-            _ => BigInt::ZERO,
-        };
+        if self.support == 0 {
+            row.constant = not_zero(&row.constant);
+        }
         row
     }
 

@@ -27,7 +27,14 @@ impl Contract {
             Some(named) => (named, &words[1..]),
             None => (Contract::without_name(text, &words)?, &words[..]),
         };
+        let mut keys = Vec::new();
         for word in changes {
+            let key = word.split('=').next();
+            if keys.contains(&key) {
+                let line = format!("'{word}': it is said before, in '{text}'");
+                return Err(Error::new(ErrorKind::Repeated, line));
+            }
+            keys.push(key);
             contract.change(word).map_err(Error::syntax)?;
         }
         Ok(contract)
@@ -295,6 +302,10 @@ mod tests {
             (
                 "closed-ray,values=inf",
                 "'values=inf': write free, or a distance",
+            ),
+            (
+                "closed-ray,ends=open,ends=closed",
+                "'ends=closed': it is said before",
             ),
             (
                 "closed-ray,no-self-hit=yes",

@@ -18,7 +18,14 @@ impl EpsilonText {
     pub fn value<F: Float>(&self) -> Option<F> {
         let value = match self {
             EpsilonText::Decimal(text) => F::parse(text)?,
-            EpsilonText::MachineEpsilon(factor) => F::EPSILON * F::from_f64(*factor),
+            EpsilonText::MachineEpsilon(factor) => {
+                let rounded = F::from_f64(*factor);
+                // A factor beyond the range may have a product within it.
+                match rounded.is_finite() {
+                    true => F::EPSILON * rounded,
+                    false => F::from_f64(F::EPSILON.to_f64() * factor),
+                }
+            }
         };
         value.is_finite().then_some(value)
     }
@@ -33,10 +40,7 @@ impl EpsilonText {
     /// True if it is written as zero.
     fn is_zero(&self) -> bool {
         match self {
-            EpsilonText::Decimal(text) => {
-                let mut significand = text.chars().take_while(|c| !matches!(c, 'e' | 'E'));
-                significand.all(|c| !matches!(c, '1'..='9'))
-            }
+            EpsilonText::Decimal(text) => is_written_as_zero(text),
             EpsilonText::MachineEpsilon(factor) => *factor == 0.0,
         }
     }
@@ -46,12 +50,51 @@ impl EpsilonText {
         let Some(before) = text.strip_suffix("EPSILON") else {
             return Some(EpsilonText::Decimal(text.to_owned()));
         };
-        let factor = match before.strip_suffix('*').unwrap_or(before) {
+        let factor = match before {
             "" => 1.0,
             "-" => -1.0,
-            number => number.parse().ok()?,
+            _ => before.strip_suffix('*').and_then(factor)?,
         };
         Some(EpsilonText::MachineEpsilon(factor))
+    }
+}
+
+/// The factor of a text; none if it is no number, or so small that it would be 0.
+fn factor(text: &str) -> Option<f64> {
+    let factor: f64 = text.parse().ok()?;
+    let is_lost = factor == 0.0 && !is_written_as_zero(text);
+    (!is_lost).then_some(factor)
+}
+
+/// True if no digit before the exponent is above 0.
+fn is_written_as_zero(text: &str) -> bool {
+    let mut significand = text.chars().take_while(|c| !matches!(c, 'e' | 'E'));
+    significand.all(|c| !matches!(c, '1'..='9'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_factor_is_neither_lost_nor_too_large_where_its_product_fits() {
+        let value = |text: &str| EpsilonText::of(text)?.value::<f32>();
+        assert_eq!(
+            value("1e40*EPSILON"),
+            Some((1e40 * f64::from(f32::EPSILON)) as f32)
+        );
+        assert_eq!(value("-2*EPSILON"), Some(-2.0 * f32::EPSILON));
+        assert_eq!(value("0*EPSILON"), Some(0.0));
+        assert_eq!(value("-EPSILON"), Some(-f32::EPSILON));
+        for text in [
+            "1e-400*EPSILON",
+            "2EPSILON",
+            "*EPSILON",
+            "-*EPSILON",
+            "1e60*EPSILON",
+        ] {
+            assert_eq!(value(text), None, "{text}");
+        }
     }
 }
 
