@@ -72,6 +72,19 @@ fn is_written_as_zero(text: &str) -> bool {
     significand.all(|c| !matches!(c, '1'..='9'))
 }
 
+impl fmt::Display for EpsilonText {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            EpsilonText::Decimal(text) => f.write_str(text),
+            EpsilonText::MachineEpsilon(factor) if *factor == 1.0 => f.write_str("EPSILON"),
+            EpsilonText::MachineEpsilon(factor) if (1e-3..1e6).contains(&factor.abs()) => {
+                write!(f, "{factor}*EPSILON")
+            }
+            EpsilonText::MachineEpsilon(factor) => write!(f, "{factor:e}*EPSILON"),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -94,19 +107,6 @@ mod tests {
             "1e60*EPSILON",
         ] {
             assert_eq!(value(text), None, "{text}");
-        }
-    }
-}
-
-impl fmt::Display for EpsilonText {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            EpsilonText::Decimal(text) => f.write_str(text),
-            EpsilonText::MachineEpsilon(factor) if *factor == 1.0 => f.write_str("EPSILON"),
-            EpsilonText::MachineEpsilon(factor) if (1e-3..1e6).contains(&factor.abs()) => {
-                write!(f, "{factor}*EPSILON")
-            }
-            EpsilonText::MachineEpsilon(factor) => write!(f, "{factor:e}*EPSILON"),
         }
     }
 }
