@@ -89,24 +89,23 @@ fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
             Some(reason) => format!("{truth}: {reason}"),
             None => truth.to_string(),
         },
-        fractions: fractions(&exact),
+        exact: nearest_doubles(&exact),
         inputs,
         interval: [case.ray.t_min, case.ray.t_max].map(|t| [number(t), t.hex()]),
     }
 }
 
-/// Those of t, u and v that are no integers, by name.
-fn fractions(exact: &ExactValues) -> Vec<(&'static str, f64)> {
+/// The exact t, u and v that there are, by name, each as the nearest double; one beyond the range of doubles is left out.
+fn nearest_doubles(exact: &ExactValues) -> Vec<(&'static str, f64)> {
     let values = [("t", &exact.t), ("u", &exact.u), ("v", &exact.v)];
-    let mut fractions = Vec::new();
+    let mut doubles = Vec::new();
     for (name, value) in values {
-        let Some(value) = value.as_ref().filter(|value| !value.is_integer()) else {
-            continue;
-        };
-        let number = value.to_f64().filter(|number| number.is_finite());
-        fractions.extend(number.map(|number| (name, number)));
+        let double = value.as_ref().and_then(ToPrimitive::to_f64);
+        if let Some(double) = double.filter(|double| double.is_finite()) {
+            doubles.push((name, double));
+        }
     }
-    fractions
+    doubles
 }
 
 /// The answers of the rows held against the exact instance in the world.

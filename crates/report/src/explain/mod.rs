@@ -52,9 +52,9 @@ pub struct TrianglePart {
     /// The exact answer in words.
     #[serde(skip)]
     pub in_words: String,
-    /// Those of the exact t, u and v that are no integers, by name: the nearest doubles.
+    /// The exact t, u and v, by name, each as the nearest double; none where the line crosses no plane.
     #[serde(skip)]
-    pub fractions: Vec<(&'static str, f64)>,
+    pub exact: Vec<(&'static str, f64)>,
     /// The vectors in numbers and in bits, each with its name.
     #[serde(skip)]
     pub inputs: Vec<[String; 5]>,

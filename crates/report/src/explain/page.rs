@@ -247,7 +247,7 @@ fn in_world(instance: &InstancePart) -> String {
 /// The exact values, where there are any: fractions are approximated.
 fn exact(triangle: &TrianglePart) -> String {
     let values: Vec<String> = triangle
-        .fractions
+        .exact
         .iter()
         .map(|(name, value)| format!("{name} = {}", verdict::number(*value)))
         .collect();
