@@ -632,6 +632,12 @@ static hairline_start hairline_start_of(const hairline_hit *hit) {
         "{}",
         String::from_utf8_lossy(&built.stderr)
     );
+    // The header's old name is another way to it.
+    let once = source.replace("hairline_offset.h", "hairline_spawn.h");
+    fs::write(folder.join("once.c"), once).unwrap();
+    let flags = ["-fsyntax-only", "-Wall", "-Werror", include, "once.c"];
+    let checked = Command::new("cc").args(flags).current_dir(&folder).status();
+    assert!(checked.unwrap().success());
     for scalar in ["f32", "f64"] {
         let flags = [
             "--scheme",

@@ -90,11 +90,12 @@ pub fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
             return Err(Failure::usage(message));
         }
         if is_new || !is_worse || arguments.accept_worse {
-            let text = now.text();
+            let wrong = now.wrong();
+            let text = now.text(&wrong);
             write_result(file, |out| out.write_all(text.as_bytes()))?;
             if !arguments.run.output.quiet {
-                let known = text.lines().filter(|line| line.starts_with('"')).count();
-                eprintln!("{file}: {known} counts of wrong answers are known");
+                let counts = wrong.len();
+                eprintln!("{file}: {counts} counts of wrong answers are known");
             }
             return Ok(Status::Success);
         }
@@ -173,15 +174,21 @@ impl HeldResult {
         known.filter(|name| !is_run(name)).count() as u64
     }
 
-    /// The file that holds it.
-    fn text(&self) -> String {
+    /// The counts that are above 0.
+    fn wrong(&self) -> Vec<NamedRate> {
+        let mut counted = self.counted();
+        counted.retain(|named| 0 < named.rate.count);
+        counted
+    }
+
+    /// The file that holds these counts.
+    fn text(&self, wrong: &[NamedRate]) -> String {
         let mut text = format!(
             "# Known wrong answers of slab tests: `hairline boxes check` fails if there are others. --bless writes them.\n\
              schema = \"{SCHEMA}\"\ncases = \"{}\"\n\n[known]\n",
             self.cases()
         );
-        let counted = self.counted();
-        for NamedRate { what, rate, .. } in counted.iter().filter(|named| 0 < named.rate.count) {
+        for NamedRate { what, rate, .. } in wrong {
             // TOML reads a string of JSON.
             let name = serde_json::Value::from(what.as_str());
             text += &format!("{name} = {}\n", rate.count);
