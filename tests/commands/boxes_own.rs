@@ -96,6 +96,13 @@ fn the_guide_s_examples_are_slab_tests_in_c_and_in_python() {
             "corner-near",
         ];
         assert_eq!(own["lost"], row(&folder, &division)["lost"]);
+        // It runs in doubles alone, and the case is in floats.
+        let other = ["boxes", "explain", "@libigl-2270"];
+        let (_, error) = ends(&folder, &[&other[..], &flags[..2]].concat(), 4);
+        assert!(
+            error.contains("none of the chosen tests runs in f32"),
+            "{error}"
+        );
     }
 }
 

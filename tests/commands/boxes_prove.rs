@@ -1,5 +1,6 @@
 //! `boxes prove`: the least growth of a far end, proved where nothing leaves the range.
 
+use crate::io::shell;
 use crate::program::{ends, ends_flat, scratch};
 use serde_json::Value;
 
@@ -56,10 +57,24 @@ fn the_least_growth_is_proved_for_ordinary_sizes_and_less_loses_the_ray_that_is_
     for words in [
         "divided f32 growth=-2*EPSILON 4 proved for these sizes",
         "multiplied f64 growth=-3*EPSILON 6 proved for these sizes",
-        "fused f32 none is enough – shown by a ray, if sizes have no bounds",
+        "fused f32 none is enough – a ray is lost with 2^32*EPSILON",
     ] {
         assert!(screen.contains(words), "{words}: {screen}");
     }
+    // The commands on the screen run as they stand, and show a ray that is lost.
+    let (screen, _) = ends(&folder, &["boxes", "prove"], 0);
+    let mut shown = 0;
+    for line in screen.lines() {
+        if let Some((_, rest)) = line.split_once("hairline boxes explain ") {
+            let command = format!("hairline boxes explain {rest}");
+            let (code, out, error) = shell(&folder, &command);
+            assert_eq!(code, 0, "{command}: {error}");
+            let told = out.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(told.contains("1 of 1 tests are wrong"), "{command}: {told}");
+            shown += 1;
+        }
+    }
+    assert_eq!(shown, 6, "{screen}");
 }
 
 #[test]

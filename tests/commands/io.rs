@@ -31,7 +31,7 @@ fn unnamed() -> String {
 }
 
 /// Runs a line in a shell, in which `hairline` is the program.
-fn shell(folder: &Path, line: &str) -> (i32, String, String) {
+pub fn shell(folder: &Path, line: &str) -> (i32, String, String) {
     let line = format!("hairline() {{ '{PROGRAM}' \"$@\"; }}\n{line}");
     let output = Command::new("sh")
         .args(["-c", &line])

@@ -43,6 +43,12 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
         AnyBoxCase::F32(case) => explain(&arguments.case, &case, &setups),
         AnyBoxCase::F64(case) => explain(&arguments.case, &case, &setups),
     };
+    if explained.answers.is_empty() {
+        let scalar = explained.scalar;
+        return Err(Failure::nothing(format!(
+            "none of the chosen tests runs in {scalar}, which the case is in"
+        )));
+    }
     if let Some(name) = arguments.case.strip_prefix('@') {
         explained.published = Some(published::find(name)?);
     }

@@ -1,5 +1,6 @@
 //! `hairline boxes prove`: the least growth of a far end for which no ray of some sizes is lost.
 
+use crate::audit::shell_word;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::OutputArguments;
 use crate::report::Format;
@@ -107,7 +108,7 @@ impl Proof {
         let words = match (self.fault(), self.in_epsilons) {
             (Some(fault), _) => format!("not proved, since this fails: {fault}"),
             (None, Some(_)) => "proved for these sizes".to_owned(),
-            (None, None) => "shown by a ray, if sizes have no bounds".to_owned(),
+            (None, None) => "a ray is lost with 2^32*EPSILON".to_owned(),
         };
         let verdict = Cell {
             text: words,
@@ -128,13 +129,17 @@ impl Proof {
         let (test, case) = (self.test, &self.witness);
         let (less, what) = match self.in_epsilons {
             Some(units) => (
-                format!("-{}*EPSILON", units - 1),
+                format!("growth=-{}*EPSILON", units - 1),
                 "a smaller growth loses this ray",
             ),
-            None => ("-1e6".to_owned(), "the near end is an error of o/d alone"),
+            None => (
+                "growth=-1e6".to_owned(),
+                "the near end is an error of o/d alone",
+            ),
         };
+        let [case, less] = [case, &less].map(|word| shell_word(word));
         Command {
-            line: format!("hairline boxes explain '{case}' -k {test} --epsilon growth={less}"),
+            line: format!("hairline boxes explain {case} -k {test} --epsilon {less}"),
             what,
         }
     }
@@ -158,6 +163,11 @@ impl Paged for Proofs {
                  {fast:e}. That nothing overflows or underflows then is checked. docs/design/boxes-proof.md has the steps."
             )),
         ];
+        if self.rows.iter().any(|proof| proof.in_epsilons.is_none()) {
+            blocks.push(Block::text(
+                "None is enough: whatever the growth, a ray whose far end is near enough to its start needs more.",
+            ));
+        }
         let commands = self.rows.iter().map(Proof::command).collect();
         blocks.push(Block::Commands("witnesses", commands));
         let are_proved = self.are_proved();

@@ -243,7 +243,7 @@ impl BoxesResult {
             "The families are rays at corners, edges and faces, and boxes that are flat or a point. The shares compare \
              tests on them; they are not rates in a program, whose rays are rarely so near an edge."
         } else {
-            "All rays are aimed at a corner, an edge or a face of a box, where rounding decides. The shares compare tests \
+            "All rays are aimed at a box: most at a corner, an edge or a face, where rounding decides. The shares compare tests \
              there; they are not rates in a program, whose rays are rarely so near an edge."
         };
         notes.push(drawn.to_owned());
