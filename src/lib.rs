@@ -30,8 +30,13 @@
 )]
 
 // What stands below: the words, the numbers, the kernels, the truth; the proofs; cases, counts and studies; kernels of others.
-#[macro_use(either_scalar, in_named_scalar, named)]
+#[macro_use(either_scalar, in_named_scalar)]
 extern crate hairline_core;
+#[cfg(feature = "studies")]
+use hairline_advice::{advised, epsilon, offset};
+#[cfg(feature = "studies")]
+use hairline_cases::corpus;
+use hairline_cases::{family, mesh};
 use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, suggest};
 #[cfg(feature = "cli")]
 use hairline_expect as expect;
@@ -45,9 +50,11 @@ use hairline_prove as prove;
 use hairline_record as record;
 #[cfg(feature = "studies")]
 use hairline_report as report;
-use hairline_study::{audit, corpus, family, judge, mesh};
+use hairline_study::{audit, judge};
 #[cfg(feature = "studies")]
-use hairline_study::{epsilon, map, offset, selfcheck, studied};
+use hairline_study::{map, selfcheck, studied};
+#[cfg(feature = "studies")]
+use hairline_vectors as vectors;
 
 #[cfg(feature = "studies")]
 #[macro_use(part)]
@@ -57,9 +64,6 @@ extern crate hairline_record;
 extern crate macro_rules_attribute;
 
 // The floors, from the ground up: each module uses only those above it in this list.
-#[cfg(feature = "studies")]
-mod vectors;
-
 mod conformance;
 #[cfg(feature = "cli")]
 mod descriptors;

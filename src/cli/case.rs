@@ -3,6 +3,7 @@
 use super::exit::Failure;
 use super::flags::{find_family, find_kernel, placed, unknown};
 use super::input::{corpus_files, name_of, read_corpus, read_mesh};
+use super::vectors::core_set;
 use crate::arith::ScalarName;
 use crate::case::{AnyScalar, Case, CaseId, Instance};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
@@ -10,7 +11,7 @@ use crate::family::{self, Family, Grouping, MeshFamily, Stratum};
 use crate::files::mesh::Mesh;
 use crate::kernel::Scalar;
 use crate::mesh::{AimedPart, SceneMesh, Surface, Targets, Topology};
-use crate::vectors::{self, DIGITS, VectorTest, in_scalar};
+use crate::vectors::{DIGITS, VectorTest, in_scalar};
 use clap::Args;
 use std::sync::Arc;
 
@@ -125,7 +126,7 @@ impl CaseArguments {
         if !is_digest || self.case.contains('/') {
             return None;
         }
-        let mut tests = vectors::core().into_iter().flat_map(|(_, tests)| tests);
+        let mut tests = core_set().into_iter().flat_map(|(_, tests)| tests);
         let Some(VectorTest {
             cases, grouping, ..
         }) = tests.find(|test| test.id == self.case)

@@ -4,13 +4,13 @@ use super::boxes::BoxesResult;
 use super::exit::{Failure, Status};
 use super::input::RecordText;
 use super::output::OutputArguments;
-use super::verify::VerifyResult;
 use crate::expect::{RecordComparison, difference, difference_of};
 use crate::record::{Comparable, Record, Study};
 use crate::report::Format;
 use crate::report::epsilon::SceneResult;
 use crate::report::offset::OffsetResult;
 use crate::report::proofs::ProofResult;
+use crate::vectors::VerifyResult;
 use clap::Args;
 
 /// The arguments of `diff`: the records to compare, and how to report.

@@ -10,6 +10,7 @@ use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::SourceArguments;
+use crate::advised::Advised;
 use crate::arith::{ScalarName, smallest_normal};
 use crate::audit::Row;
 use crate::case::{Scene, Target};
@@ -24,7 +25,6 @@ use crate::offset::SegmentPlan;
 use crate::record::Context;
 use crate::report::SegmentsPart;
 use crate::report::epsilon::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
-use crate::studied::Studied;
 use crate::suggest::nearest_name;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args};
@@ -248,7 +248,7 @@ impl EpsilonRun<'_> {
     }
 
     /// The part of the record, and the kernel's nanoseconds a ray.
-    fn study<F: Studied>(&self, tuned: &Tuned<'_>) -> Result<(SceneKernelPart, f64), Failure> {
+    fn study<F: Advised>(&self, tuned: &Tuned<'_>) -> Result<(SceneKernelPart, f64), Failure> {
         let Tuned { row, sets, knobs } = tuned;
         let name = row.entry.info.name;
         let missing = || Failure::usage(format!("{name} does not run in {}", F::NAME));
@@ -325,7 +325,7 @@ impl EpsilonRun<'_> {
     }
 
     /// Where segments end in the scene, for a kernel that has a page of its own.
-    fn segments<F: Studied>(&self, row: &Row) -> Option<SegmentsPart> {
+    fn segments<F: Advised>(&self, row: &Row) -> Option<SegmentsPart> {
         let StudiedRays {
             scene,
             mesh,

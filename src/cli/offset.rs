@@ -7,6 +7,7 @@ use super::output::OutputArguments;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{about_scene, mesh_scene, note_left_out};
+use crate::advised::Advised;
 use crate::arith::ScalarName;
 use crate::audit::{Row, shell_word};
 use crate::case::Scene;
@@ -23,7 +24,6 @@ use crate::report::offset::{
     DerivedPart, OffsetResult, PointsPart, least_without_failure, made_for,
 };
 use crate::report::{Format, SegmentsPart};
-use crate::studied::Studied;
 use clap::Args;
 use clap::builder::ArgPredicate;
 use std::sync::Arc;
@@ -261,7 +261,7 @@ fn on_each<'a>(scenes: &'a [Scene], plan: &OffsetPlan<'a>) -> Vec<OffsetPlan<'a>
 impl OffsetArguments {
     /// Runs the schemes of a plan on its rays in each scene, the first of which the table is about, makes others for what is
     /// seen there, and runs all on the rays that are reported.
-    fn study<F: Studied>(
+    fn study<F: Advised>(
         &self,
         plan: &OffsetPlan<'_>,
         scenes: &[Scene],

@@ -4,7 +4,7 @@ use super::exit::{Failure, Status};
 use super::output::{write_result, write_results};
 use super::progress::Progress;
 use crate::engine;
-use crate::vectors::{VectorTest, core, csv, digest, json, numbered};
+use crate::vectors::{self, StoredCases, VectorTest, VectorTopic, csv, digest, json, numbered};
 use clap::{Args, ValueEnum};
 use std::fs;
 use std::io::{self, Write};
@@ -60,7 +60,7 @@ pub fn run(arguments: &VectorsArguments) -> Result<Status, Failure> {
                 writeln!(out, "{}", csv::HEADER)?;
             }
             let Some(count) = arguments.count else {
-                let mut tests = core().into_iter().flat_map(|(_, tests)| tests);
+                let mut tests = core_set().into_iter().flat_map(|(_, tests)| tests);
                 return tests.try_for_each(|test| out.write_all(written(format, &test).as_bytes()));
             };
             write_numbered(
@@ -74,9 +74,17 @@ pub fn run(arguments: &VectorsArguments) -> Result<Status, Failure> {
     Ok(Status::Success)
 }
 
+/// The core set, with the stored cases of this repository.
+pub fn core_set() -> Vec<(VectorTopic, Vec<VectorTest>)> {
+    vectors::core(&StoredCases {
+        curated: include_str!("../../corpora/curated.jsonl"),
+        published: include_str!("../../corpora/published.jsonl"),
+    })
+}
+
 fn write_core(folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|error| Failure::of_path(folder, &error))?;
-    let topics = core();
+    let topics = core_set();
     let mut files: Vec<(String, String)> = topics
         .iter()
         .map(|(topic, tests)| json::topic_file(topic, tests))

@@ -9,8 +9,9 @@
 
 #[macro_use(in_named_scalar)]
 extern crate hairline_core;
+use hairline_cases::family;
 use hairline_core::{case, kernel, suggest};
-use hairline_study::{audit, family};
+use hairline_study::audit;
 
 mod accuracy;
 mod bless;

@@ -12,11 +12,12 @@
 
 #[macro_use(either_scalar, in_named_scalar, named)]
 extern crate hairline_core;
+use hairline_cases::{corpus, family};
 #[cfg(feature = "proptest")]
 use hairline_core::contract;
 use hairline_core::{arith, case, engine, kernel, oracle, truth};
 use hairline_files as files;
-use hairline_study::{audit, corpus, family, judge};
+use hairline_study::{audit, judge};
 
 mod decimal;
 mod domain;

@@ -1,4 +1,4 @@
-//! What files of other people hold: meshes, lines, JSON and numbers in text. Takes readers; opens no file itself. An error
+//! Contents of other people's files: meshes, lines, JSON and numbers in text. Takes readers; opens no file itself. An error
 //! names the file, the line, what was found and what was expected.
 //!
 //! It is a part of the program `hairline`, whose interface is stable; this one changes with it.

@@ -6,9 +6,10 @@
 
 #![deny(unsafe_code)]
 
+use hairline_cases::corpus;
 use hairline_core::{arith, case, contract, kernel, truth};
 use hairline_files as files;
-use hairline_study::{corpus, plot};
+use hairline_study::plot;
 
 mod asked;
 mod binary;

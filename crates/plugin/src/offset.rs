@@ -6,7 +6,7 @@ use super::running::{KernelProgram, Lost, Running};
 use super::text::{end_line, number, shown};
 use crate::arith::Float;
 use crate::kernel::Failure;
-use hairline_study::offset::{HitPoint, Offset, Start};
+use hairline_advice::offset::{HitPoint, Offset, Start};
 use std::fmt::Write;
 use std::io;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

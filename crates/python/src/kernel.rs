@@ -77,7 +77,7 @@ impl Function {
     }
 }
 
-/// What a function gets: origin, direction, a, b, c as arrays of (n, 3), t_min and t_max as (n,).
+/// The arguments of a function: origin, direction, a, b, c as arrays of (n, 3), t_min and t_max as (n,).
 pub fn arguments<'py, F: Scalar + Element>(
     py: Python<'py>,
     cases: &[Case<F>],

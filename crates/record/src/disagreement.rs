@@ -8,7 +8,7 @@ use crate::kind::{FindingKind, Promised};
 use crate::plan::RowPart;
 use crate::rate::Rate;
 use crate::result::{KernelResult, ResultPart};
-use hairline_study::mesh::AimedPart;
+use hairline_cases::mesh::AimedPart;
 use std::collections::BTreeMap;
 
 /// One class of disagreement that occurred.

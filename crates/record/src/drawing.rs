@@ -4,7 +4,7 @@
 use crate::audit::{Audit, PlaceFault, Plan, SourceCell};
 use crate::files::mesh::Mesh;
 use crate::kernel::Scalar;
-use hairline_study::mesh::{AimedPart, Surface};
+use hairline_cases::mesh::{AimedPart, Surface};
 use std::collections::{BTreeSet, HashMap};
 
 /// A mesh of at most so many triangles is drawn whole, with every place.

@@ -10,11 +10,12 @@
 extern crate hairline_core;
 #[macro_use]
 extern crate macro_rules_attribute;
+use hairline_cases::family;
 use hairline_core::{arith, case, contract, engine, kernel};
 use hairline_files as files;
-use hairline_study::{audit, family, judge, plot};
+use hairline_study::{audit, judge, plot};
 
-/// What a part of a record derives: it is written and read, a field that it does not know is an error, and tests know
+/// The derives of a part of a record: it is written and read, a field that it does not know is an error, and tests know
 /// its schema. A crate that uses it has a feature `schema`.
 #[macro_export]
 macro_rules! part {

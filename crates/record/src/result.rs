@@ -1,4 +1,4 @@
-//! What an audit found: counts of each kernel row on each source in each scalar.
+//! The findings of an audit: counts of each kernel row on each source in each scalar.
 
 use crate::arith::ScalarName;
 use crate::audit::Trials;

@@ -5,7 +5,7 @@ use crate::audit::{Audit, GroupCount, Plan, SourceCell, Stock};
 use crate::files::mesh::Mesh;
 use crate::kernel::Scalar;
 use crate::mesh::{MeshPart, MeshScalar, NotedPart, PlacePart, TopologyPart};
-use hairline_study::mesh::{Noted, Surface, Targets, Topology};
+use hairline_cases::mesh::{Noted, Surface, Targets, Topology};
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 

@@ -7,9 +7,10 @@
 
 #[macro_use(named)]
 extern crate hairline_core;
+use hairline_cases::family;
 use hairline_core::{arith, contract, engine, kernel};
 use hairline_prove as prove;
-use hairline_study::{audit, family, judge};
+use hairline_study::{audit, judge};
 
 // The floors, from the ground up: each module uses only those above it in this list.
 mod language;

@@ -1,4 +1,4 @@
-//! What people read of a run: its record as a page, the page as text, Markdown and HTML, one exporter a format, and a
+//! For people who read a run: its record as a page, the page as text, Markdown and HTML, one exporter a format, and a
 //! case explained.
 //!
 //! It is a part of the program `hairline`, whose interface is stable; this one changes with it.
@@ -12,10 +12,12 @@ extern crate hairline_core;
 extern crate hairline_record;
 #[macro_use]
 extern crate macro_rules_attribute;
+use hairline_advice::advised;
+use hairline_cases::{corpus, family};
 use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, truth};
 use hairline_explore as explore;
 use hairline_prove as prove;
-use hairline_study::{audit, corpus, family, judge, map, plot, studied};
+use hairline_study::{audit, judge, map, plot};
 
 // The floors, from the ground up: each module uses only those above it in this list.
 mod chart;

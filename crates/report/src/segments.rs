@@ -2,13 +2,13 @@
 
 use super::elsewhere::{self, ComparedRates};
 use super::page::{Block, Head, Row, Table, Use};
+use crate::advised::Advised;
 use crate::arith::{ScalarName, two_digits};
 use crate::case::{Scene, ShortNumber};
 use crate::engine::Observer;
-use crate::studied::Studied;
+use hairline_advice::offset::{SegmentEnd, SegmentPlan, SegmentSums};
 use hairline_record::{NamedRate, Rate};
 use hairline_record::{group_digits, percent};
-use hairline_study::offset::{SegmentEnd, SegmentPlan, SegmentSums};
 
 /// Shares that are shown besides the ones that are made for the scene: from the scalar's own precision on, ten times as
 /// large each.
@@ -62,7 +62,7 @@ pub struct SegmentKindPart {
 impl SegmentsPart {
     /// Makes ends for what is seen on pilots in each scene, the first of which the table is about, and counts them on the
     /// segments that are reported.
-    pub fn study<F: Studied>(
+    pub fn study<F: Advised>(
         plan: &SegmentPlan<'_>,
         scenes: &[Scene],
         [pilot_seed, seed]: [u64; 2],
@@ -111,7 +111,7 @@ impl SegmentsPart {
 }
 
 /// The target itself, and shares that programs use.
-fn usual<F: Studied>() -> Vec<SegmentEnd> {
+fn usual<F: Advised>() -> Vec<SegmentEnd> {
     let precision = F::EPSILON.to_f64().log10().floor() as i32;
     let shares = (0..SHARES).map(|i| 10f64.powi(precision + i));
     [0.0]

@@ -1,11 +1,9 @@
 //! The longest runs, compiled in this crate for both scalars. A crate that called them by a type parameter would compile
 //! them once more, with its own optimisation.
 
-use crate::epsilon::{self, Costs, MaxError, Pass, SceneStudy, Setting};
+use crate::engine::Observer;
 use crate::family::Family;
-use crate::offset;
 use crate::selfcheck::{self, Check, Reference};
-use crate::{case::Scene, engine::Observer};
 
 /// A trait of functions of both scalars, each of them the one at a path.
 #[macro_export]
@@ -30,27 +28,6 @@ macro_rules! studied {
 
 studied! {
     Studied;
-    epsilon::study_scene: fn study_scene(
-        setting: &Setting<'_, Self>,
-        costs: &Costs,
-        max_error: Option<&MaxError>,
-        named: &[(String, Vec<Self>)],
-        pass: Pass<'_>,
-    ) -> Result<SceneStudy<Self>, String>;
-    epsilon::try_elsewhere: fn try_elsewhere(
-        setting: &Setting<'_, Self>,
-        study: &mut SceneStudy<Self>,
-        scenes: &[Scene],
-        pass: Pass<'_>,
-    ) -> ();
-    offset::run::<Self>: fn offset(
-        plan: &offset::OffsetPlan<'_>,
-        observer: &dyn Observer,
-    ) -> offset::OffsetSums;
-    offset::run_segments::<Self>: fn segments(
-        plan: &offset::SegmentPlan<'_>,
-        observer: &dyn Observer,
-    ) -> offset::SegmentSums;
     selfcheck::family::<Self>: fn check_family(
         family: &Family,
         reference: Reference,

@@ -7,14 +7,14 @@ use crate::audit::{Histogram, Source, Trials};
 use crate::case::{DirectionLength, Scene};
 use crate::contract::{Contract, Extent};
 use crate::kernel::{Role, Scalar, Tunable};
-use hairline_record::Rate;
-use hairline_record::provenance_of;
-use hairline_record::{Context, Record};
-use hairline_study::epsilon::scale_free_form;
-use hairline_study::epsilon::{
+use hairline_advice::epsilon::scale_free_form;
+use hairline_advice::epsilon::{
     Costs, Curve, ERRORS_ONE_IN, Elsewhere, ErrorSums, Knob, KnobLimit, MaxError, OnFresh,
     ProvedValue, SceneStudy, Setting, StudiedRays, Tried, Value, WrongKind, fresh_seed,
 };
+use hairline_record::Rate;
+use hairline_record::provenance_of;
+use hairline_record::{Context, Record};
 
 /// The record of some studies of one scene, each with the kernel's nanoseconds a ray.
 pub fn scene_record(

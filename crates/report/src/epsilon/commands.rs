@@ -6,7 +6,7 @@ use crate::audit::shell_word;
 use crate::case::{SCENES, ShortNumber};
 use crate::kernel::Role;
 use crate::page::Command;
-use hairline_study::epsilon::COUNT;
+use hairline_advice::epsilon::COUNT;
 
 /// Commands that show more of what is recommended.
 pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<Command> {

@@ -14,7 +14,7 @@ use crate::elsewhere::{self, ComparedRates};
 use crate::family::Stratum;
 use crate::page::{Block, Head, Row, Table};
 use crate::segments::SegmentsPart;
-use hairline_study::epsilon::Rays;
+use hairline_advice::epsilon::Rays;
 
 /// So many rows argue for what to use.
 const MOST_ROWS: usize = 3;

@@ -4,9 +4,9 @@ use super::record::*;
 use super::words::{human, least_normal, meaning, share, spaced};
 use crate::arith::ScalarName;
 use crate::case::ShortNumber;
+use hairline_advice::epsilon::{Costs, SCALE_FREE, WrongKind};
 use hairline_record::Rate;
 use hairline_record::number_of;
-use hairline_study::epsilon::{Costs, SCALE_FREE, WrongKind};
 
 /// From fewer rays of each kind the numbers depend on the seed: what is rare decides them.
 const FEW: u64 = 10_000;

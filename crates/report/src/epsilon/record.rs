@@ -4,8 +4,8 @@ use crate::arith::ScalarName;
 pub(super) use crate::family::Stratum;
 use crate::kernel::{Dimension, Role};
 use crate::segments::SegmentsPart;
+pub(super) use hairline_advice::epsilon::{RayCount, Rays, WrongKind};
 use hairline_record::{Rate, Record};
-pub(super) use hairline_study::epsilon::{RayCount, Rays, WrongKind};
 use std::collections::BTreeMap;
 
 /// The record of a study of epsilons.

@@ -1,9 +1,9 @@
 //! The rows of an audit of a mesh: what a kernel did at the edges, together with what it did at the vertices.
 
 use crate::arith::ScalarName;
+use hairline_cases::mesh::AimedPart;
 use hairline_record::Rate;
 use hairline_record::*;
-use hairline_study::mesh::AimedPart;
 
 /// A kernel row in one scalar.
 pub(super) struct MeshRow<'a> {

@@ -4,10 +4,10 @@
 use super::rows::MeshRow;
 use crate::page::html::words::{code, shortened};
 use crate::page::{Block, Stage};
+use hairline_cases::mesh::AimedPart;
 use hairline_record::*;
 use hairline_record::{AROUND, DrawnRow, MeshDrawing, MeshMark, PLACES};
 use hairline_record::{Record, group_digits, number_of};
-use hairline_study::mesh::AimedPart;
 use maud::{Markup, html};
 
 /// Places of a row that stand in its table.

@@ -2,7 +2,7 @@
 
 use crate::arith::two_digits;
 use crate::case::ShortNumber;
-use hairline_study::offset::{Lengths, OfScheme, OffsetSums, Scheme, parse};
+use hairline_advice::offset::{Lengths, OfScheme, OffsetSums, Scheme, parse};
 
 /// Offsets that are made for a scene are 2, 4, … times the largest that was needed in the pilot.
 const DOUBLINGS: u32 = 10;

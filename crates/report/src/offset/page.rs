@@ -9,8 +9,8 @@ use crate::elsewhere::{self, ComparedRates};
 use crate::kernel::{self, Role};
 use crate::page::{Block, Command, Head, Page, Paged, Row, Table, Use};
 use crate::segments::short_length as size;
+use hairline_advice::offset::describe;
 use hairline_record::{Rate, group_digits, interval_of, percent};
-use hairline_study::offset::describe;
 
 impl Paged for OffsetResult {
     fn page(&self) -> Page {

@@ -7,11 +7,11 @@ use crate::case::Matrix;
 use crate::corpus::lines::{StoredCase, write_case};
 use crate::kernel::Scalar;
 use crate::segments::SegmentsPart;
-use hairline_record::{Rate, or_infinite};
-use hairline_study::offset::{
+use hairline_advice::offset::{
     Heights, Lengths, OfScheme, OffsetPlan, OffsetSums, PointKind, ROOM, Scheme, derived_normal,
     least_weight, new_ray,
 };
+use hairline_record::{Rate, or_infinite};
 
 /// Everything that was found.
 #[apply(part!)]

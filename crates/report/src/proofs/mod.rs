@@ -1,4 +1,4 @@
-//! What holds for every float of a domain: the record of `prove`, and its page.
+//! Statements that hold for every float of a domain: the record of `prove`, and its page.
 
 mod page;
 mod record;

@@ -31,15 +31,15 @@ pub struct ProofResult {
 /// The inputs of which proofs hold: the most that absolute values of coordinates may be, and limits of divisors.
 #[apply(part!)]
 pub struct DomainPart {
-    /// Of the edge vectors b-a, c-a and c-b.
+    /// Sizes of the edge vectors b-a, c-a and c-b.
     pub edge: f64,
-    /// Of the vectors from the origin of the ray to the vertices.
+    /// Sizes of the vectors from the origin of the ray to the vertices.
     pub reach: f64,
-    /// Of the origin and of the vertices themselves.
+    /// Sizes of the origin and of the vertices themselves.
     pub world: f64,
-    /// Of the direction.
+    /// Sizes of the direction.
     pub direction: f64,
-    /// Of t_min and t_max.
+    /// Sizes of t_min and t_max.
     pub extent: f64,
     /// The least that the largest coordinate of a direction may be, where a kernel divides by it.
     pub largest_of_direction_at_least: f64,
@@ -76,7 +76,7 @@ pub struct GatePart {
     pub limits: Vec<LimitPart>,
     /// The largest computed number of a ray that is exactly parallel, of those known.
     pub parallel_passes: Option<WitnessPart>,
-    /// What follows, in sentences.
+    /// The consequences, in sentences.
     pub statements: Vec<String>,
 }
 

@@ -72,10 +72,13 @@ impl SourceSummary {
 /// The cases of some indices, flat, with their groups: as kernels get them, while the truths of an instance are of the
 /// world.
 pub struct Chunk<F: Scalar> {
-    pub(crate) grouping: Grouping,
-    pub(crate) cases: Vec<Case<F>>,
+    /// Which cases belong together.
+    pub grouping: Grouping,
+    /// Each case, as a kernel gets it.
+    pub cases: Vec<Case<F>>,
     pub(crate) places: Vec<CasePlace>,
-    pub(crate) truths: Vec<Truth>,
+    /// The truth of each case.
+    pub truths: Vec<Truth>,
     kinds: Kinds,
     /// An instance, and the cases with their rays of the world.
     world: Option<(Instance<F>, Vec<Case<F>>)>,

@@ -144,7 +144,8 @@ pub(crate) fn rounded<F: Float>(point: DVec3) -> [F; 3] {
     point.to_array().map(F::from_f64)
 }
 
-pub(crate) fn wide<F: Float>(point: [F; 3]) -> DVec3 {
+/// A point of either scalar, in double: exactly.
+pub fn wide<F: Float>(point: [F; 3]) -> DVec3 {
     point.map(F::to_f64).into()
 }
 

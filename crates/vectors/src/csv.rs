@@ -1,7 +1,7 @@
 //! CSV: a row a triangle. No field has a comma or a quote in it.
 
 use super::number::nearest;
-use super::{VectorTest, place, result, word};
+use super::test::{VectorTest, place, result, word};
 use crate::files::number;
 
 /// The first line, without its end.

@@ -1,13 +1,13 @@
 //! The values that a product may give with a hit: t, and u with v.
 
+use super::profile::Answered;
+use super::test::VectorTest;
 use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::files::{json, number};
 use crate::judge::{Finding, Obligation, ValueErrors, judge};
 use crate::kernel::{Gives, Verdict};
-use crate::vectors::VectorTest;
-use crate::vectors::profile::Answered;
 
 /// The full answer of a product to a test.
 pub struct GivenAnswer<'a> {

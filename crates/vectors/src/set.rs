@@ -1,6 +1,7 @@
 //! Which tests there are: the core set by topic, and as many more as somebody wants, by number.
 
-use super::{Label, TestGroup, VectorTest, flags, in_scalar, place, result, word};
+use super::flags;
+use super::test::{Label, TestGroup, VectorTest, in_scalar, place, result, word};
 use crate::case::{Case, Parameters};
 use crate::corpus::lines::{self, StoredCase};
 use crate::family::{FAMILIES, Family, Grouping, find};
@@ -25,8 +26,14 @@ pub struct VectorTopic {
 
 /// The files of the core set, in the order of their names.
 const TOPICS: &str = include_str!("topics.json");
-const CURATED: &str = include_str!("../../corpora/curated.jsonl");
-const PUBLISHED: &str = include_str!("../../corpora/published.jsonl");
+
+/// The texts of the corpus files whose cases are in the core set.
+pub struct StoredCases<'a> {
+    /// Cases whose truths were worked out by hand.
+    pub curated: &'a str,
+    /// Cases that people published.
+    pub published: &'a str,
+}
 
 /// The seed of all generated tests.
 const SEED: u64 = 1;
@@ -34,9 +41,9 @@ const SEED: u64 = 1;
 const PICKED_FROM: u64 = 200;
 
 /// The core set: the files, each with its tests. No test stands twice in it.
-pub fn core() -> Vec<(VectorTopic, Vec<VectorTest>)> {
+pub fn core(texts: &StoredCases<'_>) -> Vec<(VectorTopic, Vec<VectorTest>)> {
     let topics: Vec<VectorTopic> = serde_json::from_str(TOPICS).expect("tests read it");
-    let [curated, published] = [CURATED, PUBLISHED].map(stored);
+    let [curated, published] = [texts.curated, texts.published].map(stored);
     let mut seen = HashSet::new();
     let tests_of = |topic: VectorTopic| {
         let mut tests: Vec<VectorTest> = Vec::new();

@@ -1,17 +1,7 @@
-//! Floor 4: test vectors for programs that do not run hairline: rays, triangles and what is right, as data.
-//! `source` says which tests there are; one format a file.
+//! One test: a ray with a triangle or a group of triangles, and what is right.
 
-#![forbid(unsafe_code)]
-
-pub mod csv;
-mod flags;
-pub mod json;
-mod number;
-pub mod profile;
-mod source;
-
-pub use source::{VectorTopic, core, numbered};
-
+use super::flags;
+use super::number::EitherFloat;
 use crate::arith::{Float, ScalarName};
 use crate::case::Case;
 use crate::contract::{Boundary, Contract, Demand, Extent};
@@ -24,11 +14,10 @@ use crate::truth::{Crossing, Place, Truth};
 use hmac_sha256::Hash;
 use num_rational::BigRational;
 use num_traits::One;
-use number::EitherFloat;
 
 /// Every point of the closed triangle is a hit at every t of the closed interval, a coplanar triangle and
 /// one without area included. Invalid input is free.
-const CLOSED: Contract = Contract {
+pub(super) const CLOSED: Contract = Contract {
     extent: Extent::Interval,
     coplanar: Demand::Hit,
     degenerate: Demand::Hit,
@@ -61,7 +50,7 @@ pub struct VectorTest {
     /// `f32` or `f64`.
     pub scalar: ScalarName,
     /// Origin, direction, t_min and t_max.
-    ray: [EitherFloat; 8],
+    pub(super) ray: [EitherFloat; 8],
     /// The ray with each triangle.
     pub cases: Vec<AnyCase>,
     /// One, or those of the group.
@@ -75,11 +64,11 @@ pub struct VectorTest {
 /// A triangle of a test, and what is right on it.
 pub struct TestTriangle {
     /// The coordinates of a, b and c.
-    numbers: [EitherFloat; 9],
+    pub(super) numbers: [EitherFloat; 9],
     /// The exact truth.
     pub truth: Truth,
     /// t, u, v and the margin, if the line crosses the plane.
-    values: Option<[BigRational; 4]>,
+    pub(super) values: Option<[BigRational; 4]>,
 }
 
 /// The right result for the triangles of a group together.
@@ -92,18 +81,22 @@ pub struct TestGroup {
 }
 
 /// The name of a test, and what is known besides its numbers.
-struct Label {
+pub(super) struct Label {
     /// The id without its digest.
-    name: String,
-    comment: String,
-    source: Option<String>,
+    pub(super) name: String,
+    pub(super) comment: String,
+    pub(super) source: Option<String>,
     /// The flag of its family.
-    flag: Option<&'static str>,
+    pub(super) flag: Option<&'static str>,
 }
 
 impl VectorTest {
     /// The test of a case, or of the cases of a group; none if nothing is demanded of the group.
-    fn new<F: Float>(label: Label, cases: &[Case<F>], grouping: Grouping) -> Option<VectorTest> {
+    pub(super) fn new<F: Float>(
+        label: Label,
+        cases: &[Case<F>],
+        grouping: Grouping,
+    ) -> Option<VectorTest> {
         let triangles: Vec<TestTriangle> = cases.iter().map(TestTriangle::new).collect();
         let truths: Vec<Truth> = triangles.iter().map(|triangle| triangle.truth).collect();
         let group = grouping
@@ -154,7 +147,7 @@ impl VectorTest {
     }
 
     /// The bit patterns of the ray and then of each triangle, in hexadecimal between spaces.
-    fn bits(&self) -> String {
+    pub(super) fn bits(&self) -> String {
         let triangles = self.triangles.iter().flat_map(|triangle| &triangle.numbers);
         let words: Vec<&str> = self
             .ray
@@ -166,7 +159,7 @@ impl VectorTest {
     }
 
     /// The first [`DIGITS`] digits of the SHA-256 of the scalar and the bit patterns.
-    fn digest(&self) -> String {
+    pub(super) fn digest(&self) -> String {
         hex(&Hash::hash(
             format!("{} {}", self.scalar, self.bits()).as_bytes(),
         ))[..DIGITS]
@@ -175,7 +168,7 @@ impl VectorTest {
 }
 
 impl TestTriangle {
-    fn new<F: Float>(case: &Case<F>) -> TestTriangle {
+    pub(super) fn new<F: Float>(case: &Case<F>) -> TestTriangle {
         let vertices = case.vectors();
         let numbers = std::array::from_fn(|i| EitherFloat::of(vertices[2 + i / 3][i % 3]));
         let truth = truth(case);
@@ -197,7 +190,7 @@ impl TestTriangle {
     }
 
     /// Why the test is free, in the words of a profile.
-    fn free_because(&self) -> Vec<&'static str> {
+    pub(super) fn free_because(&self) -> Vec<&'static str> {
         let crossing = |is: fn(&Crossing) -> bool| self.truth.crossing().is_some_and(is);
         let is_class = |name: &str| self.truth.class_name() == name;
         let reasons = [
@@ -238,7 +231,7 @@ fn values<F: Float>(case: &Case<F>, truth: &Truth) -> Option<[BigRational; 4]> {
 }
 
 /// The demand of both readings; free if they differ.
-fn result(truth: &Truth) -> Obligation {
+pub(super) fn result(truth: &Truth) -> Obligation {
     let [closed, open] = [CLOSED, OPEN].map(|reading| obligation(truth, &reading, false));
     if closed == open {
         closed
@@ -248,14 +241,18 @@ fn result(truth: &Truth) -> Obligation {
 }
 
 /// Where a line meets the plane, or the class of a line that does not cross it.
-fn place(truth: &Truth) -> &'static str {
+pub(super) fn place(truth: &Truth) -> &'static str {
     truth
         .crossing()
         .map_or(truth.class_name(), |crossing| crossing.feature.name())
 }
 
 impl TestGroup {
-    fn new<F: Float>(cases: &[Case<F>], truths: &[Truth], grouping: Grouping) -> TestGroup {
+    pub(super) fn new<F: Float>(
+        cases: &[Case<F>],
+        truths: &[Truth],
+        grouping: Grouping,
+    ) -> TestGroup {
         let hits = |reading| {
             let asked = truths
                 .iter()
@@ -289,7 +286,7 @@ impl TestGroup {
 }
 
 /// The word in the vectors.
-pub fn word(obligation: Obligation) -> &'static str {
+pub(super) fn word(obligation: Obligation) -> &'static str {
     match obligation {
         Obligation::MustHit => "hit",
         Obligation::MustMiss => "miss",

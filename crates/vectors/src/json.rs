@@ -2,7 +2,8 @@
 
 use super::flags::FLAGS;
 use super::number::{EitherFloat, nearest};
-use super::{TestGroup, TestTriangle, VectorTest, VectorTopic, place, result, word};
+use super::set::VectorTopic;
+use super::test::{TestGroup, TestTriangle, VectorTest, place, result, word};
 use crate::corpus::truth_json::fraction_text;
 use crate::files::json::object;
 use crate::files::number;

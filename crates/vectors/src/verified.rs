@@ -1,27 +1,16 @@
 //! The answers of a product, judged: counts by topic, and a list of what is wrong.
 
+use super::profile::{Answered, Profile, Saying, demanded, is_right};
+use super::test::VectorTest;
 use crate::audit::Trials;
-use crate::record::{Comparable, NamedRate, Rate, Record, Study, number_of};
+use crate::record::{Comparable, NamedRate, Rate, Study, number_of};
 use crate::report::page::{Block, Head, Item, Page, Paged, Row, Table, Tone};
-use crate::report::{Format, JunitCase, write_junit};
-use crate::vectors::VectorTest;
-use crate::vectors::profile::{Answered, Profile, Saying, demanded, is_right};
+use crate::report::{JunitCase, write_junit};
 use std::collections::BTreeMap;
+use std::io::{self, Write};
 
 /// How many wrong answers the text shows.
 const SHOWN: usize = 5;
-
-/// One row per format.
-pub const FORMATS: &[Format<Record<VerifyResult>>] = &[
-    Format::TEXT,
-    Format::JSON,
-    Format {
-        name: "junit",
-        write: |record, _, out| write_junit(&record.result.suites(), out),
-    },
-    Format::MARKDOWN,
-    Format::HTML,
-];
 
 /// A test of the vectors, and the product's answer to it.
 pub struct JudgedTest<'a> {
@@ -160,7 +149,8 @@ fn sayings_of(profile: Option<&Profile>, test: &VectorTest, answered: Answered) 
 impl VerifyResult {
     /// Counts, wrong answers and missing ids of tests that lie by topic.
     pub fn new(
-        [product, vectors]: [&str; 2],
+        product: &str,
+        vectors: &str,
         profile: Option<&Profile>,
         tests: &[JudgedTest],
     ) -> VerifyResult {
@@ -254,7 +244,11 @@ impl VerifyResult {
         }
     }
 
-    /// A test a topic.
+    /// As JUnit: a test a topic.
+    pub fn write_junit(&self, out: &mut dyn Write) -> io::Result<()> {
+        write_junit(&self.suites(), out)
+    }
+
     fn suites(&self) -> BTreeMap<String, BTreeMap<(String, String), JunitCase>> {
         let case = |(topic, _): &(String, VerifyCounts)| {
             let wrong = self.wrong.iter().filter(|wrong| wrong.topic == *topic);

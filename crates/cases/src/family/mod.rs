@@ -31,19 +31,20 @@ mod sizes;
 mod vertex_fan;
 
 pub(crate) use boundary::{nudged, toward};
-pub(crate) use control::combination;
+pub use control::combination;
 pub(crate) use drawn_interval::draw_interval;
 pub(crate) use exact_ray::exact_ray;
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
-pub(crate) use ring::add_ring;
-pub use ring::around;
+pub use ring::{add_ring, around};
 pub(crate) use scene::{
-    Corners, Pair, Parallel, RayAxes, Ring, TriangleSource, along_axis, any_direction, circle,
-    flat_along, in_plane, rounded, unit_vector, wide,
+    Corners, Pair, Parallel, RayAxes, Ring, TriangleSource, along_axis, circle, flat_along,
+    in_plane, rounded, unit_vector,
 };
-pub use scene::{Pixel, STRATA, Stratum, TRIES, missed_sine, pixel, pixel_draw};
+pub use scene::{
+    Pixel, STRATA, Stratum, TRIES, any_direction, missed_sine, pixel, pixel_draw, wide,
+};
 
 use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;
@@ -70,7 +71,8 @@ impl<F: Float> CaseGroup<F> {
         }
     }
 
-    pub(crate) fn cases_mut(&mut self) -> &mut [Case<F>] {
+    /// The cases, in order, to be changed.
+    pub fn cases_mut(&mut self) -> &mut [Case<F>] {
         match self {
             CaseGroup::One(case) => std::slice::from_mut(case),
             CaseGroup::Group(cases) => cases,

@@ -13,7 +13,7 @@ use crate::case::{Case, Ray, Triangle};
 /// Adds the ring around the triangles of a pair or a fan, with a ray; false if there is none, as where its corners
 /// overflow. Ring and group have the corners on the rim exactly in common, and run through its edges in opposite
 /// directions.
-pub(crate) fn add_ring<F: Float>(
+pub fn add_ring<F: Float>(
     group: &[Case<F>],
     ray: &Ray<F::Vector>,
     cases: &mut Vec<Case<F>>,

@@ -24,7 +24,7 @@ impl Scheme {
     /// A scheme of your own; [`Scheme::f32`] and [`Scheme::f64`] give it its formulas.
     ///
     /// ```
-    /// # extern crate hairline_study as hairline;
+    /// # extern crate hairline_advice as hairline;
     /// use hairline::{HitPoint, Scheme, Start};
     ///
     /// let up = |hit: &HitPoint<f32>| {

@@ -1,23 +1,12 @@
 //! Profiles: what a specification demands of the tests that are free, with its sentences. They are files
 //! that a reader in any language applies alike.
 
-use super::{TestGroup, TestTriangle, VectorTest, result, word};
+use super::test::{CLOSED, TestGroup, TestTriangle, VectorTest, result, word};
 use crate::contract::{Boundary, Contract, Demand};
 use crate::judge::{Obligation, obligation};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
-
-/// The profiles by name.
-const PROFILES: [(&str, &str); 4] = [
-    ("dxr", include_str!("../../vectors/profiles/dxr.json")),
-    ("parity", include_str!("../../vectors/profiles/parity.json")),
-    (
-        "picking",
-        include_str!("../../vectors/profiles/picking.json"),
-    ),
-    ("vulkan", include_str!("../../vectors/profiles/vulkan.json")),
-];
 
 /// A specification's answers.
 #[derive(Deserialize)]
@@ -110,15 +99,9 @@ impl fmt::Display for Answered {
 }
 
 impl Profile {
-    /// The names of all profiles.
-    pub fn names() -> impl Iterator<Item = &'static str> {
-        PROFILES.iter().map(|(name, _)| *name)
-    }
-
-    /// The profile of a name.
-    pub fn find(name: &str) -> Option<Profile> {
-        let (_, text) = PROFILES.iter().find(|(known, _)| *known == name)?;
-        Some(serde_json::from_str(text).expect("tests read the profiles"))
+    /// Reads a profile's file, as JSON.
+    pub fn parse(text: &str) -> serde_json::Result<Profile> {
+        serde_json::from_str(text)
     }
 
     fn contract(&self) -> Contract {
@@ -141,7 +124,7 @@ impl Profile {
             coplanar: coplanar.result,
             degenerate: degenerate.result,
             invalid: invalid.result,
-            ..super::CLOSED
+            ..CLOSED
         }
     }
 

@@ -13,7 +13,8 @@ mod planes;
 mod shadow;
 mod triangles;
 
-pub(crate) use draw::{RayAxes, any_direction, circle, in_plane, rounded, unit_vector, wide};
+pub(crate) use draw::{RayAxes, circle, in_plane, rounded, unit_vector};
+pub use draw::{any_direction, wide};
 pub use flat::TRIES;
 pub(super) use flat::grazing_sine;
 pub use pixel::{Pixel, pixel, pixel_draw};

@@ -1,0 +1,31 @@
+//! Which epsilons and which offsets, compiled in this crate for both scalars, as `hairline_study::studied` has its runs.
+
+use crate::case::Scene;
+use crate::engine::Observer;
+use crate::epsilon::{self, Costs, MaxError, Pass, SceneStudy, Setting};
+use crate::offset;
+
+hairline_study::studied! {
+    Advised;
+    epsilon::study_scene: fn study_scene(
+        setting: &Setting<'_, Self>,
+        costs: &Costs,
+        max_error: Option<&MaxError>,
+        named: &[(String, Vec<Self>)],
+        pass: Pass<'_>,
+    ) -> Result<SceneStudy<Self>, String>;
+    epsilon::try_elsewhere: fn try_elsewhere(
+        setting: &Setting<'_, Self>,
+        study: &mut SceneStudy<Self>,
+        scenes: &[Scene],
+        pass: Pass<'_>,
+    ) -> ();
+    offset::run::<Self>: fn offset(
+        plan: &offset::OffsetPlan<'_>,
+        observer: &dyn Observer,
+    ) -> offset::OffsetSums;
+    offset::run_segments::<Self>: fn segments(
+        plan: &offset::SegmentPlan<'_>,
+        observer: &dyn Observer,
+    ) -> offset::SegmentSums;
+}
