@@ -8,7 +8,8 @@ use crate::case::CaseId;
 use crate::engine::Unobserved;
 use crate::expect::{self, Expectations};
 use crate::record::{
-    Conformance, Context, Deviation, FindingKind, Key, ResultPart, build, disagreements,
+    Conformance, Context, Deviation, FindingClass, FindingKind, Key, ResultPart, build,
+    disagreements,
 };
 use std::collections::BTreeMap;
 
@@ -35,7 +36,7 @@ pub fn compare(
     let mut steady = result.clone();
     steady
         .results
-        .retain(|part| !is_unsteady(&Key::of(part, "", FindingKind::Crash)));
+        .retain(|part| !is_unsteady(&Key::of(part, FindingClass::Any, FindingKind::Crash)));
     steady.totals.retain(|row| {
         let place = (&row.kernel, &row.set, row.scalar);
         unsteady

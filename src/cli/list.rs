@@ -9,7 +9,7 @@ use crate::contract::NAMED;
 use crate::family::{FAMILIES, Family, STRATA};
 use crate::kernel::{self, Change, Dimension, KernelInfo, PRESETS, Preset, Tunable};
 use crate::offset::{PUBLISHED, PublishedScheme, describe};
-use crate::report::page::{Block, Head, Item, Items, Page, Row, Table};
+use crate::report::page::{Block, Cell, Head, Item, Items, Page, Row, Table};
 use clap::{Args, ValueEnum};
 
 /// The arguments of `list`.
@@ -131,7 +131,7 @@ fn of_coverage() -> Vec<Block> {
                 *name,
                 shares[places.clone()]
                     .iter()
-                    .map(|share| percent_in_three(*share)),
+                    .map(|share| Cell::number(*share, percent_in_three(*share))),
             )
         };
         Block::Table(Table::new(heads, rows.iter().map(row).collect()))

@@ -5,7 +5,7 @@ use crate::case::{AnyScalar, Case, rust_case};
 use crate::corpus::lines::bare_case;
 use crate::kernel::KERNELS;
 use crate::record::{
-    ALL_CLASSES, ComparisonVerdict, Conformance, Example, FindingKind, FindingPart, Key, Promised,
+    ComparisonVerdict, Conformance, Example, FindingClass, FindingKind, FindingPart, Key, Promised,
     Rate, Record, counts_alone, disagreements, interval_of, percent, rate_of,
 };
 use std::collections::BTreeMap;
@@ -70,7 +70,7 @@ impl Outcome {
         let Some(most) = self.allowed.get(key.finding.name()) else {
             return false;
         };
-        let rate = part.map(|part| rate_of(part, ALL_CLASSES, key.finding));
+        let rate = part.map(|part| rate_of(part, FindingClass::Any, key.finding));
         rate.is_some_and(|rate| rate.count as f64 <= most * rate.of as f64)
     }
 
@@ -95,7 +95,7 @@ impl fmt::Display for Outcome {
         for result in &self.record.result.results {
             let at = format!("{} {} ({})", result.scalar, result.family, result.set);
             for part in &result.findings {
-                let key = Key::of(result, &part.class, part.finding);
+                let key = Key::of(result, part.class, part.finding);
                 if counts_alone(result, part.finding) && !self.is_allowed(&key) {
                     parts.push(describe(&at, &result.kernel, part)?);
                 }

@@ -381,7 +381,7 @@ fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
     let found = hairline::internals::record::disagreements(&outcome.record.result);
     let panics = found.iter().find(|found| {
         let key = &found.key;
-        (key.scalar.name(), key.class.as_str(), key.finding.name()) == ("f32", "polygon", "panic")
+        (key.scalar.name(), key.class.name(), key.finding.name()) == ("f32", "polygon", "panic")
     });
     let panics = panics.expect("panics on polygons");
     assert_eq!(

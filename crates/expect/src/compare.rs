@@ -7,8 +7,8 @@ use super::rows::changed_rows;
 use super::{Amount, Expectations, ExpectedEntry};
 use crate::audit::Interval;
 use hairline_record::{
-    ComparisonVerdict, Conformance, Deviation, Example, FindingKind, Key, Method, PlanPart, Rate,
-    ResultPart, group_digits, rate_of,
+    ComparisonVerdict, Conformance, Deviation, Example, FindingClass, FindingKind, Key, Method,
+    PlanPart, Rate, ResultPart, group_digits, rate_of,
 };
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -58,7 +58,7 @@ pub fn compare(
     for key in keys {
         let (entry, found) = (entries.get(key), found.get(key).copied());
         let part = results.get(&key.place()).copied();
-        let rate = part.map_or_else(Rate::default, |part| rate_of(part, &key.class, key.finding));
+        let rate = part.map_or_else(Rate::default, |part| rate_of(part, key.class, key.finding));
         let mut deviation = deviation(key, entry, &rate, found);
         let outcome = match (entry, part) {
             (Some(_), None) if is_left_out(&result.plan, key) => {
@@ -273,7 +273,7 @@ fn deviation(
         set: key.set.clone(),
         scalar: key.scalar,
         family: key.family.clone(),
-        class: key.class.clone(),
+        class: key.class,
         finding: key.finding,
         expected: entry.map_or("none".to_owned(), |entry| {
             describe(&entry.amount, rate, found.and_then(|found| found.digest))
@@ -350,8 +350,8 @@ fn verb(finding: FindingKind) -> Option<&'static str> {
 
 /// True if a failure keeps cases of a class from being judged: one on a triangle also keeps its group.
 fn keeps(failure: &Key, key: &Key) -> bool {
-    let is_of_class = match key.class.as_str() {
-        "group" => failure.class != "polygon",
+    let is_of_class = match key.class {
+        FindingClass::Group => failure.class != FindingClass::Polygon,
         class => failure.class == class,
     };
     let is_of_place = failure.is_of_row(key) && failure.family == key.family;

@@ -179,7 +179,7 @@ impl<'a> Side<'a> {
 
     fn rate(&self, key: &Key) -> Option<Rate> {
         self.result(key)
-            .map(|part| rate_of(part, &key.class, key.finding))
+            .map(|part| rate_of(part, key.class, key.finding))
     }
 }
 

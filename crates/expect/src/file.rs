@@ -9,7 +9,7 @@ use crate::kernel;
 use crate::suggest::nearest_name;
 use hairline_core::ScalarName;
 use hairline_files::InputError;
-use hairline_record::{ALL_CLASSES, FindingKind, Key};
+use hairline_record::{FindingClass, FindingKind, Key};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
@@ -217,7 +217,7 @@ impl ExpectationsReader<'_> {
                 set: row.set.clone(),
                 scalar: ScalarName::named(scalar.get_ref()).expect("checked above"),
                 family,
-                class: ALL_CLASSES.to_owned(),
+                class: FindingClass::Any,
                 finding: FindingKind::named(finding.get_ref()).expect("checked above"),
             };
             let line = self.line(&spanned.span());

@@ -114,7 +114,7 @@ impl KnownDisagreements<'_> {
                 });
             } else if together.insert(whole.clone()) {
                 let part = results[&key.place()];
-                let rate = rate_of(part, &whole.class, whole.finding);
+                let rate = rate_of(part, whole.class, whole.finding);
                 all.push(FoundDisagreement {
                     key: whole,
                     rate,

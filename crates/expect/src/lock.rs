@@ -6,7 +6,7 @@ use super::{Amount, Expectations};
 use crate::audit::Digest;
 use hairline_core::ScalarName;
 use hairline_files::InputError;
-use hairline_record::{FindingKind, Key, ResultPart, RowPart, disagreements};
+use hairline_record::{FindingClass, FindingKind, Key, ResultPart, RowPart, disagreements};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -144,6 +144,7 @@ impl LockedTarget {
             .ok_or_else(|| format!("a kind of finding, not '{finding}'"))?;
         let scalar = ScalarName::named(&scalar)
             .ok_or_else(|| format!("a scalar, f32 or f64, not '{scalar}'"))?;
+        let class = class.parse::<FindingClass>()?;
         let key = Key {
             kernel,
             set,

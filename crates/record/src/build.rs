@@ -7,6 +7,7 @@ use crate::audit::{
     severity_of_instance, words,
 };
 use crate::case::{Case, Matrix};
+use crate::class::FindingClass;
 use crate::contract::{Boundary, Extent};
 use crate::distribution;
 use crate::engine;
@@ -212,7 +213,10 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &SourceCell) -> KernelResult {
     };
     let classes = Class::all()
         .filter(|class| tally.classes[class.number()].cases > 0)
-        .map(|class| (class.name(), judged(counts(tally, Some(class), sample))));
+        .map(|class| {
+            let counts = counts(tally, Some(class), sample);
+            (FindingClass::Truth(class), judged(counts))
+        });
     let findings = tally.examples.iter().map(|((class, finding), examples)| {
         let trials = tally.trials(Some(class), finding);
         let causes = cell.causes.get(&(class, finding));
@@ -262,7 +266,7 @@ pub fn finding_part(
     }
     FindingPart {
         finding: finding.into(),
-        class: class.name(),
+        class: FindingClass::Truth(class),
         rate,
         causes,
         digest: examples.digest.to_string(),

@@ -115,7 +115,7 @@ impl KernelResult {
         {
             return Err(format!(
                 "a finding of {:?}, which did not occur",
-                part.class
+                part.class.name()
             ));
         }
         let mut examples = self

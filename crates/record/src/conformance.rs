@@ -1,6 +1,7 @@
 //! The part of a record that says how a run compares with what was expected of it.
 
 use crate::arith::ScalarName;
+use crate::class::FindingClass;
 use crate::key::Key;
 use crate::kind::FindingKind;
 use crate::number::{group_digits, number_of};
@@ -213,17 +214,13 @@ pub struct Unproved {
 }
 
 impl Unproved {
-    /// A key for it, like the keys of disagreements.
-    pub fn key(&self) -> Key {
-        Key {
-            kernel: self.kernel.clone(),
-            set: "any epsilon".to_owned(),
-            scalar: self.scalar,
-            family: "proof".to_owned(),
-            class: self.gate.clone(),
-            finding: FindingKind::Unproved,
-        }
+    /// In place of a row: a proof is of every epsilon.
+    pub fn row(&self) -> String {
+        format!("{} (any epsilon)", self.kernel)
     }
+
+    /// In place of a family.
+    pub const FAMILY: &str = "proof";
 }
 
 impl fmt::Display for Unproved {
@@ -263,7 +260,8 @@ pub struct Deviation {
     /// The source's name in tables.
     pub family: String,
     /// The class of the truth.
-    pub class: String,
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub class: FindingClass,
     /// The kind of finding.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub finding: FindingKind,
@@ -296,7 +294,7 @@ impl Deviation {
             set: self.set.clone(),
             scalar: self.scalar,
             family: self.family.clone(),
-            class: self.class.clone(),
+            class: self.class,
             finding: self.finding,
         }
     }

@@ -1,9 +1,10 @@
 //! A record's findings as one list: what expectations name and formats count by.
 
+use crate::class::FindingClass;
 use crate::family::{self, Question};
 use crate::finding::Example;
 use crate::judge::Finding;
-use crate::key::{ALL_CLASSES, Key};
+use crate::key::Key;
 use crate::kind::{FindingKind, Promised};
 use crate::plan::RowPart;
 use crate::rate::Rate;
@@ -27,7 +28,7 @@ pub struct Disagreement<'a> {
 impl Disagreement<'_> {
     /// True if it is about single cases, not about groups or polygons.
     pub fn is_of_cases(&self) -> bool {
-        !matches!(self.key.class.as_str(), "group" | "polygon")
+        self.key.class.truth().is_some()
     }
 }
 
@@ -46,7 +47,7 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
             .iter()
             .filter(|found| counts_alone(part, found.finding));
         all.extend(findings.map(|finding| Disagreement {
-            key: Key::of(part, &finding.class, finding.finding),
+            key: Key::of(part, finding.class, finding.finding),
             rate: &finding.rate,
             digest: &finding.digest,
             example: Some(finding.worst.clone()),
@@ -69,8 +70,8 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
 /// A finding on triangles together: on a group of them, or on a whole polygon.
 #[derive(Clone, Copy)]
 pub struct GroupFinding<'a> {
-    /// `group` or `polygon`, in place of a class.
-    pub class: &'static str,
+    /// Its subject: a group, or a polygon.
+    pub class: FindingClass,
     /// The kind of finding.
     pub kind: FindingKind,
     /// How often.
@@ -102,14 +103,14 @@ pub fn across(part: &KernelResult) -> Vec<GroupFinding<'_>> {
         return vec![cracks];
     }
     let doubles = GroupFinding {
-        class: "group",
+        class: FindingClass::Group,
         kind: FindingKind::Double,
         rate: &across.doubles,
         digest: &across.double_digest,
         first: &across.first_doubles,
     };
     let folds = GroupFinding {
-        class: "group",
+        class: FindingClass::Group,
         kind: FindingKind::OddFold,
         rate: &across.odd_folds,
         digest: &across.odd_fold_digest,
@@ -125,7 +126,7 @@ pub fn across(part: &KernelResult) -> Vec<GroupFinding<'_>> {
 pub fn cracks(part: &KernelResult) -> Option<GroupFinding<'_>> {
     let across = part.across.as_ref()?;
     Some(GroupFinding {
-        class: "group",
+        class: FindingClass::Group,
         kind: FindingKind::Crack,
         rate: &across.cracks,
         digest: &across.crack_digest,
@@ -139,14 +140,14 @@ pub fn polygons(part: &KernelResult) -> Vec<GroupFinding<'_>> {
         return Vec::new();
     };
     let misses = GroupFinding {
-        class: "polygon",
+        class: FindingClass::Polygon,
         kind: FindingKind::PolygonFalseMiss,
         rate: &part.false_misses,
         digest: &part.false_miss_digest,
         first: &part.first_false_misses,
     };
     let hits = GroupFinding {
-        class: "polygon",
+        class: FindingClass::Polygon,
         kind: FindingKind::PolygonFalseHit,
         rate: &part.false_hits,
         digest: &part.false_hit_digest,
@@ -154,7 +155,7 @@ pub fn polygons(part: &KernelResult) -> Vec<GroupFinding<'_>> {
     };
     let mut all = vec![misses, hits];
     all.extend(part.others.iter().map(|found| GroupFinding {
-        class: "polygon",
+        class: FindingClass::Polygon,
         kind: found.finding,
         rate: &found.rate,
         digest: &found.digest,
@@ -164,8 +165,8 @@ pub fn polygons(part: &KernelResult) -> Vec<GroupFinding<'_>> {
 }
 
 /// How often a finding of a class occurred in a result, or could have: nought if it did not.
-pub fn rate_of(part: &KernelResult, class: &str, finding: FindingKind) -> Rate {
-    let of_all = class == ALL_CLASSES;
+pub fn rate_of(part: &KernelResult, class: FindingClass, finding: FindingKind) -> Rate {
+    let of_all = class == FindingClass::Any;
     let mut rates: Vec<Rate> = together(part)
         .filter(|found| found.kind == finding && (of_all || found.class == class))
         .map(|found| found.rate.clone())
@@ -173,7 +174,7 @@ pub fn rate_of(part: &KernelResult, class: &str, finding: FindingKind) -> Rate {
     let counts = if of_all {
         Some(&part.total)
     } else {
-        part.classes.get(class)
+        part.classes.get(&class)
     };
     if counts_alone(part, finding) {
         rates.extend(counts.and_then(|counts| counts.rate(finding)));

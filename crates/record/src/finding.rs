@@ -1,6 +1,7 @@
 //! Findings: how often, why, how bad, and cases that show them.
 
 use crate::audit::{Attribution, Octave};
+use crate::class::FindingClass;
 use crate::judge::Relation;
 use crate::kind::{FindingKind, Promised};
 use crate::rate::Rate;
@@ -13,7 +14,8 @@ pub struct FindingPart {
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub finding: FindingKind,
     /// The class of the truth.
-    pub class: String,
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub class: FindingClass,
     /// How often.
     pub rate: Rate,
     /// Why; none where nothing was attributed.

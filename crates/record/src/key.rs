@@ -1,6 +1,7 @@
 //! Names of disagreements.
 
 use crate::arith::ScalarName;
+use crate::class::FindingClass;
 use crate::kind::FindingKind;
 use crate::result::KernelResult;
 use std::fmt;
@@ -16,24 +17,21 @@ pub struct Key {
     pub scalar: ScalarName,
     /// The source's name in tables.
     pub family: String,
-    /// The class of the truth; `group` for triangles together, `polygon` for whole polygons.
-    pub class: String,
+    /// The subject: a class of truths, or triangles together.
+    pub class: FindingClass,
     /// The kind of finding.
     pub finding: FindingKind,
 }
 
-/// In place of a class: all of them together.
-pub const ALL_CLASSES: &str = "any class";
-
 impl Key {
     /// The key of a finding of a result.
-    pub fn of(result: &KernelResult, class: &str, finding: FindingKind) -> Key {
+    pub fn of(result: &KernelResult, class: FindingClass, finding: FindingKind) -> Key {
         Key {
             kernel: result.kernel.clone(),
             set: result.set.clone(),
             scalar: result.scalar,
             family: result.family.clone(),
-            class: class.to_owned(),
+            class,
             finding,
         }
     }
@@ -41,7 +39,7 @@ impl Key {
     /// The same finding, of all classes together.
     pub fn of_all_classes(&self) -> Key {
         Key {
-            class: ALL_CLASSES.to_owned(),
+            class: FindingClass::Any,
             ..self.clone()
         }
     }

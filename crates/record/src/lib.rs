@@ -28,6 +28,7 @@ macro_rules! part {
 }
 
 // The floors, from the ground up: each module uses only those above it in this list.
+mod class;
 #[cfg(feature = "studies")]
 mod drawing;
 mod illustration;
@@ -62,6 +63,7 @@ mod build;
 mod shard;
 
 pub use build::{Context, build, provenance_of};
+pub use class::FindingClass;
 pub use conformance::*;
 pub use disagreement::{
     Disagreement, across, counts_alone, cracks, disagreements, family_of, is_at_shared, kinds_of,
@@ -71,7 +73,7 @@ pub use disagreement::{
 pub use drawing::{AROUND, DrawnRow, MeshDrawing, MeshMark, PLACES, drawing, places};
 pub use finding::*;
 pub use illustration::{Illustrations, ProofPart, ProvedGate};
-pub use key::{ALL_CLASSES, Key};
+pub use key::Key;
 pub use kind::{FindingKind, Promised};
 pub use mesh::*;
 pub use number::{group_digits, number_of, or_infinite};

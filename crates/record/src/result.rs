@@ -2,6 +2,7 @@
 
 use crate::arith::ScalarName;
 use crate::audit::Trials;
+use crate::class::FindingClass;
 use crate::finding::{
     AcrossPart, Distribution, FindingPart, PolygonPart, RelationPart, SeverityDistribution,
 };
@@ -109,7 +110,8 @@ pub struct KernelResult {
     /// All classes together.
     pub total: Counts,
     /// Each class that occurred.
-    pub classes: BTreeMap<String, Counts>,
+    #[cfg_attr(feature = "schema", schemars(with = "BTreeMap<String, Counts>"))]
+    pub classes: BTreeMap<FindingClass, Counts>,
     /// Each class of finding that occurred, with examples.
     pub findings: Vec<FindingPart>,
     /// By `false-miss` and `false-hit`: how far from where the verdict would be right; by `wrong-value`: how far

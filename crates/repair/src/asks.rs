@@ -6,7 +6,7 @@ use crate::family::Family;
 use crate::kernel::Scalar;
 use crate::prove::Searched;
 use crate::prove::repair::{Answer, Guarded};
-use hairline_report::page::{Block, Head, Row, Table};
+use hairline_report::page::{Block, Cell, Head, Row, Table};
 
 /// How many rays got each answer: hit, miss, ask.
 #[derive(Clone, Copy, Debug, Default)]
@@ -87,7 +87,10 @@ impl Asks {
     pub fn blocks(&self) -> Vec<Block> {
         let heads = ["rays", "hit", "miss", "ask"].map(Head::of).to_vec();
         let row = |(name, _, answers): &(String, &'static str, Answers)| {
-            Row::new(name.clone(), [0, 1, 2].map(|place| share(answers, place)))
+            Row::new(
+                name.clone(),
+                [0, 1, 2].map(|place| share_cell(answers, place)),
+            )
         };
         let table = Table::new(heads, self.kinds.iter().map(row).collect());
         let terms = self
@@ -101,6 +104,10 @@ impl Asks {
             Block::Terms(terms.collect()),
         ]
     }
+}
+
+fn share_cell(answers: &Answers, place: usize) -> Cell {
+    Cell::number(answers.0[place] as f64, share(answers, place))
 }
 
 /// A share of all answers in percent.

@@ -8,7 +8,7 @@ use crate::judge::{Class, Finding};
 use crate::kernel::{Change, Scalar, Verdict, verdicts_of};
 use crate::prove::{Searched, above};
 use hairline_record::group_digits;
-use hairline_report::page::{Block, Command, Head, Item, Items, Row as TableRow, Table};
+use hairline_report::page::{Block, Cell, Command, Head, Item, Items, Row as TableRow, Table};
 use std::marker::PhantomData;
 
 /// How far off, how, and where: the source and the place in it.
@@ -215,8 +215,8 @@ impl<F: Searched + Scalar> TriedChanges<F> {
             let counts = &self.counts[i];
             let proved = self.proved.get(i).copied().unwrap_or_default();
             let [inside, outside] = match proved.depths {
-                Some(depths) => depths.map(above),
-                None => ["-", "-"].map(str::to_owned),
+                Some(depths) => depths.map(|depth| Cell::number(depth, above(depth))),
+                None => [Cell::none(), Cell::none()],
             };
             // The median over the sources: a machine's moods fall on few of them.
             let plain = &self.counts[self.counts.len() - 1].times;
@@ -225,9 +225,12 @@ impl<F: Searched + Scalar> TriedChanges<F> {
             let candidate = i.checked_sub(1).and_then(|i| self.candidates.get(i));
             let cost = match candidate {
                 // In software here.
-                Some(it) if it.is_fused() => "-".to_owned(),
-                None => "1".to_owned(),
-                _ => format!("{:.1}", costs[costs.len() / 2]),
+                Some(it) if it.is_fused() => Cell::none(),
+                None => Cell::number(1.0, "1"),
+                _ => {
+                    let cost = costs[costs.len() / 2];
+                    Cell::number(cost, format!("{cost:.1}"))
+                }
             };
             let worst = match (i == 0, self.is_comparable(i)) {
                 (true, _) => "wrong",
@@ -236,18 +239,19 @@ impl<F: Searched + Scalar> TriedChanges<F> {
                 _ => "wrong",
             };
             let leaks = match counts.crossings {
-                _ if proved.is_tight => "none".to_owned(),
-                0 => "-".to_owned(),
-                of => format!("{:.2}", 100.0 * counts.cracks as f64 / of as f64),
+                _ if proved.is_tight => Cell::number(0.0, "none"),
+                0 => Cell::none(),
+                of => {
+                    let percent = 100.0 * counts.cracks as f64 / of as f64;
+                    Cell::number(percent, format!("{percent:.2}"))
+                }
             };
-            let [misses, hits, visible] =
-                [counts.misses, counts.hits, counts.visible].map(group_digits);
             let cells = [
-                misses,
-                hits,
+                Cell::count(counts.misses),
+                Cell::count(counts.hits),
                 leaks,
-                visible,
-                worst.to_owned(),
+                Cell::count(counts.visible),
+                Cell::words(worst),
                 inside,
                 outside,
                 cost,

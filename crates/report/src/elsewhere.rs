@@ -1,6 +1,6 @@
 //! Rates that are higher on planes, or with rays, of other kinds than those that a table is about.
 
-use super::page::{Block, Head, Row, Table};
+use super::page::{Block, Cell, Head, Row, Table};
 use hairline_record::Rate;
 
 /// The rates of one thing.
@@ -46,7 +46,8 @@ pub fn blocks(
         Head::text("on"),
     ];
     let row = |found: Worse<'_>| {
-        let cells = [share(found.own), share(found.most), found.kind.to_owned()];
+        let cell = |rate: &Rate| Cell::rate(rate, share(rate));
+        let cells = [cell(found.own), cell(found.most), Cell::words(found.kind)];
         Row::new(found.label, cells)
     };
     let rows = worse.into_iter().map(row).collect();

@@ -1,7 +1,7 @@
 //! Where segments to a hit point end: the far end of a shadow ray, for `offset` and `epsilon`.
 
 use super::elsewhere::{self, ComparedRates};
-use super::page::{Block, Head, Row, Table, Use};
+use super::page::{Block, Cell, Head, Row, Table, Use};
 use crate::advised::Advised;
 use crate::arith::{ScalarName, two_digits};
 use crate::case::{Scene, ShortNumber};
@@ -156,10 +156,12 @@ impl SegmentsPart {
         let mut blocks = vec![Block::Heading(title)];
         blocks.extend(self.answer(kinds, unit));
         let row = |end: &SegmentEndPart| {
+            let blocked = end.blocked.rate.map_or("-".to_owned(), percent);
+            let length = |length: f64| Cell::number(length, short_length(length));
             let cells = [
-                end.blocked.rate.map_or("-".to_owned(), percent),
-                short_length(end.shorter_median),
-                short_length(end.shorter_p99),
+                Cell::rate(&end.blocked, blocked),
+                length(end.shorter_median),
+                length(end.shorter_p99),
             ];
             Row::new(&end.end, cells)
         };

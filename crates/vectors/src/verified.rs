@@ -4,7 +4,7 @@ use super::profile::{Answered, Profile, Saying, demanded, is_right};
 use super::test::VectorTest;
 use crate::audit::Trials;
 use crate::record::{Comparable, NamedRate, Rate, Study, number_of};
-use crate::report::page::{Block, Head, Item, Page, Paged, Row, Table, Tone};
+use crate::report::page::{Block, Cell, Head, Item, Page, Paged, Row, Table, Tone};
 use crate::report::{JunitCase, write_junit};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -310,7 +310,7 @@ impl Paged for VerifyResult {
                 not_asked,
             } = *counts;
             let numbers = [tests, wrong, right, free, missing, not_asked];
-            let mut row = Row::new(name, numbers.map(|n| n.to_string()));
+            let mut row = Row::new(name, numbers.map(Cell::count));
             row.cells[1].is_broken = 0 < wrong;
             row
         };

@@ -10,7 +10,7 @@ use crate::cli::exit::{Failure, Status};
 use crate::cli::output::OutputArguments;
 use crate::cli::progress::Progress;
 use crate::kernel::Tunable;
-use crate::record::{group_digits, number_of};
+use crate::record::number_of;
 use crate::report::Format;
 use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Tone};
 use clap::Args;
@@ -251,17 +251,13 @@ impl Paged for Advice {
 }
 
 fn row(row: &AdviceRow) -> Row {
-    let count = |lost: u64| Cell {
-        text: group_digits(lost),
-        is_broken: 0 < lost,
-        share: None,
-    };
+    let count = |lost: u64| Cell::count(lost).broken_if(0 < lost);
     let cells = [
-        Cell::from(row.gate.to_owned()),
-        Cell::from(row.scalar.to_string()),
+        Cell::words(row.gate),
+        Cell::words(row.scalar.name()),
         count(row.lost_at_zero + row.lost_anyway),
         count(row.lost_at_own + row.lost_anyway),
-        Cell::from(row.needed()),
+        Cell::words(row.needed()),
         count(row.lost_anyway),
     ];
     Row::new(row.test.clone(), cells)

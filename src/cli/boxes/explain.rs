@@ -309,15 +309,10 @@ impl Paged for Explained {
 fn row(answer: &Answer) -> Row {
     let margin = |(gate, margin): &(String, f64)| format!("{gate} {margin:.2e}");
     let margins: Vec<String> = answer.margins.iter().map(margin).collect();
-    let judged = Cell {
-        text: answer.judged.to_owned(),
-        is_broken: answer.is_wrong,
-        share: None,
-    };
     let cells = [
-        answer.says.to_owned().into(),
-        judged,
-        margins.join(", ").into(),
+        Cell::words(answer.says),
+        Cell::words(answer.judged).broken_if(answer.is_wrong),
+        Cell::words(margins.join(", ")),
     ];
     Row::new(answer.test.clone(), cells)
 }

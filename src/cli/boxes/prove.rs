@@ -110,16 +110,11 @@ impl Proof {
             (None, Some(_)) => "proved for these sizes".to_owned(),
             (None, None) => "a ray is lost with 2^32*EPSILON".to_owned(),
         };
-        let verdict = Cell {
-            text: words,
-            is_broken: self.fault().is_some(),
-            share: None,
-        };
         let cells = [
-            self.scalar.to_string().into(),
-            least.into(),
-            halves.into(),
-            verdict,
+            Cell::words(self.scalar.name()),
+            Cell::words(least),
+            Cell::words(halves),
+            Cell::words(words).broken_if(self.fault().is_some()),
         ];
         Row::new(self.test, cells)
     }

@@ -110,8 +110,9 @@ fn a_rate_is_a_bound_that_a_sample_must_clearly_exceed() {
 }
 
 fn key(kernel: &str, finding: FindingKind) -> Key {
-    let [kernel, set, family, class] = [kernel, "source", "tiny", "interior"].map(str::to_owned);
+    let [kernel, set, family] = [kernel, "source", "tiny"].map(str::to_owned);
     let scalar = ScalarName::F32;
+    let class = FindingClass::Any;
     Key {
         kernel,
         set,
@@ -285,7 +286,7 @@ fn key_of_class(class: &str, finding: FindingKind) -> Key {
         set,
         scalar,
         family,
-        class: class.to_owned(),
+        class: class.parse().unwrap(),
         finding,
     }
 }
@@ -322,10 +323,10 @@ fn note(
 #[test]
 fn what_was_repaired_is_said_of_the_class_and_of_its_groups() {
     use FindingKind::{Crack, Crash, FalseMiss, Panic, PolygonFalseMiss, Timeout};
-    let crashed = ("edge", Crash, 4);
+    let crashed = ("edge/front/within", Crash, 4);
     let said = "; before, the kernel crashed on 4 cases that it answers now";
     assert_eq!(
-        note(&[crashed], &[], ("edge", FalseMiss)).as_deref(),
+        note(&[crashed], &[], ("edge/front/within", FalseMiss)).as_deref(),
         Some(said)
     );
     assert_eq!(
@@ -333,23 +334,27 @@ fn what_was_repaired_is_said_of_the_class_and_of_its_groups() {
         Some(said)
     );
     let late = note(
-        &[("edge", Timeout, 3)],
-        &[("edge", Timeout, 1)],
-        ("edge", FalseMiss),
+        &[("edge/front/within", Timeout, 3)],
+        &[("edge/front/within", Timeout, 1)],
+        ("edge/front/within", FalseMiss),
     );
     let said = "; before, the kernel gave no answer on 2 cases that it answers now";
     assert_eq!(late.as_deref(), Some(said));
     // Another class, a failure of another kind, and as many as before.
     for other in [
-        ("vertex", FalseMiss),
+        ("vertex/front/within", FalseMiss),
         ("polygon", PolygonFalseMiss),
-        ("edge", Panic),
+        ("edge/front/within", Panic),
     ] {
         assert_eq!(note(&[crashed], &[], other), None, "{other:?}");
     }
     assert_eq!(
-        note(&[crashed], &[("edge", Panic, 4)], ("edge", FalseMiss)),
+        note(
+            &[crashed],
+            &[("edge/front/within", Panic, 4)],
+            ("edge/front/within", FalseMiss)
+        ),
         None
     );
-    assert_eq!(note(&[], &[], ("edge", FalseMiss)), None);
+    assert_eq!(note(&[], &[], ("edge/front/within", FalseMiss)), None);
 }

@@ -3,12 +3,12 @@
 use super::notes::{accuracy, is_coarse, is_no_good, no_good, notes, price};
 use super::record::*;
 use super::words::{
-    bound, flag, human, interval, label, least_normal, least_t, of_unit, share, short_error,
-    unit_of, unit_of_t, where_of,
+    bound, flag, human, interval, label, least_normal, least_t, of_unit, share, share_cell,
+    short_error, unit_of, unit_of_t, where_of,
 };
 use crate::arith::{ScalarName, two_digits};
 use crate::kernel::Role;
-use crate::page::{Row, Use};
+use crate::page::{Cell, Row, Use};
 use hairline_record::Rate;
 use hairline_record::{group_digits, number_of};
 
@@ -182,6 +182,10 @@ pub(super) fn holes_text(tried: &TriedPart) -> Option<String> {
     })
 }
 
+fn holes_cell(tried: &TriedPart) -> Option<Cell> {
+    Some(Cell::number(tried.holes_per_million?, holes_text(tried)?))
+}
+
 /// The results of what was tried.
 pub(super) fn rows(part: &SceneKernelPart) -> Vec<Row> {
     let mut rows = Vec::new();
@@ -192,10 +196,10 @@ pub(super) fn rows(part: &SceneKernelPart) -> Vec<Row> {
         }
         rows.push(Row::new(
             label(count),
-            columns(part).map(|tried| share(&tried.wrong[i])),
+            columns(part).map(|tried| share_cell(&tried.wrong[i])),
         ));
         if count.rays == Rays::Stratum(Stratum::Edges) {
-            let holes: Option<Vec<String>> = columns(part).map(holes_text).collect();
+            let holes: Option<Vec<Cell>> = columns(part).map(holes_cell).collect();
             rows.extend(holes.map(|holes| Row::new(PICTURE, holes)));
         }
         let several = match (count.rays, count.kind) {
@@ -206,7 +210,7 @@ pub(super) fn rows(part: &SceneKernelPart) -> Vec<Row> {
         };
         rows.push(Row::new(
             several,
-            columns(part).map(|tried| share(&tried.doubles[i])),
+            columns(part).map(|tried| share_cell(&tried.doubles[i])),
         ));
     }
     for (i, count) in part.counts.iter().enumerate() {
@@ -216,14 +220,14 @@ pub(super) fn rows(part: &SceneKernelPart) -> Vec<Row> {
         if found.iter().any(Option::is_some) {
             let cells = found
                 .into_iter()
-                .map(|rate| rate.map_or("-".to_owned(), share));
+                .map(|rate| rate.map_or(Cell::none(), share_cell));
             rows.push(Row::new(
                 format!("too far off, {}", where_of(count.rays)),
                 cells,
             ));
         }
     }
-    let costs = columns(part).map(|tried| format!("{:.3}", tried.cost));
+    let costs = columns(part).map(|tried| Cell::number(tried.cost, format!("{:.3}", tried.cost)));
     rows.push(Row::new("cost", costs));
     rows
 }
@@ -242,7 +246,9 @@ pub(super) fn error_rows(record: &SceneResult, part: &SceneKernelPart) -> Vec<Ro
             let of = |tried: &TriedPart| tried.errors.iter().find(is_of).map(errors);
             let found: Vec<Option<String>> = columns(part).map(of).collect();
             if found.iter().any(Option::is_some) {
-                let cells = found.into_iter().map(|cell| cell.unwrap_or("-".to_owned()));
+                let cells = found
+                    .into_iter()
+                    .map(|errors| errors.map_or(Cell::none(), Cell::words));
                 rows.push(Row::new(
                     format!("of {value}{unit}, {}", where_of(count.rays)),
                     cells,

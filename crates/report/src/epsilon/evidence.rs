@@ -12,7 +12,7 @@ use super::words::{label, share};
 use crate::case::{Scene, SceneKind};
 use crate::elsewhere::{self, ComparedRates};
 use crate::family::Stratum;
-use crate::page::{Block, Head, Row, Table};
+use crate::page::{Block, Cell, Head, Row, Table};
 use crate::segments::SegmentsPart;
 use hairline_advice::epsilon::Rays;
 
@@ -108,7 +108,8 @@ fn limits(record: &SceneResult, part: &SceneKernelPart) -> Vec<Block> {
             format!("{}{star}", label(row.count)),
             row.most,
             row.fresh,
-        ];
+        ]
+        .map(Cell::words);
         Row {
             below: row.price.into_iter().collect(),
             ..Row::new(&row.knob.name, cells)

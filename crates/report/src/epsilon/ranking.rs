@@ -8,10 +8,10 @@ use super::notes::few_rays;
 use super::record::{
     RayCount, Rays, SceneKernelPart, SceneRecord, SceneResult, Stratum, TriedPart, WrongKind,
 };
-use super::words::{how_to_read, of_unit, share};
+use super::words::{how_to_read, of_unit, share_cell};
 use crate::arith::ScalarName;
 use crate::lists::alike;
-use crate::page::{Block, Command, Head, Page, Row, Table};
+use crate::page::{Block, Cell, Command, Head, Page, Row, Table};
 use hairline_record::Rate;
 
 /// A kernel, and the results of what its `use` line says.
@@ -134,17 +134,15 @@ fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
         rates
             .map(|(_, rate)| rate)
             .max_by(worst)
-            .map_or("-".to_owned(), share)
+            .map_or(Cell::none(), share_cell)
     };
+    let time = whole.provenance.nanoseconds(part.scalar, &part.kernel);
     let cells = [
-        format!("{:.3}", best.cost),
+        Cell::number(best.cost, format!("{:.3}", best.cost)),
         cell(|count| count.kind == WrongKind::Crack),
         cell(is_lost),
         cell(|count| count.kind == WrongKind::SelfHit),
-        whole
-            .provenance
-            .nanoseconds(part.scalar, &part.kernel)
-            .map_or("-".to_owned(), |time| format!("{time:.0}")),
+        Cell::optional(time, |time| format!("{time:.0}")),
     ];
     let used = used(&whole.result, part).into_iter().next();
     let used = used.map(|used| {

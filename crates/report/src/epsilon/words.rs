@@ -4,7 +4,7 @@ use super::record::*;
 use crate::arith::{Float, ScalarName, smallest_normal};
 use crate::case::ShortNumber;
 use crate::kernel::{Dimension, Role};
-use crate::page::Block;
+use crate::page::{Block, Cell};
 use hairline_record::Rate;
 use hairline_record::group_digits;
 
@@ -281,6 +281,11 @@ pub(super) fn short_error(error: Option<f64>) -> String {
         Some(0.0) => "0".to_owned(),
         Some(error) => format!("{error:.0e}"),
     }
+}
+
+/// A rate in a table, as [`share`] writes it.
+pub(super) fn share_cell(rate: &Rate) -> Cell {
+    Cell::rate(rate, share(rate))
 }
 
 /// `0 of 40,000`, `1 in 1,200`, `2.9%`.

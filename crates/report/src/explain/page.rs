@@ -143,15 +143,9 @@ impl Explanation {
                 .collect(),
             _ => {
                 let row = |part: &TogetherPart| {
-                    let judged = Cell {
-                        text: part.judged.clone(),
-                        is_broken: part.is_wrong,
-                        ..Cell::default()
-                    };
-                    Row::new(
-                        &part.row,
-                        [part.said.replace(" triangles hit", " hit").into(), judged],
-                    )
+                    let said = Cell::words(part.said.replace(" triangles hit", " hit"));
+                    let judged = Cell::words(&part.judged).broken_if(part.is_wrong);
+                    Row::new(&part.row, [said, judged])
                 };
                 let heads = ["kernel (epsilons)", "together", "is"].map(Head::text);
                 let rows = parts.iter().map(|part| row(part)).collect();
@@ -336,21 +330,12 @@ fn gates(row: &ExplainedRow, is_first: bool) -> Table {
         if gate.decides {
             decision += " <- decides";
         }
-        let mut cells: Vec<Cell> = vec![text(&gate.margin).into()];
+        let mut cells = vec![Cell::words(text(&gate.margin))];
         if !runs {
-            cells.push(text(&gate.exact).into());
+            cells.push(Cell::words(text(&gate.exact)));
         }
-        cells.push(
-            gate.epsilon
-                .clone()
-                .unwrap_or_else(|| "fixed".to_owned())
-                .into(),
-        );
-        cells.push(Cell {
-            text: decision,
-            is_broken: is_wrong,
-            share: None,
-        });
+        cells.push(Cell::words(gate.epsilon.as_deref().unwrap_or("fixed")));
+        cells.push(Cell::words(decision).broken_if(is_wrong));
         let mut below = if is_first {
             vec![format!("refuses where {}", gate.refuses)]
         } else {
@@ -386,16 +371,11 @@ fn all_rows(rows: &[ExplainedRow]) -> Table {
             _ => "right".to_owned(),
         };
         let gate = row.decisive().map_or("", |gate| gate.gate);
-        let is_broken = row.finding.is_some();
-        let cells: [Cell; 4] = [
-            row.said.clone().into(),
-            Cell {
-                text: judged,
-                is_broken,
-                share: None,
-            },
-            gate.to_owned().into(),
-            row.cause.clone().into(),
+        let cells = [
+            Cell::words(&row.said),
+            Cell::words(judged).broken_if(row.finding.is_some()),
+            Cell::words(gate),
+            Cell::words(&row.cause),
         ];
         Row::new(row.label(), cells)
     };
@@ -413,7 +393,7 @@ fn inputs(triangle: &TrianglePart, is_first: bool) -> Table {
         .chain([Head::text("bits").optional()])
         .collect();
     let row =
-        |[label, x, y, z, bits]: &[String; 5]| Row::new(label, [x, y, z, bits].map(String::clone));
+        |[label, x, y, z, bits]: &[String; 5]| Row::new(label, [x, y, z, bits].map(Cell::words));
     // The ray is that of the first triangle.
     let before = if is_first { 0 } else { 2 };
     Table::new(

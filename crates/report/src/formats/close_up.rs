@@ -113,7 +113,7 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
     }
     let results: Vec<Vec<&KernelResult>> =
         lines.iter().map(|line| column.results(&line.row)).collect();
-    let mut row = Row::new::<Cell>(column.label(), []);
+    let mut row = Row::new(column.label(), []);
     // There is no room for the intervals of several.
     let share = |rate: &Rate| match lines.len() {
         1 => share_cell(rate),
@@ -136,14 +136,10 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
         let has_cracks = cracks.iter().any(|pool| 0 < pool.rate().count);
         row.cells
             .extend(cracks.iter().map(|pool| share(pool.rate())));
-        row.cells.push(
-            if has_cracks { "cracks" } else { "no cracks" }
-                .to_owned()
-                .into(),
-        );
-        row.cells.resize_with(2 * lines.len() + 2, Cell::default);
         row.cells
-            .push(group_digits(visible(&results.concat())).into());
+            .push(Cell::words(if has_cracks { "cracks" } else { "no cracks" }));
+        row.cells.resize_with(2 * lines.len() + 2, Cell::default);
+        row.cells.push(Cell::count(visible(&results.concat())));
         return Some(row);
     }
     for (kind, rate) in WRONG {
@@ -151,13 +147,15 @@ fn row(column: &Column, place: usize, lines: &[&RowLine]) -> Option<Row> {
             .iter()
             .map(|results| Pool::of(results.iter().map(|result| rate(&result.total))));
         row.cells.extend(pools.map(|pool| match column.complete {
-            true => count_of(pool.counts()).into(),
+            true => {
+                let [count, of] = pool.counts();
+                Cell::share(count as f64 / of as f64, count_of([count, of]))
+            }
             false => share(pool.rate()),
         }));
-        row.cells.push(cause(&results.concat(), kind).into());
+        row.cells.push(Cell::words(cause(&results.concat(), kind)));
     }
-    row.cells
-        .push(group_digits(visible(&results.concat())).into());
+    row.cells.push(Cell::count(visible(&results.concat())));
     Some(row)
 }
 
@@ -247,9 +245,5 @@ fn share_cell(rate: &Rate) -> Cell {
             format!("{} [{}, {}]", number(share), number(low), number(high))
         }
     };
-    Cell {
-        text,
-        is_broken: 0 < rate.count,
-        share: rate.rate,
-    }
+    Cell::rate(rate, text).broken_if(0 < rate.count)
 }

@@ -4,6 +4,7 @@ use super::columns::{Column, is_of_ordinary_size};
 use super::lines::RowLine;
 use super::worst::{cause, describe, severity};
 use crate::audit::Attribution;
+use crate::judge::Class;
 use crate::page::{Block, Item};
 use hairline_record::group_digits;
 use hairline_record::*;
@@ -107,7 +108,7 @@ fn all<'a>(columns: &[Column], lines: &'a [RowLine<'a>]) -> Vec<Extreme<'a>> {
             let results = column.results(&line.row).into_iter();
             let parts = results.flat_map(|result| &result.findings).filter(|part| {
                 (part.finding.is_wrong_verdict() || part.finding == FindingKind::WrongValue)
-                    && part.class != "degenerate"
+                    && !part.class.truth().is_some_and(Class::is_degenerate)
             });
             let parts = parts.filter(|part| part.worst.severity.is_some());
             all.extend(parts.map(|part| Extreme { line, part }));

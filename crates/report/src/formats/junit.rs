@@ -3,7 +3,10 @@
 //!
 //! In an audit every disagreement fails its case; in a check only what is unexpected or stale does.
 
-use hairline_record::{Deviation, Key, Record, disagreements, group_digits, kinds_of};
+use hairline_record::{
+    Deviation, FindingClass, FindingKind, Key, Record, Unproved, disagreements, group_digits,
+    kinds_of,
+};
 
 use crate::format::Style;
 use crate::plot::escaped;
@@ -77,7 +80,7 @@ fn suites(record: &Record) -> BTreeMap<String, Suite> {
     let mut suites: BTreeMap<String, Suite> = BTreeMap::new();
     for part in &record.result.results {
         for kind in kinds_of(part) {
-            case_of(&mut suites, &Key::of(part, "", kind));
+            case_of(&mut suites, &Key::of(part, FindingClass::Any, kind));
         }
     }
     match &record.conformance {
@@ -98,7 +101,12 @@ fn suites(record: &Record) -> BTreeMap<String, Suite> {
         Some(conformance) => {
             for unproved in &conformance.unproved {
                 let failure = (unproved.to_string(), unproved.command.clone());
-                case_of(&mut suites, &unproved.key()).failures.push(failure);
+                let place = format!("{}.{}", unproved.scalar, Unproved::FAMILY);
+                let suite = suites.entry(unproved.row()).or_default();
+                let case = suite
+                    .entry((place, FindingKind::Unproved.to_string()))
+                    .or_default();
+                case.failures.push(failure);
             }
             for (list, title) in [
                 (&conformance.unsteady, "unsteady"),

@@ -8,13 +8,14 @@ use super::why::{causes_text, of_kind, short};
 use super::worst::{findings, severity};
 use crate::audit;
 use crate::case::Case;
+use crate::judge::Class;
 use crate::kernel::{self, Gate, Scalar, Tunable};
 use crate::map;
 use crate::page::{Block, Cell, Drawing, Head, Picture, Row, Table};
 use crate::prove::units;
 use hairline_record::counts_alone;
 use hairline_record::*;
-use hairline_record::{ProofPart, ProvedGate, group_digits};
+use hairline_record::{ProofPart, ProvedGate};
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -121,13 +122,13 @@ fn gates(record: &Record, part: &RowPart) -> Vec<Block> {
         );
         let mut cells = vec![gate.refuses.to_owned(), epsilon, dimension];
         cells.extend(proofs.iter().map(|proof| proved(proof, gate.name)));
-        Row::new(gate.name, cells)
+        Row::new(gate.name, cells.into_iter().map(Cell::words))
     };
     let mut rows: Vec<Row> = gates.iter().map(row).collect();
     let is_unknown = |name: &String| gates.iter().all(|gate| gate.name != name.as_str());
     for (name, value) in part.epsilons.iter().filter(|(name, _)| is_unknown(name)) {
-        let mut cells = vec!["-".to_owned(), value.clone()];
-        cells.resize(heads.len() - 1, "-".to_owned());
+        let mut cells = vec![Cell::none(), Cell::words(value)];
+        cells.resize_with(heads.len() - 1, Cell::none);
         rows.push(Row::new(name, cells));
     }
     if rows.is_empty() {
@@ -176,19 +177,19 @@ fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
     for (name, get) in COUNTED {
         let pools: Vec<Pool> = views.iter().map(|view| view.total(get)).collect();
         if pools.iter().any(|pool| 0 < pool.counts()[1]) {
-            rows.push(Row::new(name, pools.iter().map(Pool::to_string)));
+            let cell = |pool: &Pool| Cell::rate(pool.rate(), pool.to_string());
+            rows.push(Row::new(name, pools.iter().map(cell)));
         }
     }
     if views.iter().any(|view| 0 < view.hits_on_invalid()) {
-        let hits = views
-            .iter()
-            .map(|view| group_digits(view.hits_on_invalid()));
+        let hits = views.iter().map(|view| Cell::count(view.hits_on_invalid()));
         rows.push(Row::new("hits on NaN, infinities, …", hits));
     }
     let label = part.label();
     let time = |view: &RowView| {
         let times = record.provenance.kernel_nanoseconds.get(&view.scalar)?;
-        times.get(&label).map(|time| format!("{time:.1}"))
+        let time = times.get(&label)?;
+        Some(Cell::number(*time, format!("{time:.1}")))
     };
     let is_emulated = part.kernel.contains('+');
     let name = if is_emulated {
@@ -200,7 +201,7 @@ fn rates(record: &Record, part: &RowPart, views: &[&RowView]) -> Table {
         name,
         views
             .iter()
-            .map(|view| time(view).unwrap_or("-".to_owned())),
+            .map(|view| time(view).unwrap_or_else(Cell::none)),
     ));
     Table::new(heads.map(Head::of).collect(), rows)
 }
@@ -226,13 +227,14 @@ fn quantiles_of(views: &[&RowView]) -> Vec<Block> {
                 let pairs = quantiles(&part.edges)
                     .into_iter()
                     .zip(quantiles(&part.ulps));
-                let cells = pairs.map(|(edges, ulps)| format!("{edges} ({ulps})"));
+                let cells = pairs.map(|(edges, ulps)| Cell::words(format!("{edges} ({ulps})")));
                 severities.push(Row::new(format!("{} {words}", view.scalar), cells));
             }
         }
         for (key, name) in [("t", "t"), ("uv", "u and v"), ("point", "o + t*d")] {
             if let Some(part) = total.accuracy.get(key) {
-                accuracies.push(Row::new(format!("{} {name}", view.scalar), quantiles(part)));
+                let cells = quantiles(part).map(Cell::words);
+                accuracies.push(Row::new(format!("{} {name}", view.scalar), cells));
             }
         }
     }
@@ -271,11 +273,7 @@ fn by_family(record: &Record, views: &[&RowView]) -> Table {
                 let rate = alone
                     .map(|result| rate(&result.total))
                     .filter(|rate| 0 < rate.of);
-                Cell {
-                    text: rate.map_or("-".to_owned(), counted),
-                    share: rate.and_then(|rate| rate.rate),
-                    ..Default::default()
-                }
+                rate.map_or(Cell::none(), |rate| Cell::rate(rate, counted(rate)))
             })
         });
         Row::new(&source.family, cells.collect::<Vec<_>>())
@@ -332,14 +330,14 @@ fn pictures(record: &Record, part: &RowPart, views: &[&RowView]) -> Vec<Block> {
 /// The worst finding of a kind that has a place to show: of a ray that crosses the plane, in a family of
 /// moderate sizes if there is one.
 fn worst<'a>(scalar: &RowView<'a>, kind: FindingKind) -> Option<(&'a str, &'a FindingPart)> {
-    let crossing = |class: &str| class.contains('/');
     let all = scalar.results.iter().flat_map(|result| {
         result
             .findings
             .iter()
             .map(move |part| (result.family.as_str(), part))
     });
-    let all = all.filter(|(_, part)| part.finding == kind && crossing(&part.class));
+    let all = all
+        .filter(|(_, part)| part.finding == kind && part.class.truth().is_some_and(Class::crosses));
     let moderate = |family: &str| !SPANNING.contains(&family);
     all.filter(|(_, part)| severity(part).is_finite())
         .max_by(|(f, a), (g, b)| {

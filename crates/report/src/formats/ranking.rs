@@ -4,6 +4,7 @@ use super::columns::{Column, short_percent};
 use super::lines::RowLine;
 use super::standing::{Standing, share, standings};
 use crate::arith::ScalarName;
+use crate::audit::Trials;
 use crate::lists::{alike, listed};
 use crate::page::{Block, Cell, Head, Row, Table};
 use hairline_record::group_digits;
@@ -72,8 +73,8 @@ fn counted<'a>(
     (!counts.is_empty()).then(|| listed(&counts, MOST_NAMES))
 }
 
-/// The answer in sentences.
-pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String {
+/// The answer, a sentence each.
+pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> Vec<String> {
     let rows = ranked(standings);
     let sorted = || rows.iter().map(|(standing, _)| *standing);
     let mut text = Vec::new();
@@ -138,7 +139,7 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
             "Each is judged by its own promises (all by one: --contract closed-ray).".to_owned(),
         );
     }
-    text.join(" ")
+    text
 }
 
 /// The table, and what its columns hold.
@@ -165,6 +166,22 @@ pub(super) fn of_scalar(record: &Record, columns: &[Column], lines: &[RowLine]) 
         .iter_mut()
         .for_each(|head| head.is_optional = false);
     Block::Table(table)
+}
+
+/// The wrong answers of a sample, in percent.
+fn percent_of(wrong: Trials) -> Cell {
+    let text = short_percent([wrong.count, wrong.of]);
+    wrong
+        .share()
+        .map_or(Cell::none(), |share| Cell::share(share, text))
+}
+
+/// The wrong answers of a whole set: `3/57`.
+fn counts_of(wrong: Trials) -> Cell {
+    let [count, of] = [wrong.count, wrong.of].map(group_digits);
+    wrong.share().map_or(Cell::none(), |share| {
+        Cell::share(share, format!("{count}/{of}"))
+    })
 }
 
 fn table(
@@ -212,39 +229,29 @@ fn table(
     for (standing, alike) in rows {
         let mut cells: Vec<Cell> = Vec::new();
         if has_leaks {
-            let text = standing.leaks().map_or("-".to_owned(), short_percent);
             let is_broken = standing.breaks_promise();
             let mark = if is_broken { "!" } else { "" };
-            let share = standing.leaks().map(share);
-            cells.push(Cell {
-                text: format!("{text}{mark}"),
-                is_broken,
-                share,
+            let leaks = standing.leaks().map_or(Cell::none(), |[count, of]| {
+                let text = format!("{}{mark}", short_percent([count, of]));
+                Cell::share(share([count, of]), text)
             });
+            cells.push(leaks.broken_if(is_broken));
         }
-        cells.push(group_digits(standing.all_far()).into());
-        let values = standing.worse(|line| line.values).wrong;
-        cells.push(short_percent([values.count, values.of]).into());
+        cells.push(Cell::count(standing.all_far()));
+        cells.push(percent_of(standing.worse(|line| line.values).wrong));
         for &i in &order {
             let wrong = standing.worse(|line| line.cells[i]).wrong;
-            cells.push(match columns[i].complete {
-                true if wrong.of == 0 => "-".to_owned().into(),
-                true => format!("{}/{}", group_digits(wrong.count), group_digits(wrong.of)).into(),
-                false => Cell {
-                    text: short_percent([wrong.count, wrong.of]),
-                    share: wrong.share(),
-                    ..Cell::default()
-                },
+            cells.push(if columns[i].complete {
+                counts_of(wrong)
+            } else {
+                percent_of(wrong)
             });
         }
         for scalar in scalars {
             let time = record
                 .provenance
                 .nanoseconds(*scalar, &standing.part.label());
-            cells.push(
-                time.map_or("-".to_owned(), |time| format!("{time:.0}"))
-                    .into(),
-            );
+            cells.push(Cell::optional(time, |time| format!("{time:.0}")));
         }
         let alike: Vec<String> = alike.iter().map(|other| label(other.part)).collect();
         let alike = (!alike.is_empty()).then(|| format!("same answers: {}", alike.join(", ")));

@@ -2,10 +2,14 @@
 
 use super::pool::Pool;
 use crate::arith::ScalarName;
+use crate::judge::Class;
 use hairline_record::counts_alone;
 use hairline_record::group_digits;
 use hairline_record::*;
 use std::collections::HashMap;
+
+/// Input that has no meaning.
+const INVALID: FindingClass = FindingClass::Truth(Class::INVALID);
 
 /// A rate of a result, if it has it.
 type Get = fn(&KernelResult) -> Option<&Rate>;
@@ -96,7 +100,7 @@ impl<'a> RowView<'a> {
     pub(super) fn hits_on_invalid(&self) -> u64 {
         self.results
             .iter()
-            .filter_map(|result| result.classes.get("invalid"))
+            .filter_map(|result| result.classes.get(&INVALID))
             .map(|c| c.hits)
             .sum()
     }
@@ -112,7 +116,7 @@ pub(super) fn is_all_invalid(rows: &[RowView], cases: u64) -> bool {
         let invalid = row
             .results
             .iter()
-            .filter_map(|result| result.classes.get("invalid"));
+            .filter_map(|result| result.classes.get(&INVALID));
         invalid.map(|counts| counts.cases).sum::<u64>() == cases
     })
 }

@@ -1,7 +1,7 @@
 //! The record as SARIF 2.1.0, for forges that show code scanning: one result a class of disagreement.
 
 use hairline_record::{
-    Conformance, Deviation, FindingKind, Key, Rate, Record, disagreements, group_digits,
+    Conformance, Deviation, FindingKind, Key, Rate, Record, Unproved, disagreements, group_digits,
 };
 
 use crate::format::{Style, write_json};
@@ -96,13 +96,13 @@ fn of_check(conformance: &Conformance) -> Vec<Value> {
     let file = conformance.expectations.as_deref();
     let unproved = conformance.unproved.iter().map(|unproved| {
         let text = format!("{unproved}\n{}", unproved.command);
-        result(
-            &unproved.key(),
-            FindingKind::Unproved.name(),
-            "error",
-            &text,
-            &Rate::default(),
-        )
+        let rule = FindingKind::Unproved.name();
+        let (row, gate) = (unproved.row(), &unproved.gate);
+        let (scalar, family) = (unproved.scalar, Unproved::FAMILY);
+        let fingerprint = format!("{row} {scalar} {family}: {rule} of {gate}");
+        let place = format!("{row}/{scalar}/{family}");
+        let rate = Rate::default();
+        result(rule, "error", &text, &place, gate, &fingerprint, &rate)
     });
     let unexpected = conformance
         .unexpected
@@ -137,7 +137,7 @@ fn deviation(found: &Deviation, rule: &str, level: &str, file: Option<&str>) -> 
     {
         text.push_str(&format!("\n{line}"));
     }
-    let mut result = result(&found.key(), rule, level, &text, &found.found);
+    let mut result = of_key(&found.key(), rule, level, &text, &found.found);
     if let Some(file) = file {
         result["locations"][0]["physicalLocation"] = json!({
             "artifactLocation": { "uri": uri(file) },
@@ -155,7 +155,7 @@ fn of_audit(record: &Record) -> Vec<Value> {
         if let Some(example) = &found.example {
             text.push_str(&format!("\n{}\n{}", example.command, example.bits));
         }
-        result(
+        of_key(
             &found.key,
             found.key.finding.name(),
             "warning",
@@ -166,8 +166,22 @@ fn of_audit(record: &Record) -> Vec<Value> {
     of_found.collect()
 }
 
-fn result(key: &Key, rule: &str, level: &str, text: &str, rate: &Rate) -> Value {
+/// The result on a class of disagreement.
+fn of_key(key: &Key, rule: &str, level: &str, text: &str, rate: &Rate) -> Value {
     let place = format!("{}/{}/{}", key.row(), key.scalar, key.family);
+    let (class, fingerprint) = (key.class.name(), key.to_string());
+    result(rule, level, text, &place, class, &fingerprint, rate)
+}
+
+fn result(
+    rule: &str,
+    level: &str,
+    text: &str,
+    place: &str,
+    class: &str,
+    fingerprint: &str,
+    rate: &Rate,
+) -> Value {
     json!({
         "ruleId": rule,
         "level": level,
@@ -175,8 +189,8 @@ fn result(key: &Key, rule: &str, level: &str, text: &str, rate: &Rate) -> Value 
         "locations": [{
             "logicalLocations": [{ "fullyQualifiedName": place, "kind": "function" }],
         }],
-        "partialFingerprints": { "disagreement/v1": key.to_string() },
-        "properties": { "class": key.class, "count": rate.count, "of": rate.of },
+        "partialFingerprints": { "disagreement/v1": fingerprint },
+        "properties": { "class": class, "count": rate.count, "of": rate.of },
     })
 }
 

@@ -17,7 +17,7 @@ use hairline_record::percent;
 use hairline_record::*;
 use hairline_record::{group_digits, number_of};
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// The most rows that the screen shows each by itself.
 const MOST_CLOSE_UPS: usize = 2;
@@ -29,7 +29,17 @@ pub(super) fn blocks(
     lines: &[RowLine],
 ) -> (String, Vec<Block>) {
     let standings = standings(record, columns, lines);
-    let (title, rest) = diagnosed(record, answer(record, columns, &standings));
+    let answer = answer(record, columns, &standings);
+    // Mistakes explain the answer, so they come first.
+    let mistakes: Vec<String> = relations::sentences(record)
+        .iter()
+        .map(|mistake| format!("{mistake}."))
+        .collect();
+    let (title, rest) = if mistakes.is_empty() {
+        (answer[0].clone(), answer[1..].join(" "))
+    } else {
+        (mistakes.join(" "), answer.join(" "))
+    };
     let mut blocks = vec![Block::Text(rest), Block::Text(head(record))];
     blocks.extend(notes(record));
     blocks.extend(shared_in_scenes(record).map(Block::text));
@@ -53,18 +63,6 @@ pub(super) fn blocks(
         blocks.push(Block::Commands("next", commands));
     }
     (title, blocks)
-}
-
-/// An answer, its first sentence and the others, after the mistakes that explain it.
-fn diagnosed(record: &Record, answer: (String, String)) -> (String, String) {
-    let mistakes = relations::sentences(record);
-    match mistakes.is_empty() {
-        true => answer,
-        false => (
-            format!("{}.", mistakes.join(". ")),
-            format!("{} {}", answer.0, answer.1),
-        ),
-    }
 }
 
 /// Which kernels ran, and on how many cases.
@@ -125,137 +123,146 @@ fn is_close_up(record: &Record) -> bool {
     record.result.plan.rows.len() <= MOST_CLOSE_UPS
 }
 
-/// The answer in words: its first sentence, and the others.
-fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (String, String) {
+/// The answer, a sentence each: at least one.
+fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> Vec<String> {
+    let place = but_for(record, columns);
+    let mut sentences = match standings {
+        _ if columns.is_empty() => {
+            vec!["No case has both a verdict and a contract that demands one.".to_owned()]
+        }
+        all if all.iter().all(|row| row.share.is_none()) => {
+            vec!["Every case has extreme exponents.".to_owned()]
+        }
+        [only] => {
+            let mut sentences = of_one(only, columns, judged(record, columns));
+            sentences.push(share_of_one(only, columns, &place));
+            sentences
+        }
+        all => ranking::answer(all, judged(record, columns), &place),
+    };
+    // Of several the table tells.
+    if let [only] = standings {
+        let (across, others): (Vec<_>, Vec<_>) = only
+            .others
+            .iter()
+            .map(|(kind, count)| (*kind, *count))
+            .partition(|(kind, _)| is_across(*kind));
+        let broken = "Breaks its promise across triangles (in all sizes)";
+        sentences.extend(counted(broken, &across));
+        sentences.extend(counted("Besides", &others));
+    }
+    sentences.extend(record.result.partial.as_ref().map(|part| part.sentence()));
+    sentences
+}
+
+/// The sizes that the answer leaves out, in words after a sentence; none if it is about all.
+fn but_for(record: &Record, columns: &[Column]) -> String {
     let special: Vec<&str> = columns
         .iter()
         .filter(|column| !column.is_ordinary())
         .map(|column| column.label())
         .collect();
-    let place = match &special[..] {
-        [] => String::new(),
+    if special.is_empty() {
+        String::new()
+    } else if is_close_up(record) {
         // Each is a row of a close-up.
-        special if is_close_up(record) => format!(" in all rows but {}", special.join(" and ")),
-        special if special.contains(&"invalid") => {
-            " but for extreme exponents and invalid input".to_owned()
-        }
-        _ => " but for extreme exponents".to_owned(),
-    };
-    let meant = columns
+        format!(" in all rows but {}", special.join(" and "))
+    } else if special.contains(&"invalid") {
+        " but for extreme exponents and invalid input".to_owned()
+    } else {
+        " but for extreme exponents".to_owned()
+    }
+}
+
+/// How often one row is wrong, in a sentence.
+fn share_of_one(row: &Standing, columns: &[Column], place: &str) -> String {
+    if row.wrong == 0 {
+        return match row.others.is_empty() {
+            true => format!("Every verdict is right{place}."),
+            false => format!("No false miss and no false hit{place}."),
+        };
+    }
+    let samples = columns
         .iter()
         .filter(|column| column.is_ordinary() && !column.complete)
         .count();
-    let mean = if 1 < meant {
+    let mean = if 1 < samples {
         ", the mean of the rows"
     } else {
         ""
     };
-    let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
-    let text = match standings {
-        _ if columns.is_empty() => {
-            "No case has both a verdict and a contract that demands one.".to_owned()
-        }
-        all if all.iter().all(|row| row.share.is_none()) => {
-            "Every case has extreme exponents.".to_owned()
-        }
-        [only] => {
-            let wrong = match only.wrong {
-                0 if only.others.is_empty() => format!("Every verdict is right{place}."),
-                0 => format!("No false miss and no false hit{place}."),
-                _ => format!(
-                    "Wrong on {} % of the cases{place}{mean}.",
-                    percent(only.share.unwrap_or_default())
-                ),
-            };
-            format!("{} {wrong}", of_one(only, columns, judged(record, columns)))
-        }
-        all => ranking::answer(all, judged(record, columns), &place),
-    };
-    // Of several the table tells.
-    let broken = match standings {
-        [only] => only.others.clone(),
-        _ => BTreeMap::new(),
-    };
-    let is_across = |kind: &FindingKind| {
-        matches!(
-            kind,
-            FindingKind::Crack | FindingKind::Double | FindingKind::OddFold
-        )
-    };
-    let told = |lead: &str, of_across: bool| {
-        let chosen = broken
-            .iter()
-            .filter(|(kind, _)| is_across(kind) == of_across);
-        let counts = chosen.map(|(finding, count)| {
-            let ending = if finding.name().ends_with(['s', 'h']) {
+    let share = row.share.unwrap_or_default();
+    let percent = short_percent([(share * 1e9) as u64, 1_000_000_000]);
+    format!("Wrong on {percent} % of the cases{place}{mean}.")
+}
+
+/// True if a finding is about several triangles together.
+fn is_across(kind: FindingKind) -> bool {
+    matches!(
+        kind,
+        FindingKind::Crack | FindingKind::Double | FindingKind::OddFold
+    )
+}
+
+/// Some kinds of findings with their counts, in a sentence; none without one.
+fn counted(lead: &str, counts: &[(FindingKind, u64)]) -> Option<String> {
+    let counts: Vec<String> = counts
+        .iter()
+        .map(|(kind, count)| {
+            let ending = if kind.name().ends_with(['s', 'h']) {
                 "es"
             } else {
                 "s"
             };
-            number_of(*count, finding.name(), &format!("{finding}{ending}"))
-        });
-        let counts: Vec<String> = counts.collect();
-        match counts.is_empty() {
-            true => String::new(),
-            false => format!(" {lead}: {}.", counts.join(", ")),
-        }
-    };
-    let others =
-        told("Breaks its promise across triangles (in all sizes)", true) + &told("Besides", false);
-    let mut text = text + &others;
-    if let Some(partial) = &record.result.partial {
-        text += &format!(" {}", partial.sentence());
-    }
-    match text.split_once(". ") {
-        Some((first, rest)) => (format!("{first}."), rest.to_owned()),
-        None => (text, String::new()),
-    }
+            number_of(*count, kind.name(), &format!("{kind}{ending}"))
+        })
+        .collect();
+    (!counts.is_empty()).then(|| format!("{lead}: {}.", counts.join(", ")))
 }
 
-/// The answer about one row: does it leak, how many errors can be seen, and in which sizes?
-fn of_one(row: &Standing, columns: &[Column], cases: u64) -> String {
+/// The answer about one row, a sentence each: does it leak, how many errors can be seen, and in which sizes?
+fn of_one(row: &Standing, columns: &[Column], cases: u64) -> Vec<String> {
     let label = row.part.label();
-    let leaks = row.leaks().map(|[count, of]| match count {
-        0 => format!(
-            "{label}: no leak seen in {of} rays at shared edges and vertices. ",
-            of = group_digits(of)
-        ),
-        _ => {
-            let [count, of] = [count, of].map(group_digits);
-            format!(
-                "{label} leaks: {count} of {of} rays at shared edges and vertices hit nothing. "
-            )
-        }
-    });
+    let mut sentences = Vec::new();
+    if let Some([leaks, rays]) = row.leaks() {
+        let rays = group_digits(rays);
+        sentences.push(match leaks {
+            0 => format!("{label}: no leak seen in {rays} rays at shared edges and vertices."),
+            _ => format!(
+                "{label} leaks: {} of {rays} rays at shared edges and vertices hit nothing.",
+                group_digits(leaks)
+            ),
+        });
+    }
     let seen = "by over 1/1000 of an edge, values included";
+    let cases = group_digits(cases);
     let visible = match row.all_far() {
-        0 => format!(
-            "no visible error ({seen}) in {} answers",
-            group_digits(cases)
+        0 => format!("no visible error ({seen}) in {cases} answers"),
+        count => format!(
+            "visible errors ({seen}): {} of {cases} answers",
+            group_digits(count)
         ),
-        count => {
-            let [count, cases] = [count, cases].map(group_digits);
-            format!("visible errors ({seen}): {count} of {cases} answers")
-        }
     };
-    let visible = match leaks {
-        Some(_) => capitalised(&visible),
-        None => format!("{label}: {visible}"),
-    };
+    sentences.push(if sentences.is_empty() {
+        format!("{label}: {visible}.")
+    } else {
+        format!("{}.", capitalised(&visible))
+    });
     let sizes = [
         (ColumnSizes::Ordinary, "in ordinary sizes"),
         (ColumnSizes::Unusual, "at tiny, huge, far or thin triangles"),
         (ColumnSizes::Extreme, "at extreme exponents"),
     ];
-    let asked = sizes
-        .iter()
-        .filter(|(sizes, _)| columns.iter().any(|it| it.sizes() == *sizes));
-    let sizes = asked.map(|(sizes, words)| match row.visible_in(*sizes) {
-        0 => format!("none {words}"),
-        count => format!("{} {words}", group_digits(count)),
-    });
-    let sizes = sizes.collect::<Vec<_>>().join(", ");
-    format!("{}{visible}. By size: {sizes}.", leaks.unwrap_or_default())
+    let by_size: Vec<String> = sizes
+        .into_iter()
+        .filter(|(sizes, _)| columns.iter().any(|column| column.sizes() == *sizes))
+        .map(|(sizes, words)| match row.visible_in(sizes) {
+            0 => format!("none {words}"),
+            count => format!("{} {words}", group_digits(count)),
+        })
+        .collect();
+    sentences.push(format!("By size: {}.", by_size.join(", ")));
+    sentences
 }
 
 /// The cases of a record in some columns but for those of extreme exponents, in all scalars.

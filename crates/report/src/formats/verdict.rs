@@ -1,6 +1,7 @@
 //! The conformance part of a record as text for people, with the changes between expectations and a run, in cases: by row
 //! and finding, so that a trade is seen as one.
 
+use crate::judge::Class;
 use crate::page::{Block, Item, Items};
 use hairline_record::number_of;
 use hairline_record::{
@@ -89,7 +90,7 @@ pub(super) fn blocks(record: &Record, conformance: &Conformance) -> Vec<Block> {
         blocks.extend(Block::items(title, MOST_LISTED, items));
     }
     let mut all = conformance.unexpected.iter().chain(&conformance.stale);
-    if all.any(|found| found.class.contains('/')) {
+    if all.any(|found| found.class.truth().is_some_and(Class::crosses)) {
         blocks.push(Block::text(CLASSES));
     }
     let told = conformance

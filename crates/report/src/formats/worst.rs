@@ -3,14 +3,15 @@
 use super::pool::{Pool, counted};
 use super::row_view::RowView;
 use crate::audit::Attribution;
+use crate::judge::Class;
 use crate::page::Item;
-use hairline_record::{FindingKind, FindingPart, Rate};
+use hairline_record::{FindingClass, FindingKind, FindingPart, Rate};
 use hairline_record::{across, counts_alone, cracks, polygons};
 use std::collections::BTreeMap;
 
 /// The findings of a row in a scalar, of each kind and of each class: how many, and the worst; then cracks and whole polygons.
 pub(super) fn findings(row: &RowView) -> Vec<Item> {
-    let mut parts: BTreeMap<(FindingKind, &str), Vec<&FindingPart>> = BTreeMap::new();
+    let mut parts: BTreeMap<(FindingKind, FindingClass), Vec<&FindingPart>> = BTreeMap::new();
     for result in &row.results {
         let alone = result
             .findings
@@ -18,13 +19,13 @@ pub(super) fn findings(row: &RowView) -> Vec<Item> {
             .filter(|part| counts_alone(result, part.finding));
         for finding in alone {
             parts
-                .entry((finding.finding, &finding.class))
+                .entry((finding.finding, finding.class))
                 .or_default()
                 .push(finding);
         }
     }
     let item = |text, command| Item::shown_by(format!("{} {text}", row.scalar), command);
-    let of_class = |((kind, class), parts): (&(FindingKind, &str), &Vec<&FindingPart>)| {
+    let of_class = |((kind, class), parts): (&(FindingKind, FindingClass), &Vec<&FindingPart>)| {
         let worse = |worst, part| {
             if severity(worst) < severity(part) {
                 part
@@ -33,7 +34,7 @@ pub(super) fn findings(row: &RowView) -> Vec<Item> {
             }
         };
         let worst: &FindingPart = parts.iter().copied().reduce(worse)?;
-        let (count, how) = (row.found(*kind, class), describe(worst));
+        let (count, how) = (row.found(*kind, *class), describe(worst));
         Some(item(
             format!("{kind} of {class}: {count}; worst: {how}"),
             worst.worst.command.clone(),
@@ -65,12 +66,12 @@ pub(super) fn findings(row: &RowView) -> Vec<Item> {
 
 impl RowView<'_> {
     /// The findings of a kind and a class.
-    fn found(&self, kind: FindingKind, class: &str) -> Pool {
+    fn found(&self, kind: FindingKind, class: FindingClass) -> Pool {
         let alone = self
             .results
             .iter()
             .filter(|result| counts_alone(result, kind));
-        let counts = alone.filter_map(|result| result.classes.get(class));
+        let counts = alone.filter_map(|result| result.classes.get(&class));
         let rates: Vec<Rate> = counts.filter_map(|counts| counts.rate(kind)).collect();
         Pool::of(rates.iter())
     }
@@ -85,10 +86,10 @@ fn severity_of(finding: &FindingPart) -> (f64, bool) {
     if let Some(off) = severity.value_off {
         return (off, false);
     }
+    let is_outside = finding.class.truth().is_some_and(Class::is_outside);
     match severity.along {
         Some(along) if finding.finding == FindingKind::FalseHit && severity.off_end.is_some() => {
-            let outside = finding.class.starts_with("outside");
-            let in_space = if outside { severity.in_space } else { 0.0 };
+            let in_space = if is_outside { severity.in_space } else { 0.0 };
             if along > in_space {
                 (along, true)
             } else {
@@ -96,11 +97,7 @@ fn severity_of(finding: &FindingPart) -> (f64, bool) {
             }
         }
         // A hit at an end that does not count.
-        Some(along)
-            if finding.finding == FindingKind::FalseHit
-                && along == 0.0
-                && !finding.class.starts_with("outside") =>
-        {
+        Some(along) if finding.finding == FindingKind::FalseHit && along == 0.0 && !is_outside => {
             (along, true)
         }
         Some(along) if finding.finding == FindingKind::FalseMiss && along < severity.in_space => {
@@ -122,7 +119,7 @@ pub(super) fn cause(finding: &FindingPart) -> Option<Attribution> {
 
 /// Describes the fault of the worst of a class, its size in longest edges and its cause.
 pub(super) fn describe(part: &FindingPart) -> String {
-    let ((distance, along), class) = (severity_of(part), &part.class);
+    let (distance, along) = severity_of(part);
     let at_rim = distance == 0.0;
     let distance = match distance {
         d if (0.01..1000.0).contains(&d) => format!("{d:.2}"),
@@ -133,9 +130,10 @@ pub(super) fn describe(part: &FindingPart) -> String {
         .severity
         .as_ref()
         .and_then(|severity| severity.off_end.as_deref());
-    let touches = ["interior/", "edge/", "vertex/"]
-        .iter()
-        .any(|start| class.starts_with(start));
+    let touches = part
+        .class
+        .truth()
+        .is_some_and(|class| class.crosses() && !class.is_outside());
     let is_hit = part.finding == FindingKind::FalseHit;
     let hit = if is_hit { "a hit" } else { "a miss" };
     let what = match (part.finding, is_hit, along) {

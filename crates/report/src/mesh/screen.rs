@@ -190,10 +190,9 @@ fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) ->
         let time = times.and_then(|times| times.get(&row.part.label()));
         let promised = row.promised() != Promised::Nothing;
         let exactly = row.promised() == Promised::ExactlyOne;
-        let share = |rate: &Rate, is_promised: bool| Cell {
-            text: rate.rate.map_or("-".to_owned(), percent),
-            is_broken: is_promised && 0 < rate.count,
-            share: rate.rate,
+        let share = |rate: &Rate, is_promised: bool| {
+            let text = rate.rate.map_or("-".to_owned(), percent);
+            Cell::rate(rate, text).broken_if(is_promised && 0 < rate.count)
         };
         let [edges, vertices] = row.at;
         let cells = [
@@ -201,10 +200,9 @@ fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) ->
             share(&vertices.across.cracks, promised),
             share(&row.both(|across| &across.doubles), exactly),
             share(&row.both(|across| &across.odd_folds), exactly),
-            group_digits(edges.leaking).into(),
-            group_digits(vertices.leaking).into(),
-            time.map_or("-".to_owned(), |time| format!("{time:.1}"))
-                .into(),
+            Cell::count(edges.leaking),
+            Cell::count(vertices.leaking),
+            Cell::optional(time.copied(), |time| format!("{time:.1}")),
         ];
         let mut below = Vec::new();
         if !alike.is_empty() {
@@ -270,12 +268,12 @@ fn everything(record: &Record, mesh: &MeshPart, rows: &[&MeshRow<'_>]) -> Vec<Bl
         "vertices [95 %]",
         "elsewhere",
     ];
-    let rate = |rate: &Rate| interval_of(rate).trim_matches([' ', '(', ')']).to_owned();
+    let rate = |rate: &Rate| Cell::rate(rate, interval_of(rate).trim_matches([' ', '(', ')']));
     let row = |row: &&MeshRow<'_>| {
         let elsewhere = row.at.iter().filter_map(|at| at.across.elsewhere.as_ref());
         let elsewhere = elsewhere.map(|rate| rate.count).sum();
         let [edges, vertices] = row.at.map(|at| rate(&at.across.cracks));
-        Row::new(row.part.label(), [edges, vertices, group_digits(elsewhere)])
+        Row::new(row.part.label(), [edges, vertices, Cell::count(elsewhere)])
     };
     let table = Table::new(heads.map(Head::of).into(), rows.iter().map(row).collect());
     let mut blocks = vec![Block::Table(table)];

@@ -7,7 +7,7 @@ use crate::arith::ScalarName;
 use crate::case::{Scene, SceneKind, ShortNumber};
 use crate::elsewhere::{self, ComparedRates};
 use crate::kernel::{self, Role};
-use crate::page::{Block, Command, Head, Page, Paged, Row, Table, Use};
+use crate::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Use};
 use crate::segments::short_length as size;
 use hairline_advice::offset::describe;
 use hairline_record::{Rate, group_digits, interval_of, percent};
@@ -241,21 +241,29 @@ fn share(rate: &Rate) -> String {
     rate.rate.map_or("-".to_owned(), percent)
 }
 
-fn height(height: Option<f64>) -> String {
-    height.map_or("behind".to_owned(), size)
+fn share_cell(rate: &Rate) -> Cell {
+    Cell::rate(rate, share(rate))
+}
+
+fn height(height: Option<f64>) -> Cell {
+    height.map_or(Cell::words("behind"), size_cell)
+}
+
+fn size_cell(x: f64) -> Cell {
+    Cell::number(x, size(x))
 }
 
 /// Some offsets; with everything that is counted, or in short.
 fn table(record: &OffsetResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Table {
-    type Shown = Box<dyn Fn(&SchemePart) -> String>;
+    type Shown = Box<dyn Fn(&SchemePart) -> Cell>;
     let mut columns: Vec<(Head, Shown)> = vec![
         (
             Head::of("wrong side"),
-            Box::new(|scheme| share(&scheme.wrong)),
+            Box::new(|scheme| share_cell(&scheme.wrong)),
         ),
         (
             Head::of("self-hits"),
-            Box::new(|scheme| share(&scheme.self_hits)),
+            Box::new(|scheme| share_cell(&scheme.self_hits)),
         ),
         (
             Head::of("height: median"),
@@ -264,9 +272,8 @@ fn table(record: &OffsetResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Ta
     ];
     if is_whole {
         let interval = |scheme: &SchemePart| {
-            interval_of(&scheme.wrong)
-                .trim_matches([' ', '(', ')'])
-                .to_owned()
+            let text = interval_of(&scheme.wrong);
+            Cell::rate(&scheme.wrong, text.trim_matches([' ', '(', ')']))
         };
         columns[0] = (Head::of("wrong side [95 %]"), Box::new(interval));
         let mut more = |head: &str, shown: Shown| columns.push((Head::of(head).optional(), shown));
@@ -276,7 +283,7 @@ fn table(record: &OffsetResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Ta
         );
         more(
             "top seen",
-            Box::new(|scheme| size(scheme.height_in_edges.highest)),
+            Box::new(|scheme| size_cell(scheme.height_in_edges.highest)),
         );
         more(
             "in ulps",
@@ -284,7 +291,7 @@ fn table(record: &OffsetResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Ta
         );
         more(
             "times least",
-            Box::new(|scheme| scheme.over_least.map_or("-".to_owned(), size)),
+            Box::new(|scheme| scheme.over_least.map_or(Cell::none(), size_cell)),
         );
     }
     if !is_whole && 1 < record.planes.len() {
@@ -292,20 +299,14 @@ fn table(record: &OffsetResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Ta
     }
     columns.push((
         Head::of(format!("past a wall at {}", record.wall)),
-        Box::new(|scheme| share(&scheme.beyond_wall)),
+        Box::new(|scheme| share_cell(&scheme.beyond_wall)),
     ));
     columns.push((
         Head::of(format!("past a fold of {}\u{b0}", record.fold)),
-        Box::new(|scheme| share(&scheme.past_neighbour)),
+        Box::new(|scheme| share_cell(&scheme.past_neighbour)),
     ));
     let row = |scheme: &&SchemePart| {
-        Row::new(
-            &scheme.name,
-            columns
-                .iter()
-                .map(|(_, shown)| shown(scheme))
-                .collect::<Vec<_>>(),
-        )
+        Row::new(&scheme.name, columns.iter().map(|(_, shown)| shown(scheme)))
     };
     let rows = schemes.iter().map(row).collect();
     let heads = [Head::of("offset")]
@@ -315,7 +316,7 @@ fn table(record: &OffsetResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Ta
 }
 
 /// The largest share of wrong sides on any kind of planes, and that kind; nothing if it is the first.
-fn on_worst_kind(scheme: &SchemePart) -> String {
+fn on_worst_kind(scheme: &SchemePart) -> Cell {
     let of_rate = |rate: &Rate| rate.rate.unwrap_or(0.0);
     let worst = scheme
         .elsewhere
@@ -323,9 +324,10 @@ fn on_worst_kind(scheme: &SchemePart) -> String {
         .max_by(|a, b| of_rate(&a.wrong).total_cmp(&of_rate(&b.wrong)));
     match worst {
         Some(worst) if of_rate(&scheme.wrong) < of_rate(&worst.wrong) => {
-            format!("{} {}", share(&worst.wrong), worst.plane)
+            let text = format!("{} {}", share(&worst.wrong), worst.plane);
+            Cell::rate(&worst.wrong, text)
         }
-        _ => "-".to_owned(),
+        _ => Cell::none(),
     }
 }
 

@@ -189,10 +189,7 @@ mod tests {
     fn nothing_in_a_text_is_markup() {
         let row = Row {
             below: vec!["as often: b|c".to_owned()],
-            ..Row::new(
-                "a<b>",
-                vec![Cell::from("1 < 2".to_owned()), Cell::from("x".to_owned())],
-            )
+            ..Row::new("a<b>", ["1 < 2", "x"].map(Cell::words))
         };
         let heads = vec![Head::of("kernel"), Head::of("n"), Head::text("what")];
         let page = Page {

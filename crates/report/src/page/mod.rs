@@ -12,7 +12,7 @@ mod text;
 #[cfg(feature = "pages")]
 pub use html::elements;
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
-pub use table::{Cell, Head, Row, Table};
+pub use table::{Cell, CellValue, Head, Row, Table};
 
 use hairline_record::Record;
 

@@ -2,7 +2,7 @@
 
 use super::text::{indented, wrapped};
 use crate::format::Style;
-use hairline_record::number_of;
+use hairline_record::{Rate, group_digits, number_of};
 use std::io::{self, Write};
 
 /// A label that is longer stands on a line of its own.
@@ -14,23 +14,80 @@ const MOST_LINES: usize = 4;
 /// The space before a cell.
 const GAP: usize = 2;
 
-/// The content of one column of a row.
+/// The content of one column of a row: a value, and the text that tells it.
 #[derive(Clone, Debug, Default)]
 pub struct Cell {
     /// The text.
     pub text: String,
+    /// The value, by which a table is sorted where it can be.
+    pub value: CellValue,
     /// True if it breaks a promise: red on a terminal with colours.
     pub is_broken: bool,
-    /// A share of wrong answers, by which a table is shaded and sorted where it can be.
-    pub share: Option<f64>,
 }
 
-impl From<String> for Cell {
-    fn from(text: String) -> Cell {
+/// The value that a cell's text tells.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum CellValue {
+    /// None: the text is all.
+    #[default]
+    Words,
+    /// A number.
+    Number(f64),
+    /// A share of wrong answers, by which a table is shaded too.
+    Share(f64),
+}
+
+impl Cell {
+    /// Words, which have no order.
+    pub fn words(text: impl Into<String>) -> Cell {
         Cell {
-            text,
+            text: text.into(),
             ..Cell::default()
         }
+    }
+
+    /// Where there is nothing to tell.
+    pub fn none() -> Cell {
+        Cell::words("-")
+    }
+
+    /// A number, as a text tells it.
+    pub fn number(number: f64, text: impl Into<String>) -> Cell {
+        Cell {
+            value: CellValue::Number(number),
+            ..Cell::words(text)
+        }
+    }
+
+    /// A number as `text` tells it, if there is one.
+    pub fn optional(number: Option<f64>, text: impl FnOnce(f64) -> String) -> Cell {
+        number.map_or(Cell::none(), |number| Cell::number(number, text(number)))
+    }
+
+    /// A count.
+    pub fn count(count: u64) -> Cell {
+        Cell::number(count as f64, group_digits(count))
+    }
+
+    /// A share of wrong answers, as a text tells it.
+    pub fn share(share: f64, text: impl Into<String>) -> Cell {
+        Cell {
+            value: CellValue::Share(share),
+            ..Cell::words(text)
+        }
+    }
+
+    /// A rate of wrong answers, as a text tells it; nothing to sort by if nothing was counted.
+    pub fn rate(rate: &Rate, text: impl Into<String>) -> Cell {
+        match rate.rate {
+            Some(share) => Cell::share(share, text),
+            None => Cell::words(text),
+        }
+    }
+
+    /// This cell, in red if it breaks a promise.
+    pub fn broken_if(self, is_broken: bool) -> Cell {
+        Cell { is_broken, ..self }
     }
 }
 
@@ -96,11 +153,10 @@ pub struct Row {
 
 impl Row {
     /// A row without lines below it.
-    pub fn new<C: Into<Cell>>(label: impl Into<String>, cells: impl IntoIterator<Item = C>) -> Row {
-        let cells = cells.into_iter().map(Into::into).collect();
+    pub fn new(label: impl Into<String>, cells: impl IntoIterator<Item = Cell>) -> Row {
         Row {
             label: label.into(),
-            cells,
+            cells: cells.into_iter().collect(),
             ..Row::default()
         }
     }
@@ -272,7 +328,7 @@ mod tests {
 
     #[test]
     fn columns_are_as_wide_as_what_stands_in_them() {
-        let row = |label: &str, cells: [&str; 2]| Row::new(label, cells.map(str::to_owned));
+        let row = |label: &str, cells: [&str; 2]| Row::new(label, cells.map(Cell::words));
         let mut table = Table {
             heads: ["kernel", "leaks", "ns"].map(Head::of).into(),
             rows: vec![row("a", ["0", "1234"]), row(&"b".repeat(40), ["12.5", "7"])],
@@ -306,7 +362,7 @@ mod tests {
         ];
         let table = Table::new(
             heads,
-            vec![Row::new("t", ["far", "1 in 10", "12"].map(str::to_owned))],
+            vec![Row::new("t", ["far", "1 in 10", "12"].map(Cell::words))],
         );
         let at = |width: usize| {
             text(

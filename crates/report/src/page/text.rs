@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn blocks_stand_in_order_and_details_only_on_demand() {
-        let rows = vec![Row::new("a", vec![Cell::from("0".to_owned())])];
+        let rows = vec![Row::new("a", [Cell::count(0)])];
         let table = Table::new(["kernel", "leaks"].map(Head::of).into(), rows);
         let page = Page {
             command: "x",

@@ -2,7 +2,7 @@
 
 use super::record::{GatePart, KernelPart, ProofResult, Report};
 use crate::arith::ScalarName;
-use crate::page::{Block, Command, Head, Item, Items, Page, Paged, Row, Table, Tone};
+use crate::page::{Block, Cell, Command, Head, Item, Items, Page, Paged, Row, Table, Tone};
 use crate::prove::{USELESS, above, units};
 
 impl Paged for Report {
@@ -60,11 +60,11 @@ fn of_all(report: &Report) -> Page {
         let row = |gate: &&GatePart| {
             let [bound, known, factor] = cells(gate);
             let cells = [
-                gate.gate.clone(),
+                Cell::words(&gate.gate),
                 bound,
                 known,
                 factor,
-                gate.supposes.join(", "),
+                Cell::words(gate.supposes.join(", ")),
             ];
             let why = gate.why.as_ref().map(|why| format!("no bound: {why}"));
             Row {
@@ -251,7 +251,10 @@ fn table(kernel: &KernelPart, gates: &[&GatePart]) -> Table {
     heads.push(Head::text("refuses where").optional());
     let row = |gate: &&GatePart| {
         let [bound, known, factor] = cells(gate);
-        Row::new(&gate.gate, [bound, known, factor, gate.compares.clone()])
+        Row::new(
+            &gate.gate,
+            [bound, known, factor, Cell::words(&gate.compares)],
+        )
     };
     Table::new(heads, gates.iter().map(row).collect())
 }
@@ -261,12 +264,12 @@ fn numbers() -> [Head; 3] {
 }
 
 /// The bound, the witness and their ratio.
-fn cells(gate: &GatePart) -> [String; 3] {
-    let number = |x: Option<f64>, up: bool| x.map_or("-".to_owned(), |x| units(x, up));
+fn cells(gate: &GatePart) -> [Cell; 3] {
+    let known = gate.witness.as_ref().map(|witness| witness.units);
     [
-        number(gate.bound_units, true),
-        number(gate.witness.as_ref().map(|w| w.units), false),
-        gate.factor.map_or("-".to_owned(), |x| format!("{x:.2}")),
+        Cell::optional(gate.bound_units, |bound| units(bound, true)),
+        Cell::optional(known, |known| units(known, false)),
+        Cell::optional(gate.factor, |factor| format!("{factor:.2}")),
     ]
 }
 

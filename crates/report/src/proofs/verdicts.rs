@@ -3,7 +3,7 @@
 use crate::arith::Float;
 use crate::audit::{self, shell_word};
 use crate::case::Case;
-use crate::page::Row;
+use crate::page::{Cell, Row};
 use crate::prove::{
     Depth, Judged, Scale, Searched, USELESS, Witness, WrongDecisions, above, below, case_of,
 };
@@ -119,13 +119,12 @@ impl VerdictPart {
 
     /// A row of the table of all kernels.
     pub fn row(&self, kernel: &str) -> Row {
-        let number = |x: Option<String>| x.unwrap_or_else(|| "-".to_owned());
         let cells = [&self.misses, &self.hits].map(|depth| {
             let known = depth.known.as_ref();
             [
-                number(depth.share.map(above)),
-                number(known.map(|it| below(it.share))),
-                number(depth.factor.map(|x| format!("{x:.2}"))),
+                Cell::optional(depth.share, above),
+                Cell::optional(known.map(|it| it.share), below),
+                Cell::optional(depth.factor, |factor| format!("{factor:.2}")),
             ]
         });
         let mut whys: Vec<&String> = [&self.misses.why, &self.hits.why]

@@ -3,6 +3,7 @@
 use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
+use std::sync::LazyLock;
 
 /// All of a truth that an obligation depends on: its class, and either the sign of t with whether it is
 /// at an end of the interval, or what a line in the plane meets.
@@ -119,7 +120,7 @@ impl Class {
     }
 
     /// True if the line crosses the plane at one point.
-    fn crosses(self) -> bool {
+    pub fn crosses(self) -> bool {
         self.number() < FIRST_FLAT
     }
 
@@ -139,9 +140,22 @@ impl Class {
         self.number() % PLACES.len()
     }
 
+    /// The class of input that has no meaning.
+    pub const INVALID: Class = Class(Class::COUNT as u8 - 1);
+
     /// True if the input has no meaning: no value of a hit is judged then.
     pub fn is_invalid(self) -> bool {
-        self.number() == Class::COUNT - 1
+        self == Class::INVALID
+    }
+
+    /// True if the line crosses the plane beside the triangle.
+    pub fn is_outside(self) -> bool {
+        self.part() == "outside"
+    }
+
+    /// True if the triangle has no area.
+    pub fn is_degenerate(self) -> bool {
+        self.part() == "degenerate"
     }
 
     /// True if the line is parallel to the plane, or the triangle has no area.
@@ -160,16 +174,18 @@ impl Class {
     }
 
     /// The name in records: `edge/front/within`, `coplanar`.
-    pub fn name(self) -> String {
-        match self.crosses() {
-            true => format!(
-                "{}/{}/{}",
-                self.part(),
-                SIDES[self.side()],
-                PLACES[self.place()]
-            ),
-            false => self.part().to_owned(),
+    pub fn name(self) -> &'static str {
+        static NAMES: LazyLock<Vec<String>> =
+            LazyLock::new(|| Class::all().map(Class::spelled).collect());
+        &NAMES[self.number()]
+    }
+
+    fn spelled(self) -> String {
+        if !self.crosses() {
+            return self.part().to_owned();
         }
+        let (side, place) = (SIDES[self.side()], PLACES[self.place()]);
+        format!("{}/{side}/{place}", self.part())
     }
 }
 

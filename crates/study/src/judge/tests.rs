@@ -330,7 +330,7 @@ fn a_contact_is_met_on_the_part_of_the_line_that_counts() {
 
 #[test]
 fn class_names_are_unique_and_numbered() {
-    let names: std::collections::HashSet<String> = Class::all().map(Class::name).collect();
+    let names: std::collections::HashSet<&str> = Class::all().map(Class::name).collect();
     assert_eq!(names.len(), Class::COUNT);
     assert_eq!(
         Class::of(&down_at(1.0, 0.0, 1.0)).name(),

@@ -63,14 +63,10 @@ impl<'a> Sum<'a> {
         let mut cells = Vec::new();
         for scalar in scalars {
             let lost = self.lost(Some(*scalar));
-            cells.push(Cell {
-                text: share(&lost),
-                is_broken: 0 < lost.count,
-                share: lost.rate,
-            });
+            cells.push(Cell::rate(&lost, share(&lost)).broken_if(0 < lost.count));
         }
         if tells_sources {
-            cells.push(self.sources().into());
+            cells.push(Cell::words(self.sources()));
         }
         cells
     }

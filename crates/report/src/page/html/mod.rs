@@ -5,7 +5,9 @@
 
 pub(crate) mod words;
 
-use super::{Block, Drawing, Head, Item, Items, Page, Paged, Picture, Row, Table, Tone, Use};
+use super::{
+    Block, Cell, CellValue, Drawing, Head, Item, Items, Page, Paged, Picture, Row, Table, Tone, Use,
+};
 use crate::chart;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -254,10 +256,7 @@ fn row(anchors: &BTreeSet<String>, table: &Table, row: &Row) -> Markup {
                 @for below in &row.below { span.what { (below) } }
             }
             @for (cell, head) in row.cells.iter().zip(&table.heads[1..]) {
-                @let class = cell.share.map_or(String::new(), |share| format!("m{} ", shade(share)));
-                @let class = format!("{class}{}{}", if head.is_text { "text " } else { "" }, if cell.is_broken { "broken" } else { "" });
-                @let key = sort_key(cell.share, &cell.text).filter(|_| !head.is_text);
-                td class=[Some(class.trim()).filter(|class| !class.is_empty())] data-v=[key] { (cell.text) }
+                td class=[classes(cell, head)] data-v=[sort_key(cell)] { (cell.text) }
             }
         }
     }
@@ -268,25 +267,41 @@ fn note(left_out: u64) -> String {
 }
 
 fn heads(table: &Table) -> Markup {
-    let head = |(i, head): (usize, &Head)| {
-        html! { th.text[head.is_text && 0 < i] scope="col" data-sort=[(0 < i && !head.is_text).then_some("")] { (head.head) } }
+    let [labels, columns @ ..] = &table.heads[..] else {
+        return html! {};
     };
-    html! { thead { tr { @for (i, column) in table.heads.iter().enumerate() { (head((i, column))) } } } }
+    html! {
+        thead { tr {
+            th scope="col" { (labels.head) }
+            @for (place, head) in columns.iter().enumerate() {
+                @let is_sortable = table.rows.iter().any(|row| sort_key(&row.cells[place]).is_some());
+                th.text[head.is_text] scope="col" data-sort=[is_sortable.then_some("")] { (head.head) }
+            }
+        } }
+    }
 }
 
-/// A number to sort by: a share, or the first number of a text.
-fn sort_key(share: Option<f64>, text: &str) -> Option<String> {
-    let number = |word: &str| {
-        let plain = word
-            .trim_matches(|c: char| !c.is_ascii_digit() && c != '.' && c != '-')
-            .replace(',', "");
-        plain.parse::<f64>().ok()
-    };
-    let one_in = || Some(1.0 / text.strip_prefix("1 in ").and_then(number)?);
-    let number = share
-        .or_else(one_in)
-        .or_else(|| number(text.split_whitespace().next()?))?;
-    Some(format!("{number:.3e}"))
+/// The classes of a cell, by which it is drawn.
+fn classes(cell: &Cell, head: &Head) -> Option<String> {
+    let mut classes = Vec::new();
+    if let CellValue::Share(share) = cell.value {
+        classes.push(format!("m{}", shade(share)));
+    }
+    if head.is_text {
+        classes.push("text".to_owned());
+    }
+    if cell.is_broken {
+        classes.push("broken".to_owned());
+    }
+    (!classes.is_empty()).then(|| classes.join(" "))
+}
+
+/// The number by which a cell is sorted.
+fn sort_key(cell: &Cell) -> Option<String> {
+    match cell.value {
+        CellValue::Words => None,
+        CellValue::Number(number) | CellValue::Share(number) => Some(format!("{number:.3e}")),
+    }
 }
 
 /// A heading, the deeper the smaller.

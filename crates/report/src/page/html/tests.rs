@@ -4,10 +4,10 @@ use super::super::Paged;
 use super::*;
 use crate::arith::ScalarName;
 use hairline_record::{
-    ComparisonVerdict, Conformance, Counts, Deviation, ErrorChange, Example, FindingKind,
-    FindingPart, Illustrations, KernelResult, Method, NetChange, PlanPart, PlannedSource,
-    ProofPart, ProvedGate, Provenance, Rate, Record, ResultPart, RowChange, RowPart, SourcePart,
-    Unproved,
+    ComparisonVerdict, Conformance, Counts, Deviation, ErrorChange, Example, FindingClass,
+    FindingKind, FindingPart, Illustrations, KernelResult, Method, NetChange, PlanPart,
+    PlannedSource, ProofPart, ProvedGate, Provenance, Rate, Record, ResultPart, RowChange, RowPart,
+    SourcePart, Unproved,
 };
 use std::collections::BTreeMap;
 
@@ -53,7 +53,7 @@ fn example(text: &str) -> Example {
 fn finding(class: &str, first: Vec<Example>) -> FindingPart {
     FindingPart {
         finding: FindingKind::FalseMiss,
-        class: class.to_owned(),
+        class: class.parse().unwrap(),
         rate: rate(5, 50),
         causes: None,
         digest: String::new(),
@@ -133,7 +133,7 @@ pub fn deviation(text: &str, url: &str) -> Deviation {
         set: text.to_owned(),
         scalar: ScalarName::F32,
         family: text.to_owned(),
-        class: "group".to_owned(),
+        class: FindingClass::Group,
         finding: FindingKind::Crack,
         expected: text.to_owned(),
         expected_count: Some(2),
@@ -367,7 +367,7 @@ fn a_hundred_thousand_findings_stay_below_the_limit_and_what_is_left_out_is_said
             record(
                 &["k".to_owned()],
                 &names("f", 10),
-                &[finding("c", examples)],
+                &[finding("coplanar", examples)],
             ),
         ),
         ("kernels", record(&names("k", 1_000), &names("f", 5), &[])),
