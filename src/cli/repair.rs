@@ -18,7 +18,7 @@ use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use hairline_core::Error;
 use hairline_repair::smaller::{self, RepairRays};
-use hairline_repair::{Asks, Language, function_name, source};
+use hairline_repair::{Asks, Language, function_name, source_code};
 
 fn languages() -> impl TypedValueParser<Value = Language> {
     let value = |language: Language| PossibleValue::new(language.name()).help(language.about());
@@ -285,7 +285,7 @@ impl RepairArguments {
         let shares = asks
             .zip(where_)
             .map(|(asks, place)| format!("{place}: {}", asks.line()));
-        let text = source(guarded, language, shares.as_deref());
+        let text = source_code(guarded, language, shares.as_deref());
         let path = match self.output.strip_suffix('/') {
             Some(folder) => format!(
                 "{folder}/{}.{}",

@@ -2,7 +2,7 @@
 //! coordinates of unit vectors and whatever meets itself as variables of their own.
 
 use super::dyadic::{Big, round_up};
-use super::formula::{DIGITS, Formula, Maximum, Source};
+use super::formula::{DIGITS, Formula, Maximum, VariableOrigin};
 use super::measures::{Limit, Samples};
 use super::order::{is_at_most, unsigned};
 use super::run::parts;
@@ -230,11 +230,11 @@ impl<'a> Prover<'a> {
 
     /// The numbers whose lemmas a lemma uses.
     fn needs(&self, lemma: &Lemma) -> Vec<Place> {
-        let cut = |source: &Source| match source {
-            Source::Cut(place) | Source::Part(place) => Some(*place),
+        let cut = |source: &VariableOrigin| match source {
+            VariableOrigin::Cut(place) | VariableOrigin::Part(place) => Some(*place),
             _ => None,
         };
-        let mut needs: Vec<Place> = lemma.formula.sources.iter().filter_map(cut).collect();
+        let mut needs: Vec<Place> = lemma.formula.origins.iter().filter_map(cut).collect();
         match lemma.rule {
             Rule::Sum => {}
             Rule::Unit { vector, .. } => needs.extend(vector),

@@ -2,7 +2,7 @@
 
 use super::bound::{Bound, Proven, Prover};
 use super::forms::{Forms, Leaf};
-use super::formula::{Formula, Maximum, Source, Step};
+use super::formula::{Formula, Maximum, Step, VariableOrigin};
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
 use std::collections::{HashMap, HashSet};
@@ -50,7 +50,7 @@ impl Prover<'_> {
             [n] => n,
             _ => builder.push(Step::Of(Operation::Add(all[0], all[1])), None),
         };
-        let q = builder.variable(Source::Quotient, Bound::exactly(ends.size));
+        let q = builder.variable(VariableOrigin::Quotient, Bound::exactly(ends.size));
         let v = builder.formula.variables.len() - 1;
         builder.formula.below = ends.below.map(|below| (v, below));
         let product = builder.push(Step::Of(Operation::Mul(q, d)), None);
@@ -149,8 +149,8 @@ impl<'p, 'a> Builder<'p, 'a> {
         let mut coordinates = HashSet::new();
         // One arithmetic for all coordinates: a product by a reciprocal has an error of the length in common.
         let mut lengths = HashSet::new();
-        for (v, source) in self.formula.sources.iter().enumerate() {
-            let Source::Part(place) = *source else {
+        for (v, source) in self.formula.origins.iter().enumerate() {
+            let VariableOrigin::Part(place) = *source else {
                 continue;
             };
             let fraction = self.prover.quotient(place).expect("a part");
@@ -164,8 +164,8 @@ impl<'p, 'a> Builder<'p, 'a> {
             return;
         }
         for v in std::mem::take(&mut self.formula.unit) {
-            if let Source::Part(place) = self.formula.sources[v] {
-                self.formula.sources[v] = Source::Cut(place);
+            if let VariableOrigin::Part(place) = self.formula.origins[v] {
+                self.formula.origins[v] = VariableOrigin::Cut(place);
             }
         }
     }
@@ -204,9 +204,9 @@ impl<'p, 'a> Builder<'p, 'a> {
     }
 
     /// A new variable with an error of its own.
-    fn variable(&mut self, source: Source, bound: Bound) -> usize {
+    fn variable(&mut self, source: VariableOrigin, bound: Bound) -> usize {
         self.formula.variables.push(bound.size);
-        self.formula.sources.push(source);
+        self.formula.origins.push(source);
         let sum = vec![(self.formula.variables.len() - 1, 1)];
         self.push(Step::Variables(sum), Some(bound))
     }
@@ -215,8 +215,8 @@ impl<'p, 'a> Builder<'p, 'a> {
     fn cut(&mut self, place: Place) -> Proven<usize> {
         let bound = self.prover.bound(place)?;
         let source = match self.prover.unit(place) {
-            Some(_) => Source::Part(place),
-            None => Source::Cut(place),
+            Some(_) => VariableOrigin::Part(place),
+            None => VariableOrigin::Cut(place),
         };
         let step = self.variable(source, bound);
         self.formula.places[step] = Some(place);
@@ -229,13 +229,14 @@ impl<'p, 'a> Builder<'p, 'a> {
         let form = self.forms.sum(leaf, next);
         if form.is_new {
             let (source, size) = match leaf {
-                Leaf::Point(point, axis) if self.is_boxed => {
-                    (Source::Boxed(point, axis), self.prover.domain.half_box())
-                }
-                _ => (Source::Leaf(leaf), leaf.bound(&self.prover.domain)),
+                Leaf::Point(point, axis) if self.is_boxed => (
+                    VariableOrigin::Boxed(point, axis),
+                    self.prover.domain.half_box(),
+                ),
+                _ => (VariableOrigin::Leaf(leaf), leaf.bound(&self.prover.domain)),
             };
             self.formula.variables.push(size);
-            self.formula.sources.push(source);
+            self.formula.origins.push(source);
         }
         form.sum
     }

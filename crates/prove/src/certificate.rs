@@ -4,7 +4,7 @@
 
 use super::bound::Ratio;
 use super::forms::Leaf;
-use super::formula::{Formula, Maximum, Source, Step};
+use super::formula::{Formula, Maximum, Step, VariableOrigin};
 use super::run::{Cone, cone};
 use super::watertight::symmetry_of;
 use super::{Bound, Domain, Dyadic, Format, Lemma, Limit, Names, Rule, Symmetry};
@@ -215,7 +215,7 @@ impl Writer<'_> {
 
     fn formula(&self, formula: &Formula, maximum: &Maximum) -> Vec<String> {
         let mut lines = Vec::new();
-        for source in &formula.sources {
+        for source in &formula.origins {
             let source = self.source(source);
             lines.push(format!("variable {source}"));
         }
@@ -238,16 +238,18 @@ impl Writer<'_> {
         lines
     }
 
-    fn source(&self, source: &Source) -> String {
+    fn source(&self, source: &VariableOrigin) -> String {
         match *source {
-            Source::Leaf(Leaf::Point(p, axis)) => format!("point {p} {axis}"),
-            Source::Leaf(Leaf::Difference(p, q, axis)) => format!("difference {p} {q} {axis}"),
-            Source::Leaf(Leaf::Direction(axis)) => format!("direction {axis}"),
-            Source::Leaf(Leaf::End(end)) => format!("end {end}"),
-            Source::Boxed(p, axis) => format!("boxed {p} {axis}"),
-            Source::Cut(place) => format!("cut {}", self.at(place)),
-            Source::Part(place) => format!("part {}", self.at(place)),
-            Source::Quotient => "quotient".to_owned(),
+            VariableOrigin::Leaf(Leaf::Point(p, axis)) => format!("point {p} {axis}"),
+            VariableOrigin::Leaf(Leaf::Difference(p, q, axis)) => {
+                format!("difference {p} {q} {axis}")
+            }
+            VariableOrigin::Leaf(Leaf::Direction(axis)) => format!("direction {axis}"),
+            VariableOrigin::Leaf(Leaf::End(end)) => format!("end {end}"),
+            VariableOrigin::Boxed(p, axis) => format!("boxed {p} {axis}"),
+            VariableOrigin::Cut(place) => format!("cut {}", self.at(place)),
+            VariableOrigin::Part(place) => format!("part {}", self.at(place)),
+            VariableOrigin::Quotient => "quotient".to_owned(),
         }
     }
 }

@@ -44,7 +44,7 @@ pub struct Formula {
     /// The bound of each variable: m.
     pub variables: Vec<Dyadic>,
     /// The origin of each variable.
-    pub sources: Vec<Source>,
+    pub origins: Vec<VariableOrigin>,
     /// The variables that are coordinates of one unit vector in which the formula is linear, if it has one.
     pub unit: Vec<usize>,
     /// The variable that is no quotient of either sign: it is at least minus this.
@@ -55,7 +55,7 @@ pub struct Formula {
 
 /// The origin of a variable of a formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum VariableOrigin {
     /// An input, or a difference of inputs.
     Leaf(Leaf),
     /// A coordinate of a point in a box that holds all points. Only differences are computed from it, so it may be moved.

@@ -2,7 +2,7 @@
 
 use super::bound::{Lemma, Proven, Prover};
 use super::forms::Leaf;
-use super::formula::Source;
+use super::formula::VariableOrigin;
 use super::names::Names;
 use super::order::{is_impossible, unsigned};
 use super::run::cone;
@@ -140,15 +140,15 @@ impl Uses {
         for lemma in lemmas {
             uses.floor |= lemma.rule != Rule::Sum;
             uses.inside |= matches!(lemma.rule, Rule::Quotient { below: Some(_), .. });
-            for source in &lemma.formula.sources {
+            for source in &lemma.formula.origins {
                 match source {
-                    Source::Leaf(Leaf::Point(..)) => uses.world = true,
-                    Source::Leaf(Leaf::Difference(0, ..) | Leaf::Difference(_, 0, _)) => {
+                    VariableOrigin::Leaf(Leaf::Point(..)) => uses.world = true,
+                    VariableOrigin::Leaf(Leaf::Difference(0, ..) | Leaf::Difference(_, 0, _)) => {
                         uses.reach = true;
                     }
-                    Source::Leaf(Leaf::Difference(..)) => uses.edge = true,
-                    Source::Boxed(..) => (uses.edge, uses.reach) = (true, true),
-                    Source::Leaf(Leaf::End(_)) => uses.extent = true,
+                    VariableOrigin::Leaf(Leaf::Difference(..)) => uses.edge = true,
+                    VariableOrigin::Boxed(..) => (uses.edge, uses.reach) = (true, true),
+                    VariableOrigin::Leaf(Leaf::End(_)) => uses.extent = true,
                     _ => {}
                 }
             }

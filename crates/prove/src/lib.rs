@@ -47,7 +47,7 @@ pub use depth::case_of;
 pub use domain::{Domain, Format};
 pub use dyadic::Dyadic;
 pub use forms::Leaf;
-pub use formula::{Formula, Maximum, Source, Step};
+pub use formula::{Formula, Maximum, Step, VariableOrigin};
 pub use gates::{Assumption, Proof, Quantity, Uses, compared};
 pub use judged::{Judged, VERDICTS, useful_scenes};
 pub use meaning::Scale;

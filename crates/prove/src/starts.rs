@@ -2,7 +2,7 @@
 
 use super::bound::Lemma;
 use super::witness::{Goal, Inputs, Search, Searched};
-use super::{Leaf, Measures, Source};
+use super::{Leaf, Measures, VariableOrigin};
 use crate::arith::Float;
 use crate::case::Draw;
 use glam::DVec3;
@@ -162,9 +162,9 @@ impl Corner<'_> {
     /// True if a variable is negative there; none if it is no variable of the bound.
     fn is_negative(&self, leaf: Leaf) -> Option<bool> {
         let lemma = self.lemma?;
-        let wanted = Source::Leaf(leaf);
-        let mut sources = lemma.formula.sources.iter();
-        let variable = sources.position(|source| *source == wanted)?;
+        let wanted = VariableOrigin::Leaf(leaf);
+        let mut origins = lemma.formula.origins.iter();
+        let variable = origins.position(|source| *source == wanted)?;
         lemma.maximum.corner.get(variable).copied()
     }
 

@@ -7,7 +7,7 @@
 use super::bound::Proven;
 use super::facts::{Fact, Form, Reader};
 use super::meaning::{Meaning, Meanings, Scale, What};
-use super::{Domain, Lemma, Proof, Quantity, Rule, Source, Step};
+use super::{Domain, Lemma, Proof, Quantity, Rule, Step, VariableOrigin};
 use crate::contract::Sides;
 use crate::kernel::{Acceptance, Compared, Entry, Role};
 use std::collections::{BTreeSet, HashSet};
@@ -169,7 +169,8 @@ fn is_linear(lemma: &Lemma) -> bool {
     let mut depends: Vec<bool> = Vec::new();
     for step in &lemma.formula.steps {
         let of = |step: usize| depends[step];
-        let is_cut = |(v, _): &(usize, i8)| !matches!(lemma.formula.sources[*v], Source::Leaf(_));
+        let is_cut =
+            |(v, _): &(usize, i8)| !matches!(lemma.formula.origins[*v], VariableOrigin::Leaf(_));
         if step.terms().any(|(_, a, b)| of(a) && b.is_some_and(of)) {
             return false;
         }

@@ -4,7 +4,7 @@ use super::depth::Judge;
 use super::gates::Quantity;
 use super::measures::{Angle, Sample, Samples};
 use super::run::{Cone, cone, run};
-use super::{Domain, Dyadic, Leaf, Proof, Rule, Source};
+use super::{Domain, Dyadic, Leaf, Proof, Rule, VariableOrigin};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Bounded, Exact, Float, Real};
 use crate::kernel::Path;
@@ -348,8 +348,8 @@ fn divisions(path: &Path, domain: &Domain) -> Vec<Condition> {
 fn boxed(quantity: &Quantity) -> Vec<(usize, usize, usize)> {
     let is_boxed = |point: usize, axis: usize| {
         let lemmas = quantity.lemmas.iter();
-        let mut sources = lemmas.flat_map(|lemma| &lemma.formula.sources);
-        sources.any(|source| *source == Source::Boxed(point, axis))
+        let mut origins = lemmas.flat_map(|lemma| &lemma.formula.origins);
+        origins.any(|source| *source == VariableOrigin::Boxed(point, axis))
     };
     let mut all = Vec::new();
     for (p, q) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {

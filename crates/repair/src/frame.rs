@@ -9,7 +9,7 @@ use crate::nodes::names;
 use crate::prove::repair::{Guarded, Margin, Scale};
 
 /// The source of a guarded kernel; the shares of rays on which it asks, if they were counted.
-pub fn source(guarded: &Guarded, language: Language, shares: Option<&str>) -> String {
+pub fn source_code(guarded: &Guarded, language: Language, shares: Option<&str>) -> String {
     let dialect = Dialect {
         language,
         is_f32: guarded.scalar == ScalarName::F32,

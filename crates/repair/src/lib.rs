@@ -1,5 +1,5 @@
 //! Small changes to a kernel and what they mend ([`smaller`]), and the kernel that says hit, miss or ask as source code
-//! ([`source`]).
+//! ([`source_code`]).
 //!
 //! It is a part of the program `hairline`, whose interface is stable; this one changes with it.
 
@@ -27,5 +27,5 @@ mod candidates;
 pub mod smaller;
 
 pub use asks::Asks;
-pub use frame::{function_name, source};
+pub use frame::{function_name, source_code};
 pub use language::Language;

@@ -1,7 +1,9 @@
 //! Published constants of filters, reproduced.
 
 use super::super::dyadic::{Big, round_up};
-use super::super::{Bound, Domain, Dyadic, Format, Formula, Prover, Source, Step, relative};
+use super::super::{
+    Bound, Domain, Dyadic, Format, Formula, Prover, Step, VariableOrigin, relative,
+};
 use super::{difference, orient2d, orient3d, recorded};
 use crate::arith::recorded::{Operation, Recorded};
 use num_traits::{One, ToPrimitive};
@@ -123,7 +125,7 @@ impl Steps {
     fn difference(&mut self) -> usize {
         let one = Dyadic::ONE;
         self.0.variables.push(one);
-        self.0.sources.push(Source::Quotient);
+        self.0.origins.push(VariableOrigin::Quotient);
         let variable = vec![(self.0.variables.len() - 1, 1)];
         let given = Bound {
             size: one,

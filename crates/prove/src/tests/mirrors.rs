@@ -2,7 +2,7 @@
 
 use crate::arith::recorded::{Operation, Recorded};
 use crate::case::Draw;
-use crate::formula::{Formula, Maximum, Source, Step};
+use crate::formula::{Formula, Maximum, Step, VariableOrigin};
 use crate::{Bound, Domain, Dyadic, Format, Prover};
 
 /// Random sums and products of variables and numbers, zero among them. No product has a variable in both factors.
@@ -26,7 +26,7 @@ fn random(draw: &mut Draw, variables: usize) -> Formula {
     for v in 0..variables {
         let size = Dyadic::new(1 + draw.below(7) as i128, -2);
         formula.variables.push(size);
-        formula.sources.push(Source::Quotient);
+        formula.origins.push(VariableOrigin::Quotient);
         push(&mut formula, Step::Variables(vec![(v, 1)]), Some(size));
     }
     let value = draw.below(3) as i32;

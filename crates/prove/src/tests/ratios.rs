@@ -1,7 +1,7 @@
 //! Two quotients by one divisor, and points in a box.
 
 use super::super::bound::Ratio;
-use super::super::{Domain, Dyadic, Format, Formula, Proof, Rule, Source, Step, paths_of};
+use super::super::{Domain, Dyadic, Format, Formula, Proof, Rule, Step, VariableOrigin, paths_of};
 use crate::arith::recorded::Operation;
 use crate::case::Draw;
 use crate::kernel;
@@ -70,14 +70,14 @@ fn effects_on_barycentric_quotients_are_largest_at_corners_of_a_box_of_points() 
     let mut wholes = 0;
     for (_, lemma) in ratios {
         let formula = &lemma.formula;
-        let is_boxed = |source: &&Source| matches!(source, Source::Boxed(..));
-        assert_eq!(formula.sources.iter().filter(is_boxed).count(), 12);
+        let is_boxed = |source: &&VariableOrigin| matches!(source, VariableOrigin::Boxed(..));
+        assert_eq!(formula.origins.iter().filter(is_boxed).count(), 12);
         let (most, mut best) = (lemma.maximum.first.to_f64(), 0.0f64);
         for _ in 0..60_000 {
             let point = formula
                 .variables
                 .iter()
-                .zip(&formula.sources)
+                .zip(&formula.origins)
                 .map(|(size, source)| {
                     let x: f64 = draw.symmetric();
                     let x = if draw.below(3) > 0 {
@@ -87,7 +87,7 @@ fn effects_on_barycentric_quotients_are_largest_at_corners_of_a_box_of_points() 
                     };
                     // A quotient lies between 0 and 1.
                     size.to_f64()
-                        * if *source == Source::Quotient {
+                        * if *source == VariableOrigin::Quotient {
                             x.abs()
                         } else {
                             x
@@ -133,6 +133,6 @@ fn a_sum_is_as_large_as_its_rest_lets_it_be() {
         .expect("(1-gamma)-beta");
     let formula = &rest.formula;
     let (v, lower) = formula.below.expect("it has ends");
-    assert_eq!(formula.sources[v], Source::Quotient);
+    assert_eq!(formula.origins[v], VariableOrigin::Quotient);
     assert_eq!([formula.variables[v], lower], [Dyadic::new(7, 0); 2]);
 }

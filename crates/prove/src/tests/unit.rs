@@ -1,6 +1,6 @@
 //! Quotients and unit vectors in formats of a few digits, where terms of higher order count.
 
-use super::super::{Bound, Domain, Dyadic, Format, Prover, Source};
+use super::super::{Bound, Domain, Dyadic, Format, Prover, VariableOrigin};
 use super::tiny::round;
 use super::{difference, recorded};
 use crate::arith::Real;
@@ -197,11 +197,12 @@ fn parts_and_cuts(run: fn() -> Recorded) -> [usize; 2] {
     let (path, place) = recorded(run);
     let mut prover = Prover::new(&path, Domain::UNIT, Format::F32);
     prover.bound(place).expect("a bound");
-    let sources = &prover.lemmas.last().expect("a lemma").formula.sources;
-    let count = |is: fn(&Source) -> bool| sources.iter().filter(|source| is(source)).count();
+    let origins = &prover.lemmas.last().expect("a lemma").formula.origins;
+    let count =
+        |is: fn(&VariableOrigin) -> bool| origins.iter().filter(|source| is(source)).count();
     [
-        count(|s| matches!(s, Source::Part(_))),
-        count(|s| matches!(s, Source::Cut(_))),
+        count(|s| matches!(s, VariableOrigin::Part(_))),
+        count(|s| matches!(s, VariableOrigin::Cut(_))),
     ]
 }
 
