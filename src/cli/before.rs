@@ -13,13 +13,30 @@ use crate::judge::Finding;
 use crate::mesh::SceneMesh;
 use crate::record::number_of;
 
+/// Why nothing runs: the scalars that the rows have.
+fn no_scalar(rows: &[Row]) -> String {
+    let other = ScalarName::ALL
+        .iter()
+        .zip([0, 1])
+        .find(|(_, place)| rows.iter().any(|row| row.entry.scalars()[*place]));
+    match (other, rows) {
+        (Some((scalar, _)), [row]) => format!(
+            "{} runs in {scalar} alone: --scalar {scalar}, or none",
+            row.entry.info.name
+        ),
+        (Some((scalar, _)), _) => {
+            format!("the selected kernels run in {scalar} alone: --scalar {scalar}, or none")
+        }
+        (None, _) => "no selected kernel runs in any scalar".to_owned(),
+    }
+}
+
 /// The chosen scalars that a kernel runs in; an error if there are none, or if an epsilon is not representable in
 /// one of them.
 pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Failure> {
     let used = [0, 1].map(|i| chosen[i] && rows.iter().any(|row| row.entry.scalars()[i]));
     if used == [false; 2] {
-        let message = "no selected kernel runs in the chosen scalars (see --scalar)";
-        return Err(Failure::nothing(message));
+        return Err(Failure::nothing(no_scalar(rows)));
     }
     rows.iter().try_for_each(|row| row.check_in(chosen))?;
     Ok(used)

@@ -6,10 +6,12 @@ use crate::contract::NAMED;
 use crate::family;
 use crate::kernel::{self, Change};
 use crate::offset::PUBLISHED;
+use crate::report::listed;
 use crate::report::page::{Block, Page};
 use crate::suggest::did_you_mean;
 use clap::Args;
 use clap_complete::Shell;
+use std::collections::BTreeMap;
 
 /// The words of the screens, a page of the guide.
 const WORDS: &str = include_str!("../../docs/guide/words.md");
@@ -157,30 +159,43 @@ fn entry(line: &str) -> Option<(String, &str)> {
     Some((names.replace("**", ""), meaning))
 }
 
-/// The line about a word; its number, its case and hyphens do not matter.
-fn meaning(word: &str) -> Result<String, Failure> {
-    let plain = |word: &str| word.to_lowercase().replace('-', " ");
-    let asked = plain(word);
+/// The line about a word; its number, its case and hyphens do not matter. Of several words that are no entry together, as
+/// the head of a column, the line about the longest part that is one.
+fn meaning(asked: &str) -> Result<String, Failure> {
     let entries: Vec<(String, &str)> = WORDS.lines().filter_map(entry).collect();
-    let is_asked = |name: &str| {
-        let name = plain(name);
-        name == asked
-            || ["s", "es"]
-                .iter()
-                .any(|end| asked.strip_suffix(end) == Some(&name))
-    };
-    let found = entries
-        .iter()
-        .find(|(names, _)| names.split(", ").any(is_asked));
     let names = || entries.iter().flat_map(|(names, _)| names.split(", "));
-    if let Some((names, meaning)) = found {
-        return Ok(format!("{names}: {}", meaning.replace('`', "'")));
-    }
-    let unknown = || Failure::usage(format!("unknown word '{word}'{}", near(word, names())));
-    named(word).ok_or_else(unknown)
+    let about = |part: &str| {
+        entries
+            .iter()
+            .find(|(names, _)| names.split(", ").any(|name| is_name(part, name)))
+            .map(|(names, meaning)| format!("{names}: {}", meaning.replace('`', "'")))
+            .or_else(|| named(part))
+    };
+    parts_of(asked)
+        .iter()
+        .find_map(|part| about(part))
+        .ok_or_else(|| Failure::usage(format!("unknown word '{asked}'{}", near(asked, names()))))
 }
 
-/// A kernel, a family, a contract, a scheme or a change of this name.
+/// Words that stand one after the other in a text: all of them, and then fewer and fewer.
+fn parts_of(text: &str) -> Vec<String> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    (1..=words.len())
+        .rev()
+        .flat_map(|count| words.windows(count))
+        .map(|part| part.join(" "))
+        .collect()
+}
+
+/// True if a word, or its plural, is a name; its case and hyphens do not matter.
+fn is_name(word: &str, name: &str) -> bool {
+    let plain = |word: &str| word.to_lowercase().replace('-', " ");
+    let (word, name) = (plain(word), plain(name));
+    let is_plural = |end| word.strip_suffix(end) == Some(&name);
+    word == name || is_plural("s") || is_plural("es")
+}
+
+/// A kernel, a gate, a family, a contract, a scheme or a change of this name.
 fn named(name: &str) -> Option<String> {
     let kernel = kernel::find(name).map(|entry| {
         format!(
@@ -212,11 +227,38 @@ fn named(name: &str) -> Option<String> {
         ))
     };
     let about = kernel
+        .or_else(|| gate(name))
         .or_else(family)
         .or_else(contract)
         .or_else(scheme)
         .or_else(change)?;
     Some(format!("{name}: {about}"))
+}
+
+/// What the gates of a name refuse, and the kernels that have one.
+fn gate(name: &str) -> Option<String> {
+    let mut kernels: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for entry in kernel::all() {
+        for gate in entry.info.gates.iter().filter(|gate| gate.name == name) {
+            kernels
+                .entry(gate.refuses)
+                .or_default()
+                .push(entry.info.name);
+        }
+    }
+    let forms: Vec<String> = kernels
+        .iter()
+        .map(|(refuses, kernels)| format!("{refuses} ({})", listed_words(kernels)))
+        .collect();
+    (!forms.is_empty()).then(|| format!("a gate, which refuses where {}", forms.join("; ")))
+}
+
+/// The most kernels that are named for one comparison.
+const MOST_KERNELS: usize = 3;
+
+fn listed_words(words: &[&str]) -> String {
+    let owned: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
+    listed(&owned, MOST_KERNELS)
 }
 
 fn all_words() -> Page {

@@ -33,6 +33,7 @@ mod list;
 mod map;
 mod merge;
 mod mesh;
+mod misuse;
 mod offset;
 mod output;
 mod plugins;
@@ -320,6 +321,9 @@ fn print_misuse(error: &clap::Error, words: &[OsString]) {
         message.lines().for_each(|line| eprintln!("{line}"));
     } else {
         let _ = error.print();
+    }
+    if let Some(advice) = misuse::advice(error) {
+        eprintln!("\nhairline: {advice}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::exit::{Failure, Status};
 use super::flags::{again, refuse_twice};
-use crate::audit::quoted;
+use crate::audit::{quoted, shell_word};
 use crate::files::hex;
 use crate::kernel::{Entry, Scalar, TRIANGLES, Table};
 use crate::plugin::{Asked, HOST_COMMAND, KernelProgram, LoadError, ProcessLimits, load};
@@ -276,6 +276,9 @@ fn host_of<T: Asked>(path: &str) -> Result<KernelProgram, Failure> {
     let whole = Path::new(path)
         .canonicalize()
         .map_err(|error| Failure::of_file(path, &error))?;
+    if let Some(what_to_do) = of_source_code(&whole, path) {
+        return Err(Failure::usage(format!("--kernel-lib {path}: {what_to_do}")));
+    }
     let own = || std::env::current_exe().map(PathBuf::into_os_string);
     let this = match AGAIN.get() {
         Some(words) => words.iter().map(OsString::from).collect(),
@@ -295,6 +298,31 @@ fn host_of<T: Asked>(path: &str) -> Result<KernelProgram, Failure> {
     words
         .map(KernelProgram::host)
         .ok_or_else(|| Failure::usage(format!("--kernel-lib {path}: a path that is not UTF-8")))
+}
+
+/// What to do with a file that is source code and no library, by the end of its name.
+fn of_source_code(file: &Path, given: &str) -> Option<String> {
+    let library = |compiler: &str| {
+        format!(
+            "this is source code, not a library; build one: {compiler} {}",
+            shell_word(given)
+        )
+    };
+    let program = |runs: &str| {
+        let line = format!("{runs} {given}");
+        format!(
+            "this is no library; a program answers over its pipes (docs/protocol.md): --kernel-cmd {}",
+            shell_word(&line)
+        )
+    };
+    match file.extension()?.to_str()? {
+        "c" => Some(library("cc -O2 -shared -fPIC -o libmine.so")),
+        "cc" | "cpp" | "cxx" => Some(library("c++ -O2 -shared -fPIC -o libmine.so")),
+        "rs" => Some(library("rustc -O --crate-type cdylib -o libmine.so")),
+        "py" => Some(program("python3")),
+        "js" | "mjs" => Some(program("node")),
+        _ => None,
+    }
 }
 
 /// The program of a command line.

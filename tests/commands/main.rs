@@ -21,6 +21,7 @@ mod formats;
 mod found;
 mod fuzz;
 mod generate;
+mod help;
 #[cfg(unix)]
 mod hostile;
 mod html;

@@ -26,7 +26,7 @@ pub(super) const COUNTED: [(&str, Get); 11] = [
     ("wrong values", |r| Some(&r.total.wrong_values)),
     ("cracks", |r| Some(&r.across.as_ref()?.cracks)),
     ("doubles", |r| Some(&r.across.as_ref()?.doubles)),
-    ("odd folds", |r| Some(&r.across.as_ref()?.odd_folds)),
+    ("wrong at folds", |r| Some(&r.across.as_ref()?.odd_folds)),
     ("missed folds", |r| Some(&r.across.as_ref()?.missed_folds)),
     ("polygon false misses", |r| {
         Some(&r.polygons.as_ref()?.false_misses)

@@ -4,7 +4,7 @@ use super::row::{Row, RowSpec};
 use crate::contract::Contract;
 use crate::kernel::EpsilonText;
 use crate::kernel::{Entry, Gate, KERNELS, PRESETS, Preset, PresetEntry, Tunable, find};
-use crate::suggest::did_you_mean;
+use crate::suggest::{did_you_mean, nearest_name};
 use hairline_core::{Error, ErrorKind};
 use std::collections::BTreeSet;
 
@@ -227,19 +227,28 @@ fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, Error> 
     }
 }
 
+/// The most gates that an error lists.
+const MOST_GATES: usize = 6;
+
 fn unknown_gate(name: &str, entries: &[&'static Entry]) -> Error {
-    let gates = entries
+    let mut gates: Vec<&str> = entries
         .iter()
         .flat_map(|entry| entry.info.gates)
-        .map(|gate| gate.name);
-    let advice = did_you_mean(name, gates, "hairline list kernels");
-    let advice = match name {
-        "t_min" | "t-min" | "tmin" => {
-            "; a least t that your code counts is chosen by `hairline epsilon --scene` (as t_min), and \
-            `hairline offset --scheme t-min=VALUE` tries it on shadow rays"
-                .to_owned()
-        }
-        _ => advice,
+        .map(|gate| gate.name)
+        .collect();
+    gates.sort_unstable();
+    gates.dedup();
+    let is_t_min = ["t_min", "t-min", "tmin"].contains(&name);
+    let advice = if is_t_min {
+        "; a least t that your code counts is chosen by `hairline epsilon --scene` (as t_min), and \
+         `hairline offset --scheme t-min=VALUE` tries it on shadow rays"
+            .to_owned()
+    } else if gates.is_empty() {
+        ": none of its gates takes an epsilon".to_owned()
+    } else if nearest_name(name, gates.iter().copied()).is_none() && gates.len() <= MOST_GATES {
+        format!("; there are: {}", gates.join(", "))
+    } else {
+        did_you_mean(name, gates, "hairline list kernels")
     };
     let line = format!("no selected kernel has a gate '{name}'{advice}");
     Error::new(ErrorKind::UnknownName, line)

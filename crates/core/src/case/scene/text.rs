@@ -34,10 +34,14 @@ pub(super) fn number(key: &str, text: &str) -> Result<f64, String> {
         let mut places = text.match_indices('-').map(|(place, _)| place);
         let is_range =
             takes_two && places.any(|at| is_number(&text[..at]) && is_number(&text[at + 1..]));
-        let unit = match (has_unit, is_range) {
-            (true, _) => ": write all lengths in one unit, without its name",
-            (_, true) => ": a range is written LOW..HIGH",
-            _ => "",
+        let unit = if text.contains('=') {
+            ": a comma stands between the words, as extent=5,edge=0.1..2"
+        } else if has_unit {
+            ": write all lengths in one unit, without its name"
+        } else if is_range {
+            ": a range is written LOW..HIGH"
+        } else {
+            ""
         };
         format!("{key}={whole}: '{text}' is not a finite number{unit}")
     })
