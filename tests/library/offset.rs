@@ -95,6 +95,7 @@ fn plan<'a>(row: &'a Row, scene: &'a Scene, schemes: &'a [Scheme], count: u64) -
         fold: 45.0,
         instance: None,
         with_least: true,
+        with_heights: true,
         seed: 1,
         count,
     }

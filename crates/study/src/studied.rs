@@ -47,6 +47,11 @@ studied! {
         plan: &offset::OffsetPlan<'_>,
         observer: &dyn Observer,
     ) -> offset::OffsetSums;
+    offset::first_without_failure::<Self>: fn first_without_failure(
+        plans: &[offset::OffsetPlan<'_>],
+        schemes: &[offset::Scheme],
+        observer: &dyn Observer,
+    ) -> Option<offset::Scheme>;
     offset::run_segments::<Self>: fn segments(
         plan: &offset::SegmentPlan<'_>,
         observer: &dyn Observer,
