@@ -1,7 +1,7 @@
 //! `hairline repair`: small changes to a kernel and what they mend; and a kernel that says hit, miss or ask, as source code
 //! with a proof.
 
-use super::before::{scalars_in_use, total_indices};
+use super::before::{count_indices, scalars_in_use, total_indices};
 use super::exit::{Failure, Status};
 use super::flags::{case_count, chosen_scalars, find_kernel};
 use super::output::{write_page, write_result};
@@ -78,6 +78,9 @@ pub struct RepairArguments {
     #[arg(long, short)]
     quiet: bool,
 }
+
+/// Rays are passed over for the guarded kernel, and for the small changes.
+const PASSES: u64 = 2;
 
 /// Runs the command.
 pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
@@ -233,9 +236,11 @@ impl RepairArguments {
         };
         let mut blocks = Vec::new();
         for name in ScalarName::among(scalars) {
+            let total = PASSES * total_indices(&rays.sources, name.alone())?;
+            let progress = Progress::new(total, "rays", self.quiet);
             let (asks, guarded) = in_named_scalar!(name, F => match Guarded::new::<F>(entry) {
                 Ok(guarded) => {
-                    let asks = Asks::count::<F>(&guarded, &sources);
+                    let asks = Asks::count::<F>(&guarded, &sources, &progress);
                     let text = format!(
                         "Guarded, as --emit writes it, no answer is wrong, which is proved; it asks on {} of these rays{aimed}.", asks.whole()
                     );
@@ -244,8 +249,6 @@ impl RepairArguments {
                 Err(why) => (None, format!("It cannot be guarded: {why}.")),
             });
             blocks.push(Block::Heading(format!("{} in {name}", row.label())));
-            let total = total_indices(&rays.sources, name.alone())?;
-            let progress = Progress::new(total, "rays", self.quiet);
             blocks.extend(
                 in_named_scalar!(name, F => smaller::blocks::<F>(&row, &rays, guarded, &progress)),
             );
@@ -270,8 +273,13 @@ impl RepairArguments {
         if let Some(path) = &self.certificate {
             write_result(path, |out| out.write_all(guarded.certificate().as_bytes()))?;
         }
-        let asks = (!sources.is_empty())
-            .then(|| in_named_scalar!(guarded.scalar, F => Asks::count::<F>(guarded, sources)));
+        let all: Vec<Source> = sources.iter().map(|(_, source)| source.clone()).collect();
+        let total = count_indices(&all, guarded.scalar.alone());
+        let progress = Progress::new(total, "rays", self.quiet);
+        let asks = (!sources.is_empty()).then(
+            || in_named_scalar!(guarded.scalar, F => Asks::count::<F>(guarded, sources, &progress)),
+        );
+        progress.finish();
         let Some(language) = self.emit else {
             return Ok(());
         };
