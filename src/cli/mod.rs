@@ -35,6 +35,7 @@ mod merge;
 mod mesh;
 mod offset;
 mod output;
+mod pace;
 mod plugins;
 mod progress;
 mod prove;
