@@ -84,6 +84,16 @@ impl Progress {
         self.bar.tick();
     }
 
+    /// Adds to the total.
+    pub fn expect_more(&self, work: u64) {
+        self.bar.inc_length(work);
+    }
+
+    /// Says a line above the bar, on a terminal.
+    pub fn say(&self, line: &str) {
+        self.bar.println(line);
+    }
+
     /// Sets how far it is.
     pub fn set(&self, position: u64) {
         self.bar.set_position(position);

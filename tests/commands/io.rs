@@ -817,9 +817,8 @@ fn a_long_run_says_how_long_it_takes_when_its_pace_is_steady() {
     };
     let mut told = long("--illustrate=never");
     let lines = BufReader::new(told.stderr.take().unwrap()).lines();
-    let is_told = |line: &String| {
-        line.contains("rays take about ") && line.contains(" at the pace so far")
-    };
+    let is_told =
+        |line: &String| line.contains("rays take about ") && line.contains(" at the pace so far");
     assert!(lines.map(Result::unwrap).any(|line| is_told(&line)));
     told.kill().unwrap();
     told.wait().unwrap();

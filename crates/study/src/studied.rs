@@ -37,6 +37,11 @@ studied! {
         named: &[(String, Vec<Self>)],
         pass: Pass<'_>,
     ) -> Result<SceneStudy<Self>, String>;
+    epsilon::Contender::of: fn contender(
+        setting: &Setting<'_, Self>,
+        costs: &Costs,
+        pass: Pass<'_>,
+    ) -> epsilon::Contender;
     epsilon::try_elsewhere: fn try_elsewhere(
         setting: &Setting<'_, Self>,
         study: &mut SceneStudy<Self>,
