@@ -47,7 +47,7 @@ const ROUNDS: [u64; 2] = [16, 4];
 
 /// Of many kernels so many rays of each kind are tried on each other kind of plane, at most: no row of the table shows
 /// them.
-const MOST_ELSEWHERE: u64 = 10_000;
+const MOST_ELSEWHERE: u64 = 5_000;
 
 /// The note on the parts of a contract that a scene leaves out.
 const OF_CONTRACT: &str = "of --contract a scene uses only the sides and where rays begin and end; at shared edges \

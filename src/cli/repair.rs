@@ -79,9 +79,6 @@ pub struct RepairArguments {
     quiet: bool,
 }
 
-/// Rays are passed over for the guarded kernel, and for the small changes.
-const PASSES: u64 = 2;
-
 /// Runs the command.
 pub fn run(arguments: &RepairArguments) -> Result<Status, Failure> {
     let scalars = chosen_scalars(&arguments.scalar)?;
@@ -236,18 +233,21 @@ impl RepairArguments {
         };
         let mut blocks = Vec::new();
         for name in ScalarName::among(scalars) {
-            let total = PASSES * total_indices(&rays.sources, name.alone())?;
+            let guarded = in_named_scalar!(name, F => Guarded::new::<F>(entry));
+            let passes = 1 + u64::from(guarded.is_ok());
+            let total = passes * total_indices(&rays.sources, name.alone())?;
             let progress = Progress::new(total, "rays", self.quiet);
-            let (asks, guarded) = in_named_scalar!(name, F => match Guarded::new::<F>(entry) {
+            let (asks, guarded) = match guarded {
                 Ok(guarded) => {
-                    let asks = Asks::count::<F>(&guarded, &sources, &progress);
+                    let asks = in_named_scalar!(name, F => Asks::count::<F>(&guarded, &sources, &progress));
                     let text = format!(
-                        "Guarded, as --emit writes it, no answer is wrong, which is proved; it asks on {} of these rays{aimed}.", asks.whole()
+                        "Guarded, as --emit writes it, no answer is wrong, which is proved; it asks on {} of these rays{aimed}.",
+                        asks.whole()
                     );
                     (Some(asks), text)
                 }
                 Err(why) => (None, format!("It cannot be guarded: {why}.")),
-            });
+            };
             blocks.push(Block::Heading(format!("{} in {name}", row.label())));
             blocks.extend(
                 in_named_scalar!(name, F => smaller::blocks::<F>(&row, &rays, guarded, &progress)),
