@@ -145,14 +145,13 @@ impl<F: Float> Run<'_, F> {
     }
 
     fn rejects(&self, pattern: &Pattern) -> bool {
-        let guarded = self.guarded;
         if !pattern.iter().all(|literal| self.holds(literal)) {
             return false;
         }
         // An end that another number stands for proves no miss.
         let is_far = |end: u8| {
             let mut places = pattern.iter().flat_map(Literal::places);
-            places.any(|place| guarded.uses_end(place, end))
+            places.any(|place| self.guarded.uses_end(place, end))
         };
         !(0..2).any(|end| self.clamped[usize::from(end)] && is_far(end))
     }
