@@ -16,15 +16,17 @@ use crate::audit::Row;
 use crate::case::{Scene, Target};
 use crate::engine::Unobserved;
 use crate::epsilon::{
-    COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Pass, RayCount, Setting, StudiedRays,
-    contract_with, counts, counts_of, fresh_seed, own_epsilons,
+    COUNT, Contender, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Pass, RayCount, Setting,
+    StudiedRays, contract_with, counts, counts_of, fresh_seed, own_epsilons, surely_dearer,
 };
 use crate::family::STRATA;
 use crate::kernel::{Entry, KernelIn, Scalar};
 use crate::offset::SegmentPlan;
-use crate::record::Context;
+use crate::record::{Context, group_digits};
 use crate::report::SegmentsPart;
-use crate::report::epsilon::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
+use crate::report::epsilon::{
+    SCENE_FORMATS, SceneKernelPart, has_a_table, kernel_part, rows_on_screen, scene_record,
+};
 use crate::suggest::nearest_name;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args};
@@ -35,6 +37,17 @@ const MOST_AT: usize = 5;
 /// Passes over every stratum, usually: the grid, the limits, numbers that move between them and their limits, the fresh
 /// rays, and the same for scale-free forms; and the curves. A coarse grid takes more.
 const PASSES: u64 = 11;
+
+/// Passes of a round: the grid, its cheapest point and that point on fresh rays, and the same for scale-free forms.
+const PASSES_OF_ROUND: u64 = 6;
+
+/// Many kernels are first tried on a sixteenth of the rays, and on a fourth. One that surely costs more than those on the
+/// screen gets no more.
+const ROUNDS: [u64; 2] = [16, 4];
+
+/// The most rays of each kind that are tried on each other kind of plane, where there are many kernels: no row of the table shows
+/// them.
+const MOST_ELSEWHERE: u64 = 5_000;
 
 /// The note on the parts of a contract that a scene leaves out.
 const OF_CONTRACT: &str = "of --contract a scene uses only the sides and where rays begin and end; at shared edges \
@@ -174,15 +187,17 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     } else {
         COUNT
     };
-    let studies = scalars.iter().filter(|scalar| **scalar).count() * tuned.len();
-    let passes = PASSES + studied.others.len() as u64;
     let kinds = if studied.scene.is_some() {
         STRATA.len()
     } else {
         studied.sources.len()
     };
-    let total = passes * kinds as u64 * count * studies as u64;
-    let progress = Progress::new(total, "indices", arguments.output.quiet);
+    let progress = Progress::new(0, "indices", arguments.output.quiet);
+    // A count that somebody names is the count of each kernel.
+    let has_rounds = studied.scene.is_some()
+        && !is_count_given
+        && max_error.is_none()
+        && has_a_table(tuned.len());
     let run = EpsilonRun {
         studied: &studied,
         costs: &costs,
@@ -191,12 +206,26 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         arguments,
         pass: Pass::new(seed, count, &progress),
         is_alone: tuned.len() == 1,
+        has_rounds,
+        places: rows_on_screen(scalars.iter().filter(|scalar| **scalar).count()),
+        kinds: kinds as u64,
+        progress: &progress,
     };
-    let mut parts = Vec::new();
+    let mut planned = Vec::new();
     for tuned in &tuned {
-        for name in scalars_of(tuned.row.entry, scalars) {
-            parts.push(in_named_scalar!(name, F => run.study::<F>(tuned))?);
+        for scalar in scalars_of(tuned.row.entry, scalars) {
+            planned.push(PlannedStudy {
+                tuned,
+                scalar,
+                rays: count,
+            });
         }
+    }
+    run.hold_rounds(&mut planned)?;
+    run.expect_studies(&planned);
+    let mut parts = Vec::new();
+    for study in &planned {
+        parts.push(in_named_scalar!(study.scalar, F => run.study::<F>(study))?);
     }
     progress.finish();
     let context = Context {
@@ -216,6 +245,19 @@ struct Tuned<'a> {
     knobs: Vec<Knob>,
 }
 
+/// A kernel in a scalar, and how many rays of each kind it gets.
+struct PlannedStudy<'a> {
+    tuned: &'a Tuned<'a>,
+    scalar: ScalarName,
+    rays: u64,
+}
+
+/// A kernel as it is judged here, and what is counted of it.
+struct Judged {
+    row: Row,
+    counts: Vec<RayCount>,
+}
+
 struct EpsilonRun<'a> {
     studied: &'a StudiedRays,
     costs: &'a Costs,
@@ -226,6 +268,13 @@ struct EpsilonRun<'a> {
     pass: Pass<'a>,
     /// True if one kernel is studied.
     is_alone: bool,
+    /// True if kernels that are surely dearer than those on the screen get no more rays.
+    has_rounds: bool,
+    /// How many kernels of a scalar are on the screen.
+    places: usize,
+    /// How many kinds of rays there are.
+    kinds: u64,
+    progress: &'a Progress,
 }
 
 impl EpsilonRun<'_> {
@@ -247,33 +296,151 @@ impl EpsilonRun<'_> {
         all
     }
 
-    /// The part of the record, and the kernel's nanoseconds a ray.
-    fn study<F: Advised>(&self, tuned: &Tuned<'_>) -> Result<(SceneKernelPart, f64), Failure> {
-        let Tuned { row, sets, knobs } = tuned;
-        let name = row.entry.info.name;
-        let missing = || Failure::usage(format!("{name} does not run in {}", F::NAME));
-        let row = Row {
-            contract: contract_with(knobs, &row.contract),
-            ..(*row).clone()
+    /// Takes rays from kernels that are surely not among the first of their scalar.
+    fn hold_rounds(&self, planned: &mut [PlannedStudy<'_>]) -> Result<(), Failure> {
+        if !self.has_rounds {
+            return Ok(());
+        }
+        let count = self.pass.count;
+        let in_rounds: u64 = ROUNDS.iter().map(|share| count / share).sum();
+        let of_each = PASSES_OF_ROUND * self.kinds * in_rounds;
+        self.progress.expect_more(planned.len() as u64 * of_each);
+        for scalar in ScalarName::ALL {
+            let mut standing: Vec<&mut PlannedStudy<'_>> = planned
+                .iter_mut()
+                .filter(|study| study.scalar == scalar)
+                .collect();
+            for share in ROUNDS {
+                self.hold_round(&mut standing, count / share)?;
+                standing.retain(|study| study.rays == count);
+            }
+        }
+        Ok(())
+    }
+
+    /// One round on so many rays of each kind: those that are out get no more.
+    fn hold_round(&self, standing: &mut [&mut PlannedStudy<'_>], rays: u64) -> Result<(), Failure> {
+        if standing.len() <= self.places {
+            return Ok(());
+        }
+        let mut contenders = Vec::with_capacity(standing.len());
+        for study in standing.iter() {
+            let contender =
+                in_named_scalar!(study.scalar, F => self.contender::<F>(study.tuned, rays))?;
+            contenders.push(contender);
+        }
+        let out = surely_dearer(&contenders, self.places);
+        for (study, is_out) in standing.iter_mut().zip(out) {
+            if is_out {
+                study.rays = rays;
+            }
+        }
+        self.tell_cheapest(standing, &contenders, rays);
+        Ok(())
+    }
+
+    /// Says which kernels are the cheapest so far.
+    fn tell_cheapest(
+        &self,
+        standing: &[&mut PlannedStudy<'_>],
+        contenders: &[Contender],
+        rays: u64,
+    ) {
+        let mut ranked: Vec<(&str, f64)> = Vec::new();
+        for (study, contender) in standing.iter().zip(contenders) {
+            ranked.push((study.tuned.row.entry.info.name, contender.fresh.cost));
+        }
+        ranked.sort_by(|one, other| one.1.total_cmp(&other.1));
+        let names: Vec<&str> = ranked.iter().take(3).map(|(name, _)| *name).collect();
+        let Some(study) = standing.first() else {
+            return;
         };
-        let counts = self.counts(knobs, &row);
+        self.progress.say(&format!(
+            "{}, after {} rays of each kind the cheapest are {}",
+            study.scalar,
+            group_digits(rays),
+            names.join(", ")
+        ));
+    }
+
+    /// The costs of a kernel on so many rays of each kind.
+    fn contender<F: Advised>(&self, tuned: &Tuned<'_>, rays: u64) -> Result<Contender, Failure> {
+        let judged = self.judged(tuned)?;
+        let setting = self.setting::<F>(tuned, &judged)?;
+        let pass = Pass {
+            count: rays,
+            ..self.pass
+        };
+        Ok(F::contender(&setting, self.costs, pass))
+    }
+
+    /// Lets the progress know how much the studies are.
+    fn expect_studies(&self, planned: &[PlannedStudy<'_>]) {
+        let others = self.studied.others.len() as u64;
+        for study in planned {
+            let passes = PASSES * study.rays + others * self.rays_elsewhere(study);
+            self.progress.expect_more(passes * self.kinds);
+        }
+    }
+
+    /// How many rays of each kind are tried on each other kind of plane.
+    fn rays_elsewhere(&self, study: &PlannedStudy<'_>) -> u64 {
+        if self.has_rounds {
+            study.rays.min(MOST_ELSEWHERE)
+        } else {
+            study.rays
+        }
+    }
+
+    /// The kernel as it is judged, with what is counted.
+    fn judged(&self, tuned: &Tuned<'_>) -> Result<Judged, Failure> {
+        let row = Row {
+            contract: contract_with(&tuned.knobs, &tuned.row.contract),
+            ..tuned.row.clone()
+        };
+        let counts = self.counts(&tuned.knobs, &row);
         if counts.is_empty() {
+            let name = row.entry.info.name;
             return Err(Failure::nothing(format!(
                 "{name}: nothing to count on such rays"
             )));
         }
-        let setting = Setting {
-            row: &row,
-            subject: F::subject(row.entry).ok_or_else(missing)?,
-            knobs,
-            counts: &counts,
+        Ok(Judged { row, counts })
+    }
+
+    /// The setting of a kernel in a scalar.
+    fn setting<'b, F: Advised>(
+        &'b self,
+        tuned: &'b Tuned<'_>,
+        judged: &'b Judged,
+    ) -> Result<Setting<'b, F>, Failure> {
+        let entry = judged.row.entry;
+        let name = entry.info.name;
+        let missing = || Failure::usage(format!("{name} does not run in {}", F::NAME));
+        Ok(Setting {
+            row: &judged.row,
+            subject: F::subject(entry).ok_or_else(missing)?,
+            knobs: &tuned.knobs,
+            counts: &judged.counts,
             scene: self.studied.scene.as_ref(),
             sources: &self.studied.sources,
             mesh: self.studied.mesh.as_ref(),
             relative: false,
             fine_curves: self.arguments.curves,
             store: None,
-        };
+        })
+    }
+
+    /// The part of the record, and the kernel's nanoseconds a ray.
+    fn study<F: Advised>(
+        &self,
+        planned: &PlannedStudy<'_>,
+    ) -> Result<(SceneKernelPart, f64), Failure> {
+        let tuned = planned.tuned;
+        let Tuned { row, sets, knobs } = tuned;
+        let name = row.entry.info.name;
+        let judged = self.judged(tuned)?;
+        let setting = self.setting::<F>(tuned, &judged)?;
         let number = |flag: &str, text: &str| {
             let value = F::parse(text).filter(|value| value.is_finite());
             let wrong = || format!("{flag}: '{text}' is not a finite number of {}", F::NAME);
@@ -310,17 +477,23 @@ impl EpsilonRun<'_> {
             named.push((text.clone(), vec![value]));
         }
         let EpsilonRun {
-            costs,
-            max_error,
-            pass,
-            ..
+            costs, max_error, ..
         } = *self;
+        let pass = Pass {
+            count: planned.rays,
+            ..self.pass
+        };
         let study = F::study_scene(&setting, costs, max_error, &named, pass);
         found_margins(name, setting.subject)?;
         let mut study = study.map_err(|error| fault(row.entry, error))?;
-        F::try_elsewhere(&setting, &mut study, &self.studied.others, pass);
+        let elsewhere = Pass {
+            count: self.rays_elsewhere(planned),
+            ..pass
+        };
+        F::try_elsewhere(&setting, &mut study, &self.studied.others, elsewhere);
         let mut part = kernel_part(&setting, &tuned.row.contract, &study, max_error);
         part.segments = self.segments::<F>(tuned.row);
+        part.rays = (planned.rays < self.pass.count).then_some(planned.rays);
         Ok((part, study.nanoseconds))
     }
 

@@ -235,7 +235,7 @@ fn named(name: &str) -> Option<String> {
     Some(format!("{name}: {about}"))
 }
 
-/// What the gates of a name refuse, and the kernels that have one.
+/// The comparisons of gates of a name, and the kernels that have them.
 fn gate(name: &str) -> Option<String> {
     let mut kernels: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for entry in kernel::all() {

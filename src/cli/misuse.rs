@@ -1,4 +1,4 @@
-//! What to type instead, after a command line that clap refuses.
+//! Advice on what to type instead, after a command line that clap refuses.
 
 use crate::case::SCENES;
 use crate::family;

@@ -36,6 +36,7 @@ mod mesh;
 mod misuse;
 mod offset;
 mod output;
+mod pace;
 mod plugins;
 mod progress;
 mod prove;

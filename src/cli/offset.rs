@@ -11,6 +11,7 @@ use crate::advised::Advised;
 use crate::arith::ScalarName;
 use crate::audit::{Row, shell_word};
 use crate::case::Scene;
+use crate::engine::Unobserved;
 use crate::epsilon::fresh_seed;
 use crate::kernel::Scalar;
 use crate::mesh::SceneMesh;
@@ -20,9 +21,7 @@ use crate::offset::{
 };
 use crate::plugin::{KernelProgram, OffsetCommand};
 use crate::record::{Context, Record, provenance_of};
-use crate::report::offset::{
-    DerivedPart, OffsetResult, PointsPart, least_without_failure, made_for,
-};
+use crate::report::offset::{DerivedPart, OffsetResult, PointsPart, made_for};
 use crate::report::{Format, SegmentsPart};
 use clap::Args;
 use clap::builder::ArgPredicate;
@@ -129,6 +128,10 @@ pub struct OffsetArguments {
     output: OutputArguments,
 }
 
+/// Schemes are run on the pilots, and on what is reported. Those that are made for the scene are chosen in between, on few
+/// rays.
+const PASSES_OF_SCHEMES: u64 = 2;
+
 /// Segments are drawn for the pilots, and for what is reported.
 const PASSES_OF_SEGMENTS: u64 = 2;
 
@@ -170,7 +173,8 @@ pub fn run(arguments: &OffsetArguments) -> Result<Status, Failure> {
                 wall,
                 fold,
                 instance,
-                with_least: true,
+                with_least: arguments.makes_schemes(),
+                with_heights: false,
                 seed: pilot_seed,
                 count: arguments.count,
             };
@@ -186,12 +190,11 @@ pub fn run(arguments: &OffsetArguments) -> Result<Status, Failure> {
         let message = "nothing to run: no kernel gives such hit points, or no scheme runs in the chosen scalars";
         return Err(Failure::nothing(message));
     }
-    let passes = if arguments.makes_schemes() { 3 } else { 2 };
     let kernels: usize = rows
         .iter()
         .map(|row| scalars_of(row.entry, scalars).count())
         .sum();
-    let runs = studies.len() as u64 * passes + kernels as u64 * PASSES_OF_SEGMENTS;
+    let runs = studies.len() as u64 * PASSES_OF_SCHEMES + kernels as u64 * PASSES_OF_SEGMENTS;
     let total = runs * scenes.len() as u64 * arguments.count;
     let progress = Progress::new(total, "first rays", arguments.output.quiet);
     let study = |(plan, name): &(OffsetPlan<'_>, ScalarName)| in_named_scalar!(*name, F => arguments.study::<F>(plan, &scenes, &progress));
@@ -283,14 +286,10 @@ impl OffsetArguments {
         let (given, derived) = (schemes.len(), DerivedPart::of::<F>(plan, &pilots));
         if self.makes_schemes() {
             let made = made_for(&pilots, derived.as_ref().map(|derived| derived.normal));
-            let all = made.concat();
-            let tried = OffsetPlan {
-                schemes: &all,
-                with_least: false,
-                ..*plan
-            };
-            let tried = run(&on_each(scenes, &tried));
-            schemes.extend(least_without_failure(made, &tried));
+            let plans = on_each(scenes, plan);
+            for of_kind in made {
+                schemes.extend(F::first_without_failure(&plans, &of_kind, &Unobserved));
+            }
         }
         let made: Vec<usize> = (given..schemes.len()).collect();
         let mut plans = on_each(
@@ -301,10 +300,11 @@ impl OffsetArguments {
                 ..*plan
             },
         );
-        // How much a hit point needs is reported of the first kind of plane.
-        plans[1..]
-            .iter_mut()
-            .for_each(|plan| plan.with_least = false);
+        // How much a hit point needs, and how high starts lie, is reported of the first kind of plane.
+        for (place, plan) in plans.iter_mut().enumerate() {
+            plan.with_least = place == 0;
+            plan.with_heights = place == 0;
+        }
         let sums = run(&plans);
         PointsPart::new::<F>(&plans, [&pilots, &sums], &made, derived, &self.place())
     }

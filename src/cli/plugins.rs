@@ -300,7 +300,7 @@ fn host_of<T: Asked>(path: &str) -> Result<KernelProgram, Failure> {
         .ok_or_else(|| Failure::usage(format!("--kernel-lib {path}: a path that is not UTF-8")))
 }
 
-/// What to do with a file that is source code and no library, by the end of its name.
+/// Advice about a file that is source code and no library, by the end of its name.
 fn of_source_code(file: &Path, given: &str) -> Option<String> {
     let library = |compiler: &str| {
         format!(

@@ -1,16 +1,20 @@
 //! The progress bar; nothing else knows indicatif.
 
+use super::pace::Pace;
 use crate::audit::Observer;
 use crate::record::group_digits;
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt;
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A bar on a terminal's standard error; silent elsewhere.
 pub struct Progress {
     bar: ProgressBar,
     start: Instant,
+    pace: Arc<Mutex<Pace>>,
     unit: String,
     /// True once a long run is estimated, or nobody wants to know.
     is_told: AtomicBool,
@@ -29,16 +33,30 @@ impl Progress {
             ProgressDrawTarget::stderr()
         };
         let bar = ProgressBar::with_draw_target(Some(total), target);
-        let template = format!("{{wide_bar}} {{human_pos}}/{{human_len}} {unit} {{eta}}");
+        let pace = Arc::new(Mutex::new(Pace::default()));
+        let of_style = pace.clone();
+        let left = move |state: &ProgressState, out: &mut dyn fmt::Write| {
+            let of_bar = BarState {
+                done: state.pos(),
+                total: state.len().unwrap_or_default(),
+            };
+            if let Some(time) = of_bar.left(&of_style) {
+                // A line that cannot be drawn is no reason to stop.
+                let _ = write!(out, "{} left", HumanDuration(time));
+            }
+        };
+        let template = format!("{{wide_bar}} {{human_pos}}/{{human_len}} {unit} {{left}}");
         if let Ok(style) = ProgressStyle::with_template(&template) {
-            bar.set_style(style);
+            bar.set_style(style.with_key("left", left));
         }
-        let (unit, is_told) = (unit.to_owned(), AtomicBool::new(quiet));
+        // The line stands there before the first work is done.
+        bar.tick();
         Progress {
             bar,
             start: Instant::now(),
-            unit,
-            is_told,
+            pace,
+            unit: unit.to_owned(),
+            is_told: AtomicBool::new(quiet),
         }
     }
 
@@ -66,27 +84,40 @@ impl Progress {
         self.bar.tick();
     }
 
+    /// Adds to the total.
+    pub fn expect_more(&self, work: u64) {
+        self.bar.inc_length(work);
+    }
+
+    /// Says a line above the bar, on a terminal.
+    pub fn say(&self, line: &str) {
+        self.bar.println(line);
+    }
+
     /// Sets how far it is.
     pub fn set(&self, position: u64) {
         self.bar.set_position(position);
     }
 
-    /// Says after the first second how long a long run takes.
+    /// Says once how long a long run takes, when its pace is steady.
     fn estimate(&self) {
-        let (elapsed, done) = (self.start.elapsed(), self.bar.position());
-        let is_early = elapsed < Duration::from_secs(1) || done == 0;
-        if is_early || self.is_told.swap(true, Ordering::Relaxed) {
+        let done = self.bar.position();
+        locked(&self.pace).note(done, self.start.elapsed());
+        if self.is_told.load(Ordering::Relaxed) {
             return;
         }
         let total = self.bar.length().unwrap_or_default();
-        let whole = elapsed.as_secs_f64() * total as f64 / done as f64;
-        if LONG.as_secs_f64() < whole {
-            let time = HumanDuration(Duration::try_from_secs_f64(whole).unwrap_or(Duration::MAX));
-            let (total, unit) = (group_digits(total), &self.unit);
-            self.bar.suspend(|| {
-                eprintln!("{total} {unit} take about {time} at the pace of the first second");
-            });
+        let Some(whole) = seconds_of(total, &self.pace) else {
+            return;
+        };
+        if whole < LONG.as_secs_f64() || self.is_told.swap(true, Ordering::Relaxed) {
+            return;
         }
+        let time = HumanDuration(duration(whole));
+        let (total, unit) = (group_digits(total), &self.unit);
+        self.bar.suspend(|| {
+            eprintln!("{total} {unit} take about {time} at the pace so far");
+        });
     }
 
     /// Removes the bar.
@@ -98,6 +129,40 @@ impl Progress {
     pub fn seconds(&self) -> f64 {
         self.start.elapsed().as_secs_f64()
     }
+}
+
+/// How far a bar is.
+struct BarState {
+    done: u64,
+    total: u64,
+}
+
+/// A run that has done less than one in so many of its rays does not say when it ends: its kinds of rays take unequal times.
+const EARLY: u64 = 8;
+
+impl BarState {
+    /// The time that is left, if enough is done, at a steady pace.
+    fn left(&self, pace: &Mutex<Pace>) -> Option<Duration> {
+        if self.done < self.total / EARLY {
+            return None;
+        }
+        let seconds = seconds_of(self.total.saturating_sub(self.done), pace)?;
+        Some(duration(seconds))
+    }
+}
+
+/// How many seconds some work takes; none if the pace is not steady.
+fn seconds_of(work: u64, pace: &Mutex<Pace>) -> Option<f64> {
+    let per_second = locked(pace).per_second()?;
+    Some(work as f64 / per_second)
+}
+
+fn duration(seconds: f64) -> Duration {
+    Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
+}
+
+fn locked(pace: &Mutex<Pace>) -> MutexGuard<'_, Pace> {
+    pace.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Observer for Progress {

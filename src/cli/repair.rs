@@ -1,7 +1,7 @@
 //! `hairline repair`: small changes to a kernel and what they mend; and a kernel that says hit, miss or ask, as source code
 //! with a proof.
 
-use super::before::{scalars_in_use, total_indices};
+use super::before::{count_indices, scalars_in_use, total_indices};
 use super::exit::{Failure, Status};
 use super::flags::{case_count, chosen_scalars, find_kernel};
 use super::output::{write_page, write_result};
@@ -233,19 +233,22 @@ impl RepairArguments {
         };
         let mut blocks = Vec::new();
         for name in ScalarName::among(scalars) {
-            let (asks, guarded) = in_named_scalar!(name, F => match Guarded::new::<F>(entry) {
+            let guarded = in_named_scalar!(name, F => Guarded::new::<F>(entry));
+            let passes = 1 + u64::from(guarded.is_ok());
+            let total = passes * total_indices(&rays.sources, name.alone())?;
+            let progress = Progress::new(total, "rays", self.quiet);
+            let (asks, guarded) = match guarded {
                 Ok(guarded) => {
-                    let asks = Asks::count::<F>(&guarded, &sources);
+                    let asks = in_named_scalar!(name, F => Asks::count::<F>(&guarded, &sources, &progress));
                     let text = format!(
-                        "Guarded, as --emit writes it, no answer is wrong, which is proved; it asks on {} of these rays{aimed}.", asks.whole()
+                        "Guarded, as --emit writes it, no answer is wrong, which is proved; it asks on {} of these rays{aimed}.",
+                        asks.whole()
                     );
                     (Some(asks), text)
                 }
                 Err(why) => (None, format!("It cannot be guarded: {why}.")),
-            });
+            };
             blocks.push(Block::Heading(format!("{} in {name}", row.label())));
-            let total = total_indices(&rays.sources, name.alone())?;
-            let progress = Progress::new(total, "rays", self.quiet);
             blocks.extend(
                 in_named_scalar!(name, F => smaller::blocks::<F>(&row, &rays, guarded, &progress)),
             );
@@ -270,8 +273,13 @@ impl RepairArguments {
         if let Some(path) = &self.certificate {
             write_result(path, |out| out.write_all(guarded.certificate().as_bytes()))?;
         }
-        let asks = (!sources.is_empty())
-            .then(|| in_named_scalar!(guarded.scalar, F => Asks::count::<F>(guarded, sources)));
+        let all: Vec<Source> = sources.iter().map(|(_, source)| source.clone()).collect();
+        let total = count_indices(&all, guarded.scalar.alone());
+        let progress = Progress::new(total, "rays", self.quiet);
+        let asks = (!sources.is_empty()).then(
+            || in_named_scalar!(guarded.scalar, F => Asks::count::<F>(guarded, sources, &progress)),
+        );
+        progress.finish();
         let Some(language) = self.emit else {
             return Ok(());
         };

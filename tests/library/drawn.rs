@@ -336,6 +336,7 @@ fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does()
             fold,
             instance,
             with_least,
+            with_heights: true,
             seed,
             count,
         };

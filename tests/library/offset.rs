@@ -9,7 +9,7 @@ use hairline::internals::family::Stratum;
 use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo, Scalar, find};
 use hairline::internals::offset::{
     HitPoint, OffsetPlan, OffsetSums, OffsetTrial, OffsetTrials, Plane, PointKind, Scheme, Start,
-    all, default_schemes, least, new_ray, parse, register, run,
+    all, default_schemes, first_without_failure, least, new_ray, parse, register, run,
 };
 use num_bigint::BigInt;
 use num_rational::BigRational as Rational;
@@ -95,9 +95,65 @@ fn plan<'a>(row: &'a Row, scene: &'a Scene, schemes: &'a [Scheme], count: u64) -
         fold: 45.0,
         instance: None,
         with_least: true,
+        with_heights: true,
         seed: 1,
         count,
     }
+}
+
+/// The first scheme that fails on no ray, by all of them on all rays; the last one if all fail.
+fn first_by_all_rays(plans: &[OffsetPlan<'_>], schemes: &[Scheme]) -> String {
+    let mut failed = vec![0; schemes.len()];
+    for plan in plans {
+        let sums = run::<f32>(&OffsetPlan { schemes, ..*plan }, &Unobserved);
+        for (failed, of) in failed.iter_mut().zip(&sums.schemes) {
+            *failed += of.failed;
+        }
+    }
+    let first = failed.iter().position(|failed| *failed == 0);
+    schemes[first.unwrap_or(schemes.len() - 1)].name.clone()
+}
+
+#[test]
+fn the_first_scheme_without_failure_is_that_of_all_schemes_on_all_rays() {
+    let row = row("moller-trumbore");
+    let scenes = ["room,plane=generic", "room,plane=axis-0", "room,plane=box"].map(scene);
+    // The second count is beyond the first round.
+    for count in [500, 9_000] {
+        let plans: Vec<OffsetPlan<'_>> = scenes
+            .iter()
+            .map(|scene| plan(&row, scene, &[], count))
+            .collect();
+        let mut found = Vec::new();
+        for lists in [
+            &["normal=1e-9", "normal=3e-7", "normal=2e-6", "normal=1e-4"][..],
+            &[
+                "normal=1e-7",
+                "normal=4e-7",
+                "normal=8e-7",
+                "normal=1e-6",
+                "normal=1e-5",
+            ],
+            &["ulps=1", "ulps=2", "ulps=4"],
+            &["none", "normal=1"],
+            &["none"],
+        ] {
+            let schemes: Vec<Scheme> = lists.iter().map(|name| parse(name).unwrap()).collect();
+            let first = first_without_failure::<f32>(&plans, &schemes, &Unobserved).unwrap();
+            assert_eq!(
+                first.name,
+                first_by_all_rays(&plans, &schemes),
+                "{count} {lists:?}"
+            );
+            found.push(first.name);
+        }
+        assert_eq!(found[3..], ["normal=1", "none"]);
+        assert!(
+            found[0] != "normal=1e-9" && found[0] != "normal=1e-4",
+            "{found:?}"
+        );
+    }
+    assert!(first_without_failure::<f32>(&[], &[], &Unobserved).is_none());
 }
 
 fn hit_at(point: [f32; 3], normal: [f32; 3]) -> HitPoint<f32> {

@@ -14,6 +14,11 @@ hairline_study::studied! {
         named: &[(String, Vec<Self>)],
         pass: Pass<'_>,
     ) -> Result<SceneStudy<Self>, String>;
+    epsilon::Contender::of: fn contender(
+        setting: &Setting<'_, Self>,
+        costs: &Costs,
+        pass: Pass<'_>,
+    ) -> epsilon::Contender;
     epsilon::try_elsewhere: fn try_elsewhere(
         setting: &Setting<'_, Self>,
         study: &mut SceneStudy<Self>,
@@ -24,6 +29,11 @@ hairline_study::studied! {
         plan: &offset::OffsetPlan<'_>,
         observer: &dyn Observer,
     ) -> offset::OffsetSums;
+    offset::first_without_failure::<Self>: fn first_without_failure(
+        plans: &[offset::OffsetPlan<'_>],
+        schemes: &[offset::Scheme],
+        observer: &dyn Observer,
+    ) -> Option<offset::Scheme>;
     offset::run_segments::<Self>: fn segments(
         plan: &offset::SegmentPlan<'_>,
         observer: &dyn Observer,

@@ -1,7 +1,7 @@
 //! How often a guarded kernel asks, by kind of ray in a scene.
 
 use crate::audit::Source;
-use crate::engine::{Merge, Unobserved, sum};
+use crate::engine::{Merge, Observer, sum};
 use crate::family::Family;
 use crate::kernel::Scalar;
 use crate::prove::Searched;
@@ -32,12 +32,13 @@ impl Asks {
     pub fn count<F: Scalar + Searched>(
         guarded: &Guarded,
         sources: &[(&'static Family, Source)],
+        observer: &dyn Observer,
     ) -> Asks {
         let count = |(family, source): &(&'static Family, Source)| {
             let answers = sum(
                 0..source.count::<F>(),
                 1024,
-                &Unobserved,
+                observer,
                 Answers::default,
                 |sum, indices| {
                     for index in indices {

@@ -127,6 +127,7 @@ pub fn theirs<F: Scalar>(
         fold: 45.0,
         instance: None,
         with_least: false,
+        with_heights: true,
         seed: 1,
         count,
     };

@@ -12,7 +12,7 @@ use crate::arith::Float;
 use crate::audit::{Chunk, Source};
 use crate::case::Case;
 use crate::judge::{GroupTruth, is_moved};
-use crate::kernel::{Hit, Scalar};
+use crate::kernel::Scalar;
 use crate::oracle::Layers;
 use std::ops::Range;
 
@@ -30,13 +30,6 @@ pub(super) struct Crossings<F: Float> {
     each: Vec<Surrounded>,
     /// The triangles around the groups that the exact line does not meet.
     around: Vec<Case<F>>,
-}
-
-/// Some triangles with their margins, absolute and as multiples of their own sizes, and what a hit would report.
-struct Measured<F: Float> {
-    margins: Vec<KnobMargins<F>>,
-    relative: Vec<KnobMargins<F>>,
-    values: Vec<Option<Hit<F>>>,
 }
 
 impl<F: Scalar> Setting<'_, F> {
@@ -95,26 +88,24 @@ impl<F: Scalar> Setting<'_, F> {
             around: cases,
         } = crossings;
         let (margins, values) = self.margins(&cases);
-        let relative = self.relative_margins(&cases, &margins);
-        let around = Measured {
-            margins,
-            relative,
-            values,
-        };
         for Surrounded {
             count,
             group,
             around: range,
         } in each
         {
+            let own_cases = &prepared.cases[group.clone()];
             let own = &prepared.margins[group.clone()];
-            let relative = self.relative_margins(&prepared.cases[group.clone()], own);
-            let adds = |i: &usize| {
-                is_unknown(&around.margins[*i])
-                    || !is_covered(&around.margins[*i], own)
-                    || !is_covered(&around.relative[*i], &relative)
-            };
-            let kept: Vec<usize> = range.filter(adds).collect();
+            let mut kept = Vec::new();
+            for i in range {
+                let one = &margins[i..=i];
+                let is_left_out = !is_unknown(&one[0])
+                    && is_covered(&one[0], own)
+                    && self.is_covered_at_any_size(&cases[i..=i], one, own_cases, own);
+                if !is_left_out {
+                    kept.push(i);
+                }
+            }
             let trial = PreparedTrial {
                 count,
                 guards: [matches!(self.counts[count].rays, Rays::Stratum(_)); MOST_KNOBS],
@@ -130,16 +121,36 @@ impl<F: Scalar> Setting<'_, F> {
             prepared.margins.extend_from_within(group.clone());
             prepared.values.extend_from_within(group);
             prepared.cases.extend(kept.iter().map(|i| cases[*i]));
-            prepared
-                .margins
-                .extend(kept.iter().map(|i| around.margins[*i]));
+            prepared.margins.extend(kept.iter().map(|i| margins[*i]));
             prepared
                 .values
-                .extend(kept.iter().map(|i| around.values[*i].clone()));
+                .extend(kept.iter().map(|i| values[*i].clone()));
             let cases = start..prepared.cases.len();
             prepared.trials.push(PreparedTrial { cases, ..trial });
         }
     }
+
+    /// True if a triangle of a group accepts whatever a triangle beside it accepts, also where epsilons follow each
+    /// triangle's size. The sizes cost more than all else here, so they are computed last, and only where they matter.
+    fn is_covered_at_any_size(
+        &self,
+        case: &[Case<F>],
+        margins: &[KnobMargins<F>],
+        group: &[Case<F>],
+        of_group: &[KnobMargins<F>],
+    ) -> bool {
+        if is_refused(&margins[0]) {
+            return true;
+        }
+        let relative = self.relative_margins(case, margins);
+        let of_group = self.relative_margins(group, of_group);
+        is_covered(&relative[0], &of_group)
+    }
+}
+
+/// True if no epsilon accepts a triangle: its sizes do not matter then.
+fn is_refused<F: Float>(margins: &KnobMargins<F>) -> bool {
+    margins.contains(&-F::infinity())
 }
 
 /// True if one of some margins accepts whatever these accept.

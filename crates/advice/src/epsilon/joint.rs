@@ -85,7 +85,7 @@ impl Costs {
 const PLATEAU: usize = 3;
 
 /// A point that costs at most this share more is as good: another seed may make it the cheapest.
-const NEGLIGIBLE: f64 = 0.01;
+pub(super) const NEGLIGIBLE: f64 = 0.01;
 
 /// The values that are weighed for each knob, in order.
 pub struct KnobGrid<F> {

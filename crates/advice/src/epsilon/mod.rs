@@ -21,6 +21,7 @@ mod measure;
 mod picture;
 mod prepared;
 mod proved;
+mod race;
 mod rays;
 mod relative;
 mod study;
@@ -41,6 +42,7 @@ pub use limits::{KnobLimit, limits};
 pub use measure::{Attempt, count_at};
 pub use prepared::Store;
 pub use proved::{ProvedValue, proved};
+pub use race::{Contender, CostSeen, surely_dearer};
 pub use rays::{RayCount, Rays, WrongKind, counts, counts_of};
 pub use relative::scale_free_form;
 pub use study::{

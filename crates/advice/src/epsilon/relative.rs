@@ -9,7 +9,22 @@ pub(super) fn relative<F: Float>(margin: F, unit: F) -> F {
     if !margin.is_finite() {
         return margin;
     }
-    F::largest_accepted(|e| *e * unit <= margin, || margin / unit)
+    let quotient = margin / unit;
+    if is_last_accepted(quotient, unit, margin) {
+        return quotient;
+    }
+    F::largest_accepted(|e| *e * unit <= margin, || quotient)
+}
+
+/// True if `e * unit <= margin` for an epsilon that is no zero, and for none above it: as for most quotients, which
+/// need no search then.
+fn is_last_accepted<F: Float>(epsilon: F, unit: F, margin: F) -> bool {
+    if epsilon.is_zero() || !epsilon.is_finite() {
+        return false;
+    }
+    let next = epsilon.offset_ulps(1);
+    // Whatever accepts the largest number accepts infinity.
+    next.is_finite() && epsilon * unit <= margin && margin < next * unit
 }
 
 /// The unit of a gate's margin on a case: L^p·|d|^q for a dimension (p, q). L is the triangle's

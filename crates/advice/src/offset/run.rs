@@ -41,6 +41,9 @@ pub struct OffsetPlan<'a> {
     pub instance: Option<Matrix<f64>>,
     /// True if the smallest safe offset of each hit point is looked for.
     pub with_least: bool,
+    /// True if the height of each start is measured, and what lies below it; that costs more than all else. Failures are
+    /// counted in any case.
+    pub with_heights: bool,
     /// Which random rays.
     pub seed: u64,
     /// How many first rays.
@@ -52,6 +55,15 @@ const CHUNK: u64 = 1024;
 
 /// Runs a plan; the sums are the same whatever the number of threads.
 pub fn run<F: Scalar>(plan: &OffsetPlan<'_>, observer: &dyn Observer) -> OffsetSums {
+    run_on::<F>(plan, 0..plan.count, observer)
+}
+
+/// Runs a plan on some of its first rays.
+pub fn run_on<F: Scalar>(
+    plan: &OffsetPlan<'_>,
+    indices: Range<u64>,
+    observer: &dyn Observer,
+) -> OffsetSums {
     let empty = || {
         let schemes = vec![OfScheme::default(); plan.schemes.len()];
         OffsetSums {
@@ -63,7 +75,7 @@ pub fn run<F: Scalar>(plan: &OffsetPlan<'_>, observer: &dyn Observer) -> OffsetS
     let add = |sums: &mut OffsetSums, indices| {
         add_chunk::<F>((plan, &source), plan.trials(&source, indices), sums)
     };
-    engine::sum(0..plan.count, CHUNK, observer, empty, add)
+    engine::sum(indices, CHUNK, observer, empty, add)
 }
 
 /// The new ray of a scheme that leaves the first ray of an index, with its triangle.
@@ -115,8 +127,8 @@ fn starts_right(truth: &Truth) -> bool {
         .is_some_and(|crossing| crossing.place == Place::Before)
 }
 
-/// The data of a trial that do not depend on a scheme.
-struct MeasuredTrial<F: Float> {
+/// The places around a hit point, by which heights of starts are measured.
+struct Surroundings {
     plane: Plane,
     neighbour: Neighbour,
     /// +1 if the new ray leaves to the front, else -1.
@@ -126,58 +138,63 @@ struct MeasuredTrial<F: Float> {
     edge_in_ulps: f64,
     /// The height of the hit point, on the side to which the ray leaves.
     height: f64,
-    /// The smallest safe offset along the normal, if there is one.
-    least: Option<Least<F>>,
-    /// By how much that lifts the start, if the hit point itself is not right.
+    /// By how much the smallest safe offset along the normal lifts the start, if one is known and needed.
     least_way: Option<f64>,
 }
 
-impl<F: Float> MeasuredTrial<F> {
-    fn of(trial: &OffsetTrial<F>, fold: f64, with_least: bool) -> MeasuredTrial<F> {
+impl Surroundings {
+    fn of<F: Float>(trial: &OffsetTrial<F>, fold: f64, least: Option<&Least<F>>) -> Surroundings {
         let hit = &trial.hit;
-        let (plane, side) = (
-            Plane::new(trial.object, trial.instance),
-            if trial.is_front { 1.0 } else { -1.0 },
-        );
-        let is_right = |origin: [F; 3]| starts_right(&trial.truth(origin, F::zero()));
+        let plane = Plane::new(trial.object, trial.instance);
+        let side = if trial.is_front { 1.0 } else { -1.0 };
         let [a, b, c] = hit.vertices.map(|vertex| vertex.map(F::to_f64));
         let length = |p: [f64; 3], q: [f64; 3]| glam::DVec3::from(p).distance(glam::DVec3::from(q));
         let edge = length(a, b).max(length(b, c)).max(length(c, a));
-        let most = hit
-            .vertices
-            .map(largest)
-            .into_iter()
-            .map(F::to_f64)
-            .fold(0.0, f64::max);
+        let sizes = hit.vertices.map(|vertex| largest(vertex).to_f64());
+        let most = sizes.into_iter().fold(0.0, f64::max);
         let height = side * plane.height(hit.point);
-        let least = if with_least {
-            least(hit, is_right)
-        } else {
-            None
-        };
-        let way = |least: &Least<F>| side * plane.height(least.origin) - height;
-        MeasuredTrial {
+        let needed = least.filter(|least| !least.distance.is_zero());
+        let least_way = needed.map(|least| side * plane.height(least.origin) - height);
+        Surroundings {
             side,
             neighbour: Neighbour::new(hit.vertices, hit.point, fold),
             edge,
             edge_in_ulps: edge / F::from_f64(most).ulp().to_f64(),
             height,
-            least_way: least
-                .as_ref()
-                .filter(|least| !least.distance.is_zero())
-                .map(way),
-            least,
+            least_way,
             plane,
         }
     }
 
     /// How high a start lies, on the side to which the ray leaves.
-    fn height(&self, trial: &OffsetTrial<F>, start: &Start<F>) -> f64 {
+    fn height<F: Float>(&self, trial: &OffsetTrial<F>, start: &Start<F>) -> f64 {
         let origin = self.side * self.plane.height(start.origin);
         if start.t_min.is_zero() {
             return origin;
         }
         origin + start.t_min.to_f64() * self.side * self.plane.rise(trial.hit.direction)
+    }
+
+    /// Adds the height of a start, and what lies below it.
+    fn add<F: Float>(
+        &self,
+        trial: &OffsetTrial<F>,
+        start: &Start<F>,
+        is_right: bool,
+        wall: f64,
+        sums: &mut OfScheme,
+    ) {
+        let height = self.height(trial, start);
+        sums.in_edges.add(height, is_right);
+        sums.in_ulps.add(height * self.edge_in_ulps, is_right);
+        sums.beyond_wall += u64::from(is_right && wall <= height);
+        let point = start.point(trial.hit.direction);
+        let is_past = self.neighbour.is_passed(point, height * self.edge);
+        sums.past_neighbour += u64::from(is_right && is_past);
+        if let Some(least_way) = self.least_way {
+            let times = (height - self.height) / least_way;
+            sums.over_least.add(times.max(0.0));
+        }
     }
 }
 
@@ -196,22 +213,15 @@ fn add_chunk<F: Scalar>(
     sums.missed += missed;
     sums.without_side += without_side;
     sums.not_finite += not_finite;
-    let measured: Vec<MeasuredTrial<F>> = trials
-        .iter()
-        .map(|trial| MeasuredTrial::of(trial, plan.fold, plan.with_least))
-        .collect();
-    for (trial, measured) in trials.iter().zip(&measured) {
+    for trial in &trials {
         let weights = trial.hit.weights.into_iter().flatten().map(F::to_f64);
         sums.least_weight = weights.fold(sums.least_weight, f64::min);
-        match &measured.least {
-            None => sums.without_least += u64::from(plan.with_least),
-            Some(least) if least.distance.is_zero() => {}
-            Some(least) => {
-                let distance = least.distance.to_f64();
-                sums.least.add(distance);
-                sums.least_in_ulps
-                    .add(distance / largest(trial.hit.point).ulp().to_f64());
-            }
+    }
+    let leasts = all_least(plan, &trials, sums);
+    let mut surroundings = Vec::new();
+    if plan.with_heights {
+        for (trial, least) in trials.iter().zip(&leasts) {
+            surroundings.push(Surroundings::of(trial, plan.fold, least.as_ref()));
         }
     }
     let Some(kernel) = F::subject(plan.row.entry) else {
@@ -246,22 +256,39 @@ fn add_chunk<F: Scalar>(
                 sums.not_finite += u64::from(!is_finite);
                 sums.first_wrong = sums.first_wrong.into_iter().chain([trial.index]).min();
             }
-            if is_finite {
-                let measured = &measured[i];
-                let height = measured.height(trial, start);
-                sums.in_edges.add(height, is_right);
-                sums.in_ulps.add(height * measured.edge_in_ulps, is_right);
-                sums.beyond_wall += u64::from(is_right && plan.wall <= height);
-                let point = start.point(trial.hit.direction);
-                let is_past = measured.neighbour.is_passed(point, height * measured.edge);
-                sums.past_neighbour += u64::from(is_right && is_past);
-                if let Some(least_way) = measured.least_way {
-                    sums.over_least
-                        .add(((height - measured.height) / least_way).max(0.0));
-                }
+            if is_finite && plan.with_heights {
+                surroundings[i].add(trial, start, is_right, plan.wall, sums);
             }
         }
     }
+}
+
+/// The smallest safe offsets of some hit points, which are added to the sums, if a plan looks for them; else none.
+fn all_least<F: Float>(
+    plan: &OffsetPlan<'_>,
+    trials: &[OffsetTrial<F>],
+    sums: &mut OffsetSums,
+) -> Vec<Option<Least<F>>> {
+    if !plan.with_least {
+        return vec![None; trials.len()];
+    }
+    let mut found = Vec::with_capacity(trials.len());
+    for trial in trials {
+        let is_right = |origin: [F; 3]| starts_right(&trial.truth(origin, F::zero()));
+        let least = least(&trial.hit, is_right);
+        match &least {
+            None => sums.without_least += 1,
+            Some(least) if least.distance.is_zero() => {}
+            Some(least) => {
+                let distance = least.distance.to_f64();
+                let ulp = largest(trial.hit.point).ulp().to_f64();
+                sums.least.add(distance);
+                sums.least_in_ulps.add(distance / ulp);
+            }
+        }
+        found.push(least);
+    }
+    found
 }
 
 /// The smallest offset along the normal whose start is right.

@@ -24,6 +24,8 @@ struct Run<'a, F> {
     inputs: [F; 17],
     /// True for t_min and t_max if they are farther than what stands for them.
     clamped: [bool; 2],
+    /// The least margin of any sign.
+    tiny: F,
     values: Vec<F>,
     /// The sum of the sizes of each number's products.
     sizes: Vec<F>,
@@ -55,6 +57,7 @@ impl Guarded {
             guarded: self,
             inputs,
             clamped,
+            tiny: float(self.scale.tiny),
             values: Vec::new(),
             sizes: Vec::new(),
         };
@@ -142,14 +145,15 @@ impl<F: Float> Run<'_, F> {
     }
 
     fn rejects(&self, pattern: &Pattern) -> bool {
-        let guarded = self.guarded;
+        if !pattern.iter().all(|literal| self.holds(literal)) {
+            return false;
+        }
         // An end that another number stands for proves no miss.
         let is_far = |end: u8| {
             let mut places = pattern.iter().flat_map(Literal::places);
-            places.any(|place| guarded.uses_end(place, end))
+            places.any(|place| self.guarded.uses_end(place, end))
         };
-        let is_unknown = (0..2).any(|end| self.clamped[usize::from(end)] && is_far(end));
-        !is_unknown && pattern.iter().all(|literal| self.holds(literal))
+        !(0..2).any(|end| self.clamped[usize::from(end)] && is_far(end))
     }
 
     fn holds(&self, literal: &Literal) -> bool {
@@ -168,7 +172,7 @@ impl<F: Float> Run<'_, F> {
         let mut least = F::zero();
         if !margin.factor.is_zero() {
             let size = self.sizes[place as usize];
-            least = float::<F>(margin.factor) * size + float::<F>(self.guarded.scale.tiny);
+            least = float::<F>(margin.factor) * size + self.tiny;
         }
         i8::from(x > least && x.is_finite()) - i8::from(x < -least && x.is_finite())
     }
@@ -187,11 +191,11 @@ impl<F: Float> Run<'_, F> {
             ..
         } = self;
         let margins = guarded.sizes();
+        let slack = float::<F>(guarded.scale.slack);
         run(&guarded.operations, inputs, values);
         sizes.clear();
         for (place, operation) in (0..).zip(&guarded.operations) {
             let of = |place: Place| sizes[place as usize];
-            let slack = float::<F>(guarded.scale.slack);
             let factor = |place: Place| {
                 if margins.needs_slack(place) {
                     of(place) + slack

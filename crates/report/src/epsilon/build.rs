@@ -139,6 +139,7 @@ pub fn kernel_part<F: Scalar>(
         kernel: info.name.to_owned(),
         selector: setting.row.entry.selector(),
         scalar: F::NAME,
+        rays: None,
         contract: setting.row.contract.describe(),
         contract_flag: (*contract != info.contract).then(|| contract.words(Some(&info.contract))),
         has_edge_epsilon: info

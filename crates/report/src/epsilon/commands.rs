@@ -43,7 +43,7 @@ pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<Comm
         _ => format!(" --contract {},no-self-hit", own.unwrap_or("own")),
     };
     let mut all = vec![Command {
-        line: format!("{} -n {}{contract}", line("audit"), record.count),
+        line: format!("{} -n {}{contract}", line("audit"), record.rays_of(part)),
         what: "",
     }];
     let has_t = record.has_scene()

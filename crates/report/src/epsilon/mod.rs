@@ -16,6 +16,7 @@ mod standing;
 mod words;
 
 pub use build::{kernel_part, scene_record};
+pub use ranking::{has_a_table, rows_on_screen};
 pub use record::*;
 pub use words::shortest;
 

@@ -26,7 +26,7 @@ pub(super) fn notes(record: &SceneResult, part: &SceneKernelPart) -> Vec<String>
             "the kernel has no epsilons, so the least t is all that there is to choose".to_owned(),
         );
     }
-    notes.extend(few_rays(record));
+    notes.extend(few_rays(record, record.rays_of(part)));
     for (gate, e) in &part.others {
         let instead = if gate == "t" {
             ": the least t is chosen in its place"
@@ -83,17 +83,17 @@ fn proofs(part: &SceneKernelPart) -> impl Iterator<Item = String> {
         })
 }
 
-/// A note if there were too few rays to choose epsilons by.
-pub(super) fn few_rays(record: &SceneResult) -> Option<String> {
+/// A note if so many rays of each kind are too few to choose epsilons by.
+pub(super) fn few_rays(record: &SceneResult, rays: u64) -> Option<String> {
     if !record.has_scene() {
         return None;
     }
-    let advice = match record.count {
+    let advice = match rays {
         ..TOO_FEW => "too few to choose by; leave out -n",
         TOO_FEW..FEW => "another seed may name quite others",
         _ => return None,
     };
-    let rays = number_of(record.count, "ray", "rays");
+    let rays = number_of(rays, "ray", "rays");
     Some(format!("from {rays} of each kind only: {advice}"))
 }
 
@@ -120,7 +120,7 @@ pub(super) fn no_good(
     tried: &TriedPart,
 ) -> Vec<String> {
     // Numbers that were not to be chosen may be what is wrong.
-    if record.count < TOO_FEW {
+    if record.rays_of(part) < TOO_FEW {
         return Vec::new();
     }
     if part.others.keys().any(|gate| gate != "t") {
@@ -198,7 +198,7 @@ fn overweighed(record: &SceneResult, part: &SceneKernelPart) -> Option<String> {
         .zip(&part.tried[0].wrong)
         .filter_map(of_count);
     let (cost, kind) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let is_heavy = HEAVY < cost && TOO_FEW <= record.count;
+    let is_heavy = HEAVY < cost && TOO_FEW <= record.rays_of(part);
     is_heavy.then(|| {
         format!(
             "a single {kind} among these rays costs {cost:.2}: such weights need more rays (-n)"

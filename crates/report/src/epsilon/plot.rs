@@ -52,7 +52,7 @@ pub(super) fn footer(record: &SceneResult, part: &SceneKernelPart) -> [String; 2
     [
         format!(
             "{} indices of each kind of ray, seed {}",
-            group_digits(record.count),
+            group_digits(record.rays_of(part)),
             record.fresh_seed
         ),
         format!("contract: {}", part.contract),

@@ -12,7 +12,7 @@ use super::words::{how_to_read, of_unit, share_cell};
 use crate::arith::ScalarName;
 use crate::lists::alike;
 use crate::page::{Block, Cell, Command, Head, Page, Row, Table};
-use hairline_record::Rate;
+use hairline_record::{Rate, group_digits};
 
 /// A kernel, and the results of what its `use` line says.
 type Best<'a> = (&'a SceneKernelPart, &'a TriedPart);
@@ -25,7 +25,17 @@ pub(super) fn is_needed(record: &SceneResult) -> bool {
         .map(|part| part.kernel.as_str())
         .collect();
     names.dedup();
-    2 < names.len()
+    has_a_table(names.len())
+}
+
+/// True if so many kernels are shown in one table, and not each by itself.
+pub fn has_a_table(kernels: usize) -> bool {
+    2 < kernels
+}
+
+/// How many rows of a scalar's table are on the first screen, about as many as it has room for.
+pub fn rows_on_screen(scalars: usize) -> usize {
+    if scalars == 1 { 6 } else { 3 }
 }
 
 /// A table for each scalar, and what to run next.
@@ -36,11 +46,13 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
         None if record.has_scene() => scene_words(record),
         None => record.sources.join(", "),
     };
-    let mut blocks: Vec<Block> = few_rays(record).map(Block::Text).into_iter().collect();
+    let mut blocks: Vec<Block> = few_rays(record, record.count)
+        .map(Block::Text)
+        .into_iter()
+        .collect();
     let all = ScalarName::ALL.map(|scalar| (scalar, ranked(record, scalar)));
     let scalars = all.iter().filter(|(_, rows)| !rows.is_empty()).count();
-    // About as many lines as a screen has.
-    let most = if scalars == 1 { 6 } else { 3 };
+    let most = rows_on_screen(scalars);
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
         blocks.extend(
@@ -75,9 +87,17 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
     } else {
         ""
     };
+    let some_got_fewer = record.kernels.iter().any(|part| part.rays.is_some());
+    let fewer = match some_got_fewer {
+        true => format!(
+            " Kernels that surely cost more than the first {most} got fewer rays: -n {} gives all of them as many.",
+            record.count
+        ),
+        false => String::new(),
+    };
     blocks.push(Block::text(format!(
         "leaks: at shared edges or vertices; self-hits: of shadow rays{no_t}. Shares are of rays aimed there, not of your \
-         pixels. cost: each share times its weight, false hits and almost parallel rays too.{forms}"
+         pixels. cost: each share times its weight, false hits and almost parallel rays too.{forms}{fewer}"
     )));
     let details = |part| Block::Details(title(record, part), evidence::of_kernel(record, part));
     blocks.extend(record.kernels.iter().map(details));
@@ -156,8 +176,12 @@ fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
     let names: Vec<&str> = like.iter().map(|(part, _)| part.kernel.as_str()).collect();
     let alike = format!("as often wrong with the same numbers: {}", names.join(", "));
     let alike = (!names.is_empty()).then_some(alike);
+    let fewer = part.rays.map(|rays| {
+        let rays = group_digits(rays);
+        format!("surely not among the first, so it got only {rays} rays of each kind")
+    });
     Row {
-        below: used.into_iter().chain(alike).collect(),
+        below: used.into_iter().chain(alike).chain(fewer).collect(),
         ..Row::new(&part.kernel, cells)
     }
 }

@@ -98,6 +98,10 @@ pub struct SceneKernelPart {
     pub selector: String,
     /// The scalar.
     pub scalar: ScalarName,
+    /// How many rays of each kind the kernel got, if fewer than the others: it surely costs more than those that the table of
+    /// kernels shows first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rays: Option<u64>,
     /// The contract that the kernel is judged by.
     pub contract: String,
     /// The contract in the words of `--contract`; absent if it is the kernel's own.
@@ -139,6 +143,13 @@ pub struct SceneKernelPart {
     /// The results of the recommended epsilons in the same scene on planes of other kinds.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub elsewhere: Vec<PlanePart>,
+}
+
+impl SceneResult {
+    /// How many rays of each kind a kernel got.
+    pub(super) fn rays_of(&self, part: &SceneKernelPart) -> u64 {
+        part.rays.unwrap_or(self.count)
+    }
 }
 
 /// The results of epsilons on planes of one kind, on fresh rays.

@@ -39,27 +39,6 @@ pub fn derived_name(derived: f64) -> String {
     format!("normal={}", ShortNumber(derived))
 }
 
-/// The first scheme of each list that never fails, on any kind of plane; the last of the list if all fail.
-pub fn least_without_failure(made: [Vec<Scheme>; 2], tried: &[OffsetSums]) -> Vec<Scheme> {
-    let mut places = 0..;
-    let mut chosen = Vec::new();
-    for schemes in made {
-        let fails = |place: usize| tried.iter().any(|sums| 0 < sums.schemes[place].failed);
-        let failed: Vec<bool> = schemes
-            .iter()
-            .zip(&mut places)
-            .map(|(_, place)| fails(place))
-            .collect();
-        let first = failed.iter().position(|failed| !failed);
-        chosen.extend(
-            schemes
-                .into_iter()
-                .nth(first.unwrap_or(failed.len().saturating_sub(1))),
-        );
-    }
-    chosen
-}
-
 /// Two digits at or above a positive number.
 fn rounded_up(x: f64) -> String {
     ShortNumber(two_digits(x, true)).to_string()

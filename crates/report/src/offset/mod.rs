@@ -5,5 +5,5 @@ mod compared;
 mod page;
 mod record;
 
-pub use choice::{least_without_failure, made_for};
+pub use choice::made_for;
 pub use record::*;
