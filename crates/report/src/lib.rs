@@ -23,6 +23,7 @@ use hairline_study::{audit, judge, map, plot};
 mod chart;
 mod format;
 mod lists;
+mod scene;
 
 pub mod page;
 

@@ -58,6 +58,13 @@ impl Costs {
         }
     }
 
+    /// From the cost of one wrong answer of each kind.
+    pub fn by_kind(cost: impl Fn(WrongKind) -> f64) -> Costs {
+        Costs {
+            of: WrongKind::ALL.map(cost),
+        }
+    }
+
     /// The cost of one wrong answer.
     pub fn of(&self, kind: WrongKind) -> f64 {
         self.of[kind as usize]

@@ -38,7 +38,7 @@ pub struct Contender {
 impl CostSeen {
     /// From wrong answers by count. The variance has one more wrong answer of each kind: where none was seen, the next ray may
     /// show one.
-    fn of(counts: &[RayCount], costs: &Costs, wrong: &[Trials]) -> CostSeen {
+    pub fn of(counts: &[RayCount], costs: &Costs, wrong: &[Trials]) -> CostSeen {
         let mut variance = 0.0;
         for (count, trials) in counts.iter().zip(wrong) {
             if trials.of == 0 {
@@ -54,40 +54,27 @@ impl CostSeen {
         }
     }
 
-    fn cheaper(self, other: CostSeen) -> CostSeen {
-        if other.cost < self.cost { other } else { self }
-    }
-
     /// True if it is below another one by more than chance explains.
-    fn is_surely_below(&self, other: &CostSeen) -> bool {
+    pub fn is_surely_below(&self, other: &CostSeen) -> bool {
         let deviation = (self.variance + other.variance).sqrt();
         self.cost + DEVIATIONS * deviation < other.cost
     }
 }
 
 impl Contender {
-    /// The costs of a kernel on a pass, with fixed epsilons or with such that follow each triangle's size.
+    /// The costs of a kernel on a pass.
     pub fn of<F: Scalar>(setting: &Setting<'_, F>, costs: &Costs, pass: Pass<'_>) -> Contender {
         let store = Store::default();
         let fixed = Setting {
             store: Some(&store),
             ..*setting
         };
-        let following = Setting {
-            relative: true,
-            ..fixed
-        };
-        let of_form = |form: &Setting<'_, F>| {
-            let best = cheapest(form, costs, None, pass);
-            best.expect("without a limit of errors some point is the cheapest")
-        };
-        let bests = [of_form(&fixed), of_form(&following)];
+        let best = cheapest(&fixed, costs, None, pass);
+        let best =
+            Attempt::new(best.expect("without a limit of errors some point is the cheapest"));
         let seen = |pass: Pass<'_>| {
-            let at = |form: &Setting<'_, F>, best: &Vec<F>| {
-                let wrong = count_at(form, &[Attempt::new(best.clone())], pass);
-                CostSeen::of(form.counts, costs, &wrong[0])
-            };
-            at(&fixed, &bests[0]).cheaper(at(&following, &bests[1]))
+            let wrong = count_at(&fixed, std::slice::from_ref(&best), pass);
+            CostSeen::of(fixed.counts, costs, &wrong[0])
         };
         let chosen = seen(pass);
         // A point that is as good as the cheapest may cost so much more.

@@ -14,7 +14,7 @@ pub struct Scene {
     pub extent: f64,
     /// All three coordinates of the scene's center.
     pub center: f64,
-    /// The shortest and the longest length of a triangle's longest edge; each doubling between them is
+    /// The longest edge of a triangle: in the smallest triangle, and in the largest; each doubling between them is
     /// equally likely.
     pub edge: [f64; 2],
     /// Half of the triangles' longest edges are below this; none if each doubling is equally likely.

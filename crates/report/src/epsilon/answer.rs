@@ -3,12 +3,13 @@
 use super::notes::{accuracy, is_coarse, is_no_good, no_good, notes, price};
 use super::record::*;
 use super::words::{
-    bound, flag, human, interval, label, least_normal, least_t, of_unit, share, share_cell,
-    short_error, unit_of, unit_of_t, where_of,
+    bound, cost_text, flag, human, interval, label, least_normal, least_t, of_unit, share,
+    share_cell, short_error, unit_of, unit_of_t, where_of,
 };
 use crate::arith::{ScalarName, two_digits};
 use crate::kernel::Role;
 use crate::page::{Cell, Row, Use};
+use crate::scene::named_scene;
 use hairline_record::Rate;
 use hairline_record::{group_digits, number_of};
 
@@ -47,10 +48,10 @@ pub(super) fn title(record: &SceneResult, part: &SceneKernelPart) -> String {
     )
 }
 
-/// The scene's words.
+/// The scene's words: its name, or its sizes.
 pub(super) fn scene(record: &SceneResult) -> String {
     match record.has_scene() {
-        true => format!("{}{}", record.scene, of_unit(&record.unit)),
+        true => format!("{}{}", named_scene(&record.scene), of_unit(&record.unit)),
         false => record.sources.join(", "),
     }
 }
@@ -86,13 +87,18 @@ fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
     first.iter().chain(&part.relative).chain(others)
 }
 
-/// The epsilons to use; the best first.
-pub(super) fn used(record: &SceneResult, part: &SceneKernelPart) -> Vec<Use> {
-    let fixed = Use {
+/// The numbers to use.
+pub(super) fn used_numbers(record: &SceneResult, part: &SceneKernelPart) -> Use {
+    Use {
         lead: lead(record, part, &part.tried[0]).to_owned(),
         parts: fixed(record, part),
         notes: notes(record, part),
-    };
+    }
+}
+
+/// The epsilons to use; the best first.
+pub(super) fn used(record: &SceneResult, part: &SceneKernelPart) -> Vec<Use> {
+    let fixed = used_numbers(record, part);
     let Some(relative) = &part.relative else {
         return vec![fixed];
     };
@@ -227,7 +233,7 @@ pub(super) fn rows(part: &SceneKernelPart) -> Vec<Row> {
             ));
         }
     }
-    let costs = columns(part).map(|tried| Cell::number(tried.cost, format!("{:.3}", tried.cost)));
+    let costs = columns(part).map(|tried| Cell::number(tried.cost, cost_text(tried.cost)));
     rows.push(Row::new("cost", costs));
     rows
 }
@@ -290,7 +296,11 @@ fn scale_free(record: &SceneResult, part: &SceneKernelPart, relative: &TriedPart
     let mut notes = no_good(record, part, relative);
     notes.extend([
         "epsilons that follow each triangle's size, in the place of fixed ones;".to_owned(),
-        format!("they cost {least:.3}, the best fixed ones {most:.3}"),
+        format!(
+            "they cost {}, the best fixed ones {}",
+            cost_text(least),
+            cost_text(most)
+        ),
     ]);
     notes.extend(accuracy(record));
     Use {

@@ -3,9 +3,10 @@
 use super::notes::{has_default_costs, is_coarse};
 use super::record::{NamedNumber, SceneKernelPart, SceneResult};
 use crate::audit::shell_word;
-use crate::case::{SCENES, ShortNumber};
+use crate::case::ShortNumber;
 use crate::kernel::Role;
 use crate::page::Command;
+use crate::scene::preset_of;
 use hairline_advice::epsilon::COUNT;
 
 /// Commands that show more of what is recommended.
@@ -60,13 +61,10 @@ pub(super) fn commands(record: &SceneResult, part: &SceneKernelPart) -> Vec<Comm
 
 /// The scene as `--scene` takes it.
 pub(super) fn scene_words(record: &SceneResult) -> String {
-    let preset = SCENES
-        .iter()
-        .find(|preset| preset.scene.to_string() == record.scene);
-    preset.map_or_else(
-        || shell_word(&record.scene),
-        |preset| preset.name.to_owned(),
-    )
+    match preset_of(&record.scene) {
+        Some(preset) => preset.name.to_owned(),
+        None => shell_word(&record.scene),
+    }
 }
 
 /// The flags that name the scene of a study, or its mesh and how rays meet it.

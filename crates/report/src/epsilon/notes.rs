@@ -1,7 +1,7 @@
 //! The notes on recommended numbers: what they mean in the scene, and what no number can do.
 
 use super::record::*;
-use super::words::{human, least_normal, meaning, share, spaced};
+use super::words::{cost_text, human, least_normal, meaning, share, spaced};
 use crate::arith::ScalarName;
 use crate::case::ShortNumber;
 use hairline_advice::epsilon::{Costs, SCALE_FREE, WrongKind};
@@ -201,7 +201,8 @@ fn overweighed(record: &SceneResult, part: &SceneKernelPart) -> Option<String> {
     let is_heavy = HEAVY < cost && TOO_FEW <= record.rays_of(part);
     is_heavy.then(|| {
         format!(
-            "a single {kind} among these rays costs {cost:.2}: such weights need more rays (-n)"
+            "a single {kind} among these rays costs {}: such weights need more rays (-n)",
+            cost_text(cost)
         )
     })
 }
@@ -267,9 +268,10 @@ fn cracks_of_its_own(record: &SceneResult, part: &SceneKernelPart) -> Option<Str
         .sum();
     (!part.has_edge_epsilon && 0.5 * best.cost < cost).then(|| {
         format!(
-            "{cost:.2} of its cost of {:.2} are cracks, which no number here closes: give its edge test an epsilon, or use a \
+            "{} of its cost of {} are cracks, which no number here closes: give its edge test an epsilon, or use a \
              kernel that hardly leaks (plucker, woop-watertight)",
-            best.cost
+            cost_text(cost),
+            cost_text(best.cost)
         )
     })
 }

@@ -1,6 +1,6 @@
 //! Which kernel for a scene: all kernels in one table, the one that costs least first.
 
-use super::answer::{USE, is_scale_free_better, title, used};
+use super::answer::{USE, is_scale_free_better, title, used_numbers};
 use super::commands::{of_kernel, scene_words};
 use super::evidence;
 use super::fitness::{fitness, is_fine};
@@ -8,10 +8,12 @@ use super::notes::few_rays;
 use super::record::{
     RayCount, Rays, SceneKernelPart, SceneRecord, SceneResult, Stratum, TriedPart, WrongKind,
 };
-use super::words::{how_to_read, of_unit, share_cell};
+use super::words::{cost_text, how_to_read, of_unit, share_cell, unit_of_cost};
 use crate::arith::ScalarName;
+use crate::audit::Trials;
 use crate::lists::alike;
 use crate::page::{Block, Cell, Command, Head, Page, Row, Table};
+use hairline_advice::epsilon::{CostSeen, Costs};
 use hairline_record::{Rate, group_digits};
 
 /// A kernel, and the results of what its `use` line says.
@@ -71,14 +73,11 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
         let heads = heads.map(Head::of).into();
         let all = rows.iter().map(|one| row(whole, one)).collect();
         blocks.push(Block::Table(Table::new(heads, all).at_most(most)));
+        blocks.extend(crowd(record, rows).map(Block::Text));
     }
     let shown = || {
         all.iter()
             .flat_map(|(_, rows)| rows.iter().take(most).map(|((part, _), _)| *part))
-    };
-    let forms = match shown().any(|part| is_scale_free_better(record, part)) {
-        true => " L: the triangle's longest edge; M: the largest coordinate.",
-        false => "",
     };
     let has_no_t =
         |part: &SceneKernelPart| part.counts.iter().all(|it| it.kind != WrongKind::SelfHit);
@@ -97,7 +96,8 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
     };
     blocks.push(Block::text(format!(
         "leaks: at shared edges or vertices; self-hits: of shadow rays{no_t}. Shares are of rays aimed there, not of your \
-         pixels. cost: each share times its weight, false hits and almost parallel rays too.{forms}{fewer}"
+         pixels. cost, which is no time: {}.{fewer}",
+        unit_of_cost(record)
     )));
     let details = |part| Block::Details(title(record, part), evidence::of_kernel(record, part));
     blocks.extend(record.kernels.iter().map(details));
@@ -116,7 +116,7 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
     Page {
         command: "epsilon",
         title: format!(
-            "Kernels with their best epsilons in {scene}{}",
+            "Kernels with their best epsilons in {scene}{}, fewest wrong answers first",
             of_unit(&record.unit)
         ),
         blocks,
@@ -126,12 +126,9 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
 
 /// The kernels of a scalar, the cheapest first, each with those that were wrong as often with the same numbers.
 fn ranked<'a>(record: &'a SceneResult, scalar: ScalarName) -> Vec<(Best<'a>, Vec<Best<'a>>)> {
-    let best = |part: &'a SceneKernelPart| match &part.relative {
-        Some(relative) if is_scale_free_better(record, part) => relative,
-        _ => &part.tried[0],
-    };
     let parts = record.kernels.iter().filter(|part| part.scalar == scalar);
-    let mut parts: Vec<Best> = parts.map(|part| (part, best(part))).collect();
+    // Numbers that can be typed; forms that follow each triangle are code, and stand with the kernel.
+    let mut parts: Vec<Best> = parts.map(|part| (part, &part.tried[0])).collect();
     parts.sort_by(|(_, a), (_, b)| a.cost.total_cmp(&b.cost));
     let wrong = |tried: &TriedPart| -> Vec<[u64; 2]> {
         tried
@@ -146,6 +143,21 @@ fn ranked<'a>(record: &'a SceneResult, scalar: ScalarName) -> Vec<(Best<'a>, Vec
     })
 }
 
+/// How many kernels cost no more than the first one, as far as these rays can tell; none if that is the first alone.
+fn crowd(record: &SceneResult, rows: &[(Best, Vec<Best>)]) -> Option<String> {
+    let costs = Costs::by_kind(|kind| record.cost(kind));
+    let seen = |(part, best): &Best| {
+        let wrong: Vec<Trials> = best.wrong.iter().map(Rate::trials).collect();
+        CostSeen::of(&part.counts, &costs, &wrong)
+    };
+    let (first, _) = rows.first()?;
+    let least = seen(first);
+    let is_alike = |(best, _): &&(Best, Vec<Best>)| !least.is_surely_below(&seen(best));
+    let alike = rows.iter().take_while(is_alike).count();
+    (1 < alike)
+        .then(|| format!("The first {alike} cost alike: another seed may order them differently."))
+}
+
 fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
     let cell = |is_of: fn(&RayCount) -> bool| {
         let counts = part.counts.iter().zip(&best.wrong);
@@ -158,30 +170,37 @@ fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
     };
     let time = whole.provenance.nanoseconds(part.scalar, &part.kernel);
     let cells = [
-        Cell::number(best.cost, format!("{:.3}", best.cost)),
+        Cell::number(best.cost, cost_text(best.cost)),
         cell(|count| count.kind == WrongKind::Crack),
         cell(is_lost),
         cell(|count| count.kind == WrongKind::SelfHit),
         Cell::optional(time, |time| format!("{time:.0}")),
     ];
-    let used = used(&whole.result, part).into_iter().next();
-    let used = used.map(|used| {
-        let lead = if used.lead == USE {
-            "use"
-        } else {
-            "no numbers are good; least bad:"
-        };
-        format!("{lead} {}", used.parts.join("  and  "))
-    });
+    let fixed = used_numbers(&whole.result, part);
+    let lead = if fixed.lead == USE {
+        "use"
+    } else {
+        "no numbers are good; least bad:"
+    };
+    let mut below = vec![format!("{lead} {}", fixed.parts.join("  and  "))];
+    let follows = is_scale_free_better(&whole.result, part);
+    if let Some(relative) = part.relative.as_ref().filter(|_| follows) {
+        below.push(format!(
+            "cost {} with numbers that follow each triangle's size, as code: {} --snippet c",
+            cost_text(relative.cost),
+            part.selector
+        ));
+    }
     let names: Vec<&str> = like.iter().map(|(part, _)| part.kernel.as_str()).collect();
     let alike = format!("as often wrong with the same numbers: {}", names.join(", "));
-    let alike = (!names.is_empty()).then_some(alike);
+    below.extend((!names.is_empty()).then_some(alike));
     let fewer = part.rays.map(|rays| {
         let rays = group_digits(rays);
         format!("surely not among the first, so it got only {rays} rays of each kind")
     });
+    below.extend(fewer);
     Row {
-        below: used.into_iter().chain(alike).chain(fewer).collect(),
+        below,
         ..Row::new(&part.kernel, cells)
     }
 }

@@ -34,7 +34,7 @@ pub struct SceneResult {
     pub mesh: Option<MeshScenePart>,
     /// True if directions have unit length, so that t is a length.
     pub unit_directions: bool,
-    /// The shortest and the longest longest edge of a triangle.
+    /// The longest edge of a triangle: in the smallest triangle, and in the largest.
     pub edge: [f64; 2],
     /// The sines of the angles of almost parallel rays; none for those from 1/8 down to below rounding.
     pub sine: Option<[f64; 2]>,

@@ -4,7 +4,7 @@ use super::answer::holes_text;
 use super::fitness::{fitness, is_fine};
 use super::notes::{is_no_good, no_good};
 use super::record::*;
-use super::words::{human, of_kind, of_stratum, share};
+use super::words::{cost_text, human, of_kind, of_stratum, share};
 use crate::page::Tone;
 use hairline_record::Rate;
 
@@ -75,7 +75,8 @@ fn given_sentence(record: &SceneResult, part: &SceneKernelPart, tried: &TriedPar
 /// How good tried numbers are beside the recommended ones: `no good (cost 3.150 against 0.141)`.
 fn judged(record: &SceneResult, part: &SceneKernelPart, tried: &TriedPart) -> String {
     let best = &part.tried[0];
-    let mut costs = format!("cost {:.3} against {:.3}", tried.cost, best.cost);
+    let [own, least] = [tried, best].map(|it| cost_text(it.cost));
+    let mut costs = format!("cost {own} against {least}");
     if let Some(holes) = holes_text(tried) {
         costs = format!("{costs}, {holes} holes in a million pixels");
     }
@@ -152,13 +153,13 @@ fn trade(part: &SceneKernelPart, knob: usize) -> Option<String> {
         let [lower, upper] = [lower, upper].map(|place| &part.limits[*place]);
         let noun = |limit: &KnobLimitPart| noun(&part.counts[limit.count]);
         return Some(match (&lower.value, &upper.value) {
-            (None, _) => format!("no {name} ends {}", noun(lower)),
-            (_, None) => format!("no {name} ends {}", noun(upper)),
-            _ => format!("no {name} ends both {} and {}", noun(lower), noun(upper)),
+            (None, _) => format!("every {name} leaves {}", noun(lower)),
+            (_, None) => format!("every {name} leaves {}", noun(upper)),
+            _ => format!("every {name} leaves {} or {}", noun(lower), noun(upper)),
         });
     }
     beyond_limits(part, knob).map(|epsilon| {
-        format!("{name}={epsilon} is outside its limits: values within them cost more")
+        format!("{name}={epsilon} is outside its limits, since values within them cost more")
     })
 }
 

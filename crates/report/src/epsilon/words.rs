@@ -221,15 +221,20 @@ pub(super) fn meaning(
         (Role::Edge, Dimension::NONE) => {
             let size = human(&format!("{:e}", value.abs()));
             let most = human(&format!("{:.0e}", value.abs() * record.edge[1]));
-            let largest = match record.has_scene() {
-                true => format!("; {most}{} at the largest", spaced(&record.unit)),
-                false => String::new(),
-            };
-            Some(match value < 0.0 {
+            let how_far = match record.has_scene() {
                 true => format!(
-                    "rays up to {size} of a triangle's size beside it hit it (corners: twice{largest}); so both faces of an edge are hit"
+                    "{most}{unit} in the largest triangle ({}{unit}), {size} of its size in any",
+                    ShortNumber(record.edge[1])
                 ),
-                false => format!("rays up to {size} of a triangle's size inside it miss it"),
+                false => format!("{size} of a triangle's size"),
+            };
+            Some(if value < 0.0 {
+                format!(
+                    "rays that pass beside a triangle hit it, up to {how_far}, and twice as far at corners: at a shared edge \
+                     both triangles are hit"
+                )
+            } else {
+                format!("rays inside a triangle miss it near its edges, up to {how_far}")
             })
         }
         // An absolute number beside what the smallest triangles have.
@@ -281,6 +286,32 @@ pub(super) fn short_error(error: Option<f64>) -> String {
         Some(0.0) => "0".to_owned(),
         Some(error) => format!("{error:.0e}"),
     }
+}
+
+/// A cost, as weighted wrong answers in a hundred rays of each kind: `0.52`, `14.1`, `315`.
+pub(super) fn cost_text(cost: f64) -> String {
+    let per_hundred = 100.0 * cost;
+    match per_hundred {
+        0.0 => "0".to_owned(),
+        ..9.995 => format!("{per_hundred:.2}"),
+        ..99.95 => format!("{per_hundred:.1}"),
+        _ => format!("{per_hundred:.0}"),
+    }
+}
+
+/// The unit of costs, in words.
+pub(super) fn unit_of_cost(record: &SceneResult) -> String {
+    let weights: Vec<String> = WrongKind::ALL
+        .into_iter()
+        .map(|kind| (kind, record.cost(kind)))
+        .filter(|(_, weight)| *weight != 1.0)
+        .map(|(kind, weight)| format!("a {kind} counts {weight} times"))
+        .collect();
+    let weights = match weights.is_empty() {
+        true => String::new(),
+        false => format!("; {}", weights.join(", ")),
+    };
+    format!("wrong answers in 100 rays of each kind, added up{weights} (--cost)")
 }
 
 /// A rate in a table, as [`share`] writes it.
@@ -397,11 +428,6 @@ const RAYS: &str = "rays: aimed from their rounded origin; ray=generated in --sc
 
 /// The meaning of the words in the tables, a line each.
 pub(super) fn how_to_read(record: &SceneResult) -> Vec<Block> {
-    let costs = record
-        .costs
-        .iter()
-        .map(|cost| format!("{} {}", cost.name, cost.number));
-    let costs = costs.collect::<Vec<_>>().join(", ");
     let aim = if record.aims_inside {
         "; all aimed inside"
     } else {
@@ -409,7 +435,7 @@ pub(super) fn how_to_read(record: &SceneResult) -> Vec<Block> {
     };
     let mut lines = vec![
         RAYS.to_owned(),
-        format!("cost: each share, of its own row, times its weight ({costs})"),
+        format!("cost: {}", unit_of_cost(record)),
         format!(
             "almost parallel: angles {}, each halving equally often{aim}",
             flatness(record)

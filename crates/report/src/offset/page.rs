@@ -8,6 +8,7 @@ use crate::case::{Scene, SceneKind, ShortNumber};
 use crate::elsewhere::{self, ComparedRates};
 use crate::kernel::{self, Role};
 use crate::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Use};
+use crate::scene::named_scene;
 use crate::segments::short_length as size;
 use hairline_advice::offset::describe;
 use hairline_record::{Rate, group_digits, interval_of, percent};
@@ -53,8 +54,8 @@ impl Paged for OffsetResult {
             format!(" ({})", self.unit)
         };
         let scene = match &self.mesh {
-            Some(path) => format!("{} ({})", path.escape_debug(), self.scene),
-            None => self.scene.clone(),
+            Some(path) => format!("{} ({})", path.escape_debug(), named_scene(&self.scene)),
+            None => named_scene(&self.scene),
         };
         let placed = if self.instance.is_some() {
             ", in an instance"
