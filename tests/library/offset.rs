@@ -156,6 +156,25 @@ fn the_first_scheme_without_failure_is_that_of_all_schemes_on_all_rays() {
     assert!(first_without_failure::<f32>(&[], &[], &Unobserved).is_none());
 }
 
+#[test]
+fn a_scheme_that_fails_after_the_first_round_is_not_the_first_without_failure() {
+    let (row, scene) = (row("moller-trumbore"), scene("room,plane=generic"));
+    let [few, many] = [4096, 60_000].map(|count| [plan(&row, &scene, &[], count)]);
+    // More rays need a larger offset.
+    let needed = |plans: &[OffsetPlan<'_>]| run::<f32>(&plans[0], &Unobserved).least.largest();
+    let (of_few, of_many) = (needed(&few), needed(&many));
+    let times = [1.0, 1.1, 1.2, 1.3, 1.5, 2.0].map(|times| of_few * times);
+    let schemes: Vec<Scheme> = times
+        .iter()
+        .chain(&[2.0 * of_many, 4.0 * of_many])
+        .map(|height| parse(&format!("normal={height:e}")).unwrap())
+        .collect();
+    let first = first_without_failure::<f32>(&many, &schemes, &Unobserved).unwrap();
+    assert_eq!(first.name, first_by_all_rays(&many, &schemes));
+    let too_early = first_by_all_rays(&few, &schemes);
+    assert!(first.name != too_early, "{too_early} {of_few} {of_many}");
+}
+
 fn hit_at(point: [f32; 3], normal: [f32; 3]) -> HitPoint<f32> {
     HitPoint {
         point,
